@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace espalier {
+
+// The SPIR-V words of the shader at `name`, its path below shaders/ ("expand/march.comp").
+// The words live as long as the program. Empty if there is no such shader.
+std::span<const uint32_t> shaderCode(std::string_view name);
+
+}  // namespace espalier

@@ -1,0 +1,148 @@
+// What growth reads and leaves: seeds, work items, chunks, nodes, leaves. See ARCHITECTURE.md, "Growth".
+//
+// A branch is a run of marching steps. It is stored as chunks of up to kChunkNodes nodes; a chunk is grown in
+// one go by one thread, from an entry state that is kept, so that it can be grown again alone.
+// Node k > 0 of a chunk spans from node k - 1; node 0 spans from Chunk::previousNode (kNoIndex: it is a seed's
+// foot and has no span).
+#ifndef ESPALIER_SHARED_GROWTH_RECORDS_H
+#define ESPALIER_SHARED_GROWTH_RECORDS_H
+#include "shaders/shared/surface_records.h"
+
+ESPALIER_BEGIN
+
+CONST_UINT(kChunkNodes, 32u);
+CONST_UINT(kMaxArgs, 4u);
+CONST_UINT(kMaxLayers, 16u);
+CONST_UINT(kLayerTile, 32u);   // a layer's dirty tiles are this many texels wide
+
+// Where a walk stands, 28 bytes. direction: unit tangent of the surface, object space of its instance.
+struct Walk {
+    uint place;      // bits 31..16 surface instance, 15..0 chart
+    vec2 uv;
+    vec3 direction;
+    float arc;       // metres walked since the branch began
+};
+STATIC_SIZE(Walk, 28);
+
+// What the host plants, 64 bytes. key: the root of the derivation path (from the seed's id and random number).
+struct Seed {
+    u64 key;
+    Walk walk;
+    uint grammar;    // index into the rule maps
+    uint symbol;     // start symbol in that grammar
+    float args[4];
+    uint spare;
+};
+STATIC_SIZE(Seed, 64);
+
+// One shape waiting for its rule, 88 bytes.
+struct WorkItem {
+    u64 key;
+    Walk walk;
+    uint grammar;
+    uint symbol;
+    float args[4];
+    uint parentChunk;    // kNoIndex for a seed
+    uint previousNode;   // the node that its first span starts from, or kNoIndex
+    uint branch;         // the branch that it continues, kNoIndex: it begins one
+    uint parentBranch;   // the branch that it leaves, kNoIndex for a seed
+    uint depth;          // bits 31..16 derivation depth in chunks, 15..0 branch depth (0: from the seed)
+    uint generation;
+    uint spare;
+};
+STATIC_SIZE(WorkItem, 88);
+
+// Node::flags
+//   bits 7..0   symbol of the extruded successor + 1 (0: none), bits 12..8 index in its chunk
+//   bit 13      a sample that a seam, a crease or a split span put in, not a step of the grammar
+//   bit 14      last node of its branch, bits 16..15 smoothness (kSmooth...) as its Shape asked
+//   bit 17      bark is to be drawn on its span, bits 25..18 terminal mesh of that bark
+CONST_UINT(kSmoothNone, 0u);   // each span by itself
+CONST_UINT(kSmoothC0, 1u);     // joined, with corners
+CONST_UINT(kSmoothC1, 2u);     // G1 cubic Bézier, Buron 2015 §6
+CONST_UINT(kNodeInserted, 1u << 13u);
+CONST_UINT(kNodeTip, 1u << 14u);
+CONST_UINT(kNodeBark, 1u << 17u);
+
+// A recorded sample of a walk, 44 bytes. Object space of its instance.
+struct Node {
+    vec3 position;
+    uint normal;      // octahedral 2×16 snorm, outward
+    uint tangent;     // octahedral 2×16 snorm, along the growth (Buron 2015 §6; stems ignore their children)
+    uint uv;          // 2×16 unorm, walk UV
+    uint place;       // bits 31..16 surface instance, 15..0 chart
+    float radius;     // metres, world; set by the extrude pass
+    float arc;        // metres since the branch began
+    uint chunk;
+    uint flags;
+};
+STATIC_SIZE(Node, 44);
+
+// 24 bytes. length is final when the branch has ended.
+struct BranchRecord {
+    u64 key;
+    float length;        // metres
+    uint parentNode;     // kNoIndex for a seed's
+    uint parentBranch;   // kNoIndex for a seed's
+    uint depthGrammar;   // bits 31..16 depth from the seed, 15..0 grammar
+};
+STATIC_SIZE(BranchRecord, 24);
+
+// Read set: bit i of layerMask, layer i was read; readTiles: bits 31..24 surface instance, 23..16 layer,
+// 15..8 tile y, 7..0 tile x, kNoIndex: unused slot; kReadsAll in flags when there were more than 8.
+CONST_UINT(kChunkPublished, 1u);
+CONST_UINT(kChunkReadsAll, 2u);
+CONST_UINT(kChunkEndsBranch, 4u);
+CONST_UINT(kChunkStopped, 8u);      // a derivation or recursion limit ended it (counted in the stats)
+struct Chunk {
+    u64 key;             // of its entry
+    u64 exitHash;        // of exit state, children and nodes
+    Walk entry;
+    uint grammar;
+    uint symbol;
+    float args[4];
+    uint parent;         // chunk, kNoIndex for a seed's first
+    uint previousNode;
+    uint next;           // the chunk that carries the branch on, kNoIndex
+    uint branch;
+    uint firstNode;
+    uint nodeCount;
+    uint depth;          // as WorkItem::depth
+    uint generation;
+    uint flags;
+    uint layerMask;
+    uint paramMask;      // parameters of its grammar that it read
+    uint readTiles[8];
+};
+STATIC_SIZE(Chunk, 144);
+
+// A leaf or a loose terminal, 16 bytes, on the span that ends at `node`.
+//   place: bits 31..16 t along the span (unorm16), 15..8 terminal mesh, 7..0 size (m, as 2^((x - 160) / 16))
+//   pose:  bits 31..20 turn about the normal, 19..10 pitch, 9..0 lift in units of the span's radius; see emit
+struct Leaf {
+    uint node;
+    uint place;
+    uint pose;
+    uint tint;           // hash bits: colour and shape variation
+};
+STATIC_SIZE(Leaf, 16);
+
+// One painted layer, resampled to a surface's walk UV: single channel floats in [0,1], 8×8 tiles as texels.
+// address 0: nothing painted, every read is `fill`.
+struct LayerRef {
+    FloatBuf texels;
+    uint size;
+    float fill;
+};
+STATIC_SIZE(LayerRef, 16);
+BUFFER(LayerBuf, LayerRef)     // [surface instance * kMaxLayers + layer]
+
+BUFFER(SeedBuf, Seed)
+BUFFER(WorkItemBuf, WorkItem)
+BUFFER(NodeBuf, Node)
+BUFFER(ChunkBuf, Chunk)
+BUFFER(BranchBuf, BranchRecord)
+BUFFER(LeafBuf, Leaf)
+
+ESPALIER_END
+#endif

@@ -1,0 +1,53 @@
+// The subset of GLSL and C++20 in which the kernels' arithmetic is written once.
+// GLSL includes it after enabling the extensions in shaders/shared/extensions.glsl; C++ wraps it in
+// namespace espalier. A BUFFER is a typed device address in GLSL and a pointer in C++, 8 bytes in both,
+// so that records which hold addresses have one layout.
+#ifndef ESPALIER_SHARED_LANGUAGE_H
+#define ESPALIER_SHARED_LANGUAGE_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#include <cstring>
+#include <glm/glm.hpp>
+
+#define ESPALIER_BEGIN namespace espalier {
+#define ESPALIER_END }
+#define FN inline
+#define INOUT(T) T&
+#define OUT(T) T&
+#define CONST_UINT(name, value) inline constexpr uint name = value
+#define CONST_FLOAT(name, value) inline constexpr float name = value
+#define BUFFER(Name, T) \
+    struct Name {       \
+        T* v;           \
+    };
+#define STATIC_SIZE(T, bytes) static_assert(sizeof(T) == (bytes))
+
+namespace espalier {
+using glm::ivec2;
+using glm::uvec2;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using uint = uint32_t;
+using u64 = uint64_t;
+inline uint floatBitsToUint(float x) { uint b; std::memcpy(&b, &x, 4); return b; }
+inline float uintBitsToFloat(uint b) { float x; std::memcpy(&x, &b, 4); return x; }
+}  // namespace espalier
+
+#else
+
+#define ESPALIER_BEGIN
+#define ESPALIER_END
+#define FN
+#define INOUT(T) inout T
+#define OUT(T) out T
+#define CONST_UINT(name, value) const uint name = value
+#define CONST_FLOAT(name, value) const float name = value
+#define BUFFER(Name, T) \
+    layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { T v[]; };
+#define STATIC_SIZE(T, bytes)
+#define u64 uint64_t
+
+#endif
+#endif

@@ -1,0 +1,64 @@
+#pragma once
+
+// The baker's library face: a model becomes a surface. espalier_bake is authoring code; games link the runtime only.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/surface/surface.hpp"
+
+namespace espalier {
+
+// A model as it came from a file: one triangle list in one space, nodes' transforms applied.
+struct Model {
+    std::string name;                          // the file's path, for messages
+    std::vector<glm::vec3> positions;          // metres, one a vertex
+    std::vector<glm::vec3> normals;            // same length, or empty
+    std::vector<glm::vec2> uvs;                // the UV set that the walk's charts come from, same length, or empty
+    std::vector<glm::vec2> materialUvs;        // same length, or empty: uvs
+    std::vector<uint32_t> indices;             // three a triangle
+    std::vector<uint32_t> triangleMaterial;    // one a triangle, or empty: material 0
+    std::vector<Material> materials;
+    std::vector<Image> images;
+    std::vector<Diagnostic> warnings;
+};
+
+// progress: 0 to 1 and the stage's name; called from the calling thread.
+using Progress = std::function<void(float, const char*)>;
+
+struct BakeOptions {
+    uint32_t resolution = 1024;    // of level 0: a power of two, 64 to 8192
+    uint32_t levels = 0;           // 0: down to 64 texels
+    float nearestTolerance = 0;    // metres; 0: a texel's footprint
+    bool keepLayout = false;       // true: charts are never moved, gutters or not (tests of analytic surfaces)
+    Progress progress;
+};
+
+// The figures of the bake report; see docs/surface_format.md for the meaning of each.
+struct BakeReport {
+    std::string source;
+    uint32_t triangles = 0, charts = 0;
+    uint64_t innerTexels = 0, linkTexels = 0, openTexels = 0;
+    uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0;
+    double walkableArea = 0;
+    double stretch50 = 0, stretch95 = 0, stretchMax = 0;
+    double roundTrip50 = 0, roundTrip999 = 0;    // texels
+    double gap999 = 0;                           // local texels
+    std::vector<std::pair<std::string, double>> seconds;
+    std::vector<Diagnostic> warnings;
+    std::string json() const;
+};
+
+struct Baked {
+    SurfaceData surface;
+    BakeReport report;
+};
+
+// Reads .gltf or .glb with Draco, quantisation, meshopt, sparse accessors and every triangle mode.
+Result<Model> importModel(const std::string& path);
+
+// Refuses models whose UVs can't serve, saying what is wrong and how much of the area it concerns.
+Result<Baked> bake(const Model& model, const BakeOptions& options);
+
+}  // namespace espalier

@@ -1,0 +1,68 @@
+# What every target of Espalier shares: language level, warnings, sanitizers, where programs land.
+
+option(ESPALIER_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+if(ESPALIER_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+# The kernels' arithmetic is compiled for GPU and CPU; contraction into fused operations would let them differ.
+add_compile_options(-ffp-contract=off)
+
+function(espalier_defaults target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Werror
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # GCC 12 warns of std::string falsely
+  target_compile_definitions(${target} PRIVATE ESPALIER_VERSION="${PROJECT_VERSION}")
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR})
+endfunction()
+
+# A static library made of all .cpp files of the calling folder.
+function(espalier_library target)
+  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(NOT sources)
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE glm::glm ${ARG_LINKS})
+    return()
+  endif()
+  add_library(${target} STATIC ${sources})
+  espalier_defaults(${target})
+  target_link_libraries(${target} PUBLIC glm::glm ${ARG_LINKS})
+endfunction()
+
+# A program made of all .cpp files of the calling folder.
+function(espalier_program target)
+  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_executable(${target} ${sources})
+  espalier_defaults(${target})
+  target_link_libraries(${target} PRIVATE ${ARG_LINKS})
+endfunction()
+
+# The .cpp files of the calling folder below tests/ become the doctest program test_FOLDER, run from the
+# project's root. The environment variable ESPALIER_DATA may name a folder of further models (see tests/support).
+function(espalier_test_here)
+  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_executable(test_${folder} ${sources} ${CMAKE_SOURCE_DIR}/tests/support/main.cpp)
+  espalier_defaults(test_${folder})
+  target_link_libraries(test_${folder} PRIVATE doctest::doctest ${ARG_LINKS})
+  set_target_properties(test_${folder} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  add_test(NAME ${folder} COMMAND test_${folder} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+endfunction()
