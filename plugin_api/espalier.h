@@ -1,0 +1,274 @@
+/* Espalier: plants that a shape grammar grows over a game's own geometry, on the GPU.
+ *
+ * The life of a context: espCreate, espLoadSurface, espCompileGrammar, espPlant, then each frame espUpdate (grows
+ * what changed; nothing if nothing did) and espDraw, at the end espDestroy.
+ *
+ * Threads: a context and its ids are used by one thread at a time; different contexts are independent.
+ * Errors: every function that can fail returns an EspResult and leaves the context as it was before the call: the
+ * last good surface, grammar and growth go on. espLastError tells the cause.
+ * Ownership: what the caller passes in is copied or used up before the call returns, unless said otherwise.
+ * Units: metres, radians, right-handed world space with Y up; colours linear unless said otherwise.
+ * Ids: plain values, zero-initialised is no object; an id whose object was destroyed is refused, never reused.
+ * Defs: always start from espDefault...Def(), so that new fields get sensible values.
+ */
+#ifndef ESPALIER_H
+#define ESPALIER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define ESP_API __declspec(dllexport)
+#else
+#define ESP_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define ESP_VERSION_MAJOR 0
+#define ESP_VERSION_MINOR 1
+#define ESP_VERSION_PATCH 0
+
+typedef enum EspResult {
+    ESP_OK = 0,
+    ESP_INVALID_ARGUMENT = 1,   /* a null pointer, a number out of range, an id of nothing */
+    ESP_INVALID_CONTENT = 2,    /* a file or text that can't be used; espLastError names file, place and cause */
+    ESP_IO_FAILED = 3,          /* can't read or write */
+    ESP_NO_DEVICE = 4,          /* no Vulkan device that can run Espalier */
+    ESP_DEVICE_LOST = 5,        /* destroy the context and create it anew */
+    ESP_OUT_OF_MEMORY = 6
+} EspResult;
+
+typedef struct EspContext EspContext;
+typedef struct EspSurface { uint32_t id; } EspSurface;
+typedef struct EspGrammar { uint32_t id; } EspGrammar;
+typedef struct EspSeed { uint32_t id; } EspSeed;
+
+typedef enum EspLogLevel { ESP_LOG_INFO = 0, ESP_LOG_WARNING = 1, ESP_LOG_ERROR = 2 } EspLogLevel;
+typedef void (*EspLogFn)(void* user, EspLogLevel level, const char* message);
+
+/* ---- Context ------------------------------------------------------------------------------------------------ */
+
+/* A host's Vulkan objects; handles as they are in vulkan.h. The device must have been created with the features that
+ * espRequiredFeatures chains into a VkDeviceCreateInfo. Espalier submits to `queue` only inside its functions; the
+ * host keeps all objects alive until espDestroy has returned. */
+typedef struct EspHostDevice {
+    void* getInstanceProcAddr;   /* PFN_vkGetInstanceProcAddr */
+    void* instance;              /* VkInstance */
+    void* physicalDevice;        /* VkPhysicalDevice */
+    void* device;                /* VkDevice */
+    void* queue;                 /* VkQueue: graphics and compute */
+    uint32_t queueFamily;
+} EspHostDevice;
+
+typedef struct EspContextDef {
+    const EspHostDevice* host;   /* NULL: Espalier makes its own device */
+    int validation;              /* own device only: 1 turns the validation layer on where it is installed */
+    EspLogFn log;                /* NULL: warnings and errors go to stderr */
+    void* logUser;
+    const char* terminals;       /* path of the terminal meshes (terminals.glb); NULL: beside the library's content */
+    const char* cacheFolder;     /* compiled rule maps are cached here; NULL: no cache on disk */
+} EspContextDef;
+
+ESP_API EspContextDef espDefaultContextDef(void);
+ESP_API EspResult espCreate(const EspContextDef* def, EspContext** out);
+ESP_API void espDestroy(EspContext* context);   /* NULL is allowed */
+
+/* The VkPhysicalDeviceFeatures2 chain that a host's device must be created with; static memory, don't free. */
+ESP_API const void* espRequiredFeatures(void);
+
+/* What went wrong last in this context (NULL: in this thread's last espCreate), several lines if several mistakes
+ * were found. Valid until the next call. Never NULL. */
+ESP_API const char* espLastError(const EspContext* context);
+ESP_API const char* espVersion(void);
+ESP_API const char* espDeviceName(const EspContext* context);
+
+/* ---- Surfaces ----------------------------------------------------------------------------------------------- */
+
+/* Rows of a 3×4 object-to-world matrix. Scale must be even in all directions. */
+typedef struct EspTransform { float rows[3][4]; } EspTransform;
+ESP_API EspTransform espIdentity(void);
+
+typedef struct EspSurfaceInfo {
+    float boundsMin[3], boundsMax[3];   /* world */
+    uint32_t triangles, charts, levels;
+    uint32_t resolution;                /* texels a side of the finest level */
+    double walkableArea;                /* m² */
+    uint64_t hash;
+} EspSurfaceInfo;
+
+/* Loads what espalier-bake wrote and places it. */
+ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
+ESP_API EspResult espDestroySurface(EspContext* context, EspSurface surface);
+ESP_API EspResult espSurfaceInfo(const EspContext* context, EspSurface surface, EspSurfaceInfo* out);
+
+typedef struct EspHit {
+    EspSurface surface;
+    float position[3], normal[3];   /* world */
+    float uv[2];                    /* the walk's UV set */
+    uint32_t chart;
+    float distance;                 /* along the ray, or from the point asked for; metres */
+} EspHit;
+
+/* The first point that the ray meets, ESP_INVALID_ARGUMENT if none; direction need not be a unit vector. */
+ESP_API EspResult espPick(const EspContext* context, const float origin[3], const float direction[3], EspHit* out);
+/* The nearest point of all surfaces. */
+ESP_API EspResult espNearest(const EspContext* context, const float point[3], EspHit* out);
+
+/* ---- Grammars ----------------------------------------------------------------------------------------------- */
+
+typedef struct EspGrammarDef {
+    const char* name;     /* for messages, usually the file's path; included files are looked for beside it */
+    const char* text;
+    size_t length;
+} EspGrammarDef;
+
+typedef enum EspParamKind { ESP_PARAM_FLOAT = 0, ESP_PARAM_INT = 1, ESP_PARAM_BOOL = 2, ESP_PARAM_COLOUR = 3 } EspParamKind;
+
+typedef struct EspParamInfo {
+    const char* name;     /* these four strings live as long as the grammar and until it is compiled anew */
+    const char* label;
+    const char* unit;
+    const char* group;
+    EspParamKind kind;
+    float value[3], initial[3];   /* colours use all three */
+    float low, high;
+} EspParamInfo;
+
+ESP_API EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGrammar* out);
+/* Replaces the text; parameters keep their values by name. On failure the last good grammar keeps growing. */
+ESP_API EspResult espRecompileGrammar(EspContext* context, EspGrammar grammar, const EspGrammarDef* def);
+ESP_API EspResult espDestroyGrammar(EspContext* context, EspGrammar grammar);   /* its seeds go with it */
+ESP_API uint32_t espParamCount(const EspContext* context, EspGrammar grammar);
+ESP_API EspResult espParamInfo(const EspContext* context, EspGrammar grammar, uint32_t index, EspParamInfo* out);
+/* Values outside the range are clamped to it. */
+ESP_API EspResult espSetParam(EspContext* context, EspGrammar grammar, const char* name, const float* value, uint32_t count);
+ESP_API uint32_t espLayerCount(const EspContext* context, EspGrammar grammar);
+ESP_API const char* espLayerName(const EspContext* context, EspGrammar grammar, uint32_t index);
+
+/* ---- Layers ------------------------------------------------------------------------------------------------- */
+
+typedef enum EspLayerSpace {
+    ESP_LAYER_WALK_UV = 0,       /* drawn in the surface's walk UV set */
+    ESP_LAYER_MATERIAL_UV = 1    /* drawn in the model's own UV set; resampled on loading */
+} EspLayerSpace;
+
+/* texels: height rows of width floats in [0,1], the first row at v = 0; 1 to 8192 each. NULL removes the layer. */
+typedef struct EspLayerDef {
+    EspSurface surface;
+    const char* name;            /* as a grammar's `context` declares it */
+    EspLayerSpace space;
+    const float* texels;
+    uint32_t width, height;
+} EspLayerDef;
+ESP_API EspLayerDef espDefaultLayerDef(void);
+ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
+
+/* ---- Seeds -------------------------------------------------------------------------------------------------- */
+
+typedef struct EspSeedDef {
+    EspGrammar grammar;
+    const char* symbol;       /* start symbol; NULL: the grammar's first */
+    float position[3];        /* world; the nearest surface point is taken */
+    float direction[3];       /* world; laid into the surface. Zero: upward, or any where the surface is level */
+    uint32_t number;          /* the seed's random number: the same number and id grow the same plant */
+} EspSeedDef;
+ESP_API EspSeedDef espDefaultSeedDef(void);
+ESP_API EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out);
+ESP_API EspResult espRemoveSeed(EspContext* context, EspSeed seed);
+ESP_API EspResult espRemoveAllSeeds(EspContext* context);
+
+/* ---- Frames ------------------------------------------------------------------------------------------------- */
+
+typedef enum EspWalkMode { ESP_WALK_INTRINSIC = 0, ESP_WALK_PAPER = 1 } EspWalkMode;
+typedef enum EspTangentMode { ESP_TANGENT_STEM = 0, ESP_TANGENT_PAPER = 1 } EspTangentMode;
+
+typedef struct EspGrowDef {
+    EspWalkMode walk;
+    EspTangentMode tangents;
+    uint32_t maxNodes;           /* growth stops there and says so; default 4,000,000 */
+    uint32_t maxDepth;           /* chunks one after another along one path, default 4096 */
+    float leafDensityCap;        /* leaves per square metre and seed at most, 0: no cap */
+} EspGrowDef;
+ESP_API EspGrowDef espDefaultGrowDef(void);
+ESP_API EspResult espSetGrow(EspContext* context, const EspGrowDef* def);
+
+/* Grows what changed since the last call. Does nothing, and costs nothing, if nothing did. */
+ESP_API EspResult espUpdate(EspContext* context);
+
+typedef struct EspCamera {
+    float eye[3], target[3], up[3];
+    float fovY;                  /* radians */
+    float nearPlane;             /* metres; the far plane is at infinity */
+} EspCamera;
+
+typedef enum EspView {
+    ESP_VIEW_SHADED = 0, ESP_VIEW_CHARTS = 1, ESP_VIEW_NORMALS = 2, ESP_VIEW_LOD = 3, ESP_VIEW_LAYER = 4
+} EspView;
+
+typedef struct EspLook {
+    float sunDirection[3];       /* towards the sun */
+    float sunColour[3], skyColour[3], groundColour[3];
+    float exposure;              /* stops */
+    float background[3], horizon[3];
+    int shadows;
+    EspView view;
+    const char* viewLayer;       /* for ESP_VIEW_LAYER */
+    float windowLodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
+} EspLook;
+ESP_API EspLook espDefaultLook(void);
+
+/* Where to draw. With commandBuffer NULL Espalier draws into its own image of width × height, submits, waits, and
+ * espReadPixels returns it. Otherwise it records into the host's VkCommandBuffer (outside of a render pass), and ends
+ * with colourView's image in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; the image must be 8-bit RGBA or BGRA. */
+typedef struct EspDrawDef {
+    uint32_t width, height;      /* 1 to 16384 */
+    EspCamera camera;
+    EspLook look;
+    void* commandBuffer;         /* VkCommandBuffer or NULL */
+    void* colourImage;           /* VkImage */
+    void* colourView;            /* VkImageView */
+    uint32_t colourFormat;       /* VkFormat */
+} EspDrawDef;
+ESP_API EspDrawDef espDefaultDrawDef(void);
+ESP_API EspResult espDraw(EspContext* context, const EspDrawDef* def);
+/* rgba: width * height * 4 bytes, rows top to bottom, sRGB, of the last espDraw into Espalier's own image. */
+ESP_API EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes);
+
+/* A camera that shows all surfaces from the front right. */
+ESP_API EspCamera espFrameAll(const EspContext* context);
+
+typedef struct EspStats {
+    uint32_t seeds, chunks, branches;
+    uint64_t nodes, leaves;
+    uint64_t polygons;           /* triangles of the growth at full detail */
+    uint64_t drawnPolygons;      /* triangles of the growth in the last frame */
+    uint32_t expansions;         /* espUpdate calls that expanded anything, since creation */
+    uint32_t overflow;           /* times that growth ran out of room and buffers were enlarged; maxNodes reached: +1 */
+    uint32_t stopped;            /* branches that a depth or recursion limit ended */
+    uint32_t deadEnds;           /* branches that found no direction that their condition allows */
+    uint32_t validationMessages;
+    double expandMs, emitMs, drawMs, compileMs;   /* GPU time of the latest run of each stage */
+    uint64_t nodeBytes, leafBytes, chunkBytes, surfaceBytes, layerBytes, totalBytes;
+    uint64_t hash;               /* canonical: of positions, radii and all terminals, in no order */
+} EspStats;
+ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
+
+/* The growth as triangles, written by the GPU on request: for export, physics, ray tracing.
+ * vertices: 16 bytes each, 3 floats position (world), octahedral 2×16 snorm normal; indices: 32 bit. The arrays belong
+ * to the context and live until the next call that grows or materialises. */
+typedef struct EspTriangles {
+    const void* vertices;
+    uint64_t vertexCount;
+    const uint32_t* indices;
+    uint64_t indexCount;
+    double ms;
+} EspTriangles;
+ESP_API EspResult espMaterialise(EspContext* context, EspTriangles* out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
