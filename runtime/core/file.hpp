@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+namespace espalier {
+
+// The whole file. Fails with the path and the system's reason.
+Result<std::vector<std::byte>> readFile(const std::filesystem::path& path);
+Result<std::string> readTextFile(const std::filesystem::path& path);
+
+// Writes beside `path` first and renames, so that a reader sees the old file or the whole new one and a failure
+// leaves nothing behind. Missing folders are made. Fails with the path and the system's reason.
+Status writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
+Status writeFile(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace espalier

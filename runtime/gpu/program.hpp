@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/gpu/buffer.hpp"
+#include "runtime/gpu/image.hpp"
+
+namespace espalier {
+
+struct SpecConstant {
+    uint32_t id;
+    uint32_t value;  // the bits
+};
+
+struct ProgramOptions {
+    // No float operation of the module is fused or reassociated: the same bits as C++ with -ffp-contract=off.
+    bool exact = false;
+    std::vector<SpecConstant> constants;
+};
+
+enum class Blend { none, alpha, premultiplied, additive };
+
+struct GraphicsDesc {
+    std::string_view name;
+    std::string_view vertex;    // vertices are pulled by gl_VertexIndex: there is no vertex input
+    std::string_view fragment;  // empty: depth only
+    std::vector<VkFormat> colors;
+    VkFormat depth = VK_FORMAT_UNDEFINED;
+    bool depthTest = true;
+    bool depthWrite = true;
+    VkCompareOp depthCompare = VK_COMPARE_OP_LESS_OR_EQUAL;
+    float depthBiasConstant = 0;
+    float depthBiasSlope = 0;
+    bool depthClamp = false;
+    Blend blend = Blend::none;
+    bool alphaToCoverage = false;
+    VkCullModeFlags cull = VK_CULL_MODE_NONE;
+    VkFrontFace front = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    uint32_t samples = 1;
+    ProgramOptions options;
+};
+
+// What one binding of set 0 gets; written as a braced list in the order of the binding numbers.
+struct Binding {
+    Binding(const Image& image, const Sampler& sampler) : view(image.view()), sampler(sampler.handle()) {}
+    explicit Binding(const Image& storage) : view(storage.view()) {}
+    Binding(VkImageView view, VkSampler sampler) : view(view), sampler(sampler) {}
+    Binding(const Buffer& buffer) : buffer(buffer.handle()) {}
+    VkImageView view = VK_NULL_HANDLE;
+    VkSampler sampler = VK_NULL_HANDLE;
+    VkBuffer buffer = VK_NULL_HANDLE;
+};
+
+// A compute or graphics pipeline with all that its SPIR-V tells of itself.
+class Program {
+  public:
+    Program() = default;
+    // `shader`: its path below shaders/, "expand/march.comp". A name that isn't there is a programming mistake.
+    // Fails when memory has run out.
+    static Result<Program> compute(Device& device, std::string_view shader, const ProgramOptions& options = {});
+    static Result<Program> graphics(Device& device, const GraphicsDesc& desc);
+    // SPIR-V from elsewhere; fails if it isn't well-formed.
+    static Result<Program> computeFrom(Device& device, std::string_view name, std::span<const uint32_t> code,
+                                       const ProgramOptions& options = {});
+
+    struct Slot {
+        uint32_t binding;
+        VkDescriptorType type;
+    };
+    VkPipeline pipeline() const { return pipeline_.get(); }
+    VkPipelineLayout layout() const { return layout_.get(); }
+    VkShaderStageFlags stages() const { return stages_; }
+    bool isCompute() const { return stages_ == VK_SHADER_STAGE_COMPUTE_BIT; }
+    const std::string& name() const { return name_; }
+    std::array<uint32_t, 3> localSize() const { return localSize_; }
+    uint32_t pushBytes() const { return pushBytes_; }
+    const std::vector<Slot>& slots() const { return slots_; }  // sorted by binding
+    explicit operator bool() const { return bool(pipeline_); }
+
+  private:
+    struct Stage;
+    Status makeLayout(Device& device, std::span<const Stage> stages);
+
+    Owned<VkDescriptorSetLayout> setLayout_;
+    Owned<VkPipelineLayout> layout_;
+    Owned<VkPipeline> pipeline_;
+    VkShaderStageFlags stages_ = 0;
+    std::array<uint32_t, 3> localSize_{1, 1, 1};
+    uint32_t pushBytes_ = 0;
+    std::vector<Slot> slots_;
+    std::string name_;
+};
+
+}  // namespace espalier
