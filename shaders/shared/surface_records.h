@@ -53,7 +53,8 @@ struct Crossing {
     uint edge;         // octahedral 2×16: unit 3D direction a -> b on this side
     uint targetEdge;   // octahedral 2×16: unit 3D direction ta -> tb on the other side (same as edge for seams)
     uint target;       // bits 31..16 surface instance (0xFFFF: this one), 15..0 chart
-    uint flags;        // bits 1..0 kind, bit 2: the inside is to the left of a -> b, 15..8 level it was made for
+    uint flags;        // bits 1..0 kind, bit 2: the inside is to the left of a -> b, 15..8 level it was made for,
+                       // 31..16 the chart whose border this is (charts may touch in the atlas)
 };
 STATIC_SIZE(Crossing, 48);
 
