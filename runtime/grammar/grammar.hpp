@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "shaders/shared/rule_map.h"
+
+// Grammar text -> rule map. The language is described in docs/grammar.md, the map in shaders/shared/rule_map.h.
+namespace espalier {
+
+enum class ParamKind : uint32_t { number, toggle, colour };
+
+// A slider of the editor. value: what it stands at; toggles are 0 or 1; colours use all three, linear 0..1.
+struct ParamInfo {
+    std::string name, unit, label;
+    ParamKind kind = ParamKind::number;
+    float minimum = 0, maximum = 1;
+    float standard[3] = {};   // the text's default
+    float value[3] = {};
+    uint32_t slot = 0;        // first bit in the masks of parameters
+};
+
+// A painted layer that the grammar reads. fill: its value where nothing is painted.
+struct ContextInfo {
+    std::string name, label;
+    float fill = 1;
+};
+
+struct SymbolInfo {
+    std::string name;
+    uint32_t argCount = 0;
+    bool grows = false;       // it reaches Marching: a seed may start with it
+};
+
+// A mesh that Shape("name") may ask for. bark: bent along spans; else set on them as loose instances.
+struct TerminalMesh {
+    std::string name;
+    bool bark = false;
+};
+
+// The meshes there are by default, by TerminalRecord::mesh.
+inline constexpr uint32_t kMeshBark = 0, kMeshLeaf = 1, kMeshPebble = 2;
+std::vector<TerminalMesh> standardTerminalMeshes();
+
+// Text of an included file, or nothing. `name` is as written between the quotes.
+using IncludeReader = std::function<std::optional<std::string>(const std::string& name)>;
+
+struct CompileOptions {
+    std::string fileName = "grammar";    // for diagnostics
+    IncludeReader readInclude;           // none: includes are refused
+    std::vector<TerminalMesh> meshes = standardTerminalMeshes();
+};
+
+// A compiled grammar with its parameters at some setting. A value type; calls on one object from one thread.
+class RuleMap {
+  public:
+    const std::vector<ParamInfo>& params() const { return params_; }
+    const std::vector<ContextInfo>& contexts() const { return contexts_; }
+    const std::vector<SymbolInfo>& symbols() const { return symbols_; }
+    std::optional<uint32_t> findSymbol(std::string_view name) const;
+    std::optional<uint32_t> findParam(std::string_view name) const;
+    std::optional<uint32_t> findContext(std::string_view name) const;
+    // The predecessor of the first growing rule of the main text.
+    uint32_t startSymbol() const { return startSymbol_; }
+    const std::vector<Diagnostic>& warnings() const { return warnings_; }
+
+    // Sets a parameter, limited to its range (colours: 0..1; NaN: left as it was), and works out what depends
+    // on it. values: 1 number, or 3 for a colour (missing ones stay). Returns the mask of slots that changed.
+    uint32_t setParam(uint32_t param, std::span<const float> values);
+
+    // What a device needs: a run of 32-bit words to be copied to an address that is a multiple of 16. Their number
+    // is fixed; their content changes with setParam only.
+    std::span<const uint32_t> words() const;
+    // Hash of text, includes, meshes and compiler version; parameters don't enter.
+    uint64_t contentHash() const { return contentHash_; }
+
+    // The map's record for words that lie at `address` (of a device, or of words().data() for the CPU, as long as
+    // this object lives unchanged in place). layerOf is the identity: the caller binds layers by name.
+    RuleMapRef refAt(uint64_t address) const;
+    RuleMapRef ref() const { return refAt(reinterpret_cast<uint64_t>(words().data())); }
+
+    // The whole as bytes, parameters at their defaults, and back. Loading verifies every index, range and
+    // operation, so that no file can make the interpreter leave its bounds; a failure names the file.
+    std::vector<uint8_t> save() const;
+    static Result<RuleMap> load(std::span<const uint8_t> bytes, std::string_view fileName);
+
+  private:
+    friend struct RuleMapAccess;
+    uint64_t contentHash_ = 0;
+    uint32_t startSymbol_ = 0;
+    std::vector<ParamInfo> params_;
+    std::vector<ContextInfo> contexts_;
+    std::vector<SymbolInfo> symbols_;
+    std::vector<Diagnostic> warnings_;
+    std::vector<uint32_t> words_;
+    struct Section {
+        uint32_t offset = 0, count = 0;   // in words_; in records
+    };
+    static constexpr uint32_t kSections = 7;
+    Section sections_[kSections];
+    std::vector<uint32_t> uniforms_;   // code that runs on the host when a parameter changes, see uniforms.hpp
+};
+
+// Compiles a text. Never throws, hangs or crashes on any bytes; all mistakes found are in the failure.
+Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& options = {});
+
+// Reads and compiles a file; includes are looked for next to it. cacheFolder: if not empty, the map is kept there
+// under its content hash (made if need be; a cache that can't be read or written is no failure, the map is
+// compiled then and a warning added).
+Result<RuleMap> compileGrammarFile(const std::filesystem::path& file, const std::filesystem::path& cacheFolder = {},
+                                   std::vector<TerminalMesh> meshes = standardTerminalMeshes());
+
+}  // namespace espalier

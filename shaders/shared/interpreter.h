@@ -1,0 +1,173 @@
+// The machine that runs a rule map's straight-line code, on GPU and CPU alike; see rule_map.h for when what runs.
+//
+// The machine is an array of floats. In GLSL it is one global per invocation (arrays handed to functions would be
+// copied); in C++ it is handed on. So that one text serves both, functions that use it begin their parameters with
+// MACHINE_PARAM and are called with MACHINE first, both without a comma: runCode(MACHINE map, first, count).
+// (MACHINE_ONLY where the machine is the sole argument.) A C++ function at the root declares `Machine machine;`;
+// both begin with resetMachine(MACHINE_ONLY).
+//
+// Every value a word leaves is finite, of magnitude below 1e18 and zero or above 1e-30: hostile code can't make
+// NaN, and devices that flush denormals agree with those that don't.
+#ifndef ESPALIER_SHARED_INTERPRETER_H
+#define ESPALIER_SHARED_INTERPRETER_H
+#include "shaders/shared/exact.h"
+#include "shaders/shared/random.h"
+#include "shaders/shared/rule_map.h"
+
+ESPALIER_BEGIN
+
+#ifdef __cplusplus
+struct Machine {
+    float slots[kMachineSlots] = {};
+};
+#define MACHINE machine,
+#define MACHINE_PARAM Machine &machine,
+#define MACHINE_ONLY machine
+#define MACHINE_ONLY_PARAM Machine &machine
+#define SLOT(i) machine.slots[i]
+#else
+float machineSlots[kMachineSlots];
+#define MACHINE
+#define MACHINE_PARAM
+#define MACHINE_ONLY
+#define MACHINE_ONLY_PARAM
+#define SLOT(i) machineSlots[i]
+#endif
+
+CONST_UINT(kOpMove, 0u);      // x
+CONST_UINT(kOpAdd, 1u);       // x + y
+CONST_UINT(kOpSub, 2u);       // x - y
+CONST_UINT(kOpMul, 3u);       // x * y
+CONST_UINT(kOpMulAdd, 4u);    // x * y + z, rounded twice
+CONST_UINT(kOpMin, 5u);
+CONST_UINT(kOpMax, 6u);
+CONST_UINT(kOpLess, 7u);      // x < y ? 1 : 0
+CONST_UINT(kOpLessEq, 8u);    // x <= y ? 1 : 0
+CONST_UINT(kOpEqual, 9u);     // x = y ? 1 : 0
+CONST_UINT(kOpSelect, 10u);   // holds(x) ? y : z
+CONST_UINT(kOpFloor, 11u);
+CONST_UINT(kOpAbs, 12u);
+CONST_UINT(kOpDiv, 13u);      // x / y; by zero: 0
+CONST_UINT(kOpSqrt, 14u);     // of negative numbers: 0
+CONST_UINT(kOpSin, 15u);
+CONST_UINT(kOpCos, 16u);
+CONST_UINT(kOpCount, 17u);
+
+// What a number means as a condition. Painted masks are filtered, so that their edge lies at one half.
+FN bool holds(float x) { return x >= 0.5f; }
+
+FN float tamed(float x) {
+    float y = x > -1e18f ? (x < 1e18f ? x : 1e18f) : -1e18f;
+    return absolute(y) < 1e-30f ? 0.0f : y;
+}
+
+// One operation. Angles are taken within ±8000 radians, floors within ±2^23 (beyond, floats are whole).
+FN float applyOperation(uint op, float x, float y, float z) {
+    float r = x;
+    switch (op) {
+        case kOpAdd: r = x + y; break;
+        case kOpSub: r = x - y; break;
+        case kOpMul: r = x * y; break;
+        case kOpMulAdd: r = x * y + z; break;
+        case kOpMin: r = smaller(x, y); break;
+        case kOpMax: r = larger(x, y); break;
+        case kOpLess: r = x < y ? 1.0f : 0.0f; break;
+        case kOpLessEq: r = x <= y ? 1.0f : 0.0f; break;
+        case kOpEqual: r = x == y ? 1.0f : 0.0f; break;
+        case kOpSelect: r = holds(x) ? y : z; break;
+        case kOpFloor: {
+            float whole = floorExact(limited(x, -8388608.0f, 8388608.0f));
+            r = absolute(x) < 8388608.0f ? whole : x;
+            break;
+        }
+        case kOpAbs: r = absolute(x); break;
+        case kOpDiv: r = y == 0.0f ? 0.0f : divExact(x, y); break;
+        case kOpSqrt: r = sqrtExact(x); break;
+        case kOpSin:
+        case kOpCos: {
+            float s;
+            float c;
+            sinCosExact(limited(x, -8000.0f, 8000.0f), s, c);
+            r = op == kOpSin ? s : c;
+            break;
+        }
+        default: break;
+    }
+    return tamed(r);
+}
+
+FN void resetMachine(MACHINE_ONLY_PARAM) {
+    SLOT(kSlotZero) = 0.0f;
+    SLOT(kSlotOne) = 1.0f;
+}
+
+FN void runCode(MACHINE_PARAM CodeBuf code, CodeRange range) {
+    for (uint i = 0u; i < range.count; ++i) {
+        CodeWord word = code.v[range.first + i];
+        uint sx = (word.bits >> 9u) & 127u;
+        uint sy = (word.bits >> 16u) & 127u;
+        uint sz = (word.bits >> 23u) & 127u;
+        float x = sx == kSlotImmediate ? word.immediate : SLOT(sx);
+        float y = sy == kSlotImmediate ? word.immediate : SLOT(sy);
+        float z = sz == kSlotImmediate ? word.immediate : SLOT(sz);
+        SLOT((word.bits >> 5u) & 15u) = applyOperation(word.bits & 31u, x, y, z);
+    }
+}
+
+FN float valueOf(MACHINE_PARAM Value value) {
+    return value.slot == kSlotImmediate ? value.immediate : SLOT(value.slot);
+}
+
+// Fills the draw slots of a stage. instanceKey: for sites inside a Repeat; elsewhere hand the same key twice.
+FN void drawSites(MACHINE_PARAM UintBuf sites, uint firstSite, uint siteCount, u64 key, u64 instanceKey) {
+    for (uint j = 0u; j < siteCount; ++j) {
+        uint site = sites.v[firstSite + j];
+        SLOT(kSlotDraw + j) =
+            uniformRandom((site & kSiteOfInstance) != 0u ? instanceKey : key, site & 0x7FFFFFFFu);
+    }
+}
+
+// Where a shape stands, in the world. lowest: height of the lowest point of its surface instance.
+struct ScopePlace {
+    vec3 position, normal, heading;
+    vec2 texCoord;
+    float curvature;
+    float lowest;
+};
+
+// Signed angle from `heading` to `direction` laid into the surface, positive to the left as seen from outside;
+// 0 where the direction stands upright on the surface.
+FN float angleInSurface(vec3 heading, vec3 normal, vec3 direction) {
+    float x = dot3(heading, direction);
+    float y = dot3(cross3(heading, direction), normal);
+    return x * x + y * y < 1e-6f ? 0.0f : atan2Exact(y, x);
+}
+
+// Fills the slots of a place that `inputs` names. Layers, arguments and the branch's counts are the expander's.
+FN void givePlace(MACHINE_PARAM RuleMapRef map, uint inputs, ScopePlace place) {
+    SLOT(kSlotTexCoord) = place.texCoord.x;
+    SLOT(kSlotTexCoord + 1u) = place.texCoord.y;
+    SLOT(kSlotNormal) = place.normal.x;
+    SLOT(kSlotNormal + 1u) = place.normal.y;
+    SLOT(kSlotNormal + 2u) = place.normal.z;
+    SLOT(kSlotHeading) = place.heading.x;
+    SLOT(kSlotHeading + 1u) = place.heading.y;
+    SLOT(kSlotHeading + 2u) = place.heading.z;
+    SLOT(kSlotPosition) = place.position.x;
+    SLOT(kSlotPosition + 1u) = place.position.y;
+    SLOT(kSlotPosition + 2u) = place.position.z;
+    SLOT(kSlotCurvature) = place.curvature;
+    SLOT(kSlotHeight) = place.position.y - place.lowest;
+    if ((inputs & kInputSlope) != 0u) {
+        float level = sqrtExact(place.normal.x * place.normal.x + place.normal.z * place.normal.z);
+        SLOT(kSlotSlope) = atan2Exact(level, place.normal.y);
+    }
+    for (uint i = 0u; i < kMaxDirections; ++i) {
+        if (((inputs >> i) & 1u) == 0u) continue;
+        vec4 d = map.directions[i];
+        SLOT(kSlotAngle + i) = angleInSurface(place.heading, place.normal, vec3(d.x, d.y, d.z));
+    }
+}
+
+ESPALIER_END
+#endif

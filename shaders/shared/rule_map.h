@@ -1,0 +1,203 @@
+// The rule map: what a grammar compiles to (runtime/grammar writes it, expand and emit read it).
+//
+// How a shape is derived (Buron 2015 §5, §7), all code being straight-line (interpreter.h):
+//   1. symbol = symbols[shape.symbol]. Draw its sites, give it its inputs (both below), run `select`; the rule is
+//      firstRule + selected, or none (selected < 0: the shape vanishes). ruleCount 0 vanishes too.
+//   2. rule kind March: draw the rule's sites, run `start` at the place where the shape stands -> length, angle.
+//      Turn, step; at the destination (or at a candidate's) give the rule's arrive inputs, run `arrive`; the step
+//      is made if holds(condition). The node is recorded with extrudes[rule.extrude - 1] to draw on its span
+//      (0: nothing). Then the successors, of which there is at most one (Top; its `args` stage is part of `arrive`,
+//      so its own code range is empty), whose arguments are read from the machine directly after `arrive`.
+//      rule kind List: draw the rule's sites, give it its start inputs, then for each successor run its code and
+//      read its arguments. The one marked kSuccessorContinues carries the branch on (same walk, same branch);
+//      each other begins a branch at the same place (depth + 1, step 0, arc 0). At most one is marked.
+//      rule kind Null: the branch ends.
+//   3. successor's key = childKey(shape's key, nameHash, ordinal).
+//   4. Second pass, for the span of a recorded node: per terminal of its extrude program draw the gate sites, run
+//      `gate` -> count; for i below min(count, kMaxRepeat): draw the body sites, set kSlotIndex to i, run `body`
+//      -> size, t, lift, turn, pitch, tint. A bark terminal (kTerminalBark) sets the span's radius (= size), and
+//      kSlotRadius for what follows it; the first bark with count >= 1 counts. Bark stands first in a program.
+// "Draw" means: for j < siteCount: machine slot kSlotDraw + j = uniformRandom(key, sites[firstSite + j]), see
+// drawSites. "Give inputs" means: fill the slots that the masks name; unnamed ones need not be filled.
+#ifndef ESPALIER_SHARED_RULE_MAP_H
+#define ESPALIER_SHARED_RULE_MAP_H
+#include "shaders/shared/growth_records.h"
+
+ESPALIER_BEGIN
+
+CONST_UINT(kMaxParams, 32u);        // slots of parameters; a colour takes three
+CONST_UINT(kMaxDirections, 4u);     // world directions that angleTo is asked for, per grammar
+CONST_UINT(kMaxDraws, 8u);          // random numbers per stage
+CONST_UINT(kMaxRepeat, 64u);        // instances that one terminal makes on one span
+CONST_UINT(kMaxSuccessors, 16u);
+CONST_UINT(kMaxExtrudes, 255u);
+CONST_UINT(kMaxListDepth, 8u);      // List rules applied in a row, at most, before a March or Null (guaranteed)
+
+// The machine's slots. Code reads any of them and writes registers only.
+CONST_UINT(kRegisters, 16u);
+CONST_UINT(kSlotArg, 16u);          // 4: the shape's arguments. In an extrude program: Chunk::args (see argMask)
+CONST_UINT(kSlotDraw, 20u);         // 8: random numbers in [0, 1)
+CONST_UINT(kSlotLayer, 28u);        // 16: painted layers at texCoord, by the grammar's own numbering (layerOf)
+CONST_UINT(kSlotAngle, 44u);        // 4: signed angle from the heading to directions[i] laid into the surface
+CONST_UINT(kSlotTexCoord, 48u);     // 2
+CONST_UINT(kSlotNormal, 50u);       // 3, world, outward
+CONST_UINT(kSlotHeading, 53u);      // 3, world, unit tangent
+CONST_UINT(kSlotPosition, 56u);     // 3, world, metres
+CONST_UINT(kSlotCurvature, 59u);    // 1/m in the world, positive on bulges
+CONST_UINT(kSlotSlope, 60u);        // angle between normal and up: 0 floor, pi/2 wall, pi ceiling
+CONST_UINT(kSlotHeight, 61u);       // metres above the lowest point of the surface instance
+CONST_UINT(kSlotDepth, 62u);        // 0 on the seed's own branch
+CONST_UINT(kSlotStep, 63u);         // marching steps since the branch began (at a step's destination: counting it)
+CONST_UINT(kSlotArc, 64u);          // metres since the branch began (likewise)
+CONST_UINT(kSlotBranchLength, 65u); // extrude programs only, as are the next five
+CONST_UINT(kSlotToTip, 66u);        // branchLength - arc
+CONST_UINT(kSlotSpanLength, 67u);   // arc of this node - arc of the node before
+CONST_UINT(kSlotRadius, 68u);       // radius of the bark on this span; 0 before the bark terminal has run
+CONST_UINT(kSlotIndex, 69u);        // number of the instance in its Repeat
+CONST_UINT(kSlotCount, 70u);        // how many the Repeat makes (the gate's count, limited); set before the body
+CONST_UINT(kSlotZero, 71u);         // constants, set by resetMachine
+CONST_UINT(kSlotOne, 72u);
+CONST_UINT(kMachineSlots, 73u);
+CONST_UINT(kSlotImmediate, 127u);   // the word's own constant
+
+// Masks of inputs. Layers have a mask of their own (bit i: kSlotLayer + i).
+CONST_UINT(kInputAngle, 1u);            // bits 0..3: kSlotAngle + i
+CONST_UINT(kInputTexCoord, 1u << 4u);
+CONST_UINT(kInputNormal, 1u << 5u);
+CONST_UINT(kInputHeading, 1u << 6u);
+CONST_UINT(kInputPosition, 1u << 7u);
+CONST_UINT(kInputCurvature, 1u << 8u);
+CONST_UINT(kInputSlope, 1u << 9u);
+CONST_UINT(kInputHeight, 1u << 10u);
+CONST_UINT(kInputDepth, 1u << 11u);
+CONST_UINT(kInputStep, 1u << 12u);
+CONST_UINT(kInputArc, 1u << 13u);
+CONST_UINT(kInputBranchLength, 1u << 14u);   // or toTip
+CONST_UINT(kInputSpanLength, 1u << 15u);
+CONST_UINT(kInputRadius, 1u << 16u);
+
+// A word of code: bits 4..0 operation, 8..5 destination register, 15..9 slot x, 22..16 slot y, 29..23 slot z.
+struct CodeWord {
+    uint bits;
+    float immediate;   // what kSlotImmediate means in this word
+};
+STATIC_SIZE(CodeWord, 8);
+
+// A result: a machine slot after its code has run, or (kSlotImmediate) a constant. Read it with valueOf.
+struct Value {
+    uint slot;
+    float immediate;
+};
+STATIC_SIZE(Value, 8);
+
+struct CodeRange {
+    uint first, count;   // in RuleMapRef::code
+};
+STATIC_SIZE(CodeRange, 8);
+
+struct SymbolRecord {
+    uint nameHash;       // FNV-1a 32
+    uint argCount;
+    uint firstRule, ruleCount;
+    CodeRange select;
+    Value selected;      // rule number below ruleCount, or negative: none holds
+    uint firstSite, siteCount;   // drawn before `select`
+    uint inputs, layers;         // needed by `select`
+    uint params;                 // bit i: the choice depends on parameter slot i
+    uint spare;
+};
+STATIC_SIZE(SymbolRecord, 56);
+
+CONST_UINT(kRuleNull, 0u);
+CONST_UINT(kRuleList, 1u);
+CONST_UINT(kRuleMarch, 2u);
+
+struct RuleRecord {
+    uint kind;
+    uint firstSuccessor, successorCount;
+    uint extrude;                // index of the extrude program + 1; 0: none
+    uint firstSite, siteCount;   // drawn once, for all stages of the rule
+    CodeRange start;
+    Value length;                // metres; the expander limits it from below
+    Value angle;                 // radians, positive to the left as seen from outside
+    CodeRange arrive;
+    Value condition;
+    uint startInputs, startLayers;     // List: of the successors' arguments
+    uint arriveInputs, arriveLayers;
+    uint params;                 // parameter slots that the rule depends on
+    uint spare;
+};
+STATIC_SIZE(RuleRecord, 88);
+
+CONST_UINT(kSuccessorContinues, 1u);
+struct SuccessorRecord {
+    uint symbol;
+    uint nameHash;       // of that symbol
+    uint ordinal;        // which of the successors of that name in its rule
+    uint flags;
+    CodeRange code;
+    uint argCount;
+    Value args[4];
+    uint spare;
+};
+STATIC_SIZE(SuccessorRecord, 64);
+
+// What is drawn on a span. Key of its draws: childKey(key, nameHash, step), key being the branch's.
+// argMask: kSlotArg + i is read; the compiler allows it only for arguments that a branch hands on unchanged, so
+// that Chunk::args of the node's chunk serves.
+struct ExtrudeRecord {
+    uint nameHash;
+    uint firstTerminal, terminalCount;
+    uint inputs, layers, params;
+    uint argMask;
+    uint spare;
+};
+STATIC_SIZE(ExtrudeRecord, 32);
+
+CONST_UINT(kTerminalBark, 1u);      // bent along the span; else a loose instance on it
+CONST_UINT(kSiteOfInstance, 0x80000000u);   // a site drawn with the instance's key, see drawSites
+struct TerminalRecord {
+    uint mesh;           // index into the compile options' terminal meshes
+    uint smoothness;     // kSmooth...
+    uint flags;
+    uint site;           // instance key = childKey(extrude key, site, index)
+    CodeRange gate;
+    Value count;         // below 1: nothing
+    uint gateFirstSite, gateSiteCount;
+    CodeRange body;
+    uint bodyFirstSite, bodySiteCount;
+    Value size;          // metres: bark's radius, else the terminal's length
+    Value t;             // along the span, 0..1
+    Value lift;          // metres above the surface
+    Value turn;          // radians about the normal, from the heading to the left
+    Value pitch;         // radians, away from the surface
+    Value tint;          // 0..1
+    Value colour[3];     // linear, 0..1, the same for all instances (immediates)
+};
+STATIC_SIZE(TerminalRecord, 128);
+
+BUFFER(CodeBuf, CodeWord)
+BUFFER(SymbolRecordBuf, SymbolRecord)
+BUFFER(RuleRecordBuf, RuleRecord)
+BUFFER(SuccessorRecordBuf, SuccessorRecord)
+BUFFER(ExtrudeRecordBuf, ExtrudeRecord)
+BUFFER(TerminalRecordBuf, TerminalRecord)
+
+// One grammar of a scene. layerOf[i]: the scene's layer that the grammar's layer i is bound to.
+struct RuleMapRef {
+    SymbolRecordBuf symbols;
+    RuleRecordBuf rules;
+    SuccessorRecordBuf successors;
+    ExtrudeRecordBuf extrudes;
+    TerminalRecordBuf terminals;
+    CodeBuf code;
+    UintBuf sites;
+    uint symbolCount, ruleCount;
+    vec4 directions[4];
+    uint layerOf[16];
+};
+STATIC_SIZE(RuleMapRef, 192);
+BUFFER(RuleMapBuf, RuleMapRef)     // [grammar]
+
+ESPALIER_END
+#endif
