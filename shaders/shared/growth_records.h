@@ -28,7 +28,7 @@ STATIC_SIZE(Walk, 28);
 struct Seed {
     u64 key;
     Walk walk;
-    uint grammar;    // index into the rule maps
+    uint grammar;    // index into the rule maps, < 65536
     uint symbol;     // start symbol in that grammar
     float args[4];
     uint spare;
@@ -39,15 +39,15 @@ STATIC_SIZE(Seed, 64);
 struct WorkItem {
     u64 key;
     Walk walk;
-    uint grammar;
-    uint symbol;
+    uint symbol;         // bits 31..16 grammar, 15..0 symbol
     float args[4];
-    uint parentChunk;    // kNoIndex for a seed
-    uint previousNode;   // the node that its first span starts from, or kNoIndex
-    uint branch;         // the branch that it continues, kNoIndex: it begins one
+    uint parent;         // the chunk that it leaves or carries on, kNoIndex for a seed
+    uint origin;         // index, in the parent's nodes, of the node that its first span starts from;
+                         // kNoIndex: from the parent's own previous node (or none, for a seed)
+    uint branch;         // the branch that it carries on, kNoIndex: it begins one
     uint parentBranch;   // the branch that it leaves, kNoIndex for a seed
-    uint depth;          // bits 31..16 derivation depth in chunks, 15..0 branch depth (0: from the seed)
-    uint generation;
+    uint depth;          // bits 31..16 chunks one after another from the seed, 15..0 branches (0: the seed's own)
+    uint step;           // bits 31..24 generation (modulo 256), 23..0 steps of the grammar since its branch began
     uint spare;
 };
 STATIC_SIZE(WorkItem, 88);
@@ -78,43 +78,45 @@ struct Node {
 };
 STATIC_SIZE(Node, 44);
 
-// 24 bytes. length is final when the branch has ended.
+// 24 bytes; only branches of at least one node have one. length is final when the branch has ended.
 struct BranchRecord {
-    u64 key;
     float length;        // metres
+    float thickness;     // factor of its radii, so that it is no thicker than its parent at the joint
+    uint firstChunk;     // its key is the branch's key
     uint parentNode;     // kNoIndex for a seed's
     uint parentBranch;   // kNoIndex for a seed's
     uint depthGrammar;   // bits 31..16 depth from the seed, 15..0 grammar
 };
 STATIC_SIZE(BranchRecord, 24);
 
-// Read set: bit i of layerMask, layer i was read; readTiles: bits 31..24 surface instance, 23..16 layer,
-// 15..8 tile y, 7..0 tile x, kNoIndex: unused slot; kReadsAll in flags when there were more than 8.
+// Chunk::marks: bits 31..16 layers that were read, 15..0 flags
 CONST_UINT(kChunkPublished, 1u);
-CONST_UINT(kChunkReadsAll, 2u);
+CONST_UINT(kChunkReadsAll, 2u);     // more tiles than readTiles holds
 CONST_UINT(kChunkEndsBranch, 4u);
 CONST_UINT(kChunkStopped, 8u);      // a derivation or recursion limit ended it (counted in the stats)
+CONST_UINT(kChunkDeadEnd, 16u);     // no direction that its condition allows
+CONST_UINT(kReadTiles, 4u);
+
+// 120 bytes. A chunk may be without nodes: its first step failed, and what it read says when to try again.
 struct Chunk {
     u64 key;             // of its entry
     u64 exitHash;        // of exit state, children and nodes
     Walk entry;
-    uint grammar;
-    uint symbol;
+    uint symbol;         // as WorkItem::symbol
     float args[4];
     uint parent;         // chunk, kNoIndex for a seed's first
-    uint previousNode;
+    uint previousNode;   // kNoIndex: its first node is a seed's foot
     uint next;           // the chunk that carries the branch on, kNoIndex
-    uint branch;
+    uint branch;         // kNoIndex if it is without nodes and begins its branch
     uint firstNode;
     uint nodeCount;
     uint depth;          // as WorkItem::depth
-    uint generation;
-    uint flags;
-    uint layerMask;
-    uint paramMask;      // parameters of its grammar that it read
-    uint readTiles[8];
+    uint step;           // as WorkItem::step
+    uint marks;
+    uint paramMask;      // parameters of its grammar that it read (bit 31: any from 31 on)
+    uint readTiles[4];   // bits 31..24 surface instance, 23..16 layer, 15..8 tile y, 7..0 tile x; kNoIndex: unused
 };
-STATIC_SIZE(Chunk, 144);
+STATIC_SIZE(Chunk, 120);
 
 // A leaf or a loose terminal, 16 bytes, on the span that ends at `node`.
 //   place: bits 31..16 t along the span (unorm16), 15..8 terminal mesh, 7..0 size (m, as 2^((x - 160) / 16))
