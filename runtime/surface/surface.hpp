@@ -22,7 +22,7 @@ struct SurfaceLevelData {
 };
 
 // An 8-bit RGBA picture, rows top to bottom, or empty.
-struct Image {
+struct Picture {
     uint32_t width = 0, height = 0;
     std::vector<uint8_t> rgba;
 };
@@ -64,7 +64,7 @@ struct SurfaceData {
     std::vector<uint32_t> indices;
     std::vector<DrawRange> ranges;
     std::vector<Material> materials;
-    std::vector<Image> images;
+    std::vector<Picture> images;
 };
 
 // The record by which kernels' CPU build reads `data` (pointers into it: valid while `data` lives unchanged).

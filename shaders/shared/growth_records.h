@@ -119,13 +119,12 @@ struct Chunk {
 STATIC_SIZE(Chunk, 120);
 
 // A leaf or a loose terminal, 16 bytes, on the span that ends at `node`.
-//   place: bits 31..16 t along the span (unorm16), 15..8 terminal mesh, 7..0 size (m, as 2^((x - 160) / 16))
-//   pose:  bits 31..20 turn about the normal, 19..10 pitch, 9..0 lift in units of the span's radius; see emit
+// place, pose and tint are packed and unpacked by leaf_pose.h.
 struct Leaf {
     uint node;
     uint place;
     uint pose;
-    uint tint;           // hash bits: colour and shape variation
+    uint tint;
 };
 STATIC_SIZE(Leaf, 16);
 

@@ -20,7 +20,7 @@ struct Model {
     std::vector<uint32_t> indices;             // three a triangle
     std::vector<uint32_t> triangleMaterial;    // one a triangle, or empty: material 0
     std::vector<Material> materials;
-    std::vector<Image> images;
+    std::vector<Picture> images;
     std::vector<Diagnostic> warnings;
 };
 
