@@ -1,0 +1,128 @@
+// Reading the indirection geometry image between texels: position and Jacobian under a texture coordinate,
+// from texels of one chart only (Buron 2015 §4; a read that mixes charts ruins the walk).
+#ifndef ESPALIER_SHARED_SURFACE_LOOKUP_H
+#define ESPALIER_SHARED_SURFACE_LOOKUP_H
+#include "shaders/shared/exact.h"
+#include "shaders/shared/surface_records.h"
+
+ESPALIER_BEGIN
+
+// The surface near one texture coordinate. Object space, metres.
+struct Patch {
+    vec3 position;
+    vec3 du, dv;     // dP/du, dP/dv: metres per unit of UV
+    vec3 normal;     // unit, outward
+    uint bits;       // Texel::bits of the nearest texel of the chart
+};
+
+// Rows and columns of texelIndex apart: the four texels of a cell share them.
+FN uint texelRow(uint size, uint y) { return (((y >> 3u) * (size >> 3u)) << 6u) + ((y & 7u) << 3u); }
+FN uint texelColumn(uint x) { return ((x >> 3u) << 6u) + (x & 7u); }
+
+FN bool texelOwned(uint bits, uint chart) { return (bits & 0xFFFFu) == chart && (bits & 0x30000u) != 0u; }
+
+// v kept to [0, high]; NaN becomes 0.
+FN float inRange(float v, float high) {
+    float c = v > 0.0f ? v : 0.0f;
+    return c < high ? c : high;
+}
+
+// The texel whose square holds uv (clamped to the image).
+FN uint texelAt(uint size, vec2 uv) {
+    float last = float(size) - 1.0f;
+    return texelRow(size, uint(inRange(uv.y * float(size), last))) + texelColumn(uint(inRange(uv.x * float(size), last)));
+}
+
+// Position, Jacobian and normal at uv of `chart` (whose Chart::orientation the caller has at hand). The bilinear
+// patch of the four texels around uv; where one of them is creased or belongs elsewhere, the plane of the
+// triangle under the nearest texel of the chart. False: no texel of the chart within reach, p is unchanged
+// but for values that nobody may use. Reads 4 texels, and a triangle in creased cells.
+FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, float orientation, vec2 uv, OUT(Patch) p) {
+    uint size = surfaces.v[instance].levels[level].size;
+    float fsize = float(size);
+    float gx = uv.x * fsize - 0.5f;
+    float gy = uv.y * fsize - 0.5f;
+    uint x = uint(inRange(gx, fsize - 2.0f));
+    uint y = uint(inRange(gy, fsize - 2.0f));
+    float fx = limited(gx - float(x), -1.0f, 2.0f);
+    float fy = limited(gy - float(y), -1.0f, 2.0f);
+    uint c0 = texelColumn(x);
+    uint c1 = texelColumn(x + 1u);
+    uint r0 = texelRow(size, y);
+    uint r1 = texelRow(size, y + 1u);
+    TexelBuf texels = surfaces.v[instance].levels[level].texels;
+    Texel t00 = texels.v[r0 + c0];
+    Texel t10 = texels.v[r0 + c1];
+    Texel t01 = texels.v[r1 + c0];
+    Texel t11 = texels.v[r1 + c1];
+
+    float ex = 1.0f - fx;
+    float ey = 1.0f - fy;
+    vec3 low = t10.position - t00.position;
+    vec3 high = t11.position - t01.position;
+    vec3 left = t01.position - t00.position;
+    vec3 right = t11.position - t10.position;
+    vec3 du = (low * ey + high * fy) * fsize;
+    vec3 dv = (left * ex + right * fx) * fsize;
+    vec3 position = t00.position + low * (fx * ey) + (left + high * fx) * fy;
+
+    // The nearest texel of this chart, and whether all four serve.
+    float best = -9.0f;
+    uint nearest = kNoIndex;
+    uint bits = 0u;
+    if (texelOwned(t00.bits, chart)) { best = ex * ey; nearest = r0 + c0; bits = t00.bits; }
+    if (texelOwned(t10.bits, chart) && fx * ey > best) { best = fx * ey; nearest = r0 + c1; bits = t10.bits; }
+    if (texelOwned(t01.bits, chart) && ex * fy > best) { best = ex * fy; nearest = r1 + c0; bits = t01.bits; }
+    if (texelOwned(t11.bits, chart) && fx * fy > best) { nearest = r1 + c1; bits = t11.bits; }
+    bool own = texelOwned(t00.bits, chart) && texelOwned(t10.bits, chart) && texelOwned(t01.bits, chart) &&
+               texelOwned(t11.bits, chart);
+    bool creased = texelCrease(t00.bits | t10.bits | t01.bits | t11.bits);
+    bool valid = nearest != kNoIndex;
+    if (valid && (creased || !own)) {
+        uint triangle = surfaces.v[instance].levels[level].aux.v[nearest].triangle;
+        valid = triangle != kNoIndex || own;
+        if (triangle != kNoIndex) {
+            TrianglePlane plane = surfaces.v[instance].triangles.v[triangle];
+            vec2 offset = uv - plane.uv0;
+            du = plane.du;
+            dv = plane.dv;
+            position = plane.position + du * offset.x + dv * offset.y;
+        }
+    }
+    vec3 across = cross3(du, dv);
+    float area2 = dot3(across, across);
+    p.position = position;
+    p.du = du;
+    p.dv = dv;
+    p.normal = across * (orientation * rsqrtExact(area2));
+    p.bits = bits;
+    return valid && area2 > 1e-36f;
+}
+
+// Position, du and dv at uv, on the level asked for or the chart's coarsest. False as for patchAt.
+FN bool surfaceAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, vec2 uv, OUT(vec3) position,
+                  OUT(vec3) du, OUT(vec3) dv) {
+    uint coarsest = surfaces.v[instance].charts.v[chart].coarsestLevel;
+    Patch p;
+    bool found = patchAt(surfaces, instance, level < coarsest ? level : coarsest, chart, 1.0f, uv, p);
+    position = p.position;
+    du = p.du;
+    dv = p.dv;
+    return found;
+}
+
+// The interpolated shading normal stored at the texel nearest to uv. Unit, outward.
+FN vec3 normalAt(SurfaceBuf surfaces, uint instance, uint level, vec2 uv) {
+    uint size = surfaces.v[instance].levels[level].size;
+    return unpackOct(surfaces.v[instance].levels[level].aux.v[texelAt(size, uv)].normal);
+}
+
+// Curvature (1/m of object space, positive on bulges) at the texel nearest to uv.
+FN float curvatureAt(SurfaceBuf surfaces, uint instance, uint level, vec2 uv) {
+    uint size = surfaces.v[instance].levels[level].size;
+    uint bits = surfaces.v[instance].levels[level].texels.v[texelAt(size, uv)].bits;
+    return decodeCurvature(bits, rcpExact(surfaces.v[instance].radius));
+}
+
+ESPALIER_END
+#endif
