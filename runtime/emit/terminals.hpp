@@ -1,0 +1,82 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/gpu/buffer.hpp"
+#include "runtime/gpu/image.hpp"
+#include "shaders/emit/emit_records.h"
+
+namespace espalier {
+
+// Terminal meshes on the CPU. A file names its meshes KIND[_VARIANT]_lodN: "bark_lod0", "leaf_b_lod2".
+struct TerminalLod {
+    uint32_t firstVertex = 0, vertexCount = 0;
+    uint32_t firstIndex = 0, indexCount = 0;   // indices count from firstVertex
+    float error = 0;                           // as VariantRecord::error
+    uint32_t material = 0;
+};
+struct TerminalVariant {
+    std::string name;
+    uint32_t kind = 0;
+    std::vector<TerminalLod> lods;             // finest first
+};
+struct TerminalPicture {
+    uint32_t width = 0, height = 0;
+    std::vector<uint8_t> rgba;                 // rows top to bottom
+};
+struct TerminalMaterial {
+    std::string name;
+    glm::vec4 baseColor{1};
+    float roughness = 1;
+    float alphaCutoff = 0;                     // 0: opaque
+    int baseColorPicture = -1, normalPicture = -1;
+};
+struct TerminalData {
+    std::vector<std::string> kinds;            // by TerminalRecord::mesh
+    std::vector<TerminalVariant> variants;     // sorted by kind, bark first
+    std::vector<TerminalVertex> vertices;
+    std::vector<uint32_t> indices;
+    std::vector<TerminalMaterial> materials;
+    std::vector<TerminalPicture> pictures;
+};
+
+// What growth's terminals are called by default, in the order of grammar's standardTerminalMeshes().
+std::vector<std::string> standardTerminalKinds();
+
+// Reads a glTF binary. Every size and index in it is checked; a failure names the file and the place. Kinds without
+// a mesh in the file stay without variants and are not drawn. The first kind is bark.
+Result<TerminalData> readTerminals(const std::filesystem::path& path,
+                                   std::vector<std::string> kinds = standardTerminalKinds());
+
+// Fills each LOD's error by measuring its distance to the finest one.
+void measureTerminalErrors(TerminalData& data);
+
+// Terminal meshes on the GPU.
+class Terminals {
+  public:
+    static Result<Terminals> create(Device& device, TerminalData data);
+
+    const TerminalData& data() const { return data_; }
+    const EmitTable& table() const { return table_; }
+    const Buffer& tableBuffer() const { return tableBuffer_; }
+    const Buffer& vertices() const { return vertices_; }
+    const Buffer& indices() const { return indices_; }        // of single instances, for materialising
+    const Buffer& batches() const { return batches_; }        // repeated patterns, for drawing
+    // Textures of a material; white, or flat, where it has none.
+    const Image& baseColor(uint32_t material) const;
+    const Image& normalMap(uint32_t material) const;
+
+  private:
+    Status makeTable(Device& device);
+    Status makePictures(Device& device);
+
+    TerminalData data_;
+    EmitTable table_{};
+    Buffer tableBuffer_, vertices_, indices_, batches_;
+    std::vector<Image> colors_, normals_;   // one a picture; those unused in a role stay empty
+    Image white_, flat_;
+};
+
+}  // namespace espalier

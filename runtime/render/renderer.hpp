@@ -1,0 +1,81 @@
+#pragma once
+
+// Drawing: surfaces, bark and leaves with sun, shadow, sky and tone mapping, into an image of ours or a host's.
+
+#include <filesystem>
+#include <memory>
+
+#include "runtime/emit/emit.hpp"
+#include "runtime/surface/surface.hpp"
+
+namespace espalier {
+
+struct Camera {
+    glm::vec3 eye{0, 1, 5}, target{0, 1, 0}, up{0, 1, 0};
+    float fovY = 0.7f;           // radians
+    float nearPlane = 0.05f;     // metres; the far plane is at infinity
+};
+
+enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, layer = 4 };
+
+// Colours are linear.
+struct Look {
+    glm::vec3 sunDirection{0.45f, 0.62f, 0.64f};   // towards the sun
+    glm::vec3 sunColor{5.2f, 4.4f, 3.3f};
+    glm::vec3 skyColor{0.62f, 0.80f, 1.10f};
+    glm::vec3 groundColor{0.34f, 0.29f, 0.22f};
+    float exposure = 0;                            // stops
+    glm::vec3 background{0.30f, 0.50f, 0.80f};     // at the zenith
+    glm::vec3 horizon{0.80f, 0.86f, 0.92f};
+    bool shadows = true;
+    ViewMode view = ViewMode::shaded;
+    uint32_t layer = 0;                            // for ViewMode::layer: index into DrawInputs::layers' 16 a surface
+    float lodPixels = 1;                           // error allowed when choosing LOD, pixels
+};
+
+struct DrawInputs {
+    GrowthView growth;           // nodeCount 0: nothing grows
+    SurfaceBuf surfaces;         // device address of the SurfaceRef table; 0: no growth and no chart view
+    LayerBuf layers;             // surfaces * kMaxLayers; 0: no layer view
+    Camera camera;
+    Look look;
+};
+
+// Where to draw. image null: into the renderer's own image. Otherwise the image may be in any layout, its contents
+// are lost, and it is left in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; format: an 8-bit RGBA or BGRA, UNORM or SRGB.
+struct DrawTarget {
+    uint32_t width = 1280, height = 720;   // 1 to 16384
+    VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;
+    VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
+};
+
+struct RenderStats {
+    EmitStats emit;
+    uint64_t modelTriangles = 0;
+    double emitMs = 0, drawMs = 0, shadowMs = 0;   // GPU time of the last finished frame; shadow: of the last redraw
+};
+
+class Renderer {
+  public:
+    static Result<std::unique_ptr<Renderer>> create(Device& device, TerminalData terminals);
+    static Result<std::unique_ptr<Renderer>> create(Device& device, const std::filesystem::path& terminals);
+    virtual ~Renderer() = default;
+
+    // The drawn mesh of surface instance `index`; uploads and waits.
+    virtual Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld) = 0;
+    virtual void removeSurface(uint32_t index) = 0;
+
+    // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed.
+    virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;
+
+    // The last frame drawn into the renderer's own image: RGBA, sRGB, rows top to bottom. Waits for it.
+    virtual Result<std::vector<uint8_t>> readPixels() = 0;
+
+    // Counts of the last frame that has finished.
+    virtual RenderStats stats() const = 0;
+
+    virtual Result<EmittedTriangles> materialise(const EmitInputs& inputs) = 0;
+};
+
+}  // namespace espalier

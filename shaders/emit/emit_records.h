@@ -1,0 +1,155 @@
+// What culling reads and leaves: the view, the table of terminal meshes, instances sorted by bucket, draws.
+//
+// A terminal kind (TerminalRecord::mesh: bark, leaf, pebble) has variants (leaf shapes), a variant has LODs. Each
+// (variant, LOD) is a bucket: one mesh, drawn by two indirect commands. Buckets of bark come first.
+#ifndef ESPALIER_EMIT_RECORDS_H
+#define ESPALIER_EMIT_RECORDS_H
+#include "shaders/shared/growth_records.h"
+
+ESPALIER_BEGIN
+
+#ifdef __cplusplus
+using glm::mat4;
+#endif
+
+CONST_UINT(kMaxTerminalKinds, 16u);
+CONST_UINT(kMaxVariants, 32u);
+CONST_UINT(kMaxLods, 6u);
+CONST_UINT(kMaxBuckets, 64u);
+CONST_UINT(kNoBucket, 0xFFu);
+CONST_UINT(kEmitGroup, 64u);
+CONST_UINT(kFullDetail, 1u);   // EmitView::flags: every instance at LOD 0, nothing is culled, thickened or thinned out
+
+// What a cull is for. A sphere (c, r) is outside if dot(planes[i].xyz, c) + planes[i].w < -r for some i.
+struct EmitView {
+    vec4 planes[6];
+    vec3 eye;             // world; parallel projection: unused
+    float pixelScale;     // pixels that one metre covers at one metre's distance; parallel: at any distance
+    float lodPixels;      // error allowed, in pixels
+    uint parallel;
+    uint flags;
+    float leastPixels;    // radius in pixels below which bark is thickened and faded instead
+};
+STATIC_SIZE(EmitView, 128);
+
+struct KindRecord {
+    uint firstVariant, variantCount;
+    uint bark;
+    uint spare;
+};
+STATIC_SIZE(KindRecord, 16);
+
+// error[i]: distance between LOD i and the full mesh, in units of the instance's size (bark: of its radius).
+struct VariantRecord {
+    uint firstBucket, lodCount;
+    float extent;         // radius of the mesh around its origin, in the same unit
+    float error[6];
+};
+STATIC_SIZE(VariantRecord, 36);
+
+// batch: instances that one draw command's instance covers; firstIndex: of their repeated index pattern.
+struct BucketRecord {
+    uint firstVertex, vertexCount;
+    uint indexCount;      // of one instance
+    uint batch;
+    uint firstIndex;
+    uint material;
+};
+STATIC_SIZE(BucketRecord, 24);
+
+struct EmitTable {
+    KindRecord kinds[16];
+    VariantRecord variants[32];
+    BucketRecord buckets[64];
+    uint kindCount, variantCount, bucketCount, barkBuckets;
+};
+STATIC_SIZE(EmitTable, 2960);
+
+// VkDrawIndexedIndirectCommand.
+struct DrawCommand {
+    uint indexCount, instanceCount, firstIndex;
+    int vertexOffset;
+    uint firstInstance;
+};
+STATIC_SIZE(DrawCommand, 20);
+
+// Counters of one cull. starts: of bark buckets in the spans, of the others in the leaves.
+struct EmitState {
+    uint counts[64];
+    uint starts[64];
+    DrawCommand draws[128];     // two a bucket
+    uint spanCount, leafCount;  // visible instances written
+    uint overflow;              // instances for which there was no room
+    uint drawnTriangles;
+    uint fullTriangles;         // of all bark and leaves at full detail, seen or not
+    uint spare[3];
+};
+STATIC_SIZE(EmitState, 3104);
+
+// A visible span in the world, 84 bytes.
+//   bits 7..0 LOD, bit 8 rounded tip, bits 31..16 fade (unorm16: how much of a pixel it covers)
+struct SpanInstance {
+    vec3 p0, b1, b2, p3;
+    uint normal0, normal1;      // octahedral, surface
+    float radius0, radius1;
+    float arc0, length;         // metres along the branch where it starts; of the span
+    float rise;                 // the bark's axis lies this many radii above the curve
+    uint bits;
+    uint spare;
+};
+STATIC_SIZE(SpanInstance, 84);
+
+// A visible loose terminal in the world, 64 bytes. axes: columns times size: mesh x, y, z.
+//   bits 7..0 LOD, 15..8 kind, 31..16 depth below the canopy's outside (unorm16: 1 at the surface)
+struct LeafInstance {
+    vec3 origin;
+    vec3 axisX, axisY, axisZ;
+    uint normal;                // octahedral, of the surface below
+    uint tint;                  // Leaf::tint
+    uint hash;
+    uint bits;
+};
+STATIC_SIZE(LeafInstance, 64);
+
+// Vertex of a terminal mesh, 24 bytes. Bark: x and y its cross-section in radii, z in [0,1] along the span.
+struct TerminalVertex {
+    vec3 position;
+    uint normal;                // octahedral
+    vec2 uv;
+};
+STATIC_SIZE(TerminalVertex, 24);
+
+// What espMaterialise hands out, 16 bytes.
+struct TriangleVertex {
+    vec3 position;
+    uint normal;
+};
+STATIC_SIZE(TriangleVertex, 16);
+
+BUFFER(EmitViewBuf, EmitView)
+BUFFER(EmitTableBuf, EmitTable)
+BUFFER(EmitStateBuf, EmitState)
+BUFFER(SpanInstanceBuf, SpanInstance)
+BUFFER(LeafInstanceBuf, LeafInstance)
+BUFFER(TerminalVertexBuf, TerminalVertex)
+BUFFER(TriangleVertexBuf, TriangleVertex)
+
+// Push data of the culling kernels.
+struct EmitPush {
+    EmitViewBuf view;
+    EmitTableBuf table;
+    EmitStateBuf state;
+    UintBuf classes;            // an item each: bits 31..24 bucket (kNoBucket: not seen), 23..0 place in it
+    NodeBuf nodes;
+    ChunkBuf chunks;
+    LeafBuf leaves;
+    SurfaceBuf surfaces;
+    SpanInstanceBuf spanInstances;
+    LeafInstanceBuf leafInstances;
+    uint nodeCount, leafCount;
+    uint spanCapacity, leafCapacity;
+};
+STATIC_SIZE(EmitPush, 96);
+
+ESPALIER_END
+#endif
