@@ -61,6 +61,7 @@ typedef struct EspHostDevice {
     void* device;                /* VkDevice */
     void* queue;                 /* VkQueue: graphics and compute */
     uint32_t queueFamily;
+    int debugUtils;              /* 1: VK_EXT_debug_utils is on: objects get names and passes labels */
 } EspHostDevice;
 
 typedef struct EspContextDef {
@@ -78,6 +79,8 @@ ESP_API void espDestroy(EspContext* context);   /* NULL is allowed */
 
 /* The VkPhysicalDeviceFeatures2 chain that a host's device must be created with; static memory, don't free. */
 ESP_API const void* espRequiredFeatures(void);
+/* Names of the device extensions that it must have been created with besides. Static memory. */
+ESP_API const char* const* espRequiredExtensions(uint32_t* count);
 
 /* What went wrong last in this context (NULL: in this thread's last espCreate), several lines if several mistakes
  * were found. Valid until the next call. Never NULL. */
@@ -222,7 +225,10 @@ ESP_API EspLook espDefaultLook(void);
 
 /* Where to draw. With commandBuffer NULL Espalier draws into its own image of width × height, submits, waits, and
  * espReadPixels returns it. Otherwise it records into the host's VkCommandBuffer (outside of a render pass), and ends
- * with colourView's image in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; the image must be 8-bit RGBA or BGRA. */
+ * with colourView's image in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, what it held before is lost; the image must
+ * be 8-bit RGBA or BGRA, UNORM. What was recorded has to be submitted to EspHostDevice::queue before the next call
+ * that changes the context (espUpdate, espLoadSurface ...): `frame` and `framesDone` tell Espalier how long it must
+ * keep what that frame reads. */
 typedef struct EspDrawDef {
     uint32_t width, height;      /* 1 to 16384 */
     EspCamera camera;
@@ -231,6 +237,8 @@ typedef struct EspDrawDef {
     void* colourImage;           /* VkImage */
     void* colourView;            /* VkImageView */
     uint32_t colourFormat;       /* VkFormat */
+    uint64_t frame;              /* with commandBuffer: the host's number of this frame, from 1, rising */
+    uint64_t framesDone;         /* the GPU has finished all of the host's frames up to this one */
 } EspDrawDef;
 ESP_API EspDrawDef espDefaultDrawDef(void);
 ESP_API EspResult espDraw(EspContext* context, const EspDrawDef* def);

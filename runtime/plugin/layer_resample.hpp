@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "runtime/surface/surface.hpp"
+
+namespace espalier {
+
+// A single-channel picture as a layer hands it in: rows from v = 0 on, at least 1 × 1. It is read bilinearly, values
+// limited to [0,1] (NaN: 0).
+struct LayerPicture {
+    std::span<const float> texels;  // width * height
+    uint32_t width = 0, height = 0;
+    bool materialUv = false;  // drawn in the materials' UV set, repeating; else in the walk's, clamped
+};
+
+// The picture laid into the walk's UV at level 0's size, in texelIndex order. What lies outside of the charts is
+// filled from the border of the chart next to it, so that a bilinear read at a border reads no foreign value.
+std::vector<float> resampleLayer(const SurfaceData& surface, const LayerPicture& picture);
+
+}  // namespace espalier
