@@ -35,7 +35,7 @@ struct Seed {
 };
 STATIC_SIZE(Seed, 64);
 
-// One shape waiting for its rule, 88 bytes.
+// One shape waiting for its rule, 80 bytes.
 struct WorkItem {
     u64 key;
     Walk walk;
@@ -45,18 +45,19 @@ struct WorkItem {
     uint origin;         // index, in the parent's nodes, of the node that its first span starts from;
                          // kNoIndex: from the parent's own previous node (or none, for a seed)
     uint branch;         // the branch that it carries on, kNoIndex: it begins one
-    uint parentBranch;   // the branch that it leaves, kNoIndex for a seed
+    uint seed;           // index of the seed that it comes from
     uint depth;          // bits 31..16 chunks one after another from the seed, 15..0 branches (0: the seed's own)
     uint step;           // bits 31..24 generation (modulo 256), 23..0 steps of the grammar since its branch began
-    uint spare;
 };
-STATIC_SIZE(WorkItem, 88);
+STATIC_SIZE(WorkItem, 80);
 
 // Node::flags
 //   bits 7..0   symbol of the extruded successor + 1 (0: none), bits 12..8 index in its chunk
 //   bit 13      a sample that a seam, a crease or a split span put in, not a step of the grammar
 //   bit 14      last node of its branch, bits 16..15 smoothness (kSmooth...) as its Shape asked
 //   bit 17      bark is to be drawn on its span, bits 25..18 terminal mesh of that bark
+//   bits 30..26 its step of the grammar, counted from the chunk's first (inserted samples belong to the step that
+//               they lie in)
 CONST_UINT(kSmoothNone, 0u);   // each span by itself
 CONST_UINT(kSmoothC0, 1u);     // joined, with corners
 CONST_UINT(kSmoothC1, 2u);     // G1 cubic Bézier, Buron 2015 §6
@@ -71,7 +72,7 @@ struct Node {
     uint tangent;     // octahedral 2×16 snorm, along the growth (Buron 2015 §6; stems ignore their children)
     uint uv;          // 2×16 unorm, walk UV
     uint place;       // bits 31..16 surface instance, 15..0 chart
-    float radius;     // metres, world; set by the extrude pass
+    float radius;     // metres, world
     float arc;        // metres since the branch began
     uint chunk;
     uint flags;
@@ -85,7 +86,7 @@ struct BranchRecord {
     uint firstChunk;     // its key is the branch's key
     uint parentNode;     // kNoIndex for a seed's
     uint parentBranch;   // kNoIndex for a seed's
-    uint depthGrammar;   // bits 31..16 depth from the seed, 15..0 grammar
+    uint depthSeed;      // bits 31..16 branches from the seed, 15..0 index of the seed, modulo 65536
 };
 STATIC_SIZE(BranchRecord, 24);
 
