@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstring>
 #include <initializer_list>
 #include <optional>
@@ -81,7 +82,6 @@ class Commands {
     Device* device_ = nullptr;
     VkCommandBuffer handle_ = VK_NULL_HANDLE;
     uint64_t serial_ = 0;  // its number among the device's recordings
-    uint32_t pool_ = 0;    // index of our command pool
     bool ours_ = false;
 };
 
@@ -153,8 +153,13 @@ class DrawPass : public Pass {
     void setIndices(const Buffer& indices, VkIndexType type = VK_INDEX_TYPE_UINT32, uint64_t offset = 0);
 
     void draw(const Program& program, uint32_t vertices, uint32_t instances, Push push = {}, Bindings bindings = {});
-    void drawIndexed(const Program& program, uint32_t indices, uint32_t firstIndex, int32_t vertexOffset,
-                     Push push = {}, Bindings bindings = {});
+    struct IndexRange {
+        uint32_t indices;
+        uint32_t firstIndex = 0;
+        int32_t vertexOffset = 0;
+        uint32_t instances = 1;
+    };
+    void drawIndexed(const Program& program, const IndexRange& range, Push push = {}, Bindings bindings = {});
     // `count` commands, tightly packed (VkDrawIndirectCommand, VkDrawIndexedIndirectCommand).
     void drawIndirect(const Program& program, const Buffer& arguments, uint64_t offset, uint32_t count, Push push = {},
                       Bindings bindings = {});
@@ -173,7 +178,6 @@ class DrawPass : public Pass {
 
   private:
     void start(VkExtent2D extent);
-    bool ended_ = false;
     bool ours_ = false;
 };
 

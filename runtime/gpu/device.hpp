@@ -54,9 +54,10 @@ struct DeviceInfo {
     uint32_t apiVersion = 0;
     uint32_t subgroupSize = 0;
     uint32_t queueFamily = 0;
-    float timestampNanoseconds = 0;  // 0: no timestamps
-    float maxAnisotropy = 1;         // 1: none
-    bool bufferInt64Atomics = false;
+    float timestampNanoseconds = 0;   // 0: no timestamps
+    float maxAnisotropy = 1;          // 1: none
+    bool bufferInt64Atomics = false;  // enabled; on a host's device taken to be not
+    uint64_t maxBufferBytes = 0;
     VkPhysicalDeviceLimits limits{};
 };
 
@@ -124,12 +125,13 @@ class Device {
     CommandPools& commandPools() { return *commandPools_; }
     VkSemaphore timeline() const { return timeline_; }
     uint64_t nextSubmission() { return ++submitted_; }
+    void submissionFailed() { --submitted_; }
 
   private:
     Device();
-    Status finishSetup(bool debugUtils, MemorySource* hostMemory);
     friend struct DeviceSetup;
 
+    bool ownsInstance_ = false;
     bool ownsDevice_ = false;
     bool debugUtils_ = false;
     bool lost_ = false;
@@ -145,6 +147,7 @@ class Device {
     VkQueue queue_ = VK_NULL_HANDLE;
     VkSemaphore timeline_ = VK_NULL_HANDLE;
     uint64_t submitted_ = 0;
+    uint64_t hostFrame_ = 0;
     DeviceInfo info_;
     std::unique_ptr<ValidationLog> validation_;
     std::unique_ptr<MemorySource> ownMemory_;

@@ -9,13 +9,9 @@
 
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/gpu/image.hpp"
+#include "runtime/gpu/spirv.hpp"
 
 namespace espalier {
-
-struct SpecConstant {
-    uint32_t id;
-    uint32_t value;  // the bits
-};
 
 struct ProgramOptions {
     // No float operation of the module is fused or reassociated: the same bits as C++ with -ffp-contract=off.
@@ -48,10 +44,10 @@ struct GraphicsDesc {
 
 // What one binding of set 0 gets; written as a braced list in the order of the binding numbers.
 struct Binding {
-    Binding(const Image& image, const Sampler& sampler) : view(image.view()), sampler(sampler.handle()) {}
-    explicit Binding(const Image& storage) : view(storage.view()) {}
-    Binding(VkImageView view, VkSampler sampler) : view(view), sampler(sampler) {}
-    Binding(const Buffer& buffer) : buffer(buffer.handle()) {}
+    Binding(const Image& image, const Sampler& with) : view(image.view()), sampler(with.handle()) {}
+    Binding(const Image& storage) : view(storage.view()) {}
+    Binding(VkImageView imageView, VkSampler imageSampler) : view(imageView), sampler(imageSampler) {}
+    Binding(const Buffer& whole) : buffer(whole.handle()) {}
     VkImageView view = VK_NULL_HANDLE;
     VkSampler sampler = VK_NULL_HANDLE;
     VkBuffer buffer = VK_NULL_HANDLE;
@@ -69,10 +65,6 @@ class Program {
     static Result<Program> computeFrom(Device& device, std::string_view name, std::span<const uint32_t> code,
                                        const ProgramOptions& options = {});
 
-    struct Slot {
-        uint32_t binding;
-        VkDescriptorType type;
-    };
     VkPipeline pipeline() const { return pipeline_.get(); }
     VkPipelineLayout layout() const { return layout_.get(); }
     VkShaderStageFlags stages() const { return stages_; }
@@ -80,12 +72,11 @@ class Program {
     const std::string& name() const { return name_; }
     std::array<uint32_t, 3> localSize() const { return localSize_; }
     uint32_t pushBytes() const { return pushBytes_; }
-    const std::vector<Slot>& slots() const { return slots_; }  // sorted by binding
+    const std::vector<ShaderInterface::Slot>& slots() const { return slots_; }  // sorted by binding
     explicit operator bool() const { return bool(pipeline_); }
 
   private:
-    struct Stage;
-    Status makeLayout(Device& device, std::span<const Stage> stages);
+    Status makeLayout(Device& device, std::span<const ShaderInterface> stages);
 
     Owned<VkDescriptorSetLayout> setLayout_;
     Owned<VkPipelineLayout> layout_;
@@ -93,7 +84,7 @@ class Program {
     VkShaderStageFlags stages_ = 0;
     std::array<uint32_t, 3> localSize_{1, 1, 1};
     uint32_t pushBytes_ = 0;
-    std::vector<Slot> slots_;
+    std::vector<ShaderInterface::Slot> slots_;
     std::string name_;
 };
 

@@ -12,8 +12,8 @@ class Swapchain {
     // extent: used where the surface leaves the size to us. vsync false: shown as soon as done, where the device can.
     static Result<Swapchain> create(Device& device, VkSurfaceKHR surface, VkExtent2D extent, bool vsync = true);
     ~Swapchain();
-    Swapchain(Swapchain&&) = default;
-    Swapchain& operator=(Swapchain&&) = default;
+    Swapchain(Swapchain&& other) noexcept;
+    Swapchain& operator=(Swapchain&&) = delete;
 
     VkFormat format() const { return format_; }  // 8-bit UNORM, not sRGB: the shader encodes
     VkExtent2D extent() const { return extent_; }

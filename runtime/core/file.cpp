@@ -1,0 +1,99 @@
+// Files in and out, whole. Writing goes through a neighbour that is renamed, so that nothing is ever half-written.
+#include "runtime/core/file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace espalier {
+namespace {
+
+Failure systemFailure(const std::filesystem::path& path, const std::string& what, int error) {
+    return Failure(path.string(), what + ": " + std::strerror(error));
+}
+
+class Descriptor {
+  public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    ~Descriptor() {
+        if (fd_ >= 0) ::close(fd_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int get() const { return fd_; }
+    int close() { return ::close(std::exchange(fd_, -1)); }
+
+  private:
+    int fd_;
+};
+
+template <class Container>
+Result<Container> readWhole(const std::filesystem::path& path) {
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (file.get() < 0) return systemFailure(path, "cannot be opened", errno);
+    struct stat info {};
+    if (::fstat(file.get(), &info) != 0) return systemFailure(path, "cannot be read", errno);
+    if (S_ISDIR(info.st_mode)) return Failure(path.string(), "is a folder, not a file");
+    Container bytes;
+    bytes.resize(size_t(info.st_size));
+    size_t have = 0;
+    for (;;) {  // pipes and growing files have no size to trust
+        if (have == bytes.size()) bytes.resize(have + 65536);
+        ssize_t got = ::read(file.get(), bytes.data() + have, bytes.size() - have);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return systemFailure(path, "cannot be read", errno);
+        if (got == 0) break;
+        have += size_t(got);
+    }
+    bytes.resize(have);
+    return bytes;
+}
+
+int writeAll(int fd, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        ssize_t put = ::write(fd, bytes.data(), bytes.size());
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) return errno;
+        bytes = bytes.subspan(size_t(put));
+    }
+    return 0;
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> readFile(const std::filesystem::path& path) {
+    return readWhole<std::vector<std::byte>>(path);
+}
+
+Result<std::string> readTextFile(const std::filesystem::path& path) {
+    return readWhole<std::string>(path);
+}
+
+Status writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    std::error_code error;
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+    if (error) return Failure(path.string(), "its folder cannot be made: " + error.message());
+    if (std::filesystem::is_directory(path, error)) return Failure(path.string(), "is a folder, not a file");
+
+    std::string partial = path.string() + ".XXXXXX";
+    Descriptor file(::mkostemp(partial.data(), O_CLOEXEC));
+    if (file.get() < 0) return systemFailure(path, "cannot be written", errno);
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    int reason = writeAll(file.get(), bytes);
+    if (!reason && ::fchmod(file.get(), 0666 & ~mask) != 0) reason = errno;
+    if (file.close() != 0 && !reason) reason = errno;
+    if (!reason && ::rename(partial.c_str(), path.c_str()) != 0) reason = errno;
+    if (!reason) return Done{};
+    ::unlink(partial.c_str());
+    return systemFailure(path, "cannot be written", reason);
+}
+
+Status writeFile(const std::filesystem::path& path, std::string_view text) {
+    return writeFile(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+}  // namespace espalier

@@ -1,0 +1,123 @@
+// The device's daily work: timeline, deferred destruction, names, errors. device_setup.cpp makes it.
+#include "runtime/gpu/device.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+
+#include "runtime/core/check.hpp"
+#include "runtime/gpu/command_pools.hpp"
+#include "runtime/gpu/retire.hpp"
+#include "runtime/gpu/timer.hpp"
+#include "runtime/gpu/validation.hpp"
+
+namespace espalier {
+
+Device::Device() = default;
+
+Device::~Device() {
+    if (device_) {
+        if (vk_.vkDeviceWaitIdle && ownsDevice_) vk_.vkDeviceWaitIdle(device_);
+        if (timeline_ && !ownsDevice_ && !lost_) (void)wait(submitted_);
+        if (retireQueue_) retireQueue_->flush();
+        timers_.reset();
+        commandPools_.reset();
+        if (memory_ && memory_ == ownMemory_.get() && memory_->bytesUsed() > 0)
+            log_(Severity::error, "GPU objects outlive their device");
+        ownMemory_.reset();
+        if (timeline_) vk_.vkDestroySemaphore(device_, timeline_, nullptr);
+        if (ownsDevice_) vk_.vkDestroyDevice(device_, nullptr);
+    }
+    if (messenger_) vkInstance_.vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+    if (ownsInstance_) vkInstance_.vkDestroyInstance(instance_, nullptr);
+    if (loader_) ::dlclose(loader_);
+}
+
+uint64_t Device::completed() {
+    uint64_t value = 0;
+    const bool known = ESPALIER_VK(*this, "timeline", vk_.vkGetSemaphoreCounterValue(device_, timeline_, &value));
+    return known ? value : submitted_;  // a lost device runs nothing any more
+}
+
+Status Device::wait(uint64_t value) {
+    VkSemaphoreWaitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
+    info.semaphoreCount = 1;
+    info.pSemaphores = &timeline_;
+    info.pValues = &value;
+    if (!ESPALIER_VK(*this, "timeline", vk_.vkWaitSemaphores(device_, &info, UINT64_MAX)))
+        return gpuFailure(*this, "timeline", "waiting for the GPU");
+    collect();
+    return Done{};
+}
+
+Status Device::waitIdle() {
+    return wait(submitted_);
+}
+
+void Device::collect() {
+    retireQueue_->collect(completed(), hostFrame_);
+    timers_->collect(retireQueue_->oldestPending());
+}
+
+void Device::hostFrameDone(uint64_t frame) {
+    hostFrame_ = std::max(hostFrame_, frame);
+    collect();
+}
+
+size_t Device::retiredCount() const {
+    return retireQueue_->size();
+}
+
+const std::vector<PassTime>& Device::timings() const {
+    return timers_->times();
+}
+
+double Device::milliseconds(std::string_view passName) const {
+    auto it = std::ranges::find(timings(), passName, &PassTime::name);
+    return it == timings().end() ? 0 : it->milliseconds;
+}
+
+uint32_t Device::validationMessages() const {
+    return validation_ ? validation_->count() : 0;
+}
+
+std::vector<std::string> Device::validationTexts() const {
+    return validation_ ? validation_->texts() : std::vector<std::string>();
+}
+
+void Device::setName(VkObjectType type, uint64_t handle, std::string_view name) const {
+    if (!debugUtils_ || !vk_.vkSetDebugUtilsObjectNameEXT) return;
+    const std::string text(name);
+    VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+    info.objectType = type;
+    info.objectHandle = handle;
+    info.pObjectName = text.c_str();
+    vk_.vkSetDebugUtilsObjectNameEXT(device_, &info);
+}
+
+bool Device::succeeded(VkResult result, const char* expression, std::string_view object) {
+    switch (result) {
+        case VK_SUCCESS:
+        case VK_INCOMPLETE:
+        case VK_SUBOPTIMAL_KHR:
+        case VK_PIPELINE_COMPILE_REQUIRED:
+            return true;
+        case VK_ERROR_DEVICE_LOST:
+            lost_ = true;
+            return false;
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        case VK_ERROR_OUT_OF_POOL_MEMORY:
+        case VK_ERROR_TOO_MANY_OBJECTS:
+            return false;
+        default:
+            fatal(std::string(object) + ": " + expression + " gave VkResult " + std::to_string(int(result)));
+    }
+}
+
+Failure gpuFailure(const Device& device, std::string_view object, std::string_view what) {
+    const std::string_view cause = device.lost() ? "the GPU was lost while " : "out of GPU memory while ";
+    return Failure(object, std::string(cause) + std::string(what));
+}
+
+}  // namespace espalier

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/gpu/functions.hpp"
+
+namespace espalier {
+
+// The core feature structs of Vulkan 1.3, chained. Not copyable: the chain points into it.
+struct Features {
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
+    VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+
+    Features() {
+        core.pNext = &v11;
+        v11.pNext = &v12;
+        v12.pNext = &v13;
+    }
+    Features(const Features&) = delete;
+    Features& operator=(const Features&) = delete;
+};
+
+// Names of the required features that `have` lacks.
+std::vector<std::string> missingFeatures(const Features& have);
+// Sets in `enable` what is required, and what is merely welcome and there.
+void chooseFeatures(const Features& have, Features& enable);
+
+}  // namespace espalier

@@ -1,0 +1,208 @@
+// A pooled allocator: requests in, pieces of large VkDeviceMemory blocks out. Small requests share blocks of
+// 64 MiB with a best-fit free list; large ones have a block each, which is kept for a later request of like size.
+#include "runtime/gpu/memory.hpp"
+
+#include <bit>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "runtime/core/check.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr VkDeviceSize kBlockBytes = 64ull << 20;
+constexpr VkDeviceSize kLargeBytes = kBlockBytes / 4;  // from here on: a block of its own
+
+VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize step) {
+    return (value + step - 1) / step * step;
+}
+
+struct Block {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize size = 0;
+    uint32_t type = 0;
+    bool image = false;
+    bool shared = false;  // holds several requests
+    std::byte* mapped = nullptr;
+    VkDeviceSize used = 0;
+    std::map<VkDeviceSize, VkDeviceSize> holes;  // offset -> size, none adjacent
+};
+
+// The hole that is left smallest, or end.
+auto bestHole(Block& block, VkDeviceSize size, VkDeviceSize alignment) {
+    auto best = block.holes.end();
+    for (auto it = block.holes.begin(); it != block.holes.end(); ++it) {
+        const bool fits = roundUp(it->first, alignment) + size <= it->first + it->second;
+        if (fits && (best == block.holes.end() || it->second < best->second)) best = it;
+    }
+    return best;
+}
+
+void addHole(Block& block, VkDeviceSize offset, VkDeviceSize size) {
+    if (size == 0) return;
+    auto next = block.holes.lower_bound(offset);
+    if (next != block.holes.end() && offset + size == next->first) {
+        size += next->second;
+        next = block.holes.erase(next);
+    }
+    if (next != block.holes.begin()) {
+        auto previous = std::prev(next);
+        if (previous->first + previous->second == offset) {
+            previous->second += size;
+            return;
+        }
+    }
+    block.holes.emplace(offset, size);
+}
+
+class PooledMemory : public MemorySource {
+  public:
+    PooledMemory(const DeviceFunctions& vk, VkDevice device, const VkPhysicalDeviceMemoryProperties& properties,
+                 uint64_t keepBytes)
+        : vk_(vk), device_(device), properties_(properties), keepBytes_(keepBytes) {}
+
+    ~PooledMemory() override {
+        for (auto& [token, block] : blocks_) vk_.vkFreeMemory(device_, block.memory, nullptr);
+    }
+
+    Result<MemoryBlock> allocate(const MemoryRequest& request) override {
+        const std::optional<uint32_t> type = chooseType(request);
+        if (!type) return Failure(request.name, "no memory type of the GPU suits it");
+        const VkMemoryRequirements& need = request.requirements;
+        const bool shared = need.size < kLargeBytes;
+        for (auto& [token, block] : blocks_) {
+            if (block.type != *type || block.image != request.image || block.shared != shared) continue;
+            if (!shared && (block.used > 0 || block.size > need.size + need.size / 2)) continue;
+            if (auto hole = bestHole(block, need.size, need.alignment); hole != block.holes.end())
+                return take(token, block, hole, need);
+        }
+        Block fresh;
+        fresh.type = *type;
+        fresh.image = request.image;
+        fresh.shared = shared;
+        fresh.size = shared ? kBlockBytes : roundUp(need.size, 1 << 20);
+        if (!reserve(fresh)) return outOfMemory(request);
+        const uint64_t token = ++lastToken_;
+        Block& block = blocks_.emplace(token, std::move(fresh)).first->second;
+        return take(token, block, block.holes.begin(), need);
+    }
+
+    void free(const MemoryBlock& piece) override {
+        auto it = blocks_.find(piece.token);
+        require(it != blocks_.end(), "memory is given back to a source that it isn't from");
+        Block& block = it->second;
+        addHole(block, piece.offset, piece.size);
+        block.used -= piece.size;
+        used_ -= piece.size;
+        if (block.used > 0) return;
+        empty_ += block.size;
+        if (empty_ > keepBytes_) release(it);
+    }
+
+    uint64_t bytesUsed() const override { return used_; }
+    uint64_t bytesReserved() const override { return reserved_; }
+
+  private:
+    using Blocks = std::map<uint64_t, Block>;
+
+    VkMemoryPropertyFlags flagsOf(uint32_t type) const { return properties_.memoryTypes[type].propertyFlags; }
+
+    // The allowed type with all needed flags and the fewest unwanted ones.
+    std::optional<uint32_t> chooseType(const MemoryRequest& request) const {
+        constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+        constexpr VkMemoryPropertyFlags mapped =
+            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+        constexpr VkMemoryPropertyFlags cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+        const bool device = request.use == BufferUse::device, readback = request.use == BufferUse::readback;
+        const VkMemoryPropertyFlags need = device ? local : mapped;
+        const VkMemoryPropertyFlags want = readback ? cached : 0;
+        std::optional<uint32_t> best;
+        int bestScore = 0;
+        for (uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
+            const VkMemoryPropertyFlags flags = flagsOf(i);
+            if (!(request.requirements.memoryTypeBits >> i & 1u) || (flags & need) != need) continue;
+            const VkMemoryPropertyFlags unwanted = flags & ~need & ~want;
+            const int score = std::popcount(flags & want) * 100 - std::popcount(unwanted);
+            if (!best || score > bestScore) best = i, bestScore = score;
+        }
+        return best;
+    }
+
+    // Takes a block from Vulkan, after giving up empty ones if need be.
+    bool reserve(Block& block) {
+        const VkMemoryType& type = properties_.memoryTypes[block.type];
+        if (block.size > properties_.memoryHeaps[type.heapIndex].size) return false;
+        VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+        flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+        VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+        info.pNext = block.image ? nullptr : &flags;
+        info.allocationSize = block.size;
+        info.memoryTypeIndex = block.type;
+        VkResult result = vk_.vkAllocateMemory(device_, &info, nullptr, &block.memory);
+        if (result != VK_SUCCESS) {
+            for (auto it = blocks_.begin(); it != blocks_.end();) it = it->second.used ? std::next(it) : release(it);
+            result = vk_.vkAllocateMemory(device_, &info, nullptr, &block.memory);
+        }
+        if (result != VK_SUCCESS) return false;
+        if (!block.image && (type.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) &&
+            (type.propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT)) {
+            void* at = nullptr;
+            if (vk_.vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &at) != VK_SUCCESS) {
+                vk_.vkFreeMemory(device_, block.memory, nullptr);
+                return false;
+            }
+            block.mapped = static_cast<std::byte*>(at);
+        }
+        block.holes.emplace(0, block.size);
+        reserved_ += block.size;
+        empty_ += block.size;
+        return true;
+    }
+
+    Blocks::iterator release(Blocks::iterator it) {
+        vk_.vkFreeMemory(device_, it->second.memory, nullptr);
+        reserved_ -= it->second.size;
+        empty_ -= it->second.size;
+        return blocks_.erase(it);
+    }
+
+    MemoryBlock take(uint64_t token, Block& block, std::map<VkDeviceSize, VkDeviceSize>::iterator hole,
+                     const VkMemoryRequirements& need) {
+        const auto [begin, size] = *hole;
+        const VkDeviceSize offset = roundUp(begin, need.alignment);
+        block.holes.erase(hole);
+        addHole(block, begin, offset - begin);
+        addHole(block, offset + need.size, begin + size - offset - need.size);
+        if (block.used == 0) empty_ -= block.size;
+        block.used += need.size;
+        used_ += need.size;
+        return {block.memory, offset, need.size, block.mapped ? block.mapped + offset : nullptr, token};
+    }
+
+    Failure outOfMemory(const MemoryRequest& request) const {
+        return Failure(request.name, "out of GPU memory: " + std::to_string(request.requirements.size) +
+                                         " bytes asked for, " + std::to_string(reserved_) + " taken so far");
+    }
+
+    const DeviceFunctions& vk_;
+    VkDevice device_;
+    VkPhysicalDeviceMemoryProperties properties_;
+    uint64_t keepBytes_;
+    Blocks blocks_;
+    uint64_t lastToken_ = 0;
+    uint64_t used_ = 0;
+    uint64_t reserved_ = 0;
+    uint64_t empty_ = 0;  // bytes of blocks without a request
+};
+
+}  // namespace
+
+std::unique_ptr<MemorySource> makePooledMemory(const DeviceFunctions& vk, VkDevice device,
+                                               const VkPhysicalDeviceMemoryProperties& properties, uint64_t keepBytes) {
+    return std::make_unique<PooledMemory>(vk, device, properties, keepBytes);
+}
+
+}  // namespace espalier

@@ -1,0 +1,76 @@
+// Deferred destruction, see retire.hpp, and what destroys each kind of handle.
+#include "runtime/gpu/retire.hpp"
+
+#include <algorithm>
+
+#include "runtime/core/check.hpp"
+#include "runtime/gpu/device.hpp"
+#include "runtime/gpu/owned.hpp"
+
+namespace espalier {
+
+uint64_t RetireQueue::beginRecording() {
+    recordings_.push_back({++lastSerial_, Recording::open, 0});
+    return lastSerial_;
+}
+
+RetireQueue::Recording& RetireQueue::find(uint64_t serial) {
+    auto it = std::ranges::find(recordings_, serial, &Recording::serial);
+    require(it != recordings_.end(), "a recording is used after its end");
+    return *it;
+}
+
+void RetireQueue::recordingSubmitted(uint64_t serial, uint64_t timelineValue) {
+    find(serial) = {serial, Recording::submitted, timelineValue};
+}
+
+void RetireQueue::recordingIntoHost(uint64_t serial, uint64_t frame) {
+    find(serial) = {serial, Recording::host, frame};
+}
+
+void RetireQueue::recordingDiscarded(uint64_t serial) {
+    std::erase_if(recordings_, [&](const Recording& r) { return r.serial == serial; });
+}
+
+void RetireQueue::add(std::function<void()> destroy) {
+    entries_.push_back({lastSerial_, std::move(destroy)});
+}
+
+void RetireQueue::collect(uint64_t timelineValue, uint64_t hostFrame) {
+    std::erase_if(recordings_, [&](const Recording& r) {
+        return (r.stage == Recording::submitted && r.value <= timelineValue) ||
+               (r.stage == Recording::host && r.value <= hostFrame);
+    });
+    const uint64_t oldest = oldestPending();
+    while (!entries_.empty() && entries_.front().serial < oldest) {
+        entries_.front().destroy();
+        entries_.pop_front();
+    }
+}
+
+void RetireQueue::flush() {
+    recordings_.clear();
+    for (Entry& entry : entries_) entry.destroy();
+    entries_.clear();
+}
+
+#define ESPALIER_RETIRE(Handle, destroyFunction)                                                   \
+    void retire(Device& device, Handle handle) {                                                   \
+        device.retireQueue().add(                                                                  \
+            [&device, handle] { device.vk().destroyFunction(device.handle(), handle, nullptr); }); \
+    }
+ESPALIER_RETIRE(VkBuffer, vkDestroyBuffer)
+ESPALIER_RETIRE(VkImage, vkDestroyImage)
+ESPALIER_RETIRE(VkImageView, vkDestroyImageView)
+ESPALIER_RETIRE(VkSampler, vkDestroySampler)
+ESPALIER_RETIRE(VkPipeline, vkDestroyPipeline)
+ESPALIER_RETIRE(VkPipelineLayout, vkDestroyPipelineLayout)
+ESPALIER_RETIRE(VkDescriptorSetLayout, vkDestroyDescriptorSetLayout)
+ESPALIER_RETIRE(VkSemaphore, vkDestroySemaphore)
+ESPALIER_RETIRE(VkSwapchainKHR, vkDestroySwapchainKHR)
+
+void retire(Device& device, const MemoryBlock& block) {
+    device.retireQueue().add([&device, block] { device.memory().free(block); });
+}
+
+}  // namespace espalier

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "runtime/gpu/functions.hpp"
+#include "runtime/gpu/memory.hpp"
+
+namespace espalier {
+
+// Dropped objects wait here until every recording that was begun before the drop has finished or been discarded:
+// only those can name the object. Recordings have serial numbers in the order in which they were begun.
+class RetireQueue {
+  public:
+    ~RetireQueue() { flush(); }
+
+    uint64_t beginRecording();
+    void recordingSubmitted(uint64_t serial, uint64_t timelineValue);
+    void recordingIntoHost(uint64_t serial, uint64_t frame);
+    void recordingDiscarded(uint64_t serial);
+
+    void add(std::function<void()> destroy);
+    // All work up to these points is done.
+    void collect(uint64_t timelineValue, uint64_t hostFrame);
+    // Nothing runs any more.
+    void flush();
+    size_t size() const { return entries_.size(); }
+    // Recordings before this one have finished.
+    uint64_t oldestPending() const { return recordings_.empty() ? lastSerial_ + 1 : recordings_.front().serial; }
+
+  private:
+    struct Recording {
+        uint64_t serial;
+        enum { open, submitted, host } stage;
+        uint64_t value;  // of the timeline, or the host's frame
+    };
+    struct Entry {
+        uint64_t serial;  // the newest recording that may use it
+        std::function<void()> destroy;
+    };
+    Recording& find(uint64_t serial);
+
+    uint64_t lastSerial_ = 0;
+    std::vector<Recording> recordings_;  // not known to be finished, by serial
+    std::deque<Entry> entries_;          // by serial
+};
+
+}  // namespace espalier
