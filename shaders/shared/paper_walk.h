@@ -47,6 +47,14 @@ FN ivec2 paperNearestInner(SurfaceBuf surfaces, uint instance, uint level, uint 
     return found;
 }
 
+// Is `at` an indirection texel as the paper has them: outside of the chart and next to an inner texel of it? (Our
+// gutters are wider; their outer texels are background here.)
+FN bool paperIndirection(SurfaceBuf surfaces, uint instance, uint level, uint chart, ivec2 at) {
+    if (!paperLinking(paperTexelBits(surfaces, instance, level, at), chart)) return false;
+    float fsize = float(surfaces.v[instance].levels[level].size);
+    return paperNearestInner(surfaces, instance, level, chart, paperCentre(at, fsize), at).x >= 0;
+}
+
 // The pointer of the link texel `at`: by the nearest of the crossings listed around it.
 FN PaperLink paperLinkOf(SurfaceBuf surfaces, uint instance, uint level, uint chart, ivec2 at) {
     uint size = surfaces.v[instance].levels[level].size;
@@ -125,7 +133,7 @@ FN PaperLink paperBestLink(SurfaceBuf surfaces, uint instance, uint level, uint 
     float bestCosine = -2.0f;
     for (int i = 0; i < 9; ++i) {
         ivec2 q = ivec2(near1.x + i % 3 - 1, near1.y + i / 3 - 1);
-        if (!paperLinking(paperTexelBits(surfaces, instance, level, q), chart)) continue;
+        if (!paperIndirection(surfaces, instance, level, chart, q)) continue;
         PaperLink link = paperLinkOf(surfaces, instance, level, chart, q);
         if (!link.found) continue;
         float cosine = dot3(reference, unit3(paperPosition(surfaces, link.place, level, link.uv) - here));
@@ -202,15 +210,15 @@ FN uint paperAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(
         return kWalkDone;
     }
     float fraction = 1.0f;
-    bool linking = paperLinking(bits, chart);
+    bool linking = paperIndirection(surfaces, instance, w.level, chart, paperTexel(to, fsize));
     if (!linking) {   // cases 3 and 4: halve the segment until a link texel is met
         float low = 0.0f;
         float high = 1.0f;
         for (uint i = 0u; i < 16u && !linking; ++i) {
             fraction = 0.5f * (low + high);
-            uint b = paperTexelBits(surfaces, instance, w.level, paperTexel(from + delta * fraction, fsize));
-            linking = paperLinking(b, chart);
-            if (paperInner(b, chart)) low = fraction;
+            ivec2 middle = paperTexel(from + delta * fraction, fsize);
+            linking = paperIndirection(surfaces, instance, w.level, chart, middle);
+            if (paperInner(paperTexelBits(surfaces, instance, w.level, middle), chart)) low = fraction;
             else high = fraction;
         }
     }
