@@ -1,0 +1,124 @@
+// Generates and writes all content. In: options. Out: files; nothing is left half-written.
+
+#include "tools/content/content.hpp"
+
+#include <filesystem>
+
+#include <deque>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tools/content/glb.hpp"
+#include "tools/content/leaf.hpp"
+#include "tools/content/preview.hpp"
+#include "tools/content/ruin.hpp"
+
+namespace espalier::content {
+namespace {
+
+Status makeDirectory(const std::string& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) return Failure(path, "can't be made: " + error.message());
+    return Done{};
+}
+
+Status writeRuin(const Options& options) {
+    Ruin ruin = makeRuin(options.textureSize);
+    Glb glb;
+    glb.images.push_back({"ruin color", encodeJpeg(ruin.painted.color, 92), false});
+    glb.images.push_back({"ruin normal", encodeJpeg(ruin.painted.normal, 94), false});
+    glb.materials.push_back({"masonry", 0, 1, 0.92f, 0, false, false});
+    glb.meshes.push_back({"ruin", &ruin.assembly.mesh, 0});
+    if (Status s = writeGlb(options.directory + "/ruin.glb", glb); !s) return s;
+    if (Status s = writeBytes(options.directory + "/mask.png", encodePng(ruin.painted.mask, 1)); !s) return s;
+    if (options.previewDirectory.empty()) return Done{};
+    struct Shot {
+        const char* name;
+        PreviewView view;
+    };
+    std::vector<PreviewItem> items{
+        {&ruin.assembly.mesh, &ruin.painted.color, &ruin.painted.normal, false, glm::mat4(1)}};
+    PreviewView wide{{4.2f, 2.4f, 8.6f}, {-0.1f, 1.45f, 0.4f}, 38, 1280, 720, {0.55f, 0.75f, 0.55f}, true};
+    PreviewView arch{{0.9f, 1.6f, 4.2f}, {0.4f, 1.6f, 0}, 42, 1280, 720, {0.6f, 0.6f, 0.5f}, true};
+    PreviewView column{{3.6f, 1.9f, 4.6f}, {2.2f, 1.5f, 1.9f}, 48, 720, 960, {0.6f, 0.6f, 0.5f}, true};
+    PreviewView back{{-5.5f, 3.6f, -5.5f}, {-0.5f, 1.3f, 0.3f}, 42, 1280, 720, {-0.5f, 0.7f, -0.6f}, true};
+    PreviewView above{{0.3f, 9.5f, 5.0f}, {0, 0.8f, 0.6f}, 45, 1280, 720, {0.5f, 0.8f, 0.3f}, true};
+    for (const Shot& shot :
+         {Shot{"wide", wide}, Shot{"arch", arch}, Shot{"column", column}, Shot{"back", back}, Shot{"above", above}})
+        if (Status s = writeBytes(options.previewDirectory + "/ruin_" + shot.name + ".png",
+                                  encodePng(preview(items, shot.view), 3));
+            !s)
+            return s;
+    if (Status s = writeBytes(options.previewDirectory + "/ruin_color.png", encodePng(ruin.painted.color, 3)); !s)
+        return s;
+    return writeBytes(options.previewDirectory + "/ruin_normal.png", encodePng(ruin.painted.normal, 3));
+}
+
+Status previewTerminals(const Options& options, const Glb& glb, const LeafAtlas& leaves, const Tile& bark,
+                        const Tile& pebbles) {
+    std::vector<PreviewItem> items;
+    float x = -4.4f;
+    for (auto& m : glb.meshes) {
+        float y = m.name.find("lod0") != std::string::npos   ? 1.2f
+                  : m.name.find("lod1") != std::string::npos ? 0.0f
+                                                             : -1.2f;
+        if (y > 1) x += 1.15f;
+        glm::mat4 place = glm::translate(glm::mat4(1), glm::vec3(x, y, 0));
+        if (m.material == 1)
+            place = glm::rotate(glm::scale(place, glm::vec3(0.15f, 1, 0.15f)), -1.57f, glm::vec3(1, 0, 0));
+        if (m.material == 2) place = glm::rotate(place, -1.2f, glm::vec3(1, 0, 0));
+        const Picture* color = m.material == 0 ? &leaves.color : m.material == 1 ? &bark.color : &pebbles.color;
+        const Picture* normal = m.material == 0 ? &leaves.normal : m.material == 1 ? &bark.normal : &pebbles.normal;
+        items.push_back({m.mesh, color, normal, m.material != 0, place});
+    }
+    PreviewView view{{0.4f, 0.7f, 6.0f}, {0, 0.35f, 0}, 38, 1280, 720, {0.4f, 0.6f, 0.7f}, true};
+    if (Status s = writeBytes(options.previewDirectory + "/terminals.png", encodePng(preview(items, view), 3)); !s)
+        return s;
+    view.eye = {-4.0f, 2.5f, 3.0f};
+    if (Status s = writeBytes(options.previewDirectory + "/terminals_side.png", encodePng(preview(items, view), 3)); !s)
+        return s;
+    if (Status s = writeBytes(options.previewDirectory + "/leaf_color.png", encodePng(leaves.color, 4)); !s) return s;
+    if (Status s = writeBytes(options.previewDirectory + "/leaf_normal.png", encodePng(leaves.normal, 3)); !s) return s;
+    return writeBytes(options.previewDirectory + "/bark_color.png", encodePng(bark.color, 3));
+}
+
+Status writeTerminals(const Options& options) {
+    LeafAtlas leaves = paintLeaves(1024);
+    Tile bark = paintBark(512), pebbles = paintPebble(256);
+    Glb glb;
+    glb.images = {
+        {"leaf color", encodePng(leaves.color, 4), true},    {"leaf normal", encodePng(leaves.normal, 3), true},
+        {"bark color", encodePng(bark.color, 3), true},      {"bark normal", encodePng(bark.normal, 3), true},
+        {"pebble color", encodePng(pebbles.color, 3), true}, {"pebble normal", encodePng(pebbles.normal, 3), true}};
+    glb.materials = {{"leaf", 0, 1, 0.55f, 0.5f, true, false},
+                     {"bark", 2, 3, 0.95f, 0, false, true},
+                     {"pebble", 4, 5, 0.9f, 0, false, true}};
+    std::deque<Mesh> meshes;
+    auto add = [&](const std::string& name, Mesh mesh, int material) {
+        meshes.push_back(std::move(mesh));
+        glb.meshes.push_back({name, &meshes.back(), material});
+    };
+    auto numbered = [](const char* kind, int variant, int lod) {
+        return std::string(kind) + "_" + std::to_string(variant) + "_lod" + std::to_string(lod);
+    };
+    for (int v = 0; v < kLeafVariants; ++v)
+        for (int l = 0; l < kLeafLods; ++l) add(numbered("leaf", v, l), makeLeaf(v, l), 0);
+    for (int l = 0; l < kBarkLods; ++l) add("bark_lod" + std::to_string(l), makeBark(l), 1);
+    for (int v = 0; v < kPebbleVariants; ++v)
+        for (int l = 0; l < kPebbleLods; ++l) add(numbered("pebble", v, l), makePebble(v, l), 2);
+    if (Status s = writeGlb(options.directory + "/terminals.glb", glb); !s) return s;
+    if (options.previewDirectory.empty()) return Done{};
+    return previewTerminals(options, glb, leaves, bark, pebbles);
+}
+
+}  // namespace
+
+Status generate(const Options& options) {
+    if (Status s = makeDirectory(options.directory); !s) return s;
+    if (!options.previewDirectory.empty())
+        if (Status s = makeDirectory(options.previewDirectory); !s) return s;
+    if (Status s = writeRuin(options); !s) return s;
+    return writeTerminals(options);
+}
+
+}  // namespace espalier::content

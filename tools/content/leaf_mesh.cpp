@@ -1,0 +1,180 @@
+// Leaf meshes that follow the lobes. In: variant and level of detail. Out: a folded, drooping blade on an arched
+// stalk, 34 to 38, 8 and 2 triangles.
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/content/delaunay.hpp"
+#include "tools/content/leaf.hpp"
+#include "tools/content/leaf_shape.hpp"
+#include "tools/content/noise.hpp"
+
+namespace espalier::content {
+namespace {
+
+// Where a point of the flat leaf is in space: the stalk rises, the blade folds along its midrib, its sides and tips
+// droop, and its rim waves a little.
+glm::vec3 shapeLeaf(int variant, float base, glm::vec2 p) {
+    static const float kFold[] = {0.22f, 0.12f, 0.30f};
+    static const float kDroop[] = {0.34f, 0.42f, 0.28f};
+    float t = saturate(p.y / base);
+    float rise = 0.13f * (1 - (1 - t) * (1 - t));
+    glm::vec2 q = p - glm::vec2(0, base);
+    float x = std::abs(q.x), up = std::max(q.y, 0.0f);
+    float z = rise + kFold[variant] * x - 0.55f * x * x - kDroop[variant] * up * up - 0.10f * std::max(-q.y, 0.0f);
+    z += 0.025f * std::sin(q.x * 7.0f + static_cast<float>(variant)) * saturate(x * 4);
+    // Length is kept: what goes into height is taken from the run.
+    return {p.x * (1 - 0.10f * x), p.y - 0.10f * up * up, z};
+}
+
+struct Flat {
+    std::vector<glm::vec2> points;
+    std::vector<std::array<uint32_t, 3>> triangles;
+};
+
+float turn(glm::vec2 a, glm::vec2 b, glm::vec2 c) {
+    return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+}
+
+// The fine outline reduced to `keep` points: repeatedly drops the point whose removal changes least. Where the
+// outline is hollow that adds area, where it bulges the neighbours are pushed out so that nothing is cut off.
+std::vector<glm::vec2> reduceOutline(std::vector<glm::vec2> line, size_t keep) {
+    while (line.size() > keep) {
+        size_t best = 0;
+        float least = 1e9f;
+        for (size_t i = 1; i < line.size(); ++i) {
+            glm::vec2 a = line[i - 1], b = line[i], c = line[(i + 1) % line.size()];
+            float cost = turn(a, b, c);
+            cost = cost > 0 ? cost * 1.7f : -cost;
+            if (cost < least) {
+                least = cost;
+                best = i;
+            }
+        }
+        line.erase(line.begin() + static_cast<long>(best));
+    }
+    return line;
+}
+
+// Pushes vertices outwards until the polygon holds the fine outline.
+void growOver(std::vector<glm::vec2>& polygon, const std::vector<glm::vec2>& fine) {
+    for (int round = 0; round < 40; ++round) {
+        bool grown = false;
+        for (glm::vec2 p : fine) {
+            std::vector<std::vector<glm::dvec2>> loops{{polygon.begin(), polygon.end()}};
+            if (insideLoops(loops, p)) continue;
+            size_t edge = 0;
+            float nearest = 1e9f;
+            for (size_t i = 0; i < polygon.size(); ++i) {
+                glm::vec2 a = polygon[i], d = polygon[(i + 1) % polygon.size()] - a;
+                float distance = glm::distance(p, a + d * saturate(glm::dot(p - a, d) / glm::dot(d, d)));
+                if (distance < nearest) {
+                    nearest = distance;
+                    edge = i;
+                }
+            }
+            if (nearest < 1e-3f) continue;
+            glm::vec2 a = polygon[edge], b = polygon[(edge + 1) % polygon.size()];
+            glm::vec2 out = glm::normalize(glm::vec2(b.y - a.y, a.x - b.x)) * (nearest * 0.5f);
+            polygon[edge] += out;
+            polygon[(edge + 1) % polygon.size()] += out;
+            grown = true;
+        }
+        if (!grown) return;
+    }
+}
+
+// Full detail: the outline in 25 points and four along the midrib.
+Flat fineLeaf(const LeafShape& shape) {
+    Flat flat;
+    std::vector<glm::vec2> rim = reduceOutline(shape.outline, 25);
+    growOver(rim, shape.outline);
+    glm::vec2 middle(0, shape.base + 0.3f * (1 - shape.base));
+    for (glm::vec2& p : rim) p += glm::normalize(p - middle) * 0.008f;
+    flat.points = rim;
+    for (float f : {0.12f, 0.38f, 0.66f}) flat.points.push_back({0, glm::mix(shape.base, 1.0f, f)});
+    std::vector<std::vector<glm::dvec2>> loops{{rim.begin(), rim.end()}};
+    std::vector<glm::dvec2> points(flat.points.begin(), flat.points.end());
+    for (auto& t : delaunay(points))
+        if (insideLoops(loops, (points[t[0]] + points[t[1]] + points[t[2]]) / 3.0)) flat.triangles.push_back(t);
+    return flat;
+}
+
+// Eight triangles: a kite of four corners a side about the midrib, and a stalk.
+Flat middleLeaf(const LeafShape& shape) {
+    float w = shape.halfWidth, base = shape.base;
+    float low = 1, side = 0;
+    for (glm::vec2 p : shape.outline) {
+        low = std::min(low, p.y);
+        if (std::abs(p.x) > w * 0.93f) side = p.y;
+    }
+    Flat flat;
+    flat.points = {{0, base - 0.02f},
+                   {0, 1.01f},
+                   {w * 0.80f, low - 0.01f},
+                   {w, side + 0.02f},
+                   {w * 0.36f, glm::mix(base, 1.0f, 0.74f)},
+                   {-w * 0.80f, low - 0.01f},
+                   {-w, side + 0.02f},
+                   {-w * 0.36f, glm::mix(base, 1.0f, 0.74f)},
+                   {0, 0}};
+    flat.triangles = {{0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {0, 6, 5}, {0, 7, 6}, {0, 1, 7}, {8, 2, 0}, {8, 0, 5}};
+    return flat;
+}
+
+// Two triangles folded along the midrib.
+Flat farLeaf(const LeafShape& shape) {
+    Flat flat;
+    float w = shape.halfWidth;
+    flat.points = {
+        {0, shape.base * 0.45f}, {0, 1.02f}, {w * 1.45f, shape.base + 0.16f}, {-w * 1.45f, shape.base + 0.16f}};
+    flat.triangles = {{0, 2, 1}, {0, 1, 3}};
+    return flat;
+}
+
+void addStalk(Mesh& mesh, int variant, const LeafShape& shape) {
+    constexpr uint32_t kRings = 4;
+    float half = kStalkHalfWidth * 1.6f;
+    uint32_t first = static_cast<uint32_t>(mesh.positions.size());
+    for (uint32_t r = 0; r < kRings; ++r) {
+        float y = shape.base * 1.05f * static_cast<float>(r) / (kRings - 1);
+        for (float side : {-1.0f, 1.0f}) {
+            glm::vec2 p(side * half, y);
+            mesh.positions.push_back(shapeLeaf(variant, shape.base, {0, y}) + glm::vec3(side * half, 0, -0.004f));
+            mesh.uvs.push_back(leafUv(variant, p));
+        }
+    }
+    for (uint32_t r = 0; r + 1 < kRings; ++r) {
+        uint32_t a = first + 2 * r;
+        for (uint32_t v : {a, a + 1, a + 3, a, a + 3, a + 2}) mesh.indices.push_back(v);
+    }
+}
+
+void smoothNormals(Mesh& mesh) {
+    std::vector<glm::vec3> sum(mesh.positions.size(), glm::vec3(0));
+    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+        uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+        glm::vec3 n = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+        for (uint32_t v : {a, b, c}) sum[v] += n;
+    }
+    for (glm::vec3 n : sum) mesh.normals.push_back(glm::normalize(n));
+}
+
+}  // namespace
+
+Mesh makeLeaf(int variant, int lod) {
+    LeafShape shape = leafShape(variant);
+    Flat flat = lod == 0 ? fineLeaf(shape) : lod == 1 ? middleLeaf(shape) : farLeaf(shape);
+    Mesh mesh;
+    for (glm::vec2 p : flat.points) {
+        mesh.positions.push_back(shapeLeaf(variant, shape.base, p));
+        mesh.uvs.push_back(leafUv(variant, p));
+    }
+    for (auto& t : flat.triangles)
+        for (uint32_t v : t) mesh.indices.push_back(v);
+    if (lod == 0) addStalk(mesh, variant, shape);
+    smoothNormals(mesh);
+    return mesh;
+}
+
+}  // namespace espalier::content

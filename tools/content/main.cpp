@@ -1,0 +1,27 @@
+// espalier-content OUT_DIR: generates Espalier's own sample content. In: nothing but options. Out: ruin.glb,
+// mask.png, terminals.glb; with --preview DIR, pictures of them.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "tools/content/content.hpp"
+
+int main(int argc, char** argv) {
+    using namespace espalier;
+    CLI::App app{"Generates Espalier's sample content: a ruin, its mask, leaves, bark and pebbles."};
+    content::Options options;
+    app.add_option("OUT_DIR", options.directory, "folder for ruin.glb, mask.png and terminals.glb; made if missing")
+        ->required();
+    app.add_option("--preview", options.previewDirectory, "folder for pictures of what was made");
+    app.add_option("--textures", options.textureSize, "texels a side of the ruin's textures")
+        ->check(CLI::IsMember({256, 512, 1024, 2048, 4096}));
+    app.set_version_flag("--version", "espalier-content " ESPALIER_VERSION);
+    CLI11_PARSE(app, argc, argv);
+    Status status = content::generate(options);
+    if (!status) {
+        std::fprintf(stderr, "%s\n", status.failure().text().c_str());
+        return 1;
+    }
+    return 0;
+}
