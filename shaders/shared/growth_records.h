@@ -79,9 +79,9 @@ struct Node {
 };
 STATIC_SIZE(Node, 44);
 
-// 24 bytes; only branches of at least one node have one. length is final when the branch has ended.
+// 24 bytes; only branches of at least one node have one. extent is final when the branch has ended.
 struct BranchRecord {
-    float length;        // metres
+    float extent;        // length in metres
     float thickness;     // factor of its radii, so that it is no thicker than its parent at the joint
     uint firstChunk;     // its key is the branch's key
     uint parentNode;     // kNoIndex for a seed's

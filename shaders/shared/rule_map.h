@@ -3,7 +3,7 @@
 // How a shape is derived (Buron 2015 §5, §7), all code being straight-line (interpreter.h):
 //   1. symbol = symbols[shape.symbol]. Draw its sites, give it its inputs (both below), run `select`; the rule is
 //      firstRule + selected, or none (selected < 0: the shape vanishes). ruleCount 0 vanishes too.
-//   2. rule kind March: draw the rule's sites, run `start` at the place where the shape stands -> length, angle.
+//   2. rule kind March: draw the rule's sites, run `start` at the place where the shape stands -> distance, angle.
 //      Turn, step; at the destination (or at a candidate's) give the rule's arrive inputs, run `arrive`; the step
 //      is made if holds(condition). The node is recorded with extrudes[rule.extrude - 1] to draw on its span
 //      (0: nothing). Then the successors, of which there is at most one (Top; its `args` stage is part of `arrive`,
@@ -118,7 +118,7 @@ struct RuleRecord {
     uint extrude;                // index of the extrude program + 1; 0: none
     uint firstSite, siteCount;   // drawn once, for all stages of the rule
     CodeRange start;
-    Value length;                // metres; the expander limits it from below
+    Value distance;              // metres; the expander limits it from below (GLSL reads no member named length)
     Value angle;                 // radians, positive to the left as seen from outside
     CodeRange arrive;
     Value condition;
