@@ -86,7 +86,7 @@ Mesh makeBark(int lod) {
             glm::vec3 n(std::cos(angle), std::sin(angle), 0);
             mesh.positions.push_back(n + glm::vec3(0, 0, v));
             mesh.normals.push_back(n);
-            mesh.uvs.push_back({u, v});
+            mesh.uvs.push_back({u, 1 - v});
         }
     for (uint32_t r = 0; r < rows; ++r)
         for (uint32_t s = 0; s < sides; ++s) {
@@ -120,7 +120,7 @@ Mesh makePebble(int variant, int lod) {
             glm::vec3 p = d * size * bump;
             mesh.positions.push_back(p + glm::vec3(0, 0, size.z * 0.75f));
             mesh.normals.push_back(glm::normalize(d / size));
-            mesh.uvs.push_back({u * 2, v});
+            mesh.uvs.push_back({u * 2, 1 - v});
         }
     for (uint32_t r = 0; r < rows; ++r)
         for (uint32_t s = 0; s < sides; ++s) {

@@ -58,8 +58,11 @@ Detail groundDetail(glm::vec2 st) {
     stone *= random01(flag.id, 7) < 0.86f ? 1.0f : 0.0f;
     stone *= ramp(0.012f, 0.045f, joint) * ramp(0.02f, 0.12f, footDistance(xz));
     float clods = fractal(xz * 4.5f, 731, 4), grit = fractal(xz * 26.0f, 735, 3);
-    Cells pebble = cells(xz * 16.0f, 741);
-    float isPebble = random01(pebble.id, 1) < 0.30f ? ramp(0.30f, 0.16f, pebble.nearest) : 0.0f;
+    Cells pebble = cells(xz * 15.0f + 0.35f * glm::vec2(grit, clods), 741);
+    float size = 0.10f + 0.22f * random01(pebble.id, 3) * random01(pebble.id, 4);
+    float isPebble = random01(pebble.id, 1) < 0.15f + 0.5f * saturate(fractal(xz * 1.6f, 745, 3))
+                         ? ramp(size + 0.06f, size - 0.04f, pebble.nearest)
+                         : 0.0f;
     float earthHeight = 0.020f * clods + 0.004f * grit + 0.010f * isPebble;
     float stoneHeight =
         0.020f + (random01(flag.id, 1) - 0.5f) * 0.022f + 0.006f * fractal(xz * 5.0f, 743, 3) + 0.002f * grit;
@@ -68,20 +71,21 @@ Detail groundDetail(glm::vec2 st) {
 
     float cloud = fractal(xz * 1.3f, 751, 3);
     glm::vec3 earth =
-        glm::mix(glm::vec3(0.125f, 0.088f, 0.055f), glm::vec3(0.20f, 0.15f, 0.10f), saturate(0.5f + 0.6f * cloud));
+        glm::mix(glm::vec3(0.085f, 0.060f, 0.038f), glm::vec3(0.150f, 0.112f, 0.074f), saturate(0.5f + 0.6f * cloud));
     earth *= 1 + 0.35f * grit + 0.25f * clods;
     earth =
-        glm::mix(earth, glm::vec3(0.27f, 0.245f, 0.205f) * (0.7f + 0.6f * random01(pebble.id, 2)), 0.85f * isPebble);
+        glm::mix(earth, glm::vec3(0.165f, 0.148f, 0.122f) * (0.6f + 0.8f * random01(pebble.id, 2)), 0.8f * isPebble);
     float grass = ramp(0.05f, 0.5f, fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f);
     float blades = 0.5f + 0.5f * fractal(glm::vec2(xz.x * 60.0f, xz.y * 34.0f), 765, 2);
-    earth = glm::mix(earth, glm::mix(glm::vec3(0.045f, 0.062f, 0.016f), glm::vec3(0.14f, 0.155f, 0.045f), blades),
+    earth = glm::mix(earth, glm::mix(glm::vec3(0.034f, 0.044f, 0.014f), glm::vec3(0.105f, 0.112f, 0.038f), blades),
                      0.85f * grass);
     out.height += 0.010f * grass * blades * (1 - stone);
-    glm::vec3 slab = glm::mix(glm::vec3(0.25f, 0.235f, 0.205f), glm::vec3(0.34f, 0.30f, 0.235f), random01(flag.id, 2));
+    glm::vec3 slab =
+        glm::mix(glm::vec3(0.175f, 0.165f, 0.145f), glm::vec3(0.245f, 0.215f, 0.168f), random01(flag.id, 2));
     slab *= 0.85f + 0.3f * random01(flag.id, 3);
     slab *= 1 + 0.22f * grit + 0.3f * fractal(xz * 3.3f, 771, 3);
     float moss = ramp(0.25f, 0.6f, fractal(xz * 2.6f, 775, 4) + 0.25f * ramp(0.09f, 0.02f, joint));
-    slab = glm::mix(slab, glm::vec3(0.075f, 0.09f, 0.028f), 0.75f * moss);
+    slab = glm::mix(slab, glm::vec3(0.058f, 0.066f, 0.025f), 0.75f * moss);
     out.albedo = glm::mix(earth, slab, stone);
     out.albedo *= 1 - 0.35f * ramp(0.28f, 0.0f, footDistance(xz));  // shade and damp at the foot
     out.albedo = glm::clamp(out.albedo, 0.004f, 0.8f);
@@ -112,6 +116,8 @@ glm::vec3 settle(glm::vec3 block) {
     p.x += sway * (0.030f * noise(q, 791) + 0.006f * block.y);
     p.z += sway * (0.045f * noise(q, 793) - 0.010f * block.y);
     p.y += sway * 0.030f * noise(q, 795);
+    // Courses have sunk and shifted: a hand's breadth over a stone's length.
+    p += sway * 0.018f * glm::vec3(noise(block * 1.7f, 797), noise(block * 1.7f, 798), noise(block * 1.7f, 799));
     return p;
 }
 

@@ -22,7 +22,7 @@ struct LeafAtlas {
 };
 LeafAtlas paintLeaves(int size);
 
-// A tube: section of radius 1 in x and y, z from 0 to 1, open at both ends. u turns once round, v = z.
+// A tube: section of radius 1 in x and y, z from 0 to 1, open at both ends. u turns once round, v = 1 - z.
 Mesh makeBark(int lod);
 
 // Tiles in both directions.

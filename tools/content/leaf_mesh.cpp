@@ -1,5 +1,5 @@
 // Leaf meshes that follow the lobes. In: variant and level of detail. Out: a folded, drooping blade on an arched
-// stalk, 34 to 38, 8 and 2 triangles.
+// stalk, 35, 10 and 4 triangles.
 
 #include <algorithm>
 #include <cmath>
@@ -100,51 +100,50 @@ Flat fineLeaf(const LeafShape& shape) {
     return flat;
 }
 
-// Eight triangles: a kite of four corners a side about the midrib, and a stalk.
-Flat middleLeaf(const LeafShape& shape) {
-    float w = shape.halfWidth, base = shape.base;
-    float low = 1, side = 0;
+// The outline in `corners` points about one inside; the stalk is added apart.
+Flat middleLeaf(const LeafShape& shape, size_t corners) {
+    Flat flat;
+    flat.points = reduceOutline(shape.outline, corners);
+    growOver(flat.points, shape.outline);
+    uint32_t count = static_cast<uint32_t>(flat.points.size());
+    flat.points.push_back({0, glm::mix(shape.base, 1.0f, 0.16f)});
+    for (uint32_t i = 0; i < count; ++i) flat.triangles.push_back({count, i, (i + 1) % count});
+    return flat;
+}
+
+// Four triangles about the foot of the blade, with a little of the stalk.
+Flat farLeaf(const LeafShape& shape) {
+    float low = 1, tip = 0, side = 0, foot = 0;
     for (glm::vec2 p : shape.outline) {
         low = std::min(low, p.y);
-        if (std::abs(p.x) > w * 0.93f) side = p.y;
+        tip = std::max(tip, p.y);
     }
+    for (glm::vec2 p : shape.outline) {
+        if (std::abs(p.x) > std::abs(side)) side = p.x;
+        if (p.y < low + 0.12f) foot = std::max(foot, std::abs(p.x));
+    }
+    float width = std::abs(side), height = 0;
+    for (glm::vec2 p : shape.outline)
+        if (p.x == side) height = p.y;
     Flat flat;
-    flat.points = {{0, base - 0.02f},
-                   {0, 1.01f},
-                   {w * 0.80f, low - 0.01f},
-                   {w, side + 0.02f},
-                   {w * 0.36f, glm::mix(base, 1.0f, 0.74f)},
-                   {-w * 0.80f, low - 0.01f},
-                   {-w, side + 0.02f},
-                   {-w * 0.36f, glm::mix(base, 1.0f, 0.74f)},
-                   {0, 0}};
-    flat.triangles = {{0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {0, 6, 5}, {0, 7, 6}, {0, 1, 7}, {8, 2, 0}, {8, 0, 5}};
+    flat.points = {{0, shape.base * 0.3f},   {foot, low}, {width * 1.02f, height}, {0, tip + 0.01f},
+                   {-width * 1.02f, height}, {-foot, low}};
+    flat.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
     return flat;
 }
 
-// Two triangles folded along the midrib.
-Flat farLeaf(const LeafShape& shape) {
-    Flat flat;
-    float w = shape.halfWidth;
-    flat.points = {
-        {0, shape.base * 0.45f}, {0, 1.02f}, {w * 1.45f, shape.base + 0.16f}, {-w * 1.45f, shape.base + 0.16f}};
-    flat.triangles = {{0, 2, 1}, {0, 1, 3}};
-    return flat;
-}
-
-void addStalk(Mesh& mesh, int variant, const LeafShape& shape) {
-    constexpr uint32_t kRings = 4;
+void addStalk(Mesh& mesh, int variant, const LeafShape& shape, uint32_t rings) {
     float half = kStalkHalfWidth * 1.6f;
     uint32_t first = static_cast<uint32_t>(mesh.positions.size());
-    for (uint32_t r = 0; r < kRings; ++r) {
-        float y = shape.base * 1.05f * static_cast<float>(r) / (kRings - 1);
+    for (uint32_t r = 0; r < rings; ++r) {
+        float y = shape.base * 1.05f * static_cast<float>(r) / static_cast<float>(rings - 1);
         for (float side : {-1.0f, 1.0f}) {
             glm::vec2 p(side * half, y);
             mesh.positions.push_back(shapeLeaf(variant, shape.base, {0, y}) + glm::vec3(side * half, 0, -0.004f));
             mesh.uvs.push_back(leafUv(variant, p));
         }
     }
-    for (uint32_t r = 0; r + 1 < kRings; ++r) {
+    for (uint32_t r = 0; r + 1 < rings; ++r) {
         uint32_t a = first + 2 * r;
         for (uint32_t v : {a, a + 1, a + 3, a, a + 3, a + 2}) mesh.indices.push_back(v);
     }
@@ -164,7 +163,7 @@ void smoothNormals(Mesh& mesh) {
 
 Mesh makeLeaf(int variant, int lod) {
     LeafShape shape = leafShape(variant);
-    Flat flat = lod == 0 ? fineLeaf(shape) : lod == 1 ? middleLeaf(shape) : farLeaf(shape);
+    Flat flat = lod == 0 ? fineLeaf(shape) : lod == 1 ? middleLeaf(shape, 8) : farLeaf(shape);
     Mesh mesh;
     for (glm::vec2 p : flat.points) {
         mesh.positions.push_back(shapeLeaf(variant, shape.base, p));
@@ -172,7 +171,7 @@ Mesh makeLeaf(int variant, int lod) {
     }
     for (auto& t : flat.triangles)
         for (uint32_t v : t) mesh.indices.push_back(v);
-    if (lod == 0) addStalk(mesh, variant, shape);
+    if (lod < 2) addStalk(mesh, variant, shape, lod == 0 ? 4 : 2);
     smoothNormals(mesh);
     return mesh;
 }

@@ -34,7 +34,7 @@ Veins veinsAt(const LeafShape& shape, glm::vec2 p) {
     Veins out;
     for (auto& vein : shape.veins) {
         float along = 0, d = lineDistance(vein, p, along);
-        float width = 0.0095f * (1.05f - 0.8f * along);
+        float width = 0.0085f * (1.05f - 0.8f * along);
         out.main = std::max(out.main, ramp(width * 1.5f, width * 0.35f, d));
         out.nearMain = std::min(out.nearMain, d);
     }
@@ -60,7 +60,7 @@ glm::vec3 bladeColor(int variant, glm::vec2 p, float edge, const Veins& veins, b
         glm::mix(color, glm::vec3(0.13f, 0.105f, 0.03f), 0.55f * ramp(0.42f, 0.75f, fractal(p * 8.0f, salt + 8, 3)));
     color *= 1 + 0.16f * fractal(p * 60.0f, salt + 11, 2);
     color = glm::mix(color, glm::vec3(0.135f, 0.185f, 0.075f), 0.42f * veins.side);
-    color = glm::mix(color, glm::vec3(0.235f, 0.285f, 0.130f), 0.80f * veins.main);
+    color = glm::mix(color, glm::vec3(0.205f, 0.255f, 0.110f), 0.72f * veins.main);
     if (back) color = glm::mix(color, glm::vec3(0.135f, 0.185f, 0.080f), 0.62f) * 1.12f;
     return color;
 }

@@ -80,7 +80,7 @@ LeafShape leafShape(int variant) {
         for (float side : {1.0f, -1.0f}) {
             if (tip.x == 0 && side < 0) continue;
             std::vector<glm::vec2> vein;
-            glm::vec2 bow(0.05f * tip.x * side, tip.x > 0 ? 0.06f : 0.0f);
+            glm::vec2 bow = tip.y > 0.1f ? glm::vec2(0.05f * side, 0.05f) * tip.x : glm::vec2(0, -0.02f);
             for (int k = 0; k <= 12; ++k) {
                 float t = static_cast<float>(k) / 12;
                 vein.push_back(glm::vec2(tip.x * side, tip.y) * t * 0.97f + bow * (4 * t * (1 - t)));

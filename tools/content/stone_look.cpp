@@ -22,8 +22,8 @@ float roundDrop(float x) {
 }
 
 glm::vec3 stoneColor(uint32_t id, const StoneLook& look, float bump) {
-    static const glm::vec3 kStones[] = {{0.36f, 0.31f, 0.235f},  {0.30f, 0.275f, 0.235f}, {0.40f, 0.335f, 0.235f},
-                                        {0.255f, 0.24f, 0.215f}, {0.33f, 0.27f, 0.20f},   {0.375f, 0.345f, 0.29f}};
+    static const glm::vec3 kStones[] = {{0.265f, 0.222f, 0.160f}, {0.215f, 0.195f, 0.165f}, {0.290f, 0.235f, 0.160f},
+                                        {0.175f, 0.165f, 0.148f}, {0.235f, 0.185f, 0.132f}, {0.270f, 0.246f, 0.204f}};
     glm::vec3 color = kStones[id % 6u];
     color *= 0.82f + 0.32f * random01(id, 5);
     float grain = fractal(look.block * 38.0f, 301, 3), cloud = fractal(look.block * 5.0f, 305, 3);
@@ -38,7 +38,7 @@ void addLichen(glm::vec3& color, const StoneLook& look, uint32_t id) {
     float size = 0.16f + 0.22f * random01(pale.id, 3);
     float spot = ramp(size, size * 0.6f, pale.nearest + 0.10f * fractal(look.block * 45.0f, 335, 2));
     float present = random01(pale.id, 4) < 0.20f + 0.25f * random01(id, 8) ? 1.0f : 0.0f;
-    glm::vec3 tone = random01(pale.id, 9) < 0.22f ? glm::vec3(0.42f, 0.27f, 0.07f) : glm::vec3(0.46f, 0.46f, 0.39f);
+    glm::vec3 tone = random01(pale.id, 9) < 0.22f ? glm::vec3(0.33f, 0.205f, 0.05f) : glm::vec3(0.37f, 0.37f, 0.31f);
     color = glm::mix(color, tone, 0.62f * spot * present);
 }
 
@@ -50,9 +50,10 @@ Detail stoneDetail(const StonePlace& place, const StoneLook& look) {
     float chip = 0.5f + 0.5f * fractal(look.block * 7.0f, 311, 3);
     float bevel = kBevel * (0.55f + 0.9f * chip);
     float inJoint = roundDrop((place.joint - kMortarHalfWidth) / bevel);
-    float standOut = (random01(id, 1) - 0.5f) * 0.032f;
+    float loose = ramp(0.7f, 0.05f, look.belowCrest);  // stones near a crest have moved
+    float standOut = (random01(id, 1) - 0.5f) * (0.034f + 0.045f * loose);
     if (random01(id, 2) < 0.10f) standOut -= 0.035f;  // weathered back
-    glm::vec2 tilt = (glm::vec2(random01(id, 3), random01(id, 4)) - 0.5f) * 0.05f;
+    glm::vec2 tilt = (glm::vec2(random01(id, 3), random01(id, 4)) - 0.5f) * (0.05f + 0.12f * loose);
     float coarse = fractal(look.block * 6.5f, 321, 3) * 0.013f;
     float fine = fractal(look.block * 30.0f, 325, 3) * 0.0042f;
     float pit = ramp(0.30f, 0.75f, fractal(look.block * 17.0f, 327, 2)) * -0.011f;
@@ -63,19 +64,21 @@ Detail stoneDetail(const StonePlace& place, const StoneLook& look) {
 
     glm::vec3 color = stoneColor(id, look, coarse + fine * 2 + pit * 1.5f);
     addLichen(color, look, id);
-    glm::vec3 lime = glm::vec3(0.30f, 0.265f, 0.205f) * (1 + 0.35f * fractal(look.block * 50.0f, 341, 2));
+    glm::vec3 lime = glm::vec3(0.25f, 0.22f, 0.17f) * (1 + 0.35f * fractal(look.block * 50.0f, 341, 2));
     float open = ramp(0.55f, 0.98f, inJoint);
     color = glm::mix(color, lime * 0.62f, open);
     color *= 1 - 0.45f * ramp(0.05f, 0.9f, inJoint);     // the joint's own shade
     color *= 1 + 0.22f * roundDrop(place.edge / 0.03f);  // worn edges are paler
     float streak = ramp(0.0f, 0.7f, fractal(glm::vec2(look.st.x * 7.0f, look.st.y * 0.55f), 351, 3));
-    color *= 1 - 0.42f * streak * ramp(1.6f, 0.0f, look.belowCrest);
+    color *= 1 - 0.55f * streak * ramp(2.2f, 0.0f, look.belowCrest);
+    float soot = ramp(0.0f, 0.55f, fractal(look.block * 1.1f, 353, 3));
+    color = glm::mix(color, color * glm::vec3(0.60f, 0.58f, 0.56f), 0.7f * soot);
     float damp = ramp(0.75f, 0.0f, look.aboveGround + 0.35f * fractal(look.block * 2.3f, 355, 3));
     color = glm::mix(color, color * glm::vec3(0.50f, 0.50f, 0.43f), 0.85f * damp);
     float patch = fractal(look.block * 3.7f, 361, 4);
     float moss = ramp(0.10f, 0.42f, patch + 0.45f * damp + 0.55f * look.upward + 0.22f * inJoint - 0.32f);
     float tuft = 0.5f + 0.5f * fractal(look.block * 70.0f, 365, 2);
-    glm::vec3 green = glm::mix(glm::vec3(0.055f, 0.075f, 0.018f), glm::vec3(0.15f, 0.17f, 0.04f), tuft);
+    glm::vec3 green = glm::mix(glm::vec3(0.038f, 0.046f, 0.016f), glm::vec3(0.105f, 0.108f, 0.035f), tuft);
     color = glm::mix(color, green, 0.85f * moss);
     out.height += 0.006f * moss * (0.4f + tuft);
     out.albedo = glm::clamp(color, 0.004f, 0.85f);

@@ -248,6 +248,7 @@ void addRim(std::vector<Chart>& charts, const char* name, Rim rim, int widest, f
         look.aboveGround = p.y;
         look.upward = std::max(rim.normal[i].y, 0.0f);
         look.roughness = roughness;
+        look.belowCrest = roughness > 1 ? 0.3f : 3.0f;
         return stoneDetail(rimPlace(rim, st, widest), look);
     };
     charts.push_back(std::move(chart));
