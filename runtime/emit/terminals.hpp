@@ -64,6 +64,7 @@ class Terminals {
     const Buffer& vertices() const { return vertices_; }
     const Buffer& indices() const { return indices_; }        // of single instances, for materialising
     const Buffer& batches() const { return batches_; }        // repeated patterns, for drawing
+    const TerminalLod& lodOfBucket(uint32_t bucket) const;
     // Textures of a material; white, or flat, where it has none.
     const Image& baseColor(uint32_t material) const;
     const Image& normalMap(uint32_t material) const;

@@ -40,12 +40,14 @@ struct KindRecord {
 STATIC_SIZE(KindRecord, 16);
 
 // error[i]: distance between LOD i and the full mesh, in units of the instance's size (bark: of its radius).
+// segments[i]: pieces of LOD i along the span, bark only.
 struct VariantRecord {
     uint firstBucket, lodCount;
     float extent;         // radius of the mesh around its origin, in the same unit
     float error[6];
+    float segments[6];
 };
-STATIC_SIZE(VariantRecord, 36);
+STATIC_SIZE(VariantRecord, 60);
 
 // batch: instances that one draw command's instance covers; firstIndex: of their repeated index pattern.
 struct BucketRecord {
@@ -63,7 +65,7 @@ struct EmitTable {
     BucketRecord buckets[64];
     uint kindCount, variantCount, bucketCount, barkBuckets;
 };
-STATIC_SIZE(EmitTable, 2960);
+STATIC_SIZE(EmitTable, 3728);
 
 // VkDrawIndexedIndirectCommand.
 struct DrawCommand {
@@ -92,7 +94,7 @@ struct SpanInstance {
     vec3 p0, b1, b2, p3;
     uint normal0, normal1;      // octahedral, surface
     float radius0, radius1;
-    float arc0, length;         // metres along the branch where it starts; of the span
+    float arc0, metres;         // along the branch where it starts; of the span
     float rise;                 // the bark's axis lies this many radii above the curve
     uint bits;
     uint spare;
@@ -150,6 +152,35 @@ struct EmitPush {
     uint spanCapacity, leafCapacity;
 };
 STATIC_SIZE(EmitPush, 96);
+
+// Bark at full detail as triangles: 12 sides and 10 rings, the paper's 216 polygons.
+CONST_UINT(kBarkSides, 12u);
+CONST_UINT(kBarkRings, 10u);
+CONST_UINT(kBarkVertices, 120u);
+CONST_UINT(kBarkIndices, 648u);
+
+#ifndef __cplusplus
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer U64Buf { u64 v[]; };
+#else
+struct U64Buf { u64* v; };
+#endif
+
+// Push data of the kernels that write triangles. Vertices and indices as 64-bit words: half as many stores.
+struct TrianglesPush {
+    SpanInstanceBuf spans;
+    LeafInstanceBuf leaves;
+    TerminalVertexBuf meshVertices;
+    UintBuf meshIndices;
+    U64Buf vertices;
+    U64Buf indices;
+    uint count;              // instances, from firstInstance on
+    uint firstInstance;
+    uint firstVertex;        // of the first instance, in `vertices`
+    uint firstIndexPair;     // where its indices begin, in pairs
+    uint meshFirstVertex, meshVertexCount;
+    uint meshFirstIndex, meshIndexCount;
+};
+STATIC_SIZE(TrianglesPush, 80);
 
 ESPALIER_END
 #endif

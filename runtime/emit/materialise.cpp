@@ -1,0 +1,91 @@
+// Enters: growth's records. Leaves: all of it as triangles in memory. The instances are gathered by the culling
+// kernels at full detail; then a thread a ring, a thread a strip of quads, a thread a leaf write whole runs.
+#include <algorithm>
+
+#include "runtime/emit/emit.hpp"
+
+namespace espalier {
+namespace {
+
+struct Block {
+    uint32_t bucket = 0, instances = 0;
+    uint64_t firstVertex = 0, firstIndex = 0;
+};
+
+// Where each loose bucket's triangles go, behind the bark. Index blocks begin at even numbers.
+std::vector<Block> layOut(const EmitState& state, const EmitTable& table, uint64_t& vertices, uint64_t& indices) {
+    vertices = uint64_t(state.spanCount) * kBarkVertices;
+    indices = uint64_t(state.spanCount) * kBarkIndices;
+    std::vector<Block> blocks;
+    for (uint32_t b = table.barkBuckets; b < table.bucketCount; ++b) {
+        if (state.counts[b] == 0) continue;
+        blocks.push_back({b, state.counts[b], vertices, indices});
+        vertices += uint64_t(state.counts[b]) * table.buckets[b].vertexCount;
+        indices += uint64_t(state.counts[b]) * table.buckets[b].indexCount;
+        if (indices % 2) indices += 3;   // an empty triangle, so that the next block may be written in pairs
+    }
+    return blocks;
+}
+
+}  // namespace
+
+Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
+    EmitView view{};
+    view.flags = kFullDetail;
+    view.lodPixels = 1;
+    Result<Commands> gather = Commands::begin(*device_, "materialise gather");
+    if (!gather) return gather.failure();
+    if (Status s = cull(*gather, inputs, view, "materialise gather", true); !s) return s.failure();
+    if (Status s = gather->finish(); !s) return s.failure();
+    const EmitState state = *reinterpret_cast<const EmitState*>(readback_.mapped());
+
+    EmittedTriangles out;
+    const EmitTable& table = terminals_->table();
+    const std::vector<Block> blocks = layOut(state, table, out.vertexCount, out.indexCount);
+    if (state.overflow > 0 || out.vertexCount > 0x7FFFFFFFu || out.indexCount > 0xFFFFFFFFu)
+        return Failure("growth", "it has too many triangles to be written at once");
+    Result<Buffer> vertices = Buffer::create(*device_, "growth vertices", out.vertexCount * sizeof(TriangleVertex));
+    if (!vertices) return vertices.failure();
+    Result<Buffer> indices = Buffer::create(*device_, "growth indices", out.indexCount * sizeof(uint32_t));
+    if (!indices) return indices.failure();
+    out.vertices = std::move(*vertices);
+    out.indices = std::move(*indices);
+
+    Result<Commands> commands = Commands::begin(*device_, "materialise");
+    if (!commands) return commands.failure();
+    {
+        Pass pass(*commands, "materialise");
+        TrianglesPush push{};
+        push.spans.v = reinterpret_cast<SpanInstance*>(spans_.address());
+        push.leaves.v = reinterpret_cast<LeafInstance*>(leaves_.address());
+        push.meshVertices.v = reinterpret_cast<TerminalVertex*>(terminals_->vertices().address());
+        push.meshIndices.v = reinterpret_cast<uint32_t*>(terminals_->indices().address());
+        push.vertices.v = reinterpret_cast<uint64_t*>(out.vertices.address());
+        push.indices.v = reinterpret_cast<uint64_t*>(out.indices.address());
+        push.count = state.spanCount;
+        pass.dispatchItems(barkVertices_, state.spanCount * kBarkRings, push);
+        pass.dispatchItems(barkIndices_, state.spanCount * (kBarkRings - 1), push);
+        for (const Block& block : blocks) {
+            const BucketRecord& bucket = table.buckets[block.bucket];
+            const TerminalLod& lod = terminals_->lodOfBucket(block.bucket);
+            push.count = block.instances;
+            push.firstInstance = state.starts[block.bucket];
+            push.firstVertex = uint32_t(block.firstVertex);
+            push.firstIndexPair = uint32_t(block.firstIndex / 2);
+            push.meshFirstVertex = bucket.firstVertex;
+            push.meshVertexCount = bucket.vertexCount;
+            push.meshFirstIndex = lod.firstIndex;
+            push.meshIndexCount = bucket.indexCount;
+            const uint64_t end = block.firstIndex + uint64_t(block.instances) * bucket.indexCount;
+            if (end % 2) commands->fill(out.indices, 0, end * 4, 12);
+            pass.dispatchItems(looseTriangles_, block.instances, push);
+        }
+        pass.barrier(Use::compute | Use::transfer, Use::all);
+    }
+    if (Status s = commands->finish(); !s) return s.failure();
+    device_->collect();
+    out.milliseconds = device_->milliseconds("materialise");
+    return out;
+}
+
+}  // namespace espalier

@@ -1,0 +1,169 @@
+// Enters: terminal meshes on the CPU. Leaves: their buffers, batched index patterns, textures and the table that
+// culling picks LODs from.
+#include "runtime/emit/terminals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "runtime/core/check.hpp"
+
+namespace espalier {
+namespace {
+
+// Enough vertices a draw instance that the fixed cost of one doesn't show.
+constexpr uint32_t kBatchVertices = 4096;
+
+float distanceToSegment(glm::vec3 p, glm::vec3 a, glm::vec3 b) {
+    const glm::vec3 d = b - a;
+    const float t = glm::clamp(glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-20f), 0.0f, 1.0f);
+    return glm::length(p - a - d * t);
+}
+
+float distanceToTriangle(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    const glm::vec3 n = glm::cross(b - a, c - a);
+    const float n2 = glm::dot(n, n);
+    if (n2 > 1e-20f) {
+        const bool inside = glm::dot(glm::cross(b - a, p - a), n) >= 0 && glm::dot(glm::cross(c - b, p - b), n) >= 0 &&
+                            glm::dot(glm::cross(a - c, p - c), n) >= 0;
+        if (inside) return std::abs(glm::dot(p - a, n)) / std::sqrt(n2);
+    }
+    return std::min({distanceToSegment(p, a, b), distanceToSegment(p, b, c), distanceToSegment(p, c, a)});
+}
+
+float distanceToMesh(const TerminalData& data, const TerminalLod& lod, glm::vec3 p) {
+    float best = 1e30f;
+    for (uint32_t i = 0; i < lod.indexCount; i += 3) {
+        glm::vec3 corner[3];
+        for (uint32_t k = 0; k < 3; ++k)
+            corner[k] = data.vertices[lod.firstVertex + data.indices[lod.firstIndex + i + k]].position;
+        best = std::min(best, distanceToTriangle(p, corner[0], corner[1], corner[2]));
+    }
+    return best;
+}
+
+// Pieces along z.
+float barkSegments(const TerminalData& data, const TerminalLod& lod) {
+    std::set<int> levels;
+    for (uint32_t i = 0; i < lod.vertexCount; ++i)
+        levels.insert(int(std::lround(data.vertices[lod.firstVertex + i].position.z * 1000)));
+    return float(std::max<size_t>(levels.size(), 2) - 1);
+}
+
+}  // namespace
+
+void measureTerminalErrors(TerminalData& data) {
+    for (TerminalVariant& variant : data.variants)
+        for (size_t l = 1; l < variant.lods.size(); ++l) {
+            const TerminalLod &full = variant.lods[0], &lod = variant.lods[l];
+            float error = 0;
+            for (uint32_t i = 0; i < full.vertexCount; ++i)
+                error = std::max(error, distanceToMesh(data, lod, data.vertices[full.firstVertex + i].position));
+            for (uint32_t i = 0; i < lod.vertexCount; ++i)
+                error = std::max(error, distanceToMesh(data, full, data.vertices[lod.firstVertex + i].position));
+            variant.lods[l].error = std::max({error, variant.lods[l - 1].error * 1.01f, 1e-4f});
+        }
+}
+
+Result<Terminals> Terminals::create(Device& device, TerminalData data) {
+    Terminals terminals;
+    terminals.data_ = std::move(data);
+    if (Status s = terminals.makeTable(device); !s) return s.failure();
+    if (Status s = terminals.makePictures(device); !s) return s.failure();
+    return terminals;
+}
+
+Status Terminals::makeTable(Device& device) {
+    std::stable_sort(data_.variants.begin(), data_.variants.end(),
+                     [](const TerminalVariant& a, const TerminalVariant& b) { return a.kind < b.kind; });
+    if (data_.kinds.size() > kMaxTerminalKinds || data_.variants.size() > kMaxVariants)
+        return Failure("terminals", "more than 16 kinds or 32 variants of terminal meshes");
+    std::vector<uint32_t> batches;
+    for (const TerminalVariant& variant : data_.variants) {
+        require(variant.kind < data_.kinds.size() && !variant.lods.empty(), "a terminal variant has a kind and a LOD");
+        KindRecord& kind = table_.kinds[variant.kind];
+        if (kind.variantCount++ == 0) kind.firstVariant = table_.variantCount;
+        kind.bark = variant.kind == 0;
+        VariantRecord& record = table_.variants[table_.variantCount++];
+        record.firstBucket = table_.bucketCount;
+        record.lodCount = uint32_t(std::min<size_t>(variant.lods.size(), kMaxLods));
+        for (uint32_t l = 0; l < record.lodCount; ++l) {
+            const TerminalLod& lod = variant.lods[l];
+            if (table_.bucketCount == kMaxBuckets)
+                return Failure("terminals", "more than 64 levels of detail of terminal meshes altogether");
+            record.error[l] = lod.error;
+            record.segments[l] = kind.bark ? barkSegments(data_, lod) : 1;
+            for (uint32_t i = 0; i < lod.vertexCount; ++i)
+                record.extent = std::max(record.extent, glm::length(data_.vertices[lod.firstVertex + i].position));
+            BucketRecord& bucket = table_.buckets[table_.bucketCount++];
+            bucket = {lod.firstVertex, lod.vertexCount, lod.indexCount, std::max(1u, kBatchVertices / lod.vertexCount),
+                      uint32_t(batches.size()), lod.material};
+            for (uint32_t b = 0; b < bucket.batch; ++b)
+                for (uint32_t i = 0; i < lod.indexCount; ++i)
+                    batches.push_back(b * lod.vertexCount + data_.indices[lod.firstIndex + i]);
+        }
+        if (kind.bark) table_.barkBuckets = table_.bucketCount;
+    }
+    table_.kindCount = uint32_t(data_.kinds.size());
+
+    auto make = [&](Buffer& buffer, const char* name, const auto& values) -> Status {
+        auto made = makeBuffer(device, name, values);
+        if (!made) return made.failure();
+        buffer = std::move(*made);
+        return Done{};
+    };
+    if (Status s = make(tableBuffer_, "terminal table", std::vector<EmitTable>{table_}); !s) return s;
+    if (Status s = make(vertices_, "terminal vertices", data_.vertices); !s) return s;
+    if (Status s = make(indices_, "terminal indices", data_.indices); !s) return s;
+    return make(batches_, "terminal batches", batches);
+}
+
+Status Terminals::makePictures(Device& device) {
+    auto make = [&](Image& image, const char* name, VkFormat format, uint32_t width, uint32_t height,
+                    std::span<const uint8_t> rgba) -> Status {
+        ImageDesc desc{.name = name, .format = format, .width = width, .height = height};
+        desc.levels = 0;
+        Result<Image> made = Image::create(device, desc);
+        if (!made) return made.failure();
+        image = std::move(*made);
+        return fillImage(device, image, std::as_bytes(rgba));
+    };
+    const uint8_t white[4] = {255, 255, 255, 255}, flat[4] = {128, 128, 255, 255};
+    if (Status s = make(white_, "white", VK_FORMAT_R8G8B8A8_SRGB, 1, 1, white); !s) return s;
+    if (Status s = make(flat_, "flat normal", VK_FORMAT_R8G8B8A8_UNORM, 1, 1, flat); !s) return s;
+    colors_.resize(data_.pictures.size());
+    normals_.resize(data_.pictures.size());
+    for (const TerminalMaterial& material : data_.materials) {
+        if (const int i = material.baseColorPicture; i >= 0 && !colors_[i]) {
+            const TerminalPicture& p = data_.pictures[i];
+            if (Status s = make(colors_[i], "terminal colour", VK_FORMAT_R8G8B8A8_SRGB, p.width, p.height, p.rgba); !s)
+                return s;
+        }
+        if (const int i = material.normalPicture; i >= 0 && !normals_[i]) {
+            const TerminalPicture& p = data_.pictures[i];
+            if (Status s = make(normals_[i], "terminal normals", VK_FORMAT_R8G8B8A8_UNORM, p.width, p.height, p.rgba); !s)
+                return s;
+        }
+    }
+    return Done{};
+}
+
+const TerminalLod& Terminals::lodOfBucket(uint32_t bucket) const {
+    for (uint32_t v = 0; v < table_.variantCount; ++v) {
+        const VariantRecord& record = table_.variants[v];
+        if (bucket >= record.firstBucket && bucket < record.firstBucket + record.lodCount)
+            return data_.variants[v].lods[bucket - record.firstBucket];
+    }
+    fatal("there is no such bucket");
+}
+
+const Image& Terminals::baseColor(uint32_t material) const {
+    const int i = data_.materials[material].baseColorPicture;
+    return i >= 0 ? colors_[i] : white_;
+}
+const Image& Terminals::normalMap(uint32_t material) const {
+    const int i = data_.materials[material].normalPicture;
+    return i >= 0 ? normals_[i] : flat_;
+}
+
+}  // namespace espalier

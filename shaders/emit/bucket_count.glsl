@@ -1,0 +1,38 @@
+// Gives every item of a workgroup its place in its bucket with one atomic a bucket and group.
+#ifndef ESPALIER_EMIT_BUCKET_COUNT_GLSL
+#define ESPALIER_EMIT_BUCKET_COUNT_GLSL
+#include "shaders/emit/emit_records.h"
+
+shared uint groupCounts[64];
+shared uint groupStarts[64];
+shared uint groupTriangles;
+
+// All invocations of the group call it. Returns the class word of the item.
+uint countInBucket(EmitStateBuf state, EmitTableBuf table, uint bucket, uint fullTriangles) {
+    uint lane = gl_LocalInvocationID.x;
+    groupCounts[lane] = 0u;
+    if (lane == 0u) groupTriangles = 0u;
+    barrier();
+    uint place = 0u;
+    if (bucket != kNoBucket) place = atomicAdd(groupCounts[bucket], 1u);
+    if (fullTriangles != 0u) atomicAdd(groupTriangles, fullTriangles);
+    barrier();
+    if (groupCounts[lane] != 0u) groupStarts[lane] = atomicAdd(state.v[0].counts[lane], groupCounts[lane]);
+    if (lane == 0u && groupTriangles != 0u) atomicAdd(state.v[0].fullTriangles, groupTriangles);
+    barrier();
+    if (bucket == kNoBucket) return kNoBucket << 24u;
+    return (bucket << 24u) | ((groupStarts[bucket] + place) & 0xFFFFFFu);
+}
+
+bool outside(EmitView view, vec3 center, float radius) {
+    for (uint i = 0u; i < 6u; ++i)
+        if (dot(view.planes[i].xyz, center) + view.planes[i].w < -radius) return true;
+    return false;
+}
+
+// Pixels that a metre covers at `center`.
+float pixelsPerMetre(EmitView view, vec3 center) {
+    if (view.parallel != 0u) return view.pixelScale;
+    return view.pixelScale / max(distance(view.eye, center), 1e-3);
+}
+#endif
