@@ -3,8 +3,8 @@
 #ifndef ESPALIER_SHARED_DISPATCH_GLSL
 #define ESPALIER_SHARED_DISPATCH_GLSL
 
-uint itemIndex() {
-    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-}
+// A macro, because gl_WorkGroupSize in a function that stands before the layout(local_size_x) is taken as 1.
+#define itemIndex() \
+    ((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x)
 
 #endif
