@@ -263,6 +263,12 @@ Status readVariables(std::string_view name, const Module& m, ShaderInterface& ou
 }
 
 void readLayouts(const Module& m, ShaderInterface& out) {
+    for (const auto& [id, in] : m.definitions) {
+        if (in.op != spv::Op::OpTypeArray && in.op != spv::Op::OpTypeRuntimeArray) continue;
+        const auto name = m.names.find(in[2]);
+        const auto stride = m.decoration(id, spv::Decoration::ArrayStride);
+        if (name != m.names.end() && stride) out.strides[name->second] = *stride;
+    }
     for (uint32_t id : m.structs) {
         const Instruction& in = *m.find(id);
         auto name = m.names.find(id);

@@ -32,6 +32,8 @@ struct ShaderInterface {
     std::vector<Slot> slots;  // of set 0, sorted
     // Layout of every struct that has one, "Node" -> (member, byte offset), in order; needs debug names.
     std::map<std::string, std::vector<std::pair<std::string, uint32_t>>> layouts;
+    // Bytes from one to the next in arrays of a struct.
+    std::map<std::string, uint32_t> strides;
 };
 
 // Fails if the words aren't a well-formed module, or use what we don't: sets other than 0, arrays of descriptors.

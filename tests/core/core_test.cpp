@@ -1,0 +1,91 @@
+// Files, hashes and jobs.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include <unistd.h>
+
+#include "runtime/core/file.hpp"
+#include "runtime/core/hash.hpp"
+#include "runtime/core/jobs.hpp"
+
+using namespace espalier;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A folder of our own that goes away again.
+struct Scratch {
+    fs::path path = fs::temp_directory_path() / ("espalier_core_test_" + std::to_string(::getpid()));
+    Scratch() { fs::create_directories(path); }
+    ~Scratch() { fs::remove_all(path); }
+};
+
+size_t filesIn(const fs::path& folder) {
+    return size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+}  // namespace
+
+TEST_CASE("files that cannot be read or written say which and why, and leave nothing") {
+    Scratch scratch;
+    Result<std::string> none = readTextFile(scratch.path / "none.txt");
+    REQUIRE_FALSE(none);
+    CHECK(none.failure().text().find("none.txt: cannot be opened") != std::string::npos);
+    CHECK_FALSE(readFile(scratch.path));
+    CHECK_FALSE(writeFile(scratch.path, "a folder"));
+    REQUIRE(writeFile(scratch.path / "file", "x"));
+    CHECK_FALSE(writeFile(scratch.path / "file" / "below.txt", "y"));
+    CHECK_FALSE(writeFile("/proc/nowhere/file.txt", "y"));
+    CHECK(filesIn(scratch.path) == 1);
+}
+
+TEST_CASE("files are replaced whole, folders are made") {
+    Scratch scratch;
+    const fs::path path = scratch.path / "a" / "b" / "text.txt";
+    REQUIRE(writeFile(path, std::string(100000, 'x')));
+    REQUIRE(writeFile(path, "short"));
+    CHECK(readTextFile(path).value() == "short");
+    REQUIRE(writeFile(path, ""));
+    CHECK(readFile(path).value().empty());
+    CHECK(filesIn(path.parent_path()) == 1);
+    CHECK_FALSE(readTextFile("/proc/self/status").value().empty());  // has no size to trust
+}
+
+TEST_CASE("hashes differ by a bit, a length and a seed, and never change") {
+    std::set<uint64_t> seen;
+    for (size_t length = 0; length < 40; ++length) {
+        std::string text(length, '\0');
+        seen.insert(hashText(text));
+        for (size_t i = 0; i < length * 8; ++i) {
+            text[i / 8] ^= char(1 << i % 8);
+            seen.insert(hashText(text));
+            text[i / 8] ^= char(1 << i % 8);
+        }
+    }
+    CHECK(seen.size() == 40 + 8 * 39 * 40 / 2);
+    CHECK(hashText("ivy", 1) != hashText("ivy", 2));
+    CHECK(hashText("ivy") == 0x3918ca056b837d8bull);
+}
+
+TEST_CASE("parallelFor visits everything once") {
+    for (size_t count : {0u, 1u, 63u, 64u, 65u, 10000u})
+        for (unsigned threads : {0u, 1u, 3u, 16u}) {
+            std::vector<std::atomic<int>> visits(count);
+            parallelFor(
+                count, 64,
+                [&](size_t begin, size_t end) {
+                    CHECK(end - begin <= 64);
+                    for (size_t i = begin; i < end; ++i) ++visits[i];
+                },
+                threads);
+            CHECK(std::accumulate(visits.begin(), visits.end(), 0) == int(count));
+            bool once = true;
+            for (const auto& v : visits) once = once && v == 1;
+            CHECK(once);
+        }
+}
