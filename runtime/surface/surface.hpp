@@ -14,35 +14,36 @@ namespace espalier {
 
 // One level of the pyramid; every array in texelIndex order, size × size long.
 struct SurfaceLevelData {
-    uint32_t size = 0;                     // texels a side, a multiple of 8
+    uint32_t size = 0;  // texels a side, a multiple of 8
     std::vector<Texel> texels;
     std::vector<TexelAux> aux;
-    std::vector<uint32_t> crossingHead;    // bits 31..8 first, 7..0 count, into crossingRefs
-    std::vector<uint32_t> crossingRefs;    // indices into SurfaceData::crossings
+    std::vector<uint32_t> crossingHead;  // bits 31..8 first, 7..0 count, into crossingRefs
+    std::vector<uint32_t> crossingRefs;  // indices into SurfaceData::crossings
 };
 
 // An 8-bit RGBA picture, rows top to bottom, or empty.
 struct Picture {
     uint32_t width = 0, height = 0;
     std::vector<uint8_t> rgba;
+    std::vector<uint8_t> encoded;  // the PNG or JPEG that it came from, kept in files; empty: none
 };
 
 // A glTF material as far as it is drawn. An image index of -1: none.
 struct Material {
-    glm::vec4 baseColor{1};        // linear
-    int baseColorImage = -1;       // sRGB
-    int normalImage = -1;          // tangent space, +Y up
+    glm::vec4 baseColor{1};   // linear
+    int baseColorImage = -1;  // sRGB
+    int normalImage = -1;     // tangent space, +Y up
     float normalScale = 1;
     float roughness = 1;
-    float alphaCutoff = 0;         // 0: opaque
+    float alphaCutoff = 0;  // 0: opaque
     bool doubleSided = false;
 };
 
 struct DrawVertex {
-    glm::vec3 position;            // object space, metres
+    glm::vec3 position;  // object space, metres
     glm::vec3 normal;
-    glm::vec4 tangent;             // w: sign of the bitangent; zero where the model has no UVs
-    glm::vec2 uv;                  // the materials' UV set
+    glm::vec4 tangent;  // w: sign of the bitangent; zero where the model has no UVs
+    glm::vec2 uv;       // the materials' UV set
     glm::vec2 walkUv;
 };
 
@@ -52,15 +53,15 @@ struct DrawRange {
 };
 
 struct SurfaceData {
-    std::string source;                         // name of the model that was baked
-    uint64_t hash = 0;                          // of the walk's data; layers and seeds refer to it
-    std::vector<SurfaceLevelData> levels;       // 0 the finest; 1 to kMaxLevels
+    std::string source;                    // name of the model that was baked
+    uint64_t hash = 0;                     // of the walk's data; layers and seeds refer to it
+    std::vector<SurfaceLevelData> levels;  // 0 the finest; 1 to kMaxLevels
     std::vector<Crossing> crossings;
     std::vector<Chart> charts;
-    std::vector<TrianglePlane> triangles;       // sorted by chart
+    std::vector<TrianglePlane> triangles;  // sorted by chart
     glm::vec3 boundsMin{0}, boundsMax{0};
 
-    std::vector<DrawVertex> vertices;           // the decoded mesh, for drawing
+    std::vector<DrawVertex> vertices;  // the decoded mesh, for drawing
     std::vector<uint32_t> indices;
     std::vector<DrawRange> ranges;
     std::vector<Material> materials;
@@ -69,6 +70,12 @@ struct SurfaceData {
 
 // The record by which kernels' CPU build reads `data` (pointers into it: valid while `data` lives unchanged).
 SurfaceRef surfaceRef(const SurfaceData& data, float scale = 1);
+
+// The hash of what a walk reads of `data`: levels, crossings, charts, triangles.
+uint64_t walkHash(const SurfaceData& data);
+
+// Puts tangents on vertices from positions, normals and the materials' UVs; zero where those have no area.
+void addTangents(std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices);
 
 // Reads a baked surface (.glb). Every index and size in it is validated; errors name the file and the place.
 Result<SurfaceData> readSurface(const std::string& path);

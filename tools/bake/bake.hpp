@@ -12,13 +12,14 @@ namespace espalier {
 
 // A model as it came from a file: one triangle list in one space, nodes' transforms applied.
 struct Model {
-    std::string name;                          // the file's path, for messages
-    std::vector<glm::vec3> positions;          // metres, one a vertex
-    std::vector<glm::vec3> normals;            // same length, or empty
-    std::vector<glm::vec2> uvs;                // the UV set that the walk's charts come from, same length, or empty
-    std::vector<glm::vec2> materialUvs;        // same length, or empty: uvs
-    std::vector<uint32_t> indices;             // three a triangle
-    std::vector<uint32_t> triangleMaterial;    // one a triangle, or empty: material 0
+    std::string name;                        // the file's path, for messages
+    std::vector<glm::vec3> positions;        // metres, one a vertex
+    std::vector<glm::vec3> normals;          // same length, or empty
+    std::vector<glm::vec2> uvs;              // the UV set that the walk's charts come from, same length, or empty;
+                                             // NaN: this vertex has none
+    std::vector<glm::vec2> materialUvs;      // same length, or empty: uvs
+    std::vector<uint32_t> indices;           // three a triangle
+    std::vector<uint32_t> triangleMaterial;  // one a triangle, or empty: material 0
     std::vector<Material> materials;
     std::vector<Picture> images;
     std::vector<Diagnostic> warnings;
@@ -28,10 +29,10 @@ struct Model {
 using Progress = std::function<void(float, const char*)>;
 
 struct BakeOptions {
-    uint32_t resolution = 1024;    // of level 0: a power of two, 64 to 8192
-    uint32_t levels = 0;           // 0: down to 64 texels
-    float nearestTolerance = 0;    // metres; 0: a texel's footprint
-    bool keepLayout = false;       // true: charts are never moved, gutters or not (tests of analytic surfaces)
+    uint32_t resolution = 1024;  // of level 0: a power of two, 64 to 8192
+    uint32_t levels = 0;         // 0: down to 64 texels
+    float nearestTolerance = 0;  // metres; 0: a texel's footprint
+    bool keepLayout = false;     // true: charts are never moved, gutters or not (tests of analytic surfaces)
     Progress progress;
 };
 
@@ -43,8 +44,9 @@ struct BakeReport {
     uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0;
     double walkableArea = 0;
     double stretch50 = 0, stretch95 = 0, stretchMax = 0;
-    double roundTrip50 = 0, roundTrip999 = 0;    // texels
-    double gap999 = 0;                           // local texels
+    double roundTrip50 = 0, roundTrip999 = 0;                  // texels
+    double gap999 = 0;                                         // local texels
+    std::vector<std::pair<uint32_t, double>> walkableByLevel;  // size, area share of charts walkable on it
     std::vector<std::pair<std::string, double>> seconds;
     std::vector<Diagnostic> warnings;
     std::string json() const;

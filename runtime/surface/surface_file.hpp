@@ -1,0 +1,14 @@
+#pragma once
+
+// Names and numbers of the file format that its writer and reader share; see docs/surface_format.md.
+
+#include <cstdint>
+
+namespace espalier::surface_file {
+
+inline constexpr const char* kExtension = "ESPALIER_surface";
+inline constexpr const char* kDraco = "KHR_draco_mesh_compression";
+inline constexpr uint32_t kVersion = 1;
+inline constexpr uint32_t kGlbMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
+
+}  // namespace espalier::surface_file

@@ -1,0 +1,298 @@
+// In: a baked surface. Out: a .glb that any glTF viewer opens, with the walk's data in our extension.
+#include <draco/compression/decode.h>
+#include <draco/compression/encode.h>
+#include <meshoptimizer.h>
+#include <stb_image_write.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "runtime/core/file.hpp"
+#include "runtime/core/hash.hpp"
+#include "runtime/core/jobs.hpp"
+#include "runtime/surface/surface.hpp"
+#include "runtime/surface/surface_file.hpp"
+
+namespace espalier {
+namespace {
+
+using nlohmann::ordered_json;
+using namespace surface_file;
+
+constexpr int kPositionBits = 16, kUvBits = 16, kNormalBits = 12;
+constexpr size_t kMaxBinary = 0xFFFF0000u;
+
+std::string hex(uint64_t value) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+    return text;
+}
+
+class Writer {
+  public:
+    Writer(const SurfaceData& data, const std::string& path) : data_(data), path_(path) {}
+
+    Status run() {
+        root_["asset"] = {{"version", "2.0"}, {"generator", "espalier-bake " ESPALIER_VERSION}};
+        root_["extensionsUsed"] = {kDraco, kExtension};
+        root_["extensionsRequired"] = {kDraco};
+        root_["scene"] = 0;
+        root_["scenes"] = {{{"nodes", {0}}}};
+        root_["nodes"] = {{{"mesh", 0}, {"name", "surface"}}};
+        root_["bufferViews"] = ordered_json::array();
+        root_["accessors"] = ordered_json::array();
+        Status mesh = writeMesh();
+        if (!mesh) return mesh;
+        writeMaterials();
+        writeWalk();
+        if (binary_.size() > kMaxBinary) return Failure(path_, "the surface is larger than a .glb can be (4 GiB)");
+        root_["extensions"][kExtension]["binary_hash"] = hex(hashBytes(std::as_bytes(std::span(binary_))));
+        root_["buffers"] = {{{"byteLength", binary_.size()}}};
+        return writeContainer();
+    }
+
+  private:
+    int addView(const void* bytes, size_t length) {
+        binary_.resize((binary_.size() + 3) / 4 * 4, 0);
+        root_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", length}});
+        const uint8_t* from = static_cast<const uint8_t*>(bytes);
+        binary_.insert(binary_.end(), from, from + length);
+        return int(root_["bufferViews"].size()) - 1;
+    }
+
+    template <class Get>
+    static int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, int components, Get&& get) {
+        draco::GeometryAttribute attribute;
+        attribute.Init(type, nullptr, uint8_t(components), draco::DT_FLOAT32, false, int64_t(components) * 4, 0);
+        int id = mesh.AddAttribute(attribute, true, mesh.num_points());
+        for (uint32_t i = 0; i < mesh.num_points(); ++i)
+            mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), get(i));
+        return id;
+    }
+
+    // One range as a Draco mesh of its own vertices.
+    Status writeRange(const DrawRange& range, ordered_json& primitives) {
+        std::vector<uint32_t> local(data_.vertices.size(), kNoIndex), used;
+        draco::Mesh mesh;
+        for (uint32_t i = 0; i < range.indexCount; ++i) {
+            uint32_t v = data_.indices[range.firstIndex + i];
+            if (local[v] != kNoIndex) continue;
+            local[v] = uint32_t(used.size());
+            used.push_back(v);
+        }
+        mesh.set_num_points(uint32_t(used.size()));
+        mesh.SetNumFaces(range.indexCount / 3);
+        for (uint32_t f = 0; f < range.indexCount / 3; ++f) {
+            draco::Mesh::Face face;
+            for (uint32_t k = 0; k < 3; ++k) face[k] = local[data_.indices[range.firstIndex + f * 3 + k]];
+            mesh.SetFace(draco::FaceIndex(f), face);
+        }
+        auto vertex = [&](uint32_t i) -> const DrawVertex& { return data_.vertices[used[i]]; };
+        using Kind = draco::GeometryAttribute;
+        int ids[4] = {addAttribute(mesh, Kind::POSITION, 3, [&](uint32_t i) { return &vertex(i).position.x; }),
+                      addAttribute(mesh, Kind::NORMAL, 3, [&](uint32_t i) { return &vertex(i).normal.x; }),
+                      addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).uv.x; }),
+                      addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).walkUv.x; })};
+        uint32_t unique[4];
+        for (int k = 0; k < 4; ++k) unique[k] = mesh.attribute(ids[k])->unique_id();
+        draco::EncoderBuffer encoded;
+        if (!encode(mesh, encoded)) return Failure(path_, "Draco could not encode the mesh");
+        return describeRange(range, encoded, unique, primitives);
+    }
+
+    static bool encode(const draco::Mesh& mesh, draco::EncoderBuffer& out) {
+        // Edgebreaker gives up on meshes of degenerate triangles only; the sequential method takes all.
+        for (int method : {int(draco::MESH_EDGEBREAKER_ENCODING), int(draco::MESH_SEQUENTIAL_ENCODING)}) {
+            draco::Encoder encoder;
+            encoder.SetSpeedOptions(5, 5);
+            encoder.SetEncodingMethod(method);
+            encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, kPositionBits);
+            encoder.SetAttributeQuantization(draco::GeometryAttribute::NORMAL, kNormalBits);
+            encoder.SetAttributeQuantization(draco::GeometryAttribute::TEX_COORD, kUvBits);
+            out.Clear();
+            if (encoder.EncodeMeshToBuffer(mesh, &out).ok()) return true;
+        }
+        return false;
+    }
+
+    // Accessors state what a decoder will find: counts and bounds are those of the decoded mesh.
+    Status describeRange(const DrawRange& range, const draco::EncoderBuffer& encoded, const uint32_t (&unique)[4],
+                         ordered_json& primitives) {
+        draco::DecoderBuffer buffer;
+        buffer.Init(encoded.data(), encoded.size());
+        draco::Decoder decoder;
+        auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+        if (!decoded.ok()) return Failure(path_, "Draco does not read back what it wrote");
+        const draco::Mesh& mesh = *decoded.value();
+        if (mesh.num_faces() == 0) return Done{};  // triangles without area only
+        int view = addView(encoded.data(), encoded.size());
+        static constexpr const char* kNames[4] = {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1"};
+        ordered_json attributes, packed;
+        for (int k = 0; k < 4; ++k) {
+            packed[kNames[k]] = unique[k];
+            attributes[kNames[k]] = root_["accessors"].size();
+            ordered_json accessor = {
+                {"componentType", 5126}, {"count", mesh.num_points()}, {"type", k < 2 ? "VEC3" : "VEC2"}};
+            if (k == 0) {
+                const draco::PointAttribute* position = mesh.GetAttributeByUniqueId(unique[0]);
+                float low[3] = {3e38f, 3e38f, 3e38f}, high[3] = {-3e38f, -3e38f, -3e38f}, p[3];
+                for (uint32_t i = 0; i < mesh.num_points(); ++i) {
+                    position->ConvertValue<float, 3>(position->mapped_index(draco::PointIndex(i)), p);
+                    for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
+                }
+                accessor["min"] = {low[0], low[1], low[2]};
+                accessor["max"] = {high[0], high[1], high[2]};
+            }
+            root_["accessors"].push_back(std::move(accessor));
+        }
+        size_t indices = root_["accessors"].size();
+        root_["accessors"].push_back(
+            {{"componentType", 5125}, {"count", size_t(mesh.num_faces()) * 3}, {"type", "SCALAR"}});
+        primitives.push_back({{"attributes", attributes},
+                              {"indices", indices},
+                              {"material", range.material},
+                              {"mode", 4},
+                              {"extensions", {{kDraco, {{"bufferView", view}, {"attributes", packed}}}}}});
+        return Done{};
+    }
+
+    Status writeMesh() {
+        ordered_json primitives = ordered_json::array();
+        for (const DrawRange& range : data_.ranges) {
+            if (range.indexCount < 3) continue;
+            Status done = writeRange(range, primitives);
+            if (!done) return done;
+        }
+        if (primitives.empty()) return Failure(path_, "the surface has no mesh to draw");
+        root_["meshes"] = {{{"primitives", primitives}, {"name", "surface"}}};
+        return Done{};
+    }
+
+    void writeMaterials() {
+        ordered_json materials = ordered_json::array();
+        for (const Material& m : data_.materials) {
+            ordered_json pbr = {{"baseColorFactor", {m.baseColor.r, m.baseColor.g, m.baseColor.b, m.baseColor.a}},
+                                {"metallicFactor", 0},
+                                {"roughnessFactor", m.roughness}};
+            if (m.baseColorImage >= 0) pbr["baseColorTexture"] = {{"index", m.baseColorImage}};
+            ordered_json material = {{"pbrMetallicRoughness", pbr}, {"doubleSided", m.doubleSided}};
+            if (m.normalImage >= 0) material["normalTexture"] = {{"index", m.normalImage}, {"scale", m.normalScale}};
+            if (m.alphaCutoff > 0) {
+                material["alphaMode"] = "MASK";
+                material["alphaCutoff"] = m.alphaCutoff;
+            }
+            materials.push_back(std::move(material));
+        }
+        if (!materials.empty()) root_["materials"] = std::move(materials);
+        if (data_.images.empty()) return;
+        root_["samplers"] = {{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 10497}, {"wrapT", 10497}}};
+        for (size_t i = 0; i < data_.images.size(); ++i) {
+            const Picture& image = data_.images[i];
+            std::vector<uint8_t> png;
+            const std::vector<uint8_t>* bytes = &image.encoded;
+            if (bytes->empty()) {
+                stbi_write_png_to_func(
+                    [](void* out, void* data, int size) {
+                        auto* from = static_cast<uint8_t*>(data);
+                        static_cast<std::vector<uint8_t>*>(out)->insert(static_cast<std::vector<uint8_t>*>(out)->end(),
+                                                                        from, from + size);
+                    },
+                    &png, int(image.width), int(image.height), 4, image.rgba.data(), int(image.width) * 4);
+                bytes = &png;
+            }
+            bool isPng = bytes->size() > 4 && (*bytes)[0] == 0x89 && (*bytes)[1] == 'P';
+            int view = addView(bytes->data(), bytes->size());
+            root_["images"].push_back({{"bufferView", view}, {"mimeType", isPng ? "image/png" : "image/jpeg"}});
+            root_["textures"].push_back({{"source", i}, {"sampler", 0}});
+        }
+    }
+
+    // An array of records, compressed without loss.
+    struct Packed {
+        const void* from;
+        size_t count, stride;
+        ordered_json* into;
+        std::vector<uint8_t> bytes;
+    };
+
+    void writeWalk() {
+        ordered_json walk = {{"version", kVersion},
+                             {"source", data_.source},
+                             {"hash", hex(data_.hash)},
+                             {"bounds_min", {data_.boundsMin.x, data_.boundsMin.y, data_.boundsMin.z}},
+                             {"bounds_max", {data_.boundsMax.x, data_.boundsMax.y, data_.boundsMax.z}},
+                             {"uv_set", 1}};
+        std::vector<ordered_json> fields(3 + data_.levels.size() * 4);
+        std::vector<Packed> arrays;
+        auto add = [&](const auto& values) {
+            arrays.push_back({values.data(), values.size(), sizeof values[0], &fields[arrays.size()], {}});
+        };
+        add(data_.crossings);
+        add(data_.charts);
+        add(data_.triangles);
+        for (const SurfaceLevelData& level : data_.levels) {
+            add(level.texels);
+            add(level.aux);
+            add(level.crossingHead);
+            add(level.crossingRefs);
+        }
+        parallelFor(arrays.size(), 1, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                Packed& a = arrays[i];
+                if (a.count == 0) continue;
+                a.bytes.resize(meshopt_encodeVertexBufferBound(a.count, a.stride));
+                a.bytes.resize(meshopt_encodeVertexBuffer(a.bytes.data(), a.bytes.size(), a.from, a.count, a.stride));
+            }
+        });
+        for (Packed& a : arrays) {
+            *a.into = {{"count", a.count}, {"stride", a.stride}};
+            if (a.count > 0) (*a.into)["bufferView"] = addView(a.bytes.data(), a.bytes.size());
+        }
+        walk["crossings"] = fields[0];
+        walk["charts"] = fields[1];
+        walk["triangles"] = fields[2];
+        for (size_t i = 0; i < data_.levels.size(); ++i)
+            walk["levels"].push_back({{"size", data_.levels[i].size},
+                                      {"texels", fields[3 + i * 4]},
+                                      {"aux", fields[4 + i * 4]},
+                                      {"crossing_head", fields[5 + i * 4]},
+                                      {"crossing_refs", fields[6 + i * 4]}});
+        root_["extensions"][kExtension] = std::move(walk);
+    }
+
+    Status writeContainer() {
+        std::string text = root_.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        binary_.resize((binary_.size() + 3) / 4 * 4, 0);
+        std::vector<std::byte> file;
+        uint64_t total = 12 + 8 + uint64_t(text.size()) + 8 + binary_.size();
+        if (total > 0xFFFFFFFFu) return Failure(path_, "the surface is larger than a .glb can be (4 GiB)");
+        file.reserve(total);
+        auto words = [&](std::initializer_list<uint32_t> list) {
+            for (uint32_t w : list) {
+                auto bytes = std::as_bytes(std::span(&w, 1));
+                file.insert(file.end(), bytes.begin(), bytes.end());
+            }
+        };
+        words({kGlbMagic, 2, uint32_t(total), uint32_t(text.size()), kJsonChunk});
+        auto t = std::as_bytes(std::span(text.data(), text.size()));
+        file.insert(file.end(), t.begin(), t.end());
+        words({uint32_t(binary_.size()), kBinChunk});
+        auto b = std::as_bytes(std::span(binary_));
+        file.insert(file.end(), b.begin(), b.end());
+        return writeFile(path_, file);
+    }
+
+    const SurfaceData& data_;
+    const std::string& path_;
+    ordered_json root_;
+    std::vector<uint8_t> binary_;
+};
+
+}  // namespace
+
+Status writeSurface(const SurfaceData& data, const std::string& path) {
+    return Writer(data, path).run();
+}
+
+}  // namespace espalier

@@ -1,0 +1,199 @@
+// In: a model. Out: its surface and the report: weld and cut into charts, lay out, link borders, rasterise each
+// level, measure.
+#include "tools/bake/bake.hpp"
+
+#include <bit>
+#include <chrono>
+#include <cmath>
+
+#include "runtime/core/jobs.hpp"
+#include "tools/bake/bake_mesh.hpp"
+
+namespace espalier {
+namespace {
+
+using namespace bakery;
+
+// Times stages and tells of progress.
+class Stages {
+  public:
+    Stages(const BakeOptions& options, BakeReport& report) : options_(options), report_(report) {}
+    void begin(float progress, const char* name) {
+        end();
+        name_ = name;
+        start_ = Clock::now();
+        if (options_.progress) options_.progress(progress, name);
+    }
+    void end() {
+        if (!name_) return;
+        report_.seconds.emplace_back(name_, std::chrono::duration<double>(Clock::now() - start_).count());
+        name_ = nullptr;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    const BakeOptions& options_;
+    BakeReport& report_;
+    const char* name_ = nullptr;
+    Clock::time_point start_;
+};
+
+std::vector<Chart> makeCharts(const BakeMesh& mesh) {
+    std::vector<Chart> charts(mesh.chartCount());
+    for (uint32_t c = 0; c < charts.size(); ++c) {
+        glm::dvec2 low(1e300), high(-1e300);
+        double area = 0, uv = 0;
+        for (uint32_t t = mesh.firstTriangle[c]; t < mesh.firstTriangle[c + 1]; ++t) {
+            for (glm::dvec2 p : mesh.triangles[t].uv) low = glm::min(low, p), high = glm::max(high, p);
+            area += area3(mesh, mesh.triangles[t]);
+            uv += std::abs(uvArea(mesh.triangles[t]));
+        }
+        charts[c] = {glm::vec2(low),        glm::vec2(high),
+                     mesh.orientation[c],   0,
+                     float(area),           float(std::sqrt(area / uv)),
+                     mesh.firstTriangle[c], mesh.firstTriangle[c + 1] - mesh.firstTriangle[c]};
+    }
+    return charts;
+}
+
+std::vector<TrianglePlane> makeRecords(const BakeMesh& mesh) {
+    std::vector<TrianglePlane> out(mesh.triangles.size());
+    for (size_t t = 0; t < out.size(); ++t) {
+        const Triangle& tri = mesh.triangles[t];
+        // From the corner as records hold it, so that the map is exact where it begins.
+        glm::dvec2 uv0(glm::vec2(tri.uv[0])), u1 = tri.uv[1] - tri.uv[0], u2 = tri.uv[2] - tri.uv[0];
+        double det = cross(u1, u2);
+        glm::dvec3 p0 = mesh.points[tri.point[0]], e1 = mesh.points[tri.point[1]] - p0,
+                   e2 = mesh.points[tri.point[2]] - p0;
+        glm::dvec3 du = (e1 * u2.y - e2 * u1.y) / det, dv = (e2 * u1.x - e1 * u2.x) / det;
+        glm::dvec2 shift = uv0 - tri.uv[0];
+        out[t] = {glm::vec3(p0 + du * shift.x + dv * shift.y), glm::vec3(du), glm::vec3(dv), glm::vec2(uv0), tri.chart};
+    }
+    return out;
+}
+
+// Rasterises all levels and settles down to which level each chart can be walked. Returns per level, per chart,
+// whether it can.
+std::vector<std::vector<uint8_t>> makeLevels(const BakeMesh& mesh, const std::vector<Link>& links,
+                                             const std::vector<uint32_t>& allowed, const BakeOptions& options,
+                                             Stages& stages, SurfaceData& surface) {
+    std::vector<Plane> planes = makePlanes(mesh);
+    std::vector<uint32_t> creases = creaseEdges(mesh), borders = borderEdges(mesh);
+    LevelSource source{mesh, planes, links, surface.crossings, creases, surface.charts};
+    std::vector<std::vector<uint8_t>> walkable(options.levels);
+    surface.levels.resize(options.levels);
+    IdImage image;
+    for (uint32_t l = 0; l < options.levels; ++l) {
+        if (l == 0) stages.begin(0.4f, "level_0");
+        if (l == 1) stages.begin(0.75f, "further_levels");
+        walkable[l].assign(mesh.chartCount(), 1);
+        for (size_t c = 0; l > 0 && c < walkable[l].size(); ++c) walkable[l][c] = walkable[l - 1][c] && allowed[c] >= l;
+        drawTriangles(mesh, options.resolution >> l, image, nullptr, nullptr);
+        drawGutters(mesh, borders, image, walkable[l]);
+        surface.levels[l] = composeLevel(source, image, walkable[l]);
+        for (size_t c = 0; c < walkable[l].size(); ++c)
+            if (walkable[l][c]) surface.charts[c].coarsestLevel = l;
+    }
+    return walkable;
+}
+
+void reportLevels(const std::string& name, const SurfaceData& surface,
+                  const std::vector<std::vector<uint8_t>>& walkable, BakeReport& report) {
+    double all = 0;
+    for (const Chart& c : surface.charts) all += c.area;
+    for (size_t l = 0; l < walkable.size(); ++l) {
+        double area = 0;
+        size_t lost = 0;
+        for (size_t c = 0; c < walkable[l].size(); ++c) {
+            if (walkable[l][c])
+                area += surface.charts[c].area;
+            else
+                ++lost;
+        }
+        report.walkableByLevel.emplace_back(surface.levels[l].size, area / all);
+        if (l == 0 && lost > 0) {
+            char share[32];
+            std::snprintf(share, sizeof share, "%.3g %%", (1 - area / all) * 100);
+            report.warnings.push_back(
+                {name,
+                 0,
+                 0,
+                 {},
+                 std::to_string(lost) + " charts (" + share +
+                     " of the area) lack room around them even on the finest level: a walk is inexact there; "
+                     "bake at " +
+                     std::to_string(surface.levels[0].size * 2) + " or give them wider gutters",
+                 true});
+        }
+    }
+}
+
+Status checkOptions(const std::string& name, BakeOptions& options) {
+    if (!std::has_single_bit(options.resolution) || options.resolution < 64 || options.resolution > 8192)
+        return Failure(name,
+                       "resolution " + std::to_string(options.resolution) + " is not a power of two from 64 to 8192");
+    uint32_t most = uint32_t(std::countr_zero(options.resolution)) - 2;  // down to 8 texels
+    if (options.levels == 0) options.levels = std::max(1u, uint32_t(std::countr_zero(options.resolution)) - 5);
+    options.levels = std::min(options.levels, kMaxLevels);
+    if (options.levels > most)
+        return Failure(name, std::to_string(options.levels) + " levels: a level of " +
+                                 std::to_string(options.resolution) + " texels has at most " + std::to_string(most) +
+                                 " (down to 8 texels)");
+    return Done{};
+}
+
+double nearestTolerance(const SurfaceData& surface, const BakeOptions& options) {
+    if (options.nearestTolerance > 0) return options.nearestTolerance;
+    double area = 0, uv = 0;
+    for (const Chart& c : surface.charts) {
+        area += c.area;
+        uv += double(c.area) / (double(c.metresPerUv) * c.metresPerUv);
+    }
+    return std::sqrt(area / uv) / options.resolution;
+}
+
+}  // namespace
+
+Result<Baked> bake(const Model& model, const BakeOptions& given) {
+    BakeOptions options = given;
+    Status valid = checkOptions(model.name, options);
+    if (!valid) return std::move(valid.failure());
+    Baked out;
+    BakeReport& report = out.report;
+    SurfaceData& surface = out.surface;
+    report.source = surface.source = model.name;
+    report.warnings = model.warnings;
+    Stages stages(options, report);
+
+    stages.begin(0.0f, "mesh");
+    auto mesh = buildMesh(model, report.warnings);
+    if (!mesh) return std::move(mesh.failure());
+    addNormalsAndCurvature(model, *mesh);
+    stages.begin(0.1f, "layout");
+    auto allowed = layOut(*mesh, model.name, {options.resolution, options.levels, options.keepLayout}, report.warnings);
+    if (!allowed) return std::move(allowed.failure());
+    stages.begin(0.3f, "links");
+    surface.boundsMin = glm::vec3(mesh->boundsMin);
+    surface.boundsMax = glm::vec3(mesh->boundsMax);
+    surface.charts = makeCharts(*mesh);
+    surface.triangles = makeRecords(*mesh);
+    std::vector<Link> links = findLinks(*mesh, nearestTolerance(surface, options));
+    surface.crossings = makeCrossings(*mesh, links);
+
+    auto walkable = makeLevels(*mesh, links, *allowed, options, stages, surface);
+    for (const SurfaceLevelData& level : surface.levels)
+        if (level.crossingRefs.size() >= (size_t(1) << 24))
+            return Failure(model.name, "more borders than a level can list: bake at a lower resolution");
+    stages.begin(0.9f, "drawing_mesh");
+    makeDrawing(model, *mesh, surface);
+    stages.begin(0.93f, "hash");
+    surface.hash = walkHash(surface);
+    stages.begin(0.95f, "report");
+    measure(*mesh, links, surface, report);
+    reportLevels(model.name, surface, walkable, report);
+    stages.end();
+    if (options.progress) options.progress(1.0f, "done");
+    return out;
+}
+
+}  // namespace espalier

@@ -1,0 +1,156 @@
+#pragma once
+
+// The baker's mesh: welded, cut into charts, laid out on the walk's UV square.
+//
+// Half-edge 3 t + k runs from corner k to corner (k + 1) % 3 of triangle t.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "tools/bake/bake.hpp"
+
+namespace espalier::bakery {
+
+constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+struct Triangle {
+    std::array<uint32_t, 3> point;  // into BakeMesh::points
+    std::array<glm::dvec2, 3> uv;   // the walk's
+    uint32_t source;                // triangle of the model
+    uint32_t chart;
+};
+
+struct BakeMesh {
+    std::vector<glm::dvec3> points;       // welded
+    std::vector<Triangle> triangles;      // sorted by chart
+    std::vector<uint32_t> twin;           // per half-edge: the half-edge on the other side, kNone at borders
+    std::vector<uint8_t> joined;          // per half-edge: 1 where the chart goes on across it
+    std::vector<float> orientation;       // per chart: sign of its triangles in UV
+    std::vector<uint32_t> firstTriangle;  // per chart and one more: where its triangles begin
+    std::vector<glm::vec3> normals;       // per corner: the shading normal
+    std::vector<float> curvature;         // per point, 1/m, positive on bulges
+    glm::dvec3 boundsMin{0}, boundsMax{0};
+    double radius = 0;  // half the diagonal of the bounds
+    double area = 0;    // of the model, what is left out included
+
+    uint32_t chartCount() const { return uint32_t(orientation.size()); }
+    uint32_t chartOf(uint32_t halfEdge) const { return triangles[halfEdge / 3].chart; }
+    glm::dvec2 uvAt(uint32_t halfEdge) const { return triangles[halfEdge / 3].uv[halfEdge % 3]; }
+    glm::dvec3 pointAt(uint32_t halfEdge) const { return points[triangles[halfEdge / 3].point[halfEdge % 3]]; }
+    static uint32_t next(uint32_t halfEdge) { return halfEdge % 3 == 2 ? halfEdge - 2 : halfEdge + 1; }
+};
+
+inline double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+inline double uvArea(const Triangle& t) {
+    return cross(t.uv[1] - t.uv[0], t.uv[2] - t.uv[0]) / 2;
+}
+double area3(const BakeMesh& mesh, const Triangle& t);
+
+// Welds, pairs edges and cuts into charts. Refuses models without area, with NaN, without UVs.
+Result<BakeMesh> buildMesh(const Model& model, std::vector<Diagnostic>& warnings);
+
+// Puts shading normals and mean curvature on the mesh.
+void addNormalsAndCurvature(const Model& model, BakeMesh& mesh);
+
+// Moves the UVs into [0,1]² as a whole, refuses overlaps, moves charts apart where their gutters are too narrow.
+// coarsest[chart]: the coarsest level that its place allows for; later rasterising may lower it.
+struct LayoutOptions {
+    uint32_t resolution, levels;
+    bool keep;
+};
+Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, const LayoutOptions& options,
+                                     std::vector<Diagnostic>& warnings);
+
+// Places charts as masks on a grid so that their bands don't meet. levelOf(scale) is decided within.
+// Returns per chart the offset, and the one scale: uv' = uv * scale + offset; scale 0: nothing fits.
+struct Placement {
+    double scale = 0;
+    std::vector<glm::dvec2> offset;
+    std::vector<uint32_t> coarsest;
+};
+Placement packCharts(const BakeMesh& mesh, uint32_t resolution, uint32_t levels);
+
+// A piece of border and where it leads; the crossing's records are made from it.
+struct Link {
+    uint32_t from, to;    // half-edges; to = kNone: open
+    double from0, from1;  // parameters along `from`, from0 < from1
+    double to0, to1;      // along `to`, of the same points: to0 > to1
+    uint32_t kind;        // kCrossingSeam...
+};
+std::vector<Link> findLinks(const BakeMesh& mesh, double tolerance);
+std::vector<Crossing> makeCrossings(const BakeMesh& mesh, const std::vector<Link>& links);
+
+// Which texel a level holds: an inner texel's triangle, a gutter texel's half-edge, or nothing.
+constexpr uint32_t kGutterBit = 0x80000000u;
+struct IdImage {
+    uint32_t size = 0;
+    std::vector<uint32_t> id;  // row by row: kNone, triangle, or kGutterBit | half-edge
+};
+
+// Draws triangles' centres. overlaps: texels that a second triangle would have covered as well.
+void drawTriangles(const BakeMesh& mesh, uint32_t size, IdImage& image, uint64_t* covered, uint64_t* overlaps);
+
+// Draws gutters around charts for which walkable[chart] is set, nearest border first, and clears the flag of each
+// chart that misses a texel which a bilinear read inside of it needs. Returns whether a flag was cleared.
+bool drawGutters(const BakeMesh& mesh, const std::vector<uint32_t>& borders, IdImage& image,
+                 std::vector<uint8_t>& walkable);
+
+// Half-edges across which their chart doesn't go on, ascending.
+std::vector<uint32_t> borderEdges(const BakeMesh& mesh);
+
+// What composing needs of a triangle: its affine map P(uv) = p0 + e1 (g1 · d) + e2 (g2 · d), d = uv - uv0.
+struct Plane {
+    glm::dvec2 uv0;
+    glm::vec2 g1, g2;
+    glm::vec3 p0, e1, e2;
+    glm::vec3 normal;  // of the flat triangle, outward
+};
+std::vector<Plane> makePlanes(const BakeMesh& mesh);
+
+// What all levels are made from.
+struct LevelSource {
+    const BakeMesh& mesh;
+    const std::vector<Plane>& planes;
+    const std::vector<Link>& links;
+    const std::vector<Crossing>& crossings;  // one per link
+    const std::vector<uint32_t>& creases;
+    const std::vector<Chart>& charts;
+};
+
+// Makes one level from its ids. Clears walkable[chart] where a texel meets more crossings than a record can count.
+SurfaceLevelData composeLevel(const LevelSource& source, const IdImage& image, std::vector<uint8_t>& walkable);
+
+// Half-edges (one of each pair) inside of charts whose triangles meet at more than 15°.
+std::vector<uint32_t> creaseEdges(const BakeMesh& mesh);
+
+// Fills in the mesh as it is drawn: vertices split where charts were moved apart, ranges by material.
+void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface);
+
+// Fills the report's figures by walking through the finished surface's records.
+void measure(const BakeMesh& mesh, const std::vector<Link>& links, const SurfaceData& surface, BakeReport& report);
+
+// Rows of a texel grid that a segment, grown by the box of half-width `grow`, touches: calls
+// row(y, x0, x1) with whole texel numbers, x0 <= x1, for texels as unit squares shrunk to their centres
+// (centre (x + .5, y + .5) lies in the grown segment), clipped to [0, size) and to rows [yBegin, yEnd).
+template <class Row>
+void gridSegment(glm::dvec2 a, glm::dvec2 b, double grow, int64_t size, int64_t yBegin, int64_t yEnd, Row&& row) {
+    if (a.y > b.y) std::swap(a, b);
+    double dx = b.x - a.x, dy = b.y - a.y;
+    int64_t y0 = std::max(yBegin, int64_t(std::ceil(a.y - grow - 0.5)));
+    int64_t y1 = std::min(yEnd - 1, int64_t(std::floor(b.y + grow - 0.5)));
+    for (int64_t y = y0; y <= y1; ++y) {
+        double low = double(y) + 0.5 - grow, high = double(y) + 0.5 + grow;
+        double t0 = dy > 1e-12 ? std::max(0.0, (low - a.y) / dy) : 0.0;
+        double t1 = dy > 1e-12 ? std::min(1.0, (high - a.y) / dy) : 1.0;
+        double xa = a.x + dx * t0, xb = a.x + dx * t1;
+        int64_t x0 = std::max(int64_t(0), int64_t(std::ceil(std::min(xa, xb) - grow - 0.5)));
+        int64_t x1 = std::min(size - 1, int64_t(std::floor(std::max(xa, xb) + grow - 0.5)));
+        if (x0 <= x1) row(y, x0, x1);
+    }
+}
+
+}  // namespace espalier::bakery

@@ -1,0 +1,78 @@
+// In: the model and the baked mesh. Out: vertices, indices and ranges for drawing. Triangles that were left out of
+// the walk are drawn all the same.
+#include <algorithm>
+#include <map>
+
+#include "tools/bake/bake_mesh.hpp"
+
+namespace espalier::bakery {
+
+void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface) {
+    size_t triangles = model.indices.size() / 3;
+    std::vector<uint32_t> baked(triangles, kNone);  // the mesh's triangle of each of the model's
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) baked[mesh.triangles[t].source] = t;
+    surface.materials = model.materials;
+    surface.images = model.images;
+    if (surface.materials.empty()) surface.materials.emplace_back();
+    auto materialOf = [&](size_t t) {
+        uint32_t m = model.triangleMaterial.empty() ? 0 : model.triangleMaterial[t];
+        return m < surface.materials.size() ? m : 0u;
+    };
+    std::vector<uint32_t> order(triangles);
+    for (uint32_t t = 0; t < triangles; ++t) order[t] = t;
+    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return materialOf(a) < materialOf(b); });
+    // A vertex of the model becomes one of ours per chart that it is seen in; mostly one.
+    struct Known {
+        uint32_t chart = kNone, vertex = kNone;
+    };
+    std::vector<Known> first(model.positions.size());
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> more;
+    std::vector<glm::vec3> flat;
+    if (model.normals.empty()) {
+        flat.assign(model.positions.size(), glm::vec3(0));
+        for (size_t t = 0; t < triangles; ++t) {
+            const uint32_t* v = &model.indices[t * 3];
+            glm::vec3 n = glm::cross(model.positions[v[1]] - model.positions[v[0]],
+                                     model.positions[v[2]] - model.positions[v[0]]);
+            for (int k = 0; k < 3; ++k) flat[v[k]] += n;
+        }
+    }
+    auto vertexFor = [&](uint32_t v, uint32_t chart, uint32_t corner) {
+        uint32_t* slot = nullptr;
+        if (first[v].vertex == kNone) {
+            first[v].chart = chart;
+            slot = &first[v].vertex;
+        } else if (first[v].chart == chart) {
+            return first[v].vertex;
+        } else {
+            slot = &more.try_emplace({v, chart}, kNone).first->second;
+            if (*slot != kNone) return *slot;
+        }
+        DrawVertex d{};
+        d.position = model.positions[v];
+        d.normal = model.normals.empty() ? flat[v] : model.normals[v];
+        if (corner != kNone) d.normal = mesh.normals[corner];
+        float length = glm::length(d.normal);
+        d.normal = length > 0 ? d.normal / length : glm::vec3(0, 1, 0);
+        glm::vec2 uv = model.materialUvs.empty() ? model.uvs[v] : model.materialUvs[v];
+        bool finite = std::abs(uv.x) < 1e6f && std::abs(uv.y) < 1e6f;
+        d.uv = finite ? uv : glm::vec2(0);
+        if (corner != kNone) d.walkUv = glm::vec2(mesh.triangles[corner / 3].uv[corner % 3]);
+        surface.vertices.push_back(d);
+        return *slot = uint32_t(surface.vertices.size() - 1);
+    };
+    for (uint32_t t : order) {
+        uint32_t material = materialOf(t);
+        if (surface.ranges.empty() || surface.ranges.back().material != material)
+            surface.ranges.push_back({uint32_t(surface.indices.size()), 0, material});
+        for (uint32_t k = 0; k < 3; ++k) {
+            uint32_t chart = baked[t] == kNone ? kNone - 1 : mesh.triangles[baked[t]].chart;
+            surface.indices.push_back(
+                vertexFor(model.indices[size_t(t) * 3 + k], chart, baked[t] == kNone ? kNone : baked[t] * 3 + k));
+        }
+        surface.ranges.back().indexCount += 3;
+    }
+    addTangents(surface.vertices, surface.indices);
+}
+
+}  // namespace espalier::bakery

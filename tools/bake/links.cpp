@@ -1,0 +1,212 @@
+// In: the mesh's borders. Out: where each piece of border leads: to its twin by topology; for borders without one
+// to the nearest border that runs along it the other way (T-junctions, cracks), else nowhere (Buron 2015 §4).
+#include <algorithm>
+#include <cmath>
+#include <nanoflann.hpp>
+
+#include "shaders/shared/exact.h"
+#include "tools/bake/bake_mesh.hpp"
+
+namespace espalier::bakery {
+namespace {
+
+constexpr double kMinPiece = 1e-4;  // of an edge's length: shorter pieces are not linked
+constexpr double kAgainst = -0.9;   // cosine: linked borders run against each other
+constexpr size_t kMaxPieces = 64;   // that a long border is cut into for the search
+
+// A piece of an open border, as the kd-tree sees it: its middle.
+struct Piece {
+    glm::dvec3 middle;
+    double half;
+    uint32_t edge;  // into the open borders
+};
+
+struct Cloud {
+    const std::vector<Piece>& pieces;
+    size_t kdtree_get_point_count() const { return pieces.size(); }
+    double kdtree_get_pt(size_t i, size_t k) const { return pieces[i].middle[int(k)]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+
+// Two open borders that run along each other, e over [e0, e1], f over the same points.
+struct Neighbours {
+    double distance;
+    uint32_t e, f;
+    double e0, e1;
+};
+
+struct Interval {
+    double low, high;
+};
+
+struct Border {
+    uint32_t half;
+    glm::dvec3 a, b;
+    std::vector<Interval> open;  // what isn't linked yet, ascending
+    double at(glm::dvec3 p) const { return glm::dot(p - a, b - a) / glm::dot(b - a, b - a); }
+    glm::dvec3 point(double t) const { return a + (b - a) * t; }
+};
+
+std::vector<Piece> cutPieces(const std::vector<Border>& borders, double& longest) {
+    std::vector<double> lengths;
+    for (const Border& b : borders) lengths.push_back(glm::length(b.b - b.a));
+    std::vector<double> sorted = lengths;
+    std::nth_element(sorted.begin(), sorted.begin() + long(sorted.size() / 2), sorted.end());
+    double unit = sorted[sorted.size() / 2] * 2;
+    std::vector<Piece> pieces;
+    longest = 0;
+    for (uint32_t i = 0; i < borders.size(); ++i) {
+        size_t n = std::clamp(size_t(lengths[i] / unit) + 1, size_t(1), kMaxPieces);
+        for (size_t k = 0; k < n; ++k)
+            pieces.push_back({borders[i].point((double(k) + 0.5) / double(n)), lengths[i] / double(n) / 2, i});
+        longest = std::max(longest, lengths[i] / double(n) / 2);
+    }
+    return pieces;
+}
+
+// Compares e with f: the part of e that f runs along within the tolerance.
+bool runAlong(const Border& e, const Border& f, double tolerance, Neighbours& out) {
+    glm::dvec3 u = e.b - e.a, v = f.b - f.a;
+    double cosine = glm::dot(u, v) / (glm::length(u) * glm::length(v));
+    if (cosine > kAgainst) return false;
+    out.e0 = std::max(0.0, std::min(e.at(f.a), e.at(f.b)));
+    out.e1 = std::min(1.0, std::max(e.at(f.a), e.at(f.b)));
+    if (out.e1 - out.e0 < kMinPiece) return false;
+    // Both ends and the middle must lie near.
+    double sum = 0;
+    for (double t : {out.e0, (out.e0 + out.e1) / 2, out.e1}) {
+        glm::dvec3 p = e.point(t);
+        double d = glm::length(p - f.point(std::clamp(f.at(p), 0.0, 1.0)));
+        if (d > tolerance) return false;
+        sum += d;
+    }
+    out.distance = sum;
+    return true;
+}
+
+std::vector<Neighbours> findNeighbours(const std::vector<Border>& borders, double tolerance) {
+    double longest = 0;
+    std::vector<Piece> pieces = cutPieces(borders, longest);
+    Cloud cloud{pieces};
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3> tree(
+        3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+    tree.buildIndex();
+    std::vector<Neighbours> found;
+    std::vector<std::pair<uint32_t, double>> near;
+    std::vector<uint32_t> seen(borders.size(), kNone);
+    nanoflann::SearchParams params;
+    uint32_t stamp = 0;
+    for (size_t i = 0; i < pieces.size(); ++i) {
+        double reach = pieces[i].half + longest + tolerance;
+        near.clear();
+        tree.radiusSearch(&pieces[i].middle.x, reach * reach, near, params);
+        uint32_t e = pieces[i].edge;
+        if (i == 0 || pieces[i - 1].edge != e) ++stamp;
+        for (const auto& [index, squared] : near) {
+            uint32_t f = pieces[index].edge;
+            if (f <= e || seen[f] == stamp || borders[f].half / 3 == borders[e].half / 3) continue;
+            seen[f] = stamp;
+            Neighbours pair{0, e, f, 0, 0};
+            if (runAlong(borders[e], borders[f], tolerance, pair)) found.push_back(pair);
+        }
+    }
+    std::sort(found.begin(), found.end(), [](const Neighbours& x, const Neighbours& y) {
+        return std::tie(x.distance, x.e, x.f) < std::tie(y.distance, y.e, y.f);
+    });
+    return found;
+}
+
+// The open interval of `list` that overlaps [low, high] most, cut to it.
+Interval largestOpen(const std::vector<Interval>& list, double low, double high) {
+    Interval best{0, 0};
+    for (const Interval& i : list) {
+        Interval cut{std::max(i.low, low), std::min(i.high, high)};
+        if (cut.high - cut.low > best.high - best.low) best = cut;
+    }
+    return best;
+}
+
+void take(std::vector<Interval>& list, Interval taken) {
+    std::vector<Interval> out;
+    for (const Interval& i : list) {
+        if (taken.low > i.low) out.push_back({i.low, std::min(i.high, taken.low)});
+        if (taken.high < i.high) out.push_back({std::max(i.low, taken.high), i.high});
+    }
+    std::erase_if(out, [](const Interval& i) { return i.high - i.low <= 0; });
+    list.swap(out);
+}
+
+// Links open borders pair by pair, nearest first; each stretch leads to one other, there and back alike.
+void linkNearest(std::vector<Border>& borders, double tolerance, std::vector<Link>& links) {
+    for (const Neighbours& pair : findNeighbours(borders, tolerance)) {
+        Border& e = borders[pair.e];
+        Border& f = borders[pair.f];
+        Interval on = largestOpen(e.open, pair.e0, pair.e1);
+        if (on.high - on.low < kMinPiece) continue;
+        double g0 = std::clamp(f.at(e.point(on.high)), 0.0, 1.0), g1 = std::clamp(f.at(e.point(on.low)), 0.0, 1.0);
+        Interval other = largestOpen(f.open, g0, g1);
+        if (other.high - other.low < kMinPiece || g1 <= g0) continue;
+        // Cut e to what is open of f, by the map between the two.
+        double scale = (on.high - on.low) / (g1 - g0);
+        Interval cut{on.high - (other.high - g0) * scale, on.high - (other.low - g0) * scale};
+        if (cut.high - cut.low < kMinPiece) continue;
+        take(e.open, cut);
+        take(f.open, other);
+        links.push_back({e.half, f.half, cut.low, cut.high, other.high, other.low, kCrossingNearest});
+        links.push_back({f.half, e.half, other.low, other.high, cut.high, cut.low, kCrossingNearest});
+    }
+}
+
+}  // namespace
+
+std::vector<Link> findLinks(const BakeMesh& mesh, double tolerance) {
+    std::vector<Link> links;
+    std::vector<Border> borders;
+    for (uint32_t h = 0; h < mesh.joined.size(); ++h) {
+        if (mesh.joined[h]) continue;
+        if (mesh.twin[h] != kNone)
+            links.push_back({h, mesh.twin[h], 0, 1, 1, 0, kCrossingSeam});
+        else
+            borders.push_back({h, mesh.pointAt(h), mesh.pointAt(BakeMesh::next(h)), {{0, 1}}});
+    }
+    if (borders.size() > 1 && tolerance > 0) linkNearest(borders, tolerance, links);
+    for (const Border& b : borders)
+        for (const Interval& i : b.open) links.push_back({b.half, kNone, i.low, i.high, 0, 0, kCrossingOpen});
+    std::sort(links.begin(), links.end(),
+              [](const Link& x, const Link& y) { return std::tie(x.from, x.from0) < std::tie(y.from, y.from0); });
+    return links;
+}
+
+std::vector<Crossing> makeCrossings(const BakeMesh& mesh, const std::vector<Link>& links) {
+    std::vector<Crossing> out;
+    out.reserve(links.size());
+    for (const Link& link : links) {
+        uint32_t h = link.from, n = BakeMesh::next(h);
+        glm::dvec2 a = mesh.uvAt(h), d = mesh.uvAt(n) - a;
+        Crossing c{};
+        c.a = glm::vec2(a + d * link.from0);
+        c.b = glm::vec2(a + d * link.from1);
+        c.edge = packOct(glm::vec3(glm::normalize(mesh.pointAt(n) - mesh.pointAt(h))));
+        c.targetEdge = c.edge;
+        c.target = 0xFFFF0000u | mesh.chartOf(h);
+        c.ta = c.a;
+        c.tb = c.b;
+        if (link.to != kNone) {
+            uint32_t th = link.to, tn = BakeMesh::next(th);
+            glm::dvec2 ta = mesh.uvAt(th), td = mesh.uvAt(tn) - ta;
+            c.ta = glm::vec2(ta + td * link.to0);
+            c.tb = glm::vec2(ta + td * link.to1);
+            c.target = 0xFFFF0000u | mesh.chartOf(th);
+            if (link.kind != kCrossingSeam)
+                c.targetEdge = packOct(glm::vec3(glm::normalize(mesh.pointAt(th) - mesh.pointAt(tn))));
+        }
+        c.flags = link.kind | (mesh.orientation[mesh.chartOf(h)] > 0 ? 4u : 0u) | mesh.chartOf(h) << 16;
+        out.push_back(c);
+    }
+    return out;
+}
+
+}  // namespace espalier::bakery

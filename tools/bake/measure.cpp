@@ -1,0 +1,144 @@
+// In: the finished surface. Out: the report's figures. Crossings are judged by the records that a walk reads: over
+// a seam, and from the texel there back by that texel's own list.
+#include <algorithm>
+#include <cmath>
+
+#include "tools/bake/bake_mesh.hpp"
+
+namespace espalier::bakery {
+namespace {
+
+constexpr int kProbes = 3;  // per crossing
+
+double percentile(std::vector<double>& values, double share) {
+    if (values.empty()) return 0;
+    size_t at = std::min(values.size() - 1, size_t(share * double(values.size())));
+    std::nth_element(values.begin(), values.begin() + long(at), values.end());
+    return values[at];
+}
+
+double fraction(uint32_t seed) {
+    seed = (seed ^ 61u) ^ (seed >> 16);
+    seed *= 9u;
+    seed ^= seed >> 4;
+    seed *= 0x27d4eb2du;
+    seed ^= seed >> 15;
+    return (double(seed) + 0.5) / 4294967296.0;
+}
+
+glm::dvec3 onTriangle(const TrianglePlane& t, glm::dvec2 uv) {
+    glm::dvec2 d = uv - glm::dvec2(t.uv0);
+    return glm::dvec3(t.position) + glm::dvec3(t.du) * d.x + glm::dvec3(t.dv) * d.y;
+}
+
+glm::dvec2 mixed(glm::vec2 a, glm::vec2 b, double t) {
+    return glm::dvec2(a) + glm::dvec2(b - a) * t;
+}
+
+struct Back {
+    double distance = 1e300;  // from where the walk arrives to the segment that leads back, texels
+    double error = 1e300;     // texels
+};
+
+// From uv in `chart` back into `home`, by the list of the texel at uv.
+Back wayBack(const SurfaceData& surface, glm::dvec2 uv, uint32_t chart, uint32_t home, glm::dvec2 from) {
+    const SurfaceLevelData& level = surface.levels[0];
+    uint32_t size = level.size;
+    uint32_t x = uint32_t(std::clamp(uv.x * size, 0.0, size - 1.0)),
+             y = uint32_t(std::clamp(uv.y * size, 0.0, size - 1.0));
+    uint32_t at = texelIndex(size, x, y);
+    Back best;
+    if (texelClass(level.texels[at].bits) == kTexelEmpty || texelChart(level.texels[at].bits) != chart) return best;
+    uint32_t head = level.crossingHead[at];
+    for (uint32_t i = 0; i < (head & 255u); ++i) {
+        const Crossing& c = surface.crossings[level.crossingRefs[(head >> 8) + i]];
+        if ((c.flags & 3u) == kCrossingOpen || (c.target & 0xFFFFu) != home) continue;
+        glm::dvec2 a(c.a), d = glm::dvec2(c.b) - a;
+        double t = std::clamp(glm::dot(uv - a, d) / std::max(glm::dot(d, d), 1e-300), 0.0, 1.0);
+        double distance = glm::length(uv - (a + d * t)) * size;
+        double error = glm::length(mixed(c.ta, c.tb, t) - from) * size;
+        // At a corner several segments are equally near: the walk's side decides, here the better.
+        if (distance < best.distance - 1e-3 || (distance < best.distance + 1e-3 && error < best.error))
+            best = {std::min(distance, best.distance), error};
+    }
+    return best;
+}
+
+void measureCrossings(const std::vector<Link>& links, const SurfaceData& surface, BakeReport& report) {
+    std::vector<double> trips, gaps;
+    double size = surface.levels[0].size;
+    for (uint32_t i = 0; i < links.size(); ++i) {
+        const Crossing& c = surface.crossings[i];
+        uint32_t kind = c.flags & 3u;
+        if (kind == kCrossingOpen) continue;
+        (kind == kCrossingSeam      ? report.seamCrossings
+         : kind == kCrossingNearest ? report.nearestCrossings
+                                    : report.contactCrossings)++;
+        const TrianglePlane &here = surface.triangles[links[i].from / 3], &there = surface.triangles[links[i].to / 3];
+        bool dangling = false;
+        for (int probe = 0; probe < kProbes; ++probe) {
+            double t = fraction(i * kProbes + uint32_t(probe));
+            glm::dvec2 p = mixed(c.a, c.b, t), q = mixed(c.ta, c.tb, t);
+            Back back = wayBack(surface, q, c.target & 0xFFFFu, here.chart, p);
+            if (back.distance > 0.5) {
+                dangling = true;
+                continue;
+            }
+            if (kind != kCrossingSeam) continue;
+            trips.push_back(back.error);
+            double texel = std::sqrt(glm::length(glm::cross(glm::dvec3(here.du), glm::dvec3(here.dv)))) / size;
+            gaps.push_back(glm::length(onTriangle(here, p) - onTriangle(there, q)) / texel);
+        }
+        if (dangling) ++report.danglingCrossings;
+    }
+    report.roundTrip50 = percentile(trips, 0.5);
+    report.roundTrip999 = percentile(trips, 0.999);
+    report.gap999 = percentile(gaps, 0.999);
+}
+
+// How far a triangle's map is from the chart's mean scale, in its worst direction: 1 is none.
+void measureStretch(const BakeMesh& mesh, const SurfaceData& surface, BakeReport& report) {
+    struct Weighted {
+        double stretch, area;
+    };
+    std::vector<Weighted> all;
+    double total = 0;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const TrianglePlane& plane = surface.triangles[t];
+        double uu = glm::dot(glm::dvec3(plane.du), glm::dvec3(plane.du)),
+               vv = glm::dot(glm::dvec3(plane.dv), glm::dvec3(plane.dv));
+        double uv = glm::dot(glm::dvec3(plane.du), glm::dvec3(plane.dv));
+        double mean = (uu + vv) / 2, half = std::sqrt((uu - vv) * (uu - vv) / 4 + uv * uv);
+        double scale = surface.charts[plane.chart].metresPerUv;
+        double most = std::sqrt(mean + half) / scale, least = std::sqrt(std::max(mean - half, 0.0)) / scale;
+        double area = area3(mesh, mesh.triangles[t]);
+        all.push_back({std::min(std::max(most, 1 / std::max(least, 1e-6)), 1e6), area});
+        total += area;
+    }
+    std::sort(all.begin(), all.end(), [](const Weighted& a, const Weighted& b) { return a.stretch < b.stretch; });
+    double sum = 0;
+    for (const Weighted& w : all) {
+        if (sum < total * 0.5) report.stretch50 = w.stretch;
+        if (sum < total * 0.95) report.stretch95 = w.stretch;
+        sum += w.area;
+    }
+    report.stretchMax = all.back().stretch;
+}
+
+}  // namespace
+
+void measure(const BakeMesh& mesh, const std::vector<Link>& links, const SurfaceData& surface, BakeReport& report) {
+    report.triangles = uint32_t(mesh.triangles.size());
+    report.charts = mesh.chartCount();
+    for (const Texel& t : surface.levels[0].texels) {
+        uint32_t kind = texelClass(t.bits);
+        report.innerTexels += kind == kTexelInner;
+        report.linkTexels += kind == kTexelLink;
+        report.openTexels += kind == kTexelOpen;
+    }
+    for (const Chart& c : surface.charts) report.walkableArea += c.area;
+    measureStretch(mesh, surface, report);
+    measureCrossings(links, surface, report);
+}
+
+}  // namespace espalier::bakery

@@ -1,0 +1,277 @@
+// In: charts in UV. Out: a place for each, so that charts grown by their band don't meet: masks on a grid, largest
+// first, each at the lowest row and then column where it is free. The band is one texel of the coarsest level
+// that the chart serves; small charts serve fewer levels.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "runtime/core/jobs.hpp"
+#include "tools/bake/bake_mesh.hpp"
+
+namespace espalier::bakery {
+namespace {
+
+constexpr double kBandTexels = 1.001;  // what a bilinear read reaches, of the coarsest level
+constexpr double kDensity = 0.88;      // of the grid that the masks may fill, as a first guess
+constexpr double kWorthScale = 0.8;    // a coarser level is worth this loss of scale
+constexpr double kMinTexels = 3;       // a chart serves the levels on which it is as wide as this
+
+// A set of grid cells, one bit each, row by row.
+struct Mask {
+    uint32_t width = 0, height = 0, words = 0;
+    std::vector<uint64_t> bits;
+    std::vector<std::array<uint32_t, 3>> runs;  // row, first column, length
+    glm::dvec2 origin{0};                       // of cell (0, 0), in cells, where the chart lies at this scale
+    uint64_t cells = 0;
+
+    void set(uint32_t y, uint32_t x0, uint32_t x1) {
+        for (uint32_t x = x0; x <= x1; ++x) bits[size_t(y) * words + x / 64] |= uint64_t(1) << (x % 64);
+    }
+};
+
+class Packer {
+  public:
+    Packer(const BakeMesh& mesh, uint32_t resolution, uint32_t levels)
+        : mesh_(mesh), resolution_(resolution), levels_(levels), grid_(std::clamp(resolution / 4, 64u, 512u)) {
+        uint32_t charts = mesh.chartCount();
+        low_.assign(charts, glm::dvec2(1e300));
+        high_.assign(charts, glm::dvec2(-1e300));
+        uvArea_.assign(charts, 0);
+        for (const Triangle& t : mesh.triangles) {
+            uvArea_[t.chart] += std::abs(uvArea(t));
+            for (glm::dvec2 uv : t.uv) {
+                low_[t.chart] = glm::min(low_[t.chart], uv);
+                high_[t.chart] = glm::max(high_[t.chart], uv);
+            }
+        }
+        for (uint32_t h : borderEdges(mesh)) borders_.push_back(h);
+        firstBorder_.assign(charts + 1, 0);
+        for (uint32_t h : borders_) ++firstBorder_[mesh.chartOf(h) + 1];
+        for (uint32_t c = 0; c < charts; ++c) firstBorder_[c + 1] += firstBorder_[c];
+    }
+
+    // Finer grids let more charts in; they are tried only when the coarse one fails.
+    Placement run() {
+        for (;;) {
+            for (uint32_t coarsest = levels_; coarsest-- > 0;) {
+                double guess = scaleFor(coarsest, kDensity);
+                if (guess < kWorthScale && coarsest > 0) continue;
+                Placement placed = search(coarsest, guess);
+                if (placed.scale >= (coarsest > 0 ? kWorthScale * 0.85 : 0.02)) return placed;
+            }
+            if (grid_ * 2 > std::min(resolution_, 1024u)) return {};
+            grid_ *= 2;
+        }
+    }
+
+  private:
+    uint32_t levelOf(uint32_t chart, double scale, uint32_t coarsest) const {
+        double width = std::sqrt(uvArea_[chart]) * scale;
+        uint32_t level = coarsest;
+        while (level > 0 && width * double(resolution_ >> level) < kMinTexels) --level;
+        return level;
+    }
+    double bandCells(uint32_t level) const { return kBandTexels * double(grid_) / double(resolution_ >> level); }
+
+    // A scale at which the charts and their bands should fill `density` of the grid, by their boxes' measure.
+    double scaleFor(uint32_t coarsest, double density) const {
+        double scale = 1.5;
+        for (int i = 0; i < 40; ++i, scale *= 0.95) {
+            double sum = 0;
+            for (uint32_t c = 0; c < mesh_.chartCount(); ++c) {
+                glm::dvec2 box = (high_[c] - low_[c]) * (scale * grid_);
+                double band = 2 * bandCells(levelOf(c, scale, coarsest)) + 1,
+                       area = uvArea_[c] * scale * scale * grid_ * grid_;
+                // A chart fills its box partly; so does the box grown by its band.
+                double fill = std::max(area / std::max(box.x * box.y, 1e-12), 0.25);
+                sum += (box.x + band) * (box.y + band) * std::min(1.0, fill + 0.15);
+            }
+            if (sum <= density * grid_ * grid_) return scale;
+        }
+        return scale;
+    }
+
+    Placement search(uint32_t coarsest, double guess) const {
+        Placement best;
+        double scale = guess, step = 0.93;
+        // Down to the first scale that fits; each scale is tried once.
+        for (int i = 0; i < 40 && scale > 0.01; ++i, scale *= step) {
+            if (tryScale(coarsest, scale, best)) return best;
+            if (i > 6) step = 0.85;
+            if (coarsest > 0 && scale * step < kWorthScale * 0.85) break;
+        }
+        return best;
+    }
+
+    Mask makeMask(uint32_t chart, double scale, double band) const {
+        Mask mask;
+        double k = scale * grid_;
+        glm::dvec2 low = low_[chart] * k - glm::dvec2(band), high = high_[chart] * k + glm::dvec2(band);
+        // The chart keeps its place within a cell, so that moving it is moving whole cells.
+        mask.origin = glm::dvec2(std::floor(low.x), std::floor(low.y));
+        mask.width = uint32_t(std::floor(high.x) - mask.origin.x) + 1;
+        mask.height = uint32_t(std::floor(high.y) - mask.origin.y) + 1;
+        mask.words = (mask.width + 63) / 64;
+        mask.bits.assign(size_t(mask.words) * mask.height, 0);
+        auto row = [&](int64_t y, int64_t x0, int64_t x1) { mask.set(uint32_t(y), uint32_t(x0), uint32_t(x1)); };
+        int64_t side = std::max(mask.width, mask.height);
+        for (uint32_t i = firstBorder_[chart]; i < firstBorder_[chart + 1]; ++i) {
+            glm::dvec2 a = mesh_.uvAt(borders_[i]) * k - mask.origin,
+                       b = mesh_.uvAt(BakeMesh::next(borders_[i])) * k - mask.origin;
+            gridSegment(a, b, band + 0.5, side, 0, mask.height, [&](int64_t y, int64_t x0, int64_t x1) {
+                if (x0 < mask.width) row(y, x0, std::min(x1, int64_t(mask.width) - 1));
+            });
+        }
+        fillInside(chart, k, mask);
+        for (uint32_t y = 0; y < mask.height; ++y) findRuns(mask, y);
+        return mask;
+    }
+
+    // Cells whose centre the chart covers: even-odd over its border, row by row.
+    void fillInside(uint32_t chart, double k, Mask& mask) const {
+        std::vector<std::vector<double>> at(mask.height);
+        for (uint32_t i = firstBorder_[chart]; i < firstBorder_[chart + 1]; ++i) {
+            glm::dvec2 a = mesh_.uvAt(borders_[i]) * k - mask.origin,
+                       b = mesh_.uvAt(BakeMesh::next(borders_[i])) * k - mask.origin;
+            if (a.y > b.y) std::swap(a, b);
+            int64_t y0 = std::max(int64_t(0), int64_t(std::ceil(a.y - 0.5)));
+            int64_t y1 = std::min(int64_t(mask.height), int64_t(std::ceil(b.y - 0.5)));
+            for (int64_t y = y0; y < y1; ++y)
+                at[size_t(y)].push_back(a.x + (b.x - a.x) * (double(y) + 0.5 - a.y) / (b.y - a.y));
+        }
+        for (uint32_t y = 0; y < mask.height; ++y) {
+            auto& x = at[y];
+            std::sort(x.begin(), x.end());
+            for (size_t i = 0; i + 1 < x.size(); i += 2) {
+                int64_t x0 = std::max(int64_t(0), int64_t(std::ceil(x[i] - 0.5)));
+                int64_t x1 = std::min(int64_t(mask.width) - 1, int64_t(std::floor(x[i + 1] - 0.5)));
+                if (x0 <= x1) mask.set(y, uint32_t(x0), uint32_t(x1));
+            }
+        }
+    }
+
+    static void findRuns(Mask& mask, uint32_t y) {
+        auto bit = [&](uint32_t x) { return (mask.bits[size_t(y) * mask.words + x / 64] >> (x % 64)) & 1; };
+        for (uint32_t x = 0; x < mask.width;) {
+            if (!bit(x)) {
+                ++x;
+                continue;
+            }
+            uint32_t from = x;
+            while (x < mask.width && bit(x)) ++x;
+            mask.runs.push_back({y, from, x - from});
+            mask.cells += x - from;
+        }
+    }
+
+    bool tryScale(uint32_t coarsest, double scale, Placement& out) const {
+        uint32_t charts = mesh_.chartCount();
+        std::vector<Mask> masks(charts);
+        parallelFor(charts, 16, [&](size_t begin, size_t end) {
+            for (size_t c = begin; c < end; ++c)
+                masks[c] = makeMask(uint32_t(c), scale, bandCells(levelOf(uint32_t(c), scale, coarsest)));
+        });
+        uint64_t cells = 0;
+        for (const Mask& m : masks) {
+            cells += m.cells;
+            if (m.width > grid_ || m.height > grid_) return false;
+        }
+        if (cells > uint64_t(grid_) * grid_) return false;
+        std::vector<uint32_t> order(charts);
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+            return std::max(masks[a].width, masks[a].height) > std::max(masks[b].width, masks[b].height);
+        });
+        uint32_t words = grid_ / 64;
+        std::vector<uint64_t> taken(size_t(words) * grid_, 0), blocked(words), shifted(words);
+        std::vector<glm::dvec2> offset(charts);
+        for (uint32_t c : order) {
+            uint32_t x, y;
+            if (!place(masks[c], taken, blocked, shifted, x, y)) return false;
+            for (const auto& [row, first, length] : masks[c].runs)
+                for (uint32_t i = 0; i < length; ++i)
+                    taken[size_t(y + row) * words + (x + first + i) / 64] |= uint64_t(1) << ((x + first + i) % 64);
+            offset[c] = (glm::dvec2(x, y) - masks[c].origin) / double(grid_);
+        }
+        out.scale = scale;
+        out.offset = std::move(offset);
+        out.coarsest.resize(charts);
+        for (uint32_t c = 0; c < charts; ++c) out.coarsest[c] = levelOf(c, scale, coarsest);
+        return true;
+    }
+
+    // bits[x] of `row` shifted down by n: result bit x is bit x + n.
+    static void shiftDown(std::vector<uint64_t>& row, uint32_t n) {
+        uint32_t whole = n / 64, part = n % 64;
+        size_t words = row.size();
+        for (size_t i = 0; i < words; ++i) {
+            uint64_t low = i + whole < words ? row[i + whole] : 0;
+            uint64_t high = i + whole + 1 < words ? row[i + whole + 1] : 0;
+            row[i] = part == 0 ? low : low >> part | high << (64 - part);
+        }
+    }
+
+    // The lowest free row for a mask, then the leftmost column: all columns of a row are tried at once.
+    bool place(const Mask& mask, const std::vector<uint64_t>& taken, std::vector<uint64_t>& blocked,
+               std::vector<uint64_t>& shifted, uint32_t& outX, uint32_t& outY) const {
+        uint32_t words = grid_ / 64;
+        std::vector<uint64_t> other(words);
+        for (uint32_t y = 0; y + mask.height <= grid_; ++y) {
+            for (uint32_t w = 0; w < words; ++w) {
+                // Columns from which the mask would reach past the right border.
+                uint64_t b = 0;
+                for (uint32_t i = 0; i < 64; ++i)
+                    if (w * 64 + i + mask.width > grid_) {
+                        b = ~uint64_t(0) << i;
+                        break;
+                    }
+                blocked[w] = b;
+            }
+            bool full = false;
+            for (const auto& [row, first, length] : mask.runs) {
+                const uint64_t* from = &taken[size_t(y + row) * words];
+                uint64_t any = 0;
+                for (uint32_t w = 0; w < words; ++w) any |= shifted[w] = from[w];
+                if (!any) continue;
+                // Bit x of `shifted` becomes: any of bits x to x + length - 1 is taken.
+                for (uint32_t have = 1; have < length;) {
+                    uint32_t step = std::min(have, length - have);
+                    other = shifted;
+                    shiftDown(other, step);
+                    for (uint32_t w = 0; w < words; ++w) shifted[w] |= other[w];
+                    have += step;
+                }
+                shiftDown(shifted, first);
+                uint64_t open = 0;
+                for (uint32_t w = 0; w < words; ++w) open |= ~(blocked[w] |= shifted[w]);
+                if (!open) {
+                    full = true;
+                    break;
+                }
+            }
+            if (full) continue;
+            for (uint32_t w = 0; w < words; ++w)
+                if (~blocked[w]) {
+                    outX = w * 64 + uint32_t(std::countr_one(blocked[w]));
+                    outY = y;
+                    return true;
+                }
+        }
+        return false;
+    }
+
+    const BakeMesh& mesh_;
+    uint32_t resolution_, levels_, grid_;
+    std::vector<glm::dvec2> low_, high_;
+    std::vector<double> uvArea_;
+    std::vector<uint32_t> borders_, firstBorder_;
+};
+
+}  // namespace
+
+Placement packCharts(const BakeMesh& mesh, uint32_t resolution, uint32_t levels) {
+    return Packer(mesh, resolution, levels).run();
+}
+
+}  // namespace espalier::bakery
