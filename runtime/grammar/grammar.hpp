@@ -22,9 +22,9 @@ struct ParamInfo {
     std::string name, unit, label;
     ParamKind kind = ParamKind::number;
     float minimum = 0, maximum = 1;
-    float standard[3] = {};   // the text's default
+    float standard[3] = {};  // the text's default
     float value[3] = {};
-    uint32_t slot = 0;        // first bit in the masks of parameters
+    uint32_t slot = 0;  // first bit in the masks of parameters
 };
 
 // A painted layer that the grammar reads. fill: its value where nothing is painted.
@@ -36,7 +36,7 @@ struct ContextInfo {
 struct SymbolInfo {
     std::string name;
     uint32_t argCount = 0;
-    bool grows = false;       // it reaches Marching: a seed may start with it
+    bool grows = false;  // it reaches Marching: a seed may start with it
 };
 
 // A mesh that Shape("name") may ask for. bark: bent along spans; else set on them as loose instances.
@@ -53,8 +53,8 @@ std::vector<TerminalMesh> standardTerminalMeshes();
 using IncludeReader = std::function<std::optional<std::string>(const std::string& name)>;
 
 struct CompileOptions {
-    std::string fileName = "grammar";    // for diagnostics
-    IncludeReader readInclude;           // none: includes are refused
+    std::string fileName = "grammar";  // for diagnostics
+    IncludeReader readInclude;         // none: includes are refused
     std::vector<TerminalMesh> meshes = standardTerminalMeshes();
 };
 
@@ -101,11 +101,21 @@ class RuleMap {
     std::vector<Diagnostic> warnings_;
     std::vector<uint32_t> words_;
     struct Section {
-        uint32_t offset = 0, count = 0;   // in words_; in records
+        uint32_t offset = 0, count = 0;  // words; records
     };
-    static constexpr uint32_t kSections = 7;
+    static constexpr uint32_t kSections = 8;
     Section sections_[kSections];
-    std::vector<uint32_t> uniforms_;   // code that runs on the host when a parameter changes, see uniforms.hpp
+    // What follows from parameters: code that the host runs, its results, and the words that take them.
+    struct Uniform {
+        CodeRange code;
+        Value value;
+    };
+    struct Patch {
+        uint32_t uniform, word;
+    };
+    std::vector<CodeWord> uniformCode_;
+    std::vector<Uniform> uniforms_;
+    std::vector<Patch> patches_;
 };
 
 // Compiles a text. Never throws, hangs or crashes on any bytes; all mistakes found are in the failure.

@@ -118,6 +118,12 @@ FN float valueOf(MACHINE_PARAM Value value) {
     return value.slot == kSlotImmediate ? value.immediate : SLOT(value.slot);
 }
 
+// After `select` has run: the number of the chosen rule among the symbol's, or -1. Within bounds whatever a map says.
+FN int selectedRule(MACHINE_PARAM SymbolRecord symbol) {
+    float n = valueOf(MACHINE symbol.selected);
+    return n < 0.0f ? -1 : int(smaller(n, float(symbol.ruleCount) - 1.0f));
+}
+
 // Fills the draw slots of a stage. instanceKey: for sites inside a Repeat; elsewhere hand the same key twice.
 FN void drawSites(MACHINE_PARAM UintBuf sites, uint firstSite, uint siteCount, u64 key, u64 instanceKey) {
     for (uint j = 0u; j < siteCount; ++j) {

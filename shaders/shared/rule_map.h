@@ -15,8 +15,9 @@
 //   3. successor's key = childKey(shape's key, nameHash, ordinal).
 //   4. Second pass, for the span of a recorded node: per terminal of its extrude program draw the gate sites, run
 //      `gate` -> count; for i below min(count, kMaxRepeat): draw the body sites, set kSlotIndex to i, run `body`
-//      -> size, t, lift, turn, pitch, tint. A bark terminal (kTerminalBark) sets the span's radius (= size), and
-//      kSlotRadius for what follows it; the first bark with count >= 1 counts. Bark stands first in a program.
+//      -> size, t, lift, turn, pitch, tint; with a size of 0 or less this instance isn't drawn. A bark terminal
+//      (kTerminalBark) sets the span's radius (= size), and kSlotRadius for what follows it; the first bark with
+//      count >= 1 counts. Bark stands first in a program.
 // "Draw" means: for j < siteCount: machine slot kSlotDraw + j = uniformRandom(key, sites[firstSite + j]), see
 // drawSites. "Give inputs" means: fill the slots that the masks name; unnamed ones need not be filled.
 #ifndef ESPALIER_SHARED_RULE_MAP_H

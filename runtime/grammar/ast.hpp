@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+// What the parser leaves: declarations and rules, in the text's order. It knows no rule kinds, commands or
+// functions by name; vocabulary.hpp lists those, and check and lowering consult it.
+namespace espalier::grammar {
+
+struct Place {
+    uint32_t file = 0;  // index into Module::files
+    int line = 0, column = 0;
+};
+
+using ExprId = uint32_t;
+inline constexpr ExprId kNoExpr = 0xFFFFFFFFu;
+
+enum class ExprKind : uint8_t { number, string, name, call, unary, binary, choice };
+
+// `text`: the name ("n", "context.mask", "normal.y"), the called function, the operator, or the string.
+struct Expr {
+    ExprKind kind = ExprKind::number;
+    std::string text;
+    float value = 0;
+    std::vector<ExprId> kids;
+    Place place;
+    int depth = 1;  // of the tree below, limited by the parser so that walks over it may recurse
+};
+
+struct Element;
+using Sequence = std::vector<Element>;
+
+// Name(args) {item, item}, or "[" or "]".
+struct Element {
+    std::string name;
+    std::vector<ExprId> args;
+    bool hasItems = false;
+    std::vector<Sequence> items;
+    Place place;
+};
+
+struct Rule {
+    std::string predecessor;
+    std::vector<std::string> args;
+    ExprId condition = kNoExpr;
+    Sequence successor;
+    ExprId probability = kNoExpr;
+    Place place;
+};
+
+struct ParamDeclaration {
+    std::string name, unit, label;
+    ExprId standard = kNoExpr, minimum = kNoExpr, maximum = kNoExpr;
+    bool toggle = false, colour = false;
+    float rgb[3] = {};
+    Place place;
+};
+
+struct ContextDeclaration {
+    std::string name, label;
+    ExprId fill = kNoExpr;
+    Place place;
+};
+
+struct LetDeclaration {
+    std::string name;
+    ExprId value = kNoExpr;
+    Place place;
+};
+
+struct Module {
+    std::vector<std::string> files;  // 0: the main text
+    std::vector<Expr> exprs;
+    std::vector<Rule> rules;
+    std::vector<ParamDeclaration> params;
+    std::vector<ContextDeclaration> contexts;
+    std::vector<LetDeclaration> lets;
+};
+
+// Collects diagnostics, up to a number that a reader can still use.
+class Reporter {
+  public:
+    explicit Reporter(Module& module) : module_(module) {}
+    void error(const Place& place, const std::string& rule, std::string message) { add(place, rule, message, false); }
+    void warning(const Place& place, const std::string& rule, std::string message) { add(place, rule, message, true); }
+    bool failed() const { return failed_; }
+    bool full() const { return all_.size() >= 40; }
+    std::vector<Diagnostic>& all() { return all_; }
+
+  private:
+    void add(const Place& place, const std::string& rule, std::string& message, bool warning) {
+        failed_ = failed_ || !warning;
+        if (full()) return;
+        std::string file = place.file < module_.files.size() ? module_.files[place.file] : std::string();
+        all_.push_back({file, place.line, place.column, rule, std::move(message), warning});
+    }
+    Module& module_;
+    std::vector<Diagnostic> all_;
+    bool failed_ = false;
+};
+
+}  // namespace espalier::grammar

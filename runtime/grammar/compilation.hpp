@@ -1,0 +1,83 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runtime/grammar/codegen.hpp"
+#include "runtime/grammar/expressions.hpp"
+
+// One compilation: what its stages share. Stages in order: parseModule, Expressions::declare, analyseSymbols,
+// lowerGrowth (which calls lowerExtrude), assemble (rule_map_io.hpp).
+namespace espalier::grammar {
+
+// All rules of one predecessor.
+struct Symbol {
+    std::string name;
+    std::vector<uint32_t> rules;  // indices into Module::rules
+    uint32_t argCount = 0;
+    bool grows = false;    // reaches Marching
+    bool vanishes = true;  // derives NULL only
+    bool called = false;
+    uint32_t record = kNoIndex;  // growing ones: index into the map's symbols
+};
+
+inline constexpr uint32_t kNoSymbol = 0xFFFFFFFFu;
+
+struct Compilation {
+    Compilation(const CompileOptions& o)
+        : options(o), reporter(module), expressions(module, reporter, graph), code(graph) {}
+
+    const CompileOptions& options;
+    Module module;
+    Reporter reporter;
+    Graph graph;
+    Expressions expressions;
+    CodeGenerator code;
+
+    std::vector<Symbol> symbols;
+    std::map<std::string, uint32_t> symbolByName;
+    uint32_t startSymbol = 0;  // record index
+
+    std::vector<SymbolRecord> symbolRecords;
+    std::vector<RuleRecord> rules;
+    std::vector<SuccessorRecord> successors;
+    std::vector<ExtrudeRecord> extrudes;
+    std::vector<TerminalRecord> terminals;
+    std::vector<uint32_t> sites;
+
+    uint32_t findSymbol(const std::string& name) const {
+        auto found = symbolByName.find(name);
+        return found == symbolByName.end() ? kNoSymbol : found->second;
+    }
+    // Reports a successor's name that is no symbol, with a hint.
+    void reportUnknown(const Element& element, const std::string& rule);
+    // True if a call's arguments are as many as the symbol takes; else reports.
+    bool checkArgs(const Element& element, const Symbol& symbol, const std::string& rule);
+    // Generates code; reports what goes wrong at `place`.
+    bool generate(std::span<const Node> roots, StageReads& sites, StageReads& reads, CodeRange& range,
+                  std::span<Value> values, const Place& place, const std::string& rule);
+    uint32_t storeSites(const StageReads& reads);
+    // Environment of the number `ordinal` among the rules of its predecessor; args: its arguments' nodes.
+    Env environment(const Rule& rule, uint32_t ordinal, std::span<const Node> args) const;
+    // Which of a symbol's rules applies: the first whose condition holds; among rules of equal condition by
+    // probability. envs: one a rule, in order. Constant -1 where none is left.
+    Node chooseRule(const Symbol& symbol, std::vector<Env>& envs);
+};
+
+// Fills Compilation::symbols: who grows, who calls whom; reports cycles that never march, duplicates, nesting.
+void analyseSymbols(Compilation& c);
+
+// Rules, successors and continuations of the growing symbols.
+void lowerGrowth(Compilation& c);
+
+// The program of an extruded successor of `rule`; args: the nodes of the rule's arguments. Returns its index + 1, or
+// 0 if nothing is drawn or a mistake was reported.
+uint32_t lowerExtrude(Compilation& c, const Rule& rule, uint32_t ordinal, const Sequence& extruded,
+                      std::span<const Node> args);
+
+// Calls fn for every element of a sequence and of the sequences in it.
+void forEachElement(const Sequence& sequence, const std::function<void(const Element&)>& fn);
+
+}  // namespace espalier::grammar

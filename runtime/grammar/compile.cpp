@@ -1,0 +1,103 @@
+// Text -> rule map: parse, declare, analyse, lower, assemble, verify. And the same from a file, with a cache.
+#include <system_error>
+
+#include "runtime/core/file.hpp"
+#include "runtime/core/hash.hpp"
+#include "runtime/grammar/parser.hpp"
+#include "runtime/grammar/rule_map_layout.hpp"
+
+namespace espalier {
+namespace {
+
+// Part of the content hash: raise it whenever the same text compiles to another map.
+constexpr uint64_t kCompilerVersion = 1;
+
+uint64_t contentHashOf(const std::vector<std::string>& sources, const std::vector<std::string>& names,
+                       const std::vector<TerminalMesh>& meshes) {
+    uint64_t hash = kCompilerVersion;
+    for (const std::string& s : sources) hash = hashText(s, mix64(hash + s.size()));
+    for (const std::string& s : names) hash = hashText(s, mix64(hash + s.size()));
+    for (const TerminalMesh& m : meshes) hash = hashText(m.name, mix64(hash + (m.bark ? 1 : 2)));
+    return hash;
+}
+
+Failure failureOf(grammar::Reporter& reporter) {
+    return Failure(std::move(reporter.all()));
+}
+
+struct Parsed {
+    explicit Parsed(const CompileOptions& options) : compilation(options) {}
+    grammar::Compilation compilation;
+    uint64_t contentHash = 0;
+};
+
+void parse(std::string_view text, Parsed& p) {
+    std::vector<std::string> sources;
+    grammar::Compilation& c = p.compilation;
+    grammar::parseModule(text, c.options, c.module, c.reporter, sources);
+    p.contentHash = contentHashOf(sources, c.module.files, c.options.meshes);
+}
+
+Result<RuleMap> compile(Parsed& p) {
+    grammar::Compilation& c = p.compilation;
+    c.expressions.declare();
+    grammar::analyseSymbols(c);
+    // Lowering checks what is in the rules; it can't get stuck on what has been reported so far.
+    grammar::lowerGrowth(c);
+    if (c.reporter.failed()) return failureOf(c.reporter);
+    c.expressions.warnUnused();
+    RuleMap map = RuleMapAccess::assemble(c, p.contentHash);
+    std::string wrong = RuleMapAccess::verify(map);
+    if (!wrong.empty()) return Failure(c.options.fileName, "the compiled map doesn't pass verification: " + wrong);
+    return map;
+}
+
+}  // namespace
+
+Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& options) {
+    Parsed p(options);
+    parse(text, p);
+    return compile(p);
+}
+
+Result<RuleMap> compileGrammarFile(const std::filesystem::path& file, const std::filesystem::path& cacheFolder,
+                                   std::vector<TerminalMesh> meshes) {
+    Result<std::string> text = readTextFile(file);
+    if (!text) return std::move(text.failure());
+    CompileOptions options;
+    options.fileName = file.filename().string();
+    options.meshes = std::move(meshes);
+    std::filesystem::path folder = file.parent_path();
+    options.readInclude = [&folder](const std::string& name) -> std::optional<std::string> {
+        // Includes name files of the same folder only, so that a grammar from the net can't read elsewhere.
+        if (name.empty() || std::filesystem::path(name).filename() != name || name == "..") return std::nullopt;
+        Result<std::string> content = readTextFile(folder / name);
+        if (!content) return std::nullopt;
+        return std::move(content.value());
+    };
+    Parsed p(options);
+    parse(*text, p);
+    if (cacheFolder.empty() || p.compilation.reporter.failed()) return compile(p);
+
+    char name[32];
+    std::snprintf(name, sizeof name, "%016llx.rulemap", static_cast<unsigned long long>(p.contentHash));
+    std::filesystem::path cached = cacheFolder / name;
+    std::error_code code;
+    if (std::filesystem::exists(cached, code)) {
+        Result<std::vector<std::byte>> bytes = readFile(cached);
+        if (bytes) {
+            Result<RuleMap> map = RuleMap::load({reinterpret_cast<const uint8_t*>(bytes->data()), bytes->size()}, name);
+            if (map && map->contentHash() == p.contentHash) return map;
+        }
+    }
+    Result<RuleMap> map = compile(p);
+    if (!map) return map;
+    std::vector<uint8_t> bytes = map->save();
+    Status written = writeFile(cached, std::as_bytes(std::span(bytes)));
+    if (!written)
+        RuleMapAccess::warnings(*map).push_back(
+            {cached.string(), 0, 0, {}, "the compiled grammar can't be cached: " + written.failure().text(), true});
+    return map;
+}
+
+}  // namespace espalier

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "runtime/grammar/ast.hpp"
+#include "runtime/grammar/grammar.hpp"
+#include "runtime/grammar/graph.hpp"
+#include "runtime/grammar/vocabulary.hpp"
+
+namespace espalier::grammar {
+
+// What an expression may refer to. Random numbers get stable sites: they depend on the rule's name, on which of the
+// rules of that name it is, and on their ordinal in it, not on the rest of the grammar.
+struct Env {
+    std::string rule;  // for diagnostics
+    std::vector<std::pair<std::string, Node>> args;
+    Where where = Where::anywhere;
+    uint32_t sitePrefix = 0;
+    uint32_t nextSite = 0;
+};
+
+// Turns expressions into graph nodes; knows the declarations.
+class Expressions {
+  public:
+    Expressions(Module& module, Reporter& reporter, Graph& graph);
+
+    // Reads params, contexts and lets of the module; reports what is wrong with them.
+    void declare();
+
+    // Mistakes are reported; the node is 0 then.
+    Node lower(ExprId expr, Env& env);
+    Node lowerName(const std::string& name, const Place& place, Env& env);
+    // Three nodes of a colour: a colour parameter or three numbers. False: reported.
+    bool lowerColour(const std::vector<ExprId>& args, const Place& place, Env& env, Node (&rgb)[3]);
+    Node randomNumber(Env& env);
+    static Node siteNode(Graph& graph, const Env& env, uint32_t ordinal);
+
+    bool known(const std::string& name) const;
+    // False once the whole compilation has done more than a grammar could need; reports it the first time.
+    bool withinBudget(const Place& place, const std::string& rule);
+    void warnUnused();
+
+    std::vector<ParamInfo> params;
+    std::vector<ContextInfo> contexts;
+    std::vector<Node> directions;  // three nodes each
+
+  private:
+    float constantOf(ExprId expr, const std::string& rule, float otherwise);
+    void declareParam(const ParamDeclaration& p, uint32_t& slots);
+    bool takeName(const std::string& name, const Place& place);
+    Node fail(const Place& place, const Env& env, const std::string& message);
+    Node unknown(const std::string& name, const Place& place, const Env& env);
+    Node accessor(const AccessorInfo& info, const Place& place, const Env& env);
+    Node binary(const Expr& e, Env& env);
+    Node call(const Expr& e, Env& env);
+    Node function(const FunctionInfo& info, const Expr& e, Env& env);
+    Node power(Node x, const Expr& e, Env& env);
+    Node layer(const std::string& name, const Expr& e, const Env& env);
+    bool direction(const Expr& e, Env& env, Node (&xyz)[3]);
+    Node angleTo(const Expr& e, Env& env);
+
+    Module& module_;
+    Reporter& reporter_;
+    Graph& graph_;
+    std::map<std::string, uint32_t> paramByName_, contextByName_, letByName_;
+    std::set<std::string> names_, used_, activeLets_;
+    uint64_t work_ = 0;
+};
+
+}  // namespace espalier::grammar

@@ -1,0 +1,123 @@
+// Hash-consed expressions: folding, a few identities that hold to the bit, classification.
+#include "runtime/grammar/graph.hpp"
+
+#include <algorithm>
+
+namespace espalier::grammar {
+
+Graph::Graph() {
+    constant(0.0f);
+    constant(1.0f);
+}
+
+Node Graph::intern(const GraphNode& node) {
+    uint64_t hash = combineKeys((uint64_t(node.leaf) << 32) | node.op, floatBitsToUint(node.value));
+    for (uint32_t i = 0; i < node.kidCount; ++i) hash = combineKeys(hash, node.kids[i]);
+    std::vector<Node>& bucket = byHash_[hash];
+    for (Node n : bucket) {
+        const GraphNode& other = nodes_[n];
+        bool same = other.leaf == node.leaf && other.op == node.op && other.kidCount == node.kidCount &&
+                    floatBitsToUint(other.value) == floatBitsToUint(node.value) &&
+                    std::equal(node.kids, node.kids + node.kidCount, other.kids);
+        if (same) return n;
+    }
+    nodes_.push_back(node);
+    bucket.push_back(static_cast<Node>(nodes_.size() - 1));
+    return bucket.back();
+}
+
+Node Graph::constant(float value) {
+    GraphNode node;
+    node.leaf = Leaf::constant;
+    node.value = tamed(value);
+    node.boolean = node.value == 0.0f || node.value == 1.0f;
+    return intern(node);
+}
+
+Node Graph::leaf(Leaf kind, uint32_t number) {
+    GraphNode node;
+    node.leaf = kind;
+    node.op = number;
+    node.uniform = kind == Leaf::param;
+    node.params = kind == Leaf::param ? 1u << number : 0u;
+    return intern(node);
+}
+
+// An equal but simpler node, or kNone. Only identities that hold for every number the machine can hold.
+Node Graph::simplified(uint32_t op, Node x, Node y, Node z) {
+    switch (op) {
+        case kOpMove:
+            return x;
+        case kOpAdd:
+            if (isConstant(y, 0.0f)) return x;
+            if (isConstant(x, 0.0f)) return y;
+            break;
+        case kOpSub:
+            if (isConstant(y, 0.0f)) return x;
+            break;
+        case kOpMul:
+            if (isConstant(x, 0.0f) || isConstant(y, 1.0f)) return x;
+            if (isConstant(y, 0.0f) || isConstant(x, 1.0f)) return y;
+            break;
+        case kOpMin:
+        case kOpMax:
+            if (x == y) return x;
+            if (nodes_[x].boolean && nodes_[y].boolean) {
+                float strong = op == kOpMin ? 0.0f : 1.0f;
+                if (isConstant(x)) return isConstant(x, strong) ? x : y;
+                if (isConstant(y)) return isConstant(y, strong) ? y : x;
+            }
+            break;
+        case kOpSelect:
+            if (isConstant(x)) return holds(nodes_[x].value) ? y : z;
+            if (y == z) return y;
+            if (nodes_[x].boolean && isConstant(y, 1.0f) && isConstant(z, 0.0f)) return x;
+            break;
+        case kOpEqual: {
+            // A choice between rules, asked for one of them, is a condition.
+            if (x == y) return one();
+            const GraphNode choice = nodes_[x];
+            bool pushes =
+                isConstant(y) && choice.leaf == Leaf::operation && choice.op == kOpSelect && isConstant(choice.kids[1]);
+            if (!pushes) break;
+            Node rest = make(kOpEqual, choice.kids[2], y);
+            if (isConstant(choice.kids[1], nodes_[y].value)) return either(choice.kids[0], rest);
+            return both(negation(choice.kids[0]), rest);
+        }
+        default:
+            break;
+    }
+    return kNone;
+}
+
+Node Graph::make(uint32_t op, Node x, Node y, Node z) {
+    Node simple = simplified(op, x, y, z);
+    if (simple != kNone) return simple;
+    // Sums and products of one constant have it on the right, so that equal ones meet.
+    if ((op == kOpAdd || op == kOpMul || op == kOpMin || op == kOpMax) && isConstant(x)) std::swap(x, y);
+
+    GraphNode node;
+    node.op = op;
+    Node kids[3] = {x, y, z};
+    bool constant = true, fixed = true, booleans = true;
+    float v[3] = {};
+    for (; node.kidCount < 3 && kids[node.kidCount] != kNone; ++node.kidCount) {
+        uint32_t i = node.kidCount;
+        const GraphNode& kid = nodes_[kids[i]];
+        node.kids[i] = kids[i];
+        node.params |= kid.params;
+        bool kidConstant = kid.leaf == Leaf::constant;
+        constant = constant && kidConstant;
+        fixed = fixed && (kidConstant || kid.uniform);
+        booleans = booleans && (kid.boolean || (op == kOpSelect && i == 0));
+        v[i] = kid.value;
+    }
+    if (constant) return this->constant(applyOperation(op, v[0], v[1], v[2]));
+    node.uniform = fixed;
+    node.boolean = op == kOpLess || op == kOpLessEq || op == kOpEqual ||
+                   (booleans && (op == kOpMul || op == kOpMin || op == kOpMax || op == kOpSelect)) ||
+                   (op == kOpSub && isConstant(x, 1.0f) && nodes_[y].boolean);
+    return intern(node);
+}
+
+}  // namespace espalier::grammar

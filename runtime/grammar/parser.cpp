@@ -1,0 +1,371 @@
+// Tokens -> declarations and rules, by recursive descent. `;` ends a rule but may be left out: a name that is the
+// first of its line and not indented deeper than the rule, or one that an arrow follows, begins the next statement.
+// After a mistake parsing goes on at the next such place.
+#include "runtime/grammar/parser.hpp"
+
+#include <algorithm>
+
+#include "runtime/grammar/lexer.hpp"
+
+namespace espalier::grammar {
+namespace {
+
+constexpr int kMaxDepth = 64;
+constexpr size_t kMaxRules = 1000, kMaxTextBytes = 1 << 20, kMaxFiles = 16;
+
+struct Stop {};  // unwinds to the statement; never leaves this file
+
+class Parser {
+  public:
+    Parser(std::vector<Token> tokens, Module& module, Reporter& reporter)
+        : tokens_(std::move(tokens)), module_(module), reporter_(reporter) {}
+
+    std::vector<Token> includes;  // their string tokens
+
+    void run() {
+        while (!at(TokenKind::end) && !reporter_.full()) {
+            size_t before = at_;
+            try {
+                statement();
+            } catch (Stop) {
+                recover(before);
+            }
+            if (at_ == before) ++at_;
+        }
+    }
+
+  private:
+    const Token& now() const { return tokens_[at_]; }
+    const Token& ahead(size_t n) const { return tokens_[std::min(at_ + n, tokens_.size() - 1)]; }
+    bool at(TokenKind kind) const { return now().kind == kind; }
+    bool at(std::string_view symbol) const { return now().kind == TokenKind::symbol && now().text == symbol; }
+    bool atName(std::string_view name) const { return now().kind == TokenKind::name && now().text == name; }
+    bool accept(std::string_view symbol) {
+        if (!at(symbol)) return false;
+        ++at_;
+        return true;
+    }
+    static std::string shown(const Token& token) {
+        switch (token.kind) {
+            case TokenKind::end:
+                return "the end of the text";
+            case TokenKind::string:
+                return "the text \"" + token.text + "\"";
+            case TokenKind::colour:
+                return "the colour #" + token.text;
+            default:
+                return "'" + token.text + "'";
+        }
+    }
+    [[noreturn]] void fail(const std::string& message) {
+        reporter_.error(now().place, rule_, message);
+        throw Stop{};
+    }
+    void expect(std::string_view symbol, const char* where) {
+        if (accept(symbol)) return;
+        fail("expected '" + std::string(symbol) + "' " + where + ", found " + shown(now()));
+    }
+    std::string expectName(const char* what) {
+        if (!at(TokenKind::name)) fail(std::string("expected ") + what + ", found " + shown(now()));
+        return tokens_[at_++].text;
+    }
+
+    // A name with optional parenthesised arguments and then an arrow?
+    bool arrowFollowsName() const {
+        size_t i = at_ + 1;
+        if (i < tokens_.size() && tokens_[i].kind == TokenKind::symbol && tokens_[i].text == "(") {
+            int open = 0;
+            for (size_t limit = i + 40; i < tokens_.size() && i < limit; ++i) {
+                if (tokens_[i].kind != TokenKind::symbol) continue;
+                if (tokens_[i].text == "(") ++open;
+                if (tokens_[i].text == ")" && --open == 0) break;
+            }
+            ++i;
+        }
+        return i < tokens_.size() && tokens_[i].kind == TokenKind::symbol && tokens_[i].text == "->";
+    }
+    bool statementBegins() const {
+        if (!at(TokenKind::name)) return false;
+        return (now().firstOnLine && now().place.column <= column_) || arrowFollowsName();
+    }
+    void recover(size_t before) {
+        if (at_ == before) ++at_;
+        while (!at(TokenKind::end)) {
+            if (accept(";")) return;
+            if (now().firstOnLine && at(TokenKind::name) && now().place.column <= column_) return;
+            ++at_;
+        }
+    }
+
+    void statement() {
+        rule_.clear();
+        nesting_ = 0;
+        column_ = now().place.column;
+        if (accept(";")) return;
+        if (!at(TokenKind::name)) fail("expected a rule or a declaration, found " + shown(now()));
+        bool isRule = ahead(1).kind == TokenKind::symbol;  // "param(n) -> ..." would be a rule
+        if (!isRule && atName("include")) return include();
+        if (!isRule && atName("param")) return param();
+        if (!isRule && atName("context")) return context();
+        if (!isRule && atName("let")) return let();
+        rule();
+    }
+    void include() {
+        ++at_;
+        if (!at(TokenKind::string)) fail("include needs a file's name between quotes");
+        includes.push_back(tokens_[at_++]);
+        accept(";");
+    }
+    void param() {
+        ++at_;
+        ParamDeclaration p;
+        p.place = now().place;
+        p.name = rule_ = expectName("the parameter's name");
+        expect("=", "and the default behind the parameter's name");
+        if (at(TokenKind::colour)) {
+            p.colour = true;
+            std::copy(now().rgb, now().rgb + 3, p.rgb);
+            ++at_;
+        } else {
+            p.toggle = atName("true") || atName("false");
+            p.standard = expression();
+        }
+        if (accept("[")) {
+            p.minimum = expression();
+            expect("..", "between the least and the greatest value");
+            p.maximum = expression();
+            expect("]", "behind the range");
+        }
+        // One text is the label, two are unit and label.
+        if (at(TokenKind::string)) p.label = tokens_[at_++].text;
+        if (at(TokenKind::string)) {
+            p.unit = p.label;
+            p.label = tokens_[at_++].text;
+        }
+        accept(";");
+        module_.params.push_back(std::move(p));
+    }
+    void context() {
+        ++at_;
+        ContextDeclaration c;
+        c.place = now().place;
+        c.name = rule_ = expectName("the painted layer's name");
+        if (accept("=")) c.fill = expression();
+        if (at(TokenKind::string)) c.label = tokens_[at_++].text;
+        accept(";");
+        module_.contexts.push_back(std::move(c));
+    }
+    void let() {
+        ++at_;
+        LetDeclaration l;
+        l.place = now().place;
+        l.name = rule_ = expectName("a name behind let");
+        expect("=", "behind the name");
+        l.value = expression();
+        accept(";");
+        module_.lets.push_back(std::move(l));
+    }
+
+    void rule() {
+        Rule r;
+        r.place = now().place;
+        r.predecessor = rule_ = expectName("the predecessor");
+        if (accept("(")) {
+            while (!at(")")) {
+                r.args.push_back(expectName("an argument's name"));
+                if (!accept(",")) break;
+            }
+            expect(")", "behind the arguments");
+        }
+        if (accept(":")) r.condition = expression();
+        expect("->", r.condition == kNoExpr ? "behind the predecessor" : "behind the condition");
+        r.successor = sequence(1);
+        if (r.successor.empty())
+            fail("expected a successor behind ->, found " + shown(now()) + " (NULL stands for none)");
+        if (accept(":")) r.probability = expression();
+        bool ended = accept(";");
+        if (module_.rules.size() >= kMaxRules) fail("more than 1,000 rules");
+        module_.rules.push_back(std::move(r));
+        if (!ended && !at(TokenKind::end) && !statementBegins())
+            fail("expected ';' or the next rule, found " + shown(now()));
+    }
+    // Elements up to whatever can't be one.
+    Sequence sequence(int depth) {
+        if (depth > 12) fail("successors are nested too deeply (12 levels are the most)");
+        Sequence all;
+        while (true) {
+            if (depth == 1 && statementBegins()) return all;
+            if (at("[") || at("]")) {
+                Element bracket;
+                bracket.name = now().text;
+                bracket.place = now().place;
+                ++at_;
+                all.push_back(std::move(bracket));
+            } else if (at(TokenKind::name)) {
+                all.push_back(element(depth));
+            } else {
+                return all;
+            }
+            if (all.size() > 200) fail("more than 200 successors in a row");
+        }
+    }
+    Element element(int depth) {
+        Element e;
+        e.place = now().place;
+        e.name = expectName("a successor");
+        if (accept("(")) e.args = arguments();
+        if (accept("{")) {
+            e.hasItems = true;
+            while (!at("}")) {
+                e.items.push_back(sequence(depth + 1));
+                if (e.items.back().empty())
+                    fail("expected a successor, found " + shown(now()) + " (NULL stands for none)");
+                if (e.items.size() > 64) fail("more than 64 successors");
+                if (!accept(",")) break;
+            }
+            expect("}", "behind the successors");
+        }
+        return e;
+    }
+    std::vector<ExprId> arguments() {
+        std::vector<ExprId> all;
+        while (!at(")")) {
+            all.push_back(expression());
+            if (all.size() > 16) fail("more than 16 arguments");
+            if (!accept(",")) break;
+        }
+        expect(")", "behind the arguments");
+        return all;
+    }
+
+    ExprId add(Expr e) {
+        for (ExprId kid : e.kids) e.depth = std::max(e.depth, module_.exprs[kid].depth + 1);
+        if (e.depth > kMaxDepth) {
+            reporter_.error(e.place, rule_, "the expression is nested too deeply (64 levels are the most)");
+            throw Stop{};
+        }
+        module_.exprs.push_back(std::move(e));
+        return static_cast<ExprId>(module_.exprs.size() - 1);
+    }
+    ExprId binary(const Token& op, ExprId a, ExprId b) {
+        return add({ExprKind::binary, op.text, 0, {a, b}, op.place, 1});
+    }
+
+    ExprId expression() {
+        if (++nesting_ > kMaxDepth) {
+            nesting_ = 0;
+            fail("the expression is nested too deeply (64 levels are the most)");
+        }
+        ExprId test = level(0);
+        if (at("?")) {
+            Place place = tokens_[at_++].place;
+            ExprId yes = expression();
+            expect(":", "between the two values of a choice");
+            ExprId no = expression();
+            test = add({ExprKind::choice, "?", 0, {test, yes, no}, place, 1});
+        }
+        --nesting_;
+        return test;
+    }
+    // Left-associative operators, the weakest first.
+    ExprId level(int l) {
+        static const std::vector<std::string_view> kLevels[] = {
+            {"||", "or"}, {"&&", "and"}, {"==", "!=", "<", "<=", ">", ">="}, {"+", "-"}, {"*", "/", "%"}};
+        if (l == 5) return unary();
+        ExprId left = level(l + 1);
+        while ((at(TokenKind::symbol) || at(TokenKind::name)) && !(at(TokenKind::name) && now().firstOnLine)) {
+            const auto& here = kLevels[l];
+            if (std::find(here.begin(), here.end(), now().text) == here.end()) break;
+            Token op = tokens_[at_++];
+            if (op.text == "or") op.text = "||";
+            if (op.text == "and") op.text = "&&";
+            left = binary(op, left, level(l + 1));
+        }
+        return left;
+    }
+    ExprId unary() {
+        if (at("-") || at("!") || at("+") || atName("not")) {
+            Token op = tokens_[at_++];
+            if (++nesting_ > kMaxDepth) {
+                nesting_ = 0;
+                fail("the expression is nested too deeply (64 levels are the most)");
+            }
+            ExprId inner = unary();
+            --nesting_;
+            if (op.text == "+") return inner;
+            return add({ExprKind::unary, op.text == "not" ? "!" : op.text, 0, {inner}, op.place, 1});
+        }
+        return primary();
+    }
+    ExprId primary() {
+        Token token = now();
+        if (at(TokenKind::number)) {
+            ++at_;
+            return add({ExprKind::number, token.text, token.value, {}, token.place, 1});
+        }
+        if (at(TokenKind::string)) {
+            ++at_;
+            return add({ExprKind::string, token.text, 0, {}, token.place, 1});
+        }
+        if (accept("(")) {
+            ExprId inner = expression();
+            expect(")", "behind the expression");
+            return inner;
+        }
+        if (!at(TokenKind::name)) fail("expected a value, found " + shown(now()));
+        ++at_;
+        Expr e{ExprKind::name, token.text, 0, {}, token.place, 1};
+        while (at(".")) {
+            ++at_;
+            e.text += "." + expectName("a name behind the dot");
+            if (e.text.size() > 200) fail("a name of more than 200 characters");
+        }
+        if (accept("(")) {
+            e.kind = ExprKind::call;
+            e.kids = arguments();
+        }
+        return add(std::move(e));
+    }
+
+    std::vector<Token> tokens_;
+    Module& module_;
+    Reporter& reporter_;
+    size_t at_ = 0;
+    int column_ = 1, nesting_ = 0;
+    std::string rule_;
+};
+
+void parseFile(std::string_view text, const std::string& name, const CompileOptions& options, Module& module,
+               Reporter& reporter, std::vector<std::string>& sources) {
+    uint32_t file = static_cast<uint32_t>(module.files.size());
+    module.files.push_back(name);
+    sources.emplace_back(text);
+    if (text.size() > kMaxTextBytes) {
+        reporter.error({file, 0, 0}, {}, "the text is longer than 1 MiB");
+        return;
+    }
+    Parser parser(lex(text, file, reporter), module, reporter);
+    parser.run();
+    for (const Token& included : parser.includes) {
+        const std::string& wanted = included.text;
+        if (std::find(module.files.begin(), module.files.end(), wanted) != module.files.end()) continue;
+        if (module.files.size() >= kMaxFiles) {
+            reporter.error(included.place, {}, "more than 16 included files");
+            return;
+        }
+        std::optional<std::string> content = options.readInclude ? options.readInclude(wanted) : std::nullopt;
+        if (content)
+            parseFile(*content, wanted, options, module, reporter, sources);
+        else
+            reporter.error(included.place, {}, "can't read the included file \"" + wanted + "\"");
+    }
+}
+
+}  // namespace
+
+void parseModule(std::string_view text, const CompileOptions& options, Module& module, Reporter& reporter,
+                 std::vector<std::string>& sources) {
+    parseFile(text, options.fileName, options, module, reporter, sources);
+}
+
+}  // namespace espalier::grammar

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "runtime/grammar/compilation.hpp"
+
+// The layout of RuleMap's words, shared by assembly, evaluation, saving and loading.
+namespace espalier {
+
+enum MapSection : uint32_t {
+    kSectionSymbols,
+    kSectionRules,
+    kSectionSuccessors,
+    kSectionExtrudes,
+    kSectionTerminals,
+    kSectionCode,
+    kSectionSites,
+    kSectionDirections
+};
+inline constexpr uint32_t kRecordWords[] = {sizeof(SymbolRecord) / 4,
+                                            sizeof(RuleRecord) / 4,
+                                            sizeof(SuccessorRecord) / 4,
+                                            sizeof(ExtrudeRecord) / 4,
+                                            sizeof(TerminalRecord) / 4,
+                                            sizeof(CodeWord) / 4,
+                                            1,
+                                            sizeof(vec4) / 4};
+
+// Where in a record of that section Values stand (in words); a code word's immediate is patched too, but is none.
+std::span<const uint32_t> valueOffsets(uint32_t section);
+
+struct RuleMapAccess {
+    using Section = RuleMap::Section;
+    using Uniform = RuleMap::Uniform;
+    using Patch = RuleMap::Patch;
+    static constexpr uint32_t kSections = RuleMap::kSections;
+
+    // What compiling left, as a map; false if it became too large.
+    static RuleMap assemble(grammar::Compilation& c, uint64_t contentHash);
+    // Runs the uniform code for the parameters' values and patches the words.
+    static void evaluate(RuleMap& map);
+    // Empty, or what is wrong: every index, range and operation is checked.
+    static std::string verify(const RuleMap& map);
+
+    template <class T>
+    static T record(const RuleMap& map, uint32_t section, uint32_t index) {
+        T r;
+        std::memcpy(static_cast<void*>(&r), &map.words_[map.sections_[section].offset + index * kRecordWords[section]],
+                    sizeof(T));
+        return r;
+    }
+    static uint32_t count(const RuleMap& map, uint32_t section) { return map.sections_[section].count; }
+    static std::vector<Diagnostic>& warnings(RuleMap& map) { return map.warnings_; }
+};
+
+}  // namespace espalier

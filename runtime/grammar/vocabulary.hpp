@@ -1,0 +1,88 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/grammar/ast.hpp"
+
+// The words of the language, as tables. A new rule kind, command, function or accessor is a row here and a case in
+// the lowering; lexer and parser stay as they are.
+namespace espalier::grammar {
+
+enum class Block : uint8_t { marching, branch, repeat, later };
+// Name(args) {items}
+struct BlockInfo {
+    std::string_view name;
+    Block kind;
+    uint32_t minArgs, maxArgs, minItems, maxItems;
+    std::string_view usage;
+};
+const BlockInfo* findBlock(std::string_view name);
+
+enum class Command : uint8_t { size, translate, rotate, tint, colour, shape, push, pop, null };
+struct CommandInfo {
+    std::string_view name;
+    Command kind;
+    uint32_t minArgs, maxArgs;
+    std::string_view usage;
+};
+const CommandInfo* findCommand(std::string_view name);
+
+enum class Function : uint8_t {
+    random,
+    minimum,
+    maximum,
+    clamp,
+    mix,
+    absolute,
+    floor,
+    ceil,
+    fract,
+    sign,
+    sqrt,
+    sin,
+    cos,
+    power,
+    smoothstep,
+    angleTo,
+    facing,
+    every
+};
+struct FunctionInfo {
+    std::string_view name;
+    Function kind;
+    uint32_t minArgs, maxArgs;
+    std::string_view usage;
+};
+const FunctionInfo* findFunction(std::string_view name);
+
+enum class Where : uint8_t { anywhere, onSpans, inRepeat };
+struct AccessorInfo {
+    std::string_view name;
+    uint32_t slot;
+    Where where;
+};
+const AccessorInfo* findAccessor(std::string_view name);
+
+struct DirectionInfo {
+    std::string_view name;
+    float x, y, z;
+};
+const DirectionInfo* findDirection(std::string_view name);
+
+// A name that declarations and rules may not take, and why; empty if free.
+std::string reservedFor(std::string_view name);
+
+std::vector<std::string> functionNames();
+std::vector<std::string> accessorNames();
+std::vector<std::string> successorNames();  // blocks and commands
+
+// " (did you mean 'x'?)" for the candidate nearest to `name`, or nothing if none is near.
+std::string didYouMean(std::string_view name, std::span<const std::string> candidates);
+
+// FNV-1a, 32 bits: how names enter keys.
+uint32_t nameHash(std::string_view name);
+
+}  // namespace espalier::grammar
