@@ -1,0 +1,173 @@
+// In: growth's inputs with pointers for addresses. Out: the same records as the GPU's. Waves are taken in turn, items
+// in the order in which they were pushed; running out of room is answered as on the GPU.
+#include "runtime/expand/cpu_growth.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "runtime/expand/growth_plan.hpp"
+#include "shaders/shared/expand_fit.h"
+#include "shaders/shared/expand_grow.h"
+#include "shaders/shared/expand_terminals.h"
+
+namespace espalier {
+namespace {
+
+struct Attempt {
+    CpuGrowth out;
+    GrowStatus status;
+    std::vector<Wave> waves;
+};
+
+void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const GrowthRoom& room) {
+    std::vector<WorkItem> queue[2];
+    queue[0] = itemsOfSeeds(inputs.seeds);
+    queue[0].resize(room.items);
+    queue[1].resize(room.items);
+    std::vector<Node> scratch(kChunkNodes);
+    env.scratch = {scratch.data()};
+    uint32_t w = 0;
+    for (; w + 1 < a.waves.size() && a.waves[w].count > 0; ++w) {
+        env.wave = w;
+        env.nextItems = {queue[(w + 1) & 1].data()};
+        uint32_t count = std::min(a.waves[w].count, room.items);
+        for (uint32_t i = 0; i < count; ++i) {
+            Machine machine;
+            growChunk(machine, env, queue[w & 1][i], 0);
+        }
+    }
+    a.waves.resize(w + 1);
+}
+
+void runTerminals(Attempt& a, ExpandEnv env) {
+    GrowStatus& s = a.status;
+    if (s.nodes > s.nodeCapacity || s.branches > s.branchCapacity || s.chunks > s.chunkCapacity) return;
+    std::vector<uint32_t> density(s.leafDensityCap > 0 ? kDensityCells : 1);
+    env.density = {density.data()};
+    uvec2 hash(0, 0);
+    for (uint32_t phase : {kTerminalsCount, kTerminalsWrite}) {
+        if (phase == kTerminalsCount && s.leafDensityCap <= 0) continue;
+        env.phase = phase;
+        for (uint32_t i = 0; i < s.nodes; ++i) {
+            Machine machine;
+            finishNode(machine, env, i, hash);
+        }
+    }
+    for (uint32_t i = 0; i < s.branches; ++i) fitBranch(env, i);
+    for (uint32_t i = 0; i < s.nodes; ++i) hash += fitNode(env, i);
+    s.hash[0] = hash.x;
+    s.hash[1] = hash.y;
+}
+
+Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const GrowthCut& cut) {
+    Attempt a;
+    a.out.nodes.resize(room.nodes);
+    a.out.chunks.resize(room.chunks);
+    a.out.branches.resize(room.branches);
+    a.out.leaves.resize(room.leaves);
+    a.status = freshStatus(inputs.limits, room, cut, 1);
+    a.waves.assign(inputs.limits.maxDepth + 2u, Wave{});
+    a.waves[0] = firstWave(uint32_t(inputs.seeds.size()), room, 1);
+    std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
+    std::vector<float> widths(inputs.widths.begin(), inputs.widths.end());
+    widths.resize(grammars.size());
+
+    ExpandEnv env{};
+    env.surfaces = inputs.surfaces;
+    env.layers = inputs.layers;
+    env.grammars = {grammars.data()};
+    env.widths = {widths.data()};
+    env.nodes = {a.out.nodes.data()};
+    env.chunks = {a.out.chunks.data()};
+    env.branches = {a.out.branches.data()};
+    env.leaves = {a.out.leaves.data()};
+    env.status = {&a.status};
+    env.waves = {a.waves.data()};
+    runWaves(a, env, inputs, room);
+    runTerminals(a, env);
+    return a;
+}
+
+// A growth's branches by key, as their nodes in order.
+std::multimap<uint64_t, uint32_t> branchesByKey(const CpuGrowth& g) {
+    std::multimap<uint64_t, uint32_t> keys;
+    for (uint32_t i = 0; i < g.branches.size(); ++i) keys.emplace(g.chunks[g.branches[i].firstChunk].key, i);
+    return keys;
+}
+std::vector<Node> nodesOfBranch(const CpuGrowth& g, uint32_t branch) {
+    std::vector<Node> nodes;
+    for (uint32_t c = g.branches[branch].firstChunk; c != kNoIndex; c = g.chunks[c].next) {
+        const Chunk& chunk = g.chunks[c];
+        for (uint32_t i = 0; i < chunk.nodeCount; ++i) nodes.push_back(g.nodes[chunk.firstNode + i]);
+    }
+    return nodes;
+}
+
+std::string decisionAt(const std::vector<Node>& a, const std::vector<Node>& b, float& farthest) {
+    size_t n = std::min(a.size(), b.size());
+    for (size_t i = 0; i < n; ++i) {
+        const Node &x = a[i], &y = b[i];
+        farthest = std::max(farthest, glm::length(x.position - y.position));
+        std::string at = "node " + std::to_string(i) + ": ";
+        if (x.place != y.place) return at + "charts " + std::to_string(x.place) + " and " + std::to_string(y.place);
+        if ((x.flags ^ y.flags) & kNodeInserted) return at + "only one has a sample here";
+        if (x.position != y.position || x.arc != y.arc) return at + "positions";
+        if (x.tangent != y.tangent || x.normal != y.normal || x.uv != y.uv) return at + "frames";
+        if (x.radius != y.radius) return at + "radii";
+        if (x.flags != y.flags) return at + "flags";
+    }
+    return a.size() == b.size() ? "" : std::to_string(a.size()) + " and " + std::to_string(b.size()) + " nodes";
+}
+
+}  // namespace
+
+Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs) {
+    Status usable = checkInputs(inputs);
+    if (!usable) return usable.failure();
+    GrowthRoom room;
+    room.items = std::max(room.items, uint32_t(inputs.seeds.size()));
+    GrowthCut cut = noCut(inputs.limits);
+    for (uint32_t overflow = 0; overflow < 48; ++overflow) {
+        Attempt a = attempt(inputs, room, cut);
+        Verdict verdict = judge(a.status, a.waves, inputs.limits, room, cut);
+        if (verdict == Verdict::impossible) break;
+        if (verdict == Verdict::retry) continue;
+        CpuGrowth& out = a.out;
+        out.nodes.resize(a.status.nodes);
+        out.chunks.resize(a.status.chunks);
+        out.branches.resize(a.status.branches);
+        out.leaves.resize(a.status.leaves);
+        out.stats.seeds = uint32_t(inputs.seeds.size());
+        takeCounters(a.status, out.stats);
+        out.stats.waves = uint32_t(a.waves.size()) - 1;
+        out.stats.overflow = overflow;
+        out.stats.expansions = 1;
+        return std::move(a.out);
+    }
+    return Failure("growth", "the limit of " + std::to_string(inputs.limits.maxNodes) + " nodes leaves room for nothing");
+}
+
+GrowthDifference compareGrowth(const CpuGrowth& a, const CpuGrowth& b) {
+    constexpr size_t kMostNotes = 16;
+    GrowthDifference difference;
+    std::multimap<uint64_t, uint32_t> left = branchesByKey(a), right = branchesByKey(b);
+    for (auto [key, branch] : left) {
+        difference.branches += 1;
+        auto found = right.find(key);
+        std::string note = "is missing in the second";
+        if (found != right.end()) {
+            note = decisionAt(nodesOfBranch(a, branch), nodesOfBranch(b, found->second), difference.farthest);
+            right.erase(found);
+        }
+        if (note.empty()) {
+            difference.alike += 1;
+        } else if (difference.notes.size() < kMostNotes) {
+            difference.notes.push_back("branch " + std::to_string(key) + ": " + note);
+        }
+    }
+    difference.branches += uint32_t(right.size());
+    if (!right.empty()) difference.notes.push_back(std::to_string(right.size()) + " branches only in the second");
+    return difference;
+}
+
+}  // namespace espalier

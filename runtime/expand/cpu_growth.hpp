@@ -1,0 +1,33 @@
+#pragma once
+
+// The CPU reference of expansion: the kernels' own text compiled as C++ (-ffp-contract=off), on one thread. It is the
+// debugger of growth and what the GPU's growth is compared with, by key.
+
+#include <string>
+#include <vector>
+
+#include "runtime/expand/growth.hpp"
+
+namespace espalier {
+
+struct CpuGrowth {
+    std::vector<Node> nodes;
+    std::vector<Chunk> chunks;
+    std::vector<BranchRecord> branches;
+    std::vector<Leaf> leaves;
+    GrowthStats stats;
+};
+
+// All addresses in `inputs` (surfaces, layers, rule maps) are pointers here. Fails as Growth::grow does.
+Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs);
+
+// How two growths of the same inputs differ, branch by branch; for tests and reports.
+struct GrowthDifference {
+    uint32_t branches = 0;         // keys in either
+    uint32_t alike = 0;            // same key, nodes alike to the bit
+    float farthest = 0;            // metres between nodes of branches with as many nodes, object space
+    std::vector<std::string> notes;   // for the first few that differ: the key and the decision that differed
+};
+GrowthDifference compareGrowth(const CpuGrowth& a, const CpuGrowth& b);
+
+}  // namespace espalier

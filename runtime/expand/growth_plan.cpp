@@ -1,0 +1,172 @@
+// Host side of expansion that GPU and CPU share. Seeds become the first wave's items. After an attempt the counters
+// tell whether room or a limit was exceeded; the answer is more room, or a cut after whole waves that is the same in
+// every run, since what a wave grows doesn't depend on the schedule.
+#include "runtime/expand/growth_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace espalier {
+namespace {
+
+constexpr uint64_t kWholeWave = 1ull << 32;
+
+uint32_t chunkLimit(const GrowthLimits& limits) { return std::max(limits.maxNodes / 2, 4096u); }
+
+bool finite(const Seed& seed) {
+    const Walk& w = seed.walk;
+    bool ok = std::isfinite(w.uv.x) && std::isfinite(w.uv.y) && std::isfinite(w.arc);
+    ok = ok && std::isfinite(w.direction.x) && std::isfinite(w.direction.y) && std::isfinite(w.direction.z);
+    for (float arg : seed.args) ok = ok && std::isfinite(arg);
+    return ok;
+}
+
+// Room for `need` and a little more, at most `limit`. Counts that were cut short themselves are doubled.
+uint32_t enlarged(uint32_t have, uint32_t need, bool exact, uint32_t limit) {
+    if (need <= have && exact) return have;
+    uint64_t wanted = exact ? need + need / 8ull + 64 : std::max<uint64_t>(need * 2ull, have * 2ull);
+    return uint32_t(std::clamp<uint64_t>(wanted, have, std::max(limit, have)));
+}
+
+// The first wave that exceeds a limit, and the share of it that may stay.
+GrowthCut findCut(std::span<const Wave> waves, const GrowthLimits& limits) {
+    uint64_t nodes = 0, chunks = 0;
+    uint64_t most = chunkLimit(limits);
+    for (size_t w = 0; w < waves.size(); ++w) {
+        if (waves[w].count > most) {
+            uint32_t before = uint32_t(w == 0 ? 0 : w - 1);
+            double fits = w == 0 ? 0 : 0.9 * double(most) / double(waves[w].count);
+            return {before, uint64_t(fits * double(kWholeWave))};
+        }
+        double share = 1;
+        if (nodes + waves[w].nodes > limits.maxNodes) share = double(limits.maxNodes - nodes) / waves[w].nodes;
+        if (chunks + waves[w].chunks > most) share = std::min(share, double(most - chunks) / waves[w].chunks);
+        if (share < 1) return {uint32_t(w), uint64_t(0.98 * share * double(kWholeWave))};
+        nodes += waves[w].nodes;
+        chunks += waves[w].chunks;
+    }
+    return {uint32_t(waves.size()), kWholeWave};
+}
+
+}  // namespace
+
+Status checkInputs(const GrowthInputs& inputs) {
+    if (inputs.limits.maxDepth < 1 || inputs.limits.maxDepth > 65534)
+        return Failure("growth", "maxDepth must be 1 to 65534, not " + std::to_string(inputs.limits.maxDepth));
+    if (inputs.limits.maxNodes < 1) return Failure("growth", "maxNodes must be at least 1");
+    if (!(inputs.limits.leafDensityCap >= 0) || !std::isfinite(inputs.limits.leafDensityCap))
+        return Failure("growth", "the density cap must be a finite number of leaves, 0 or more");
+    if (!inputs.widths.empty() && inputs.widths.size() != inputs.grammars.size())
+        return Failure("growth", std::to_string(inputs.widths.size()) + " widths for " +
+                                     std::to_string(inputs.grammars.size()) + " grammars");
+    for (size_t i = 0; i < inputs.seeds.size(); ++i) {
+        const Seed& seed = inputs.seeds[i];
+        std::string name = "seed " + std::to_string(i);
+        if (seed.grammar >= inputs.grammars.size())
+            return Failure("growth", name + " names grammar " + std::to_string(seed.grammar) + " of " +
+                                         std::to_string(inputs.grammars.size()));
+        if (seed.symbol >= inputs.grammars[seed.grammar].symbolCount)
+            return Failure("growth", name + " names symbol " + std::to_string(seed.symbol) + ", which its grammar lacks");
+        if ((seed.walk.place >> 16) >= inputs.surfaceCount)
+            return Failure("growth", name + " stands on surface " + std::to_string(seed.walk.place >> 16) + " of " +
+                                         std::to_string(inputs.surfaceCount));
+        if (!finite(seed)) return Failure("growth", name + " has numbers that aren't finite");
+    }
+    return Done{};
+}
+
+std::vector<WorkItem> itemsOfSeeds(std::span<const Seed> seeds) {
+    std::vector<WorkItem> items(seeds.size());
+    for (size_t i = 0; i < seeds.size(); ++i) {
+        const Seed& seed = seeds[i];
+        WorkItem& item = items[i];
+        item.key = seed.key;
+        item.walk = seed.walk;
+        item.symbol = (seed.grammar << 16) | seed.symbol;
+        std::copy(seed.args, seed.args + 4, item.args);
+        item.parent = item.origin = item.branch = kNoIndex;
+        item.seed = uint32_t(i);
+        item.depth = 0;
+        item.step = 0;
+    }
+    return items;
+}
+
+GrowthCut noCut(const GrowthLimits& limits) { return {limits.maxDepth, 0}; }
+
+GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const GrowthCut& cut, uint32_t groupLimit) {
+    GrowStatus s{};
+    s.chunkCapacity = room.chunks;
+    s.nodeCapacity = room.nodes;
+    s.branchCapacity = room.branches;
+    s.leafCapacity = room.leaves;
+    s.itemCapacity = room.items;
+    s.groupLimit = groupLimit;
+    s.nodeGroups[1] = s.nodeGroups[2] = 1;
+    s.branchGroups[1] = s.branchGroups[2] = 1;
+    // A share of one is the same as cutting before the next wave.
+    s.limitWave = cut.key >= kWholeWave ? cut.wave + 1 : cut.wave;
+    s.limitKey = cut.key >= kWholeWave ? 0 : uint32_t(cut.key);
+    s.walkMode = uint32_t(limits.walk);
+    s.tangentMode = uint32_t(limits.tangents);
+    s.leafDensityCap = limits.leafDensityCap;
+    return s;
+}
+
+Wave firstWave(uint32_t seeds, const GrowthRoom& room, uint32_t groupLimit) {
+    Wave wave{};
+    wave.count = std::min(seeds, room.items);
+    wave.groups[0] = std::min((wave.count + kExpandGroup - 1) / kExpandGroup, groupLimit);
+    wave.groups[1] = wave.groups[2] = 1;
+    return wave;
+}
+
+Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
+              GrowthCut& cut) {
+    GrowthCut needed = findCut(waves, limits);
+    bool later = needed.wave > cut.wave || (needed.wave == cut.wave && needed.key >= cut.key);
+    if (!later) {
+        if (cut.wave == 0 && cut.key == 0) return Verdict::impossible;
+        cut = needed;
+        return Verdict::retry;
+    }
+    bool itemsFit = status.items <= room.items;
+    bool chunksFit = status.chunks <= room.chunks;
+    bool complete = itemsFit && chunksFit;
+    bool fits = complete && status.nodes <= room.nodes && status.branches <= room.branches &&
+                status.leaves <= room.leaves;
+    if (fits) return Verdict::complete;
+    uint32_t most = chunkLimit(limits);
+    bool terminalsRan = complete && status.nodes <= room.nodes && status.branches <= room.branches;
+    room.items = enlarged(room.items, std::max(status.items, room.items), itemsFit, most);
+    room.chunks = enlarged(room.chunks, status.chunks, complete, most);
+    room.nodes = enlarged(room.nodes, status.nodes, complete, limits.maxNodes);
+    room.branches = enlarged(room.branches, status.branches, complete, most);
+    // Leaves are counted only when all else fitted.
+    room.leaves = enlarged(room.leaves, status.leaves, terminalsRan || status.leaves == 0, ~0u);
+    return Verdict::retry;
+}
+
+void takeCounters(const GrowStatus& status, GrowthStats& stats) {
+    stats.chunks = status.chunks;
+    stats.branches = status.branches;
+    stats.nodes = status.nodes;
+    stats.leaves = status.leaves;
+    stats.steps = status.steps;
+    stats.inserted = status.inserted;
+    stats.spans = status.nodes - std::min(stats.seeds, status.nodes);
+    stats.stopped = status.stopped;
+    stats.deadEnds = status.deadEnds;
+    stats.nodeBytes = uint64_t(status.nodes) * sizeof(Node);
+    stats.leafBytes = uint64_t(status.leaves) * sizeof(Leaf);
+    stats.chunkBytes = uint64_t(status.chunks) * sizeof(Chunk) + uint64_t(status.branches) * sizeof(BranchRecord);
+    uint32_t low = 0, high = 0;
+    for (uint32_t i = 0; i < kHashSlots; ++i) {
+        low += status.hash[2 * i];
+        high += status.hash[2 * i + 1];
+    }
+    stats.hash = uint64_t(high) << 32 | low;
+}
+
+}  // namespace espalier

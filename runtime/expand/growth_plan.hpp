@@ -1,0 +1,37 @@
+#pragma once
+
+// What GPU and CPU growth share on the host: checked inputs, the first wave, and the answer to running out of room.
+
+#include <vector>
+
+#include "runtime/expand/growth.hpp"
+#include "shaders/shared/expand_env.h"
+
+namespace espalier {
+
+// Names the first seed or limit that can't be used.
+Status checkInputs(const GrowthInputs& inputs);
+
+std::vector<WorkItem> itemsOfSeeds(std::span<const Seed> seeds);
+
+// Where growth is cut, so that it stays within its limits: see refused() in expand_grow.h.
+struct GrowthCut {
+    uint32_t wave = 0;
+    uint64_t key = 0;   // 2^32: the whole wave is grown
+};
+GrowthCut noCut(const GrowthLimits& limits);
+
+// Status and waves at the start of an attempt.
+GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const GrowthCut& cut, uint32_t groupLimit);
+Wave firstWave(uint32_t seeds, const GrowthRoom& room, uint32_t groupLimit);
+
+enum class Verdict { complete, retry, impossible };
+// Judges an attempt. waves: those that ran and the next. Where room was short, `room` is enlarged; where a limit
+// is exceeded, `cut` is moved. impossible: limits leave room for nothing.
+Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
+              GrowthCut& cut);
+
+// The figures that come from counters.
+void takeCounters(const GrowStatus& status, GrowthStats& stats);
+
+}  // namespace espalier

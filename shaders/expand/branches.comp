@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Thickness of every branch against its parent; see expand_fit.h.
+#include "shaders/shared/extensions.glsl"
+#include "shaders/shared/expand_fit.h"
+
+layout(local_size_x = 32) in;
+layout(push_constant, scalar) uniform Push { ExpandEnv env; };
+
+void main() {
+    uint count = env.status.v[0].branches;
+    bool ready = env.status.v[0].nodes <= env.status.v[0].nodeCapacity && count <= env.status.v[0].branchCapacity &&
+                 env.status.v[0].chunks <= env.status.v[0].chunkCapacity && env.waves.v[env.wave].count == 0u;
+    uint lanes = gl_NumWorkGroups.x * kExpandGroup;
+    for (uint i = gl_GlobalInvocationID.x; ready && i < count; i += lanes) fitBranch(env, i);
+}

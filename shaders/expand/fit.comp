@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Radii fitted to the branches' thickness, and the canonical hash; see expand_fit.h.
+#include "shaders/shared/extensions.glsl"
+#include "shaders/shared/expand_fit.h"
+
+layout(local_size_x = 32) in;
+layout(push_constant, scalar) uniform Push { ExpandEnv env; };
+
+void main() {
+    uint count = env.status.v[0].nodes;
+    bool ready = count <= env.status.v[0].nodeCapacity && env.status.v[0].branches <= env.status.v[0].branchCapacity &&
+                 env.status.v[0].chunks <= env.status.v[0].chunkCapacity && env.waves.v[env.wave].count == 0u;
+    uint lanes = gl_NumWorkGroups.x * kExpandGroup;
+    uvec2 hash = uvec2(0u);
+    for (uint i = gl_GlobalInvocationID.x; ready && i < count; i += lanes) hash += fitNode(env, i);
+    uint slot = (gl_WorkGroupID.x & (kHashSlots - 1u)) * 2u;
+    atomicAdd(env.status.v[0].hash[slot], hash.x);
+    atomicAdd(env.status.v[0].hash[slot + 1u], hash.y);
+}

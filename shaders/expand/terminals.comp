@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Tangent, bark and leaves of every node; see expand_terminals.h.
+#include "shaders/shared/extensions.glsl"
+#include "shaders/shared/expand_terminals.h"
+
+layout(local_size_x = 32) in;
+layout(push_constant, scalar) uniform Push { ExpandEnv env; };
+
+void main() {
+    uint count = env.status.v[0].nodes;
+    // Not while branches grow, nor when some were lost for want of room.
+    bool ready = count <= env.status.v[0].nodeCapacity && env.waves.v[env.wave].count == 0u;
+    uint lanes = gl_NumWorkGroups.x * kExpandGroup;
+    uvec2 hash = uvec2(0u);
+    for (uint i = gl_GlobalInvocationID.x; ready && i < count; i += lanes) finishNode(env, i, hash);
+    uint slot = (gl_WorkGroupID.x & (kHashSlots - 1u)) * 2u;
+    atomicAdd(env.status.v[0].hash[slot], hash.x);
+    atomicAdd(env.status.v[0].hash[slot + 1u], hash.y);
+}

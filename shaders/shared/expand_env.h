@@ -1,0 +1,112 @@
+// What the kernels of expansion share besides the growth itself: buffers, counters, waves, limits.
+#ifndef ESPALIER_SHARED_EXPAND_ENV_H
+#define ESPALIER_SHARED_EXPAND_ENV_H
+#include "shaders/shared/growth_records.h"
+#include "shaders/shared/rule_map.h"
+
+ESPALIER_BEGIN
+
+CONST_UINT(kExpandGroup, 32u);      // invocations of a group in every kernel of expansion
+CONST_UINT(kHashSlots, 64u);        // sums of hashes are spread over these, so that threads don't queue for one
+CONST_UINT(kDensityCells, 1u << 18u);
+
+// Counters of one growth. Taken counts may exceed capacities: then nothing was written beyond them, and the host
+// grows again with more room.
+struct GrowStatus {
+    uint chunks, nodes, branches, leaves;                                     // taken
+    uint chunkCapacity, nodeCapacity, branchCapacity, leafCapacity;
+    uint itemCapacity;       // of each of the two queues
+    uint groupLimit;         // groups that a wave is given at most; each invocation owns a slice of the scratch
+    uint nodeGroups[3];      // VkDispatchIndirectCommand over the nodes
+    uint branchGroups[3];    // the same over the branches
+    uint items;              // most items that a wave asked for
+    uint steps, inserted, stopped, deadEnds, lost, spans;
+    uint limitWave;          // in this wave only items whose key begins below limitKey are grown, in later ones none
+    uint limitKey;
+    uint walkMode, tangentMode;
+    float leafDensityCap;    // leaves per m² and seed, 0: none
+    uint spare[2];
+    uint hash[128];          // [slot * 2]: low words, high words
+};
+STATIC_SIZE(GrowStatus, 632);
+BUFFER(GrowStatusBuf, GrowStatus)
+
+// One wave of the queue: how many items wait, and the indirect arguments that grow as they are pushed.
+struct Wave {
+    uint count;
+    uint groups[3];
+    uint nodes, chunks;      // what it grew
+};
+STATIC_SIZE(Wave, 24);
+BUFFER(WaveBuf, Wave)
+
+BUFFER(IntBuf, int)
+
+// All that a kernel of expansion is handed, as push constants.
+struct ExpandEnv {
+    SurfaceBuf surfaces;
+    LayerBuf layers;
+    RuleMapBuf grammars;
+    FloatBuf widths;         // [grammar] metres: the surface is taken as coarse as suits shapes of this width
+    WorkItemBuf items;       // this wave's
+    WorkItemBuf nextItems;
+    NodeBuf nodes;
+    ChunkBuf chunks;
+    BranchBuf branches;
+    LeafBuf leaves;
+    NodeBuf scratch;         // kChunkNodes an invocation
+    GrowStatusBuf status;
+    WaveBuf waves;
+    UintBuf density;         // [kDensityCells] leaves counted, when there is a cap
+    uint wave;
+    uint phase;              // of the terminal pass: see expand_terminals.h
+};
+STATIC_SIZE(ExpandEnv, 120);
+
+#ifdef __cplusplus
+// The CPU reference runs on one thread.
+inline uint atomicAdd(uint& memory, uint value) {
+    uint old = memory;
+    memory += value;
+    return old;
+}
+inline uint atomicOr(uint& memory, uint value) {
+    uint old = memory;
+    memory |= value;
+    return old;
+}
+inline uint atomicMax(uint& memory, uint value) {
+    uint old = memory;
+    memory = old < value ? value : old;
+    return old;
+}
+#endif
+
+// Index of the lowest bit set; bits != 0.
+FN uint lowestBit(uint bits) {
+#ifdef __cplusplus
+    return uint(__builtin_ctz(bits));
+#else
+    return uint(findLSB(bits));
+#endif
+}
+
+// Two 32-bit hashes side by side: cheaper on every device than one of 64 bits.
+FN uint stirred(uint h, uint word, uint odd) {
+    h = (h ^ word) * odd;
+    return h ^ (h >> 15u);
+}
+FN uvec2 hashWord(uvec2 h, uint word) { return uvec2(stirred(h.x, word, 0x85EBCA6Bu), stirred(h.y, word, 0xC2B2AE35u)); }
+FN uvec2 hashVec3(uvec2 h, vec3 v) {
+    return hashWord(hashWord(hashWord(h, floatBitsToUint(v.x)), floatBitsToUint(v.y)), floatBitsToUint(v.z));
+}
+FN uvec2 hashKey(u64 key) { return uvec2(uint(key), uint(key >> 32)); }
+FN u64 joined(uvec2 h) { return u64(h.x) | (u64(h.y) << 32); }
+
+// Groups that items [first, first + count) add to a dispatch over all items so far.
+FN uint groupsAdded(uint first, uint count) {
+    return (first + count + kExpandGroup - 1u) / kExpandGroup - (first + kExpandGroup - 1u) / kExpandGroup;
+}
+
+ESPALIER_END
+#endif

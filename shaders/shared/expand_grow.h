@@ -1,0 +1,462 @@
+// Growing one chunk: rules are derived, steps are marched, nodes recorded, branches queued (Buron 2015 §5, §8).
+//
+// A chunk is a pure function of its work item and of the inputs (surface, rule maps, layers): it reads nothing that
+// growth writes but the chunk that it leaves. Lanes of a group run in lockstep on every device, and on a software
+// device a masked branch costs its full path, so the loop has one walk, one run of each code and one push in it.
+#ifndef ESPALIER_SHARED_EXPAND_GROW_H
+#define ESPALIER_SHARED_EXPAND_GROW_H
+#include "shaders/shared/expand_scope.h"
+
+ESPALIER_BEGIN
+
+CONST_UINT(kDetours, 10u);                 // directions tried over the semicircle when the heading fails (§8)
+CONST_FLOAT(kDetourAngle, 0.314159265f);   // between two of them on one side: the last ones go across the heading
+CONST_UINT(kMaxTrips, 8192u);              // of the loop, for one chunk
+
+CONST_UINT(kPhaseDerive, 0u);    // a rule is to be found
+CONST_UINT(kPhaseMarch, 1u);     // a step is under way
+CONST_UINT(kPhaseEnded, 2u);     // the branch has ended
+CONST_UINT(kPhaseFull, 3u);      // the chunk is full: the branch goes on in the next
+CONST_UINT(kPhaseDead, 4u);      // no direction serves
+CONST_UINT(kPhaseStopped, 5u);   // a limit
+
+// A chunk while it grows.
+struct Grower {
+    uint phase;
+    // The shape that waits for its rule or is marching.
+    u64 key;
+    uint grammar, symbol;
+    vec4 args;
+    WalkState at;        // where it stands
+    // The step under way.
+    WalkState trial;     // how far it has come
+    uint rule;
+    float distance, angle, remaining;
+    uint attempt;        // 0: the heading as the rule turned it, then detours
+    bool fresh;          // the attempt has not left yet
+    uint pending;        // samples staged for it
+    float lastArc;       // of the last sample staged
+    // What is done.
+    uint count;          // nodes
+    uint steps;
+    uint inserted;
+    ReadSet reads;
+    uvec2 hash;          // of all that the chunk leaves
+};
+
+// The constants of a chunk's growth.
+struct GrowthSite {
+    uint chunk;          // its own index
+    uint slice;          // first node of its slice of the scratch
+    uint level;
+    uint depth;          // branches from the seed
+    uint stepBase;       // steps of its branch before it
+    float minStep;       // metres
+};
+
+FN vec4 itemArgs(WorkItem item) { return vec4(item.args[0], item.args[1], item.args[2], item.args[3]); }
+
+FN void giveArgs(MACHINE_PARAM vec4 args) {
+    SLOT(kSlotArg) = args.x;
+    SLOT(kSlotArg + 1u) = args.y;
+    SLOT(kSlotArg + 2u) = args.z;
+    SLOT(kSlotArg + 3u) = args.w;
+}
+
+FN vec4 readArgs(MACHINE_PARAM RuleTables map, uint successor) {
+    vec4 args = vec4(0.0f);
+    uint count = map.successors.v[successor].argCount;
+    for (uint i = 0u; i < count; ++i) {
+        uint slot = map.successors.v[successor].args[i].slot;
+        float immediate = map.successors.v[successor].args[i].immediate;
+        float x = slot == kSlotImmediate ? immediate : SLOT(slot);
+        args.x = i == 0u ? x : args.x;
+        args.y = i == 1u ? x : args.y;
+        args.z = i == 2u ? x : args.z;
+        args.w = i == 3u ? x : args.w;
+    }
+    return args;
+}
+
+FN Place placeOf(WalkState w) {
+    Place p;
+    p.position = w.position;
+    p.normal = w.normal;
+    p.heading = w.walk.direction;
+    p.uv = w.walk.uv;
+    p.instance = w.walk.place >> 16u;
+    p.level = w.level;
+    return p;
+}
+
+// Puts an item into the next wave's queue; beyond its capacity only the count grows.
+FN void pushItem(ExpandEnv env, WorkItem item) {
+    uint at = atomicAdd(env.waves.v[env.wave + 1u].count, 1u);
+    if (at < env.status.v[0].itemCapacity) {
+        env.nextItems.v[at] = item;
+        if (at % kExpandGroup == 0u && at / kExpandGroup < env.status.v[0].groupLimit) {
+            atomicAdd(env.waves.v[env.wave + 1u].groups[0], 1u);
+        }
+    } else {
+        atomicMax(env.status.v[0].items, at + 1u);
+    }
+}
+
+FN WorkItem itemOf(WorkItem entry, GrowthSite site, u64 key, uint grammar, uint symbol, vec4 args, Walk walk) {
+    WorkItem item;
+    item.key = key;
+    item.walk = walk;
+    item.symbol = (grammar << 16u) | symbol;
+    item.args[0] = args.x;
+    item.args[1] = args.y;
+    item.args[2] = args.z;
+    item.args[3] = args.w;
+    item.parent = site.chunk;
+    item.origin = kNoIndex;
+    item.branch = kNoIndex;
+    item.seed = entry.seed;
+    item.depth = entry.depth + (1u << 16u);
+    item.step = entry.step & 0xFF000000u;
+    return item;
+}
+
+// Finds the shape's rule and applies it: a List at once (its branches are queued, what it continues with waits for
+// its own rule), a March as far as its length and angle.
+FN void deriveRule(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site, WorkItem entry, INOUT(Grower) g) {
+    Place place = placeOf(g.at);
+    float arc = g.at.walk.arc;
+    uint step = site.stepBase + g.steps;
+    giveArgs(MACHINE g.args);
+
+    uint inputs = map.symbols.v[g.symbol].inputs;
+    uint layers = map.symbols.v[g.symbol].layers;
+    drawSites(MACHINE map.sites, map.symbols.v[g.symbol].firstSite, map.symbols.v[g.symbol].siteCount, g.key, g.key);
+    giveInputs(MACHINE env, g.grammar, inputs, layers, place, site.depth, step, arc, g.reads);
+    runCode(MACHINE map.code, map.symbols.v[g.symbol].select);
+    float selected = valueOf(MACHINE map.symbols.v[g.symbol].selected);
+    uint ruleCount = map.symbols.v[g.symbol].ruleCount;
+    g.reads.params = g.reads.params | map.symbols.v[g.symbol].params;
+    if (!(selected >= 0.0f) || ruleCount == 0u) {
+        g.phase = kPhaseEnded;
+        return;
+    }
+    uint number = uint(selected);
+    uint rule = map.symbols.v[g.symbol].firstRule + (number < ruleCount ? number : ruleCount - 1u);
+    uint kind = map.rules.v[rule].kind;
+    g.rule = rule;
+    g.reads.params = g.reads.params | map.rules.v[rule].params;
+
+    drawSites(MACHINE map.sites, map.rules.v[rule].firstSite, map.rules.v[rule].siteCount, g.key, g.key);
+    giveInputs(MACHINE env, g.grammar, map.rules.v[rule].startInputs, map.rules.v[rule].startLayers, place, site.depth,
+               step, arc, g.reads);
+    runCode(MACHINE map.code, map.rules.v[rule].start);
+    g.distance = larger(valueOf(MACHINE map.rules.v[rule].distance), site.minStep);
+    g.angle = valueOf(MACHINE map.rules.v[rule].angle);
+    g.attempt = 0u;
+    g.fresh = true;
+    g.phase = kind == kRuleMarch ? kPhaseMarch : kPhaseEnded;
+
+    uint first = map.rules.v[rule].firstSuccessor;
+    uint count = kind == kRuleList ? map.rules.v[rule].successorCount : 0u;
+    u64 key = g.key;
+    for (uint i = first; i < first + count; ++i) {
+        runCode(MACHINE map.code, map.successors.v[i].code);
+        vec4 args = readArgs(MACHINE map, i);
+        u64 child = childKey(key, map.successors.v[i].nameHash, map.successors.v[i].ordinal);
+        uint symbol = map.successors.v[i].symbol;
+        if ((map.successors.v[i].flags & kSuccessorContinues) != 0u) {
+            g.key = child;
+            g.symbol = symbol;
+            g.args = args;
+            g.phase = kPhaseDerive;
+        } else {
+            Walk walk = g.at.walk;
+            walk.arc = 0.0f;
+            WorkItem item = itemOf(entry, site, child, g.grammar, symbol, args, walk);
+            item.origin = g.count == 0u ? kNoIndex : g.count - 1u;
+            item.depth = item.depth + 1u;
+            pushItem(env, item);
+            g.hash = hashWord(hashWord(g.hash, uint(child)), uint(child >> 32));
+        }
+    }
+}
+
+// Writes a sample into the chunk's slice of the scratch.
+FN void stageNode(ExpandEnv env, GrowthSite site, WalkState w, vec3 normal, uint flags, uint index, INOUT(Grower) g) {
+    Node node;
+    node.position = w.position;
+    node.normal = packOct(normal);
+    node.tangent = packOct(w.walk.direction);
+    node.uv = packUv(w.walk.uv);
+    node.place = w.walk.place;
+    node.radius = 0.0f;
+    node.arc = w.walk.arc;
+    node.chunk = site.chunk;
+    node.flags = flags | (index << 8u);
+    env.scratch.v[site.slice + index] = node;
+}
+
+// The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes
+// first drawn by the key.
+FN float attemptAngle(Grower g) {
+    float side = ((uint(g.key >> 17) ^ g.attempt) & 1u) != 0u ? 1.0f : -1.0f;
+    return g.attempt == 0u ? g.angle : side * kDetourAngle * float((g.attempt + 1u) >> 1u);
+}
+
+// One stretch of the step under way; at its end the condition decides.
+FN void marchOn(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site, INOUT(Grower) g) {
+    if (g.fresh) {
+        g.trial = g.at;
+        g.remaining = g.distance;
+        g.pending = 0u;
+        g.lastArc = g.at.walk.arc;
+        g.fresh = false;
+        rotateHeading(g.trial, attemptAngle(g));
+    }
+    vec3 normal;
+    uint event = walkAdvance(env.surfaces, site.level, g.trial, g.remaining, normal);
+    bool arrived = event == kWalkDone;
+    bool recorded = arrived || (walkGoesOn(event) && walkHasSample(event));
+    bool tiny = g.trial.walk.arc - g.lastArc < 0.02f * g.distance;
+    if (arrived && tiny && g.pending > 0u) g.pending = g.pending - 1u;
+    recorded = recorded && (arrived || !tiny);
+
+    uint index = g.count + g.pending;
+    bool room = index + (arrived ? 0u : 1u) < kChunkNodes;
+    if (recorded && !room && g.count > 0u) {
+        g.phase = kPhaseFull;   // the whole step moves to the next chunk
+        return;
+    }
+    uint extrude = map.rules.v[g.rule].extrude;
+    if (recorded && room) {
+        uint flags = extrude | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
+        stageNode(env, site, g.trial, normal, flags, index, g);
+        g.pending = g.pending + 1u;
+        g.lastArc = g.trial.walk.arc;
+    }
+    if (walkGoesOn(event)) return;
+
+    // The destination: what the rule reads there, its condition, its successor.
+    uint inputs = map.rules.v[g.rule].arriveInputs;
+    uint layers = map.rules.v[g.rule].arriveLayers;
+    bool holds1 = false;
+    if (arrived) {
+        giveInputs(MACHINE env, g.grammar, inputs, layers, placeOf(g.trial), site.depth, site.stepBase + g.steps + 1u,
+                   g.trial.walk.arc, g.reads);
+        runCode(MACHINE map.code, map.rules.v[g.rule].arrive);
+        holds1 = holds(valueOf(MACHINE map.rules.v[g.rule].condition));
+    }
+    if (!holds1) {
+        // Where the condition asks nothing of the place, no other direction can help.
+        bool blind = arrived && inputs == 0u && layers == 0u;
+        g.phase = blind ? kPhaseEnded : g.attempt >= kDetours ? kPhaseDead : kPhaseMarch;
+        g.attempt = g.attempt + 1u;
+        g.fresh = true;
+        return;
+    }
+    g.at = g.trial;
+    g.count = g.count + g.pending;
+    g.inserted = g.inserted + g.pending - 1u;
+    g.steps = g.steps + 1u;
+    g.hash = hashVec3(g.hash, g.at.position);
+    uint successor = map.rules.v[g.rule].firstSuccessor;
+    if (map.rules.v[g.rule].successorCount == 0u) {
+        g.phase = kPhaseEnded;
+        return;
+    }
+    g.args = readArgs(MACHINE map, successor);
+    g.key = childKey(g.key, map.successors.v[successor].nameHash, map.successors.v[successor].ordinal);
+    g.symbol = map.successors.v[successor].symbol;
+    g.phase = g.count >= kChunkNodes ? kPhaseFull : kPhaseDerive;
+}
+
+// The level on which shapes of this width grow: the coarsest whose texels are no wider, in the entry's chart.
+FN uint levelFor(ExpandEnv env, uint place, float width, OUT(float) texel) {
+    uint instance = place >> 16u;
+    uint chart = place & 0xFFFFu;
+    uint last = env.surfaces.v[instance].levelCount - 1u;
+    uint size = env.surfaces.v[instance].levels[0].size;
+    texel = env.surfaces.v[instance].charts.v[chart].metresPerUv * env.surfaces.v[instance].scale *
+            rcpExact(float(size));
+    uint level = 0u;
+    for (uint i = 0u; i < kMaxLevels; ++i) {
+        if (level >= last || texel * 2.0f > width) break;
+        level = level + 1u;
+        texel = texel * 2.0f;
+    }
+    return level;
+}
+
+// A growth that must stop somewhere takes whole waves, and of the last one a share that the keys draw.
+FN bool refused(ExpandEnv env, uint wave, u64 key) {
+    uint last = env.status.v[0].limitWave;
+    return wave > last || (wave == last && uint(key >> 32) >= env.status.v[0].limitKey);
+}
+
+// The node that a chunk's first span starts from.
+FN uint previousNodeOf(ExpandEnv env, WorkItem item) {
+    if (item.parent == kNoIndex) return kNoIndex;
+    return item.origin == kNoIndex ? env.chunks.v[item.parent].previousNode
+                                   : env.chunks.v[item.parent].firstNode + item.origin;
+}
+
+// Takes a range of nodes, copies what was staged, and returns the first index.
+FN uint publishNodes(ExpandEnv env, GrowthSite site, uint count) {
+    uint first = count > 0u ? atomicAdd(env.status.v[0].nodes, count) : 0u;
+    bool fits = first + count <= env.status.v[0].nodeCapacity;
+    if (count > 0u) {
+        atomicAdd(env.waves.v[env.wave].nodes, count);
+        uint added = groupsAdded(first, count);
+        if (fits && added > 0u) atomicAdd(env.status.v[0].nodeGroups[0], added);
+    }
+    for (uint i = 0u; i < (fits ? count : 0u); ++i) {
+        env.nodes.v[first + i] = env.scratch.v[site.slice + i];
+    }
+    return first;
+}
+
+// The branch's record: begun by its first chunk that has nodes, its length renewed by every one.
+FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, uint previousNode, float length) {
+    uint branch = item.branch;
+    bool begins = branch == kNoIndex;
+    if (begins) {
+        branch = atomicAdd(env.status.v[0].branches, 1u);
+        uint added = groupsAdded(branch, 1u);
+        if (added > 0u && branch < env.status.v[0].branchCapacity) atomicAdd(env.status.v[0].branchGroups[0], added);
+    }
+    if (branch >= env.status.v[0].branchCapacity) return branch;
+    if (begins) {
+        bool known = previousNode < env.status.v[0].nodeCapacity;   // kNoIndex is not
+        uint parentBranch = known ? env.chunks.v[env.nodes.v[known ? previousNode : 0u].chunk].branch : kNoIndex;
+        env.branches.v[branch].thickness = 1.0f;
+        env.branches.v[branch].firstChunk = site.chunk;
+        env.branches.v[branch].parentNode = previousNode;
+        env.branches.v[branch].parentBranch = parentBranch;
+        env.branches.v[branch].depthSeed = (site.depth << 16u) | (item.seed & 0xFFFFu);
+    } else {
+        env.chunks.v[item.parent].next = site.chunk;
+    }
+    env.branches.v[branch].extent = length;
+    return branch;
+}
+
+FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, Grower g, uint previousNode, bool goesOn) {
+    float length = g.at.walk.arc;
+    uint branch = item.branch;
+    uint first = publishNodes(env, site, g.count);
+    if (g.count > 0u || branch != kNoIndex) branch = publishBranch(env, item, site, previousNode, length);
+
+    Chunk c;
+    c.key = item.key;
+    uvec2 h = hashVec3(g.hash, g.at.walk.direction);
+    c.exitHash = joined(hashWord(hashWord(h, uint(g.key)), uint(g.key >> 32)));
+    c.entry = item.walk;
+    c.symbol = item.symbol;
+    c.args[0] = item.args[0];
+    c.args[1] = item.args[1];
+    c.args[2] = item.args[2];
+    c.args[3] = item.args[3];
+    c.parent = item.parent;
+    c.previousNode = previousNode;
+    c.next = kNoIndex;
+    c.branch = branch;
+    c.firstNode = first;
+    c.nodeCount = g.count;
+    c.depth = item.depth;
+    c.step = item.step;
+    uint flags = kChunkPublished | (g.reads.all ? kChunkReadsAll : 0u) | (goesOn ? 0u : kChunkEndsBranch);
+    flags = flags | (g.phase == kPhaseDead ? kChunkDeadEnd : 0u) | (g.phase == kPhaseStopped ? kChunkStopped : 0u);
+    c.marks = (g.reads.layers << 16u) | flags;
+    c.paramMask = g.reads.params;
+    c.readTiles[0] = g.reads.tile0;
+    c.readTiles[1] = g.reads.tile1;
+    c.readTiles[2] = g.reads.tile2;
+    c.readTiles[3] = g.reads.tile3;
+    env.chunks.v[site.chunk] = c;
+
+    if (goesOn) {
+        WorkItem next = itemOf(item, site, g.key, g.grammar, g.symbol, g.args, g.at.walk);
+        next.origin = g.count - 1u;
+        next.branch = branch;
+        next.step = item.step + g.steps;
+        pushItem(env, next);
+    }
+}
+
+FN void countChunk(ExpandEnv env, Grower g) {
+    atomicAdd(env.waves.v[env.wave].chunks, 1u);
+    if (g.steps > 0u) atomicAdd(env.status.v[0].steps, g.steps);
+    if (g.inserted > 0u) atomicAdd(env.status.v[0].inserted, g.inserted);
+    if (g.phase == kPhaseStopped) atomicAdd(env.status.v[0].stopped, 1u);
+    if (g.phase == kPhaseDead) atomicAdd(env.status.v[0].deadEnds, 1u);
+}
+
+// Grows the chunk of one item and publishes it. lane: of the scratch.
+FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, uint lane) {
+    if (refused(env, env.wave, item.key)) {
+        atomicAdd(env.status.v[0].stopped, 1u);
+        return;
+    }
+    GrowthSite site;
+    site.chunk = atomicAdd(env.status.v[0].chunks, 1u);
+    if (site.chunk >= env.status.v[0].chunkCapacity) return;
+    Grower g;
+    g.phase = kPhaseDerive;
+    g.key = item.key;
+    g.grammar = item.symbol >> 16u;
+    g.symbol = item.symbol & 0xFFFFu;
+    g.args = itemArgs(item);
+    g.rule = 0u;
+    g.distance = 0.0f;
+    g.angle = 0.0f;
+    g.remaining = 0.0f;
+    g.attempt = 0u;
+    g.fresh = true;
+    g.pending = 0u;
+    g.lastArc = item.walk.arc;
+    g.count = 0u;
+    g.steps = 0u;
+    g.inserted = 0u;
+    g.reads = emptyReadSet();
+    g.hash = hashKey(item.key);
+
+    RuleTables map = tablesOf(env.grammars, g.grammar);
+    site.slice = lane * kChunkNodes;
+    site.depth = item.depth & 0xFFFFu;
+    site.stepBase = item.step & 0xFFFFFFu;
+    Walk walk = item.walk;
+    bool exists = (walk.place & 0xFFFFu) < env.surfaces.v[walk.place >> 16u].chartCount;
+    walk.place = exists ? walk.place : walk.place & 0xFFFF0000u;
+    float texel;
+    site.level = levelFor(env, walk.place, env.widths.v[g.grammar], texel);
+    site.minStep = 0.25f * texel;
+    bool stands = resumeWalk(env.surfaces, site.level, walk, g.at) && exists;
+    g.trial = g.at;
+    resetMachine(MACHINE_ONLY);
+    if (!stands) {
+        g.phase = kPhaseDead;
+        atomicAdd(env.status.v[0].lost, 1u);
+    }
+    if (stands && item.parent == kNoIndex) {
+        stageNode(env, site, g.at, g.at.normal, 0u, 0u, g);   // the seed's foot
+        g.count = 1u;
+    }
+
+    for (uint trip = 0u; trip < kMaxTrips && g.phase <= kPhaseMarch; ++trip) {
+        for (uint lists = 0u; lists <= kMaxListDepth && g.phase == kPhaseDerive; ++lists) {
+            deriveRule(MACHINE env, map, site, item, g);
+        }
+        if (g.phase == kPhaseMarch) marchOn(MACHINE env, map, site, g);
+    }
+    g.phase = g.phase <= kPhaseMarch ? kPhaseStopped : g.phase;
+    bool goesOn = g.phase == kPhaseFull;
+    if (goesOn && refused(env, env.wave + 1u, g.key)) {
+        goesOn = false;
+        g.phase = kPhaseStopped;
+    }
+    publishChunk(env, item, site, g, previousNodeOf(env, item), goesOn);
+    countChunk(env, g);
+}
+
+ESPALIER_END
+#endif

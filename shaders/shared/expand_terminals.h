@@ -1,0 +1,220 @@
+// The second pass: when every branch is complete, each node runs the extrude program of its step, which gives the
+// span its bark and leaves (Buron 2015 §5: ExtrudedSucc after TopSucc), and gets its tangent (§6).
+#ifndef ESPALIER_SHARED_EXPAND_TERMINALS_H
+#define ESPALIER_SHARED_EXPAND_TERMINALS_H
+#include "shaders/shared/bezier.h"
+#include "shaders/shared/expand_scope.h"
+#include "shaders/shared/leaf_pose.h"
+
+ESPALIER_BEGIN
+
+// ExpandEnv::phase of this pass.
+CONST_UINT(kTerminalsWrite, 0u);
+CONST_UINT(kTerminalsCount, 1u);   // only count leaves by cell, for the density cap
+
+CONST_FLOAT(kLeavesPerCell, 8.0f); // a cell of the density cap holds as many leaves as the cap allows
+
+// The cap works on cells of the surface. They share counters by hash: where two cells fall together, both are
+// thinned too much, but alike in every run.
+FN uint densityCell(ExpandEnv env, uint seed, uint place, vec2 uv) {
+    float cap = env.status.v[0].leafDensityCap;
+    uint instance = place >> 16u;
+    float perUv = env.surfaces.v[instance].charts.v[place & 0xFFFFu].metresPerUv * env.surfaces.v[instance].scale;
+    float cells = perUv * sqrtExact(cap * (1.0f / kLeavesPerCell));
+    uint x = uint(limited(uv.x * cells, 0.0f, 1e6f));
+    uint y = uint(limited(uv.y * cells, 0.0f, 1e6f));
+    uvec2 h = hashWord(hashWord(hashWord(hashWord(uvec2(1u, 2u), seed), place), x), y);
+    return (h.x ^ (h.y >> 7u)) & (kDensityCells - 1u);
+}
+
+// The branch around a node, as the pass needs it.
+struct NodeSite {
+    uint index, chunk;
+    uint extrude;        // program, kNoIndex: none
+    bool foot;           // a seed's: no span, but the radius of the first
+    bool tip;
+    uint seed;
+    u64 key;             // of the draws
+    float before, after; // arcs of the nodes at both ends of its span
+    float stepStart, stepEnd;
+    uvec2 hash;          // sum over its leaves
+};
+
+FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, vec3 colour, float size, float t, float lift, float turn,
+                 float pitch, float tint, u64 key, uint cell, INOUT(uvec2) hash) {
+    // t runs along the step; inserted samples cut a step into spans, one of which holds the instance.
+    float arc = site.stepStart + limited(t, 0.0f, 1.0f) * (site.stepEnd - site.stepStart);
+    bool last = site.after >= site.stepEnd;
+    bool here = arc >= site.before && (arc < site.after || last) && size > 0.0f;
+    bool counts = env.phase == kTerminalsCount;
+    if (here && counts) atomicAdd(env.density.v[cell], 1u);
+    if (here && !counts && env.status.v[0].leafDensityCap > 0.0f) {
+        float share = float(uint(key >> 40)) * 5.96046448e-8f;
+        here = share * float(env.density.v[cell]) < kLeavesPerCell;
+    }
+    if (!here || counts) return;
+    Leaf leaf;
+    leaf.node = site.index;
+    leaf.place = packLeafPlace(divExact(arc - site.before, larger(site.after - site.before, 1e-9f)), mesh, size);
+    leaf.pose = packLeafPose(turn, pitch, lift, size);
+    leaf.tint = packLeafTint(tint, colour, uint(key) & 255u);
+    uint at = atomicAdd(env.status.v[0].leaves, 1u);
+    if (at < env.status.v[0].leafCapacity) env.leaves.v[at] = leaf;
+    uvec2 h = hashWord(hashWord(hashWord(hashKey(key), leaf.place), leaf.pose), leaf.tint);
+    hash = hash + hashWord(h, 0x1EAFu);
+}
+
+// Runs the node's program. One loop over gates and bodies alike: a trip evaluates a gate or makes an instance.
+FN float runTerminals(MACHINE_PARAM ExpandEnv env, RuleMapRef map, INOUT(NodeSite) site, uint cell,
+                      INOUT(uint) barkFlags) {
+    float radius = 0.0f;
+    bool barked = false;
+    uint first = map.extrudes.v[site.extrude].firstTerminal;
+    uint end = first + map.extrudes.v[site.extrude].terminalCount;
+    uint made = 0u;
+    uint count = 0u;
+    bool gate = true;
+    for (uint t = first; t < end;) {
+        TerminalRecord r = map.terminals.v[t];
+        u64 key = childKey(site.key, r.site, made);
+        SLOT(kSlotIndex) = float(made);
+        drawSites(MACHINE map.sites, gate ? r.gateFirstSite : r.bodyFirstSite, gate ? r.gateSiteCount : r.bodySiteCount,
+                  site.key, key);
+        CodeRange range;
+        range.first = gate ? r.gate.first : r.body.first;
+        range.count = gate ? r.gate.count : r.body.count;
+        runCode(MACHINE map.code, range);
+        bool bark = (r.flags & kTerminalBark) != 0u;
+        if (gate) {
+            float wanted = valueOf(MACHINE r.count);
+            count = uint(limited(wanted, 0.0f, float(kMaxRepeat)));
+            SLOT(kSlotCount) = float(count);
+            // A foot takes the radius of its plant's first span and nothing else.
+            count = (bark && barked) || (site.foot && !bark) ? 0u : count;
+        } else {
+            float size = valueOf(MACHINE r.size);
+            if (bark) {
+                radius = limited(size, 0.0f, 1e3f);
+                SLOT(kSlotRadius) = radius;
+                barked = true;
+                barkFlags = site.foot ? 0u : kNodeBark | ((r.mesh & 255u) << 18u) | ((r.smoothness & 3u) << 15u);
+                count = 1u;
+            } else {
+                vec3 colour = vec3(valueOf(MACHINE r.colour[0]), valueOf(MACHINE r.colour[1]), valueOf(MACHINE r.colour[2]));
+                emitLeaf(env, site, r.mesh, colour, size, valueOf(MACHINE r.t), valueOf(MACHINE r.lift),
+                         valueOf(MACHINE r.turn), valueOf(MACHINE r.pitch), valueOf(MACHINE r.tint), key, cell, site.hash);
+            }
+            made = made + 1u;
+        }
+        gate = !gate && made < count ? false : gate && count > 0u ? false : true;
+        t = gate ? t + 1u : t;
+        made = gate ? 0u : made;
+    }
+    return radius;
+}
+
+// The arc at which the node's step began and ended, past the samples that were inserted into it.
+FN void findStep(ExpandEnv env, uint firstNode, uint index, float arc, float entryArc, uint flags, INOUT(NodeSite) s) {
+    uint j = index;
+    bool more = true;
+    float start = entryArc;
+    while (more) {
+        more = j > 0u;
+        if (more) {
+            j = j - 1u;
+            start = env.nodes.v[firstNode + j].arc;
+            more = (env.nodes.v[firstNode + j].flags & kNodeInserted) != 0u;
+            start = more && j == 0u ? entryArc : start;
+        }
+    }
+    s.stepStart = start;
+    s.stepEnd = arc;
+    // A step never ends in another chunk than it began in.
+    uint k = firstNode + index;
+    for (bool inserted = (flags & kNodeInserted) != 0u; inserted;) {
+        k = k + 1u;
+        s.stepEnd = env.nodes.v[k].arc;
+        inserted = (env.nodes.v[k].flags & kNodeInserted) != 0u;
+    }
+}
+
+// The node's radius, bark and tangent, and its leaves. hash: the sum of its leaves' hashes is added.
+FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
+    Node node = env.nodes.v[index];
+    uint chunk = node.chunk;
+    uint firstNode = env.chunks.v[chunk].firstNode;
+    uint nodeCount = env.chunks.v[chunk].nodeCount;
+    uint previous = env.chunks.v[chunk].previousNode;
+    uint branch = env.chunks.v[chunk].branch;
+    uint next = env.chunks.v[chunk].next;
+    float entryArc = env.chunks.v[chunk].entry.arc;
+    uint grammar = env.chunks.v[chunk].symbol >> 16u;
+    uint local = index - firstNode;
+
+    // Neighbours along the stem.
+    bool last = local + 1u >= nodeCount;
+    uint follower = last ? (next != kNoIndex && env.chunks.v[next].nodeCount > 0u ? env.chunks.v[next].firstNode : kNoIndex)
+                         : index + 1u;
+    uint leader = local > 0u ? index - 1u : previous;
+    vec3 before = env.nodes.v[leader == kNoIndex ? index : leader].position;
+    vec3 after = env.nodes.v[follower == kNoIndex ? index : follower].position;
+
+    NodeSite site;
+    site.index = index;
+    site.chunk = chunk;
+    site.foot = leader == kNoIndex;
+    site.tip = follower == kNoIndex;
+    site.seed = env.branches.v[branch].depthSeed & 0xFFFFu;
+    site.hash = uvec2(0u, 0u);
+    site.after = node.arc;
+    site.before = local > 0u ? env.nodes.v[index - 1u].arc : entryArc;
+    uint flags = node.flags;
+    if (site.foot && !site.tip) flags = env.nodes.v[follower].flags;
+    uint extrude = flags & 255u;
+    site.extrude = extrude - 1u;
+    uint step = (env.chunks.v[chunk].step & 0xFFFFFFu) + ((flags >> 26u) & 31u) + 1u;
+    float radius = 0.0f;
+    uint barkFlags = 0u;
+    findStep(env, firstNode, local, node.arc, entryArc, node.flags, site);
+
+    if (extrude != 0u) {
+        RuleMapRef map = env.grammars.v[grammar];
+        float length = env.branches.v[branch].extent;
+        u64 branchKey = env.chunks.v[env.branches.v[branch].firstChunk].key;
+        site.key = childKey(branchKey, map.extrudes.v[site.extrude].nameHash, step);
+        Place place;
+        place.position = node.position;
+        place.normal = unpackOct(node.normal);
+        place.heading = unpackOct(node.tangent);
+        place.uv = unpackUv(node.uv);
+        place.instance = node.place >> 16u;
+        place.level = 0u;
+        ReadSet reads = emptyReadSet();
+        resetMachine(MACHINE_ONLY);
+        SLOT(kSlotArg) = env.chunks.v[chunk].args[0];
+        SLOT(kSlotArg + 1u) = env.chunks.v[chunk].args[1];
+        SLOT(kSlotArg + 2u) = env.chunks.v[chunk].args[2];
+        SLOT(kSlotArg + 3u) = env.chunks.v[chunk].args[3];
+        SLOT(kSlotBranchLength) = length;
+        SLOT(kSlotToTip) = length - node.arc;
+        SLOT(kSlotSpanLength) = site.stepEnd - site.stepStart;
+        SLOT(kSlotRadius) = 0.0f;
+        SLOT(kSlotCount) = 0.0f;
+        giveInputs(MACHINE env, grammar, map.extrudes.v[site.extrude].inputs, map.extrudes.v[site.extrude].layers, place,
+                   env.branches.v[branch].depthSeed >> 16u, step, node.arc, reads);
+        uint cell = 0u;
+        if (env.status.v[0].leafDensityCap > 0.0f) cell = densityCell(env, site.seed, node.place, place.uv);
+        radius = runTerminals(MACHINE env, map, site, cell, barkFlags);
+    }
+    hash = hash + site.hash;
+    if (env.phase == kTerminalsWrite) {
+        vec3 normal = unpackOct(node.normal);
+        vec3 heading = unpackOct(node.tangent);
+        env.nodes.v[index].tangent = packOct(stemTangent(before, node.position, after, normal, heading));
+        env.nodes.v[index].radius = radius;
+        env.nodes.v[index].flags = (node.flags & 0x7C003FFFu) | barkFlags | (site.tip ? kNodeTip : 0u);
+    }
+}
+
+ESPALIER_END
+#endif
