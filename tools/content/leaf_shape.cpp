@@ -121,7 +121,7 @@ float leafDistance(const LeafShape& shape, glm::vec2 p) {
 
 namespace {
 constexpr float kMargin = 0.008f;               // of the atlas, round each leaf
-constexpr float kSpanX = 1.12f, kSpanY = 1.0f;  // flat leaf units that a cell shows
+constexpr float kSpanX = 1.12f, kSpanY = 1.06f;  // flat leaf units that a cell shows
 }  // namespace
 
 glm::vec2 leafUv(int variant, glm::vec2 p) {
