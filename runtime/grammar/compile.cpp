@@ -54,29 +54,10 @@ Result<RuleMap> compile(Parsed& p) {
 
 }  // namespace
 
-Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& options) {
+Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& options,
+                               const std::filesystem::path& cacheFolder) {
     Parsed p(options);
     parse(text, p);
-    return compile(p);
-}
-
-Result<RuleMap> compileGrammarFile(const std::filesystem::path& file, const std::filesystem::path& cacheFolder,
-                                   std::vector<TerminalMesh> meshes) {
-    Result<std::string> text = readTextFile(file);
-    if (!text) return std::move(text.failure());
-    CompileOptions options;
-    options.fileName = file.filename().string();
-    options.meshes = std::move(meshes);
-    std::filesystem::path folder = file.parent_path();
-    options.readInclude = [&folder](const std::string& name) -> std::optional<std::string> {
-        // Includes name files of the same folder only, so that a grammar from the net can't read elsewhere.
-        if (name.empty() || std::filesystem::path(name).filename() != name || name == "..") return std::nullopt;
-        Result<std::string> content = readTextFile(folder / name);
-        if (!content) return std::nullopt;
-        return std::move(content.value());
-    };
-    Parsed p(options);
-    parse(*text, p);
     if (cacheFolder.empty() || p.compilation.reporter.failed()) return compile(p);
 
     char name[32];
@@ -98,6 +79,24 @@ Result<RuleMap> compileGrammarFile(const std::filesystem::path& file, const std:
         RuleMapAccess::warnings(*map).push_back(
             {cached.string(), 0, 0, {}, "the compiled grammar can't be cached: " + written.failure().text(), true});
     return map;
+}
+
+Result<RuleMap> compileGrammarFile(const std::filesystem::path& file, const std::filesystem::path& cacheFolder,
+                                   std::vector<TerminalMesh> meshes) {
+    Result<std::string> text = readTextFile(file);
+    if (!text) return std::move(text.failure());
+    CompileOptions options;
+    options.fileName = file.filename().string();
+    options.meshes = std::move(meshes);
+    std::filesystem::path folder = file.parent_path();
+    options.readInclude = [&folder](const std::string& name) -> std::optional<std::string> {
+        // Includes name files of the same folder only, so that a grammar from the net can't read elsewhere.
+        if (name.empty() || std::filesystem::path(name).filename() != name || name == "..") return std::nullopt;
+        Result<std::string> content = readTextFile(folder / name);
+        if (!content) return std::nullopt;
+        return std::move(content.value());
+    };
+    return compileGrammar(*text, options, cacheFolder);
 }
 
 }  // namespace espalier

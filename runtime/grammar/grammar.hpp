@@ -119,11 +119,12 @@ class RuleMap {
 };
 
 // Compiles a text. Never throws, hangs or crashes on any bytes; all mistakes found are in the failure.
-Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& options = {});
+// cacheFolder: if not empty, the map is kept there under its content hash (made if need be; a cache that can't be
+// read or written is no failure, the map is compiled then and a warning added).
+Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& options = {},
+                               const std::filesystem::path& cacheFolder = {});
 
-// Reads and compiles a file; includes are looked for next to it. cacheFolder: if not empty, the map is kept there
-// under its content hash (made if need be; a cache that can't be read or written is no failure, the map is
-// compiled then and a warning added).
+// Reads and compiles a file, likewise; includes are looked for next to it.
 Result<RuleMap> compileGrammarFile(const std::filesystem::path& file, const std::filesystem::path& cacheFolder = {},
                                    std::vector<TerminalMesh> meshes = standardTerminalMeshes());
 
