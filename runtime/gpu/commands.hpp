@@ -33,7 +33,9 @@ struct SubmitOptions {
     VkSemaphore signal = VK_NULL_HANDLE;  // binary
 };
 
-// A recording: either a command buffer of ours, which submit() sends off, or one that a host has begun.
+// A recording: either a command buffer of ours, which submit() sends off, or one that a host has begun. One of ours
+// sees all that recordings submitted before it did, and the CPU sees what it did once it is done; within a recording,
+// and between a host's, ask for barriers.
 // Dropping an unsubmitted recording of ours discards it.
 class Commands {
   public:
@@ -60,7 +62,8 @@ class Commands {
     // Offsets and sizes in bytes, multiples of 4; size ~0: to the end.
     void fill(const Buffer& buffer, uint32_t word, uint64_t offset = 0, uint64_t size = ~0ull);
     void copy(const Buffer& from, const Buffer& to, uint64_t size, uint64_t fromOffset = 0, uint64_t toOffset = 0);
-    // Copies the bytes now and writes them in the order of the recording. Fails when memory has run out.
+    // Copies the bytes now; the GPU writes them as a Use::transfer at this point of the recording. Fails when memory
+    // has run out.
     Status upload(const Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset = 0);
     template <class T>
     Status upload(const Buffer& buffer, const std::vector<T>& values, uint64_t offset = 0) {
@@ -178,6 +181,7 @@ class DrawPass : public Pass {
 
   private:
     void start(VkExtent2D extent);
+    void forgetCount(const Counted& draws);
     bool ours_ = false;
 };
 

@@ -20,7 +20,9 @@ class ValidationLog;
 
 struct DeviceOptions {
     std::string applicationName = "espalier";
-    bool validation = false;     // the Khronos validation layer; it is an error if it isn't installed
+    bool validation = false;  // the Khronos validation layer; it is an error if it isn't installed
+    bool synchronizationValidation =
+        false;                   // with validation: look for missing barriers too; sees no buffers by address
     bool preferDiscrete = true;  // else the first device that will do
     std::string deviceName;      // if not empty: only a device whose name contains this
     // What windows need (glfwGetRequiredInstanceExtensions). If not empty, the device can present.
@@ -30,7 +32,8 @@ struct DeviceOptions {
 
 // A device that a host already has. All handles stay the host's and must outlive the Device. The VkDevice must
 // have been created with Vulkan 1.3, VK_KHR_push_descriptor and the features of requiredFeatures(). The queue must
-// do graphics and compute; the host doesn't use it while a call into Espalier runs.
+// do graphics and compute; the host doesn't use it while a call into Espalier runs. Before the Device goes, the GPU
+// must be done with what was recorded into the host's command buffers.
 struct HostDevice {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     VkInstance instance = VK_NULL_HANDLE;

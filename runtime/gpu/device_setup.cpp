@@ -153,9 +153,14 @@ struct DeviceSetup {
         info.enabledExtensionCount = uint32_t(extensions.size());
         info.ppEnabledExtensionNames = extensions.data();
         VkDebugUtilsMessengerCreateInfoEXT messenger{};
+        const VkValidationFeatureEnableEXT more = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+        VkValidationFeaturesEXT checks{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+        checks.enabledValidationFeatureCount = 1;
+        checks.pEnabledValidationFeatures = &more;
         if (options.validation) {
             d.validation_ = std::make_unique<ValidationLog>(options.log);
             messenger = d.validation_->messengerInfo();
+            if (options.synchronizationValidation) messenger.pNext = &checks;
             info.pNext = &messenger;
         }
         auto create = global<PFN_vkCreateInstance>("vkCreateInstance");
@@ -166,6 +171,7 @@ struct DeviceSetup {
         d.ownsInstance_ = true;
         if (auto missing = loadInstanceFunctions(d.vkInstance_, d.getInstanceProcAddr_, d.instance_); !missing.empty())
             return Failure(kPlace, "the loader lacks " + missing);
+        messenger.pNext = nullptr;
         if (options.validation &&
             d.vkInstance_.vkCreateDebugUtilsMessengerEXT(d.instance_, &messenger, nullptr, &d.messenger_) < 0)
             return Failure(kPlace, "the validation messages cannot be received");
@@ -230,6 +236,11 @@ struct DeviceSetup {
     Status finish(MemorySource* hostMemory) {
         if (auto missing = loadDeviceFunctions(d.vk_, d.vkInstance_.vkGetDeviceProcAddr, d.device_); !missing.empty())
             return Failure(kPlace, "the device lacks " + missing + "; is its extension enabled?");
+        if (!d.debugUtils_) {  // some loaders hand the functions out all the same
+            d.vk_.vkSetDebugUtilsObjectNameEXT = nullptr;
+            d.vk_.vkCmdBeginDebugUtilsLabelEXT = nullptr;
+            d.vk_.vkCmdEndDebugUtilsLabelEXT = nullptr;
+        }
         if (!d.queue_) d.vk_.vkGetDeviceQueue(d.device_, d.info_.queueFamily, 0, &d.queue_);
         describe();
         VkPhysicalDeviceMemoryProperties memory{};

@@ -21,6 +21,7 @@ inline DeviceOptions validated() {
     DeviceOptions options;
     options.applicationName = "test_gpu";
     options.validation = true;
+    options.synchronizationValidation = true;
     return options;
 }
 

@@ -192,6 +192,9 @@ TEST_CASE("draws, indirect and counted, fill what they should") {
         must(makeBuffer(t.device, "arguments", std::vector<uint32_t>{3, 1, 0, 0, 3, 1, 0, 0, 3, 5, 0, 0}));
     Buffer counts = must(makeBuffer(t.device, "counts", std::vector<uint32_t>{0, 1}));
 
+    Buffer indices = must(makeBuffer(t.device, "indices", std::vector<uint32_t>{0, 1, 2}));
+    Buffer indexed = must(makeBuffer(t.device, "indexed", std::vector<uint32_t>{3, 1, 0, 0, 0}));
+
     Commands commands = must(Commands::begin(t.device, "draw"));
     commands.transition(canvas, ImageState::colorTarget);
     commands.transition(depth, ImageState::depthTarget);
@@ -204,11 +207,15 @@ TEST_CASE("draws, indirect and counted, fill what they should") {
         pass.drawIndirect(triangle, arguments, 0, 2, green);
         pass.drawIndirectCount(triangle, {arguments, 32, counts, 4, 1}, blue);  // one command of five instances
         pass.drawIndirectCount(triangle, {arguments, 32, counts, 0, 1}, blue);  // none
+        pass.setIndices(indices);
+        pass.drawIndexed(triangle, {.indices = 3}, red);
+        pass.drawIndexedIndirect(triangle, indexed, 0, 1, red);
+        pass.drawIndexedIndirectCount(triangle, {indexed, 0, counts, 4, 1}, red);
     }
     REQUIRE(commands.finish());
     const std::vector<std::byte> got = must(readImage(t.device, canvas));
     auto channel = [&](uint32_t x, uint32_t y, uint32_t c) { return int(got[(y * 64 + x) * 4 + c]); };
-    CHECK(channel(4, 16, 0) == 51);
+    CHECK(channel(4, 16, 0) == 4 * 51);
     CHECK(channel(4, 16, 1) == 102);
     CHECK(channel(4, 16, 2) == 255);
     CHECK(channel(60, 16, 0) + channel(60, 16, 1) + channel(60, 16, 2) == 0);
