@@ -161,7 +161,8 @@ Result<Baked> bake(const Model& model, const BakeOptions& given) {
     Baked out;
     BakeReport& report = out.report;
     SurfaceData& surface = out.surface;
-    report.source = surface.source = model.name;
+    // A file's folder says where somebody works, not what was baked.
+    report.source = surface.source = model.name.substr(model.name.find_last_of("/\\") + 1);
     report.warnings = model.warnings;
     Stages stages(options, report);
 

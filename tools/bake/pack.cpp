@@ -13,9 +13,8 @@ namespace espalier::bakery {
 namespace {
 
 constexpr double kBandTexels = 1.001;  // what a bilinear read reaches, of the coarsest level
-constexpr double kDensity = 0.88;      // of the grid that the masks may fill, as a first guess
+constexpr double kDensity = 1.0;       // of the grid that the masks may fill, as a first guess
 constexpr double kWorthScale = 0.8;    // a coarser level is worth this loss of scale
-constexpr double kMinTexels = 3;       // a chart serves the levels on which it is as wide as this
 
 // A set of grid cells, one bit each, row by row.
 struct Mask {
@@ -51,25 +50,27 @@ class Packer {
         for (uint32_t c = 0; c < charts; ++c) firstBorder_[c + 1] += firstBorder_[c];
     }
 
-    // Finer grids let more charts in; they are tried only when the coarse one fails.
+    // First with bands for all levels; where that costs too much scale, small charts give up coarse levels, and
+    // more of them, until charts fit. Finer grids waste less on bands, but take longer.
     Placement run() {
-        for (;;) {
-            for (uint32_t coarsest = levels_; coarsest-- > 0;) {
-                double guess = scaleFor(coarsest, kDensity);
-                if (guess < kWorthScale && coarsest > 0) continue;
-                Placement placed = search(coarsest, guess);
-                if (placed.scale >= (coarsest > 0 ? kWorthScale * 0.85 : 0.02)) return placed;
+        for (; grid_ <= std::min(resolution_, 1024u); grid_ *= 2) {
+            for (double texels : {3.0, 6.0, 12.0, 24.0, 48.0, 1e9}) {
+                minTexels_ = texels;
+                bool last = texels > 1e6;
+                double guess = scaleFor(levels_ - 1, kDensity);
+                if (guess < kWorthScale && !last) continue;
+                Placement placed = search(levels_ - 1, guess, last ? 0.02 : kWorthScale * 0.9);
+                if (placed.scale > 0) return placed;
             }
-            if (grid_ * 2 > std::min(resolution_, 1024u)) return {};
-            grid_ *= 2;
         }
+        return {};
     }
 
   private:
     uint32_t levelOf(uint32_t chart, double scale, uint32_t coarsest) const {
         double width = std::sqrt(uvArea_[chart]) * scale;
         uint32_t level = coarsest;
-        while (level > 0 && width * double(resolution_ >> level) < kMinTexels) --level;
+        while (level > 0 && width * double(resolution_ >> level) < minTexels_) --level;
         return level;
     }
     double bandCells(uint32_t level) const { return kBandTexels * double(grid_) / double(resolution_ >> level); }
@@ -92,15 +93,12 @@ class Packer {
         return scale;
     }
 
-    Placement search(uint32_t coarsest, double guess) const {
+    // Down from the guess to the first scale that fits.
+    Placement search(uint32_t coarsest, double guess, double least) const {
         Placement best;
-        double scale = guess, step = 0.93;
-        // Down to the first scale that fits; each scale is tried once.
-        for (int i = 0; i < 40 && scale > 0.01; ++i, scale *= step) {
-            if (tryScale(coarsest, scale, best)) return best;
-            if (i > 6) step = 0.85;
-            if (coarsest > 0 && scale * step < kWorthScale * 0.85) break;
-        }
+        double step = 0.955;
+        for (double scale = guess; scale >= least; scale *= step)
+            if (tryScale(coarsest, scale, best)) break;
         return best;
     }
 
@@ -263,6 +261,7 @@ class Packer {
 
     const BakeMesh& mesh_;
     uint32_t resolution_, levels_, grid_;
+    double minTexels_ = 3;  // a chart serves the levels on which it is as wide as this
     std::vector<glm::dvec2> low_, high_;
     std::vector<double> uvArea_;
     std::vector<uint32_t> borders_, firstBorder_;

@@ -15,6 +15,8 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
+constexpr float kLinkLines = 220;  // that links.png draws at most: more would hide the atlas
+
 class Canvas {
   public:
     explicit Canvas(uint32_t size) : size_(size), pixels_(size_t(size) * size, vec3(0.11f, 0.115f, 0.13f)) {}
@@ -113,7 +115,9 @@ void drawBorders(const SurfaceData& surface, Canvas& canvas) {
 
 // A seam's line is drawn where it stands for a stretch of border, so that long borders show few lines.
 void drawLinks(const SurfaceData& surface, Canvas& canvas) {
-    float size = float(canvas.size()), since = 1e9f, spacing = size / 40;
+    float size = float(canvas.size()), since = 1e9f, total = 0;
+    for (const Crossing& c : surface.crossings) total += glm::length(c.b - c.a) * size;
+    float spacing = total / kLinkLines;
     for (uint32_t i = 0; i < surface.crossings.size(); ++i) {
         const Crossing& c = surface.crossings[i];
         if ((c.flags & 3u) == kCrossingOpen) continue;
@@ -121,7 +125,7 @@ void drawLinks(const SurfaceData& surface, Canvas& canvas) {
         if (since < spacing) continue;
         since = 0;
         vec2 from = (c.a + c.b) * (size / 2), to = (c.ta + c.tb) * (size / 2);
-        canvas.line(from, to, fromHue(std::fmod(float(i) * 0.618f, 1.0f), 0.55f, 1.0f), 1.0f, 0.45f);
+        canvas.line(from, to, fromHue(std::fmod(float(i) * 0.618f, 1.0f), 0.55f, 1.0f), 1.0f, 0.5f);
     }
 }
 
@@ -140,7 +144,7 @@ Status writePictures(const SurfaceData& surface, const std::string& folder) {
     if (!done) return done;
 
     for (uint32_t y = 0; y < size; ++y)
-        for (uint32_t x = 0; x < size; ++x) links.at(x, y) = links.at(x, y) * 0.5f;
+        for (uint32_t x = 0; x < size; ++x) links.at(x, y) = links.at(x, y) * 0.7f;
     drawLinks(surface, links);
     drawBorders(surface, links);
     done = links.write(folder + "/links.png");
