@@ -89,12 +89,12 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
 }
 
 // A growth's branches by key, as their nodes in order.
-std::multimap<uint64_t, uint32_t> branchesByKey(const CpuGrowth& g) {
+std::multimap<uint64_t, uint32_t> branchesByKey(const GrowthRecords& g) {
     std::multimap<uint64_t, uint32_t> keys;
     for (uint32_t i = 0; i < g.branches.size(); ++i) keys.emplace(g.chunks[g.branches[i].firstChunk].key, i);
     return keys;
 }
-std::vector<Node> nodesOfBranch(const CpuGrowth& g, uint32_t branch) {
+std::vector<Node> nodesOfBranch(const GrowthRecords& g, uint32_t branch) {
     std::vector<Node> nodes;
     for (uint32_t c = g.branches[branch].firstChunk; c != kNoIndex; c = g.chunks[c].next) {
         const Chunk& chunk = g.chunks[c];
@@ -147,7 +147,7 @@ Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs) {
     return Failure("growth", "the limit of " + std::to_string(inputs.limits.maxNodes) + " nodes leaves room for nothing");
 }
 
-GrowthDifference compareGrowth(const CpuGrowth& a, const CpuGrowth& b) {
+GrowthDifference compareGrowth(const GrowthRecords& a, const GrowthRecords& b) {
     constexpr size_t kMostNotes = 16;
     GrowthDifference difference;
     std::multimap<uint64_t, uint32_t> left = branchesByKey(a), right = branchesByKey(b);

@@ -10,11 +10,7 @@
 
 namespace espalier {
 
-struct CpuGrowth {
-    std::vector<Node> nodes;
-    std::vector<Chunk> chunks;
-    std::vector<BranchRecord> branches;
-    std::vector<Leaf> leaves;
+struct CpuGrowth : GrowthRecords {
     GrowthStats stats;
 };
 
@@ -28,6 +24,6 @@ struct GrowthDifference {
     float farthest = 0;            // metres between nodes of branches with as many nodes, object space
     std::vector<std::string> notes;   // for the first few that differ: the key and the decision that differed
 };
-GrowthDifference compareGrowth(const CpuGrowth& a, const CpuGrowth& b);
+GrowthDifference compareGrowth(const GrowthRecords& a, const GrowthRecords& b);
 
 }  // namespace espalier

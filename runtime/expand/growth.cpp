@@ -41,6 +41,7 @@ class GpuGrowth final : public Growth {
     Status grow(const GrowthInputs& inputs) override;
     GrowthView view() const override { return view_; }
     GrowthStats stats() const override { return stats_; }
+    Result<GrowthRecords> read() override;
 
   private:
     struct Outcome {
@@ -274,6 +275,24 @@ uint64_t GpuGrowth::reserved() const {
     for (const Buffer* b : {&items_[0], &items_[1], &scratch_, &status_, &waves_, &grammars_, &widths_, &density_})
         bytes += b->size();
     return bytes;
+}
+
+Result<GrowthRecords> GpuGrowth::read() {
+    Records& from = sets_[front_];
+    GrowthRecords to;
+    auto fetch = [&](auto& values, const Buffer& buffer, uint32_t count) -> Status {
+        if (count == 0) return Done{};
+        auto got = readVector<typename std::decay_t<decltype(values)>::value_type>(device_, buffer, 0, count);
+        if (!got) return got.failure();
+        values = std::move(*got);
+        return Done{};
+    };
+    Status steps[] = {fetch(to.nodes, from.nodes, view_.nodeCount), fetch(to.chunks, from.chunks, view_.chunkCount),
+                      fetch(to.branches, from.branches, view_.branchCount),
+                      fetch(to.leaves, from.leaves, view_.leafCount)};
+    for (Status& step : steps)
+        if (!step) return step.failure();
+    return to;
 }
 
 Status GpuGrowth::grow(const GrowthInputs& inputs) {

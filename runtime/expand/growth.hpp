@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "runtime/core/result.hpp"
 #include "runtime/gpu/device.hpp"
@@ -71,6 +72,14 @@ struct GrowthRoom {
     uint32_t chunks = 8192, nodes = 65536, branches = 8192, leaves = 65536, items = 4096;
 };
 
+// A growth's records on the CPU.
+struct GrowthRecords {
+    std::vector<Node> nodes;
+    std::vector<Chunk> chunks;
+    std::vector<BranchRecord> branches;
+    std::vector<Leaf> leaves;
+};
+
 class Growth {
   public:
     static Result<std::unique_ptr<Growth>> create(Device& device, const GrowthRoom& room = {});
@@ -81,6 +90,8 @@ class Growth {
     virtual Status grow(const GrowthInputs& inputs) = 0;
     virtual GrowthView view() const = 0;
     virtual GrowthStats stats() const = 0;
+    // Waits for the GPU and copies the published growth.
+    virtual Result<GrowthRecords> read() = 0;
 };
 
 }  // namespace espalier

@@ -182,7 +182,7 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site,
 }
 
 // Writes a sample into the chunk's slice of the scratch.
-FN void stageNode(ExpandEnv env, GrowthSite site, WalkState w, vec3 normal, uint flags, uint index, INOUT(Grower) g) {
+FN void stageNode(ExpandEnv env, GrowthSite site, WalkState w, vec3 normal, uint flags, uint index) {
     Node node;
     node.position = w.position;
     node.normal = packOct(normal);
@@ -230,7 +230,7 @@ FN void marchOn(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site, IN
     uint extrude = map.rules.v[g.rule].extrude;
     if (recorded && room) {
         uint flags = extrude | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
-        stageNode(env, site, g.trial, normal, flags, index, g);
+        stageNode(env, site, g.trial, normal, flags, index);
         g.pending = g.pending + 1u;
         g.lastArc = g.trial.walk.arc;
     }
@@ -438,7 +438,7 @@ FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, uint lane) {
         atomicAdd(env.status.v[0].lost, 1u);
     }
     if (stands && item.parent == kNoIndex) {
-        stageNode(env, site, g.at, g.at.normal, 0u, 0u, g);   // the seed's foot
+        stageNode(env, site, g.at, g.at.normal, 0u, 0u);   // the seed's foot
         g.count = 1u;
     }
 

@@ -1,0 +1,198 @@
+#include "tests/expand/scene.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+
+#include "shaders/shared/exact.h"
+#include "shaders/shared/random.h"
+
+namespace espalier::growthtest {
+namespace {
+
+// n × n quads of a face of the cube; the face's chart is a cell of a 3 × 2 atlas.
+void addFace(Model& model, uint32_t face, uint32_t n, bool round) {
+    glm::vec3 normal(0);
+    normal[face / 2] = face % 2 ? -1.0f : 1.0f;
+    glm::vec3 u(0);
+    u[(face / 2 + 1) % 3] = 1;
+    glm::vec3 v = glm::cross(normal, u);
+    uint32_t first = uint32_t(model.positions.size());
+    glm::vec2 cell(float(face % 3) / 3, float(face / 3) / 2);
+    for (uint32_t j = 0; j <= n; ++j)
+        for (uint32_t i = 0; i <= n; ++i) {
+            float a = float(i) / float(n), b = float(j) / float(n);
+            glm::vec3 p = normal + u * (2 * a - 1) + v * (2 * b - 1);
+            if (round) p = glm::normalize(p);
+            model.positions.push_back(p);
+            model.normals.push_back(round ? p : normal);
+            model.uvs.push_back(cell + glm::vec2(0.03f + 0.27f * a, 0.05f + 0.4f * b));
+        }
+    for (uint32_t j = 0; j < n; ++j)
+        for (uint32_t i = 0; i < n; ++i) {
+            uint32_t a = first + j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
+            for (uint32_t k : {a, b, d, a, d, c}) model.indices.push_back(k);
+        }
+}
+
+}  // namespace
+
+Model flatSquare() {
+    Model model;
+    model.name = "square";
+    model.positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
+    model.normals.assign(4, {0, 1, 0});
+    model.uvs = {{0.1f, 0.1f}, {0.9f, 0.1f}, {0.9f, 0.9f}, {0.1f, 0.9f}};
+    model.indices = {0, 2, 1, 0, 3, 2};
+    return model;
+}
+Model cube() {
+    Model model;
+    model.name = "cube";
+    for (uint32_t face = 0; face < 6; ++face) addFace(model, face, 1, false);
+    return model;
+}
+Model ball(uint32_t n) {
+    Model model;
+    model.name = "ball";
+    for (uint32_t face = 0; face < 6; ++face) addFace(model, face, n, true);
+    return model;
+}
+
+Scene::Scene(SurfaceData surface) : surface_(std::move(surface)) {}
+
+Scene Scene::baked(const Model& model, uint32_t resolution) {
+    BakeOptions options;
+    options.resolution = resolution;
+    Result<Baked> made = bake(model, options);
+    if (!made) FAIL(made.failure().text());
+    return Scene(std::move(made->surface));
+}
+
+uint32_t Scene::addGrammar(const std::string& text) {
+    Result<RuleMap> map = compileGrammar(text);
+    if (!map) FAIL(map.failure().text());
+    grammars_.push_back(std::move(*map));
+    return uint32_t(grammars_.size()) - 1;
+}
+
+void Scene::paint(uint32_t layer, uint32_t size, const std::function<float(glm::vec2)>& value) {
+    Layer made{layer, size, std::vector<float>(size_t(size) * size)};
+    for (uint32_t y = 0; y < size; ++y)
+        for (uint32_t x = 0; x < size; ++x)
+            made.texels[texelIndex(size, x, y)] = value((glm::vec2(x, y) + 0.5f) / float(size));
+    std::erase_if(layers_, [&](const Layer& l) { return l.index == layer; });
+    layers_.push_back(std::move(made));
+}
+
+void Scene::plant(glm::vec3 at, glm::vec3 direction, uint32_t grammar, uint64_t number) {
+    const SurfaceLevelData& level = surface_.levels[0];
+    float best = 1e30f;
+    Seed seed{};
+    for (uint32_t y = 0; y < level.size; ++y)
+        for (uint32_t x = 0; x < level.size; ++x) {
+            const Texel& t = level.texels[texelIndex(level.size, x, y)];
+            float d = glm::length(t.position - at);
+            if (texelClass(t.bits) != kTexelInner || d >= best) continue;
+            best = d;
+            seed.walk.place = texelChart(t.bits);
+            seed.walk.uv = (glm::vec2(x, y) + 0.5f) / float(level.size);
+        }
+    seed.key = mix64(number * 7919 + seeds_.size() + 1);
+    seed.walk.direction = direction;
+    seed.grammar = grammar;
+    seed.symbol = grammars_.at(grammar).startSymbol();
+    seeds_.push_back(seed);
+}
+
+void Scene::plantMany(uint32_t count, uint32_t grammar, uint64_t number) {
+    const SurfaceLevelData& level = surface_.levels[0];
+    std::vector<uint32_t> inner;
+    for (uint32_t y = 0; y < level.size; ++y)
+        for (uint32_t x = 0; x < level.size; ++x)
+            if (texelClass(level.texels[texelIndex(level.size, x, y)].bits) == kTexelInner)
+                inner.push_back(y * level.size + x);
+    REQUIRE(!inner.empty());
+    for (uint32_t i = 0; i < count; ++i) {
+        uint64_t key = mix64(number * 104729 + i + 1);
+        uint32_t at = inner[size_t(uniformRandom(key, 1) * double(inner.size()))];
+        Seed seed{};
+        seed.key = key;
+        seed.walk.uv = (glm::vec2(at % level.size, at / level.size) + 0.5f) / float(level.size);
+        seed.walk.place = texelChart(level.texels[texelIndex(level.size, at % level.size, at / level.size)].bits);
+        seed.walk.direction = {uniformRandom(key, 2) - 0.5f, uniformRandom(key, 3) - 0.5f, uniformRandom(key, 4) - 0.5f};
+        seed.grammar = grammar;
+        seed.symbol = grammars_.at(grammar).startSymbol();
+        seeds_.push_back(seed);
+    }
+}
+
+Result<CpuGrowth> Scene::growOnCpu() {
+    SurfaceRef surface = surfaceRef(surface_);
+    std::vector<LayerRef> layers(kMaxLayers, LayerRef{{nullptr}, 0, 1});
+    for (Layer& l : layers_) layers[l.index] = {{l.texels.data()}, l.size, 1};
+    std::vector<RuleMapRef> refs;
+    for (const RuleMap& map : grammars_) refs.push_back(map.ref());
+    GrowthInputs in;
+    in.surfaces = {&surface};
+    in.surfaceCount = 1;
+    in.layers = {layers.data()};
+    in.grammars = refs;
+    in.widths = widths;
+    in.seeds = seeds_;
+    in.limits = limits;
+    return espalier::growOnCpu(in);
+}
+
+Status Scene::grow(Device& device, Growth& growth) {
+    if (!gpuSurface_) {
+        Result<GpuSurface> made = GpuSurface::create(device, surface_);
+        if (!made) return made.failure();
+        gpuSurface_ = std::move(*made);
+    }
+    buffers_.clear();
+    auto upload = [&](auto const& values, const char* name) -> uint64_t {
+        Result<Buffer> made = makeBuffer(device, name, values);
+        if (!made) FAIL(made.failure().text());
+        buffers_.push_back(std::move(*made));
+        return buffers_.back().address();
+    };
+    std::vector<LayerRef> layers(kMaxLayers, LayerRef{{nullptr}, 0, 1});
+    for (Layer& l : layers_) layers[l.index] = {{reinterpret_cast<float*>(upload(l.texels, "layer"))}, l.size, 1};
+    std::vector<RuleMapRef> refs;
+    for (const RuleMap& map : grammars_) {
+        std::vector<uint32_t> words(map.words().begin(), map.words().end());
+        refs.push_back(map.refAt(upload(words, "rule map")));
+    }
+    GrowthInputs in;
+    in.surfaces = {reinterpret_cast<SurfaceRef*>(upload(std::vector<SurfaceRef>{gpuSurface_.ref()}, "surfaces"))};
+    in.surfaceCount = 1;
+    in.layers = {reinterpret_cast<LayerRef*>(upload(layers, "layers"))};
+    in.grammars = refs;
+    in.widths = widths;
+    in.seeds = seeds_;
+    in.limits = limits;
+    return growth.grow(in);
+}
+
+TestDevice::TestDevice(bool validation) {
+    DeviceOptions options;
+    options.applicationName = "test_expand";
+    options.validation = validation;
+    Result<std::unique_ptr<Device>> made = Device::create(options);
+    if (!made) FAIL(made.failure().text());
+    owner = std::move(*made);
+}
+TestDevice::~TestDevice() {
+    if (!owner) return;
+    CHECK(owner->waitIdle());
+    CHECK(owner->validationMessages() == 0);
+    for (const std::string& text : owner->validationTexts()) std::printf("%s\n", text.c_str());
+}
+std::unique_ptr<Growth> TestDevice::growth(const GrowthRoom& room) {
+    Result<std::unique_ptr<Growth>> made = Growth::create(device(), room);
+    if (!made) FAIL(made.failure().text());
+    return std::move(*made);
+}
+
+}  // namespace espalier::growthtest
