@@ -9,7 +9,7 @@ namespace {
 
 // At most so many visible instances; beyond, they are counted as overflow and left out.
 constexpr uint64_t kMaxSpanInstances = 4'000'000, kMaxLeafInstances = 6'000'000;
-constexpr uint32_t kViewSlots = 8;   // views that recordings in flight may still read
+constexpr uint32_t kViewSlots = 8;  // views that recordings in flight may still read
 constexpr size_t kCountedBytes = offsetof(EmitState, spare);
 
 // A buffer of at least `bytes`, with room for growth to come when it has to be made anew.
@@ -30,10 +30,14 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
     const struct {
         Program& program;
         const char* shader;
-    } programs[] = {{emit.classifySpans_, "emit/classify_spans.comp"},   {emit.classifyLeaves_, "emit/classify_leaves.comp"},
-                    {emit.scan_, "emit/scan.comp"},                      {emit.writeSpans_, "emit/write_spans.comp"},
-                    {emit.writeLeaves_, "emit/write_leaves.comp"},       {emit.barkVertices_, "emit/bark_vertices.comp"},
-                    {emit.barkIndices_, "emit/bark_indices.comp"},       {emit.looseTriangles_, "emit/loose_triangles.comp"}};
+    } programs[] = {{emit.classifySpans_, "emit/classify_spans.comp"},
+                    {emit.classifyLeaves_, "emit/classify_leaves.comp"},
+                    {emit.scan_, "emit/scan.comp"},
+                    {emit.writeSpans_, "emit/write_spans.comp"},
+                    {emit.writeLeaves_, "emit/write_leaves.comp"},
+                    {emit.barkVertices_, "emit/bark_vertices.comp"},
+                    {emit.barkIndices_, "emit/bark_indices.comp"},
+                    {emit.looseTriangles_, "emit/loose_triangles.comp"}};
     for (const auto& p : programs) {
         Result<Program> made = Program::compute(device, p.shader);
         if (!made) return made.failure();
@@ -59,7 +63,8 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
 Status Emit::reserve(Device& device, const GrowthView& growth) {
     const uint64_t nodes = std::min<uint64_t>(growth.nodeCount, kMaxSpanInstances);
     const uint64_t leaves = std::min<uint64_t>(growth.leafCount, kMaxLeafInstances);
-    if (Status s = atLeast(device, classes_, "emit classes", 4ull * (uint64_t(growth.nodeCount) + growth.leafCount), ~0ull);
+    if (Status s =
+            atLeast(device, classes_, "emit classes", 4ull * (uint64_t(growth.nodeCount) + growth.leafCount), ~0ull);
         !s)
         return s;
     if (Status s = atLeast(device, spans_, "span instances", nodes * sizeof(SpanInstance),

@@ -10,22 +10,22 @@ namespace espalier {
 
 struct EmitInputs {
     GrowthView growth;
-    SurfaceBuf surfaces;              // indexed by surface instance
+    SurfaceBuf surfaces;  // indexed by surface instance
 };
 
 // Triangles in GPU memory: TriangleVertex and 32-bit indices, in the world.
 struct EmittedTriangles {
     Buffer vertices, indices;
     uint64_t vertexCount = 0, indexCount = 0;
-    double milliseconds = 0;          // GPU time of writing them
+    double milliseconds = 0;  // GPU time of writing them
 };
 
 struct EmitStats {
-    uint64_t drawnTriangles = 0;      // of the last cull whose results have come back
-    uint64_t fullTriangles = 0;       // the same growth at full detail
-    uint32_t spans = 0, leaves = 0;   // instances seen
-    uint32_t overflow = 0;            // instances left out for want of room
-    std::vector<uint32_t> buckets;    // instances of each
+    uint64_t drawnTriangles = 0;     // of the last cull whose results have come back
+    uint64_t fullTriangles = 0;      // the same growth at full detail
+    uint32_t spans = 0, leaves = 0;  // instances seen
+    uint32_t overflow = 0;           // instances left out for want of room
+    std::vector<uint32_t> buckets;   // instances of each
 };
 
 // Culls and picks LODs in compute; no loop over instances runs on the CPU. One Emit serves several views in one

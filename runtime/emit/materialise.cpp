@@ -22,7 +22,7 @@ std::vector<Block> layOut(const EmitState& state, const EmitTable& table, uint64
         blocks.push_back({b, state.counts[b], vertices, indices});
         vertices += uint64_t(state.counts[b]) * table.buckets[b].vertexCount;
         indices += uint64_t(state.counts[b]) * table.buckets[b].indexCount;
-        if (indices % 2) indices += 3;   // an empty triangle, so that the next block may be written in pairs
+        if (indices % 2) indices += 3;  // an empty triangle, so that the next block may be written in pairs
     }
     return blocks;
 }

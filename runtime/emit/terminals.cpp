@@ -96,7 +96,8 @@ Status Terminals::makeTable(Device& device) {
             for (uint32_t i = 0; i < lod.vertexCount; ++i)
                 record.extent = std::max(record.extent, glm::length(data_.vertices[lod.firstVertex + i].position));
             BucketRecord& bucket = table_.buckets[table_.bucketCount++];
-            bucket = {lod.firstVertex, lod.vertexCount, lod.indexCount, std::max(1u, kBatchVertices / lod.vertexCount),
+            bucket = {lod.firstVertex,          lod.vertexCount,
+                      lod.indexCount,           std::max(1u, kBatchVertices / lod.vertexCount),
                       uint32_t(batches.size()), lod.material};
             for (uint32_t b = 0; b < bucket.batch; ++b)
                 for (uint32_t i = 0; i < lod.indexCount; ++i)
@@ -141,7 +142,8 @@ Status Terminals::makePictures(Device& device) {
         }
         if (const int i = material.normalPicture; i >= 0 && !normals_[i]) {
             const TerminalPicture& p = data_.pictures[i];
-            if (Status s = make(normals_[i], "terminal normals", VK_FORMAT_R8G8B8A8_UNORM, p.width, p.height, p.rgba); !s)
+            if (Status s = make(normals_[i], "terminal normals", VK_FORMAT_R8G8B8A8_UNORM, p.width, p.height, p.rgba);
+                !s)
                 return s;
         }
     }

@@ -13,29 +13,29 @@ namespace espalier {
 // Terminal meshes on the CPU. A file names its meshes KIND[_VARIANT]_lodN: "bark_lod0", "leaf_b_lod2".
 struct TerminalLod {
     uint32_t firstVertex = 0, vertexCount = 0;
-    uint32_t firstIndex = 0, indexCount = 0;   // indices count from firstVertex
-    float error = 0;                           // as VariantRecord::error
+    uint32_t firstIndex = 0, indexCount = 0;  // indices count from firstVertex
+    float error = 0;                          // as VariantRecord::error
     uint32_t material = 0;
 };
 struct TerminalVariant {
     std::string name;
     uint32_t kind = 0;
-    std::vector<TerminalLod> lods;             // finest first
+    std::vector<TerminalLod> lods;  // finest first
 };
 struct TerminalPicture {
     uint32_t width = 0, height = 0;
-    std::vector<uint8_t> rgba;                 // rows top to bottom
+    std::vector<uint8_t> rgba;  // rows top to bottom
 };
 struct TerminalMaterial {
     std::string name;
     glm::vec4 baseColor{1};
     float roughness = 1;
-    float alphaCutoff = 0;                     // 0: opaque
+    float alphaCutoff = 0;  // 0: opaque
     int baseColorPicture = -1, normalPicture = -1;
 };
 struct TerminalData {
-    std::vector<std::string> kinds;            // by TerminalRecord::mesh
-    std::vector<TerminalVariant> variants;     // sorted by kind, bark first
+    std::vector<std::string> kinds;         // by TerminalRecord::mesh
+    std::vector<TerminalVariant> variants;  // sorted by kind, bark first
     std::vector<TerminalVertex> vertices;
     std::vector<uint32_t> indices;
     std::vector<TerminalMaterial> materials;
@@ -62,8 +62,8 @@ class Terminals {
     const EmitTable& table() const { return table_; }
     const Buffer& tableBuffer() const { return tableBuffer_; }
     const Buffer& vertices() const { return vertices_; }
-    const Buffer& indices() const { return indices_; }        // of single instances, for materialising
-    const Buffer& batches() const { return batches_; }        // repeated patterns, for drawing
+    const Buffer& indices() const { return indices_; }  // of single instances, for materialising
+    const Buffer& batches() const { return batches_; }  // repeated patterns, for drawing
     const TerminalLod& lodOfBucket(uint32_t bucket) const;
     // Textures of a material; white, or flat, where it has none.
     const Image& baseColor(uint32_t material) const;
@@ -76,7 +76,7 @@ class Terminals {
     TerminalData data_;
     EmitTable table_{};
     Buffer tableBuffer_, vertices_, indices_, batches_;
-    std::vector<Image> colors_, normals_;   // one a picture; those unused in a role stay empty
+    std::vector<Image> colors_, normals_;  // one a picture; those unused in a role stay empty
     Image white_, flat_;
 };
 

@@ -57,7 +57,8 @@ class Reader {
     }
 
     void openChunks() {
-        check(bytes_.size() >= 20 && wordAt(bytes_, 0) == 0x46546C67 && wordAt(bytes_, 4) == 2, "not a glTF 2.0 binary");
+        check(bytes_.size() >= 20 && wordAt(bytes_, 0) == 0x46546C67 && wordAt(bytes_, 4) == 2,
+              "not a glTF 2.0 binary");
         const size_t jsonSize = wordAt(bytes_, 12);
         check(wordAt(bytes_, 16) == 0x4E4F534A && jsonSize <= bytes_.size() - 20, "truncated JSON chunk");
         const char* text = reinterpret_cast<const char*>(bytes_.data()) + 20;
@@ -114,7 +115,10 @@ class Reader {
                   (count == 0 || (bytes.size() - offset >= size * width &&
                                   count - 1 <= (bytes.size() - offset - size * width) / stride)),
               name + " leaves its buffer view");
-        const double scale = a.value("normalized", false) ? (kind == 5123 ? 1.0 / 65535 : kind == 5121 ? 1.0 / 255 : 1) : 1;
+        const double scale = a.value("normalized", false) ? (kind == 5123   ? 1.0 / 65535
+                                                             : kind == 5121 ? 1.0 / 255
+                                                                            : 1)
+                                                          : 1;
         std::vector<double> out(count * width);
         for (uint64_t i = 0; i < count; ++i)
             for (uint32_t c = 0; c < width; ++c)
@@ -221,7 +225,8 @@ class Reader {
         if (attributes.contains("TEXCOORD_0")) uv = accessor(number(attributes, "TEXCOORD_0", ~0ull), "VEC2", 2);
         const std::vector<double> index = accessor(number(p, "indices", ~0ull), "SCALAR", 1);
         const size_t vertices = position.size() / 3;
-        check(vertices > 0 && vertices <= kMaxMeshVertices && normal.size() == position.size() && uv.size() == 2 * vertices,
+        check(vertices > 0 && vertices <= kMaxMeshVertices && normal.size() == position.size() &&
+                  uv.size() == 2 * vertices,
               name + ": attributes of different lengths, or more than 65,536 vertices");
         check(!index.empty() && index.size() % 3 == 0, name + ": indices are not whole triangles");
 
@@ -257,7 +262,9 @@ class Reader {
 
 }  // namespace
 
-std::vector<std::string> standardTerminalKinds() { return {"bark", "leaf", "pebble"}; }
+std::vector<std::string> standardTerminalKinds() {
+    return {"bark", "leaf", "pebble"};
+}
 
 Result<TerminalData> readTerminals(const std::filesystem::path& path, std::vector<std::string> kinds) {
     Result<std::vector<std::byte>> bytes = readFile(path);

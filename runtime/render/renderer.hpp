@@ -12,31 +12,31 @@ namespace espalier {
 
 struct Camera {
     glm::vec3 eye{0, 1, 5}, target{0, 1, 0}, up{0, 1, 0};
-    float fovY = 0.7f;           // radians
-    float nearPlane = 0.05f;     // metres; the far plane is at infinity
+    float fovY = 0.7f;        // radians
+    float nearPlane = 0.05f;  // metres; the far plane is at infinity
 };
 
 enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, layer = 4 };
 
 // Colours are linear.
 struct Look {
-    glm::vec3 sunDirection{0.45f, 0.62f, 0.64f};   // towards the sun
+    glm::vec3 sunDirection{0.45f, 0.62f, 0.64f};  // towards the sun
     glm::vec3 sunColor{5.2f, 4.4f, 3.3f};
     glm::vec3 skyColor{0.62f, 0.80f, 1.10f};
     glm::vec3 groundColor{0.34f, 0.29f, 0.22f};
-    float exposure = 0;                            // stops
-    glm::vec3 background{0.30f, 0.50f, 0.80f};     // at the zenith
+    float exposure = 0;                         // stops
+    glm::vec3 background{0.30f, 0.50f, 0.80f};  // at the zenith
     glm::vec3 horizon{0.80f, 0.86f, 0.92f};
     bool shadows = true;
     ViewMode view = ViewMode::shaded;
-    uint32_t layer = 0;                            // for ViewMode::layer: index into DrawInputs::layers' 16 a surface
-    float lodPixels = 1;                           // error allowed when choosing LOD, pixels
+    uint32_t layer = 0;   // for ViewMode::layer: index into DrawInputs::layers' 16 a surface
+    float lodPixels = 1;  // error allowed when choosing LOD, pixels
 };
 
 struct DrawInputs {
-    GrowthView growth;           // nodeCount 0: nothing grows
-    SurfaceBuf surfaces;         // device address of the SurfaceRef table; 0: no growth and no chart view
-    LayerBuf layers;             // surfaces * kMaxLayers; 0: no layer view
+    GrowthView growth;    // nodeCount 0: nothing grows
+    SurfaceBuf surfaces;  // device address of the SurfaceRef table; 0: no growth and no chart view
+    LayerBuf layers;      // surfaces * kMaxLayers; 0: no layer view
     Camera camera;
     Look look;
 };
@@ -44,7 +44,7 @@ struct DrawInputs {
 // Where to draw. image null: into the renderer's own image. Otherwise the image may be in any layout, its contents
 // are lost, and it is left in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; format: an 8-bit RGBA or BGRA, UNORM or SRGB.
 struct DrawTarget {
-    uint32_t width = 1280, height = 720;   // 1 to 16384
+    uint32_t width = 1280, height = 720;  // 1 to 16384
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
@@ -53,7 +53,7 @@ struct DrawTarget {
 struct RenderStats {
     EmitStats emit;
     uint64_t modelTriangles = 0;
-    double emitMs = 0, drawMs = 0, shadowMs = 0;   // GPU time of the last finished frame; shadow: of the last redraw
+    double emitMs = 0, drawMs = 0, shadowMs = 0;  // GPU time of the last finished frame; shadow: of the last redraw
 };
 
 class Renderer {

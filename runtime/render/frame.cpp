@@ -1,0 +1,92 @@
+// Enters: camera, look, sun. Leaves: matrices and the record that all drawing shaders read.
+#include "runtime/render/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier {
+namespace {
+
+glm::vec3 unitOr(glm::vec3 v, glm::vec3 other) {
+    const float length = glm::length(v);
+    return std::isfinite(length) && length > 1e-12f ? v / length : other;
+}
+
+// Right, up and backward as rows; `up` may be along the view.
+glm::mat4 viewMatrix(glm::vec3 eye, glm::vec3 forward, glm::vec3 up, glm::vec3& right, glm::vec3& trueUp) {
+    if (glm::length(glm::cross(forward, up)) < 1e-4f)
+        up = std::abs(forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1);
+    right = glm::normalize(glm::cross(forward, up));
+    trueUp = glm::cross(right, forward);
+    glm::mat4 m(1);
+    for (int c = 0; c < 3; ++c) {
+        m[c][0] = right[c];
+        m[c][1] = trueUp[c];
+        m[c][2] = -forward[c];
+    }
+    m[3] = glm::vec4(-glm::dot(right, eye), -glm::dot(trueUp, eye), glm::dot(forward, eye), 1);
+    return m;
+}
+
+}  // namespace
+
+FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height) {
+    const Camera& camera = inputs.camera;
+    const Look& look = inputs.look;
+    const glm::vec3 forward = unitOr(camera.target - camera.eye, {0, 0, -1});
+    const float tangent = std::tan(std::clamp(camera.fovY, 0.01f, 3.0f) * 0.5f);
+    const float aspect = float(width) / float(height);
+    glm::vec3 right, up;
+    const glm::mat4 view = viewMatrix(camera.eye, forward, unitOr(camera.up, {0, 1, 0}), right, up);
+    // Vulkan's clip space: y down; depth near / distance.
+    glm::mat4 projection(0);
+    projection[0][0] = 1 / (tangent * aspect);
+    projection[1][1] = -1 / tangent;
+    projection[2][3] = -1;
+    projection[3][2] = std::max(camera.nearPlane, 1e-4f);
+
+    FrameRecord frame{};
+    frame.viewProjection = projection * view;
+    frame.eye = camera.eye;
+    frame.nearPlane = projection[3][2];
+    frame.sunDirection = unitOr(look.sunDirection, {0, 1, 0});
+    frame.sunColor = look.sunColor;
+    frame.exposure = std::exp2(std::clamp(look.exposure, -20.0f, 20.0f));
+    frame.skyColor = look.skyColor;
+    frame.view = uint32_t(look.view);
+    frame.groundColor = look.groundColor;
+    frame.layer = std::min(look.layer, kMaxLayers - 1);
+    frame.background = look.background;
+    frame.shadows = look.shadows ? 1 : 0;
+    frame.horizon = look.horizon;
+    frame.rayRight = right * (tangent * aspect);
+    frame.rayUp = up * tangent;
+    frame.rayForward = forward;
+    frame.pixelScale = float(height) / (2 * tangent);
+    frame.surfaces = inputs.surfaces;
+    frame.layers = inputs.layers;
+    if (!inputs.surfaces.v && (look.view == ViewMode::charts || look.view == ViewMode::layer))
+        frame.view = kViewNormals;
+    if (!inputs.layers.v && look.view == ViewMode::layer) frame.view = kViewNormals;
+    return frame;
+}
+
+SunView makeSunView(glm::vec3 sunDirection, glm::vec3 center, float radius) {
+    glm::vec3 right, up;
+    const glm::vec3 forward = -unitOr(sunDirection, {0, 1, 0});
+    const glm::mat4 view = viewMatrix(center - forward * radius, forward, {0, 1, 0}, right, up);
+    glm::mat4 projection(1);
+    projection[0][0] = 1 / radius;
+    projection[1][1] = -1 / radius;
+    projection[2][2] = -0.5f / radius;
+    SunView sun;
+    sun.toClip = projection * view;
+    glm::mat4 toTexture(1);
+    toTexture[0][0] = toTexture[1][1] = 0.5f;
+    toTexture[3] = glm::vec4(0.5f, 0.5f, 0, 1);
+    sun.toTexture = toTexture * sun.toClip;
+    sun.width = 2 * radius;
+    return sun;
+}
+
+}  // namespace espalier

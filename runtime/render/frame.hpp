@@ -1,0 +1,19 @@
+#pragma once
+
+#include "runtime/render/renderer.hpp"
+#include "shaders/render/frame_records.h"
+
+namespace espalier {
+
+// A camera and a look as the shaders want them. Sizes in pixels.
+FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height);
+
+// The sun's parallel projection over a sphere, world -> clip, depth 0 near the sun to 1.
+struct SunView {
+    glm::mat4 toClip{1};
+    glm::mat4 toTexture{1};  // world -> texture coordinates and depth
+    float width = 1;         // metres that the map covers
+};
+SunView makeSunView(glm::vec3 sunDirection, glm::vec3 center, float radius);
+
+}  // namespace espalier

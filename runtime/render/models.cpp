@@ -1,0 +1,155 @@
+// Enters: decoded meshes with materials. Leaves: their buffers and textures, and draws, one a material range.
+#include "runtime/render/models.hpp"
+
+#include <algorithm>
+
+namespace espalier {
+namespace {
+
+static_assert(sizeof(DrawVertex) == sizeof(ModelVertex));
+
+Result<Image> makeTexture(Device& device, std::string_view name, VkFormat format, uint32_t width, uint32_t height,
+                          std::span<const uint8_t> rgba) {
+    ImageDesc desc{.name = name, .format = format, .width = width, .height = height};
+    desc.levels = 0;
+    Result<Image> image = Image::create(device, desc);
+    if (!image) return image;
+    if (Status s = fillImage(device, *image, std::as_bytes(rgba)); !s) return s.failure();
+    return image;
+}
+
+const Image& pictureOr(const std::vector<Image>& images, int index, const Image& other) {
+    return index >= 0 && size_t(index) < images.size() && images[size_t(index)] ? images[size_t(index)] : other;
+}
+
+}  // namespace
+
+Result<Models> Models::create(Device& device) {
+    Models models;
+    const uint8_t white[4] = {255, 255, 255, 255}, flat[4] = {128, 128, 255, 255};
+    Result<Image> whiteImage = makeTexture(device, "white", VK_FORMAT_R8G8B8A8_SRGB, 1, 1, white);
+    if (!whiteImage) return whiteImage.failure();
+    models.white_ = std::move(*whiteImage);
+    Result<Image> flatImage = makeTexture(device, "flat normal", VK_FORMAT_R8G8B8A8_UNORM, 1, 1, flat);
+    if (!flatImage) return flatImage.failure();
+    models.flat_ = std::move(*flatImage);
+    Result<Sampler> sampler =
+        Sampler::create(device, {.name = "model textures", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
+    if (!sampler) return sampler.failure();
+    models.sampler_ = std::move(*sampler);
+    return models;
+}
+
+Status Models::upload(Device& device, const SurfaceData& data, Model& model) {
+    Result<Buffer> vertices = makeBuffer(device, "model vertices", data.vertices);
+    if (!vertices) return vertices.failure();
+    model.vertices = std::move(*vertices);
+    Result<Buffer> indices = makeBuffer(device, "model indices", data.indices);
+    if (!indices) return indices.failure();
+    model.indices = std::move(*indices);
+    model.ranges = data.ranges;
+    model.materials = data.materials;
+    if (model.materials.empty()) model.materials.emplace_back();
+    model.colors.resize(data.images.size());
+    model.normals.resize(data.images.size());
+    for (const Material& material : model.materials) {
+        const struct {
+            int index;
+            std::vector<Image>& images;
+            VkFormat format;
+            const char* name;
+        } uses[] = {{material.baseColorImage, model.colors, VK_FORMAT_R8G8B8A8_SRGB, "model colour"},
+                    {material.normalImage, model.normals, VK_FORMAT_R8G8B8A8_UNORM, "model normals"}};
+        for (const auto& use : uses) {
+            if (use.index < 0 || size_t(use.index) >= data.images.size() || use.images[size_t(use.index)]) continue;
+            const Picture& picture = data.images[size_t(use.index)];
+            if (picture.width == 0 || picture.rgba.size() != size_t(picture.width) * picture.height * 4) continue;
+            Result<Image> image =
+                makeTexture(device, use.name, use.format, picture.width, picture.height, picture.rgba);
+            if (!image) return image.failure();
+            use.images[size_t(use.index)] = std::move(*image);
+        }
+    }
+    return Done{};
+}
+
+Status Models::set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld) {
+    Model model;
+    if (Status s = upload(device, data, model); !s) return s;
+    model.toWorld = toWorld;
+    model.low = glm::vec3(1e30f);
+    model.high = glm::vec3(-1e30f);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at((corner & 1) ? data.boundsMax.x : data.boundsMin.x,
+                           (corner & 2) ? data.boundsMax.y : data.boundsMin.y,
+                           (corner & 4) ? data.boundsMax.z : data.boundsMin.z);
+        const glm::vec3 world(toWorld * glm::vec4(at, 1));
+        model.low = glm::min(model.low, world);
+        model.high = glm::max(model.high, world);
+    }
+    models_.insert_or_assign(index, std::move(model));
+    ++revision_;
+    return Done{};
+}
+
+void Models::remove(uint32_t index) {
+    models_.erase(index);
+    ++revision_;
+}
+
+ModelPush Models::pushOf(const Model& model, const Material& material, uint64_t frame, uint32_t surface) const {
+    ModelPush push{};
+    push.frame.v = reinterpret_cast<FrameRecord*>(frame);
+    push.vertices.v = reinterpret_cast<ModelVertex*>(model.vertices.address());
+    for (int r = 0; r < 3; ++r)
+        push.toWorld[r] = {model.toWorld[0][r], model.toWorld[1][r], model.toWorld[2][r], model.toWorld[3][r]};
+    push.baseColor = material.baseColor;
+    push.normalScale = material.normalImage >= 0 ? material.normalScale : 0;
+    push.roughness = material.roughness;
+    push.alphaCutoff = material.alphaCutoff;
+    push.surface = surface;
+    return push;
+}
+
+void Models::draw(DrawPass& pass, const Program& program, uint64_t frame, const Image& shadowMap,
+                  const Sampler& shadowSampler, bool walkData) const {
+    for (const auto& [index, model] : models_) {
+        pass.setIndices(model.indices);
+        for (const DrawRange& range : model.ranges) {
+            const Material& material = model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
+            pass.drawIndexed(program, {range.indexCount, range.firstIndex},
+                             pushOf(model, material, frame, walkData ? index : kNoIndex),
+                             {{pictureOr(model.colors, material.baseColorImage, white_), sampler_},
+                              {pictureOr(model.normals, material.normalImage, flat_), sampler_},
+                              {shadowMap, shadowSampler}});
+        }
+    }
+}
+
+void Models::drawDepth(DrawPass& pass, const Program& program, uint64_t frame) const {
+    for (const auto& [index, model] : models_) {
+        pass.setIndices(model.indices);
+        for (const DrawRange& range : model.ranges) {
+            const Material& material = model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
+            pass.drawIndexed(program, {range.indexCount, range.firstIndex}, pushOf(model, material, frame, index));
+        }
+    }
+}
+
+uint64_t Models::triangles() const {
+    uint64_t sum = 0;
+    for (const auto& [index, model] : models_)
+        for (const DrawRange& range : model.ranges) sum += range.indexCount / 3;
+    return sum;
+}
+
+void Models::bounds(glm::vec3& low, glm::vec3& high) const {
+    low = glm::vec3(models_.empty() ? -0.5f : 1e30f);
+    high = -low;
+    for (const auto& [index, model] : models_) {
+        low = glm::min(low, model.low);
+        high = glm::max(high, model.high);
+    }
+}
+
+}  // namespace espalier

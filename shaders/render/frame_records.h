@@ -1,0 +1,96 @@
+// What the drawing shaders read: the frame, and each draw's push data.
+#ifndef ESPALIER_RENDER_FRAME_RECORDS_H
+#define ESPALIER_RENDER_FRAME_RECORDS_H
+#include "shaders/emit/emit_records.h"
+
+ESPALIER_BEGIN
+
+// Bindings of all drawing shaders.
+CONST_UINT(kBindColor, 0u);
+CONST_UINT(kBindNormal, 1u);
+CONST_UINT(kBindShadow, 2u);
+
+CONST_UINT(kViewShaded, 0u);
+CONST_UINT(kViewCharts, 1u);
+CONST_UINT(kViewNormals, 2u);
+CONST_UINT(kViewLod, 3u);
+CONST_UINT(kViewLayer, 4u);
+
+// Colours are linear. Clip space: depth reversed, 1 at the near plane, 0 at infinity.
+struct FrameRecord {
+    mat4 viewProjection;
+    mat4 shadowMatrix;       // world -> shadow map: xy texture coordinates, z depth
+    vec3 eye;
+    float nearPlane;
+    vec3 sunDirection;       // towards the sun, unit
+    float shadowOffset;      // metres along the normal that lookups start from
+    vec3 sunColor;
+    float exposure;          // factor
+    vec3 skyColor;
+    uint view;
+    vec3 groundColor;
+    uint layer;
+    vec3 background;
+    uint shadows;
+    vec3 horizon;
+    float shadowTexel;       // 1 / size of the shadow map
+    vec3 rayRight;           // half the picture's width at distance 1
+    float pixelScale;        // pixels of one metre at one metre's distance
+    vec3 rayUp;
+    uint leafy;              // something grows
+    vec3 rayForward;
+    uint spare;
+    SurfaceBuf surfaces;
+    LayerBuf layers;
+};
+STATIC_SIZE(FrameRecord, 304);
+BUFFER(FrameBuf, FrameRecord)
+
+// As DrawVertex of runtime/surface.
+struct ModelVertex {
+    vec3 position;
+    vec3 normal;
+    vec4 tangent;
+    vec2 uv;
+    vec2 walkUv;
+};
+STATIC_SIZE(ModelVertex, 56);
+BUFFER(ModelVertexBuf, ModelVertex)
+
+struct ModelPush {
+    FrameBuf frame;
+    ModelVertexBuf vertices;
+    vec4 toWorld[3];         // rows
+    vec4 baseColor;
+    float normalScale;
+    float roughness;
+    float alphaCutoff;
+    uint surface;            // instance; kNoIndex: no walk data
+};
+STATIC_SIZE(ModelPush, 96);
+
+struct TerminalPush {
+    FrameBuf frame;
+    EmitStateBuf state;
+    SpanInstanceBuf spans;
+    LeafInstanceBuf leaves;
+    TerminalVertexBuf vertices;
+    uint bucket, firstVertex, vertexCount, batch;
+    vec4 baseColor;
+    float roughness;
+    float alphaCutoff;
+    uint segments;           // of bark, along the span
+    uint spare;
+};
+STATIC_SIZE(TerminalPush, 88);
+
+struct PostPush {
+    FrameBuf frame;
+    vec2 rcpSize;            // 1 / pixels
+    uint samples;
+    uint encode;             // 1: the target doesn't encode to sRGB itself
+};
+STATIC_SIZE(PostPush, 24);
+
+ESPALIER_END
+#endif

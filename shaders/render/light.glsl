@@ -1,0 +1,66 @@
+// Sun with shadow, sky, ground; the same for all that is drawn.
+#ifndef ESPALIER_RENDER_LIGHT_GLSL
+#define ESPALIER_RENDER_LIGHT_GLSL
+#include "shaders/render/frame_records.h"
+
+layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
+
+// 1: lit. Four bilinear comparisons in a ring of one and a half texels.
+float sunVisibility(FrameBuf frame, vec3 position, vec3 normal) {
+    if (frame.v[0].shadows == 0u) return 1.0;
+    vec3 at = (frame.v[0].shadowMatrix * vec4(position + normal * frame.v[0].shadowOffset, 1.0)).xyz;
+    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return 1.0;
+    float d = 0.75 * frame.v[0].shadowTexel;
+    float lit = texture(shadowMap, vec3(at.xy + vec2(-d, -0.4 * d), at.z)) +
+                texture(shadowMap, vec3(at.xy + vec2(0.4 * d, -d), at.z)) +
+                texture(shadowMap, vec3(at.xy + vec2(d, 0.4 * d), at.z)) +
+                texture(shadowMap, vec3(at.xy + vec2(-0.4 * d, d), at.z));
+    return lit * 0.25;
+}
+
+// Light from the sky above and, bounced, from the ground below.
+vec3 skyLight(FrameBuf frame, vec3 normal) {
+    float up = normal.y * 0.5 + 0.5;
+    return mix(frame.v[0].groundColor, frame.v[0].skyColor, up * up * (3.0 - 2.0 * up));
+}
+
+// Sheen of a rough dielectric: Blinn's lobe, Schlick's edge.
+float gloss(vec3 normal, vec3 view, vec3 light, float roughness) {
+    vec3 h = normalize(view + light);
+    float a = roughness * roughness;
+    float power = 2.0 / max(a * a, 1e-3) - 2.0;
+    float edge = 0.04 + 0.96 * pow(1.0 - clamp(dot(view, h), 0.0, 1.0), 5.0);
+    return edge * (power + 8.0) * 0.04 * pow(max(dot(normal, h), 0.0), power);
+}
+
+// Colour, and in w the share of it that came from the sky: ambient occlusion dims that share later.
+vec4 lit(vec3 direct, vec3 ambient) {
+    float total = dot(direct + ambient, vec3(0.3, 0.6, 0.1));
+    return vec4(direct + ambient, clamp(dot(ambient, vec3(0.3, 0.6, 0.1)) / max(total, 1e-5), 0.0, 1.0));
+}
+
+vec3 hashColor(uint x) {
+    x = (x ^ 61u) ^ (x >> 16u);
+    x *= 9u;
+    x ^= x >> 4u;
+    x *= 0x27d4eb2du;
+    x ^= x >> 15u;
+    return vec3(x & 255u, (x >> 8u) & 255u, (x >> 16u) & 255u) / 255.0 * 0.75 + 0.2;
+}
+vec3 lodColor(uint lod) {
+    const vec3 colors[6] = vec3[6](vec3(0.85, 0.15, 0.1), vec3(0.9, 0.55, 0.1), vec3(0.75, 0.8, 0.15),
+                                   vec3(0.15, 0.7, 0.25), vec3(0.1, 0.5, 0.85), vec3(0.45, 0.25, 0.8));
+    return colors[min(lod, 5u)];
+}
+vec4 diagnostic(FrameBuf frame, vec3 color, vec3 normal) {
+    return vec4(color * (0.55 + 0.45 * max(dot(normal, frame.v[0].sunDirection), 0.0)), 0.6);
+}
+
+// Coverage of `alpha` over the four samples. which: varies the pattern between things that lie over each other.
+int coverage(float alpha, uint which) {
+    uint n = uint(clamp(alpha, 0.0, 1.0) * 4.0 + 0.5);
+    uint bits = (1u << n) - 1u;
+    uint turn = which & 3u;
+    return int(((bits << turn) | (bits >> (4u - turn))) & 15u);
+}
+#endif

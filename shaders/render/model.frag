@@ -1,0 +1,65 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// glTF base colour and normal map under sun and sky; or what the other views ask for.
+#include "shaders/render/light.glsl"
+
+layout(push_constant, scalar) uniform Data { ModelPush push; };
+layout(set = 0, binding = 0) uniform sampler2D colorMap;
+layout(set = 0, binding = 1) uniform sampler2D normalMap;
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec4 uvs;
+layout(location = 0) out vec4 color;
+
+uint walkTexel(SurfaceRef surface) {
+    uint size = surface.levels[0].size;
+    uvec2 at = min(uvec2(clamp(uvs.zw, 0.0, 1.0) * float(size)), uvec2(size - 1u));
+    return texelIndex(size, at.x, at.y);
+}
+
+vec4 otherView(vec3 n) {
+    uint view = push.frame.v[0].view;
+    if (view == kViewNormals) return vec4(n * 0.5 + 0.5, 0.0);
+    vec3 shown = vec3(0.5);
+    if (push.surface != kNoIndex && view == kViewCharts) {
+        SurfaceRef surface = push.frame.v[0].surfaces.v[push.surface];
+        uint bits = surface.levels[0].texels.v[walkTexel(surface)].bits;
+        shown = texelClass(bits) == kTexelEmpty ? vec3(0.02) : hashColor(texelChart(bits));
+    } else if (push.surface != kNoIndex && view == kViewLayer) {
+        LayerRef layer = push.frame.v[0].layers.v[push.surface * kMaxLayers + push.frame.v[0].layer];
+        float x = layer.fill;
+        if (u64(layer.texels) != 0ul) {
+            uvec2 at = min(uvec2(clamp(uvs.zw, 0.0, 1.0) * float(layer.size)), uvec2(layer.size - 1u));
+            x = layer.texels.v[texelIndex(layer.size, at.x, at.y)];
+        }
+        shown = mix(vec3(0.08, 0.09, 0.12), vec3(0.9, 0.35, 0.08), x);
+    }
+    return diagnostic(push.frame, shown, n);
+}
+
+void main() {
+    vec4 base = texture(colorMap, uvs.xy) * push.baseColor;
+    if (push.alphaCutoff > 0.0 && base.a < push.alphaCutoff) discard;
+    vec3 n = normalize(normal);
+    vec3 eye = normalize(push.frame.v[0].eye - position);
+    if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;
+    vec3 bumped = n;
+    float across = dot(tangent.xyz, tangent.xyz);
+    if (across > 1e-12 && push.normalScale != 0.0) {
+        vec3 m = texture(normalMap, uvs.xy).xyz * 2.0 - 1.0;
+        vec3 t = tangent.xyz * inversesqrt(across);
+        bumped = normalize(t * (m.x * push.normalScale) + cross(n, t) * (tangent.w * m.y * push.normalScale) + n * m.z);
+    }
+    if (push.frame.v[0].view != kViewShaded) {
+        color = otherView(bumped);
+        return;
+    }
+    vec3 sun = push.frame.v[0].sunDirection;
+    float facing = max(dot(bumped, sun), 0.0) * step(0.0, dot(n, sun));
+    float visible = facing > 0.0 ? sunVisibility(push.frame, position, n) : 0.0;
+    vec3 direct = push.frame.v[0].sunColor * visible *
+                  (base.rgb * facing + gloss(bumped, eye, sun, max(push.roughness, 0.35)) * facing);
+    color = lit(direct, base.rgb * skyLight(push.frame, bumped));
+}
