@@ -98,6 +98,43 @@ void layOut(const std::vector<Chart>& charts, float gutter, Assembly& out) {
     }
 }
 
+// Where displacement squeezes or tears a triangle, its vertices move with their neighbours instead.
+void relax(const std::vector<Chart>& charts, const std::vector<glm::vec3>& rest, const std::vector<uint32_t>& weld,
+           std::vector<glm::vec3>& moved) {
+    constexpr float kSqueezed = 0.42f, kTorn = 2.4f;
+    std::vector<std::pair<glm::vec3, float>> around(moved.size());
+    for (int round = 0; round < 60; ++round) {
+        std::fill(around.begin(), around.end(), std::pair(glm::vec3(0), 0.0f));
+        std::vector<uint8_t> bad(moved.size(), 0);
+        size_t count = 0;
+        uint32_t first = 0;
+        for (auto& chart : charts) {
+            for (auto& t : chart.triangles) {
+                glm::vec3 p[3];
+                for (size_t k = 0; k < 3; ++k) {
+                    uint32_t v = first + t[k], n = weld[first + t[(k + 1) % 3]];
+                    p[k] = rest[v] + moved[weld[v]];
+                    around[weld[v]].first += moved[n];
+                    around[weld[v]].second += 1;
+                }
+                glm::vec2 a = chart.st[t[1]] - chart.st[t[0]], b = chart.st[t[2]] - chart.st[t[0]];
+                float area = a.x * b.y - a.y * b.x;
+                glm::vec3 ds = ((p[1] - p[0]) * b.y - (p[2] - p[0]) * a.y) / area;
+                glm::vec3 dt = ((p[2] - p[0]) * a.x - (p[1] - p[0]) * b.x) / area;
+                float e = glm::dot(ds, ds), f = glm::dot(ds, dt), g = glm::dot(dt, dt);
+                float half = (e + g) / 2, root = std::sqrt((e - g) * (e - g) / 4 + f * f);
+                if (half - root > kSqueezed * kSqueezed && half + root < kTorn * kTorn) continue;
+                for (uint32_t v : t) bad[weld[first + v]] = 1;
+                ++count;
+            }
+            first += static_cast<uint32_t>(chart.st.size());
+        }
+        if (count == 0) return;
+        for (size_t w = 0; w < moved.size(); ++w)
+            if (bad[w] != 0) moved[w] = glm::mix(moved[w], around[w].first / around[w].second, 0.6f);
+    }
+}
+
 void computeNormals(Mesh& mesh, uint32_t welds) {
     std::vector<glm::dvec3> sum(welds, glm::dvec3(0));
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -144,13 +181,18 @@ Assembly assemble(const std::vector<Chart>& charts, const std::function<glm::vec
             out.meshHeight.push_back(height);
             displacements[out.mesh.weld[vertex]].require(chart.normal[i], height);
         }
+    std::vector<glm::vec3> rest, moved;
+    for (auto& chart : charts)
+        for (glm::vec3 p : chart.block) rest.push_back(warp(p));
+    for (auto& d : displacements) moved.push_back(d.solve());
+    relax(charts, rest, out.mesh.weld, moved);
     vertex = 0;
     for (size_t c = 0; c < charts.size(); ++c) {
         out.firstVertex.push_back(vertex);
         for (auto& t : charts[c].triangles)
             for (uint32_t v : t) out.mesh.indices.push_back(vertex + v);
         for (size_t i = 0; i < charts[c].st.size(); ++i, ++vertex) {
-            out.mesh.positions.push_back(warp(charts[c].block[i]) + displacements[out.mesh.weld[vertex]].solve());
+            out.mesh.positions.push_back(rest[vertex] + moved[out.mesh.weld[vertex]]);
             out.mesh.uvs.push_back(out.toUv(c, charts[c].st[i]));
         }
     }

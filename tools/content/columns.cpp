@@ -45,6 +45,11 @@ float topOf(const Pillar& p) {
     return p.bands.back().back().y;
 }
 
+// How far a broken top rises at q, relative to the axis.
+float breakAt(const Pillar& p, glm::vec2 q) {
+    return p.topTilt * (q.x * 0.8f + q.y * 0.6f) + 0.032f * p.topBulge * fractal(q * 6.0f, p.salt, 3);
+}
+
 // u in [0, 1] round the axis, from +z towards +x.
 glm::vec3 ringPoint(const Pillar& p, const Ring& ring, float u) {
     float w = u >= 1 ? 0 : u;
@@ -53,7 +58,7 @@ glm::vec3 ringPoint(const Pillar& p, const Ring& ring, float u) {
     float c = std::cos(p.turn), s = std::sin(p.turn);
     q = {q.x * c + q.y * s, q.y * c - q.x * s};
     float above = ring.y / topOf(p);
-    float tilt = p.topTilt * (q.x * 0.8f + q.y * 0.6f) * above * above;
+    float tilt = breakAt(p, q) * above * above;
     return {p.foot.x + q.x, ring.y + tilt, p.foot.y + q.y};
 }
 
@@ -91,8 +96,8 @@ Detail pillarDetail(const Pillar& p, glm::vec3 block, glm::vec2 st, float y, flo
     look.upward = upward;
     look.roughness = upward > 0.5f ? 1.0f + p.topBulge : 0.8f;
     look.belowCrest = topOf(p) - y;
+    look.shift = 0.25f;
     Detail d = stoneDetail(place, look);
-    if (upward > 0.5f) d.height += p.topBulge * 0.02f * fractal(block * 5.0f, 617, 3);
     return d;
 }
 
@@ -155,7 +160,7 @@ void addTop(std::vector<Chart>& charts, const Pillar& p) {
     triangulate(chart, {loop}, {fill});
     auto block = [p, ring](glm::vec2 st) {
         glm::vec2 q(st.x - p.foot.x, -st.y - p.foot.y);
-        return glm::vec3(st.x, ring.y + p.topTilt * (q.x * 0.8f + q.y * 0.6f), -st.y);
+        return glm::vec3(st.x, ring.y + breakAt(p, q), -st.y);
     };
     for (glm::vec2 st : chart.st) {
         chart.block.push_back(block(st));
@@ -168,7 +173,9 @@ void addTop(std::vector<Chart>& charts, const Pillar& p) {
         float c = std::cos(turn), s = std::sin(turn);
         q = {std::abs(q.x * c - q.y * s), std::abs(q.y * c + q.x * s)};
         float reach = glm::mix(glm::length(q), std::max(q.x, q.y), square);
-        d.height -= 0.02f * ramp(r - 0.06f, r, reach);
+        // The relief of the break ends before the rim, where the sides begin.
+        float rim = ramp(r - 0.09f, r, reach);
+        d.height = (1 - rim) * (d.height + p.topBulge * 0.025f * fractal(block(st) * 5.0f, 617, 3)) - 0.015f * rim;
         return d;
     };
     charts.push_back(std::move(chart));
@@ -220,7 +227,7 @@ Pillar standingColumn() {
 }
 
 Pillar brokenColumn() {
-    Pillar p{"stump", {-1.2f, 1.95f}, -0.05f, baseBands(), 0.55f, 2.5f, {0.24f, 1.22f}, {0.23f}, 48, 53, false};
+    Pillar p{"stump", {-1.2f, 1.95f}, -0.05f, baseBands(), 0.55f, 2.5f, {0.24f}, {0.23f}, 48, 53, false};
     p.bands.push_back({{0.62f, 0.295f, 0}, {1.0f, 0.29f, 0}, {1.42f, 0.27f, 0}});
     return p;
 }

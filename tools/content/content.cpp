@@ -9,6 +9,7 @@
 
 #include "tools/content/glb.hpp"
 #include "tools/content/leaf.hpp"
+#include "tools/content/noise.hpp"
 #include "tools/content/preview.hpp"
 #include "tools/content/ruin.hpp"
 
@@ -42,9 +43,10 @@ Status writeRuin(const Options& options) {
     PreviewView arch{{0.9f, 1.6f, 4.2f}, {0.4f, 1.6f, 0}, 42, 1280, 720, {0.6f, 0.6f, 0.5f}, true};
     PreviewView column{{3.6f, 1.9f, 4.6f}, {2.2f, 1.5f, 1.9f}, 48, 720, 960, {0.6f, 0.6f, 0.5f}, true};
     PreviewView back{{-5.5f, 3.6f, -5.5f}, {-0.5f, 1.3f, 0.3f}, 42, 1280, 720, {-0.5f, 0.7f, -0.6f}, true};
+    PreviewView stump{{-0.2f, 1.9f, 4.2f}, {-1.4f, 0.6f, 2.0f}, 42, 1280, 720, {0.6f, 0.6f, 0.5f}, true};
     PreviewView above{{0.3f, 9.5f, 5.0f}, {0, 0.8f, 0.6f}, 45, 1280, 720, {0.5f, 0.8f, 0.3f}, true};
-    for (const Shot& shot :
-         {Shot{"wide", wide}, Shot{"arch", arch}, Shot{"column", column}, Shot{"back", back}, Shot{"above", above}})
+    for (const Shot& shot : {Shot{"wide", wide}, Shot{"arch", arch}, Shot{"column", column}, Shot{"back", back},
+                             Shot{"stump", stump}, Shot{"above", above}})
         if (Status s = writeBytes(options.previewDirectory + "/ruin_" + shot.name + ".png",
                                   encodePng(preview(items, shot.view), 3));
             !s)
@@ -76,6 +78,19 @@ Status previewTerminals(const Options& options, const Glb& glb, const LeafAtlas&
         return s;
     view.eye = {-4.0f, 2.5f, 3.0f};
     if (Status s = writeBytes(options.previewDirectory + "/terminals_side.png", encodePng(preview(items, view), 3)); !s)
+        return s;
+    // Leaves over a wall, as growth might lay them.
+    items.clear();
+    for (uint32_t k = 0; k < 150; ++k) {
+        glm::vec3 at(random01(k, 1) * 1.5f - 0.75f, random01(k, 2) * 0.9f - 0.45f, random01(k, 3) * 0.05f);
+        glm::mat4 place = glm::translate(glm::mat4(1), at);
+        place = glm::rotate(place, (random01(k, 4) - 0.5f) * 2.2f + 3.14f, glm::vec3(0, 0, 1));
+        place = glm::rotate(place, 0.35f + 0.5f * random01(k, 5), glm::vec3(1, 0, 0));
+        place = glm::scale(place, glm::vec3(0.16f + 0.12f * random01(k, 6)));
+        items.push_back({glb.meshes[3 * (k % 3)].mesh, &leaves.color, &leaves.normal, false, place});
+    }
+    view = {{0.4f, 0.35f, 1.7f}, {0, 0, 0}, 38, 1280, 720, {0.4f, 0.7f, 0.6f}, true};
+    if (Status s = writeBytes(options.previewDirectory + "/leaves.png", encodePng(preview(items, view), 3)); !s)
         return s;
     if (Status s = writeBytes(options.previewDirectory + "/leaf_color.png", encodePng(leaves.color, 4)); !s) return s;
     if (Status s = writeBytes(options.previewDirectory + "/leaf_normal.png", encodePng(leaves.normal, 3)); !s) return s;

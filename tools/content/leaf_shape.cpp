@@ -120,7 +120,7 @@ float leafDistance(const LeafShape& shape, glm::vec2 p) {
 }
 
 namespace {
-constexpr float kMargin = 0.008f;               // of the atlas, round each leaf
+constexpr float kMargin = 0.008f;                // of the atlas, round each leaf
 constexpr float kSpanX = 1.12f, kSpanY = 1.06f;  // flat leaf units that a cell shows
 }  // namespace
 

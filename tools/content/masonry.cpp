@@ -96,6 +96,12 @@ float Elevation::top(float along) const {
     return courseHeights()[static_cast<size_t>(courses)];
 }
 
+float Elevation::belowCrest(glm::vec2 p) const {
+    float sum = 0;
+    for (int k = -4; k <= 4; ++k) sum += top(glm::clamp(p.x + 0.1f * static_cast<float>(k), begin_, end_));
+    return std::max(sum / 9 - p.y, 0.0f);
+}
+
 bool Elevation::inRing(glm::vec2 p) const {
     if (!arch_.present() || p.y < arch_.spring) return false;
     return glm::distance(p, glm::vec2(arch_.centre, arch_.spring)) < arch_.halfWidth + arch_.ring;

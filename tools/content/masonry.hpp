@@ -24,6 +24,7 @@ struct StoneLook {
     float upward = 0;       // 1 on surfaces that face the sky, where moss and dirt lie
     float roughness = 1;    // scales bumps; broken crests take 2
     float belowCrest = 3;   // metres under a crest, for streaks
+    float shift = 1;        // scales how far whole stones stand out or back
 };
 Detail stoneDetail(const StonePlace& place, const StoneLook& look);
 
@@ -49,6 +50,7 @@ class Elevation {
 
     static const std::vector<float>& courseHeights();  // y of the joints between courses, from 0
     float top(float along) const;                      // metres
+    float belowCrest(glm::vec2 p) const;               // metres under the crest, its steps smoothed
     const Arch& arch() const { return arch_; }
     float begin() const { return begin_; }
     float end() const { return end_; }

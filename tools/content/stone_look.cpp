@@ -53,6 +53,7 @@ Detail stoneDetail(const StonePlace& place, const StoneLook& look) {
     float loose = ramp(0.7f, 0.05f, look.belowCrest);  // stones near a crest have moved
     float standOut = (random01(id, 1) - 0.5f) * (0.034f + 0.045f * loose);
     if (random01(id, 2) < 0.10f) standOut -= 0.035f;  // weathered back
+    standOut *= look.shift;
     glm::vec2 tilt = (glm::vec2(random01(id, 3), random01(id, 4)) - 0.5f) * (0.05f + 0.12f * loose);
     float coarse = fractal(look.block * 6.5f, 321, 3) * 0.013f;
     float fine = fractal(look.block * 30.0f, 325, 3) * 0.0042f;

@@ -144,7 +144,7 @@ void addFace(std::vector<Chart>& charts, const Elevation& wall, const Face& face
         look.block = face.block(p);
         look.st = st;
         look.aboveGround = p.y;
-        look.belowCrest = wall.top(p.x) - p.y;
+        look.belowCrest = wall.belowCrest(p);
         return stoneDetail(place, look);
     };
     if (wall.arch().present() && face.side == 0)
