@@ -38,6 +38,7 @@ CONST_FLOAT(kWalkMaxTexels, 16.0f);      // longest stretch walked in one go
 CONST_FLOAT(kWalkMaxRadii, 256.0f);      // longest length that may be asked for, in radii of the surface
 CONST_FLOAT(kWalkTurnCosine, 0.94f);     // a stretch over which the normal turns by more than 20 degrees is cut
 CONST_FLOAT(kWalkNudgeTexels, 0.004f);   // how far inside the far chart a crossing ends
+CONST_FLOAT(kWalkCornerTexels, 0.01f);   // and how far from the ends of its border segment
 
 // A walk with what the next step needs of the last one's reads.
 struct WalkState {
@@ -49,6 +50,7 @@ struct WalkState {
     uint level;          // stood on: the one asked for or the chart's coarsest
     float clear;         // no crossing within this distance, in UV; 0: not known
     float limit;         // longest stretch for now, object metres
+    vec2 slip;           // uv + slip is surely inside the chart: the last stretch's end before it was corrected
     uint flags;          // bits 7..0 tries, 8: last read was creased, 9: search crossings loosely, 10: step moved,
                          // 11: a cut for the surface's turning is under way
 };
@@ -101,6 +103,7 @@ FN bool resumeWalk(SurfaceBuf surfaces, uint level, Walk walk, OUT(WalkState) w)
     uint coarsest = surfaces.v[instance].charts.v[chart].coarsestLevel;
     w.level = level < coarsest ? level : coarsest;
     w.limit = 1e30f;
+    w.slip = vec2(0.0f);
     w.flags = 0u;
     Patch p;
     bool found = patchAt(surfaces, instance, w.level, chart, w.orientation, w.walk.uv, p);
@@ -157,8 +160,9 @@ FN Exit findExit(SurfaceBuf surfaces, uint instance, uint level, uint chart, vec
     UintBuf refs = surfaces.v[instance].levels[level].crossingRefs;
     CrossingBuf crossings = surfaces.v[instance].crossings;
     float texel = rcpExact(fsize);
-    float gap = loose ? 1.0f * texel : 0.02f * texel;      // along a segment, beyond its ends
-    float behind = loose ? 2.0f * texel : 0.25f * texel;   // outside the border already
+    float gap = loose ? 1.0f * texel : 0.002f * texel;      // along a segment, beyond its ends
+    // Outside the border already; less than the nudge, or both sides of a slit would catch.
+    float behind = loose ? 2.0f * texel : 0.0035f * texel;
     Exit best;
     best.fraction = 2.0f;
     best.along = 0.0f;
@@ -212,13 +216,16 @@ FN Exit findExit(SurfaceBuf surfaces, uint instance, uint level, uint chart, vec
             float k = rcpExact(out1);
             float e2 = dot2(e, e);
             float f = depth * k;
-            // Already outside: the nearest point of the segment instead of the intersection.
-            float lambda = f < 0.0f ? -dot2(r, e) * rcpExact(e2) : cross2(r, delta) * k;
+            // Already outside: the nearest point of the segment instead of the intersection, and no gap, or
+            // the sides of a notch would catch walks that pass its tip.
+            bool outside = f < 0.0f;
+            float lambda = outside ? -dot2(r, e) * rcpExact(e2) : cross2(r, delta) * k;
             float over = larger(larger(-lambda, lambda - 1.0f), 0.0f);
-            bool near1 = f >= 0.0f || depth * depth <= behind * behind * e2;
+            float most = outside && !loose ? 0.0f : gap;
+            bool near1 = !outside || depth * depth <= behind * behind * e2;
             f = larger(f, 0.0f);
             if ((flags >> 16u) == chart && side > 0.0f && e2 > 0.0f && near1 && f <= 1.0f &&
-                over * over * e2 <= gap * gap && f < best.fraction) {
+                over * over * e2 <= most * most && f < best.fraction) {
                 best.fraction = f;
                 best.along = limited(lambda, 0.0f, 1.0f);
                 best.crossing = index;
@@ -238,6 +245,19 @@ FN vec2 nudgedInside(vec2 at, vec2 e, bool insideLeft, float texel) {
     float k = kWalkNudgeTexels * texel * rsqrtExact(larger(dot2(e, e), 1e-30f));
     k = insideLeft ? k : -k;
     return vec2(at.x - e.y * k, at.y + e.x * k);
+}
+
+// Tangent t of patch p made to lead off the border e into the chart, where rounding or the patch's own error makes
+// a grazing walk lead out again: then along the border and a hundredth inward.
+FN vec3 headedInside(Patch p, vec3 t, vec2 e, bool insideLeft) {
+    vec2 rate = tangentRate(p.du, p.dv, t);
+    float inward = insideLeft ? cross2(e, rate) : -cross2(e, rate);
+    float k = rsqrtExact(larger(dot2(e, e), 1e-30f));
+    vec2 along = e * (k * sign1(dot2(e, rate)));
+    vec2 in1 = insideLeft ? vec2(-e.y, e.x) * (0.01f * k) : vec2(e.y, -e.x) * (0.01f * k);
+    vec2 grazing = along + in1;
+    bool graze = inward < 1e-3f * length2(rate) * length2(e);
+    return graze ? unit3(p.du * grazing.x + p.dv * grazing.y) : t;
 }
 
 // Walks up to `remaining` metres straight on, at most to the next crossing, crease or turn of the surface, and
@@ -268,8 +288,10 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     leave.fraction = 2.0f;
     leave.along = 0.0f;
     leave.crossing = 0u;
-    if (loose || pace * s >= w.clear) {
-        leave = findExit(surfaces, instance, w.level, chart, w.walk.uv, delta, w.clear, loose);
+    // Where a walk goes to and fro between segments that overlap by a hair, it goes blindly on now and then.
+    bool blind = (w.flags & 7u) == 7u;
+    if (!blind && (loose || pace * s >= w.clear)) {
+        leave = findExit(surfaces, instance, w.level, chart, w.walk.uv + w.slip, delta - w.slip, w.clear, loose);
     }
     bool leaves = leave.fraction <= 1.0f;
 
@@ -281,14 +303,28 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     bool open = false;
     uint edgeA = 0u;
     uint edgeB = 0u;
+    vec2 e = vec2(0.0f);
+    bool insideLeft = false;
     if (leaves) {
         Crossing c = surfaces.v[instance].crossings.v[leave.crossing];
-        bool insideLeft = (c.flags & 4u) != 0u;
+        insideLeft = (c.flags & 4u) != 0u;
+        // The search began where the last stretch ended before its correction; the walk itself meets the same
+        // line here.
+        vec2 ab = c.b - c.a;
+        float k = rcpExact(cross2(delta, ab));
+        float f = cross2(c.a - w.walk.uv, ab) * k;
+        float lambda = cross2(c.a - w.walk.uv, delta) * k;
+        if (lambda >= 0.0f && lambda <= 1.0f && absolute(f - leave.fraction) < 0.5f) {
+            leave.fraction = f;
+            leave.along = lambda;
+        }
         open = (c.flags & 3u) == kCrossingOpen;
         edgeA = c.edge;
         edgeB = c.targetEdge;
-        vec2 e = open ? c.b - c.a : c.tb - c.ta;
-        to = (open ? c.a : c.ta) + e * leave.along;
+        e = open ? c.b - c.a : c.tb - c.ta;
+        // Not quite to a corner, where the next segment's outside begins.
+        float corner = limited(kWalkCornerTexels * texel * rsqrtExact(larger(dot2(e, e), 1e-30f)), 0.0f, 0.5f);
+        to = (open ? c.a : c.ta) + e * limited(leave.along, corner, 1.0f - corner);
         if (!open) {
             uint toInstance = c.target >> 16u;
             toInstance = toInstance == 0xFFFFu ? instance : toInstance;
@@ -325,6 +361,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             vec3 ea = edgeIn(edgeA, n);
             vec3 eb = edgeIn(edgeB, p.normal);
             t1 = unit3(eb * dot3(t, ea) + cross3(eb, p.normal) * dot3(t, cross3(ea, n)));
+            t1 = headedInside(p, t1, e, insideLeft);
             vec3 mean = n + p.normal;
             float mean2 = dot3(mean, mean);
             jointNormal = mean2 > 1e-4f ? mean * rsqrtExact(mean2) : p.normal;
@@ -339,6 +376,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         w.flags = w.flags & ~kWalkFlagLoose;
         standOn(w, p, rcpExact(float(surfaces.v[toPlace >> 16u].levels[toLevel].size)));
         w.clear = 0.0f;
+        w.slip = vec2(0.0f);
         event = open ? kWalkOpen : kWalkSeam;
     } else {
         vec3 t1 = carriedTangent(t, n, p.normal);
@@ -359,6 +397,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             jointNormal = mean2 > 1e-4f ? mean * rsqrtExact(mean2) : p.normal;
             w.position = w.position + t * toCrease;
             w.walk.uv = w.walk.uv + rate * toCrease;
+            w.slip = vec2(0.0f);
             w.walk.direction = t1;
             w.du = p.du;
             w.dv = p.dv;
@@ -372,6 +411,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         } else {
             walked = s;
             w.walk.uv = to + correction;
+            w.slip = vec2(0.0f) - correction;
             w.walk.direction = t1;
             standOn(w, p, texel);
             w.position = w.position + p.du * correction.x + p.dv * correction.y;
