@@ -283,7 +283,7 @@ void readLayouts(const Module& m, ShaderInterface& out) {
     }
 }
 
-// Types that carry floats, to tell apart what NoContraction may decorate.
+// What a compiler may fuse or regroup. OpExtInst isn't here: built-in functions have no exact result anyway.
 bool isFloatArithmetic(spv::Op op) {
     switch (op) {
         case spv::Op::OpFNegate:
