@@ -54,6 +54,8 @@ Node Graph::simplified(uint32_t op, Node x, Node y, Node z) {
             break;
         case kOpSub:
             if (isConstant(y, 0.0f)) return x;
+            // Subtracting what is fixed is adding its opposite, for which the rules above and below are made.
+            if (isFixed(y) && !isFixed(x)) return make(kOpAdd, x, make(kOpSub, zero(), y));
             break;
         case kOpMul:
             if (isConstant(x, 0.0f) || isConstant(y, 1.0f)) return x;
@@ -69,6 +71,9 @@ Node Graph::simplified(uint32_t op, Node x, Node y, Node z) {
             }
             break;
         case kOpSelect:
+            // The choice asks by itself whether a number holds.
+            if (nodes_[x].leaf == Leaf::operation && nodes_[x].op == kOpLessEq && isConstant(nodes_[x].kids[0], 0.5f))
+                return make(kOpSelect, nodes_[x].kids[1], y, z);
             if (isConstant(x)) return holds(nodes_[x].value) ? y : z;
             if (y == z) return y;
             if (nodes_[x].boolean && isConstant(y, 1.0f) && isConstant(z, 0.0f)) return x;
@@ -90,11 +95,27 @@ Node Graph::simplified(uint32_t op, Node x, Node y, Node z) {
     return kNone;
 }
 
+// (x + a) + b = x + (a + b), (x a) b = x (a b), (x a + b) c = x (a c) + b c for fixed a, b, c: the host does more of
+// the work. The rounding differs from the text's order, but this is what the text means, on every device.
+Node Graph::withFixedTogether(uint32_t op, Node x, Node y) {
+    const GraphNode left = nodes_[x];
+    if (isFixed(x) || !isFixed(y) || left.leaf != Leaf::operation || left.kidCount != 2 || !isFixed(left.kids[1]))
+        return kNone;
+    if ((op == kOpAdd || op == kOpMul) && left.op == op) return make(op, left.kids[0], make(op, left.kids[1], y));
+    if (op != kOpMul || left.op != kOpAdd) return kNone;
+    const GraphNode product = nodes_[left.kids[0]];
+    if (product.leaf != Leaf::operation || product.op != kOpMul || !isFixed(product.kids[1])) return kNone;
+    return add(mul(product.kids[0], mul(product.kids[1], y)), mul(left.kids[1], y));
+}
+
 Node Graph::make(uint32_t op, Node x, Node y, Node z) {
     Node simple = simplified(op, x, y, z);
     if (simple != kNone) return simple;
-    // Sums and products of one constant have it on the right, so that equal ones meet.
-    if ((op == kOpAdd || op == kOpMul || op == kOpMin || op == kOpMax) && isConstant(x)) std::swap(x, y);
+    // What is fixed stands on the right, so that equal expressions meet.
+    bool commutes = op == kOpAdd || op == kOpMul || op == kOpMin || op == kOpMax;
+    if (commutes && isFixed(x) && (!isFixed(y) || isConstant(x))) std::swap(x, y);
+    Node regrouped = commutes ? withFixedTogether(op, x, y) : kNone;
+    if (regrouped != kNone) return regrouped;
 
     GraphNode node;
     node.op = op;

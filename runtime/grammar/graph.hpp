@@ -51,12 +51,14 @@ class Graph {
     const GraphNode& operator[](Node n) const { return nodes_[n]; }
     bool isConstant(Node n) const { return nodes_[n].leaf == Leaf::constant; }
     bool isConstant(Node n, float value) const { return isConstant(n) && nodes_[n].value == value; }
+    bool isFixed(Node n) const { return isConstant(n) || nodes_[n].uniform; }
     size_t size() const { return nodes_.size(); }
 
     static constexpr Node kNone = 0xFFFFFFFFu;
 
   private:
     Node intern(const GraphNode& node);
+    Node withFixedTogether(uint32_t op, Node x, Node y);
     Node simplified(uint32_t op, Node x, Node y, Node z);
     std::vector<GraphNode> nodes_;
     std::unordered_map<uint64_t, std::vector<Node>> byHash_;

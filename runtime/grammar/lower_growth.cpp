@@ -171,7 +171,7 @@ class GrowthLowering {
         if (c_.graph.isConstant(length) && c_.graph[length].value <= 0)
             c_.reporter.error(e.place, symbol.name, "the marching length must be positive");
         Node start[2] = {length, c_.expressions.lower(e.args[a], env)};
-        std::vector<Node> arrive = {c_.graph.truth(c_.expressions.lower(e.args[a + 1], env))};
+        std::vector<Node> arrive = {c_.expressions.lower(e.args[a + 1], env)};
 
         std::vector<Call> top = calls(e.items[0], symbol.name);
         if (top.size() > 1) {
