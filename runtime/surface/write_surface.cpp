@@ -45,6 +45,7 @@ class Writer {
         if (!mesh) return mesh;
         writeMaterials();
         writeWalk();
+        binary_.resize((binary_.size() + 3) / 4 * 4, 0);
         if (binary_.size() > kMaxBinary) return Failure(path_, "the surface is larger than a .glb can be (4 GiB)");
         root_["extensions"][kExtension]["binary_hash"] = hex(hashBytes(std::as_bytes(std::span(binary_))));
         root_["buffers"] = {{{"byteLength", binary_.size()}}};
@@ -263,7 +264,6 @@ class Writer {
     Status writeContainer() {
         std::string text = root_.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
         text.resize((text.size() + 3) / 4 * 4, ' ');
-        binary_.resize((binary_.size() + 3) / 4 * 4, 0);
         std::vector<std::byte> file;
         uint64_t total = 12 + 8 + uint64_t(text.size()) + 8 + binary_.size();
         if (total > 0xFFFFFFFFu) return Failure(path_, "the surface is larger than a .glb can be (4 GiB)");

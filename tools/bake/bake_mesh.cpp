@@ -10,10 +10,10 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr double kWeldRadius = 1e-6;    // of the bounding radius
-constexpr double kUvTolerance = 1e-6;   // within which two corners' UVs agree
-constexpr double kMinUvArea = 1e-13;    // of a triangle; below, its map has no inverse worth the name
-constexpr double kFlippedShare = 1e-3;  // of the model's area: flipped islands up to this are left out
+constexpr double kWeldRadius = 1e-6;     // of the bounding radius
+constexpr double kUvTolerance = 1e-6;    // within which two corners' UVs agree
+constexpr double kMinUvArea = 1e-13;     // of a triangle; below, its map has no inverse worth the name
+constexpr double kFlippedShare = 0.005;  // of the area: flipped islands up to this are left out
 constexpr size_t kMaxTriangles = size_t(1) << 26;
 
 // A hash table from 64-bit keys to small numbers, open addressing.
@@ -137,6 +137,10 @@ Status reportLeftOut(const Model& model, const LeftOut& out, double area, std::v
     if (out.degenerateUvArea > 0.05 * area)
         return Failure(model.name, "the UVs of " + percent(out.degenerateUvArea / area) +
                                        " of the area collapse to points or lines (" + std::to_string(out.degenerateUv) +
+                                       " triangles): an unwrapped UV set is needed to bake it");
+    if (out.flippedArea > 0.02 * area)
+        return Failure(model.name, "the UVs fold over themselves: " + percent(out.flippedArea / area) +
+                                       " of the area is flipped (" + std::to_string(out.flipped) +
                                        " triangles): an unwrapped UV set is needed to bake it");
     if (out.degenerate > 0) warn(warnings, model, std::to_string(out.degenerate) + " triangles without area left out");
     if (out.degenerateUv + out.noUv > 0)

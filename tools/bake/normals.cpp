@@ -5,6 +5,11 @@
 #include "tools/bake/bake_mesh.hpp"
 
 namespace espalier::bakery {
+namespace {
+
+constexpr float kSmoothCosine = 0.82f;  // 35°: the most that a rounded normal turns from its face's
+
+}  // namespace
 
 void addNormalsAndCurvature(const Model& model, BakeMesh& mesh) {
     size_t n = mesh.points.size();
@@ -51,14 +56,23 @@ void addNormalsAndCurvature(const Model& model, BakeMesh& mesh) {
     for (size_t i = 0; i < n; ++i)
         if (weight[i] > 0) mesh.curvature[i] = float(sum[i] / weight[i]);
     mesh.normals.resize(mesh.triangles.size() * 3);
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& point = mesh.triangles[t].point;
+        glm::dvec3 p0 = mesh.points[point[0]];
+        glm::vec3 flat(glm::normalize(glm::cross(mesh.points[point[1]] - p0, mesh.points[point[2]] - p0)));
         for (size_t k = 0; k < 3; ++k) {
             glm::vec3 m(0);
             if (!model.normals.empty()) m = model.normals[model.indices[size_t(mesh.triangles[t].source) * 3 + k]];
             float length = glm::length(m);
-            bool usable = length > 1e-6f && std::isfinite(length);
-            mesh.normals[t * 3 + k] = usable ? m / length : glm::vec3(normal[mesh.triangles[t].point[k]]);
+            if (length > 1e-6f && std::isfinite(length)) {
+                mesh.normals[t * 3 + k] = m / length;
+                continue;
+            }
+            // Without normals of the model's own: rounded where faces meet gently, flat along creases.
+            glm::vec3 smooth(normal[mesh.triangles[t].point[k]]);
+            mesh.normals[t * 3 + k] = glm::dot(smooth, flat) > kSmoothCosine ? smooth : flat;
         }
+    }
 }
 
 }  // namespace espalier::bakery

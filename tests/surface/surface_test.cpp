@@ -1,0 +1,200 @@
+// The surface file: what is written is read; what is damaged is refused with a message and no crash.
+#include "runtime/surface/surface.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "runtime/core/file.hpp"
+#include "shaders/shared/random.h"
+#include "tests/bake/small_models.hpp"
+
+using namespace espalier;
+using namespace espalier::test;
+
+namespace {
+
+// A folder of its own that goes when the test does.
+struct Folder {
+    std::filesystem::path path;
+    Folder()
+        : path(std::filesystem::temp_directory_path() /
+               ("espalier_surface_" + std::to_string(std::rand()) + std::to_string(long(this)))) {
+        std::filesystem::create_directories(path);
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    std::string file(const char* name) const { return (path / name).string(); }
+};
+
+SurfaceData sample() {
+    Model model = cubeCross(3);
+    Picture picture;
+    picture.width = 4;
+    picture.height = 2;
+    for (int i = 0; i < 32; ++i) picture.rgba.push_back(uint8_t(i * 7));
+    model.images.push_back(picture);
+    Material plain, textured;
+    textured.baseColor = {0.5f, 0.25f, 1, 1};
+    textured.baseColorImage = 0;
+    textured.alphaCutoff = 0.5f;
+    textured.doubleSided = true;
+    model.materials = {plain, textured};
+    for (size_t t = 0; t < model.indices.size() / 3; ++t) model.triangleMaterial.push_back(t % 3 == 0);
+    BakeOptions options;
+    options.resolution = 64;
+    options.levels = 3;
+    auto baked = bake(model, options);
+    if (!baked) FAIL(baked.failure().text());
+    return std::move(baked->surface);
+}
+
+template <class T>
+bool same(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+std::vector<std::byte> bytesOf(const std::string& path) {
+    auto read = readFile(path);
+    REQUIRE(read);
+    return std::move(*read);
+}
+
+}  // namespace
+
+TEST_CASE("what is written is read: the walk's data bit for bit, the mesh within its quantisation") {
+    Folder folder;
+    SurfaceData a = sample();
+    REQUIRE(writeSurface(a, folder.file("a.glb")));
+    auto read = readSurface(folder.file("a.glb"));
+    if (!read) FAIL(read.failure().text());
+    const SurfaceData& b = *read;
+    CHECK(b.hash == a.hash);
+    CHECK(b.source == a.source);
+    CHECK(b.boundsMin == a.boundsMin);
+    CHECK(b.boundsMax == a.boundsMax);
+    CHECK(same(a.crossings, b.crossings));
+    CHECK(same(a.charts, b.charts));
+    CHECK(same(a.triangles, b.triangles));
+    REQUIRE(b.levels.size() == 3);
+    for (size_t l = 0; l < 3; ++l) {
+        CHECK(a.levels[l].size == b.levels[l].size);
+        CHECK(same(a.levels[l].texels, b.levels[l].texels));
+        CHECK(same(a.levels[l].aux, b.levels[l].aux));
+        CHECK(same(a.levels[l].crossingHead, b.levels[l].crossingHead));
+        CHECK(same(a.levels[l].crossingRefs, b.levels[l].crossingRefs));
+    }
+    CHECK(a.indices.size() == b.indices.size());
+    REQUIRE(b.ranges.size() == 2);
+    REQUIRE(b.materials.size() == 2);
+    CHECK(b.materials[1].baseColor == a.materials[1].baseColor);
+    CHECK(b.materials[1].baseColorImage == 0);
+    CHECK(b.materials[1].alphaCutoff == 0.5f);
+    CHECK(b.materials[1].doubleSided);
+    REQUIRE(b.images.size() == 1);
+    CHECK(b.images[0].width == 4);
+    CHECK(same(a.images[0].rgba, b.images[0].rgba));
+    // Each drawn corner lies on the surface where its walk UV says.
+    for (const DrawVertex& v : b.vertices) {
+        float best = 1e9f;
+        for (const TrianglePlane& t : b.triangles) {
+            glm::vec2 d = v.walkUv - t.uv0;
+            best = std::min(best, glm::length(t.position + t.du * d.x + t.dv * d.y - v.position));
+        }
+        REQUIRE(best < 1e-3f);
+        CHECK(glm::length(v.normal) == doctest::Approx(1).epsilon(0.01));
+        CHECK(std::abs(v.tangent.w) == 1);
+    }
+    REQUIRE(writeSurface(b, folder.file("b.glb")));
+    auto again = readSurface(folder.file("b.glb"));
+    REQUIRE(again);
+    CHECK(again->hash == a.hash);
+}
+
+TEST_CASE("a truncated file is refused wherever it ends") {
+    Folder folder;
+    REQUIRE(writeSurface(sample(), folder.file("a.glb")));
+    std::vector<std::byte> bytes = bytesOf(folder.file("a.glb"));
+    for (size_t keep = 0; keep < bytes.size(); keep += keep < 64 ? 1 : bytes.size() / 61) {
+        REQUIRE(writeFile(folder.file("cut.glb"), std::span(bytes).first(keep)));
+        auto read = readSurface(folder.file("cut.glb"));
+        REQUIRE(!read);
+        CHECK(read.failure().text().find("cut.glb") != std::string::npos);
+    }
+}
+
+TEST_CASE("flipped bits are refused, or touch nothing that a kernel follows") {
+    Folder folder;
+    SurfaceData a = sample();
+    REQUIRE(writeSurface(a, folder.file("a.glb")));
+    const std::vector<std::byte> bytes = bytesOf(folder.file("a.glb"));
+    uint32_t textLength;
+    std::memcpy(&textLength, bytes.data() + 12, 4);
+    uint64_t state = 12345;
+    size_t refused = 0, tries = 400;
+    for (size_t i = 0; i < tries; ++i) {
+        state = mix64(state + 1);
+        std::vector<std::byte> flipped = bytes;
+        // Every other flip in the text, where sizes and indices stand.
+        size_t at = i % 2 ? 20 + size_t(state % textLength) : size_t(state % bytes.size());
+        flipped[at] ^= std::byte(1u << (state >> 61));
+        REQUIRE(writeFile(folder.file("flip.glb"), flipped));
+        auto read = readSurface(folder.file("flip.glb"));
+        if (!read) {
+            ++refused;
+            CHECK(!read.failure().diagnostics.front().message.empty());
+        } else {
+            CHECK(read->hash == a.hash);
+        }
+        if (at >= 20 + textLength + 8) CHECK(!read);  // the binary chunk is under a hash
+    }
+    CHECK(refused > tries / 2);
+}
+
+TEST_CASE("other files are refused; failed writing leaves nothing") {
+    Folder folder;
+    CHECK(!readSurface(folder.file("missing.glb")));
+    CHECK(!readSurface(folder.path.string()));
+    REQUIRE(writeFile(folder.file("text.glb"), std::string_view("solid cube")));
+    CHECK(!readSurface(folder.file("text.glb")));
+    SurfaceData a = sample();
+    REQUIRE(writeFile(folder.file("block"), std::string_view("a file, no folder")));
+    CHECK(!writeSurface(a, folder.file("block/a.glb")));
+    CHECK(!std::filesystem::exists(folder.file("block/a.glb")));
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path)) files += entry.is_regular_file();
+    CHECK(files == 2);
+}
+
+TEST_CASE("indices out of range are refused even when the hashes fit") {
+    Folder folder;
+    auto refuses = [&](auto&& change) {
+        SurfaceData s = sample();
+        change(s);
+        s.hash = walkHash(s);
+        REQUIRE(writeSurface(s, folder.file("wild.glb")));
+        auto read = readSurface(folder.file("wild.glb"));
+        return !read;
+    };
+    CHECK(!refuses([](SurfaceData&) {}));
+    CHECK(refuses([](SurfaceData& s) { s.crossings[3].target = 0xFFFF0000u | 77u; }));
+    CHECK(refuses([](SurfaceData& s) { s.crossings[3].ta.x = 2; }));
+    CHECK(refuses([](SurfaceData& s) { s.charts[0].coarsestLevel = 3; }));
+    CHECK(refuses([](SurfaceData& s) { s.charts[0].triangleCount += 1; }));
+    CHECK(refuses([](SurfaceData& s) { s.triangles[5].chart = 9; }));
+    CHECK(refuses([](SurfaceData& s) { s.levels[0].crossingRefs[0] = 1u << 20; }));
+    CHECK(refuses([](SurfaceData& s) { s.levels[1].crossingHead[9] = 0xFFFFFF01u; }));
+    CHECK(refuses([](SurfaceData& s) {
+        for (Texel& t : s.levels[0].texels)
+            if (texelClass(t.bits) == kTexelInner) t.bits |= 0xFFFFu;
+    }));
+    CHECK(refuses([](SurfaceData& s) {
+        for (size_t i = 0; i < s.levels[0].aux.size(); ++i)
+            if (texelClass(s.levels[0].texels[i].bits) == kTexelInner) s.levels[0].aux[i].triangle = 1u << 30;
+    }));
+    CHECK(refuses([](SurfaceData& s) { s.levels[2].texels.resize(64); }));
+}
