@@ -6,9 +6,8 @@
 
 namespace espalier {
 
-void fatal(std::string_view message, std::source_location where) {
-    std::fprintf(stderr, "%s:%u: %s: %.*s\n", where.file_name(), unsigned(where.line()), where.function_name(),
-                 int(message.size()), message.data());
+void fatal(std::string_view message, CodePlace where) {
+    std::fprintf(stderr, "%s:%d: %.*s\n", where.file, where.line, int(message.size()), message.data());
     std::fflush(stderr);
     std::abort();
 }

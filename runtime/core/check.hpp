@@ -1,26 +1,30 @@
 #pragma once
 
-#include <source_location>
 #include <sstream>
 #include <string_view>
 
 namespace espalier {
 
+// Where a check stands. (clang 14 lacks std::source_location.)
+struct CodePlace {
+    const char* file;
+    int line;
+    static CodePlace current(const char* file = __builtin_FILE(), int line = __builtin_LINE()) { return {file, line}; }
+};
+
 // Prints the message with its place and ends the program: for programming mistakes and broken devices, which no
 // caller could answer. Content mistakes and outside failures are a Result instead.
-[[noreturn]] void fatal(std::string_view message, std::source_location where = std::source_location::current());
+[[noreturn]] void fatal(std::string_view message, CodePlace where = CodePlace::current());
 
 // Checks that are worth having in release builds too. Prints both values.
 template <class A, class B>
-void requireEqual(const A& a, const B& b, std::string_view what,
-                  std::source_location where = std::source_location::current()) {
+void requireEqual(const A& a, const B& b, std::string_view what, CodePlace where = CodePlace::current()) {
     if (a == b) return;
     std::ostringstream text;
     text << what << ": " << a << " is not " << b;
     fatal(text.str(), where);
 }
-inline void require(bool condition, std::string_view what,
-                    std::source_location where = std::source_location::current()) {
+inline void require(bool condition, std::string_view what, CodePlace where = CodePlace::current()) {
     if (!condition) fatal(what, where);
 }
 
