@@ -69,7 +69,20 @@ class Emitter {
         if (!isOperation(n)) return;
         if (++uses_[n] > 1) return;
         const GraphNode& g = graph_[n];
-        for (uint32_t i = 0; i < g.kidCount; ++i) count(g.kids[i]);
+        std::vector<uint32_t> needs;
+        for (uint32_t i = 0; i < g.kidCount; ++i) {
+            count(g.kids[i]);
+            needs.push_back(needOf(g.kids[i]));
+        }
+        std::sort(needs.rbegin(), needs.rend());
+        uint32_t need = 1;
+        for (uint32_t i = 0; i < needs.size(); ++i) need = std::max(need, needs[i] + i);
+        needs_[n] = need;
+    }
+    // Registers that a node's code takes, about (Sethi and Ullman's number, shared nodes aside).
+    uint32_t needOf(Node n) const {
+        auto found = needs_.find(n);
+        return found == needs_.end() ? 0 : found->second;
     }
     void release(Node n) {
         if (!isOperation(n) || --uses_[n] > 0) return;
@@ -135,12 +148,12 @@ class Emitter {
             kids[2] = other;
             kidCount = 3;
         }
-        // The kid that needs code of its own first, so that fewer registers are held meanwhile.
+        // The neediest first, while all registers are free.
         Value values[3] = {{kSlotZero, 0}, {kSlotZero, 0}, {kSlotZero, 0}};
-        for (uint32_t i = 0; i < kidCount; ++i)
-            if (isOperation(kids[i])) values[i] = value(kids[i]);
-        for (uint32_t i = 0; i < kidCount; ++i)
-            if (!isOperation(kids[i])) values[i] = value(kids[i]);
+        uint32_t order[3] = {0, 1, 2};
+        std::stable_sort(order, order + kidCount,
+                         [&](uint32_t i, uint32_t j) { return needOf(kids[i]) > needOf(kids[j]); });
+        for (uint32_t i = 0; i < kidCount; ++i) values[order[i]] = value(kids[order[i]]);
         return finish(n, op, kids, kidCount, values, product);
     }
 
@@ -193,7 +206,7 @@ class Emitter {
     StageReads& sites_;
     StageReads& reads_;
     bool uniformMode_;
-    std::map<Node, uint32_t> uses_, registers_;
+    std::map<Node, uint32_t> uses_, registers_, needs_;
     bool used_[kRegisters] = {};
 };
 

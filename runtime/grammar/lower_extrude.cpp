@@ -152,7 +152,7 @@ class ExtrudeLowering {
         if (block.kind == Block::marching)
             return error(e.place, env,
                          "an extruded successor draws on its span and can't march; branches begin in a Branch rule");
-        if (block.kind == Block::later) return error(e.place, env, "'" + e.name + "' isn't available on spans");
+        if (block.kind == Block::later) return;  // reported
         if (!e.hasItems || e.args.size() < block.minArgs || e.args.size() > block.maxArgs ||
             e.items.size() > block.maxItems)
             return error(e.place, env, "write " + std::string(block.usage));
@@ -174,7 +174,7 @@ class ExtrudeLowering {
 
     void call(const Element& e, Env& env, Node gate, const Scope& scope, uint32_t depth) {
         uint32_t callee = c_.findSymbol(e.name);
-        if (callee == kNoSymbol) return c_.reportUnknown(e, env.rule);
+        if (callee == kNoSymbol) return;  // reported
         const Symbol& symbol = c_.symbols[callee];
         if (!c_.checkArgs(e, symbol, env.rule)) return;
         if (symbol.grows)

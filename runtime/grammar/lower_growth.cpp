@@ -41,11 +41,11 @@ class GrowthLowering {
         if (block != nullptr && block->kind == Block::branch) {
             branch(e, *block, rule, all);
         } else if (block != nullptr) {
-            std::string why = block->kind == Block::marching
-                                  ? "Marching stands alone behind the arrow; give it a rule of its own"
-                              : block->kind == Block::repeat ? "Repeat belongs in what an extruded successor draws"
-                                                             : "'" + e.name + "' isn't available for growth";
-            c_.reporter.error(e.place, rule, why);
+            if (block->kind == Block::later) return;  // reported
+            bool marching = block->kind == Block::marching;
+            c_.reporter.error(e.place, rule,
+                              marching ? "Marching stands alone behind the arrow; give it a rule of its own"
+                                       : "Repeat belongs in what an extruded successor draws");
         } else if (command != nullptr && command->kind != Command::null) {
             c_.reporter.error(
                 e.place, rule,
@@ -53,7 +53,7 @@ class GrowthLowering {
                     "' draws, but here nothing has been extruded yet; put it into Marching's second successor");
         } else if (command == nullptr) {
             uint32_t callee = c_.findSymbol(e.name);
-            if (callee == kNoSymbol) return c_.reportUnknown(e, rule);
+            if (callee == kNoSymbol) return;  // reported
             const Symbol& symbol = c_.symbols[callee];
             if (!c_.checkArgs(e, symbol, rule)) return;
             if (symbol.grows)

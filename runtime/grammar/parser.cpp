@@ -312,7 +312,8 @@ class Parser {
             expect(")", "behind the expression");
             return inner;
         }
-        if (!at(TokenKind::name)) fail("expected a value, found " + shown(now()));
+        bool nextRule = now().firstOnLine && arrowFollowsName();
+        if (!at(TokenKind::name) || nextRule) fail("expected a value, found " + shown(now()));
         ++at_;
         Expr e{ExprKind::name, token.text, 0, {}, token.place, 1};
         while (at(".")) {

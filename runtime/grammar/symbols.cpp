@@ -147,15 +147,28 @@ void forEachElement(const Sequence& sequence, const std::function<void(const Ele
     }
 }
 
+// Here rather than in the lowering, which sees only what is reached.
+static void reportUnknownNames(Compilation& c) {
+    for (const Rule& rule : c.module.rules)
+        forEachElement(rule.successor, [&](const Element& e) {
+            const BlockInfo* block = findBlock(e.name);
+            if (isCall(e) && c.findSymbol(e.name) == kNoSymbol) c.reportUnknown(e, rule.predecessor);
+            if (block != nullptr && block->kind == Block::later)
+                c.reporter.error(e.place, rule.predecessor, "'" + e.name + "' isn't available in this version");
+        });
+}
+
 void analyseSymbols(Compilation& c) {
     collect(c);
+    reportUnknownNames(c);
     if (c.symbols.empty()) {
         if (!c.reporter.failed()) c.reporter.error({0, 1, 1}, {}, "the grammar has no rules");
         return;
     }
     classify(c);
-    CycleCheck(c).run();
-    warnUncalled(c);
+    bool complete = !c.reporter.failed();
+    if (complete) CycleCheck(c).run();
+    if (!c.reporter.failed()) warnUncalled(c);
     bool any = false;
     for (Symbol& symbol : c.symbols) {
         if (!symbol.grows) continue;
@@ -186,6 +199,7 @@ bool Compilation::checkArgs(const Element& e, const Symbol& symbol, const std::s
         reporter.error(e.place, rule, "'" + e.name + "' is a symbol and takes no successors in braces");
         return false;
     }
+    if (symbol.argCount > kMaxArgs) return false;  // reported where it is defined
     if (e.args.size() == symbol.argCount) return true;
     reporter.error(e.place, rule,
                    symbol.name + " takes " + std::to_string(symbol.argCount) +

@@ -1,0 +1,181 @@
+// Saved rule maps: the same when loaded, refused when damaged, harmless when forged; the cache on disk.
+#include <cstring>
+
+#include "runtime/core/hash.hpp"
+#include "tests/grammar/support.hpp"
+
+using namespace grammar_test;
+
+namespace {
+
+RuleMap ivy() {
+    Result<RuleMap> map = compileGrammarFile("content/grammars/ivy_free.grammar");
+    if (!map) FAIL(map.failure().text());
+    return std::move(map.value());
+}
+
+// Makes the checksum in the header (bytes 16..23) fit the rest again.
+void forgeChecksum(std::vector<uint8_t>& bytes) {
+    uint64_t sum = hashBytes(std::as_bytes(std::span(bytes).subspan(24)));
+    std::memcpy(&bytes[16], &sum, 8);
+}
+
+// Does everything that an expander could do with a map, for some steps.
+void exercise(const RuleMap& map) {
+    RuleMapRef ref = map.ref();
+    uint32_t symbol = map.startSymbol();
+    Machine machine = machineFor({1, 2, 3, 4});
+    for (uint64_t key = 1; key < 20; ++key) {
+        SymbolRecord s = ref.symbols.v[symbol];
+        drawSites(MACHINE ref.sites, s.firstSite, s.siteCount, key, key);
+        runCode(MACHINE ref.code, s.select);
+        int chosen = selectedRule(MACHINE s);
+        if (chosen < 0) return;
+        RuleRecord r = ref.rules.v[s.firstRule + static_cast<uint32_t>(chosen)];
+        drawSites(MACHINE ref.sites, r.firstSite, r.siteCount, key, key);
+        runCode(MACHINE ref.code, r.start);
+        runCode(MACHINE ref.code, r.arrive);
+        if (r.extrude != 0) {
+            ExtrudeRecord e = ref.extrudes.v[r.extrude - 1];
+            for (uint32_t t = 0; t < e.terminalCount; ++t) {
+                TerminalRecord terminal = ref.terminals.v[e.firstTerminal + t];
+                drawSites(MACHINE ref.sites, terminal.gateFirstSite, terminal.gateSiteCount, key, key);
+                runCode(MACHINE ref.code, terminal.gate);
+                runCode(MACHINE ref.code, terminal.body);
+                CHECK(std::isfinite(valueOf(MACHINE terminal.size)));
+            }
+        }
+        if (r.successorCount == 0) return;
+        SuccessorRecord next = ref.successors.v[r.firstSuccessor + key % r.successorCount];
+        runCode(MACHINE ref.code, next.code);
+        for (const Value& v : next.args) CHECK(std::isfinite(valueOf(MACHINE v)));
+        symbol = next.symbol;
+    }
+}
+
+struct TemporaryFolder {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("espalier_grammar_" + std::to_string(std::random_device{}()));
+    TemporaryFolder() { std::filesystem::create_directories(path); }
+    ~TemporaryFolder() {
+        std::error_code code;
+        std::filesystem::remove_all(path, code);
+    }
+};
+
+void write(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream out(path, std::ios::binary);
+    out << text;
+}
+
+}  // namespace
+
+TEST_CASE("a saved map is the same when loaded, whatever its parameters stood at") {
+    RuleMap map = ivy();
+    std::vector<uint32_t> words(map.words().begin(), map.words().end());
+    float v = 0.31f;
+    CHECK(map.setParam(*map.findParam("wander"), {&v, 1}) != 0);
+    CHECK_FALSE(std::equal(words.begin(), words.end(), map.words().begin()));
+    Result<RuleMap> loaded = RuleMap::load(map.save(), "test.rulemap");
+    if (!loaded) FAIL(loaded.failure().text());
+    CHECK(std::vector<uint32_t>(loaded->words().begin(), loaded->words().end()) == words);
+    CHECK(loaded->contentHash() == map.contentHash());
+    CHECK(loaded->startSymbol() == map.startSymbol());
+    REQUIRE(loaded->params().size() == map.params().size());
+    CHECK(loaded->params()[3].label == map.params()[3].label);
+    loaded->setParam(*loaded->findParam("wander"), {&v, 1});
+    CHECK(std::equal(map.words().begin(), map.words().end(), loaded->words().begin()));
+}
+
+TEST_CASE("a flipped byte anywhere is found") {
+    std::vector<uint8_t> good = ivy().save();
+    for (size_t i = 0; i < good.size(); i += 1 + i % 3) {
+        if (i >= 8 && i < 16) continue;  // the content hash is compared by who asks for it
+        std::vector<uint8_t> bad = good;
+        bad[i] ^= 1u << (i % 8);
+        CHECK_FALSE(RuleMap::load(bad, "bad.rulemap"));
+    }
+    for (size_t n = 0; n < good.size(); n += 37) CHECK_FALSE(RuleMap::load(std::span(good).first(n), "short.rulemap"));
+    CHECK(RuleMap::load({}, "empty.rulemap").failure().text() ==
+          "empty.rulemap: not a usable rule map: it is too short");
+}
+
+TEST_CASE("a forged map is refused or does no harm") {
+    std::vector<uint8_t> good = ivy().save();
+    std::mt19937 random(3);
+    int refused = 0, loadedCount = 0;
+    for (int i = 0; i < 6000; ++i) {
+        std::vector<uint8_t> bad = good;
+        for (uint32_t k = 0; k <= random() % 3; ++k) {
+            size_t at = 24 + random() % (bad.size() - 24);
+            bad[at] =
+                random() % 2 == 0 ? static_cast<uint8_t>(random()) : static_cast<uint8_t>(random() % 2 == 0 ? 0xFF : 0);
+        }
+        forgeChecksum(bad);
+        Result<RuleMap> map = RuleMap::load(bad, "forged.rulemap");
+        refused += map ? 0 : 1;
+        if (!map) continue;
+        ++loadedCount;
+        exercise(*map);
+        float v = 1;
+        if (!map->params().empty()) map->setParam(0, {&v, 1});
+        exercise(*map);
+    }
+    MESSAGE(refused << " refused, " << loadedCount << " harmless");
+    CHECK(refused > 500);
+    CHECK(loadedCount > 100);
+}
+
+TEST_CASE("compiled grammars are kept by content and compiled again when the text or an include changes") {
+    TemporaryFolder folder;
+    std::filesystem::path cache = folder.path / "cache";
+    write(folder.path / "base.grammar", "param p = 0.1\n");
+    write(folder.path / "a.grammar", "include \"base.grammar\"\nA -> Marching(p, 0, true) {A}\n");
+    auto files = [&] {
+        size_t n = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(cache)) n += entry.is_regular_file() ? 1 : 0;
+        return n;
+    };
+    Result<RuleMap> first = compileGrammarFile(folder.path / "a.grammar", cache);
+    if (!first) FAIL(first.failure().text());
+    CHECK(files() == 1);
+    Result<RuleMap> again = compileGrammarFile(folder.path / "a.grammar", cache);
+    REQUIRE(again);
+    CHECK(files() == 1);
+    CHECK(std::equal(first->words().begin(), first->words().end(), again->words().begin()));
+
+    // What is in the cache is used: a map of other words under this name comes back.
+    std::filesystem::path kept = std::filesystem::directory_iterator(cache)->path();
+    std::string bytes = contentsOf(kept);
+    write(kept, bytes.substr(0, bytes.size() / 2));
+    Result<RuleMap> mended = compileGrammarFile(folder.path / "a.grammar", cache);
+    REQUIRE(mended);
+    CHECK(contentsOf(kept) == bytes);
+
+    write(folder.path / "base.grammar", "param p = 0.2\n");
+    Result<RuleMap> changed = compileGrammarFile(folder.path / "a.grammar", cache);
+    REQUIRE(changed);
+    CHECK(files() == 2);
+    CHECK(ruleOf(*changed, "A").distance.immediate == 0.2f);
+
+    // A file stands where the folder should be.
+    write(folder.path / "blocked", "x");
+    Result<RuleMap> uncached = compileGrammarFile(folder.path / "a.grammar", folder.path / "blocked");
+    REQUIRE(uncached);
+    CHECK(toString(uncached->warnings()).find("can't be cached") != std::string::npos);
+}
+
+TEST_CASE("files: a missing one is named, includes stay in their folder") {
+    CHECK(compileGrammarFile("no/such.grammar").failure().text().find("no/such.grammar") != std::string::npos);
+    TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path / "inner");
+    write(folder.path / "secret.grammar", "param p = 0.1\n");
+    write(folder.path / "inner" / "a.grammar", "include \"../secret.grammar\"\nA -> Marching(p, 0, true) {A}\n");
+    CHECK(
+        compileGrammarFile(folder.path / "inner" / "a.grammar").failure().text().find("can't read the included file") !=
+        std::string::npos);
+    write(folder.path / "loop.grammar",
+          "include \"loop.grammar\"\ninclude \"loop2.grammar\"\nA -> Marching(0.1, 0, true) {A}\n");
+    write(folder.path / "loop2.grammar", "include \"loop.grammar\"\n");
+    CHECK(compileGrammarFile(folder.path / "loop.grammar"));
+}
