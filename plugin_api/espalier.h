@@ -176,7 +176,8 @@ typedef struct EspSeedDef {
     const char* symbol;       /* start symbol; NULL: the grammar's first */
     float position[3];        /* world; the nearest surface point is taken */
     float direction[3];       /* world; laid into the surface. Zero: upward, or any where the surface is level */
-    uint32_t number;          /* the seed's random number: the same number and id grow the same plant */
+    uint32_t number;          /* the seed's random number: seeds of unlike numbers grow unlike plants, and the first,
+                                 second ... of one number since espRemoveAllSeeds the same ones every time */
 } EspSeedDef;
 ESP_API EspSeedDef espDefaultSeedDef(void);
 ESP_API EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out);

@@ -13,7 +13,7 @@ constexpr float kUnset = -1;
 constexpr int kGutterPasses = 16;  // as wide as any gutter that the baker fills
 constexpr int kEmptyPasses = 2;    // further out only for bilinear reads
 
-struct Picture {
+struct GreyMap {
     std::vector<float> texels;
     int width = 0, height = 0;
 
@@ -38,14 +38,14 @@ struct Picture {
     }
 };
 
-Picture copyOf(const LayerPicture& source) {
-    Picture picture{{source.texels.begin(), source.texels.end()}, int(source.width), int(source.height)};
+GreyMap copyOf(const LayerPicture& source) {
+    GreyMap picture{{source.texels.begin(), source.texels.end()}, int(source.width), int(source.height)};
     for (float& value : picture.texels) value = value > 0 ? std::min(value, 1.f) : 0;  // NaN becomes 0
     return picture;
 }
 
-Picture halved(const Picture& from) {
-    Picture to{{}, std::max(1, from.width / 2), std::max(1, from.height / 2)};
+GreyMap halved(const GreyMap& from) {
+    GreyMap to{{}, std::max(1, from.width / 2), std::max(1, from.height / 2)};
     to.texels.resize(size_t(to.width) * to.height);
     for (int y = 0; y < to.height; ++y)
         for (int x = 0; x < to.width; ++x)
@@ -61,14 +61,14 @@ float cross(glm::vec2 a, glm::vec2 b) {
 }
 
 // The copy of the picture whose texels are about as large as the walk's on this triangle.
-const Picture& levelFor(const std::vector<Picture>& levels, float pictureArea, float walkArea, uint32_t size) {
-    const Picture& finest = levels.front();
+const GreyMap& levelFor(const std::vector<GreyMap>& levels, float pictureArea, float walkArea, uint32_t size) {
+    const GreyMap& finest = levels.front();
     const float ratio = pictureArea * finest.width * finest.height / std::max(walkArea * size * size, 1e-20f);
     const float level = ratio > 1 ? std::floor(.5f * std::log2(ratio) + .25f) : 0;
     return levels[size_t(std::min(level, float(levels.size() - 1)))];
 }
 
-void rasterise(const SurfaceData& surface, const std::vector<Picture>& levels, uint32_t size, std::vector<float>& out) {
+void rasterise(const SurfaceData& surface, const std::vector<GreyMap>& levels, uint32_t size, std::vector<float>& out) {
     for (size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
         const DrawVertex* v[3] = {&surface.vertices[surface.indices[i]], &surface.vertices[surface.indices[i + 1]],
                                   &surface.vertices[surface.indices[i + 2]]};
@@ -76,7 +76,7 @@ void rasterise(const SurfaceData& surface, const std::vector<Picture>& levels, u
         const float area = cross(ab, ac);
         if (!(std::abs(area) > 1e-20f)) continue;
         const glm::vec2 m = v[0]->uv, mb = v[1]->uv - m, mc = v[2]->uv - m;
-        const Picture& picture = levelFor(levels, std::abs(cross(mb, mc)), std::abs(area), size);
+        const GreyMap& picture = levelFor(levels, std::abs(cross(mb, mc)), std::abs(area), size);
         const glm::vec2 low = glm::min(a, glm::min(v[1]->walkUv, v[2]->walkUv)) * float(size) - .5f;
         const glm::vec2 high = glm::max(a, glm::max(v[1]->walkUv, v[2]->walkUv)) * float(size) - .5f;
         const int last = int(size) - 1;
@@ -125,7 +125,7 @@ std::vector<float> resampleLayer(const SurfaceData& surface, const LayerPicture&
     const SurfaceLevelData& level = surface.levels.front();
     const uint32_t size = level.size;
     std::vector<float> values(size_t(size) * size, kUnset);
-    std::vector<Picture> levels{copyOf(source)};
+    std::vector<GreyMap> levels{copyOf(source)};
     if (source.materialUv) {
         while (levels.back().width > 1 && levels.back().height > 1) levels.push_back(halved(levels.back()));
         rasterise(surface, levels, size, values);

@@ -1,0 +1,183 @@
+// Creation, destruction and errors of contexts, and the tables that kernels read a scene by.
+#include <dlfcn.h>
+
+#include <cstring>
+#include <fstream>
+
+#include "runtime/gpu/features.hpp"
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+// What espLastError(NULL) tells: the reason why this thread's last espCreate gave no context to ask.
+thread_local std::string creationError;
+
+// Where the library (or the program that it is linked into) lies: its content is installed next to it.
+std::filesystem::path contentFolder() {
+    Dl_info info{};
+    if (!dladdr(reinterpret_cast<void*>(&espCreate), &info) || !info.dli_fname) return "content";
+    std::error_code ignored;
+    std::filesystem::path library = std::filesystem::canonical(info.dli_fname, ignored);
+    if (ignored) library = std::filesystem::absolute(info.dli_fname, ignored);
+    return library.parent_path().parent_path() / "content";
+}
+
+Log logInto(EspLogFn log, void* user) {
+    if (!log) {
+        return [stderrLog = logToStderr()](Severity severity, std::string_view text) {
+            if (severity != Severity::info) stderrLog(severity, text);
+        };
+    }
+    return [log, user](Severity severity, std::string_view text) {
+        log(user, EspLogLevel(severity), std::string(text).c_str());
+    };
+}
+
+EspResult failCreation(EspResult code, std::string message) {
+    creationError = std::move(message);
+    return code;
+}
+
+Result<std::unique_ptr<Device>> makeDevice(const EspContextDef& def, const Log& log) {
+    if (!def.host) {
+        DeviceOptions options;
+        options.validation = def.validation != 0;
+        options.log = log;
+        return Device::create(options);
+    }
+    HostDevice host;
+    host.getInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(def.host->getInstanceProcAddr);
+    host.instance = static_cast<VkInstance>(def.host->instance);
+    host.physicalDevice = static_cast<VkPhysicalDevice>(def.host->physicalDevice);
+    host.device = static_cast<VkDevice>(def.host->device);
+    host.queue = static_cast<VkQueue>(def.host->queue);
+    host.queueFamily = def.host->queueFamily;
+    host.debugUtils = def.host->debugUtils != 0;
+    host.log = log;
+    return Device::adopt(host);
+}
+
+EspResult create(const EspContextDef& def, EspContext** out) {
+    if (def.host && (!def.host->getInstanceProcAddr || !def.host->instance || !def.host->physicalDevice ||
+                     !def.host->device || !def.host->queue))
+        return failCreation(ESP_INVALID_ARGUMENT, "espCreate: a handle of the host's device is null");
+    auto context = std::make_unique<EspContext>();
+    context->log = logInto(def.log, def.logUser);
+    context->grow = espDefaultGrowDef();
+    if (def.cacheFolder) context->cacheFolder = def.cacheFolder;
+
+    Result<std::unique_ptr<Device>> device = makeDevice(def, context->log);
+    if (!device) return failCreation(ESP_NO_DEVICE, device.failure().text());
+    context->device = std::move(*device);
+
+    const std::filesystem::path terminals = def.terminals ? def.terminals : contentFolder() / "terminals.glb";
+    if (EspResult readable = checkReadable(context.get(), terminals.c_str()))
+        return failCreation(readable, "terminal meshes: " + context->error);
+    Result<TerminalData> meshes = readTerminals(terminals);
+    if (!meshes) return failCreation(ESP_INVALID_CONTENT, meshes.failure().text());
+
+    Result<std::unique_ptr<Renderer>> renderer = Renderer::create(*context->device, std::move(*meshes));
+    if (!renderer) return failCreation(ESP_OUT_OF_MEMORY, renderer.failure().text());
+    context->renderer = std::move(*renderer);
+    Result<std::unique_ptr<Growth>> growth = Growth::create(*context->device);
+    if (!growth) return failCreation(ESP_OUT_OF_MEMORY, growth.failure().text());
+    context->growth = std::move(*growth);
+    *out = context.release();
+    return ESP_OK;
+}
+
+struct RequiredFeatures {
+    Features features;
+    RequiredFeatures() { chooseFeatures(Features(), features); }
+};
+
+constexpr const char* kRequiredExtensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+
+}  // namespace
+
+EspResult fail(const EspContext* context, EspResult code, std::string message) {
+    try {
+        context->error = std::move(message);
+        context->log(Severity::error, context->error);
+    } catch (...) {
+        // The code alone has to do.
+    }
+    return code;
+}
+
+EspResult failContent(const EspContext* context, const Failure& failure) {
+    return fail(context, ESP_INVALID_CONTENT, failure.text());
+}
+
+EspResult failGpu(const EspContext* context, const Failure& failure) {
+    return fail(context, context->device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY, failure.text());
+}
+
+EspResult checkReadable(const EspContext* context, const char* path) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        return fail(context, ESP_IO_FAILED, std::string(path) + ": is a folder");
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return fail(context, ESP_IO_FAILED, std::string(path) + ": can't be read: " + std::strerror(errno));
+    return ESP_OK;
+}
+
+}  // namespace espalier
+
+using namespace espalier;
+
+extern "C" {
+
+EspContextDef espDefaultContextDef(void) {
+    return EspContextDef{};
+}
+
+EspResult espCreate(const EspContextDef* def, EspContext** out) {
+    try {
+        creationError.clear();
+        if (!def || !out) return failCreation(ESP_INVALID_ARGUMENT, "espCreate: null pointer");
+        *out = nullptr;
+        return create(*def, out);
+    } catch (const std::bad_alloc&) {
+        return ESP_OUT_OF_MEMORY;
+    } catch (const std::exception& e) {
+        try {
+            creationError = e.what();
+        } catch (...) {
+        }
+        return ESP_INVALID_CONTENT;
+    }
+}
+
+void espDestroy(EspContext* context) {
+    if (!context) return;
+    // The GPU may still read what is about to be freed: a host's frames included.
+    (void)context->device->waitIdle();
+    delete context;
+}
+
+const void* espRequiredFeatures(void) {
+    static const RequiredFeatures required;
+    return &required.features.core;
+}
+
+const char* const* espRequiredExtensions(uint32_t* count) {
+    if (count) *count = uint32_t(std::size(kRequiredExtensions));
+    return kRequiredExtensions;
+}
+
+const char* espLastError(const EspContext* context) {
+    return context ? context->error.c_str() : creationError.c_str();
+}
+
+const char* espVersion(void) {
+    return ESPALIER_VERSION;
+}
+
+const char* espDeviceName(const EspContext* context) {
+    return context ? context->device->info().name.c_str() : "";
+}
+
+}  // extern "C"

@@ -1,0 +1,319 @@
+// Growing, drawing, reading back: what a host calls each frame.
+#include <cmath>
+#include <cstring>
+
+#include "runtime/gpu/commands.hpp"
+#include "runtime/plugin/context.hpp"
+#include "shaders/shared/random.h"
+
+namespace espalier {
+namespace {
+
+constexpr uint32_t kMaxSide = 16384;
+
+// The root of a seed's derivation path. Doesn't depend on other seeds or grammars.
+uint64_t seedKey(const PlantedSeed& seed) {
+    return combineKeys(mix64(seed.number), seed.ordinal);
+}
+
+EspResult update(EspContext& context) {
+    if (context.grownRevision == context.revision) return ESP_OK;
+    Status tables = context.refreshTables();
+    if (!tables) return failGpu(&context, tables.failure());
+
+    std::vector<RuleMapRef> maps;
+    std::vector<std::pair<uint32_t, uint32_t>> places;  // grammar id -> index in maps
+    context.grammars.forEach([&](uint32_t id, const LoadedGrammar& grammar) {
+        RuleMapRef ref = grammar.map.refAt(grammar.words.address());
+        for (size_t i = 0; i < grammar.layerOf.size() && i < kMaxLayers; ++i) ref.layerOf[i] = grammar.layerOf[i];
+        places.push_back({id, uint32_t(maps.size())});
+        maps.push_back(ref);
+    });
+    std::vector<Seed> seeds;
+    context.seeds.forEach([&](uint32_t, const PlantedSeed& planted) {
+        Seed seed{};
+        seed.key = seedKey(planted);
+        seed.walk = planted.walk;
+        for (const auto& [id, index] : places)
+            if (id == planted.grammar) seed.grammar = index;
+        const RuleMap& map = context.grammars.find(planted.grammar)->map;
+        seed.symbol = planted.symbol.empty() ? map.startSymbol() : *map.findSymbol(planted.symbol);
+        seeds.push_back(seed);
+    });
+
+    GrowthInputs inputs;
+    inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
+    inputs.surfaceCount = std::max(context.surfaceSlots(), 1u);
+    inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
+    inputs.grammars = maps;
+    inputs.seeds = seeds;
+    inputs.limits.walk = WalkMode(context.grow.walk);
+    inputs.limits.tangents = TangentMode(context.grow.tangents);
+    inputs.limits.maxNodes = context.grow.maxNodes;
+    inputs.limits.maxDepth = context.grow.maxDepth;
+    inputs.limits.leafDensityCap = context.grow.leafDensityCap;
+    Status grown = context.growth->grow(inputs);
+    if (!grown) return failGpu(&context, grown.failure());
+    context.grownRevision = context.revision;
+    return ESP_OK;
+}
+
+glm::vec3 vec(const float v[3]) {
+    return {v[0], v[1], v[2]};
+}
+
+EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
+    if (def.width < 1 || def.height < 1 || def.width > kMaxSide || def.height > kMaxSide)
+        return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a frame is 1 to 16384 pixels wide and high");
+    for (const float* v : {def.camera.eye, def.camera.target, def.camera.up, def.look.sunDirection})
+        if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
+            return fail(context, ESP_INVALID_ARGUMENT, "espDraw: camera or sun is not finite");
+    if (!(def.camera.fovY > 0.001f && def.camera.fovY < 3.1f) || !(def.camera.nearPlane > 0) ||
+        vec(def.camera.eye) == vec(def.camera.target))
+        return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera looks at nothing");
+    if (def.commandBuffer && (!def.colourImage || !def.colourView || !def.frame))
+        return fail(context, ESP_INVALID_ARGUMENT,
+                    "espDraw: with a command buffer, colourImage, colourView and frame are needed");
+    return ESP_OK;
+}
+
+EspResult makeLook(const EspContext& context, const EspLook& from, Look& look) {
+    look.sunDirection = vec(from.sunDirection);
+    look.sunColor = vec(from.sunColour);
+    look.skyColor = vec(from.skyColour);
+    look.groundColor = vec(from.groundColour);
+    look.exposure = from.exposure;
+    look.background = vec(from.background);
+    look.horizon = vec(from.horizon);
+    look.shadows = from.shadows != 0;
+    look.view = ViewMode(from.view);
+    look.lodPixels = from.windowLodPixels;
+    if (from.view < ESP_VIEW_SHADED || from.view > ESP_VIEW_LAYER)
+        return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no such view");
+    if (from.view == ESP_VIEW_LAYER) {
+        const std::string name = from.viewLayer ? from.viewLayer : "";
+        bool found = false;
+        for (uint32_t i = 0; i < context.sceneLayers.size() && !found; ++i)
+            if (context.sceneLayers[i].name == name) {
+                look.layer = i;
+                found = true;
+            }
+        if (!found) return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
+    }
+    return ESP_OK;
+}
+
+EspResult draw(EspContext& context, const EspDrawDef& def) {
+    if (EspResult bad = checkDraw(&context, def)) return bad;
+    DrawInputs inputs;
+    if (EspResult bad = makeLook(context, def.look, inputs.look)) return bad;
+    Status tables = context.refreshTables();
+    if (!tables) return failGpu(&context, tables.failure());
+    inputs.growth = context.growth->view();
+    inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
+    inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
+    inputs.camera = {vec(def.camera.eye), vec(def.camera.target), vec(def.camera.up), def.camera.fovY,
+                     def.camera.nearPlane};
+    DrawTarget target;
+    target.width = def.width;
+    target.height = def.height;
+    if (!def.commandBuffer) {
+        Result<Commands> commands = Commands::begin(*context.device, "frame");
+        if (!commands) return failGpu(&context, commands.failure());
+        Status drawn = context.renderer->draw(*commands, inputs, target);
+        if (!drawn) return failGpu(&context, drawn.failure());
+        Status finished = commands->finish();
+        if (!finished) return failGpu(&context, finished.failure());
+        context.hasPicture = true;
+        context.pictureWidth = def.width;
+        context.pictureHeight = def.height;
+        return ESP_OK;
+    }
+    if (def.framesDone) context.device->hostFrameDone(def.framesDone);
+    context.device->collect();
+    target.image = reinterpret_cast<VkImage>(def.colourImage);
+    target.view = reinterpret_cast<VkImageView>(def.colourView);
+    target.format = VkFormat(def.colourFormat);
+    Commands commands =
+        Commands::into(*context.device, reinterpret_cast<VkCommandBuffer>(def.commandBuffer), def.frame);
+    Status drawn = context.renderer->draw(commands, inputs, target);
+    return drawn ? ESP_OK : failGpu(&context, drawn.failure());
+}
+
+EspStats gather(const EspContext& context) {
+    const GrowthStats growth = context.growth->stats();
+    const RenderStats render = context.renderer->stats();
+    EspStats stats{};
+    stats.seeds = growth.seeds;
+    stats.chunks = growth.chunks;
+    stats.branches = growth.branches;
+    stats.nodes = growth.nodes;
+    stats.leaves = growth.leaves;
+    stats.polygons = render.emit.fullTriangles;
+    stats.drawnPolygons = render.emit.drawnTriangles;
+    stats.expansions = growth.expansions;
+    stats.overflow = growth.overflow + render.emit.overflow;
+    stats.stopped = growth.stopped;
+    stats.deadEnds = growth.deadEnds;
+    stats.validationMessages = context.device->validationMessages();
+    stats.expandMs = growth.expandMs;
+    stats.emitMs = render.emitMs;
+    stats.drawMs = render.drawMs;
+    stats.compileMs = context.compileMs;
+    stats.nodeBytes = growth.nodeBytes;
+    stats.leafBytes = growth.leafBytes;
+    stats.chunkBytes = growth.chunkBytes;
+    context.surfaces.forEach([&](uint32_t, const PlacedSurface& s) { stats.surfaceBytes += s.gpu.sizeBytes(); });
+    for (const PaintedLayer& layer : context.layers) stats.layerBytes += layer.texels.size();
+    stats.totalBytes = context.device->memory().bytesUsed();
+    stats.hash = growth.hash;
+    return stats;
+}
+
+}  // namespace
+}  // namespace espalier
+
+using namespace espalier;
+
+extern "C" {
+
+EspGrowDef espDefaultGrowDef(void) {
+    const GrowthLimits limits;
+    EspGrowDef def{};
+    def.maxNodes = limits.maxNodes;
+    def.maxDepth = limits.maxDepth;
+    def.leafDensityCap = limits.leafDensityCap;
+    return def;
+}
+
+EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
+    return guarded(context, [&] {
+        if (!def || def->walk < ESP_WALK_INTRINSIC || def->walk > ESP_WALK_PAPER || def->tangents < ESP_TANGENT_STEM ||
+            def->tangents > ESP_TANGENT_PAPER || def->maxNodes < 1 || def->maxDepth < 1 ||
+            !std::isfinite(def->leafDensityCap) || def->leafDensityCap < 0)
+            return fail(context, ESP_INVALID_ARGUMENT, "espSetGrow: null pointer, or a value out of its range");
+        const EspGrowDef& now = context->grow;
+        if (now.walk == def->walk && now.tangents == def->tangents && now.maxNodes == def->maxNodes &&
+            now.maxDepth == def->maxDepth && now.leafDensityCap == def->leafDensityCap)
+            return ESP_OK;
+        context->grow = *def;
+        ++context->revision;
+        return ESP_OK;
+    });
+}
+
+EspResult espUpdate(EspContext* context) {
+    return guarded(context, [&] { return update(*context); });
+}
+
+EspLook espDefaultLook(void) {
+    const Look look;
+    EspLook out{};
+    const auto set = [](float to[3], glm::vec3 from) { std::memcpy(to, &from, sizeof from); };
+    set(out.sunDirection, look.sunDirection);
+    set(out.sunColour, look.sunColor);
+    set(out.skyColour, look.skyColor);
+    set(out.groundColour, look.groundColor);
+    set(out.background, look.background);
+    set(out.horizon, look.horizon);
+    out.exposure = look.exposure;
+    out.shadows = look.shadows;
+    out.windowLodPixels = look.lodPixels;
+    return out;
+}
+
+EspDrawDef espDefaultDrawDef(void) {
+    EspDrawDef def{};
+    def.width = 1280;
+    def.height = 720;
+    const Camera camera;
+    std::memcpy(def.camera.eye, &camera.eye, sizeof def.camera.eye);
+    std::memcpy(def.camera.target, &camera.target, sizeof def.camera.target);
+    std::memcpy(def.camera.up, &camera.up, sizeof def.camera.up);
+    def.camera.fovY = camera.fovY;
+    def.camera.nearPlane = camera.nearPlane;
+    def.look = espDefaultLook();
+    return def;
+}
+
+EspResult espDraw(EspContext* context, const EspDrawDef* def) {
+    return guarded(context, [&] {
+        if (!def) return fail(context, ESP_INVALID_ARGUMENT, "espDraw: null pointer");
+        return draw(*context, *def);
+    });
+}
+
+EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes) {
+    return guarded(context, [&] {
+        if (!rgba) return fail(context, ESP_INVALID_ARGUMENT, "espReadPixels: null pointer");
+        if (!context->hasPicture)
+            return fail(context, ESP_INVALID_ARGUMENT, "espReadPixels: nothing was drawn into Espalier's image yet");
+        const size_t needed = size_t(context->pictureWidth) * context->pictureHeight * 4;
+        if (sizeBytes != needed)
+            return fail(context, ESP_INVALID_ARGUMENT,
+                        "espReadPixels: the picture has " + std::to_string(needed) + " bytes, not " +
+                            std::to_string(sizeBytes));
+        Result<std::vector<uint8_t>> pixels = context->renderer->readPixels();
+        if (!pixels) return failGpu(context, pixels.failure());
+        std::memcpy(rgba, pixels->data(), needed);
+        return ESP_OK;
+    });
+}
+
+EspCamera espFrameAll(const EspContext* context) {
+    EspCamera camera = espDefaultDrawDef().camera;
+    if (!context || context->surfaces.size() == 0) return camera;
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
+    context->surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
+        low = glm::min(low, vec(surface.info.boundsMin));
+        high = glm::max(high, vec(surface.info.boundsMax));
+    });
+    const glm::vec3 centre = (low + high) * .5f;
+    const float radius = std::max(glm::length(high - low) * .5f, 1e-3f);
+    camera.fovY = .6f;
+    const glm::vec3 towards = glm::normalize(glm::vec3(.55f, .28f, 1));
+    const glm::vec3 eye = centre + towards * (radius / std::sin(camera.fovY * .5f) * .92f);
+    std::memcpy(camera.eye, &eye, sizeof camera.eye);
+    std::memcpy(camera.target, &centre, sizeof camera.target);
+    camera.nearPlane = radius * .005f;
+    return camera;
+}
+
+EspResult espReadStats(EspContext* context, EspStats* out) {
+    return guarded(context, [&] {
+        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espReadStats: null pointer");
+        context->device->collect();
+        *out = gather(*context);
+        return ESP_OK;
+    });
+}
+
+EspResult espMaterialise(EspContext* context, EspTriangles* out) {
+    return guarded(context, [&] {
+        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espMaterialise: null pointer");
+        *out = EspTriangles{};
+        Status tables = context->refreshTables();
+        if (!tables) return failGpu(context, tables.failure());
+        EmitInputs inputs;
+        inputs.growth = context->growth->view();
+        inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context->surfaceTable.address());
+        if (inputs.growth.nodeCount == 0) return ESP_OK;
+        Result<EmittedTriangles> triangles = context->renderer->materialise(inputs);
+        if (!triangles) return failGpu(context, triangles.failure());
+        auto vertices =
+            readBuffer(*context->device, triangles->vertices, 0, triangles->vertexCount * sizeof(TriangleVertex));
+        if (!vertices) return failGpu(context, vertices.failure());
+        auto indices = readBuffer(*context->device, triangles->indices, 0, triangles->indexCount * sizeof(uint32_t));
+        if (!indices) return failGpu(context, indices.failure());
+        context->vertices = std::move(*vertices);
+        context->indices = std::move(*indices);
+        out->vertices = context->vertices.data();
+        out->vertexCount = triangles->vertexCount;
+        out->indices = reinterpret_cast<const uint32_t*>(context->indices.data());
+        out->indexCount = triangles->indexCount;
+        out->ms = triangles->milliseconds;
+        return ESP_OK;
+    });
+}
+
+}  // extern "C"

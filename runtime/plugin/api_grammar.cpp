@@ -1,0 +1,199 @@
+// Compiling grammars and setting their parameters; the layers that they read get their numbers here.
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include "runtime/core/file.hpp"
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr size_t kMaxTextBytes = 16u << 20;
+constexpr uint32_t kMaxGrammars = 1024;
+
+Result<RuleMap> compile(const EspContext& context, const EspGrammarDef& def) {
+    const std::filesystem::path file = def.name ? def.name : "grammar";
+    CompileOptions options;
+    options.fileName = file.string();
+    options.readInclude = [folder = file.parent_path()](const std::string& name) -> std::optional<std::string> {
+        // Files of the same folder only, so that a grammar from elsewhere can't read what isn't its own.
+        if (name.empty() || std::filesystem::path(name).filename() != name || name == "..") return std::nullopt;
+        Result<std::string> text = readTextFile(folder / name);
+        if (!text) return std::nullopt;
+        return std::move(*text);
+    };
+    return compileGrammar({def.text, def.length}, options, context.cacheFolder);
+}
+
+// Everything of a grammar but its seeds, ready to take the place of what stood there. `old`: null, or whose
+// parameters are taken over by name.
+Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, const LoadedGrammar* old) {
+    const auto begin = std::chrono::steady_clock::now();
+    Result<RuleMap> map = compile(context, def);
+    if (!map) return map.failure();
+    LoadedGrammar grammar;
+    grammar.name = def.name ? def.name : "grammar";
+    grammar.map = std::move(*map);
+    for (const Diagnostic& warning : grammar.map.warnings()) context.log(Severity::warning, toString(warning));
+    if (old)
+        for (const ParamInfo& param : old->map.params())
+            if (auto index = grammar.map.findParam(param.name))
+                if (grammar.map.params()[*index].kind == param.kind)
+                    grammar.map.setParam(*index, std::span(param.value, param.kind == ParamKind::colour ? 3 : 1));
+    for (const ContextInfo& layer : grammar.map.contexts()) {
+        const std::optional<uint32_t> number = sceneLayer(context, layer.name, layer.fill);
+        if (!number)
+            return Failure(grammar.name, "layer '" + layer.name + "': the grammars of this scene read more than " +
+                                             std::to_string(kMaxLayers) + " layers");
+        grammar.layerOf.push_back(*number);
+    }
+    grammar.compileMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    return grammar;
+}
+
+EspResult checkDef(const EspContext* context, const EspGrammarDef* def) {
+    if (!def || (!def->text && def->length))
+        return fail(context, ESP_INVALID_ARGUMENT, "compiling a grammar: null pointer");
+    if (def->length > kMaxTextBytes)
+        return fail(context, ESP_INVALID_CONTENT, "compiling a grammar: more than 16 MiB of text");
+    return ESP_OK;
+}
+
+LoadedGrammar* find(const EspContext* context, EspGrammar grammar) {
+    return context ? const_cast<EspContext*>(context)->grammars.find(grammar.id) : nullptr;
+}
+
+EspParamKind kindOf(const ParamInfo& param) {
+    switch (param.kind) {
+        case ParamKind::toggle:
+            return ESP_PARAM_BOOL;
+        case ParamKind::colour:
+            return ESP_PARAM_COLOUR;
+        case ParamKind::number:
+            break;
+    }
+    return ESP_PARAM_FLOAT;
+}
+
+// The first of the grammar's seeds whose start symbol `map` hasn't got.
+std::string lostSymbol(const EspContext& context, uint32_t grammarId, const RuleMap& map) {
+    std::string lost;
+    context.seeds.forEach([&](uint32_t, const PlantedSeed& seed) {
+        if (seed.grammar != grammarId || seed.symbol.empty() || !lost.empty()) return;
+        const auto symbol = map.findSymbol(seed.symbol);
+        if (!symbol || !map.symbols()[*symbol].grows) lost = seed.symbol;
+    });
+    return lost;
+}
+
+}  // namespace
+}  // namespace espalier
+
+using namespace espalier;
+
+extern "C" {
+
+EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGrammar* out) {
+    return guarded(context, [&] {
+        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espCompileGrammar: null pointer");
+        if (EspResult bad = checkDef(context, def)) return bad;
+        if (context->grammars.size() >= kMaxGrammars)
+            return fail(context, ESP_INVALID_ARGUMENT, "espCompileGrammar: there are 1024 grammars already");
+        Result<LoadedGrammar> grammar = prepare(*context, *def, nullptr);
+        if (!grammar) return failContent(context, grammar.failure());
+        context->compileMs = grammar->compileMs;
+        const uint32_t id = context->grammars.insert(std::move(*grammar));
+        if (!id) return fail(context, ESP_OUT_OF_MEMORY, "espCompileGrammar: no ids left");
+        out->id = id;
+        return ESP_OK;
+    });
+}
+
+EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGrammarDef* def) {
+    return guarded(context, [&] {
+        LoadedGrammar* old = find(context, id);
+        if (!old) return fail(context, ESP_INVALID_ARGUMENT, "espRecompileGrammar: no such grammar");
+        if (EspResult bad = checkDef(context, def)) return bad;
+        Result<LoadedGrammar> grammar = prepare(*context, *def, old);
+        if (!grammar) return failContent(context, grammar.failure());
+        const std::string lost = lostSymbol(*context, id.id, grammar->map);
+        if (!lost.empty())
+            return fail(context, ESP_INVALID_CONTENT,
+                        grammar->name + ": no rule grows from '" + lost + "', which planted seeds start with");
+        *old = std::move(*grammar);
+        context->compileMs = old->compileMs;
+        ++context->revision;
+        return ESP_OK;
+    });
+}
+
+EspResult espDestroyGrammar(EspContext* context, EspGrammar id) {
+    return guarded(context, [&] {
+        if (!find(context, id)) return fail(context, ESP_INVALID_ARGUMENT, "espDestroyGrammar: no such grammar");
+        std::vector<uint32_t> gone;
+        context->seeds.forEach([&](uint32_t seedId, const PlantedSeed& seed) {
+            if (seed.grammar == id.id) gone.push_back(seedId);
+        });
+        for (uint32_t seedId : gone) context->seeds.erase(seedId);
+        context->grammars.erase(id.id);
+        ++context->revision;
+        return ESP_OK;
+    });
+}
+
+uint32_t espParamCount(const EspContext* context, EspGrammar id) {
+    const LoadedGrammar* grammar = find(context, id);
+    return grammar ? uint32_t(grammar->map.params().size()) : 0;
+}
+
+EspResult espParamInfo(const EspContext* context, EspGrammar id, uint32_t index, EspParamInfo* out) {
+    return guarded(context, [&] {
+        const LoadedGrammar* grammar = find(context, id);
+        if (!grammar || !out || index >= grammar->map.params().size())
+            return fail(context, ESP_INVALID_ARGUMENT, "espParamInfo: no such grammar or parameter, or null");
+        const ParamInfo& param = grammar->map.params()[index];
+        *out = EspParamInfo{};
+        out->name = param.name.c_str();
+        out->label = param.label.empty() ? param.name.c_str() : param.label.c_str();
+        out->unit = param.unit.c_str();
+        out->group = "";
+        out->kind = kindOf(param);
+        std::memcpy(out->value, param.value, sizeof out->value);
+        std::memcpy(out->initial, param.standard, sizeof out->initial);
+        out->low = param.minimum;
+        out->high = param.maximum;
+        return ESP_OK;
+    });
+}
+
+EspResult espSetParam(EspContext* context, EspGrammar id, const char* name, const float* value, uint32_t count) {
+    return guarded(context, [&] {
+        LoadedGrammar* grammar = find(context, id);
+        if (!grammar || !name || !value || count < 1 || count > 3)
+            return fail(context, ESP_INVALID_ARGUMENT, "espSetParam: no such grammar, or null, or not 1 to 3 numbers");
+        for (uint32_t i = 0; i < count; ++i)
+            if (!std::isfinite(value[i]))
+                return fail(context, ESP_INVALID_ARGUMENT, std::string("espSetParam: ") + name + ": not a number");
+        const std::optional<uint32_t> index = grammar->map.findParam(name);
+        if (!index)
+            return fail(context, ESP_INVALID_ARGUMENT, grammar->name + ": there is no parameter '" + name + "'");
+        if (grammar->map.setParam(*index, std::span(value, count))) {
+            grammar->stale = true;
+            ++context->revision;
+        }
+        return ESP_OK;
+    });
+}
+
+uint32_t espLayerCount(const EspContext* context, EspGrammar id) {
+    const LoadedGrammar* grammar = find(context, id);
+    return grammar ? uint32_t(grammar->map.contexts().size()) : 0;
+}
+
+const char* espLayerName(const EspContext* context, EspGrammar id, uint32_t index) {
+    const LoadedGrammar* grammar = find(context, id);
+    return grammar && index < grammar->map.contexts().size() ? grammar->map.contexts()[index].name.c_str() : "";
+}
+
+}  // extern "C"

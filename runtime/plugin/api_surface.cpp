@@ -1,0 +1,222 @@
+// Loading, placing and describing surfaces; the tables of surfaces and layers that kernels read.
+#include <cmath>
+
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr uint32_t kMaxSurfaces = 255;  // read sets name an instance by 8 bits
+
+glm::mat4 matrixOf(const EspTransform& place) {
+    glm::mat4 m(1);
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column) m[column][row] = place.rows[row][column];
+    return m;
+}
+
+// A move, a turn and an even scale, or nothing.
+std::optional<float> evenScale(const glm::mat4& m) {
+    const glm::vec3 x(m[0]), y(m[1]), z(m[2]);
+    const float scale = glm::length(x);
+    const float limit = 1e-3f * scale;
+    const bool finite = std::isfinite(m[3].x) && std::isfinite(m[3].y) && std::isfinite(m[3].z);
+    if (!finite || !(scale > 1e-6f) || !(scale < 1e6f)) return std::nullopt;
+    if (!(std::abs(glm::length(y) - scale) < limit) || !(std::abs(glm::length(z) - scale) < limit)) return std::nullopt;
+    const float skew = std::max({std::abs(glm::dot(x, y)), std::abs(glm::dot(x, z)), std::abs(glm::dot(y, z))});
+    if (!(skew < limit * scale)) return std::nullopt;
+    if (glm::dot(glm::cross(x, y), z) < 0) return std::nullopt;
+    return scale;
+}
+
+EspSurfaceInfo describe(const SurfaceData& data, const glm::mat4& toWorld) {
+    EspSurfaceInfo info{};
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p(corner & 1 ? data.boundsMax.x : data.boundsMin.x,
+                          corner & 2 ? data.boundsMax.y : data.boundsMin.y,
+                          corner & 4 ? data.boundsMax.z : data.boundsMin.z);
+        const glm::vec3 world(toWorld * glm::vec4(p, 1));
+        low = glm::min(low, world);
+        high = glm::max(high, world);
+    }
+    for (int i = 0; i < 3; ++i) {
+        info.boundsMin[i] = low[i];
+        info.boundsMax[i] = high[i];
+    }
+    info.triangles = uint32_t(data.indices.size() / 3);
+    info.charts = uint32_t(data.charts.size());
+    info.levels = uint32_t(data.levels.size());
+    info.resolution = data.levels.front().size;
+    const double scale = glm::length(glm::vec3(toWorld[0]));
+    for (const Chart& chart : data.charts) info.walkableArea += chart.area * scale * scale;
+    info.hash = data.hash;
+    return info;
+}
+
+// What is on the GPU and won't be asked for again.
+void dropUploaded(SurfaceData& data) {
+    data.images = {};
+    data.materials = {};
+    data.ranges = {};
+    data.crossings = {};
+    data.triangles = {};
+    data.levels.resize(1);
+    data.levels[0].aux = {};
+    data.levels[0].crossingHead = {};
+    data.levels[0].crossingRefs = {};
+}
+
+EspResult load(EspContext& context, const char* path, const EspTransform& place, EspSurface* out) {
+    const glm::mat4 toWorld = matrixOf(place);
+    const std::optional<float> scale = evenScale(toWorld);
+    if (!scale)
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    "espLoadSurface: the transform must move, turn and scale evenly, without mirroring");
+    if (context.surfaces.size() >= kMaxSurfaces)
+        return fail(&context, ESP_INVALID_ARGUMENT, "espLoadSurface: there are 255 surfaces already");
+    if (EspResult readable = checkReadable(&context, path)) return readable;
+    Result<SurfaceData> data = readSurface(path);
+    if (!data) return failContent(&context, data.failure());
+
+    PlacedSurface surface;
+    surface.place = place;
+    surface.toWorld = toWorld;
+    surface.toObject = glm::inverse(toWorld);
+    surface.scale = *scale;
+    surface.data = std::move(*data);
+    surface.info = describe(surface.data, toWorld);
+    std::vector<glm::vec3> positions;
+    positions.reserve(surface.data.vertices.size());
+    for (const DrawVertex& vertex : surface.data.vertices) positions.push_back(vertex.position);
+    surface.tree = MeshTree(positions, surface.data.indices);
+    Result<GpuSurface> gpu = GpuSurface::create(*context.device, surface.data);
+    if (!gpu) return failGpu(&context, gpu.failure());
+    surface.gpu = std::move(*gpu);
+
+    const uint32_t id = context.surfaces.insert(std::move(surface));
+    if (!id) return fail(&context, ESP_OUT_OF_MEMORY, "espLoadSurface: no ids left");
+    PlacedSurface& placed = *context.surfaces.find(id);
+    placed.instance = instanceOf(id);
+    Status drawn = context.renderer->setSurface(placed.instance, placed.data, toWorld);
+    if (!drawn) {
+        context.surfaces.erase(id);
+        return failGpu(&context, drawn.failure());
+    }
+    dropUploaded(placed.data);
+    context.tablesStale = true;
+    ++context.revision;
+    out->id = id;
+    return ESP_OK;
+}
+
+}  // namespace
+
+std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill) {
+    const SceneLayer wanted{name, fill};
+    for (uint32_t i = 0; i < context.sceneLayers.size(); ++i)
+        if (context.sceneLayers[i] == wanted) return i;
+    if (context.sceneLayers.size() >= kMaxLayers) return std::nullopt;
+    context.sceneLayers.push_back(wanted);
+    context.tablesStale = true;
+    return uint32_t(context.sceneLayers.size() - 1);
+}
+
+const PaintedLayer* paintedLayer(const EspContext& context, uint32_t surface, const std::string& name) {
+    for (const PaintedLayer& layer : context.layers)
+        if (layer.surface == surface && layer.name == name) return &layer;
+    return nullptr;
+}
+
+}  // namespace espalier
+
+using namespace espalier;
+
+uint32_t EspContext::surfaceSlots() const {
+    uint32_t slots = 0;
+    surfaces.forEach([&](uint32_t, const PlacedSurface& surface) { slots = std::max(slots, surface.instance + 1); });
+    return slots;
+}
+
+Status EspContext::refreshTables() {
+    if (tablesStale) {
+        const uint32_t slots = std::max(surfaceSlots(), 1u);
+        std::vector<SurfaceRef> refs(slots);
+        std::vector<LayerRef> layerRefs(size_t(slots) * kMaxLayers);
+        for (LayerRef& ref : layerRefs) ref = LayerRef{{nullptr}, 0, 1};
+        for (size_t i = 0; i < layerRefs.size(); ++i)
+            if (i % kMaxLayers < sceneLayers.size()) layerRefs[i].fill = sceneLayers[i % kMaxLayers].fill;
+        surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
+            refs[surface.instance] = surface.gpu.ref(surface.toWorld);
+            for (uint32_t i = 0; i < sceneLayers.size(); ++i)
+                if (const PaintedLayer* painted = paintedLayer(*this, id, sceneLayers[i].name)) {
+                    LayerRef& ref = layerRefs[surface.instance * kMaxLayers + i];
+                    ref.texels.v = reinterpret_cast<float*>(painted->texels.address());
+                    ref.size = painted->size;
+                }
+        });
+        Result<Buffer> newSurfaces = makeBuffer(*device, "surface table", refs);
+        if (!newSurfaces) return newSurfaces.failure();
+        Result<Buffer> newLayers = makeBuffer(*device, "layer table", layerRefs);
+        if (!newLayers) return newLayers.failure();
+        surfaceTable = std::move(*newSurfaces);
+        layerTable = std::move(*newLayers);
+        tablesStale = false;
+    }
+    Status status = Done{};
+    grammars.forEach([&](uint32_t, LoadedGrammar& grammar) {
+        if (!grammar.stale || !status) return;
+        Result<Buffer> words = makeBuffer(*device, "rule map", std::as_bytes(grammar.map.words()));
+        if (!words) {
+            status = words.failure();
+            return;
+        }
+        grammar.words = std::move(*words);
+        grammar.stale = false;
+    });
+    return status;
+}
+
+extern "C" {
+
+EspTransform espIdentity(void) {
+    EspTransform t{};
+    for (int i = 0; i < 3; ++i) t.rows[i][i] = 1;
+    return t;
+}
+
+EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out) {
+    return guarded(context, [&] {
+        if (!path || !out) return fail(context, ESP_INVALID_ARGUMENT, "espLoadSurface: null pointer");
+        return load(*context, path, place ? *place : espIdentity(), out);
+    });
+}
+
+EspResult espDestroySurface(EspContext* context, EspSurface surface) {
+    return guarded(context, [&] {
+        PlacedSurface* placed = context->surfaces.find(surface.id);
+        if (!placed) return fail(context, ESP_INVALID_ARGUMENT, "espDestroySurface: no such surface");
+        std::vector<uint32_t> gone;
+        context->seeds.forEach([&](uint32_t id, const PlantedSeed& seed) {
+            if (seed.surface == surface.id) gone.push_back(id);
+        });
+        for (uint32_t id : gone) context->seeds.erase(id);
+        std::erase_if(context->layers, [&](const PaintedLayer& layer) { return layer.surface == surface.id; });
+        context->renderer->removeSurface(placed->instance);
+        context->surfaces.erase(surface.id);
+        context->tablesStale = true;
+        ++context->revision;
+        return ESP_OK;
+    });
+}
+
+EspResult espSurfaceInfo(const EspContext* context, EspSurface surface, EspSurfaceInfo* out) {
+    return guarded(context, [&] {
+        const PlacedSurface* placed = context->surfaces.find(surface.id);
+        if (!placed || !out) return fail(context, ESP_INVALID_ARGUMENT, "espSurfaceInfo: no such surface, or null");
+        *out = placed->info;
+        return ESP_OK;
+    });
+}
+
+}  // extern "C"

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "plugin_api/espalier.h"
+#include "runtime/core/result.hpp"
+#include "runtime/expand/growth.hpp"
+#include "runtime/gpu/buffer.hpp"
+#include "runtime/gpu/device.hpp"
+#include "runtime/grammar/grammar.hpp"
+#include "runtime/plugin/id_table.hpp"
+#include "runtime/plugin/mesh_tree.hpp"
+#include "runtime/render/renderer.hpp"
+#include "runtime/surface/gpu_surface.hpp"
+#include "runtime/surface/surface.hpp"
+
+namespace espalier {
+
+// A placed surface: on the GPU, and what picking, planting and laying layers need on the CPU. Its place in the id
+// table is its instance number, which nodes and seeds carry.
+struct PlacedSurface {
+    uint32_t instance = 0;
+    EspTransform place;
+    glm::mat4 toWorld{1}, toObject{1};
+    float scale = 1;
+    SurfaceData data;  // without images and all levels but the first, once it is on the GPU
+    EspSurfaceInfo info;
+    GpuSurface gpu;
+    MeshTree tree;
+};
+
+// One painted layer of one surface. `name` may be one that no grammar reads (yet).
+struct PaintedLayer {
+    std::string name;
+    uint32_t surface = 0;  // id
+    uint32_t size = 0;     // texels a side
+    Buffer texels;
+};
+
+struct LoadedGrammar {
+    std::string name;
+    RuleMap map;
+    Buffer words;  // uploaded from the map when stale
+    bool stale = true;
+    std::vector<uint32_t> layerOf;  // scene layer of each of the map's contexts
+    double compileMs = 0;
+};
+
+struct PlantedSeed {
+    uint32_t grammar = 0;  // id
+    uint32_t surface = 0;  // id
+    std::string symbol;    // empty: the grammar's first
+    uint32_t number = 0;
+    uint32_t ordinal = 0;  // tells apart seeds of one number: how many of that number were planted before it
+    Walk walk{};
+};
+
+// A layer as kernels know it: its number is the place in this list. Two grammars that name the same layer, but
+// want another value where nothing is painted, read two of them.
+struct SceneLayer {
+    std::string name;
+    float fill = 1;
+    bool operator==(const SceneLayer&) const = default;
+};
+
+}  // namespace espalier
+
+// What the C ABI calls a context. Every function of the ABI goes through guarded().
+struct EspContext {
+    espalier::Log log;
+    std::string cacheFolder;
+    mutable std::string error;
+
+    // Destroyed from the last to the first: the device goes last, its objects before it.
+    std::unique_ptr<espalier::Device> device;
+    std::unique_ptr<espalier::Growth> growth;
+    std::unique_ptr<espalier::Renderer> renderer;
+    espalier::IdTable<espalier::PlacedSurface> surfaces;
+    espalier::IdTable<espalier::LoadedGrammar> grammars;
+    espalier::IdTable<espalier::PlantedSeed> seeds;
+    std::vector<espalier::PaintedLayer> layers;
+    std::vector<espalier::SceneLayer> sceneLayers;
+    std::unordered_map<uint32_t, uint32_t> numberUses;  // seeds planted with that number
+
+    EspGrowDef grow;
+    uint64_t revision = 1;          // of everything that growth depends on
+    uint64_t grownRevision = 0;     // what the growth was made from
+    bool tablesStale = true;        // the two below don't describe surfaces and layers any more
+    espalier::Buffer surfaceTable;  // SurfaceRef[surfaceSlots()]
+    espalier::Buffer layerTable;    // LayerRef[surfaceSlots() * kMaxLayers]
+    double compileMs = 0;
+
+    bool hasPicture = false;
+    uint32_t pictureWidth = 0, pictureHeight = 0;
+    std::vector<std::byte> vertices, indices;  // of the last espMaterialise
+
+    uint32_t surfaceSlots() const;
+    // Uploads what is stale of tables and grammars.
+    espalier::Status refreshTables();
+};
+
+namespace espalier {
+
+EspResult fail(const EspContext* context, EspResult code, std::string message);
+EspResult failContent(const EspContext* context, const Failure& failure);
+// For failures of GPU work: DEVICE_LOST or OUT_OF_MEMORY, as the device says.
+EspResult failGpu(const EspContext* context, const Failure& failure);
+// OK, or IO_FAILED with the system's reason, for a file that is to be read.
+EspResult checkReadable(const EspContext* context, const char* path);
+
+// Runs a function of the ABI. No exception leaves it.
+template <class F>
+EspResult guarded(const EspContext* context, F&& body) noexcept {
+    try {
+        if (!context) return ESP_INVALID_ARGUMENT;
+        context->error.clear();
+        return body();
+    } catch (const std::bad_alloc&) {
+        return fail(context, ESP_OUT_OF_MEMORY, "out of memory");
+    } catch (const std::exception& e) {
+        return fail(context, ESP_INVALID_CONTENT, e.what());
+    } catch (...) {
+        return fail(context, ESP_INVALID_CONTENT, "unknown error");
+    }
+}
+
+// The number by which nodes and kernels know the surface of this id.
+inline uint32_t instanceOf(uint32_t surfaceId) {
+    return (surfaceId & ((1u << IdTable<PlacedSurface>::kPlaceBits) - 1)) - 1;
+}
+
+// The id of the surface and the walk's place for a point of its mesh.
+struct SurfacePoint {
+    uint32_t surface = 0;  // id
+    uint32_t chart = 0;
+    glm::vec2 uv{0};
+    glm::vec3 position{0}, normal{0};  // world; the triangle's own normal
+    float distance = 0;
+};
+std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction);
+std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point);
+
+// The number of the layer that a grammar's context reads; made if need be. Nothing: there are kMaxLayers already.
+std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill);
+const PaintedLayer* paintedLayer(const EspContext& context, uint32_t surface, const std::string& name);
+
+}  // namespace espalier

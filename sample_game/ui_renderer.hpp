@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sample_game/vulkan_host.hpp"
+
+struct ImDrawData;
+
+namespace sample {
+
+// Draws Dear ImGui's lists with dynamic rendering over what a frame shows. (The packaged Vulkan backend of 1.86 wants a
+// render pass, and would link against the loader's functions, which volk replaces.)
+class UiRenderer {
+  public:
+    explicit UiRenderer(const VulkanHost& host) : host_(host) {}
+    UiRenderer(const UiRenderer&) = delete;
+    ~UiRenderer();
+
+    // With the atlas of the current ImGui context, whose texture id it sets.
+    bool create();
+    // The fonts have changed: uploads them anew. Waits for the GPU.
+    bool updateFonts();
+    // Into the frame's image, which is in COLOR_ATTACHMENT_OPTIMAL and stays so.
+    bool draw(const Frame& frame, const ImDrawData& lists);
+    const std::string& error() const { return error_; }
+
+  private:
+    struct Memory {
+        VkBuffer buffer = VK_NULL_HANDLE;
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        void* bytes = nullptr;
+        VkDeviceSize size = 0;
+    };
+    bool check(VkResult result, const char* what);
+    bool makePipeline();
+    bool makePicture(uint32_t width, uint32_t height);
+    bool uploadPicture(const unsigned char* rgba, uint32_t width, uint32_t height);
+    bool reserve(Memory& memory, VkDeviceSize size, VkBufferUsageFlags usage);
+    void release(Memory& memory);
+    void releasePicture();
+    void record(const Frame& frame, const ImDrawData& lists);
+
+    const VulkanHost& host_;
+    std::string error_;
+    VkSampler sampler_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
+    VkImage picture_ = VK_NULL_HANDLE;
+    VkDeviceMemory pictureMemory_ = VK_NULL_HANDLE;
+    VkImageView pictureView_ = VK_NULL_HANDLE;
+    Memory vertices_[kFramesInFlight];
+    Memory indices_[kFramesInFlight];
+};
+
+}  // namespace sample

@@ -1,0 +1,406 @@
+// A window in, frames to record into out: instance, device, swapchain and frames in flight of a small engine.
+// The device is the first, discrete ones before others, that has what the plugin asks for and can show pictures.
+#define GLFW_INCLUDE_NONE
+#include "sample_game/vulkan_host.hpp"
+
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+namespace sample {
+namespace {
+
+const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+bool layerInstalled(const char* name) {
+    uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    return std::any_of(layers.begin(), layers.end(),
+                       [&](const VkLayerProperties& layer) { return !std::strcmp(layer.layerName, name); });
+}
+
+int preference(VkPhysicalDevice device) {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(device, &properties);
+    switch (properties.deviceType) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return 1;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return 2;
+        default:
+            return 3;
+    }
+}
+
+void imageBarrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
+    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
+    barrier.oldLayout = from;
+    barrier.newLayout = to;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image;
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+}  // namespace
+
+VKAPI_ATTR VkBool32 VKAPI_CALL VulkanHost::onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                                     VkDebugUtilsMessageTypeFlagsEXT,
+                                                     const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
+    ++static_cast<VulkanHost*>(self)->validationMessages_;
+    std::fprintf(stderr, "espalier-sample: validation: %s\n", data->pMessage);
+    return VK_FALSE;
+}
+
+bool VulkanHost::check(VkResult result, const char* what) {
+    if (result == VK_SUCCESS) return true;
+    error_ = std::string(what) + " failed (VkResult " + std::to_string(int(result)) + ")";
+    return false;
+}
+
+bool VulkanHost::create(GLFWwindow* window, bool validation, const void* features, const char* const* extensions,
+                        uint32_t extensionCount) {
+    window_ = window;
+    return makeInstance(validation) &&
+           check(glfwCreateWindowSurface(instance_, window_, nullptr, &surface_), "making the window's surface") &&
+           makeDevice(features, extensions, extensionCount) && makeFrames() && makeSwapchain();
+}
+
+bool VulkanHost::makeInstance(bool validation) {
+    if (volkInitialize() != VK_SUCCESS) {
+        error_ = "there is no Vulkan on this machine (libvulkan.so.1 is missing)";
+        return false;
+    }
+    uint32_t count = 0;
+    const char** needed = glfwGetRequiredInstanceExtensions(&count);
+    if (!needed) {
+        error_ = "no Vulkan driver here can show a window";
+        return false;
+    }
+    std::vector<const char*> extensions(needed, needed + count);
+    std::vector<const char*> layers;
+    if (validation) {
+        if (!layerInstalled(kValidationLayer)) {
+            error_ = "the validation layer isn't installed";
+            return false;
+        }
+        layers.push_back(kValidationLayer);
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    }
+    VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    application.pApplicationName = "espalier-sample";
+    application.apiVersion = VK_API_VERSION_1_3;
+    VkDebugUtilsMessengerCreateInfoEXT messenger{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    messenger.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
+    messenger.pfnUserCallback = onMessage;
+    messenger.pUserData = this;
+    VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    info.pNext = validation ? &messenger : nullptr;
+    info.pApplicationInfo = &application;
+    info.enabledLayerCount = uint32_t(layers.size());
+    info.ppEnabledLayerNames = layers.data();
+    info.enabledExtensionCount = uint32_t(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    if (!check(vkCreateInstance(&info, nullptr, &instance_), "making a Vulkan instance")) return false;
+    volkLoadInstance(instance_);
+    return !validation || check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
+                                "listening to the validation layer");
+}
+
+bool VulkanHost::makeDevice(const void* features, const char* const* extensions, uint32_t extensionCount) {
+    uint32_t count = 0;
+    vkEnumeratePhysicalDevices(instance_, &count, nullptr);
+    std::vector<VkPhysicalDevice> devices(count);
+    vkEnumeratePhysicalDevices(instance_, &count, devices.data());
+    std::stable_sort(devices.begin(), devices.end(),
+                     [](VkPhysicalDevice a, VkPhysicalDevice b) { return preference(a) < preference(b); });
+    std::vector<const char*> names(extensions, extensions + extensionCount);
+    names.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    for (VkPhysicalDevice candidate : devices) {
+        uint32_t families = 0;
+        vkGetPhysicalDeviceQueueFamilyProperties(candidate, &families, nullptr);
+        std::vector<VkQueueFamilyProperties> properties(families);
+        vkGetPhysicalDeviceQueueFamilyProperties(candidate, &families, properties.data());
+        for (uint32_t family = 0; family < families; ++family) {
+            const VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+            VkBool32 shows = VK_FALSE;
+            vkGetPhysicalDeviceSurfaceSupportKHR(candidate, family, surface_, &shows);
+            if ((properties[family].queueFlags & wanted) != wanted || !shows) continue;
+            const float priority = 1;
+            VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+            queue.queueFamilyIndex = family;
+            queue.queueCount = 1;
+            queue.pQueuePriorities = &priority;
+            VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+            info.pNext = features;
+            info.queueCreateInfoCount = 1;
+            info.pQueueCreateInfos = &queue;
+            info.enabledExtensionCount = uint32_t(names.size());
+            info.ppEnabledExtensionNames = names.data();
+            // A device that lacks something says so, and the next one is tried.
+            if (vkCreateDevice(candidate, &info, nullptr, &device_) != VK_SUCCESS) break;
+            physicalDevice_ = candidate;
+            queueFamily_ = family;
+            volkLoadDevice(device_);
+            vkGetDeviceQueue(device_, family, 0, &queue_);
+            vkGetPhysicalDeviceMemoryProperties(candidate, &memory_);
+            return true;
+        }
+    }
+    error_ = devices.empty() ? "there is no Vulkan device" : "no Vulkan device here has what Espalier needs";
+    return false;
+}
+
+bool VulkanHost::makeFrames() {
+    for (Slot& slot : slots_) {
+        VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+        pool.queueFamilyIndex = queueFamily_;
+        if (!check(vkCreateCommandPool(device_, &pool, nullptr, &slot.pool), "making a command pool")) return false;
+        VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+        buffer.commandPool = slot.pool;
+        buffer.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+        buffer.commandBufferCount = 1;
+        if (!check(vkAllocateCommandBuffers(device_, &buffer, &slot.commands), "making a command buffer")) return false;
+        VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+        fence.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+        if (!check(vkCreateFence(device_, &fence, nullptr, &slot.done), "making a fence")) return false;
+        VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+        if (!check(vkCreateSemaphore(device_, &semaphore, nullptr, &slot.acquired), "making a semaphore")) return false;
+    }
+    return true;
+}
+
+bool VulkanHost::makeSwapchain() {
+    VkSurfaceCapabilitiesKHR can;
+    if (!check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(physicalDevice_, surface_, &can), "asking the window"))
+        return false;
+    VkExtent2D extent = can.currentExtent;
+    if (extent.width == UINT32_MAX) {  // the surface takes any size: that of the window
+        int width = 0, height = 0;
+        glfwGetFramebufferSize(window_, &width, &height);
+        extent = {std::clamp(uint32_t(width), can.minImageExtent.width, can.maxImageExtent.width),
+                  std::clamp(uint32_t(height), can.minImageExtent.height, can.maxImageExtent.height)};
+    }
+    if (extent.width == 0 || extent.height == 0) {
+        stale_ = true;
+        return true;  // minimised
+    }
+    uint32_t count = 0;
+    vkGetPhysicalDeviceSurfaceFormatsKHR(physicalDevice_, surface_, &count, nullptr);
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    vkGetPhysicalDeviceSurfaceFormatsKHR(physicalDevice_, surface_, &count, formats.data());
+    const auto usable = std::find_if(formats.begin(), formats.end(), [](const VkSurfaceFormatKHR& f) {
+        return f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM;
+    });
+    if (usable == formats.end()) {
+        error_ = "the window has no 8-bit UNORM format";
+        return false;
+    }
+    vkDeviceWaitIdle(device_);
+    canCopy_ = can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    const VkSwapchainKHR old = swapchain_;
+    VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
+    info.surface = surface_;
+    info.minImageCount = std::max(3u, can.minImageCount);
+    if (can.maxImageCount) info.minImageCount = std::min(info.minImageCount, can.maxImageCount);
+    info.imageFormat = usable->format;
+    info.imageColorSpace = usable->colorSpace;
+    info.imageExtent = extent;
+    info.imageArrayLayers = 1;
+    info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | (canCopy_ ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0);
+    info.preTransform = can.currentTransform;
+    info.compositeAlpha = can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+                              ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+                              : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
+    info.clipped = VK_TRUE;
+    info.oldSwapchain = old;
+    VkSwapchainKHR made = VK_NULL_HANDLE;
+    if (!check(vkCreateSwapchainKHR(device_, &info, nullptr, &made), "making the swapchain")) return false;
+    dropSwapchain();
+    swapchain_ = made;
+    format_ = usable->format;
+    extent_ = extent;
+    vkGetSwapchainImagesKHR(device_, swapchain_, &count, nullptr);
+    std::vector<VkImage> images(count);
+    vkGetSwapchainImagesKHR(device_, swapchain_, &count, images.data());
+    for (VkImage image : images) {
+        Target& target = targets_.emplace_back();
+        target.image = image;
+        VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+        view.image = image;
+        view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+        view.format = format_;
+        view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+        if (!check(vkCreateImageView(device_, &view, nullptr, &target.view), "making a view")) return false;
+        VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+        if (!check(vkCreateSemaphore(device_, &semaphore, nullptr, &target.drawn), "making a semaphore")) return false;
+    }
+    stale_ = false;
+    return true;
+}
+
+void VulkanHost::dropSwapchain() {
+    for (Target& target : targets_) {
+        vkDestroyImageView(device_, target.view, nullptr);
+        vkDestroySemaphore(device_, target.drawn, nullptr);
+    }
+    targets_.clear();
+    vkDestroySwapchainKHR(device_, swapchain_, nullptr);
+    swapchain_ = VK_NULL_HANDLE;
+}
+
+std::optional<Frame> VulkanHost::begin() {
+    if (stale_ && !makeSwapchain()) return std::nullopt;
+    if (stale_) return std::nullopt;
+    Slot& slot = slots_[(frameNumber_ + 1) % kFramesInFlight];
+    if (!check(vkWaitForFences(device_, 1, &slot.done, VK_TRUE, UINT64_MAX), "waiting for the GPU"))
+        return std::nullopt;
+    finished_ = std::max(finished_, slot.number);
+    const VkResult acquired =
+        vkAcquireNextImageKHR(device_, swapchain_, UINT64_MAX, slot.acquired, VK_NULL_HANDLE, &target_);
+    if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {
+        stale_ = true;
+        return std::nullopt;
+    }
+    if (acquired == VK_SUBOPTIMAL_KHR)
+        stale_ = true;  // show this one, then make it anew
+    else if (!check(acquired, "taking an image of the window"))
+        return std::nullopt;
+    vkResetCommandPool(device_, slot.pool, 0);
+    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    if (!check(vkBeginCommandBuffer(slot.commands, &info), "recording")) return std::nullopt;
+    Frame frame;
+    frame.number = ++frameNumber_;
+    frame.slot = uint32_t(frameNumber_ % kFramesInFlight);
+    frame.commands = slot.commands;
+    frame.image = targets_[target_].image;
+    frame.view = targets_[target_].view;
+    frame.extent = extent_;
+    frame.finished = finished_;
+    return frame;
+}
+
+bool VulkanHost::copyPicture(const Frame& frame) {
+    VkBufferCreateInfo buffer{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    buffer.size = VkDeviceSize(frame.extent.width) * frame.extent.height * 4;
+    buffer.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    if (!check(vkCreateBuffer(device_, &buffer, nullptr, &pictureBuffer_), "taking a picture")) return false;
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(device_, pictureBuffer_, &needs);
+    VkMemoryAllocateInfo memory{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    memory.allocationSize = needs.size;
+    if (!findMemory(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                    memory.memoryTypeIndex) ||
+        !check(vkAllocateMemory(device_, &memory, nullptr, &pictureMemory_), "taking a picture") ||
+        !check(vkBindBufferMemory(device_, pictureBuffer_, pictureMemory_, 0), "taking a picture") ||
+        !check(vkMapMemory(device_, pictureMemory_, 0, VK_WHOLE_SIZE, 0, &pictureBytes_), "taking a picture"))
+        return false;
+    imageBarrier(frame.commands, frame.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {frame.extent.width, frame.extent.height, 1};
+    vkCmdCopyImageToBuffer(frame.commands, frame.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pictureBuffer_, 1,
+                           &region);
+    imageBarrier(frame.commands, frame.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    return true;
+}
+
+bool VulkanHost::end(const Frame& frame, const TakePicture& picture) {
+    Slot& slot = slots_[frame.slot];
+    const bool copies = picture && canCopy_ && copyPicture(frame);
+    if (!copies)
+        imageBarrier(frame.commands, frame.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                     VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    if (!check(vkEndCommandBuffer(frame.commands), "ending a recording")) return false;
+    VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    commands.commandBuffer = frame.commands;
+    VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}, signal = wait;
+    wait.semaphore = slot.acquired;
+    wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    signal.semaphore = targets_[target_].drawn;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    submit.waitSemaphoreInfoCount = submit.signalSemaphoreInfoCount = submit.commandBufferInfoCount = 1;
+    submit.pWaitSemaphoreInfos = &wait;
+    submit.pSignalSemaphoreInfos = &signal;
+    submit.pCommandBufferInfos = &commands;
+    vkResetFences(device_, 1, &slot.done);
+    if (!check(vkQueueSubmit2(queue_, 1, &submit, slot.done), "submitting a frame")) return false;
+    slot.number = frame.number;
+    VkPresentInfoKHR present{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    present.waitSemaphoreCount = present.swapchainCount = 1;
+    present.pWaitSemaphores = &targets_[target_].drawn;
+    present.pSwapchains = &swapchain_;
+    present.pImageIndices = &target_;
+    const VkResult shown = vkQueuePresentKHR(queue_, &present);
+    if (shown == VK_SUBOPTIMAL_KHR || shown == VK_ERROR_OUT_OF_DATE_KHR)
+        stale_ = true;
+    else if (!check(shown, "showing a frame"))
+        return false;
+    if (copies) {
+        waitIdle();
+        std::vector<uint8_t> rgba(size_t(frame.extent.width) * frame.extent.height * 4);
+        std::memcpy(rgba.data(), pictureBytes_, rgba.size());
+        for (size_t i = 0; i < rgba.size(); i += 4) {
+            if (format_ == VK_FORMAT_B8G8R8A8_UNORM) std::swap(rgba[i], rgba[i + 2]);
+            rgba[i + 3] = 255;
+        }
+        picture(std::move(rgba), frame.extent.width, frame.extent.height);
+    }
+    vkDestroyBuffer(device_, pictureBuffer_, nullptr);
+    vkFreeMemory(device_, pictureMemory_, nullptr);
+    pictureBuffer_ = VK_NULL_HANDLE;
+    pictureMemory_ = VK_NULL_HANDLE;
+    return true;
+}
+
+void VulkanHost::waitIdle() const {
+    if (device_) vkDeviceWaitIdle(device_);
+}
+
+bool VulkanHost::findMemory(uint32_t allowedTypes, VkMemoryPropertyFlags wanted, uint32_t& type) const {
+    for (type = 0; type < memory_.memoryTypeCount; ++type)
+        if ((allowedTypes >> type & 1) && (memory_.memoryTypes[type].propertyFlags & wanted) == wanted) return true;
+    return false;
+}
+
+VulkanHost::~VulkanHost() {
+    if (device_) {
+        vkDeviceWaitIdle(device_);
+        vkDestroyBuffer(device_, pictureBuffer_, nullptr);
+        vkFreeMemory(device_, pictureMemory_, nullptr);
+        dropSwapchain();
+        for (Slot& slot : slots_) {
+            vkDestroySemaphore(device_, slot.acquired, nullptr);
+            vkDestroyFence(device_, slot.done, nullptr);
+            vkDestroyCommandPool(device_, slot.pool, nullptr);
+        }
+        vkDestroyDevice(device_, nullptr);
+    }
+    if (instance_) {
+        vkDestroySurfaceKHR(instance_, surface_, nullptr);
+        if (messenger_) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+        vkDestroyInstance(instance_, nullptr);
+    }
+}
+
+}  // namespace sample

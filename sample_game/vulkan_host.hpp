@@ -1,0 +1,113 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sample_game/volk_include.hpp"
+
+struct GLFWwindow;
+
+namespace sample {
+
+// What a frame is recorded with.
+struct Frame {
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;
+    VkExtent2D extent{};
+    uint64_t number = 0;    // from 1, rising
+    uint64_t finished = 0;  // frames up to this one are done on the GPU
+    uint32_t slot = 0;      // below kFramesInFlight: what may be written anew for this frame
+};
+
+constexpr uint32_t kFramesInFlight = 2;
+
+// The sample's own instance, device, queue and swapchain, as a game engine has them before it loads Espalier.
+// Errors end a call with a message in error(); after a lost device nothing but destruction is possible.
+class VulkanHost {
+  public:
+    VulkanHost() = default;
+    VulkanHost(const VulkanHost&) = delete;
+    VulkanHost& operator=(const VulkanHost&) = delete;
+    ~VulkanHost();
+
+    // `features` and `extensions` are what the plugin asks of a host's device.
+    bool create(GLFWwindow* window, bool validation, const void* features, const char* const* extensions,
+                uint32_t extensionCount);
+
+    // Waits for the slot's earlier frame and takes the next image. Nothing: the window has no area, or the
+    // swapchain was made anew; try again after events. error() is not empty after a failure.
+    std::optional<Frame> begin();
+    // Ends, submits and shows what was recorded. The image must be in COLOR_ATTACHMENT_OPTIMAL. `picture`: if not
+    // null it is given the frame's pixels, RGBA, rows top to bottom (the call waits for the GPU then).
+    using TakePicture = std::function<void(std::vector<uint8_t> rgba, uint32_t width, uint32_t height)>;
+    bool end(const Frame& frame, const TakePicture& picture = {});
+    void waitIdle() const;
+
+    const std::string& error() const { return error_; }
+    VkInstance instance() const { return instance_; }
+    VkPhysicalDevice physicalDevice() const { return physicalDevice_; }
+    VkDevice device() const { return device_; }
+    VkQueue queue() const { return queue_; }
+    uint32_t queueFamily() const { return queueFamily_; }
+    VkFormat format() const { return format_; }
+    uint32_t validationMessages() const { return validationMessages_; }
+    bool validation() const { return messenger_ != VK_NULL_HANDLE; }
+
+    // A memory type that has the wanted properties; false where the machine has none.
+    bool findMemory(uint32_t allowedTypes, VkMemoryPropertyFlags wanted, uint32_t& type) const;
+
+  private:
+    bool makeInstance(bool validation);
+    bool makeDevice(const void* features, const char* const* extensions, uint32_t extensionCount);
+    bool makeFrames();
+    bool makeSwapchain();
+    void dropSwapchain();
+    bool check(VkResult result, const char* what);
+    bool copyPicture(const Frame& frame);
+    static VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                                    VkDebugUtilsMessageTypeFlagsEXT,
+                                                    const VkDebugUtilsMessengerCallbackDataEXT* data, void* self);
+
+    struct Slot {
+        VkCommandPool pool = VK_NULL_HANDLE;
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        VkFence done = VK_NULL_HANDLE;
+        VkSemaphore acquired = VK_NULL_HANDLE;
+        uint64_t number = 0;  // of the frame that was last submitted with it
+    };
+    struct Target {
+        VkImage image = VK_NULL_HANDLE;
+        VkImageView view = VK_NULL_HANDLE;
+        VkSemaphore drawn = VK_NULL_HANDLE;
+    };
+
+    GLFWwindow* window_ = nullptr;
+    std::string error_;
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physicalDevice_ = VK_NULL_HANDLE;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    uint32_t queueFamily_ = 0;
+    VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+    VkFormat format_ = VK_FORMAT_UNDEFINED;
+    VkExtent2D extent_{};
+    bool canCopy_ = false;
+    bool stale_ = true;
+    Slot slots_[kFramesInFlight];
+    std::vector<Target> targets_;
+    uint32_t target_ = 0;
+    uint64_t frameNumber_ = 0;
+    uint64_t finished_ = 0;
+    VkBuffer pictureBuffer_ = VK_NULL_HANDLE;  // of the latest copyPicture
+    VkDeviceMemory pictureMemory_ = VK_NULL_HANDLE;
+    void* pictureBytes_ = nullptr;
+    uint32_t validationMessages_ = 0;
+};
+
+}  // namespace sample

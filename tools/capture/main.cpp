@@ -1,0 +1,186 @@
+// A scene or a surface in, PNG frames and figures out, without a window: for tests that compare pictures and counts.
+// Frame 0 shows the scene's own view, the others follow on one turn around its target: the same on every run.
+#include <CLI/CLI.hpp>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "tools/scene/picture.hpp"
+#include "tools/scene/scene.hpp"
+
+using namespace espalier::scene;
+
+namespace {
+
+struct Options {
+    Request request;
+    std::vector<std::string> layers;
+    uint32_t frames = 1;
+    uint32_t width = 1280, height = 720;
+    std::string size = "1280x720", folder = "out", stats, view = "shaded", walk = "intrinsic", camera, cache;
+    long long seed = -1;
+    uint32_t maxNodes = espDefaultGrowDef().maxNodes;
+    float leafCap = 0;
+    bool validation = false;
+};
+
+int fail(const std::string& message) {
+    std::fprintf(stderr, "espalier-capture: %s\n", message.c_str());
+    return 1;
+}
+
+void addOptions(CLI::App& app, Options& options) {
+    app.set_version_flag("--version", ESPALIER_VERSION);
+    app.add_option("FILE", options.request.file, "a scene (SCENE.json) or what espalier-bake wrote (SURFACE.glb)")
+        ->required();
+    app.add_option("--frames", options.frames, "how many; they go once around the scene's target")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    app.add_option("-o,--out", options.folder, "folder for frame_0000.png ...")->capture_default_str();
+    app.add_option("--stats", options.stats, "writes counts, times, bytes and the growth's hash as JSON");
+    app.add_option("--seed", options.seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
+        ->check(CLI::Range(0ll, 4294967295ll));
+    app.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
+    app.add_option("--layer", options.layers, "NAME=FILE: a picture drawn in the model's UVs");
+    app.add_option("--view", options.view, "shaded, charts, normals, lod or layer:NAME")->capture_default_str();
+    app.add_option("--camera", options.camera, "EX,EY,EZ,TX,TY,TZ[,FOV]: eye, target, vertical angle in degrees");
+    app.add_option("--walk", options.walk, "intrinsic or paper")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"intrinsic", "paper"}));
+    app.add_option("--max-nodes", options.maxNodes, "growth stops there")->capture_default_str();
+    app.add_option("--leaf-cap", options.leafCap, "leaves per square metre and seed at most, 0: no cap")
+        ->capture_default_str();
+    app.add_option("--cache", options.cache, "folder that keeps compiled grammars");
+    app.add_flag("--validation", options.validation, "with Vulkan's validation layer (also: ESPALIER_VALIDATION=1)");
+}
+
+bool parseSize(const std::string& text, uint32_t& width, uint32_t& height) {
+    char rest = 0;
+    return std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) == 2 && width >= 1 && height >= 1 &&
+           width <= 16384 && height <= 16384;
+}
+
+bool parseCamera(const std::string& text, EspCamera& camera) {
+    float v[7];
+    char rest = 0;
+    const int count =
+        std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f,%f%c", v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, &rest);
+    if (count != 6 && count != 7) return false;
+    for (int i = 0; i < 3; ++i) {
+        camera.eye[i] = v[i];
+        camera.target[i] = v[3 + i];
+    }
+    if (count == 7) camera.fovY = v[6] * 3.14159265f / 180;
+    return true;
+}
+
+bool parseView(const std::string& text, EspLook& look) {
+    const char* names[] = {"shaded", "charts", "normals", "lod"};
+    for (int i = 0; i < 4; ++i)
+        if (text == names[i]) {
+            look.view = EspView(i);
+            return true;
+        }
+    if (text.rfind("layer:", 0) != 0) return false;
+    look.view = ESP_VIEW_LAYER;
+    look.viewLayer = text.c_str() + 6;
+    return true;
+}
+
+std::string statsJson(const EspStats& stats) {
+    char text[2048];
+    std::snprintf(text, sizeof text,
+                  "{\"seeds\":%u,\"nodes\":%" PRIu64 ",\"branches\":%u,\"leaves\":%" PRIu64 ",\"polygons\":%" PRIu64
+                  ",\"ms\":{\"expand\":%.3f,\"emit\":%.3f,\"draw\":%.3f},"
+                  "\"bytes\":{\"nodes\":%" PRIu64 ",\"leaves\":%" PRIu64 ",\"chunks\":%" PRIu64 ",\"surfaces\":%" PRIu64
+                  ",\"layers\":%" PRIu64 ",\"total\":%" PRIu64
+                  "},\"overflow\":%u,\"validation_messages\":%u,\"hash\":\"%016" PRIx64 "\"}\n",
+                  stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons, stats.expandMs, stats.emitMs,
+                  stats.drawMs, stats.nodeBytes, stats.leafBytes, stats.chunkBytes, stats.surfaceBytes,
+                  stats.layerBytes, stats.totalBytes, stats.overflow, stats.validationMessages, stats.hash);
+    return text;
+}
+
+int run(const Options& options) {
+    EspContextDef def = espDefaultContextDef();
+    const char* wanted = std::getenv("ESPALIER_VALIDATION");
+    def.validation = options.validation || (wanted && std::string(wanted) == "1");
+    if (!options.cache.empty()) def.cacheFolder = options.cache.c_str();
+    // Errors come back from calls; what else is worth telling is told here.
+    def.log = [](void*, EspLogLevel level, const char* message) {
+        if (level == ESP_LOG_WARNING) std::fprintf(stderr, "espalier-capture: warning: %s\n", message);
+    };
+    EspContext* made = nullptr;
+    if (espCreate(&def, &made) != ESP_OK) return fail(espLastError(nullptr));
+    const std::unique_ptr<EspContext, void (*)(EspContext*)> context(made, espDestroy);
+
+    std::string error;
+    Scene scene;
+    EspGrowDef grow = espDefaultGrowDef();
+    grow.walk = options.walk == "paper" ? ESP_WALK_PAPER : ESP_WALK_INTRINSIC;
+    grow.maxNodes = options.maxNodes;
+    grow.leafDensityCap = options.leafCap;
+    if (espSetGrow(made, &grow) != ESP_OK) return fail(espLastError(made));
+    if (!openScene(made, options.request, scene, error) || !plantAll(made, scene, error)) return fail(error);
+    if (espUpdate(made) != ESP_OK) return fail(espLastError(made));
+
+    EspDrawDef draw = espDefaultDrawDef();
+    draw.width = options.width;
+    draw.height = options.height;
+    draw.look = scene.look;
+    if (!parseView(options.view, draw.look)) return fail("--view: no such view: " + options.view);
+    if (!options.camera.empty() && !parseCamera(options.camera, scene.camera))
+        return fail("--camera takes six or seven numbers with commas between them, not '" + options.camera + "'");
+    std::error_code code;
+    std::filesystem::create_directories(options.folder, code);
+    if (code) return fail(options.folder + ": can't be made: " + code.message());
+
+    std::vector<uint8_t> pixels(size_t(draw.width) * draw.height * 4);
+    for (uint32_t frame = 0; frame < options.frames; ++frame) {
+        draw.camera = turned(scene.camera, 2 * 3.14159265f * float(frame) / float(options.frames));
+        if (espDraw(made, &draw) != ESP_OK || espReadPixels(made, pixels.data(), pixels.size()) != ESP_OK)
+            return fail(espLastError(made));
+        char name[32];
+        std::snprintf(name, sizeof name, "frame_%04u.png", frame);
+        const std::string path = (std::filesystem::path(options.folder) / name).string();
+        if (!writePng(path, pixels.data(), draw.width, draw.height, error)) return fail(error);
+    }
+    EspStats stats;
+    if (espReadStats(made, &stats) != ESP_OK) return fail(espLastError(made));
+    if (!options.stats.empty() && !writeText(options.stats, statsJson(stats), error)) return fail(error);
+    std::printf("%u frames in %s: %u seeds, %" PRIu64 " nodes, %u branches, %" PRIu64 " leaves, %" PRIu64
+                " polygons (%s)\n",
+                options.frames, options.folder.c_str(), stats.seeds, stats.nodes, stats.branches, stats.leaves,
+                stats.polygons, espDeviceName(made));
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Grows a scene and writes frames and figures, without a window.", "espalier-capture"};
+    Options options;
+    addOptions(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) ? 2 : 0;
+    }
+    if (options.seed >= 0) options.request.seed = uint32_t(options.seed);
+    if (!parseSize(options.size, options.width, options.height))
+        return fail("--size takes WIDTHxHEIGHT, 1 to 16384 each, not '" + options.size + "'");
+    for (const std::string& layer : options.layers) {
+        const size_t sign = layer.find('=');
+        if (sign == std::string::npos || sign == 0) return fail("--layer takes NAME=FILE, not '" + layer + "'");
+        options.request.layers.push_back({layer.substr(0, sign), layer.substr(sign + 1)});
+    }
+    try {
+        return run(options);
+    } catch (const std::exception& e) {
+        return fail(e.what());
+    }
+}

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace espalier::scene {
+
+// A JSON value that knows where it stands in its text, for messages. line and column count from 1.
+struct Json {
+    enum class Kind { null, flag, number, text, list, object };
+    Kind kind = Kind::null;
+    int line = 1, column = 1;
+    bool flag = false;
+    double number = 0;
+    std::string text;
+    std::vector<Json> items;
+    std::vector<std::pair<std::string, Json>> members;
+
+    const Json* find(std::string_view name) const;
+};
+
+// False: `error` is "line:column: what is wrong". Names that come twice in an object are an error.
+bool readJson(std::string_view text, Json& out, std::string& error);
+
+}  // namespace espalier::scene

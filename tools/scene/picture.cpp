@@ -1,0 +1,141 @@
+// Files of pictures and texts, in and out.
+#include "tools/scene/picture.hpp"
+
+#include <OpenImageIO/imageio.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace espalier::scene {
+namespace {
+
+constexpr int kMaxSide = 8192;
+
+std::string systemReason() {
+    return std::strerror(errno ? errno : EIO);
+}
+
+// A name beside `path` that nobody else uses, with its ending, which tells the picture library the format.
+std::string temporaryBeside(const std::string& path) {
+    const std::filesystem::path file(path);
+    return (file.parent_path() / ("." + std::to_string(getpid()) + "-" + file.filename().string())).string();
+}
+
+bool moveInto(const std::string& from, const std::string& to, std::string& error) {
+    std::error_code code;
+    std::filesystem::rename(from, to, code);
+    if (!code) return true;
+    error = to + ": can't be written: " + code.message();
+    std::filesystem::remove(from, code);
+    return false;
+}
+
+template <class T>
+bool read(const std::string& path, int channels, OIIO::TypeDesc type, uint32_t& width, uint32_t& height,
+          std::vector<T>& texels, std::string& error) {
+    errno = 0;
+    if (!std::ifstream(path, std::ios::binary)) {
+        error = path + ": can't be read: " + systemReason();
+        return false;
+    }
+    OIIO::ImageSpec config;
+    config["oiio:UnassociatedAlpha"] = 1;  // red stays what was painted where alpha is not 1
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
+    if (!input) {
+        error = path + ": isn't a picture: " + OIIO::geterror();
+        return false;
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide) {
+        error = path + ": " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                " texels; 1 to 8192 a side are allowed";
+        return false;
+    }
+    const int read = std::min(channels, spec.nchannels);
+    width = uint32_t(spec.width);
+    height = uint32_t(spec.height);
+    texels.assign(size_t(width) * height * channels, T(channels == 4 ? 255 : 0));
+    if (!input->read_image(0, 0, 0, read, type, texels.data(), channels * sizeof(T))) {
+        error = path + ": " + input->geterror();
+        return false;
+    }
+    if (channels == 4 && read < 3)
+        for (size_t i = 0; i < texels.size(); i += 4) texels[i + 1] = texels[i + 2] = texels[i];
+    return true;
+}
+
+}  // namespace
+
+bool readGrey(const std::string& path, GreyPicture& out, std::string& error) {
+    return read(path, 1, OIIO::TypeDesc::FLOAT, out.width, out.height, out.texels, error);
+}
+
+bool readColour(const std::string& path, ColourPicture& out, std::string& error) {
+    return read(path, 4, OIIO::TypeDesc::UINT8, out.width, out.height, out.rgba, error);
+}
+
+bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error) {
+    const std::string temporary = temporaryBeside(path);
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
+    if (!output) {
+        error = path + ": can't write PNG: " + OIIO::geterror();
+        return false;
+    }
+    OIIO::ImageSpec spec(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
+    spec["png:compressionLevel"] = 1;
+    errno = 0;
+    bool good = output->open(temporary, spec);
+    if (!good && errno)
+        error = path + ": can't be written: " + systemReason();
+    else if (!good)
+        error = path + ": can't be written: " + output->geterror();
+    if (good) {
+        good = output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, OIIO::stride_t(width) * 4) && output->close();
+        if (!good) error = path + ": can't be written: " + output->geterror();
+    }
+    if (!good) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        return false;
+    }
+    return moveInto(temporary, path, error);
+}
+
+bool writeText(const std::string& path, const std::string& text, std::string& error) {
+    const std::string temporary = temporaryBeside(path);
+    errno = 0;
+    std::ofstream file(temporary, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) {
+        error = path + ": can't be written: " + systemReason();
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        return false;
+    }
+    return moveInto(temporary, path, error);
+}
+
+bool readText(const std::string& path, std::string& text, std::string& error) {
+    std::error_code code;
+    if (std::filesystem::is_directory(path, code)) {
+        error = path + ": is a folder";
+        return false;
+    }
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream all;
+    if (file) all << file.rdbuf();
+    if (!file) {
+        error = path + ": can't be read: " + systemReason();
+        return false;
+    }
+    text = all.str();
+    return true;
+}
+
+}  // namespace espalier::scene

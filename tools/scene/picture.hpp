@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace espalier::scene {
+
+struct GreyPicture {
+    uint32_t width = 0, height = 0;
+    std::vector<float> texels;  // rows top to bottom, as stored: no colour space is undone
+};
+struct ColourPicture {
+    uint32_t width = 0, height = 0;
+    std::vector<uint8_t> rgba;  // rows top to bottom
+};
+
+// The first channel of a picture (of a grey one the only, of a coloured one red). `error` names file and cause.
+// Pictures of more than 8192 texels a side are refused.
+bool readGrey(const std::string& path, GreyPicture& out, std::string& error);
+bool readColour(const std::string& path, ColourPicture& out, std::string& error);
+
+// Writes a PNG beside `path` first and renames it, so that a failure leaves nothing half-written.
+bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error);
+
+// Likewise for a text.
+bool writeText(const std::string& path, const std::string& text, std::string& error);
+bool readText(const std::string& path, std::string& text, std::string& error);
+
+}  // namespace espalier::scene

@@ -1,0 +1,202 @@
+// A scene's JSON -> SceneFile. Every key is checked; what isn't known is an error, so that a misspelt key isn't
+// passed over.
+#include "tools/scene/scene_file.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <initializer_list>
+
+#include "tools/scene/json_tree.hpp"
+#include "tools/scene/picture.hpp"
+
+namespace espalier::scene {
+namespace {
+
+class Reader {
+  public:
+    Reader(std::string path, SceneFile& out) : path_(std::move(path)), out_(out) {}
+    std::string errors;
+
+    void readScene(const Json& json) {
+        if (!isObject(json, "a scene", {"surface", "grammars", "layers", "camera", "sun", "sky", "exposure"})) return;
+        if (const Json* surface = need(json, "surface")) out_.surface = file(*surface);
+        if (const Json* grammars = need(json, "grammars")) {
+            if (grammars->kind != Json::Kind::list || grammars->items.empty())
+                fail(*grammars, "'grammars' must be a list of at least one");
+            for (const Json& grammar : grammars->items) readGrammar(grammar);
+        }
+        if (const Json* layers = json.find("layers")) {
+            if (layers->kind != Json::Kind::object) fail(*layers, "'layers' must be an object");
+            for (const auto& [name, picture] : layers->members) out_.layers.push_back({name, file(picture)});
+        }
+        if (const Json* camera = json.find("camera")) readCamera(*camera);
+        if (const Json* sun = json.find("sun"); sun && isObject(*sun, "'sun'", {"direction", "colour", "intensity"})) {
+            vector(*sun, "direction", out_.sunDirection);
+            vector(*sun, "colour", out_.sunColour);
+            number(*sun, "intensity", 0, 1e4f, out_.sunIntensity);
+        }
+        if (const Json* sky = json.find("sky");
+            sky && isObject(*sky, "'sky'", {"colour", "ground", "background", "horizon"})) {
+            vector(*sky, "colour", out_.skyColour);
+            vector(*sky, "ground", out_.groundColour);
+            vector(*sky, "background", out_.background);
+            vector(*sky, "horizon", out_.horizon);
+        }
+        number(json, "exposure", -20, 20, out_.exposure);
+    }
+
+  private:
+    void fail(const Json& at, const std::string& message) { errors += place(at) + ": " + message + "\n"; }
+    std::string place(const Json& at) const {
+        return path_ + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
+    }
+
+    bool isObject(const Json& json, const std::string& what, std::initializer_list<const char*> keys) {
+        if (json.kind != Json::Kind::object) {
+            fail(json, what + " must be an object");
+            return false;
+        }
+        for (const auto& [name, value] : json.members) {
+            bool known = false;
+            for (const char* key : keys) known = known || name == key;
+            if (!known) fail(value, what + " has no key '" + name + "'");
+        }
+        return true;
+    }
+    const Json* need(const Json& json, const char* name) {
+        const Json* found = json.find(name);
+        if (!found) fail(json, std::string("'") + name + "' is missing");
+        return found;
+    }
+    std::string file(const Json& json) {
+        if (json.kind != Json::Kind::text || json.text.empty()) {
+            fail(json, "a file's name must stand here");
+            return {};
+        }
+        return (std::filesystem::path(path_).parent_path() / json.text).string();
+    }
+    void number(const Json& json, const char* name, float low, float high, float& out) {
+        const Json* found = json.find(name);
+        if (!found) return;
+        if (found->kind != Json::Kind::number || !(found->number >= low) || !(found->number <= high))
+            fail(*found, std::string("'") + name + "' must be a number from " + std::to_string(low) + " to " +
+                             std::to_string(high));
+        else
+            out = float(found->number);
+    }
+    bool threeNumbers(const Json& json, std::array<float, 3>& out) {
+        if (json.kind != Json::Kind::list || json.items.size() != 3) return false;
+        for (int i = 0; i < 3; ++i) {
+            if (json.items[i].kind != Json::Kind::number || !std::isfinite(float(json.items[i].number))) return false;
+            out[i] = float(json.items[i].number);
+        }
+        return true;
+    }
+    bool vector(const Json& json, const char* name, std::optional<std::array<float, 3>>& out) {
+        const Json* found = json.find(name);
+        if (!found) return false;
+        std::array<float, 3> value{};
+        if (!threeNumbers(*found, value)) {
+            fail(*found, std::string("'") + name + "' must be three numbers");
+            return false;
+        }
+        out = value;
+        return true;
+    }
+
+    void readGrammar(const Json& json) {
+        if (!isObject(json, "a grammar", {"file", "params", "seeds"})) return;
+        SceneGrammar& grammar = out_.grammars.emplace_back();
+        if (const Json* name = need(json, "file")) grammar.file = file(*name);
+        if (const Json* params = json.find("params")) {
+            if (params->kind != Json::Kind::object) fail(*params, "'params' must be an object");
+            for (const auto& [name, value] : params->members) readParam(grammar, name, value);
+        }
+        if (const Json* seeds = json.find("seeds")) {
+            if (seeds->kind != Json::Kind::list) fail(*seeds, "'seeds' must be a list");
+            for (const Json& seed : seeds->items) readSeed(grammar, seed);
+        }
+    }
+    void readParam(SceneGrammar& grammar, const std::string& name, const Json& value) {
+        SceneParam param{name, {}, 1, place(value)};
+        if (value.kind == Json::Kind::number)
+            param.value[0] = float(value.number);
+        else if (value.kind == Json::Kind::flag)
+            param.value[0] = value.flag;
+        else if (threeNumbers(value, param.value))
+            param.count = 3;
+        else
+            return fail(value, "'" + name + "' must be a number, true, false or three numbers");
+        grammar.params.push_back(param);
+    }
+    void readSeed(SceneGrammar& grammar, const Json& json) {
+        if (!isObject(json, "a seed", {"position", "direction", "seed"})) return;
+        Seed seed;
+        seed.number = uint32_t(grammar.seeds.size() + 1);
+        if (const Json* position = need(json, "position"); position && !threeNumbers(*position, seed.position))
+            fail(*position, "'position' must be three numbers");
+        if (const Json* direction = json.find("direction"); direction && !threeNumbers(*direction, seed.direction))
+            fail(*direction, "'direction' must be three numbers");
+        if (const Json* n = json.find("seed")) {
+            if (n->kind != Json::Kind::number || n->number < 0 || n->number > 4294967295.0 ||
+                n->number != std::floor(n->number))
+                fail(*n, "'seed' must be a whole number from 0 to 4294967295");
+            else
+                seed.number = uint32_t(n->number);
+        }
+        grammar.seeds.push_back(seed);
+    }
+    void readCamera(const Json& json) {
+        if (!isObject(json, "'camera'", {"eye", "target", "fov"})) return;
+        std::optional<std::array<float, 3>> eye, target;
+        vector(json, "eye", eye);
+        vector(json, "target", target);
+        if (eye.has_value() != target.has_value()) fail(json, "'eye' and 'target' belong together");
+        if (eye && target) {
+            out_.hasCamera = true;
+            out_.eye = *eye;
+            out_.target = *target;
+            if (*eye == *target) fail(json, "'eye' and 'target' are the same point");
+        }
+        out_.fov = 40;
+        number(json, "fov", 1, 170, out_.fov);
+    }
+
+    std::string path_;
+    SceneFile& out_;
+};
+
+}  // namespace
+
+void SceneFile::applyLook(EspLook& look) const {
+    const auto set = [](float* to, const std::optional<std::array<float, 3>>& from, float factor) {
+        if (from)
+            for (int i = 0; i < 3; ++i) to[i] = (*from)[i] * factor;
+    };
+    set(look.sunDirection, sunDirection, 1);
+    set(look.sunColour, sunColour, sunIntensity);
+    set(look.skyColour, skyColour, 1);
+    set(look.groundColour, groundColour, 1);
+    set(look.background, background, 1);
+    set(look.horizon, horizon, 1);
+    look.exposure = exposure;
+}
+
+bool readSceneFile(const std::string& path, SceneFile& out, std::string& error) {
+    std::string text;
+    if (!readText(path, text, error)) return false;
+    Json json;
+    if (!readJson(text, json, error)) {
+        error = path + ":" + error;
+        return false;
+    }
+    Reader reader(path, out);
+    reader.readScene(json);
+    if (!reader.errors.empty()) {
+        error = reader.errors.substr(0, reader.errors.size() - 1);
+        return false;
+    }
+    return true;
+}
+
+}  // namespace espalier::scene
