@@ -1,0 +1,19 @@
+// Every block of docs/grammar.md that says it is a grammar compiles without warnings.
+#include "tests/grammar/support.hpp"
+
+using namespace grammar_test;
+
+TEST_CASE("the manual's examples compile") {
+    std::string text = contentsOf("docs/grammar.md");
+    const std::string open = "```grammar\n", close = "\n```";
+    int blocks = 0;
+    for (size_t at = text.find(open); at != std::string::npos; at = text.find(open, at)) {
+        at += open.size();
+        size_t end = text.find(close, at);
+        REQUIRE(end != std::string::npos);
+        RuleMap map = compiled(text.substr(at, end - at));
+        CHECK(toString(map.warnings()) == "");
+        ++blocks;
+    }
+    CHECK(blocks >= 6);
+}
