@@ -1,6 +1,7 @@
 // In: a level's ids, the planes of triangles, crossings, creases. Out: the level's records in their tiles:
 // position, class, clearance, crease, curvature, normal, triangle, and the lists of crossings.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "runtime/core/jobs.hpp"
@@ -15,6 +16,7 @@ constexpr double kCrossingGrow = 0.51;    // a texel's half side and the hundred
 constexpr double kCreaseGrow = 1.5;       // a texel's half side and one texel around
 constexpr double kCreaseAltitude = 0.5;   // texels: creases between narrower triangles are roundings
 constexpr float kMaxStretch = 4;          // gutters never run faster than this times the chart's mean scale
+constexpr float kSlitTexels = 0.5f;       // positions that far off their chart's near side lie beyond a slit
 constexpr float kCreaseCosine = 0.9659f;  // 15°
 
 struct LevelWork {
@@ -213,6 +215,51 @@ void fillTexels(LevelWork& work) {
     });
 }
 
+// A slit of a chart narrower than a bilinear read puts texels of its far side into cells of the near one. They are
+// found by where the near side's triangle would have them, and their surroundings marked as creases.
+void markSlits(LevelWork& work) {
+    const LevelSource& source = work.source;
+    uint32_t size = work.image.size;
+    std::vector<uint8_t> far(size_t(size) * size, 0);
+    std::atomic<bool> any = false;
+    parallelFor(size, kBandRows, [&](size_t begin, size_t end) {
+        bool found = false;
+        for (uint32_t i = 0; i < source.links.size(); ++i) {
+            glm::dvec2 a = glm::dvec2(source.crossings[i].a) * double(size);
+            glm::dvec2 b = glm::dvec2(source.crossings[i].b) * double(size);
+            if (std::max(a.y, b.y) + 2 < double(begin) || std::min(a.y, b.y) - 2 > double(end)) continue;
+            uint32_t t = source.links[i].from / 3, chart = source.mesh.triangles[t].chart;
+            const Plane& plane = source.planes[t];
+            float limit = kSlitTexels * source.charts[chart].metresPerUv / float(size);
+            gridSegment(a, b, 1, size, int64_t(begin), int64_t(end), [&](int64_t y, int64_t x0, int64_t x1) {
+                for (int64_t x = x0; x <= x1; ++x) {
+                    if (work.chartAt(size_t(x), size_t(y)) != chart) continue;
+                    size_t at = texelIndex(size, uint32_t(x), uint32_t(y));
+                    if (work.level.aux[at].triangle == t) continue;
+                    glm::vec2 d(glm::dvec2((double(x) + 0.5) / size, (double(y) + 0.5) / size) - plane.uv0);
+                    glm::vec3 p = plane.p0 + plane.e1 * glm::dot(plane.g1, d) + plane.e2 * glm::dot(plane.g2, d);
+                    if (glm::length(p - work.level.texels[at].position) < limit) continue;
+                    far[size_t(y) * size + size_t(x)] = 1;
+                    found = true;
+                }
+            });
+        }
+        if (found) any = true;
+    });
+    if (!any) return;
+    parallelFor(size - 2, kBandRows, [&](size_t begin, size_t end) {
+        for (size_t y = begin + 1; y < end + 1; ++y)
+            for (size_t x = 1; x + 1 < size; ++x) {
+                const uint8_t* f = &far[y * size + x];
+                bool near = false;
+                for (int dy = -1; dy <= 1; ++dy)
+                    for (int dx = -1; dx <= 1; ++dx) near = near || f[dy * int64_t(size) + dx];
+                if (near && work.image.id[y * size + x] != kNone)
+                    work.level.texels[texelIndex(size, uint32_t(x), uint32_t(y))].bits |= 1u << 18;
+            }
+    });
+}
+
 }  // namespace
 
 std::vector<Plane> makePlanes(const BakeMesh& mesh) {
@@ -258,6 +305,7 @@ SurfaceLevelData composeLevel(const LevelSource& source, const IdImage& image, s
     measureClearance(work);
     markCreases(work);
     fillTexels(work);
+    markSlits(work);
     return level;
 }
 
