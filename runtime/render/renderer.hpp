@@ -21,9 +21,9 @@ enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, l
 // Colours are linear.
 struct Look {
     glm::vec3 sunDirection{0.45f, 0.62f, 0.64f};  // towards the sun
-    glm::vec3 sunColor{5.2f, 4.4f, 3.3f};
-    glm::vec3 skyColor{0.62f, 0.80f, 1.10f};
-    glm::vec3 groundColor{0.34f, 0.29f, 0.22f};
+    glm::vec3 sunColor{2.9f, 2.5f, 1.95f};
+    glm::vec3 skyColor{0.50f, 0.63f, 0.84f};
+    glm::vec3 groundColor{0.27f, 0.23f, 0.17f};
     float exposure = 0;                         // stops
     glm::vec3 background{0.30f, 0.50f, 0.80f};  // at the zenith
     glm::vec3 horizon{0.80f, 0.86f, 0.92f};

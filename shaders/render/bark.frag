@@ -14,7 +14,7 @@ layout(location = 3) flat in uint hash;
 layout(location = 0) out vec4 color;
 
 void main() {
-    gl_SampleMask[0] = gl_SampleMaskIn[0] & coverage(along.w, hash >> 8u);
+    gl_SampleMask[0] = coverage(along.w, hash >> 8u);
     vec3 n = normalize(normal);
     uint view = push.frame.v[0].view;
     if (view != kViewShaded) {

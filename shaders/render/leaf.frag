@@ -34,17 +34,15 @@ vec3 leafColor(vec3 base) {
 void main() {
     // The atlas holds the upper sides in its upper half, their paler backs below.
     bool leaf = (bits.z >> 8u) == 1u;
-    bool back = dot(normal, push.frame.v[0].eye - position) < 0.0;
+    bool back = !gl_FrontFacing;
     vec2 uv = uvOpen.xy + vec2(0.0, leaf && back ? 0.5 : 0.0);
     vec4 texel = texture(colorMap, uv);
     if (push.alphaCutoff > 0.0) {
         // Sharpened to a pixel's width around the cutoff, so that minified leaves neither swell nor vanish.
         float alpha = (texel.a - push.alphaCutoff) / max(fwidth(texel.a), 1e-3) + 0.5;
-        int mask = gl_SampleMaskIn[0] & coverage(alpha, bits.y >> 16u);
-        if (mask == 0) discard;
-        gl_SampleMask[0] = mask;
+        gl_SampleMask[0] = coverage(alpha, bits.y >> 16u);
     } else {
-        gl_SampleMask[0] = gl_SampleMaskIn[0];
+        gl_SampleMask[0] = 15;
     }
     vec3 n = normalize(normal);
     vec3 m = texture(normalMap, uv).xyz * 2.0 - 1.0;
