@@ -35,6 +35,7 @@ CONST_UINT(kWalkLost, 6u);     // stopped: the surface has no data where the wal
 // when nothing of it was walked, the walk is lost.
 CONST_UINT(kWalkMaxTries, 24u);
 CONST_FLOAT(kWalkMaxTexels, 16.0f);      // longest stretch walked in one go
+CONST_FLOAT(kWalkCreaseTexels, 2.0f);    // the same among creases, where a stretch should cross no more than one
 CONST_FLOAT(kWalkMaxRadii, 256.0f);      // longest length that may be asked for, in radii of the surface
 CONST_FLOAT(kWalkTurnCosine, 0.94f);     // a stretch over which the normal turns by more than 20 degrees is cut
 CONST_FLOAT(kWalkNudgeTexels, 0.004f);   // how far inside the far chart a crossing ends
@@ -279,7 +280,8 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     float wanted = remaining * rcpExact(scale);
     vec2 rate = tangentRate(w.du, w.dv, t);
     float pace = length2(rate);
-    float farthest = smaller(w.limit, kWalkMaxTexels * texel * rcpExact(pace));
+    float most = (w.flags & kWalkFlagCrease) != 0u ? kWalkCreaseTexels : kWalkMaxTexels;
+    float farthest = smaller(w.limit, most * texel * rcpExact(pace));
     bool partly = farthest < wanted;
     float s = partly ? farthest : wanted;
     vec2 delta = rate * s;
@@ -381,16 +383,15 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     } else {
         vec3 t1 = carriedTangent(t, n, p.normal);
         vec2 rate1 = tangentRate(p.du, p.dv, t1);
-        vec2 correction = (rate1 - rate) * (0.5f * s);
         float turn = dot3(n, p.normal);
         bool creased = (w.flags & kWalkFlagCrease) != 0u || texelCrease(p.bits);
-        bool rough = turn < kWalkTurnCosine || dot2(correction, correction) > 0.04f * dot2(delta, delta);
-        // Two planes meet `toCrease` ahead.
+        // Two planes meet toCrease ahead; on a smooth patch the rates of both ends count alike.
         float slope = dot3(p.normal, t);
         float toCrease = divExact(dot3(p.normal, p.position - w.position), slope);
-        bool onCrease = rough && creased && turn < kWalkTurnCosine && absolute(slope) > 1e-3f && toCrease >= 0.0f &&
-                        toCrease <= s;
-        if (onCrease) {
+        bool meet = creased && absolute(slope) > 1e-3f && toCrease >= 0.0f && toCrease <= s;
+        vec2 correction = (rate1 - rate) * (meet ? s - toCrease : 0.5f * s);
+        bool rough = turn < kWalkTurnCosine || dot2(correction, correction) > 0.04f * dot2(delta, delta);
+        if (meet && turn < kWalkTurnCosine) {
             walked = toCrease;
             vec3 mean = n + p.normal;
             float mean2 = dot3(mean, mean);
