@@ -1,0 +1,57 @@
+#pragma once
+
+// One row a figure: ours, the other side measured in the same run, and the ratio ours / other.
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+struct Row {
+    std::string name;    // "growth/seeds-64"
+    std::string figure;  // "nodes per second"
+    std::string unit;    // "nodes/s"
+    double ours = 0;
+    std::string otherName;  // what the other side is
+    double other = 0;
+};
+
+struct BenchOptions {
+    std::string filter;      // cases whose name contains it; empty: all
+    std::string dataFolder;  // further models; cases that need them say when they are skipped
+    std::string contentFolder;
+    int repeats = 7;
+};
+
+class Bench {
+  public:
+    explicit Bench(BenchOptions options) : options_(std::move(options)) {}
+    const BenchOptions& options() const { return options_; }
+    bool wants(const std::string& name) const { return name.find(options_.filter) != std::string::npos; }
+    // Prints the row at once and keeps it for the CSV.
+    void add(Row row);
+    void skip(const std::string& name, const std::string& why) const;
+    bool writeCsv(const std::string& path) const;
+
+  private:
+    BenchOptions options_;
+    std::vector<Row> rows_;
+};
+
+// Median seconds of `repeats` runs of each, taken in turn (a, b, a, b, …) so that both meet the same noise.
+// Each is run once beforehand.
+struct Pair {
+    double a = 0, b = 0;
+};
+Pair medianSeconds(int repeats, const std::function<void()>& a, const std::function<void()>& b);
+
+double seconds(const std::function<void()>& work);
+double median(std::vector<double> values);
+
+void growthCases(Bench& bench);
+void emitCases(Bench& bench);
+void bakeCases(Bench& bench);
+
+}  // namespace espalier

@@ -1,0 +1,37 @@
+// espalier-bench: rows of figures, each with its other side measured in the same run.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+
+#include "runtime/gpu/device.hpp"
+#include "tools/bench/bench.hpp"
+
+int main(int argc, char** argv) {
+    using namespace espalier;
+    BenchOptions options;
+    std::string csv;
+    const char* data = std::getenv("ESPALIER_DATA");
+    options.dataFolder = data ? data : "../shared/data";
+    options.contentFolder = ESPALIER_CONTENT;
+    CLI::App app("Espalier's benchmark: medians; every row names the other side and the ratio ours / other.");
+    app.set_version_flag("--version", ESPALIER_VERSION);
+    app.add_option("--filter", options.filter, "only cases whose name contains this: growth/, emit/, bake/");
+    app.add_option("--csv", csv, "also write the rows to this file");
+    app.add_option("--data", options.dataFolder, "folder of further models")->capture_default_str();
+    app.add_option("--repeats", options.repeats, "measured runs of each")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+
+    if (Result<std::unique_ptr<Device>> device = Device::create())
+        std::printf("device: %s (%s)\n", (*device)->info().name.c_str(), (*device)->info().driver.c_str());
+    Bench bench(options);
+    growthCases(bench);
+    emitCases(bench);
+    bakeCases(bench);
+    if (!csv.empty() && !bench.writeCsv(csv)) {
+        std::fprintf(stderr, "%s: can't be written\n", csv.c_str());
+        return 1;
+    }
+    return 0;
+}
