@@ -207,7 +207,7 @@ class Reader {
         for (size_t i = 0; i < data_.crossings.size(); ++i) {
             const Crossing& c = data_.crossings[i];
             if (!inSquare(c.a) || !inSquare(c.b) || !inSquare(c.ta) || !inSquare(c.tb) ||
-                (c.target & 0xFFFFu) >= charts)
+                (c.target & 0xFFFFu) >= charts || (c.flags >> 16) >= charts)
                 fail(place, indexed("crossings", i) + " is out of range");
         }
         for (size_t l = 0; l < data_.levels.size(); ++l)

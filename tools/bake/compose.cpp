@@ -14,7 +14,7 @@ namespace {
 constexpr size_t kBandRows = 64;
 constexpr double kCrossingGrow = 0.51;    // a texel's half side and the hundredth that lists are grown by
 constexpr double kCreaseGrow = 1.5;       // a texel's half side and one texel around
-constexpr double kCreaseAltitude = 0.5;   // texels: creases between narrower triangles are roundings
+constexpr double kCreaseAltitude = 1;     // texels: creases between narrower triangles are roundings
 constexpr float kMaxStretch = 4;          // gutters never run faster than this times the chart's mean scale
 constexpr float kSlitTexels = 0.5f;       // positions that far off their chart's near side lie beyond a slit
 constexpr float kCreaseCosine = 0.9659f;  // 15°
