@@ -356,7 +356,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         event = loose || leaves ? kWalkLost : kWalkRetry;
         w.flags = w.flags | kWalkFlagLoose;
     } else if (leaves) {
-        walked = s * leave.fraction;
+        walked = larger(s * leave.fraction, 0.0f);
         vec3 t1 = carriedTangent(t, n, p.normal);
         if (!open) {
             // The hinge: the components along the edge and across it pass over unchanged.
@@ -391,8 +391,18 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         bool meet = creased && absolute(slope) > 1e-3f && toCrease >= 0.0f && toCrease <= s;
         vec2 correction = (rate1 - rate) * (meet ? s - toCrease : 0.5f * s);
         bool rough = turn < kWalkTurnCosine || dot2(correction, correction) > 0.04f * dot2(delta, delta);
-        if (meet && turn < kWalkTurnCosine) {
-            walked = toCrease;
+        // A sharp crease. The nearest texel changes sides up to half a texel before or after the planes do.
+        float close = texel * rcpExact(pace);
+        bool sharp = creased && turn < kWalkTurnCosine && absolute(slope) > 1e-3f && toCrease >= 0.0f - close;
+        if (sharp && toCrease > s && toCrease <= s + close) {
+            walked = s;
+            w.position = w.position + t * s;
+            w.walk.uv = to;
+            w.slip = vec2(0.0f);
+            w.clear = larger(w.clear - pace * s, 0.0f);
+            event = partly ? kWalkRetry : kWalkDone;
+        } else if (sharp && toCrease <= s) {
+            walked = larger(toCrease, 0.0f);   // no length is ever given back, or steps might not end
             vec3 mean = n + p.normal;
             float mean2 = dot3(mean, mean);
             jointNormal = mean2 > 1e-4f ? mean * rsqrtExact(mean2) : p.normal;
