@@ -58,7 +58,8 @@ struct Baked {
 };
 
 // Reads .gltf or .glb with Draco, quantisation, meshopt, sparse accessors and every triangle mode.
-Result<Model> importModel(const std::string& path);
+// uvSet: which TEXCOORD (0 or 1) the walk's charts come from; materials keep theirs.
+Result<Model> importModel(const std::string& path, int uvSet = 0);
 
 // Refuses models whose UVs can't serve, saying what is wrong and how much of the area it concerns.
 Result<Baked> bake(const Model& model, const BakeOptions& options);

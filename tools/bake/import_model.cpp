@@ -15,7 +15,8 @@ constexpr int kMaxNodeDepth = 512;
 
 class Importer {
   public:
-    Importer(const Document& document, Model& model) : document_(document), model_(model) {}
+    Importer(const Document& document, int uvSet, Model& model)
+        : document_(document), uvSet_(uvSet == 1 ? 1 : 0), model_(model) {}
 
     Status run() {
         readMaterials(document_, model_.materials, materialUvs_, model_.images, model_.warnings);
@@ -83,6 +84,8 @@ class Importer {
             for (int r = 0; r < 4; ++r)
                 if (!std::isfinite(world[c][r]))
                     return Failure(document_.path, place + ": its transform is not a number");
+        if (node.extensions.count("EXT_mesh_gpu_instancing"))
+            warn(place + ": EXT_mesh_gpu_instancing is not read, one instance is");
         if (node.mesh >= 0) {
             if (size_t(node.mesh) >= document_.gltf.meshes.size())
                 return Failure(document_.path, place + ": mesh " + std::to_string(node.mesh) + " does not exist");
@@ -135,6 +138,7 @@ class Importer {
                             glm::cross(linear[0], linear[1]));
         if (glm::determinant(linear) < 0) cofactor = -cofactor;
         const auto& drawn = from.uvs[transform.texCoord == 1 && !from.uvs[1].empty() ? 1 : 0];
+        const auto& walk = from.uvs[uvSet_];
         size_t count = from.positions.size() / 3;
         for (size_t i = 0; i < count; ++i) {
             glm::dvec3 p(from.positions[i * 3], from.positions[i * 3 + 1], from.positions[i * 3 + 2]);
@@ -148,17 +152,17 @@ class Importer {
             }
             model_.normals.push_back(n);
             float none = std::numeric_limits<float>::quiet_NaN();
-            glm::vec2 uv =
-                from.uvs[0].empty() ? glm::vec2(none) : glm::vec2(from.uvs[0][i * 2], from.uvs[0][i * 2 + 1]);
+            glm::vec2 uv = walk.empty() ? glm::vec2(none) : glm::vec2(walk[i * 2], walk[i * 2 + 1]);
             glm::vec3 m = drawn.empty() ? glm::vec3(0) : glm::vec3(drawn[i * 2], drawn[i * 2 + 1], 1);
             model_.uvs.push_back(uv);
             model_.materialUvs.push_back({glm::dot(transform.u, m), glm::dot(transform.v, m)});
         }
-        if (!from.uvs[0].empty()) anyUvs_ = true;
+        if (!walk.empty()) anyUvs_ = true;
         if (from.normals.empty()) allNormals_ = false;
     }
 
     const Document& document_;
+    const size_t uvSet_;
     Model& model_;
     std::vector<MaterialUv> materialUvs_;
     std::vector<bool> visited_;
@@ -168,13 +172,13 @@ class Importer {
 
 }  // namespace
 
-Result<Model> importModel(const std::string& path) {
+Result<Model> importModel(const std::string& path, int uvSet) {
     try {
         auto document = openDocument(path);
         if (!document) return std::move(document.failure());
         Model model;
         model.name = path;
-        Status done = Importer(*document, model).run();
+        Status done = Importer(*document, uvSet, model).run();
         if (!done) return std::move(done.failure());
         return model;
     } catch (const std::bad_alloc&) {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "runtime/core/file.hpp"
@@ -16,6 +17,7 @@ namespace {
 struct Arguments {
     std::string model, output, report, images;
     uint32_t resolution = 1024, levels = 0;
+    int uvSet = 0;
     double tolerance = 0;
     bool keepLayout = false, quiet = false;
 };
@@ -36,7 +38,10 @@ void showProgress(float done, const char* stage) {
 
 int run(const Arguments& arguments) {
     if (!arguments.quiet) showProgress(0, "read");
-    auto model = importModel(arguments.model);
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.model, arguments.output, ignored))
+        return fail(Failure(arguments.output, "the surface would overwrite its model"));
+    auto model = importModel(arguments.model, arguments.uvSet);
     if (!model) return fail(model.failure());
     BakeOptions options;
     options.resolution = arguments.resolution;
@@ -59,7 +64,10 @@ int run(const Arguments& arguments) {
         if (!written) return fail(written.failure());
     }
     Status written = writeSurface(baked->surface, arguments.output);
-    if (!written) return fail(written.failure());
+    if (!written) {
+        if (!arguments.report.empty()) std::filesystem::remove(arguments.report, ignored);
+        return fail(written.failure());
+    }
     if (!arguments.quiet) showProgress(1, "done");
     for (const Diagnostic& d : baked->report.warnings) std::fprintf(stderr, "%s\n", toString(d).c_str());
     return 0;
@@ -84,6 +92,9 @@ int main(int argc, char** argv) {
     app.add_option("--tolerance", arguments.tolerance,
                    "metres within which borders without a twin are linked; 0: one texel's footprint")
         ->check(CLI::NonNegativeNumber);
+    app.add_option("--uv-set", arguments.uvSet, "the TEXCOORD set that is unwrapped")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1));
     app.add_flag("--keep-layout", arguments.keepLayout, "never move charts apart");
     app.add_flag("-q,--quiet", arguments.quiet, "no progress, warnings only");
     CLI11_PARSE(app, argc, argv);

@@ -1,0 +1,98 @@
+// espalier-bake as a user runs it: exit codes, messages, files.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "runtime/core/file.hpp"
+#include "tests/bake/small_models.hpp"
+
+using namespace espalier;
+using namespace espalier::test;
+
+namespace {
+
+struct Runner {
+    std::filesystem::path folder;
+    std::string output;  // of the last run, both streams
+
+    Runner() : folder(std::filesystem::temp_directory_path() / ("espalier_program_" + std::to_string(long(this)))) {
+        std::filesystem::create_directories(folder);
+        BakeOptions options;
+        options.resolution = 64;
+        auto baked = bake(cube(2), options);
+        REQUIRE(baked);
+        REQUIRE(writeSurface(baked->surface, file("cube.glb")));  // a valid glTF like any other
+    }
+    ~Runner() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder, ignored);
+    }
+    std::string file(const char* name) const { return (folder / name).string(); }
+    bool has(const char* name) const { return std::filesystem::exists(folder / name); }
+    bool says(const char* text) const { return output.find(text) != std::string::npos; }
+
+    bool run(const std::string& arguments) {
+        std::string log = file("log.txt");
+        std::string command =
+            "cd '" + folder.string() + "' && '" ESPALIER_BAKE_PROGRAM "' " + arguments + " > '" + log + "' 2>&1";
+        int code = std::system(command.c_str());
+        auto text = readTextFile(log);
+        output = text ? *text : "";
+        return code == 0;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("espalier-bake writes surface, report and pictures") {
+    Runner r;
+    CAPTURE(r.output);
+    REQUIRE(r.run("cube.glb -o out/surface.glb --resolution 128 --levels 2 --report out/r.json --images out/pictures"));
+    auto surface = readSurface(r.file("out/surface.glb"));
+    if (!surface) FAIL(surface.failure().text());
+    CHECK(surface->levels.size() == 2);
+    CHECK(surface->levels[0].size == 128);
+    CHECK(surface->source == "cube.glb");
+    for (const char* picture : {"charts.png", "links.png", "stretch.png"})
+        CHECK(r.has((std::string("out/pictures/") + picture).c_str()));
+    auto text = readTextFile(r.file("out/r.json"));
+    REQUIRE(text);
+    auto report = nlohmann::json::parse(*text, nullptr, false);
+    REQUIRE(report.is_object());
+    CHECK(report["charts"] == 6);
+    CHECK(report["texels"]["inner"].get<int>() > 1000);
+    CHECK(report["crossings"]["seam"] == 48);
+    CHECK(report["crossings"]["dangling"] == 0);
+    CHECK(report["walkable_area"].get<double>() == doctest::Approx(24).epsilon(0.001));
+    for (const char* key : {"p50", "p95", "max"}) CHECK(report["stretch"].contains(key));
+    for (const char* key : {"p50", "p999"}) CHECK(report["round_trip_texels"].contains(key));
+    CHECK(report["gap_texels"].contains("p999"));
+    CHECK(report["seconds"].is_object());
+    CHECK(report["warnings"].is_array());
+    CHECK(r.says("100 %"));
+}
+
+TEST_CASE("--help and --version answer; mistakes end with a message, a code and no files") {
+    Runner r;
+    CHECK(r.run("--help"));
+    CHECK(r.says("--resolution"));
+    CHECK(r.run("--version"));
+    CHECK(r.says("espalier-bake"));
+    CHECK(!r.run(""));
+    CHECK(!r.run("cube.glb"));
+    CHECK(!r.run("cube.glb -o s.glb --resolution 100 --report r.json"));
+    CHECK(r.says("resolution"));
+    CHECK(!r.run("missing.glb -o s.glb --report r.json"));
+    CHECK(r.says("missing.glb"));
+    CHECK(!r.run("cube.glb -o cube.glb"));
+    CHECK(!r.run("cube.glb -o cube.glb/s.glb --report r.json"));
+    CHECK(r.says("cube.glb/s.glb"));
+    REQUIRE(writeFile(r.file("bad.glb"), std::string_view("glTF and no more")));
+    CHECK(!r.run("bad.glb -o s.glb --report r.json"));
+    CHECK(r.says("bad.glb"));
+    CHECK(!r.has("s.glb"));
+    CHECK(!r.has("r.json"));
+    CHECK(readSurface(r.file("cube.glb")));
+}
