@@ -56,11 +56,20 @@ void measureTerminalErrors(TerminalData& data) {
     for (TerminalVariant& variant : data.variants)
         for (size_t l = 1; l < variant.lods.size(); ++l) {
             const TerminalLod &full = variant.lods[0], &lod = variant.lods[l];
-            float error = 0;
-            for (uint32_t i = 0; i < full.vertexCount; ++i)
-                error = std::max(error, distanceToMesh(data, lod, data.vertices[full.firstVertex + i].position));
-            for (uint32_t i = 0; i < lod.vertexCount; ++i)
-                error = std::max(error, distanceToMesh(data, full, data.vertices[lod.firstVertex + i].position));
+            // The root of the mean square: one far point, like the end of a stalk, doesn't decide for all.
+            double sum = 0;
+            uint32_t count = full.vertexCount;
+            auto add = [&](const TerminalLod& to, glm::vec3 p) {
+                const float d = distanceToMesh(data, to, p);
+                sum += double(d) * d;
+            };
+            for (uint32_t i = 0; i < full.vertexCount; ++i) add(lod, data.vertices[full.firstVertex + i].position);
+            // A cut-out may reach further than the shape: its texture takes that away again.
+            if (data.materials[lod.material].alphaCutoff == 0) {
+                count += lod.vertexCount;
+                for (uint32_t i = 0; i < lod.vertexCount; ++i) add(full, data.vertices[lod.firstVertex + i].position);
+            }
+            const float error = float(std::sqrt(sum / count));
             variant.lods[l].error = std::max({error, variant.lods[l - 1].error * 1.01f, 1e-4f});
         }
 }

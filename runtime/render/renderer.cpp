@@ -62,7 +62,7 @@ class RendererImpl final : public Renderer {
     // Uploads the record and returns its address.
     Result<uint64_t> upload(Commands& commands, const FrameRecord& frame);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels);
-    void drawScene(Commands& commands, uint64_t frame, const DrawInputs& inputs);
+    void drawScene(Commands& commands, const PostPush& post, const DrawInputs& inputs);
     void drawTerminals(DrawPass& pass, uint64_t frame, bool depthOnly);
     void drawOcclusion(Commands& commands, const PostPush& push);
     Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
@@ -74,7 +74,7 @@ class RendererImpl final : public Renderer {
     Targets targets_;
     Image shadowMap_;
     Sampler shadowSampler_, textureSampler_, plainSampler_, pointSampler_;
-    Program model_, bark_, leaf_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_;
+    Program model_, bark_, leaf_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_, sky_;
     std::map<VkFormat, Program> resolves_;
     Buffer frames_;
     uint32_t frameSlot_ = 0;
@@ -103,6 +103,14 @@ Status RendererImpl::makePrograms() {
         program = std::move(*made);
         return Done{};
     };
+    GraphicsDesc skyDesc = fullscreen("sky", "render/sky.frag", kSceneFormat);
+    skyDesc.samples = kSamples;
+    skyDesc.depth = kDepthFormat;  // it lies at depth 0, infinitely far
+    skyDesc.depthTest = true;
+    skyDesc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    Result<Program> sky = Program::graphics(device_, skyDesc);
+    if (!sky) return sky.failure();
+    sky_ = std::move(*sky);
     auto post = [&](Program& program, const char* name, const char* fragment, VkFormat format) -> Status {
         Result<Program> made = Program::graphics(device_, fullscreen(name, fragment, format));
         if (!made) return made.failure();
@@ -242,15 +250,17 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
     return Done{};
 }
 
-void RendererImpl::drawScene(Commands& commands, uint64_t frame, const DrawInputs& inputs) {
+void RendererImpl::drawScene(Commands& commands, const PostPush& post, const DrawInputs& inputs) {
+    const uint64_t frame = reinterpret_cast<uint64_t>(post.frame.v);
     commands.transition(targets_.color, ImageState::colorTarget, true);
     commands.transition(targets_.depth, ImageState::depthTarget, true);
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
-    targets.colors[0].clear = std::array<float, 4>{0, 0, 0, -1};
+    targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
     targets.depth = DepthTarget{.view = targets_.depth.view(), .clear = 0.0f};
     DrawPass pass(commands, "draw scene", targets);
     models_.draw(pass, model_, frame, shadowMap_, shadowSampler_, inputs.surfaces.v != nullptr);
     if (grows_) drawTerminals(pass, frame, false);
+    pass.draw(sky_, 3, 1, post);
 }
 
 void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
@@ -324,12 +334,12 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
         EmitView view = perspectiveView(frame.viewProjection, frame.eye, frame.pixelScale, inputs.look.lodPixels);
         if (Status s = emit_.cull(commands, {growth, inputs.surfaces}, view, "emit", true); !s) return s;
     }
-    drawScene(commands, *address, inputs);
-    commands.transition(targets_.color, ImageState::sampled);
     PostPush push{};
     push.frame.v = reinterpret_cast<FrameRecord*>(*address);
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
     push.samples = kSamples;
+    drawScene(commands, push, inputs);
+    commands.transition(targets_.color, ImageState::sampled);
     drawOcclusion(commands, push);
     return resolve(commands, target, push);
 }

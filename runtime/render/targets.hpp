@@ -6,7 +6,7 @@ namespace espalier {
 
 constexpr uint32_t kSamples = 4;
 constexpr uint32_t kShadowSize = 2048;
-constexpr VkFormat kSceneFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kSceneFormat = VK_FORMAT_R8G8B8A8_UNORM;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kDistanceFormat = VK_FORMAT_R32_SFLOAT;
 constexpr VkFormat kOpenFormat = VK_FORMAT_R8_UNORM;
@@ -14,7 +14,7 @@ constexpr VkFormat kOwnFormat = VK_FORMAT_R8G8B8A8_UNORM;
 
 // The images that a frame of one size is drawn in.
 struct Targets {
-    Image color, depth;    // four samples; colour: alpha holds the share of light from the sky, -1: nothing there
+    Image color, depth;    // four samples; colour: as tone.glsl's stored()
     Image distance, open;  // a quarter of the pixels: distance along the view, ambient visibility
     Image own;             // 8 bit, sRGB encoded; made only if asked for
     uint32_t width = 0, height = 0;

@@ -39,7 +39,7 @@ struct KindRecord {
 };
 STATIC_SIZE(KindRecord, 16);
 
-// error[i]: distance between LOD i and the full mesh, in units of the instance's size (bark: of its radius).
+// error[i]: mean distance (root mean square) of LOD i from the full mesh, in units of the instance's size (bark: of its radius).
 // segments[i]: pieces of LOD i along the span, bark only.
 struct VariantRecord {
     uint firstBucket, lodCount;

@@ -19,7 +19,7 @@ void main() {
     uint view = push.frame.v[0].view;
     if (view != kViewShaded) {
         vec3 shown = view == kViewNormals ? n * 0.5 + 0.5 : view == kViewLod ? lodColor(hash & 255u) : vec3(0.30, 0.22, 0.15);
-        color = view == kViewNormals ? vec4(shown, 0.0) : diagnostic(push.frame, shown, n);
+        color = view == kViewNormals ? stored(shown, 0.0) : diagnostic(push.frame, shown, n);
         return;
     }
     // One turn around is 2 pi r; the nearest lower and upper powers of two of that.
@@ -36,5 +36,5 @@ void main() {
     float facing = max(dot(n, sun), 0.0);
     float visible = facing > 0.0 ? sunVisibility(push.frame, position, n) : 0.0;
     vec3 direct = push.frame.v[0].sunColor * visible * facing * (base + gloss(n, eye, sun, max(push.roughness, 0.5)));
-    color = lit(direct, base * skyLight(push.frame, n) * 0.8);
+    color = lit(push.frame, direct, base * skyLight(push.frame, n) * 0.8);
 }

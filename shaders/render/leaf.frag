@@ -53,7 +53,7 @@ void main() {
     uint view = push.frame.v[0].view;
     if (view != kViewShaded) {
         vec3 shown = view == kViewLod ? lodColor(bits.z & 255u) : vec3(0.16, 0.34, 0.10);
-        color = view == kViewNormals ? vec4(face * 0.5 + 0.5, 0.0) : diagnostic(push.frame, shown, face);
+        color = view == kViewNormals ? stored(face * 0.5 + 0.5, 0.0) : diagnostic(push.frame, shown, face);
         return;
     }
     vec3 base = leafColor(texel.rgb * push.baseColor.rgb);
@@ -74,5 +74,5 @@ void main() {
     vec3 ambient = base * (skyLight(push.frame, face) + (leaf ? 0.25 * skyLight(push.frame, -face) : vec3(0.0)));
     float edge = 1.0 - max(dot(face, eye), 0.0);
     ambient += skyLight(push.frame, reflect(-eye, face)) * (0.02 + 0.10 * edge * edge * edge) * (back || !leaf ? 0.3 : 1.0);
-    color = lit(direct, ambient * open);
+    color = lit(push.frame, direct, ambient * open);
 }

@@ -1,7 +1,7 @@
 // Sun with shadow, sky, ground; the same for all that is drawn.
 #ifndef ESPALIER_RENDER_LIGHT_GLSL
 #define ESPALIER_RENDER_LIGHT_GLSL
-#include "shaders/render/frame_records.h"
+#include "shaders/render/tone.glsl"
 
 layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
 
@@ -33,10 +33,10 @@ float gloss(vec3 normal, vec3 view, vec3 light, float roughness) {
     return edge * (power + 8.0) * 0.04 * pow(max(dot(normal, h), 0.0), power);
 }
 
-// Colour, and in w the share of it that came from the sky: ambient occlusion dims that share later.
-vec4 lit(vec3 direct, vec3 ambient) {
-    float total = dot(direct + ambient, vec3(0.3, 0.6, 0.1));
-    return vec4(direct + ambient, clamp(dot(ambient, vec3(0.3, 0.6, 0.1)) / max(total, 1e-5), 0.0, 1.0));
+vec4 lit(FrameBuf frame, vec3 direct, vec3 ambient) {
+    const vec3 weights = vec3(0.3, 0.6, 0.1);
+    float share = dot(ambient, weights) / max(dot(direct + ambient, weights), 1e-5);
+    return stored(toneMapped((direct + ambient) * frame.v[0].exposure), clamp(share, 0.0, 1.0));
 }
 
 vec3 hashColor(uint x) {
@@ -53,7 +53,7 @@ vec3 lodColor(uint lod) {
     return colors[min(lod, 5u)];
 }
 vec4 diagnostic(FrameBuf frame, vec3 color, vec3 normal) {
-    return vec4(color * (0.55 + 0.45 * max(dot(normal, frame.v[0].sunDirection), 0.0)), 0.6);
+    return stored(color * (0.55 + 0.45 * max(dot(normal, frame.v[0].sunDirection), 0.0)), 0.6);
 }
 
 // Coverage of `alpha` over the four samples. which: varies the pattern between things that lie over each other.

@@ -21,7 +21,7 @@ uint walkTexel(SurfaceRef surface) {
 
 vec4 otherView(vec3 n) {
     uint view = push.frame.v[0].view;
-    if (view == kViewNormals) return vec4(n * 0.5 + 0.5, 0.0);
+    if (view == kViewNormals) return stored(n * 0.5 + 0.5, 0.0);
     vec3 shown = vec3(0.5);
     if (push.surface != kNoIndex && view == kViewCharts) {
         SurfaceRef surface = push.frame.v[0].surfaces.v[push.surface];
@@ -61,5 +61,5 @@ void main() {
     float visible = facing > 0.0 ? sunVisibility(push.frame, position, n) : 0.0;
     vec3 direct = push.frame.v[0].sunColor * visible *
                   (base.rgb * facing + gloss(bumped, eye, sun, max(push.roughness, 0.35)) * facing);
-    color = lit(direct, base.rgb * skyLight(push.frame, bumped));
+    color = lit(push.frame, direct, base.rgb * skyLight(push.frame, bumped));
 }

@@ -86,7 +86,7 @@ TEST_CASE("ivy on a wall") {
         inputs.camera.target = shot.target;
         inputs.look.view = shot.mode;
         DrawTarget target;
-        double cpuMs = 0;   // of all threads, which a busy machine distorts less than the wall clock
+        double cpuMs = 0;  // of all threads, which a busy machine distorts less than the wall clock
         for (int round = 0; round < 2; ++round) {
             const std::clock_t start = std::clock();
             Result<Commands> commands = Commands::begin(**device, "frame");
@@ -99,7 +99,8 @@ TEST_CASE("ivy on a wall") {
         const RenderStats stats = (*renderer)->stats();
         std::cout << shot.name << ": " << data.nodes.size() << " nodes, " << data.leaves.size() << " leaves, "
                   << stats.emit.spans << " spans and " << stats.emit.leaves << " leaves seen, "
-                  << stats.emit.drawnTriangles << " of " << stats.emit.fullTriangles << " triangles; CPU " << cpuMs << " ms;";
+                  << stats.emit.drawnTriangles << " of " << stats.emit.fullTriangles << " triangles; CPU " << cpuMs
+                  << " ms;";
         for (const PassTime& t : (*device)->timings()) std::cout << " " << t.name << " " << t.milliseconds << " ms";
         std::cout << std::endl;
         Result<std::vector<uint8_t>> pixels = (*renderer)->readPixels();

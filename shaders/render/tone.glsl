@@ -1,0 +1,19 @@
+// The tone curve and what the scene's image holds.
+#ifndef ESPALIER_RENDER_TONE_GLSL
+#define ESPALIER_RENDER_TONE_GLSL
+#include "shaders/render/frame_records.h"
+
+// A filmic curve: linear in the shadows, a soft shoulder, and bright colours lose their saturation instead of
+// breaking off at one channel.
+vec3 toneMapped(vec3 c) {
+    float peak = max(c.x, max(c.y, c.z));
+    c = mix(c, vec3(peak), 0.35 * smoothstep(0.8, 6.0, peak));
+    vec3 x = c * 0.62;
+    return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}
+
+// What the scene's image holds: the square root of the tone-mapped colour, and in w the share of it that came from
+// the sky, which ambient occlusion dims later. 8 bits and a curve before samples are averaged: edges between bright
+// and dark come out as smooth as others, and writing four samples stays cheap.
+vec4 stored(vec3 mapped, float skyShare) { return vec4(sqrt(mapped), skyShare); }
+#endif
