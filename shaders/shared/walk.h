@@ -34,6 +34,7 @@ CONST_UINT(kWalkLost, 6u);     // stopped: the surface has no data where the wal
 // Events without visible progress that one step may have; then what is left of it is dropped (kWalkDone), or,
 // when nothing of it was walked, the walk is lost.
 CONST_UINT(kWalkMaxTries, 24u);
+CONST_UINT(kWalkMaxPieces, 2048u);       // pieces that one step may be walked in; then its rest is dropped too
 CONST_FLOAT(kWalkMaxTexels, 16.0f);      // longest stretch walked in one go
 CONST_FLOAT(kWalkCreaseTexels, 2.0f);    // the same among creases, where a stretch should cross no more than one
 CONST_FLOAT(kWalkMaxRadii, 256.0f);      // longest length that may be asked for, in radii of the surface
@@ -53,7 +54,7 @@ struct WalkState {
     float limit;         // longest stretch for now, object metres
     vec2 slip;           // uv + slip is surely inside the chart: the last stretch's end before it was corrected
     uint flags;          // bits 7..0 tries, 8: last read was creased, 9: search crossings loosely, 10: step moved,
-                         // 11: a cut for the surface's turning is under way
+                         // 11: a cut for the surface's turning is under way, 31..16: pieces walked so far
 };
 
 CONST_UINT(kWalkFlagCrease, 1u << 8u);
@@ -440,12 +441,14 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     w.walk.arc = w.walk.arc + walkedWorld;
     remaining = event == kWalkDone ? 0.0f : larger(remaining - walkedWorld, 0.0f);
     w.flags = walked > 0.0f ? w.flags | kWalkFlagMoved : w.flags;
-    if (walkGoesOn(event) && tries >= kWalkMaxTries) {
+    uint pieces = (w.flags >> 16u) + 1u;
+    if (walkGoesOn(event) && (tries >= kWalkMaxTries || pieces >= kWalkMaxPieces)) {
         event = (w.flags & kWalkFlagMoved) != 0u ? kWalkDone : kWalkLost;
         remaining = 0.0f;
     }
     bool over = !walkGoesOn(event);
-    w.flags = over ? w.flags & ~(0xFFu | kWalkFlagMoved) : (w.flags & ~0xFFu) | tries;
+    w.flags = w.flags & ~(0xFFFF00FFu | (over ? kWalkFlagMoved : 0u));
+    w.flags = over ? w.flags : w.flags | tries | (pieces << 16u);
     return event;
 }
 

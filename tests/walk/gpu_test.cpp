@@ -8,7 +8,8 @@
 #include "runtime/surface/gpu_surface.hpp"
 #include "shaders/tests/walk_case.h"
 #include "tests/gpu/gpu_test.hpp"
-#include "tests/walk/judge.hpp"
+#include "tests/support/data.hpp"
+#include "tests/walk/mesh_tracer.hpp"
 
 using namespace espalier;
 using namespace espalier::walktest;
@@ -58,12 +59,8 @@ std::vector<WalkEnd> onGpu(TestDevice& t, const SurfaceData& surface, const std:
     return must(readVector<WalkEnd>(t.device, out, 0, cases.size()));
 }
 
-void compare(const Shape& shape, size_t count, uint steps, uint level) {
+void compare(const std::string& name, const SurfaceData& surface, const std::vector<WalkCase>& cases, uint level) {
     TestDevice t;
-    auto baked = bake(toModel(shape), {.resolution = 1024, .keepLayout = true});
-    REQUIRE(baked);
-    const SurfaceData& surface = baked->surface;
-    std::vector<WalkCase> cases = turningCases(shape, surface, count, steps);
     std::vector<WalkEnd> gpu = onGpu(t, surface, cases, level);
     SurfaceRef ref = surfaceRef(surface);
     size_t different = 0, walked = 0, samples = 0;
@@ -78,16 +75,45 @@ void compare(const Shape& shape, size_t count, uint steps, uint level) {
     }
     double milliseconds = t.device.milliseconds("walk");
     std::printf("%-30s level %u: %zu walks, %zu steps, %zu samples; GPU %.2f M steps/s, one core of the CPU %.2f\n",
-                shape.name.c_str(), level, cases.size(), walked, samples, double(walked) / milliseconds / 1e3,
+                name.c_str(), level, cases.size(), walked, samples, double(walked) / milliseconds / 1e3,
                 double(walked) / seconds / 1e6);
     CHECK(different == 0);
-    CHECK(walked > cases.size() * steps / 2);
+    CHECK(walked > cases.size() * cases[0].steps / 2);
+}
+
+void compareShape(const Shape& shape, size_t count, uint steps, uint level) {
+    auto baked = bake(toModel(shape), {.resolution = 1024, .keepLayout = true});
+    REQUIRE(baked);
+    compare(shape.name, baked->surface, turningCases(shape, baked->surface, count, steps), level);
 }
 
 }  // namespace
 
 TEST_CASE("GPU and CPU walk the same way to the bit") {
-    compare(sphere(96), 4096, 100, 0);
-    compare(cubeWithStrip(), 1021, 100, 0);
-    compare(torus(64), 1000, 100, 2);
+    compareShape(sphere(96), 4096, 100, 0);
+    compareShape(cubeWithStrip(), 1021, 100, 0);
+    compareShape(torus(64), 1000, 100, 2);
+}
+
+TEST_CASE("GPU and CPU walk the same way over a model of 631 charts") {
+    auto path = test::dataFile("derived/bunny_unwrap.glb");
+    if (!path) return;
+    auto model = importModel(*path);
+    REQUIRE(model);
+    auto baked = bake(*model, {.resolution = 1024});
+    REQUIRE(baked);
+    const SurfaceData& surface = baked->surface;
+    float radius = glm::length(surface.boundsMax - surface.boundsMin) / 2;
+    std::vector<WalkCase> cases;
+    for (const Trial& trial : MeshTracer(surface.vertices, surface.indices).trials(surface, 4096, 0.01 * radius, 5)) {
+        WalkCase c{};
+        c.place = trial.place;
+        c.uv = trial.uv;
+        c.direction = trial.direction;
+        c.step = 0.006f * radius;  // about two texels
+        c.turn = 0.002f * float(int(cases.size() % 41) - 20);
+        c.steps = 100;
+        cases.push_back(c);
+    }
+    compare("bunny, 631 charts", surface, cases, 0);
 }

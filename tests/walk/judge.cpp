@@ -16,7 +16,7 @@ Drift judge(const SurfaceData& surface, const std::vector<Trial>& trials, uint l
     long long steps = 0;
     auto begin = std::chrono::steady_clock::now();
     for (const Trial& trial : trials) {
-        WalkState w;
+        WalkState w{};
         bool paper = scheme == Scheme::paper;
         bool alive = paper ? startPaperWalk(surfaces, level, trial.place, trial.uv, trial.direction, w)
                            : startWalk(surfaces, level, trial.place, trial.uv, trial.direction, w);

@@ -20,7 +20,7 @@ bool finite(const WalkState& w) {
 }
 
 WalkState started(const SurfaceBuf& surfaces, const SurfaceData& data, const Start& s) {
-    WalkState w;
+    WalkState w{};
     vec2 uv(s.uv);
     REQUIRE(startWalk(surfaces, 0, chartAt(data, uv, s.position), uv, vec3(s.direction), w));
     return w;
@@ -64,7 +64,7 @@ TEST_CASE("absurd lengths, headings and places end without a hang and without Na
     for (vec3 direction : {vec3(0), vec3(nan), vec3(inf, 0, 0), vec3(1e-30f), vec3(0, 0, 1)})
         for (vec2 uv : {vec2(0.2f, 0.3f), vec2(-5, 7), vec2(nan, 0.5f), vec2(inf, -inf), vec2(1, 1), vec2(0, 0)})
             for (uint chart = 0; chart < 6; ++chart) {
-                WalkState w;
+                WalkState w{};
                 if (!startWalk(surfaces, 0, chart, uv, direction, w)) continue;
                 for (int i = 0; i < 20; ++i) walkStep(surfaces, 7, w, 0.1f);
                 CHECK(finite(w));
@@ -165,7 +165,7 @@ TEST_CASE("turns, headings and stored walks agree with one another") {
         CHECK(headingTo(w, turned.walk.direction) == doctest::Approx(angle).epsilon(0.001));
         CHECK(dot3(cross3(w.walk.direction, turned.walk.direction), w.normal) * angle >= 0);
 
-        WalkState again, once;
+        WalkState again{}, once{};
         REQUIRE(resumeWalk(surfaces, 0, w.walk, again));
         REQUIRE(resumeWalk(surfaces, 0, again.walk, once));
         walkStep(surfaces, 0, again, 0.3f);
@@ -199,7 +199,7 @@ TEST_CASE("the paper's walk jumps by its links and stops at borders") {
     int jumps = 0;
     for (int i = 0; i < 100; ++i) {
         Start s = randomStart(shape, random);
-        WalkState w;
+        WalkState w{};
         REQUIRE(startPaperWalk(surfaces, 0, uint(s.chart), vec2(s.uv), vec3(s.direction), w));
         CHECK(dot3(paperHeading3(w), vec3(s.direction)) > 0.999f);
         for (int k = 0; k < 200; ++k) {
