@@ -183,7 +183,7 @@ glm::dvec3 normalOf(const BakeMesh& mesh, const Triangle& t) {
 }
 
 // Pairs half-edges that run along one edge in opposite directions. Of more than two, the flattest pairs go first.
-void pairEdges(BakeMesh& mesh, size_t& nonManifold) {
+void pairEdges(BakeMesh& mesh, size_t& nonManifold, size_t& unlike) {
     size_t count = mesh.triangles.size() * 3;
     std::vector<Edge> edges(count);
     for (uint32_t h = 0; h < count; ++h) {
@@ -204,7 +204,10 @@ void pairEdges(BakeMesh& mesh, size_t& nonManifold) {
         while (j < count && edges[j].key == edges[i].key) ++j;
         if (j - i == 2) {
             uint32_t a = edges[i].half, b = edges[i + 1].half;
-            if (startOf(a) != startOf(b)) mesh.twin[a] = b, mesh.twin[b] = a;
+            if (startOf(a) != startOf(b))
+                mesh.twin[a] = b, mesh.twin[b] = a;
+            else
+                ++unlike;
         } else if (j - i > 2 && j - i <= 64) {
             ++nonManifold;
             pairs.clear();
@@ -371,8 +374,8 @@ Result<BakeMesh> buildMesh(const Model& model, std::vector<Diagnostic>& warnings
     LeftOut out;
     collectTriangles(model, point, mesh, out);
     if (!(mesh.area > 0)) return Failure(model.name, "the model has no area");
-    size_t nonManifold = 0;
-    pairEdges(mesh, nonManifold);
+    size_t nonManifold = 0, unlike = 0;
+    pairEdges(mesh, nonManifold, unlike);
     std::vector<uint32_t> island = findIslands(mesh, out);
     Status usable = reportLeftOut(model, out, mesh.area, warnings);
     if (!usable) return std::move(usable.failure());
@@ -380,6 +383,8 @@ Result<BakeMesh> buildMesh(const Model& model, std::vector<Diagnostic>& warnings
     if (!sorted) return std::move(sorted.failure());
     if (nonManifold > 0)
         warn(warnings, model, std::to_string(nonManifold) + " edges with more than two triangles: paired by direction");
+    if (unlike > 0)
+        warn(warnings, model, std::to_string(unlike) + " edges whose two triangles face opposite ways: borders there");
     return mesh;
 }
 

@@ -96,7 +96,7 @@ class Packer {
     // Down from the guess to the first scale that fits.
     Placement search(uint32_t coarsest, double guess, double least) const {
         Placement best;
-        double step = 0.955;
+        double step = 0.97;
         for (double scale = guess; scale >= least; scale *= step)
             if (tryScale(coarsest, scale, best)) break;
         return best;
@@ -176,27 +176,43 @@ class Packer {
             if (m.width > grid_ || m.height > grid_) return false;
         }
         if (cells > uint64_t(grid_) * grid_) return false;
-        std::vector<uint32_t> order(charts);
-        std::iota(order.begin(), order.end(), 0u);
-        std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-            return std::max(masks[a].width, masks[a].height) > std::max(masks[b].width, masks[b].height);
+        // Which order packs best is luck: all are tried, the first that fits is taken.
+        std::array<std::vector<glm::dvec2>, 3> offsets;
+        parallelFor(offsets.size(), 1, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) offsets[i] = packInOrder(masks, i);
         });
+        for (std::vector<glm::dvec2>& offset : offsets) {
+            if (offset.empty()) continue;
+            out.scale = scale;
+            out.offset = std::move(offset);
+            out.coarsest.resize(charts);
+            for (uint32_t c = 0; c < charts; ++c) out.coarsest[c] = levelOf(c, scale, coarsest);
+            return true;
+        }
+        return false;
+    }
+
+    // Places all masks, largest first by side, cells or height. Empty: they don't fit.
+    std::vector<glm::dvec2> packInOrder(const std::vector<Mask>& masks, size_t measure) const {
+        auto size = [&](const Mask& m) -> uint64_t {
+            return measure == 0 ? std::max(m.width, m.height) : measure == 1 ? m.cells : m.height;
+        };
+        std::vector<uint32_t> order(masks.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](uint32_t a, uint32_t b) { return size(masks[a]) > size(masks[b]); });
         uint32_t words = grid_ / 64;
         std::vector<uint64_t> taken(size_t(words) * grid_, 0), blocked(words), shifted(words);
-        std::vector<glm::dvec2> offset(charts);
+        std::vector<glm::dvec2> offset(masks.size());
         for (uint32_t c : order) {
             uint32_t x, y;
-            if (!place(masks[c], taken, blocked, shifted, x, y)) return false;
+            if (!place(masks[c], taken, blocked, shifted, x, y)) return {};
             for (const auto& [row, first, length] : masks[c].runs)
                 for (uint32_t i = 0; i < length; ++i)
                     taken[size_t(y + row) * words + (x + first + i) / 64] |= uint64_t(1) << ((x + first + i) % 64);
             offset[c] = (glm::dvec2(x, y) - masks[c].origin) / double(grid_);
         }
-        out.scale = scale;
-        out.offset = std::move(offset);
-        out.coarsest.resize(charts);
-        for (uint32_t c = 0; c < charts; ++c) out.coarsest[c] = levelOf(c, scale, coarsest);
-        return true;
+        return offset;
     }
 
     // bits[x] of `row` shifted down by n: result bit x is bit x + n.
