@@ -24,7 +24,9 @@ void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const Growt
     queue[0] = itemsOfSeeds(inputs.seeds);
     queue[0].resize(room.items);
     queue[1].resize(room.items);
-    std::vector<Node> scratch(kChunkNodes);
+    std::vector<uint32_t> scratch(kChunkNodes * kNodeWords + kItemWords);
+    env.itemCapacity = room.items;
+    env.groupLimit = 1;
     env.scratch = {scratch.data()};
     uint32_t w = 0;
     for (; w + 1 < a.waves.size() && a.waves[w].count > 0; ++w) {
@@ -33,7 +35,7 @@ void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const Growt
         uint32_t count = std::min(a.waves[w].count, room.items);
         for (uint32_t i = 0; i < count; ++i) {
             Machine machine;
-            growChunk(machine, env, queue[w & 1][i], 0);
+            growChunk(machine, env, queue[w & 1][i]);
         }
     }
     a.waves.resize(w + 1);
@@ -65,18 +67,19 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     a.out.chunks.resize(room.chunks);
     a.out.branches.resize(room.branches);
     a.out.leaves.resize(room.leaves);
-    a.status = freshStatus(inputs.limits, room, cut, 1);
+    a.status = freshStatus(inputs.limits, room, cut);
     a.waves.assign(inputs.limits.maxDepth + 2u, Wave{});
     a.waves[0] = firstWave(uint32_t(inputs.seeds.size()), room, 1);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
-    std::vector<float> widths(inputs.widths.begin(), inputs.widths.end());
-    widths.resize(grammars.size());
+    std::vector<GrammarNeeds> needs(grammars.size());
+    for (uint32_t i = 0; i < grammars.size(); ++i)
+        needs[i] = needsOf({grammars.data()}, i, inputs.widths.empty() ? 0.0f : inputs.widths[i]);
 
     ExpandEnv env{};
     env.surfaces = inputs.surfaces;
     env.layers = inputs.layers;
     env.grammars = {grammars.data()};
-    env.widths = {widths.data()};
+    env.needs = {needs.data()};
     env.nodes = {a.out.nodes.data()};
     env.chunks = {a.out.chunks.data()};
     env.branches = {a.out.branches.data()};

@@ -32,9 +32,8 @@ Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
 class GpuGrowth final : public Growth {
   public:
     GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), room_(room) {
-        // Each invocation of a wave owns a slice of the scratch: enough to fill the device, few enough to stay cached
-        // on a CPU.
-        groupLimit_ = device.info().cpu ? 128 : 2048;
+        // Enough to fill the device; further items are taken by the same invocations in turn.
+        groupLimit_ = device.info().cpu ? 1024 : 8192;
     }
 
     Status setUp();
@@ -64,10 +63,10 @@ class GpuGrowth final : public Growth {
     uint32_t groupLimit_;
     uint32_t likelyWaves_ = 24;   // recorded in the first submission
     std::array<Program, 2> march_;   // by WalkMode
-    Program terminals_, branchesFit_, fit_;
+    Program needsOf_, terminals_, branchesFit_, fit_;
     Records sets_[2];
     uint32_t front_ = 0;
-    Buffer items_[2], scratch_, status_, waves_, grammars_, widths_, density_, readback_;
+    Buffer items_[2], status_, waves_, grammars_, needs_, density_, readback_;
     GrowthView view_;
     GrowthStats stats_;
 };
@@ -78,6 +77,7 @@ Status GpuGrowth::setUp() {
         const char* shader;
     };
     const Row rows[] = {{&march_[0], "expand/march.comp"},
+                        {&needsOf_, "expand/needs.comp"},
                         {&terminals_, "expand/terminals.comp"},
                         {&branchesFit_, "expand/branches.comp"},
                         {&fit_, "expand/fit.comp"}};
@@ -104,7 +104,6 @@ Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, Buffe
 Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
     Records& back = sets_[1 - front_];
     uint64_t waves = inputs.limits.maxDepth + 2ull;
-    uint32_t lanes = std::min(groupLimit_, (room_.items + kExpandGroup - 1) / kExpandGroup) * kExpandGroup;
     struct Row {
         Buffer* buffer;
         const char* name;
@@ -116,11 +115,10 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
                         {&back.leaves, "growth leaves", uint64_t(room_.leaves) * sizeof(Leaf)},
                         {&items_[0], "growth items even", uint64_t(room_.items) * sizeof(WorkItem)},
                         {&items_[1], "growth items odd", uint64_t(room_.items) * sizeof(WorkItem)},
-                        {&scratch_, "growth scratch", uint64_t(lanes) * kChunkNodes * sizeof(Node)},
                         {&status_, "growth status", sizeof(GrowStatus)},
                         {&waves_, "growth waves", waves * sizeof(Wave)},
                         {&grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)},
-                        {&widths_, "growth widths", inputs.grammars.size() * sizeof(float)},
+                        {&needs_, "growth needs", inputs.grammars.size() * sizeof(GrammarNeeds)},
                         {&density_, "growth density", inputs.limits.leafDensityCap > 0 ? kDensityCells * 4ull : 4}};
     for (const Row& row : rows) {
         Status ok = ensure(*row.buffer, row.name, row.bytes);
@@ -135,12 +133,13 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs) {
     env.surfaces = inputs.surfaces;
     env.layers = inputs.layers;
     env.grammars = addressOf<RuleMapBuf, RuleMapRef>(grammars_);
-    env.widths = addressOf<FloatBuf, float>(widths_);
+    env.needs = addressOf<GrammarNeedsBuf, GrammarNeeds>(needs_);
     env.nodes = addressOf<NodeBuf, Node>(back.nodes);
     env.chunks = addressOf<ChunkBuf, Chunk>(back.chunks);
     env.branches = addressOf<BranchBuf, BranchRecord>(back.branches);
     env.leaves = addressOf<LeafBuf, Leaf>(back.leaves);
-    env.scratch = addressOf<NodeBuf, Node>(scratch_);
+    env.itemCapacity = room_.items;
+    env.groupLimit = groupLimit_;
     env.status = addressOf<GrowStatusBuf, GrowStatus>(status_);
     env.waves = addressOf<WaveBuf, Wave>(waves_);
     env.density = addressOf<UintBuf, uint32_t>(density_);
@@ -148,18 +147,23 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs) {
 }
 
 Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut) {
-    std::vector<GrowStatus> status{freshStatus(inputs.limits, room_, cut, groupLimit_)};
+    std::vector<GrowStatus> status{freshStatus(inputs.limits, room_, cut)};
     std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0});
     wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_, groupLimit_);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
-    std::vector<float> widths(inputs.widths.begin(), inputs.widths.end());
-    widths.resize(grammars.size(), 0.0f);
+    std::vector<GrammarNeeds> needs(grammars.size(), GrammarNeeds{0, 0, 0, 0});
+    for (size_t i = 0; i < inputs.widths.size(); ++i) needs[i].width = inputs.widths[i];
     Status steps[] = {commands.upload(status_, status), commands.upload(waves_, wave),
                       commands.upload(items_[0], itemsOfSeeds(inputs.seeds)), commands.upload(grammars_, grammars),
-                      commands.upload(widths_, widths)};
+                      commands.upload(needs_, needs)};
     for (Status& step : steps)
         if (!step) return step;
     commands.barrier(Use::transfer, Use::compute | Use::indirect);
+    Pass pass(commands, "expand needs");
+    ExpandEnv env = environment(inputs);
+    env.phase = uint32_t(grammars.size());
+    pass.dispatchItems(needsOf_, env.phase, env);
+    pass.barrier(Use::compute, Use::compute);
     return Done{};
 }
 
@@ -272,7 +276,7 @@ void GpuGrowth::publish(const GrowthInputs& inputs, const Outcome& outcome) {
 uint64_t GpuGrowth::reserved() const {
     uint64_t bytes = 0;
     for (const Records& r : sets_) bytes += r.nodes.size() + r.chunks.size() + r.branches.size() + r.leaves.size();
-    for (const Buffer* b : {&items_[0], &items_[1], &scratch_, &status_, &waves_, &grammars_, &widths_, &density_})
+    for (const Buffer* b : {&items_[0], &items_[1], &status_, &waves_, &grammars_, &needs_, &density_})
         bytes += b->size();
     return bytes;
 }

@@ -95,14 +95,12 @@ std::vector<WorkItem> itemsOfSeeds(std::span<const Seed> seeds) {
 
 GrowthCut noCut(const GrowthLimits& limits) { return {limits.maxDepth, 0}; }
 
-GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const GrowthCut& cut, uint32_t groupLimit) {
+GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const GrowthCut& cut) {
     GrowStatus s{};
     s.chunkCapacity = room.chunks;
     s.nodeCapacity = room.nodes;
     s.branchCapacity = room.branches;
     s.leafCapacity = room.leaves;
-    s.itemCapacity = room.items;
-    s.groupLimit = groupLimit;
     s.nodeGroups[1] = s.nodeGroups[2] = 1;
     s.branchGroups[1] = s.branchGroups[2] = 1;
     // A share of one is the same as cutting before the next wave.

@@ -8,9 +8,9 @@ layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 void main() {
-    uint count = min(env.waves.v[env.wave].count, env.status.v[0].itemCapacity);
+    uint count = min(env.waves.v[env.wave].count, env.itemCapacity);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     for (uint i = gl_GlobalInvocationID.x; i < count; i += lanes) {
-        growChunk(env, env.items.v[i], gl_GlobalInvocationID.x);
+        growChunk(env, env.items.v[i]);
     }
 }

@@ -15,17 +15,15 @@ CONST_UINT(kDensityCells, 1u << 18u);
 struct GrowStatus {
     uint chunks, nodes, branches, leaves;                                     // taken
     uint chunkCapacity, nodeCapacity, branchCapacity, leafCapacity;
-    uint itemCapacity;       // of each of the two queues
-    uint groupLimit;         // groups that a wave is given at most; each invocation owns a slice of the scratch
     uint nodeGroups[3];      // VkDispatchIndirectCommand over the nodes
     uint branchGroups[3];    // the same over the branches
-    uint items;              // most items that a wave asked for
+    uint items;              // most items that a wave asked for, where that was too many
     uint steps, inserted, stopped, deadEnds, lost, spans;
     uint limitWave;          // in this wave only items whose key begins below limitKey are grown, in later ones none
     uint limitKey;
     uint walkMode, tangentMode;
     float leafDensityCap;    // leaves per m² and seed, 0: none
-    uint spare[2];
+    uint spare[4];
     uint hash[128];          // [slot * 2]: low words, high words
 };
 STATIC_SIZE(GrowStatus, 632);
@@ -40,28 +38,37 @@ struct Wave {
 STATIC_SIZE(Wave, 24);
 BUFFER(WaveBuf, Wave)
 
-BUFFER(IntBuf, int)
+// What growth by a grammar asks of places (see needsOf), and its width.
+struct GrammarNeeds {
+    float width;             // metres: the surface is taken as coarse as suits shapes of this width
+    uint inputs, layers;
+    uint spare;
+};
+STATIC_SIZE(GrammarNeeds, 16);
+BUFFER(GrammarNeedsBuf, GrammarNeeds)
 
 // All that a kernel of expansion is handed, as push constants.
 struct ExpandEnv {
     SurfaceBuf surfaces;
     LayerBuf layers;
     RuleMapBuf grammars;
-    FloatBuf widths;         // [grammar] metres: the surface is taken as coarse as suits shapes of this width
+    GrammarNeedsBuf needs;   // [grammar]
     WorkItemBuf items;       // this wave's
     WorkItemBuf nextItems;
     NodeBuf nodes;
     ChunkBuf chunks;
     BranchBuf branches;
     LeafBuf leaves;
-    NodeBuf scratch;         // kChunkNodes an invocation
+    UintBuf scratch;         // the CPU's stage for a chunk's nodes; kernels have one of their own
     GrowStatusBuf status;
     WaveBuf waves;
     UintBuf density;         // [kDensityCells] leaves counted, when there is a cap
     uint wave;
     uint phase;              // of the terminal pass: see expand_terminals.h
+    uint itemCapacity;       // of each of the two queues
+    uint groupLimit;         // groups that a wave is given at most
 };
-STATIC_SIZE(ExpandEnv, 120);
+STATIC_SIZE(ExpandEnv, 128);
 
 #ifdef __cplusplus
 // The CPU reference runs on one thread.

@@ -13,6 +13,20 @@ CONST_UINT(kDetours, 10u);                 // directions tried over the semicirc
 CONST_FLOAT(kDetourAngle, 0.314159265f);   // between two of them on one side: the last ones go across the heading
 CONST_UINT(kMaxTrips, 8192u);              // of the loop, for one chunk
 
+// A chunk's nodes and a waiting item are staged in arrays of words of the invocation's own, and written by loops over
+// words: a masked store costs as much as a real one on a software device, a loop that isn't entered next to nothing.
+CONST_UINT(kNodeWords, 11u);
+CONST_UINT(kItemWords, 20u);
+#ifdef __cplusplus
+#define STAGED(i) env.scratch.v[i]
+#define ITEM_WORD(i) env.scratch.v[kChunkNodes * kNodeWords + (i)]
+#else
+uint stagedNodes[352];
+uint stagedItem[20];
+#define STAGED(i) stagedNodes[i]
+#define ITEM_WORD(i) stagedItem[i]
+#endif
+
 CONST_UINT(kPhaseDerive, 0u);    // a rule is to be found
 CONST_UINT(kPhaseMarch, 1u);     // a step is under way
 CONST_UINT(kPhaseEnded, 2u);     // the branch has ended
@@ -34,6 +48,8 @@ struct Grower {
     float distance, angle, remaining;
     uint attempt;        // 0: the heading as the rule turned it, then detours
     bool fresh;          // the attempt has not left yet
+    bool arrived;        // it has reached its end: the condition is to be asked there
+    bool placed;         // the machine knows the place where `trial` stands
     uint pending;        // samples staged for it
     float lastArc;       // of the last sample staged
     // What is done.
@@ -47,7 +63,7 @@ struct Grower {
 // The constants of a chunk's growth.
 struct GrowthSite {
     uint chunk;          // its own index
-    uint slice;          // first node of its slice of the scratch
+    uint inputs, layers; // what its grammar asks of places
     uint level;
     uint depth;          // branches from the seed
     uint stepBase;       // steps of its branch before it
@@ -89,49 +105,59 @@ FN Place placeOf(WalkState w) {
     return p;
 }
 
-// Puts an item into the next wave's queue; beyond its capacity only the count grows.
-FN void pushItem(ExpandEnv env, WorkItem item) {
-    uint at = atomicAdd(env.waves.v[env.wave + 1u].count, 1u);
-    if (at < env.status.v[0].itemCapacity) {
-        env.nextItems.v[at] = item;
-        if (at % kExpandGroup == 0u && at / kExpandGroup < env.status.v[0].groupLimit) {
-            atomicAdd(env.waves.v[env.wave + 1u].groups[0], 1u);
-        }
-    } else {
-        atomicMax(env.status.v[0].items, at + 1u);
-    }
+#ifdef __cplusplus
+inline UintBuf wordsOfItems(WorkItemBuf items) { return {reinterpret_cast<uint*>(items.v)}; }
+inline UintBuf wordsOfNodes(NodeBuf nodes) { return {reinterpret_cast<uint*>(nodes.v)}; }
+#else
+UintBuf wordsOfItems(WorkItemBuf items) { return UintBuf(uint64_t(items)); }
+UintBuf wordsOfNodes(NodeBuf nodes) { return UintBuf(uint64_t(nodes)); }
+#endif
+
+// Stages an item for pushStaged; `origin`, `branch`: see WorkItem.
+FN void stageItem(ExpandEnv env, WorkItem entry, GrowthSite site, u64 key, uint grammar, uint symbol, vec4 args,
+                  Walk walk) {
+    ITEM_WORD(0) = uint(key);
+    ITEM_WORD(1) = uint(key >> 32);
+    ITEM_WORD(2) = walk.place;
+    ITEM_WORD(3) = floatBitsToUint(walk.uv.x);
+    ITEM_WORD(4) = floatBitsToUint(walk.uv.y);
+    ITEM_WORD(5) = floatBitsToUint(walk.direction.x);
+    ITEM_WORD(6) = floatBitsToUint(walk.direction.y);
+    ITEM_WORD(7) = floatBitsToUint(walk.direction.z);
+    ITEM_WORD(8) = floatBitsToUint(walk.arc);
+    ITEM_WORD(9) = (grammar << 16u) | symbol;
+    ITEM_WORD(10) = floatBitsToUint(args.x);
+    ITEM_WORD(11) = floatBitsToUint(args.y);
+    ITEM_WORD(12) = floatBitsToUint(args.z);
+    ITEM_WORD(13) = floatBitsToUint(args.w);
+    ITEM_WORD(14) = site.chunk;
+    ITEM_WORD(17) = entry.seed;
+}
+FN void stageLinks(ExpandEnv env, uint origin, uint branch, uint depth, uint step) {
+    ITEM_WORD(15) = origin;
+    ITEM_WORD(16) = branch;
+    ITEM_WORD(18) = depth;
+    ITEM_WORD(19) = step;
 }
 
-FN WorkItem itemOf(WorkItem entry, GrowthSite site, u64 key, uint grammar, uint symbol, vec4 args, Walk walk) {
-    WorkItem item;
-    item.key = key;
-    item.walk = walk;
-    item.symbol = (grammar << 16u) | symbol;
-    item.args[0] = args.x;
-    item.args[1] = args.y;
-    item.args[2] = args.z;
-    item.args[3] = args.w;
-    item.parent = site.chunk;
-    item.origin = kNoIndex;
-    item.branch = kNoIndex;
-    item.seed = entry.seed;
-    item.depth = entry.depth + (1u << 16u);
-    item.step = entry.step & 0xFF000000u;
-    return item;
+// Puts the staged item into the next wave's queue, if `push`; beyond its capacity only the count grows.
+FN void pushStaged(ExpandEnv env, bool push) {
+    uint at = kNoIndex;
+    if (push) at = atomicAdd(env.waves.v[env.wave + 1u].count, 1u);
+    bool fits = push && at < env.itemCapacity;
+    if (push && !fits) atomicMax(env.status.v[0].items, at + 1u);
+    if (fits && at % kExpandGroup == 0u && at / kExpandGroup < env.groupLimit) {
+        atomicAdd(env.waves.v[env.wave + 1u].groups[0], 1u);
+    }
+    UintBuf words = wordsOfItems(env.nextItems);
+    for (uint i = 0u; i < (fits ? kItemWords : 0u); ++i) words.v[at * kItemWords + i] = ITEM_WORD(i);
 }
 
 // Finds the shape's rule and applies it: a List at once (its branches are queued, what it continues with waits for
-// its own rule), a March as far as its length and angle.
+// its own rule), a March as far as its length and angle. The machine knows the place.
 FN void deriveRule(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site, WorkItem entry, INOUT(Grower) g) {
-    Place place = placeOf(g.at);
-    float arc = g.at.walk.arc;
-    uint step = site.stepBase + g.steps;
     giveArgs(MACHINE g.args);
-
-    uint inputs = map.symbols.v[g.symbol].inputs;
-    uint layers = map.symbols.v[g.symbol].layers;
     drawSites(MACHINE map.sites, map.symbols.v[g.symbol].firstSite, map.symbols.v[g.symbol].siteCount, g.key, g.key);
-    giveInputs(MACHINE env, g.grammar, inputs, layers, place, site.depth, step, arc, g.reads);
     runCode(MACHINE map.code, map.symbols.v[g.symbol].select);
     float selected = valueOf(MACHINE map.symbols.v[g.symbol].selected);
     uint ruleCount = map.symbols.v[g.symbol].ruleCount;
@@ -147,8 +173,6 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site,
     g.reads.params = g.reads.params | map.rules.v[rule].params;
 
     drawSites(MACHINE map.sites, map.rules.v[rule].firstSite, map.rules.v[rule].siteCount, g.key, g.key);
-    giveInputs(MACHINE env, g.grammar, map.rules.v[rule].startInputs, map.rules.v[rule].startLayers, place, site.depth,
-               step, arc, g.reads);
     runCode(MACHINE map.code, map.rules.v[rule].start);
     g.distance = larger(valueOf(MACHINE map.rules.v[rule].distance), site.minStep);
     g.angle = valueOf(MACHINE map.rules.v[rule].angle);
@@ -164,36 +188,38 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site,
         vec4 args = readArgs(MACHINE map, i);
         u64 child = childKey(key, map.successors.v[i].nameHash, map.successors.v[i].ordinal);
         uint symbol = map.successors.v[i].symbol;
-        if ((map.successors.v[i].flags & kSuccessorContinues) != 0u) {
+        bool branches = (map.successors.v[i].flags & kSuccessorContinues) == 0u;
+        if (branches) {
+            Walk walk = g.at.walk;
+            walk.arc = 0.0f;
+            stageItem(env, entry, site, child, g.grammar, symbol, args, walk);
+            stageLinks(env, g.count == 0u ? kNoIndex : g.count - 1u, kNoIndex, entry.depth + 0x10001u,
+                       entry.step & 0xFF000000u);
+            g.hash = hashWord(hashWord(g.hash, uint(child)), uint(child >> 32));
+        } else {
             g.key = child;
             g.symbol = symbol;
             g.args = args;
             g.phase = kPhaseDerive;
-        } else {
-            Walk walk = g.at.walk;
-            walk.arc = 0.0f;
-            WorkItem item = itemOf(entry, site, child, g.grammar, symbol, args, walk);
-            item.origin = g.count == 0u ? kNoIndex : g.count - 1u;
-            item.depth = item.depth + 1u;
-            pushItem(env, item);
-            g.hash = hashWord(hashWord(g.hash, uint(child)), uint(child >> 32));
         }
+        pushStaged(env, branches);
     }
 }
 
-// Writes a sample into the chunk's slice of the scratch.
+// Writes a sample into the stage.
 FN void stageNode(ExpandEnv env, GrowthSite site, WalkState w, vec3 normal, uint flags, uint index) {
-    Node node;
-    node.position = w.position;
-    node.normal = packOct(normal);
-    node.tangent = packOct(w.walk.direction);
-    node.uv = packUv(w.walk.uv);
-    node.place = w.walk.place;
-    node.radius = 0.0f;
-    node.arc = w.walk.arc;
-    node.chunk = site.chunk;
-    node.flags = flags | (index << 8u);
-    env.scratch.v[site.slice + index] = node;
+    uint at = index * kNodeWords;
+    STAGED(at) = floatBitsToUint(w.position.x);
+    STAGED(at + 1u) = floatBitsToUint(w.position.y);
+    STAGED(at + 2u) = floatBitsToUint(w.position.z);
+    STAGED(at + 3u) = packOct(normal);
+    STAGED(at + 4u) = packOct(w.walk.direction);
+    STAGED(at + 5u) = packUv(w.walk.uv);
+    STAGED(at + 6u) = w.walk.place;
+    STAGED(at + 7u) = 0u;
+    STAGED(at + 8u) = floatBitsToUint(w.walk.arc);
+    STAGED(at + 9u) = site.chunk;
+    STAGED(at + 10u) = flags | (index << 8u);
 }
 
 // The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes
@@ -203,8 +229,8 @@ FN float attemptAngle(Grower g) {
     return g.attempt == 0u ? g.angle : side * kDetourAngle * float((g.attempt + 1u) >> 1u);
 }
 
-// One stretch of the step under way; at its end the condition decides.
-FN void marchOn(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site, INOUT(Grower) g) {
+// One stretch of the step under way.
+FN void marchOn(ExpandEnv env, RuleTables map, GrowthSite site, INOUT(Grower) g) {
     if (g.fresh) {
         g.trial = g.at;
         g.remaining = g.distance;
@@ -215,40 +241,40 @@ FN void marchOn(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site, IN
     }
     vec3 normal;
     uint event = walkAdvance(env.surfaces, site.level, g.trial, g.remaining, normal);
+    bool goesOn = walkGoesOn(event);
     bool arrived = event == kWalkDone;
-    bool recorded = arrived || (walkGoesOn(event) && walkHasSample(event));
+    g.arrived = arrived;
+    g.placed = false;
+    bool recorded = arrived || (goesOn && walkHasSample(event));
     bool tiny = g.trial.walk.arc - g.lastArc < 0.02f * g.distance;
     if (arrived && tiny && g.pending > 0u) g.pending = g.pending - 1u;
     recorded = recorded && (arrived || !tiny);
 
     uint index = g.count + g.pending;
     bool room = index + (arrived ? 0u : 1u) < kChunkNodes;
-    if (recorded && !room && g.count > 0u) {
-        g.phase = kPhaseFull;   // the whole step moves to the next chunk
-        return;
-    }
-    uint extrude = map.rules.v[g.rule].extrude;
+    bool full = recorded && !room && g.count > 0u;
+    g.phase = full ? kPhaseFull : g.phase;   // the whole step moves to the next chunk
     if (recorded && room) {
-        uint flags = extrude | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
+        uint flags = map.rules.v[g.rule].extrude | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
         stageNode(env, site, g.trial, normal, flags, index);
         g.pending = g.pending + 1u;
         g.lastArc = g.trial.walk.arc;
     }
-    if (walkGoesOn(event)) return;
-
-    // The destination: what the rule reads there, its condition, its successor.
-    uint inputs = map.rules.v[g.rule].arriveInputs;
-    uint layers = map.rules.v[g.rule].arriveLayers;
-    bool holds1 = false;
-    if (arrived) {
-        giveInputs(MACHINE env, g.grammar, inputs, layers, placeOf(g.trial), site.depth, site.stepBase + g.steps + 1u,
-                   g.trial.walk.arc, g.reads);
-        runCode(MACHINE map.code, map.rules.v[g.rule].arrive);
-        holds1 = holds(valueOf(MACHINE map.rules.v[g.rule].condition));
+    if (!arrived && !goesOn) {
+        // A border of the model, or no surface: the next direction.
+        g.phase = g.attempt >= kDetours ? kPhaseDead : g.phase;
+        g.attempt = g.attempt + 1u;
+        g.fresh = true;
     }
-    if (!holds1) {
+}
+
+// At the end of a step: its condition, and its successor. The machine knows the place.
+FN void arrive(MACHINE_PARAM RuleTables map, INOUT(Grower) g) {
+    g.arrived = false;
+    runCode(MACHINE map.code, map.rules.v[g.rule].arrive);
+    if (!holds(valueOf(MACHINE map.rules.v[g.rule].condition))) {
         // Where the condition asks nothing of the place, no other direction can help.
-        bool blind = arrived && inputs == 0u && layers == 0u;
+        bool blind = (map.rules.v[g.rule].arriveInputs | map.rules.v[g.rule].arriveLayers) == 0u;
         g.phase = blind ? kPhaseEnded : g.attempt >= kDetours ? kPhaseDead : kPhaseMarch;
         g.attempt = g.attempt + 1u;
         g.fresh = true;
@@ -257,6 +283,7 @@ FN void marchOn(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site, IN
     g.at = g.trial;
     g.count = g.count + g.pending;
     g.inserted = g.inserted + g.pending - 1u;
+    g.pending = 0u;
     g.steps = g.steps + 1u;
     g.hash = hashVec3(g.hash, g.at.position);
     uint successor = map.rules.v[g.rule].firstSuccessor;
@@ -301,7 +328,7 @@ FN uint previousNodeOf(ExpandEnv env, WorkItem item) {
 }
 
 // Takes a range of nodes, copies what was staged, and returns the first index.
-FN uint publishNodes(ExpandEnv env, GrowthSite site, uint count) {
+FN uint publishNodes(ExpandEnv env, uint count) {
     uint first = count > 0u ? atomicAdd(env.status.v[0].nodes, count) : 0u;
     bool fits = first + count <= env.status.v[0].nodeCapacity;
     if (count > 0u) {
@@ -309,9 +336,8 @@ FN uint publishNodes(ExpandEnv env, GrowthSite site, uint count) {
         uint added = groupsAdded(first, count);
         if (fits && added > 0u) atomicAdd(env.status.v[0].nodeGroups[0], added);
     }
-    for (uint i = 0u; i < (fits ? count : 0u); ++i) {
-        env.nodes.v[first + i] = env.scratch.v[site.slice + i];
-    }
+    UintBuf words = wordsOfNodes(env.nodes);
+    for (uint i = 0u; i < (fits ? count * kNodeWords : 0u); ++i) words.v[first * kNodeWords + i] = STAGED(i);
     return first;
 }
 
@@ -343,7 +369,7 @@ FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, uint previo
 FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, Grower g, uint previousNode, bool goesOn) {
     float length = g.at.walk.arc;
     uint branch = item.branch;
-    uint first = publishNodes(env, site, g.count);
+    uint first = publishNodes(env, g.count);
     if (g.count > 0u || branch != kNoIndex) branch = publishBranch(env, item, site, previousNode, length);
 
     Chunk c;
@@ -374,13 +400,9 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, Grower g, ui
     c.readTiles[3] = g.reads.tile3;
     env.chunks.v[site.chunk] = c;
 
-    if (goesOn) {
-        WorkItem next = itemOf(item, site, g.key, g.grammar, g.symbol, g.args, g.at.walk);
-        next.origin = g.count - 1u;
-        next.branch = branch;
-        next.step = item.step + g.steps;
-        pushItem(env, next);
-    }
+    stageItem(env, item, site, g.key, g.grammar, g.symbol, g.args, g.at.walk);
+    stageLinks(env, g.count - 1u, branch, item.depth + 0x10000u, item.step + g.steps);
+    pushStaged(env, goesOn);
 }
 
 FN void countChunk(ExpandEnv env, Grower g) {
@@ -391,8 +413,8 @@ FN void countChunk(ExpandEnv env, Grower g) {
     if (g.phase == kPhaseDead) atomicAdd(env.status.v[0].deadEnds, 1u);
 }
 
-// Grows the chunk of one item and publishes it. lane: of the scratch.
-FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, uint lane) {
+// Grows the chunk of one item and publishes it.
+FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item) {
     if (refused(env, env.wave, item.key)) {
         atomicAdd(env.status.v[0].stopped, 1u);
         return;
@@ -412,6 +434,8 @@ FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, uint lane) {
     g.remaining = 0.0f;
     g.attempt = 0u;
     g.fresh = true;
+    g.arrived = false;
+    g.placed = false;
     g.pending = 0u;
     g.lastArc = item.walk.arc;
     g.count = 0u;
@@ -421,14 +445,15 @@ FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, uint lane) {
     g.hash = hashKey(item.key);
 
     RuleTables map = tablesOf(env.grammars, g.grammar);
-    site.slice = lane * kChunkNodes;
+    site.inputs = env.needs.v[g.grammar].inputs;
+    site.layers = env.needs.v[g.grammar].layers;
     site.depth = item.depth & 0xFFFFu;
     site.stepBase = item.step & 0xFFFFFFu;
     Walk walk = item.walk;
     bool exists = (walk.place & 0xFFFFu) < env.surfaces.v[walk.place >> 16u].chartCount;
     walk.place = exists ? walk.place : walk.place & 0xFFFF0000u;
     float texel;
-    site.level = levelFor(env, walk.place, env.widths.v[g.grammar], texel);
+    site.level = levelFor(env, walk.place, env.needs.v[g.grammar].width, texel);
     site.minStep = 0.25f * texel;
     bool stands = resumeWalk(env.surfaces, site.level, walk, g.at) && exists;
     g.trial = g.at;
@@ -442,11 +467,21 @@ FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, uint lane) {
         g.count = 1u;
     }
 
+    WorldFrame frame = frameOf(env.surfaces, walk.place >> 16u);
     for (uint trip = 0u; trip < kMaxTrips && g.phase <= kPhaseMarch; ++trip) {
+        bool here = g.arrived || g.phase == kPhaseDerive;
+        if (here && !g.placed) {
+            uint instance = g.trial.walk.place >> 16u;
+            if (instance != frame.instance) frame = frameOf(env.surfaces, instance);
+            giveInputs(MACHINE env, frame, g.grammar, site.inputs, site.layers, placeOf(g.trial), site.depth,
+                       site.stepBase + g.steps + (g.arrived ? 1u : 0u), g.trial.walk.arc, g.reads);
+            g.placed = true;
+        }
+        if (g.arrived) arrive(MACHINE map, g);
         for (uint lists = 0u; lists <= kMaxListDepth && g.phase == kPhaseDerive; ++lists) {
             deriveRule(MACHINE env, map, site, item, g);
         }
-        if (g.phase == kPhaseMarch) marchOn(MACHINE env, map, site, g);
+        if (g.phase == kPhaseMarch) marchOn(env, map, site, g);
     }
     g.phase = g.phase <= kPhaseMarch ? kPhaseStopped : g.phase;
     bool goesOn = g.phase == kPhaseFull;

@@ -95,59 +95,89 @@ struct Place {
     uint level;
 };
 
-CONST_UINT(kInputsOfWorld, kInputNormal | kInputHeading | kInputPosition | kInputSlope | kInputHeight | 15u);
+// An instance's place in the world, kept at hand while growth stays on it.
+struct WorldFrame {
+    uint instance;
+    vec3 x, y, z;        // rows of object to world
+    vec3 offset;
+    float perMetre;      // object units a metre
+    float lowest;        // height of its lowest point
+};
+
+FN WorldFrame frameOf(SurfaceBuf surfaces, uint instance) {
+    vec4 row0 = surfaces.v[instance].toWorld[0];
+    vec4 row1 = surfaces.v[instance].toWorld[1];
+    vec4 row2 = surfaces.v[instance].toWorld[2];
+    vec3 a = surfaces.v[instance].boundsMin;
+    vec3 b = surfaces.v[instance].boundsMax;
+    WorldFrame f;
+    f.instance = instance;
+    f.x = vec3(row0.x, row0.y, row0.z);
+    f.y = vec3(row1.x, row1.y, row1.z);
+    f.z = vec3(row2.x, row2.y, row2.z);
+    f.offset = vec3(row0.w, row1.w, row2.w);
+    f.perMetre = rcpExact(surfaces.v[instance].scale);
+    f.lowest = row1.w + smaller(f.y.x * a.x, f.y.x * b.x) + smaller(f.y.y * a.y, f.y.y * b.y) +
+               smaller(f.y.z * a.z, f.y.z * b.z);
+    return f;
+}
 
 // Fills the slots that the masks name. `depth`, `step`, `arc`: see rule_map.h.
-FN void giveInputs(MACHINE_PARAM ExpandEnv env, uint grammar, uint inputs, uint layers, Place p, uint depth, uint step,
-                   float arc, INOUT(ReadSet) reads) {
+FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint inputs, uint layers, Place p, uint depth,
+                   uint step, float arc, INOUT(ReadSet) reads) {
     SLOT(kSlotTexCoord) = p.uv.x;
     SLOT(kSlotTexCoord + 1u) = p.uv.y;
     SLOT(kSlotDepth) = float(depth);
     SLOT(kSlotStep) = float(step);
     SLOT(kSlotArc) = arc;
-
-    for (uint left = layers; left != 0u; left = left & (left - 1u)) {
-        uint i = lowestBit(left);
-        SLOT(kSlotLayer + i) = layerAt(env.layers, p.instance, env.grammars.v[grammar].layerOf[i] & 15u, p.uv, reads);
-    }
-    if ((inputs & (kInputsOfWorld | kInputCurvature)) == 0u) return;
-
-    float perMetre = rcpExact(env.surfaces.v[p.instance].scale);
-    vec4 row0 = env.surfaces.v[p.instance].toWorld[0];
-    vec4 row1 = env.surfaces.v[p.instance].toWorld[1];
-    vec4 row2 = env.surfaces.v[p.instance].toWorld[2];
-    vec3 x = vec3(row0.x, row0.y, row0.z);
-    vec3 y = vec3(row1.x, row1.y, row1.z);
-    vec3 z = vec3(row2.x, row2.y, row2.z);
-    vec3 normal = vec3(dot3(x, p.normal), dot3(y, p.normal), dot3(z, p.normal)) * perMetre;
-    vec3 heading = vec3(dot3(x, p.heading), dot3(y, p.heading), dot3(z, p.heading)) * perMetre;
-    float height = dot3(y, p.position) + row1.w;
+    vec3 normal = vec3(dot3(f.x, p.normal), dot3(f.y, p.normal), dot3(f.z, p.normal)) * f.perMetre;
+    vec3 heading = vec3(dot3(f.x, p.heading), dot3(f.y, p.heading), dot3(f.z, p.heading)) * f.perMetre;
+    float height = dot3(f.y, p.position) + f.offset.y;
     SLOT(kSlotNormal) = normal.x;
     SLOT(kSlotNormal + 1u) = normal.y;
     SLOT(kSlotNormal + 2u) = normal.z;
     SLOT(kSlotHeading) = heading.x;
     SLOT(kSlotHeading + 1u) = heading.y;
     SLOT(kSlotHeading + 2u) = heading.z;
-    SLOT(kSlotPosition) = dot3(x, p.position) + row0.w;
+    SLOT(kSlotPosition) = dot3(f.x, p.position) + f.offset.x;
     SLOT(kSlotPosition + 1u) = height;
-    SLOT(kSlotPosition + 2u) = dot3(z, p.position) + row2.w;
-    if ((inputs & kInputHeight) != 0u) {
-        vec3 a = env.surfaces.v[p.instance].boundsMin;
-        vec3 b = env.surfaces.v[p.instance].boundsMax;
-        float lowest = smaller(y.x * a.x, y.x * b.x) + smaller(y.y * a.y, y.y * b.y) + smaller(y.z * a.z, y.z * b.z);
-        SLOT(kSlotHeight) = height - (lowest + row1.w);
-    }
+    SLOT(kSlotPosition + 2u) = dot3(f.z, p.position) + f.offset.z;
+    SLOT(kSlotHeight) = height - f.lowest;
     if ((inputs & kInputSlope) != 0u) {
         SLOT(kSlotSlope) = atan2Exact(sqrtExact(normal.x * normal.x + normal.z * normal.z), normal.y);
     }
     if ((inputs & kInputCurvature) != 0u) {
-        SLOT(kSlotCurvature) = curvatureAt(env.surfaces, p.instance, p.level, p.uv) * perMetre;
+        SLOT(kSlotCurvature) = curvatureAt(env.surfaces, p.instance, p.level, p.uv) * f.perMetre;
+    }
+    for (uint left = layers; left != 0u; left = left & (left - 1u)) {
+        uint i = lowestBit(left);
+        SLOT(kSlotLayer + i) = layerAt(env.layers, p.instance, env.grammars.v[grammar].layerOf[i] & 15u, p.uv, reads);
     }
     for (uint left = inputs & 15u; left != 0u; left = left & (left - 1u)) {
         uint i = lowestBit(left);
         vec4 d = env.grammars.v[grammar].directions[i];
         SLOT(kSlotAngle + i) = angleInSurface(heading, normal, vec3(d.x, d.y, d.z));
     }
+}
+
+// What growth by a grammar may ask of a place, all its symbols and rules together: it is given once a step.
+FN GrammarNeeds needsOf(RuleMapBuf grammars, uint grammar, float width) {
+    GrammarNeeds n;
+    n.width = width;
+    n.inputs = 0u;
+    n.layers = 0u;
+    n.spare = 0u;
+    SymbolRecordBuf symbols = grammars.v[grammar].symbols;
+    RuleRecordBuf rules = grammars.v[grammar].rules;
+    for (uint i = 0u; i < grammars.v[grammar].symbolCount; ++i) {
+        n.inputs = n.inputs | symbols.v[i].inputs;
+        n.layers = n.layers | symbols.v[i].layers;
+    }
+    for (uint i = 0u; i < grammars.v[grammar].ruleCount; ++i) {
+        n.inputs = n.inputs | rules.v[i].startInputs | rules.v[i].arriveInputs;
+        n.layers = n.layers | rules.v[i].startLayers | rules.v[i].arriveLayers;
+    }
+    return n;
 }
 
 ESPALIER_END

@@ -200,7 +200,8 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
         SLOT(kSlotSpanLength) = site.stepEnd - site.stepStart;
         SLOT(kSlotRadius) = 0.0f;
         SLOT(kSlotCount) = 0.0f;
-        giveInputs(MACHINE env, grammar, map.extrudes.v[site.extrude].inputs, map.extrudes.v[site.extrude].layers, place,
+        WorldFrame frame = frameOf(env.surfaces, place.instance);
+        giveInputs(MACHINE env, frame, grammar, map.extrudes.v[site.extrude].inputs, map.extrudes.v[site.extrude].layers, place,
                    env.branches.v[branch].depthSeed >> 16u, step, node.arc, reads);
         uint cell = 0u;
         if (env.status.v[0].leafDensityCap > 0.0f) cell = densityCell(env, site.seed, node.place, place.uv);
