@@ -46,7 +46,7 @@ GrowthCut findCut(std::span<const Wave> waves, const GrowthLimits& limits) {
         nodes += waves[w].nodes;
         chunks += waves[w].chunks;
     }
-    return {uint32_t(waves.size()), kWholeWave};
+    return {~0u, kWholeWave};   // none: later than any cut
 }
 
 }  // namespace
