@@ -80,7 +80,9 @@ EspResult create(const EspContextDef& def, EspContext** out) {
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(*context->device, std::move(*meshes));
     if (!renderer) return failCreation(ESP_OUT_OF_MEMORY, renderer.failure().text());
     context->renderer = std::move(*renderer);
-    Result<std::unique_ptr<Growth>> growth = Growth::create(*context->device);
+    // Room for a well-grown scene, so that only large ones have to grow twice.
+    const GrowthRoom room{.chunks = 32768, .nodes = 262144, .branches = 32768, .leaves = 262144, .items = 32768};
+    Result<std::unique_ptr<Growth>> growth = Growth::create(*context->device, room);
     if (!growth) return failCreation(ESP_OUT_OF_MEMORY, growth.failure().text());
     context->growth = std::move(*growth);
     *out = context.release();

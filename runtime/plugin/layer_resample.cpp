@@ -68,7 +68,18 @@ const GreyMap& levelFor(const std::vector<GreyMap>& levels, float pictureArea, f
     return levels[size_t(std::min(level, float(levels.size() - 1)))];
 }
 
+// An atlas ends at its picture's border; only UVs beyond it say that the picture is meant to repeat.
+bool repeats(const SurfaceData& surface) {
+    constexpr float kSlack = 1e-3f;
+    for (const DrawVertex& vertex : surface.vertices)
+        if (glm::any(glm::lessThan(vertex.uv, glm::vec2(-kSlack))) ||
+            glm::any(glm::greaterThan(vertex.uv, glm::vec2(1 + kSlack))))
+            return true;
+    return false;
+}
+
 void rasterise(const SurfaceData& surface, const std::vector<GreyMap>& levels, uint32_t size, std::vector<float>& out) {
+    const bool repeat = repeats(surface);
     for (size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
         const DrawVertex* v[3] = {&surface.vertices[surface.indices[i]], &surface.vertices[surface.indices[i + 1]],
                                   &surface.vertices[surface.indices[i + 2]]};
@@ -87,7 +98,7 @@ void rasterise(const SurfaceData& surface, const std::vector<GreyMap>& levels, u
                 const glm::vec2 p = (glm::vec2(x, y) + .5f) / float(size) - a;
                 const float s = cross(p, ac) / area, t = cross(ab, p) / area;
                 if (s < -1e-4f || t < -1e-4f || s + t > 1.0001f) continue;
-                out[texelIndex(size, x, y)] = picture.sample(m + s * mb + t * mc, true);
+                out[texelIndex(size, x, y)] = picture.sample(m + s * mb + t * mc, repeat);
             }
     }
 }

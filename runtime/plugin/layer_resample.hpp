@@ -13,7 +13,7 @@ namespace espalier {
 struct LayerPicture {
     std::span<const float> texels;  // width * height
     uint32_t width = 0, height = 0;
-    bool materialUv = false;  // drawn in the materials' UV set, repeating; else in the walk's, clamped
+    bool materialUv = false;  // drawn in the materials' UV set; repeats if that leaves [0,1]; else in the walk's
 };
 
 // The picture laid into the walk's UV at level 0's size, in texelIndex order. What lies outside of the charts is

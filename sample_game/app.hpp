@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tools/scene/scene.hpp"
+
+namespace sample {
+
+struct AppOptions {
+    espalier::scene::Request request;
+    int width = 1280, height = 720;  // of the window, in screen coordinates
+    bool validation = false;
+    uint64_t frames = 0;     // ends after so many, 0: when the user closes the window
+    std::string screenshot;  // written after the last of `frames`
+};
+
+// Opens the window and runs until it is closed. Returns the program's exit code; what went wrong is on stderr.
+int runApp(const AppOptions& options);
+
+}  // namespace sample

@@ -1,0 +1,53 @@
+// espalier-sample: reads the command line and runs the game.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+
+#include "sample_game/app.hpp"
+
+int main(int argc, char** argv) {
+    CLI::App cli{"A window on a growing scene: paint with seeds, sliders and grammars.", "espalier-sample"};
+    cli.set_version_flag("--version", ESPALIER_VERSION);
+    sample::AppOptions options;
+    std::vector<std::string> layers;
+    std::string size = "1280x720";
+    long long seed = -1;
+    cli.add_option("FILE", options.request.file,
+                   "a scene (SCENE.json) or what espalier-bake wrote (SURFACE.glb); default: the sample scene");
+    cli.add_option("--layer", layers, "NAME=FILE: a picture drawn in the model's UVs");
+    cli.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
+    cli.add_option("--seed", seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
+        ->check(CLI::Range(0ll, 4294967295ll));
+    cli.add_option("--size", size, "WIDTHxHEIGHT of the window")->capture_default_str();
+    cli.add_option("--frames", options.frames, "ends after so many frames; 0: when the window is closed")
+        ->capture_default_str();
+    cli.add_option("--screenshot", options.screenshot, "writes the last of --frames as PNG");
+    cli.add_flag("--validation", options.validation, "with Vulkan's validation layer (also: ESPALIER_VALIDATION=1)");
+    try {
+        cli.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return cli.exit(e) ? 2 : 0;
+    }
+    const auto fail = [](const std::string& message) {
+        std::fprintf(stderr, "espalier-sample: %s\n", message.c_str());
+        return 2;
+    };
+    char rest = 0;
+    if (std::sscanf(size.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 || options.width < 64 ||
+        options.height < 64 || options.width > 16384 || options.height > 16384)
+        return fail("--size takes WIDTHxHEIGHT, 64 to 16384 each, not '" + size + "'");
+    for (const std::string& layer : layers) {
+        const size_t sign = layer.find('=');
+        if (sign == std::string::npos || sign == 0) return fail("--layer takes NAME=FILE, not '" + layer + "'");
+        options.request.layers.push_back({layer.substr(0, sign), layer.substr(sign + 1)});
+    }
+    if (seed >= 0) options.request.seed = uint32_t(seed);
+    if (options.request.file.empty()) options.request.file = espalier::scene::contentFolder() + "/sample.json";
+    const char* wanted = std::getenv("ESPALIER_VALIDATION");
+    options.validation = options.validation || (wanted && std::string(wanted) == "1");
+    try {
+        return sample::runApp(options);
+    } catch (const std::exception& e) {
+        return fail(e.what());
+    }
+}

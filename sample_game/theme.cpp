@@ -1,0 +1,70 @@
+// A dark, neutral look that leaves colour to the picture. The font is DejaVu Sans where Debian has it installed.
+#include "sample_game/theme.hpp"
+
+#include <imgui.h>
+
+#include <filesystem>
+
+namespace sample {
+namespace {
+
+const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+// Latin, Greek, Cyrillic, punctuation, superscripts, arrows, what labels and units of grammars are written with.
+const ImWchar kGlyphs[] = {0x20,   0x24F,  0x370,  0x3FF,  0x400,  0x4FF,  0x2010, 0x2027,
+                           0x2070, 0x209F, 0x2190, 0x21FF, 0x2200, 0x22FF, 0};
+
+ImVec4 grey(float value, float alpha = 1) {
+    return {value, value, value * 1.02f, alpha};
+}
+
+}  // namespace
+
+void applyTheme(float scale) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.Fonts->Clear();
+    std::error_code ignored;
+    const float size = float(int(15 * scale + .5f));
+    if (std::filesystem::exists(kFont, ignored)) {
+        io.Fonts->AddFontFromFileTTF(kFont, size, nullptr, kGlyphs);
+    } else {
+        ImFontConfig config;
+        config.SizePixels = size;
+        io.Fonts->AddFontDefault(&config);
+    }
+
+    ImGuiStyle style;
+    ImGui::StyleColorsDark(&style);
+    style.WindowPadding = {12, 10};
+    style.FramePadding = {8, 4};
+    style.ItemSpacing = {8, 6};
+    style.WindowRounding = 0;
+    style.FrameRounding = style.GrabRounding = style.PopupRounding = 3;
+    style.WindowBorderSize = 0;
+    style.ScrollbarSize = 12;
+    const ImVec4 green{.36f, .56f, .30f, 1}, greenBright{.46f, .70f, .38f, 1};
+    ImVec4* c = style.Colors;
+    c[ImGuiCol_Text] = grey(.90f);
+    c[ImGuiCol_TextDisabled] = grey(.58f);
+    c[ImGuiCol_WindowBg] = grey(.105f, .96f);
+    c[ImGuiCol_PopupBg] = grey(.13f, .98f);
+    c[ImGuiCol_Border] = grey(.25f);
+    c[ImGuiCol_FrameBg] = grey(.19f);
+    c[ImGuiCol_FrameBgHovered] = grey(.25f);
+    c[ImGuiCol_FrameBgActive] = grey(.29f);
+    c[ImGuiCol_Button] = grey(.22f);
+    c[ImGuiCol_ButtonHovered] = grey(.30f);
+    c[ImGuiCol_ButtonActive] = green;
+    c[ImGuiCol_Header] = grey(.18f);
+    c[ImGuiCol_HeaderHovered] = grey(.26f);
+    c[ImGuiCol_HeaderActive] = grey(.30f);
+    c[ImGuiCol_SliderGrab] = green;
+    c[ImGuiCol_SliderGrabActive] = greenBright;
+    c[ImGuiCol_CheckMark] = greenBright;
+    c[ImGuiCol_Separator] = grey(.24f);
+    c[ImGuiCol_ScrollbarBg] = grey(.10f, 0);
+    c[ImGuiCol_ScrollbarGrab] = grey(.28f);
+    style.ScaleAllSizes(scale);
+    ImGui::GetStyle() = style;
+}
+
+}  // namespace sample

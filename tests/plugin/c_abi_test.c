@@ -1,0 +1,394 @@
+/* The public interface from plain C: a context's whole life on a device of Espalier's own and on a host's, then bad
+ * arguments and bad content. Content: the folder with the sample's baked ruin, the only argument.
+ * A failed check prints its line and ends the program with 1. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <vulkan/vulkan.h>
+
+#include "plugin_api/espalier.h"
+
+#define CHECK(condition)                                                            \
+    do {                                                                            \
+        if (!(condition)) {                                                         \
+            fprintf(stderr, "%s:%d: failed: %s\n", __FILE__, __LINE__, #condition); \
+            exit(1);                                                                \
+        }                                                                           \
+    } while (0)
+#define OK(context, call)                                                                                          \
+    do {                                                                                                           \
+        EspResult result_ = (call);                                                                                \
+        if (result_ != ESP_OK) {                                                                                   \
+            fprintf(stderr, "%s:%d: %s gave %d: %s\n", __FILE__, __LINE__, #call, result_, espLastError(context)); \
+            exit(1);                                                                                               \
+        }                                                                                                          \
+    } while (0)
+
+enum { kWidth = 320, kHeight = 180 };
+
+static char surfacePath[1024];
+static int logged = 0;
+
+static void countLog(void* user, EspLogLevel level, const char* message) {
+    (void)message;
+    if (level == ESP_LOG_ERROR) ++*(int*)user;
+}
+
+static const char* kIvy =
+    "param reach = 0.6 [0.1 .. 5] \"m\" \"Length of the stems\"\n"
+    "param lush = 1 [0 .. 1] \"\" \"Share of leaves\"\n"
+    "context mask = 1 \"Where ivy grows\"\n"
+    "Ivy -> Branch(2) {Stem(reach), Stem(reach * 0.7)}\n"
+    "Stem(l) : arc >= l -> NULL\n"
+    "Stem(l) -> Marching(0.05, rand(-0.3, 0.3), mask(texCoord)) {Stem(l), Wood Foliage}\n"
+    "Wood -> S(0.01) Shape(\"bark\", C1)\n"
+    "Foliage -> Repeat(lush * 2) {S(0.06) T(rand(), 0.02) R(rand(-1, 1), 0.3) Shape(\"leaf\")}\n";
+
+static EspGrammarDef ivy(void) {
+    EspGrammarDef def = {"ivy", NULL, 0};
+    def.text = kIvy;
+    def.length = strlen(kIvy);
+    return def;
+}
+
+static EspSeed plant(EspContext* context, EspGrammar grammar, float x, float y, float z, uint32_t number) {
+    EspSeedDef def = espDefaultSeedDef();
+    EspSeed seed = {0};
+    def.grammar = grammar;
+    def.position[0] = x;
+    def.position[1] = y;
+    def.position[2] = z;
+    def.direction[1] = 1;
+    def.number = number;
+    OK(context, espPlant(context, &def, &seed));
+    CHECK(seed.id != 0);
+    return seed;
+}
+
+static EspStats stats(EspContext* context) {
+    EspStats s;
+    OK(context, espReadStats(context, &s));
+    return s;
+}
+
+/* Draws, reads back, and returns how many pixels differ from the first one: 0 would be an empty picture. */
+static size_t drawn(EspContext* context) {
+    static uint8_t pixels[kWidth * kHeight * 4];
+    size_t different = 0;
+    EspDrawDef draw = espDefaultDrawDef();
+    draw.width = kWidth;
+    draw.height = kHeight;
+    draw.camera = espFrameAll(context);
+    OK(context, espDraw(context, &draw));
+    OK(context, espReadPixels(context, pixels, sizeof pixels));
+    for (size_t i = 4; i < sizeof pixels; i += 4) different += memcmp(pixels, pixels + i, 3) != 0;
+    return different;
+}
+
+/* What any host does, on whichever device the context has. Returns the growth's hash. */
+static uint64_t wholeLife(EspContext* context) {
+    EspSurface surface = {0};
+    EspGrammar grammar = {0};
+    EspGrammarDef def = ivy();
+    EspSurfaceInfo info;
+    OK(context, espLoadSurface(context, surfacePath, NULL, &surface));
+    OK(context, espSurfaceInfo(context, surface, &info));
+    CHECK(info.triangles > 1000 && info.charts > 1 && info.levels >= 1 && info.resolution >= 64);
+    CHECK(info.walkableArea > 10 && info.boundsMax[1] > info.boundsMin[1] && info.hash != 0);
+
+    OK(context, espCompileGrammar(context, &def, &grammar));
+    CHECK(espParamCount(context, grammar) == 2);
+    EspParamInfo param;
+    OK(context, espParamInfo(context, grammar, 0, &param));
+    CHECK(!strcmp(param.name, "reach") && !strcmp(param.label, "Length of the stems") && !strcmp(param.unit, "m"));
+    CHECK(param.low == 0.1f && param.high == 5 && param.value[0] == 0.6f && param.initial[0] == 0.6f);
+    CHECK(espLayerCount(context, grammar) == 1 && !strcmp(espLayerName(context, grammar, 0), "mask"));
+
+    /* Nothing planted, nothing grown. */
+    OK(context, espUpdate(context));
+    CHECK(stats(context).nodes == 0);
+
+    /* Two seeds on the wall; where a ray from the front meets it. */
+    EspHit hit;
+    const float origin[3] = {-1.35f, 1, 5}, direction[3] = {0, 0, -2};
+    OK(context, espPick(context, origin, direction, &hit));
+    CHECK(hit.surface.id == surface.id && hit.chart < info.charts && hit.normal[2] > 0.5f);
+    CHECK(fabsf(hit.distance - (5 - hit.position[2])) < 1e-3f);
+    CHECK(hit.uv[0] >= 0 && hit.uv[0] <= 1 && hit.uv[1] >= 0 && hit.uv[1] <= 1);
+    EspHit near;
+    OK(context, espNearest(context, hit.position, &near));
+    CHECK(near.distance < 1e-3f && near.chart == hit.chart);
+    const float away[3] = {0, 1, 0};
+    CHECK(espPick(context, origin, away, &near) == ESP_INVALID_ARGUMENT);
+    const EspSeed first = plant(context, grammar, hit.position[0], hit.position[1], hit.position[2], 1);
+    plant(context, grammar, hit.position[0] + 0.3f, hit.position[1], hit.position[2], 2);
+    OK(context, espUpdate(context));
+    const EspStats grown = stats(context);
+    CHECK(grown.seeds == 2 && grown.nodes > 20 && grown.branches == 4 && grown.leaves > 20 && grown.hash != 0);
+    CHECK(grown.overflow == 0 && grown.nodeBytes <= 64 * grown.nodes);
+
+    /* An unchanged scene expands nothing, however often it is updated and drawn. */
+    CHECK(drawn(context) > 1000);
+    OK(context, espUpdate(context));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).expansions == grown.expansions);
+    const float same = 0.6f;
+    OK(context, espSetParam(context, grammar, "reach", &same, 1));
+    EspGrowDef grow = espDefaultGrowDef();
+    OK(context, espSetGrow(context, &grow));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).expansions == grown.expansions);
+
+    /* A parameter changes it; beyond its range it is limited; and back is back. */
+    const float longer = 100, shorter = 0.6f;
+    OK(context, espSetParam(context, grammar, "reach", &longer, 1));
+    OK(context, espParamInfo(context, grammar, 0, &param));
+    CHECK(param.value[0] == 5);
+    OK(context, espUpdate(context));
+    CHECK(stats(context).nodes > 2 * grown.nodes && stats(context).expansions == grown.expansions + 1);
+    OK(context, espSetParam(context, grammar, "reach", &shorter, 1));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == grown.hash);
+
+    /* A mask of zeros lets nothing grow; without it all is as before. */
+    const float black[4] = {0, 0, 0, 0};
+    EspLayerDef layer = espDefaultLayerDef();
+    layer.surface = surface;
+    layer.name = "mask";
+    layer.texels = black;
+    layer.width = layer.height = 2;
+    OK(context, espSetLayer(context, &layer));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).nodes < 10 && stats(context).layerBytes > 0);
+    layer.texels = NULL;
+    OK(context, espSetLayer(context, &layer));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == grown.hash);
+
+    /* A text that doesn't compile leaves the old one growing, and says where it is wrong. */
+    EspGrammarDef broken = {"broken.grammar", "Ivy -> Marching(\n", 17};
+    CHECK(espRecompileGrammar(context, grammar, &broken) == ESP_INVALID_CONTENT);
+    CHECK(strstr(espLastError(context), "broken.grammar:") != NULL);
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == grown.hash);
+    CHECK(espParamCount(context, grammar) == 2);
+    OK(context, espRecompileGrammar(context, grammar, &def));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == grown.hash);
+
+    /* Triangles on request. */
+    EspTriangles triangles;
+    OK(context, espMaterialise(context, &triangles));
+    CHECK(triangles.vertexCount > 1000 && triangles.indexCount > 1000 && triangles.indexCount % 3 == 0);
+    for (uint64_t i = 0; i < triangles.indexCount; ++i) CHECK(triangles.indices[i] < triangles.vertexCount);
+
+    /* Ids: what is gone is refused, and not taken for what came after it. */
+    OK(context, espRemoveSeed(context, first));
+    CHECK(espRemoveSeed(context, first) == ESP_INVALID_ARGUMENT);
+    const EspSeed third = plant(context, grammar, 1.6f, 1, 0.36f, 3);
+    CHECK(third.id != first.id && espRemoveSeed(context, first) == ESP_INVALID_ARGUMENT);
+    OK(context, espRemoveAllSeeds(context));
+    plant(context, grammar, hit.position[0], hit.position[1], hit.position[2], 1);
+    plant(context, grammar, hit.position[0] + 0.3f, hit.position[1], hit.position[2], 2);
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == grown.hash);
+
+    /* A second, smaller ruin beside the first; away with it, and with the grammar. */
+    EspTransform place = espIdentity();
+    for (int i = 0; i < 3; ++i) place.rows[i][i] = 0.5f;
+    place.rows[0][3] = 20;
+    EspSurface second = {0};
+    OK(context, espLoadSurface(context, surfacePath, &place, &second));
+    EspSurfaceInfo secondInfo;
+    OK(context, espSurfaceInfo(context, second, &secondInfo));
+    CHECK(fabs(secondInfo.walkableArea * 4 / info.walkableArea - 1) < 1e-3);
+    plant(context, grammar, 20 + hit.position[0] / 2, hit.position[1] / 2, hit.position[2] / 2, 4);
+    OK(context, espUpdate(context));
+    CHECK(stats(context).seeds == 3 && stats(context).nodes > grown.nodes);
+    OK(context, espDestroySurface(context, second));
+    CHECK(espSurfaceInfo(context, second, &secondInfo) == ESP_INVALID_ARGUMENT);
+    OK(context, espUpdate(context));
+    CHECK(stats(context).seeds == 2 && stats(context).hash == grown.hash);
+    OK(context, espDestroyGrammar(context, grammar));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).seeds == 0 && stats(context).nodes == 0);
+    CHECK(drawn(context) > 1000);
+    CHECK(stats(context).validationMessages == 0);
+    return grown.hash;
+}
+
+static void badArguments(EspContext* context) {
+    EspSurface surface = {0}, none = {77};
+    EspGrammar grammar = {0}, noGrammar = {12345};
+    EspGrammarDef def = ivy();
+    EspHit hit;
+    EspStats s;
+    const float point[3] = {0, 0, 0}, bad[3] = {NAN, 0, 0};
+
+    CHECK(espCreate(NULL, NULL) == ESP_INVALID_ARGUMENT);
+    CHECK(espUpdate(NULL) == ESP_INVALID_ARGUMENT && espDraw(NULL, NULL) == ESP_INVALID_ARGUMENT);
+    CHECK(espParamCount(NULL, grammar) == 0 && espLayerName(context, noGrammar, 0)[0] == 0);
+    CHECK(espReadStats(context, NULL) == ESP_INVALID_ARGUMENT && espLastError(context)[0] != 0);
+    CHECK(espLoadSurface(context, NULL, NULL, &surface) == ESP_INVALID_ARGUMENT);
+    CHECK(espLoadSurface(context, "no/such/file.glb", NULL, &surface) == ESP_IO_FAILED);
+    CHECK(strstr(espLastError(context), "no/such/file.glb") != NULL && surface.id == 0);
+    CHECK(espLoadSurface(context, ".", NULL, &surface) == ESP_IO_FAILED);
+    CHECK(espLoadSurface(context, __FILE__, NULL, &surface) == ESP_INVALID_CONTENT);
+    EspTransform skewed = espIdentity();
+    skewed.rows[0][0] = 2;
+    CHECK(espLoadSurface(context, surfacePath, &skewed, &surface) == ESP_INVALID_ARGUMENT);
+    skewed.rows[0][0] = -1;
+    CHECK(espLoadSurface(context, surfacePath, &skewed, &surface) == ESP_INVALID_ARGUMENT);
+    skewed.rows[0][0] = NAN;
+    CHECK(espLoadSurface(context, surfacePath, &skewed, &surface) == ESP_INVALID_ARGUMENT);
+    CHECK(espDestroySurface(context, none) == ESP_INVALID_ARGUMENT);
+    CHECK(espNearest(context, point, &hit) == ESP_INVALID_ARGUMENT);
+    CHECK(espNearest(context, bad, &hit) == ESP_INVALID_ARGUMENT && espPick(context, point, point, &hit) != ESP_OK);
+
+    EspGrammarDef empty = {"empty.grammar", "", 0}, null = {NULL, NULL, 5};
+    CHECK(espCompileGrammar(context, &empty, &grammar) == ESP_INVALID_CONTENT);
+    CHECK(strstr(espLastError(context), "empty.grammar") != NULL);
+    CHECK(espCompileGrammar(context, &null, &grammar) == ESP_INVALID_ARGUMENT);
+    OK(context, espCompileGrammar(context, &def, &grammar));
+    const float nan = NAN, one = 1;
+    CHECK(espSetParam(context, grammar, "reach", &nan, 1) == ESP_INVALID_ARGUMENT);
+    CHECK(espSetParam(context, grammar, "nothing", &one, 1) == ESP_INVALID_ARGUMENT);
+    CHECK(strstr(espLastError(context), "nothing") != NULL);
+    CHECK(espSetParam(context, grammar, "reach", &one, 4) == ESP_INVALID_ARGUMENT);
+
+    EspSeedDef seed = espDefaultSeedDef();
+    EspSeed planted;
+    seed.grammar = grammar;
+    CHECK(espPlant(context, &seed, &planted) == ESP_INVALID_ARGUMENT); /* no surface yet */
+    OK(context, espLoadSurface(context, surfacePath, NULL, &surface));
+    seed.symbol = "Wood"; /* draws, but doesn't grow */
+    CHECK(espPlant(context, &seed, &planted) == ESP_INVALID_ARGUMENT);
+    seed.symbol = NULL;
+    seed.position[1] = INFINITY;
+    CHECK(espPlant(context, &seed, &planted) == ESP_INVALID_ARGUMENT);
+    seed.position[1] = 0;
+    seed.grammar = noGrammar;
+    CHECK(espPlant(context, &seed, &planted) == ESP_INVALID_ARGUMENT);
+
+    EspLayerDef layer = espDefaultLayerDef();
+    layer.surface = surface;
+    layer.name = "mask";
+    layer.texels = &one;
+    CHECK(espSetLayer(context, &layer) == ESP_INVALID_ARGUMENT); /* 0 x 0 */
+    layer.width = 9000;
+    layer.height = 1;
+    CHECK(espSetLayer(context, &layer) == ESP_INVALID_ARGUMENT && strstr(espLastError(context), "9000") != NULL);
+    layer.width = 1;
+    layer.surface = none;
+    CHECK(espSetLayer(context, &layer) == ESP_INVALID_ARGUMENT);
+
+    EspDrawDef draw = espDefaultDrawDef();
+    draw.width = 0;
+    CHECK(espDraw(context, &draw) == ESP_INVALID_ARGUMENT);
+    draw.width = 20000;
+    CHECK(espDraw(context, &draw) == ESP_INVALID_ARGUMENT);
+    draw = espDefaultDrawDef();
+    draw.camera.eye[0] = NAN;
+    CHECK(espDraw(context, &draw) == ESP_INVALID_ARGUMENT);
+    draw = espDefaultDrawDef();
+    draw.look.view = ESP_VIEW_LAYER;
+    draw.look.viewLayer = "no such layer";
+    CHECK(espDraw(context, &draw) == ESP_INVALID_ARGUMENT);
+    uint8_t pixel[4];
+    CHECK(espReadPixels(context, pixel, sizeof pixel) == ESP_INVALID_ARGUMENT);
+    EspGrowDef grow = espDefaultGrowDef();
+    grow.maxNodes = 0;
+    CHECK(espSetGrow(context, &grow) == ESP_INVALID_ARGUMENT);
+
+    /* After all that it still works. */
+    plant(context, grammar, 0, 1, 0, 1);
+    OK(context, espUpdate(context));
+    OK(context, espReadStats(context, &s));
+    CHECK(s.nodes > 0 && drawn(context) > 1000);
+}
+
+/* A host's own instance and device, made as vulkan.h's users make them. */
+static EspHostDevice makeHost(void) {
+    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = VK_API_VERSION_1_3};
+    VkInstanceCreateInfo instanceInfo = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                         .pApplicationInfo = &application};
+    VkInstance instance;
+    CHECK(vkCreateInstance(&instanceInfo, NULL, &instance) == VK_SUCCESS);
+    uint32_t count = 1;
+    VkPhysicalDevice physical;
+    CHECK(vkEnumeratePhysicalDevices(instance, &count, &physical) >= 0 && count == 1);
+    uint32_t extensionCount = 0;
+    const char* const* extensions = espRequiredExtensions(&extensionCount);
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queueInfo = {
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
+    VkDeviceCreateInfo deviceInfo = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                     .pNext = espRequiredFeatures(),
+                                     .queueCreateInfoCount = 1,
+                                     .pQueueCreateInfos = &queueInfo,
+                                     .enabledExtensionCount = extensionCount,
+                                     .ppEnabledExtensionNames = extensions};
+    VkDevice device;
+    CHECK(vkCreateDevice(physical, &deviceInfo, NULL, &device) == VK_SUCCESS);
+    VkQueue queue;
+    vkGetDeviceQueue(device, 0, 0, &queue);
+    EspHostDevice host = {(void*)vkGetInstanceProcAddr, instance, physical, device, queue, 0, 0};
+    return host;
+}
+
+static EspContext* create(const EspHostDevice* host, const char* cache) {
+    EspContextDef def = espDefaultContextDef();
+    EspContext* context = NULL;
+    const char* validation = getenv("ESPALIER_VALIDATION");
+    def.host = host;
+    def.validation = validation && !strcmp(validation, "1");
+    def.log = countLog;
+    def.logUser = &logged;
+    def.cacheFolder = cache;
+    OK(NULL, espCreate(&def, &context));
+    CHECK(context != NULL && espDeviceName(context)[0] != 0 && espLastError(context)[0] == 0);
+    return context;
+}
+
+int main(int argc, char** argv) {
+    CHECK(argc == 3);
+    snprintf(surfacePath, sizeof surfacePath, "%s/ruin.surface.glb", argv[1]);
+    const char* cache = argv[2];
+    CHECK(strcmp(espVersion(), "0.1.0") == 0);
+    espDestroy(NULL);
+
+    EspContext* own = create(NULL, NULL);
+    const uint64_t hash = wholeLife(own);
+    espDestroy(own);
+
+    const EspHostDevice host = makeHost();
+    EspContext* hosted = create(&host, cache);
+    CHECK(wholeLife(hosted) == hash);
+    espDestroy(hosted);
+    /* With grammars from the cache: the same again. */
+    hosted = create(&host, cache);
+    CHECK(wholeLife(hosted) == hash);
+    espDestroy(hosted);
+    vkDestroyDevice((VkDevice)host.device, NULL);
+    vkDestroyInstance((VkInstance)host.instance, NULL);
+
+    EspContext* refused = create(NULL, NULL);
+    logged = 0;
+    badArguments(refused);
+    CHECK(logged > 10); /* errors reach the host's log */
+    espDestroy(refused);
+
+    EspContextDef def = espDefaultContextDef();
+    EspContext* context = NULL;
+    def.terminals = "no/such/terminals.glb";
+    CHECK(espCreate(&def, &context) == ESP_IO_FAILED && context == NULL);
+    CHECK(strstr(espLastError(NULL), "terminals.glb") != NULL);
+    EspHostDevice half = host;
+    half.queue = NULL;
+    def = espDefaultContextDef();
+    def.host = &half;
+    CHECK(espCreate(&def, &context) == ESP_INVALID_ARGUMENT && context == NULL);
+    printf("the C interface: all checks passed\n");
+    return 0;
+}
