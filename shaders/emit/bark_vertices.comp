@@ -28,9 +28,9 @@ void main() {
     vec3 center = o.p0 * (v * v * v) + o.b1 * (3.0 * v * v * u) + o.b2 * (3.0 * v * u * u) + o.p3 * (u * u * u);
     vec3 along = (o.b1 - o.p0) * (v * v) + (o.b2 - o.b1) * (2.0 * v * u) + (o.p3 - o.b2) * (u * u);
     vec3 normal = octahedralToUnit(o.normal0) * v + octahedralToUnit(o.normal1) * u;
-    vec3 side = cross(along, normal);
+    vec3 side = cross(normal, along);
     side *= inversesqrt(max(dot(side, side), 1e-30));
-    vec3 up = cross(side, along);
+    vec3 up = cross(along, side);
     up *= inversesqrt(max(dot(up, up), 1e-30));
     float radius = o.radius0 * v + o.radius1 * u;
     center += up * (o.rise * radius);

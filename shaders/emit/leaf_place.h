@@ -65,6 +65,10 @@ FN PlacedLeaf placeLeaf(LoadedSpan s, LeafPose pose, uint hash, float extent) {
     leaf.axisX = x * rsqrtExact(x2);
     leaf.axisY = y;
     leaf.axisZ = cross3(leaf.axisX, leaf.axisY);
+    if (pose.mesh == kKindLeaf && dot3(leaf.axisZ, n) < 0.0f) {
+        leaf.axisX = -leaf.axisX;
+        leaf.axisZ = -leaf.axisZ;
+    }
 
     // High enough that neither the tip nor a lobe dips into the wall, nor the blade into its own stem.
     float radius = s.radius0 * (1.0f - pose.t) + s.radius1 * pose.t;

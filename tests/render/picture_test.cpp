@@ -1,7 +1,10 @@
 // Pictures of ivy made on the CPU, judged by their statistics. With ESPALIER_PICTURES=DIR they are written there.
 #include <doctest/doctest.h>
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <functional>
 #include <iostream>
 
 #include "runtime/render/renderer.hpp"
@@ -109,4 +112,141 @@ TEST_CASE("ivy on a wall") {
     }
     for (const std::string& text : (*device)->validationTexts()) MESSAGE(text);
     CHECK((*device)->validationMessages() == 0);
+}
+
+namespace {
+
+struct Studio {
+    std::unique_ptr<Device> device;
+    std::unique_ptr<Renderer> renderer;
+    test::PlantData data = test::wallIvy(10, 3, 2);
+    test::Plant plant;
+    DrawInputs inputs;
+
+    Studio() {
+        DeviceOptions options;
+        options.validation = true;
+        device = std::move(*Device::create(options));
+        renderer = std::move(*Renderer::create(*device, test::simpleTerminals()));
+        REQUIRE(renderer->setSurface(0, wall(4, 2.6f), glm::mat4(1)));
+        plant = test::upload(*device, data);
+        inputs.growth = plant.view;
+        inputs.surfaces = plant.surfaceBuf;
+        inputs.camera.eye = {0.8f, 1.2f, 3.6f};
+        inputs.camera.target = {0, 0.9f, 0};
+    }
+    ~Studio() {
+        for (const std::string& text : device->validationTexts()) MESSAGE(text);
+        CHECK(device->validationMessages() == 0);
+    }
+    std::vector<uint8_t> draw(uint32_t width, uint32_t height) {
+        Result<Commands> commands = Commands::begin(*device, "frame");
+        REQUIRE(commands);
+        DrawTarget target;
+        target.width = width;
+        target.height = height;
+        REQUIRE(renderer->draw(*commands, inputs, target));
+        REQUIRE(commands->finish());
+        return *renderer->readPixels();
+    }
+};
+
+// Share of pixels for which `test` holds.
+double share(const std::vector<uint8_t>& rgba, const std::function<bool(int r, int g, int b)>& test) {
+    size_t hits = 0;
+    for (size_t i = 0; i < rgba.size(); i += 4) hits += test(rgba[i], rgba[i + 1], rgba[i + 2]);
+    return double(hits) / (double(rgba.size()) / 4);
+}
+bool green(int r, int g, int b) {
+    return g > r + 8 && g > b + 8;
+}
+
+}  // namespace
+
+TEST_CASE("a picture is the same on every run, whatever the order of instances") {
+    std::vector<uint8_t> first;
+    for (int round = 0; round < 3; ++round) {
+        Studio studio;
+        std::vector<uint8_t> picture = studio.draw(320, 180);
+        if (round == 0) first = picture;
+        CHECK(picture == first);
+        CHECK(studio.draw(320, 180) == first);  // with the kept shadow map
+    }
+}
+
+TEST_CASE("leaves are green, the wall casts shadows, the sky is above") {
+    Studio studio;
+    const std::vector<uint8_t> grown = studio.draw(320, 180);
+    CHECK(share(grown, green) > 0.08);
+    CHECK(int(grown[2]) > int(grown[0]));  // the first pixel is sky: bluish
+    studio.inputs.look.shadows = false;
+    const std::vector<uint8_t> flat = studio.draw(320, 180);
+    auto dark = [](int r, int g, int b) { return r + g + b < 240; };
+    CHECK(share(grown, dark) > share(flat, dark) + 0.01);
+    studio.inputs.look.shadows = true;
+    studio.inputs.growth = {};
+    const std::vector<uint8_t> bare = studio.draw(320, 180);
+    CHECK(share(bare, green) < 0.001);
+    CHECK(bare != grown);
+}
+
+TEST_CASE("views without walk data fall back, and each differs from the shaded one") {
+    Studio studio;
+    const std::vector<uint8_t> shaded = studio.draw(160, 90);
+    studio.inputs.look.view = ViewMode::lod;
+    const std::vector<uint8_t> lod = studio.draw(160, 90);
+    studio.inputs.look.view = ViewMode::normals;
+    const std::vector<uint8_t> normals = studio.draw(160, 90);
+    CHECK(lod != shaded);
+    CHECK(normals != shaded);
+    CHECK(normals != lod);
+    studio.inputs.look.view = ViewMode::layer;  // no layers were given
+    CHECK(studio.draw(160, 90) == normals);
+}
+
+TEST_CASE("awkward sizes") {
+    Studio studio;
+    for (glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(63, 65), glm::uvec2(2, 300), glm::uvec2(641, 3)})
+        CHECK(studio.draw(size.x, size.y).size() == size_t(size.x) * size.y * 4);
+}
+
+TEST_CASE("into a host's image") {
+    Studio studio;
+    const std::vector<uint8_t> own = studio.draw(200, 120);
+    ImageDesc desc;
+    desc.name = "host";
+    desc.width = 200;
+    desc.height = 120;
+    desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    Result<Image> image = Image::create(*studio.device, desc);
+    REQUIRE(image);
+    Result<Commands> commands = Commands::begin(*studio.device, "host frame");
+    REQUIRE(commands);
+    DrawTarget target{200, 120, image->handle(), image->view(), VK_FORMAT_R8G8B8A8_UNORM};
+    REQUIRE(studio.renderer->draw(*commands, studio.inputs, target));
+    REQUIRE(commands->finish());
+    image->state = ImageState::colorTarget;
+    Result<std::vector<std::byte>> bytes = readImage(*studio.device, *image);
+    REQUIRE(bytes);
+    CHECK(std::equal(own.begin(), own.end(), reinterpret_cast<const uint8_t*>(bytes->data())));
+}
+
+TEST_CASE("thin twigs fade instead of breaking up") {
+    Studio studio;
+    studio.inputs.growth.leafCount = 0;
+    studio.inputs.camera.eye = {0, 1, 14};
+    studio.inputs.look.shadows = false;
+    auto darkness = [&](float distance) {
+        studio.inputs.camera.eye = {0, 1, distance};
+        const std::vector<uint8_t> with = studio.draw(320, 180);
+        const GrowthView growth = studio.inputs.growth;
+        studio.inputs.growth = {};
+        const std::vector<uint8_t> without = studio.draw(320, 180);
+        studio.inputs.growth = growth;
+        double sum = 0;
+        for (size_t i = 0; i < with.size(); i += 4) sum += std::abs(int(with[i]) - int(without[i]));
+        return sum * double(distance) * double(distance);  // per area of wall
+    };
+    const double near = darkness(7), far = darkness(14);
+    CHECK(far == doctest::Approx(near).epsilon(0.35));
 }

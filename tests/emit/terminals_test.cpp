@@ -1,0 +1,85 @@
+// The reader of terminal meshes against whole, truncated and damaged files.
+#include <doctest/doctest.h>
+#include <cstring>
+#include <fstream>
+#include <random>
+
+#include "runtime/emit/terminals.hpp"
+
+using namespace espalier;
+
+namespace {
+
+// bark_lod0 and leaf_lod0, both one triangle.
+std::vector<char> smallFile() {
+    const float vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    const uint16_t indices[] = {0, 1, 2, 0};
+    std::string text = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":80}],"bufferViews":[
+        {"buffer":0,"byteOffset":0,"byteLength":72},{"buffer":0,"byteOffset":72,"byteLength":8}],"accessors":[
+        {"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+        {"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"},
+        {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],"meshes":[
+        {"name":"bark_lod0","primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2}]},
+        {"name":"leaf_lod0","primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2}]}]})";
+    while (text.size() % 4) text += ' ';
+    std::vector<char> file(12 + 8 + text.size() + 8 + 80);
+    auto put = [&](size_t at, uint32_t word) { std::memcpy(&file[at], &word, 4); };
+    put(0, 0x46546C67);
+    put(4, 2);
+    put(8, uint32_t(file.size()));
+    put(12, uint32_t(text.size()));
+    put(16, 0x4E4F534A);
+    std::memcpy(&file[20], text.data(), text.size());
+    const size_t binary = 20 + text.size();
+    put(binary, 80);
+    put(binary + 4, 0x004E4942);
+    std::memcpy(&file[binary + 8], vertices, 72);
+    std::memcpy(&file[binary + 80], indices, 8);
+    return file;
+}
+
+Result<TerminalData> readBytes(const std::vector<char>& bytes) {
+    const std::filesystem::path path = std::filesystem::temp_directory_path() / "espalier_terminals_test.glb";
+    std::ofstream(path, std::ios::binary).write(bytes.data(), std::streamsize(bytes.size()));
+    Result<TerminalData> data = readTerminals(path);
+    std::filesystem::remove(path);
+    return data;
+}
+
+}  // namespace
+
+TEST_CASE("terminals are read by their names") {
+    Result<TerminalData> data = readBytes(smallFile());
+    REQUIRE_MESSAGE(data, (data ? "" : data.failure().text()));
+    REQUIRE(data->variants.size() == 2);
+    CHECK(data->variants[0].kind == 0);
+    CHECK(data->variants[1].kind == 1);
+    CHECK(data->variants[1].lods[0].indexCount == 3);
+    CHECK(data->vertices[2].position == glm::vec3(0, 1, 1));
+}
+
+TEST_CASE("a missing file is named") {
+    Result<TerminalData> data = readTerminals("/nowhere/terminals.glb");
+    REQUIRE(!data);
+    CHECK(data.failure().text().find("/nowhere/terminals.glb") != std::string::npos);
+}
+
+TEST_CASE("damaged files are refused or read, never followed out of bounds") {
+    const std::vector<char> whole = smallFile();
+    for (size_t keep = 0; keep < whole.size(); keep += 13) {
+        CAPTURE(keep);
+        CHECK(!readBytes({whole.begin(), whole.begin() + long(keep)}));
+    }
+    std::mt19937 random(3);
+    for (int round = 0; round < 400; ++round) {
+        std::vector<char> bytes = whole;
+        for (int flips = 1 + int(random() % 4); flips > 0; --flips)
+            bytes[random() % bytes.size()] ^= char(1 << random() % 8);
+        Result<TerminalData> data = readBytes(bytes);
+        if (!data) continue;
+        for (const TerminalVariant& variant : data->variants)
+            for (const TerminalLod& lod : variant.lods)
+                for (uint32_t i = 0; i < lod.indexCount; ++i)
+                    REQUIRE(data->indices[lod.firstIndex + i] < lod.vertexCount);
+    }
+}
