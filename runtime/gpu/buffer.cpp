@@ -32,6 +32,7 @@ Result<Buffer> Buffer::create(Device& device, std::string_view name, uint64_t si
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = std::max(sizeBytes, kLeastBytes);
     info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                  VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     VkBuffer handle = VK_NULL_HANDLE;
@@ -52,6 +53,20 @@ Result<Buffer> Buffer::create(Device& device, std::string_view name, uint64_t si
     VkBufferDeviceAddressInfo address{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, handle};
     b.address_ = device.vk().vkGetBufferDeviceAddress(device.handle(), &address);
     return b;
+}
+
+Result<TexelView> TexelView::create(Device& device, const Buffer& buffer, VkFormat format) {
+    VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+    info.buffer = buffer.handle();
+    info.format = format;
+    info.range = VK_WHOLE_SIZE;
+    VkBufferView handle = VK_NULL_HANDLE;
+    if (!ESPALIER_VK(device, buffer.name(),
+                     device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &handle)))
+        return gpuFailure(device, buffer.name(), "making a texel view");
+    TexelView view;
+    view.view_ = Owned(device, handle);
+    return view;
 }
 
 Result<Buffer> makeBuffer(Device& device, std::string_view name, std::span<const std::byte> bytes) {

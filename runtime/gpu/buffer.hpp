@@ -41,6 +41,19 @@ class Buffer {
     std::string name_;
 };
 
+// A buffer read as texels of one format by texelFetch: on software devices several times faster than by address, since
+// a texel comes in one piece. At most DeviceInfo::limits.maxTexelBufferElements of them. The buffer must outlive it.
+class TexelView {
+  public:
+    TexelView() = default;
+    static Result<TexelView> create(Device& device, const Buffer& buffer, VkFormat format);
+    VkBufferView handle() const { return view_.get(); }
+    explicit operator bool() const { return bool(view_); }
+
+  private:
+    Owned<VkBufferView> view_;
+};
+
 // A device buffer with these bytes in it, ready when the call returns. For loading; inside a frame use
 // Commands::upload.
 Result<Buffer> makeBuffer(Device& device, std::string_view name, std::span<const std::byte> bytes);

@@ -38,7 +38,7 @@ namespace espalier {
     F(vkFreeMemory) F(vkMapMemory) F(vkUnmapMemory) F(vkCreateBuffer) F(vkDestroyBuffer)                               \
         F(vkGetBufferMemoryRequirements) F(vkBindBufferMemory) F(vkGetBufferDeviceAddress) F(vkCreateImage)            \
             F(vkDestroyImage) F(vkGetImageMemoryRequirements) F(vkBindImageMemory) F(vkCreateImageView) F(             \
-                vkDestroyImageView) F(vkCreateSampler) F(vkDestroySampler) F(vkCreateShaderModule)                     \
+                vkDestroyImageView) F(vkCreateBufferView) F(vkDestroyBufferView) F(vkCreateSampler) F(vkDestroySampler) F(vkCreateShaderModule)                     \
                 F(vkDestroyShaderModule) F(vkCreateDescriptorSetLayout) F(vkDestroyDescriptorSetLayout) F(             \
                     vkCreatePipelineLayout) F(vkDestroyPipelineLayout) F(vkCreateComputePipelines)                     \
                     F(vkCreateGraphicsPipelines) F(vkDestroyPipeline) F(vkCreateSemaphore) F(vkDestroySemaphore) F(    \

@@ -15,6 +15,7 @@ void retire(Device& device, VkBuffer handle);
 void retire(Device& device, VkImage handle);
 void retire(Device& device, VkImageView handle);
 void retire(Device& device, VkSampler handle);
+void retire(Device& device, VkBufferView handle);
 void retire(Device& device, VkPipeline handle);
 void retire(Device& device, VkPipelineLayout handle);
 void retire(Device& device, VkDescriptorSetLayout handle);

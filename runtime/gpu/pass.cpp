@@ -89,12 +89,15 @@ void Pass::bind(const Program& program, const Push& push, Bindings bindings) {
         const bool wantsBuffer =
             slot.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER || slot.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
         requireEqual(given.buffer != VK_NULL_HANDLE, wantsBuffer, "a buffer is bound where it belongs");
+        requireEqual(given.texels != VK_NULL_HANDLE, slot.type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
+                     "a texel view is bound where it belongs");
         writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         writes[i].dstBinding = slot.binding;
         writes[i].descriptorCount = 1;
         writes[i].descriptorType = slot.type;
         writes[i].pImageInfo = &images[i];
         writes[i].pBufferInfo = &buffers[i];
+        writes[i].pTexelBufferView = &given.texels;
     }
     if (bindings.size())
         vk_.vkCmdPushDescriptorSetKHR(

@@ -48,9 +48,11 @@ struct Binding {
     Binding(const Image& storage) : view(storage.view()) {}
     Binding(VkImageView imageView, VkSampler imageSampler) : view(imageView), sampler(imageSampler) {}
     Binding(const Buffer& whole) : buffer(whole.handle()) {}
+    Binding(const TexelView& given) : texels(given.handle()) {}
     VkImageView view = VK_NULL_HANDLE;
     VkSampler sampler = VK_NULL_HANDLE;
     VkBuffer buffer = VK_NULL_HANDLE;
+    VkBufferView texels = VK_NULL_HANDLE;
 };
 
 // A compute or graphics pipeline with all that its SPIR-V tells of itself.

@@ -235,6 +235,8 @@ std::optional<VkDescriptorType> descriptorType(const Module& m, spv::StorageClas
         case spv::Op::OpTypeSampler:
             return VK_DESCRIPTOR_TYPE_SAMPLER;
         case spv::Op::OpTypeImage:
+            // "samplerBuffer" is a texel buffer and no sampled image.
+            if ((*in)[7] == 1 && (*in)[3] == uint32_t(spv::Dim::Buffer)) return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
             return (*in)[7] == 2 ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
         default:
             return std::nullopt;  // an array of descriptors among them
