@@ -244,7 +244,8 @@ Start randomStart(const Shape& shape, std::mt19937_64& random) {
     Start s;
     s.chart = int(unit(random) * double(shape.charts.size())) % int(shape.charts.size());
     const ChartPatch& c = shape.charts[size_t(s.chart)];
-    Vec2 q(0.02 + 0.96 * unit(random), 0.02 + 0.96 * unit(random));
+    double across = unit(random), up = unit(random);  // one after the other: compilers differ in arguments' order
+    Vec2 q(0.02 + 0.96 * across, 0.02 + 0.96 * up);
     s.uv = c.cell.toUv(q);
     s.position = c.at(q);
     Vec3 n = shape.normal(s.position);
