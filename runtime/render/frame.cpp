@@ -43,6 +43,8 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     projection[0][0] = 1 / (tangent * aspect);
     projection[1][1] = -1 / tangent;
     projection[2][3] = -1;
+    projection[2][0] = -camera.shift.x;
+    projection[2][1] = camera.shift.y;
     projection[3][2] = std::max(camera.nearPlane, 1e-4f);
 
     FrameRecord frame{};
@@ -61,7 +63,7 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.horizon = look.horizon;
     frame.rayRight = right * (tangent * aspect);
     frame.rayUp = up * tangent;
-    frame.rayForward = forward;
+    frame.rayForward = forward - camera.shift.x * frame.rayRight - camera.shift.y * frame.rayUp;
     frame.pixelScale = float(height) / (2 * tangent);
     frame.surfaces = inputs.surfaces;
     frame.layers = inputs.layers;
