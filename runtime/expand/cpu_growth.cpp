@@ -71,15 +71,15 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     a.waves.assign(inputs.limits.maxDepth + 2u, Wave{});
     a.waves[0] = firstWave(uint32_t(inputs.seeds.size()), room, 1);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
-    std::vector<GrammarNeeds> needs(grammars.size());
-    for (uint32_t i = 0; i < grammars.size(); ++i)
-        needs[i] = needsOf({grammars.data()}, i, inputs.widths.empty() ? 0.0f : inputs.widths[i]);
+    std::vector<uint32_t> packed(packedWords(grammars));
+    std::vector<GrammarTables> tables = placeTables(inputs, packed.data());
+    for (uint32_t i = 0; i < grammars.size(); ++i) packGrammar({grammars.data()}, {tables.data()}, i, 0, 1);
 
     ExpandEnv env{};
     env.surfaces = inputs.surfaces;
     env.layers = inputs.layers;
     env.grammars = {grammars.data()};
-    env.needs = {needs.data()};
+    env.tables = {tables.data()};
     env.nodes = {a.out.nodes.data()};
     env.chunks = {a.out.chunks.data()};
     env.branches = {a.out.branches.data()};

@@ -63,10 +63,10 @@ class GpuGrowth final : public Growth {
     uint32_t groupLimit_;
     uint32_t likelyWaves_ = 24;   // recorded in the first submission
     std::array<Program, 2> march_;   // by WalkMode
-    Program needsOf_, terminals_, branchesFit_, fit_;
+    Program packTables_, terminals_, branchesFit_, fit_;
     Records sets_[2];
     uint32_t front_ = 0;
-    Buffer items_[2], status_, waves_, grammars_, needs_, density_, readback_;
+    Buffer items_[2], status_, waves_, grammars_, tables_, packed_, density_, readback_;
     GrowthView view_;
     GrowthStats stats_;
 };
@@ -77,7 +77,7 @@ Status GpuGrowth::setUp() {
         const char* shader;
     };
     const Row rows[] = {{&march_[0], "expand/march.comp"},
-                        {&needsOf_, "expand/needs.comp"},
+                        {&packTables_, "expand/tables.comp"},
                         {&terminals_, "expand/terminals.comp"},
                         {&branchesFit_, "expand/branches.comp"},
                         {&fit_, "expand/fit.comp"}};
@@ -118,7 +118,8 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
                         {&status_, "growth status", sizeof(GrowStatus)},
                         {&waves_, "growth waves", waves * sizeof(Wave)},
                         {&grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)},
-                        {&needs_, "growth needs", inputs.grammars.size() * sizeof(GrammarNeeds)},
+                        {&tables_, "growth tables", inputs.grammars.size() * sizeof(GrammarTables)},
+                        {&packed_, "growth packed rules", packedWords(inputs.grammars) * 4},
                         {&density_, "growth density", inputs.limits.leafDensityCap > 0 ? kDensityCells * 4ull : 4}};
     for (const Row& row : rows) {
         Status ok = ensure(*row.buffer, row.name, row.bytes);
@@ -133,7 +134,7 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs) {
     env.surfaces = inputs.surfaces;
     env.layers = inputs.layers;
     env.grammars = addressOf<RuleMapBuf, RuleMapRef>(grammars_);
-    env.needs = addressOf<GrammarNeedsBuf, GrammarNeeds>(needs_);
+    env.tables = addressOf<GrammarTablesBuf, GrammarTables>(tables_);
     env.nodes = addressOf<NodeBuf, Node>(back.nodes);
     env.chunks = addressOf<ChunkBuf, Chunk>(back.chunks);
     env.branches = addressOf<BranchBuf, BranchRecord>(back.branches);
@@ -151,18 +152,17 @@ Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, c
     std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0});
     wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_, groupLimit_);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
-    std::vector<GrammarNeeds> needs(grammars.size(), GrammarNeeds{0, 0, 0, 0});
-    for (size_t i = 0; i < inputs.widths.size(); ++i) needs[i].width = inputs.widths[i];
+    std::vector<GrammarTables> tables =
+        placeTables(inputs, reinterpret_cast<uint32_t*>(packed_.address()));
     Status steps[] = {commands.upload(status_, status), commands.upload(waves_, wave),
                       commands.upload(items_[0], itemsOfSeeds(inputs.seeds)), commands.upload(grammars_, grammars),
-                      commands.upload(needs_, needs)};
+                      commands.upload(tables_, tables)};
     for (Status& step : steps)
         if (!step) return step;
     commands.barrier(Use::transfer, Use::compute | Use::indirect);
-    Pass pass(commands, "expand needs");
-    ExpandEnv env = environment(inputs);
-    env.phase = uint32_t(grammars.size());
-    pass.dispatchItems(needsOf_, env.phase, env);
+    if (grammars.empty()) return Done{};
+    Pass pass(commands, "expand tables");
+    pass.dispatch(packTables_, {uint32_t(grammars.size()), 1, 1}, environment(inputs));
     pass.barrier(Use::compute, Use::compute);
     return Done{};
 }
@@ -276,7 +276,7 @@ void GpuGrowth::publish(const GrowthInputs& inputs, const Outcome& outcome) {
 uint64_t GpuGrowth::reserved() const {
     uint64_t bytes = 0;
     for (const Records& r : sets_) bytes += r.nodes.size() + r.chunks.size() + r.branches.size() + r.leaves.size();
-    for (const Buffer* b : {&items_[0], &items_[1], &status_, &waves_, &grammars_, &needs_, &density_})
+    for (const Buffer* b : {&items_[0], &items_[1], &status_, &waves_, &grammars_, &tables_, &packed_, &density_})
         bytes += b->size();
     return bytes;
 }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "shaders/shared/expand_tables.h"
+
 namespace espalier {
 namespace {
 
@@ -47,6 +49,26 @@ GrowthCut findCut(std::span<const Wave> waves, const GrowthLimits& limits) {
         chunks += waves[w].chunks;
     }
     return {~0u, kWholeWave};   // none: later than any cut
+}
+
+// Records in the section that begins at `start`: at most what fits before the map's next section.
+uint64_t recordsIn(const RuleMapRef& map, const void* start, size_t recordBytes) {
+    uintptr_t at = reinterpret_cast<uintptr_t>(start), end = ~uintptr_t(0);
+    for (const void* other : {(void*)map.symbols.v, (void*)map.rules.v, (void*)map.successors.v, (void*)map.extrudes.v,
+                              (void*)map.terminals.v, (void*)map.code.v, (void*)map.sites.v}) {
+        uintptr_t o = reinterpret_cast<uintptr_t>(other);
+        if (o > at) end = std::min(end, o);
+    }
+    return end == ~uintptr_t(0) ? 0 : (end - at) / recordBytes;
+}
+
+struct TableSizes {
+    uint64_t symbols, rules, successors, terminals;
+};
+TableSizes tableSizes(const RuleMapRef& map) {
+    return {uint64_t(map.symbolCount) * kSymbolWords, uint64_t(map.ruleCount) * kRuleWords,
+            recordsIn(map, map.successors.v, sizeof(SuccessorRecord)) * kSuccessorWords,
+            recordsIn(map, map.terminals.v, sizeof(TerminalRecord)) * kTerminalWords};
 }
 
 }  // namespace
@@ -91,6 +113,31 @@ std::vector<WorkItem> itemsOfSeeds(std::span<const Seed> seeds) {
         item.step = 0;
     }
     return items;
+}
+
+uint64_t packedWords(std::span<const RuleMapRef> grammars) {
+    uint64_t words = 0;
+    for (const RuleMapRef& map : grammars) {
+        TableSizes t = tableSizes(map);
+        words += t.symbols + t.rules + t.successors + t.terminals;
+    }
+    return words;
+}
+
+std::vector<GrammarTables> placeTables(const GrowthInputs& inputs, uint32_t* words) {
+    std::vector<GrammarTables> tables(inputs.grammars.size());
+    for (size_t i = 0; i < tables.size(); ++i) {
+        TableSizes sizes = tableSizes(inputs.grammars[i]);
+        GrammarTables& t = tables[i];
+        t = {};
+        t.symbols = {words};
+        t.rules = {t.symbols.v + sizes.symbols};
+        t.successors = {t.rules.v + sizes.rules};
+        t.terminals = {t.successors.v + sizes.successors};
+        words = t.terminals.v + sizes.terminals;
+        t.width = inputs.widths.empty() ? 0.0f : inputs.widths[i];
+    }
+    return tables;
 }
 
 GrowthCut noCut(const GrowthLimits& limits) { return {limits.maxDepth, 0}; }

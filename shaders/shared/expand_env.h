@@ -38,21 +38,22 @@ struct Wave {
 STATIC_SIZE(Wave, 24);
 BUFFER(WaveBuf, Wave)
 
-// What growth by a grammar asks of places (see needsOf), and its width.
-struct GrammarNeeds {
+// A grammar's packed tables (expand_tables.h), what growth by it asks of places, and its width.
+struct GrammarTables {
+    UintBuf symbols, rules, successors, terminals;
     float width;             // metres: the surface is taken as coarse as suits shapes of this width
     uint inputs, layers;
     uint spare;
 };
-STATIC_SIZE(GrammarNeeds, 16);
-BUFFER(GrammarNeedsBuf, GrammarNeeds)
+STATIC_SIZE(GrammarTables, 48);
+BUFFER(GrammarTablesBuf, GrammarTables)
 
 // All that a kernel of expansion is handed, as push constants.
 struct ExpandEnv {
     SurfaceBuf surfaces;
     LayerBuf layers;
     RuleMapBuf grammars;
-    GrammarNeedsBuf needs;   // [grammar]
+    GrammarTablesBuf tables; // [grammar]
     WorkItemBuf items;       // this wave's
     WorkItemBuf nextItems;
     NodeBuf nodes;

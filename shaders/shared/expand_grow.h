@@ -44,7 +44,10 @@ struct Grower {
     WalkState at;        // where it stands
     // The step under way.
     WalkState trial;     // how far it has come
-    uint rule;
+    uint rule;           // word 0 of its packed record
+    uint links;          // word 1
+    uint arriveCode;
+    uint conditionSlot, conditionValue;
     float distance, angle, remaining;
     uint attempt;        // 0: the heading as the rule turned it, then detours
     bool fresh;          // the attempt has not left yet
@@ -59,6 +62,21 @@ struct Grower {
     ReadSet reads;
     uvec2 hash;          // of all that the chunk leaves
 };
+
+// What derivation reads of a rule map.
+struct GrowTables {
+    UintBuf symbols, rules, successors, sites;
+    CodeBuf code;
+};
+FN GrowTables tablesOf(ExpandEnv env, uint grammar) {
+    GrowTables t;
+    t.symbols = env.tables.v[grammar].symbols;
+    t.rules = env.tables.v[grammar].rules;
+    t.successors = env.tables.v[grammar].successors;
+    t.sites = env.grammars.v[grammar].sites;
+    t.code = env.grammars.v[grammar].code;
+    return t;
+}
 
 // The constants of a chunk's growth.
 struct GrowthSite {
@@ -79,13 +97,12 @@ FN void giveArgs(MACHINE_PARAM vec4 args) {
     SLOT(kSlotArg + 3u) = args.w;
 }
 
-FN vec4 readArgs(MACHINE_PARAM RuleTables map, uint successor) {
+// The arguments of a successor, `head` being its first word.
+FN vec4 readArgs(MACHINE_PARAM UintBuf successors, uint at, uint head) {
     vec4 args = vec4(0.0f);
-    uint count = map.successors.v[successor].argCount;
-    for (uint i = 0u; i < count; ++i) {
-        uint slot = map.successors.v[successor].args[i].slot;
-        float immediate = map.successors.v[successor].args[i].immediate;
-        float x = slot == kSlotImmediate ? immediate : SLOT(slot);
+    uint slots = successors.v[at + 3u];
+    for (uint i = 0u; i < ((head >> 24u) & 7u); ++i) {
+        float x = packedValue(MACHINE (slots >> (8u * i)) & 127u, successors.v[at + 4u + i]);
         args.x = i == 0u ? x : args.x;
         args.y = i == 1u ? x : args.y;
         args.z = i == 2u ? x : args.z;
@@ -93,6 +110,7 @@ FN vec4 readArgs(MACHINE_PARAM RuleTables map, uint successor) {
     }
     return args;
 }
+FN u64 successorKey(u64 key, uint head, uint nameHash) { return childKey(key, nameHash, (head >> 16u) & 255u); }
 
 FN Place placeOf(WalkState w) {
     Place p;
@@ -155,40 +173,50 @@ FN void pushStaged(ExpandEnv env, bool push) {
 
 // Finds the shape's rule and applies it: a List at once (its branches are queued, what it continues with waits for
 // its own rule), a March as far as its length and angle. The machine knows the place.
-FN void deriveRule(MACHINE_PARAM ExpandEnv env, RuleTables map, GrowthSite site, WorkItem entry, INOUT(Grower) g) {
+FN void deriveRule(MACHINE_PARAM ExpandEnv env, GrowTables map, GrowthSite site, WorkItem entry, INOUT(Grower) g) {
     giveArgs(MACHINE g.args);
-    drawSites(MACHINE map.sites, map.symbols.v[g.symbol].firstSite, map.symbols.v[g.symbol].siteCount, g.key, g.key);
-    runCode(MACHINE map.code, map.symbols.v[g.symbol].select);
-    float selected = valueOf(MACHINE map.symbols.v[g.symbol].selected);
-    uint ruleCount = map.symbols.v[g.symbol].ruleCount;
-    g.reads.params = g.reads.params | map.symbols.v[g.symbol].params;
+    uint at = g.symbol * kSymbolWords;
+    uint rules = map.symbols.v[at];
+    uint sites = map.symbols.v[at + 2u];
+    drawSites(MACHINE map.sites, sites & 0xFFFFu, (sites >> 16u) & 255u, g.key, g.key);
+    runCode(MACHINE map.code, rangeOf(map.symbols.v[at + 1u]));
+    float selected = packedValue(MACHINE sites >> 24u, map.symbols.v[at + 3u]);
+    g.reads.params = g.reads.params | map.symbols.v[at + 4u];
+    uint ruleCount = rules >> 16u;
     if (!(selected >= 0.0f) || ruleCount == 0u) {
         g.phase = kPhaseEnded;
         return;
     }
     uint number = uint(selected);
-    uint rule = map.symbols.v[g.symbol].firstRule + (number < ruleCount ? number : ruleCount - 1u);
-    uint kind = map.rules.v[rule].kind;
-    g.rule = rule;
-    g.reads.params = g.reads.params | map.rules.v[rule].params;
-
-    drawSites(MACHINE map.sites, map.rules.v[rule].firstSite, map.rules.v[rule].siteCount, g.key, g.key);
-    runCode(MACHINE map.code, map.rules.v[rule].start);
-    g.distance = larger(valueOf(MACHINE map.rules.v[rule].distance), site.minStep);
-    g.angle = valueOf(MACHINE map.rules.v[rule].angle);
+    at = ((rules & 0xFFFFu) + (number < ruleCount ? number : ruleCount - 1u)) * kRuleWords;
+    uint head = map.rules.v[at];
+    uint links = map.rules.v[at + 1u];
+    uint slots = map.rules.v[at + 4u];
+    drawSites(MACHINE map.sites, links >> 16u, (head >> 16u) & 255u, g.key, g.key);
+    runCode(MACHINE map.code, rangeOf(map.rules.v[at + 2u]));
+    g.rule = head;
+    g.links = links;
+    g.arriveCode = map.rules.v[at + 3u];
+    g.distance = larger(packedValue(MACHINE slots & 127u, map.rules.v[at + 5u]), site.minStep);
+    g.angle = packedValue(MACHINE (slots >> 8u) & 127u, map.rules.v[at + 6u]);
+    g.conditionSlot = (slots >> 16u) & 127u;
+    g.conditionValue = map.rules.v[at + 7u];
+    g.reads.params = g.reads.params | map.rules.v[at + 8u];
     g.attempt = 0u;
     g.fresh = true;
-    g.phase = kind == kRuleMarch ? kPhaseMarch : kPhaseEnded;
+    g.phase = (head & 3u) == kRuleMarch ? kPhaseMarch : kPhaseEnded;
 
-    uint first = map.rules.v[rule].firstSuccessor;
-    uint count = kind == kRuleList ? map.rules.v[rule].successorCount : 0u;
+    uint first = links & 0xFFFFu;
+    uint count = (head & 3u) == kRuleList ? (head >> 2u) & 63u : 0u;
     u64 key = g.key;
     for (uint i = first; i < first + count; ++i) {
-        runCode(MACHINE map.code, map.successors.v[i].code);
-        vec4 args = readArgs(MACHINE map, i);
-        u64 child = childKey(key, map.successors.v[i].nameHash, map.successors.v[i].ordinal);
-        uint symbol = map.successors.v[i].symbol;
-        bool branches = (map.successors.v[i].flags & kSuccessorContinues) == 0u;
+        at = i * kSuccessorWords;
+        uint successor = map.successors.v[at];
+        runCode(MACHINE map.code, rangeOf(map.successors.v[at + 2u]));
+        vec4 args = readArgs(MACHINE map.successors, at, successor);
+        u64 child = successorKey(key, successor, map.successors.v[at + 1u]);
+        uint symbol = successor & 0xFFFFu;
+        bool branches = (successor & kPackedContinues) == 0u;
         if (branches) {
             Walk walk = g.at.walk;
             walk.arc = 0.0f;
@@ -230,7 +258,7 @@ FN float attemptAngle(Grower g) {
 }
 
 // One stretch of the step under way.
-FN void marchOn(ExpandEnv env, RuleTables map, GrowthSite site, INOUT(Grower) g) {
+FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
     if (g.fresh) {
         g.trial = g.at;
         g.remaining = g.distance;
@@ -255,7 +283,7 @@ FN void marchOn(ExpandEnv env, RuleTables map, GrowthSite site, INOUT(Grower) g)
     bool full = recorded && !room && g.count > 0u;
     g.phase = full ? kPhaseFull : g.phase;   // the whole step moves to the next chunk
     if (recorded && room) {
-        uint flags = map.rules.v[g.rule].extrude | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
+        uint flags = ((g.rule >> 8u) & 255u) | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
         stageNode(env, site, g.trial, normal, flags, index);
         g.pending = g.pending + 1u;
         g.lastArc = g.trial.walk.arc;
@@ -269,12 +297,12 @@ FN void marchOn(ExpandEnv env, RuleTables map, GrowthSite site, INOUT(Grower) g)
 }
 
 // At the end of a step: its condition, and its successor. The machine knows the place.
-FN void arrive(MACHINE_PARAM RuleTables map, INOUT(Grower) g) {
+FN void arrive(MACHINE_PARAM GrowTables map, INOUT(Grower) g) {
     g.arrived = false;
-    runCode(MACHINE map.code, map.rules.v[g.rule].arrive);
-    if (!holds(valueOf(MACHINE map.rules.v[g.rule].condition))) {
+    runCode(MACHINE map.code, rangeOf(g.arriveCode));
+    if (!holds(packedValue(MACHINE g.conditionSlot, g.conditionValue))) {
         // Where the condition asks nothing of the place, no other direction can help.
-        bool blind = (map.rules.v[g.rule].arriveInputs | map.rules.v[g.rule].arriveLayers) == 0u;
+        bool blind = (g.rule & kRuleBlind) != 0u;
         g.phase = blind ? kPhaseEnded : g.attempt >= kDetours ? kPhaseDead : kPhaseMarch;
         g.attempt = g.attempt + 1u;
         g.fresh = true;
@@ -286,14 +314,15 @@ FN void arrive(MACHINE_PARAM RuleTables map, INOUT(Grower) g) {
     g.pending = 0u;
     g.steps = g.steps + 1u;
     g.hash = hashVec3(g.hash, g.at.position);
-    uint successor = map.rules.v[g.rule].firstSuccessor;
-    if (map.rules.v[g.rule].successorCount == 0u) {
-        g.phase = kPhaseEnded;
+    if ((g.rule & 252u) == 0u) {
+        g.phase = kPhaseEnded;   // no successor
         return;
     }
-    g.args = readArgs(MACHINE map, successor);
-    g.key = childKey(g.key, map.successors.v[successor].nameHash, map.successors.v[successor].ordinal);
-    g.symbol = map.successors.v[successor].symbol;
+    uint at = (g.links & 0xFFFFu) * kSuccessorWords;
+    uint head = map.successors.v[at];
+    g.args = readArgs(MACHINE map.successors, at, head);
+    g.key = successorKey(g.key, head, map.successors.v[at + 1u]);
+    g.symbol = head & 0xFFFFu;
     g.phase = g.count >= kChunkNodes ? kPhaseFull : kPhaseDerive;
 }
 
@@ -429,6 +458,10 @@ FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item) {
     g.symbol = item.symbol & 0xFFFFu;
     g.args = itemArgs(item);
     g.rule = 0u;
+    g.links = 0u;
+    g.arriveCode = 0u;
+    g.conditionSlot = 0u;
+    g.conditionValue = 0u;
     g.distance = 0.0f;
     g.angle = 0.0f;
     g.remaining = 0.0f;
@@ -444,16 +477,16 @@ FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item) {
     g.reads = emptyReadSet();
     g.hash = hashKey(item.key);
 
-    RuleTables map = tablesOf(env.grammars, g.grammar);
-    site.inputs = env.needs.v[g.grammar].inputs;
-    site.layers = env.needs.v[g.grammar].layers;
+    GrowTables map = tablesOf(env, g.grammar);
+    site.inputs = env.tables.v[g.grammar].inputs;
+    site.layers = env.tables.v[g.grammar].layers;
     site.depth = item.depth & 0xFFFFu;
     site.stepBase = item.step & 0xFFFFFFu;
     Walk walk = item.walk;
     bool exists = (walk.place & 0xFFFFu) < env.surfaces.v[walk.place >> 16u].chartCount;
     walk.place = exists ? walk.place : walk.place & 0xFFFF0000u;
     float texel;
-    site.level = levelFor(env, walk.place, env.needs.v[g.grammar].width, texel);
+    site.level = levelFor(env, walk.place, env.tables.v[g.grammar].width, texel);
     site.minStep = 0.25f * texel;
     bool stands = resumeWalk(env.surfaces, site.level, walk, g.at) && exists;
     g.trial = g.at;
@@ -467,12 +500,12 @@ FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item) {
         g.count = 1u;
     }
 
-    WorldFrame frame = frameOf(env.surfaces, walk.place >> 16u);
+    WorldFrame frame = frameOf(env.surfaces, walk.place >> 16u, site.inputs);
     for (uint trip = 0u; trip < kMaxTrips && g.phase <= kPhaseMarch; ++trip) {
         bool here = g.arrived || g.phase == kPhaseDerive;
         if (here && !g.placed) {
             uint instance = g.trial.walk.place >> 16u;
-            if (instance != frame.instance) frame = frameOf(env.surfaces, instance);
+            if (instance != frame.instance) frame = frameOf(env.surfaces, instance, site.inputs);
             giveInputs(MACHINE env, frame, g.grammar, site.inputs, site.layers, placeOf(g.trial), site.depth,
                        site.stepBase + g.steps + (g.arrived ? 1u : 0u), g.trial.walk.arc, g.reads);
             g.placed = true;
@@ -481,7 +514,7 @@ FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item) {
         for (uint lists = 0u; lists <= kMaxListDepth && g.phase == kPhaseDerive; ++lists) {
             deriveRule(MACHINE env, map, site, item, g);
         }
-        if (g.phase == kPhaseMarch) marchOn(env, map, site, g);
+        if (g.phase == kPhaseMarch) marchOn(env, site, g);
     }
     g.phase = g.phase <= kPhaseMarch ? kPhaseStopped : g.phase;
     bool goesOn = g.phase == kPhaseFull;

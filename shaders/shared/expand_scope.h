@@ -1,29 +1,10 @@
 // What a rule may ask about the place where a shape stands: the machine's inputs, and the record of what was read.
 #ifndef ESPALIER_SHARED_EXPAND_SCOPE_H
 #define ESPALIER_SHARED_EXPAND_SCOPE_H
-#include "shaders/shared/expand_env.h"
-#include "shaders/shared/interpreter.h"
+#include "shaders/shared/expand_tables.h"
 #include "shaders/shared/walk.h"
 
 ESPALIER_BEGIN
-
-// What derivation needs of a rule map, without its larger arrays.
-struct RuleTables {
-    SymbolRecordBuf symbols;
-    RuleRecordBuf rules;
-    SuccessorRecordBuf successors;
-    CodeBuf code;
-    UintBuf sites;
-};
-FN RuleTables tablesOf(RuleMapBuf grammars, uint grammar) {
-    RuleTables t;
-    t.symbols = grammars.v[grammar].symbols;
-    t.rules = grammars.v[grammar].rules;
-    t.successors = grammars.v[grammar].successors;
-    t.code = grammars.v[grammar].code;
-    t.sites = grammars.v[grammar].sites;
-    return t;
-}
 
 // A chunk's read set as it gathers; see Chunk::readTiles. A tile is noted for the texel that holds the texture
 // coordinate; the bilinear read touches texels one further, so who marks tiles dirty grows them by a texel.
@@ -95,6 +76,8 @@ struct Place {
     uint level;
 };
 
+CONST_UINT(kInputsOfWorld, kInputNormal | kInputHeading | kInputPosition | kInputSlope | kInputHeight | 15u);
+
 // An instance's place in the world, kept at hand while growth stays on it.
 struct WorldFrame {
     uint instance;
@@ -104,21 +87,29 @@ struct WorldFrame {
     float lowest;        // height of its lowest point
 };
 
-FN WorldFrame frameOf(SurfaceBuf surfaces, uint instance) {
-    vec4 row0 = surfaces.v[instance].toWorld[0];
-    vec4 row1 = surfaces.v[instance].toWorld[1];
-    vec4 row2 = surfaces.v[instance].toWorld[2];
-    vec3 a = surfaces.v[instance].boundsMin;
-    vec3 b = surfaces.v[instance].boundsMax;
+// inputs: only what they need is read.
+FN WorldFrame frameOf(SurfaceBuf surfaces, uint instance, uint inputs) {
     WorldFrame f;
     f.instance = instance;
-    f.x = vec3(row0.x, row0.y, row0.z);
-    f.y = vec3(row1.x, row1.y, row1.z);
-    f.z = vec3(row2.x, row2.y, row2.z);
-    f.offset = vec3(row0.w, row1.w, row2.w);
+    f.x = vec3(1.0f, 0.0f, 0.0f);
+    f.y = vec3(0.0f, 1.0f, 0.0f);
+    f.z = vec3(0.0f, 0.0f, 1.0f);
+    f.offset = vec3(0.0f);
     f.perMetre = rcpExact(surfaces.v[instance].scale);
-    f.lowest = row1.w + smaller(f.y.x * a.x, f.y.x * b.x) + smaller(f.y.y * a.y, f.y.y * b.y) +
-               smaller(f.y.z * a.z, f.y.z * b.z);
+    f.lowest = 0.0f;
+    for (uint i = 0u; i < ((inputs & kInputsOfWorld) != 0u ? 3u : 0u); ++i) {
+        vec4 row = surfaces.v[instance].toWorld[i];
+        vec3 r = vec3(row.x, row.y, row.z);
+        f.x = i == 0u ? r : f.x;
+        f.y = i == 1u ? r : f.y;
+        f.z = i == 2u ? r : f.z;
+        f.offset = vec3(i == 0u ? row.w : f.offset.x, i == 1u ? row.w : f.offset.y, i == 2u ? row.w : f.offset.z);
+    }
+    f.lowest = f.offset.y;
+    for (uint i = 0u; i < ((inputs & kInputHeight) != 0u ? 3u : 0u); ++i) {
+        float k = i == 0u ? f.y.x : i == 1u ? f.y.y : f.y.z;
+        f.lowest = f.lowest + smaller(k * surfaces.v[instance].boundsMin[i], k * surfaces.v[instance].boundsMax[i]);
+    }
     return f;
 }
 
@@ -158,26 +149,6 @@ FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint
         vec4 d = env.grammars.v[grammar].directions[i];
         SLOT(kSlotAngle + i) = angleInSurface(heading, normal, vec3(d.x, d.y, d.z));
     }
-}
-
-// What growth by a grammar may ask of a place, all its symbols and rules together: it is given once a step.
-FN GrammarNeeds needsOf(RuleMapBuf grammars, uint grammar, float width) {
-    GrammarNeeds n;
-    n.width = width;
-    n.inputs = 0u;
-    n.layers = 0u;
-    n.spare = 0u;
-    SymbolRecordBuf symbols = grammars.v[grammar].symbols;
-    RuleRecordBuf rules = grammars.v[grammar].rules;
-    for (uint i = 0u; i < grammars.v[grammar].symbolCount; ++i) {
-        n.inputs = n.inputs | symbols.v[i].inputs;
-        n.layers = n.layers | symbols.v[i].layers;
-    }
-    for (uint i = 0u; i < grammars.v[grammar].ruleCount; ++i) {
-        n.inputs = n.inputs | rules.v[i].startInputs | rules.v[i].arriveInputs;
-        n.layers = n.layers | rules.v[i].startLayers | rules.v[i].arriveLayers;
-    }
-    return n;
 }
 
 ESPALIER_END

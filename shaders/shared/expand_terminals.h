@@ -40,7 +40,19 @@ struct NodeSite {
     uvec2 hash;          // sum over its leaves
 };
 
-FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, vec3 colour, float size, float t, float lift, float turn,
+struct TerminalTables {
+    UintBuf terminals, sites;
+    CodeBuf code;
+};
+
+// How many instances a terminal makes here. The first bark counts; a foot takes the radius of its plant's first span
+// and nothing else.
+FN uint instanceCount(float wanted, bool bark, bool barked, bool foot) {
+    uint count = uint(limited(wanted, 0.0f, float(kMaxRepeat)));
+    return (bark && barked) || (foot && !bark) ? 0u : count;
+}
+
+FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, uint colour, float size, float t, float lift, float turn,
                  float pitch, float tint, u64 key, uint cell, INOUT(uvec2) hash) {
     // t runs along the step; inserted samples cut a step into spans, one of which holds the instance.
     float arc = site.stepStart + limited(t, 0.0f, 1.0f) * (site.stepEnd - site.stepStart);
@@ -57,58 +69,69 @@ FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, vec3 colour, float siz
     leaf.node = site.index;
     leaf.place = packLeafPlace(divExact(arc - site.before, larger(site.after - site.before, 1e-9f)), mesh, size);
     leaf.pose = packLeafPose(turn, pitch, lift, size);
-    leaf.tint = packLeafTint(tint, colour, uint(key) & 255u);
+    leaf.tint = packLeafTint(tint, vec3(0.0f), uint(key)) | colour;
     uint at = atomicAdd(env.status.v[0].leaves, 1u);
     if (at < env.status.v[0].leafCapacity) env.leaves.v[at] = leaf;
     uvec2 h = hashWord(hashWord(hashWord(hashKey(key), leaf.place), leaf.pose), leaf.tint);
     hash = hash + hashWord(h, 0x1EAFu);
 }
 
-// Runs the node's program. One loop over gates and bodies alike: a trip evaluates a gate or makes an instance.
-FN float runTerminals(MACHINE_PARAM ExpandEnv env, RuleMapRef map, INOUT(NodeSite) site, uint cell,
-                      INOUT(uint) barkFlags) {
+// Runs the node's program. One loop over gates and bodies alike: a trip makes an instance, or evaluates a gate that
+// has code of its own.
+FN float runTerminals(MACHINE_PARAM ExpandEnv env, TerminalTables map, uint first, uint end, INOUT(NodeSite) site,
+                      uint cell, INOUT(uint) barkFlags) {
     float radius = 0.0f;
     bool barked = false;
-    uint first = map.extrudes.v[site.extrude].firstTerminal;
-    uint end = first + map.extrudes.v[site.extrude].terminalCount;
     uint made = 0u;
     uint count = 0u;
     bool gate = true;
     for (uint t = first; t < end;) {
-        TerminalRecord r = map.terminals.v[t];
-        u64 key = childKey(site.key, r.site, made);
+        uint at = t * kTerminalWords;
+        uint head = map.terminals.v[at];
+        uint gateCode = map.terminals.v[at + 2u];
+        uint bodyCode = map.terminals.v[at + 3u];
+        uint sites = map.terminals.v[at + 4u];
+        uint slots = map.terminals.v[at + 5u];
+        bool bark = (head & kPackedBark) != 0u;
+        bool codeless = (gateCode >> 16u) == 0u && ((head >> 16u) & 255u) == 0u;
+        bool body = !gate || codeless;
+        u64 key = childKey(site.key, map.terminals.v[at + 1u], made);
         SLOT(kSlotIndex) = float(made);
-        drawSites(MACHINE map.sites, gate ? r.gateFirstSite : r.bodyFirstSite, gate ? r.gateSiteCount : r.bodySiteCount,
+        drawSites(MACHINE map.sites, body ? sites >> 16u : sites & 0xFFFFu, body ? head >> 24u : (head >> 16u) & 255u,
                   site.key, key);
-        CodeRange range;
-        range.first = gate ? r.gate.first : r.body.first;
-        range.count = gate ? r.gate.count : r.body.count;
-        runCode(MACHINE map.code, range);
-        bool bark = (r.flags & kTerminalBark) != 0u;
-        if (gate) {
-            float wanted = valueOf(MACHINE r.count);
-            count = uint(limited(wanted, 0.0f, float(kMaxRepeat)));
+        if (gate && codeless) {
+            count = instanceCount(packedValue(MACHINE slots & 127u, map.terminals.v[at + 7u]), bark, barked, site.foot);
             SLOT(kSlotCount) = float(count);
-            // A foot takes the radius of its plant's first span and nothing else.
-            count = (bark && barked) || (site.foot && !bark) ? 0u : count;
-        } else {
-            float size = valueOf(MACHINE r.size);
-            if (bark) {
-                radius = limited(size, 0.0f, 1e3f);
-                SLOT(kSlotRadius) = radius;
-                barked = true;
-                barkFlags = site.foot ? 0u : kNodeBark | ((r.mesh & 255u) << 18u) | ((r.smoothness & 3u) << 15u);
-                count = 1u;
-            } else {
-                vec3 colour = vec3(valueOf(MACHINE r.colour[0]), valueOf(MACHINE r.colour[1]), valueOf(MACHINE r.colour[2]));
-                emitLeaf(env, site, r.mesh, colour, size, valueOf(MACHINE r.t), valueOf(MACHINE r.lift),
-                         valueOf(MACHINE r.turn), valueOf(MACHINE r.pitch), valueOf(MACHINE r.tint), key, cell, site.hash);
-            }
-            made = made + 1u;
         }
-        gate = !gate && made < count ? false : gate && count > 0u ? false : true;
-        t = gate ? t + 1u : t;
-        made = gate ? 0u : made;
+        runCode(MACHINE map.code, rangeOf(body ? bodyCode : gateCode));
+        if (!body) {
+            count = instanceCount(packedValue(MACHINE slots & 127u, map.terminals.v[at + 7u]), bark, barked, site.foot);
+            SLOT(kSlotCount) = float(count);
+        }
+        bool makes = body && made < count;
+        float size = packedValue(MACHINE (slots >> 8u) & 127u, map.terminals.v[at + 8u]);
+        if (makes && bark) {
+            radius = limited(size, 0.0f, 1e3f);
+            SLOT(kSlotRadius) = radius;
+            barked = true;
+            barkFlags = site.foot ? 0u : kNodeBark | ((head & 255u) << 18u) | (((head >> 8u) & 3u) << 15u);
+            count = 1u;
+        }
+        if (makes && !bark) {
+            uint more = map.terminals.v[at + 6u];
+            float along = packedValue(MACHINE (slots >> 16u) & 127u, map.terminals.v[at + 9u]);
+            float lift = packedValue(MACHINE slots >> 24u, map.terminals.v[at + 10u]);
+            float turn = packedValue(MACHINE more & 127u, map.terminals.v[at + 11u]);
+            float pitch = packedValue(MACHINE (more >> 8u) & 127u, map.terminals.v[at + 12u]);
+            float tint = packedValue(MACHINE (more >> 16u) & 127u, map.terminals.v[at + 13u]);
+            emitLeaf(env, site, head & 255u, map.terminals.v[at + 14u], size, along, lift, turn, pitch, tint, key, cell,
+                     site.hash);
+        }
+        made = makes ? made + 1u : made;
+        bool done = made >= count;
+        gate = done;
+        t = done ? t + 1u : t;
+        made = done ? 0u : made;
     }
     return radius;
 }
@@ -178,10 +201,16 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
     findStep(env, firstNode, local, node.arc, entryArc, node.flags, site);
 
     if (extrude != 0u) {
-        RuleMapRef map = env.grammars.v[grammar];
+        ExtrudeRecordBuf extrudes = env.grammars.v[grammar].extrudes;
+        TerminalTables map;
+        map.terminals = env.tables.v[grammar].terminals;
+        map.sites = env.grammars.v[grammar].sites;
+        map.code = env.grammars.v[grammar].code;
+        uint inputs = extrudes.v[site.extrude].inputs;
+        uint first = extrudes.v[site.extrude].firstTerminal;
         float length = env.branches.v[branch].extent;
         u64 branchKey = env.chunks.v[env.branches.v[branch].firstChunk].key;
-        site.key = childKey(branchKey, map.extrudes.v[site.extrude].nameHash, step);
+        site.key = childKey(branchKey, extrudes.v[site.extrude].nameHash, step);
         Place place;
         place.position = node.position;
         place.normal = unpackOct(node.normal);
@@ -200,12 +229,12 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
         SLOT(kSlotSpanLength) = site.stepEnd - site.stepStart;
         SLOT(kSlotRadius) = 0.0f;
         SLOT(kSlotCount) = 0.0f;
-        WorldFrame frame = frameOf(env.surfaces, place.instance);
-        giveInputs(MACHINE env, frame, grammar, map.extrudes.v[site.extrude].inputs, map.extrudes.v[site.extrude].layers, place,
+        WorldFrame frame = frameOf(env.surfaces, place.instance, inputs);
+        giveInputs(MACHINE env, frame, grammar, inputs, extrudes.v[site.extrude].layers, place,
                    env.branches.v[branch].depthSeed >> 16u, step, node.arc, reads);
         uint cell = 0u;
         if (env.status.v[0].leafDensityCap > 0.0f) cell = densityCell(env, site.seed, node.place, place.uv);
-        radius = runTerminals(MACHINE env, map, site, cell, barkFlags);
+        radius = runTerminals(MACHINE env, map, first, first + extrudes.v[site.extrude].terminalCount, site, cell, barkFlags);
     }
     hash = hash + site.hash;
     if (env.phase == kTerminalsWrite) {

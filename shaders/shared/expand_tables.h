@@ -1,0 +1,133 @@
+// Rule maps packed for the loops of expansion. A read from memory is what costs there, so each table holds what one
+// stage needs in as few words as it takes. Packed anew on the device at the start of each growth: parameters change
+// rule maps all the time.
+#ifndef ESPALIER_SHARED_EXPAND_TABLES_H
+#define ESPALIER_SHARED_EXPAND_TABLES_H
+#include "shaders/shared/expand_env.h"
+#include "shaders/shared/interpreter.h"
+#include "shaders/shared/leaf_pose.h"
+
+ESPALIER_BEGIN
+
+// Symbol, 5 words: 0 rules (first | count << 16), 1 code of `select` (first | count << 16),
+//   2 first site | sites << 16 | slot of `selected` << 24, 3 its immediate, 4 parameters
+// Rule, 9 words: 0 kind | successors << 2 | extrude << 8 | sites << 16 | blind << 24,
+//   1 first successor | first site << 16, 2 code of `start`, 3 code of `arrive`,
+//   4 slots of distance | angle << 8 | condition << 16, 5 to 7 their immediates, 8 parameters.
+//   blind: the condition asks nothing of the place.
+// Successor, 8 words: 0 symbol | ordinal << 16 | arguments << 24 | continues << 28, 1 hash of the symbol's name,
+//   2 code, 3 slots of the arguments, 4 to 7 their immediates
+// Terminal, 15 words: 0 mesh | smoothness << 8 | bark << 10 | gate's sites << 16 | body's sites << 24, 1 site,
+//   2 code of the gate, 3 code of the body, 4 first site of the gate | of the body << 16,
+//   5 slots of count, size, t, lift, 6 of turn, pitch, tint, 7 to 13 immediates of these seven, 14 packed colour
+CONST_UINT(kSymbolWords, 5u);
+CONST_UINT(kRuleWords, 9u);
+CONST_UINT(kSuccessorWords, 8u);
+CONST_UINT(kTerminalWords, 15u);
+
+CONST_UINT(kRuleBlind, 1u << 24u);
+CONST_UINT(kPackedContinues, 1u << 28u);
+CONST_UINT(kPackedBark, 1u << 10u);
+
+FN uint packPair(uint low, uint high) { return (low & 0xFFFFu) | (high << 16u); }
+FN uint packSlots(uint a, uint b, uint c, uint d) { return (a & 127u) | ((b & 127u) << 8u) | ((c & 127u) << 16u) | (d << 24u); }
+
+FN void packSymbol(SymbolRecordBuf from, UintBuf to, uint i) {
+    SymbolRecord s = from.v[i];
+    uint at = i * kSymbolWords;
+    to.v[at] = packPair(s.firstRule, s.ruleCount);
+    to.v[at + 1u] = packPair(s.select.first, s.select.count);
+    to.v[at + 2u] = (s.firstSite & 0xFFFFu) | ((s.siteCount & 255u) << 16u) | (s.selected.slot << 24u);
+    to.v[at + 3u] = floatBitsToUint(s.selected.immediate);
+    to.v[at + 4u] = s.params;
+}
+
+FN void packSuccessor(SuccessorRecordBuf from, UintBuf to, uint i) {
+    SuccessorRecord s = from.v[i];
+    uint at = i * kSuccessorWords;
+    uint continues = (s.flags & kSuccessorContinues) != 0u ? kPackedContinues : 0u;
+    to.v[at] = (s.symbol & 0xFFFFu) | ((s.ordinal & 255u) << 16u) | ((s.argCount & 7u) << 24u) | continues;
+    to.v[at + 1u] = s.nameHash;
+    to.v[at + 2u] = packPair(s.code.first, s.code.count);
+    to.v[at + 3u] = packSlots(s.args[0].slot, s.args[1].slot, s.args[2].slot, s.args[3].slot & 127u);
+    for (uint k = 0u; k < 4u; ++k) to.v[at + 4u + k] = floatBitsToUint(from.v[i].args[k].immediate);
+}
+
+FN void packRule(RuleRecordBuf from, SuccessorRecordBuf successors, UintBuf to, UintBuf toSuccessors, uint i) {
+    RuleRecord r = from.v[i];
+    uint at = i * kRuleWords;
+    bool blind = (r.arriveInputs | r.arriveLayers) == 0u;
+    to.v[at] = (r.kind & 3u) | ((r.successorCount & 63u) << 2u) | ((r.extrude & 255u) << 8u) |
+               ((r.siteCount & 255u) << 16u) | (blind ? kRuleBlind : 0u);
+    to.v[at + 1u] = packPair(r.firstSuccessor, r.firstSite);
+    to.v[at + 2u] = packPair(r.start.first, r.start.count);
+    to.v[at + 3u] = packPair(r.arrive.first, r.arrive.count);
+    to.v[at + 4u] = packSlots(r.distance.slot, r.angle.slot, r.condition.slot, 0u);
+    to.v[at + 5u] = floatBitsToUint(r.distance.immediate);
+    to.v[at + 6u] = floatBitsToUint(r.angle.immediate);
+    to.v[at + 7u] = floatBitsToUint(r.condition.immediate);
+    to.v[at + 8u] = r.params;
+    for (uint k = 0u; k < r.successorCount; ++k) packSuccessor(successors, toSuccessors, r.firstSuccessor + k);
+}
+
+FN void packTerminal(TerminalRecordBuf from, UintBuf to, uint i) {
+    TerminalRecord t = from.v[i];
+    uint at = i * kTerminalWords;
+    uint bark = (t.flags & kTerminalBark) != 0u ? kPackedBark : 0u;
+    to.v[at] = (t.mesh & 255u) | ((t.smoothness & 3u) << 8u) | bark | ((t.gateSiteCount & 255u) << 16u) |
+               (t.bodySiteCount << 24u);
+    to.v[at + 1u] = t.site;
+    to.v[at + 2u] = packPair(t.gate.first, t.gate.count);
+    to.v[at + 3u] = packPair(t.body.first, t.body.count);
+    to.v[at + 4u] = packPair(t.gateFirstSite, t.bodyFirstSite);
+    to.v[at + 5u] = packSlots(t.count.slot, t.size.slot, t.t.slot, t.lift.slot);
+    to.v[at + 6u] = packSlots(t.turn.slot, t.pitch.slot, t.tint.slot, 0u);
+    to.v[at + 7u] = floatBitsToUint(t.count.immediate);
+    to.v[at + 8u] = floatBitsToUint(t.size.immediate);
+    to.v[at + 9u] = floatBitsToUint(t.t.immediate);
+    to.v[at + 10u] = floatBitsToUint(t.lift.immediate);
+    to.v[at + 11u] = floatBitsToUint(t.turn.immediate);
+    to.v[at + 12u] = floatBitsToUint(t.pitch.immediate);
+    to.v[at + 13u] = floatBitsToUint(t.tint.immediate);
+    vec3 colour = vec3(t.colour[0].immediate, t.colour[1].immediate, t.colour[2].immediate);
+    to.v[at + 14u] = packLeafTint(0.0f, colour, 0u);
+}
+
+// Packs grammar `g`'s tables and gathers what its growth may ask of a place, all symbols and rules together: that is
+// given once a step. Invocation `lane` of `lanes` packs its share; needs must be zero before.
+FN void packGrammar(RuleMapBuf grammars, GrammarTablesBuf tables, uint g, uint lane, uint lanes) {
+    UintBuf symbols = tables.v[g].symbols;
+    UintBuf rules = tables.v[g].rules;
+    UintBuf successors = tables.v[g].successors;
+    UintBuf terminals = tables.v[g].terminals;
+    for (uint i = lane; i < grammars.v[g].symbolCount; i += lanes) {
+        packSymbol(grammars.v[g].symbols, symbols, i);
+        atomicOr(tables.v[g].inputs, grammars.v[g].symbols.v[i].inputs);
+        atomicOr(tables.v[g].layers, grammars.v[g].symbols.v[i].layers);
+    }
+    for (uint i = lane; i < grammars.v[g].ruleCount; i += lanes) {
+        packRule(grammars.v[g].rules, grammars.v[g].successors, rules, successors, i);
+        RuleRecord r = grammars.v[g].rules.v[i];
+        atomicOr(tables.v[g].inputs, r.startInputs | r.arriveInputs);
+        atomicOr(tables.v[g].layers, r.startLayers | r.arriveLayers);
+        if (r.extrude == 0u) continue;
+        ExtrudeRecord e = grammars.v[g].extrudes.v[r.extrude - 1u];
+        for (uint k = 0u; k < e.terminalCount; ++k) {
+            packTerminal(grammars.v[g].terminals, terminals, e.firstTerminal + k);
+        }
+    }
+}
+
+// A code range or value as the tables hold it.
+FN CodeRange rangeOf(uint pair) {
+    CodeRange r;
+    r.first = pair & 0xFFFFu;
+    r.count = pair >> 16u;
+    return r;
+}
+FN float packedValue(MACHINE_PARAM uint slot, uint immediate) {
+    return slot == kSlotImmediate ? uintBitsToFloat(immediate) : SLOT(slot);
+}
+
+ESPALIER_END
+#endif
