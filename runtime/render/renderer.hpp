@@ -14,7 +14,7 @@ struct Camera {
     glm::vec3 eye{0, 1, 5}, target{0, 1, 0}, up{0, 1, 0};
     float fovY = 0.7f;        // radians
     float nearPlane = 0.05f;  // metres; the far plane is at infinity
-    glm::vec2 shift{0};        // moves the picture right and up, in halves of the frame
+    glm::vec2 shift{0};        // moves the picture right and up, in halves of the frame, as a shift lens does
 };
 
 enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, layer = 4 };
