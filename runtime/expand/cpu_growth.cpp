@@ -43,7 +43,8 @@ void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const Growt
 
 void runTerminals(Attempt& a, ExpandEnv env) {
     GrowStatus& s = a.status;
-    if (s.nodes > s.nodeCapacity || s.branches > s.branchCapacity || s.chunks > s.chunkCapacity) return;
+    env.wave = uint32_t(a.waves.size()) - 1;
+    if (!complete(env)) return;
     std::vector<uint32_t> density(s.leafDensityCap > 0 ? kDensityCells : 1);
     env.density = {density.data()};
     uvec2 hash(0, 0);
@@ -147,7 +148,8 @@ Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs) {
         out.stats.expansions = 1;
         return std::move(a.out);
     }
-    return Failure("growth", "the limit of " + std::to_string(inputs.limits.maxNodes) + " nodes leaves room for nothing");
+    return Failure("growth",
+                   "the limit of " + std::to_string(inputs.limits.maxNodes) + " nodes leaves room for nothing");
 }
 
 GrowthDifference compareGrowth(const GrowthRecords& a, const GrowthRecords& b) {

@@ -19,10 +19,10 @@ Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs);
 
 // How two growths of the same inputs differ, branch by branch; for tests and reports.
 struct GrowthDifference {
-    uint32_t branches = 0;         // keys in either
-    uint32_t alike = 0;            // same key, nodes alike to the bit
-    float farthest = 0;            // metres between nodes of branches with as many nodes, object space
-    std::vector<std::string> notes;   // for the first few that differ: the key and the decision that differed
+    uint32_t branches = 0;           // keys in either
+    uint32_t alike = 0;              // same key, nodes alike to the bit
+    float farthest = 0;              // metres between nodes of branches with as many nodes, object space
+    std::vector<std::string> notes;  // for the first few that differ: the key and the decision that differed
 };
 GrowthDifference compareGrowth(const GrowthRecords& a, const GrowthRecords& b);
 

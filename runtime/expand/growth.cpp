@@ -61,8 +61,8 @@ class GpuGrowth final : public Growth {
     Device& device_;
     GrowthRoom room_;
     uint32_t groupLimit_;
-    uint32_t likelyWaves_ = 24;   // recorded in the first submission
-    std::array<Program, 2> march_;   // by WalkMode
+    uint32_t likelyWaves_ = 24;     // recorded in the first submission
+    std::array<Program, 2> march_;  // by WalkMode
     Program packTables_, terminals_, branchesFit_, fit_;
     Records sets_[2];
     uint32_t front_ = 0;
@@ -152,8 +152,7 @@ Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, c
     std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0});
     wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_, groupLimit_);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
-    std::vector<GrammarTables> tables =
-        placeTables(inputs, reinterpret_cast<uint32_t*>(packed_.address()));
+    std::vector<GrammarTables> tables = placeTables(inputs, reinterpret_cast<uint32_t*>(packed_.address()));
     Status steps[] = {commands.upload(status_, status), commands.upload(waves_, wave),
                       commands.upload(items_[0], itemsOfSeeds(inputs.seeds)), commands.upload(grammars_, grammars),
                       commands.upload(tables_, tables)};
@@ -318,7 +317,8 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
         }
         overflow += 1;
     }
-    return Failure("growth", "the limit of " + std::to_string(inputs.limits.maxNodes) + " nodes leaves room for nothing");
+    return Failure("growth",
+                   "the limit of " + std::to_string(inputs.limits.maxNodes) + " nodes leaves room for nothing");
 }
 
 }  // namespace

@@ -24,16 +24,16 @@ struct GrowthLimits {
     // same plants in every run. It is counted in GrowthStats::overflow and ::stopped. Chunks are limited to half of
     // it (and 4,096).
     uint32_t maxNodes = 4'000'000;
-    uint32_t maxDepth = 4096;         // chunks one after another along one path, 1 to 65,534
-    float leafDensityCap = 0;         // leaves per m² and seed, 0: none
+    uint32_t maxDepth = 4096;  // chunks one after another along one path, 1 to 65,534
+    float leafDensityCap = 0;  // leaves per m² and seed, 0: none
 };
 
 // Everything that growth depends on. Addresses are device addresses (for growOnCpu: pointers) and stay valid during
 // grow(). Charts are numbers that the surface has, else the seed is lost (and counted as a dead end).
 struct GrowthInputs {
-    SurfaceBuf surfaces{};            // indexed by surface instance
+    SurfaceBuf surfaces{};  // indexed by surface instance
     uint32_t surfaceCount = 0;
-    LayerBuf layers{};                // surfaceCount * kMaxLayers
+    LayerBuf layers{};  // surfaceCount * kMaxLayers
     std::span<const RuleMapRef> grammars;
     // One a grammar, metres, or empty: shapes of this width grow on the coarsest level whose texels are no wider.
     // 0: on the finest.
@@ -49,21 +49,21 @@ struct GrowthView {
     BranchBuf branches{};
     LeafBuf leaves{};
     uint32_t nodeCount = 0, chunkCount = 0, branchCount = 0, leafCount = 0;
-    uint64_t revision = 0;            // grows with every grow() that changed anything
+    uint64_t revision = 0;  // grows with every grow() that changed anything
 };
 
 struct GrowthStats {
     uint32_t seeds = 0, chunks = 0, branches = 0, nodes = 0, steps = 0, leaves = 0, spans = 0;
-    uint32_t inserted = 0;            // nodes that seams, creases and split spans put in
-    uint32_t waves = 0;               // of the queue, in the latest grow()
-    uint32_t expansions = 0;          // grow() calls since creation
-    uint32_t overflow = 0;            // times that buffers were too small or a limit cut growth, in the latest grow()
-    uint32_t stopped = 0;             // shapes that a limit ended
-    uint32_t deadEnds = 0;            // branches that found no direction that their condition allows
-    uint64_t nodeBytes = 0, leafBytes = 0, chunkBytes = 0;   // of records; chunkBytes counts branches too
-    uint64_t reservedBytes = 0;       // of all buffers held: both sets of records, queues, scratch
-    uint64_t hash = 0;                // canonical: positions, radii and all terminals, independent of order
-    double expandMs = 0;              // GPU time of the attempt that succeeded
+    uint32_t inserted = 0;    // nodes that seams, creases and split spans put in
+    uint32_t waves = 0;       // of the queue, in the latest grow()
+    uint32_t expansions = 0;  // grow() calls since creation
+    uint32_t overflow = 0;    // times that buffers were too small or a limit cut growth, in the latest grow()
+    uint32_t stopped = 0;     // shapes that a limit ended
+    uint32_t deadEnds = 0;    // branches that found no direction that their condition allows
+    uint64_t nodeBytes = 0, leafBytes = 0, chunkBytes = 0;  // of records; chunkBytes counts branches too
+    uint64_t reservedBytes = 0;  // of all buffers held: both sets of records, queues, scratch
+    uint64_t hash = 0;           // canonical: positions, radii and all terminals, independent of order
+    double expandMs = 0;         // GPU time of the attempt that succeeded
     double marchMs = 0, terminalsMs = 0, fitMs = 0;
 };
 

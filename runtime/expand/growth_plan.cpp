@@ -14,7 +14,9 @@ namespace {
 
 constexpr uint64_t kWholeWave = 1ull << 32;
 
-uint32_t chunkLimit(const GrowthLimits& limits) { return std::max(limits.maxNodes / 2, 4096u); }
+uint32_t chunkLimit(const GrowthLimits& limits) {
+    return std::max(limits.maxNodes / 2, 4096u);
+}
 
 bool finite(const Seed& seed) {
     const Walk& w = seed.walk;
@@ -48,7 +50,7 @@ GrowthCut findCut(std::span<const Wave> waves, const GrowthLimits& limits) {
         nodes += waves[w].nodes;
         chunks += waves[w].chunks;
     }
-    return {~0u, kWholeWave};   // none: later than any cut
+    return {~0u, kWholeWave};  // none: later than any cut
 }
 
 // Records in the section that begins at `start`: at most what fits before the map's next section.
@@ -89,7 +91,8 @@ Status checkInputs(const GrowthInputs& inputs) {
             return Failure("growth", name + " names grammar " + std::to_string(seed.grammar) + " of " +
                                          std::to_string(inputs.grammars.size()));
         if (seed.symbol >= inputs.grammars[seed.grammar].symbolCount)
-            return Failure("growth", name + " names symbol " + std::to_string(seed.symbol) + ", which its grammar lacks");
+            return Failure("growth",
+                           name + " names symbol " + std::to_string(seed.symbol) + ", which its grammar lacks");
         if ((seed.walk.place >> 16) >= inputs.surfaceCount)
             return Failure("growth", name + " stands on surface " + std::to_string(seed.walk.place >> 16) + " of " +
                                          std::to_string(inputs.surfaceCount));
@@ -140,7 +143,9 @@ std::vector<GrammarTables> placeTables(const GrowthInputs& inputs, uint32_t* wor
     return tables;
 }
 
-GrowthCut noCut(const GrowthLimits& limits) { return {limits.maxDepth, 0}; }
+GrowthCut noCut(const GrowthLimits& limits) {
+    return {limits.maxDepth, 0};
+}
 
 GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const GrowthCut& cut) {
     GrowStatus s{};
@@ -179,8 +184,8 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
     bool itemsFit = status.items <= room.items;
     bool chunksFit = status.chunks <= room.chunks;
     bool complete = itemsFit && chunksFit;
-    bool fits = complete && status.nodes <= room.nodes && status.branches <= room.branches &&
-                status.leaves <= room.leaves;
+    bool fits =
+        complete && status.nodes <= room.nodes && status.branches <= room.branches && status.leaves <= room.leaves;
     if (fits) return Verdict::complete;
     uint32_t most = chunkLimit(limits);
     bool terminalsRan = complete && status.nodes <= room.nodes && status.branches <= room.branches;

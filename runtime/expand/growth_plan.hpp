@@ -21,7 +21,7 @@ std::vector<GrammarTables> placeTables(const GrowthInputs& inputs, uint32_t* wor
 // Where growth is cut, so that it stays within its limits: see refused() in expand_grow.h.
 struct GrowthCut {
     uint32_t wave = 0;
-    uint64_t key = 0;   // 2^32: the whole wave is grown
+    uint64_t key = 0;  // 2^32: the whole wave is grown
 };
 GrowthCut noCut(const GrowthLimits& limits);
 

@@ -9,8 +9,7 @@ layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 void main() {
     uint count = env.status.v[0].branches;
-    bool ready = env.status.v[0].nodes <= env.status.v[0].nodeCapacity && count <= env.status.v[0].branchCapacity &&
-                 env.status.v[0].chunks <= env.status.v[0].chunkCapacity && env.waves.v[env.wave].count == 0u;
+    bool ready = complete(env);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     for (uint i = gl_GlobalInvocationID.x; ready && i < count; i += lanes) fitBranch(env, i);
 }

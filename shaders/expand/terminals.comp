@@ -9,8 +9,7 @@ layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 void main() {
     uint count = env.status.v[0].nodes;
-    // Not while branches grow, nor when some were lost for want of room.
-    bool ready = count <= env.status.v[0].nodeCapacity && env.waves.v[env.wave].count == 0u;
+    bool ready = complete(env);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     uvec2 hash = uvec2(0u);
     for (uint i = gl_GlobalInvocationID.x; ready && i < count; i += lanes) finishNode(env, i, hash);

@@ -90,6 +90,14 @@ inline uint atomicMax(uint& memory, uint value) {
 }
 #endif
 
+// Whether branches are complete and all found room: not while waves are left, nor when something was lost.
+FN bool complete(ExpandEnv env) {
+    return env.status.v[0].nodes <= env.status.v[0].nodeCapacity &&
+           env.status.v[0].chunks <= env.status.v[0].chunkCapacity &&
+           env.status.v[0].branches <= env.status.v[0].branchCapacity && env.status.v[0].items == 0u &&
+           env.waves.v[env.wave].count == 0u;
+}
+
 // Index of the lowest bit set; bits != 0.
 FN uint lowestBit(uint bits) {
 #ifdef __cplusplus

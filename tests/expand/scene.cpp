@@ -120,7 +120,8 @@ void Scene::plantMany(uint32_t count, uint32_t grammar, uint64_t number) {
         seed.key = key;
         seed.walk.uv = (glm::vec2(at % level.size, at / level.size) + 0.5f) / float(level.size);
         seed.walk.place = texelChart(level.texels[texelIndex(level.size, at % level.size, at / level.size)].bits);
-        seed.walk.direction = {uniformRandom(key, 2) - 0.5f, uniformRandom(key, 3) - 0.5f, uniformRandom(key, 4) - 0.5f};
+        seed.walk.direction = {uniformRandom(key, 2) - 0.5f, uniformRandom(key, 3) - 0.5f,
+                               uniformRandom(key, 4) - 0.5f};
         seed.grammar = grammar;
         seed.symbol = grammars_.at(grammar).startSymbol();
         seeds_.push_back(seed);

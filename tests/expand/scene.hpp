@@ -8,8 +8,8 @@
 
 #include "runtime/expand/cpu_growth.hpp"
 #include "runtime/expand/growth.hpp"
-#include "runtime/grammar/grammar.hpp"
 #include "runtime/gpu/buffer.hpp"
+#include "runtime/grammar/grammar.hpp"
 #include "runtime/surface/gpu_surface.hpp"
 #include "tools/bake/bake.hpp"
 
@@ -27,7 +27,7 @@ class Scene {
     explicit Scene(SurfaceData surface);
     static Scene baked(const Model& model, uint32_t resolution = 256);
 
-    uint32_t addGrammar(const std::string& text);   // index; fails the test if it doesn't compile
+    uint32_t addGrammar(const std::string& text);  // index; fails the test if it doesn't compile
     RuleMap& grammar(uint32_t index) { return grammars_[index]; }
     // value of texel at uv, for the scene's layer `layer`; size a multiple of 8
     void paint(uint32_t layer, uint32_t size, const std::function<float(glm::vec2)>& value);

@@ -74,9 +74,12 @@ TEST_CASE("throughput on a real model") {
         }
         GrowthStats s = growth->stats();
         cpu = processorSeconds() - cpu;
-        std::printf("%5u seeds: %7u nodes, %6u branches, %6u chunks, %7u leaves, %4u waves, %5u inserted, %5u dead | march %6.1f "
-                    "terminals %6.1f fit %5.1f ms | %.2f M nodes/s | %.1f bytes a node | %.0f core ns a node\n",
-                    seeds, s.nodes, s.branches, s.chunks, s.leaves, s.waves, s.inserted, s.deadEnds, s.marchMs, s.terminalsMs,
-                    s.fitMs, double(s.nodes) / s.expandMs * 1e-3, double(s.nodeBytes + s.chunkBytes) / s.nodes, cpu * 1e9 / s.nodes);
+        std::printf(
+            "%5u seeds: %7u nodes, %6u branches, %6u chunks, %7u leaves, %4u waves, %5u inserted, %5u dead | march "
+            "%6.1f "
+            "terminals %6.1f fit %5.1f ms | %.2f M nodes/s | %.1f bytes a node | %.0f core ns a node\n",
+            seeds, s.nodes, s.branches, s.chunks, s.leaves, s.waves, s.inserted, s.deadEnds, s.marchMs, s.terminalsMs,
+            s.fitMs, double(s.nodes) / s.expandMs * 1e-3, double(s.nodeBytes + s.chunkBytes) / s.nodes,
+            cpu * 1e9 / s.nodes);
     }
 }
