@@ -206,6 +206,8 @@ typedef struct EspCamera {
     float eye[3], target[3], up[3];
     float fovY;                  /* radians */
     float nearPlane;             /* metres; the far plane is at infinity */
+    float shift[2];              /* moves the picture right and up, in halves of the frame, as a shift lens does: 0.2
+                                    makes room for a panel at the left */
 } EspCamera;
 
 typedef enum EspView {

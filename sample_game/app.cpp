@@ -71,6 +71,9 @@ class App {
     void wake() { awake_ = kFramesAfterChange; }
     std::string& generalError() { return panel_.errors.back(); }
     float reach() const;
+    void look(const EspCamera& camera);
+    // So that what is looked at stands in the middle of what the panel leaves free.
+    float shift() const { return panelWidth(scale_, panel_) / std::max(1.f, ImGui::GetIO().DisplaySize.x); }
 
     AppOptions options_;
     bool glfw_ = false;
@@ -142,7 +145,6 @@ bool App::openContext() {
     if (!openScene(made, options_.request, scene_, error) || !plantAll(made, scene_, error)) return fail(error);
     sceneSeeds_ = scene_.seeds;
     for (const auto& grammar : scene_.grammars) grammarTimes_.push_back(newestGrammar(grammar.file));
-    orbit_.set(scene_.camera, reach());
     panel_.deviceName = espDeviceName(made);
     panel_.errors.resize(scene_.grammars.size() + 1);
     panel_.look = scene_.look;
@@ -175,6 +177,14 @@ float App::reach() const {
     float sum = 0;
     for (int i = 0; i < 3; ++i) sum += std::pow(info.boundsMax[i] - info.boundsMin[i], 2.f);
     return std::sqrt(sum);
+}
+
+// From a little further away than the camera says, since the panel takes a part of the picture's width.
+void App::look(const EspCamera& camera) {
+    EspCamera further = camera;
+    const float free = std::clamp(1 - shift(), .4f, 1.f);
+    for (int i = 0; i < 3; ++i) further.eye[i] = camera.target[i] + (camera.eye[i] - camera.target[i]) / free;
+    orbit_.set(further, reach());
 }
 
 void App::handleKeys() {
@@ -231,7 +241,7 @@ void App::handleMouse() {
 
 void App::plantAt(double x, double y) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const Ray ray = orbit_.ray(float(x) / size.x, float(y) / size.y, size.x / size.y);
+    const Ray ray = orbit_.ray(float(x) / size.x, float(y) / size.y, size.x / size.y, shift());
     EspHit hit;
     if (espPick(context_.get(), ray.origin, ray.direction, &hit) != ESP_OK) return;
     espalier::scene::Seed seed;
@@ -261,7 +271,7 @@ void App::answerPanel() {
         scene_.seeds = sceneSeeds_;
         replant();
     }
-    if (panel_.frameAll) orbit_.set(espFrameAll(context_.get()), reach());
+    if (panel_.frameAll) look(espFrameAll(context_.get()));
     if (panel_.newNumbers || panel_.clearSeeds || panel_.sceneSeeds || panel_.frameAll || panel_.paramsChanged) wake();
     panel_.newNumbers = panel_.clearSeeds = panel_.sceneSeeds = panel_.frameAll = panel_.paramsChanged = false;
     if (espSetGrow(context_.get(), &panel_.grow) != ESP_OK) generalError() = espLastError(context_.get());
@@ -308,7 +318,7 @@ bool App::drawFrame(bool last) {
     EspDrawDef draw = espDefaultDrawDef();
     draw.width = frame->extent.width;
     draw.height = frame->extent.height;
-    draw.camera = orbit_.camera();
+    draw.camera = orbit_.camera(shift());
     draw.look = panel_.look;
     draw.look.viewLayer = panel_.viewLayer.c_str();
     draw.commandBuffer = frame->commands;
@@ -358,6 +368,7 @@ bool App::loop() {
         }
         ImGui_ImplGlfw_NewFrame();
         ImGui::NewFrame();
+        if (frames_ == 0) look(scene_.camera);
         handleKeys();
         handleMouse();
         showPanel(context_.get(), scene_, scale_, panel_);

@@ -45,8 +45,9 @@ void OrbitCamera::zoom(float steps) {
     distance_ = std::clamp(distance_ * std::pow(.88f, steps), reach_ * 1e-3f, reach_ * 50);
 }
 
-EspCamera OrbitCamera::camera() const {
+EspCamera OrbitCamera::camera(float shift) const {
     EspCamera camera{};
+    camera.shift[0] = shift;
     const Frame f = frame();
     for (int i = 0; i < 3; ++i) {
         camera.eye[i] = target_[i] + distance_ * f.back[i];
@@ -58,13 +59,13 @@ EspCamera OrbitCamera::camera() const {
     return camera;
 }
 
-Ray OrbitCamera::ray(float x, float y, float aspect) const {
+Ray OrbitCamera::ray(float x, float y, float aspect, float shift) const {
     const Frame f = frame();
     const float t = std::tan(fovY_ / 2);
     Ray ray;
     for (int i = 0; i < 3; ++i) {
         ray.origin[i] = target_[i] + distance_ * f.back[i];
-        ray.direction[i] = (2 * x - 1) * t * aspect * f.right[i] + (1 - 2 * y) * t * f.up[i] - f.back[i];
+        ray.direction[i] = (2 * x - 1 - shift) * t * aspect * f.right[i] + (1 - 2 * y) * t * f.up[i] - f.back[i];
     }
     return ray;
 }

@@ -22,9 +22,10 @@ class OrbitCamera {
     // Positive: nearer.
     void zoom(float steps);
 
-    EspCamera camera() const;
+    // shift: of the lens, to the right; see EspCamera.
+    EspCamera camera(float shift) const;
     // Through a point of the window, x and y from 0 to 1, the first at the left and top.
-    Ray ray(float x, float y, float aspect) const;
+    Ray ray(float x, float y, float aspect, float shift) const;
 
   private:
     struct Frame {

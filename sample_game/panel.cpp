@@ -11,6 +11,7 @@
 namespace sample {
 namespace {
 
+constexpr float kPanelWidth = 320;
 const ImVec4 kErrorColour{1, .55f, .45f, 1};
 
 std::string grouped(uint64_t value) {
@@ -35,7 +36,7 @@ std::string formatOf(const EspParamInfo& param) {
                        : range < 15                ? 2
                        : range < 150               ? 1
                                                    : 0;
-    std::string format = "%." + std::to_string(digits) + "f";
+    std::string format = param.low > 0 && param.high / param.low > 200 ? "%.3g" : "%." + std::to_string(digits) + "f";
     if (param.unit[0]) format += " ";
     for (const char* c = param.unit; *c; ++c) format += *c == '%' ? std::string("%%") : std::string(1, *c);
     return format;
@@ -81,7 +82,10 @@ void params(EspContext* context, EspGrammar grammar, PanelState& state) {
         EspParamInfo param;
         if (espParamInfo(context, grammar, i, &param) != ESP_OK) continue;
         ImGui::PushID(int(i));
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                            {ImGui::GetStyle().ItemSpacing.x, ImGui::GetStyle().ItemSpacing.y / 3});
         ImGui::TextUnformatted(param.label);
+        ImGui::PopStyleVar();
         const float button = ImGui::GetFrameHeight();
         ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
         float value[3];
@@ -105,6 +109,14 @@ void params(EspContext* context, EspGrammar grammar, PanelState& state) {
     }
 }
 
+// A grammar's file, told apart from others of the same file by its place.
+std::string nameOf(const espalier::scene::Scene& scene, size_t index) {
+    std::string name = std::filesystem::path(scene.grammars[index].file).stem().string();
+    size_t before = 0;
+    for (size_t i = 0; i < index; ++i) before += scene.grammars[i].file == scene.grammars[index].file;
+    return before ? name + " (" + std::to_string(before + 1) + ")" : name;
+}
+
 void tools(const espalier::scene::Scene& scene, PanelState& state) {
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
     const auto toggle = [&](const char* label, Tool tool) {
@@ -118,13 +130,11 @@ void tools(const espalier::scene::Scene& scene, PanelState& state) {
     toggle("Plant seeds  (S)", Tool::plant);
     if (state.tool == Tool::plant) ImGui::TextDisabled("Click on the model to plant");
     if (scene.grammars.size() > 1) {
-        const std::string chosen =
-            std::filesystem::path(scene.grammars[size_t(state.plantGrammar)].file).stem().string();
+        const std::string chosen = nameOf(scene, size_t(state.plantGrammar));
         ImGui::SetNextItemWidth(-1);
         if (ImGui::BeginCombo("##grammar", chosen.c_str())) {
             for (int i = 0; i < int(scene.grammars.size()); ++i) {
-                const std::string name = std::filesystem::path(scene.grammars[size_t(i)].file).stem().string();
-                if (ImGui::Selectable((name + "##" + std::to_string(i)).c_str(), i == state.plantGrammar))
+                if (ImGui::Selectable(nameOf(scene, size_t(i)).c_str(), i == state.plantGrammar))
                     state.plantGrammar = i;
             }
             ImGui::EndCombo();
@@ -167,38 +177,48 @@ void view(const espalier::scene::Scene& scene, PanelState& state) {
     ImGui::SliderFloat("##exposure", &state.look.exposure, -4, 4, "%.1f stops", ImGuiSliderFlags_AlwaysClamp);
 }
 
-void figures(const PanelState& state) {
-    if (!ImGui::BeginTable("figures", 2, ImGuiTableFlags_SizingStretchProp)) return;
-    const auto row = [](const char* name, const std::string& value) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::TextDisabled("%s", name);
-        ImGui::TableNextColumn();
-        const float x = ImGui::GetCursorPosX() + ImGui::GetColumnWidth() - ImGui::CalcTextSize(value.c_str()).x;
-        ImGui::SetCursorPosX(std::max(x, ImGui::GetCursorPosX()));
-        ImGui::TextUnformatted(value.c_str());
-    };
-    const auto ms = [](double value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.2f ms", value);
-        return std::string(text);
-    };
-    const EspStats& s = state.stats;
-    row("Seeds", grouped(s.seeds));
-    row("Branches", grouped(s.branches));
-    row("Nodes", grouped(s.nodes));
-    row("Leaves", grouped(s.leaves));
-    row("Triangles drawn", grouped(s.drawnPolygons));
-    row("at full detail", grouped(s.polygons));
-    row("Expand", ms(s.expandMs));
-    row("Emit", ms(s.emitMs));
-    row("Draw", ms(s.drawMs));
-    row("Frame", ms(state.frameMs));
-    row("GPU memory", grouped(s.totalBytes >> 20) + " MiB");
-    if (s.overflow) row("Ran out of room", grouped(s.overflow));
-    if (s.stopped) row("Stopped by a limit", grouped(s.stopped));
-    if (state.validation) row("Validation messages", grouped(state.validationMessages));
-    ImGui::EndTable();
+// Over the picture at the right, where it is seen whatever part of the panel is.
+void figures(float scale, const PanelState& state) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float margin = 12 * scale;
+    ImGui::SetNextWindowPos({io.DisplaySize.x - margin, margin}, ImGuiCond_Always, {1, 0});
+    ImGui::SetNextWindowSize({235 * scale, 0});
+    ImGui::SetNextWindowBgAlpha(.72f);
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                   ImGuiWindowFlags_AlwaysAutoResize;
+    if (ImGui::Begin("figures", nullptr, flags)) {
+        const auto row = [](const char* name, const std::string& value) {
+            ImGui::TextDisabled("%s", name);
+            ImGui::SameLine();
+            ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
+            ImGui::TextUnformatted(value.c_str());
+        };
+        const auto ms = [](double value) {
+            char text[32];
+            std::snprintf(text, sizeof text, "%.2f ms", value);
+            return std::string(text);
+        };
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * scale, 2 * scale});
+        const EspStats& s = state.stats;
+        row("Seeds", grouped(s.seeds));
+        row("Branches", grouped(s.branches));
+        row("Nodes", grouped(s.nodes));
+        row("Leaves", grouped(s.leaves));
+        row("Triangles drawn", grouped(s.drawnPolygons));
+        row("at full detail", grouped(s.polygons));
+        ImGui::Spacing();
+        row("Expand", ms(s.expandMs));
+        row("Emit", ms(s.emitMs));
+        row("Draw", ms(s.drawMs));
+        row("Frame", ms(state.frameMs));
+        row("GPU memory", grouped(s.totalBytes >> 20) + " MiB");
+        if (s.overflow) row("Ran out of room", grouped(s.overflow));
+        if (s.stopped) row("Stopped by a limit", grouped(s.stopped));
+        if (state.validation) row("Validation messages", grouped(state.validationMessages));
+        ImGui::PopStyleVar();
+    }
+    ImGui::End();
 }
 
 void help(float scale, PanelState& state) {
@@ -237,12 +257,17 @@ void help(float scale, PanelState& state) {
 
 }  // namespace
 
+float panelWidth(float scale, const PanelState& state) {
+    return state.showPanel ? std::min(kPanelWidth * scale, ImGui::GetIO().DisplaySize.x) : 0;
+}
+
 void showPanel(EspContext* context, const espalier::scene::Scene& scene, float scale, PanelState& state) {
     if (state.showHelp) help(scale, state);
     if (!state.showPanel) return;
+    figures(scale, state);
     const ImGuiIO& io = ImGui::GetIO();
     ImGui::SetNextWindowPos({0, 0});
-    ImGui::SetNextWindowSize({std::min(330 * scale, io.DisplaySize.x), io.DisplaySize.y});
+    ImGui::SetNextWindowSize({panelWidth(scale, state), io.DisplaySize.y});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
     if (ImGui::Begin("Espalier", nullptr, flags)) {
@@ -258,14 +283,12 @@ void showPanel(EspContext* context, const espalier::scene::Scene& scene, float s
         ImGui::Separator();
         tools(scene, state);
         for (size_t i = 0; i < scene.grammars.size(); ++i) {
-            const std::string name = std::filesystem::path(scene.grammars[i].file).stem().string();
             ImGui::PushID(int(i));
-            if (ImGui::CollapsingHeader(name.c_str(), ImGuiTreeNodeFlags_DefaultOpen))
+            if (ImGui::CollapsingHeader(nameOf(scene, i).c_str(), i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0))
                 params(context, scene.grammars[i].id, state);
             ImGui::PopID();
         }
         if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) view(scene, state);
-        if (ImGui::CollapsingHeader("Counts and timings", ImGuiTreeNodeFlags_DefaultOpen)) figures(state);
         ImGui::TextDisabled("F1 keys   F frame   F12 screenshot");
     }
     ImGui::End();

@@ -35,8 +35,11 @@ struct PanelState {
     bool paramsChanged = false;
 };
 
-// Lays out the panel at the window's left and the help over it, between ImGui::NewFrame and Render. Parameters are
-// set in the context at once. scale: of the display.
+// What the panel takes at the window's left, in ImGui's units.
+float panelWidth(float scale, const PanelState& state);
+
+// Lays out the panel at the window's left, the figures at its right and the help over it, between ImGui::NewFrame and
+// Render. Parameters are set in the context at once. scale: of the display.
 void showPanel(EspContext* context, const espalier::scene::Scene& scene, float scale, PanelState& state);
 
 }  // namespace sample

@@ -44,7 +44,7 @@ void applyTheme(float scale) {
     const ImVec4 green{.36f, .56f, .30f, 1}, greenBright{.46f, .70f, .38f, 1};
     ImVec4* c = style.Colors;
     c[ImGuiCol_Text] = grey(.90f);
-    c[ImGuiCol_TextDisabled] = grey(.58f);
+    c[ImGuiCol_TextDisabled] = grey(.66f);
     c[ImGuiCol_WindowBg] = grey(.105f, .96f);
     c[ImGuiCol_PopupBg] = grey(.13f, .98f);
     c[ImGuiCol_Border] = grey(.25f);

@@ -68,7 +68,8 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
     for (const float* v : {def.camera.eye, def.camera.target, def.camera.up, def.look.sunDirection})
         if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
             return fail(context, ESP_INVALID_ARGUMENT, "espDraw: camera or sun is not finite");
-    if (!(def.camera.fovY > 0.001f && def.camera.fovY < 3.1f) || !(def.camera.nearPlane > 0) ||
+    if (!(std::abs(def.camera.shift[0]) < 100) || !(std::abs(def.camera.shift[1]) < 100) ||
+        !(def.camera.fovY > 0.001f && def.camera.fovY < 3.1f) || !(def.camera.nearPlane > 0) ||
         vec(def.camera.eye) == vec(def.camera.target))
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera looks at nothing");
     if (def.commandBuffer && (!def.colourImage || !def.colourView || !def.frame))
@@ -112,8 +113,8 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     inputs.growth = context.growth->view();
     inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
     inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
-    inputs.camera = {vec(def.camera.eye), vec(def.camera.target), vec(def.camera.up), def.camera.fovY,
-                     def.camera.nearPlane};
+    inputs.camera = {vec(def.camera.eye), vec(def.camera.target), vec(def.camera.up),
+                     def.camera.fovY,     def.camera.nearPlane,   {def.camera.shift[0], def.camera.shift[1]}};
     DrawTarget target;
     target.width = def.width;
     target.height = def.height;
