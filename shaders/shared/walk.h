@@ -394,7 +394,10 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         bool rough = turn < kWalkTurnCosine || dot2(correction, correction) > 0.04f * dot2(delta, delta);
         // A sharp crease. The nearest texel changes sides up to half a texel before or after the planes do.
         float close = texel * rcpExact(pace);
-        bool sharp = creased && turn < kWalkTurnCosine && absolute(slope) > 1e-3f && toCrease >= 0.0f - close;
+        float height = slope * toCrease;
+        float sine2 = larger(1.0f - turn * turn, 0.01f);
+        bool sharp = creased && turn < kWalkTurnCosine && absolute(slope) > 1e-2f &&
+                     (toCrease >= 0.0f || height * height <= close * close * sine2);
         if (sharp && toCrease > s && toCrease <= s + close) {
             walked = s;
             w.position = w.position + t * s;
@@ -407,14 +410,19 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             vec3 mean = n + p.normal;
             float mean2 = dot3(mean, mean);
             jointNormal = mean2 > 1e-4f ? mean * rsqrtExact(mean2) : p.normal;
-            w.position = w.position + t * toCrease;
-            w.walk.uv = w.walk.uv + rate * toCrease;
+            // Ahead: along the heading. Passed already: straight back to it.
+            vec3 ahead = t * toCrease;
+            vec3 back = (p.normal - n * turn) * divExact(height, sine2);
+            vec3 shift = toCrease >= 0.0f ? ahead : back;
+            vec2 shiftUv = tangentRate(w.du, w.dv, shift);
+            w.position = w.position + shift;
+            w.walk.uv = w.walk.uv + shiftUv;
             w.slip = vec2(0.0f);
             w.walk.direction = t1;
             w.du = p.du;
             w.dv = p.dv;
             w.normal = p.normal;
-            w.clear = larger(w.clear - pace * toCrease, 0.0f);
+            w.clear = larger(w.clear - length2(shiftUv), 0.0f);
             w.flags = w.flags | kWalkFlagCrease;
             event = kWalkCrease;
         } else if (rough && pace * s > 0.5f * texel) {
