@@ -19,7 +19,8 @@ struct Attempt {
     std::vector<Wave> waves;
 };
 
-void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const GrowthRoom& room) {
+void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const GrowthRoom& room,
+              const GrowthCut& cut) {
     std::vector<WorkItem> queue[2];
     queue[0] = itemsOfSeeds(inputs.seeds);
     queue[0].resize(room.items);
@@ -27,6 +28,7 @@ void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const Growt
     std::vector<uint32_t> scratch(kChunkNodes * kNodeWords + kItemWords);
     env.itemCapacity = room.items;
     env.groupLimit = 1;
+    env.phase = lastWave(cut);
     env.scratch = {scratch.data()};
     uint32_t w = 0;
     for (; w + 1 < a.waves.size() && a.waves[w].count > 0; ++w) {
@@ -87,7 +89,7 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     env.leaves = {a.out.leaves.data()};
     env.status = {&a.status};
     env.waves = {a.waves.data()};
-    runWaves(a, env, inputs, room);
+    runWaves(a, env, inputs, room, cut);
     runTerminals(a, env);
     return a;
 }

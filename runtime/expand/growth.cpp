@@ -190,6 +190,7 @@ Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t fir
 }
 
 void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env) {
+    env.phase = kTerminalsWrite;
     constexpr uint64_t kNodes = offsetof(GrowStatus, nodeGroups), kBranches = offsetof(GrowStatus, branchGroups);
     bool capped = density_.size() >= kDensityCells * 4ull;
     if (capped) {
@@ -199,11 +200,11 @@ void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env) {
     {
         Pass pass(commands, "expand terminals");
         if (capped) {
-            env.phase = 1;
+            env.phase = kTerminalsCount;
             pass.dispatchIndirect(terminals_, status_, kNodes, env);
             pass.barrier(Use::compute, Use::compute);
         }
-        env.phase = 0;
+        env.phase = kTerminalsWrite;
         pass.dispatchIndirect(terminals_, status_, kNodes, env);
         pass.barrier(Use::compute, Use::compute);
     }
@@ -230,6 +231,7 @@ Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const 
             Status uploaded = uploadInputs(*commands, inputs, cut);
             if (!uploaded) return uploaded.failure();
         }
+        env.phase = lastWave(cut);
         Status recorded = record(*commands, env, first, last);
         if (!recorded) return recorded.failure();
         Status finished = commands->finish();

@@ -33,24 +33,24 @@ uint32_t enlarged(uint32_t have, uint32_t need, bool exact, uint32_t limit) {
     return uint32_t(std::clamp<uint64_t>(wanted, have, std::max(limit, have)));
 }
 
-// The first wave that exceeds a limit, and the share of it that may stay.
-GrowthCut findCut(std::span<const Wave> waves, const GrowthLimits& limits) {
+// The first wave that exceeds a limit, and the share of it that may stay. cut: in force while these waves grew.
+GrowthCut findCut(std::span<const Wave> waves, const GrowthLimits& limits, const GrowthCut& cut) {
+    auto shareOf = [&](size_t wave, double share) -> GrowthCut {
+        double present = double(wave == cut.wave ? cut.key : kWholeWave);
+        return {uint32_t(wave), uint64_t(0.97 * share * present)};
+    };
     uint64_t nodes = 0, chunks = 0;
     uint64_t most = chunkLimit(limits);
     for (size_t w = 0; w < waves.size(); ++w) {
-        if (waves[w].count > most) {
-            uint32_t before = uint32_t(w == 0 ? 0 : w - 1);
-            double fits = w == 0 ? 0 : 0.9 * double(most) / double(waves[w].count);
-            return {before, uint64_t(fits * double(kWholeWave))};
-        }
+        if (w > 0 && waves[w].count > most) return shareOf(w - 1, double(most) / double(waves[w].count));
         double share = 1;
         if (nodes + waves[w].nodes > limits.maxNodes) share = double(limits.maxNodes - nodes) / waves[w].nodes;
         if (chunks + waves[w].chunks > most) share = std::min(share, double(most - chunks) / waves[w].chunks);
-        if (share < 1) return {uint32_t(w), uint64_t(0.98 * share * double(kWholeWave))};
+        if (share < 1) return shareOf(w, share);
         nodes += waves[w].nodes;
         chunks += waves[w].chunks;
     }
-    return {~0u, kWholeWave};  // none: later than any cut
+    return {~0u, kWholeWave};
 }
 
 // Records in the section that begins at `start`: at most what fits before the map's next section.
@@ -164,6 +164,8 @@ GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const
     return s;
 }
 
+uint32_t lastWave(const GrowthCut& cut) { return cut.key > 0 || cut.wave == 0 ? cut.wave : cut.wave - 1; }
+
 Wave firstWave(uint32_t seeds, const GrowthRoom& room, uint32_t groupLimit) {
     Wave wave{};
     wave.count = std::min(seeds, room.items);
@@ -174,7 +176,7 @@ Wave firstWave(uint32_t seeds, const GrowthRoom& room, uint32_t groupLimit) {
 
 Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
               GrowthCut& cut) {
-    GrowthCut needed = findCut(waves, limits);
+    GrowthCut needed = findCut(waves, limits, cut);
     bool later = needed.wave > cut.wave || (needed.wave == cut.wave && needed.key >= cut.key);
     if (!later) {
         if (cut.wave == 0 && cut.key == 0) return Verdict::impossible;

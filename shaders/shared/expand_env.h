@@ -10,6 +10,10 @@ CONST_UINT(kExpandGroup, 32u);      // invocations of a group in every kernel of
 CONST_UINT(kHashSlots, 64u);        // sums of hashes are spread over these, so that threads don't queue for one
 CONST_UINT(kDensityCells, 1u << 18u);
 
+// ExpandEnv::phase of this pass.
+CONST_UINT(kTerminalsWrite, 0u);
+CONST_UINT(kTerminalsCount, 1u);   // only count leaves by cell, for the density cap
+
 // Counters of one growth. Taken counts may exceed capacities: then nothing was written beyond them, and the host
 // grows again with more room.
 struct GrowStatus {
@@ -65,7 +69,8 @@ struct ExpandEnv {
     WaveBuf waves;
     UintBuf density;         // [kDensityCells] leaves counted, when there is a cap
     uint wave;
-    uint phase;              // of the terminal pass: see expand_terminals.h
+    uint phase;              // of the terminal pass: see expand_terminals.h; in the march: the last wave that may be
+                             // grown, pushes beyond it are refused
     uint itemCapacity;       // of each of the two queues
     uint groupLimit;         // groups that a wave is given at most
 };

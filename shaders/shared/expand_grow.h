@@ -159,8 +159,10 @@ FN void stageLinks(ExpandEnv env, uint origin, uint branch, uint depth, uint ste
 }
 
 // Puts the staged item into the next wave's queue, if `push`; beyond its capacity only the count grows.
-FN void pushStaged(ExpandEnv env, bool push) {
+FN void pushStaged(ExpandEnv env, bool wanted) {
     uint at = kNoIndex;
+    bool push = wanted && env.wave < env.phase;
+    if (wanted && !push) atomicAdd(env.status.v[0].stopped, 1u);
     if (push) at = atomicAdd(env.waves.v[env.wave + 1u].count, 1u);
     bool fits = push && at < env.itemCapacity;
     if (push && !fits) atomicMax(env.status.v[0].items, at + 1u);

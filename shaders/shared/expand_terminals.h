@@ -8,10 +8,6 @@
 
 ESPALIER_BEGIN
 
-// ExpandEnv::phase of this pass.
-CONST_UINT(kTerminalsWrite, 0u);
-CONST_UINT(kTerminalsCount, 1u);   // only count leaves by cell, for the density cap
-
 CONST_FLOAT(kLeavesPerCell, 8.0f); // a cell of the density cap holds as many leaves as the cap allows
 
 // The cap works on cells of the surface. They share counters by hash: where two cells fall together, both are
