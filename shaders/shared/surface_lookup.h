@@ -30,7 +30,9 @@ FN float inRange(float v, float high) {
 // The texel whose square holds uv (clamped to the image).
 FN uint texelAt(uint size, vec2 uv) {
     float last = float(size) - 1.0f;
-    return texelRow(size, uint(inRange(uv.y * float(size), last))) + texelColumn(uint(inRange(uv.x * float(size), last)));
+    uint x = uint(inRange(uv.x * float(size), last));
+    uint y = uint(inRange(uv.y * float(size), last));
+    return texelRow(size, y) + texelColumn(x);
 }
 
 // Position, Jacobian and normal at uv of `chart` (whose Chart::orientation the caller has at hand). The bilinear
@@ -77,7 +79,7 @@ FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, floa
     bool own = texelOwned(t00.bits, chart) && texelOwned(t10.bits, chart) && texelOwned(t01.bits, chart) &&
                texelOwned(t11.bits, chart);
     bool creased = texelCrease(t00.bits | t10.bits | t01.bits | t11.bits);
-    bool valid = nearest != kNoIndex;
+    bool valid = nearest != kNoIndex && absolute(uv.x - 0.5f) <= 0.5f && absolute(uv.y - 0.5f) <= 0.5f;
     if (valid && (creased || !own)) {
         uint triangle = surfaces.v[instance].levels[level].aux.v[nearest].triangle;
         valid = triangle != kNoIndex || own;

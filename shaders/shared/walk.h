@@ -349,6 +349,9 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     p.bits = 0u;
     bool found = patchAt(surfaces, toPlace >> 16u, toLevel, toPlace & 0xFFFFu, toOrientation, to, p);
 
+    // A gutter texel with room around it lies wholly outside: a gap between crossings let the walk through.
+    found = found && (leaves || texelClass(p.bits) <= kTexelInner || texelClearance(p.bits) == 0u);
+
     uint tries = (w.flags & 0xFFu) + 1u;
     uint event = kWalkRetry;
     float walked = 0.0f;   // object metres
