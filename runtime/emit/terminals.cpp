@@ -7,12 +7,15 @@
 #include <set>
 
 #include "runtime/core/check.hpp"
+#include "shaders/shared/exact.h"
 
 namespace espalier {
 namespace {
 
 // Enough vertices a draw instance that the fixed cost of one doesn't show.
 constexpr uint32_t kBatchVertices = 4096;
+// Of a ribbon against a tube, in radii: bark of less than two and a half pixels of radius may be one.
+constexpr float kRibbonError = 0.4f;
 
 float distanceToSegment(glm::vec3 p, glm::vec3 a, glm::vec3 b) {
     const glm::vec3 d = b - a;
@@ -74,9 +77,30 @@ void measureTerminalErrors(TerminalData& data) {
         }
 }
 
+// Far bark is a ribbon that the vertex shader turns to the eye: two triangles a span.
+void addRibbons(TerminalData& data) {
+    for (TerminalVariant& variant : data.variants) {
+        if (variant.kind != 0 || variant.lods.empty() || variant.lods.size() >= kMaxLods) continue;
+        TerminalLod lod;
+        lod.firstVertex = uint32_t(data.vertices.size());
+        lod.vertexCount = 4;
+        lod.firstIndex = uint32_t(data.indices.size());
+        lod.indexCount = 6;
+        lod.material = variant.lods[0].material;
+        lod.error = std::max(kRibbonError, variant.lods.back().error * 1.01f);
+        for (uint32_t i = 0; i < 4; ++i) {
+            const float x = i & 1 ? 1.0f : -1.0f, z = i & 2 ? 1.0f : 0.0f;
+            data.vertices.push_back({{x, 0, z}, packOct({0, 1, 0}), {0.25f + 0.25f * x, 1 - z}});
+        }
+        for (uint32_t i : {0u, 1u, 2u, 1u, 3u, 2u}) data.indices.push_back(i);
+        variant.lods.push_back(lod);
+    }
+}
+
 Result<Terminals> Terminals::create(Device& device, TerminalData data) {
     Terminals terminals;
     terminals.data_ = std::move(data);
+    addRibbons(terminals.data_);
     if (Status s = terminals.makeTable(device); !s) return s.failure();
     if (Status s = terminals.makePictures(device); !s) return s.failure();
     return terminals;

@@ -62,7 +62,9 @@ class RendererImpl final : public Renderer {
     // Uploads the record and returns its address.
     Result<uint64_t> upload(Commands& commands, const FrameRecord& frame);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels);
-    void drawScene(Commands& commands, const PostPush& post, const DrawInputs& inputs);
+    void drawModels(Commands& commands, uint64_t frame, const DrawInputs& inputs);
+    Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
+    void drawGrowth(Commands& commands, const PostPush& post);
     void drawTerminals(DrawPass& pass, uint64_t frame, bool depthOnly);
     void drawOcclusion(Commands& commands, const PostPush& push);
     Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
@@ -74,9 +76,10 @@ class RendererImpl final : public Renderer {
     Targets targets_;
     Image shadowMap_;
     Sampler shadowSampler_, textureSampler_, plainSampler_, pointSampler_;
-    Program model_, bark_, leaf_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_, sky_;
+    Program model_, bark_, leaf_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_, sky_,
+        depthTiles_;
     std::map<VkFormat, Program> resolves_;
-    Buffer frames_;
+    Buffer frames_, tiles_;
     uint32_t frameSlot_ = 0;
     ShadowKey shadowKey_;
     bool grows_ = false, shadowDrawn_ = false;
@@ -111,6 +114,9 @@ Status RendererImpl::makePrograms() {
     Result<Program> sky = Program::graphics(device_, skyDesc);
     if (!sky) return sky.failure();
     sky_ = std::move(*sky);
+    Result<Program> depthTiles = Program::compute(device_, "render/tiles.comp");
+    if (!depthTiles) return depthTiles.failure();
+    depthTiles_ = std::move(*depthTiles);
     auto post = [&](Program& program, const char* name, const char* fragment, VkFormat format) -> Status {
         Result<Program> made = Program::graphics(device_, fullscreen(name, fragment, format));
         if (!made) return made.failure();
@@ -250,8 +256,7 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
     return Done{};
 }
 
-void RendererImpl::drawScene(Commands& commands, const PostPush& post, const DrawInputs& inputs) {
-    const uint64_t frame = reinterpret_cast<uint64_t>(post.frame.v);
+void RendererImpl::drawModels(Commands& commands, uint64_t frame, const DrawInputs& inputs) {
     commands.transition(targets_.color, ImageState::colorTarget, true);
     commands.transition(targets_.depth, ImageState::depthTarget, true);
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
@@ -259,7 +264,40 @@ void RendererImpl::drawScene(Commands& commands, const PostPush& post, const Dra
     targets.depth = DepthTarget{.view = targets_.depth.view(), .clear = 0.0f};
     DrawPass pass(commands, "draw scene", targets);
     models_.draw(pass, model_, frame, shadowMap_, shadowSampler_, inputs.surfaces.v != nullptr);
-    if (grows_) drawTerminals(pass, frame, false);
+}
+
+Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {
+    const uint32_t tiles =
+        ((targets_.width + kDepthTile - 1) / kDepthTile) * ((targets_.height + kDepthTile - 1) / kDepthTile);
+    if (!tiles_ || tiles_.size() < tiles * sizeof(float)) {
+        Result<Buffer> made = Buffer::create(device_, "depth tiles", tiles * sizeof(float));
+        if (!made) return made.failure();
+        tiles_ = std::move(*made);
+    }
+    TilesPush push{};
+    push.tiles.v = reinterpret_cast<float*>(tiles_.address());
+    commands.transition(targets_.depth, ImageState::sampled);
+    {
+        Pass pass(commands, "emit");
+        pass.dispatchItems(depthTiles_, tiles, push, {{targets_.depth, pointSampler_}});
+        pass.barrier(Use::compute, Use::compute);
+    }
+    EmitView view = perspectiveView(frame.viewProjection, frame.eye, frame.pixelScale, inputs.look.lodPixels);
+    view.viewProjection = frame.viewProjection;
+    view.tiles = push.tiles;
+    view.width = targets_.width;
+    view.height = targets_.height;
+    return emit_.cull(commands, {inputs.growth, inputs.surfaces}, view, "emit", true);
+}
+
+void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {
+    commands.transition(targets_.color, ImageState::colorTarget);
+    commands.transition(targets_.depth, ImageState::depthTarget);
+    DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
+    targets.depth = DepthTarget{};
+    targets.depth->view = targets_.depth.view();
+    DrawPass pass(commands, "draw scene", targets);
+    if (grows_) drawTerminals(pass, reinterpret_cast<uint64_t>(post.frame.v), false);
     pass.draw(sky_, 3, 1, post);
 }
 
@@ -330,15 +368,14 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
 
     Result<uint64_t> address = upload(commands, frame);
     if (!address) return address.failure();
-    if (grows_) {
-        EmitView view = perspectiveView(frame.viewProjection, frame.eye, frame.pixelScale, inputs.look.lodPixels);
-        if (Status s = emit_.cull(commands, {growth, inputs.surfaces}, view, "emit", true); !s) return s;
-    }
     PostPush push{};
     push.frame.v = reinterpret_cast<FrameRecord*>(*address);
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
     push.samples = kSamples;
-    drawScene(commands, push, inputs);
+    drawModels(commands, *address, inputs);
+    if (grows_)
+        if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
+    drawGrowth(commands, push);
     commands.transition(targets_.color, ImageState::sampled);
     drawOcclusion(commands, push);
     return resolve(commands, target, push);

@@ -14,7 +14,7 @@ struct Camera {
     glm::vec3 eye{0, 1, 5}, target{0, 1, 0}, up{0, 1, 0};
     float fovY = 0.7f;        // radians
     float nearPlane = 0.05f;  // metres; the far plane is at infinity
-    glm::vec2 shift{0};        // moves the picture right and up, in halves of the frame, as a shift lens does
+    glm::vec2 shift{0};       // moves the picture right and up, in halves of the frame, as a shift lens does
 };
 
 enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, layer = 4 };
@@ -26,8 +26,8 @@ struct Look {
     glm::vec3 skyColor{0.50f, 0.63f, 0.84f};
     glm::vec3 groundColor{0.27f, 0.23f, 0.17f};
     float exposure = 0;                         // stops
-    glm::vec3 background{0.30f, 0.50f, 0.80f};  // at the zenith
-    glm::vec3 horizon{0.80f, 0.86f, 0.92f};
+    glm::vec3 background{0.17f, 0.36f, 0.72f};  // at the zenith
+    glm::vec3 horizon{0.66f, 0.77f, 0.88f};
     bool shadows = true;
     ViewMode view = ViewMode::shaded;
     uint32_t layer = 0;   // for ViewMode::layer: index into DrawInputs::layers' 16 a surface

@@ -30,6 +30,25 @@ bool outside(EmitView view, vec3 center, float radius) {
     return false;
 }
 
+// Is the sphere behind the models? Tests up to 25 tiles of the picture; larger spheres pass.
+bool hidden(EmitView view, vec3 center, float radius) {
+    if (u64(view.tiles) == 0ul) return false;
+    vec4 clip = view.viewProjection * vec4(center, 1.0);
+    float nearest = clip.w - radius;
+    if (nearest <= clip.z) return false;
+    float reach = radius * view.pixelScale / nearest + 1.0;
+    vec2 at = (clip.xy / clip.w * 0.5 + 0.5) * vec2(view.width, view.height);
+    ivec2 last = ivec2((uvec2(view.width, view.height) + kDepthTile - 1u) / kDepthTile) - 1;
+    ivec2 low = clamp(ivec2(floor((at - reach) / float(kDepthTile))), ivec2(0), last);
+    ivec2 high = clamp(ivec2(floor((at + reach) / float(kDepthTile))), ivec2(0), last);
+    if (any(greaterThan(high - low, ivec2(4)))) return false;
+    float depth = clip.z / nearest;   // clip.z is the near plane's distance everywhere
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x)
+            if (view.tiles.v[y * (last.x + 1) + x] <= depth) return false;
+    return true;
+}
+
 // Pixels that a metre covers at `center`.
 float pixelsPerMetre(EmitView view, vec3 center) {
     if (view.parallel != 0u) return view.pixelScale;

@@ -24,7 +24,7 @@ uint pickBucket(EmitView view, VariantRecord variant, Leaf leaf, LeafPose pose, 
     float reach = 0.5 * distance(p0, p3) + pose.lift + 2.0 * node.radius + pose.size * (2.0 * variant.extent + 0.3);
     if (outside(view, center, reach)) return kNoBucket;
     float pixels = pixelsPerMetre(view, center) * pose.size;
-    if (!leafIsKept(pixels, hash)) return kNoBucket;
+    if (!leafIsKept(pixels, hash) || hidden(view, center, reach)) return kNoBucket;
     uint lod = variant.lodCount - 1u;
     while (lod > 0u && variant.error[lod] * pixels > view.lodPixels) --lod;
     return variant.firstBucket + lod;

@@ -16,6 +16,7 @@ uint pickBucket(EmitView view, VariantRecord variant, LoadedSpan s) {
     if (outside(view, center, reach + 2.0 * thick)) return kNoBucket;
     float pixels = pixelsPerMetre(view, center);
     if (thick * pixels < view.leastPixels * 0.06) return kNoBucket;
+    if (hidden(view, center, reach + 2.0 * thick)) return kNoBucket;
     // How far the curve swings away from its chord; n straight pieces leave about 1/n² of it.
     vec3 chord = s.span.p3 - s.span.p0;
     float bend = 0.75 * max(length(s.span.b1 - s.span.p0 - chord / 3.0), length(s.span.b2 - s.span.p3 + chord / 3.0));

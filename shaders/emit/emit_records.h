@@ -29,8 +29,14 @@ struct EmitView {
     uint parallel;
     uint flags;
     float leastPixels;    // radius in pixels below which bark is thickened and faded instead
+    // Farthest depth (reversed: the least) that the models leave in each tile of the picture; address 0: none. What
+    // lies behind it is culled.
+    mat4 viewProjection;
+    FloatBuf tiles;
+    uint width, height;   // of the picture, pixels
 };
-STATIC_SIZE(EmitView, 128);
+STATIC_SIZE(EmitView, 208);
+CONST_UINT(kDepthTile, 8u);
 
 struct KindRecord {
     uint firstVariant, variantCount;

@@ -28,6 +28,14 @@ void main() {
     side *= inversesqrt(max(dot(side, side), 1e-30));
     up = cross(tangent, side);
     up *= inversesqrt(max(dot(up, up), 1e-30));
+    if (push.vertexCount == 4u) {
+        // A ribbon: across the view, its normal towards the eye.
+        vec3 toEye = push.frame.v[0].eye - center;
+        side = cross(toEye, tangent);
+        side *= inversesqrt(max(dot(side, side), 1e-30));
+        vec3 facing = cross(tangent, side);
+        up = normalize(up + facing * inversesqrt(max(dot(facing, facing), 1e-30)));
+    }
     float radius = o.radius0 * v + o.radius1 * u;
     center += up * (o.rise * radius);
     if ((o.bits & 256u) != 0u) radius = barkRadius(o.radius0, o.radius1, o.metres, true, u);

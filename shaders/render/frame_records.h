@@ -92,5 +92,10 @@ struct PostPush {
 };
 STATIC_SIZE(PostPush, 24);
 
+struct TilesPush {
+    FloatBuf tiles;
+};
+STATIC_SIZE(TilesPush, 8);
+
 ESPALIER_END
 #endif

@@ -10,7 +10,7 @@ layout(set = 0, binding = 1) uniform sampler2D normalMap;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 tangent;
-layout(location = 3) in vec3 uvOpen;
+layout(location = 3) in vec4 uvOpen;
 layout(location = 4) flat in uvec3 bits;
 layout(location = 0) out vec4 color;
 
@@ -25,10 +25,11 @@ vec3 leafColor(vec3 base) {
     vec3 turned = dot(base, weights) * wanted / max(dot(wanted, weights), 1e-3);
     base = mix(base, turned, 0.5 * min(1.0, 3.0 * (max(wanted.x, max(wanted.y, wanted.z)) - min(wanted.x, min(wanted.y, wanted.z)))));
     // From old, dark and bluish to young, light and yellow.
-    vec3 young = vec3(1.45, 1.28, 0.75);
-    vec3 old = vec3(0.72, 0.80, 0.92);
-    base *= mix(old, young, clamp(0.25 + 0.5 * tint + 0.45 * (a - 0.5), 0.0, 1.0));
-    return base * (0.82 + 0.36 * b);
+    // Whole patches differ too, as plants do.
+    const vec3 young = vec3(1.20, 1.08, 0.55);
+    const vec3 old = vec3(0.42, 0.56, 0.60);
+    base *= mix(old, young, clamp(0.10 + 0.45 * tint + 0.5 * (a - 0.5) + 0.30 * uvOpen.w, 0.0, 1.0));
+    return base * (0.80 + 0.40 * b);
 }
 
 void main() {
@@ -69,10 +70,10 @@ void main() {
         direct += through * max(-side, 0.0) * 0.65 + through * 0.10;
         direct += gloss(face, eye, sun, 0.42) * facing * (back ? 0.3 : 1.0);
     }
-    direct *= push.frame.v[0].sunColor * visible * (0.35 + 0.65 * open);
+    direct *= push.frame.v[0].sunColor * visible * (0.30 + 0.70 * open);
     // The sky also shines through, and its mirror image lies on the waxy upper side.
     vec3 ambient = base * (skyLight(push.frame, face) + (leaf ? 0.25 * skyLight(push.frame, -face) : vec3(0.0)));
     float edge = 1.0 - max(dot(face, eye), 0.0);
     ambient += skyLight(push.frame, reflect(-eye, face)) * (0.02 + 0.10 * edge * edge * edge) * (back || !leaf ? 0.3 : 1.0);
-    color = lit(push.frame, direct, ambient * open);
+    color = lit(push.frame, direct, ambient * open * open);
 }

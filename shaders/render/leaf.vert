@@ -9,7 +9,7 @@ layout(push_constant, scalar) uniform Data { TerminalPush push; };
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec3 tangent;
-layout(location = 3) out vec3 uvOpen;       // uv, share of the sky that is seen
+layout(location = 3) out vec4 uvOpen;       // uv, share of the sky that is seen, tone of the patch (-1 to 1)
 layout(location = 4) flat out uvec3 bits;   // tint, hash, LOD and kind
 
 void main() {
@@ -28,7 +28,9 @@ void main() {
     // Deep in the canopy little sky is seen: measured by the height over the surface, in leaf sizes.
     vec3 ground = octahedralToUnit(o.normal);
     float height = float(o.bits >> 16u) * (1.0 / 65535.0) * 1.1 + dot(arm, ground) / size;
-    uvOpen = vec3(mesh.uv, clamp(0.30 + 1.05 * height, 0.22, 1.0));
+    vec3 q = o.origin * 2.3;
+    float patchTone = sin(q.x + 1.7 * sin(q.y * 0.8)) * sin(1.3 * q.y + 1.1 * q.z + 2.0 * sin(0.6 * q.x));
+    uvOpen = vec4(mesh.uv, clamp(0.26 + 1.0 * height, 0.18, 1.0), patchTone);
     bits = uvec3(o.tint, o.hash, o.bits & 0xFFFFu);
     gl_Position = push.frame.v[0].viewProjection * vec4(position, 1.0);
 }

@@ -6,7 +6,7 @@
 
 layout(push_constant, scalar) uniform Data { TerminalPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;
-layout(location = 3) in vec3 uvOpen;
+layout(location = 3) in vec4 uvOpen;
 
 void main() {
     if (texture(colorMap, uvOpen.xy).a < push.alphaCutoff) discard;
