@@ -27,7 +27,6 @@ void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const Growt
     queue[1].resize(room.items);
     std::vector<uint32_t> scratch(kChunkNodes * kNodeWords + kItemWords);
     env.itemCapacity = room.items;
-    env.groupLimit = 1;
     env.phase = lastWave(cut);
     env.scratch = {scratch.data()};
     uint32_t w = 0;
@@ -37,7 +36,10 @@ void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const Growt
         uint32_t count = std::min(a.waves[w].count, room.items);
         for (uint32_t i = 0; i < count; ++i) {
             Machine machine;
-            growChunk(machine, env, queue[w & 1][i]);
+            ChunkGrowth c;
+            if (!beginChunk(machine, env, queue[w & 1][i], c)) continue;
+            while (growing(c.g)) growOn(machine, env, c);
+            endChunk(env, c);
         }
     }
     a.waves.resize(w + 1);
@@ -72,7 +74,7 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     a.out.leaves.resize(room.leaves);
     a.status = freshStatus(inputs.limits, room, cut);
     a.waves.assign(inputs.limits.maxDepth + 2u, Wave{});
-    a.waves[0] = firstWave(uint32_t(inputs.seeds.size()), room, 1);
+    a.waves[0] = firstWave(uint32_t(inputs.seeds.size()), room);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     std::vector<uint32_t> packed(packedWords(grammars));
     std::vector<GrammarTables> tables = placeTables(inputs, packed.data());

@@ -31,10 +31,7 @@ Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
 
 class GpuGrowth final : public Growth {
   public:
-    GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), room_(room) {
-        // Enough to fill the device; further items are taken by the same invocations in turn.
-        groupLimit_ = device.info().cpu ? 1024 : 8192;
-    }
+    GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), room_(room) {}
 
     Status setUp();
     Status grow(const GrowthInputs& inputs) override;
@@ -60,7 +57,6 @@ class GpuGrowth final : public Growth {
 
     Device& device_;
     GrowthRoom room_;
-    uint32_t groupLimit_;
     uint32_t likelyWaves_ = 24;     // recorded in the first submission
     std::array<Program, 2> march_;  // by WalkMode
     Program packTables_, terminals_, branchesFit_, fit_;
@@ -140,7 +136,6 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs) {
     env.branches = addressOf<BranchBuf, BranchRecord>(back.branches);
     env.leaves = addressOf<LeafBuf, Leaf>(back.leaves);
     env.itemCapacity = room_.items;
-    env.groupLimit = groupLimit_;
     env.status = addressOf<GrowStatusBuf, GrowStatus>(status_);
     env.waves = addressOf<WaveBuf, Wave>(waves_);
     env.density = addressOf<UintBuf, uint32_t>(density_);
@@ -149,8 +144,8 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs) {
 
 Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut) {
     std::vector<GrowStatus> status{freshStatus(inputs.limits, room_, cut)};
-    std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0});
-    wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_, groupLimit_);
+    std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0});
+    wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     std::vector<GrammarTables> tables = placeTables(inputs, reinterpret_cast<uint32_t*>(packed_.address()));
     Status steps[] = {commands.upload(status_, status), commands.upload(waves_, wave),

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "shaders/shared/expand_tables.h"
+#include "shaders/shared/expand_grow.h"
 
 namespace espalier {
 namespace {
@@ -166,10 +166,10 @@ GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const
 
 uint32_t lastWave(const GrowthCut& cut) { return cut.key > 0 || cut.wave == 0 ? cut.wave : cut.wave - 1; }
 
-Wave firstWave(uint32_t seeds, const GrowthRoom& room, uint32_t groupLimit) {
+Wave firstWave(uint32_t seeds, const GrowthRoom& room) {
     Wave wave{};
     wave.count = std::min(seeds, room.items);
-    wave.groups[0] = std::min((wave.count + kExpandGroup - 1) / kExpandGroup, groupLimit);
+    wave.groups[0] = (wave.count + kItemsPerGroup - 1) / kItemsPerGroup;
     wave.groups[1] = wave.groups[2] = 1;
     return wave;
 }

@@ -38,8 +38,9 @@ struct Wave {
     uint count;
     uint groups[3];
     uint nodes, chunks;      // what it grew
+    uint taken;              // items that invocations have asked for
 };
-STATIC_SIZE(Wave, 24);
+STATIC_SIZE(Wave, 28);
 BUFFER(WaveBuf, Wave)
 
 // A grammar's packed tables (expand_tables.h), what growth by it asks of places, and its width.
@@ -72,7 +73,7 @@ struct ExpandEnv {
     uint phase;              // of the terminal pass: see expand_terminals.h; in the march: the last wave that may be
                              // grown, pushes beyond it are refused
     uint itemCapacity;       // of each of the two queues
-    uint groupLimit;         // groups that a wave is given at most
+    uint spare;
 };
 STATIC_SIZE(ExpandEnv, 128);
 

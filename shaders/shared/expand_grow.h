@@ -11,7 +11,12 @@ ESPALIER_BEGIN
 
 CONST_UINT(kDetours, 10u);                 // directions tried over the semicircle when the heading fails (§8)
 CONST_FLOAT(kDetourAngle, 0.314159265f);   // between two of them on one side: the last ones go across the heading
-CONST_UINT(kMaxTrips, 8192u);              // of the loop, for one chunk
+
+// Some software devices end every loop after some 65,000 trips of all loops of an invocation together: so a chunk
+// ends early after this many of its main loop, and an invocation takes no more items than these.
+CONST_UINT(kMaxTrips, 256u);
+CONST_UINT(kMostTaken, 4u);
+CONST_UINT(kItemsPerGroup, 64u);           // a group is dispatched for so many items; below kMostTaken an invocation
 
 // A chunk's nodes and a waiting item are staged in arrays of words of the invocation's own, and written by loops over
 // words: a masked store costs as much as a real one on a software device, a loop that isn't entered next to nothing.
@@ -59,6 +64,7 @@ struct Grower {
     uint count;          // nodes
     uint steps;
     uint inserted;
+    uint trips;
     ReadSet reads;
     uvec2 hash;          // of all that the chunk leaves
 };
@@ -87,8 +93,6 @@ struct GrowthSite {
     uint stepBase;       // steps of its branch before it
     float minStep;       // metres
 };
-
-FN vec4 itemArgs(WorkItem item) { return vec4(item.args[0], item.args[1], item.args[2], item.args[3]); }
 
 FN void giveArgs(MACHINE_PARAM vec4 args) {
     SLOT(kSlotArg) = args.x;
@@ -166,7 +170,7 @@ FN void pushStaged(ExpandEnv env, bool wanted) {
     if (push) at = atomicAdd(env.waves.v[env.wave + 1u].count, 1u);
     bool fits = push && at < env.itemCapacity;
     if (push && !fits) atomicMax(env.status.v[0].items, at + 1u);
-    if (fits && at % kExpandGroup == 0u && at / kExpandGroup < env.groupLimit) {
+    if (fits && at % kItemsPerGroup == 0u) {
         atomicAdd(env.waves.v[env.wave + 1u].groups[0], 1u);
     }
     UintBuf words = wordsOfItems(env.nextItems);
@@ -444,21 +448,24 @@ FN void countChunk(ExpandEnv env, Grower g) {
     if (g.phase == kPhaseDead) atomicAdd(env.status.v[0].deadEnds, 1u);
 }
 
-// Grows the chunk of one item and publishes it.
-FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item) {
-    if (refused(env, env.wave, item.key)) {
-        atomicAdd(env.status.v[0].stopped, 1u);
-        return;
-    }
+// A chunk in flight.
+struct ChunkGrowth {
+    WorkItem item;
     GrowthSite site;
-    site.chunk = atomicAdd(env.status.v[0].chunks, 1u);
-    if (site.chunk >= env.status.v[0].chunkCapacity) return;
+    GrowTables map;
+    WorldFrame frame;
+    Grower g;
+};
+
+FN bool growing(Grower g) { return g.phase <= kPhaseMarch; }
+
+FN Grower freshGrower(WorkItem item) {
     Grower g;
     g.phase = kPhaseDerive;
     g.key = item.key;
     g.grammar = item.symbol >> 16u;
     g.symbol = item.symbol & 0xFFFFu;
-    g.args = itemArgs(item);
+    g.args = vec4(item.args[0], item.args[1], item.args[2], item.args[3]);
     g.rule = 0u;
     g.links = 0u;
     g.arriveCode = 0u;
@@ -476,56 +483,76 @@ FN void growChunk(MACHINE_PARAM ExpandEnv env, WorkItem item) {
     g.count = 0u;
     g.steps = 0u;
     g.inserted = 0u;
+    g.trips = 0u;
     g.reads = emptyReadSet();
     g.hash = hashKey(item.key);
+    return g;
+}
 
-    GrowTables map = tablesOf(env, g.grammar);
-    site.inputs = env.tables.v[g.grammar].inputs;
-    site.layers = env.tables.v[g.grammar].layers;
-    site.depth = item.depth & 0xFFFFu;
-    site.stepBase = item.step & 0xFFFFFFu;
+// Starts the chunk of an item. False: it is refused, or there is no room for it.
+FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth) c) {
+    if (refused(env, env.wave, item.key)) {
+        atomicAdd(env.status.v[0].stopped, 1u);
+        return false;
+    }
+    uint chunk = atomicAdd(env.status.v[0].chunks, 1u);
+    if (chunk >= env.status.v[0].chunkCapacity) return false;
     Walk walk = item.walk;
     bool exists = (walk.place & 0xFFFFu) < env.surfaces.v[walk.place >> 16u].chartCount;
     walk.place = exists ? walk.place : walk.place & 0xFFFF0000u;
     float texel;
-    site.level = levelFor(env, walk.place, env.tables.v[g.grammar].width, texel);
-    site.minStep = 0.25f * texel;
-    bool stands = resumeWalk(env.surfaces, site.level, walk, g.at) && exists;
-    g.trial = g.at;
+    c.item = item;
+    c.g = freshGrower(item);
+    c.map = tablesOf(env, c.g.grammar);
+    c.site.chunk = chunk;
+    c.site.inputs = env.tables.v[c.g.grammar].inputs;
+    c.site.layers = env.tables.v[c.g.grammar].layers;
+    c.site.level = levelFor(env, walk.place, env.tables.v[c.g.grammar].width, texel);
+    c.site.depth = item.depth & 0xFFFFu;
+    c.site.stepBase = item.step & 0xFFFFFFu;
+    c.site.minStep = 0.25f * texel;
+    c.frame = frameOf(env.surfaces, walk.place >> 16u, c.site.inputs);
+    bool stands = resumeWalk(env.surfaces, c.site.level, walk, c.g.at) && exists;
+    c.g.trial = c.g.at;
     resetMachine(MACHINE_ONLY);
     if (!stands) {
-        g.phase = kPhaseDead;
+        c.g.phase = kPhaseDead;
         atomicAdd(env.status.v[0].lost, 1u);
     }
     if (stands && item.parent == kNoIndex) {
-        stageNode(env, site, g.at, g.at.normal, 0u, 0u);   // the seed's foot
-        g.count = 1u;
+        stageNode(env, c.site, c.g.at, c.g.at.normal, 0u, 0u);   // the seed's foot
+        c.g.count = 1u;
     }
+    return true;
+}
 
-    WorldFrame frame = frameOf(env.surfaces, walk.place >> 16u, site.inputs);
-    for (uint trip = 0u; trip < kMaxTrips && g.phase <= kPhaseMarch; ++trip) {
-        bool here = g.arrived || g.phase == kPhaseDerive;
-        if (here && !g.placed) {
-            uint instance = g.trial.walk.place >> 16u;
-            if (instance != frame.instance) frame = frameOf(env.surfaces, instance, site.inputs);
-            giveInputs(MACHINE env, frame, g.grammar, site.inputs, site.layers, placeOf(g.trial), site.depth,
-                       site.stepBase + g.steps + (g.arrived ? 1u : 0u), g.trial.walk.arc, g.reads);
-            g.placed = true;
-        }
-        if (g.arrived) arrive(MACHINE map, g);
-        for (uint lists = 0u; lists <= kMaxListDepth && g.phase == kPhaseDerive; ++lists) {
-            deriveRule(MACHINE env, map, site, item, g);
-        }
-        if (g.phase == kPhaseMarch) marchOn(env, site, g);
+// One trip: the decision at the end of a step, the rule for the next, and a stretch of it.
+FN void growOn(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
+    bool here = c.g.arrived || c.g.phase == kPhaseDerive;
+    if (here && !c.g.placed) {
+        uint instance = c.g.trial.walk.place >> 16u;
+        if (instance != c.frame.instance) c.frame = frameOf(env.surfaces, instance, c.site.inputs);
+        giveInputs(MACHINE env, c.frame, c.g.grammar, c.site.inputs, c.site.layers, placeOf(c.g.trial), c.site.depth,
+                   c.site.stepBase + c.g.steps + (c.g.arrived ? 1u : 0u), c.g.trial.walk.arc, c.g.reads);
+        c.g.placed = true;
     }
-    g.phase = g.phase <= kPhaseMarch ? kPhaseStopped : g.phase;
-    bool goesOn = g.phase == kPhaseFull;
-    if (goesOn && refused(env, env.wave + 1u, g.key)) {
+    if (c.g.arrived) arrive(MACHINE c.map, c.g);
+    for (uint lists = 0u; lists <= kMaxListDepth && c.g.phase == kPhaseDerive; ++lists) {
+        deriveRule(MACHINE env, c.map, c.site, c.item, c.g);
+    }
+    if (c.g.phase == kPhaseMarch) marchOn(env, c.site, c.g);
+    c.g.trips = c.g.trips + 1u;
+    if (growing(c.g) && c.g.trips >= kMaxTrips) c.g.phase = c.g.count > 0u ? kPhaseFull : kPhaseStopped;
+}
+
+FN void endChunk(ExpandEnv env, INOUT(ChunkGrowth) c) {
+    bool goesOn = c.g.phase == kPhaseFull;
+    if (goesOn && refused(env, env.wave + 1u, c.g.key)) {
         goesOn = false;
-        g.phase = kPhaseStopped;
+        c.g.phase = kPhaseStopped;
     }
-    publishChunk(env, item, site, g, previousNodeOf(env, item), goesOn);
-    countChunk(env, g);
+    publishChunk(env, c.item, c.site, c.g, previousNodeOf(env, c.item), goesOn);
+    countChunk(env, c.g);
 }
 
 ESPALIER_END
