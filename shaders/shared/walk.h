@@ -54,13 +54,14 @@ struct WalkState {
     float limit;         // longest stretch for now, object metres
     vec2 slip;           // uv + slip is surely inside the chart: the last stretch's end before it was corrected
     uint flags;          // bits 7..0 tries, 8: last read was creased, 9: search crossings loosely, 10: step moved,
-                         // 11: a cut for the surface's turning is under way, 31..16: pieces walked so far
+                         // 11: a cut for the turning is under way, 12: kWalkFlagOver, 31..16: pieces walked
 };
 
 CONST_UINT(kWalkFlagCrease, 1u << 8u);
 CONST_UINT(kWalkFlagLoose, 1u << 9u);
 CONST_UINT(kWalkFlagMoved, 1u << 10u);
 CONST_UINT(kWalkFlagBend, 1u << 11u);
+CONST_UINT(kWalkFlagOver, 1u << 12u);   // came over a crease, and the nearest texels may still be the near side's
 
 FN bool walkGoesOn(uint event) { return event >= kWalkSeam && event <= kWalkRetry; }
 FN bool walkHasSample(uint event) { return event != kWalkRetry && event != kWalkLost; }
@@ -379,7 +380,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         w.walk.direction = t1;
         w.orientation = toOrientation;
         w.level = toLevel;
-        w.flags = w.flags & ~kWalkFlagLoose;
+        w.flags = w.flags & ~(kWalkFlagLoose | kWalkFlagOver);
         standOn(w, p, rcpExact(float(surfaces.v[toPlace >> 16u].levels[toLevel].size)));
         w.clear = 0.0f;
         w.slip = vec2(0.0f);
@@ -401,7 +402,8 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         float sine2 = larger(1.0f - turn * turn, 0.01f);
         bool sharp = creased && turn < kWalkTurnCosine && absolute(slope) > 1e-2f &&
                      (toCrease >= 0.0f || height * height <= close * close * sine2);
-        if (sharp && toCrease > s && toCrease <= s + close) {
+        bool over = (w.flags & kWalkFlagOver) != 0u && toCrease < 0.05f * close;
+        if (sharp && (over || (toCrease > s && toCrease <= s + close))) {
             walked = s;
             w.position = w.position + t * s;
             w.walk.uv = to;
@@ -426,7 +428,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             w.dv = p.dv;
             w.normal = p.normal;
             w.clear = larger(w.clear - length2(shiftUv), 0.0f);
-            w.flags = w.flags | kWalkFlagCrease;
+            w.flags = w.flags | kWalkFlagCrease | kWalkFlagOver;
             event = kWalkCrease;
         } else if (rough && pace * s > 0.5f * texel) {
             w.limit = 0.5f * s;
@@ -444,7 +446,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             w.limit = smaller(w.limit, 1e30f);
             bool bend = (w.flags & kWalkFlagBend) != 0u;
             event = !partly ? kWalkDone : bend ? kWalkBend : kWalkRetry;
-            w.flags = (w.flags & ~(kWalkFlagLoose | kWalkFlagBend));
+            w.flags = w.flags & ~(kWalkFlagLoose | kWalkFlagBend | kWalkFlagOver);
             tries = partly ? 0u : tries;
         }
     }
@@ -457,9 +459,9 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         event = (w.flags & kWalkFlagMoved) != 0u ? kWalkDone : kWalkLost;
         remaining = 0.0f;
     }
-    bool over = !walkGoesOn(event);
-    w.flags = w.flags & ~(0xFFFF00FFu | (over ? kWalkFlagMoved : 0u));
-    w.flags = over ? w.flags : w.flags | tries | (pieces << 16u);
+    bool ended = !walkGoesOn(event);
+    w.flags = w.flags & ~(0xFFFF00FFu | (ended ? kWalkFlagMoved : 0u));
+    w.flags = ended ? w.flags : w.flags | tries | (pieces << 16u);
     return event;
 }
 
