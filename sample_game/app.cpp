@@ -27,6 +27,7 @@ namespace {
 using espalier::scene::Scene;
 namespace fs = std::filesystem;
 
+constexpr double kSlowDrawMs = 50;
 constexpr int kFramesAfterChange = 3;       // ImGui settles within two
 constexpr double kFilesLookedAtEvery = .3;  // seconds
 
@@ -39,6 +40,37 @@ fs::file_time_type newestGrammar(const fs::path& file) {
             newest = std::max(newest, entry.last_write_time(ignored));
     return newest;
 }
+
+// What came in since the last frame. Frames may take long on a software device, and ImGui only knows what is down at
+// the moment a frame begins: what was pressed and let go in between would be lost.
+struct Events {
+    struct Click {
+        double x, y;
+    };
+    std::vector<int> keys;
+    std::vector<Click> clicks;  // of the left button, without a drag
+    double pressX = 0, pressY = 0;
+    bool moved = false;
+
+    static Events& of(GLFWwindow* window) { return *static_cast<Events*>(glfwGetWindowUserPointer(window)); }
+    static void onKey(GLFWwindow* window, int key, int, int action, int) {
+        if (action == GLFW_PRESS) of(window).keys.push_back(key);
+    }
+    static void onMove(GLFWwindow* window, double x, double y) {
+        Events& events = of(window);
+        if (std::abs(x - events.pressX) + std::abs(y - events.pressY) > 4) events.moved = true;
+    }
+    static void onButton(GLFWwindow* window, int button, int action, int) {
+        Events& events = of(window);
+        if (action == GLFW_PRESS) {
+            glfwGetCursorPos(window, &events.pressX, &events.pressY);
+            events.moved = false;
+        } else if (button == GLFW_MOUSE_BUTTON_LEFT && !events.moved && !ImGui::GetIO().WantCaptureMouse) {
+            events.clicks.push_back({events.pressX, events.pressY});
+        }
+    }
+    bool pressed(int key) const { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
+};
 
 struct WindowCloser {
     void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
@@ -91,8 +123,8 @@ class App {
     PanelState panel_;
     int awake_ = kFramesAfterChange;
     uint64_t frames_ = 0;
-    bool dragging_ = false, moved_ = false;
-    double pressX_ = 0, pressY_ = 0;
+    Events events_;
+    bool dragging_ = false;
 };
 
 App::~App() {
@@ -158,6 +190,11 @@ void App::openUi() {
     ImGui::CreateContext();
     imgui_ = true;
     ImGui::GetIO().IniFilename = nullptr;  // nothing is left behind in the folder it was started from
+    // Ours first: ImGui's backend calls on to what was there before it.
+    glfwSetWindowUserPointer(window_.get(), &events_);
+    glfwSetKeyCallback(window_.get(), Events::onKey);
+    glfwSetMouseButtonCallback(window_.get(), Events::onButton);
+    glfwSetCursorPosCallback(window_.get(), Events::onMove);
     ImGui_ImplGlfw_InitForVulkan(window_.get(), true);
     float y = 1;
     glfwGetWindowContentScale(window_.get(), &scale_, &y);
@@ -189,13 +226,14 @@ void App::look(const EspCamera& camera) {
 
 void App::handleKeys() {
     const ImGuiIO& io = ImGui::GetIO();
-    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+    const auto pressed = [&](int key) { return events_.pressed(key); };
     if (pressed(GLFW_KEY_F1)) panel_.showHelp = !panel_.showHelp;
     if (pressed(GLFW_KEY_F2)) panel_.showPanel = !panel_.showPanel;
     if (pressed(GLFW_KEY_F12)) panel_.screenshot = true;
     if (io.WantTextInput) return;
-    if (io.KeyCtrl && pressed(GLFW_KEY_Q)) glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
-    if (io.KeyCtrl || io.KeyAlt || io.KeySuper) return;
+    const bool control = io.KeyCtrl || pressed(GLFW_KEY_LEFT_CONTROL) || pressed(GLFW_KEY_RIGHT_CONTROL);
+    if (control && pressed(GLFW_KEY_Q)) glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
+    if (control || io.KeyAlt || io.KeySuper) return;
     if (pressed(GLFW_KEY_ESCAPE)) {
         // Never quits: first closes the help, then puts the tool away.
         if (panel_.showHelp)
@@ -215,27 +253,19 @@ void App::handleMouse() {
     const ImGuiIO& io = ImGui::GetIO();
     const bool buttons[3] = {io.MouseDown[0], io.MouseDown[1], io.MouseDown[2]};
     const bool down = buttons[0] || buttons[1] || buttons[2];
-    if (down && !dragging_ && !io.WantCaptureMouse) {
+    if (!down)
+        dragging_ = false;
+    else if (!io.WantCaptureMouse)
         dragging_ = true;
-        moved_ = false;
-        pressX_ = io.MousePos.x;
-        pressY_ = io.MousePos.y;
-    }
-    if (dragging_) {
-        const float threshold = 4 * scale_;
-        if (std::abs(io.MousePos.x - pressX_) + std::abs(io.MousePos.y - pressY_) > threshold) moved_ = true;
+    if (dragging_ && events_.moved) {
         const float x = io.MouseDelta.x / io.DisplaySize.y, y = io.MouseDelta.y / io.DisplaySize.y;
-        if (down && moved_) {
-            if (buttons[1] || io.KeyShift)
-                orbit_.pan(x, y);
-            else
-                orbit_.turn(x, y);
-        }
-        if (!down) {
-            dragging_ = false;
-            if (!moved_ && panel_.tool == Tool::plant && io.MouseReleased[0]) plantAt(io.MousePos.x, io.MousePos.y);
-        }
+        if (buttons[1] || io.KeyShift)
+            orbit_.pan(x, y);
+        else
+            orbit_.turn(x, y);
     }
+    if (panel_.tool == Tool::plant)
+        for (const Events::Click& click : events_.clicks) plantAt(click.x, click.y);
     if (io.MouseWheel != 0 && !io.WantCaptureMouse) orbit_.zoom(io.MouseWheel);
 }
 
@@ -321,6 +351,8 @@ bool App::drawFrame(bool last) {
     draw.camera = orbit_.camera(shift());
     draw.look = panel_.look;
     draw.look.viewLayer = panel_.viewLayer.c_str();
+    // While the camera moves on a slow device, less detail: what counts then is that it follows the hand.
+    if (dragging_ && panel_.stats.drawMs > kSlowDrawMs) draw.look.windowLodPixels *= 4;
     draw.commandBuffer = frame->commands;
     draw.colourImage = reinterpret_cast<void*>(frame->image);
     draw.colourView = reinterpret_cast<void*>(frame->view);
@@ -371,6 +403,9 @@ bool App::loop() {
         if (frames_ == 0) look(scene_.camera);
         handleKeys();
         handleMouse();
+        const bool happened = !events_.keys.empty() || !events_.clicks.empty();
+        events_.keys.clear();
+        events_.clicks.clear();
         showPanel(context_.get(), scene_, scale_, panel_);
         answerPanel();
         updateGrowth();
@@ -379,8 +414,8 @@ bool App::loop() {
         if (!drawFrame(last)) return false;
         panel_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
         const ImGuiIO& io = ImGui::GetIO();
-        const bool input = io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 || io.MouseDown[0] ||
-                           io.MouseDown[1] || io.MouseDown[2] || ImGui::IsAnyItemActive();
+        const bool input = happened || io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 ||
+                           io.MouseDown[0] || io.MouseDown[1] || io.MouseDown[2] || ImGui::IsAnyItemActive();
         if (input)
             wake();
         else if (awake_ > 0)

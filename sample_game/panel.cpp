@@ -273,12 +273,15 @@ void showPanel(EspContext* context, const espalier::scene::Scene& scene, float s
     if (ImGui::Begin("Espalier", nullptr, flags)) {
         ImGui::TextUnformatted(scene.name.c_str());
         ImGui::TextDisabled("%s", state.deviceName.c_str());
-        for (const std::string& error : state.errors)
-            if (!error.empty()) {
+        for (size_t i = 0; i < state.errors.size(); ++i) {
+            const std::string& error = state.errors[i];
+            const auto here = state.errors.begin() + std::ptrdiff_t(i);
+            if (!error.empty() && std::find(state.errors.begin(), here, error) == here) {
                 ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
                 ImGui::TextWrapped("%s", error.c_str());
                 ImGui::PopStyleColor();
             }
+        }
         if (!state.message.empty()) ImGui::TextWrapped("%s", state.message.c_str());
         ImGui::Separator();
         tools(scene, state);

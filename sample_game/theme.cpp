@@ -47,6 +47,7 @@ void applyTheme(float scale) {
     c[ImGuiCol_TextDisabled] = grey(.66f);
     c[ImGuiCol_WindowBg] = grey(.105f, .96f);
     c[ImGuiCol_PopupBg] = grey(.13f, .98f);
+    c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = grey(.17f);
     c[ImGuiCol_Border] = grey(.25f);
     c[ImGuiCol_FrameBg] = grey(.19f);
     c[ImGuiCol_FrameBgHovered] = grey(.25f);

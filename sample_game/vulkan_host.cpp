@@ -267,6 +267,9 @@ void VulkanHost::dropSwapchain() {
 }
 
 std::optional<Frame> VulkanHost::begin() {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    if (uint32_t(width) != extent_.width || uint32_t(height) != extent_.height) stale_ = true;
     if (stale_ && !makeSwapchain()) return std::nullopt;
     if (stale_) return std::nullopt;
     Slot& slot = slots_[(frameNumber_ + 1) % kFramesInFlight];

@@ -15,6 +15,7 @@ namespace espalier::scene {
 namespace {
 
 constexpr float kPi = 3.14159265f;
+const char* kSurfaceExtension = "\"ESPALIER_";  // how docs/surface_format.md names it
 
 bool fromContext(const EspContext* context, EspResult result, std::string& error) {
     if (result == ESP_OK) return true;
@@ -108,13 +109,23 @@ void fitToModel(EspContext* context, const EspSurfaceInfo& info, const LoadedGra
     }
 }
 
+// A glTF model as modelling programs write it: what a user may well try first.
+bool isUnbakedModel(const std::string& path) {
+    std::string text, ignored;
+    const std::string ending = std::filesystem::path(path).extension().string();
+    if ((ending != ".glb" && ending != ".gltf") || !readText(path, text, ignored)) return false;
+    const bool model = text.rfind("glTF", 0) == 0 || text.find("\"asset\"") != std::string::npos;
+    return model && text.find(kSurfaceExtension) == std::string::npos;
+}
+
 bool openSurface(EspContext* context, const Request& request, Scene& out, std::string& error) {
-    if (!fromContext(context, espLoadSurface(context, request.file.c_str(), nullptr, &out.surface), error)) {
-        if (error.find("ESPALIER_") != std::string::npos)
-            error += "\n" + request.file + ": bake it first: espalier-bake " + request.file +
-                     " -o SURFACE.glb (tools/run does that)";
+    if (isUnbakedModel(request.file)) {
+        error = request.file + ": isn't baked yet: espalier-bake " + request.file +
+                " -o SURFACE.glb (tools/run does it for you)";
         return false;
     }
+    if (!fromContext(context, espLoadSurface(context, request.file.c_str(), nullptr, &out.surface), error))
+        return false;
     const char* standard = request.layers.empty() ? "ivy_free.grammar" : "ivy_guided.grammar";
     LoadedGrammar grammar;
     grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/" + standard : request.grammar;

@@ -1,0 +1,103 @@
+// What the capture tool and the window show of the sample scene: the same on every run, as the stored picture, and
+// without a message of the validation layer.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.hpp"
+
+namespace {
+
+nlohmann::json statsOf(const std::string& path) {
+    return nlohmann::json::parse(readAll(path));
+}
+
+std::string frame(const Folder& folder, const char* out) {
+    return folder.file(out) + "/frame_0000.png";
+}
+
+}  // namespace
+
+TEST_CASE("the sample scene is drawn as the golden shows, in every run, whatever the threads") {
+    const Folder folder;
+    const std::string capture = program("espalier-capture") + " " + content("sample.json") + " --size 640x360";
+    const Ran first =
+        run("env ESPALIER_VALIDATION=1 " + capture + " -o " + folder.file("a") + " --stats " + folder.file("a.json"));
+    REQUIRE_MESSAGE(first.code == 0, first.output);
+    const Ran second =
+        run("env LP_NUM_THREADS=1 " + capture + " -o " + folder.file("b") + " --stats " + folder.file("b.json"));
+    REQUIRE_MESSAGE(second.code == 0, second.output);
+    CHECK(readAll(frame(folder, "a")) == readAll(frame(folder, "b")));
+
+    const nlohmann::json a = statsOf(folder.file("a.json")), b = statsOf(folder.file("b.json"));
+    for (const char* key : {"seeds", "nodes", "branches", "leaves", "polygons", "hash"}) CHECK(a.at(key) == b.at(key));
+    CHECK(a.at("validation_messages") == 0);
+    CHECK(a.at("overflow") == 0);
+    CHECK(a.at("seeds") >= 10);
+    CHECK(a.at("nodes") > 10000);
+    CHECK(a.at("leaves") > 10000);
+    CHECK(a.at("hash").get<std::string>().size() == 16);
+    for (const char* key : {"expand", "emit", "draw"}) CHECK(a.at("ms").at(key) > 0);
+    CHECK(a.at("bytes").at("total") > 1000000);
+
+    const std::string golden = "tests/goldens/sample_640x360.png";
+    const char* update = std::getenv("ESPALIER_UPDATE_GOLDENS");
+    if (update && *update) {
+        std::filesystem::create_directories("tests/goldens");
+        std::filesystem::copy_file(frame(folder, "a"), golden, std::filesystem::copy_options::overwrite_existing);
+        MESSAGE("written anew: ", golden);
+    }
+    REQUIRE(std::filesystem::exists(golden));
+    std::filesystem::create_directories("out");
+    const Ran alike = run(program("espalier-compare") + " " + golden + " " + frame(folder, "a") +
+                          " --diff out/golden_difference.png");
+    CHECK_MESSAGE(alike.code == 0, alike.output, " see out/golden_difference.png");
+}
+
+TEST_CASE("another seed grows another plant, and a mask that is black grows none") {
+    const Folder folder;
+    const std::string capture = program("espalier-capture") + " " + content("ruin.surface.glb") + " --size 64x36 -o " +
+                                folder.file("out") + " --stats ";
+    REQUIRE(run(capture + folder.file("a.json") + " --seed 1").code == 0);
+    REQUIRE(run(capture + folder.file("b.json") + " --seed 2").code == 0);
+    REQUIRE(run(capture + folder.file("c.json") + " --seed 1").code == 0);
+    const nlohmann::json a = statsOf(folder.file("a.json")), b = statsOf(folder.file("b.json"));
+    CHECK(a.at("hash") != b.at("hash"));
+    CHECK(a.at("hash") == statsOf(folder.file("c.json")).at("hash"));
+    CHECK(a.at("nodes") > 1000);
+    if (run("convert -size 64x64 xc:black " + folder.file("black.png") + " && convert -size 64x64 xc:white " +
+            folder.file("white.png"))
+            .code != 0)
+        return;
+    REQUIRE(run(capture + folder.file("d.json") + " --layer mask=" + folder.file("black.png")).code == 0);
+    REQUIRE(run(capture + folder.file("e.json") + " --layer mask=" + folder.file("white.png")).code == 0);
+    CHECK(statsOf(folder.file("d.json")).at("leaves") == 0);
+    CHECK(statsOf(folder.file("e.json")).at("leaves") > 1000);
+}
+
+TEST_CASE("frames go around the target and keep their names") {
+    const Folder folder;
+    const Ran ran = run(program("espalier-capture") + " " + content("sample.json") + " --size 64x36 --frames 3 -o " +
+                        folder.file("out") + " --max-nodes 5000");
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    CHECK(folder.count() == 3);
+    CHECK(std::filesystem::exists(folder.file("out") + "/frame_0002.png"));
+    CHECK(readAll(folder.file("out") + "/frame_0000.png") != readAll(folder.file("out") + "/frame_0001.png"));
+}
+
+TEST_CASE("the window draws its frames without a word from the validation layer") {
+    if (run("command -v xvfb-run").code != 0) {
+        MESSAGE("xvfb-run isn't installed; skipped");
+        return;
+    }
+    const Folder folder;
+    const Ran ran =
+        run("xvfb-run -a -s '-screen 0 800x600x24' " + program("espalier-sample") + " " + content("sample.json") +
+            " --validation --frames 4 --size 640x400 --screenshot " + folder.file("window.png"));
+    CHECK_MESSAGE(ran.code == 0, ran.output);
+    CHECK(!contains(ran.output, "validation"));
+    CHECK(std::filesystem::file_size(folder.file("window.png")) > 20000);
+    const Ran without = run("env -u DISPLAY -u WAYLAND_DISPLAY " + program("espalier-sample"));
+    CHECK(without.code > 0);
+    CHECK(contains(without.output, "display"));
+}

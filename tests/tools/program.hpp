@@ -1,0 +1,70 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+// Running the built programs as a user does, through the shell.
+
+struct Ran {
+    int code = -1;       // exit code; -1: ended by a signal
+    std::string output;  // of stdout and stderr together
+};
+
+inline Ran run(const std::string& command) {
+    Ran ran;
+    FILE* pipe = popen(("( " + command + " ) 2>&1 </dev/null").c_str(), "r");
+    if (!pipe) return ran;
+    char piece[4096];
+    while (size_t got = std::fread(piece, 1, sizeof piece, pipe)) ran.output.append(piece, got);
+    const int status = pclose(pipe);
+    if (WIFEXITED(status) && WEXITSTATUS(status) < 128) ran.code = WEXITSTATUS(status);
+    return ran;
+}
+
+inline std::string program(const char* name) {
+    return std::string(ESPALIER_BIN) + "/" + name;
+}
+inline std::string content(const char* name) {
+    return std::string(ESPALIER_CONTENT) + "/" + name;
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+// A fresh empty folder, removed at the end.
+struct Folder {
+    std::filesystem::path path;
+    Folder() {
+        char name[] = "/tmp/espalier-test-XXXXXX";
+        path = mkdtemp(name);
+    }
+    Folder(const Folder&) = delete;
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    std::string file(const char* name) const { return (path / name).string(); }
+    std::string write(const char* name, const std::string& text) const {
+        std::ofstream(path / name, std::ios::binary) << text;
+        return file(name);
+    }
+    size_t count() const {
+        size_t files = 0;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) files += entry.is_regular_file();
+        return files;
+    }
+};
+
+inline std::string readAll(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}

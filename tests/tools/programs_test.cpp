@@ -1,0 +1,167 @@
+// The programs with what users get wrong: each ends with a message that names file and cause, a code that isn't 0,
+// and nothing half-written.
+#include <doctest/doctest.h>
+
+#include "tests/tools/program.hpp"
+
+namespace {
+
+// Fails as it should: not by a signal, with the message, and leaving nothing behind.
+void refuses(const std::string& command, const Folder& folder, std::initializer_list<const char*> parts) {
+    const size_t before = folder.count();
+    const Ran ran = run(command);
+    CAPTURE(command);
+    CAPTURE(ran.output);
+    CHECK(ran.code > 0);
+    for (const char* part : parts) CHECK_MESSAGE(contains(ran.output, part), part);
+    CHECK(folder.count() == before);
+}
+
+const char* kScene = R"({
+  "surface": "SURFACE",
+  "grammars": [{"file": "GRAMMAR", "seeds": [{"position": [0, 1, 0.4]}]}]
+})";
+
+std::string sceneOf(std::string surface, std::string grammar) {
+    std::string text = kScene;
+    text.replace(text.find("SURFACE"), 7, surface);
+    text.replace(text.find("GRAMMAR"), 7, grammar);
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("every program has a version and a help") {
+    for (const char* name : {"espalier-bake", "espalier-capture", "espalier-compare", "espalier-sample"}) {
+        CAPTURE(name);
+        const Ran version = run(program(name) + " --version");
+        CHECK(version.code == 0);
+        CHECK(contains(version.output, "0.1.0"));
+        const Ran help = run(program(name) + " --help");
+        CHECK(help.code == 0);
+        CHECK(help.output.size() > 200);
+        CHECK(run(program(name) + " --no-such-option").code > 0);
+    }
+    CHECK(run("tools/run --help").code == 0);
+    CHECK(run("tools/test --help").code == 0);
+    CHECK(run("tools/check --help").code == 0);
+    CHECK(run("tools/run --no-such-option").code > 0);
+    CHECK(run("tools/run no/such/model.glb").code > 0);
+}
+
+TEST_CASE("files that are missing, or aren't what they should be") {
+    const Folder folder;
+    const std::string out = " -o " + folder.file("frames"), capture = program("espalier-capture") + " ";
+    refuses(capture + folder.file("none.json") + out, folder, {"none.json", "No such file"});
+    refuses(capture + folder.file("none.glb") + out, folder, {"none.glb", "No such file"});
+    refuses(capture + folder.path.string() + out, folder, {folder.path.c_str(), "folder"});
+    refuses(capture + folder.write("text.glb", "not a model") + out, folder, {"text.glb"});
+    refuses(capture + folder.write("nothing.glb", "") + out, folder, {"nothing.glb"});
+    refuses(capture + content("ruin.glb") + out, folder, {"ruin.glb", "espalier-bake"});  // not baked
+    std::string half = readAll(content("ruin.surface.glb"));
+    half.resize(half.size() / 2);
+    refuses(capture + folder.write("half.glb", half) + out, folder, {"half.glb"});
+}
+
+TEST_CASE("scenes with mistakes tell the place of each") {
+    const Folder folder;
+    const std::string out = " -o " + folder.file("frames"), capture = program("espalier-capture") + " ";
+    refuses(capture + folder.write("a.json", "{\"surface\": ") + out, folder, {"a.json:1:"});
+    refuses(capture + folder.write("b.json", "[]") + out, folder, {"b.json:1:1", "object"});
+    refuses(capture + folder.write("c.json", "{\n \"surfaces\": \"x\",\n \"grammars\": []\n}") + out, folder,
+            {"c.json:2:", "'surfaces'", "'surface' is missing", "c.json:3:", "at least one"});
+    std::string text = sceneOf(content("ruin.surface.glb"), "none.grammar");
+    refuses(capture + folder.write("d.json", text) + out, folder, {"none.grammar", "No such file"});
+    text.replace(text.find("[0, 1, 0.4]"), 11, "[0, 1]");
+    refuses(capture + folder.write("e.json", text) + out, folder, {"e.json:3:", "three numbers"});
+    refuses(capture + folder.write("f.json", std::string(100000, '[')) + out, folder, {"f.json:1:"});
+    refuses(capture + folder.write("g.json", sceneOf("none.glb", "x")) + out, folder, {"none.glb"});
+    refuses(capture + folder.write("h.json", "{\"surface\": 1e999}") + out, folder, {"h.json:1:"});
+}
+
+TEST_CASE("grammars, layers and options with mistakes") {
+    const Folder folder;
+    const std::string capture =
+        program("espalier-capture") + " " + content("ruin.surface.glb") + " -o " + folder.file("frames") + " ";
+    refuses(capture + "--grammar " + folder.write("empty.grammar", ""), folder, {"empty.grammar"});
+    refuses(capture + "--grammar " + folder.write("bad.grammar", "Ivy -> Marching(1,\nStem -> }"), folder,
+            {"bad.grammar:2:"});
+    refuses(capture + "--layer mask=" + folder.file("none.png"), folder, {"none.png", "No such file"});
+    refuses(capture + "--layer mask=" + folder.write("text.png", "not a picture"), folder, {"text.png"});
+    refuses(capture + "--layer bark=" + content("mask.png"), folder, {"mask.png", "'bark'"});
+    refuses(capture + "--layer mask", folder, {"NAME=FILE"});
+    refuses(capture + "--size 0x10", folder, {"--size"});
+    refuses(capture + "--size 10", folder, {"--size"});
+    refuses(capture + "--view nothing", folder, {"--view"});
+    refuses(capture + "--camera 1,2,3", folder, {"--camera"});
+    refuses(capture + "--frames 0", folder, {"--frames"});
+    // A picture of a size that nobody can mean.
+    const Ran wide = run("convert -size 9000x1 xc:white " + folder.file("wide.png"));
+    if (wide.code == 0) refuses(capture + "--layer mask=" + folder.file("wide.png"), folder, {"wide.png", "9000 x 1"});
+}
+
+TEST_CASE("places that can't be written to") {
+    const Folder folder;
+    const std::string blocker = folder.write("blocker", "a file where a folder is wanted");
+    const std::string capture =
+        program("espalier-capture") + " " + content("sample.json") + " --size 32x16 --max-nodes 2000";
+    refuses(capture + " -o " + blocker + "/frames", folder, {"blocker"});
+    const Ran ran = run(capture + " -o " + folder.file("frames") + " --stats " + blocker + "/stats.json");
+    CHECK(ran.code > 0);
+    CHECK(contains(ran.output, "stats.json"));
+    refuses(program("espalier-bake") + " " + content("ruin.glb") + " -o " + blocker + "/x.glb", folder, {"blocker"});
+}
+
+TEST_CASE("no Vulkan device is a message") {
+    const Folder folder;
+    const std::string without = "env VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent ";
+    refuses(without + program("espalier-capture") + " " + content("sample.json") + " -o " + folder.file("frames"),
+            folder, {"Vulkan"});
+}
+
+TEST_CASE("a comparison says alike, not alike, or why it can't tell") {
+    const Folder folder;
+    const std::string compare = program("espalier-compare") + " ";
+    const Ran made = run("convert -size 100x100 xc:gray50 " + folder.file("a.png") + " && convert " +
+                         folder.file("a.png") + " -fill white -draw 'rectangle 0,0,9,9' " + folder.file("b.png") +
+                         " && convert -size 10x10 xc:gray50 " + folder.file("small.png"));
+    if (made.code != 0) {
+        MESSAGE("ImageMagick isn't installed; skipped");
+        return;
+    }
+    const std::string a = folder.file("a.png") + " ", b = folder.file("b.png") + " ";
+    CHECK(run(compare + a + a).code == 0);
+    CHECK(run(compare + a + b).code == 1);  // one in a hundred differs
+    CHECK(run(compare + a + b + "--share 0.98").code == 0);
+    CHECK(run(compare + a + b + "--tolerance 255").code == 0);
+    CHECK(run(compare + a + b + "--diff " + folder.file("diff.png")).code == 1);
+    CHECK(std::filesystem::exists(folder.file("diff.png")));
+    CHECK(run(compare + a + folder.file("small.png")).code == 1);
+    CHECK(run(compare + a + folder.file("none.png")).code == 2);
+}
+
+TEST_CASE("the library shows its interface and nothing else") {
+    const Ran symbols = run("nm -D --defined-only " + std::string(ESPALIER_LIBRARY));
+    REQUIRE(symbols.code == 0);
+    std::istringstream lines(symbols.output);
+    size_t count = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+        const std::string name = line.substr(line.rfind(' ') + 1);
+        CHECK_MESSAGE(name.rfind("esp", 0) == 0, name);
+    }
+    CHECK(count >= 30);
+}
+
+TEST_CASE("the runtime's folders include each other in one direction") {
+    const Ran good = run("tools/lib/check_includes");
+    CHECK_MESSAGE(good.code == 0, good.output);
+    // And the check finds what it is for.
+    const Folder folder;
+    std::filesystem::create_directories(folder.path / "runtime/core");
+    std::filesystem::create_directories(folder.path / "runtime/gpu");
+    std::filesystem::create_directories(folder.path / "runtime/grammar");
+    folder.write("runtime/core/a.cpp", "#include \"runtime/gpu/b.hpp\"\n");
+    const Ran bad = run("tools/lib/check_includes " + folder.path.string());
+    CHECK(bad.code == 1);
+    CHECK(contains(bad.output, "runtime/core/a.cpp:1:"));
+}
