@@ -48,9 +48,9 @@ FN PlacedLeaf placeLeaf(LoadedSpan s, LeafPose pose, uint hash, float extent) {
         // from leaf to leaf, which is what makes a canopy glitter.
         vec3 up = vec3(0.0f, 1.0f, 0.0f);
         vec3 down = n * n.y - up;
-        float droop = 0.75f + 0.35f * hashSigned(hash, 0u);
-        y = unit3(y + down * droop + n * (0.16f + 0.10f * hashSigned(hash, 1u)));
-        face = n + up * 0.45f + frame.along * (0.28f * hashSigned(hash, 2u)) + frame.side * (0.28f * hashSigned(hash, 3u));
+        float droop = 0.30f + 0.30f * hashSigned(hash, 0u);
+        y = unit3(y + down * droop + n * (0.14f + 0.14f * hashSigned(hash, 1u)));
+        face = n + up * 0.45f + frame.along * (0.38f * hashSigned(hash, 2u)) + frame.side * (0.38f * hashSigned(hash, 3u));
     }
     vec3 x = cross3(y, face);
     float x2 = dot3(x, x);
