@@ -19,8 +19,7 @@ struct Attempt {
     std::vector<Wave> waves;
 };
 
-void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const GrowthRoom& room,
-              const GrowthCut& cut) {
+void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const GrowthRoom& room, const GrowthCut& cut) {
     std::vector<WorkItem> queue[2];
     queue[0] = itemsOfSeeds(inputs.seeds);
     queue[0].resize(room.items);
@@ -49,9 +48,10 @@ void runTerminals(Attempt& a, ExpandEnv env) {
     GrowStatus& s = a.status;
     env.wave = uint32_t(a.waves.size()) - 1;
     if (!complete(env)) return;
-    std::vector<uint32_t> density(s.leafDensityCap > 0 ? kDensityCells : 1);
+    std::vector<uint32_t> density(kDensityCells + 3 * size_t(s.nodes));
     env.density = {density.data()};
     uvec2 hash(0, 0);
+    for (uint32_t i = 0; s.tangentMode != 0 && i < s.branches; ++i) sumJoint(env, i);
     for (uint32_t phase : {kTerminalsCount, kTerminalsWrite}) {
         if (phase == kTerminalsCount && s.leafDensityCap <= 0) continue;
         env.phase = phase;

@@ -34,6 +34,7 @@ class GpuGrowth final : public Growth {
     GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), room_(room) {}
 
     Status setUp();
+    Status loadWalk(WalkMode mode);
     Status grow(const GrowthInputs& inputs) override;
     GrowthView view() const override { return view_; }
     GrowthStats stats() const override { return stats_; }
@@ -47,10 +48,14 @@ class GpuGrowth final : public Growth {
     };
     Result<Outcome> attempt(const GrowthInputs& inputs, const GrowthCut& cut);
     Status makeRoom(const GrowthInputs& inputs);
+    uint64_t densityWords(const GrowthLimits& limits) const {
+        if (limits.tangents == TangentMode::paper) return kDensityCells + 3ull * room_.nodes;
+        return limits.leafDensityCap > 0 ? kDensityCells : 1;
+    }
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
     Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut);
-    Status record(Commands& commands, const ExpandEnv& env, uint32_t first, uint32_t last);
-    void recordTerminals(Commands& commands, ExpandEnv env);
+    Status record(Commands& commands, const ExpandEnv& env, uint32_t first, uint32_t last, const GrowthLimits& limits);
+    void recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits);
     ExpandEnv environment(const GrowthInputs& inputs);
     void publish(const GrowthInputs& inputs, const Outcome& outcome);
     uint64_t reserved() const;
@@ -88,6 +93,18 @@ Status GpuGrowth::setUp() {
     return Done{};
 }
 
+// The paper's walk is for comparison: its kernel is made when first asked for.
+Status GpuGrowth::loadWalk(WalkMode mode) {
+    Program& program = march_[uint32_t(mode)];
+    if (program) return Done{};
+    ProgramOptions options;
+    options.exact = true;
+    Result<Program> made = Program::compute(device_, "expand/march_paper.comp", options);
+    if (!made) return made.failure();
+    program = std::move(*made);
+    return Done{};
+}
+
 Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
     if (buffer && buffer.size() >= bytes) return Done{};
     buffer = {};
@@ -116,7 +133,7 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
                         {&grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)},
                         {&tables_, "growth tables", inputs.grammars.size() * sizeof(GrammarTables)},
                         {&packed_, "growth packed rules", packedWords(inputs.grammars) * 4},
-                        {&density_, "growth density", inputs.limits.leafDensityCap > 0 ? kDensityCells * 4ull : 4}};
+                        {&density_, "growth density", densityWords(inputs.limits) * 4}};
     for (const Row& row : rows) {
         Status ok = ensure(*row.buffer, row.name, row.bytes);
         if (!ok) return ok;
@@ -162,8 +179,9 @@ Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, c
 }
 
 // Waves [first, last), then the terminal passes, which do nothing should wave `last` not be empty.
-Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t first, uint32_t last) {
-    const Program& march = march_[0];
+Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t first, uint32_t last,
+                         const GrowthLimits& limits) {
+    const Program& march = march_[uint32_t(limits.walk)];
     {
         Pass pass(commands, "expand march");
         ExpandEnv env = base;
@@ -177,23 +195,28 @@ Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t fir
     }
     ExpandEnv env = base;
     env.wave = last;
-    recordTerminals(commands, env);
+    recordTerminals(commands, env, limits);
     commands.copy(status_, readback_, sizeof(GrowStatus));
     commands.copy(waves_, readback_, (last + 1) * sizeof(Wave), 0, sizeof(GrowStatus));
     commands.barrier(Use::transfer, Use::host);
     return Done{};
 }
 
-void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env) {
+void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits) {
     env.phase = kTerminalsWrite;
     constexpr uint64_t kNodes = offsetof(GrowStatus, nodeGroups), kBranches = offsetof(GrowStatus, branchGroups);
-    bool capped = density_.size() >= kDensityCells * 4ull;
-    if (capped) {
+    bool capped = limits.leafDensityCap > 0, joined = limits.tangents == TangentMode::paper;
+    if (capped || joined) {
         commands.fill(density_, 0);
         commands.barrier(Use::transfer, Use::compute);
     }
     {
         Pass pass(commands, "expand terminals");
+        if (joined) {
+            env.phase = kTerminalsJoints;
+            pass.dispatchIndirect(branchesFit_, status_, kBranches, env);
+            pass.barrier(Use::compute, Use::compute);
+        }
         if (capped) {
             env.phase = kTerminalsCount;
             pass.dispatchIndirect(terminals_, status_, kNodes, env);
@@ -227,7 +250,7 @@ Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const 
             if (!uploaded) return uploaded.failure();
         }
         env.phase = lastWave(cut);
-        Status recorded = record(*commands, env, first, last);
+        Status recorded = record(*commands, env, first, last, inputs.limits);
         if (!recorded) return recorded.failure();
         Status finished = commands->finish();
         if (!finished) return finished.failure();
@@ -298,6 +321,8 @@ Result<GrowthRecords> GpuGrowth::read() {
 Status GpuGrowth::grow(const GrowthInputs& inputs) {
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
+    Status walk = loadWalk(inputs.limits.walk);
+    if (!walk) return walk;
     room_.items = std::max(room_.items, uint32_t(inputs.seeds.size()));
     GrowthCut cut = noCut(inputs.limits);
     uint32_t overflow = 0;

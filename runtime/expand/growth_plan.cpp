@@ -78,6 +78,8 @@ TableSizes tableSizes(const RuleMapRef& map) {
 Status checkInputs(const GrowthInputs& inputs) {
     if (inputs.limits.maxDepth < 1 || inputs.limits.maxDepth > 65534)
         return Failure("growth", "maxDepth must be 1 to 65534, not " + std::to_string(inputs.limits.maxDepth));
+    if (uint32_t(inputs.limits.walk) > 1 || uint32_t(inputs.limits.tangents) > 1)
+        return Failure("growth", "there are two walks and two kinds of tangents");
     if (inputs.limits.maxNodes < 1) return Failure("growth", "maxNodes must be at least 1");
     if (!(inputs.limits.leafDensityCap >= 0) || !std::isfinite(inputs.limits.leafDensityCap))
         return Failure("growth", "the density cap must be a finite number of leaves, 0 or more");
@@ -164,7 +166,9 @@ GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const
     return s;
 }
 
-uint32_t lastWave(const GrowthCut& cut) { return cut.key > 0 || cut.wave == 0 ? cut.wave : cut.wave - 1; }
+uint32_t lastWave(const GrowthCut& cut) {
+    return cut.key > 0 || cut.wave == 0 ? cut.wave : cut.wave - 1;
+}
 
 Wave firstWave(uint32_t seeds, const GrowthRoom& room) {
     Wave wave{};

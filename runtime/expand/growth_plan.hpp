@@ -27,7 +27,7 @@ GrowthCut noCut(const GrowthLimits& limits);
 
 // Status and waves at the start of an attempt.
 GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const GrowthCut& cut);
-uint32_t lastWave(const GrowthCut& cut);   // ExpandEnv::phase of the march
+uint32_t lastWave(const GrowthCut& cut);  // ExpandEnv::phase of the march
 Wave firstWave(uint32_t seeds, const GrowthRoom& room);
 
 enum class Verdict { complete, retry, impossible };

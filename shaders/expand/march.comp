@@ -2,38 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
-// One wave of the queue. Chunks are unlike in length, and lanes run in lockstep: when half of a subgroup's lanes have
-// ended theirs, these are published and the lanes take further items.
+// The march over the intrinsic walk.
 #include "shaders/shared/extensions.glsl"
-#include "shaders/shared/expand_grow.h"
-
-layout(local_size_x = 32) in;
-layout(push_constant, scalar) uniform Push { ExpandEnv env; };
-
-void main() {
-    uint count = min(env.waves.v[env.wave].count, env.itemCapacity);
-    ChunkGrowth c;
-    c.g.phase = kPhaseEnded;
-    bool live = false;
-    bool more = true;
-    uint taken = 0u;
-    while (subgroupAny(live || more)) {
-        if (!live && more) {
-            uint i = atomicAdd(env.waves.v[env.wave].taken, 1u);
-            bool there = i < count;
-            if (there) live = beginChunk(env, env.items.v[i], c);
-            taken = taken + 1u;
-            more = there && taken < kMostTaken;
-        }
-        uint few = subgroupAny(more) ? gl_SubgroupSize / 2u : 0u;
-        uint busy = few + 1u;
-        while (busy > few) {
-            if (live && growing(c.g)) growOn(env, c);
-            busy = subgroupBallotBitCount(subgroupBallot(live && growing(c.g)));
-        }
-        if (live && !growing(c.g)) {
-            endChunk(env, c);
-            live = false;
-        }
-    }
-}
+#include "shaders/expand/march.glsl"

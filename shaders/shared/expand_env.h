@@ -13,6 +13,7 @@ CONST_UINT(kDensityCells, 1u << 18u);
 // ExpandEnv::phase of this pass.
 CONST_UINT(kTerminalsWrite, 0u);
 CONST_UINT(kTerminalsCount, 1u);   // only count leaves by cell, for the density cap
+CONST_UINT(kTerminalsJoints, 2u);  // only sum branches' directions at their joints, for the paper's tangents
 
 // Counters of one growth. Taken counts may exceed capacities: then nothing was written beyond them, and the host
 // grows again with more room.
@@ -68,7 +69,8 @@ struct ExpandEnv {
     UintBuf scratch;         // the CPU's stage for a chunk's nodes; kernels have one of their own
     GrowStatusBuf status;
     WaveBuf waves;
-    UintBuf density;         // [kDensityCells] leaves counted, when there is a cap
+    UintBuf density;         // [kDensityCells] leaves counted, when there is a cap; after them, for the paper's
+                             // tangents, [3 * node] directions of its branches in 2^-20
     uint wave;
     uint phase;              // of the terminal pass: see expand_terminals.h; in the march: the last wave that may be
                              // grown, pushes beyond it are refused

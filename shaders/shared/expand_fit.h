@@ -2,7 +2,7 @@
 // all nodes is summed.
 #ifndef ESPALIER_SHARED_EXPAND_FIT_H
 #define ESPALIER_SHARED_EXPAND_FIT_H
-#include "shaders/shared/exact.h"
+#include "shaders/shared/bezier.h"
 #include "shaders/shared/expand_env.h"
 
 ESPALIER_BEGIN
@@ -27,6 +27,18 @@ FN void fitBranch(ExpandEnv env, uint branch) {
         if (at == kNoIndex) break;
     }
     env.branches.v[branch].thickness = thickness;
+}
+
+// Adds the branch's first direction to its joint's sum: in whole numbers, so that the order doesn't matter.
+FN void sumJoint(ExpandEnv env, uint branch) {
+    uint joint = env.branches.v[branch].parentNode;
+    if (joint == kNoIndex) return;
+    uint first = env.chunks.v[env.branches.v[branch].firstChunk].firstNode;
+    vec3 d = segmentDirection(env.nodes.v[joint].position, env.nodes.v[first].position) * 1048576.0f;
+    uint at = kDensityCells + 3u * joint;
+    atomicAdd(env.density.v[at], uint(int(d.x)));
+    atomicAdd(env.density.v[at + 1u], uint(int(d.y)));
+    atomicAdd(env.density.v[at + 2u], uint(int(d.z)));
 }
 
 // Scales the node's radius and returns its hash: of everything but where things lie in the buffers.

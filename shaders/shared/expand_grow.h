@@ -6,8 +6,46 @@
 #ifndef ESPALIER_SHARED_EXPAND_GROW_H
 #define ESPALIER_SHARED_EXPAND_GROW_H
 #include "shaders/shared/expand_scope.h"
+#include "shaders/shared/paper_walk.h"
 
 ESPALIER_BEGIN
+
+// Which walk: a kernel has one, chosen by ESPALIER_PAPER_WALK; the CPU has both.
+#ifdef __cplusplus
+#define PAPER_WALK(env) (env.status.v[0].walkMode != 0u)
+#elif defined(ESPALIER_PAPER_WALK)
+#define PAPER_WALK(env) true
+#else
+#define PAPER_WALK(env) false
+#endif
+
+// A seed's direction is in object space, a later chunk's is what the walk left.
+FN bool enterWalk(ExpandEnv env, uint level, Walk walk, bool seed, OUT(WalkState) w) {
+    if (PAPER_WALK(env)) {
+        if (!seed) return resumePaperWalk(env.surfaces, level, walk, w);
+        bool stands = startPaperWalk(env.surfaces, level, walk.place, walk.uv, walk.direction, w);
+        w.walk.arc = walk.arc;
+        return stands;
+    }
+    return resumeWalk(env.surfaces, level, walk, w);
+}
+FN void turnWalk(ExpandEnv env, INOUT(WalkState) w, float angle) {
+    if (PAPER_WALK(env)) {
+        rotatePaperHeading(w, angle);
+    } else {
+        rotateHeading(w, angle);
+    }
+}
+FN uint advanceWalk(ExpandEnv env, uint level, INOUT(WalkState) w, INOUT(float) remaining, OUT(vec3) normal) {
+    uint event;
+    if (PAPER_WALK(env)) {
+        event = paperAdvance(env.surfaces, level, w, remaining, normal);
+    } else {
+        event = walkAdvance(env.surfaces, level, w, remaining, normal);
+    }
+    return event;
+}
+FN vec3 headingOf(ExpandEnv env, WalkState w) { return PAPER_WALK(env) ? paperHeading3(w) : w.walk.direction; }
 
 CONST_UINT(kDetours, 10u);                 // directions tried over the semicircle when the heading fails (§8)
 CONST_FLOAT(kDetourAngle, 0.314159265f);   // between two of them on one side: the last ones go across the heading
@@ -116,11 +154,11 @@ FN vec4 readArgs(MACHINE_PARAM UintBuf successors, uint at, uint head) {
 }
 FN u64 successorKey(u64 key, uint head, uint nameHash) { return childKey(key, nameHash, (head >> 16u) & 255u); }
 
-FN Place placeOf(WalkState w) {
+FN Place placeOf(ExpandEnv env, WalkState w) {
     Place p;
     p.position = w.position;
     p.normal = w.normal;
-    p.heading = w.walk.direction;
+    p.heading = headingOf(env, w);
     p.uv = w.walk.uv;
     p.instance = w.walk.place >> 16u;
     p.level = w.level;
@@ -247,7 +285,7 @@ FN void stageNode(ExpandEnv env, GrowthSite site, WalkState w, vec3 normal, uint
     STAGED(at + 1u) = floatBitsToUint(w.position.y);
     STAGED(at + 2u) = floatBitsToUint(w.position.z);
     STAGED(at + 3u) = packOct(normal);
-    STAGED(at + 4u) = packOct(w.walk.direction);
+    STAGED(at + 4u) = packOct(headingOf(env, w));
     STAGED(at + 5u) = packUv(w.walk.uv);
     STAGED(at + 6u) = w.walk.place;
     STAGED(at + 7u) = 0u;
@@ -271,10 +309,10 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
         g.pending = 0u;
         g.lastArc = g.at.walk.arc;
         g.fresh = false;
-        rotateHeading(g.trial, attemptAngle(g));
+        turnWalk(env, g.trial, attemptAngle(g));
     }
     vec3 normal;
-    uint event = walkAdvance(env.surfaces, site.level, g.trial, g.remaining, normal);
+    uint event = advanceWalk(env, site.level, g.trial, g.remaining, normal);
     bool goesOn = walkGoesOn(event);
     bool arrived = event == kWalkDone;
     g.arrived = arrived;
@@ -512,7 +550,7 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
     c.site.stepBase = item.step & 0xFFFFFFu;
     c.site.minStep = 0.25f * texel;
     c.frame = frameOf(env.surfaces, walk.place >> 16u, c.site.inputs);
-    bool stands = resumeWalk(env.surfaces, c.site.level, walk, c.g.at) && exists;
+    bool stands = enterWalk(env, c.site.level, walk, item.parent == kNoIndex, c.g.at) && exists;
     c.g.trial = c.g.at;
     resetMachine(MACHINE_ONLY);
     if (!stands) {
@@ -532,7 +570,7 @@ FN void growOn(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
     if (here && !c.g.placed) {
         uint instance = c.g.trial.walk.place >> 16u;
         if (instance != c.frame.instance) c.frame = frameOf(env.surfaces, instance, c.site.inputs);
-        giveInputs(MACHINE env, c.frame, c.g.grammar, c.site.inputs, c.site.layers, placeOf(c.g.trial), c.site.depth,
+        giveInputs(MACHINE env, c.frame, c.g.grammar, c.site.inputs, c.site.layers, placeOf(env, c.g.trial), c.site.depth,
                    c.site.stepBase + c.g.steps + (c.g.arrived ? 1u : 0u), c.g.trial.walk.arc, c.g.reads);
         c.g.placed = true;
     }

@@ -236,7 +236,14 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
     if (env.phase == kTerminalsWrite) {
         vec3 normal = unpackOct(node.normal);
         vec3 heading = unpackOct(node.tangent);
-        env.nodes.v[index].tangent = packOct(stemTangent(before, node.position, after, normal, heading));
+        vec3 sum = segmentDirection(before, node.position) + segmentDirection(node.position, after);
+        if (env.status.v[0].tangentMode != 0u) {
+            // The paper's average is over all adjacent segments, the branches' too.
+            uint at = kDensityCells + 3u * index;
+            sum = sum + vec3(float(int(env.density.v[at])), float(int(env.density.v[at + 1u])),
+                             float(int(env.density.v[at + 2u]))) * 9.53674316e-7f;
+        }
+        env.nodes.v[index].tangent = packOct(tangentFromSum(sum, normal, heading));
         env.nodes.v[index].radius = radius;
         env.nodes.v[index].flags = (node.flags & 0x7C003FFFu) | barkFlags | (site.tip ? kNodeTip : 0u);
     }

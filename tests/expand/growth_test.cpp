@@ -250,6 +250,30 @@ TEST_CASE("endless recursion ends at the limits, reported") {
     checkSound(*records);
 }
 
+TEST_CASE("the paper's walk and the paper's tangents are modes") {
+    TestDevice gpu;
+    auto growth = gpu.growth();
+    Scene scene = Scene::baked(ball());
+    scene.addGrammar(kBranching);
+    scene.plantMany(6);
+    mustGrow(scene, gpu, *growth);
+    uint64_t ours = growth->stats().hash;
+    scene.limits.tangents = TangentMode::paper;
+    mustGrow(scene, gpu, *growth);
+    CHECK(growth->stats().hash != ours);
+    checkAlike(scene, *growth);
+    scene.limits.walk = WalkMode::paper;
+    mustGrow(scene, gpu, *growth);
+    CHECK(growth->stats().nodes > 100);
+    checkAlike(scene, *growth);
+    Result<GrowthRecords> records = growth->read();
+    REQUIRE(records);
+    checkSound(*records);
+    scene.limits = {};
+    mustGrow(scene, gpu, *growth);
+    CHECK(growth->stats().hash == ours);
+}
+
 TEST_CASE("the density cap thins leaves, alike in every run") {
     TestDevice gpu;
     auto growth = gpu.growth();

@@ -1,0 +1,8 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_ballot : require
+// The march over the walk as the paper prints it.
+#define ESPALIER_PAPER_WALK
+#include "shaders/shared/extensions.glsl"
+#include "shaders/expand/march.glsl"
