@@ -9,12 +9,22 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Data { TrianglesPush push; };
 
-// Opposite vertices share all but signs.
+// Snorm bits of both numbers, rounded; the bias that makes them positive falls away.
+uint snormBits(vec2 p) {
+    uvec2 q = uvec2(p * 32767.0 + 65536.5);
+    return (q.x & 0xFFFFu) | (q.y << 16u);
+}
+
+// Two opposite vertices. Exactly one of n and -n lies on the folded half of the octahedron, and the fold is odd:
+// one projection and one fold serve both.
 void writePair(U64Buf ring, uint side, vec3 center, vec3 n, float radius) {
     float k = 1.0 / (abs(n.x) + abs(n.y) + abs(n.z));
+    vec2 p = n.xy * k;
+    vec2 folded = vec2(p.x < 0.0 ? abs(p.y) - 1.0 : 1.0 - abs(p.y), p.y < 0.0 ? abs(p.x) - 1.0 : 1.0 - abs(p.x));
+    bool below = n.z < 0.0;
     vec3 arm = n * radius;
-    writeVertex(ring, side, center + arm, octahedralScaled(n, k));
-    writeVertex(ring, side + 6u, center - arm, octahedralScaled(-n, k));
+    writeVertex(ring, side, center + arm, snormBits(below ? folded : p));
+    writeVertex(ring, side + 6u, center - arm, snormBits(below ? -p : -folded));
 }
 
 void main() {
