@@ -67,6 +67,24 @@ void dropUploaded(SurfaceData& data) {
     data.levels[0].crossingRefs = {};
 }
 
+// For picking and planting: only triangles that can be walked. The bake leaves the others at walk UV (0, 0).
+void prepareSearch(PlacedSurface& surface) {
+    SurfaceData& data = surface.data;
+    std::vector<uint32_t> walkable;
+    walkable.reserve(data.indices.size());
+    for (size_t i = 0; i + 2 < data.indices.size(); i += 3) {
+        const auto uv = [&](size_t k) { return data.vertices[data.indices[i + k]].walkUv; };
+        if (uv(0) == uv(1) && uv(1) == uv(2)) continue;
+        walkable.insert(walkable.end(), data.indices.begin() + std::ptrdiff_t(i),
+                        data.indices.begin() + std::ptrdiff_t(i) + 3);
+    }
+    data.indices = std::move(walkable);
+    std::vector<glm::vec3> positions;
+    positions.reserve(data.vertices.size());
+    for (const DrawVertex& vertex : data.vertices) positions.push_back(vertex.position);
+    surface.tree = MeshTree(positions, data.indices);
+}
+
 EspResult load(EspContext& context, const char* path, const EspTransform& place, EspSurface* out) {
     const glm::mat4 toWorld = matrixOf(place);
     const std::optional<float> scale = evenScale(toWorld);
@@ -86,10 +104,6 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     surface.scale = *scale;
     surface.data = std::move(*data);
     surface.info = describe(surface.data, toWorld);
-    std::vector<glm::vec3> positions;
-    positions.reserve(surface.data.vertices.size());
-    for (const DrawVertex& vertex : surface.data.vertices) positions.push_back(vertex.position);
-    surface.tree = MeshTree(positions, surface.data.indices);
     Result<GpuSurface> gpu = GpuSurface::create(*context.device, surface.data);
     if (!gpu) return failGpu(&context, gpu.failure());
     surface.gpu = std::move(*gpu);
@@ -104,6 +118,7 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
         return failGpu(&context, drawn.failure());
     }
     dropUploaded(placed.data);
+    prepareSearch(placed);
     context.tablesStale = true;
     ++context.revision;
     out->id = id;

@@ -140,6 +140,12 @@ TEST_CASE("a comparison says alike, not alike, or why it can't tell") {
     CHECK(run(compare + a + folder.file("none.png")).code == 2);
 }
 
+TEST_CASE("the program in docs/embedding.md is the one that is compiled and run") {
+    const std::string program = readAll("tests/plugin/embedding_example.c");
+    REQUIRE(program.size() > 500);
+    CHECK(contains(readAll("docs/embedding.md"), "```c\n" + program + "```"));
+}
+
 TEST_CASE("the library shows its interface and nothing else") {
     const Ran symbols = run("nm -D --defined-only " + std::string(ESPALIER_LIBRARY));
     REQUIRE(symbols.code == 0);
