@@ -23,8 +23,8 @@ enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, l
 struct Look {
     glm::vec3 sunDirection{0.45f, 0.62f, 0.64f};  // towards the sun
     glm::vec3 sunColor{2.9f, 2.5f, 1.95f};
-    glm::vec3 skyColor{0.50f, 0.63f, 0.84f};
-    glm::vec3 groundColor{0.27f, 0.23f, 0.17f};
+    glm::vec3 skyColor{0.60f, 0.74f, 0.96f};
+    glm::vec3 groundColor{0.32f, 0.28f, 0.21f};
     float exposure = 0;                         // stops
     glm::vec3 background{0.17f, 0.36f, 0.72f};  // at the zenith
     glm::vec3 horizon{0.66f, 0.77f, 0.88f};

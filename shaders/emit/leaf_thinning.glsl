@@ -3,7 +3,7 @@
 #define ESPALIER_EMIT_LEAF_THINNING_GLSL
 #include "shaders/emit/leaf_place.h"
 
-const float kWholePixels = 5.0;    // leaves of at least this many pixels are all drawn
+const float kWholePixels = 8.0;    // leaves of at least this many pixels are all drawn
 const float kLeastShare = 0.12;
 
 float leafShare(float sizePixels) {

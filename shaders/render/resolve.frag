@@ -17,5 +17,8 @@ void main() {
     vec3 x = c.rgb * c.rgb * (1.0 - c.a * (1.0 - open));
     if (push.encode != 0u)
         x = mix(x * 12.92, 1.055 * pow(max(x, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, greaterThan(x, vec3(0.0031308)));
-    color = vec4(x, 1.0);
+    // Half a step of noise, the same on every run, so that the sky shows no bands.
+    uint h = (uint(at.x) * 0x9E3779B1u) ^ (uint(at.y) * 0x85EBCA77u);
+    h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
+    color = vec4(x + (float(h >> 24u) * (1.0 / 255.0) - 0.5) * (1.0 / 255.0), 1.0);
 }

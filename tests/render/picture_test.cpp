@@ -108,6 +108,8 @@ TEST_CASE("ivy on a wall") {
         std::cout << std::endl;
         Result<std::vector<uint8_t>> pixels = (*renderer)->readPixels();
         REQUIRE(pixels);
+        CHECK(stats.drawMs > 0);
+        CHECK(stats.emit.drawnTriangles < stats.emit.fullTriangles);
         save(shot.name, *pixels, target.width, target.height);
     }
     for (const std::string& text : (*device)->validationTexts()) MESSAGE(text);
