@@ -106,7 +106,7 @@ std::vector<Node> nodesOfBranch(const GrowthRecords& g, uint32_t branch) {
     std::vector<Node> nodes;
     for (uint32_t c = g.branches[branch].firstChunk; c != kNoIndex; c = g.chunks[c].next) {
         const Chunk& chunk = g.chunks[c];
-        for (uint32_t i = 0; i < chunk.nodeCount; ++i) nodes.push_back(g.nodes[chunk.firstNode + i]);
+        for (uint32_t i = 0; i < chunkNodes(chunk.marks); ++i) nodes.push_back(g.nodes[chunk.firstNode + i]);
     }
     return nodes;
 }

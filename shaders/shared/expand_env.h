@@ -125,7 +125,6 @@ FN uvec2 hashVec3(uvec2 h, vec3 v) {
     return hashWord(hashWord(hashWord(h, floatBitsToUint(v.x)), floatBitsToUint(v.y)), floatBitsToUint(v.z));
 }
 FN uvec2 hashKey(u64 key) { return uvec2(uint(key), uint(key >> 32)); }
-FN u64 joined(uvec2 h) { return u64(h.x) | (u64(h.y) << 32); }
 
 // Groups that items [first, first + count) add to a dispatch over all items so far.
 FN uint groupsAdded(uint first, uint count) {

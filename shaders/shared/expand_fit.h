@@ -16,24 +16,25 @@ FN void fitBranch(ExpandEnv env, uint branch) {
     float thickness = 1.0f;
     uint at = branch;
     for (uint i = 0u; i < kMaxForebears; ++i) {
-        uint joint = env.branches.v[at].parentNode;
+        uint chunk = env.branches.v[at].firstChunk;
+        uint joint = env.chunks.v[chunk].previousNode;
         if (joint == kNoIndex) break;
-        uint first = env.chunks.v[env.branches.v[at].firstChunk].firstNode;
+        uint first = env.chunks.v[chunk].firstNode;
         float mine = env.nodes.v[first].radius;
         float parents = env.nodes.v[joint].radius;
         if (mine > 0.0f && parents > 0.0f) product = product * divExact(parents, mine);
         thickness = smaller(thickness, product);
-        at = env.branches.v[at].parentBranch;
-        if (at == kNoIndex) break;
+        at = env.chunks.v[env.nodes.v[joint].chunk].branch;
     }
     env.branches.v[branch].thickness = thickness;
 }
 
 // Adds the branch's first direction to its joint's sum: in whole numbers, so that the order doesn't matter.
 FN void sumJoint(ExpandEnv env, uint branch) {
-    uint joint = env.branches.v[branch].parentNode;
+    uint chunk = env.branches.v[branch].firstChunk;
+    uint joint = env.chunks.v[chunk].previousNode;
     if (joint == kNoIndex) return;
-    uint first = env.chunks.v[env.branches.v[branch].firstChunk].firstNode;
+    uint first = env.chunks.v[chunk].firstNode;
     vec3 d = segmentDirection(env.nodes.v[joint].position, env.nodes.v[first].position) * 1048576.0f;
     uint at = kDensityCells + 3u * joint;
     atomicAdd(env.density.v[at], uint(int(d.x)));

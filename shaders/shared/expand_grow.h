@@ -415,7 +415,7 @@ FN uint publishNodes(ExpandEnv env, uint count) {
 }
 
 // The branch's record: begun by its first chunk that has nodes, its length renewed by every one.
-FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, uint previousNode, float length) {
+FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, float length) {
     uint branch = item.branch;
     bool begins = branch == kNoIndex;
     if (begins) {
@@ -425,13 +425,9 @@ FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, uint previo
     }
     if (branch >= env.status.v[0].branchCapacity) return branch;
     if (begins) {
-        bool known = previousNode < env.status.v[0].nodeCapacity;   // kNoIndex is not
-        uint parentBranch = known ? env.chunks.v[env.nodes.v[known ? previousNode : 0u].chunk].branch : kNoIndex;
         env.branches.v[branch].thickness = 1.0f;
         env.branches.v[branch].firstChunk = site.chunk;
-        env.branches.v[branch].parentNode = previousNode;
-        env.branches.v[branch].parentBranch = parentBranch;
-        env.branches.v[branch].depthSeed = (site.depth << 16u) | (item.seed & 0xFFFFu);
+        env.branches.v[branch].seed = item.seed;
     } else {
         env.chunks.v[item.parent].next = site.chunk;
     }
@@ -443,12 +439,13 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, Grower g, ui
     float length = g.at.walk.arc;
     uint branch = item.branch;
     uint first = publishNodes(env, g.count);
-    if (g.count > 0u || branch != kNoIndex) branch = publishBranch(env, item, site, previousNode, length);
+    if (g.count > 0u || branch != kNoIndex) branch = publishBranch(env, item, site, length);
 
     Chunk c;
     c.key = item.key;
     uvec2 h = hashVec3(g.hash, g.at.walk.direction);
-    c.exitHash = joined(hashWord(hashWord(h, uint(g.key)), uint(g.key >> 32)));
+    h = hashWord(hashWord(h, uint(g.key)), uint(g.key >> 32));
+    c.exitHash = h.x ^ h.y;
     c.entry = item.walk;
     c.symbol = item.symbol;
     c.args[0] = item.args[0];
@@ -460,12 +457,11 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, Grower g, ui
     c.next = kNoIndex;
     c.branch = branch;
     c.firstNode = first;
-    c.nodeCount = g.count;
     c.depth = item.depth;
     c.step = item.step;
     uint flags = kChunkPublished | (g.reads.all ? kChunkReadsAll : 0u) | (goesOn ? 0u : kChunkEndsBranch);
     flags = flags | (g.phase == kPhaseDead ? kChunkDeadEnd : 0u) | (g.phase == kPhaseStopped ? kChunkStopped : 0u);
-    c.marks = (g.reads.layers << 16u) | flags;
+    c.marks = (g.reads.layers << 16u) | (g.count << 8u) | flags;
     c.paramMask = g.reads.params;
     c.readTiles[0] = g.reads.tile0;
     c.readTiles[1] = g.reads.tile1;

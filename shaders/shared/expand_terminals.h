@@ -162,7 +162,7 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
     Node node = env.nodes.v[index];
     uint chunk = node.chunk;
     uint firstNode = env.chunks.v[chunk].firstNode;
-    uint nodeCount = env.chunks.v[chunk].nodeCount;
+    uint nodeCount = chunkNodes(env.chunks.v[chunk].marks);
     uint previous = env.chunks.v[chunk].previousNode;
     uint branch = env.chunks.v[chunk].branch;
     uint next = env.chunks.v[chunk].next;
@@ -172,7 +172,7 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
 
     // Neighbours along the stem.
     bool last = local + 1u >= nodeCount;
-    uint follower = last ? (next != kNoIndex && env.chunks.v[next].nodeCount > 0u ? env.chunks.v[next].firstNode : kNoIndex)
+    uint follower = last ? (next != kNoIndex && chunkNodes(env.chunks.v[next].marks) > 0u ? env.chunks.v[next].firstNode : kNoIndex)
                          : index + 1u;
     uint leader = local > 0u ? index - 1u : previous;
     vec3 before = env.nodes.v[leader == kNoIndex ? index : leader].position;
@@ -183,7 +183,7 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
     site.chunk = chunk;
     site.foot = leader == kNoIndex;
     site.tip = follower == kNoIndex;
-    site.seed = env.branches.v[branch].depthSeed & 0xFFFFu;
+    site.seed = env.branches.v[branch].seed;
     site.hash = uvec2(0u, 0u);
     site.after = node.arc;
     site.before = local > 0u ? env.nodes.v[index - 1u].arc : entryArc;
@@ -227,7 +227,7 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
         SLOT(kSlotCount) = 0.0f;
         WorldFrame frame = frameOf(env.surfaces, place.instance, inputs);
         giveInputs(MACHINE env, frame, grammar, inputs, extrudes.v[site.extrude].layers, place,
-                   env.branches.v[branch].depthSeed >> 16u, step, node.arc, reads);
+                   env.chunks.v[chunk].depth & 0xFFFFu, step, node.arc, reads);
         uint cell = 0u;
         if (env.status.v[0].leafDensityCap > 0.0f) cell = densityCell(env, site.seed, node.place, place.uv);
         radius = runTerminals(MACHINE env, map, first, first + extrudes.v[site.extrude].terminalCount, site, cell, barkFlags);

@@ -79,18 +79,17 @@ struct Node {
 };
 STATIC_SIZE(Node, 44);
 
-// 24 bytes; only branches of at least one node have one. extent is final when the branch has ended.
+// 16 bytes; only branches of at least one node have one. extent is final when the branch has ended. Its key, depth
+// and joint are its first chunk's.
 struct BranchRecord {
     float extent;        // length in metres
     float thickness;     // factor of its radii, so that it is no thicker than its parent at the joint
-    uint firstChunk;     // its key is the branch's key
-    uint parentNode;     // kNoIndex for a seed's
-    uint parentBranch;   // kNoIndex for a seed's
-    uint depthSeed;      // bits 31..16 branches from the seed, 15..0 index of the seed, modulo 65536
+    uint firstChunk;
+    uint seed;           // index of the seed that it comes from
 };
-STATIC_SIZE(BranchRecord, 24);
+STATIC_SIZE(BranchRecord, 16);
 
-// Chunk::marks: bits 31..16 layers that were read, 15..0 flags
+// Chunk::marks: bits 31..16 layers that were read, 15..8 number of nodes, 7..0 flags
 CONST_UINT(kChunkPublished, 1u);
 CONST_UINT(kChunkReadsAll, 2u);     // more tiles than readTiles holds
 CONST_UINT(kChunkEndsBranch, 4u);
@@ -98,11 +97,11 @@ CONST_UINT(kChunkStopped, 8u);      // a derivation or recursion limit ended it 
 CONST_UINT(kChunkDeadEnd, 16u);     // no direction that its condition allows
 CONST_UINT(kReadTiles, 4u);
 
-// 120 bytes. A chunk may be without nodes: its first step failed, and what it read says when to try again.
+// 112 bytes. A chunk may be without nodes: its first step failed, and what it read says when to try again.
 struct Chunk {
     u64 key;             // of its entry
-    u64 exitHash;        // of exit state, children and nodes
     Walk entry;
+    uint exitHash;       // of exit state, children and nodes
     uint symbol;         // as WorkItem::symbol
     float args[4];
     uint parent;         // chunk, kNoIndex for a seed's first
@@ -110,14 +109,14 @@ struct Chunk {
     uint next;           // the chunk that carries the branch on, kNoIndex
     uint branch;         // kNoIndex if it is without nodes and begins its branch
     uint firstNode;
-    uint nodeCount;
     uint depth;          // as WorkItem::depth
     uint step;           // as WorkItem::step
     uint marks;
     uint paramMask;      // parameters of its grammar that it read (bit 31: any from 31 on)
     uint readTiles[4];   // bits 31..24 surface instance, 23..16 layer, 15..8 tile y, 7..0 tile x; kNoIndex: unused
 };
-STATIC_SIZE(Chunk, 120);
+STATIC_SIZE(Chunk, 112);
+FN uint chunkNodes(uint marks) { return (marks >> 8u) & 255u; }
 
 // A leaf or a loose terminal, 16 bytes, on the span that ends at `node`.
 // place, pose and tint are packed and unpacked by leaf_pose.h.
