@@ -33,6 +33,7 @@ void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const Growt
         env.wave = w;
         env.nextItems = {queue[(w + 1) & 1].data()};
         uint32_t count = std::min(a.waves[w].count, room.items);
+        if (a.waves[w].count > count) atomicMax(a.status.items, a.waves[w].count);
         for (uint32_t i = 0; i < count; ++i) {
             Machine machine;
             ChunkGrowth c;

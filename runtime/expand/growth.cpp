@@ -161,7 +161,7 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs) {
 
 Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut) {
     std::vector<GrowStatus> status{freshStatus(inputs.limits, room_, cut)};
-    std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0});
+    std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
     wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     std::vector<GrammarTables> tables = placeTables(inputs, reinterpret_cast<uint32_t*>(packed_.address()));

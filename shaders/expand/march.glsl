@@ -6,7 +6,9 @@ layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 void main() {
-    uint count = min(env.waves.v[env.wave].count, env.itemCapacity);
+    uint wanted = env.waves.v[env.wave].count;
+    uint count = min(wanted, env.itemCapacity);
+    if (wanted > count) atomicMax(env.status.v[0].items, wanted);
     ChunkGrowth c;
     c.g.phase = kPhaseEnded;
     bool live = false;

@@ -40,8 +40,9 @@ struct Wave {
     uint groups[3];
     uint nodes, chunks;      // what it grew
     uint taken;              // items that invocations have asked for
+    uint announced;          // items that ended chunks have pushed
 };
-STATIC_SIZE(Wave, 28);
+STATIC_SIZE(Wave, 32);
 BUFFER(WaveBuf, Wave)
 
 // A grammar's packed tables (expand_tables.h), what growth by it asks of places, and its width.
@@ -126,9 +127,9 @@ FN uvec2 hashVec3(uvec2 h, vec3 v) {
 }
 FN uvec2 hashKey(u64 key) { return uvec2(uint(key), uint(key >> 32)); }
 
-// Groups that items [first, first + count) add to a dispatch over all items so far.
-FN uint groupsAdded(uint first, uint count) {
-    return (first + count + kExpandGroup - 1u) / kExpandGroup - (first + kExpandGroup - 1u) / kExpandGroup;
+// Groups of `each` that items [first, first + count) add to a dispatch over all items so far.
+FN uint groupsAdded(uint first, uint count, uint each) {
+    return (first + count + each - 1u) / each - (first + each - 1u) / each;
 }
 
 ESPALIER_END

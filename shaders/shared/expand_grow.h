@@ -103,6 +103,7 @@ struct Grower {
     uint steps;
     uint inserted;
     uint trips;
+    uint pushed, refused;   // items
     ReadSet reads;
     uvec2 hash;          // of all that the chunk leaves
 };
@@ -200,19 +201,17 @@ FN void stageLinks(ExpandEnv env, uint origin, uint branch, uint depth, uint ste
     ITEM_WORD(19) = step;
 }
 
-// Puts the staged item into the next wave's queue, if `push`; beyond its capacity only the count grows.
-FN void pushStaged(ExpandEnv env, bool wanted) {
-    uint at = kNoIndex;
+// Puts the staged item into the next wave's queue, if it is wanted; beyond its capacity only the count grows. There is
+// one atomic here, since on a software device masked ones cost their full price: the rest is counted at the chunk's end.
+FN void pushStaged(ExpandEnv env, bool wanted, INOUT(Grower) g) {
     bool push = wanted && env.wave < env.phase;
-    if (wanted && !push) atomicAdd(env.status.v[0].stopped, 1u);
+    uint at = kNoIndex;
     if (push) at = atomicAdd(env.waves.v[env.wave + 1u].count, 1u);
-    bool fits = push && at < env.itemCapacity;
-    if (push && !fits) atomicMax(env.status.v[0].items, at + 1u);
-    if (fits && at % kItemsPerGroup == 0u) {
-        atomicAdd(env.waves.v[env.wave + 1u].groups[0], 1u);
-    }
+    g.pushed = g.pushed + (push ? 1u : 0u);
+    g.refused = g.refused + (wanted && !push ? 1u : 0u);
     UintBuf words = wordsOfItems(env.nextItems);
-    for (uint i = 0u; i < (fits ? kItemWords : 0u); ++i) words.v[at * kItemWords + i] = ITEM_WORD(i);
+    uint count = at < env.itemCapacity ? kItemWords : 0u;
+    for (uint i = 0u; i < count; ++i) words.v[at * kItemWords + i] = ITEM_WORD(i);
 }
 
 // Finds the shape's rule and applies it: a List at once (its branches are queued, what it continues with waits for
@@ -274,7 +273,7 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, GrowTables map, GrowthSite site,
             g.args = args;
             g.phase = kPhaseDerive;
         }
-        pushStaged(env, branches);
+        pushStaged(env, branches, g);
     }
 }
 
@@ -406,7 +405,7 @@ FN uint publishNodes(ExpandEnv env, uint count) {
     bool fits = first + count <= env.status.v[0].nodeCapacity;
     if (count > 0u) {
         atomicAdd(env.waves.v[env.wave].nodes, count);
-        uint added = groupsAdded(first, count);
+        uint added = groupsAdded(first, count, kExpandGroup);
         if (fits && added > 0u) atomicAdd(env.status.v[0].nodeGroups[0], added);
     }
     UintBuf words = wordsOfNodes(env.nodes);
@@ -420,7 +419,7 @@ FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, float lengt
     bool begins = branch == kNoIndex;
     if (begins) {
         branch = atomicAdd(env.status.v[0].branches, 1u);
-        uint added = groupsAdded(branch, 1u);
+        uint added = groupsAdded(branch, 1u, kExpandGroup);
         if (added > 0u && branch < env.status.v[0].branchCapacity) atomicAdd(env.status.v[0].branchGroups[0], added);
     }
     if (branch >= env.status.v[0].branchCapacity) return branch;
@@ -435,7 +434,7 @@ FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, float lengt
     return branch;
 }
 
-FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, Grower g, uint previousNode, bool goesOn) {
+FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower) g, uint previousNode, bool goesOn) {
     float length = g.at.walk.arc;
     uint branch = item.branch;
     uint first = publishNodes(env, g.count);
@@ -471,14 +470,20 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, Grower g, ui
 
     stageItem(env, item, site, g.key, g.grammar, g.symbol, g.args, g.at.walk);
     stageLinks(env, g.count - 1u, branch, item.depth + 0x10000u, item.step + g.steps);
-    pushStaged(env, goesOn);
+    pushStaged(env, goesOn, g);
 }
 
 FN void countChunk(ExpandEnv env, Grower g) {
     atomicAdd(env.waves.v[env.wave].chunks, 1u);
     if (g.steps > 0u) atomicAdd(env.status.v[0].steps, g.steps);
     if (g.inserted > 0u) atomicAdd(env.status.v[0].inserted, g.inserted);
-    if (g.phase == kPhaseStopped) atomicAdd(env.status.v[0].stopped, 1u);
+    uint stopped = g.refused + (g.phase == kPhaseStopped ? 1u : 0u);
+    if (stopped > 0u) atomicAdd(env.status.v[0].stopped, stopped);
+    if (g.pushed > 0u) {
+        uint before = atomicAdd(env.waves.v[env.wave + 1u].announced, g.pushed);
+        uint added = groupsAdded(before, g.pushed, kItemsPerGroup);
+        if (added > 0u) atomicAdd(env.waves.v[env.wave + 1u].groups[0], added);
+    }
     if (g.phase == kPhaseDead) atomicAdd(env.status.v[0].deadEnds, 1u);
 }
 
@@ -518,6 +523,8 @@ FN Grower freshGrower(WorkItem item) {
     g.steps = 0u;
     g.inserted = 0u;
     g.trips = 0u;
+    g.pushed = 0u;
+    g.refused = 0u;
     g.reads = emptyReadSet();
     g.hash = hashKey(item.key);
     return g;
