@@ -270,10 +270,20 @@ EspCamera espFrameAll(const EspContext* context) {
         high = glm::max(high, vec(surface.info.boundsMax));
     });
     const glm::vec3 centre = (low + high) * .5f;
-    const float radius = std::max(glm::length(high - low) * .5f, 1e-3f);
+    const float radius = std::max(glm::length(high - low) * .5f, 1e-4f);
     camera.fovY = .6f;
+    // So far away that every corner of the bounds is within nine tenths of a frame of 4:3.
+    const float tangent = std::tan(camera.fovY * .5f) * .9f;
     const glm::vec3 towards = glm::normalize(glm::vec3(.55f, .28f, 1));
-    const glm::vec3 eye = centre + towards * (radius / std::sin(camera.fovY * .5f) * .92f);
+    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), towards));
+    const glm::vec3 up = glm::cross(towards, right);
+    float distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 c = glm::mix(low, high, glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1)) - centre;
+        const float across = std::max(std::abs(glm::dot(c, up)), std::abs(glm::dot(c, right)) * .75f);
+        distance = std::max(distance, glm::dot(c, towards) + across / tangent);
+    }
+    const glm::vec3 eye = centre + towards * std::max(distance, radius);
     std::memcpy(camera.eye, &eye, sizeof camera.eye);
     std::memcpy(camera.target, &centre, sizeof camera.target);
     camera.nearPlane = radius * .005f;

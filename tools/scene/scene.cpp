@@ -97,11 +97,15 @@ void plantAround(const EspContext* context, const EspSurfaceInfo& info, uint32_t
     }
 }
 
-// Lengths of the default ivy suit a wall of three metres; a statue wants smaller leaves, a palace longer stems.
-void fitToModel(EspContext* context, const EspSurfaceInfo& info, const LoadedGrammar& grammar) {
+float largestSide(const EspSurfaceInfo& info) {
     float size = 0;
     for (int i = 0; i < 3; ++i) size = std::max(size, info.boundsMax[i] - info.boundsMin[i]);
-    const float scale = size / 4.5f;
+    return size;
+}
+
+// Lengths of the default ivy suit a wall of three metres; a statue wants smaller leaves, a palace longer stems.
+void fitToModel(EspContext* context, const EspSurfaceInfo& info, const LoadedGrammar& grammar) {
+    const float scale = largestSide(info) / 4.5f;
     for (uint32_t i = 0; i < espParamCount(context, grammar.id); ++i) {
         EspParamInfo param;
         if (espParamInfo(context, grammar.id, i, &param) == ESP_OK && !std::strcmp(param.name, "scale"))
@@ -118,21 +122,37 @@ bool isUnbakedModel(const std::string& path) {
     return model && text.find(kSurfaceExtension) == std::string::npos;
 }
 
+// glTF's unit is the metre, but many scans come in another: a statue of a centimetre, or of a kilometre, is shown as
+// one of two metres, so that ivy on it is ivy.
+bool loadAtLivingSize(EspContext* context, const std::string& file, EspSurface& surface, EspSurfaceInfo& info,
+                      std::string& error) {
+    constexpr float kSmallest = .1f, kLargest = 500, kUsual = 2;
+    EspTransform place = espIdentity();
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        if (!fromContext(context, espLoadSurface(context, file.c_str(), &place, &surface), error) ||
+            !fromContext(context, espSurfaceInfo(context, surface, &info), error))
+            return false;
+        const float size = largestSide(info);
+        if (attempt == 1 || (size >= kSmallest && size <= kLargest) || !(size > 0)) return true;
+        for (int i = 0; i < 3; ++i) place.rows[i][i] = kUsual / size;
+        if (!fromContext(context, espDestroySurface(context, surface), error)) return false;
+    }
+    return true;
+}
+
 bool openSurface(EspContext* context, const Request& request, Scene& out, std::string& error) {
     if (isUnbakedModel(request.file)) {
         error = request.file + ": isn't baked yet: espalier-bake " + request.file +
                 " -o SURFACE.glb (tools/run does it for you)";
         return false;
     }
-    if (!fromContext(context, espLoadSurface(context, request.file.c_str(), nullptr, &out.surface), error))
-        return false;
+    EspSurfaceInfo info;
+    if (!loadAtLivingSize(context, request.file, out.surface, info, error)) return false;
     const char* standard = request.layers.empty() ? "ivy_free.grammar" : "ivy_guided.grammar";
     LoadedGrammar grammar;
     grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/" + standard : request.grammar;
     if (!compileFile(context, grammar.file, grammar.id, false, error)) return false;
     out.grammars.push_back(grammar);
-    EspSurfaceInfo info;
-    if (!fromContext(context, espSurfaceInfo(context, out.surface, &info), error)) return false;
     fitToModel(context, info, grammar);
     plantAround(context, info, request.seed.value_or(1), out);
     out.camera = espFrameAll(context);
