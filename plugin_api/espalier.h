@@ -193,7 +193,7 @@ typedef struct EspGrowDef {
     EspWalkMode walk;
     EspTangentMode tangents;
     uint32_t maxNodes;           /* growth stops there and says so; default 4,000,000 */
-    uint32_t maxDepth;           /* chunks one after another along one path, default 4096 */
+    uint32_t maxDepth;           /* chunks one after another along one path, 1 to 65,534, default 4096 */
     float leafDensityCap;        /* leaves per square metre and seed at most, 0: no cap */
 } EspGrowDef;
 ESP_API EspGrowDef espDefaultGrowDef(void);

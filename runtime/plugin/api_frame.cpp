@@ -18,6 +18,11 @@ uint64_t seedKey(const PlantedSeed& seed) {
 
 EspResult update(EspContext& context) {
     if (context.grownRevision == context.revision) return ESP_OK;
+    // What failed fails again; trying it anew in each frame would only cost.
+    if (context.failedRevision == context.revision && !context.device->lost()) {
+        context.error = context.failure;
+        return ESP_INVALID_CONTENT;
+    }
     Status tables = context.refreshTables();
     if (!tables) return failGpu(&context, tables.failure());
 
@@ -53,6 +58,11 @@ EspResult update(EspContext& context) {
     inputs.limits.maxDepth = context.grow.maxDepth;
     inputs.limits.leafDensityCap = context.grow.leafDensityCap;
     Status grown = context.growth->grow(inputs);
+    if (!grown && grown.failure().diagnostics.front().file == "growth") {
+        context.failedRevision = context.revision;
+        context.failure = grown.failure().text();
+        return fail(&context, ESP_INVALID_CONTENT, context.failure);
+    }
     if (!grown) return failGpu(&context, grown.failure());
     context.grownRevision = context.revision;
     return ESP_OK;
@@ -190,7 +200,7 @@ EspGrowDef espDefaultGrowDef(void) {
 EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
     return guarded(context, [&] {
         if (!def || def->walk < ESP_WALK_INTRINSIC || def->walk > ESP_WALK_PAPER || def->tangents < ESP_TANGENT_STEM ||
-            def->tangents > ESP_TANGENT_PAPER || def->maxNodes < 1 || def->maxDepth < 1 ||
+            def->tangents > ESP_TANGENT_PAPER || def->maxNodes < 1 || def->maxDepth < 1 || def->maxDepth > 65534 ||
             !std::isfinite(def->leafDensityCap) || def->leafDensityCap < 0)
             return fail(context, ESP_INVALID_ARGUMENT, "espSetGrow: null pointer, or a value out of its range");
         const EspGrowDef& now = context->grow;

@@ -90,8 +90,10 @@ struct EspContext {
     std::unordered_map<uint32_t, uint32_t> numberUses;  // seeds planted with that number
 
     EspGrowDef grow;
-    uint64_t revision = 1;          // of everything that growth depends on
-    uint64_t grownRevision = 0;     // what the growth was made from
+    uint64_t revision = 1;        // of everything that growth depends on
+    uint64_t grownRevision = 0;   // what the growth was made from
+    uint64_t failedRevision = 0;  // inputs that can't be grown, and why
+    std::string failure;
     bool tablesStale = true;        // the two below don't describe surfaces and layers any more
     espalier::Buffer surfaceTable;  // SurfaceRef[surfaceSlots()]
     espalier::Buffer layerTable;    // LayerRef[surfaceSlots() * kMaxLayers]

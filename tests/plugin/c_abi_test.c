@@ -151,6 +151,16 @@ static uint64_t wholeLife(EspContext* context) {
     OK(context, espUpdate(context));
     CHECK(stats(context).hash == grown.hash);
 
+    /* A limit stops growth and says so; without it all is as before. */
+    grow.maxNodes = 30;
+    OK(context, espSetGrow(context, &grow));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).nodes > 0 && stats(context).nodes <= 30 && stats(context).overflow > 0);
+    grow = espDefaultGrowDef();
+    OK(context, espSetGrow(context, &grow));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == grown.hash && stats(context).overflow == 0);
+
     /* A mask of zeros lets nothing grow; without it all is as before. */
     const float black[4] = {0, 0, 0, 0};
     EspLayerDef layer = espDefaultLayerDef();

@@ -105,7 +105,7 @@ float largestSide(const EspSurfaceInfo& info) {
 
 // Lengths of the default ivy suit a wall of three metres; a statue wants smaller leaves, a palace longer stems.
 void fitToModel(EspContext* context, const EspSurfaceInfo& info, const LoadedGrammar& grammar) {
-    const float scale = largestSide(info) / 4.5f;
+    const float scale = largestSide(info) / 6;
     for (uint32_t i = 0; i < espParamCount(context, grammar.id); ++i) {
         EspParamInfo param;
         if (espParamInfo(context, grammar.id, i, &param) == ESP_OK && !std::strcmp(param.name, "scale"))
