@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <random>
@@ -71,6 +72,13 @@ struct Events {
     }
     bool pressed(int key) const { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
 };
+
+// Where compiled grammars are kept between runs; empty where the system names no place for that.
+std::string cacheFolder() {
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return std::string(cache) + "/espalier";
+    if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/espalier";
+    return {};
+}
 
 struct WindowCloser {
     void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
@@ -167,6 +175,8 @@ bool App::openContext() {
     device.debugUtils = host_->validation();
     EspContextDef def = espDefaultContextDef();
     def.host = &device;
+    const std::string cache = cacheFolder();
+    if (!cache.empty()) def.cacheFolder = cache.c_str();
     def.log = [](void*, EspLogLevel level, const char* message) {
         if (level == ESP_LOG_WARNING) std::fprintf(stderr, "espalier-sample: warning: %s\n", message);
     };
@@ -424,7 +434,8 @@ bool App::loop() {
     }
     if (host_->validationMessages())
         return fail(std::to_string(host_->validationMessages()) + " messages of the validation layer");
-    if (!generalError().empty()) return fail(generalError());
+    // A user has seen the message in the panel; a script sees the exit code.
+    if (options_.frames && !generalError().empty()) return fail(generalError());
     return true;
 }
 
