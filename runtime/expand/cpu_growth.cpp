@@ -77,8 +77,10 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     a.waves.assign(inputs.limits.maxDepth + 2u, Wave{});
     a.waves[0] = firstWave(uint32_t(inputs.seeds.size()), room);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
-    std::vector<uint32_t> packed(packedWords(grammars));
-    std::vector<GrammarTables> tables = placeTables(inputs, packed.data());
+    uint64_t words = 0;
+    std::vector<GrammarTables> heads = placeTables(inputs, words);
+    std::vector<uint32_t> tables(words + 1);
+    std::memcpy(tables.data(), heads.data(), heads.size() * sizeof(GrammarTables));
     for (uint32_t i = 0; i < grammars.size(); ++i) packGrammar({grammars.data()}, {tables.data()}, i, 0, 1);
 
     ExpandEnv env{};

@@ -13,6 +13,7 @@
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/program.hpp"
+#include "shaders/shared/expand_tables.h"
 
 namespace espalier {
 namespace {
@@ -34,7 +35,8 @@ class GpuGrowth final : public Growth {
     GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), room_(room) {}
 
     Status setUp();
-    Status loadWalk(WalkMode mode);
+    Status load(Program& program, const char* shader, std::vector<SpecConstant> constants);
+    Status loadKernels(WalkMode mode);
     Status grow(const GrowthInputs& inputs) override;
     GrowthView view() const override { return view_; }
     GrowthStats stats() const override { return stats_; }
@@ -52,6 +54,8 @@ class GpuGrowth final : public Growth {
         if (limits.tangents == TangentMode::paper) return kDensityCells + 3ull * room_.nodes;
         return limits.leafDensityCap > 0 ? kDensityCells : 1;
     }
+    // The packed tables for kernels' uniform binding: something of its size when they are read by address.
+    const Buffer& uniformTables() const { return byAddress_ ? noTables_ : tables_; }
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
     Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut);
     Status record(Commands& commands, const ExpandEnv& env, uint32_t first, uint32_t last, const GrowthLimits& limits);
@@ -62,12 +66,14 @@ class GpuGrowth final : public Growth {
 
     Device& device_;
     GrowthRoom room_;
-    uint32_t likelyWaves_ = 24;     // recorded in the first submission
-    std::array<Program, 2> march_;  // by WalkMode
-    Program packTables_, terminals_, branchesFit_, fit_;
+    uint32_t likelyWaves_ = 24;  // recorded in the first submission
+    // Made when first asked for; [1] reads tables by address, see kUniformTableWords.
+    std::array<Program, 2> march_, marchPaper_, terminals_;
+    Program packTables_, branchesFit_, fit_;
+    bool byAddress_ = false;
     Records sets_[2];
     uint32_t front_ = 0;
-    Buffer items_[2], status_, waves_, grammars_, tables_, packed_, density_, readback_;
+    Buffer items_[2], status_, waves_, grammars_, tables_, noTables_, density_, readback_;
     GrowthView view_;
     GrowthStats stats_;
 };
@@ -77,32 +83,30 @@ Status GpuGrowth::setUp() {
         Program* program;
         const char* shader;
     };
-    const Row rows[] = {{&march_[0], "expand/march.comp"},
-                        {&packTables_, "expand/tables.comp"},
-                        {&terminals_, "expand/terminals.comp"},
-                        {&branchesFit_, "expand/branches.comp"},
-                        {&fit_, "expand/fit.comp"}};
-    ProgramOptions options;
-    options.exact = true;
+    const Row rows[] = {
+        {&packTables_, "expand/tables.comp"}, {&branchesFit_, "expand/branches.comp"}, {&fit_, "expand/fit.comp"}};
     for (const Row& row : rows) {
-        Result<Program> made = Program::compute(device_, row.shader, options);
-        if (!made) return made.failure();
-        requireEqual(made->localSize()[0], kExpandGroup, "local size of an expansion kernel");
-        *row.program = std::move(*made);
+        Status made = load(*row.program, row.shader, {});
+        if (!made) return made;
     }
     return Done{};
 }
 
-// The paper's walk is for comparison: its kernel is made when first asked for.
-Status GpuGrowth::loadWalk(WalkMode mode) {
-    Program& program = march_[uint32_t(mode)];
+Status GpuGrowth::load(Program& program, const char* shader, std::vector<SpecConstant> constants) {
     if (program) return Done{};
-    ProgramOptions options;
-    options.exact = true;
-    Result<Program> made = Program::compute(device_, "expand/march_paper.comp", options);
+    Result<Program> made = Program::compute(device_, shader, {.exact = true, .constants = std::move(constants)});
     if (!made) return made.failure();
+    requireEqual(made->localSize()[0], kExpandGroup, "local size of an expansion kernel");
     program = std::move(*made);
     return Done{};
+}
+
+Status GpuGrowth::loadKernels(WalkMode mode) {
+    const std::vector<SpecConstant> constants = {{0, byAddress_ ? 1u : 0u}};
+    Status march = mode == WalkMode::paper ? load(marchPaper_[byAddress_], "expand/march_paper.comp", constants)
+                                           : load(march_[byAddress_], "expand/march.comp", constants);
+    if (!march) return march;
+    return load(terminals_[byAddress_], "expand/terminals.comp", constants);
 }
 
 Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
@@ -116,7 +120,11 @@ Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, Buffe
 
 Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
     Records& back = sets_[1 - front_];
-    uint64_t waves = inputs.limits.maxDepth + 2ull;
+    uint64_t waves = inputs.limits.maxDepth + 2ull, words = 0;
+    placeTables(inputs, words);
+    byAddress_ = words > kUniformTableWords;
+    Status kernels = loadKernels(inputs.limits.walk);
+    if (!kernels) return kernels;
     struct Row {
         Buffer* buffer;
         const char* name;
@@ -131,8 +139,8 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
                         {&status_, "growth status", sizeof(GrowStatus)},
                         {&waves_, "growth waves", waves * sizeof(Wave)},
                         {&grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)},
-                        {&tables_, "growth tables", inputs.grammars.size() * sizeof(GrammarTables)},
-                        {&packed_, "growth packed rules", packedWords(inputs.grammars) * 4},
+                        {&tables_, "growth tables", byAddress_ ? words * 4 : kUniformTableWords * 4},
+                        {&noTables_, "growth no tables", byAddress_ ? kUniformTableWords * 4 : 0},
                         {&density_, "growth density", densityWords(inputs.limits) * 4}};
     for (const Row& row : rows) {
         Status ok = ensure(*row.buffer, row.name, row.bytes);
@@ -147,7 +155,7 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs) {
     env.surfaces = inputs.surfaces;
     env.layers = inputs.layers;
     env.grammars = addressOf<RuleMapBuf, RuleMapRef>(grammars_);
-    env.tables = addressOf<GrammarTablesBuf, GrammarTables>(tables_);
+    env.tables = addressOf<UintBuf, uint32_t>(tables_);
     env.nodes = addressOf<NodeBuf, Node>(back.nodes);
     env.chunks = addressOf<ChunkBuf, Chunk>(back.chunks);
     env.branches = addressOf<BranchBuf, BranchRecord>(back.branches);
@@ -164,7 +172,8 @@ Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, c
     std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
     wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
-    std::vector<GrammarTables> tables = placeTables(inputs, reinterpret_cast<uint32_t*>(packed_.address()));
+    uint64_t words = 0;
+    std::vector<GrammarTables> tables = placeTables(inputs, words);
     Status steps[] = {commands.upload(status_, status), commands.upload(waves_, wave),
                       commands.upload(items_[0], itemsOfSeeds(inputs.seeds)), commands.upload(grammars_, grammars),
                       commands.upload(tables_, tables)};
@@ -181,7 +190,7 @@ Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, c
 // Waves [first, last), then the terminal passes, which do nothing should wave `last` not be empty.
 Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t first, uint32_t last,
                          const GrowthLimits& limits) {
-    const Program& march = march_[uint32_t(limits.walk)];
+    const Program& march = (limits.walk == WalkMode::paper ? marchPaper_ : march_)[byAddress_];
     {
         Pass pass(commands, "expand march");
         ExpandEnv env = base;
@@ -189,7 +198,7 @@ Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t fir
             env.wave = w;
             env.items = addressOf<WorkItemBuf, WorkItem>(items_[w & 1]);
             env.nextItems = addressOf<WorkItemBuf, WorkItem>(items_[(w + 1) & 1]);
-            pass.dispatchIndirect(march, waves_, w * sizeof(Wave) + offsetof(Wave, groups), env);
+            pass.dispatchIndirect(march, waves_, w * sizeof(Wave) + offsetof(Wave, groups), env, {uniformTables()});
             pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
         }
     }
@@ -203,6 +212,7 @@ Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t fir
 }
 
 void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits) {
+    const Program& terminals = terminals_[byAddress_];
     env.phase = kTerminalsWrite;
     constexpr uint64_t kNodes = offsetof(GrowStatus, nodeGroups), kBranches = offsetof(GrowStatus, branchGroups);
     bool capped = limits.leafDensityCap > 0, joined = limits.tangents == TangentMode::paper;
@@ -219,11 +229,11 @@ void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthL
         }
         if (capped) {
             env.phase = kTerminalsCount;
-            pass.dispatchIndirect(terminals_, status_, kNodes, env);
+            pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables()});
             pass.barrier(Use::compute, Use::compute);
         }
         env.phase = kTerminalsWrite;
-        pass.dispatchIndirect(terminals_, status_, kNodes, env);
+        pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables()});
         pass.barrier(Use::compute, Use::compute);
     }
     Pass pass(commands, "expand fit");
@@ -295,7 +305,7 @@ void GpuGrowth::publish(const GrowthInputs& inputs, const Outcome& outcome) {
 uint64_t GpuGrowth::reserved() const {
     uint64_t bytes = 0;
     for (const Records& r : sets_) bytes += r.nodes.size() + r.chunks.size() + r.branches.size() + r.leaves.size();
-    for (const Buffer* b : {&items_[0], &items_[1], &status_, &waves_, &grammars_, &tables_, &packed_, &density_})
+    for (const Buffer* b : {&items_[0], &items_[1], &status_, &waves_, &grammars_, &tables_, &noTables_, &density_})
         bytes += b->size();
     return bytes;
 }
@@ -321,8 +331,6 @@ Result<GrowthRecords> GpuGrowth::read() {
 Status GpuGrowth::grow(const GrowthInputs& inputs) {
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
-    Status walk = loadWalk(inputs.limits.walk);
-    if (!walk) return walk;
     room_.items = std::max(room_.items, uint32_t(inputs.seeds.size()));
     GrowthCut cut = noCut(inputs.limits);
     uint32_t overflow = 0;

@@ -53,26 +53,6 @@ GrowthCut findCut(std::span<const Wave> waves, const GrowthLimits& limits, const
     return {~0u, kWholeWave};
 }
 
-// Records in the section that begins at `start`: at most what fits before the map's next section.
-uint64_t recordsIn(const RuleMapRef& map, const void* start, size_t recordBytes) {
-    uintptr_t at = reinterpret_cast<uintptr_t>(start), end = ~uintptr_t(0);
-    for (const void* other : {(void*)map.symbols.v, (void*)map.rules.v, (void*)map.successors.v, (void*)map.extrudes.v,
-                              (void*)map.terminals.v, (void*)map.code.v, (void*)map.sites.v}) {
-        uintptr_t o = reinterpret_cast<uintptr_t>(other);
-        if (o > at) end = std::min(end, o);
-    }
-    return end == ~uintptr_t(0) ? 0 : (end - at) / recordBytes;
-}
-
-struct TableSizes {
-    uint64_t symbols, rules, successors, terminals;
-};
-TableSizes tableSizes(const RuleMapRef& map) {
-    return {uint64_t(map.symbolCount) * kSymbolWords, uint64_t(map.ruleCount) * kRuleWords,
-            recordsIn(map, map.successors.v, sizeof(SuccessorRecord)) * kSuccessorWords,
-            recordsIn(map, map.terminals.v, sizeof(TerminalRecord)) * kTerminalWords};
-}
-
 }  // namespace
 
 Status checkInputs(const GrowthInputs& inputs) {
@@ -120,26 +100,25 @@ std::vector<WorkItem> itemsOfSeeds(std::span<const Seed> seeds) {
     return items;
 }
 
-uint64_t packedWords(std::span<const RuleMapRef> grammars) {
-    uint64_t words = 0;
-    for (const RuleMapRef& map : grammars) {
-        TableSizes t = tableSizes(map);
-        words += t.symbols + t.rules + t.successors + t.terminals;
-    }
-    return words;
-}
-
-std::vector<GrammarTables> placeTables(const GrowthInputs& inputs, uint32_t* words) {
+std::vector<GrammarTables> placeTables(const GrowthInputs& inputs, uint64_t& words) {
     std::vector<GrammarTables> tables(inputs.grammars.size());
+    words = tables.size() * kGrammarWords;
+    auto take = [&](uint64_t count) {
+        uint64_t first = words;
+        words += count;
+        return uint32_t(first);
+    };
     for (size_t i = 0; i < tables.size(); ++i) {
-        TableSizes sizes = tableSizes(inputs.grammars[i]);
+        const RuleMapRef& map = inputs.grammars[i];
         GrammarTables& t = tables[i];
         t = {};
-        t.symbols = {words};
-        t.rules = {t.symbols.v + sizes.symbols};
-        t.successors = {t.rules.v + sizes.rules};
-        t.terminals = {t.successors.v + sizes.successors};
-        words = t.terminals.v + sizes.terminals;
+        t.symbols = take(uint64_t(map.symbolCount) * kSymbolWords);
+        t.rules = take(uint64_t(map.ruleCount) * kRuleWords);
+        t.successors = take(uint64_t(map.successorCount) * kSuccessorWords);
+        t.terminals = take(uint64_t(map.terminalCount) * kTerminalWords);
+        t.extrudes = take(uint64_t(map.extrudeCount) * kExtrudeWords);
+        t.code = take(uint64_t(map.codeCount) * 2);
+        t.sites = take(map.siteCount);
         t.width = inputs.widths.empty() ? 0.0f : inputs.widths[i];
     }
     return tables;

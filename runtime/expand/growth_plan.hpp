@@ -14,9 +14,8 @@ Status checkInputs(const GrowthInputs& inputs);
 
 std::vector<WorkItem> itemsOfSeeds(std::span<const Seed> seeds);
 
-// Room for the packed tables of all grammars, and where in it, at `words`, each has its own.
-uint64_t packedWords(std::span<const RuleMapRef> grammars);
-std::vector<GrammarTables> placeTables(const GrowthInputs& inputs, uint32_t* words);
+// Where each grammar has its packed tables, and how many words all take with these at their head.
+std::vector<GrammarTables> placeTables(const GrowthInputs& inputs, uint64_t& words);
 
 // Where growth is cut, so that it stays within its limits: see refused() in expand_grow.h.
 struct GrowthCut {

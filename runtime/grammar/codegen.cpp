@@ -218,23 +218,28 @@ std::string CodeGenerator::generate(std::span<const Node> roots, StageReads& sit
     Emitter emitter(graph_, *this, code, sites, reads, false);
     emitter.run(roots, values);
     range = {first, static_cast<uint32_t>(code.size()) - first};
-    return emitter.error;
+    return emitter.error.empty() ? failure : emitter.error;
 }
 
 Value CodeGenerator::uniform(Node node) {
     auto found = std::find(uniformNodes.begin(), uniformNodes.end(), node);
     uint32_t index = static_cast<uint32_t>(found - uniformNodes.begin());
-    if (found == uniformNodes.end() && uniforms.size() < kMaxUniforms) {
+    if (found == uniformNodes.end() && uniforms.size() == kMaxUniforms) {
+        failure = "the grammar computes more than 4,000 values from parameters alone";
+        return {kSlotUniform, 0};  // of the map that is refused
+    }
+    if (found == uniformNodes.end()) {
         StageReads reads;
         UniformRecord record;
         uint32_t first = static_cast<uint32_t>(uniformCode.size());
         Emitter emitter(graph_, *this, uniformCode, reads, reads, true);
         emitter.run({&node, 1}, {&record.value, 1});
         record.code = {first, static_cast<uint32_t>(uniformCode.size()) - first};
+        if (failure.empty()) failure = emitter.error;
         uniforms.push_back(record);
         uniformNodes.push_back(node);
     }
-    return {kSlotUniform + std::min<uint32_t>(index, kMaxUniforms - 1), 0};
+    return {kSlotUniform + index, 0};
 }
 
 }  // namespace espalier::grammar

@@ -33,8 +33,10 @@ class CodeGenerator {
     // reads: of this stage. Returns an empty string or what went wrong.
     std::string generate(std::span<const Node> roots, StageReads& sites, StageReads& reads, CodeRange& range,
                          std::span<Value> values);
+    // The value that the host works out for what depends on parameters alone. What goes wrong is in `failure`.
     Value uniform(Node node);
 
+    std::string failure;  // the first that went wrong in the uniform code, or empty
     std::vector<CodeWord> code;
     std::vector<std::pair<uint32_t, uint32_t>> codePatches;  // code word, uniform
     std::vector<CodeWord> uniformCode;

@@ -47,6 +47,7 @@ Result<RuleMap> compile(Parsed& p) {
     if (c.reporter.failed()) return failureOf(c.reporter);
     c.expressions.warnUnused();
     RuleMap map = RuleMapAccess::assemble(c, p.contentHash);
+    if (!c.code.failure.empty()) return Failure(c.options.fileName, c.code.failure);
     std::string wrong = RuleMapAccess::verify(map);
     if (!wrong.empty()) return Failure(c.options.fileName, "the compiled map doesn't pass verification: " + wrong);
     return map;

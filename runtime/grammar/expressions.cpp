@@ -8,6 +8,8 @@ namespace espalier::grammar {
 namespace {
 
 constexpr uint64_t kMaxWork = 300'000;
+constexpr size_t kMaxLets = 64;       // that use each other in a row
+constexpr uint32_t kMaxGraph = 1024;  // operations that use each other in a row: later stages recurse over them
 
 std::string countText(uint32_t least, uint32_t most) {
     if (least == most) return std::to_string(least) + (least == 1 ? " argument" : " arguments");
@@ -157,6 +159,7 @@ Node Expressions::lowerName(const std::string& name, const Place& place, Env& en
     }
     if (auto found = letByName_.find(name); found != letByName_.end()) {
         used_.insert(name);
+        if (activeLets_.size() >= kMaxLets) return fail(place, env, "more than 64 lets are nested in each other");
         if (!activeLets_.insert(name).second) return fail(place, env, "'" + name + "' is defined by itself");
         // A let sees the declarations, not the arguments of the rule that uses it.
         std::vector<std::pair<std::string, Node>> args;
@@ -183,6 +186,12 @@ Node Expressions::lowerName(const std::string& name, const Place& place, Env& en
 }
 
 Node Expressions::lower(ExprId id, Env& env) {
+    Node node = lowerTree(id, env);
+    if (graph_[node].depth <= kMaxGraph) return node;
+    return fail(module_.exprs[id].place, env, "the expression unfolds into more than 1,024 operations in a row");
+}
+
+Node Expressions::lowerTree(ExprId id, Env& env) {
     const Expr& e = module_.exprs[id];
     if (!withinBudget(e.place, env.rule)) return graph_.zero();
     switch (e.kind) {

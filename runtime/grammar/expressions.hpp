@@ -48,6 +48,7 @@ class Expressions {
     std::vector<Node> directions;  // three nodes each
 
   private:
+    Node lowerTree(ExprId expr, Env& env);
     float constantOf(ExprId expr, const std::string& rule, float otherwise);
     void declareParam(const ParamDeclaration& p, uint32_t& slots);
     bool takeName(const std::string& name, const Place& place);

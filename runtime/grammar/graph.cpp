@@ -127,6 +127,7 @@ Node Graph::make(uint32_t op, Node x, Node y, Node z) {
         const GraphNode& kid = nodes_[kids[i]];
         node.kids[i] = kids[i];
         node.params |= kid.params;
+        node.depth = std::max(node.depth, kid.depth + 1);
         bool kidConstant = kid.leaf == Leaf::constant;
         constant = constant && kidConstant;
         fixed = fixed && (kidConstant || kid.uniform);

@@ -22,6 +22,7 @@ struct GraphNode {
     uint32_t kidCount = 0;
     float value = 0;       // constant
     uint32_t params = 0;   // parameter slots below
+    uint32_t depth = 0;    // operations from here to the farthest leaf
     bool uniform = false;  // parameters and constants only, at least one parameter
     bool boolean = false;  // 0 or 1
 };

@@ -173,6 +173,11 @@ RuleMapRef RuleMap::refAt(uint64_t address) const {
     ref.sites.v = reinterpret_cast<uint*>(at(kSectionSites));
     ref.symbolCount = sections_[kSectionSymbols].count;
     ref.ruleCount = sections_[kSectionRules].count;
+    ref.successorCount = sections_[kSectionSuccessors].count;
+    ref.extrudeCount = sections_[kSectionExtrudes].count;
+    ref.terminalCount = sections_[kSectionTerminals].count;
+    ref.codeCount = sections_[kSectionCode].count;
+    ref.siteCount = sections_[kSectionSites].count;
     for (uint32_t i = 0; i < kMaxDirections; ++i) {
         ref.directions[i] = vec4(0.0f);
         if (i < sections_[kSectionDirections].count)

@@ -33,7 +33,7 @@ struct RuleMapAccess {
     using Patch = RuleMap::Patch;
     static constexpr uint32_t kSections = RuleMap::kSections;
 
-    // What compiling left, as a map; false if it became too large.
+    // What compiling left, as a map; to be verified before use.
     static RuleMap assemble(grammar::Compilation& c, uint64_t contentHash);
     // Runs the uniform code for the parameters' values and patches the words.
     static void evaluate(RuleMap& map);

@@ -35,7 +35,11 @@ class Verifier {
             vec4 d = get<vec4>(kSectionDirections, i);
             for (int k = 0; k < 4; ++k) need(std::isfinite(d[k]), "a direction isn't a number");
         }
-        need(counts_[kSectionSymbols] > 0 && counts_[kSectionDirections] <= kMaxDirections, "section sizes");
+        // Expansion packs indices into 16 bits, a node the number of its extrude program into 8.
+        for (uint32_t count : counts_) need(count <= 0xFFFFu, "section sizes: more than 65,535 records");
+        need(counts_[kSectionSymbols] > 0 && counts_[kSectionDirections] <= kMaxDirections &&
+                 counts_[kSectionExtrudes] <= kMaxExtrudes,
+             "section sizes");
         if (ok()) lists();
         return error_;
     }

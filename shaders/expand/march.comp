@@ -3,5 +3,6 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // The march over the intrinsic walk.
+#define ESPALIER_TABLES
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/march.glsl"

@@ -4,5 +4,6 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 // The march over the walk as the paper prints it.
 #define ESPALIER_PAPER_WALK
+#define ESPALIER_TABLES
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/march.glsl"

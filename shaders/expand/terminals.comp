@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Tangent, bark and leaves of every node; see expand_terminals.h.
+#define ESPALIER_TABLES
 #include "shaders/shared/extensions.glsl"
 #include "shaders/shared/expand_terminals.h"
 

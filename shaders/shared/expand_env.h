@@ -45,22 +45,26 @@ struct Wave {
 STATIC_SIZE(Wave, 32);
 BUFFER(WaveBuf, Wave)
 
-// A grammar's packed tables (expand_tables.h), what growth by it asks of places, and its width.
+// Where a grammar's packed tables lie among the words of all tables (expand_tables.h), what growth by it asks of
+// places, and its width. One a grammar at the head of these words.
 struct GrammarTables {
-    UintBuf symbols, rules, successors, terminals;
+    uint symbols, rules, successors, terminals, extrudes, code, sites;   // indices of words
     float width;             // metres: the surface is taken as coarse as suits shapes of this width
     uint inputs, layers;
-    uint spare;
+    uint spare[2];
 };
 STATIC_SIZE(GrammarTables, 48);
-BUFFER(GrammarTablesBuf, GrammarTables)
+CONST_UINT(kGrammarWords, 12u);
+CONST_UINT(kTableWidth, 7u);     // words of GrammarTables
+CONST_UINT(kTableInputs, 8u);
+CONST_UINT(kTableLayers, 9u);
 
 // All that a kernel of expansion is handed, as push constants.
 struct ExpandEnv {
     SurfaceBuf surfaces;
     LayerBuf layers;
     RuleMapBuf grammars;
-    GrammarTablesBuf tables; // [grammar]
+    UintBuf tables;          // words
     WorkItemBuf items;       // this wave's
     WorkItemBuf nextItems;
     NodeBuf nodes;

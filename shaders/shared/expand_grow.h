@@ -108,21 +108,6 @@ struct Grower {
     uvec2 hash;          // of all that the chunk leaves
 };
 
-// What derivation reads of a rule map.
-struct GrowTables {
-    UintBuf symbols, rules, successors, sites;
-    CodeBuf code;
-};
-FN GrowTables tablesOf(ExpandEnv env, uint grammar) {
-    GrowTables t;
-    t.symbols = env.tables.v[grammar].symbols;
-    t.rules = env.tables.v[grammar].rules;
-    t.successors = env.tables.v[grammar].successors;
-    t.sites = env.grammars.v[grammar].sites;
-    t.code = env.grammars.v[grammar].code;
-    return t;
-}
-
 // The constants of a chunk's growth.
 struct GrowthSite {
     uint chunk;          // its own index
@@ -141,11 +126,12 @@ FN void giveArgs(MACHINE_PARAM vec4 args) {
 }
 
 // The arguments of a successor, `head` being its first word.
-FN vec4 readArgs(MACHINE_PARAM UintBuf successors, uint at, uint head) {
+FN vec4 readArgs(MACHINE_PARAM ExpandEnv env, uint at, uint head) {
     vec4 args = vec4(0.0f);
-    uint slots = successors.v[at + 3u];
+    uint slots = TABLE(at + 3u);
     for (uint i = 0u; i < ((head >> 24u) & 7u); ++i) {
-        float x = packedValue(MACHINE (slots >> (8u * i)) & 127u, successors.v[at + 4u + i]);
+        uint immediate = TABLE(at + 4u + i);
+        float x = packedValue(MACHINE (slots >> (8u * i)) & 127u, immediate);
         args.x = i == 0u ? x : args.x;
         args.y = i == 1u ? x : args.y;
         args.z = i == 2u ? x : args.z;
@@ -216,35 +202,35 @@ FN void pushStaged(ExpandEnv env, bool wanted, INOUT(Grower) g) {
 
 // Finds the shape's rule and applies it: a List at once (its branches are queued, what it continues with waits for
 // its own rule), a March as far as its length and angle. The machine knows the place.
-FN void deriveRule(MACHINE_PARAM ExpandEnv env, GrowTables map, GrowthSite site, WorkItem entry, INOUT(Grower) g) {
+FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, WorkItem entry, INOUT(Grower) g) {
     giveArgs(MACHINE g.args);
-    uint at = g.symbol * kSymbolWords;
-    uint rules = map.symbols.v[at];
-    uint sites = map.symbols.v[at + 2u];
-    drawSites(MACHINE map.sites, sites & 0xFFFFu, (sites >> 16u) & 255u, g.key, g.key);
-    runCode(MACHINE map.code, rangeOf(map.symbols.v[at + 1u]));
-    float selected = packedValue(MACHINE sites >> 24u, map.symbols.v[at + 3u]);
-    g.reads.params = g.reads.params | map.symbols.v[at + 4u];
+    uint at = map.symbols + g.symbol * kSymbolWords;
+    uint rules = TABLE(at);
+    uint sites = TABLE(at + 2u);
+    drawTable(MACHINE env, map, sites & 0xFFFFu, (sites >> 16u) & 255u, g.key, g.key);
+    runTable(MACHINE env, map, TABLE(at + 1u));
+    float selected = packedValue(MACHINE sites >> 24u, TABLE(at + 3u));
+    g.reads.params = g.reads.params | TABLE(at + 4u);
     uint ruleCount = rules >> 16u;
     if (!(selected >= 0.0f) || ruleCount == 0u) {
         g.phase = kPhaseEnded;
         return;
     }
     uint number = uint(selected);
-    at = ((rules & 0xFFFFu) + (number < ruleCount ? number : ruleCount - 1u)) * kRuleWords;
-    uint head = map.rules.v[at];
-    uint links = map.rules.v[at + 1u];
-    uint slots = map.rules.v[at + 4u];
-    drawSites(MACHINE map.sites, links >> 16u, (head >> 16u) & 255u, g.key, g.key);
-    runCode(MACHINE map.code, rangeOf(map.rules.v[at + 2u]));
+    at = map.rules + ((rules & 0xFFFFu) + (number < ruleCount ? number : ruleCount - 1u)) * kRuleWords;
+    uint head = TABLE(at);
+    uint links = TABLE(at + 1u);
+    uint slots = TABLE(at + 4u);
+    drawTable(MACHINE env, map, links >> 16u, (head >> 16u) & 255u, g.key, g.key);
+    runTable(MACHINE env, map, TABLE(at + 2u));
     g.rule = head;
     g.links = links;
-    g.arriveCode = map.rules.v[at + 3u];
-    g.distance = larger(packedValue(MACHINE slots & 127u, map.rules.v[at + 5u]), site.minStep);
-    g.angle = packedValue(MACHINE (slots >> 8u) & 127u, map.rules.v[at + 6u]);
+    g.arriveCode = TABLE(at + 3u);
+    g.distance = larger(packedValue(MACHINE slots & 127u, TABLE(at + 5u)), site.minStep);
+    g.angle = packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 6u));
     g.conditionSlot = (slots >> 16u) & 127u;
-    g.conditionValue = map.rules.v[at + 7u];
-    g.reads.params = g.reads.params | map.rules.v[at + 8u];
+    g.conditionValue = TABLE(at + 7u);
+    g.reads.params = g.reads.params | TABLE(at + 8u);
     g.attempt = 0u;
     g.fresh = true;
     g.phase = (head & 3u) == kRuleMarch ? kPhaseMarch : kPhaseEnded;
@@ -253,11 +239,11 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, GrowTables map, GrowthSite site,
     uint count = (head & 3u) == kRuleList ? (head >> 2u) & 63u : 0u;
     u64 key = g.key;
     for (uint i = first; i < first + count; ++i) {
-        at = i * kSuccessorWords;
-        uint successor = map.successors.v[at];
-        runCode(MACHINE map.code, rangeOf(map.successors.v[at + 2u]));
-        vec4 args = readArgs(MACHINE map.successors, at, successor);
-        u64 child = successorKey(key, successor, map.successors.v[at + 1u]);
+        at = map.successors + i * kSuccessorWords;
+        uint successor = TABLE(at);
+        runTable(MACHINE env, map, TABLE(at + 2u));
+        vec4 args = readArgs(MACHINE env, at, successor);
+        u64 child = successorKey(key, successor, TABLE(at + 1u));
         uint symbol = successor & 0xFFFFu;
         bool branches = (successor & kPackedContinues) == 0u;
         if (branches) {
@@ -340,9 +326,9 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
 }
 
 // At the end of a step: its condition, and its successor. The machine knows the place.
-FN void arrive(MACHINE_PARAM GrowTables map, INOUT(Grower) g) {
+FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, INOUT(Grower) g) {
     g.arrived = false;
-    runCode(MACHINE map.code, rangeOf(g.arriveCode));
+    runTable(MACHINE env, map, g.arriveCode);
     if (!holds(packedValue(MACHINE g.conditionSlot, g.conditionValue))) {
         // Where the condition asks nothing of the place, no other direction can help.
         bool blind = (g.rule & kRuleBlind) != 0u;
@@ -361,10 +347,10 @@ FN void arrive(MACHINE_PARAM GrowTables map, INOUT(Grower) g) {
         g.phase = kPhaseEnded;   // no successor
         return;
     }
-    uint at = (g.links & 0xFFFFu) * kSuccessorWords;
-    uint head = map.successors.v[at];
-    g.args = readArgs(MACHINE map.successors, at, head);
-    g.key = successorKey(g.key, head, map.successors.v[at + 1u]);
+    uint at = map.successors + (g.links & 0xFFFFu) * kSuccessorWords;
+    uint head = TABLE(at);
+    g.args = readArgs(MACHINE env, at, head);
+    g.key = successorKey(g.key, head, TABLE(at + 1u));
     g.symbol = head & 0xFFFFu;
     g.phase = g.count >= kChunkNodes ? kPhaseFull : kPhaseDerive;
 }
@@ -491,7 +477,7 @@ FN void countChunk(ExpandEnv env, Grower g) {
 struct ChunkGrowth {
     WorkItem item;
     GrowthSite site;
-    GrowTables map;
+    TableBases map;
     WorldFrame frame;
     Grower g;
 };
@@ -544,11 +530,13 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
     float texel;
     c.item = item;
     c.g = freshGrower(item);
-    c.map = tablesOf(env, c.g.grammar);
+    c.map = basesOf(env, c.g.grammar);
     c.site.chunk = chunk;
-    c.site.inputs = env.tables.v[c.g.grammar].inputs;
-    c.site.layers = env.tables.v[c.g.grammar].layers;
-    c.site.level = levelFor(env, walk.place, env.tables.v[c.g.grammar].width, texel);
+    uint tables = c.g.grammar * kGrammarWords;
+    c.site.inputs = TABLE(tables + kTableInputs);
+    c.site.layers = TABLE(tables + kTableLayers);
+    uint width = TABLE(tables + kTableWidth);
+    c.site.level = levelFor(env, walk.place, uintBitsToFloat(width), texel);
     c.site.depth = item.depth & 0xFFFFu;
     c.site.stepBase = item.step & 0xFFFFFFu;
     c.site.minStep = 0.25f * texel;
@@ -577,7 +565,7 @@ FN void growOn(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
                    c.site.stepBase + c.g.steps + (c.g.arrived ? 1u : 0u), c.g.trial.walk.arc, c.g.reads);
         c.g.placed = true;
     }
-    if (c.g.arrived) arrive(MACHINE c.map, c.g);
+    if (c.g.arrived) arrive(MACHINE env, c.map, c.g);
     for (uint lists = 0u; lists <= kMaxListDepth && c.g.phase == kPhaseDerive; ++lists) {
         deriveRule(MACHINE env, c.map, c.site, c.item, c.g);
     }

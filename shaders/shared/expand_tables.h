@@ -20,10 +20,24 @@ ESPALIER_BEGIN
 // Terminal, 15 words: 0 mesh | smoothness << 8 | bark << 10 | gate's sites << 16 | body's sites << 24, 1 site,
 //   2 code of the gate, 3 code of the body, 4 first site of the gate | of the body << 16,
 //   5 slots of count, size, t, lift, 6 of turn, pitch, tint, 7 to 13 immediates of these seven, 14 packed colour
+// Extrude program, 4 words: 0 first terminal | terminals << 16, 1 hash of its name, 2 inputs, 3 layers
+// Code, 2 words each as CodeWord. Sites, 1 word each.
 CONST_UINT(kSymbolWords, 5u);
 CONST_UINT(kRuleWords, 9u);
 CONST_UINT(kSuccessorWords, 8u);
 CONST_UINT(kTerminalWords, 15u);
+CONST_UINT(kExtrudeWords, 4u);
+
+// Kernels that define ESPALIER_TABLES read the words from a uniform buffer, which on software devices costs half of
+// a read by address. More words than that holds are read by address, by kernels specialised to it.
+CONST_UINT(kUniformTableWords, 16384u);
+#if !defined(__cplusplus) && defined(ESPALIER_TABLES)
+layout(constant_id = 0) const uint kTablesByAddress = 0u;
+layout(binding = 0, scalar) uniform TableWords { uint tableWords[kUniformTableWords]; };
+#define TABLE(i) (kTablesByAddress != 0u ? env.tables.v[i] : tableWords[i])
+#else
+#define TABLE(i) env.tables.v[i]
+#endif
 
 CONST_UINT(kRuleBlind, 1u << 24u);
 CONST_UINT(kPackedContinues, 1u << 28u);
@@ -32,9 +46,10 @@ CONST_UINT(kPackedBark, 1u << 10u);
 FN uint packPair(uint low, uint high) { return (low & 0xFFFFu) | (high << 16u); }
 FN uint packSlots(uint a, uint b, uint c, uint d) { return (a & 127u) | ((b & 127u) << 8u) | ((c & 127u) << 16u) | (d << 24u); }
 
-FN void packSymbol(SymbolRecordBuf from, UintBuf to, uint i) {
+// Each writes record i to its place in the table that begins at word `base`.
+FN void packSymbol(SymbolRecordBuf from, UintBuf to, uint base, uint i) {
     SymbolRecord s = from.v[i];
-    uint at = i * kSymbolWords;
+    uint at = base + i * kSymbolWords;
     to.v[at] = packPair(s.firstRule, s.ruleCount);
     to.v[at + 1u] = packPair(s.select.first, s.select.count);
     to.v[at + 2u] = (s.firstSite & 0xFFFFu) | ((s.siteCount & 255u) << 16u) | (s.selected.slot << 24u);
@@ -42,9 +57,9 @@ FN void packSymbol(SymbolRecordBuf from, UintBuf to, uint i) {
     to.v[at + 4u] = s.params;
 }
 
-FN void packSuccessor(SuccessorRecordBuf from, UintBuf to, uint i) {
+FN void packSuccessor(SuccessorRecordBuf from, UintBuf to, uint base, uint i) {
     SuccessorRecord s = from.v[i];
-    uint at = i * kSuccessorWords;
+    uint at = base + i * kSuccessorWords;
     uint continues = (s.flags & kSuccessorContinues) != 0u ? kPackedContinues : 0u;
     to.v[at] = (s.symbol & 0xFFFFu) | ((s.ordinal & 255u) << 16u) | ((s.argCount & 7u) << 24u) | continues;
     to.v[at + 1u] = s.nameHash;
@@ -53,9 +68,9 @@ FN void packSuccessor(SuccessorRecordBuf from, UintBuf to, uint i) {
     for (uint k = 0u; k < 4u; ++k) to.v[at + 4u + k] = floatBitsToUint(from.v[i].args[k].immediate);
 }
 
-FN void packRule(RuleRecordBuf from, SuccessorRecordBuf successors, UintBuf to, UintBuf toSuccessors, uint i) {
+FN void packRule(RuleRecordBuf from, UintBuf to, uint base, uint i) {
     RuleRecord r = from.v[i];
-    uint at = i * kRuleWords;
+    uint at = base + i * kRuleWords;
     bool blind = (r.arriveInputs | r.arriveLayers) == 0u;
     to.v[at] = (r.kind & 3u) | ((r.successorCount & 63u) << 2u) | ((r.extrude & 255u) << 8u) |
                ((r.siteCount & 255u) << 16u) | (blind ? kRuleBlind : 0u);
@@ -67,12 +82,11 @@ FN void packRule(RuleRecordBuf from, SuccessorRecordBuf successors, UintBuf to, 
     to.v[at + 6u] = floatBitsToUint(r.angle.immediate);
     to.v[at + 7u] = floatBitsToUint(r.condition.immediate);
     to.v[at + 8u] = r.params;
-    for (uint k = 0u; k < r.successorCount; ++k) packSuccessor(successors, toSuccessors, r.firstSuccessor + k);
 }
 
-FN void packTerminal(TerminalRecordBuf from, UintBuf to, uint i) {
+FN void packTerminal(TerminalRecordBuf from, UintBuf to, uint base, uint i) {
     TerminalRecord t = from.v[i];
-    uint at = i * kTerminalWords;
+    uint at = base + i * kTerminalWords;
     uint bark = (t.flags & kTerminalBark) != 0u ? kPackedBark : 0u;
     to.v[at] = (t.mesh & 255u) | ((t.smoothness & 3u) << 8u) | bark | ((t.gateSiteCount & 255u) << 16u) |
                (t.bodySiteCount << 24u);
@@ -93,38 +107,82 @@ FN void packTerminal(TerminalRecordBuf from, UintBuf to, uint i) {
     to.v[at + 14u] = packLeafTint(0.0f, colour, 0u);
 }
 
+FN void packExtrude(ExtrudeRecordBuf from, UintBuf to, uint base, uint i) {
+    ExtrudeRecord e = from.v[i];
+    uint at = base + i * kExtrudeWords;
+    to.v[at] = packPair(e.firstTerminal, e.terminalCount);
+    to.v[at + 1u] = e.nameHash;
+    to.v[at + 2u] = e.inputs;
+    to.v[at + 3u] = e.layers;
+}
+
 // Packs grammar `g`'s tables and gathers what its growth may ask of a place, all symbols and rules together: that is
-// given once a step. Invocation `lane` of `lanes` packs its share; needs must be zero before.
-FN void packGrammar(RuleMapBuf grammars, GrammarTablesBuf tables, uint g, uint lane, uint lanes) {
-    UintBuf symbols = tables.v[g].symbols;
-    UintBuf rules = tables.v[g].rules;
-    UintBuf successors = tables.v[g].successors;
-    UintBuf terminals = tables.v[g].terminals;
+// given once a step. Invocation `lane` of `lanes` packs its share; inputs and layers must be zero before.
+FN void packGrammar(RuleMapBuf grammars, UintBuf tables, uint g, uint lane, uint lanes) {
+    uint at = g * kGrammarWords;
+    uint base = tables.v[at];
     for (uint i = lane; i < grammars.v[g].symbolCount; i += lanes) {
-        packSymbol(grammars.v[g].symbols, symbols, i);
-        atomicOr(tables.v[g].inputs, grammars.v[g].symbols.v[i].inputs);
-        atomicOr(tables.v[g].layers, grammars.v[g].symbols.v[i].layers);
+        packSymbol(grammars.v[g].symbols, tables, base, i);
+        atomicOr(tables.v[at + kTableInputs], grammars.v[g].symbols.v[i].inputs);
+        atomicOr(tables.v[at + kTableLayers], grammars.v[g].symbols.v[i].layers);
     }
+    base = tables.v[at + 1u];
     for (uint i = lane; i < grammars.v[g].ruleCount; i += lanes) {
-        packRule(grammars.v[g].rules, grammars.v[g].successors, rules, successors, i);
+        packRule(grammars.v[g].rules, tables, base, i);
         RuleRecord r = grammars.v[g].rules.v[i];
-        atomicOr(tables.v[g].inputs, r.startInputs | r.arriveInputs);
-        atomicOr(tables.v[g].layers, r.startLayers | r.arriveLayers);
-        if (r.extrude == 0u) continue;
-        ExtrudeRecord e = grammars.v[g].extrudes.v[r.extrude - 1u];
-        for (uint k = 0u; k < e.terminalCount; ++k) {
-            packTerminal(grammars.v[g].terminals, terminals, e.firstTerminal + k);
-        }
+        atomicOr(tables.v[at + kTableInputs], r.startInputs | r.arriveInputs);
+        atomicOr(tables.v[at + kTableLayers], r.startLayers | r.arriveLayers);
+    }
+    base = tables.v[at + 2u];
+    for (uint i = lane; i < grammars.v[g].successorCount; i += lanes) packSuccessor(grammars.v[g].successors, tables, base, i);
+    base = tables.v[at + 3u];
+    for (uint i = lane; i < grammars.v[g].terminalCount; i += lanes) packTerminal(grammars.v[g].terminals, tables, base, i);
+    base = tables.v[at + 4u];
+    for (uint i = lane; i < grammars.v[g].extrudeCount; i += lanes) packExtrude(grammars.v[g].extrudes, tables, base, i);
+    base = tables.v[at + 5u];
+    for (uint i = lane; i < grammars.v[g].codeCount; i += lanes) {
+        tables.v[base + 2u * i] = grammars.v[g].code.v[i].bits;
+        tables.v[base + 2u * i + 1u] = floatBitsToUint(grammars.v[g].code.v[i].immediate);
+    }
+    base = tables.v[at + 6u];
+    for (uint i = lane; i < grammars.v[g].siteCount; i += lanes) tables.v[base + i] = grammars.v[g].sites.v[i];
+}
+
+// Where a grammar's tables begin.
+struct TableBases {
+    uint symbols, rules, successors, terminals, extrudes, code, sites;
+};
+FN TableBases basesOf(ExpandEnv env, uint grammar) {
+    uint at = grammar * kGrammarWords;
+    TableBases b;
+    b.symbols = TABLE(at);
+    b.rules = TABLE(at + 1u);
+    b.successors = TABLE(at + 2u);
+    b.terminals = TABLE(at + 3u);
+    b.extrudes = TABLE(at + 4u);
+    b.code = TABLE(at + 5u);
+    b.sites = TABLE(at + 6u);
+    return b;
+}
+
+// Runs the code that `pair` (first | count << 16) names; draws sites as drawSites does.
+FN void runTable(MACHINE_PARAM ExpandEnv env, TableBases map, uint pair) {
+    uint at = map.code + 2u * (pair & 0xFFFFu);
+    uint end = at + 2u * (pair >> 16u);
+    for (; at < end; at += 2u) {
+        uint bits = TABLE(at);
+        uint immediate = TABLE(at + 1u);
+        runWord(MACHINE bits, uintBitsToFloat(immediate));
+    }
+}
+FN void drawTable(MACHINE_PARAM ExpandEnv env, TableBases map, uint first, uint count, u64 key, u64 instanceKey) {
+    for (uint j = 0u; j < count; ++j) {
+        uint site = TABLE(map.sites + first + j);
+        SLOT(kSlotDraw + j) = drawSite(site, key, instanceKey);
     }
 }
 
-// A code range or value as the tables hold it.
-FN CodeRange rangeOf(uint pair) {
-    CodeRange r;
-    r.first = pair & 0xFFFFu;
-    r.count = pair >> 16u;
-    return r;
-}
+// A value as the tables hold it.
 FN float packedValue(MACHINE_PARAM uint slot, uint immediate) {
     return slot == kSlotImmediate ? uintBitsToFloat(immediate) : SLOT(slot);
 }

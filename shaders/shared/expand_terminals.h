@@ -36,11 +36,6 @@ struct NodeSite {
     uvec2 hash;          // sum over its leaves
 };
 
-struct TerminalTables {
-    UintBuf terminals, sites;
-    CodeBuf code;
-};
-
 // How many instances a terminal makes here. The first bark counts; a foot takes the radius of its plant's first span
 // and nothing else.
 FN uint instanceCount(float wanted, bool bark, bool barked, bool foot) {
@@ -74,7 +69,7 @@ FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, uint colour, float siz
 
 // Runs the node's program. One loop over gates and bodies alike: a trip makes an instance, or evaluates a gate that
 // has code of its own.
-FN float runTerminals(MACHINE_PARAM ExpandEnv env, TerminalTables map, uint first, uint end, INOUT(NodeSite) site,
+FN float runTerminals(MACHINE_PARAM ExpandEnv env, TableBases map, uint first, uint end, INOUT(NodeSite) site,
                       uint cell, INOUT(uint) barkFlags) {
     float radius = 0.0f;
     bool barked = false;
@@ -82,30 +77,30 @@ FN float runTerminals(MACHINE_PARAM ExpandEnv env, TerminalTables map, uint firs
     uint count = 0u;
     bool gate = true;
     for (uint t = first; t < end;) {
-        uint at = t * kTerminalWords;
-        uint head = map.terminals.v[at];
-        uint gateCode = map.terminals.v[at + 2u];
-        uint bodyCode = map.terminals.v[at + 3u];
-        uint sites = map.terminals.v[at + 4u];
-        uint slots = map.terminals.v[at + 5u];
+        uint at = map.terminals + t * kTerminalWords;
+        uint head = TABLE(at);
+        uint gateCode = TABLE(at + 2u);
+        uint bodyCode = TABLE(at + 3u);
+        uint sites = TABLE(at + 4u);
+        uint slots = TABLE(at + 5u);
         bool bark = (head & kPackedBark) != 0u;
         bool codeless = (gateCode >> 16u) == 0u && ((head >> 16u) & 255u) == 0u;
         bool body = !gate || codeless;
-        u64 key = childKey(site.key, map.terminals.v[at + 1u], made);
+        u64 key = childKey(site.key, TABLE(at + 1u), made);
         SLOT(kSlotIndex) = float(made);
-        drawSites(MACHINE map.sites, body ? sites >> 16u : sites & 0xFFFFu, body ? head >> 24u : (head >> 16u) & 255u,
+        drawTable(MACHINE env, map, body ? sites >> 16u : sites & 0xFFFFu, body ? head >> 24u : (head >> 16u) & 255u,
                   site.key, key);
         if (gate && codeless) {
-            count = instanceCount(packedValue(MACHINE slots & 127u, map.terminals.v[at + 7u]), bark, barked, site.foot);
+            count = instanceCount(packedValue(MACHINE slots & 127u, TABLE(at + 7u)), bark, barked, site.foot);
             SLOT(kSlotCount) = float(count);
         }
-        runCode(MACHINE map.code, rangeOf(body ? bodyCode : gateCode));
+        runTable(MACHINE env, map, body ? bodyCode : gateCode);
         if (!body) {
-            count = instanceCount(packedValue(MACHINE slots & 127u, map.terminals.v[at + 7u]), bark, barked, site.foot);
+            count = instanceCount(packedValue(MACHINE slots & 127u, TABLE(at + 7u)), bark, barked, site.foot);
             SLOT(kSlotCount) = float(count);
         }
         bool makes = body && made < count;
-        float size = packedValue(MACHINE (slots >> 8u) & 127u, map.terminals.v[at + 8u]);
+        float size = packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 8u));
         if (makes && bark) {
             radius = limited(size, 0.0f, 1e3f);
             SLOT(kSlotRadius) = radius;
@@ -114,13 +109,13 @@ FN float runTerminals(MACHINE_PARAM ExpandEnv env, TerminalTables map, uint firs
             count = 1u;
         }
         if (makes && !bark) {
-            uint more = map.terminals.v[at + 6u];
-            float along = packedValue(MACHINE (slots >> 16u) & 127u, map.terminals.v[at + 9u]);
-            float lift = packedValue(MACHINE slots >> 24u, map.terminals.v[at + 10u]);
-            float turn = packedValue(MACHINE more & 127u, map.terminals.v[at + 11u]);
-            float pitch = packedValue(MACHINE (more >> 8u) & 127u, map.terminals.v[at + 12u]);
-            float tint = packedValue(MACHINE (more >> 16u) & 127u, map.terminals.v[at + 13u]);
-            emitLeaf(env, site, head & 255u, map.terminals.v[at + 14u], size, along, lift, turn, pitch, tint, key, cell,
+            uint more = TABLE(at + 6u);
+            float along = packedValue(MACHINE (slots >> 16u) & 127u, TABLE(at + 9u));
+            float lift = packedValue(MACHINE slots >> 24u, TABLE(at + 10u));
+            float turn = packedValue(MACHINE more & 127u, TABLE(at + 11u));
+            float pitch = packedValue(MACHINE (more >> 8u) & 127u, TABLE(at + 12u));
+            float tint = packedValue(MACHINE (more >> 16u) & 127u, TABLE(at + 13u));
+            emitLeaf(env, site, head & 255u, TABLE(at + 14u), size, along, lift, turn, pitch, tint, key, cell,
                      site.hash);
         }
         made = makes ? made + 1u : made;
@@ -197,16 +192,16 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
     findStep(env, firstNode, local, node.arc, entryArc, node.flags, site);
 
     if (extrude != 0u) {
-        ExtrudeRecordBuf extrudes = env.grammars.v[grammar].extrudes;
-        TerminalTables map;
-        map.terminals = env.tables.v[grammar].terminals;
-        map.sites = env.grammars.v[grammar].sites;
-        map.code = env.grammars.v[grammar].code;
-        uint inputs = extrudes.v[site.extrude].inputs;
-        uint first = extrudes.v[site.extrude].firstTerminal;
+        TableBases map = basesOf(env, grammar);
+        uint program = map.extrudes + site.extrude * kExtrudeWords;
+        uint range = TABLE(program);
+        uint nameHash = TABLE(program + 1u);
+        uint inputs = TABLE(program + 2u);
+        uint layers = TABLE(program + 3u);
+        uint first = range & 0xFFFFu;
         float length = env.branches.v[branch].extent;
         u64 branchKey = env.chunks.v[env.branches.v[branch].firstChunk].key;
-        site.key = childKey(branchKey, extrudes.v[site.extrude].nameHash, step);
+        site.key = childKey(branchKey, nameHash, step);
         Place place;
         place.position = node.position;
         place.normal = unpackOct(node.normal);
@@ -226,11 +221,11 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
         SLOT(kSlotRadius) = 0.0f;
         SLOT(kSlotCount) = 0.0f;
         WorldFrame frame = frameOf(env.surfaces, place.instance, inputs);
-        giveInputs(MACHINE env, frame, grammar, inputs, extrudes.v[site.extrude].layers, place,
+        giveInputs(MACHINE env, frame, grammar, inputs, layers, place,
                    env.chunks.v[chunk].depth & 0xFFFFu, step, node.arc, reads);
         uint cell = 0u;
         if (env.status.v[0].leafDensityCap > 0.0f) cell = densityCell(env, site.seed, node.place, place.uv);
-        radius = runTerminals(MACHINE env, map, first, first + extrudes.v[site.extrude].terminalCount, site, cell, barkFlags);
+        radius = runTerminals(MACHINE env, map, first, first + (range >> 16u), site, cell, barkFlags);
     }
     hash = hash + site.hash;
     if (env.phase == kTerminalsWrite) {

@@ -101,16 +101,21 @@ FN void resetMachine(MACHINE_ONLY_PARAM) {
     SLOT(kSlotOne) = 1.0f;
 }
 
+// Runs one word of code.
+FN void runWord(MACHINE_PARAM uint bits, float immediate) {
+    uint sx = (bits >> 9u) & 127u;
+    uint sy = (bits >> 16u) & 127u;
+    uint sz = (bits >> 23u) & 127u;
+    float x = sx == kSlotImmediate ? immediate : SLOT(sx);
+    float y = sy == kSlotImmediate ? immediate : SLOT(sy);
+    float z = sz == kSlotImmediate ? immediate : SLOT(sz);
+    SLOT((bits >> 5u) & 15u) = applyOperation(bits & 31u, x, y, z);
+}
+
 FN void runCode(MACHINE_PARAM CodeBuf code, CodeRange range) {
     for (uint i = 0u; i < range.count; ++i) {
         CodeWord word = code.v[range.first + i];
-        uint sx = (word.bits >> 9u) & 127u;
-        uint sy = (word.bits >> 16u) & 127u;
-        uint sz = (word.bits >> 23u) & 127u;
-        float x = sx == kSlotImmediate ? word.immediate : SLOT(sx);
-        float y = sy == kSlotImmediate ? word.immediate : SLOT(sy);
-        float z = sz == kSlotImmediate ? word.immediate : SLOT(sz);
-        SLOT((word.bits >> 5u) & 15u) = applyOperation(word.bits & 31u, x, y, z);
+        runWord(MACHINE word.bits, word.immediate);
     }
 }
 
@@ -125,11 +130,12 @@ FN int selectedRule(MACHINE_PARAM SymbolRecord symbol) {
 }
 
 // Fills the draw slots of a stage. instanceKey: for sites inside a Repeat; elsewhere hand the same key twice.
+FN float drawSite(uint site, u64 key, u64 instanceKey) {
+    return uniformRandom((site & kSiteOfInstance) != 0u ? instanceKey : key, site & 0x7FFFFFFFu);
+}
 FN void drawSites(MACHINE_PARAM UintBuf sites, uint firstSite, uint siteCount, u64 key, u64 instanceKey) {
     for (uint j = 0u; j < siteCount; ++j) {
-        uint site = sites.v[firstSite + j];
-        SLOT(kSlotDraw + j) =
-            uniformRandom((site & kSiteOfInstance) != 0u ? instanceKey : key, site & 0x7FFFFFFFu);
+        SLOT(kSlotDraw + j) = drawSite(sites.v[firstSite + j], key, instanceKey);
     }
 }
 

@@ -193,11 +193,14 @@ struct RuleMapRef {
     TerminalRecordBuf terminals;
     CodeBuf code;
     UintBuf sites;
-    uint symbolCount, ruleCount;
+    uint symbolCount, ruleCount, successorCount, extrudeCount, terminalCount;
+    uint codeCount;      // words of code
+    uint siteCount;
+    uint spare;
     vec4 directions[4];
     uint layerOf[16];
 };
-STATIC_SIZE(RuleMapRef, 192);
+STATIC_SIZE(RuleMapRef, 216);
 BUFFER(RuleMapBuf, RuleMapRef)     // [grammar]
 
 ESPALIER_END

@@ -46,7 +46,7 @@ CONST_UINT(kCrossingOpen, 3u);      // a border of the model: leads nowhere
 
 // A directed piece of border, 48 bytes. Walking over segment a-b to the outside of its chart leads to the
 // segment ta-tb of the target chart, by the affine map a -> ta, b -> tb. All UVs are in [0,1]², level-free.
-// The chart's inside is on the side of -outward; outward = sign * perp(b - a), see crossingOutward.
+// Bit 2 of flags tells on which side of a -> b, as seen in the UV plane with v up, the chart's inside lies.
 struct Crossing {
     vec2 a, b;
     vec2 ta, tb;
