@@ -37,19 +37,32 @@ Result<Container> readWhole(const std::filesystem::path& path) {
     struct stat info {};
     if (::fstat(file.get(), &info) != 0) return systemFailure(path, "cannot be read", errno);
     if (S_ISDIR(info.st_mode)) return Failure(path.string(), "is a folder, not a file");
-    Container bytes;
-    bytes.resize(size_t(info.st_size));
-    size_t have = 0;
-    for (;;) {  // pipes and growing files have no size to trust
-        if (have == bytes.size()) bytes.resize(have + 65536);
-        ssize_t got = ::read(file.get(), bytes.data() + have, bytes.size() - have);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return systemFailure(path, "cannot be read", errno);
-        if (got == 0) break;
-        have += size_t(got);
+    try {
+        Container bytes;
+        bytes.resize(size_t(info.st_size));
+        size_t have = 0;
+        for (;;) {  // pipes and growing files have no size to trust
+            if (have == bytes.size()) bytes.resize(have + 65536);
+            ssize_t got = ::read(file.get(), bytes.data() + have, bytes.size() - have);
+            if (got < 0 && errno == EINTR) continue;
+            if (got < 0) return systemFailure(path, "cannot be read", errno);
+            if (got == 0) break;
+            have += size_t(got);
+        }
+        bytes.resize(have);
+        return bytes;
+    } catch (const std::exception&) {  // bad_alloc, or length_error of a size that nothing could hold
+        return systemFailure(path, "cannot be read", ENOMEM);
     }
-    bytes.resize(have);
-    return bytes;
+}
+
+// A file that nobody has, beside `path`; the process's file mode mask applies.
+int makeNeighbour(const std::filesystem::path& path, std::string& name) {
+    for (int attempt = 0;; ++attempt) {
+        name = path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".partial";
+        const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd >= 0 || errno != EEXIST || attempt == 1000) return fd;
+    }
 }
 
 int writeAll(int fd, std::span<const std::byte> bytes) {
@@ -76,15 +89,20 @@ Status writeFile(const std::filesystem::path& path, std::span<const std::byte> b
     std::error_code error;
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
     if (error) return Failure(path.string(), "its folder cannot be made: " + error.message());
-    if (std::filesystem::is_directory(path, error)) return Failure(path.string(), "is a folder, not a file");
+    const std::filesystem::file_type type = std::filesystem::status(path, error).type();
+    using Type = std::filesystem::file_type;
+    if (type == Type::directory) return Failure(path.string(), "is a folder, not a file");
+    // A pipe or a device is no file that could be replaced: renaming over /dev/null would be a disaster.
+    if (type == Type::character || type == Type::block || type == Type::fifo || type == Type::socket) {
+        Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+        const int failed = device.get() < 0 ? errno : writeAll(device.get(), bytes);
+        return failed ? Status(systemFailure(path, "cannot be written", failed)) : Status(Done{});
+    }
 
-    std::string partial = path.string() + ".XXXXXX";
-    Descriptor file(::mkostemp(partial.data(), O_CLOEXEC));
+    std::string partial;
+    Descriptor file(makeNeighbour(path, partial));
     if (file.get() < 0) return systemFailure(path, "cannot be written", errno);
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
     int reason = writeAll(file.get(), bytes);
-    if (!reason && ::fchmod(file.get(), 0666 & ~mask) != 0) reason = errno;
     if (file.close() != 0 && !reason) reason = errno;
     if (!reason && ::rename(partial.c_str(), path.c_str()) != 0) reason = errno;
     if (!reason) return Done{};

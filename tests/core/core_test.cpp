@@ -42,6 +42,12 @@ TEST_CASE("files that cannot be read or written say which and why, and leave not
     CHECK_FALSE(writeFile(scratch.path / "file" / "below.txt", "y"));
     CHECK_FALSE(writeFile("/proc/nowhere/file.txt", "y"));
     CHECK(filesIn(scratch.path) == 1);
+    Status full = writeFile("/dev/full", std::string(10, 'x'));  // a device stays one
+    REQUIRE_FALSE(full);
+    CHECK(full.failure().text().find("/dev/full") != std::string::npos);
+    CHECK(fs::is_character_file("/dev/full"));
+    REQUIRE(writeFile("/dev/null", "x"));
+    CHECK(fs::is_character_file("/dev/null"));
 }
 
 TEST_CASE("files are replaced whole, folders are made") {
