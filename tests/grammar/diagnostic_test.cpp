@@ -155,6 +155,18 @@ TEST_CASE("limits are reported, not met") {
     for (int i = 1; i < 60; ++i)
         lets += "let l" + std::to_string(i) + " = l" + std::to_string(i - 1) + " * l" + std::to_string(i - 1) + "\n";
     expect(lets + "A -> Marching(0.1, l59, true) {A}", "unfolds into too much");
+    lets = "let l0 = arc\n";
+    for (int i = 1; i < 30000; ++i) lets += "let l" + std::to_string(i) + " = l" + std::to_string(i - 1) + "+1\n";
+    expect(lets + "A -> Marching(0.1, l29999, true) {A}", "more than 64 lets");
+    lets = "let l0 = arc\n";
+    for (int i = 1; i < 60; ++i)
+        lets += "let l" + std::to_string(i) + " = " + repeated("sin(", 30) + "l" + std::to_string(i - 1) +
+                repeated(")", 30) + "\n";
+    expect(lets + "A -> Marching(0.1, l59, true) {A}", "more than 1,024 operations in a row");
+    std::string uniform = "0";
+    for (int i = 0; i < 20; ++i)
+        uniform = "sin(p + " + std::to_string(i) + ") * (" + uniform + " + cos(p * " + std::to_string(i) + "))";
+    expect("param p = 1\nA -> Marching(0.1, " + uniform + ", true) {A}", "compiled");
     std::string calls;
     for (int i = 0; i < 15; ++i)
         calls += "D" + std::to_string(i) + " -> " + repeated("D" + std::to_string(i + 1) + " ", 9) + "\n";
