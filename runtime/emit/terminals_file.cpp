@@ -8,26 +8,15 @@
 
 #include "runtime/core/file.hpp"
 #include "runtime/emit/terminals.hpp"
+#include "runtime/surface/picture.hpp"
+#include "runtime/surface/surface_file.hpp"
 #include "shaders/shared/exact.h"
-
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wsign-compare"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#pragma GCC diagnostic ignored "-Wimplicit-fallthrough"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
 
 namespace espalier {
 namespace {
 
 using nlohmann::json;
-constexpr uint32_t kMaxMeshVertices = 1 << 16, kMaxPicture = 8192;
+constexpr uint32_t kMaxMeshVertices = 1 << 16;
 
 uint32_t wordAt(std::span<const std::byte> bytes, size_t offset) {
     uint32_t w;
@@ -57,17 +46,18 @@ class Reader {
     }
 
     void openChunks() {
-        check(bytes_.size() >= 20 && wordAt(bytes_, 0) == 0x46546C67 && wordAt(bytes_, 4) == 2,
+        check(bytes_.size() >= 20 && wordAt(bytes_, 0) == surface_file::kGlbMagic && wordAt(bytes_, 4) == 2,
               "not a glTF 2.0 binary");
         const size_t jsonSize = wordAt(bytes_, 12);
-        check(wordAt(bytes_, 16) == 0x4E4F534A && jsonSize <= bytes_.size() - 20, "truncated JSON chunk");
+        check(wordAt(bytes_, 16) == surface_file::kJsonChunk && jsonSize <= bytes_.size() - 20, "truncated JSON chunk");
         const char* text = reinterpret_cast<const char*>(bytes_.data()) + 20;
         root_ = json::parse(text, text + jsonSize, nullptr, false);
         check(root_.is_object(), "the JSON chunk does not parse");
         size_t at = 20 + jsonSize;
         if (bytes_.size() - at < 8) return;
         const size_t size = wordAt(bytes_, at);
-        check(wordAt(bytes_, at + 4) == 0x004E4942 && size <= bytes_.size() - at - 8, "truncated binary chunk");
+        check(wordAt(bytes_, at + 4) == surface_file::kBinChunk && size <= bytes_.size() - at - 8,
+              "truncated binary chunk");
         binary_ = bytes_.subspan(at + 8, size);
     }
 
@@ -141,30 +131,27 @@ class Reader {
         if (auto it = pictures_.find(image); it != pictures_.end()) return it->second;
         uint64_t stride = 0;
         const std::span<const std::byte> bytes = view(number(entry("images", image), "bufferView", ~0ull), stride);
-        int width = 0, height = 0, channels = 0;
-        const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-        const std::string name = "images[" + std::to_string(image) + "]";
-        check(stbi_info_from_memory(data, int(bytes.size()), &width, &height, &channels) != 0 &&
-                  uint32_t(width) <= kMaxPicture && uint32_t(height) <= kMaxPicture,
-              name + " can't be decoded, or is larger than 8192");
-        stbi_uc* pixels = stbi_load_from_memory(data, int(bytes.size()), &width, &height, &channels, 4);
-        check(pixels != nullptr, name + " can't be decoded");
-        TerminalPicture p{uint32_t(width), uint32_t(height), {}};
-        p.rgba.assign(pixels, pixels + size_t(width) * size_t(height) * 4);
-        stbi_image_free(pixels);
-        data_.pictures.push_back(std::move(p));
+        Result<Picture> decoded = decodePicture(bytes, "");
+        if (!decoded) fail("images[" + std::to_string(image) + "]: " + decoded.failure().diagnostics.front().message);
+        data_.pictures.push_back({decoded->width, decoded->height, std::move(decoded->rgba)});
         return pictures_[image] = int(data_.pictures.size()) - 1;
     }
 
+    // A member, or an empty one of that kind. By reference: copying a deeply nested tree would end the stack.
+    static const json& member(const json& object, const char* key, const json& otherwise) {
+        auto it = object.find(key);
+        return it == object.end() ? otherwise : *it;
+    }
+
     void readMaterials() {
-        const json materials = root_.value("materials", json::array());
+        const json& materials = member(root_, "materials", noList_);
         check(materials.is_array() && materials.size() <= 256, "materials is not a list");
         for (const json& m : materials) {
             check(m.is_object(), "materials holds something else");
             TerminalMaterial out;
             out.name = m.value("name", "");
-            const json pbr = m.value("pbrMetallicRoughness", json::object());
-            if (const json factor = pbr.value("baseColorFactor", json::array()); factor.size() == 4)
+            const json& pbr = member(m, "pbrMetallicRoughness", noObject_);
+            if (const json& factor = member(pbr, "baseColorFactor", noList_); factor.is_array() && factor.size() == 4)
                 for (int c = 0; c < 4; ++c)
                     if (factor[c].is_number()) out.baseColor[c] = std::clamp(factor[c].get<float>(), 0.0f, 1.0f);
             out.roughness = float(std::clamp(real(pbr, "roughnessFactor", 1), 0.0, 1.0));
@@ -188,7 +175,7 @@ class Reader {
     }
 
     void readMeshes() {
-        const json meshes = root_.value("meshes", json::array());
+        const json& meshes = member(root_, "meshes", noList_);
         check(meshes.is_array() && meshes.size() <= 4096, "meshes is not a list");
         std::map<std::pair<uint32_t, std::string>, std::map<uint32_t, const json*>> found;
         for (const json& mesh : meshes) {
@@ -213,12 +200,12 @@ class Reader {
 
     TerminalLod readMesh(const json& mesh) {
         const std::string name = mesh.value("name", "");
-        const json primitives = mesh.value("primitives", json::array());
+        const json& primitives = member(mesh, "primitives", noList_);
         check(primitives.is_array() && primitives.size() == 1 && primitives[0].is_object(),
               name + ": a terminal mesh must have one primitive");
         const json& p = primitives[0];
         check(number(p, "mode", 4) == 4, name + " is not made of triangles");
-        const json attributes = p.value("attributes", json::object());
+        const json& attributes = member(p, "attributes", noObject_);
         const std::vector<double> position = accessor(number(attributes, "POSITION", ~0ull), "VEC3", 3);
         const std::vector<double> normal = accessor(number(attributes, "NORMAL", ~0ull), "VEC3", 3);
         std::vector<double> uv(position.size() / 3 * 2, 0.0);
@@ -235,8 +222,9 @@ class Reader {
         lod.vertexCount = uint32_t(vertices);
         lod.firstIndex = uint32_t(data_.indices.size());
         lod.indexCount = uint32_t(index.size());
-        lod.material = uint32_t(number(p, "material", 0));
-        check(lod.material < data_.materials.size(), name + ": its material is missing");
+        const uint64_t material = number(p, "material", 0);
+        check(material < data_.materials.size(), name + ": its material is missing");
+        lod.material = uint32_t(material);
         for (size_t i = 0; i < vertices; ++i) {
             TerminalVertex v;
             for (int c = 0; c < 3; ++c) v.position[c] = float(position[3 * i + c]);
@@ -257,6 +245,7 @@ class Reader {
     std::span<const std::byte> bytes_, binary_;
     TerminalData& data_;
     json root_;
+    const json noList_ = json::array(), noObject_ = json::object();
     std::map<uint64_t, int> pictures_;
 };
 
@@ -277,6 +266,8 @@ Result<TerminalData> readTerminals(const std::filesystem::path& path, std::vecto
         return Failure(path.string(), mistake.text);
     } catch (const json::exception& mistake) {
         return Failure(path.string(), std::string("malformed glTF: ") + mistake.what());
+    } catch (const std::bad_alloc&) {
+        return Failure(path.string(), "states sizes that do not fit into memory");
     }
     measureTerminalErrors(data);
     return data;

@@ -2,7 +2,6 @@
 // are compared before anything is used: kernels follow these records without asking.
 #include <draco/compression/decode.h>
 #include <meshoptimizer.h>
-#include <stb_image.h>
 
 #include <bit>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "runtime/core/file.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/core/jobs.hpp"
+#include "runtime/surface/picture.hpp"
 #include "runtime/surface/surface.hpp"
 #include "runtime/surface/surface_file.hpp"
 
@@ -23,7 +23,6 @@ using namespace surface_file;
 
 constexpr uint32_t kMaxSize = 8192;
 constexpr uint64_t kMaxRecords = uint64_t(1) << 27;
-constexpr int kMaxImageSide = 16384;
 
 // The first thing that is wrong, as an exception inside of this file only.
 struct Damage {
@@ -247,12 +246,16 @@ class Reader {
             for (size_t i = 0; i < images.size(); ++i)
                 bytes.push_back(
                     view(whole(images[i], "bufferView", indexed("images", i), 1 << 20), indexed("images", i)));
-            std::vector<uint8_t> bad(images.size(), 0);
+            std::vector<Result<Picture>> decoded(images.size(), Picture{});
             parallelFor(images.size(), 1, [&](size_t begin, size_t end) {
-                for (size_t i = begin; i < end; ++i) bad[i] = !decodeImage(bytes[i], data_.images[i]);
+                for (size_t i = begin; i < end; ++i) decoded[i] = decodePicture(bytes[i], "");
             });
-            for (size_t i = 0; i < bad.size(); ++i)
-                if (bad[i]) fail(indexed("images", i), "damaged image");
+            for (size_t i = 0; i < decoded.size(); ++i) {
+                if (!decoded[i]) fail(indexed("images", i), decoded[i].failure().diagnostics.front().message);
+                data_.images[i] = std::move(*decoded[i]);
+                auto* from = reinterpret_cast<const uint8_t*>(bytes[i].data());
+                data_.images[i].encoded.assign(from, from + bytes[i].size());
+            }
         }
         if (root_.contains("materials"))
             for (const json& m : array(root_, "materials", "glTF", 1 << 16)) {
@@ -276,23 +279,6 @@ class Reader {
         if (data_.materials.empty()) data_.materials.emplace_back();
     }
 
-    static bool decodeImage(std::span<const std::byte> bytes, Picture& out) {
-        auto* from = reinterpret_cast<const stbi_uc*>(bytes.data());
-        int width = 0, height = 0, channels = 0;
-        if (bytes.size() > size_t(INT32_MAX) ||
-            !stbi_info_from_memory(from, int(bytes.size()), &width, &height, &channels))
-            return false;
-        if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) return false;
-        stbi_uc* pixels = stbi_load_from_memory(from, int(bytes.size()), &width, &height, &channels, 4);
-        if (!pixels) return false;
-        out.width = uint32_t(width);
-        out.height = uint32_t(height);
-        out.rgba.assign(pixels, pixels + size_t(width) * size_t(height) * 4);
-        stbi_image_free(pixels);
-        out.encoded.assign(from, from + bytes.size());
-        return true;
-    }
-
     void readMeshes() {
         const json& meshes = array(root_, "meshes", "glTF", 1 << 16);
         for (size_t m = 0; m < meshes.size(); ++m) {
@@ -314,6 +300,7 @@ class Reader {
         const draco::Mesh& mesh = *decoded.value();
         uint32_t base = uint32_t(data_.vertices.size()), count = mesh.num_points();
         if (uint64_t(base) + count > kMaxRecords) fail(place, "absurd vertex count");
+        if (data_.indices.size() + uint64_t(mesh.num_faces()) * 3 > kMaxRecords) fail(place, "absurd index count");
         data_.vertices.resize(size_t(base) + count, DrawVertex{});
         const json& ids = at(packed, "attributes", place);
         auto read = [&](const char* name, int components, auto&& into) {
@@ -328,6 +315,8 @@ class Reader {
             }
         };
         read("POSITION", 3, [](DrawVertex& v) { return &v.position.x; });
+        for (uint32_t i = 0; i < count; ++i)
+            if (!sane(data_.vertices[base + i].position)) fail(place, "a POSITION is not a number");
         read("NORMAL", 3, [](DrawVertex& v) { return &v.normal.x; });
         read("TEXCOORD_0", 2, [](DrawVertex& v) { return &v.uv.x; });
         read("TEXCOORD_1", 2, [](DrawVertex& v) { return &v.walkUv.x; });

@@ -37,6 +37,7 @@ struct PlantData {
     uint32_t addBranch(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& normals, uint32_t from,
                        const std::function<float(float)>& radius, uint32_t smoothness = kSmoothC1) {
         const uint32_t branch = uint32_t(branches.size()), first = uint32_t(nodes.size());
+        const uint32_t firstChunk = uint32_t(chunks.size());
         float arc = from == kNoIndex ? 0.0f : glm::distance(nodes[from].position, points[0]);
         for (size_t i = 0; i < points.size(); ++i) {
             if (i % kChunkNodes == 0) {
@@ -46,7 +47,7 @@ struct PlantData {
                 chunk.firstNode = first + uint32_t(i);
                 chunks.push_back(chunk);
             }
-            chunks.back().nodeCount++;
+            chunks.back().marks += 1u << 8;  // its number of nodes
             const glm::vec3 before = i > 0 ? points[i - 1] : from != kNoIndex ? nodes[from].position : points[0];
             const glm::vec3 after = i + 1 < points.size() ? points[i + 1] : points[i];
             if (i > 0) arc += glm::distance(before, points[i]);
@@ -65,8 +66,8 @@ struct PlantData {
         }
         BranchRecord record{};
         record.extent = arc;
-        record.parentNode = from;
-        record.parentBranch = kNoIndex;
+        record.thickness = 1;
+        record.firstChunk = firstChunk;
         branches.push_back(record);
         return first;
     }

@@ -83,3 +83,20 @@ TEST_CASE("damaged files are refused or read, never followed out of bounds") {
                     REQUIRE(data->indices[lod.firstIndex + i] < lod.vertexCount);
     }
 }
+
+TEST_CASE("a tree without end is refused, not copied until the stack ends") {
+    std::string text =
+        R"({"asset":{"version":"2.0"},"materials":)" + std::string(400000, '[') + std::string(400000, ']') + "}";
+    while (text.size() % 4) text += ' ';
+    std::vector<char> file(20 + text.size());
+    auto put = [&](size_t at, uint32_t word) { std::memcpy(&file[at], &word, 4); };
+    put(0, 0x46546C67);
+    put(4, 2);
+    put(8, uint32_t(file.size()));
+    put(12, uint32_t(text.size()));
+    put(16, 0x4E4F534A);
+    std::memcpy(&file[20], text.data(), text.size());
+    Result<TerminalData> data = readBytes(file);
+    REQUIRE(!data);
+    CHECK(data.failure().text().find("materials holds something else") != std::string::npos);
+}

@@ -36,7 +36,7 @@ struct BakeOptions {
     Progress progress;
 };
 
-// The figures of the bake report; see docs/surface_format.md for the meaning of each.
+// The figures of a bake; see docs/surface_format.md for the meaning of each.
 struct BakeReport {
     std::string source;
     uint32_t triangles = 0, charts = 0;

@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "runtime/core/file.hpp"
+#include "runtime/surface/surface_file.hpp"
 
 namespace espalier::import {
 namespace {
@@ -53,8 +54,9 @@ Status splitBinary(const std::string& path, const std::vector<uint8_t>& file, st
         uint32_t type = word(file, at + 4);
         at += 8;
         if (length > end - at) return Failure(path, "truncated: a chunk reaches past the end of the file");
-        if (type == 0x4E4F534A && text.empty()) text.assign(file.begin() + long(at), file.begin() + long(at + length));
-        if (type == 0x004E4942 && binary.empty())
+        if (type == surface_file::kJsonChunk && text.empty())
+            text.assign(file.begin() + long(at), file.begin() + long(at + length));
+        if (type == surface_file::kBinChunk && binary.empty())
             binary.assign(file.begin() + long(at), file.begin() + long(at + length));
         at += length;
     }
@@ -313,7 +315,7 @@ Result<Document> openDocument(const std::string& path) {
     document.path = path;
     std::string text;
     std::vector<uint8_t> binary;
-    if (file->size() >= 4 && word(*file, 0) == 0x46546C67) {
+    if (file->size() >= 4 && word(*file, 0) == surface_file::kGlbMagic) {
         Status split = splitBinary(path, *file, text, binary);
         if (!split) return std::move(split.failure());
     } else {

@@ -1,19 +1,16 @@
 // In: a document. Out: its materials as far as they are drawn, and the images that those use, decoded.
 // What is missing or damaged becomes a warning: a model without its textures can still be baked.
-#include <stb_image.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "runtime/surface/picture.hpp"
 #include "tools/bake/import.hpp"
 
 namespace espalier::import {
 namespace {
 
 using nlohmann::json;
-
-constexpr int kMaxImageSide = 16384;
 
 Result<std::vector<uint8_t>> imageBytes(const Document& document, int index, const std::string& place) {
     if (!document.images.is_array() || index < 0 || size_t(index) >= document.images.size() ||
@@ -33,20 +30,9 @@ Result<Picture> decodeImage(const Document& document, int index) {
     std::string place = "images[" + std::to_string(index) + "]";
     auto bytes = imageBytes(document, index, place);
     if (!bytes) return std::move(bytes.failure());
-    int width = 0, height = 0, channels = 0;
-    if (bytes->size() > size_t(INT32_MAX) ||
-        !stbi_info_from_memory(bytes->data(), int(bytes->size()), &width, &height, &channels))
-        return Failure(document.path, place + ": neither PNG nor JPEG");
-    if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
-        return Failure(document.path,
-                       place + ": " + std::to_string(width) + "×" + std::to_string(height) + " texels are too many");
-    stbi_uc* pixels = stbi_load_from_memory(bytes->data(), int(bytes->size()), &width, &height, &channels, 4);
-    if (!pixels) return Failure(document.path, place + ": damaged image: " + stbi_failure_reason());
-    Picture image;
-    image.width = uint32_t(width);
-    image.height = uint32_t(height);
-    image.rgba.assign(pixels, pixels + size_t(width) * size_t(height) * 4);
-    stbi_image_free(pixels);
+    auto decoded = decodePicture(std::as_bytes(std::span(*bytes)), document.path);
+    if (!decoded) return Failure(document.path, place + ": " + decoded.failure().diagnostics.front().message);
+    Picture image = std::move(*decoded);
     image.encoded = std::move(*bytes);
     return image;
 }

@@ -1,0 +1,49 @@
+// In: the bytes of a picture's file, as hostile as they come. Out: its texels.
+#include "runtime/surface/picture.hpp"
+
+#include <stb_image.h>
+
+#include <cstring>
+#include <memory>
+#include <new>
+
+namespace espalier {
+namespace {
+
+constexpr int kMaxSide = 16384;
+
+// The library reads further formats, by code that nobody hardens.
+bool isKnown(std::span<const std::byte> bytes) {
+    auto beginsWith = [&](std::string_view magic) {
+        return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+    };
+    return beginsWith("\x89PNG\r\n\x1A\n") || beginsWith("\xFF\xD8\xFF");
+}
+
+}  // namespace
+
+Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view file) {
+    const auto* from = reinterpret_cast<const stbi_uc*>(bytes.data());
+    int width = 0, height = 0, channels = 0;
+    if (!isKnown(bytes)) return Failure(file, "neither PNG nor JPEG");
+    if (bytes.size() > size_t(INT32_MAX)) return Failure(file, "more than 2 GiB");
+    if (!stbi_info_from_memory(from, int(bytes.size()), &width, &height, &channels))
+        return Failure(file, std::string("damaged image: ") + stbi_failure_reason());
+    if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
+        return Failure(file,
+                       std::to_string(width) + "×" + std::to_string(height) + " texels; 1 to 16384 a side are read");
+    std::unique_ptr<stbi_uc, void (*)(void*)> texels(
+        stbi_load_from_memory(from, int(bytes.size()), &width, &height, &channels, 4), stbi_image_free);
+    if (!texels) return Failure(file, std::string("damaged image: ") + stbi_failure_reason());
+    try {
+        Picture out;
+        out.width = uint32_t(width);
+        out.height = uint32_t(height);
+        out.rgba.assign(texels.get(), texels.get() + size_t(width) * size_t(height) * 4);
+        return out;
+    } catch (const std::bad_alloc&) {
+        return Failure(file, "it does not fit into memory");
+    }
+}
+
+}  // namespace espalier

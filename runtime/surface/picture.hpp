@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "runtime/core/result.hpp"
+#include "runtime/surface/surface.hpp"
+
+namespace espalier {
+
+// Decodes a PNG or JPEG of 1 to 16384 texels a side; `encoded` stays empty. A failure names `file` and the cause: other
+// formats, damage, want of memory. Never throws; may be called from any thread.
+Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view file);
+
+}  // namespace espalier
