@@ -69,8 +69,6 @@ LayoutUse layoutUse(ImageState state) {
         case ImageState::copyTarget:
             return {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
                     VK_ACCESS_2_TRANSFER_WRITE_BIT};
-        case ImageState::present:
-            return {VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, 0};
     }
     fatal("no such image state");
 }
@@ -152,7 +150,7 @@ Commands::~Commands() {
     if (device_ && ours_) device_->retireQueue().recordingDiscarded(serial_);
 }
 
-Result<uint64_t> Commands::submit(const SubmitOptions& options) {
+Result<uint64_t> Commands::submit() {
     require(device_ && ours_, "submit: not a recording of ours, or submitted before");
     Device& device = *device_;
     barrier(Use::all, Use::all | Use::host);  // recordings see what earlier ones did, and so does the CPU
@@ -166,22 +164,15 @@ Result<uint64_t> Commands::submit(const SubmitOptions& options) {
     const uint64_t value = device.nextSubmission();
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = handle_;
-    VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
-    wait.semaphore = options.wait;
-    wait.stageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    VkSemaphoreSubmitInfo signals[2]{{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO},
-                                     {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}};
-    signals[0].semaphore = device.timeline();
-    signals[0].value = value;
-    signals[1].semaphore = options.signal;
-    signals[0].stageMask = signals[1].stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+    signal.semaphore = device.timeline();
+    signal.value = value;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-    info.waitSemaphoreInfoCount = options.wait ? 1 : 0;
-    info.pWaitSemaphoreInfos = &wait;
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &commands;
-    info.signalSemaphoreInfoCount = options.signal ? 2 : 1;
-    info.pSignalSemaphoreInfos = signals;
+    info.signalSemaphoreInfoCount = 1;
+    info.pSignalSemaphoreInfos = &signal;
     if (!ESPALIER_VK(device, "commands", device.vk().vkQueueSubmit2(device.queue(), 1, &info, VK_NULL_HANDLE))) {
         device.submissionFailed();
         return failed("submitting");

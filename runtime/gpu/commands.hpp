@@ -28,11 +28,6 @@ constexpr Use operator|(Use a, Use b) {
     return Use(uint32_t(a) | uint32_t(b));
 }
 
-struct SubmitOptions {
-    VkSemaphore wait = VK_NULL_HANDLE;    // binary, waited for before colour output
-    VkSemaphore signal = VK_NULL_HANDLE;  // binary
-};
-
 // A recording: either a command buffer of ours, which submit() sends off, or one that a host has begun. One of ours
 // sees all that recordings submitted before it did, and the CPU sees what it did once it is done; within a recording,
 // and between a host's, ask for barriers.
@@ -50,7 +45,7 @@ class Commands {
     ~Commands();
 
     // The timeline's value when the work is done. Only for recordings of ours, once.
-    Result<uint64_t> submit(const SubmitOptions& options = {});
+    Result<uint64_t> submit();
     // submit and wait until it is done.
     Status finish();
 

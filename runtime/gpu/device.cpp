@@ -99,7 +99,6 @@ bool Device::succeeded(VkResult result, const char* expression, std::string_view
     switch (result) {
         case VK_SUCCESS:
         case VK_INCOMPLETE:
-        case VK_SUBOPTIMAL_KHR:
         case VK_PIPELINE_COMPILE_REQUIRED:
             return true;
         case VK_ERROR_DEVICE_LOST:

@@ -25,8 +25,6 @@ struct DeviceOptions {
         false;                   // with validation: look for missing barriers too; sees no buffers by address
     bool preferDiscrete = true;  // else the first device that will do
     std::string deviceName;      // if not empty: only a device whose name contains this
-    // What windows need (glfwGetRequiredInstanceExtensions). If not empty, the device can present.
-    std::vector<std::string> surfaceExtensions;
     Log log = logToStderr();
 };
 
@@ -53,7 +51,6 @@ struct DeviceInfo {
     std::string name;
     std::string driver;
     bool cpu = false;  // a software device
-    bool canPresent = false;
     uint32_t apiVersion = 0;
     uint32_t subgroupSize = 0;
     uint32_t queueFamily = 0;

@@ -132,10 +132,6 @@ struct DeviceSetup {
     Status makeInstance(const DeviceOptions& options) {
         const auto available = instanceExtensions();
         std::vector<const char*> extensions;
-        for (const std::string& name : options.surfaceExtensions) {
-            if (!hasExtension(available, name)) return Failure(kPlace, "no instance extension " + name);
-            extensions.push_back(name.c_str());
-        }
         if (options.validation && !layerInstalled())
             return Failure(kPlace, std::string("the layer ") + kLayer + " is not installed");
         // The loader offers debug utils without a layer too; they name objects for capture tools.
@@ -201,14 +197,8 @@ struct DeviceSetup {
         return Done{};
     }
 
-    Status makeDevice(const DeviceOptions& options) {
-        std::vector<const char*> extensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
-        if (!options.surfaceExtensions.empty()) {
-            const auto have = deviceExtensions(d.vkInstance_, d.physicalDevice_);
-            d.info_.canPresent = hasExtension(have, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-            if (!d.info_.canPresent) return Failure(kPlace, "the device cannot present to a window");
-            extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-        }
+    Status makeDevice() {
+        constexpr const char* kExtension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
         Features have, enable;
         d.vkInstance_.vkGetPhysicalDeviceFeatures2(d.physicalDevice_, &have.core);
         chooseFeatures(have, enable);
@@ -222,8 +212,8 @@ struct DeviceSetup {
         info.pNext = &enable.core;
         info.queueCreateInfoCount = 1;
         info.pQueueCreateInfos = &queue;
-        info.enabledExtensionCount = uint32_t(extensions.size());
-        info.ppEnabledExtensionNames = extensions.data();
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &kExtension;
         const VkResult result = d.vkInstance_.vkCreateDevice(d.physicalDevice_, &info, nullptr, &d.device_);
         if (result != VK_SUCCESS)
             return Failure(kPlace, "the device could not be opened (VkResult " + std::to_string(int(result)) + ")");
@@ -289,7 +279,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     Status status = setup.openLoader();
     if (status) status = setup.makeInstance(options);
     if (status) status = setup.choosePhysicalDevice(options);
-    if (status) status = setup.makeDevice(options);
+    if (status) status = setup.makeDevice();
     if (status) status = setup.finish(nullptr);
     if (!status) return status.failure();
     return device;

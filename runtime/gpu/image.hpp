@@ -11,7 +11,7 @@
 namespace espalier {
 
 // What an image is used for next; Commands::transition brings it there.
-enum class ImageState { undefined, sampled, storage, colorTarget, depthTarget, copySource, copyTarget, present };
+enum class ImageState { undefined, sampled, storage, colorTarget, depthTarget, copySource, copyTarget };
 
 struct ImageDesc {
     std::string_view name;
@@ -32,7 +32,7 @@ class Image {
     Image() = default;
     // Fails when memory has run out, or the device can't do that size (content may ask for it).
     static Result<Image> create(Device& device, const ImageDesc& desc);
-    // An image that somebody else owns (a swapchain's, a host's); only the view is ours.
+    // An image that somebody else owns (a host's); only the view is ours.
     static Result<Image> wrap(Device& device, const ImageDesc& desc, VkImage image);
 
     VkImage handle() const { return handle_; }

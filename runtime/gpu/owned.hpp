@@ -19,8 +19,6 @@ void retire(Device& device, VkBufferView handle);
 void retire(Device& device, VkPipeline handle);
 void retire(Device& device, VkPipelineLayout handle);
 void retire(Device& device, VkDescriptorSetLayout handle);
-void retire(Device& device, VkSemaphore handle);
-void retire(Device& device, VkSwapchainKHR handle);
 void retire(Device& device, const MemoryBlock& block);
 
 // A Vulkan handle with one owner. Dropping it is safe at any time on the device's thread, also while the GPU still

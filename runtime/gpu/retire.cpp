@@ -67,8 +67,6 @@ ESPALIER_RETIRE(VkBufferView, vkDestroyBufferView)
 ESPALIER_RETIRE(VkPipeline, vkDestroyPipeline)
 ESPALIER_RETIRE(VkPipelineLayout, vkDestroyPipelineLayout)
 ESPALIER_RETIRE(VkDescriptorSetLayout, vkDestroyDescriptorSetLayout)
-ESPALIER_RETIRE(VkSemaphore, vkDestroySemaphore)
-ESPALIER_RETIRE(VkSwapchainKHR, vkDestroySwapchainKHR)
 
 void retire(Device& device, const MemoryBlock& block) {
     device.retireQueue().add([&device, block] { device.memory().free(block); });
