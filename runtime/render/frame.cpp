@@ -7,6 +7,11 @@
 namespace espalier {
 namespace {
 
+// The shaders' names for what hosts ask for.
+static_assert(uint32_t(ViewMode::shaded) == kViewShaded && uint32_t(ViewMode::charts) == kViewCharts &&
+              uint32_t(ViewMode::normals) == kViewNormals && uint32_t(ViewMode::lod) == kViewLod &&
+              uint32_t(ViewMode::layer) == kViewLayer);
+
 glm::vec3 unitOr(glm::vec3 v, glm::vec3 other) {
     const float length = glm::length(v);
     return std::isfinite(length) && length > 1e-12f ? v / length : other;

@@ -17,7 +17,6 @@ CONST_UINT(kMaxVariants, 32u);
 CONST_UINT(kMaxLods, 6u);
 CONST_UINT(kMaxBuckets, 64u);
 CONST_UINT(kNoBucket, 0xFFu);
-CONST_UINT(kEmitGroup, 64u);
 CONST_UINT(kFullDetail, 1u);   // EmitView::flags: every instance at LOD 0, nothing is culled, thickened or thinned out
 
 // What a cull is for. A sphere (c, r) is outside if dot(planes[i].xyz, c) + planes[i].w < -r for some i.

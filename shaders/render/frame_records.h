@@ -5,11 +5,6 @@
 
 ESPALIER_BEGIN
 
-// Bindings of all drawing shaders.
-CONST_UINT(kBindColor, 0u);
-CONST_UINT(kBindNormal, 1u);
-CONST_UINT(kBindShadow, 2u);
-
 CONST_UINT(kViewShaded, 0u);
 CONST_UINT(kViewCharts, 1u);
 CONST_UINT(kViewNormals, 2u);
@@ -37,9 +32,9 @@ struct FrameRecord {
     vec3 rayRight;           // half the picture's width at distance 1
     float pixelScale;        // pixels of one metre at one metre's distance
     vec3 rayUp;
-    uint leafy;              // something grows
+    uint spare0;
     vec3 rayForward;
-    uint spare;
+    uint spare1;
     SurfaceBuf surfaces;
     LayerBuf layers;
 };
@@ -79,8 +74,7 @@ struct TerminalPush {
     vec4 baseColor;
     float roughness;
     float alphaCutoff;
-    uint segments;           // of bark, along the span
-    uint spare;
+    uint spare[2];
 };
 STATIC_SIZE(TerminalPush, 88);
 
