@@ -3,10 +3,10 @@
 
 #include "tools/content/glb.hpp"
 
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
+
+#include "runtime/core/file.hpp"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
@@ -115,17 +115,7 @@ std::vector<uint8_t> encodeJpeg(const Picture& picture, int quality) {
 }
 
 Status writeBytes(const std::string& path, const std::vector<uint8_t>& bytes) {
-    std::string part = path + ".part";
-    std::FILE* file = std::fopen(part.c_str(), "wb");
-    if (file == nullptr) return Failure(path, std::string("can't be written: ") + std::strerror(errno));
-    bool whole = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-    whole = std::fclose(file) == 0 && whole;
-    std::error_code error;
-    if (whole) std::filesystem::rename(part, path, error);
-    if (whole && !error) return Done{};
-    std::string cause = error ? error.message() : std::strerror(errno);
-    std::filesystem::remove(part, error);
-    return Failure(path, "can't be written: " + cause);
+    return writeFile(path, std::as_bytes(std::span(bytes)));
 }
 
 Status writeGlb(const std::string& path, const Glb& glb) {
