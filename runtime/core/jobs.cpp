@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <thread>
 #include <vector>
 
@@ -18,8 +19,12 @@ void parallelFor(size_t count, size_t grain, const std::function<void(size_t beg
         for (size_t piece = next++; piece < pieces; piece = next++)
             body(piece * grain, std::min(count, (piece + 1) * grain));
     };
-    std::vector<std::jthread> helpers;
-    for (size_t i = 1; i < std::min(machine, pieces); ++i) helpers.emplace_back(work);
+    std::vector<std::jthread> others;
+    try {
+        for (size_t i = 1; i < std::min(machine, pieces); ++i) others.emplace_back(work);
+    } catch (const std::exception&) {
+        // The machine has no thread left to give: those that there are do the work.
+    }
     work();
 }
 
