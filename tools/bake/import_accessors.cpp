@@ -2,6 +2,7 @@
 // Every index is compared with what it indexes before it is used.
 #include <draco/compression/decode.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -162,6 +163,19 @@ Status readDracoAttribute(const Document& document, const draco::Mesh& mesh, int
     return Done{};
 }
 
+// The attributes that are read, and where they go.
+struct Wanted {
+    const char* name;
+    int components;
+    std::vector<float>* into;
+};
+std::array<Wanted, 4> wantedOf(Primitive& out) {
+    return {{{"POSITION", 3, &out.positions},
+             {"NORMAL", 3, &out.normals},
+             {"TEXCOORD_0", 2, &out.uvs[0]},
+             {"TEXCOORD_1", 2, &out.uvs[1]}}};
+}
+
 Result<Primitive> readDraco(const Document& document, const tinygltf::Value& extension, const std::string& place) {
     if (!extension.IsObject() || !extension.Get("bufferView").IsInt() || !extension.Get("attributes").IsObject())
         return Failure(document.path, place + ": KHR_draco_mesh_compression is incomplete");
@@ -176,15 +190,7 @@ Result<Primitive> readDraco(const Document& document, const tinygltf::Value& ext
         return Failure(document.path, place + ": damaged Draco data: " + decoded.status().error_msg_string());
     const draco::Mesh& mesh = *decoded.value();
     Primitive out;
-    struct Wanted {
-        const char* name;
-        int components;
-        std::vector<float>* into;
-    } wanted[] = {{"POSITION", 3, &out.positions},
-                  {"NORMAL", 3, &out.normals},
-                  {"TEXCOORD_0", 2, &out.uvs[0]},
-                  {"TEXCOORD_1", 2, &out.uvs[1]}};
-    for (const Wanted& w : wanted) {
+    for (const Wanted& w : wantedOf(out)) {
         const tinygltf::Value& id = extension.Get("attributes").Get(w.name);
         if (!id.IsInt()) continue;
         Status read = readDracoAttribute(document, mesh, id.Get<int>(), w.components, place + "." + w.name, *w.into);
@@ -238,15 +244,7 @@ Result<Primitive> readPrimitive(const Document& document, const tinygltf::Primit
         if (!read) return std::move(read.failure());
         out = std::move(*read);
     } else {
-        struct Wanted {
-            const char* name;
-            int components;
-            std::vector<float>* into;
-        } wanted[] = {{"POSITION", 3, &out.positions},
-                      {"NORMAL", 3, &out.normals},
-                      {"TEXCOORD_0", 2, &out.uvs[0]},
-                      {"TEXCOORD_1", 2, &out.uvs[1]}};
-        for (const Wanted& w : wanted) {
+        for (const Wanted& w : wantedOf(out)) {
             auto it = primitive.attributes.find(w.name);
             if (it == primitive.attributes.end()) continue;
             auto read = readFloats(document, it->second, w.components, w.name);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "runtime/core/file.hpp"
+
 namespace espalier {
 
 double median(std::vector<double> values) {
@@ -45,15 +47,22 @@ void Bench::skip(const std::string& name, const std::string& why) const {
     std::printf("%-28s skipped: %s\n", name.c_str(), why.c_str());
 }
 
-bool Bench::writeCsv(const std::string& path) const {
-    std::FILE* file = std::fopen(path.c_str(), "w");
-    if (!file) return false;
-    std::fprintf(file, "case,figure,unit,ours,other_name,other,ratio\n");
-    for (const Row& row : rows_)
-        std::fprintf(file, "%s,%s,%s,%.6g,%s,%.6g,%.6g\n", row.name.c_str(), row.figure.c_str(), row.unit.c_str(),
-                     row.ours, row.otherName.c_str(), row.other, ratio(row));
-    bool written = std::ferror(file) == 0;
-    return std::fclose(file) == 0 && written;
+Status Bench::writeCsv(const std::string& path) const {
+    std::string text = "case,figure,unit,ours,other_name,other,ratio\n";
+    // No field holds a comma, so that readers which split at commas are right.
+    auto plain = [](std::string field) {
+        std::replace(field.begin(), field.end(), ',', ';');
+        return field;
+    };
+    for (const Row& row : rows_) {
+        char numbers[3][32];
+        std::snprintf(numbers[0], sizeof numbers[0], "%.6g", row.ours);
+        std::snprintf(numbers[1], sizeof numbers[1], "%.6g", row.other);
+        std::snprintf(numbers[2], sizeof numbers[2], "%.6g", ratio(row));
+        text += plain(row.name) + "," + plain(row.figure) + "," + row.unit + "," + numbers[0] + "," +
+                plain(row.otherName) + "," + numbers[1] + "," + numbers[2] + "\n";
+    }
+    return writeFile(path, text);
 }
 
 }  // namespace espalier

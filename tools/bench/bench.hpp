@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/core/result.hpp"
+
 namespace espalier {
 
 struct Row {
@@ -33,7 +35,7 @@ class Bench {
     // Prints the row at once and keeps it for the CSV.
     void add(Row row);
     void skip(const std::string& name, const std::string& why) const;
-    bool writeCsv(const std::string& path) const;
+    Status writeCsv(const std::string& path) const;
 
   private:
     BenchOptions options_;

@@ -29,9 +29,8 @@ int main(int argc, char** argv) {
     growthCases(bench);
     emitCases(bench);
     bakeCases(bench);
-    if (!csv.empty() && !bench.writeCsv(csv)) {
-        std::fprintf(stderr, "%s: can't be written\n", csv.c_str());
-        return 1;
-    }
-    return 0;
+    if (csv.empty()) return 0;
+    Status written = bench.writeCsv(csv);
+    if (!written) std::fprintf(stderr, "espalier-bench: %s\n", written.failure().text().c_str());
+    return written ? 0 : 1;
 }

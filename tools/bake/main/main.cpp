@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <string>
 
 #include "runtime/core/file.hpp"
@@ -98,5 +99,9 @@ int main(int argc, char** argv) {
     app.add_flag("--keep-layout", arguments.keepLayout, "never move charts apart");
     app.add_flag("-q,--quiet", arguments.quiet, "no progress, warnings only");
     CLI11_PARSE(app, argc, argv);
-    return run(arguments);
+    try {
+        return run(arguments);
+    } catch (const std::bad_alloc&) {
+        return fail(Failure(arguments.model, "baking it at this resolution takes more memory than there is"));
+    }
 }
