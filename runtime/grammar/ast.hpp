@@ -71,6 +71,12 @@ struct LetDeclaration {
     Place place;
 };
 
+// The width of the shapes that the grammar grows.
+struct WidthDeclaration {
+    ExprId value = kNoExpr;
+    Place place;
+};
+
 struct Module {
     std::vector<std::string> files;  // 0: the main text
     std::vector<Expr> exprs;
@@ -78,6 +84,7 @@ struct Module {
     std::vector<ParamDeclaration> params;
     std::vector<ContextDeclaration> contexts;
     std::vector<LetDeclaration> lets;
+    std::vector<WidthDeclaration> widths;  // more than one is a mistake, to be reported
 };
 
 // Collects diagnostics, up to a number that a reader can still use.

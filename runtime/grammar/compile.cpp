@@ -10,7 +10,7 @@ namespace espalier {
 namespace {
 
 // Part of the content hash: raise it whenever the same text compiles to another map.
-constexpr uint64_t kCompilerVersion = 1;
+constexpr uint64_t kCompilerVersion = 2;
 
 uint64_t contentHashOf(const std::vector<std::string>& sources, const std::vector<std::string>& names,
                        const std::vector<TerminalMesh>& meshes) {
@@ -38,12 +38,35 @@ void parse(std::string_view text, Parsed& p) {
     p.contentHash = contentHashOf(sources, c.module.files, c.options.meshes);
 }
 
+void lowerWidth(grammar::Compilation& c) {
+    const std::string rule = "width";
+    for (size_t i = 0; i < c.module.widths.size(); ++i) {
+        const grammar::WidthDeclaration& w = c.module.widths[i];
+        if (i > 0) c.reporter.error(w.place, rule, "the width is given twice; a grammar has one");
+        grammar::Env env;
+        env.rule = rule;
+        grammar::Node node = c.expressions.lower(w.value, env);
+        const grammar::Place& place = c.module.exprs[w.value].place;
+        if (!c.graph.isFixed(node))
+            c.reporter.error(place, rule, "the width may use numbers and parameters only");
+        else if (c.graph.isConstant(node) && !(c.graph[node].value >= 0))
+            c.reporter.error(place, rule, "the width can't be negative");
+        else if (c.graph.isConstant(node))
+            c.width = c.graph[node].value;
+        else if (i == 0 && c.code.failure.empty()) {
+            c.widthUniform = c.code.uniform(node).slot - grammar::kSlotUniform;
+            if (!c.code.failure.empty()) c.reporter.error(place, rule, c.code.failure);
+        }
+    }
+}
+
 Result<RuleMap> compile(Parsed& p) {
     grammar::Compilation& c = p.compilation;
     c.expressions.declare();
     grammar::analyseSymbols(c);
     // Lowering checks what is in the rules; it can't get stuck on what has been reported so far.
     grammar::lowerGrowth(c);
+    lowerWidth(c);
     if (c.reporter.failed()) return failureOf(c.reporter);
     c.expressions.warnUnused();
     RuleMap map = RuleMapAccess::assemble(c, p.contentHash);

@@ -75,6 +75,10 @@ class RuleMap {
     // on it. values: 1 number, or 3 for a colour (missing ones stay). Returns the mask of slots that changed.
     uint32_t setParam(uint32_t param, std::span<const float> values);
 
+    // What the statement `width` says with the parameters as they stand: metres, finite, at least 0; 0 without one.
+    // Growth takes the surface as coarse as suits shapes of this width (GrowthInputs::widths).
+    float width() const { return width_; }
+
     // What a device needs: a run of 32-bit words to be copied to an address that is a multiple of 16. Their number
     // is fixed; their content changes with setParam only.
     std::span<const uint32_t> words() const;
@@ -116,6 +120,8 @@ class RuleMap {
     std::vector<CodeWord> uniformCode_;
     std::vector<Uniform> uniforms_;
     std::vector<Patch> patches_;
+    uint32_t widthUniform_ = kNoIndex;  // kNoIndex: width_ is constant
+    float width_ = 0;
 };
 
 // Compiles a text. Never throws, hangs or crashes on any bytes; all mistakes found are in the failure.

@@ -70,8 +70,8 @@ class Parser {
         return tokens_[at_++].text;
     }
 
-    // A name with optional parenthesised arguments and then an arrow?
-    bool arrowFollowsName() const {
+    // What stands behind a name and its parenthesised arguments, if it has any.
+    const Token& behindName() const {
         size_t i = at_ + 1;
         if (i < tokens_.size() && tokens_[i].kind == TokenKind::symbol && tokens_[i].text == "(") {
             int open = 0;
@@ -82,8 +82,12 @@ class Parser {
             }
             ++i;
         }
-        return i < tokens_.size() && tokens_[i].kind == TokenKind::symbol && tokens_[i].text == "->";
+        return tokens_[std::min(i, tokens_.size() - 1)];
     }
+    bool symbolFollowsName(std::string_view symbol) const {
+        return behindName().kind == TokenKind::symbol && behindName().text == symbol;
+    }
+    bool arrowFollowsName() const { return symbolFollowsName("->"); }
     bool statementBegins() const {
         if (!at(TokenKind::name)) return false;
         return (now().firstOnLine && now().place.column <= column_) || arrowFollowsName();
@@ -108,6 +112,8 @@ class Parser {
         if (!isRule && atName("param")) return param();
         if (!isRule && atName("context")) return context();
         if (!isRule && atName("let")) return let();
+        // A word of the language here only: rules, parameters and lets may be named so.
+        if (atName("width") && !arrowFollowsName() && !symbolFollowsName(":")) return width();
         rule();
     }
     void include() {
@@ -164,6 +170,16 @@ class Parser {
         l.value = expression();
         accept(";");
         module_.lets.push_back(std::move(l));
+    }
+
+    void width() {
+        WidthDeclaration w;
+        w.place = now().place;
+        rule_ = tokens_[at_++].text;
+        if (at("=")) fail("the width follows without '=': width 0.01");
+        w.value = expression();
+        accept(";");
+        module_.widths.push_back(w);
     }
 
     void rule() {

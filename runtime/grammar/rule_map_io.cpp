@@ -9,7 +9,7 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kMagic = 0x4D525345u;  // "ESRM"
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr size_t kHeaderBytes = 24;
 static_assert(std::endian::native == std::endian::little);
 
@@ -121,6 +121,8 @@ std::vector<uint8_t> RuleMap::save() const {
     body.putAll(plain.uniformCode_);
     body.putAll(plain.uniforms_);
     body.putAll(plain.patches_);
+    body.put(plain.widthUniform_);
+    body.put(plain.width_);
 
     Writer file;
     file.put(kMagic);
@@ -181,6 +183,8 @@ Result<RuleMap> RuleMap::load(std::span<const uint8_t> bytes, std::string_view f
     map.uniformCode_ = r.all<CodeWord>();
     map.uniforms_ = r.all<Uniform>();
     map.patches_ = r.all<Patch>();
+    map.widthUniform_ = r.get<uint32_t>();
+    map.width_ = r.get<float>();
     if (!r.good() || !r.atEnd()) return refuse("its parts don't add up");
     std::string wrong = RuleMapAccess::verify(map);
     if (!wrong.empty()) return refuse("it is damaged in: " + wrong);

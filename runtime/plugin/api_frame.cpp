@@ -27,12 +27,14 @@ EspResult update(EspContext& context) {
     if (!tables) return failGpu(&context, tables.failure());
 
     std::vector<RuleMapRef> maps;
+    std::vector<float> widths;
     std::vector<std::pair<uint32_t, uint32_t>> places;  // grammar id -> index in maps
     context.grammars.forEach([&](uint32_t id, const LoadedGrammar& grammar) {
         RuleMapRef ref = grammar.map.refAt(grammar.words.address());
         for (size_t i = 0; i < grammar.layerOf.size() && i < kMaxLayers; ++i) ref.layerOf[i] = grammar.layerOf[i];
         places.push_back({id, uint32_t(maps.size())});
         maps.push_back(ref);
+        widths.push_back(grammar.map.width());
     });
     std::vector<Seed> seeds;
     context.seeds.forEach([&](uint32_t, const PlantedSeed& planted) {
@@ -51,6 +53,7 @@ EspResult update(EspContext& context) {
     inputs.surfaceCount = std::max(context.surfaceSlots(), 1u);
     inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
     inputs.grammars = maps;
+    inputs.widths = widths;
     inputs.seeds = seeds;
     inputs.limits.walk = WalkMode(context.grow.walk);
     inputs.limits.tangents = TangentMode(context.grow.tangents);

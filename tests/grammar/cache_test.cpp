@@ -87,6 +87,36 @@ TEST_CASE("a saved map is the same when loaded, whatever its parameters stood at
     CHECK(std::equal(map.words().begin(), map.words().end(), loaded->words().begin()));
 }
 
+TEST_CASE("the width is kept, constant or not, and a forged one is refused") {
+    const std::string march = "A -> Marching(0.1, 0, true) {A}\n";
+    RuleMap map = compiled("param p = 0.2 [0 .. 1]\nwidth p * 0.5\n" + march);
+    float v = 0.8f;
+    map.setParam(0, {&v, 1});
+    Result<RuleMap> loaded = RuleMap::load(map.save(), "test.rulemap");
+    if (!loaded) FAIL(loaded.failure().text());
+    CHECK(loaded->width() == doctest::Approx(0.1f));
+    loaded->setParam(0, {&v, 1});
+    CHECK(loaded->width() == doctest::Approx(0.4f));
+
+    RuleMap constant = compiled("width 0.25\n" + march);
+    Result<RuleMap> loadedConstant = RuleMap::load(constant.save(), "test.rulemap");
+    if (!loadedConstant) FAIL(loadedConstant.failure().text());
+    CHECK(loadedConstant->width() == 0.25f);
+
+    // The last 8 bytes: which of the host's values it is, and the width.
+    auto refused = [](const RuleMap& from, size_t fromEnd, auto value) {
+        std::vector<uint8_t> bytes = from.save();
+        std::memcpy(&bytes[bytes.size() - fromEnd], &value, 4);
+        forgeChecksum(bytes);
+        Result<RuleMap> forged = RuleMap::load(bytes, "forged.rulemap");
+        return !forged && forged.failure().text().find("damaged in: the width") != std::string::npos;
+    };
+    CHECK(refused(map, 8, 1u));
+    CHECK(refused(constant, 8, 0u));
+    for (float bad : {-0.1f, INFINITY, NAN}) CHECK(refused(constant, 4, bad));
+    CHECK_FALSE(refused(constant, 4, 0.5f));
+}
+
 TEST_CASE("a flipped byte anywhere is found") {
     std::vector<uint8_t> good = ivy().save();
     for (size_t i = 0; i < good.size(); i += 1 + i % 3) {

@@ -94,6 +94,17 @@ TEST_CASE("mistakes are named with place, rule and hint") {
         {"/* A -> A", "this comment is never closed"},
         {"A -> Marching(0.1, 0, true) {A, S(1) Shape(\"leaf)}", "this text is not closed before the line's end"},
         {"A -> Split(2) {A}", "isn't available"},
+        {"width -0.1\nA -> Marching(0.1, 0, true) {A}", "grammar:1:7: width: the width can't be negative"},
+        {"width sqrt(0) - 1e-3\nA -> Marching(0.1, 0, true) {A}", "the width can't be negative"},
+        {"width nan\nA -> Marching(0.1, 0, true) {A}", "grammar:1:7: width: 'nan' is not known"},
+        {"width 1 / 0\nA -> Marching(0.1, 0, true) {A}", "division by zero"},
+        {"width rand()\nA -> Marching(0.1, 0, true) {A}", "the width may use numbers and parameters only"},
+        {"width 0.1 * arc\nA -> Marching(0.1, 0, true) {A}", "grammar:1:11: width: the width may use numbers"},
+        {"let l = height\nwidth l\nA -> Marching(0.1, 0, true) {A}", "the width may use numbers"},
+        {"width n\nA(n) -> Marching(0.1, 0, true) {A(n)}", "width: 'n' is not known"},
+        {"width 0.1\nA -> Marching(0.1, 0, true) {A}\nwidth 0.2", "grammar:3:1: width: the width is given twice"},
+        {"width = 0.1\nA -> Marching(0.1, 0, true) {A}", "without '='"},
+        {"A -> Marching(0.1, 0, true) {A}\nwidth", "width: expected a value, found the end of the text"},
     };
     for (const Case& c : cases) {
         const std::string source = c.text;

@@ -228,6 +228,38 @@ static uint64_t wholeLife(EspContext* context) {
     return grown.hash;
 }
 
+/* Wide shapes grow on a coarser level of the surface, and a parameter may say how wide they are. */
+static void widthIsFollowed(EspContext* context) {
+    static const char* text =
+        "param thick = 0 [0 .. 1] \"m\" \"Width\"\n"
+        "width thick\n"
+        "Vine -> Marching(0.05, rand(-0.3, 0.3), arc < 2) {Vine, S(0.01) Shape(\"bark\", C1)}\n";
+    EspGrammarDef def = {"thick", text, strlen(text)};
+    EspSurface surface = {0};
+    EspGrammar grammar = {0};
+    EspSurfaceInfo info;
+    OK(context, espLoadSurface(context, surfacePath, NULL, &surface));
+    OK(context, espSurfaceInfo(context, surface, &info));
+    CHECK(info.levels > 2);
+    OK(context, espCompileGrammar(context, &def, &grammar));
+    plant(context, grammar, -1.35f, 1, 0.36f, 1);
+    OK(context, espUpdate(context));
+    const EspStats finest = stats(context);
+    CHECK(finest.nodes > 10);
+    const float wide = 0.2f, thin = 1e-6f, none = 0;
+    OK(context, espSetParam(context, grammar, "thick", &wide, 1));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).expansions == finest.expansions + 1);
+    CHECK(stats(context).nodes > 10 && stats(context).hash != finest.hash);
+    OK(context, espSetParam(context, grammar, "thick", &thin, 1));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == finest.hash);
+    OK(context, espSetParam(context, grammar, "thick", &wide, 1));
+    OK(context, espSetParam(context, grammar, "thick", &none, 1));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == finest.hash);
+}
+
 static void badArguments(EspContext* context) {
     EspSurface surface = {0}, none = {77};
     EspGrammar grammar = {0}, noGrammar = {12345};
@@ -382,6 +414,10 @@ int main(int argc, char** argv) {
     espDestroy(hosted);
     vkDestroyDevice((VkDevice)host.device, NULL);
     vkDestroyInstance((VkInstance)host.instance, NULL);
+
+    EspContext* wide = create(NULL, NULL);
+    widthIsFollowed(wide);
+    espDestroy(wide);
 
     EspContext* refused = create(NULL, NULL);
     logged = 0;
