@@ -95,8 +95,14 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
                 json = &parent.members.emplace_back(key_, Json{}).second;
         }
         json->kind = kind;
-        std::tie(json->line, json->column) = placeOf(text_, read_ ? read_ - 1 : 0);
+        std::tie(json->line, json->column) = place(read_ ? read_ - 1 : 0);
         return json;
+    }
+    // As placeOf, of offsets that never go back: a text of many values is counted once, not once a value.
+    std::pair<int, int> place(size_t offset) {
+        for (offset = std::min(offset, text_.size()); counted_ < offset; ++counted_)
+            if (text_[counted_] == '\n') ++line_, lineStart_ = counted_ + 1;
+        return {line_, int(offset - lineStart_) + 1};
     }
     bool open(Json* json) {
         if (open_.size() >= kMaxDepth) return fail(read_, "nested too deeply");
@@ -117,6 +123,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     const size_t& read_;
     Json& root_;
     std::string key_;
+    size_t counted_ = 0, lineStart_ = 0;
+    int line_ = 1;
     // Pointers stay good: while a value is open, nothing is added beside it.
     std::vector<Json*> open_;
 };
