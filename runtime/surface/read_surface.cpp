@@ -208,6 +208,8 @@ class Reader {
             if (!inSquare(c.a) || !inSquare(c.b) || !inSquare(c.ta) || !inSquare(c.tb) ||
                 (c.target & 0xFFFFu) >= charts || (c.flags >> 16) >= charts)
                 fail(place, indexed("crossings", i) + " is out of range");
+            // What a file says of other instances would be followed into a table that it can't know.
+            if ((c.target >> 16) != 0xFFFFu) fail(place, indexed("crossings", i) + " leads to another instance");
         }
         for (size_t l = 0; l < data_.levels.size(); ++l)
             validateLevel(data_.levels[l], place + "." + indexed("levels", l));

@@ -182,6 +182,7 @@ TEST_CASE("indices out of range are refused even when the hashes fit") {
     };
     CHECK(!refuses([](SurfaceData&) {}));
     CHECK(refuses([](SurfaceData& s) { s.crossings[3].target = 0xFFFF0000u | 77u; }));
+    CHECK(refuses([](SurfaceData& s) { s.crossings[3].target &= 0xFFFFu; }));
     CHECK(refuses([](SurfaceData& s) { s.crossings[3].flags |= 0xFFFF0000u; }));
     CHECK(refuses([](SurfaceData& s) { s.crossings[3].ta.x = 2; }));
     CHECK(refuses([](SurfaceData& s) { s.charts[0].coarsestLevel = 3; }));
