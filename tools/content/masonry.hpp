@@ -33,7 +33,6 @@ struct Arch {
     float centre = 0, halfWidth = 0, spring = 0, ring = 0;  // metres; ring: depth of the voussoirs
     int voussoirs = 13;
     bool present() const { return halfWidth > 0; }
-    float crown() const { return spring + halfWidth; }
 };
 
 // One step of a broken crest: from `from` on, the wall is `courses` courses high.
