@@ -95,7 +95,6 @@ CONST_UINT(kChunkReadsAll, 2u);     // more tiles than readTiles holds
 CONST_UINT(kChunkEndsBranch, 4u);
 CONST_UINT(kChunkStopped, 8u);      // a derivation or recursion limit ended it (counted in the stats)
 CONST_UINT(kChunkDeadEnd, 16u);     // no direction that its condition allows
-CONST_UINT(kReadTiles, 4u);
 
 // 112 bytes. A chunk may be without nodes: its first step failed, and what it read says when to try again.
 struct Chunk {
