@@ -55,6 +55,8 @@ class GpuGrowth final : public Growth {
         return limits.leafDensityCap > 0 ? kDensityCells : 1;
     }
     // The packed tables for kernels' uniform binding: something of its size when they are read by address.
+    uint32_t marchNumber() const { return (fetches_ ? 2 : 0) + (byAddress_ ? 1 : 0); }
+    Status viewSurfaces(const GrowthInputs& inputs);
     const Buffer& uniformTables() const { return byAddress_ ? noTables_ : tables_; }
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
     Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut);
@@ -68,12 +70,15 @@ class GpuGrowth final : public Growth {
     GrowthRoom room_;
     uint32_t likelyWaves_ = 24;  // recorded in the first submission
     // Made when first asked for; [1] reads tables by address, see kUniformTableWords.
-    std::array<Program, 2> march_, marchPaper_, terminals_;
+    std::array<Program, 4> march_;  // [2], [3] fetch surfaces as texels
+    std::array<Program, 2> marchPaper_, terminals_;
     Program packTables_, branchesFit_, fit_;
     bool byAddress_ = false;
+    bool fetches_ = false;
+    TexelView surfaceView_;
     Records sets_[2];
     uint32_t front_ = 0;
-    Buffer items_[2], status_, waves_, grammars_, tables_, noTables_, density_, readback_;
+    Buffer items_[2], status_, waves_, grammars_, tables_, noTables_, noSurfaces_, density_, readback_;
     GrowthView view_;
     GrowthStats stats_;
 };
@@ -103,8 +108,9 @@ Status GpuGrowth::load(Program& program, const char* shader, std::vector<SpecCon
 
 Status GpuGrowth::loadKernels(WalkMode mode) {
     const std::vector<SpecConstant> constants = {{0, byAddress_ ? 1u : 0u}};
+    const std::vector<SpecConstant> walking = {{0, byAddress_ ? 1u : 0u}, {1, fetches_ ? 0u : 1u}};
     Status march = mode == WalkMode::paper ? load(marchPaper_[byAddress_], "expand/march_paper.comp", constants)
-                                           : load(march_[byAddress_], "expand/march.comp", constants);
+                                           : load(march_[marchNumber()], "expand/march.comp", walking);
     if (!march) return march;
     return load(terminals_[byAddress_], "expand/terminals.comp", constants);
 }
@@ -118,11 +124,29 @@ Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, Buffe
     return Done{};
 }
 
+// Binds all surfaces as texels, where that is possible and of use. The binding needs a view in any case.
+Status GpuGrowth::viewSurfaces(const GrowthInputs& inputs) {
+    const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
+    const Buffer* data = inputs.surfaceData;
+    fetches_ = device_.info().cpu && data && data->size() >= 16 && data->size() <= most;
+    surfaceView_ = {};
+    if (!fetches_) {
+        Status made = ensure(noSurfaces_, "growth no surfaces", 16);
+        if (!made) return made;
+    }
+    Result<TexelView> view = TexelView::create(device_, fetches_ ? *data : noSurfaces_, VK_FORMAT_R32G32B32A32_UINT);
+    if (!view) return view.failure();
+    surfaceView_ = std::move(*view);
+    return Done{};
+}
+
 Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
     Records& back = sets_[1 - front_];
     uint64_t waves = inputs.limits.maxDepth + 2ull, words = 0;
     placeTables(inputs, words);
     byAddress_ = words > kUniformTableWords;
+    Status viewed = viewSurfaces(inputs);
+    if (!viewed) return viewed;
     Status kernels = loadKernels(inputs.limits.walk);
     if (!kernels) return kernels;
     struct Row {
@@ -153,6 +177,7 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs) {
     Records& back = sets_[1 - front_];
     ExpandEnv env{};
     env.surfaces = inputs.surfaces;
+    if (fetches_) env.scratch = addressOf<UintBuf, uint32_t>(*inputs.surfaceData);
     env.layers = inputs.layers;
     env.grammars = addressOf<RuleMapBuf, RuleMapRef>(grammars_);
     env.tables = addressOf<UintBuf, uint32_t>(tables_);
@@ -190,7 +215,8 @@ Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, c
 // Waves [first, last), then the terminal passes, which do nothing should wave `last` not be empty.
 Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t first, uint32_t last,
                          const GrowthLimits& limits) {
-    const Program& march = (limits.walk == WalkMode::paper ? marchPaper_ : march_)[byAddress_];
+    const bool paper = limits.walk == WalkMode::paper;
+    const Program& march = paper ? marchPaper_[byAddress_] : march_[marchNumber()];
     {
         Pass pass(commands, "expand march");
         ExpandEnv env = base;
@@ -198,7 +224,12 @@ Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t fir
             env.wave = w;
             env.items = addressOf<WorkItemBuf, WorkItem>(items_[w & 1]);
             env.nextItems = addressOf<WorkItemBuf, WorkItem>(items_[(w + 1) & 1]);
-            pass.dispatchIndirect(march, waves_, w * sizeof(Wave) + offsetof(Wave, groups), env, {uniformTables()});
+            const uint64_t groups = w * sizeof(Wave) + offsetof(Wave, groups);
+            if (paper) {
+                pass.dispatchIndirect(march, waves_, groups, env, {uniformTables()});
+            } else {
+                pass.dispatchIndirect(march, waves_, groups, env, {uniformTables(), surfaceView_});
+            }
             pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
         }
     }
@@ -336,6 +367,7 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     uint32_t overflow = 0;
     for (uint32_t i = 0; i < kMostAttempts; ++i) {
         Result<Outcome> outcome = attempt(inputs, cut);
+        surfaceView_ = {};  // no view outlives its buffer
         if (!outcome) return outcome.failure();
         Verdict verdict = judge(outcome->status, outcome->waves, inputs.limits, room_, cut);
         if (verdict == Verdict::impossible) break;

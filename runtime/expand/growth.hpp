@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
-#include "runtime/gpu/device.hpp"
+#include "runtime/gpu/buffer.hpp"
 #include "shaders/shared/growth_records.h"
 #include "shaders/shared/rule_map.h"
 
@@ -33,6 +33,9 @@ struct GrowthLimits {
 struct GrowthInputs {
     SurfaceBuf surfaces{};  // indexed by surface instance
     uint32_t surfaceCount = 0;
+    // The one buffer that all arrays of all surfaces lie in, where there is one (GpuSurface::data): software devices
+    // then read it as texels, which is faster. Null: by address.
+    const Buffer* surfaceData = nullptr;
     LayerBuf layers{};  // surfaceCount * kMaxLayers
     std::span<const RuleMapRef> grammars;
     // One a grammar, metres, or empty: shapes of this width grow on the coarsest level whose texels are no wider.

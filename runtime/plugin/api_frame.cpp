@@ -51,6 +51,11 @@ EspResult update(EspContext& context) {
     GrowthInputs inputs;
     inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
     inputs.surfaceCount = std::max(context.surfaceSlots(), 1u);
+    uint32_t placedSurfaces = 0;
+    context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
+        placedSurfaces += 1;
+        inputs.surfaceData = placedSurfaces == 1 ? &surface.gpu.data() : nullptr;
+    });
     inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
     inputs.grammars = maps;
     inputs.widths = widths;

@@ -2,8 +2,6 @@
 
 // A baked surface on the GPU: what a walk reads. The mesh to draw and its pictures belong to render.
 
-#include <vector>
-
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/surface/surface.hpp"
 
@@ -22,13 +20,15 @@ class GpuSurface {
     SurfaceRef ref(const glm::mat4& toWorld = glm::mat4(1)) const;
 
     uint64_t hash() const { return hash_; }
-    uint64_t sizeBytes() const;
-    explicit operator bool() const { return !buffers_.empty(); }
+    uint64_t sizeBytes() const { return data_.size(); }
+    // All its arrays, each at a multiple of 16 bytes; see GrowthInputs::surfaceData.
+    const Buffer& data() const { return data_; }
+    explicit operator bool() const { return bool(data_); }
 
   private:
     SurfaceRef ref_{};
     uint64_t hash_ = 0;
-    std::vector<Buffer> buffers_;
+    Buffer data_;
 };
 
 // Puts a placement into a surface's record: rows of the matrix, and its even scale.

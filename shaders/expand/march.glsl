@@ -6,6 +6,9 @@ layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 void main() {
+#ifdef ESPALIER_SURFACE_FETCH
+    surfaceArena = uint64_t(env.scratch);
+#endif
     uint wanted = env.waves.v[env.wave].count;
     uint count = min(wanted, env.itemCapacity);
     if (wanted > count) atomicMax(env.status.v[0].items, wanted);

@@ -71,7 +71,7 @@ struct ExpandEnv {
     ChunkBuf chunks;
     BranchBuf branches;
     LeafBuf leaves;
-    UintBuf scratch;         // the CPU's stage for a chunk's nodes; kernels have one of their own
+    UintBuf scratch;         // the CPU's stage for a chunk's nodes; for kernels, where their surfaces' texels begin
     GrowStatusBuf status;
     WaveBuf waves;
     UintBuf density;         // [kDensityCells] leaves counted, when there is a cap; after them, for the paper's

@@ -15,6 +15,74 @@ struct Patch {
     uint bits;       // Texel::bits of the nearest texel of the chart
 };
 
+// Reads of a surface's arrays. Kernels that define ESPALIER_SURFACE_FETCH set surfaceArena and read them as texels of
+// one buffer that holds them all: on software devices a read by address is a loop over lanes for each word, a texel
+// comes in one piece. Arrays begin at multiples of 16 bytes. Specialised to kSurfaceByAddress they read as others do.
+#if !defined(__cplusplus) && defined(ESPALIER_SURFACE_FETCH)
+layout(constant_id = 1) const uint kSurfaceByAddress = 1u;
+layout(binding = 1) uniform usamplerBuffer surfaceTexels;
+uint64_t surfaceArena;   // address of its first byte
+
+uvec4 fetchSurface(uint64_t address, uint texel) {
+    return texelFetch(surfaceTexels, int(uint((address - surfaceArena) >> 4) + texel));
+}
+uint wordOf(uvec4 t, uint i) {
+    uint low = (i & 1u) != 0u ? t.y : t.x;
+    uint high = (i & 1u) != 0u ? t.w : t.z;
+    return (i & 2u) != 0u ? high : low;
+}
+Texel readTexel(TexelBuf texels, uint i) {
+    if (kSurfaceByAddress != 0u) return texels.v[i];
+    uvec4 t = fetchSurface(uint64_t(texels), i);
+    return Texel(uintBitsToFloat(t.xyz), t.w);
+}
+uint readTriangle(TexelAuxBuf aux, uint i) {
+    if (kSurfaceByAddress != 0u) return aux.v[i].triangle;
+    uvec4 t = fetchSurface(uint64_t(aux), i >> 1u);
+    return (i & 1u) != 0u ? t.w : t.y;
+}
+uint readWord(UintBuf words, uint i) {
+    if (kSurfaceByAddress != 0u) return words.v[i];
+    return wordOf(fetchSurface(uint64_t(words), i >> 2u), i & 3u);
+}
+Crossing readCrossing(CrossingBuf crossings, uint i) {
+    if (kSurfaceByAddress != 0u) return crossings.v[i];
+    vec4 a = uintBitsToFloat(fetchSurface(uint64_t(crossings), 3u * i));
+    vec4 b = uintBitsToFloat(fetchSurface(uint64_t(crossings), 3u * i + 1u));
+    uvec4 c = fetchSurface(uint64_t(crossings), 3u * i + 2u);
+    return Crossing(a.xy, a.zw, b.xy, b.zw, c.x, c.y, c.z, c.w);
+}
+TrianglePlane readPlane(TrianglePlaneBuf triangles, uint i) {
+    if (kSurfaceByAddress != 0u) return triangles.v[i];
+    vec4 a = uintBitsToFloat(fetchSurface(uint64_t(triangles), 3u * i));
+    vec4 b = uintBitsToFloat(fetchSurface(uint64_t(triangles), 3u * i + 1u));
+    uvec4 c = fetchSurface(uint64_t(triangles), 3u * i + 2u);
+    return TrianglePlane(a.xyz, vec3(a.w, b.xy), vec3(b.zw, uintBitsToFloat(c.x)), uintBitsToFloat(c.yz), c.w);
+}
+// A chart's orientation and coarsest level: words 4 and 5 of its 10.
+void readChart(ChartBuf charts, uint i, out float orientation, out uint coarsest) {
+    if (kSurfaceByAddress != 0u) {
+        orientation = charts.v[i].orientation;
+        coarsest = charts.v[i].coarsestLevel;
+    } else {
+        uint word = 10u * i + 4u;
+        uvec4 t = fetchSurface(uint64_t(charts), word >> 2u);
+        orientation = uintBitsToFloat((word & 2u) != 0u ? t.z : t.x);
+        coarsest = (word & 2u) != 0u ? t.w : t.y;
+    }
+}
+#else
+FN Texel readTexel(TexelBuf texels, uint i) { return texels.v[i]; }
+FN uint readTriangle(TexelAuxBuf aux, uint i) { return aux.v[i].triangle; }
+FN uint readWord(UintBuf words, uint i) { return words.v[i]; }
+FN Crossing readCrossing(CrossingBuf crossings, uint i) { return crossings.v[i]; }
+FN TrianglePlane readPlane(TrianglePlaneBuf triangles, uint i) { return triangles.v[i]; }
+FN void readChart(ChartBuf charts, uint i, OUT(float) orientation, OUT(uint) coarsest) {
+    orientation = charts.v[i].orientation;
+    coarsest = charts.v[i].coarsestLevel;
+}
+#endif
+
 // Rows and columns of texelIndex apart: the four texels of a cell share them.
 FN uint texelRow(uint size, uint y) { return (((y >> 3u) * (size >> 3u)) << 6u) + ((y & 7u) << 3u); }
 FN uint texelColumn(uint x) { return ((x >> 3u) << 6u) + (x & 7u); }
@@ -53,10 +121,10 @@ FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, floa
     uint r0 = texelRow(size, y);
     uint r1 = texelRow(size, y + 1u);
     TexelBuf texels = surfaces.v[instance].levels[level].texels;
-    Texel t00 = texels.v[r0 + c0];
-    Texel t10 = texels.v[r0 + c1];
-    Texel t01 = texels.v[r1 + c0];
-    Texel t11 = texels.v[r1 + c1];
+    Texel t00 = readTexel(texels, r0 + c0);
+    Texel t10 = readTexel(texels, r0 + c1);
+    Texel t01 = readTexel(texels, r1 + c0);
+    Texel t11 = readTexel(texels, r1 + c1);
 
     float ex = 1.0f - fx;
     float ey = 1.0f - fy;
@@ -81,10 +149,10 @@ FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, floa
     bool creased = texelCrease(t00.bits | t10.bits | t01.bits | t11.bits);
     bool valid = nearest != kNoIndex && absolute(uv.x - 0.5f) <= 0.5f && absolute(uv.y - 0.5f) <= 0.5f;
     if (valid && (creased || !own)) {
-        uint triangle = surfaces.v[instance].levels[level].aux.v[nearest].triangle;
+        uint triangle = readTriangle(surfaces.v[instance].levels[level].aux, nearest);
         valid = triangle != kNoIndex || own;
         if (triangle != kNoIndex) {
-            TrianglePlane plane = surfaces.v[instance].triangles.v[triangle];
+            TrianglePlane plane = readPlane(surfaces.v[instance].triangles, triangle);
             vec2 offset = uv - plane.uv0;
             du = plane.du;
             dv = plane.dv;
@@ -122,7 +190,7 @@ FN vec3 normalAt(SurfaceBuf surfaces, uint instance, uint level, vec2 uv) {
 // Curvature (1/m of object space, positive on bulges) at the texel nearest to uv.
 FN float curvatureAt(SurfaceBuf surfaces, uint instance, uint level, vec2 uv) {
     uint size = surfaces.v[instance].levels[level].size;
-    uint bits = surfaces.v[instance].levels[level].texels.v[texelAt(size, uv)].bits;
+    uint bits = readTexel(surfaces.v[instance].levels[level].texels, texelAt(size, uv)).bits;
     return decodeCurvature(bits, rcpExact(surfaces.v[instance].radius));
 }
 

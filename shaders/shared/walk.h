@@ -102,8 +102,8 @@ FN bool resumeWalk(SurfaceBuf surfaces, uint level, Walk walk, OUT(WalkState) w)
     uint chart = walk.place & 0xFFFFu;
     w.walk = walk;
     w.walk.uv = vec2(inRange(walk.uv.x, 1.0f), inRange(walk.uv.y, 1.0f));
-    w.orientation = surfaces.v[instance].charts.v[chart].orientation;
-    uint coarsest = surfaces.v[instance].charts.v[chart].coarsestLevel;
+    uint coarsest;
+    readChart(surfaces.v[instance].charts, chart, w.orientation, coarsest);
     w.level = level < coarsest ? level : coarsest;
     w.limit = 1e30f;
     w.slip = vec2(0.0f);
@@ -194,7 +194,7 @@ FN Exit findExit(SurfaceBuf surfaces, uint instance, uint level, uint chart, vec
             live = enter <= smaller(best.fraction, 1.0f);
             bool inside = x >= 0 && y >= 0 && x < int(size) && y < int(size);
             if (live && inside) {
-                uint head = heads.v[texelRow(size, uint(y)) + texelColumn(uint(x))];
+                uint head = readWord(heads, texelRow(size, uint(y)) + texelColumn(uint(x)));
                 left = head & 0xFFu;
                 ref = head >> 8u;
             }
@@ -208,10 +208,11 @@ FN Exit findExit(SurfaceBuf surfaces, uint instance, uint level, uint chart, vec
             }
         }
         if (left > 0u) {
-            uint index = refs.v[ref];
-            vec2 a = crossings.v[index].a;
-            vec2 e = crossings.v[index].b - a;
-            uint flags = crossings.v[index].flags;
+            uint index = readWord(refs, ref);
+            Crossing c = readCrossing(crossings, index);
+            vec2 a = c.a;
+            vec2 e = c.b - a;
+            uint flags = c.flags;
             vec2 r = a - uv;
             float out1 = cross2(delta, e);                 // positive: towards the right of a -> b
             float side = (flags & 4u) != 0u ? out1 : -out1;
@@ -310,7 +311,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     vec2 e = vec2(0.0f);
     bool insideLeft = false;
     if (leaves) {
-        Crossing c = surfaces.v[instance].crossings.v[leave.crossing];
+        Crossing c = readCrossing(surfaces.v[instance].crossings, leave.crossing);
         insideLeft = (c.flags & 4u) != 0u;
         // The search began where the last stretch ended before its correction; the walk itself meets the same
         // line here.
@@ -334,8 +335,8 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             toInstance = toInstance == 0xFFFFu ? instance : toInstance;
             uint toChart = c.target & 0xFFFFu;
             toPlace = (toInstance << 16u) | toChart;
-            toOrientation = surfaces.v[toInstance].charts.v[toChart].orientation;
-            uint coarsest = surfaces.v[toInstance].charts.v[toChart].coarsestLevel;
+            uint coarsest;
+            readChart(surfaces.v[toInstance].charts, toChart, toOrientation, coarsest);
             toLevel = level < coarsest ? level : coarsest;
             // Seen from outside, the far chart lies on the other side of the edge; mirrored UVs swap sides.
             insideLeft = insideLeft == (toOrientation * w.orientation < 0.0f);

@@ -9,7 +9,9 @@
 #include <set>
 #include <sstream>
 
+#include "runtime/expand/growth_plan.hpp"
 #include "shaders/shared/exact.h"
+#include "shaders/shared/expand_tables.h"
 #include "tests/expand/scene.hpp"
 
 using namespace espalier;
@@ -174,6 +176,36 @@ TEST_CASE("several grammars grow in one scene, each seed by its own") {
     std::set<uint32_t> grammars;
     for (const Chunk& c : records->chunks) grammars.insert(c.symbol >> 16);
     CHECK(grammars.size() == 2);
+}
+
+TEST_CASE("tables and surfaces read by address grow what those read as uniforms and texels do") {
+    TestDevice gpu;
+    auto growth = gpu.growth();
+    uint64_t first = 0;
+    for (uint32_t grammars : {1u, 400u}) {  // so many that their words exceed kUniformTableWords
+        CAPTURE(grammars);
+        Scene scene = Scene::baked(ball());
+        for (uint32_t i = 0; i < grammars; ++i) scene.addGrammar(kBranching);
+        std::vector<RuleMapRef> refs;
+        for (uint32_t i = 0; i < grammars; ++i) refs.push_back(scene.grammar(i).ref());
+        GrowthInputs inputs;
+        inputs.grammars = refs;
+        uint64_t words = 0;
+        placeTables(inputs, words);
+        REQUIRE((words > kUniformTableWords) == (grammars > 1));
+        scene.plantMany(7);
+        for (bool fetch : {true, false}) {
+            CAPTURE(fetch);
+            scene.fetchSurfaces = fetch;
+            mustGrow(scene, gpu, *growth);
+            checkAlike(scene, *growth);
+            if (first == 0) first = growth->stats().hash;
+            CHECK(growth->stats().hash == first);
+        }
+        scene.plantMany(3, grammars - 1, 2);  // by the last of them
+        mustGrow(scene, gpu, *growth);
+        checkAlike(scene, *growth);
+    }
 }
 
 TEST_CASE("a forbidden area is never entered and dead ends are counted") {

@@ -41,6 +41,7 @@ class Scene {
     const SurfaceData& surface() const { return surface_; }
     GrowthLimits limits;
     std::vector<float> widths;
+    bool fetchSurfaces = true;  // see GrowthInputs::surfaceData
 
     Result<CpuGrowth> growOnCpu();
     // Uploads and grows; the buffers live as long as the scene.
