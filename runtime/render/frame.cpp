@@ -70,6 +70,7 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.rayUp = up * tangent;
     frame.rayForward = forward - camera.shift.x * frame.rayRight - camera.shift.y * frame.rayUp;
     frame.pixelScale = float(height) / (2 * tangent);
+    frame.unit = 1;
     frame.surfaces = inputs.surfaces;
     frame.layers = inputs.layers;
     if (!inputs.surfaces.v && (look.view == ViewMode::charts || look.view == ViewMode::layer))

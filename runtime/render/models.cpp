@@ -22,6 +22,15 @@ const Image& pictureOr(const std::vector<Image>& images, int index, const Image&
     return index >= 0 && size_t(index) < images.size() && images[size_t(index)] ? images[size_t(index)] : other;
 }
 
+// Nothing real is wholly black or wholly white, yet converters leave zero where they lost the material (FBX's Lambert)
+// and a file without materials means one. Such a surface is drawn as plaster, so that light and shadow show on it.
+glm::vec4 shownColor(const Material& material) {
+    const glm::vec4 c = material.baseColor;
+    const bool lost =
+        material.baseColorImage < 0 && (std::max({c.x, c.y, c.z}) < 1e-4f || std::min({c.x, c.y, c.z}) > 0.999f);
+    return lost ? glm::vec4(0.30f, 0.285f, 0.26f, c.w) : c;
+}
+
 }  // namespace
 
 Result<Models> Models::create(Device& device) {
@@ -103,7 +112,7 @@ ModelPush Models::pushOf(const Model& model, const Material& material, uint64_t 
     push.vertices.v = reinterpret_cast<ModelVertex*>(model.vertices.address());
     for (int r = 0; r < 3; ++r)
         push.toWorld[r] = {model.toWorld[0][r], model.toWorld[1][r], model.toWorld[2][r], model.toWorld[3][r]};
-    push.baseColor = material.baseColor;
+    push.baseColor = shownColor(material);
     push.normalScale = material.normalImage >= 0 ? material.normalScale : 0;
     push.roughness = material.roughness;
     push.alphaCutoff = material.alphaCutoff;

@@ -1,5 +1,6 @@
 // Enters: growth's records, surfaces, camera, look. Leaves: a picture. A frame is: shadow map if something that casts
-// shadows has changed, cull, scene in four samples, ambient occlusion at half size, resolve with tone curve.
+// shadows has changed, cull, scene (in four samples, on a CPU in one), ambient occlusion at half size,
+// samples or smoothed edges to pixels.
 #include "runtime/render/renderer.hpp"
 
 #include <algorithm>
@@ -33,6 +34,12 @@ DrawTargets onto(VkExtent2D extent, VkImageView view) {
     targets.colors.emplace_back();
     targets.colors[0].view = view;
     return targets;
+}
+
+// Metres, unless the models are far too small or too large for that: then their longest side counts as six.
+float lengthUnit(glm::vec3 size) {
+    const float side = std::max({size.x, size.y, size.z});
+    return side > 1.0f && side < 200.0f ? 1.0f : std::max(side, 1e-6f) / 6;
 }
 
 class RendererImpl final : public Renderer {
@@ -86,6 +93,7 @@ class RendererImpl final : public Renderer {
 };
 
 Status RendererImpl::makePrograms() {
+    const bool one = targets_.samples == 1;
     auto graphics = [&](Program& program, const char* name, const char* vertex, const char* fragment,
                         bool shadow) -> Status {
         GraphicsDesc desc;
@@ -98,7 +106,7 @@ Status RendererImpl::makePrograms() {
             desc.depthBiasSlope = 1.8f;
         } else {
             desc.colors = {kSceneFormat};
-            desc.samples = kSamples;
+            desc.samples = targets_.samples;
             desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
         }
         Result<Program> made = Program::graphics(device_, desc);
@@ -107,14 +115,14 @@ Status RendererImpl::makePrograms() {
         return Done{};
     };
     GraphicsDesc skyDesc = fullscreen("sky", "render/sky.frag", kSceneFormat);
-    skyDesc.samples = kSamples;
+    skyDesc.samples = targets_.samples;
     skyDesc.depth = kDepthFormat;  // it lies at depth 0, infinitely far
     skyDesc.depthTest = true;
     skyDesc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
     Result<Program> sky = Program::graphics(device_, skyDesc);
     if (!sky) return sky.failure();
     sky_ = std::move(*sky);
-    Result<Program> depthTiles = Program::compute(device_, "render/tiles.comp");
+    Result<Program> depthTiles = Program::compute(device_, one ? "render/tiles_single.comp" : "render/tiles.comp");
     if (!depthTiles) return depthTiles.failure();
     depthTiles_ = std::move(*depthTiles);
     auto post = [&](Program& program, const char* name, const char* fragment, VkFormat format) -> Status {
@@ -125,13 +133,13 @@ Status RendererImpl::makePrograms() {
     };
     const Status all[] = {
         graphics(model_, "model", "render/model.vert", "render/model.frag", false),
-        graphics(bark_, "bark", "render/bark.vert", "render/bark.frag", false),
-        graphics(leaf_, "leaf", "render/leaf.vert", "render/leaf.frag", false),
+        graphics(bark_, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag", false),
+        graphics(leaf_, "leaf", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag", false),
         graphics(modelDepth_, "model shadow", "render/model.vert", "", true),
         graphics(barkDepth_, "bark shadow", "render/bark.vert", "", true),
         graphics(leafDepth_, "leaf shadow", "render/leaf.vert", "", true),
         graphics(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag", true),
-        post(distance_, "distance", "render/depth.frag", kDistanceFormat),
+        post(distance_, "distance", one ? "render/depth_single.frag" : "render/depth.frag", kDistanceFormat),
         post(occlusion_, "occlusion", "render/occlusion.frag", kOpenFormat)};
     for (const Status& s : all)
         if (!s) return s;
@@ -140,12 +148,15 @@ Status RendererImpl::makePrograms() {
 
 Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
     if (auto it = resolves_.find(format); it != resolves_.end()) return &it->second;
-    Result<Program> made = Program::graphics(device_, fullscreen("resolve", "render/resolve.frag", format));
+    const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
+    Result<Program> made = Program::graphics(device_, fullscreen("resolve", fragment, format));
     if (!made) return made.failure();
     return &(resolves_[format] = std::move(*made));
 }
 
 Status RendererImpl::setUp(TerminalData data) {
+    // Four samples make a frame three times as dear on a CPU; there edges are smoothed when all is drawn.
+    targets_.samples = device_.info().cpu ? 1 : 4;
     Result<Terminals> terminals = Terminals::create(device_, std::move(data));
     if (!terminals) return terminals.failure();
     terminals_ = std::move(*terminals);
@@ -338,7 +349,7 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     }
     commands.transition(target.image ? host : targets_.own, ImageState::colorTarget, true);
     DrawPass pass(commands, "draw resolve", onto({target.width, target.height}, view));
-    pass.draw(**program, 3, 1, push, {{targets_.color, pointSampler_}, {targets_.open, plainSampler_}});
+    pass.draw(**program, 3, 1, push, {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}});
     return Done{};
 }
 
@@ -356,6 +367,7 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     const SunView sun = makeSunView(frame.sunDirection, (low + high) * 0.5f, radius);
     frame.shadowMatrix = sun.toTexture;
     frame.shadowTexel = 1.0f / kShadowSize;
+    frame.unit = lengthUnit(high - low);
     frame.shadowOffset = 1.2f * sun.width / kShadowSize;
     const ShadowKey key{growth.revision, models_.revision(), frame.sunDirection, growth.nodeCount, growth.leafCount};
     if (frame.shadows && (!shadowDrawn_ || key != shadowKey_)) {
@@ -371,7 +383,6 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     PostPush push{};
     push.frame.v = reinterpret_cast<FrameRecord*>(*address);
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
-    push.samples = kSamples;
     // Some devices do a pass' work when the next one needs it: only the whole is a true time.
     Pass whole(commands, "draw");
     drawModels(commands, *address, inputs);

@@ -11,9 +11,9 @@ Status Targets::resize(Device& device, uint32_t newWidth, uint32_t newHeight) {
         ImageDesc desc;
     } images[] = {
         {color,
-         {.name = "scene colour", .format = kSceneFormat, .width = newWidth, .height = newHeight, .samples = kSamples}},
+         {.name = "scene colour", .format = kSceneFormat, .width = newWidth, .height = newHeight, .samples = samples}},
         {depth,
-         {.name = "scene depth", .format = kDepthFormat, .width = newWidth, .height = newHeight, .samples = kSamples}},
+         {.name = "scene depth", .format = kDepthFormat, .width = newWidth, .height = newHeight, .samples = samples}},
         {distance, {.name = "distance", .format = kDistanceFormat, .width = halfWidth, .height = halfHeight}},
         {open, {.name = "ambient visibility", .format = kOpenFormat, .width = halfWidth, .height = halfHeight}}};
     own = Image();

@@ -4,7 +4,6 @@
 
 namespace espalier {
 
-constexpr uint32_t kSamples = 4;
 constexpr uint32_t kShadowSize = 2048;
 constexpr VkFormat kSceneFormat = VK_FORMAT_R8G8B8A8_UNORM;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
@@ -14,10 +13,11 @@ constexpr VkFormat kOwnFormat = VK_FORMAT_R8G8B8A8_UNORM;
 
 // The images that a frame of one size is drawn in.
 struct Targets {
-    Image color, depth;    // four samples; colour: as tone.glsl's stored()
+    Image color, depth;    // of `samples` a pixel; colour: as tone.glsl's stored()
     Image distance, open;  // a quarter of the pixels: distance along the view, ambient visibility
     Image own;             // 8 bit, sRGB encoded; made only if asked for
     uint32_t width = 0, height = 0;
+    uint32_t samples = 4;  // 4, or 1 where samples cost more than smoothing edges afterwards; set before resize()
 
     Status resize(Device& device, uint32_t newWidth, uint32_t newHeight);
     Status makeOwn(Device& device);

@@ -52,6 +52,6 @@ bool hidden(EmitView view, vec3 center, float radius) {
 // Pixels that a metre covers at `center`.
 float pixelsPerMetre(EmitView view, vec3 center) {
     if (view.parallel != 0u) return view.pixelScale;
-    return view.pixelScale / max(distance(view.eye, center), 1e-3);
+    return view.pixelScale / max(distance(view.eye, center), 1e-6);
 }
 #endif

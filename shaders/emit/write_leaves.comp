@@ -24,7 +24,7 @@ void main() {
     PlacedLeaf leaf = placeLeaf(s, pose, hash, push.table.v[0].variants[v].extent);
     EmitView view = push.view.v[0];
     if ((view.flags & kFullDetail) == 0u) {
-        float pixels = view.pixelScale / (view.parallel != 0u ? 1.0 : max(distance(view.eye, leaf.origin), 1e-3));
+        float pixels = view.pixelScale / (view.parallel != 0u ? 1.0 : max(distance(view.eye, leaf.origin), 1e-6));
         leaf.size *= leafGrowth(pixels * leaf.size);
     }
     LeafInstance o;

@@ -33,7 +33,7 @@ void main() {
     if ((view.flags & kFullDetail) == 0u) {
         // Thinner than it can be drawn: drawn at that width, but fainter.
         vec3 center = (s.span.p0 + s.span.p3) * 0.5;
-        float pixels = view.pixelScale / (view.parallel != 0u ? 1.0 : max(distance(view.eye, center), 1e-3));
+        float pixels = view.pixelScale / (view.parallel != 0u ? 1.0 : max(distance(view.eye, center), 1e-6));
         float thin = min(max(s.radius0, s.radius1) * pixels / view.leastPixels, 1.0);
         o.radius0 = max(s.radius0, view.leastPixels / pixels * min(s.radius0 / max(s.radius1, 1e-9), 1.0));
         o.radius1 = max(s.radius1, view.leastPixels / pixels * min(s.radius1 / max(s.radius0, 1e-9), 1.0));

@@ -1,40 +1,4 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-// Bark: its texture at two neighbouring octaves of scale, blended by the radius, so that nothing is stretched where
-// a stem grows thinner and nothing jumps at a joint.
-#include "shaders/render/light.glsl"
-
-layout(push_constant, scalar) uniform Data { TerminalPush push; };
-layout(set = 0, binding = 0) uniform sampler2D colorMap;
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec4 along;
-layout(location = 3) flat in uint hash;
-layout(location = 0) out vec4 color;
-
-void main() {
-    gl_SampleMask[0] = coverage(along.w, hash >> 8u);
-    vec3 n = normalize(normal);
-    uint view = push.frame.v[0].view;
-    if (view != kViewShaded) {
-        vec3 shown = view == kViewNormals ? n * 0.5 + 0.5 : view == kViewLod ? lodColor(hash & 255u) : vec3(0.30, 0.22, 0.15);
-        color = view == kViewNormals ? stored(shown, 0.0) : diagnostic(push.frame, shown, n);
-        return;
-    }
-    // One turn around is 2 pi r; the nearest lower and upper powers of two of that.
-    float octave = floor(along.z);
-    float blend = along.z - octave;
-    float scale = exp2(-octave) * (1.0 / 6.2831853);
-    vec3 base = mix(texture(colorMap, vec2(along.x, along.y * scale)).rgb,
-                    texture(colorMap, vec2(along.x, along.y * scale * 0.5)).rgb, blend) * push.baseColor.rgb;
-    // Young wood is smooth and greenish, old wood grey-brown.
-    float young = clamp((-along.z - 7.6) * 0.5, 0.0, 1.0);
-    base = mix(base, vec3(0.16, 0.17, 0.06), 0.55 * young);
-    vec3 eye = normalize(push.frame.v[0].eye - position);
-    vec3 sun = push.frame.v[0].sunDirection;
-    float facing = max(dot(n, sun), 0.0);
-    float visible = facing > 0.0 ? sunVisibility(push.frame, position, n) : 0.0;
-    vec3 direct = push.frame.v[0].sunColor * visible * facing * (base + gloss(n, eye, sun, max(push.roughness, 0.5)));
-    color = lit(push.frame, direct, base * skyLight(push.frame, n) * 0.8);
-}
+#include "shaders/render/bark.glsl"

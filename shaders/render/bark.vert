@@ -42,7 +42,7 @@ void main() {
     position = center + (side * mesh.position.x + up * mesh.position.y) * radius;
     vec3 n = octahedralToUnit(mesh.normal);
     normal = side * n.x + up * n.y + normalize(tangent + vec3(1e-12)) * n.z;
-    along = vec4(mesh.uv.x, o.arc0 + o.metres * u, log2(max(radius, 1e-5)), float(o.bits >> 16u) * (1.0 / 65535.0));
+    along = vec4(mesh.uv.x, o.arc0 + o.metres * u, log2(max(radius, 1e-9)), float(o.bits >> 16u) * (1.0 / 65535.0));
     hash = (o.normal0 ^ floatBitsToUint(o.p0.x)) * 0x9E3779B1u | (o.bits & 255u);
     hash = (hash & ~255u) | (o.bits & 255u);
     gl_Position = push.frame.v[0].viewProjection * vec4(position, 1.0);

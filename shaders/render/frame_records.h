@@ -32,7 +32,7 @@ struct FrameRecord {
     vec3 rayRight;           // half the picture's width at distance 1
     float pixelScale;        // pixels of one metre at one metre's distance
     vec3 rayUp;
-    uint spare0;
+    float unit;              // what a metre is for models that come in other units: sizes of the look are in it
     vec3 rayForward;
     uint spare1;
     SurfaceBuf surfaces;
@@ -81,7 +81,7 @@ STATIC_SIZE(TerminalPush, 88);
 struct PostPush {
     FrameBuf frame;
     vec2 rcpSize;            // 1 / pixels
-    uint samples;
+    uint spare;
     uint encode;             // 1: the target doesn't encode to sRGB itself
 };
 STATIC_SIZE(PostPush, 24);

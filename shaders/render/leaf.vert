@@ -28,7 +28,7 @@ void main() {
     // Deep in the canopy little sky is seen: measured by the height over the surface, in leaf sizes.
     vec3 ground = octahedralToUnit(o.normal);
     float height = float(o.bits >> 16u) * (1.0 / 65535.0) * 1.1 + dot(arm, ground) / size;
-    vec3 q = o.origin * 2.3;
+    vec3 q = o.origin * (2.3 / push.frame.v[0].unit);
     float patchTone = sin(q.x + 1.7 * sin(q.y * 0.8)) * sin(1.3 * q.y + 1.1 * q.z + 2.0 * sin(0.6 * q.x));
     uvOpen = vec4(mesh.uv, clamp(0.26 + 1.0 * height, 0.18, 1.0), patchTone);
     bits = uvec3(o.tint, o.hash, o.bits & 0xFFFFu);

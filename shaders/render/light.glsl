@@ -56,6 +56,9 @@ vec4 diagnostic(FrameBuf frame, vec3 color, vec3 normal) {
     return stored(color * (0.55 + 0.45 * max(dot(normal, frame.v[0].sunDirection), 0.0)), 0.6);
 }
 
+// A threshold for each pixel, even over small neighbourhoods: with one sample, half a pixel is every second one.
+float ditherAt(vec2 pixel) { return fract(52.98 * fract(dot(floor(pixel), vec2(0.0671, 0.00584)))) * 0.996 + 0.002; }
+
 // Coverage of `alpha` over the four samples. which: varies the pattern between things that lie over each other.
 int coverage(float alpha, uint which) {
     uint n = uint(clamp(alpha, 0.0, 1.0) * 4.0 + 0.5);

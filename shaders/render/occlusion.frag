@@ -12,6 +12,8 @@ layout(location = 0) out float open;
 const vec2 kTaps[6] = vec2[6](vec2(0.31, 0.11), vec2(-0.22, 0.52), vec2(0.64, -0.38), vec2(0.43, 0.79),
                               vec2(-0.97, 0.21), vec2(-0.30, -0.15));
 
+const float kLeastOpen = 0.22;   // light bounced from what is near reaches everywhere
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(distanceMap, 0) - 1;
@@ -20,7 +22,7 @@ void main() {
         open = 1.0;
         return;
     }
-    const float reach = 0.16;   // metres
+    float reach = 0.16 * push.frame.v[0].unit;
     float pixels = clamp(reach * push.frame.v[0].pixelScale * 0.5 / z, 2.0, 48.0);
     float metres = pixels * z / (push.frame.v[0].pixelScale * 0.5);
     float sum = 0.0;
@@ -36,5 +38,5 @@ void main() {
         float r = length(kTaps[i]) * metres;
         sum += clamp((da + db) * 0.5 / r - 0.06, 0.0, 1.0);
     }
-    open = clamp(1.0 - 0.34 * sum, 0.0, 1.0);
+    open = clamp(1.0 - 0.34 * sum, kLeastOpen, 1.0);
 }

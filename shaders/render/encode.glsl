@@ -1,0 +1,15 @@
+// The scene's stored colour -> what a picture holds.
+#ifndef ESPALIER_RENDER_ENCODE_GLSL
+#define ESPALIER_RENDER_ENCODE_GLSL
+
+// c: as stored() of tone.glsl; open: ambient visibility; encode: to sRGB; at: the pixel.
+vec4 pictureColor(vec4 c, float open, bool encode, ivec2 at) {
+    vec3 x = c.rgb * c.rgb * (1.0 - c.a * (1.0 - open));
+    if (encode)
+        x = mix(x * 12.92, 1.055 * pow(max(x, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, greaterThan(x, vec3(0.0031308)));
+    // Half a step of noise, the same on every run, so that the sky shows no bands.
+    uint h = (uint(at.x) * 0x9E3779B1u) ^ (uint(at.y) * 0x85EBCA77u);
+    h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
+    return vec4(x + (float(h >> 24u) * (1.0 / 255.0) - 0.5) * (1.0 / 255.0), 1.0);
+}
+#endif

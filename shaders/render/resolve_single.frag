@@ -1,0 +1,88 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// Pixels of one sample -> smooth edges, with ambient occlusion. Where brightness breaks, the edge is followed both
+// ways to its ends (the idea of FXAA, Lottes 2009); from where between them the pixel lies follows how much of it
+// belongs to the other side.
+#include "shaders/render/frame_records.h"
+#include "shaders/render/encode.glsl"
+
+layout(push_constant, scalar) uniform Data { PostPush push; };
+layout(set = 0, binding = 0) uniform sampler2D colorMap;
+layout(set = 0, binding = 1) uniform sampler2D openMap;
+layout(location = 0) out vec4 color;
+
+const float kLeastContrast = 0.035;      // of the stored square roots
+const float kRelativeContrast = 0.12;
+const float kSpeckShare = 0.3;          // how far a lone pixel is drawn to its neighbours' mean
+const float kSteps[6] = float[6](1.0, 2.0, 3.0, 4.5, 6.5, 9.0);
+
+float brightness(vec3 c) { return dot(c, vec3(0.3, 0.6, 0.1)); }
+float brightnessAt(vec2 uv) { return brightness(textureLod(colorMap, uv, 0.0).rgb); }
+float fetch(ivec2 at) {
+    return brightness(texelFetch(colorMap, clamp(at, ivec2(0), textureSize(colorMap, 0) - 1), 0).rgb);
+}
+
+// How far over the edge, in pixels, lies the end of the edge at `uv` along `along`? over: does brightness there leave
+// to the middle's other side?
+float edgeEnd(vec2 uv, vec2 along, float edge, float least, bool darkHere, out bool over) {
+    float difference = 0.0;
+    float far = kSteps[5];
+    for (int i = 0; i < 6; ++i) {
+        difference = brightnessAt(uv + along * kSteps[i]) - edge;
+        if (abs(difference) >= least) {
+            far = kSteps[i];
+            break;
+        }
+    }
+    over = (difference < 0.0) != darkHere;
+    return far;
+}
+
+vec4 smoothed(ivec2 at) {
+    vec4 middle = texelFetch(colorMap, at, 0);
+    float m = brightness(middle.rgb);
+    float n = fetch(at + ivec2(0, -1));
+    float s = fetch(at + ivec2(0, 1));
+    float w = fetch(at + ivec2(-1, 0));
+    float e = fetch(at + ivec2(1, 0));
+    float most = max(m, max(max(n, s), max(w, e)));
+    float range = most - min(m, min(min(n, s), min(w, e)));
+    if (range < max(kLeastContrast, kRelativeContrast * most)) return middle;
+
+    float nw = fetch(at + ivec2(-1, -1));
+    float ne = fetch(at + ivec2(1, -1));
+    float sw = fetch(at + ivec2(-1, 1));
+    float se = fetch(at + ivec2(1, 1));
+    float bendY = 2.0 * abs(n + s - 2.0 * m) + abs(ne + se - 2.0 * e) + abs(nw + sw - 2.0 * w);
+    float bendX = 2.0 * abs(w + e - 2.0 * m) + abs(nw + ne - 2.0 * n) + abs(sw + se - 2.0 * s);
+    bool flatEdge = bendY >= bendX;   // the edge runs along x
+    float before = flatEdge ? n : w;
+    float after = flatEdge ? s : e;
+    bool toBefore = abs(before - m) >= abs(after - m);
+    float other = toBefore ? before : after;
+    vec2 across = (flatEdge ? vec2(0.0, push.rcpSize.y) : vec2(push.rcpSize.x, 0.0)) * (toBefore ? -1.0 : 1.0);
+    vec2 along = flatEdge ? vec2(push.rcpSize.x, 0.0) : vec2(0.0, push.rcpSize.y);
+
+    vec2 uv = (vec2(at) + 0.5) * push.rcpSize;
+    float edge = 0.5 * (m + other);
+    float least = 0.25 * abs(other - m);
+    bool overBack;
+    bool overForth;
+    bool dark = m < edge;
+    float back = edgeEnd(uv + across * 0.5, -along, edge, least, dark, overBack);
+    float forth = edgeEnd(uv + across * 0.5, along, edge, least, dark, overForth);
+    float nearer = min(back, forth);
+    float share = (back < forth ? overBack : overForth) ? 0.5 - nearer / (back + forth) : 0.0;
+    // Specks and thin things have no edge to follow.
+    float mean = (2.0 * (n + s + w + e) + nw + ne + sw + se) * (1.0 / 12.0);
+    float lone = smoothstep(0.0, 1.0, clamp(abs(mean - m) / range, 0.0, 1.0));
+    share = max(share, lone * lone * kSpeckShare);
+    return textureLod(colorMap, uv + across * share, 0.0);
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    float open = textureLod(openMap, gl_FragCoord.xy * push.rcpSize, 0.0).x;
+    color = pictureColor(smoothed(at), open, push.encode != 0u, at);
+}
