@@ -131,6 +131,78 @@ FN uvec2 hashVec3(uvec2 h, vec3 v) {
 }
 FN uvec2 hashKey(u64 key) { return uvec2(uint(key), uint(key >> 32)); }
 
+// Whole records at once, in pieces of eight bytes: software devices loop over lanes for every piece.
+#ifdef __cplusplus
+inline WorkItem readItem(WorkItemBuf items, uint at) { return items.v[at]; }
+inline void writeItem(WorkItemBuf items, uint at, const WorkItem& item) { items.v[at] = item; }
+inline void writeChunk(ChunkBuf chunks, uint at, const Chunk& chunk) { chunks.v[at] = chunk; }
+#else
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PairBuf { uint64_t v[]; };
+
+uint64_t pairOf(uint low, uint high) { return packUint2x32(uvec2(low, high)); }
+uint64_t pairOf(float low, float high) { return packUint2x32(uvec2(floatBitsToUint(low), floatBitsToUint(high))); }
+WorkItem readItem(WorkItemBuf items, uint at) {
+    PairBuf from = PairBuf(uint64_t(items) + uint64_t(at) * 80u);
+    WorkItem item;
+    item.key = from.v[0];
+    uvec2 p = unpackUint2x32(from.v[1]);
+    uvec2 q = unpackUint2x32(from.v[2]);
+    uvec2 r = unpackUint2x32(from.v[3]);
+    item.walk.place = p.x;
+    item.walk.uv = uintBitsToFloat(uvec2(p.y, q.x));
+    item.walk.direction = uintBitsToFloat(uvec3(q.y, r.x, r.y));
+    p = unpackUint2x32(from.v[4]);
+    item.walk.arc = uintBitsToFloat(p.x);
+    item.symbol = p.y;
+    vec2 args = uintBitsToFloat(unpackUint2x32(from.v[5]));
+    item.args[0] = args.x;
+    item.args[1] = args.y;
+    args = uintBitsToFloat(unpackUint2x32(from.v[6]));
+    item.args[2] = args.x;
+    item.args[3] = args.y;
+    p = unpackUint2x32(from.v[7]);
+    item.parent = p.x;
+    item.origin = p.y;
+    p = unpackUint2x32(from.v[8]);
+    item.branch = p.x;
+    item.seed = p.y;
+    p = unpackUint2x32(from.v[9]);
+    item.depth = p.x;
+    item.step = p.y;
+    return item;
+}
+void writeItem(WorkItemBuf items, uint at, WorkItem item) {
+    PairBuf to = PairBuf(uint64_t(items) + uint64_t(at) * 80u);
+    to.v[0] = item.key;
+    to.v[1] = pairOf(item.walk.place, floatBitsToUint(item.walk.uv.x));
+    to.v[2] = pairOf(item.walk.uv.y, item.walk.direction.x);
+    to.v[3] = pairOf(item.walk.direction.y, item.walk.direction.z);
+    to.v[4] = pairOf(floatBitsToUint(item.walk.arc), item.symbol);
+    to.v[5] = pairOf(item.args[0], item.args[1]);
+    to.v[6] = pairOf(item.args[2], item.args[3]);
+    to.v[7] = pairOf(item.parent, item.origin);
+    to.v[8] = pairOf(item.branch, item.seed);
+    to.v[9] = pairOf(item.depth, item.step);
+}
+void writeChunk(ChunkBuf chunks, uint at, Chunk c) {
+    PairBuf to = PairBuf(uint64_t(chunks) + uint64_t(at) * 112u);
+    to.v[0] = c.key;
+    to.v[1] = pairOf(c.entry.place, floatBitsToUint(c.entry.uv.x));
+    to.v[2] = pairOf(c.entry.uv.y, c.entry.direction.x);
+    to.v[3] = pairOf(c.entry.direction.y, c.entry.direction.z);
+    to.v[4] = pairOf(floatBitsToUint(c.entry.arc), c.exitHash);
+    to.v[5] = pairOf(c.symbol, floatBitsToUint(c.args[0]));
+    to.v[6] = pairOf(c.args[1], c.args[2]);
+    to.v[7] = pairOf(floatBitsToUint(c.args[3]), c.parent);
+    to.v[8] = pairOf(c.previousNode, c.next);
+    to.v[9] = pairOf(c.branch, c.firstNode);
+    to.v[10] = pairOf(c.depth, c.step);
+    to.v[11] = pairOf(c.marks, c.paramMask);
+    to.v[12] = pairOf(c.readTiles[0], c.readTiles[1]);
+    to.v[13] = pairOf(c.readTiles[2], c.readTiles[3]);
+}
+#endif
+
 // Groups of `each` that items [first, first + count) add to a dispatch over all items so far.
 FN uint groupsAdded(uint first, uint count, uint each) {
     return (first + count + each - 1u) / each - (first + each - 1u) / each;

@@ -56,18 +56,13 @@ CONST_UINT(kMaxTrips, 256u);
 CONST_UINT(kMostTaken, 4u);
 CONST_UINT(kItemsPerGroup, 64u);           // a group is dispatched for so many items; below kMostTaken an invocation
 
-// A chunk's nodes and a waiting item are staged in arrays of words of the invocation's own, and written by loops over
-// words: a masked store costs as much as a real one on a software device, a loop that isn't entered next to nothing.
+// A chunk's nodes are staged in an array of words of the invocation's own, since they get their place at its end.
 CONST_UINT(kNodeWords, 11u);
-CONST_UINT(kItemWords, 20u);
 #ifdef __cplusplus
 #define STAGED(i) env.scratch.v[i]
-#define ITEM_WORD(i) env.scratch.v[kChunkNodes * kNodeWords + (i)]
 #else
 uint stagedNodes[352];
-uint stagedItem[20];
 #define STAGED(i) stagedNodes[i]
-#define ITEM_WORD(i) stagedItem[i]
 #endif
 
 CONST_UINT(kPhaseDerive, 0u);    // a rule is to be found
@@ -153,51 +148,35 @@ FN Place placeOf(ExpandEnv env, WalkState w) {
 }
 
 #ifdef __cplusplus
-inline UintBuf wordsOfItems(WorkItemBuf items) { return {reinterpret_cast<uint*>(items.v)}; }
 inline UintBuf wordsOfNodes(NodeBuf nodes) { return {reinterpret_cast<uint*>(nodes.v)}; }
 #else
-UintBuf wordsOfItems(WorkItemBuf items) { return UintBuf(uint64_t(items)); }
 UintBuf wordsOfNodes(NodeBuf nodes) { return UintBuf(uint64_t(nodes)); }
 #endif
 
-// Stages an item for pushStaged; `origin`, `branch`: see WorkItem.
-FN void stageItem(ExpandEnv env, WorkItem entry, GrowthSite site, u64 key, uint grammar, uint symbol, vec4 args,
-                  Walk walk) {
-    ITEM_WORD(0) = uint(key);
-    ITEM_WORD(1) = uint(key >> 32);
-    ITEM_WORD(2) = walk.place;
-    ITEM_WORD(3) = floatBitsToUint(walk.uv.x);
-    ITEM_WORD(4) = floatBitsToUint(walk.uv.y);
-    ITEM_WORD(5) = floatBitsToUint(walk.direction.x);
-    ITEM_WORD(6) = floatBitsToUint(walk.direction.y);
-    ITEM_WORD(7) = floatBitsToUint(walk.direction.z);
-    ITEM_WORD(8) = floatBitsToUint(walk.arc);
-    ITEM_WORD(9) = (grammar << 16u) | symbol;
-    ITEM_WORD(10) = floatBitsToUint(args.x);
-    ITEM_WORD(11) = floatBitsToUint(args.y);
-    ITEM_WORD(12) = floatBitsToUint(args.z);
-    ITEM_WORD(13) = floatBitsToUint(args.w);
-    ITEM_WORD(14) = site.chunk;
-    ITEM_WORD(17) = entry.seed;
-}
-FN void stageLinks(ExpandEnv env, uint origin, uint branch, uint depth, uint step) {
-    ITEM_WORD(15) = origin;
-    ITEM_WORD(16) = branch;
-    ITEM_WORD(18) = depth;
-    ITEM_WORD(19) = step;
+// An item without its links: origin, branch, depth and step.
+FN WorkItem itemOf(WorkItem entry, GrowthSite site, u64 key, uint grammar, uint symbol, vec4 args, Walk walk) {
+    WorkItem item;
+    item.key = key;
+    item.walk = walk;
+    item.symbol = (grammar << 16u) | symbol;
+    item.args[0] = args.x;
+    item.args[1] = args.y;
+    item.args[2] = args.z;
+    item.args[3] = args.w;
+    item.parent = site.chunk;
+    item.seed = entry.seed;
+    return item;
 }
 
-// Puts the staged item into the next wave's queue, if it is wanted; beyond its capacity only the count grows. There is
-// one atomic here, since on a software device masked ones cost their full price: the rest is counted at the chunk's end.
-FN void pushStaged(ExpandEnv env, bool wanted, INOUT(Grower) g) {
+// Puts an item into the next wave's queue, if it is wanted; beyond its capacity only the count grows. There is one
+// atomic here, since on a software device masked ones cost their full price: the rest is counted at the chunk's end.
+FN void pushItem(ExpandEnv env, WorkItem item, bool wanted, INOUT(Grower) g) {
     bool push = wanted && env.wave < env.phase;
     uint at = kNoIndex;
     if (push) at = atomicAdd(env.waves.v[env.wave + 1u].count, 1u);
     g.pushed = g.pushed + (push ? 1u : 0u);
     g.refused = g.refused + (wanted && !push ? 1u : 0u);
-    UintBuf words = wordsOfItems(env.nextItems);
-    uint count = at < env.itemCapacity ? kItemWords : 0u;
-    for (uint i = 0u; i < count; ++i) words.v[at * kItemWords + i] = ITEM_WORD(i);
+    if (at < env.itemCapacity) writeItem(env.nextItems, at, item);
 }
 
 // Finds the shape's rule and applies it: a List at once (its branches are queued, what it continues with waits for
@@ -246,12 +225,15 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
         u64 child = successorKey(key, successor, TABLE(at + 1u));
         uint symbol = successor & 0xFFFFu;
         bool branches = (successor & kPackedContinues) == 0u;
+        Walk walk = g.at.walk;
+        walk.arc = 0.0f;
+        WorkItem item = itemOf(entry, site, child, g.grammar, symbol, args, walk);
+        item.origin = g.count == 0u ? kNoIndex : g.count - 1u;
+        item.branch = kNoIndex;
+        item.depth = entry.depth + 0x10001u;
+        item.step = entry.step & 0xFF000000u;
+        pushItem(env, item, branches, g);
         if (branches) {
-            Walk walk = g.at.walk;
-            walk.arc = 0.0f;
-            stageItem(env, entry, site, child, g.grammar, symbol, args, walk);
-            stageLinks(env, g.count == 0u ? kNoIndex : g.count - 1u, kNoIndex, entry.depth + 0x10001u,
-                       entry.step & 0xFF000000u);
             g.hash = hashWord(hashWord(g.hash, uint(child)), uint(child >> 32));
         } else {
             g.key = child;
@@ -259,7 +241,6 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
             g.args = args;
             g.phase = kPhaseDerive;
         }
-        pushStaged(env, branches, g);
     }
 }
 
@@ -452,11 +433,14 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     c.readTiles[1] = g.reads.tile1;
     c.readTiles[2] = g.reads.tile2;
     c.readTiles[3] = g.reads.tile3;
-    env.chunks.v[site.chunk] = c;
+    writeChunk(env.chunks, site.chunk, c);
 
-    stageItem(env, item, site, g.key, g.grammar, g.symbol, g.args, g.at.walk);
-    stageLinks(env, g.count - 1u, branch, item.depth + 0x10000u, item.step + g.steps);
-    pushStaged(env, goesOn, g);
+    WorkItem rest = itemOf(item, site, g.key, g.grammar, g.symbol, g.args, g.at.walk);
+    rest.origin = g.count - 1u;
+    rest.branch = branch;
+    rest.depth = item.depth + 0x10000u;
+    rest.step = item.step + g.steps;
+    pushItem(env, rest, goesOn, g);
 }
 
 FN void countChunk(ExpandEnv env, Grower g) {
