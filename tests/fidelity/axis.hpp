@@ -1,0 +1,38 @@
+#pragma once
+
+// Grows a grammar on a model and measures how the bark's curves lie to the model's triangles.
+
+#include <string>
+
+#include "tests/fidelity/signed_distance.hpp"
+#include "tools/bake/bake.hpp"
+
+namespace espalier::fidelitytest {
+
+// Shares are of samples (16 a span), distances in radii of the bark there.
+struct AxisFigures {
+    uint32_t spans = 0;
+    double nodesWithin = 0;                           // share of nodes within one radius: what the walk alone does
+    double within = 0;                                // share of samples within one radius
+    double floating = 0, sinking = 0;                 // shares more than one radius above and below the mesh
+    double median = 0, p99 = 0, p999 = 0, worst = 0;  // of |distance|
+    double worstBreak = 0, break999 = 0;              // degrees, at joints
+    double withinTexel = 0;  // share of samples within one radius or one texel of the chart, whichever is more
+    // Of the samples beyond one radius: those on spans whose ends' normals differ by more than 20 degrees, that begin
+    // or end with a sample at a seam or crease, whose chord is longer than eight radii, of which a node itself is
+    // beyond one radius; and the median of their radii, in texels.
+    double outTurning = 0, outInserted = 0, outLong = 0, outNodes = 0, outTexels = 0;
+};
+
+struct AxisCase {
+    std::string grammar;  // file name in content/grammars
+    uint32_t seeds = 12;
+    uint32_t maxNodes = 40'000;
+};
+
+AxisFigures measureAxis(const Baked& baked, const SignedDistance& mesh, const AxisCase& c);
+
+void printHeading();
+void print(const std::string& name, const AxisCase& c, const AxisFigures& f);
+
+}  // namespace espalier::fidelitytest
