@@ -39,17 +39,8 @@ float edgeEnd(vec2 uv, vec2 along, float edge, float least, bool darkHere, out b
     return far;
 }
 
-vec4 smoothed(ivec2 at) {
-    vec4 middle = texelFetch(colorMap, at, 0);
-    float m = brightness(middle.rgb);
-    float n = fetch(at + ivec2(0, -1));
-    float s = fetch(at + ivec2(0, 1));
-    float w = fetch(at + ivec2(-1, 0));
-    float e = fetch(at + ivec2(1, 0));
-    float most = max(m, max(max(n, s), max(w, e)));
-    float range = most - min(m, min(min(n, s), min(w, e)));
-    if (range < max(kLeastContrast, kRelativeContrast * most)) return middle;
-
+// at: the pixel, its colour's brightness m and those of its neighbours in the four directions.
+vec4 smoothed(ivec2 at, float m, float n, float s, float w, float e, float range) {
     float nw = fetch(at + ivec2(-1, -1));
     float ne = fetch(at + ivec2(1, -1));
     float sw = fetch(at + ivec2(-1, 1));
@@ -83,6 +74,17 @@ vec4 smoothed(ivec2 at) {
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
+    vec4 shown = texelFetch(colorMap, at, 0);
+    float m = brightness(shown.rgb);
+    float n = fetch(at + ivec2(0, -1));
+    float s = fetch(at + ivec2(0, 1));
+    float w = fetch(at + ivec2(-1, 0));
+    float e = fetch(at + ivec2(1, 0));
+    float most = max(m, max(max(n, s), max(w, e)));
+    float range = most - min(m, min(min(n, s), min(w, e)));
+    // A loop of one round: a device that runs all lanes through both sides of an `if` does leave a loop early.
+    for (bool edge = range >= max(kLeastContrast, kRelativeContrast * most); edge; edge = false)
+        shown = smoothed(at, m, n, s, w, e, range);
     float open = textureLod(openMap, gl_FragCoord.xy * push.rcpSize, 0.0).x;
-    color = pictureColor(smoothed(at), open, push.encode != 0u, at);
+    color = pictureColor(shown, open, push.encode != 0u, at);
 }

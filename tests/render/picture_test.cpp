@@ -192,6 +192,29 @@ TEST_CASE("leaves are green, the wall casts shadows, the sky is above") {
     CHECK(bare != grown);
 }
 
+TEST_CASE("a material whose colour was lost shows light and shadow, in any unit of length") {
+    Studio studio;
+    studio.inputs.growth = {};
+    auto lightness = [&](float scale, glm::vec4 color) {
+        SurfaceData data = wall(4 * scale, 2.6f * scale);
+        data.boundsMax.z = 2 * scale;
+        for (DrawVertex& v : data.vertices) v.position.z *= scale;
+        data.materials[0].baseColor = color;
+        REQUIRE(studio.renderer->setSurface(0, data, glm::mat4(1)));
+        studio.inputs.camera.eye = glm::vec3(0.8f, 1.2f, 3.6f) * scale;
+        studio.inputs.camera.target = glm::vec3(0, 0.9f, 0) * scale;
+        studio.inputs.camera.nearPlane = 0.05f * scale;
+        const std::vector<uint8_t> picture = studio.draw(160, 90);
+        const size_t middle = (size_t(45) * 160 + 80) * 4;
+        return int(picture[middle]) + int(picture[middle + 1]) + int(picture[middle + 2]);
+    };
+    const int grey = lightness(1, {0.3f, 0.3f, 0.3f, 1});
+    CHECK(lightness(1, {0, 0, 0, 1}) == doctest::Approx(grey).epsilon(0.2));
+    CHECK(lightness(1, {1, 1, 1, 1}) == doctest::Approx(grey).epsilon(0.2));
+    CHECK(lightness(1, {0.02f, 0.02f, 0.02f, 1}) < grey / 2);  // dark paint stays dark
+    CHECK(lightness(0.004f, {0.3f, 0.3f, 0.3f, 1}) == doctest::Approx(grey).epsilon(0.05));
+}
+
 TEST_CASE("views without walk data fall back, and each differs from the shaded one") {
     Studio studio;
     const std::vector<uint8_t> shaded = studio.draw(160, 90);
