@@ -72,6 +72,7 @@ class GpuGrowth final : public Growth {
     // Made when first asked for; [1] reads tables by address, see kUniformTableWords.
     std::array<Program, 4> march_;  // [2], [3] fetch surfaces as texels
     std::array<Program, 2> marchPaper_, terminals_;
+    uint32_t features_ = 0;  // that these are specialised to: all that grammars ever used, so that they settle
     Program packTables_, branchesFit_, fit_;
     bool byAddress_ = false;
     bool fetches_ = false;
@@ -107,8 +108,8 @@ Status GpuGrowth::load(Program& program, const char* shader, std::vector<SpecCon
 }
 
 Status GpuGrowth::loadKernels(WalkMode mode) {
-    const std::vector<SpecConstant> constants = {{0, byAddress_ ? 1u : 0u}};
-    const std::vector<SpecConstant> walking = {{0, byAddress_ ? 1u : 0u}, {1, fetches_ ? 0u : 1u}};
+    const std::vector<SpecConstant> constants = {{0, byAddress_ ? 1u : 0u}, {2, features_}};
+    const std::vector<SpecConstant> walking = {{0, byAddress_ ? 1u : 0u}, {1, fetches_ ? 0u : 1u}, {2, features_}};
     Status march = mode == WalkMode::paper ? load(marchPaper_[byAddress_], "expand/march_paper.comp", constants)
                                            : load(march_[marchNumber()], "expand/march.comp", walking);
     if (!march) return march;
@@ -147,6 +148,15 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
     byAddress_ = words > kUniformTableWords;
     Status viewed = viewSurfaces(inputs);
     if (!viewed) return viewed;
+    uint32_t features = features_ | kFeatureKnown;
+    for (const RuleMapRef& map : inputs.grammars) features |= map.features == 0 ? kAllFeatures : map.features;
+    features &= kAllFeatures;
+    if (features != features_) {
+        for (Program& program : march_) program = {};
+        for (Program& program : marchPaper_) program = {};
+        for (Program& program : terminals_) program = {};
+        features_ = features;
+    }
     Status kernels = loadKernels(inputs.limits.walk);
     if (!kernels) return kernels;
     struct Row {

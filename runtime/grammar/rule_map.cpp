@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "runtime/grammar/rule_map_layout.hpp"
+#include "shaders/shared/interpreter.h"
 
 namespace espalier {
 namespace {
@@ -164,6 +165,36 @@ std::span<const uint32_t> RuleMap::words() const {
     return words_;
 }
 
+namespace {
+
+// The kFeature... bits of what the map's records ask of places and its code does.
+uint32_t featuresOf(const RuleMap& map, const RuleMapRef& ref) {
+    uint32_t inputs = 0, layers = 0, features = kFeatureKnown;
+    for (uint32_t i = 0; i < ref.symbolCount; ++i) {
+        const SymbolRecord r = RuleMapAccess::record<SymbolRecord>(map, kSectionSymbols, i);
+        inputs |= r.inputs;
+        layers |= r.layers;
+    }
+    for (uint32_t i = 0; i < ref.ruleCount; ++i) {
+        const RuleRecord r = RuleMapAccess::record<RuleRecord>(map, kSectionRules, i);
+        inputs |= r.startInputs | r.arriveInputs;
+        layers |= r.startLayers | r.arriveLayers;
+    }
+    for (uint32_t i = 0; i < ref.extrudeCount; ++i) {
+        const ExtrudeRecord r = RuleMapAccess::record<ExtrudeRecord>(map, kSectionExtrudes, i);
+        inputs |= r.inputs;
+        layers |= r.layers;
+    }
+    for (uint32_t i = 0; i < ref.codeCount; ++i)
+        if (isHardOperation(RuleMapAccess::record<CodeWord>(map, kSectionCode, i).bits & 31u))
+            features |= kFeatureHardCode;
+    if (inputs & kInputsOfWorld) features |= kFeatureWorld;
+    if (layers || (inputs & kInputCurvature)) features |= kFeatureSurface;
+    return features;
+}
+
+}  // namespace
+
 RuleMapRef RuleMap::refAt(uint64_t address) const {
     RuleMapRef ref = {};
     auto at = [&](uint32_t section) { return address + uint64_t(sections_[section].offset) * 4; };
@@ -181,6 +212,7 @@ RuleMapRef RuleMap::refAt(uint64_t address) const {
     ref.terminalCount = sections_[kSectionTerminals].count;
     ref.codeCount = sections_[kSectionCode].count;
     ref.siteCount = sections_[kSectionSites].count;
+    ref.features = featuresOf(*this, ref);
     for (uint32_t i = 0; i < kMaxDirections; ++i) {
         ref.directions[i] = vec4(0.0f);
         if (i < sections_[kSectionDirections].count)

@@ -76,8 +76,6 @@ struct Place {
     uint level;
 };
 
-CONST_UINT(kInputsOfWorld, kInputNormal | kInputHeading | kInputPosition | kInputSlope | kInputHeight | 15u);
-
 // An instance's place in the world, kept at hand while growth stays on it.
 struct WorldFrame {
     uint instance;
@@ -97,6 +95,7 @@ FN WorldFrame frameOf(SurfaceBuf surfaces, uint instance, uint inputs) {
     f.offset = vec3(0.0f);
     f.perMetre = rcpExact(surfaces.v[instance].scale);
     f.lowest = 0.0f;
+    if ((kFeatures & kFeatureWorld) == 0u) return f;
     for (uint i = 0u; i < ((inputs & kInputsOfWorld) != 0u ? 3u : 0u); ++i) {
         vec4 row = surfaces.v[instance].toWorld[i];
         vec3 r = vec3(row.x, row.y, row.z);
@@ -121,6 +120,16 @@ FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint
     SLOT(kSlotDepth) = float(depth);
     SLOT(kSlotStep) = float(step);
     SLOT(kSlotArc) = arc;
+    if ((kFeatures & kFeatureSurface) != 0u) {
+        if ((inputs & kInputCurvature) != 0u) {
+            SLOT(kSlotCurvature) = curvatureAt(env.surfaces, p.instance, p.level, p.uv) * f.perMetre;
+        }
+        for (uint left = layers; left != 0u; left = left & (left - 1u)) {
+            uint i = lowestBit(left);
+            SLOT(kSlotLayer + i) = layerAt(env.layers, p.instance, env.grammars.v[grammar].layerOf[i] & 15u, p.uv, reads);
+        }
+    }
+    if ((kFeatures & kFeatureWorld) == 0u) return;
     vec3 normal = vec3(dot3(f.x, p.normal), dot3(f.y, p.normal), dot3(f.z, p.normal)) * f.perMetre;
     vec3 heading = vec3(dot3(f.x, p.heading), dot3(f.y, p.heading), dot3(f.z, p.heading)) * f.perMetre;
     float height = dot3(f.y, p.position) + f.offset.y;
@@ -136,13 +145,6 @@ FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint
     SLOT(kSlotHeight) = height - f.lowest;
     if ((inputs & kInputSlope) != 0u) {
         SLOT(kSlotSlope) = atan2Exact(sqrtExact(normal.x * normal.x + normal.z * normal.z), normal.y);
-    }
-    if ((inputs & kInputCurvature) != 0u) {
-        SLOT(kSlotCurvature) = curvatureAt(env.surfaces, p.instance, p.level, p.uv) * f.perMetre;
-    }
-    for (uint left = layers; left != 0u; left = left & (left - 1u)) {
-        uint i = lowestBit(left);
-        SLOT(kSlotLayer + i) = layerAt(env.layers, p.instance, env.grammars.v[grammar].layerOf[i] & 15u, p.uv, reads);
     }
     for (uint left = inputs & 15u; left != 0u; left = left & (left - 1u)) {
         uint i = lowestBit(left);

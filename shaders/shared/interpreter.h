@@ -52,6 +52,7 @@ CONST_UINT(kOpSqrt, 14u);     // of negative numbers: 0
 CONST_UINT(kOpSin, 15u);
 CONST_UINT(kOpCos, 16u);
 CONST_UINT(kOpCount, 17u);
+FN bool isHardOperation(uint op) { return op >= kOpFloor && op != kOpAbs; }
 
 // What a number means as a condition. Painted masks are filtered, so that their edge lies at one half.
 FN bool holds(float x) { return x >= 0.5f; }
@@ -59,6 +60,29 @@ FN bool holds(float x) { return x >= 0.5f; }
 FN float tamed(float x) {
     float y = x > -1e18f ? (x < 1e18f ? x : 1e18f) : -1e18f;
     return absolute(y) < 1e-30f ? 0.0f : y;
+}
+
+FN float applyHardOperation(uint op, float x, float y) {
+    float r = x;
+    switch (op) {
+        case kOpFloor: {
+            float whole = floorExact(limited(x, -8388608.0f, 8388608.0f));
+            r = absolute(x) < 8388608.0f ? whole : x;
+            break;
+        }
+        case kOpDiv: r = y == 0.0f ? 0.0f : divExact(x, y); break;
+        case kOpSqrt: r = sqrtExact(x); break;
+        case kOpSin:
+        case kOpCos: {
+            float s;
+            float c;
+            sinCosExact(limited(x, -8000.0f, 8000.0f), s, c);
+            r = op == kOpSin ? s : c;
+            break;
+        }
+        default: break;
+    }
+    return r;
 }
 
 // One operation. Angles are taken within ±8000 radians, floors within ±2^23 (beyond, floats are whole).
@@ -75,22 +99,14 @@ FN float applyOperation(uint op, float x, float y, float z) {
         case kOpLessEq: r = x <= y ? 1.0f : 0.0f; break;
         case kOpEqual: r = x == y ? 1.0f : 0.0f; break;
         case kOpSelect: r = holds(x) ? y : z; break;
-        case kOpFloor: {
-            float whole = floorExact(limited(x, -8388608.0f, 8388608.0f));
-            r = absolute(x) < 8388608.0f ? whole : x;
-            break;
-        }
         case kOpAbs: r = absolute(x); break;
-        case kOpDiv: r = y == 0.0f ? 0.0f : divExact(x, y); break;
-        case kOpSqrt: r = sqrtExact(x); break;
+        case kOpFloor:
+        case kOpDiv:
+        case kOpSqrt:
         case kOpSin:
-        case kOpCos: {
-            float s;
-            float c;
-            sinCosExact(limited(x, -8000.0f, 8000.0f), s, c);
-            r = op == kOpSin ? s : c;
+        case kOpCos:
+            if ((kFeatures & kFeatureHardCode) != 0u) r = applyHardOperation(op, x, y);
             break;
-        }
         default: break;
     }
     return tamed(r);

@@ -184,6 +184,20 @@ BUFFER(SuccessorRecordBuf, SuccessorRecord)
 BUFFER(ExtrudeRecordBuf, ExtrudeRecord)
 BUFFER(TerminalRecordBuf, TerminalRecord)
 
+// What a grammar uses of all that rules may ask and do. Kernels of growth are specialised to what a scene's grammars
+// use together, since a software device runs code for what none uses all the same.
+CONST_UINT(kFeatureKnown, 1u);
+CONST_UINT(kFeatureWorld, 2u);      // inputs that take the place in the world: normal, heading, angles, slope, height
+CONST_UINT(kFeatureSurface, 4u);    // layers, curvature
+CONST_UINT(kFeatureHardCode, 8u);   // operations from kOpFloor on that aren't a single instruction
+CONST_UINT(kAllFeatures, 15u);
+#if !defined(__cplusplus) && defined(ESPALIER_TABLES)
+layout(constant_id = 2) const uint kFeatures = kAllFeatures;
+#else
+CONST_UINT(kFeatures, kAllFeatures);
+#endif
+CONST_UINT(kInputsOfWorld, kInputNormal | kInputHeading | kInputPosition | kInputSlope | kInputHeight | 15u);
+
 // One grammar of a scene. layerOf[i]: the scene's layer that the grammar's layer i is bound to.
 struct RuleMapRef {
     SymbolRecordBuf symbols;
@@ -196,7 +210,7 @@ struct RuleMapRef {
     uint symbolCount, ruleCount, successorCount, extrudeCount, terminalCount;
     uint codeCount;      // words of code
     uint siteCount;
-    uint spare;
+    uint features;       // kFeature... that its rules use; 0: not known, all of them
     vec4 directions[4];
     uint layerOf[16];
 };

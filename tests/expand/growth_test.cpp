@@ -208,6 +208,31 @@ TEST_CASE("tables and surfaces read by address grow what those read as uniforms 
     }
 }
 
+TEST_CASE("kernels follow when grammars ask for more than before, and for less again") {
+    TestDevice gpu;
+    auto growth = gpu.growth();
+    Scene scene = Scene::baked(flatSquare());
+    scene.paint(0, 64, [](glm::vec2 uv) { return uv.x < 0.6f ? 1.0f : 0.0f; });
+    const uint32_t plain = scene.addGrammar(kStraight);
+    CHECK(scene.grammar(plain).ref().features == kFeatureKnown);
+    scene.plantMany(6, plain);
+    mustGrow(scene, gpu, *growth);
+    checkAlike(scene, *growth);
+    const uint64_t hash = growth->stats().hash;
+
+    const uint32_t masked = scene.addGrammar(kMasked);
+    CHECK((scene.grammar(masked).ref().features & kFeatureSurface) != 0);
+    scene.plantMany(6, masked, 2);
+    mustGrow(scene, gpu, *growth);
+    checkAlike(scene, *growth);
+    CHECK(growth->stats().hash != hash);
+
+    scene.clearSeeds();
+    scene.plantMany(6, plain);
+    mustGrow(scene, gpu, *growth);
+    CHECK(growth->stats().hash == hash);
+}
+
 TEST_CASE("a forbidden area is never entered and dead ends are counted") {
     TestDevice gpu;
     auto growth = gpu.growth();
