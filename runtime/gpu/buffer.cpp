@@ -32,9 +32,9 @@ Result<Buffer> Buffer::create(Device& device, std::string_view name, uint64_t si
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = std::max(sizeBytes, kLeastBytes);
     info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-                 VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                 VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                 VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     VkBuffer handle = VK_NULL_HANDLE;
     if (!ESPALIER_VK(device, name, device.vk().vkCreateBuffer(device.handle(), &info, nullptr, &handle)))
         return gpuFailure(device, name, "making a buffer");
@@ -61,8 +61,7 @@ Result<TexelView> TexelView::create(Device& device, const Buffer& buffer, VkForm
     info.format = format;
     info.range = VK_WHOLE_SIZE;
     VkBufferView handle = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, buffer.name(),
-                     device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &handle)))
+    if (!ESPALIER_VK(device, buffer.name(), device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &handle)))
         return gpuFailure(device, buffer.name(), "making a texel view");
     TexelView view;
     view.view_ = Owned(device, handle);

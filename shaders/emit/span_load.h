@@ -28,6 +28,13 @@ FN vec3 placeDirection(vec4 r0, vec4 r1, vec4 r2, vec3 d) {
                       r2.x * d.x + r2.y * d.y + r2.z * d.z));
 }
 
+// The longest handle, of at most `length`, that lifts a curve by no more than about a fifth of `radius` off the
+// surface at its far end, whose normal is `far`. At a sample on a crease the tangent leans off both sides.
+FN float levelHandle(float length, vec3 tangent, vec3 far, float radius) {
+    float most = divExact(0.5f * radius, larger(absolute(dot3(tangent, far)), 1e-6f));
+    return smaller(length, larger(most, 0.02f * length));
+}
+
 // The node that the span of node `i` starts from, or kNoIndex.
 FN uint previousNode(ChunkBuf chunks, Node node, uint i) {
     return ((node.flags >> 8u) & 31u) > 0u ? i - 1u : chunks.v[node.chunk].previousNode;
@@ -64,6 +71,11 @@ FN LoadedSpan loadSpan(NodeBuf nodes, ChunkBuf chunks, SurfaceBuf surfaces, uint
     uint smoothness = (b.flags >> 15u) & 3u;
     if (smoothness == kSmoothC1) {
         s.span = smoothSpan(p0, t0, p3, t3);
+        float least = smaller(s.radius0, s.radius1);
+        if ((a.flags & kNodeInserted) != 0u)
+            s.span.b1 = p0 + t0 * levelHandle(length3(s.span.b1 - p0), t0, s.normal1, least);
+        if ((b.flags & kNodeInserted) != 0u)
+            s.span.b2 = p3 - t3 * levelHandle(length3(p3 - s.span.b2), t3, s.normal0, least);
     } else if (smoothness == kSmoothC0) {
         // Handles just long enough to turn the rings at the joints into the mitre; the rest is straight.
         float handle = 0.02f * length3(p3 - p0);
