@@ -149,8 +149,10 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
     Status viewed = viewSurfaces(inputs);
     if (!viewed) return viewed;
     uint32_t features = features_ | kFeatureKnown;
-    for (const RuleMapRef& map : inputs.grammars) features |= map.features == 0 ? kAllFeatures : map.features;
-    features &= kAllFeatures;
+    for (const RuleMapRef& map : inputs.grammars)
+        features |= map.features == 0 ? kRuleFeatures : map.features & kRuleFeatures;
+    if (inputs.limits.leafDensityCap > 0) features |= kFeatureDensity;
+    if (inputs.limits.tangents == TangentMode::paper) features |= kFeatureJoints;
     if (features != features_) {
         for (Program& program : march_) program = {};
         for (Program& program : marchPaper_) program = {};

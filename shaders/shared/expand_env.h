@@ -131,11 +131,24 @@ FN uvec2 hashVec3(uvec2 h, vec3 v) {
 }
 FN uvec2 hashKey(u64 key) { return uvec2(uint(key), uint(key >> 32)); }
 
+// What the pass over nodes needs of a chunk.
+struct ChunkBrief {
+    float entryArc;
+    uint symbol;
+    vec4 args;
+    uint previousNode, next, branch, firstNode, depth, step, marks;
+};
+
 // Whole records at once, in pieces of eight bytes: software devices loop over lanes for every piece.
 #ifdef __cplusplus
 inline WorkItem readItem(WorkItemBuf items, uint at) { return items.v[at]; }
 inline void writeItem(WorkItemBuf items, uint at, const WorkItem& item) { items.v[at] = item; }
 inline void writeChunk(ChunkBuf chunks, uint at, const Chunk& chunk) { chunks.v[at] = chunk; }
+inline ChunkBrief readBrief(ChunkBuf chunks, uint at) {
+    const Chunk& c = chunks.v[at];
+    return {c.entry.arc, c.symbol, vec4(c.args[0], c.args[1], c.args[2], c.args[3]),
+            c.previousNode, c.next, c.branch, c.firstNode, c.depth, c.step, c.marks};
+}
 #else
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PairBuf { uint64_t v[]; };
 
@@ -183,6 +196,26 @@ void writeItem(WorkItemBuf items, uint at, WorkItem item) {
     to.v[7] = pairOf(item.parent, item.origin);
     to.v[8] = pairOf(item.branch, item.seed);
     to.v[9] = pairOf(item.depth, item.step);
+}
+ChunkBrief readBrief(ChunkBuf chunks, uint at) {
+    PairBuf from = PairBuf(uint64_t(chunks) + uint64_t(at) * 112u);
+    ChunkBrief c;
+    c.entryArc = uintBitsToFloat(unpackUint2x32(from.v[4]).x);
+    uvec2 p = unpackUint2x32(from.v[5]);
+    c.symbol = p.x;
+    vec2 middle = uintBitsToFloat(unpackUint2x32(from.v[6]));
+    c.args = vec4(uintBitsToFloat(p.y), middle, uintBitsToFloat(unpackUint2x32(from.v[7]).x));
+    p = unpackUint2x32(from.v[8]);
+    c.previousNode = p.x;
+    c.next = p.y;
+    p = unpackUint2x32(from.v[9]);
+    c.branch = p.x;
+    c.firstNode = p.y;
+    p = unpackUint2x32(from.v[10]);
+    c.depth = p.x;
+    c.step = p.y;
+    c.marks = unpackUint2x32(from.v[11]).x;
+    return c;
 }
 void writeChunk(ChunkBuf chunks, uint at, Chunk c) {
     PairBuf to = PairBuf(uint64_t(chunks) + uint64_t(at) * 112u);

@@ -49,11 +49,14 @@ FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, uint colour, float siz
     float arc = site.stepStart + limited(t, 0.0f, 1.0f) * (site.stepEnd - site.stepStart);
     bool last = site.after >= site.stepEnd;
     bool here = arc >= site.before && (arc < site.after || last) && size > 0.0f;
-    bool counts = env.phase == kTerminalsCount;
-    if (here && counts) atomicAdd(env.density.v[cell], 1u);
-    if (here && !counts && env.status.v[0].leafDensityCap > 0.0f) {
-        float share = float(uint(key >> 40)) * 5.96046448e-8f;
-        here = share * float(env.density.v[cell]) < kLeavesPerCell;
+    bool capped = (kFeatures & kFeatureDensity) != 0u && env.status.v[0].leafDensityCap > 0.0f;
+    bool counts = capped && env.phase == kTerminalsCount;
+    if ((kFeatures & kFeatureDensity) != 0u) {
+        if (here && counts) atomicAdd(env.density.v[cell], 1u);
+        if (here && !counts && capped) {
+            float share = float(uint(key >> 40)) * 5.96046448e-8f;
+            here = share * float(env.density.v[cell]) < kLeavesPerCell;
+        }
     }
     if (!here || counts) return;
     Leaf leaf;
@@ -156,13 +159,14 @@ FN void findStep(ExpandEnv env, uint firstNode, uint index, float arc, float ent
 FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
     Node node = env.nodes.v[index];
     uint chunk = node.chunk;
-    uint firstNode = env.chunks.v[chunk].firstNode;
-    uint nodeCount = chunkNodes(env.chunks.v[chunk].marks);
-    uint previous = env.chunks.v[chunk].previousNode;
-    uint branch = env.chunks.v[chunk].branch;
-    uint next = env.chunks.v[chunk].next;
-    float entryArc = env.chunks.v[chunk].entry.arc;
-    uint grammar = env.chunks.v[chunk].symbol >> 16u;
+    ChunkBrief brief = readBrief(env.chunks, chunk);
+    uint firstNode = brief.firstNode;
+    uint nodeCount = chunkNodes(brief.marks);
+    uint previous = brief.previousNode;
+    uint branch = brief.branch;
+    uint next = brief.next;
+    float entryArc = brief.entryArc;
+    uint grammar = brief.symbol >> 16u;
     uint local = index - firstNode;
 
     // Neighbours along the stem.
@@ -186,7 +190,7 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
     if (site.foot && !site.tip) flags = env.nodes.v[follower].flags;
     uint extrude = flags & 255u;
     site.extrude = extrude - 1u;
-    uint step = (env.chunks.v[chunk].step & 0xFFFFFFu) + ((flags >> 26u) & 31u) + 1u;
+    uint step = (brief.step & 0xFFFFFFu) + ((flags >> 26u) & 31u) + 1u;
     float radius = 0.0f;
     uint barkFlags = 0u;
     findStep(env, firstNode, local, node.arc, entryArc, node.flags, site);
@@ -211,10 +215,10 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
         place.level = 0u;
         ReadSet reads = emptyReadSet();
         resetMachine(MACHINE_ONLY);
-        SLOT(kSlotArg) = env.chunks.v[chunk].args[0];
-        SLOT(kSlotArg + 1u) = env.chunks.v[chunk].args[1];
-        SLOT(kSlotArg + 2u) = env.chunks.v[chunk].args[2];
-        SLOT(kSlotArg + 3u) = env.chunks.v[chunk].args[3];
+        SLOT(kSlotArg) = brief.args.x;
+        SLOT(kSlotArg + 1u) = brief.args.y;
+        SLOT(kSlotArg + 2u) = brief.args.z;
+        SLOT(kSlotArg + 3u) = brief.args.w;
         SLOT(kSlotBranchLength) = length;
         SLOT(kSlotToTip) = length - node.arc;
         SLOT(kSlotSpanLength) = site.stepEnd - site.stepStart;
@@ -222,9 +226,10 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
         SLOT(kSlotCount) = 0.0f;
         WorldFrame frame = frameOf(env.surfaces, place.instance, inputs);
         giveInputs(MACHINE env, frame, grammar, inputs, layers, place,
-                   env.chunks.v[chunk].depth & 0xFFFFu, step, node.arc, reads);
+                   brief.depth & 0xFFFFu, step, node.arc, reads);
         uint cell = 0u;
-        if (env.status.v[0].leafDensityCap > 0.0f) cell = densityCell(env, site.seed, node.place, place.uv);
+        if ((kFeatures & kFeatureDensity) != 0u && env.status.v[0].leafDensityCap > 0.0f)
+            cell = densityCell(env, site.seed, node.place, place.uv);
         radius = runTerminals(MACHINE env, map, first, first + (range >> 16u), site, cell, barkFlags);
     }
     hash = hash + site.hash;
@@ -232,7 +237,7 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
         vec3 normal = unpackOct(node.normal);
         vec3 heading = unpackOct(node.tangent);
         vec3 sum = segmentDirection(before, node.position) + segmentDirection(node.position, after);
-        if (env.status.v[0].tangentMode != 0u) {
+        if ((kFeatures & kFeatureJoints) != 0u && env.status.v[0].tangentMode != 0u) {
             // The paper's average is over all adjacent segments, the branches' too.
             uint at = kDensityCells + 3u * index;
             sum = sum + vec3(float(int(env.density.v[at])), float(int(env.density.v[at + 1u])),

@@ -190,7 +190,10 @@ CONST_UINT(kFeatureKnown, 1u);
 CONST_UINT(kFeatureWorld, 2u);      // inputs that take the place in the world: normal, heading, angles, slope, height
 CONST_UINT(kFeatureSurface, 4u);    // layers, curvature
 CONST_UINT(kFeatureHardCode, 8u);   // operations from kOpFloor on that aren't a single instruction
-CONST_UINT(kAllFeatures, 15u);
+CONST_UINT(kFeatureDensity, 16u);   // the last two are asked for by GrowthLimits: a cap on leaves,
+CONST_UINT(kFeatureJoints, 32u);    // and the paper's tangents
+CONST_UINT(kRuleFeatures, 15u);
+CONST_UINT(kAllFeatures, 63u);
 #if !defined(__cplusplus) && defined(ESPALIER_TABLES)
 layout(constant_id = 2) const uint kFeatures = kAllFeatures;
 #else
