@@ -24,7 +24,7 @@ void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const Growt
     queue[0] = itemsOfSeeds(inputs.seeds);
     queue[0].resize(room.items);
     queue[1].resize(room.items);
-    std::vector<uint32_t> scratch(kChunkNodes * kNodeWords);
+    std::vector<uint32_t> scratch(kChunkNodes * kStagedWords);
     env.itemCapacity = room.items;
     env.phase = lastWave(cut);
     env.scratch = {scratch.data()};

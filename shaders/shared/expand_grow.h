@@ -57,11 +57,11 @@ CONST_UINT(kMostTaken, 4u);
 CONST_UINT(kItemsPerGroup, 64u);           // a group is dispatched for so many items; below kMostTaken an invocation
 
 // A chunk's nodes are staged in an array of words of the invocation's own, since they get their place at its end.
-CONST_UINT(kNodeWords, 11u);
+CONST_UINT(kStagedWords, 9u);   // of a node: all but radius and chunk
 #ifdef __cplusplus
 #define STAGED(i) env.scratch.v[i]
 #else
-uint stagedNodes[352];
+uint stagedNodes[288];
 #define STAGED(i) stagedNodes[i]
 #endif
 
@@ -146,12 +146,6 @@ FN Place placeOf(ExpandEnv env, WalkState w) {
     p.level = w.level;
     return p;
 }
-
-#ifdef __cplusplus
-inline UintBuf wordsOfNodes(NodeBuf nodes) { return {reinterpret_cast<uint*>(nodes.v)}; }
-#else
-UintBuf wordsOfNodes(NodeBuf nodes) { return UintBuf(uint64_t(nodes)); }
-#endif
 
 // An item without its links: origin, branch, depth and step.
 FN WorkItem itemOf(WorkItem entry, GrowthSite site, u64 key, uint grammar, uint symbol, vec4 args, Walk walk) {
@@ -245,8 +239,8 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
 }
 
 // Writes a sample into the stage.
-FN void stageNode(ExpandEnv env, GrowthSite site, WalkState w, vec3 normal, uint flags, uint index) {
-    uint at = index * kNodeWords;
+FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, uint flags, uint index) {
+    uint at = index * kStagedWords;
     STAGED(at) = floatBitsToUint(w.position.x);
     STAGED(at + 1u) = floatBitsToUint(w.position.y);
     STAGED(at + 2u) = floatBitsToUint(w.position.z);
@@ -254,10 +248,8 @@ FN void stageNode(ExpandEnv env, GrowthSite site, WalkState w, vec3 normal, uint
     STAGED(at + 4u) = packOct(headingOf(env, w));
     STAGED(at + 5u) = packUv(w.walk.uv);
     STAGED(at + 6u) = w.walk.place;
-    STAGED(at + 7u) = 0u;
-    STAGED(at + 8u) = floatBitsToUint(w.walk.arc);
-    STAGED(at + 9u) = site.chunk;
-    STAGED(at + 10u) = flags | (index << 8u);
+    STAGED(at + 7u) = floatBitsToUint(w.walk.arc);
+    STAGED(at + 8u) = flags | (index << 8u);
 }
 
 // The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes
@@ -294,7 +286,7 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
     g.phase = full ? kPhaseFull : g.phase;   // the whole step moves to the next chunk
     if (recorded && room) {
         uint flags = ((g.rule >> 8u) & 255u) | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
-        stageNode(env, site, g.trial, normal, flags, index);
+        stageNode(env, g.trial, normal, flags, index);
         g.pending = g.pending + 1u;
         g.lastArc = g.trial.walk.arc;
     }
@@ -367,7 +359,7 @@ FN uint previousNodeOf(ExpandEnv env, WorkItem item) {
 }
 
 // Takes a range of nodes, copies what was staged, and returns the first index.
-FN uint publishNodes(ExpandEnv env, uint count) {
+FN uint publishNodes(ExpandEnv env, uint chunk, uint count) {
     uint first = count > 0u ? atomicAdd(env.status.v[0].nodes, count) : 0u;
     bool fits = first + count <= env.status.v[0].nodeCapacity;
     if (count > 0u) {
@@ -375,8 +367,20 @@ FN uint publishNodes(ExpandEnv env, uint count) {
         uint added = groupsAdded(first, count, kExpandGroup);
         if (fits && added > 0u) atomicAdd(env.status.v[0].nodeGroups[0], added);
     }
-    UintBuf words = wordsOfNodes(env.nodes);
-    for (uint i = 0u; i < (fits ? count * kNodeWords : 0u); ++i) words.v[first * kNodeWords + i] = STAGED(i);
+    for (uint i = 0u; i < (fits ? count : 0u); ++i) {
+        uint at = i * kStagedWords;
+        Node node;
+        node.position = vec3(uintBitsToFloat(STAGED(at)), uintBitsToFloat(STAGED(at + 1u)), uintBitsToFloat(STAGED(at + 2u)));
+        node.normal = STAGED(at + 3u);
+        node.tangent = STAGED(at + 4u);
+        node.uv = STAGED(at + 5u);
+        node.place = STAGED(at + 6u);
+        node.radius = 0.0f;
+        node.arc = uintBitsToFloat(STAGED(at + 7u));
+        node.chunk = chunk;
+        node.flags = STAGED(at + 8u);
+        env.nodes.v[first + i] = node;
+    }
     return first;
 }
 
@@ -404,7 +408,7 @@ FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, float lengt
 FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower) g, uint previousNode, bool goesOn) {
     float length = g.at.walk.arc;
     uint branch = item.branch;
-    uint first = publishNodes(env, g.count);
+    uint first = publishNodes(env, site.chunk, g.count);
     if (g.count > 0u || branch != kNoIndex) branch = publishBranch(env, item, site, length);
 
     Chunk c;
@@ -533,7 +537,7 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
         atomicAdd(env.status.v[0].lost, 1u);
     }
     if (stands && item.parent == kNoIndex) {
-        stageNode(env, c.site, c.g.at, c.g.at.normal, 0u, 0u);   // the seed's foot
+        stageNode(env, c.g.at, c.g.at.normal, 0u, 0u);   // the seed's foot
         c.g.count = 1u;
     }
     return true;
