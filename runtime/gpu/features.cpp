@@ -4,28 +4,47 @@
 
 #include "runtime/gpu/device.hpp"
 
-#define ESPALIER_REQUIRED(F)                                                                                        \
-    F(core.features, multiDrawIndirect)                                                                             \
-    F(core.features, drawIndirectFirstInstance)                                                                     \
-    F(core.features, shaderInt64)                                                                                   \
-    F(core.features, shaderInt16)                                                                                   \
-    F(core.features, shaderClipDistance)                                                                            \
-    F(v11, shaderDrawParameters)                                                                                    \
-    F(v11, storageBuffer16BitAccess) F(v12, storageBuffer8BitAccess) F(v12, shaderInt8) F(v12, bufferDeviceAddress) \
-        F(v12, scalarBlockLayout) F(v12, timelineSemaphore) F(v12, drawIndirectCount) F(v12, hostQueryReset)        \
-            F(v13, synchronization2) F(v13, dynamicRendering) F(v13, maintenance4)
-#define ESPALIER_WELCOME(F)                                                                                            \
-    F(core.features, samplerAnisotropy)                                                                                \
-    F(core.features, depthClamp)                                                                                       \
-    F(core.features, fillModeNonSolid)                                                                                 \
-    F(core.features, independentBlend)                                                                                 \
-    F(core.features, fragmentStoresAndAtomics)                                                                         \
-    F(core.features, vertexPipelineStoresAndAtomics)                                                                   \
-    F(core.features, textureCompressionBC) F(core.features, shaderFloat64) F(v11, storagePushConstant16)               \
-        F(v11, uniformAndStorageBuffer16BitAccess) F(v12, shaderBufferInt64Atomics)                                    \
-            F(v12, uniformAndStorageBuffer8BitAccess) F(v12, storagePushConstant8) F(v12, shaderSubgroupExtendedTypes) \
-                F(v12, vulkanMemoryModel) F(v12, vulkanMemoryModelDeviceScope) F(v13, shaderDemoteToHelperInvocation)  \
-                    F(v13, shaderTerminateInvocation) F(v13, subgroupSizeControl) F(v13, computeFullSubgroups)
+// clang-format off: a line each
+#define ESPALIER_REQUIRED(F) \
+    F(core.features, multiDrawIndirect) \
+    F(core.features, drawIndirectFirstInstance) \
+    F(core.features, shaderInt64) \
+    F(core.features, shaderInt16) \
+    F(core.features, shaderClipDistance) \
+    F(v11, shaderDrawParameters) \
+    F(v11, storageBuffer16BitAccess) \
+    F(v12, storageBuffer8BitAccess) \
+    F(v12, shaderInt8) \
+    F(v12, bufferDeviceAddress) \
+    F(v12, scalarBlockLayout) \
+    F(v12, timelineSemaphore) \
+    F(v12, drawIndirectCount) \
+    F(v12, hostQueryReset) \
+    F(v13, synchronization2) \
+    F(v13, dynamicRendering) \
+    F(v13, maintenance4)
+#define ESPALIER_WELCOME(F) \
+    F(core.features, samplerAnisotropy) \
+    F(core.features, depthClamp) \
+    F(core.features, fillModeNonSolid) \
+    F(core.features, independentBlend) \
+    F(core.features, fragmentStoresAndAtomics) \
+    F(core.features, vertexPipelineStoresAndAtomics) \
+    F(core.features, textureCompressionBC) \
+    F(core.features, shaderFloat64) \
+    F(v11, storagePushConstant16) \
+    F(v11, uniformAndStorageBuffer16BitAccess) \
+    F(v12, shaderBufferInt64Atomics) \
+    F(v12, uniformAndStorageBuffer8BitAccess) \
+    F(v12, storagePushConstant8) \
+    F(v12, shaderSubgroupExtendedTypes) \
+    F(v12, vulkanMemoryModel) \
+    F(v12, vulkanMemoryModelDeviceScope) \
+    F(v13, shaderDemoteToHelperInvocation) \
+    F(v13, shaderTerminateInvocation) \
+    F(v13, subgroupSizeControl) \
+    F(v13, computeFullSubgroups)
+// clang-format on
 
 namespace espalier {
 
