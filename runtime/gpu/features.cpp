@@ -4,7 +4,8 @@
 
 #include "runtime/gpu/device.hpp"
 
-// clang-format off: a line each
+// A line each.
+// clang-format off
 #define ESPALIER_REQUIRED(F) \
     F(core.features, multiDrawIndirect) \
     F(core.features, drawIndirectFirstInstance) \
