@@ -8,8 +8,8 @@ namespace espalier::grammar {
 namespace {
 
 constexpr uint64_t kMaxWork = 300'000;
-constexpr size_t kMaxLets = 64;       // that use each other in a row
-constexpr uint32_t kMaxGraph = 1024;  // operations that use each other in a row: later stages recurse over them
+constexpr size_t kMaxLets = 64;      // that use each other in a row
+constexpr uint32_t kMaxGraph = 256;  // operations that use each other in a row: later stages recurse over them
 
 std::string countText(uint32_t least, uint32_t most) {
     if (least == most) return std::to_string(least) + (least == 1 ? " argument" : " arguments");
@@ -186,9 +186,14 @@ Node Expressions::lowerName(const std::string& name, const Place& place, Env& en
 }
 
 Node Expressions::lower(ExprId id, Env& env) {
-    Node node = lowerTree(id, env);
-    if (graph_[node].depth <= kMaxGraph) return node;
-    return fail(module_.exprs[id].place, env, "the expression unfolds into more than 1,024 operations in a row");
+    // Lets unfold on the way down, so the stack is watched there; the graph may be deeper than the text.
+    if (nesting_ < kMaxGraph) {
+        ++nesting_;
+        Node node = lowerTree(id, env);
+        --nesting_;
+        if (graph_[node].depth <= kMaxGraph) return node;
+    }
+    return fail(module_.exprs[id].place, env, "the expression unfolds into more than 256 operations in a row");
 }
 
 Node Expressions::lowerTree(ExprId id, Env& env) {

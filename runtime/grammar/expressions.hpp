@@ -69,6 +69,7 @@ class Expressions {
     std::map<std::string, uint32_t> paramByName_, contextByName_, letByName_;
     std::set<std::string> names_, used_, activeLets_;
     uint64_t work_ = 0;
+    uint32_t nesting_ = 0;  // calls of lower under way
 };
 
 }  // namespace espalier::grammar

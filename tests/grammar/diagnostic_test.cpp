@@ -173,7 +173,7 @@ TEST_CASE("limits are reported, not met") {
     for (int i = 1; i < 60; ++i)
         lets += "let l" + std::to_string(i) + " = " + repeated("sin(", 30) + "l" + std::to_string(i - 1) +
                 repeated(")", 30) + "\n";
-    expect(lets + "A -> Marching(0.1, l59, true) {A}", "more than 1,024 operations in a row");
+    expect(lets + "A -> Marching(0.1, l59, true) {A}", "more than 256 operations in a row");
     std::string uniform = "0";
     for (int i = 0; i < 20; ++i)
         uniform = "sin(p + " + std::to_string(i) + ") * (" + uniform + " + cos(p * " + std::to_string(i) + "))";
