@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "runtime/expand/changes.hpp"
 #include "runtime/gpu/buffer.hpp"
 #include "shaders/shared/growth_records.h"
 #include "shaders/shared/rule_map.h"
@@ -43,6 +44,8 @@ struct GrowthInputs {
     std::span<const float> widths;
     std::span<const Seed> seeds;
     GrowthLimits limits;
+    // What is different from the inputs of the last grow() that succeeded. Null: everything.
+    const GrowthChanges* changes = nullptr;
 };
 
 // What the later stages read. Buffers belong to Growth and change only in grow().

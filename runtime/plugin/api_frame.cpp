@@ -1,4 +1,5 @@
 // Growing, drawing, reading back: what a host calls each frame.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -65,6 +66,13 @@ EspResult update(EspContext& context) {
     inputs.limits.maxNodes = context.grow.maxNodes;
     inputs.limits.maxDepth = context.grow.maxDepth;
     inputs.limits.leafDensityCap = context.grow.leafDensityCap;
+    std::vector<uint32_t> ids;
+    for (const auto& [id, index] : places) ids.push_back(id);
+    // Indices of grammars stay what they were only as long as none goes.
+    const std::vector<uint32_t>& known = context.grownGrammars;
+    if (known.size() > ids.size() || !std::equal(known.begin(), known.end(), ids.begin()))
+        context.changes.everything = true;
+    inputs.changes = &context.changes;
     Status grown = context.growth->grow(inputs);
     if (!grown && grown.failure().diagnostics.front().file == "growth") {
         context.failedRevision = context.revision;
@@ -73,6 +81,8 @@ EspResult update(EspContext& context) {
     }
     if (!grown) return failGpu(&context, grown.failure());
     context.grownRevision = context.revision;
+    context.grownGrammars = std::move(ids);
+    context.changes = {.everything = false, .tiles = {}, .params = {}, .grammars = {}};
     return ESP_OK;
 }
 
@@ -216,7 +226,7 @@ EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
             now.maxDepth == def->maxDepth && now.leafDensityCap == def->leafDensityCap)
             return ESP_OK;
         context->grow = *def;
-        ++context->revision;
+        context->touch();
         return ESP_OK;
     });
 }

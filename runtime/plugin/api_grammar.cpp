@@ -92,6 +92,15 @@ std::string lostSymbol(const EspContext& context, uint32_t grammarId, const Rule
 
 using namespace espalier;
 
+uint32_t EspContext::grammarIndex(uint32_t id) const {
+    uint32_t index = kNoIndex, next = 0;
+    grammars.forEach([&](uint32_t other, const LoadedGrammar&) {
+        if (other == id) index = next;
+        ++next;
+    });
+    return index;
+}
+
 extern "C" {
 
 EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGrammar* out) {
@@ -123,6 +132,7 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
                         grammar->name + ": no rule grows from '" + lost + "', which planted seeds start with");
         *old = std::move(*grammar);
         context->compileMs = old->compileMs;
+        context->changes.grammars.push_back(context->grammarIndex(id.id));
         ++context->revision;
         return ESP_OK;
     });
@@ -178,8 +188,9 @@ EspResult espSetParam(EspContext* context, EspGrammar id, const char* name, cons
         const std::optional<uint32_t> index = grammar->map.findParam(name);
         if (!index)
             return fail(context, ESP_INVALID_ARGUMENT, grammar->name + ": there is no parameter '" + name + "'");
-        if (grammar->map.setParam(*index, std::span(value, count))) {
+        if (const uint32_t slots = grammar->map.setParam(*index, std::span(value, count))) {
             grammar->stale = true;
+            context->changes.markParams(context->grammarIndex(id.id), slots);
             ++context->revision;
         }
         return ESP_OK;

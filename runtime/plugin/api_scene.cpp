@@ -44,7 +44,7 @@ EspResult setLayer(EspContext& context, const EspLayerDef& def) {
         context.layers.push_back(std::move(layer));
     }
     context.tablesStale = true;
-    if (readByGrammars(context, def.name)) ++context.revision;
+    if (readByGrammars(context, def.name)) context.touch();
     return ESP_OK;
 }
 

@@ -120,7 +120,7 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     dropUploaded(placed.data);
     prepareSearch(placed);
     context.tablesStale = true;
-    ++context.revision;
+    context.touch();
     out->id = id;
     return ESP_OK;
 }
@@ -220,7 +220,7 @@ EspResult espDestroySurface(EspContext* context, EspSurface surface) {
         context->renderer->removeSurface(placed->instance);
         context->surfaces.erase(surface.id);
         context->tablesStale = true;
-        ++context->revision;
+        context->touch();
         return ESP_OK;
     });
 }

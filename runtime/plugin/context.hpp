@@ -90,9 +90,13 @@ struct EspContext {
     std::unordered_map<uint32_t, uint32_t> numberUses;  // seeds planted with that number
 
     EspGrowDef grow;
-    uint64_t revision = 1;        // of everything that growth depends on
-    uint64_t grownRevision = 0;   // what the growth was made from
-    uint64_t failedRevision = 0;  // inputs that can't be grown, and why
+    // Of the inputs, since the last growth. Edits go through touch(), or note here what they changed and raise
+    // `revision` themselves (for seeds that is all there is to do).
+    espalier::GrowthChanges changes;
+    std::vector<uint32_t> grownGrammars;  // ids, in the order of growth's indices
+    uint64_t revision = 1;                // of everything that growth depends on
+    uint64_t grownRevision = 0;           // what the growth was made from
+    uint64_t failedRevision = 0;          // inputs that can't be grown, and why
     std::string failure;
     bool tablesStale = true;        // the two below don't describe surfaces and layers any more
     espalier::Buffer surfaceTable;  // SurfaceRef[surfaceSlots()]
@@ -103,6 +107,13 @@ struct EspContext {
     uint32_t pictureWidth = 0, pictureHeight = 0;
     std::vector<std::byte> vertices, indices;  // of the last espMaterialise
 
+    // An input of growth changed in a way that only a full growth answers.
+    void touch() {
+        changes.everything = true;
+        ++revision;
+    }
+    // The index by which growth and GrowthChanges know a grammar.
+    uint32_t grammarIndex(uint32_t id) const;
     uint32_t surfaceSlots() const;
     // Uploads what is stale of tables and grammars.
     espalier::Status refreshTables();
