@@ -169,6 +169,9 @@ Result<Baked> bake(const Model& model, const BakeOptions& given) {
     stages.begin(0.0f, "mesh");
     auto mesh = buildMesh(model, report.warnings);
     if (!mesh) return std::move(mesh.failure());
+    stages.begin(0.05f, "atlas");
+    Status cut = makeAtlas(model, *mesh, report.warnings);
+    if (!cut) return std::move(cut.failure());
     addNormalsAndCurvature(model, *mesh);
     stages.begin(0.1f, "layout");
     auto allowed = layOut(*mesh, model.name, {options.resolution, options.levels, options.keepLayout}, report.warnings);

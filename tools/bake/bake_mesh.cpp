@@ -1,19 +1,14 @@
-// In: a model's triangle list. Out: welded points, edges with their twins, and charts: sets of triangles of one
-// orientation in UV that are connected across edges on whose UVs both sides agree.
+// In: a model's triangle list. Out: welded points, the triangles that have area, and edges with their twins, from
+// positions alone: what the surface is doesn't depend on anybody's UVs.
 #include "tools/bake/bake_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <numeric>
 
 namespace espalier::bakery {
 namespace {
 
-constexpr double kWeldRadius = 1e-6;     // of the bounding radius
-constexpr double kUvTolerance = 1e-6;    // within which two corners' UVs agree
-constexpr double kMinUvArea = 1e-13;     // of a triangle; below, its map has no inverse worth the name
-constexpr double kFlippedShare = 0.005;  // of the area: flipped islands up to this are left out
+constexpr double kWeldRadius = 1e-6;  // of the bounding radius
 constexpr size_t kMaxTriangles = size_t(1) << 26;
 
 // A hash table from 64-bit keys to small numbers, open addressing.
@@ -81,27 +76,8 @@ std::vector<uint32_t> weld(const Model& model, double tolerance, std::vector<glm
     return point;
 }
 
-struct UnionFind {
-    std::vector<uint32_t> parent;
-    explicit UnionFind(size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
-    uint32_t find(uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    }
-    void join(uint32_t a, uint32_t b) {
-        a = find(a), b = find(b);
-        if (a != b) parent[std::max(a, b)] = std::min(a, b);
-    }
-};
-
 void warn(std::vector<Diagnostic>& warnings, const Model& model, std::string text) {
     warnings.push_back({model.name, 0, 0, {}, std::move(text), true});
-}
-
-std::string percent(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g %%", share * 100);
-    return text;
 }
 
 Status checkModel(const Model& model) {
@@ -109,9 +85,7 @@ Status checkModel(const Model& model) {
     size_t n = model.positions.size();
     if (model.indices.size() < 3 || model.indices.size() % 3 != 0) return Failure(name, "the model has no triangles");
     if (model.indices.size() / 3 > kMaxTriangles) return Failure(name, "more than 67 million triangles");
-    if (model.uvs.empty())
-        return Failure(name, "the model has no UVs (100 % of its area): an unwrapped UV set is needed to bake it");
-    if (model.uvs.size() != n || (!model.normals.empty() && model.normals.size() != n) ||
+    if ((!model.uvs.empty() && model.uvs.size() != n) || (!model.normals.empty() && model.normals.size() != n) ||
         (!model.materialUvs.empty() && model.materialUvs.size() != n) ||
         (!model.triangleMaterial.empty() && model.triangleMaterial.size() != model.indices.size() / 3))
         return Failure(name, "vertex arrays of unlike lengths");
@@ -120,37 +94,6 @@ Status checkModel(const Model& model) {
     for (const glm::vec3& p : model.positions)
         for (int k = 0; k < 3; ++k)
             if (!(std::abs(p[k]) < 1e18f)) return Failure(name, "a position is not a number or beyond 1e18 metres");
-    return Done{};
-}
-
-// What is wrong with triangles that are left out.
-struct LeftOut {
-    size_t degenerate = 0, degenerateUv = 0, noUv = 0, flipped = 0;
-    double degenerateUvArea = 0, noUvArea = 0, flippedArea = 0;
-};
-
-Status reportLeftOut(const Model& model, const LeftOut& out, double area, std::vector<Diagnostic>& warnings) {
-    if (out.noUvArea > 0.005 * area)
-        return Failure(model.name, percent(out.noUvArea / area) + " of the area has no UVs (" +
-                                       std::to_string(out.noUv) +
-                                       " triangles): an unwrapped UV set is needed to bake it");
-    if (out.degenerateUvArea > 0.05 * area)
-        return Failure(model.name, "the UVs of " + percent(out.degenerateUvArea / area) +
-                                       " of the area collapse to points or lines (" + std::to_string(out.degenerateUv) +
-                                       " triangles): an unwrapped UV set is needed to bake it");
-    if (out.flippedArea > 0.02 * area)
-        return Failure(model.name, "the UVs fold over themselves: " + percent(out.flippedArea / area) +
-                                       " of the area is flipped (" + std::to_string(out.flipped) +
-                                       " triangles): an unwrapped UV set is needed to bake it");
-    if (out.degenerate > 0) warn(warnings, model, std::to_string(out.degenerate) + " triangles without area left out");
-    if (out.degenerateUv + out.noUv > 0)
-        warn(warnings, model,
-             std::to_string(out.degenerateUv + out.noUv) + " triangles without area in UV left out, " +
-                 percent((out.degenerateUvArea + out.noUvArea) / area) + " of the area");
-    if (out.flipped > 0)
-        warn(warnings, model,
-             std::to_string(out.flipped) + " triangles flipped in UV left out, " + percent(out.flippedArea / area) +
-                 " of the area");
     return Done{};
 }
 
@@ -226,124 +169,25 @@ void pairEdges(BakeMesh& mesh, size_t& nonManifold, size_t& unlike) {
     }
 }
 
-bool uvsAgree(const BakeMesh& mesh, uint32_t h, uint32_t twin) {
-    glm::dvec2 d0 = mesh.uvAt(h) - mesh.uvAt(BakeMesh::next(twin));
-    glm::dvec2 d1 = mesh.uvAt(BakeMesh::next(h)) - mesh.uvAt(twin);
-    double most = std::max(std::max(std::abs(d0.x), std::abs(d0.y)), std::max(std::abs(d1.x), std::abs(d1.y)));
-    return most <= kUvTolerance;
-}
-
-// Reads the triangles worth keeping.
-void collectTriangles(const Model& model, const std::vector<uint32_t>& point, BakeMesh& mesh, LeftOut& out) {
-    size_t count = model.indices.size() / 3;
+// Reads the triangles that have area; returns how many have none.
+size_t collectTriangles(const Model& model, const std::vector<uint32_t>& point, BakeMesh& mesh) {
+    size_t count = model.indices.size() / 3, degenerate = 0;
     mesh.triangles.reserve(count);
     for (size_t t = 0; t < count; ++t) {
-        Triangle triangle;
+        Triangle triangle{};
         triangle.source = uint32_t(t);
-        triangle.chart = 0;
-        bool finite = true;
-        for (size_t k = 0; k < 3; ++k) {
-            uint32_t v = model.indices[t * 3 + k];
-            triangle.point[k] = point[v];
-            triangle.uv[k] = glm::dvec2(model.uvs[v]);
-            finite = finite && std::abs(triangle.uv[k].x) < 1e6 && std::abs(triangle.uv[k].y) < 1e6;
-        }
-        double area = area3(mesh, triangle);
+        for (size_t k = 0; k < 3; ++k) triangle.point[k] = point[model.indices[t * 3 + k]];
+        double area = area3(mesh, triangle), longest = 0;
         mesh.area += area;
-        double longest = 0;
         for (size_t k = 0; k < 3; ++k)
             longest = std::max(longest,
                                glm::length(mesh.points[triangle.point[k]] - mesh.points[triangle.point[(k + 1) % 3]]));
-        if (area <= 1e-7 * longest * longest || area <= 0) {
-            ++out.degenerate;
-        } else if (!finite) {
-            ++out.noUv;
-            out.noUvArea += area;
-        } else if (std::abs(uvArea(triangle)) < kMinUvArea) {
-            ++out.degenerateUv;
-            out.degenerateUvArea += area;
-        } else {
-            mesh.triangles.push_back(triangle);
-        }
-    }
-}
-
-// Connects triangles of one orientation; returns each triangle's island, kNone where it is left out as flipped.
-std::vector<uint32_t> findIslands(BakeMesh& mesh, LeftOut& out) {
-    size_t count = mesh.triangles.size();
-    UnionFind sets(count);
-    std::vector<uint8_t> positive(count);
-    for (size_t t = 0; t < count; ++t) positive[t] = uvArea(mesh.triangles[t]) > 0;
-    std::vector<uint32_t> against;  // half-edges across which UVs agree but the orientation turns: folds
-    for (uint32_t h = 0; h < count * 3; ++h) {
-        uint32_t twin = mesh.twin[h];
-        if (twin == kNone || twin < h || !uvsAgree(mesh, h, twin)) continue;
-        if (positive[h / 3] == positive[twin / 3])
-            sets.join(h / 3, twin / 3);
+        if (area <= 1e-7 * longest * longest || area <= 0)
+            ++degenerate;
         else
-            against.push_back(h);
+            mesh.triangles.push_back(triangle);
     }
-    std::vector<uint32_t> island(count), members(count, 0);
-    std::vector<double> area(count, 0);
-    for (uint32_t t = 0; t < count; ++t) {
-        island[t] = sets.find(t);
-        ++members[island[t]];
-        area[island[t]] += area3(mesh, mesh.triangles[t]);
-    }
-    std::vector<uint8_t> flipped(count, 0);
-    for (uint32_t h : against) {
-        uint32_t a = island[h / 3], b = island[mesh.twin[h] / 3];
-        uint32_t small = area[a] < area[b] ? a : b, large = area[a] < area[b] ? b : a;
-        if (members[small] <= 4 && area[small] <= kFlippedShare * mesh.area && area[small] < area[large])
-            flipped[small] = 1;
-    }
-    for (uint32_t t = 0; t < count; ++t) {
-        if (!flipped[island[t]]) continue;
-        ++out.flipped;
-        out.flippedArea += area3(mesh, mesh.triangles[t]);
-        island[t] = kNone;
-    }
-    return island;
-}
-
-// Numbers charts by their first triangle and sorts triangles by chart.
-Status sortByChart(const Model& model, const std::vector<uint32_t>& island, BakeMesh& mesh) {
-    size_t count = mesh.triangles.size();
-    std::vector<uint32_t> number(count, kNone), sizes;
-    for (uint32_t t = 0; t < count; ++t) {
-        if (island[t] == kNone) continue;
-        uint32_t& n = number[island[t]];
-        if (n == kNone) {
-            n = uint32_t(sizes.size());
-            sizes.push_back(0);
-            mesh.orientation.push_back(uvArea(mesh.triangles[t]) > 0 ? 1.0f : -1.0f);
-        }
-        mesh.triangles[t].chart = n;
-        ++sizes[n];
-    }
-    if (sizes.empty()) return Failure(model.name, "no triangle can be baked: all lack area");
-    if (sizes.size() > 65535)
-        return Failure(model.name, "the UVs fall into " + std::to_string(sizes.size()) + " charts; 65535 is the limit");
-    mesh.firstTriangle.assign(sizes.size() + 1, 0);
-    for (size_t c = 0; c < sizes.size(); ++c) mesh.firstTriangle[c + 1] = mesh.firstTriangle[c] + sizes[c];
-    std::vector<uint32_t> at(mesh.firstTriangle.begin(), mesh.firstTriangle.end() - 1);
-    std::vector<uint32_t> moved(count, kNone);
-    std::vector<Triangle> sorted(mesh.firstTriangle.back());
-    for (uint32_t t = 0; t < count; ++t)
-        if (island[t] != kNone) sorted[moved[t] = at[mesh.triangles[t].chart]++] = mesh.triangles[t];
-    std::vector<uint32_t> twin(sorted.size() * 3, kNone);
-    for (uint32_t h = 0; h < count * 3; ++h) {
-        uint32_t other = mesh.twin[h];
-        if (moved[h / 3] == kNone || other == kNone || moved[other / 3] == kNone) continue;
-        twin[moved[h / 3] * 3 + h % 3] = moved[other / 3] * 3 + other % 3;
-    }
-    mesh.triangles.swap(sorted);
-    mesh.twin.swap(twin);
-    mesh.joined.assign(mesh.twin.size(), 0);
-    for (uint32_t h = 0; h < mesh.twin.size(); ++h)
-        if (mesh.twin[h] != kNone && mesh.chartOf(h) == mesh.chartOf(mesh.twin[h]) && uvsAgree(mesh, h, mesh.twin[h]))
-            mesh.joined[h] = 1;
-    return Done{};
+    return degenerate;
 }
 
 }  // namespace
@@ -371,16 +215,11 @@ Result<BakeMesh> buildMesh(const Model& model, std::vector<Diagnostic>& warnings
     if (mesh.radius < 1e-6 * magnitude)
         return Failure(model.name, "the model lies too far from its origin for single precision");
     std::vector<uint32_t> point = weld(model, kWeldRadius * mesh.radius, mesh.points);
-    LeftOut out;
-    collectTriangles(model, point, mesh, out);
-    if (!(mesh.area > 0)) return Failure(model.name, "the model has no area");
+    size_t degenerate = collectTriangles(model, point, mesh);
+    if (mesh.triangles.empty()) return Failure(model.name, "no triangle can be baked: all lack area");
     size_t nonManifold = 0, unlike = 0;
     pairEdges(mesh, nonManifold, unlike);
-    std::vector<uint32_t> island = findIslands(mesh, out);
-    Status usable = reportLeftOut(model, out, mesh.area, warnings);
-    if (!usable) return std::move(usable.failure());
-    Status sorted = sortByChart(model, island, mesh);
-    if (!sorted) return std::move(sorted.failure());
+    if (degenerate > 0) warn(warnings, model, std::to_string(degenerate) + " triangles without area left out");
     if (nonManifold > 0)
         warn(warnings, model, std::to_string(nonManifold) + " edges with more than two triangles: paired by direction");
     if (unlike > 0)

@@ -1,6 +1,7 @@
 #pragma once
 
-// The baker's mesh: welded, cut into charts, laid out on the walk's UV square.
+// The baker's mesh. It comes into being in steps: points, triangles and twins from positions alone (buildMesh);
+// charts and their UVs (makeAtlas); their places on the walk's UV square (layOut).
 //
 // Half-edge 3 t + k runs from corner k to corner (k + 1) % 3 of triangle t.
 
@@ -20,11 +21,17 @@ struct Triangle {
     std::array<glm::dvec2, 3> uv;   // the walk's
     uint32_t source;                // triangle of the model
     uint32_t chart;
+    bool turned;  // corners 1 and 2 are exchanged against the model's
 };
+
+// The model's vertex at corner k of a triangle.
+inline uint32_t vertexAt(const Model& model, const Triangle& t, size_t k) {
+    return model.indices[size_t(t.source) * 3 + (t.turned && k > 0 ? 3 - k : k)];
+}
 
 struct BakeMesh {
     std::vector<glm::dvec3> points;       // welded
-    std::vector<Triangle> triangles;      // sorted by chart
+    std::vector<Triangle> triangles;      // those with area; sorted by chart once there are charts
     std::vector<uint32_t> twin;           // per half-edge: the half-edge on the other side, kNone at borders
     std::vector<uint8_t> joined;          // per half-edge: 1 where the chart goes on across it
     std::vector<float> orientation;       // per chart: sign of its triangles in UV
@@ -50,8 +57,13 @@ inline double uvArea(const Triangle& t) {
 }
 double area3(const BakeMesh& mesh, const Triangle& t);
 
-// Welds, pairs edges and cuts into charts. Refuses models without area, with NaN, without UVs.
+// Welds and pairs edges, by positions alone: fills in points, triangles without chart and UV, twins and measures.
+// Refuses models without area or with NaN.
 Result<BakeMesh> buildMesh(const Model& model, std::vector<Diagnostic>& warnings);
+
+// Cuts the mesh into charts and gives every corner its UV: sorts triangles by chart (twins follow), fills in joined,
+// orientation and firstTriangle. Charts may still lie over each other: layOut places them.
+Status makeAtlas(const Model& model, BakeMesh& mesh, std::vector<Diagnostic>& warnings);
 
 // Puts shading normals and mean curvature on the mesh.
 void addNormalsAndCurvature(const Model& model, BakeMesh& mesh);

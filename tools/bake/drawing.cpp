@@ -1,7 +1,6 @@
 // In: the model and the baked mesh. Out: vertices, indices and ranges for drawing. Triangles that were left out of
 // the walk are drawn all the same.
 #include <algorithm>
-#include <map>
 
 #include "tools/bake/bake_mesh.hpp"
 
@@ -21,12 +20,16 @@ void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface)
     std::vector<uint32_t> order(triangles);
     for (uint32_t t = 0; t < triangles; ++t) order[t] = t;
     std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return materialOf(a) < materialOf(b); });
-    // A vertex of the model becomes one of ours per chart that it is seen in; mostly one.
+    // A vertex of the model becomes one of ours per place on the walk's UV square and normal; mostly one.
     struct Known {
-        uint32_t chart = kNone, vertex = kNone;
+        uint32_t corner, vertex, next;  // corner: of the mesh, kNone for triangles that aren't baked
     };
-    std::vector<Known> first(model.positions.size());
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> more;
+    std::vector<uint32_t> first(model.positions.size(), kNone);
+    std::vector<Known> known;
+    auto samePlace = [&](uint32_t a, uint32_t b) {
+        if (a == kNone || b == kNone) return a == b;
+        return mesh.chartOf(a) == mesh.chartOf(b) && mesh.uvAt(a) == mesh.uvAt(b) && mesh.normals[a] == mesh.normals[b];
+    };
     std::vector<glm::vec3> flat;
     if (model.normals.empty()) {
         flat.assign(model.positions.size(), glm::vec3(0));
@@ -37,38 +40,33 @@ void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface)
             for (int k = 0; k < 3; ++k) flat[v[k]] += n;
         }
     }
-    auto vertexFor = [&](uint32_t v, uint32_t chart, uint32_t corner) {
-        uint32_t* slot = nullptr;
-        if (first[v].vertex == kNone) {
-            first[v].chart = chart;
-            slot = &first[v].vertex;
-        } else if (first[v].chart == chart) {
-            return first[v].vertex;
-        } else {
-            slot = &more.try_emplace({v, chart}, kNone).first->second;
-            if (*slot != kNone) return *slot;
-        }
+    auto vertexFor = [&](uint32_t v, uint32_t corner) {
+        for (uint32_t i = first[v]; i != kNone; i = known[i].next)
+            if (samePlace(known[i].corner, corner)) return known[i].vertex;
+        known.push_back({corner, uint32_t(surface.vertices.size()), first[v]});
+        first[v] = uint32_t(known.size() - 1);
         DrawVertex d{};
         d.position = model.positions[v];
         d.normal = model.normals.empty() ? flat[v] : model.normals[v];
         if (corner != kNone) d.normal = mesh.normals[corner];
         float length = glm::length(d.normal);
         d.normal = length > 0 ? d.normal / length : glm::vec3(0, 1, 0);
-        glm::vec2 uv = model.materialUvs.empty() ? model.uvs[v] : model.materialUvs[v];
+        const auto& uvs = model.materialUvs.empty() ? model.uvs : model.materialUvs;
+        glm::vec2 uv = uvs.empty() ? glm::vec2(0) : uvs[v];
         bool finite = std::abs(uv.x) < 1e6f && std::abs(uv.y) < 1e6f;
         d.uv = finite ? uv : glm::vec2(0);
         if (corner != kNone) d.walkUv = glm::vec2(mesh.triangles[corner / 3].uv[corner % 3]);
         surface.vertices.push_back(d);
-        return *slot = uint32_t(surface.vertices.size() - 1);
+        return uint32_t(surface.vertices.size() - 1);
     };
     for (uint32_t t : order) {
         uint32_t material = materialOf(t);
         if (surface.ranges.empty() || surface.ranges.back().material != material)
             surface.ranges.push_back({uint32_t(surface.indices.size()), 0, material});
         for (uint32_t k = 0; k < 3; ++k) {
-            uint32_t chart = baked[t] == kNone ? kNone - 1 : mesh.triangles[baked[t]].chart;
-            surface.indices.push_back(
-                vertexFor(model.indices[size_t(t) * 3 + k], chart, baked[t] == kNone ? kNone : baked[t] * 3 + k));
+            uint32_t corner = kNone;
+            if (uint32_t b = baked[t]; b != kNone) corner = b * 3 + (mesh.triangles[b].turned && k > 0 ? 3 - k : k);
+            surface.indices.push_back(vertexFor(model.indices[size_t(t) * 3 + k], corner));
         }
         surface.ranges.back().indexCount += 3;
     }

@@ -62,7 +62,7 @@ void addNormalsAndCurvature(const Model& model, BakeMesh& mesh) {
         glm::vec3 flat(glm::normalize(glm::cross(mesh.points[point[1]] - p0, mesh.points[point[2]] - p0)));
         for (size_t k = 0; k < 3; ++k) {
             glm::vec3 m(0);
-            if (!model.normals.empty()) m = model.normals[model.indices[size_t(mesh.triangles[t].source) * 3 + k]];
+            if (!model.normals.empty()) m = model.normals[vertexAt(model, mesh.triangles[t], k)];
             float length = glm::length(m);
             if (length > 1e-6f && std::isfinite(length)) {
                 mesh.normals[t * 3 + k] = m / length;
