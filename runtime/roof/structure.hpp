@@ -38,7 +38,7 @@ enum class JointKind : uint32_t {
 struct ChainSegment {
     glm::vec3 to;      // twins share their points to the bit
     uint32_t face;     // the face beyond it, kNoFace: none (the border of the roof)
-    uint32_t segment;  // its twin there, an index into RoofStructure::segments; kNoFace without a face beyond
+    uint32_t segment;  // its twin there, an index into RoofStructure::segments; kNoFace: none, or it is the face's eave
     JointKind kind;
 };
 

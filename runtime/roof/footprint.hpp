@@ -1,0 +1,87 @@
+#pragma once
+
+// What is known of a building before its roof is made: its outline and what its tags say.
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "runtime/roof/structure.hpp"
+
+namespace espalier {
+
+enum class RoofMaterial : uint32_t {
+    unknown,
+    tiles,
+    slate,
+    metal,
+    copper,
+    thatch,
+    wood,
+    stone,
+    concrete,
+    asphalt,
+    gravel,
+    glass,
+    grass
+};
+
+// What one edge of the outline has of its own.
+struct EdgeRoof {
+    uint32_t edge;                // running number over the rings as given
+    std::optional<bool> gable;    // a wall up to the roof instead of an eave
+    std::optional<double> slope;  // tangent of the pitch, > 0
+};
+
+enum class RidgeOrientation : uint32_t { along, across };
+
+struct Footprint {
+    std::string id;
+    std::vector<std::vector<glm::dvec2>> rings;  // plan metres, not closed; outer ring first, any orientation
+    std::vector<EdgeRoof> edges;
+    RoofShape shape = RoofShape::hip;
+    std::optional<double> roofHeight;  // metres from eave to ridge; else slope counts
+    std::optional<double> slope;       // tangent of the pitch; else the shape's own
+    std::optional<double> direction;   // radians clockwise from north, where the roof falls to: sheds
+    RidgeOrientation orientation = RidgeOrientation::along;  // the ridge along the house's length, or across it
+    double baseHeight = 0;             // metres above the ground plane: building:min_level, min_height
+    std::optional<double> height;      // from the ground to the ridge
+    std::optional<double> levels;      // storeys below the roof
+    std::optional<double> roofLevels;  // storeys in the roof
+    double parapet = 0.6;              // metres, flat roofs
+    RoofMaterial material = RoofMaterial::unknown;
+    uint32_t colour = 0;  // 0xAABBGGRR
+};
+
+// A town: footprints in plan metres around an origin, and what was wrong with the features that are missing or mended.
+struct Town {
+    glm::dvec2 originLonLat{0};  // degrees; 0, 0 for plans in metres
+    std::vector<Footprint> footprints;
+    std::vector<Diagnostic> diagnostics;  // rule: the feature's id
+};
+
+// Reads GeoJSON (coordinates in degrees; Polygon, MultiPolygon) or a plan in metres ({"buildings": [...]});
+// docs/roofs.md lists tags and keys. Fails only if the text is neither; a feature that can't be used is named in the
+// diagnostics.
+Result<Town> parseFootprints(const std::string& text, const std::string& file);
+Result<Town> readFootprints(const std::string& path);
+
+// An outline that the structure can be made of: outer rings counterclockwise, holes clockwise, simple, disjoint,
+// corners on a grid of 1/1024 mm about `origin`, no corner nearer than 5 mm to the next or within 2 mm of a straight
+// line.
+struct RepairedOutline {
+    glm::dvec2 origin;
+    std::vector<std::vector<glm::dvec2>> rings;  // relative to the origin
+    std::vector<uint32_t> sourceEdges;           // of each edge: the nearest edge as given
+};
+
+// One outline for each part that an outline falls into, largest first; none if nothing of it is left (and a diagnostic
+// says why). What was mended is a warning. Any thread.
+std::vector<RepairedOutline> repairOutline(const Footprint& footprint, std::vector<Diagnostic>& diagnostics);
+
+constexpr size_t kMostCorners = 20000;  // of one footprint
+
+}  // namespace espalier

@@ -1,0 +1,260 @@
+// In: rings as someone drew them. Out: outlines that the wavefront can start from. Sound rings are only put on the grid
+// and rid of needless corners; others go through Clipper, which takes coordinates on the same grid.
+#include <algorithm>
+#include <clipper.hpp>
+#include <cmath>
+
+#include "runtime/roof/footprint.hpp"
+
+namespace espalier {
+
+namespace {
+
+using ClipperLib::IntPoint;
+using ClipperLib::Path;
+using ClipperLib::Paths;
+
+constexpr double kGrid = 1024 * 1000;  // grid lines a metre
+constexpr double kNear = 0.005;        // metres: corners nearer than this are one
+constexpr double kStraight = 0.002;    // metres off the line between its neighbours: no corner
+constexpr double kLeastArea = 0.05;    // square metres
+constexpr double kFarthest = 100000;   // metres from the house's first corner
+
+double areaOf(const std::vector<glm::dvec2>& ring) {
+    double twice = 0;
+    for (size_t i = 0; i < ring.size(); i++) {
+        glm::dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+        twice += a.x * b.y - a.y * b.x;
+    }
+    return twice / 2;
+}
+
+double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
+    glm::dvec2 d = b - a;
+    double l = glm::dot(d, d), t = l > 0 ? glm::clamp(glm::dot(p - a, d) / l, 0.0, 1.0) : 0;
+    return glm::length(p - a - t * d);
+}
+
+// Drops corners that repeat the one before, end a spike or don't turn. Corners dropped between two kept ones stay
+// within kStraight of the new edge, so that curved walls don't melt. Returns whether any was dropped.
+bool simplifyRing(std::vector<glm::dvec2>& ring) {
+    bool changed = false, again = true;
+    std::vector<std::vector<glm::dvec2>> gone(ring.size());  // after each corner
+    while (again && ring.size() >= 3) {
+        again = false;
+        for (size_t i = 0; i < ring.size() && ring.size() >= 3;) {
+            size_t before = (i + ring.size() - 1) % ring.size(), after = (i + 1) % ring.size();
+            glm::dvec2 a = ring[before], p = ring[i], b = ring[after];
+            bool near = glm::length(p - a) < kNear;
+            bool drop = near || distanceToSegment(p, a, b) < kStraight;
+            // A spike: there and back along one line.
+            glm::dvec2 in = p - a, out = b - p;
+            double sine = in.x * out.y - in.y * out.x;
+            bool spike =
+                glm::dot(in, out) < 0 && std::abs(sine) < kStraight * std::max(glm::length(in), glm::length(out));
+            if (drop && !near && !spike)
+                for (const auto* list : {&gone[before], &gone[i]})
+                    for (glm::dvec2 q : *list) drop = drop && distanceToSegment(q, a, b) < kStraight;
+            if (!drop && !spike) {
+                i++;
+                continue;
+            }
+            if (!spike && !near) gone[before].push_back(p);
+            gone[before].insert(gone[before].end(), gone[i].begin(), gone[i].end());
+            if (spike) gone[before].clear();
+            ring.erase(ring.begin() + std::ptrdiff_t(i));
+            gone.erase(gone.begin() + std::ptrdiff_t(i));
+            changed = again = true;
+        }
+    }
+    if (ring.size() < 3) ring.clear();
+    return changed;
+}
+
+struct Segment {
+    glm::dvec2 a, b;
+    size_t ring, index, count;
+};
+
+int side(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+    // Exact: grid coordinates within 2^27 give products within 2^56, held by the 64-bit mantissa of long double.
+    long double d = (long double)(b.x - a.x) * (c.y - a.y) - (long double)(b.y - a.y) * (c.x - a.x);
+    return d > 0 ? 1 : d < 0 ? -1 : 0;
+}
+
+bool meet(const Segment& s, const Segment& t) {
+    if (std::max(s.a.x, s.b.x) < std::min(t.a.x, t.b.x) || std::max(t.a.x, t.b.x) < std::min(s.a.x, s.b.x) ||
+        std::max(s.a.y, s.b.y) < std::min(t.a.y, t.b.y) || std::max(t.a.y, t.b.y) < std::min(s.a.y, s.b.y))
+        return false;
+    // Corners that come within half the least length of an edge touch it.
+    double gap = std::min(std::min(distanceToSegment(s.a, t.a, t.b), distanceToSegment(s.b, t.a, t.b)),
+                          std::min(distanceToSegment(t.a, s.a, s.b), distanceToSegment(t.b, s.a, s.b)));
+    if (gap < kNear / 2) return true;
+    return side(s.a, s.b, t.a) * side(s.a, s.b, t.b) < 0 && side(t.a, t.b, s.a) * side(t.a, t.b, s.b) < 0;
+}
+
+// Simple and disjoint? A sweep over the edges sorted by their left ends.
+bool sound(const std::vector<std::vector<glm::dvec2>>& rings) {
+    std::vector<Segment> segments;
+    for (size_t r = 0; r < rings.size(); r++)
+        for (size_t i = 0; i < rings[r].size(); i++)
+            segments.push_back({rings[r][i], rings[r][(i + 1) % rings[r].size()], r, i, rings[r].size()});
+    auto left = [](const Segment& s) { return std::min(s.a.x, s.b.x); };
+    std::sort(segments.begin(), segments.end(), [&](const Segment& s, const Segment& t) { return left(s) < left(t); });
+    for (size_t i = 0; i < segments.size(); i++) {
+        const Segment& s = segments[i];
+        double right = std::max(s.a.x, s.b.x) + kNear;
+        for (size_t j = i + 1; j < segments.size() && left(segments[j]) <= right; j++) {
+            const Segment& t = segments[j];
+            bool neighbours =
+                s.ring == t.ring && (t.index == (s.index + 1) % s.count || s.index == (t.index + 1) % t.count);
+            if (!neighbours && meet(s, t)) return false;
+        }
+    }
+    return true;
+}
+
+bool inside(glm::dvec2 p, const std::vector<glm::dvec2>& ring) {
+    bool in = false;
+    for (size_t i = 0; i < ring.size(); i++) {
+        glm::dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) in = !in;
+    }
+    return in;
+}
+
+Path toPath(const std::vector<glm::dvec2>& ring) {
+    Path path;
+    for (glm::dvec2 p : ring) path.push_back({std::llround(p.x * kGrid), std::llround(p.y * kGrid)});
+    return path;
+}
+std::vector<glm::dvec2> toRing(const Path& path) {
+    std::vector<glm::dvec2> ring;
+    for (IntPoint p : path) ring.push_back({double(p.X) / kGrid, double(p.Y) / kGrid});
+    return ring;
+}
+
+using Rings = std::vector<std::vector<glm::dvec2>>;
+
+// The outer ring without the holes, as parts that neither cross nor touch themselves: the result is drawn in by a hair
+// and out again, which opens what only touches.
+std::vector<Rings> clipRings(const Rings& rings) {
+    Paths outer, holes, area;
+    ClipperLib::SimplifyPolygon(toPath(rings[0]), outer, ClipperLib::pftEvenOdd);
+    for (size_t i = 1; i < rings.size(); i++) holes.push_back(toPath(rings[i]));
+    ClipperLib::SimplifyPolygons(holes, ClipperLib::pftEvenOdd);
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(outer, ClipperLib::ptSubject, true);
+    clipper.AddPaths(holes, ClipperLib::ptClip, true);
+    clipper.Execute(ClipperLib::ctDifference, area, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    ClipperLib::CleanPolygons(area, kNear / 4 * kGrid);
+    ClipperLib::ClipperOffset offset(4);
+    Paths shrunk;
+    offset.AddPaths(area, ClipperLib::jtMiter, ClipperLib::etClosedPolygon);
+    offset.Execute(shrunk, -kNear * kGrid);
+    offset.Clear();
+    offset.AddPaths(shrunk, ClipperLib::jtMiter, ClipperLib::etClosedPolygon);
+    ClipperLib::PolyTree tree;
+    offset.Execute(tree, kNear * 0.4 * kGrid);
+    std::vector<Rings> parts;
+    for (ClipperLib::PolyNode* node = tree.GetFirst(); node; node = node->GetNext()) {
+        if (node->IsHole()) continue;
+        Rings part{toRing(node->Contour)};
+        for (ClipperLib::PolyNode* hole : node->Childs) part.push_back(toRing(hole->Contour));
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+// Orientation as the contract asks; needless corners dropped; rings that are nothing then, too.
+bool tidy(Rings& rings) {
+    for (size_t i = 0; i < rings.size(); i++) {
+        simplifyRing(rings[i]);
+        if ((areaOf(rings[i]) > 0) != (i == 0)) std::reverse(rings[i].begin(), rings[i].end());
+    }
+    if (rings[0].empty() || areaOf(rings[0]) < kLeastArea) return false;
+    auto nothing = [](const std::vector<glm::dvec2>& ring) { return ring.empty() || areaOf(ring) > -kLeastArea; };
+    rings.erase(std::remove_if(rings.begin() + 1, rings.end(), nothing), rings.end());
+    return true;
+}
+
+// The edge as given that the middle of a-b lies nearest to, of those that run its way.
+uint32_t sourceEdge(glm::dvec2 a, glm::dvec2 b, const Rings& given) {
+    uint32_t edge = 0, best = 0;
+    double least = INFINITY;
+    glm::dvec2 d = glm::normalize(b - a), middle = (a + b) / 2.0;
+    for (const auto& ring : given)
+        for (size_t i = 0; i < ring.size(); i++, edge++) {
+            glm::dvec2 p = ring[i], q = ring[(i + 1) % ring.size()], e = q - p;
+            double length = glm::length(e);
+            if (!(length > 0)) continue;
+            double turn = std::abs(d.x * e.y - d.y * e.x) / length;
+            double distance = distanceToSegment(middle, p, q) + turn * kNear;
+            if (distance < least) least = distance, best = edge;
+        }
+    return best;
+}
+
+}  // namespace
+
+std::vector<RepairedOutline> repairOutline(const Footprint& footprint, std::vector<Diagnostic>& diagnostics) {
+    auto say = [&](const std::string& what, bool warning) {
+        diagnostics.push_back({{}, 0, 0, footprint.id, what, warning});
+        return std::vector<RepairedOutline>();
+    };
+    if (footprint.rings.empty() || footprint.rings[0].size() < 3)
+        return say("the outline has fewer than three corners: left out", false);
+    size_t corners = 0;
+    glm::dvec2 low(INFINITY), high(-INFINITY);
+    for (const auto& ring : footprint.rings)
+        for (glm::dvec2 p : ring) {
+            if (!std::isfinite(p.x) || !std::isfinite(p.y))
+                return say("the outline has a coordinate that is no number: left out", false);
+            low = glm::min(low, p), high = glm::max(high, p);
+            corners++;
+        }
+    if (corners > kMostCorners)
+        return say("the outline has " + std::to_string(corners) + " corners, more than " +
+                       std::to_string(kMostCorners) + ": left out",
+                   false);
+    if (glm::length(high - low) > kFarthest) return say("the outline is larger than 100 km: left out", false);
+
+    glm::dvec2 origin = glm::round((low + high) / 2.0);
+    Rings given, rings;
+    for (const auto& ring : footprint.rings) {
+        given.emplace_back();
+        for (glm::dvec2 p : ring) given.back().push_back(glm::round((p - origin) * kGrid) / kGrid);
+    }
+    rings = given;
+    bool whole = tidy(rings);
+    std::vector<Rings> parts;
+    bool holesInside = whole;
+    for (size_t i = 1; holesInside && i < rings.size(); i++) holesInside = inside(rings[i][0], rings[0]);
+    for (size_t i = 1; holesInside && i < rings.size(); i++)
+        for (size_t j = 1; j < rings.size(); j++)
+            if (i != j && inside(rings[i][0], rings[j])) holesInside = false;
+    if (whole && holesInside && sound(rings)) {
+        parts.push_back(std::move(rings));
+    } else {
+        for (Rings& part : clipRings(given))
+            if (tidy(part) && sound(part)) parts.push_back(std::move(part));
+        if (parts.empty()) return say("the outline has no area that could carry a roof: left out", false);
+        say(parts.size() == 1
+                ? "the outline crossed or touched itself: mended"
+                : "the outline crossed or touched itself: mended, " + std::to_string(parts.size()) + " parts",
+            true);
+    }
+    std::sort(parts.begin(), parts.end(), [](const Rings& a, const Rings& b) { return areaOf(a[0]) > areaOf(b[0]); });
+    std::vector<RepairedOutline> out;
+    for (Rings& part : parts) {
+        RepairedOutline outline{origin, std::move(part), {}};
+        bool needEdges = !footprint.edges.empty();
+        for (const auto& ring : outline.rings)
+            for (size_t i = 0; i < ring.size(); i++)
+                outline.sourceEdges.push_back(needEdges ? sourceEdge(ring[i], ring[(i + 1) % ring.size()], given) : 0);
+        out.push_back(std::move(outline));
+    }
+    return out;
+}
+
+}  // namespace espalier
