@@ -9,7 +9,7 @@ namespace espalier {
 
 namespace {
 
-constexpr double kLevel = 1e-7;  // metres along the eave that count as plumb
+constexpr double kLevel = 1e-5;  // metres along the eave that count as plumb
 
 class Cutter {
   public:
