@@ -54,9 +54,8 @@ struct DeviceInfo {
     uint32_t apiVersion = 0;
     uint32_t subgroupSize = 0;
     uint32_t queueFamily = 0;
-    float timestampNanoseconds = 0;   // 0: no timestamps
-    float maxAnisotropy = 1;          // 1: none
-    bool bufferInt64Atomics = false;  // enabled; on a host's device taken to be not
+    float timestampNanoseconds = 0;  // 0: no timestamps
+    float maxAnisotropy = 1;         // 1: none
     uint64_t maxBufferBytes = 0;
     VkPhysicalDeviceLimits limits{};
 };
@@ -82,7 +81,6 @@ class Device {
     Device& operator=(const Device&) = delete;
 
     const DeviceFunctions& vk() const { return vk_; }
-    const InstanceFunctions& vkInstance() const { return vkInstance_; }
     PFN_vkGetInstanceProcAddr getInstanceProcAddr() const { return getInstanceProcAddr_; }
     VkInstance instance() const { return instance_; }
     VkPhysicalDevice physicalDevice() const { return physicalDevice_; }

@@ -219,7 +219,6 @@ struct DeviceSetup {
             return Failure(kPlace, "the device could not be opened (VkResult " + std::to_string(int(result)) + ")");
         d.ownsDevice_ = true;
         d.info_.maxAnisotropy = have.core.features.samplerAnisotropy ? 16 : 1;
-        d.info_.bufferInt64Atomics = have.v12.shaderBufferInt64Atomics;
         return Done{};
     }
 

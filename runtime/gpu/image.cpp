@@ -129,19 +129,7 @@ Result<Image> Image::finish(Device& device, const ImageDesc& desc, Image image) 
                  {aspect, 0, image.levels_, 0, desc.layers});
     if (!whole) return whole.failure();
     image.view_ = std::move(*whole);
-    if (!array && image.levels_ == 1) return image;
-    for (uint32_t layer = 0; layer < desc.layers; ++layer) {
-        Result<Owned<VkImageView>> one =
-            makeView(device, desc, image.handle_, VK_IMAGE_VIEW_TYPE_2D, {aspect, 0, 1, layer, 1});
-        if (!one) return one.failure();
-        image.layerViews_.push_back(std::move(*one));
-    }
     return image;
-}
-
-VkImageView Image::layerView(uint32_t layer) const {
-    require(layer < layers_, "layerView: no such layer");
-    return layerViews_.empty() ? view_.get() : layerViews_[layer].get();
 }
 
 Result<Sampler> Sampler::create(Device& device, const SamplerDesc& desc) {

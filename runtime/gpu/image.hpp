@@ -37,7 +37,6 @@ class Image {
 
     VkImage handle() const { return handle_; }
     VkImageView view() const { return view_.get(); }  // all levels and layers
-    VkImageView layerView(uint32_t layer) const;      // level 0 of one layer, to draw into
     VkFormat format() const { return format_; }
     VkExtent2D extent() const { return extent_; }
     uint32_t layers() const { return layers_; }
@@ -55,7 +54,6 @@ class Image {
     Owned<VkImage> image_;
     VkImage handle_ = VK_NULL_HANDLE;
     Owned<VkImageView> view_;
-    std::vector<Owned<VkImageView>> layerViews_;
     VkFormat format_ = VK_FORMAT_UNDEFINED;
     VkExtent2D extent_{};
     uint32_t layers_ = 1;
