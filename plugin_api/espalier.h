@@ -45,6 +45,7 @@ typedef struct EspContext EspContext;
 typedef struct EspSurface { uint32_t id; } EspSurface;
 typedef struct EspGrammar { uint32_t id; } EspGrammar;
 typedef struct EspSeed { uint32_t id; } EspSeed;
+typedef struct EspStroke { uint32_t id; } EspStroke;
 
 typedef enum EspLogLevel { ESP_LOG_INFO = 0, ESP_LOG_WARNING = 1, ESP_LOG_ERROR = 2 } EspLogLevel;
 typedef void (*EspLogFn)(void* user, EspLogLevel level, const char* message);
@@ -168,6 +169,62 @@ typedef struct EspLayerDef {
 } EspLayerDef;
 ESP_API EspLayerDef espDefaultLayerDef(void);
 ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
+
+/* ---- Painting ------------------------------------------------------------------------------------------------ */
+
+/* Painting happens in world space, on all surfaces at once: a dab reaches every texel whose point lies in its sphere,
+ * so that seams don't show. A layer comes into being where it is first painted on; until then, and where nothing was
+ * painted, it holds its fill: what the first grammar that declares it says, 0 if none does. Painting works for layers
+ * that no grammar reads too.
+ *
+ * A stroke keeps what it painted over, in blocks of 8×8 texels. Once ended it is a record for undoing, until it is
+ * destroyed. Strokes of one layer are to be swapped in the order in which a history goes: last done, first undone. */
+typedef enum EspBrushMode {
+    ESP_BRUSH_PAINT = 0,         /* towards `value` */
+    ESP_BRUSH_ERASE = 1          /* back to the layer's fill */
+} EspBrushMode;
+
+typedef struct EspBrush {
+    const char* layer;
+    EspBrushMode mode;
+    float radius;                /* metres, over 0 */
+    float value;                 /* 0 to 1 */
+    float strength;              /* 0 to 1: of a dab, where it is strongest; dabs add up */
+    float hardness;              /* 0 to 1: share of the radius that has full strength; beyond it falls off smoothly */
+    float slopeRange[2];         /* radians between the surface's normal and the upward; default 0 to pi */
+    float heightRange[2];        /* metres, world; default the whole range of floats */
+    float limitSoftness;         /* 0 to 1: beyond these ranges paint fades out over up to 45 degrees and one radius */
+    int frontOnly;               /* 1: only where the normal is within 90 degrees of the dab's */
+} EspBrush;
+
+typedef struct EspDab {
+    float position[3];           /* world */
+    float normal[3];             /* unit, world; read with frontOnly */
+    float pressure;              /* 0 to 1, scales the strength */
+} EspDab;
+
+ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre wide, half strength */
+/* Several strokes may be open at a time, on unlike layers. */
+ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
+/* One pass on the GPU, applied in order; the next espUpdate and espDraw see it. */
+ESP_API EspResult espStrokeDabs(EspContext* context, EspStroke stroke, const EspDab* dabs, uint32_t count);
+/* Waits for the GPU and keeps only the blocks that changed. */
+ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);
+/* Exchanges the layer's blocks with those kept, bit for bit: undoes an ended stroke, the next time redoes it. Surfaces
+ * and layers that are gone are passed over. */
+ESP_API EspResult espSwapStroke(EspContext* context, EspStroke stroke);
+/* Forgets the record; what is painted stays. An open stroke is ended by it. */
+ESP_API EspResult espDestroyStroke(EspContext* context, EspStroke stroke);
+ESP_API uint64_t espStrokeBytes(const EspContext* context, EspStroke stroke);   /* memory that it holds */
+/* Sets the whole layer, on all surfaces; out is an ended stroke. */
+ESP_API EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out);
+
+/* The layers that are painted on any surface; a name is valid until the next call that changes layers. */
+ESP_API uint32_t espPaintedLayerCount(const EspContext* context);
+ESP_API const char* espPaintedLayerName(const EspContext* context, uint32_t index);
+/* The layer over the surface's walk UV: size rows of size floats, the first at v = 0. *size: the side of the array
+ * that texels has room for; set to the layer's. 0, or texels NULL: only asks. Waits for the GPU. */
+ESP_API EspResult espReadLayer(EspContext* context, EspSurface surface, const char* layer, float* texels, uint32_t* size);
 
 /* ---- Seeds -------------------------------------------------------------------------------------------------- */
 

@@ -106,7 +106,7 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
     return ESP_OK;
 }
 
-EspResult makeLook(const EspContext& context, const EspLook& from, Look& look) {
+EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     look.sunDirection = vec(from.sunDirection);
     look.sunColor = vec(from.sunColour);
     look.skyColor = vec(from.skyColour);
@@ -127,7 +127,15 @@ EspResult makeLook(const EspContext& context, const EspLook& from, Look& look) {
                 look.layer = i;
                 found = true;
             }
-        if (!found) return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
+        // One that is painted, but that no grammar reads, gets a number to be seen by.
+        for (const PaintedLayer& painted : context.layers)
+            if (!found && painted.name == name)
+                if (const auto number = sceneLayer(context, name, 0)) {
+                    look.layer = *number;
+                    found = true;
+                }
+        if (!found)
+            return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
     }
     return ESP_OK;
 }

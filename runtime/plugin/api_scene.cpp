@@ -12,12 +12,6 @@ namespace {
 constexpr uint32_t kMaxLayerSide = 8192;
 constexpr uint32_t kMaxSeeds = 1u << 20;
 
-bool readByGrammars(const EspContext& context, const std::string& name) {
-    bool read = false;
-    for (const SceneLayer& layer : context.sceneLayers) read = read || layer.name == name;
-    return read;
-}
-
 EspResult setLayer(EspContext& context, const EspLayerDef& def) {
     const PlacedSurface* surface = context.surfaces.find(def.surface.id);
     if (!surface) return fail(&context, ESP_INVALID_ARGUMENT, "espSetLayer: no such surface");
@@ -44,7 +38,7 @@ EspResult setLayer(EspContext& context, const EspLayerDef& def) {
         context.layers.push_back(std::move(layer));
     }
     context.tablesStale = true;
-    if (readByGrammars(context, def.name)) context.touch();
+    wholeLayerChanged(context, def.surface.id, def.name);
     return ESP_OK;
 }
 

@@ -137,8 +137,8 @@ std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name,
     return uint32_t(context.sceneLayers.size() - 1);
 }
 
-const PaintedLayer* paintedLayer(const EspContext& context, uint32_t surface, const std::string& name) {
-    for (const PaintedLayer& layer : context.layers)
+PaintedLayer* paintedLayer(EspContext& context, uint32_t surface, const std::string& name) {
+    for (PaintedLayer& layer : context.layers)
         if (layer.surface == surface && layer.name == name) return &layer;
     return nullptr;
 }
@@ -163,12 +163,12 @@ Status EspContext::refreshTables() {
             if (i % kMaxLayers < sceneLayers.size()) layerRefs[i].fill = sceneLayers[i % kMaxLayers].fill;
         surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
             refs[surface.instance] = surface.gpu.ref(surface.toWorld);
-            for (uint32_t i = 0; i < sceneLayers.size(); ++i)
-                if (const PaintedLayer* painted = paintedLayer(*this, id, sceneLayers[i].name)) {
-                    LayerRef& ref = layerRefs[surface.instance * kMaxLayers + i];
+            for (uint32_t i = 0; i < sceneLayers.size(); ++i) {
+                LayerRef& ref = layerRefs[surface.instance * kMaxLayers + i];
+                ref.size = surface.data.levels.front().size;
+                if (const PaintedLayer* painted = paintedLayer(*this, id, sceneLayers[i].name))
                     ref.texels.v = reinterpret_cast<float*>(painted->texels.address());
-                    ref.size = painted->size;
-                }
+            }
         });
         Result<Buffer> newSurfaces = makeBuffer(*device, "surface table", refs);
         if (!newSurfaces) return newSurfaces.failure();

@@ -15,6 +15,7 @@
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/gpu/device.hpp"
 #include "runtime/grammar/grammar.hpp"
+#include "runtime/paint/painter.hpp"
 #include "runtime/plugin/id_table.hpp"
 #include "runtime/plugin/mesh_tree.hpp"
 #include "runtime/render/renderer.hpp"
@@ -34,6 +35,7 @@ struct PlacedSurface {
     EspSurfaceInfo info;
     GpuSurface gpu;
     MeshTree tree;
+    BlockBounds blocks;  // made when it is first painted on
 };
 
 // One painted layer of one surface. `name` may be one that no grammar reads (yet).
@@ -62,6 +64,19 @@ struct PlantedSeed {
     Walk walk{};
 };
 
+// A stroke: open while it takes dabs, then a record for undoing.
+struct PaintStroke {
+    std::string layer;
+    BrushRecord brush{};
+    float radius = 0;  // metres
+    bool open = true;
+    struct Part {
+        uint32_t surface = 0;  // id
+        BlockRecord record;
+    };
+    std::vector<Part> parts;
+};
+
 // A layer as kernels know it: its number is the place in this list. Two grammars that name the same layer, but
 // want another value where nothing is painted, read two of them.
 struct SceneLayer {
@@ -86,6 +101,8 @@ struct EspContext {
     espalier::IdTable<espalier::LoadedGrammar> grammars;
     espalier::IdTable<espalier::PlantedSeed> seeds;
     std::vector<espalier::PaintedLayer> layers;
+    espalier::IdTable<espalier::PaintStroke> strokes;
+    std::unique_ptr<espalier::Painter> painter;  // made with the first stroke
     std::vector<espalier::SceneLayer> sceneLayers;
     std::unordered_map<uint32_t, uint32_t> numberUses;  // seeds planted with that number
 
@@ -162,6 +179,11 @@ std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::ve
 
 // The number of the layer that a grammar's context reads; made if need be. Nothing: there are kMaxLayers already.
 std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill);
-const PaintedLayer* paintedLayer(const EspContext& context, uint32_t surface, const std::string& name);
+PaintedLayer* paintedLayer(EspContext& context, uint32_t surface, const std::string& name);
+// What the first grammar that declares the layer fills it with; nothing if none does.
+std::optional<float> declaredFill(const EspContext& context, const std::string& name);
+// Tells growth that these 8×8 blocks of a layer have changed.
+void layerChanged(EspContext& context, uint32_t surface, const std::string& name, std::span<const uint32_t> blocks);
+void wholeLayerChanged(EspContext& context, uint32_t surface, const std::string& name);
 
 }  // namespace espalier

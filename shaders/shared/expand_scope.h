@@ -44,11 +44,9 @@ FN float layerAt(LayerBuf layers, uint instance, uint layer, vec2 uv, INOUT(Read
     uint size = layers.v[at].size;
     float value = layers.v[at].fill;
     reads.layers = reads.layers | (1u << layer);
-    // An unpainted layer has one tile, so that a first stroke finds its readers.
-    uint tile = 0u;
-    if (size > 0u) {
-        FloatBuf texels = layers.v[at].texels;
-        float fsize = float(size);
+    float fsize = float(size);
+    FloatBuf texels = layers.v[at].texels;
+    if (IS_GIVEN(texels)) {
         float gx = limited(uv.x * fsize - 0.5f, 0.0f, fsize - 1.0f);
         float gy = limited(uv.y * fsize - 0.5f, 0.0f, fsize - 1.0f);
         uint x = uint(gx);
@@ -60,10 +58,10 @@ FN float layerAt(LayerBuf layers, uint instance, uint layer, vec2 uv, INOUT(Read
         float low = texels.v[texelIndex(size, x, y)] * (1.0f - fx) + texels.v[texelIndex(size, x1, y)] * fx;
         float high = texels.v[texelIndex(size, x, y1)] * (1.0f - fx) + texels.v[texelIndex(size, x1, y1)] * fx;
         value = low * (1.0f - fy) + high * fy;
-        uint tx = uint(uv.x * fsize) / kLayerTile;
-        uint ty = uint(uv.y * fsize) / kLayerTile;
-        tile = ((ty & 255u) << 8u) | (tx & 255u);
     }
+    uint tx = uint(uv.x * fsize) / kLayerTile;
+    uint ty = uint(uv.y * fsize) / kLayerTile;
+    uint tile = ((ty & 255u) << 8u) | (tx & 255u);
     noteTile(reads, ((instance & 255u) << 24u) | (layer << 16u) | tile);
     return value;
 }

@@ -128,7 +128,8 @@ struct Leaf {
 STATIC_SIZE(Leaf, 16);
 
 // One painted layer, resampled to a surface's walk UV: single channel floats in [0,1], 8×8 tiles as texels.
-// address 0: nothing painted, every read is `fill`.
+// address 0: nothing painted, every read is `fill`. size: of the surface's finest level, painted or not, so that a
+// first stroke finds its readers by tile.
 struct LayerRef {
     FloatBuf texels;
     uint size;

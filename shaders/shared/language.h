@@ -22,6 +22,7 @@
         T* v;           \
     };
 #define STATIC_SIZE(T, bytes) static_assert(sizeof(T) == (bytes))
+#define IS_GIVEN(buffer) ((buffer).v != nullptr)
 
 namespace espalier {
 using glm::ivec2;
@@ -47,6 +48,7 @@ inline float uintBitsToFloat(uint b) { float x; std::memcpy(&x, &b, 4); return x
 #define BUFFER(Name, T) \
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { T v[]; };
 #define STATIC_SIZE(T, bytes)
+#define IS_GIVEN(buffer) (uint64_t(buffer) != 0ul)
 #define u64 uint64_t
 
 #endif

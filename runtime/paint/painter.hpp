@@ -1,0 +1,78 @@
+#pragma once
+
+// Painting on layers: dabs on the texels of all surfaces that they reach, and the records that take strokes back.
+// Work is submitted and not waited for, but where it says so; later recordings of the device see its results.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "runtime/gpu/buffer.hpp"
+#include "runtime/gpu/commands.hpp"
+#include "runtime/gpu/program.hpp"
+#include "runtime/paint/block_bounds.hpp"
+#include "shaders/paint/block_records.h"
+
+namespace espalier {
+
+// One layer over one placed surface; what it points at stays the caller's.
+struct Canvas {
+    const Buffer* layer = nullptr;  // size² floats in texelIndex order
+    SurfaceRef surface{};           // by device addresses; the layer is as large as its level 0
+    uint32_t instance = 0;
+    SurfaceBuf surfaces{};  // the table that holds it, needed for smoothing only
+};
+
+// What blocks of one layer held before a stroke touched them: 256 bytes each and 4 for its number.
+class BlockRecord {
+  public:
+    const std::vector<uint32_t>& blocks() const { return blocks_; }  // in the order in which they were first touched
+    uint64_t bytes() const { return texels_.size() + blocks_.size() * 4; }
+
+  private:
+    friend class Painter;
+    std::vector<uint32_t> blocks_;
+    std::vector<bool> known_;  // [block], while the stroke goes on
+    Buffer texels_;
+};
+
+// The part of a stroke that falls on one canvas.
+struct PaintJob {
+    Canvas canvas;
+    BlockRecord* record = nullptr;
+    std::vector<uint32_t> blocks;  // that its dabs may reach, each once
+};
+
+class Painter {
+  public:
+    // Fails when memory has run out.
+    static Result<std::unique_ptr<Painter>> create(Device& device);
+
+    // Applies the dabs in order. Blocks that a record doesn't hold yet are kept in it first.
+    Status dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs);
+    // Sets all texels of the jobs' blocks, likewise.
+    Status fill(std::span<PaintJob> jobs, float value);
+    // Drops from a record the blocks that are as they were, and gives back the room it doesn't need; from then on it
+    // takes no more dabs. Waits for the GPU.
+    Status close(const Canvas& canvas, BlockRecord& record);
+    // Exchanges the layer's blocks with the record's, bit for bit: twice is as before.
+    Status swap(const Canvas& canvas, BlockRecord& record);
+
+  private:
+    explicit Painter(Device& device) : device_(device) {}
+    // The jobs' blocks and those new to their records, on the GPU one after the other; the new ones are saved.
+    struct Placed {
+        uint64_t blocks = 0;  // address
+    };
+    Result<std::vector<Placed>> begin(Commands& commands, std::span<PaintJob> jobs);
+    Status makeRoom(Commands& commands, BlockRecord& record, size_t blocks);
+    Status upload(Commands& commands, const std::vector<uint32_t>& words);
+    void move(Pass& pass, BlocksEnv env);
+
+    Device& device_;
+    Program dabs_, blocks_;
+    Buffer stroke_;  // BrushRecord and its dabs
+    Buffer words_;   // numbers of blocks
+};
+
+}  // namespace espalier

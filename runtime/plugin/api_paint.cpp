@@ -1,0 +1,364 @@
+// Strokes on layers: which surfaces a brush reaches, what a stroke keeps, and reading layers back.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr uint32_t kMaxDabs = 1u << 16;  // of one call
+constexpr float kSteepest = 1e30f;       // a fade of no width
+constexpr float kSlopeFade = kPi / 4;    // radians at softness 1
+
+// The numbers by which a kernel applies the brush; `fill` is the layer's.
+BrushRecord recordOf(const EspBrush& brush, float fill) {
+    BrushRecord r{};
+    const auto per = [](float width) { return width > 1e-6f ? 1 / width : kSteepest; };
+    r.perRadius = 1 / brush.radius;
+    r.hardness = brush.hardness;
+    r.perSoft = per(1 - brush.hardness);
+    r.target = brush.mode == ESP_BRUSH_ERASE ? fill : brush.value;
+    r.strength = brush.strength;
+    r.slopeLow = brush.slopeRange[0];
+    r.slopeHigh = brush.slopeRange[1];
+    r.perSlope = per(brush.limitSoftness * kSlopeFade);
+    r.heightLow = brush.heightRange[0];
+    r.heightHigh = brush.heightRange[1];
+    r.perHeight = per(brush.limitSoftness * brush.radius);
+    const EspBrush open = espDefaultBrush();
+    if (brush.slopeRange[0] > open.slopeRange[0] || brush.slopeRange[1] < open.slopeRange[1]) r.flags |= kBrushSlope;
+    if (brush.heightRange[0] > open.heightRange[0] || brush.heightRange[1] < open.heightRange[1])
+        r.flags |= kBrushHeight;
+    if (brush.frontOnly) r.flags |= kBrushFront;
+    return r;
+}
+
+const char* mistakeIn(const EspBrush& brush) {
+    const auto share = [](float v) { return v >= 0 && v <= 1; };
+    if (!brush.layer || !*brush.layer) return "a brush needs a layer's name";
+    if (brush.mode < ESP_BRUSH_PAINT || brush.mode > ESP_BRUSH_ERASE) return "there is no such mode";
+    if (!(brush.radius > 1e-6f && brush.radius < 1e6f)) return "the radius must be over 0, in metres";
+    if (!share(brush.value) || !share(brush.strength) || !share(brush.hardness) || !share(brush.limitSoftness))
+        return "value, strength, hardness and limitSoftness are 0 to 1";
+    if (std::isnan(brush.slopeRange[0]) || std::isnan(brush.slopeRange[1]) || std::isnan(brush.heightRange[0]) ||
+        std::isnan(brush.heightRange[1]))
+        return "a limit is not a number";
+    return nullptr;
+}
+
+bool usable(const EspDab& dab) {
+    for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(dab.position[i]) || !std::isfinite(dab.normal[i])) return false;
+    return dab.pressure >= 0 && dab.pressure <= 1;
+}
+
+const BlockBounds& boundsOf(PlacedSurface& surface) {
+    if (!surface.blocks) surface.blocks = BlockBounds(surface.data.levels.front());
+    return surface.blocks;
+}
+
+EspResult makePainter(EspContext& context) {
+    if (context.painter) return ESP_OK;
+    Result<std::unique_ptr<Painter>> painter = Painter::create(*context.device);
+    if (!painter) return failGpu(&context, painter.failure());
+    context.painter = std::move(*painter);
+    return ESP_OK;
+}
+
+// The surface's layer of this name, made if need be, filled with `fill`.
+EspResult ensureLayer(EspContext& context, uint32_t surface, const std::string& name, float fill) {
+    if (paintedLayer(context, surface, name)) return ESP_OK;
+    const uint32_t size = context.surfaces.find(surface)->data.levels.front().size;
+    Result<Buffer> texels = Buffer::create(*context.device, "layer", uint64_t(size) * size * sizeof(float));
+    if (!texels) return failGpu(&context, texels.failure());
+    Result<Commands> commands = Commands::begin(*context.device, "fill layer");
+    if (!commands) return failGpu(&context, commands.failure());
+    commands->fill(*texels, floatBitsToUint(fill));
+    Result<uint64_t> submitted = commands->submit();
+    if (!submitted) return failGpu(&context, submitted.failure());
+    context.layers.push_back({name, surface, size, std::move(*texels)});
+    context.tablesStale = true;
+    // Grammars that want another value where nothing is painted read this one from now on.
+    const PlacedSurface& placed = *context.surfaces.find(surface);
+    for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
+        if (context.sceneLayers[layer].name == name && context.sceneLayers[layer].fill != fill)
+            context.changes.markLayer(placed.instance, layer, size);
+    return ESP_OK;
+}
+
+Canvas canvasOf(EspContext& context, uint32_t surface, const std::string& name) {
+    const PlacedSurface& placed = *context.surfaces.find(surface);
+    Canvas canvas;
+    canvas.layer = &paintedLayer(context, surface, name)->texels;
+    canvas.surface = placed.gpu.ref(placed.toWorld);
+    canvas.instance = placed.instance;
+    return canvas;
+}
+
+BlockRecord& recordFor(PaintStroke& stroke, uint32_t surface) {
+    for (PaintStroke::Part& part : stroke.parts)
+        if (part.surface == surface) return part.record;
+    return stroke.parts.emplace_back(PaintStroke::Part{surface, {}}).record;
+}
+
+using Touched = std::vector<std::pair<uint32_t, std::vector<uint32_t>>>;  // surface id, blocks
+
+// Makes the layers that are missing, and what the painter asks for.
+EspResult jobsFor(EspContext& context, PaintStroke& stroke, float fill, Touched touched, std::vector<PaintJob>& jobs) {
+    for (const auto& [surface, blocks] : touched)
+        if (EspResult bad = ensureLayer(context, surface, stroke.layer, fill)) return bad;
+    for (const auto& [surface, blocks] : touched) recordFor(stroke, surface);  // before any address is taken
+    for (auto& [surface, blocks] : touched)
+        jobs.push_back({canvasOf(context, surface, stroke.layer), &recordFor(stroke, surface), std::move(blocks)});
+    return ESP_OK;
+}
+
+EspResult begin(EspContext& context, const EspBrush& brush, EspStroke* out) {
+    if (const char* mistake = mistakeIn(brush))
+        return fail(&context, ESP_INVALID_ARGUMENT, std::string("espBeginStroke: ") + mistake);
+    if (EspResult bad = makePainter(context)) return bad;
+    PaintStroke stroke;
+    stroke.layer = brush.layer;
+    stroke.radius = brush.radius;
+    stroke.brush = recordOf(brush, declaredFill(context, brush.layer).value_or(0));
+    out->id = context.strokes.insert(std::move(stroke));
+    return out->id ? ESP_OK : fail(&context, ESP_OUT_OF_MEMORY, "espBeginStroke: no ids left");
+}
+
+EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const EspDab> dabs) {
+    std::vector<DabRecord> records;
+    for (const EspDab& dab : dabs) {
+        if (!usable(dab))
+            return fail(&context, ESP_INVALID_ARGUMENT,
+                        "espStrokeDabs: a dab is not finite, or its pressure not within 0 to 1");
+        records.push_back({{dab.position[0], dab.position[1], dab.position[2]},
+                           dab.pressure,
+                           {dab.normal[0], dab.normal[1], dab.normal[2]},
+                           0});
+    }
+    Touched touched;
+    context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
+        std::vector<uint32_t> blocks;
+        for (const DabRecord& dab : records)
+            boundsOf(surface).near(glm::vec3(surface.toObject * glm::vec4(dab.position, 1)),
+                                   stroke.radius / surface.scale, blocks);
+        std::ranges::sort(blocks);
+        blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+        if (!blocks.empty()) touched.push_back({id, std::move(blocks)});
+    });
+    if (touched.empty()) return ESP_OK;
+    std::vector<PaintJob> jobs;
+    const float fill = declaredFill(context, stroke.layer).value_or(0);
+    if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
+    Status painted = context.painter->dabs(jobs, stroke.brush, records);
+    if (!painted) return failGpu(&context, painted.failure());
+    for (const auto& [surface, blocks] : touched) layerChanged(context, surface, stroke.layer, blocks);
+    return ESP_OK;
+}
+
+EspResult end(EspContext& context, PaintStroke& stroke) {
+    stroke.open = false;
+    for (PaintStroke::Part& part : stroke.parts) {
+        if (!paintedLayer(context, part.surface, stroke.layer)) continue;
+        Status closed = context.painter->close(canvasOf(context, part.surface, stroke.layer), part.record);
+        if (!closed) return failGpu(&context, closed.failure());
+    }
+    std::erase_if(stroke.parts, [](const PaintStroke::Part& part) { return part.record.blocks().empty(); });
+    return ESP_OK;
+}
+
+EspResult swap(EspContext& context, PaintStroke& stroke) {
+    if (stroke.open) return fail(&context, ESP_INVALID_ARGUMENT, "espSwapStroke: the stroke has not been ended");
+    for (PaintStroke::Part& part : stroke.parts) {
+        if (!paintedLayer(context, part.surface, stroke.layer)) continue;
+        Status swapped = context.painter->swap(canvasOf(context, part.surface, stroke.layer), part.record);
+        if (!swapped) return failGpu(&context, swapped.failure());
+        layerChanged(context, part.surface, stroke.layer, part.record.blocks());
+    }
+    return ESP_OK;
+}
+
+EspResult fillLayer(EspContext& context, const char* name, float value, EspStroke* out) {
+    if (EspResult bad = makePainter(context)) return bad;
+    PaintStroke stroke;
+    stroke.layer = name;
+    const float fill = declaredFill(context, name).value_or(0);
+    Touched touched;
+    context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
+        if (value == fill && !paintedLayer(context, id, name)) return;
+        touched.push_back({id, {}});
+        boundsOf(surface).all(touched.back().second);
+    });
+    std::vector<PaintJob> jobs;
+    if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
+    Status filled = context.painter->fill(jobs, value);
+    if (!filled) return failGpu(&context, filled.failure());
+    if (EspResult bad = end(context, stroke)) return bad;
+    for (const PaintStroke::Part& part : stroke.parts)
+        layerChanged(context, part.surface, stroke.layer, part.record.blocks());
+    out->id = context.strokes.insert(std::move(stroke));
+    return out->id ? ESP_OK : fail(&context, ESP_OUT_OF_MEMORY, "espFillLayer: no ids left");
+}
+
+EspResult readLayer(EspContext& context, uint32_t surface, const char* name, float* texels, uint32_t* size) {
+    const PlacedSurface* placed = context.surfaces.find(surface);
+    if (!placed) return fail(&context, ESP_INVALID_ARGUMENT, "espReadLayer: no such surface");
+    const uint32_t side = placed->data.levels.front().size, room = *size;
+    *size = side;
+    if (!texels || room == 0) return ESP_OK;
+    if (room < side)
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    "espReadLayer: the layer has " + std::to_string(side) + " texels a side, there is room for " +
+                        std::to_string(room));
+    const PaintedLayer* layer = paintedLayer(context, surface, name);
+    if (!layer) {
+        std::fill_n(texels, size_t(side) * side, declaredFill(context, name).value_or(0));
+        return ESP_OK;
+    }
+    Result<std::vector<float>> values = readVector<float>(*context.device, layer->texels, 0, size_t(side) * side);
+    if (!values) return failGpu(&context, values.failure());
+    for (uint32_t y = 0; y < side; ++y)
+        for (uint32_t x = 0; x < side; ++x) texels[size_t(y) * side + x] = (*values)[texelIndex(side, x, y)];
+    return ESP_OK;
+}
+
+// Names of all painted layers, each once, in the order in which they came.
+std::vector<const char*> paintedNames(const EspContext& context) {
+    std::vector<const char*> names;
+    for (const PaintedLayer& layer : context.layers)
+        if (std::ranges::none_of(names, [&](const char* name) { return layer.name == name; }))
+            names.push_back(layer.name.c_str());
+    return names;
+}
+
+}  // namespace
+
+std::optional<float> declaredFill(const EspContext& context, const std::string& name) {
+    std::optional<float> fill;
+    context.grammars.forEach([&](uint32_t, const LoadedGrammar& grammar) {
+        if (fill) return;
+        if (const auto index = grammar.map.findContext(name)) fill = grammar.map.contexts()[*index].fill;
+    });
+    return fill;
+}
+
+void layerChanged(EspContext& context, uint32_t surface, const std::string& name, std::span<const uint32_t> blocks) {
+    if (blocks.empty() || !declaredFill(context, name)) return;
+    const PlacedSurface& placed = *context.surfaces.find(surface);
+    const uint32_t size = placed.data.levels.front().size, side = size / 8;
+    for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer) {
+        if (context.sceneLayers[layer].name != name) continue;
+        for (uint32_t block : blocks) {
+            const uint32_t x = block % side * 8, y = block / side * 8;
+            context.changes.markTiles(placed.instance, layer, size, x, y, x + 8, y + 8);
+        }
+    }
+    ++context.revision;
+}
+
+void wholeLayerChanged(EspContext& context, uint32_t surface, const std::string& name) {
+    if (!declaredFill(context, name)) return;
+    const PlacedSurface& placed = *context.surfaces.find(surface);
+    for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
+        if (context.sceneLayers[layer].name == name)
+            context.changes.markLayer(placed.instance, layer, placed.data.levels.front().size);
+    ++context.revision;
+}
+
+}  // namespace espalier
+
+using namespace espalier;
+
+extern "C" {
+
+EspBrush espDefaultBrush(void) {
+    EspBrush brush{};
+    brush.radius = .5f;
+    brush.value = 1;
+    brush.strength = .5f;
+    brush.slopeRange[1] = kPi;
+    brush.heightRange[0] = -std::numeric_limits<float>::max();
+    brush.heightRange[1] = std::numeric_limits<float>::max();
+    return brush;
+}
+
+EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out) {
+    return guarded(context, [&] {
+        if (!brush || !out) return fail(context, ESP_INVALID_ARGUMENT, "espBeginStroke: null pointer");
+        return begin(*context, *brush, out);
+    });
+}
+
+EspResult espStrokeDabs(EspContext* context, EspStroke id, const EspDab* dabs, uint32_t count) {
+    return guarded(context, [&] {
+        PaintStroke* stroke = context->strokes.find(id.id);
+        if (!stroke || !stroke->open)
+            return fail(context, ESP_INVALID_ARGUMENT, "espStrokeDabs: no such stroke, or it has been ended");
+        if ((!dabs && count) || count > kMaxDabs)
+            return fail(context, ESP_INVALID_ARGUMENT, "espStrokeDabs: null pointer, or more than 65536 dabs");
+        return applyDabs(*context, *stroke, {dabs, count});
+    });
+}
+
+EspResult espEndStroke(EspContext* context, EspStroke id) {
+    return guarded(context, [&] {
+        PaintStroke* stroke = context->strokes.find(id.id);
+        if (!stroke || !stroke->open)
+            return fail(context, ESP_INVALID_ARGUMENT, "espEndStroke: no such stroke, or it has been ended before");
+        return end(*context, *stroke);
+    });
+}
+
+EspResult espSwapStroke(EspContext* context, EspStroke id) {
+    return guarded(context, [&] {
+        PaintStroke* stroke = context->strokes.find(id.id);
+        if (!stroke) return fail(context, ESP_INVALID_ARGUMENT, "espSwapStroke: no such stroke");
+        return swap(*context, *stroke);
+    });
+}
+
+EspResult espDestroyStroke(EspContext* context, EspStroke id) {
+    return guarded(context, [&] {
+        if (!context->strokes.erase(id.id))
+            return fail(context, ESP_INVALID_ARGUMENT, "espDestroyStroke: no such stroke");
+        return ESP_OK;
+    });
+}
+
+uint64_t espStrokeBytes(const EspContext* context, EspStroke id) {
+    const PaintStroke* stroke = context ? context->strokes.find(id.id) : nullptr;
+    uint64_t bytes = 0;
+    if (stroke)
+        for (const PaintStroke::Part& part : stroke->parts) bytes += part.record.bytes();
+    return bytes;
+}
+
+EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out) {
+    return guarded(context, [&] {
+        if (!layer || !*layer || !out || !(value >= 0 && value <= 1))
+            return fail(context, ESP_INVALID_ARGUMENT, "espFillLayer: null pointer, no name, or a value beyond 0 to 1");
+        return fillLayer(*context, layer, value, out);
+    });
+}
+
+uint32_t espPaintedLayerCount(const EspContext* context) {
+    return context ? uint32_t(paintedNames(*context).size()) : 0;
+}
+
+const char* espPaintedLayerName(const EspContext* context, uint32_t index) {
+    if (!context) return "";
+    const std::vector<const char*> names = paintedNames(*context);
+    return index < names.size() ? names[index] : "";
+}
+
+EspResult espReadLayer(EspContext* context, EspSurface surface, const char* layer, float* texels, uint32_t* size) {
+    return guarded(context, [&] {
+        if (!layer || !size) return fail(context, ESP_INVALID_ARGUMENT, "espReadLayer: null pointer");
+        return readLayer(*context, surface.id, layer, texels, size);
+    });
+}
+
+}  // extern "C"

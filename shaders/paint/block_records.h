@@ -1,0 +1,24 @@
+// Moving whole blocks of a layer: what strokes keep, exchange and compare.
+#ifndef ESPALIER_PAINT_BLOCK_RECORDS_H
+#define ESPALIER_PAINT_BLOCK_RECORDS_H
+#include "shaders/paint/brush.h"
+
+ESPALIER_BEGIN
+
+CONST_UINT(kBlocksSave, 0u);      // kept = layer
+CONST_UINT(kBlocksSwap, 1u);      // each gets the other's
+CONST_UINT(kBlocksCompare, 2u);   // marks[block] != 0: some texel differs
+CONST_UINT(kBlocksFill, 3u);      // layer = value
+
+// Push constants. Texels are moved as bits.
+struct BlocksEnv {
+    UintBuf layer;
+    UintBuf kept;      // [64 * (first + i)]: block blocks[i]
+    UintBuf blocks;
+    UintBuf marks;
+    uint count, first, job, value;
+};
+STATIC_SIZE(BlocksEnv, 48);
+
+ESPALIER_END
+#endif

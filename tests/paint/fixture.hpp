@@ -1,0 +1,127 @@
+#pragma once
+
+// A baked shape in a context, and its layers as the public interface gives them back.
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "plugin_api/espalier.h"
+#include "runtime/surface/surface.hpp"
+#include "shaders/shared/exact.h"
+#include "tests/bake/small_models.hpp"
+
+namespace espalier::test {
+
+inline const char* kMaskedIvy =
+    "context mask = 1\n"
+    "param reach = 2 [0 .. 9]\n"
+    "Ivy -> Branch(2) {Stem(reach), Stem(reach * 0.7)}\n"
+    "Stem(l) : arc >= l -> NULL\n"
+    "Stem(l) -> Marching(0.05, rand(-0.3, 0.3), mask(texCoord)) {Stem(l), Wood}\n"
+    "Wood -> S(0.01) Shape(\"bark\", C1)\n";
+
+struct Painting {
+    EspContext* context = nullptr;
+    EspSurface surface{};
+    SurfaceData data;
+    std::string path;
+
+    // The cube [-1, 1]³, a chart a face, by default.
+    explicit Painting(const Model& model = cube(2), uint32_t resolution = 128) {
+        BakeOptions options;
+        options.resolution = resolution;
+        auto baked = bake(model, options);
+        REQUIRE(baked);
+        static int number = 0;
+        path = (std::filesystem::temp_directory_path() /
+                ("espalier_paint_" + std::to_string(getpid()) + "_" + std::to_string(number++) + ".glb"))
+                   .string();
+        REQUIRE(writeSurface(baked->surface, path));
+        auto read = readSurface(path);
+        REQUIRE(read);
+        data = std::move(*read);
+        EspContextDef def = espDefaultContextDef();
+        def.validation = 1;
+        if (espCreate(&def, &context) != ESP_OK) FAIL(espLastError(nullptr));
+        ok(espLoadSurface(context, path.c_str(), nullptr, &surface));
+    }
+    ~Painting() {
+        EspStats stats{};
+        CHECK(espReadStats(context, &stats) == ESP_OK);
+        CHECK(stats.validationMessages == 0);
+        espDestroy(context);
+        std::filesystem::remove(path);
+    }
+    Painting(const Painting&) = delete;
+    Painting& operator=(const Painting&) = delete;
+
+    void ok(EspResult result) const {
+        if (result != ESP_OK) FAIL(result << ": " << espLastError(context));
+    }
+    uint32_t size() const { return data.levels[0].size; }
+    const Texel& texel(uint32_t x, uint32_t y) const { return data.levels[0].texels[texelIndex(size(), x, y)]; }
+    const TexelAux& aux(uint32_t x, uint32_t y) const { return data.levels[0].aux[texelIndex(size(), x, y)]; }
+
+    std::vector<float> layer(const char* name) const {
+        uint32_t side = 0;
+        ok(espReadLayer(context, surface, name, nullptr, &side));
+        REQUIRE(side == size());
+        std::vector<float> texels(size_t(side) * side, -1);
+        ok(espReadLayer(context, surface, name, texels.data(), &side));
+        return texels;
+    }
+    EspStroke begin(const EspBrush& brush) const {
+        EspStroke stroke{};
+        ok(espBeginStroke(context, &brush, &stroke));
+        return stroke;
+    }
+    EspStroke stroke(const EspBrush& brush, const std::vector<EspDab>& dabs) const {
+        const EspStroke stroke = begin(brush);
+        ok(espStrokeDabs(context, stroke, dabs.data(), uint32_t(dabs.size())));
+        ok(espEndStroke(context, stroke));
+        return stroke;
+    }
+    EspGrammar grammar(const char* text) const {
+        EspGrammarDef def{"paint test", text, std::string(text).size()};
+        EspGrammar grammar{};
+        ok(espCompileGrammar(context, &def, &grammar));
+        return grammar;
+    }
+    EspSeed plant(EspGrammar grammar, glm::vec3 at, glm::vec3 direction, uint32_t number = 1) const {
+        EspSeedDef def = espDefaultSeedDef();
+        def.grammar = grammar;
+        for (int i = 0; i < 3; ++i) {
+            def.position[i] = at[i];
+            def.direction[i] = direction[i];
+        }
+        def.number = number;
+        EspSeed seed{};
+        ok(espPlant(context, &def, &seed));
+        return seed;
+    }
+    EspStats grown() const {
+        ok(espUpdate(context));
+        EspStats stats{};
+        ok(espReadStats(context, &stats));
+        return stats;
+    }
+};
+
+inline EspBrush brushOn(const char* layer, float radius, float strength = 1, float hardness = 0) {
+    EspBrush brush = espDefaultBrush();
+    brush.layer = layer;
+    brush.radius = radius;
+    brush.strength = strength;
+    brush.hardness = hardness;
+    return brush;
+}
+
+inline EspDab dabAt(glm::vec3 p, glm::vec3 n = {0, 1, 0}, float pressure = 1) {
+    return {{p.x, p.y, p.z}, {n.x, n.y, n.z}, pressure};
+}
+
+}  // namespace espalier::test

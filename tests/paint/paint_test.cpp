@@ -1,0 +1,308 @@
+// Painting through the public interface: every texel against the formula in double precision, seams, undoing, growth.
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "tests/paint/fixture.hpp"
+
+using namespace espalier;
+using namespace espalier::test;
+
+namespace {
+
+// What the brush is documented to do, written anew in double precision.
+struct Expected {
+    double radius, value, strength, hardness;
+    double slope[2] = {0, 4}, height[2] = {-1e9, 1e9}, softness = 0;
+    bool front = false;
+
+    static double smooth(double t) {
+        t = std::clamp(t, 0.0, 1.0);
+        return t * t * (3 - 2 * t);
+    }
+    double within(const double range[2], double v, double fade) const {
+        const double out = std::max(range[0] - v, v - range[1]);
+        if (fade <= 0) return out <= 0;
+        return smooth(1 - out / fade);
+    }
+    double after(double before, glm::dvec3 p, glm::dvec3 n, glm::dvec3 at, glm::dvec3 facing, double pressure) const {
+        const double x = glm::length(p - at) / radius;
+        double w = x >= 1 ? 0 : hardness >= 1 ? 1 : 1 - smooth((x - hardness) / (1 - hardness));
+        w *= within(slope, std::acos(std::clamp(n.y, -1.0, 1.0)), softness * 0.785398163);
+        w *= within(height, p.y, softness * radius);
+        if (front) w *= std::clamp(8 * glm::dot(n, facing), 0.0, 1.0);
+        return before + (value - before) * w * strength * pressure;
+    }
+};
+
+// Bilinear, as a grammar reads it.
+float readAt(const std::vector<float>& layer, uint32_t size, glm::vec2 uv) {
+    const float x = std::clamp(uv.x * float(size) - .5f, 0.f, float(size - 1));
+    const float y = std::clamp(uv.y * float(size) - .5f, 0.f, float(size - 1));
+    const uint32_t x0 = uint32_t(x), y0 = uint32_t(y), x1 = std::min(x0 + 1, size - 1), y1 = std::min(y0 + 1, size - 1);
+    const float fx = x - float(x0), fy = y - float(y0);
+    return glm::mix(glm::mix(layer[y0 * size + x0], layer[y0 * size + x1], fx),
+                    glm::mix(layer[y1 * size + x0], layer[y1 * size + x1], fx), fy);
+}
+
+struct SeamGaps {
+    float worst = 0;  // greatest difference of the two sides' reads along all seams
+    float most = 0;   // greatest value met there
+    uint32_t points = 0;
+};
+SeamGaps seamGaps(const Painting& painting, const std::vector<float>& layer) {
+    SeamGaps gaps;
+    for (const Crossing& c : painting.data.crossings) {
+        if ((c.flags & 3u) != kCrossingSeam) continue;
+        for (float t = .05f; t < 1; t += .1f) {
+            const float here = readAt(layer, painting.size(), glm::mix(c.a, c.b, t));
+            const float there = readAt(layer, painting.size(), glm::mix(c.ta, c.tb, t));
+            gaps.worst = std::max(gaps.worst, std::abs(here - there));
+            gaps.most = std::max(gaps.most, here);
+            ++gaps.points;
+        }
+    }
+    return gaps;
+}
+
+glm::vec3 randomOnCube(std::mt19937& random) {
+    std::uniform_real_distribution<float> unit(0, 1);
+    return onCube(int(random() % 6), unit(random), unit(random));
+}
+
+}  // namespace
+
+TEST_CASE("a dab paints every texel by the documented formula, gutters too, and no other") {
+    Painting painting;
+    const glm::dvec3 at(1, .8, .9), facing(0.6, 0, 0.8);
+    struct Case {
+        EspBrush brush;
+        Expected expected;
+    };
+    std::vector<Case> cases;
+    cases.push_back({brushOn("paint", .7f, .8f), {.7, 1, .8, 0}});
+    cases.push_back({brushOn("paint", .5f, 1, 1), {.5, 1, 1, 1}});
+    cases.push_back({brushOn("paint", 1.5f, .5f, .5f), {1.5, .25, .5, .5}});
+    cases.back().brush.value = .25f;
+    cases.push_back({brushOn("paint", 2, 1, .2f), {2, 1, 1, .2}});
+    cases.back().brush.slopeRange[0] = 1.4f;
+    cases.back().brush.slopeRange[1] = 1.8f;
+    cases.back().expected.slope[0] = 1.4f;
+    cases.back().expected.slope[1] = 1.8f;
+    cases.push_back({brushOn("paint", 2, 1, .2f), {2, 1, 1, .2}});
+    cases.back().brush.heightRange[0] = .1f;
+    cases.back().brush.heightRange[1] = .6f;
+    cases.back().brush.limitSoftness = .4f;
+    cases.back().expected.height[0] = .1f;
+    cases.back().expected.height[1] = .6f;
+    cases.back().expected.softness = .4f;
+    cases.push_back({brushOn("paint", 2, 1, .2f), {2, 1, 1, .2}});
+    cases.back().brush.frontOnly = 1;
+    cases.back().expected.front = true;
+    for (const Case& c : cases) {
+        const EspStroke stroke = painting.begin(c.brush);
+        const std::vector<EspDab> dabs{dabAt(at, facing, 1), dabAt(at, facing, .5f)};
+        painting.ok(espStrokeDabs(painting.context, stroke, dabs.data(), 2));
+        const std::vector<float> layer = painting.layer("paint");
+        double worst = 0, most = 0;
+        bool emptyTouched = false;
+        for (uint32_t y = 0; y < painting.size(); ++y)
+            for (uint32_t x = 0; x < painting.size(); ++x) {
+                const float value = layer[y * painting.size() + x];
+                const Texel& texel = painting.texel(x, y);
+                if (texelClass(texel.bits) == kTexelEmpty) {
+                    emptyTouched = emptyTouched || value != 0;
+                    continue;
+                }
+                const glm::dvec3 p(texel.position), n(unpackOct(painting.aux(x, y).normal));
+                const double once = c.expected.after(0, p, n, at, facing, 1);
+                const double twice = c.expected.after(once, p, n, at, facing, .5);
+                // At a hard edge a texel may fall on either side.
+                const double x01 = glm::length(p - at) / c.expected.radius;
+                if (c.expected.hardness == 1 && std::abs(x01 - 1) < 1e-5) continue;
+                worst = std::max(worst, std::abs(twice - value));
+                most = std::max(most, double(value));
+            }
+        CHECK(worst < 2e-4);
+        CHECK(most > .1);
+        CHECK_FALSE(emptyTouched);
+        painting.ok(espEndStroke(painting.context, stroke));
+        painting.ok(espSwapStroke(painting.context, stroke));
+    }
+}
+
+TEST_CASE("a stroke around a corner is read alike on both sides of every seam") {
+    for (const Model& model : {cube(2), cubeCross(2), cube(2, 0x15)}) {
+        Painting painting(model, 256);
+        std::mt19937 random(7);
+        std::vector<EspDab> dabs;
+        for (int i = 0; i < 40; ++i) {
+            // Onto an edge of the cube: the two greatest coordinates to 1.
+            glm::vec3 p = randomOnCube(random);
+            const int least = std::abs(p.x) < std::abs(p.y) ? (std::abs(p.x) < std::abs(p.z) ? 0 : 2)
+                                                            : (std::abs(p.y) < std::abs(p.z) ? 1 : 2);
+            for (int k = 0; k < 3; ++k)
+                if (k != least) p[k] = p[k] < 0 ? -1.f : 1.f;
+            dabs.push_back(dabAt(p));
+        }
+        painting.stroke(brushOn("paint", .4f, .4f, .2f), dabs);
+        const SeamGaps gaps = seamGaps(painting, painting.layer("paint"));
+        CHECK(gaps.points > 100);
+        CHECK(gaps.most > .5f);
+        // A texel is 3 cm wide, where the brush falls off by a tenth.
+        CHECK(gaps.worst < .02f);
+    }
+}
+
+TEST_CASE("1,000 random strokes undone restore every texel bit for bit, and redone paint the same") {
+    Painting painting;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const char* names[] = {"mask", "density", "tint"};
+    std::vector<std::vector<float>> begin, end;
+    // Not from a blank: what is restored is a picture.
+    for (const char* name : names) {
+        std::vector<float> picture(97 * 61);
+        for (float& v : picture) v = unit(random);
+        EspLayerDef def = espDefaultLayerDef();
+        def.surface = painting.surface;
+        def.name = name;
+        def.space = ESP_LAYER_WALK_UV;
+        def.texels = picture.data();
+        def.width = 97;
+        def.height = 61;
+        painting.ok(espSetLayer(painting.context, &def));
+        begin.push_back(painting.layer(name));
+    }
+    std::vector<EspStroke> strokes;
+    uint64_t bytes = 0;
+    for (int i = 0; i < 1000; ++i) {
+        if (i % 100 == 99) {
+            EspStroke fill{};
+            painting.ok(espFillLayer(painting.context, names[random() % 3], unit(random), &fill));
+            strokes.push_back(fill);
+            continue;
+        }
+        EspBrush brush = brushOn(names[random() % 3], .02f + .6f * unit(random), unit(random), unit(random));
+        brush.mode = EspBrushMode(random() % 2);
+        brush.value = unit(random);
+        brush.frontOnly = random() % 2;
+        const EspStroke stroke = painting.begin(brush);
+        for (uint32_t call = 0; call <= random() % 3; ++call) {
+            std::vector<EspDab> dabs;
+            for (uint32_t k = 0; k < random() % 40; ++k)
+                dabs.push_back(dabAt(randomOnCube(random), {0, 1, 0}, unit(random)));
+            painting.ok(espStrokeDabs(painting.context, stroke, dabs.data(), uint32_t(dabs.size())));
+        }
+        painting.ok(espEndStroke(painting.context, stroke));
+        bytes += espStrokeBytes(painting.context, stroke);
+        strokes.push_back(stroke);
+    }
+    CHECK(bytes > 0);
+    for (const char* name : names) end.push_back(painting.layer(name));
+    const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
+        return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+    };
+    for (size_t i = 0; i < 3; ++i) CHECK_FALSE(same(begin[i], end[i]));
+    for (size_t i = strokes.size(); i-- > 0;) painting.ok(espSwapStroke(painting.context, strokes[i]));
+    for (size_t i = 0; i < 3; ++i) CHECK(same(painting.layer(names[i]), begin[i]));
+    for (const EspStroke& stroke : strokes) painting.ok(espSwapStroke(painting.context, stroke));
+    for (size_t i = 0; i < 3; ++i) CHECK(same(painting.layer(names[i]), end[i]));
+}
+
+TEST_CASE("a stroke keeps what it changed and no more") {
+    Painting painting;
+    const EspStroke dab = painting.stroke(brushOn("paint", .2f), {dabAt({1, 0, 0})});
+    const uint64_t one = espStrokeBytes(painting.context, dab);
+    // A face is 32 texels wide: the dab 6, in at most 4 blocks.
+    CHECK(one > 0);
+    CHECK(one <= 4 * (64 * 4 + 4));
+    // The same again with nothing to add, and beside the model.
+    EspBrush again = brushOn("paint", .2f, 0);
+    CHECK(espStrokeBytes(painting.context, painting.stroke(again, {dabAt({1, 0, 0})})) == 0);
+    CHECK(espStrokeBytes(painting.context, painting.stroke(brushOn("paint", .2f), {dabAt({5, 0, 0})})) == 0);
+    painting.ok(espDestroyStroke(painting.context, dab));
+    CHECK(espStrokeBytes(painting.context, dab) == 0);
+    CHECK(espSwapStroke(painting.context, dab) == ESP_INVALID_ARGUMENT);
+}
+
+TEST_CASE("erasing leads back to the fill that a grammar declares, and layers outlive a recompilation") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar("context mask = 0.75\nIvy -> Marching(0.1, 0, mask(texCoord)) {Ivy}\n");
+    EspBrush brush = brushOn("mask", .5f, 1, 1);
+    brush.value = 0;
+    painting.stroke(brush, {dabAt({1, 0, 0})});
+    std::vector<float> layer = painting.layer("mask");
+    CHECK(*std::min_element(layer.begin(), layer.end()) == 0);
+    CHECK(*std::max_element(layer.begin(), layer.end()) == .75f);
+    const char* text = "context mask = 0.75\nIvy -> Marching(0.2, 0, mask(texCoord)) {Ivy}\n";
+    EspGrammarDef def{"again", text, std::strlen(text)};
+    painting.ok(espRecompileGrammar(painting.context, grammar, &def));
+    CHECK(painting.layer("mask") == layer);
+    REQUIRE(espPaintedLayerCount(painting.context) == 1);
+    CHECK(std::string(espPaintedLayerName(painting.context, 0)) == "mask");
+    brush.mode = ESP_BRUSH_ERASE;
+    brush.radius = .8f;
+    painting.stroke(brush, {dabAt({1, 0, 0})});
+    layer = painting.layer("mask");
+    CHECK(*std::min_element(layer.begin(), layer.end()) == .75f);
+}
+
+TEST_CASE("growth follows strokes, their undoing and redoing, and is idle when they touch nothing it reads") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    painting.plant(grammar, {1, -.9f, 0}, {0, 1, 0});
+    const EspStats free = painting.grown();
+    CHECK(free.nodes > 20);
+    EspBrush brush = brushOn("mask", .5f, 1, .8f);
+    brush.value = 0;
+    const EspStroke wall = painting.stroke(brush, {dabAt({1, 0, -.5f}), dabAt({1, 0, 0}), dabAt({1, 0, .5f})});
+    const EspStats stopped = painting.grown();
+    CHECK(stopped.hash != free.hash);
+    painting.ok(espSwapStroke(painting.context, wall));
+    CHECK(painting.grown().hash == free.hash);
+    painting.ok(espSwapStroke(painting.context, wall));
+    CHECK(painting.grown().hash == stopped.hash);
+    const uint32_t expansions = painting.grown().expansions;
+    painting.stroke(brushOn("unread", .5f), {dabAt({1, 0, 0})});
+    painting.stroke(brush, {dabAt({9, 0, 0})});
+    CHECK(painting.grown().expansions == expansions);
+}
+
+TEST_CASE("painting refuses what isn't a brush, a dab or a stroke, and stays as it was") {
+    Painting painting;
+    EspStroke stroke{};
+    for (int mistake = 0; mistake < 9; ++mistake) {
+        EspBrush brush = brushOn("paint", .5f);
+        if (mistake == 0) brush.layer = nullptr;
+        if (mistake == 1) brush.layer = "";
+        if (mistake == 2) brush.radius = 0;
+        if (mistake == 3) brush.radius = NAN;
+        if (mistake == 4) brush.value = 1.5f;
+        if (mistake == 5) brush.strength = -1;
+        if (mistake == 6) brush.hardness = NAN;
+        if (mistake == 7) brush.mode = EspBrushMode(17);
+        if (mistake == 8) brush.heightRange[1] = NAN;
+        CHECK(espBeginStroke(painting.context, &brush, &stroke) == ESP_INVALID_ARGUMENT);
+        CHECK(std::strlen(espLastError(painting.context)) > 0);
+    }
+    CHECK(stroke.id == 0);
+    const EspDab good = dabAt({1, 0, 0}), bad = dabAt({NAN, 0, 0});
+    CHECK(espStrokeDabs(painting.context, stroke, &good, 1) == ESP_INVALID_ARGUMENT);
+    stroke = painting.begin(brushOn("paint", .5f));
+    CHECK(espStrokeDabs(painting.context, stroke, &bad, 1) == ESP_INVALID_ARGUMENT);
+    CHECK(espStrokeDabs(painting.context, stroke, nullptr, 1) == ESP_INVALID_ARGUMENT);
+    CHECK(espSwapStroke(painting.context, stroke) == ESP_INVALID_ARGUMENT);
+    CHECK(espPaintedLayerCount(painting.context) == 0);
+    painting.ok(espStrokeDabs(painting.context, stroke, &good, 1));
+    painting.ok(espEndStroke(painting.context, stroke));
+    CHECK(espEndStroke(painting.context, stroke) == ESP_INVALID_ARGUMENT);
+    CHECK(espStrokeDabs(painting.context, stroke, &good, 1) == ESP_INVALID_ARGUMENT);
+    // A stroke outlives its surface; what is gone is passed over.
+    painting.ok(espDestroySurface(painting.context, painting.surface));
+    painting.ok(espSwapStroke(painting.context, stroke));
+    CHECK(espPaintedLayerCount(painting.context) == 0);
+    float texel = 0;
+    uint32_t side = 1;
+    CHECK(espReadLayer(painting.context, painting.surface, "paint", &texel, &side) == ESP_INVALID_ARGUMENT);
+}
