@@ -9,7 +9,7 @@
 #include "runtime/grammar/expressions.hpp"
 
 // One compilation: what its stages share. Stages in order: parseModule, Expressions::declare, analyseSymbols,
-// lowerGrowth (which calls lowerExtrude), assemble (rule_map_io.hpp).
+// lowerGrowth (which calls lowerExtrude), or for roofs lowerRoofs, assemble (rule_map_io.hpp).
 namespace espalier::grammar {
 
 // All rules of one predecessor.
@@ -48,6 +48,9 @@ struct Compilation {
     std::vector<ExtrudeRecord> extrudes;
     std::vector<TerminalRecord> terminals;
     std::vector<uint32_t> sites;
+    std::vector<Value> roofValues;  // the numbers of their rules
+    std::vector<std::string> nestedNames;  // of symbols that stand behind all named ones
+    bool roofs = false;
 
     uint32_t findSymbol(const std::string& name) const {
         auto found = symbolByName.find(name);
@@ -68,11 +71,20 @@ struct Compilation {
     Node chooseRule(const Symbol& symbol, std::vector<Env>& envs);
 };
 
-// Fills Compilation::symbols: who grows, who calls whom; reports cycles that never march, duplicates, nesting.
+// True for a grammar whose rules make roofs, false for one that walks.
+bool isRoofGrammar(const Module& module);
+
+// Fills Compilation::symbols with the rules of each predecessor; reports what contradicts itself.
+void collectSymbols(Compilation& c);
+
+// The same, and who grows, who calls whom; reports cycles that never march, duplicates, nesting.
 void analyseSymbols(Compilation& c);
 
 // Rules, successors and continuations of the growing symbols.
 void lowerGrowth(Compilation& c);
+
+// All rules of a grammar of roofs (Buron 2013).
+void lowerRoofs(Compilation& c);
 
 // The program of an extruded successor of `rule`; args: the nodes of the rule's arguments. Returns its index + 1, or
 // 0 if nothing is drawn or a mistake was reported.

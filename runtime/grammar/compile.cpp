@@ -10,7 +10,7 @@ namespace espalier {
 namespace {
 
 // Part of the content hash: raise it whenever the same text compiles to another map.
-constexpr uint64_t kCompilerVersion = 2;
+constexpr uint64_t kCompilerVersion = 3;
 
 uint64_t contentHashOf(const std::vector<std::string>& sources, const std::vector<std::string>& names,
                        const std::vector<TerminalMesh>& meshes) {
@@ -62,10 +62,17 @@ void lowerWidth(grammar::Compilation& c) {
 
 Result<RuleMap> compile(Parsed& p) {
     grammar::Compilation& c = p.compilation;
+    c.roofs = grammar::isRoofGrammar(c.module);
+    c.expressions.ofRoofs(c.roofs);
     c.expressions.declare();
-    grammar::analyseSymbols(c);
     // Lowering checks what is in the rules; it can't get stuck on what has been reported so far.
-    grammar::lowerGrowth(c);
+    if (c.roofs) {
+        grammar::collectSymbols(c);
+        grammar::lowerRoofs(c);
+    } else {
+        grammar::analyseSymbols(c);
+        grammar::lowerGrowth(c);
+    }
     lowerWidth(c);
     if (c.reporter.failed()) return failureOf(c.reporter);
     c.expressions.warnUnused();

@@ -124,7 +124,7 @@ Node Expressions::fail(const Place& place, const Env& env, const std::string& me
 }
 
 Node Expressions::unknown(const std::string& name, const Place& place, const Env& env) {
-    std::vector<std::string> candidates = accessorNames();
+    std::vector<std::string> candidates = roofs_ ? roofAccessorNames() : accessorNames();
     for (const auto& arg : env.args) candidates.push_back(arg.first);
     candidates.insert(candidates.end(), names_.begin(), names_.end());
     return fail(place, env, "'" + name + "' is not known" + didYouMean(name, candidates));
@@ -172,6 +172,15 @@ Node Expressions::lowerName(const std::string& name, const Place& place, Env& en
     if (name == "pi") return graph_.constant(kPi);
     if (name == "true" || name == "otherwise") return graph_.one();
     if (name == "false") return graph_.zero();
+    if (roofs_) {
+        if (const AccessorInfo* info = findRoofAccessor(name)) return graph_.leaf(Leaf::slot, info->slot);
+        if (const float* word = findRoofWord(name)) return graph_.constant(*word);
+        if (findAccessor(name) != nullptr)
+            return fail(place, env, "'" + name + "' belongs to growth over a surface; a grammar of roofs has no walk");
+        if (findRoofAccessor(name + ".x") != nullptr || (letByName_.count(base) != 0 && !part.empty()))
+            return fail(place, env, "'" + name + "' is a vector; here a number is wanted, such as " + base + ".x");
+        return unknown(name, place, env);
+    }
     if (const AccessorInfo* info = findAccessor(name)) return accessor(*info, place, env);
     if (contextByName_.count(base == "context" ? part : name) != 0) {
         std::string layerName = base == "context" ? part : name;
@@ -258,7 +267,12 @@ Node Expressions::call(const Expr& e, Env& env) {
         for (const auto& c : contextByName_) candidates.push_back(c.first);
         return fail(e.place, env, "no context layer '" + name + "' is declared" + didYouMean(name, candidates));
     }
+    if (roofs_ && e.kids.empty() && findRoofAccessor(name) != nullptr) return lowerName(name, e.place, env);
+    if (name == "~" || name == "rel")
+        return fail(e.place, env, std::string(name == "~" ? "'~'" : "'rel'") + " is a size of Split and stands there only");
     const FunctionInfo* info = findFunction(name);
+    if (roofs_ && info != nullptr && (info->kind == Function::angleTo || info->kind == Function::every))
+        return fail(e.place, env, "'" + name + "' belongs to growth over a surface; a grammar of roofs has no walk");
     if (info == nullptr) {
         std::vector<std::string> candidates = functionNames();
         for (const auto& c : contextByName_) candidates.push_back(c.first);

@@ -33,8 +33,14 @@ class Expressions {
     // Mistakes are reported; the node is 0 then.
     Node lower(ExprId expr, Env& env);
     Node lowerName(const std::string& name, const Place& place, Env& env);
+    // Grammars of roofs have accessors of their own, and vectors. To be said before declare().
+    void ofRoofs(bool roofs) { roofs_ = roofs; }
+    // A vector of 2 or 3 parts (`size`; of two the last part is 0): an accessor, vec2, vec3, cross, unit, sums,
+    // products with numbers, a let of such. False: reported.
+    bool lowerVector(ExprId expr, Env& env, Node (&xyz)[3], int& size);
     // Three nodes of a colour: a colour parameter or three numbers. False: reported.
     bool lowerColour(const std::vector<ExprId>& args, const Place& place, Env& env, Node (&rgb)[3]);
+    bool isVector(ExprId expr, int depth = 0) const;
     Node randomNumber(Env& env);
     static Node siteNode(Graph& graph, const Env& env, uint32_t ordinal);
 
@@ -49,6 +55,8 @@ class Expressions {
 
   private:
     Node lowerTree(ExprId expr, Env& env);
+    bool vectorTree(const Expr& e, Env& env, Node (&xyz)[3], int& size);
+    bool vectorCall(const Expr& e, Env& env, Node (&xyz)[3], int& size);
     float constantOf(ExprId expr, const std::string& rule, float otherwise);
     void declareParam(const ParamDeclaration& p, uint32_t& slots);
     bool takeName(const std::string& name, const Place& place);
@@ -69,6 +77,7 @@ class Expressions {
     std::map<std::string, uint32_t> paramByName_, contextByName_, letByName_;
     std::set<std::string> names_, used_, activeLets_;
     uint64_t work_ = 0;
+    bool roofs_ = false;
     uint32_t nesting_ = 0;  // calls of lower under way
 };
 

@@ -69,6 +69,8 @@ class RuleMap {
     std::optional<uint32_t> findContext(std::string_view name) const;
     // The predecessor of the first growing rule of the main text.
     uint32_t startSymbol() const { return startSymbol_; }
+    // A grammar of roofs (Buron 2013): its symbols replace shapes on houses; seeds can't start with them.
+    bool roofs() const { return roofs_; }
     const std::vector<Diagnostic>& warnings() const { return warnings_; }
 
     // Sets a parameter, limited to its range (colours: 0..1; NaN: left as it was), and works out what depends
@@ -107,7 +109,8 @@ class RuleMap {
     struct Section {
         uint32_t offset = 0, count = 0;  // words; records
     };
-    static constexpr uint32_t kSections = 8;
+    static constexpr uint32_t kSections = 9;
+    bool roofs_ = false;
     Section sections_[kSections];
     // What follows from parameters: code that the host runs, its results, and the words that take them.
     struct Uniform {

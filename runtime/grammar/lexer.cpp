@@ -11,10 +11,11 @@ namespace espalier::grammar {
 namespace {
 
 constexpr size_t kMaxTokens = 200'000;
-constexpr std::string_view kArrow = "\xE2\x86\x92", kPiSign = "\xCF\x80";
-constexpr std::array<std::string_view, 26> kSymbols = {"->", "<=", ">=", "==", "!=", "&&", "||", "..", "(",
+constexpr std::string_view kArrow = "\xE2\x86\x92", kPiSign = "\xCF\x80",
+                           kTilde = "\xE2\x88\xBC";
+constexpr std::array<std::string_view, 27> kSymbols = {"->", "<=", ">=", "==", "!=", "&&", "||", "..", "(",
                                                        ")",  "{",  "}",  "[",  "]",  ",",  ";",  ":",  "?",
-                                                       "+",  "-",  "*",  "/",  "%",  "<",  ">",  "="};
+                                                       "+",  "-",  "*",  "/",  "%",  "<",  ">",  "=", "~"};
 
 bool isLetter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -121,6 +122,7 @@ class Lexer {
         if (c == '"') return string();
         if (c == '#') return colour();
         if (startsWith(kArrow)) return symbol("->", kArrow.size());
+        if (startsWith(kTilde)) return symbol("~", kTilde.size());
         if (startsWith(kPiSign)) {
             begin(TokenKind::name).text = "pi";
             at_ += kPiSign.size();

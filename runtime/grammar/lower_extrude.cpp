@@ -152,7 +152,8 @@ class ExtrudeLowering {
         if (block.kind == Block::marching)
             return error(e.place, env,
                          "an extruded successor draws on its span and can't march; branches begin in a Branch rule");
-        if (block.kind == Block::later) return;  // reported
+        if (isRoofBlock(block.kind))
+            return error(e.place, env, "'" + e.name + "' makes roofs; a grammar either marches or makes roofs");
         if (!e.hasItems || e.args.size() < block.minArgs || e.args.size() > block.maxArgs ||
             e.items.size() > block.maxItems)
             return error(e.place, env, "write " + std::string(block.usage));

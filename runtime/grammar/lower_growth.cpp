@@ -41,7 +41,8 @@ class GrowthLowering {
         if (block != nullptr && block->kind == Block::branch) {
             branch(e, *block, rule, all);
         } else if (block != nullptr) {
-            if (block->kind == Block::later) return;  // reported
+            if (isRoofBlock(block->kind))
+                return c_.reporter.error(e.place, rule, "'" + e.name + "' makes roofs; a grammar either marches or makes roofs");
             bool marching = block->kind == Block::marching;
             c_.reporter.error(e.place, rule,
                               marching ? "Marching stands alone behind the arrow; give it a rule of its own"

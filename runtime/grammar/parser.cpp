@@ -300,6 +300,13 @@ class Parser {
         return left;
     }
     ExprId unary() {
+        // A size of Split: a share of the rest, of weight 1 if none is said.
+        if (at("~")) {
+            Token tilde = tokens_[at_++];
+            bool plain = at(",") || at(")");
+            ExprId weight = plain ? add({ExprKind::number, "1", 1, {}, tilde.place, 1}) : primary();
+            return add({ExprKind::call, "~", 0, {weight}, tilde.place, 1});
+        }
         if (at("-") || at("!") || at("+") || atName("not")) {
             Token op = tokens_[at_++];
             if (++nesting_ > kMaxDepth) {

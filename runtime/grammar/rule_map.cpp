@@ -14,6 +14,7 @@ constexpr uint32_t wordOf(size_t bytes) {
 constexpr uint32_t kSymbolValues[] = {wordOf(offsetof(SymbolRecord, selected))};
 constexpr uint32_t kRuleValues[] = {wordOf(offsetof(RuleRecord, distance)), wordOf(offsetof(RuleRecord, angle)),
                                     wordOf(offsetof(RuleRecord, condition))};
+constexpr uint32_t kPlainValue[] = {0};
 constexpr uint32_t kArgs = wordOf(offsetof(SuccessorRecord, args));
 constexpr uint32_t kSuccessorValues[] = {kArgs, kArgs + 2, kArgs + 4, kArgs + 6};
 constexpr uint32_t kSize = wordOf(offsetof(TerminalRecord, size));
@@ -50,6 +51,8 @@ std::span<const uint32_t> valueOffsets(uint32_t section) {
             return kSuccessorValues;
         case kSectionTerminals:
             return kTerminalValues;
+        case kSectionValues:
+            return kPlainValue;
         default:
             return {};
     }
@@ -59,10 +62,13 @@ RuleMap RuleMapAccess::assemble(grammar::Compilation& c, uint64_t contentHash) {
     RuleMap map;
     map.contentHash_ = contentHash;
     map.startSymbol_ = c.startSymbol;
+    map.roofs_ = c.roofs;
     map.params_ = c.expressions.params;
     map.contexts_ = c.expressions.contexts;
     for (const grammar::Symbol& s : c.symbols)
         if (s.grows) map.symbols_.push_back({s.name, s.argCount, true});
+    for (size_t i = 0; i < c.nestedNames.size(); ++i)
+        map.symbols_.push_back({c.nestedNames[i], c.symbolRecords[c.symbols.size() + i].argCount, true});
     map.warnings_ = c.reporter.all();
 
     std::vector<vec4> directions;
@@ -87,6 +93,7 @@ RuleMap RuleMapAccess::assemble(grammar::Compilation& c, uint64_t contentHash) {
     append(map.words_, map.sections_[kSectionCode], c.code.code);
     append(map.words_, map.sections_[kSectionSites], c.sites);
     append(map.words_, map.sections_[kSectionDirections], directions);
+    append(map.words_, map.sections_[kSectionValues], c.roofValues);
     while (map.words_.size() % 4 != 0) map.words_.push_back(0);
 
     for (uint32_t s = 0; s < kSections; ++s)
@@ -219,6 +226,9 @@ RuleMapRef RuleMap::refAt(uint64_t address) const {
             ref.directions[i] = RuleMapAccess::record<vec4>(*this, kSectionDirections, i);
     }
     for (uint32_t i = 0; i < kMaxLayers; ++i) ref.layerOf[i] = i;
+    ref.values.v = reinterpret_cast<Value*>(at(kSectionValues));
+    ref.valueCount = sections_[kSectionValues].count;
+    ref.roofs = roofs_ ? 1 : 0;
     return ref;
 }
 

@@ -9,7 +9,7 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kMagic = 0x4D525345u;  // "ESRM"
-constexpr uint32_t kVersion = 2;
+constexpr uint32_t kVersion = 3;
 constexpr size_t kHeaderBytes = 24;
 static_assert(std::endian::native == std::endian::little);
 
@@ -86,6 +86,7 @@ std::vector<uint8_t> RuleMap::save() const {
     RuleMapAccess::evaluate(plain);
     Writer body;
     body.put(plain.startSymbol_);
+    body.put(static_cast<uint32_t>(plain.roofs_));
     body.put(static_cast<uint32_t>(params_.size()));
     for (const ParamInfo& p : plain.params_) {
         body.put(p.name);
@@ -146,6 +147,7 @@ Result<RuleMap> RuleMap::load(std::span<const uint8_t> bytes, std::string_view f
 
     Reader r(rest);
     map.startSymbol_ = r.get<uint32_t>();
+    map.roofs_ = r.get<uint32_t>() != 0;
     for (uint32_t i = r.count(40); i > 0 && r.good(); --i) {
         ParamInfo p;
         p.name = r.text();

@@ -13,7 +13,8 @@ enum MapSection : uint32_t {
     kSectionTerminals,
     kSectionCode,
     kSectionSites,
-    kSectionDirections
+    kSectionDirections,
+    kSectionValues
 };
 inline constexpr uint32_t kRecordWords[] = {sizeof(SymbolRecord) / 4,
                                             sizeof(RuleRecord) / 4,
@@ -22,7 +23,8 @@ inline constexpr uint32_t kRecordWords[] = {sizeof(SymbolRecord) / 4,
                                             sizeof(TerminalRecord) / 4,
                                             sizeof(CodeWord) / 4,
                                             1,
-                                            sizeof(vec4) / 4};
+                                            sizeof(vec4) / 4,
+                                            sizeof(Value) / 4};
 
 // Where in a record of that section Values stand (in words); a code word's immediate is patched too, but is none.
 std::span<const uint32_t> valueOffsets(uint32_t section);

@@ -40,7 +40,9 @@ class Verifier {
         need(counts_[kSectionSymbols] > 0 && counts_[kSectionDirections] <= kMaxDirections &&
                  counts_[kSectionExtrudes] <= kMaxExtrudes,
              "section sizes");
-        if (ok()) lists();
+        // Recursion of roofs ends by the expander's limit on depth.
+        if (ok() && !map_.roofs()) lists();
+        for (uint32_t i = 0; i < counts_[kSectionValues] && ok(); ++i) value(get<Value>(kSectionValues, i));
         return error_;
     }
 
@@ -82,11 +84,16 @@ class Verifier {
         layers(s.layers);
     }
     void rule(const RuleRecord& r) {
-        need(r.kind <= kRuleMarch, "a rule's kind");
+        const bool roof = r.kind >= kRuleExtrude;
+        need(r.kind <= kRuleShape && (!roof || map_.roofs()) && (!map_.roofs() || r.kind != kRuleMarch),
+             "a rule's kind");
         need(r.successorCount <= (r.kind == kRuleMarch ? 1u : kMaxSuccessors) &&
                  inRange(r.firstSuccessor, r.successorCount, counts_[kSectionSuccessors]),
              "a rule's successors");
-        need(r.extrude <= counts_[kSectionExtrudes], "a rule's extrude program");
+        if (roof)
+            roofRule(r);
+        else
+            need(r.extrude <= counts_[kSectionExtrudes], "a rule's extrude program");
         code(r.start);
         code(r.arrive);
         value(r.distance);
@@ -98,6 +105,44 @@ class Verifier {
         for (uint32_t i = 0; ok() && i < r.successorCount; ++i)
             continuing += get<SuccessorRecord>(kSectionSuccessors, r.firstSuccessor + i).flags & kSuccessorContinues;
         need(continuing <= 1, "a rule with two continuations");
+    }
+    void roofRule(const RuleRecord& r) {
+        uint32_t parts = 1, values = 0;
+        switch (r.kind) {
+            case kRuleExtrude:
+                parts = 2;
+                values = 1;
+                break;
+            case kRuleJoin:
+                parts = 3;
+                values = 7;
+                break;
+            case kRuleProject:
+                values = 6;
+                break;
+            case kRuleExplode:
+                parts = 5;
+                break;
+            case kRuleSplit:
+                parts = values = kMaxSplit;
+                break;
+            case kRuleRepeat:
+                values = 2;
+                break;
+            case kRuleShape:
+                parts = 0;
+                need(r.extrude < 256, "a terminal");
+                [[fallthrough]];
+            case kRuleScope:
+                values = kScopeValues;
+                break;
+            default:
+                break;
+        }
+        need(inRange(r.values, values, counts_[kSectionValues]), "a rule's values");
+        need(parts > 0 || r.successorCount == 0, "a terminal's successors");
+        for (uint32_t i = 0; ok() && i < r.successorCount; ++i)
+            need(get<SuccessorRecord>(kSectionSuccessors, r.firstSuccessor + i).part < parts, "a successor's part");
     }
     void successor(uint32_t i) {
         SuccessorRecord s = get<SuccessorRecord>(kSectionSuccessors, i);

@@ -151,20 +151,31 @@ void forEachElement(const Sequence& sequence, const std::function<void(const Ele
 static void reportUnknownNames(Compilation& c) {
     for (const Rule& rule : c.module.rules)
         forEachElement(rule.successor, [&](const Element& e) {
-            const BlockInfo* block = findBlock(e.name);
             if (isCall(e) && c.findSymbol(e.name) == kNoSymbol) c.reportUnknown(e, rule.predecessor);
-            if (block != nullptr && block->kind == Block::later)
-                c.reporter.error(e.place, rule.predecessor, "'" + e.name + "' isn't available in this version");
         });
 }
 
-void analyseSymbols(Compilation& c) {
+bool isRoofGrammar(const Module& module) {
+    bool roofs = false, marches = false;
+    for (const Rule& rule : module.rules)
+        forEachElement(rule.successor, [&](const Element& e) {
+            const BlockInfo* block = findBlock(e.name);
+            if (block == nullptr) return;
+            marches = marches || block->kind == Block::marching;
+            roofs = roofs || isRoofBlock(block->kind) || (block->kind == Block::repeat && e.args.size() > 1);
+        });
+    return roofs && !marches;
+}
+
+void collectSymbols(Compilation& c) {
     collect(c);
     reportUnknownNames(c);
-    if (c.symbols.empty()) {
-        if (!c.reporter.failed()) c.reporter.error({0, 1, 1}, {}, "the grammar has no rules");
-        return;
-    }
+    if (c.symbols.empty() && !c.reporter.failed()) c.reporter.error({0, 1, 1}, {}, "the grammar has no rules");
+}
+
+void analyseSymbols(Compilation& c) {
+    collectSymbols(c);
+    if (c.symbols.empty()) return;
     classify(c);
     bool complete = !c.reporter.failed();
     if (complete) CycleCheck(c).run();

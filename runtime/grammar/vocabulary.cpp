@@ -15,11 +15,11 @@ constexpr BlockInfo kBlocks[] = {
     {"Marching", Block::marching, 2, 3, 1, 2, "Marching(length, angle, condition) {TopSucc, ExtrudedSucc}"},
     {"Branch", Block::branch, 0, 1, 1, kMany, "Branch(n) {A, B, ...} with n successors"},
     {"Repeat", Block::repeat, 1, 1, 1, 1, "Repeat(n) {successors}"},
-    {"Extrude", Block::later, 0, 16, 0, 64, ""},
-    {"Join", Block::later, 0, 16, 0, 64, ""},
-    {"Project", Block::later, 0, 16, 0, 64, ""},
-    {"Split", Block::later, 0, 16, 0, 64, ""},
-    {"Explode", Block::later, 0, 16, 0, 64, ""},
+    {"Extrude", Block::extrude, 1, 1, 1, 2, "Extrude(height) {Face, Top}"},
+    {"Join", Block::join, 3, 3, 1, 3, "Join(height, v1, v2) {Clipped, Support, Top}"},
+    {"Project", Block::project, 2, 2, 1, 1, "Project(axis1, axis2) {Projected}"},
+    {"Explode", Block::explode, 0, 0, 1, 5, "Explode() {Face, Front, Right, Back, Left}"},
+    {"Split", Block::split, 2, 15, 1, 14, "Split(X or Y, size, size, ...) {Part, Part, ...} with as many parts as sizes"},
 };
 
 constexpr CommandInfo kCommands[] = {
@@ -82,6 +82,63 @@ constexpr AccessorInfo kAccessors[] = {
     {"count", kSlotCount, Where::inRepeat},
 };
 
+// Of grammars of roofs. A vector's name without its part stands for the whole where a vector is wanted.
+constexpr AccessorInfo kRoofAccessors[] = {
+    {"currentPos0.x", kSlotPos0, Where::onRoofs},
+    {"currentPos0.y", kSlotPos0 + 1, Where::onRoofs},
+    {"currentPos0.z", kSlotPos0 + 2, Where::onRoofs},
+    {"currentPos1.x", kSlotPos1, Where::onRoofs},
+    {"currentPos1.y", kSlotPos1 + 1, Where::onRoofs},
+    {"currentPos1.z", kSlotPos1 + 2, Where::onRoofs},
+    {"localNormal.x", kSlotLocalNormal, Where::onRoofs},
+    {"localNormal.y", kSlotLocalNormal + 1, Where::onRoofs},
+    {"localNormal.z", kSlotLocalNormal + 2, Where::onRoofs},
+    {"localTangent.x", kSlotLocalTangent, Where::onRoofs},
+    {"localTangent.y", kSlotLocalTangent + 1, Where::onRoofs},
+    {"localTangent.z", kSlotLocalTangent + 2, Where::onRoofs},
+    {"globalTangent.x", kSlotEaveTangent, Where::onRoofs},
+    {"globalTangent.y", kSlotEaveTangent + 1, Where::onRoofs},
+    {"globalTangent.z", kSlotEaveTangent + 2, Where::onRoofs},
+    {"roofPos1.x", kSlotRoofPos1, Where::onRoofs},
+    {"roofPos1.y", kSlotRoofPos1 + 1, Where::onRoofs},
+    {"roofPos1.z", kSlotRoofPos1 + 2, Where::onRoofs},
+    {"roofPos2.x", kSlotRoofPos2, Where::onRoofs},
+    {"roofPos2.y", kSlotRoofPos2 + 1, Where::onRoofs},
+    {"roofPos2.z", kSlotRoofPos2 + 2, Where::onRoofs},
+    {"roofHeight", kSlotRoofHeight, Where::onRoofs},
+    {"roofSlope", kSlotRoofSlope, Where::onRoofs},
+    {"projectHeight", kSlotProjectHeight, Where::onRoofs},
+    {"projectionHeight", kSlotProjectHeight, Where::onRoofs},
+    {"sizeX", kSlotSizeX, Where::onRoofs},
+    {"sizeY", kSlotSizeY, Where::onRoofs},
+    {"eaveStart", kSlotEaveStart, Where::onRoofs},
+    {"eaveLength", kSlotEaveLength, Where::onRoofs},
+    {"joint", kSlotJoint, Where::onRoofs},
+    {"owner", kSlotOwner, Where::onRoofs},
+    {"faceKind", kSlotFaceKind, Where::onRoofs},
+    {"tier", kSlotTier, Where::onRoofs},
+    {"wallHeight", kSlotWallHeight, Where::onRoofs},
+    {"houseRandom", kSlotHouseRandom, Where::onRoofs},
+    {"houseShape", kSlotHouseShape, Where::onRoofs},
+    {"houseMaterial", kSlotHouseMaterial, Where::onRoofs},
+    {"houseColour.r", kSlotHouseColour, Where::onRoofs},
+    {"houseColour.g", kSlotHouseColour + 1, Where::onRoofs},
+    {"houseColour.b", kSlotHouseColour + 2, Where::onRoofs},
+    {"houseTinted", kSlotHouseTinted, Where::onRoofs},
+    {"index", kSlotIndex, Where::onRoofs},
+    {"count", kSlotCount, Where::onRoofs},
+};
+
+// As RoofShape, FaceKind and JointKind of runtime/roof/structure.hpp count them (joints from 1; a test compares them).
+constexpr struct {
+    std::string_view name;
+    float value;
+} kRoofWords[] = {
+    {"slopeFace", 0}, {"gableFace", 1}, {"flatFace", 2}, {"wallFace", 3}, {"hip", 1},     {"valley", 2},    {"ridge", 3},
+    {"verge", 4},     {"breakLine", 5}, {"border", 6},   {"cut", 7},      {"hipRoof", 0}, {"gableRoof", 1}, {"halfHipRoof", 2},
+    {"pyramidRoof", 3}, {"shedRoof", 4}, {"gambrelRoof", 5}, {"mansardRoof", 6}, {"flatRoof", 7},
+};
+
 constexpr DirectionInfo kDirections[] = {
     {"up", 0, 1, 0}, {"down", 0, -1, 0}, {"east", 1, 0, 0}, {"west", -1, 0, 0}, {"south", 0, 0, 1}, {"north", 0, 0, -1},
 };
@@ -127,6 +184,13 @@ const FunctionInfo* findFunction(std::string_view name) {
 const AccessorInfo* findAccessor(std::string_view name) {
     return findRow(kAccessors, name);
 }
+const AccessorInfo* findRoofAccessor(std::string_view name) {
+    return findRow(kRoofAccessors, name);
+}
+const float* findRoofWord(std::string_view name) {
+    const auto* row = findRow(kRoofWords, name);
+    return row != nullptr ? &row->value : nullptr;
+}
 const DirectionInfo* findDirection(std::string_view name) {
     return findRow(kDirections, name);
 }
@@ -152,10 +216,15 @@ std::vector<std::string> accessorNames() {
     for (const AccessorInfo& a : kAccessors) all.emplace_back(a.name);
     return all;
 }
+std::vector<std::string> roofAccessorNames() {
+    std::vector<std::string> all = {"pi", "true", "false", "otherwise"};
+    for (const AccessorInfo& a : kRoofAccessors) all.emplace_back(a.name);
+    for (const auto& w : kRoofWords) all.emplace_back(w.name);
+    return all;
+}
 std::vector<std::string> successorNames() {
     std::vector<std::string> all;
-    for (const BlockInfo& b : kBlocks)
-        if (b.kind != Block::later) all.emplace_back(b.name);
+    for (const BlockInfo& b : kBlocks) all.emplace_back(b.name);
     for (const CommandInfo& c : kCommands) all.emplace_back(c.name);
     return all;
 }

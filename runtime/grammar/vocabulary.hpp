@@ -11,7 +11,11 @@
 // the lowering; lexer and parser stay as they are.
 namespace espalier::grammar {
 
-enum class Block : uint8_t { marching, branch, repeat, later };
+enum class Block : uint8_t { marching, branch, repeat, extrude, join, project, explode, split };
+// Kinds that make a grammar one of roofs; Repeat with an axis does so too.
+inline bool isRoofBlock(Block kind) {
+    return kind >= Block::extrude;
+}
 // Name(args) {items}
 struct BlockInfo {
     std::string_view name;
@@ -58,13 +62,17 @@ struct FunctionInfo {
 };
 const FunctionInfo* findFunction(std::string_view name);
 
-enum class Where : uint8_t { anywhere, onSpans, inRepeat };
+enum class Where : uint8_t { anywhere, onSpans, inRepeat, onRoofs };
 struct AccessorInfo {
     std::string_view name;
     uint32_t slot;
     Where where;
 };
 const AccessorInfo* findAccessor(std::string_view name);
+// Likewise in grammars of roofs, where slots hold other things.
+const AccessorInfo* findRoofAccessor(std::string_view name);
+// Words that stand for a number there: joint == ridge.
+const float* findRoofWord(std::string_view name);
 
 struct DirectionInfo {
     std::string_view name;
@@ -77,6 +85,7 @@ std::string reservedFor(std::string_view name);
 
 std::vector<std::string> functionNames();
 std::vector<std::string> accessorNames();
+std::vector<std::string> roofAccessorNames();
 std::vector<std::string> successorNames();  // blocks and commands
 
 // " (did you mean 'x'?)" for the candidate nearest to `name`, or nothing if none is near.

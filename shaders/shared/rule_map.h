@@ -58,8 +58,35 @@ CONST_UINT(kSlotIndex, 69u);        // number of the instance in its Repeat
 CONST_UINT(kSlotCount, 70u);        // how many the Repeat makes (the gate's count, limited); set before the body
 CONST_UINT(kSlotZero, 71u);         // constants, set by resetMachine
 CONST_UINT(kSlotOne, 72u);
-CONST_UINT(kMachineSlots, 73u);
+CONST_UINT(kMachineSlots, 88u);
 CONST_UINT(kSlotImmediate, 127u);   // the word's own constant
+
+// What the same slots hold for roofs (roof_expand.h fills them; Buron 2013 §3.2): a grammar of roofs has no walk.
+// Positions in metres in the world; directions are unit vectors.
+CONST_UINT(kSlotPos0, 44u);         // 3: the shape's first corner, a segment's begin
+CONST_UINT(kSlotPos1, 47u);         // 3: its second corner, a segment's end
+CONST_UINT(kSlotLocalNormal, 50u);  // 3 (= kSlotNormal)
+CONST_UINT(kSlotLocalTangent, 53u); // 3
+CONST_UINT(kSlotEaveTangent, 56u);  // 3: along the eave of the atom
+CONST_UINT(kSlotRoofPos1, 59u);     // 3: ends of the face's highest piece, 1 on the side of the eave's begin
+CONST_UINT(kSlotRoofPos2, 62u);     // 3
+CONST_UINT(kSlotRoofHeight, 65u);   // metres from the eave up to them
+CONST_UINT(kSlotRoofSlope, 66u);    // tangent of the pitch
+CONST_UINT(kSlotProjectHeight, 67u);
+CONST_UINT(kSlotSizeX, 68u);        // kSlotIndex and kSlotCount as above
+CONST_UINT(kSlotSizeY, 73u);
+CONST_UINT(kSlotEaveStart, 74u);    // where the eave begins along the rectangle of the face
+CONST_UINT(kSlotEaveLength, 75u);
+CONST_UINT(kSlotJoint, 76u);        // kind of the segment: JointKind + 1, 0: none of a roof's
+CONST_UINT(kSlotOwner, 77u);        // 1 for one of the two faces that share the segment
+CONST_UINT(kSlotFaceKind, 78u);
+CONST_UINT(kSlotTier, 79u);
+CONST_UINT(kSlotWallHeight, 80u);
+CONST_UINT(kSlotHouseRandom, 81u);  // 0..1, one a house
+CONST_UINT(kSlotHouseShape, 82u);
+CONST_UINT(kSlotHouseMaterial, 83u);
+CONST_UINT(kSlotHouseColour, 84u);  // 3, linear
+CONST_UINT(kSlotHouseTinted, 87u);  // 1: the house has a colour of its own
 
 // Masks of inputs. Layers have a mask of their own (bit i: kSlotLayer + i).
 CONST_UINT(kInputAngle, 1u);            // bits 0..3: kSlotAngle + i
@@ -76,6 +103,7 @@ CONST_UINT(kInputArc, 1u << 13u);
 CONST_UINT(kInputBranchLength, 1u << 14u);   // or toTip
 CONST_UINT(kInputSpanLength, 1u << 15u);
 CONST_UINT(kInputRadius, 1u << 16u);
+CONST_UINT(kInputOfRoofs, 1u << 17u);        // roofs fill all their slots or, where nothing is asked, none
 
 // A word of code: bits 4..0 operation, 8..5 destination register, 15..9 slot x, 22..16 slot y, 29..23 slot z.
 struct CodeWord {
@@ -113,10 +141,32 @@ CONST_UINT(kRuleNull, 0u);
 CONST_UINT(kRuleList, 1u);
 CONST_UINT(kRuleMarch, 2u);
 
+// Rules of roofs (Buron 2013 §3). `values`: their numbers in the map's values, all worked out by `start`.
+// A successor's `part` says to which of the rule's shapes it goes.
+CONST_UINT(kRuleExtrude, 3u);   // values: height. Parts: face, top
+CONST_UINT(kRuleJoin, 4u);      // height, v1 xyz, v2 xyz; detail 1: to the roof's targets. Parts: clipped, support, top
+CONST_UINT(kRuleProject, 5u);   // two axes. Parts: projected
+CONST_UINT(kRuleExplode, 6u);   // Parts: face, front, right, back, left
+CONST_UINT(kRuleSplit, 7u);     // kMaxSplit sizes; detail: bit 0 along y, then 2 bits a part: kSplit..., 3: no such part
+CONST_UINT(kRuleRepeat, 8u);    // size x, y; detail: kRepeat...
+CONST_UINT(kRuleScope, 9u);     // kScopeValues. Part: the changed shape
+CONST_UINT(kRuleShape, 10u);    // kScopeValues; detail: mesh. No successors
+CONST_UINT(kMaxSplit, 14u);     // values of a Split, whatever the number of its parts
+CONST_UINT(kSplitAbsolute, 0u);
+CONST_UINT(kSplitRelative, 1u); // to the shape's size
+CONST_UINT(kSplitRest, 2u);     // a share of what is left
+CONST_UINT(kRepeatX, 1u);
+CONST_UINT(kRepeatY, 2u);
+CONST_UINT(kRepeatClip, 4u);    // cells keep their size, those on the border are clipped; else they are fitted
+CONST_UINT(kRepeatBond, 8u);    // every second row begins half a cell earlier
+CONST_UINT(kRepeatGrid, 16u);   // context-free: all cells stay one shape
+// S x y z, T x y z, R turn pitch, tint, colour; a size below 0 stays what it is, a tint or colour below 0 likewise.
+CONST_UINT(kScopeValues, 12u);
+
 struct RuleRecord {
     uint kind;
     uint firstSuccessor, successorCount;
-    uint extrude;                // index of the extrude program + 1; 0: none
+    uint extrude;                // index of the extrude program + 1; 0: none. Of roofs: the kind's detail
     uint firstSite, siteCount;   // drawn once, for all stages of the rule
     CodeRange start;
     Value distance;              // metres; the expander limits it from below (GLSL reads no member named length)
@@ -126,7 +176,7 @@ struct RuleRecord {
     uint startInputs, startLayers;     // List: of the successors' arguments
     uint arriveInputs, arriveLayers;
     uint params;                 // parameter slots that the rule depends on
-    uint spare;
+    uint values;                 // of roofs: the first of its numbers
 };
 STATIC_SIZE(RuleRecord, 88);
 
@@ -139,7 +189,7 @@ struct SuccessorRecord {
     CodeRange code;
     uint argCount;
     Value args[4];
-    uint spare;
+    uint part;           // of roofs: which of the rule's shapes it takes
 };
 STATIC_SIZE(SuccessorRecord, 64);
 
@@ -183,6 +233,7 @@ BUFFER(RuleRecordBuf, RuleRecord)
 BUFFER(SuccessorRecordBuf, SuccessorRecord)
 BUFFER(ExtrudeRecordBuf, ExtrudeRecord)
 BUFFER(TerminalRecordBuf, TerminalRecord)
+BUFFER(ValueBuf, Value)
 
 // What a grammar uses of all that rules may ask and do. Kernels of growth are specialised to what a scene's grammars
 // use together, since a software device runs code for what none uses all the same.
@@ -216,8 +267,11 @@ struct RuleMapRef {
     uint features;       // kFeature... that its rules use; 0: not known, all of them
     vec4 directions[4];
     uint layerOf[16];
+    ValueBuf values;
+    uint valueCount;
+    uint roofs;          // 1: a grammar of roofs
 };
-STATIC_SIZE(RuleMapRef, 216);
+STATIC_SIZE(RuleMapRef, 232);
 BUFFER(RuleMapBuf, RuleMapRef)     // [grammar]
 
 ESPALIER_END

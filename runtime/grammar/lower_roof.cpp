@@ -1,0 +1,488 @@
+// Grammars of roofs -> symbol, rule and successor records (Buron 2013 §3, §4).
+//
+// A rule replaces a shape by the shapes of one block (Extrude, Join, Project, Explode, Split, Repeat), by a list of
+// symbols, or by a terminal. What stands nested - blocks in braces, commands before a symbol, several shapes in a row -
+// becomes rules of symbols without a name of their own, so that the expander knows flat rules only. Such a symbol takes
+// its rule's arguments over.
+#include <algorithm>
+#include <deque>
+
+#include "runtime/grammar/compilation.hpp"
+
+namespace espalier::grammar {
+namespace {
+
+constexpr size_t kMaxSymbols = 4000;
+constexpr float kUnchanged = -1;
+
+// What commands have changed so far; kScopeValues nodes.
+struct Scope {
+    Node values[kScopeValues];
+    bool plain = true;
+};
+
+class RoofLowering {
+  public:
+    explicit RoofLowering(Compilation& c) : c_(c), g_(c.graph) {
+        for (uint32_t i = 0; i < kMaxArgs; ++i) args_[i] = g_.leaf(Leaf::slot, kSlotArg + i);
+    }
+
+    void run() {
+        for (Symbol& symbol : c_.symbols) {
+            symbol.grows = true;
+            symbol.vanishes = false;
+            symbol.record = addRecord(symbol.name, symbol.argCount, c_.module.rules[symbol.rules[0]].place);
+        }
+        for (const Symbol& symbol : c_.symbols) lowerSymbol(symbol);
+        while (!pending_.empty() && !c_.reporter.full()) {
+            Nested next = std::move(pending_.front());
+            pending_.pop_front();
+            lowerNested(next);
+        }
+        markGrids();
+        const uint32_t house = c_.findSymbol("House");
+        if (!c_.symbols.empty()) c_.startSymbol = house != kNoSymbol ? c_.symbols[house].record : 0;
+    }
+
+  private:
+    // A successor that has no name in the text.
+    struct Nested {
+        uint32_t record;
+        std::string name;
+        const Rule* rule;
+        Sequence sequence;
+        Env env;
+    };
+    struct Target {
+        uint32_t symbol;  // record
+        const Element* call = nullptr;  // null: nested, arguments are handed on
+    };
+
+    void error(const Place& place, const Env& env, const std::string& message) {
+        c_.reporter.error(place, env.rule, message);
+    }
+    uint32_t addRecord(const std::string& name, uint32_t argCount, const Place& place) {
+        SymbolRecord record = {};
+        record.nameHash = nameHash(name);
+        record.argCount = std::min(argCount, kMaxArgs);
+        for (const SymbolRecord& other : c_.symbolRecords)
+            if (other.nameHash == record.nameHash) c_.reporter.error(place, name, "the name has another's hash; take another");
+        c_.symbolRecords.push_back(record);
+        return static_cast<uint32_t>(c_.symbolRecords.size() - 1);
+    }
+
+    void lowerSymbol(const Symbol& symbol) {
+        std::vector<Env> envs;
+        for (uint32_t i = 0; i < symbol.rules.size(); ++i)
+            envs.push_back(c_.environment(c_.module.rules[symbol.rules[i]], i, args_));
+        Node chosen = c_.chooseRule(symbol, envs);
+        SymbolRecord record = c_.symbolRecords[symbol.record];
+        const Rule& first = c_.module.rules[symbol.rules[0]];
+        StageReads reads;
+        c_.generate({&chosen, 1}, reads, reads, record.select, {&record.selected, 1}, first.place, symbol.name);
+        record.firstSite = c_.storeSites(reads);
+        record.siteCount = static_cast<uint32_t>(reads.sites.size());
+        record.inputs = reads.inputs;
+        record.layers = reads.layers;
+        record.params = reads.params;
+        record.firstRule = static_cast<uint32_t>(c_.rules.size());
+        record.ruleCount = static_cast<uint32_t>(symbol.rules.size());
+        c_.symbolRecords[symbol.record] = record;
+        c_.rules.resize(c_.rules.size() + symbol.rules.size());
+        for (uint32_t i = 0; i < symbol.rules.size(); ++i) {
+            const Rule& rule = c_.module.rules[symbol.rules[i]];
+            c_.rules[record.firstRule + i] = lowerSequence(rule.successor, envs[i], rule, symbol.name);
+        }
+    }
+    void lowerNested(Nested& nested) {
+        SymbolRecord record = c_.symbolRecords[nested.record];
+        record.selected = {kSlotImmediate, 0};
+        record.firstRule = static_cast<uint32_t>(c_.rules.size());
+        record.ruleCount = 1;
+        c_.symbolRecords[nested.record] = record;
+        c_.rules.emplace_back();
+        c_.rules[record.firstRule] = lowerSequence(nested.sequence, nested.env, *nested.rule, nested.name);
+    }
+    Target nest(Sequence sequence, const Env& env, const Rule& rule, const std::string& name, uint32_t number) {
+        if (c_.symbolRecords.size() >= kMaxSymbols) {
+            error(rule.place, env, "the grammar unfolds into more than 4,000 shapes");
+            return {0};
+        }
+        std::string own = name + "#" + std::to_string(number);
+        c_.nestedNames.push_back(own);
+        Nested nested{addRecord(own, static_cast<uint32_t>(rule.args.size()), rule.place), own, &rule, std::move(sequence), env};
+        nested.env.sitePrefix = nameHash(own);
+        nested.env.nextSite = 0;
+        pending_.push_back(std::move(nested));
+        return {pending_.back().record};
+    }
+
+    // Commands, then what they lead to. One block, symbol or terminal alone is the rule itself.
+    RuleRecord lowerSequence(const Sequence& sequence, Env& env, const Rule& rule, const std::string& name) {
+        size_t made = 0;
+        for (const Element& e : sequence) {
+            const CommandInfo* command = findCommand(e.name);
+            made += command == nullptr || command->kind == Command::shape ? 1 : 0;
+        }
+        if (made == 0) return emptyRule(kRuleNull);
+        if (made == 1) return single(sequence, env, rule, name);
+        // Several: a list, of which each that isn't a plain symbol is a rule of its own behind the commands so far.
+        std::vector<Target> all;
+        Sequence before;
+        std::vector<Sequence> kept;
+        uint32_t number = 0;
+        for (const Element& e : sequence) {
+            const CommandInfo* command = findCommand(e.name);
+            if (command != nullptr && command->kind == Command::push) {
+                kept.push_back(before);
+            } else if (command != nullptr && command->kind == Command::pop) {
+                if (kept.empty()) return error(e.place, env, "']' without '['"), emptyRule(kRuleNull);
+                before = kept.back();
+                kept.pop_back();
+            } else if (command != nullptr && command->kind == Command::null) {
+                continue;
+            } else if (command != nullptr && command->kind != Command::shape) {
+                before.push_back(e);
+            } else if (before.empty() && command == nullptr && findBlock(e.name) == nullptr) {
+                if (callee(e, env) != kNoSymbol) all.push_back({c_.symbols[callee(e, env)].record, &e});
+            } else {
+                Sequence own = before;
+                own.push_back(e);
+                all.push_back(nest(std::move(own), env, rule, name, number++));
+            }
+        }
+        if (!kept.empty()) error(sequence.front().place, env, "'[' without ']'");
+        RuleRecord r = emptyRule(kRuleList);
+        StageReads sites, reads;
+        addSuccessors(r, {all}, env, sites, reads, sequence.front().place);
+        return finish(r, sites, reads);
+    }
+
+    RuleRecord single(const Sequence& sequence, Env& env, const Rule& rule, const std::string& name) {
+        Scope scope = plainScope();
+        const Element* made = nullptr;
+        for (const Element& e : sequence) {
+            const CommandInfo* command = findCommand(e.name);
+            if (command == nullptr || command->kind == Command::shape)
+                made = &e;
+            else if (made == nullptr)
+                apply(*command, e, env, scope);
+            else if (command->kind != Command::pop && command->kind != Command::null)
+                error(e.place, env, "'" + e.name + "' stands behind what it should change; put it in front");
+        }
+        if (findCommand(made->name) != nullptr) return terminal(*made, env, scope);
+        const BlockInfo* info = findBlock(made->name);
+        if (scope.plain && info != nullptr) return block(*info, *made, env, rule, name);
+        std::vector<Target> to;
+        if (info != nullptr)
+            to.push_back(nest({*made}, env, rule, name, 99));
+        else if (callee(*made, env) != kNoSymbol)
+            to.push_back({c_.symbols[callee(*made, env)].record, made});
+        RuleRecord r = emptyRule(scope.plain ? kRuleList : kRuleScope);
+        StageReads sites, reads;
+        std::vector<Node> roots;
+        if (!scope.plain) roots.assign(scope.values, scope.values + kScopeValues);
+        addValues(r, roots, sites, reads, made->place, env);
+        addSuccessors(r, {to}, env, sites, reads, made->place);
+        return finish(r, sites, reads);
+    }
+
+    Scope plainScope() {
+        Scope s;
+        for (uint32_t i = 0; i < kScopeValues; ++i) s.values[i] = i >= 3 && i < 8 ? g_.zero() : g_.constant(kUnchanged);
+        return s;
+    }
+    void apply(const CommandInfo& info, const Element& e, Env& env, Scope& scope) {
+        const bool metres = info.kind == Command::size || info.kind == Command::translate;
+        if (info.kind == Command::push || info.kind == Command::pop || info.kind == Command::null) return;
+        if (e.hasItems || e.args.size() < info.minArgs || e.args.size() > (metres ? 3 : info.maxArgs))
+            return error(e.place, env,
+                         metres ? "write " + e.name + "(x), " + e.name + "(x, y) or " + e.name + "(x, y, z)"
+                                : "write " + std::string(info.usage));
+        scope.plain = false;
+        if (info.kind == Command::colour) {
+            Node rgb[3];
+            if (houseColour(e)) {
+                for (uint32_t i = 0; i < 3; ++i) scope.values[9 + i] = g_.leaf(Leaf::slot, kSlotHouseColour + i);
+            } else if (e.args.size() == 3) {
+                for (uint32_t i = 0; i < 3; ++i) scope.values[9 + i] = c_.expressions.lower(e.args[i], env);
+            } else if (c_.expressions.lowerColour(e.args, e.place, env, rgb)) {
+                std::copy(rgb, rgb + 3, scope.values + 9);
+            }
+            return;
+        }
+        for (size_t i = 0; i < e.args.size(); ++i) {
+            Node n = c_.expressions.lower(e.args[i], env);
+            switch (info.kind) {
+                case Command::size:
+                    scope.values[i] = n;
+                    break;
+                case Command::translate:
+                    scope.values[3 + i] = g_.add(scope.values[3 + i], n);
+                    break;
+                case Command::rotate:
+                    scope.values[6 + i] = g_.add(scope.values[6 + i], n);
+                    break;
+                default:
+                    scope.values[8] = n;
+                    break;
+            }
+        }
+    }
+    bool houseColour(const Element& e) const {
+        return e.args.size() == 1 && c_.module.exprs[e.args[0]].text == "houseColour";
+    }
+
+    RuleRecord terminal(const Element& e, Env& env, const Scope& scope) {
+        RuleRecord r = emptyRule(kRuleShape);
+        const Expr& text = c_.module.exprs[e.args.empty() ? 0 : e.args[0]];
+        if (e.args.size() != 1 || text.kind != ExprKind::string || e.hasItems)
+            return error(e.place, env, "a terminal of a roof is a mesh's name between quotes: Shape(\"slate\")"), r;
+        const auto& meshes = c_.options.meshes;
+        auto mesh = std::find_if(meshes.begin(), meshes.end(), [&](const TerminalMesh& m) { return m.name == text.text; });
+        if (mesh == meshes.end()) {
+            std::vector<std::string> all;
+            for (const TerminalMesh& m : meshes) all.push_back(m.name);
+            return error(text.place, env, "there is no mesh \"" + text.text + "\"" + didYouMean(text.text, all)), r;
+        }
+        r.extrude = static_cast<uint32_t>(mesh - meshes.begin());
+        StageReads sites, reads;
+        addValues(r, {scope.values, scope.values + kScopeValues}, sites, reads, e.place, env);
+        return finish(r, sites, reads);
+    }
+
+    RuleRecord block(const BlockInfo& info, const Element& e, Env& env, const Rule& rule, const std::string& name) {
+        RuleRecord r = emptyRule(kRuleNull);
+        const bool repeat = info.kind == Block::repeat;
+        const size_t least = repeat ? 2 : info.minArgs, most = repeat ? 4 : info.maxArgs;
+        if (info.kind == Block::marching || info.kind == Block::branch)
+            return error(e.place, env, "'" + e.name + "' walks over a surface; a grammar either walks or makes roofs"), r;
+        if (!e.hasItems || e.args.size() < least || e.args.size() > most || e.items.size() < info.minItems ||
+            e.items.size() > info.maxItems)
+            return error(e.place, env,
+                         "write " + (repeat ? std::string("Repeat(X, Y or XY, size, fit or clip or bond) {successor}")
+                                            : std::string(info.usage))),
+                   r;
+        StageReads sites, reads;
+        std::vector<Node> roots;
+        switch (info.kind) {
+            case Block::extrude:
+                r.kind = kRuleExtrude;
+                roots = {c_.expressions.lower(e.args[0], env)};
+                break;
+            case Block::join:
+                r.kind = kRuleJoin;
+                join(e, env, r, roots);
+                break;
+            case Block::project:
+                r.kind = kRuleProject;
+                for (ExprId arg : e.args) addVector(arg, env, roots);
+                break;
+            case Block::explode:
+                r.kind = kRuleExplode;
+                break;
+            case Block::split:
+                r.kind = kRuleSplit;
+                split(e, env, r, roots);
+                break;
+            default:
+                r.kind = kRuleRepeat;
+                repeatOf(e, env, r, roots);
+                break;
+        }
+        addValues(r, roots, sites, reads, e.place, env);
+        std::vector<std::vector<Target>> parts;
+        for (uint32_t i = 0; i < e.items.size(); ++i) parts.push_back(targets(e.items[i], env, rule, name, i));
+        addSuccessors(r, parts, env, sites, reads, e.place);
+        return finish(r, sites, reads);
+    }
+    // A part's successors: symbols, or one rule of its own for anything else.
+    std::vector<Target> targets(const Sequence& item, Env& env, const Rule& rule, const std::string& name, uint32_t part) {
+        std::vector<Target> all;
+        bool plain = true;
+        for (const Element& e : item) {
+            const CommandInfo* command = findCommand(e.name);
+            plain = plain && findBlock(e.name) == nullptr && (command == nullptr || command->kind == Command::null);
+        }
+        if (!plain) return {nest(item, env, rule, name, 100 + part)};
+        for (const Element& e : item)
+            if (findCommand(e.name) == nullptr && callee(e, env) != kNoSymbol)
+                all.push_back({c_.symbols[callee(e, env)].record, &e});
+        return all;
+    }
+
+    void addVector(ExprId arg, Env& env, std::vector<Node>& roots) {
+        Node v[3];
+        int size = 3;
+        c_.expressions.lowerVector(arg, env, v, size);
+        if (size == 2) std::swap(v[1], v[2]);  // a place in the plan
+        roots.insert(roots.end(), v, v + 3);
+    }
+    // Join(h, roofPos1, roofPos2) makes the atom's own face, whose chain the structure gives.
+    void join(const Element& e, Env& env, RuleRecord& r, std::vector<Node>& roots) {
+        roots = {c_.expressions.lower(e.args[0], env)};
+        auto named = [&](ExprId arg, const char* name) { return c_.module.exprs[arg].text == name; };
+        if (named(e.args[1], "roofPos1") && named(e.args[2], "roofPos2")) r.extrude = 1;
+        addVector(e.args[1], env, roots);
+        addVector(e.args[2], env, roots);
+    }
+    void split(const Element& e, Env& env, RuleRecord& r, std::vector<Node>& roots) {
+        const std::string& axis = c_.module.exprs[e.args[0]].text;
+        if (axis != "X" && axis != "Y") return error(e.place, env, "Split goes along X or Y");
+        if (e.args.size() != e.items.size() + 1)
+            return error(e.place, env,
+                         "Split has " + std::to_string(e.args.size() - 1) + " sizes and " +
+                             std::to_string(e.items.size()) + " parts");
+        r.extrude = axis == "Y" ? 1 : 0;
+        for (uint32_t i = 0; i < kMaxSplit; ++i) {
+            uint32_t mode = 3;
+            if (i + 1 < e.args.size()) {
+                const Expr& size = c_.module.exprs[e.args[i + 1]];
+                const bool share = size.kind == ExprKind::call && size.text == "~";
+                const bool relative = size.kind == ExprKind::call && size.text == "rel" && size.kids.size() == 1;
+                mode = share ? kSplitRest : relative ? kSplitRelative : kSplitAbsolute;
+                roots.push_back(c_.expressions.lower(share || relative ? size.kids[0] : e.args[i + 1], env));
+            } else {
+                roots.push_back(g_.zero());
+            }
+            r.extrude |= mode << (1 + 2 * i);
+        }
+    }
+    void repeatOf(const Element& e, Env& env, RuleRecord& r, std::vector<Node>& roots) {
+        const std::string& axis = c_.module.exprs[e.args[0]].text;
+        r.extrude = axis == "X" ? kRepeatX : axis == "Y" ? kRepeatY : axis == "XY" ? kRepeatX | kRepeatY : 0u;
+        if (r.extrude == 0) error(e.place, env, "Repeat goes along X, Y or XY");
+        for (size_t i = 2; i < e.args.size(); ++i) {
+            const Expr& word = c_.module.exprs[e.args[i]];
+            if (word.text == "clip" || word.text == "bond")
+                r.extrude |= word.text == "clip" ? kRepeatClip : kRepeatBond | kRepeatClip;
+            else if (word.text != "fit")
+                error(word.place, env, "cells are repeated fit, clip or bond");
+        }
+        if (c_.expressions.isVector(e.args[1])) {
+            Node v[3];
+            int size = 2;
+            c_.expressions.lowerVector(e.args[1], env, v, size);
+            roots = {v[0], v[1]};
+        } else {
+            Node n = c_.expressions.lower(e.args[1], env);
+            roots = {n, n};
+        }
+    }
+
+    uint32_t callee(const Element& e, const Env& env) {
+        uint32_t symbol = c_.findSymbol(e.name);
+        if (symbol == kNoSymbol) return kNoSymbol;  // reported
+        return c_.checkArgs(e, c_.symbols[symbol], env.rule) ? symbol : kNoSymbol;
+    }
+    static RuleRecord emptyRule(uint32_t kind) {
+        RuleRecord r = {};
+        r.kind = kind;
+        r.distance = r.angle = r.condition = {kSlotImmediate, 0};
+        return r;
+    }
+    // All numbers of a rule are worked out by one stretch of code, its values and its successors' arguments.
+    void addValues(RuleRecord& r, const std::vector<Node>& roots, StageReads& sites, StageReads& reads, const Place& place,
+                   const Env& env) {
+        r.values = static_cast<uint32_t>(c_.roofValues.size());
+        c_.roofValues.resize(c_.roofValues.size() + roots.size());
+        c_.generate(roots, sites, reads, r.start, {c_.roofValues.data() + r.values, roots.size()}, place, env.rule);
+    }
+    void addSuccessors(RuleRecord& r, const std::vector<std::vector<Target>>& parts, Env& env, StageReads& sites,
+                       StageReads& reads, const Place& place) {
+        r.firstSuccessor = static_cast<uint32_t>(c_.successors.size());
+        std::vector<uint32_t> seen;
+        for (uint32_t part = 0; part < parts.size(); ++part)
+            for (const Target& to : parts[part]) {
+                SuccessorRecord s = {};
+                s.symbol = to.symbol;
+                s.nameHash = c_.symbolRecords[to.symbol].nameHash;
+                s.argCount = c_.symbolRecords[to.symbol].argCount;
+                s.ordinal = static_cast<uint32_t>(std::count(seen.begin(), seen.end(), to.symbol));
+                s.part = part;
+                seen.push_back(to.symbol);
+                std::vector<Node> nodes;
+                for (uint32_t i = 0; i < s.argCount; ++i)
+                    nodes.push_back(to.call != nullptr ? c_.expressions.lower(to.call->args[i], env) : args_[i]);
+                for (Value& v : s.args) v = {kSlotImmediate, 0};
+                c_.generate(nodes, sites, reads, s.code, {s.args, nodes.size()}, place, env.rule);
+                c_.successors.push_back(s);
+            }
+        r.successorCount = static_cast<uint32_t>(c_.successors.size()) - r.firstSuccessor;
+        if (r.successorCount > kMaxSuccessors) error(place, env, "too many successors: 16 are the most");
+    }
+    RuleRecord finish(RuleRecord r, const StageReads& sites, const StageReads& reads) {
+        r.startInputs = reads.inputs;
+        r.startLayers = reads.layers;
+        r.params = reads.params;
+        r.firstSite = c_.storeSites(sites);
+        r.siteCount = static_cast<uint32_t>(sites.sites.size());
+        return r;
+    }
+
+    // A Repeat whose successors are terminals that ask for nothing but parameters and arguments stays one shape with
+    // many cells (Buron 2013 §4's Repeat(XY) of tiles): the expander hands its cells on to grids.
+    void markGrids() {
+        for (RuleRecord& r : c_.rules) {
+            if (r.kind != kRuleRepeat) continue;
+            bool grid = true;
+            for (uint32_t i = 0; i < r.successorCount; ++i)
+                grid = grid && contextFree(c_.successors[r.firstSuccessor + i].symbol, 0);
+            if (grid) r.extrude |= kRepeatGrid;
+        }
+    }
+    bool contextFree(uint32_t symbol, uint32_t depth) {
+        if (depth > 16) return false;
+        const SymbolRecord& s = c_.symbolRecords[symbol];
+        if (s.ruleCount != 1 || s.select.count != 0 || s.selected.slot != kSlotImmediate) return false;
+        const RuleRecord& r = c_.rules[s.firstRule];
+        if (r.kind != kRuleList && r.kind != kRuleScope && r.kind != kRuleShape) return false;
+        if (r.siteCount != 0 || r.startLayers != 0 || !placeFree(r)) return false;
+        for (uint32_t i = 0; i < r.successorCount; ++i)
+            if (!contextFree(c_.successors[r.firstSuccessor + i].symbol, depth + 1)) return false;
+        return true;
+    }
+    // True if no code of the rule reads where the shape stands or which it is; turning needs a cell's own origin.
+    bool placeFree(const RuleRecord& r) const {
+        auto fixed = [](uint32_t slot) {
+            return slot < kSlotDraw || slot == kSlotImmediate || slot == kSlotZero || slot == kSlotOne ||
+                   slot >= kSlotWallHeight || (slot >= kSlotRoofHeight && slot <= kSlotRoofSlope) || slot == kSlotTier;
+        };
+        auto codeFixed = [&](const CodeRange& range) {
+            for (uint32_t i = 0; i < range.count; ++i) {
+                const uint32_t bits = c_.code.code[range.first + i].bits;
+                for (uint32_t shift : {9u, 16u, 23u})
+                    if (!fixed((bits >> shift) & 127u)) return false;
+            }
+            return true;
+        };
+        if (!codeFixed(r.start)) return false;
+        if (r.kind != kRuleList)
+            for (uint32_t i = 0; i < kScopeValues; ++i) {
+                const Value& v = c_.roofValues[r.values + i];
+                if (!fixed(v.slot)) return false;
+                if ((i == 6 || i == 7) && (v.slot != kSlotImmediate || v.immediate != 0)) return false;
+            }
+        for (uint32_t i = 0; i < r.successorCount; ++i) {
+            const SuccessorRecord& s = c_.successors[r.firstSuccessor + i];
+            if (!codeFixed(s.code)) return false;
+            for (const Value& v : s.args)
+                if (!fixed(v.slot)) return false;
+        }
+        return true;
+    }
+
+    Compilation& c_;
+    Graph& g_;
+    Node args_[kMaxArgs];
+    std::deque<Nested> pending_;
+};
+
+}  // namespace
+
+void lowerRoofs(Compilation& c) {
+    if (c.reporter.failed()) return;
+    RoofLowering(c).run();
+}
+
+}  // namespace espalier::grammar

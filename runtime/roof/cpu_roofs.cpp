@@ -1,0 +1,139 @@
+// Expansion of roofs on the CPU (Buron 2013 §3), wave by wave as on the GPU: reference, debugger and what the GPU is
+// measured against.
+#include <atomic>
+
+#include "runtime/core/jobs.hpp"
+#include "runtime/roof/roof_growth.hpp"
+#include "shaders/shared/roof_cells.h"
+#include "shaders/shared/roof_expand.h"
+
+namespace espalier {
+
+bool RoofRoom::hold(const RoofStatus& status, uint32_t widestWave) {
+    bool good = true;
+    auto fit = [&](uint32_t& room, uint32_t wanted) {
+        if (wanted <= room) return;
+        room = wanted + wanted / 4;
+        good = false;
+    };
+    fit(scopes, widestWave);
+    fit(grids, status.grids);
+    fit(rows, status.rows);
+    fit(regions, status.regions);
+    fit(parts, status.parts);
+    fit(planes, status.planes);
+    return good;
+}
+
+namespace {
+
+struct CpuRun {
+    explicit CpuRun(const RoofInputs& inputs) : in(inputs), map(inputs.grammar->ref()) {}
+    const RoofInputs& in;
+    RuleMapRef map;
+    std::vector<RoofScope> scopes[2];
+    std::vector<RoofWave> waves;
+    std::vector<uint32_t> generations;
+    CpuRoofs out;
+
+    RoofEnv prepare(const RoofRoom& room) {
+        const RoofTables& t = *in.town;
+        out.records.regions = t.regions;
+        out.records.parts = t.parts;
+        out.records.planes = t.planes;
+        out.records.regions.resize(t.regions.size() + room.regions);
+        out.records.parts.resize(t.parts.size() + room.parts);
+        out.records.planes.resize(t.planes.size() + room.planes);
+        out.records.grids.resize(room.grids);
+        out.records.runs.resize(room.rows);
+        scopes[0].resize(room.scopes);
+        scopes[1].resize(room.scopes);
+        generations.assign(t.houses.size(), 0);
+        waves.assign(kMaxRoofDepth + 2, RoofWave{0, {0, 1, 1}});
+        out.status = {};
+        out.status.regions = uint32_t(t.regions.size());
+        out.status.parts = uint32_t(t.parts.size());
+        out.status.planes = uint32_t(t.planes.size());
+        RoofEnv env{};
+        env.map.v = &map;
+        env.atoms.v = const_cast<RoofAtom*>(t.atoms.data());
+        env.pieces.v = const_cast<RoofPiece*>(t.pieces.data());
+        env.regions.v = out.records.regions.data();
+        env.parts.v = out.records.parts.data();
+        env.planes.v = out.records.planes.data();
+        env.grids.v = out.records.grids.data();
+        env.runs.v = out.records.runs.data();
+        env.meshes.v = const_cast<RoofMesh*>(in.meshes.data());
+        env.status.v = &out.status;
+        env.waves.v = waves.data();
+        env.generations.v = generations.data();
+        env.shapeRoom = room.scopes;
+        env.gridRoom = room.grids;
+        env.rowRoom = room.rows;
+        env.regionRoom = uint32_t(out.records.regions.size());
+        env.partRoom = uint32_t(out.records.parts.size());
+        env.planeRoom = uint32_t(out.records.planes.size());
+        return env;
+    }
+    // The widest wave.
+    uint32_t derive(RoofEnv env, unsigned threads) {
+        uint32_t widest = 0;
+        for (uint32_t w = 0; w <= kMaxRoofDepth && waves[w].count > 0; ++w) {
+            widest = std::max(widest, waves[w].count);
+            env.wave = w;
+            env.shapes.v = scopes[w & 1].data();
+            env.next.v = scopes[(w + 1) & 1].data();
+            parallelFor(std::min(waves[w].count, env.shapeRoom), 256,
+                        [&](size_t begin, size_t end) {
+                            for (size_t i = begin; i < end; ++i) deriveShape(env, uint32_t(i));
+                        },
+                        threads);
+            out.waves = w + 1;
+        }
+        return widest;
+    }
+    void findRuns(const RoofEnv& env, unsigned threads) {
+        std::atomic<uint32_t> touched = 0, whole = 0;
+        parallelFor(out.status.grids, 512,
+                    [&](size_t begin, size_t end) {
+                        uvec2 sum(0u);
+                        for (size_t i = begin; i < end; ++i) sum += gridRuns(env, uint32_t(i));
+                        touched += sum.x;
+                        whole += sum.y;
+                    },
+                    threads);
+        out.status.touched = touched;
+        out.status.whole = whole;
+    }
+};
+
+}  // namespace
+
+CpuRoofs growRoofsOnCpu(const RoofInputs& inputs, unsigned threads) {
+    CpuRun run(inputs);
+    std::vector<RoofScope> start;
+    for (uint32_t h = 0; h < inputs.town->houses.size(); ++h)
+        appendStartShapes(*inputs.town, h, inputs.grammar->startSymbol(), start);
+    RoofRoom room;
+    room.scopes = std::max(room.scopes, uint32_t(start.size()) * 4);
+    room.grids = std::max(room.grids, uint32_t(start.size()) * 8);
+    room.rows = std::max(room.rows, uint32_t(start.size()) * 64);
+    for (int attempt = 0; attempt < 12; ++attempt) {
+        RoofEnv env = run.prepare(room);
+        std::copy(start.begin(), start.end(), run.scopes[0].begin());
+        run.waves[0].count = uint32_t(start.size());
+        const uint32_t widest = run.derive(env, threads);
+        RoofStatus made = run.out.status;
+        made.regions -= uint32_t(inputs.town->regions.size());
+        made.parts -= uint32_t(inputs.town->parts.size());
+        made.planes -= uint32_t(inputs.town->planes.size());
+        if (!room.hold(made, widest)) continue;
+        run.findRuns(env, threads);
+        break;
+    }
+    run.out.records.grids.resize(std::min<size_t>(run.out.status.grids, run.out.records.grids.size()));
+    run.out.records.runs.resize(std::min<size_t>(run.out.status.rows, run.out.records.runs.size()));
+    return std::move(run.out);
+}
+
+}  // namespace espalier

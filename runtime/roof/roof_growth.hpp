@@ -1,0 +1,85 @@
+#pragma once
+
+// Expansion of roofs on the GPU: a town's atoms and a grammar become grids of terminals (Buron 2013 §3).
+
+#include <memory>
+
+#include "runtime/core/result.hpp"
+#include "runtime/gpu/buffer.hpp"
+#include "runtime/grammar/grammar.hpp"
+#include "runtime/roof/atoms.hpp"
+
+namespace espalier {
+
+// Everything that roofs grow from. Pointers stay valid during the call.
+struct RoofInputs {
+    const RoofTables* town = nullptr;
+    const RuleMap* grammar = nullptr;
+    uint64_t grammarRevision = 1;   // changes with rules and parameters, which are uploaded anew then
+    std::span<const RoofMesh> meshes;  // by the numbers that the grammar was compiled with
+};
+
+// What drawing reads. Buffers belong to RoofGrowth and change only in its calls.
+struct RoofView {
+    RoofGridBuf grids{};
+    RoofRunBuf runs{};
+    RoofRegionBuf regions{};
+    RoofPartBuf parts{};
+    Vec4Buf planes{};
+    RoofMeshBuf meshes{};
+    UintBuf generations{};  // [house]: grids of another generation are gone
+    uint32_t gridCount = 0;
+    uint64_t revision = 0;
+};
+
+struct RoofStats {
+    uint32_t houses = 0, atoms = 0;
+    uint32_t grids = 0, terminals = 0;  // records; those of one cell
+    uint64_t tiles = 0, clipped = 0;    // cells that are drawn; those of them that an outline crosses
+    uint32_t waves = 0, stopped = 0;    // of the latest expansion; shapes that a limit ended
+    uint32_t expansions = 0, overflow = 0;
+    uint64_t bytes = 0;     // of grids, runs and the regions that Join made
+    uint64_t reservedBytes = 0;
+    uint64_t hash = 0;      // of all grids, independent of their order; of the latest full growth
+    double expandMs = 0;    // GPU time of the latest expansion
+};
+
+struct RoofRecords {
+    std::vector<RoofGrid> grids;
+    std::vector<RoofRun> runs;
+    std::vector<RoofRegion> regions;
+    std::vector<RoofPart> parts;
+    std::vector<vec4> planes;
+};
+
+class RoofGrowth {
+  public:
+    static Result<std::unique_ptr<RoofGrowth>> create(Device& device);
+    virtual ~RoofGrowth() = default;
+
+    // Grows all roofs anew and publishes them when complete; on failure the last ones stand.
+    virtual Status grow(const RoofInputs& inputs) = 0;
+    // Grows one house anew, whose atoms replaceAtoms() has changed; the others stand.
+    virtual Status growHouse(const RoofInputs& inputs, uint32_t house) = 0;
+    virtual RoofView view() const = 0;
+    virtual RoofStats stats() const = 0;
+    // Waits for the GPU and copies what was grown.
+    virtual Result<RoofRecords> read() = 0;
+};
+
+// The same on the CPU, from the same text; `status` tells what was made.
+struct CpuRoofs {
+    RoofRecords records;
+    RoofStatus status{};
+    uint32_t waves = 0;
+};
+CpuRoofs growRoofsOnCpu(const RoofInputs& inputs, unsigned threads = 1);
+
+// Room for expansion, in records; grown by what a status asks for.
+struct RoofRoom {
+    uint32_t scopes = 1u << 14, grids = 1u << 14, rows = 1u << 16, regions = 1024, parts = 1024, planes = 3072;
+    // True if `status` fitted; else the room is larger now.
+    bool hold(const RoofStatus& status, uint32_t widestWave);
+};
+
+}  // namespace espalier

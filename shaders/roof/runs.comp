@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The cells of each row that a grid's region touches; see roof_cells.h.
+#include "shaders/shared/extensions.glsl"
+#include "shaders/shared/roof_cells.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { RoofEnvBuf environment; };
+
+shared uint sums[2];
+
+void main() {
+    RoofEnv env = environment.v[0];
+    if (gl_LocalInvocationID.x == 0u) {
+        sums[0] = 0u;
+        sums[1] = 0u;
+    }
+    barrier();
+    uint i = env.firstGrid + gl_GlobalInvocationID.x;
+    bool room = env.status.v[0].grids <= env.gridRoom && env.status.v[0].rows <= env.rowRoom;
+    if (room && i < env.status.v[0].grids) {
+        uvec2 cells = gridRuns(env, i);
+        atomicAdd(sums[0], cells.x);
+        atomicAdd(sums[1], cells.y);
+    }
+    barrier();
+    if (gl_LocalInvocationID.x == 0u) {
+        atomicAdd(env.status.v[0].touched, sums[0]);
+        atomicAdd(env.status.v[0].whole, sums[1]);
+    }
+}

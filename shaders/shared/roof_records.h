@@ -1,0 +1,188 @@
+// What roofs are grown from and what they leave (Buron 2013 §3). A roof face's eave is a 1D atom with roof targets; the
+// outline above it is a region; shapes are rectangles and segments that rules replace; what remains are grids of
+// terminals: a Repeat of tiles is one record, decoded by cell, a single terminal is a grid of one cell.
+//
+// A region has a frame of its own: a along the eave, b across it in the plan (of upright faces: up), c out of that. It is
+// cut into convex parts of up to eight half-spaces, so that a terminal is clipped part by part by as many planes.
+#ifndef ESPALIER_SHARED_ROOF_RECORDS_H
+#define ESPALIER_SHARED_ROOF_RECORDS_H
+#include "shaders/shared/rule_map.h"
+
+ESPALIER_BEGIN
+
+CONST_UINT(kRoofGroup, 64u);      // local size of the kernels
+CONST_UINT(kPartPlanes, 8u);      // of one part at most: what gl_ClipDistance offers
+CONST_UINT(kMaxRoofDepth, 64u);   // rules one after another, at most
+CONST_UINT(kMaxRoofCells, 4096u); // of a Repeat along one axis
+
+// A piece of an atom's outline above the eave, in the region's frame, from eave[1] round to eave[0]. 48 bytes.
+struct RoofPiece {
+    vec3 from, to;
+    vec3 normal;        // of the caps that cover it: between the two faces' normals, in the frame
+    uint kind;          // JointKind + 1
+    uint upper;         // atom that grows on from here above a break; kNoIndex
+    uint owner;         // 1: of the two faces this one draws what covers the joint
+};
+STATIC_SIZE(RoofPiece, 48);
+
+// 120 bytes. Tier 0's shape begins as the segment at the wall's foot.
+struct RoofAtom {
+    u64 key;
+    vec3 foot;          // the wall's foot below the eave's begin, world
+    vec3 tangent;       // along the eave, unit, level
+    float eaveLength;
+    float wallHeight;   // from the foot to the eave
+    float slope;        // tangent of the pitch
+    float height;       // of the targets above the eave
+    vec3 target1, target2;   // ends of the highest piece, in the region's frame; 1 on the side of the eave's begin
+    uint region;        // kNoIndex: a wall without a roof of its own
+    uint firstPiece, pieceCount;
+    uint house;
+    uint kind;          // FaceKind; 3: wall only
+    uint tier;
+    uint style;         // bits 7..0 RoofShape, 15..8 material, bit 16: the house has a colour
+    float random;       // of the house
+    vec3 colour;        // of the house, linear
+};
+STATIC_SIZE(RoofAtom, 120);
+
+// 72 bytes. A region of a face first, then those that Join makes.
+struct RoofRegion {
+    vec3 origin;
+    vec3 axisA, axisB, axisC;
+    vec2 low, high;     // bounds in a and b
+    uint firstPart, partCount;
+};
+STATIC_SIZE(RoofRegion, 72);
+
+// Convex; between a0 and a1. Its planes (a, b, c, d) hold where a x + b y + c z <= d. The last of them are upright cuts
+// between this part and its neighbours, which only a terminal meets that is clipped anyway.
+struct RoofPart {
+    float a0, a1;
+    uint firstPlane;
+    uint counts;        // bits 7..0 planes, 15..8 of them the outline's own
+};
+STATIC_SIZE(RoofPart, 16);
+
+// RoofScope::marks: bits 7..0 rules so far, then
+CONST_UINT(kShapeSegment, 1u << 8u);
+CONST_UINT(kShapeOutline, 1u << 9u);   // the face itself: Explode gives the pieces of its outline
+CONST_UINT(kShapeTop, 1u << 10u);      // lies on top of its atom's face, which is used up
+CONST_UINT(kShapeRect, 1u << 11u);     // cells: clipped by `extent`
+CONST_UINT(kShapeBond, 1u << 12u);
+CONST_UINT(kShapeOwner, 1u << 13u);
+CONST_UINT(kShapeJoint, 16u);          // bits 19..16: JointKind + 1
+
+// 144 bytes. A rectangle: origin, sides along the unit axes of `size`; its upper corners may be moved along x by `taper`.
+struct RoofScope {
+    u64 key;
+    vec3 origin, axisX, axisY;
+    vec2 size;          // of one cell, if it has many
+    vec2 taper;
+    vec2 step, extent;  // from cell to cell; of all cells together
+    uint cells;         // bits 15..0 along x, 31..16 along y
+    float thickness;    // factor of terminals' z
+    uint colour;        // bits 23..0 square roots of red, green, blue; 31..24 tint
+    float projectHeight;
+    float base;         // height of the eave that its region is measured from
+    float stretch;      // factor by which the roof is higher than the structure says
+    uint region;
+    uint atom;
+    uint symbol;
+    uint place;         // bits 15..0 index, 31..16 count in its Repeat
+    uint marks;
+    uint house;
+    float args[4];
+};
+STATIC_SIZE(RoofScope, 144);
+
+// RoofGrid::mesh: bits 7..0 mesh
+CONST_UINT(kGridRect, 1u << 8u);
+CONST_UINT(kGridBond, 1u << 9u);       // odd rows begin half a step earlier and have one cell more
+
+// 120 bytes: what is drawn.
+struct RoofGrid {
+    u64 key;
+    vec3 origin, axisX, axisY;
+    vec2 size, step, extent, taper;
+    uint cells;
+    uint mesh;
+    float thickness;
+    uint colour;
+    float base;
+    float shrink;       // 1 / RoofScope::stretch
+    uint region;
+    uint atom;
+    uint house;         // bits 31..24 the house's generation, 23..0 its number
+    uint firstRow;      // of its runs; kNoIndex: all cells are whole
+};
+STATIC_SIZE(RoofGrid, 120);
+
+// Cells of one row of a grid: those that its region touches, and among them a run of whole ones. 8 bytes.
+struct RoofRun {
+    uint touched;       // bits 15..0 first, 31..16 count
+    uint whole;
+};
+STATIC_SIZE(RoofRun, 8);
+
+// A terminal mesh's bounds, in units of its cell's size (z: metres).
+struct RoofMesh {
+    vec3 low, high;
+};
+STATIC_SIZE(RoofMesh, 24);
+
+struct RoofStatus {
+    uint grids, rows;   // asked for; beyond the room nothing is written
+    uint regions, parts, planes;
+    uint stopped;       // shapes that the limit on depth ended
+    uint queue;         // shapes asked for in the next wave
+    uint touched, whole;   // cells
+    uint terminals;     // grids of one cell
+    uint hash[2];       // of all grids, in no order
+    uint gridGroups[3]; // indirect dispatch over the grids
+    uint spare;
+};
+STATIC_SIZE(RoofStatus, 64);
+
+struct RoofWave {
+    uint count;
+    uint groups[3];
+};
+STATIC_SIZE(RoofWave, 16);
+
+BUFFER(RoofPieceBuf, RoofPiece)
+BUFFER(RoofAtomBuf, RoofAtom)
+BUFFER(RoofRegionBuf, RoofRegion)
+BUFFER(RoofPartBuf, RoofPart)
+BUFFER(RoofScopeBuf, RoofScope)
+BUFFER(RoofGridBuf, RoofGrid)
+BUFFER(RoofRunBuf, RoofRun)
+BUFFER(RoofMeshBuf, RoofMesh)
+BUFFER(RoofStatusBuf, RoofStatus)
+BUFFER(RoofWaveBuf, RoofWave)
+BUFFER(Vec4Buf, vec4)
+
+// What the kernels read and write; all of it by address.
+struct RoofEnv {
+    RuleMapBuf map;           // one
+    RoofAtomBuf atoms;
+    RoofPieceBuf pieces;
+    RoofRegionBuf regions;    // room for those that Join makes
+    RoofPartBuf parts;
+    Vec4Buf planes;
+    RoofScopeBuf shapes, next;
+    RoofGridBuf grids;
+    RoofRunBuf runs;
+    RoofMeshBuf meshes;
+    RoofStatusBuf status;
+    RoofWaveBuf waves;
+    UintBuf generations;      // [house]
+    uint wave;
+    uint shapeRoom, gridRoom, rowRoom, regionRoom, partRoom, planeRoom;
+    uint firstGrid;           // rows are worked out for grids from here on
+};
+STATIC_SIZE(RoofEnv, 144);
+BUFFER(RoofEnvBuf, RoofEnv)
+
+ESPALIER_END
+#endif
