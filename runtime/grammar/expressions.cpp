@@ -269,7 +269,8 @@ Node Expressions::call(const Expr& e, Env& env) {
     }
     if (roofs_ && e.kids.empty() && findRoofAccessor(name) != nullptr) return lowerName(name, e.place, env);
     if (name == "~" || name == "rel")
-        return fail(e.place, env, std::string(name == "~" ? "'~'" : "'rel'") + " is a size of Split and stands there only");
+        return fail(e.place, env,
+                    std::string(name == "~" ? "'~'" : "'rel'") + " is a size of Split and stands there only");
     const FunctionInfo* info = findFunction(name);
     if (roofs_ && info != nullptr && (info->kind == Function::angleTo || info->kind == Function::every))
         return fail(e.place, env, "'" + name + "' belongs to growth over a surface; a grammar of roofs has no walk");

@@ -42,7 +42,8 @@ class GrowthLowering {
             branch(e, *block, rule, all);
         } else if (block != nullptr) {
             if (isRoofBlock(block->kind))
-                return c_.reporter.error(e.place, rule, "'" + e.name + "' makes roofs; a grammar either marches or makes roofs");
+                return c_.reporter.error(e.place, rule,
+                                         "'" + e.name + "' makes roofs; a grammar either marches or makes roofs");
             bool marching = block->kind == Block::marching;
             c_.reporter.error(e.place, rule,
                               marching ? "Marching stands alone behind the arrow; give it a rule of its own"

@@ -54,7 +54,7 @@ class RoofLowering {
         Env env;
     };
     struct Target {
-        uint32_t symbol;  // record
+        uint32_t symbol;                // record
         const Element* call = nullptr;  // null: nested, arguments are handed on
     };
 
@@ -66,7 +66,8 @@ class RoofLowering {
         record.nameHash = nameHash(name);
         record.argCount = std::min(argCount, kMaxArgs);
         for (const SymbolRecord& other : c_.symbolRecords)
-            if (other.nameHash == record.nameHash) c_.reporter.error(place, name, "the name has another's hash; take another");
+            if (other.nameHash == record.nameHash)
+                c_.reporter.error(place, name, "the name has another's hash; take another");
         c_.symbolRecords.push_back(record);
         return static_cast<uint32_t>(c_.symbolRecords.size() - 1);
     }
@@ -110,7 +111,8 @@ class RoofLowering {
         }
         std::string own = name + "#" + std::to_string(number);
         c_.nestedNames.push_back(own);
-        Nested nested{addRecord(own, static_cast<uint32_t>(rule.args.size()), rule.place), own, &rule, std::move(sequence), env};
+        Nested nested{addRecord(own, static_cast<uint32_t>(rule.args.size()), rule.place), own, &rule,
+                      std::move(sequence), env};
         nested.env.sitePrefix = nameHash(own);
         nested.env.nextSite = 0;
         pending_.push_back(std::move(nested));
@@ -239,7 +241,8 @@ class RoofLowering {
         if (e.args.size() != 1 || text.kind != ExprKind::string || e.hasItems)
             return error(e.place, env, "a terminal of a roof is a mesh's name between quotes: Shape(\"slate\")"), r;
         const auto& meshes = c_.options.meshes;
-        auto mesh = std::find_if(meshes.begin(), meshes.end(), [&](const TerminalMesh& m) { return m.name == text.text; });
+        auto mesh =
+            std::find_if(meshes.begin(), meshes.end(), [&](const TerminalMesh& m) { return m.name == text.text; });
         if (mesh == meshes.end()) {
             std::vector<std::string> all;
             for (const TerminalMesh& m : meshes) all.push_back(m.name);
@@ -256,7 +259,8 @@ class RoofLowering {
         const bool repeat = info.kind == Block::repeat;
         const size_t least = repeat ? 2 : info.minArgs, most = repeat ? 4 : info.maxArgs;
         if (info.kind == Block::marching || info.kind == Block::branch)
-            return error(e.place, env, "'" + e.name + "' walks over a surface; a grammar either walks or makes roofs"), r;
+            return error(e.place, env, "'" + e.name + "' walks over a surface; a grammar either walks or makes roofs"),
+                   r;
         if (!e.hasItems || e.args.size() < least || e.args.size() > most || e.items.size() < info.minItems ||
             e.items.size() > info.maxItems)
             return error(e.place, env,
@@ -297,7 +301,8 @@ class RoofLowering {
         return finish(r, sites, reads);
     }
     // A part's successors: symbols, or one rule of its own for anything else.
-    std::vector<Target> targets(const Sequence& item, Env& env, const Rule& rule, const std::string& name, uint32_t part) {
+    std::vector<Target> targets(const Sequence& item, Env& env, const Rule& rule, const std::string& name,
+                                uint32_t part) {
         std::vector<Target> all;
         bool plain = true;
         for (const Element& e : item) {
@@ -382,8 +387,8 @@ class RoofLowering {
         return r;
     }
     // All numbers of a rule are worked out by one stretch of code, its values and its successors' arguments.
-    void addValues(RuleRecord& r, const std::vector<Node>& roots, StageReads& sites, StageReads& reads, const Place& place,
-                   const Env& env) {
+    void addValues(RuleRecord& r, const std::vector<Node>& roots, StageReads& sites, StageReads& reads,
+                   const Place& place, const Env& env) {
         r.values = static_cast<uint32_t>(c_.roofValues.size());
         c_.roofValues.resize(c_.roofValues.size() + roots.size());
         c_.generate(roots, sites, reads, r.start, {c_.roofValues.data() + r.values, roots.size()}, place, env.rule);

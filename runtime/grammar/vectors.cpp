@@ -47,13 +47,13 @@ bool Expressions::vectorTree(const Expr& e, Env& env, Node (&xyz)[3], int& size)
              "expected a vector: an accessor such as currentPos0(), vec2(x, y), vec3(x, y, z), cross(a, b), unit(a)");
         return false;
     };
-    if (e.kind == ExprKind::unary && e.text == "-")
-        return scaled(e.kids[0], graph_.constant(-1));
+    if (e.kind == ExprKind::unary && e.text == "-") return scaled(e.kids[0], graph_.constant(-1));
     if (e.kind == ExprKind::name || (e.kind == ExprKind::call && e.kids.empty())) {
         const std::string& name = e.text;
         if (auto let = letByName_.find(name); e.kind == ExprKind::name && let != letByName_.end()) {
             used_.insert(name);
-            if (!activeLets_.insert(name).second) return fail(e.place, env, "'" + name + "' is defined by itself"), false;
+            if (!activeLets_.insert(name).second)
+                return fail(e.place, env, "'" + name + "' is defined by itself"), false;
             std::vector<std::pair<std::string, Node>> args;
             args.swap(env.args);
             bool good = lowerVector(module_.lets[let->second].value, env, xyz, size);
@@ -97,7 +97,8 @@ bool Expressions::vectorCall(const Expr& e, Env& env, Node (&xyz)[3], int& size)
     const bool two = e.text == "vec2", three = e.text == "vec3";
     if (two || three) {
         size = two ? 2 : 3;
-        if (e.kids.size() != size_t(size)) return fail(e.place, env, e.text + " takes " + std::to_string(size) + " numbers"), false;
+        if (e.kids.size() != size_t(size))
+            return fail(e.place, env, e.text + " takes " + std::to_string(size) + " numbers"), false;
         for (size_t i = 0; i < e.kids.size(); ++i) xyz[i] = lower(e.kids[i], env);
         return true;
     }
@@ -119,7 +120,8 @@ bool Expressions::vectorCall(const Expr& e, Env& env, Node (&xyz)[3], int& size)
         for (Node& n : xyz) n = g.mul(n, inverse);
         return true;
     }
-    fail(e.place, env, "expected a vector: an accessor such as currentPos0(), vec2(x, y), vec3(x, y, z), cross(a, b), unit(a)");
+    fail(e.place, env,
+         "expected a vector: an accessor such as currentPos0(), vec2(x, y), vec3(x, y, z), cross(a, b), unit(a)");
     return false;
 }
 

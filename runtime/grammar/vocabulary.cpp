@@ -19,7 +19,8 @@ constexpr BlockInfo kBlocks[] = {
     {"Join", Block::join, 3, 3, 1, 3, "Join(height, v1, v2) {Clipped, Support, Top}"},
     {"Project", Block::project, 2, 2, 1, 1, "Project(axis1, axis2) {Projected}"},
     {"Explode", Block::explode, 0, 0, 1, 5, "Explode() {Face, Front, Right, Back, Left}"},
-    {"Split", Block::split, 2, 15, 1, 14, "Split(X or Y, size, size, ...) {Part, Part, ...} with as many parts as sizes"},
+    {"Split", Block::split, 2, 15, 1, 14,
+     "Split(X or Y, size, size, ...) {Part, Part, ...} with as many parts as sizes"},
 };
 
 constexpr CommandInfo kCommands[] = {
@@ -134,9 +135,10 @@ constexpr struct {
     std::string_view name;
     float value;
 } kRoofWords[] = {
-    {"slopeFace", 0}, {"gableFace", 1}, {"flatFace", 2}, {"wallFace", 3}, {"hip", 1},     {"valley", 2},    {"ridge", 3},
-    {"verge", 4},     {"breakLine", 5}, {"border", 6},   {"cut", 7},      {"hipRoof", 0}, {"gableRoof", 1}, {"halfHipRoof", 2},
-    {"pyramidRoof", 3}, {"shedRoof", 4}, {"gambrelRoof", 5}, {"mansardRoof", 6}, {"flatRoof", 7},
+    {"slopeFace", 0}, {"gableFace", 1},   {"flatFace", 2},    {"wallFace", 3},    {"hip", 1},
+    {"valley", 2},    {"ridge", 3},       {"verge", 4},       {"breakLine", 5},   {"border", 6},
+    {"cut", 7},       {"hipRoof", 0},     {"gableRoof", 1},   {"halfHipRoof", 2}, {"pyramidRoof", 3},
+    {"shedRoof", 4},  {"gambrelRoof", 5}, {"mansardRoof", 6}, {"flatRoof", 7},
 };
 
 constexpr DirectionInfo kDirections[] = {

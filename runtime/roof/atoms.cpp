@@ -1,5 +1,5 @@
-// A roof structure -> atoms with their targets, the pieces of their outlines and their regions (Buron 2013 §3.1). Planes
-// lean halfway between the two faces that meet in them (Figure 4 d-f), so that tiles of both meet there.
+// A roof structure -> atoms with their targets, the pieces of their outlines and their regions (Buron 2013 §3.1).
+// Planes lean halfway between the two faces that meet in them (Figure 4 d-f), so that tiles of both meet there.
 #include "runtime/roof/atoms.hpp"
 
 #include <algorithm>
@@ -36,7 +36,8 @@ float fromSrgb(uint32_t byte) {
 
 class HouseAtoms {
   public:
-    HouseAtoms(RoofTables& tables, const RoofStructure& structure, uint32_t house, uint32_t number, const AtomOptions& options)
+    HouseAtoms(RoofTables& tables, const RoofStructure& structure, uint32_t house, uint32_t number,
+               const AtomOptions& options)
         : t_(tables), s_(structure), h_(structure.houses[house]), number_(number), options_(options) {}
 
     RoofTables::House run() {
@@ -172,7 +173,8 @@ class HouseAtoms {
     }
 
     // The half-space inside an edge of the outline; leaning between the two faces where another one meets it.
-    vec4 planeOf(const RoofFace& face, const Frame& frame, glm::vec3 from, glm::vec3 to, const ChainSegment* segment) const {
+    vec4 planeOf(const RoofFace& face, const Frame& frame, glm::vec3 from, glm::vec3 to,
+                 const ChainSegment* segment) const {
         const glm::vec3 p = frame.local(from), q = frame.local(to);
         glm::vec3 outward(q.y - p.y, p.x - q.x, 0);
         const float length = glm::length(outward);
@@ -256,7 +258,8 @@ class HouseAtoms {
                 if (roofed || glm::length(q - p) < kLevel) continue;
                 RoofAtom atom = newAtom(edge, 0);
                 atom.kind = kWallOnly;
-                setEave(atom, {p.x, h_.eaveHeight, -p.y}, glm::normalize(glm::vec3(q.x - p.x, 0, p.y - q.y)), glm::length(q - p));
+                setEave(atom, {p.x, h_.eaveHeight, -p.y}, glm::normalize(glm::vec3(q.x - p.x, 0, p.y - q.y)),
+                        glm::length(q - p));
                 t_.atoms.push_back(atom);
             }
     }

@@ -35,8 +35,8 @@ void replaceAtoms(RoofTables& tables, uint32_t index, const RoofStructure& struc
 // The shapes that expansion begins with: a segment at the wall's foot for each atom of tier 0 of the house.
 void appendStartShapes(const RoofTables& tables, uint32_t house, uint32_t symbol, std::vector<RoofScope>& shapes);
 
-// Triangulates nothing: cuts a simple polygon with counterclockwise edges into convex parts between upright lines. Edge i
-// leads from point i to the next; planes[i] is the half-space of edge i. Exposed for tests.
+// Triangulates nothing: cuts a simple polygon with counterclockwise edges into convex parts between upright lines. Edge
+// i leads from point i to the next; planes[i] is the half-space of edge i. Exposed for tests.
 struct OutlineEdge {
     glm::vec2 from, to;
     vec4 plane;

@@ -83,25 +83,27 @@ struct CpuRun {
             env.wave = w;
             env.shapes.v = scopes[w & 1].data();
             env.next.v = scopes[(w + 1) & 1].data();
-            parallelFor(std::min(waves[w].count, env.shapeRoom), 256,
-                        [&](size_t begin, size_t end) {
-                            for (size_t i = begin; i < end; ++i) deriveShape(env, uint32_t(i));
-                        },
-                        threads);
+            parallelFor(
+                std::min(waves[w].count, env.shapeRoom), 256,
+                [&](size_t begin, size_t end) {
+                    for (size_t i = begin; i < end; ++i) deriveShape(env, uint32_t(i));
+                },
+                threads);
             out.waves = w + 1;
         }
         return widest;
     }
     void findRuns(const RoofEnv& env, unsigned threads) {
         std::atomic<uint32_t> touched = 0, whole = 0;
-        parallelFor(out.status.grids, 512,
-                    [&](size_t begin, size_t end) {
-                        uvec2 sum(0u);
-                        for (size_t i = begin; i < end; ++i) sum += gridRuns(env, uint32_t(i));
-                        touched += sum.x;
-                        whole += sum.y;
-                    },
-                    threads);
+        parallelFor(
+            out.status.grids, 512,
+            [&](size_t begin, size_t end) {
+                uvec2 sum(0u);
+                for (size_t i = begin; i < end; ++i) sum += gridRuns(env, uint32_t(i));
+                touched += sum.x;
+                whole += sum.y;
+            },
+            threads);
         out.status.touched = touched;
         out.status.whole = whole;
     }

@@ -1,5 +1,5 @@
-// An outline -> convex parts (Buron 2013 §3.3, beyond its convex quadrilaterals). Upright lines through all corners cut it
-// into trapezoids; neighbours are joined again as long as they stay convex and within the planes that clipping has.
+// An outline -> convex parts (Buron 2013 §3.3, beyond its convex quadrilaterals). Upright lines through all corners cut
+// it into trapezoids; neighbours are joined again as long as they stay convex and within the planes that clipping has.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 namespace espalier {
 namespace {
 
-constexpr float kSame = 1e-4f;          // metres
+constexpr float kSame = 1e-4f;                  // metres
 constexpr size_t kOwnPlanes = kPartPlanes - 2;  // two are left for cuts
 
 struct Trapezoid {
@@ -107,11 +107,13 @@ void cutIntoParts(std::span<const OutlineEdge> edges, std::vector<RoofPart>& par
         for (uint32_t i = 0; i < edges.size(); ++i) {
             if (std::abs(edges[i].from.x - edges[i].to.x) > kSame) continue;
             const bool left = !p.cutLeft && std::abs(edges[i].from.x - p.x0) < kSame && edges[i].to.y < edges[i].from.y;
-            const bool right = !p.cutRight && std::abs(edges[i].from.x - p.x1) < kSame && edges[i].to.y > edges[i].from.y;
+            const bool right =
+                !p.cutRight && std::abs(edges[i].from.x - p.x1) < kSame && edges[i].to.y > edges[i].from.y;
             const float low = std::min(edges[i].from.y, edges[i].to.y), high = std::max(edges[i].from.y, edges[i].to.y);
             const float x = left ? p.x0 : p.x1;
             const uint32_t below = left ? p.low.front() : p.low.back(), above = left ? p.high.front() : p.high.back();
-            const bool meets = std::min(high, heightAt(edges[above], x)) - std::max(low, heightAt(edges[below], x)) > kSame;
+            const bool meets =
+                std::min(high, heightAt(edges[above], x)) - std::max(low, heightAt(edges[below], x)) > kSame;
             if ((left || right) && meets && own.size() < kPartPlanes - 2) own.push_back(i);
         }
         for (uint32_t i : own)

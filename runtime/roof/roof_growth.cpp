@@ -80,7 +80,8 @@ class GpuRoofs final : public RoofGrowth {
             return {more(atoms), more(pieces), more(regions), more(parts), more(planes)};
         }
         bool holds(const Counts& c) const {
-            return c.atoms <= atoms && c.pieces <= pieces && c.regions <= regions && c.parts <= parts && c.planes <= planes;
+            return c.atoms <= atoms && c.pieces <= pieces && c.regions <= regions && c.parts <= parts &&
+                   c.planes <= planes;
         }
     };
     Status makeRoom(Set& set);
@@ -175,7 +176,9 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, u
     const auto generations = std::as_bytes(std::span(generationOf_));
     const bool one = house != kNoIndex;
     if (!generationOf_.empty())
-        if (Status s = commands->upload(generations_, one ? generations.subspan(house * 4, 4) : generations, one ? house * 4 : 0); !s)
+        if (Status s = commands->upload(generations_, one ? generations.subspan(house * 4, 4) : generations,
+                                        one ? house * 4 : 0);
+            !s)
             return s.failure();
 
     RoofEnv env{};
@@ -264,12 +267,13 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome) {
     stats_.hash = uint64_t(last_.hash[1]) << 32 | last_.hash[0];
     stats_.expandMs = outcome.ms;
     stats_.bytes = uint64_t(last_.grids) * sizeof(RoofGrid) + uint64_t(last_.rows) * sizeof(RoofRun) +
-                   (last_.regions - own_.regions) * sizeof(RoofRegion) +
-                   (last_.parts - own_.parts) * sizeof(RoofPart) + (last_.planes - own_.planes) * sizeof(vec4);
+                   (last_.regions - own_.regions) * sizeof(RoofRegion) + (last_.parts - own_.parts) * sizeof(RoofPart) +
+                   (last_.planes - own_.planes) * sizeof(vec4);
     stats_.reservedBytes = 0;
     for (const Set& s : sets_)
         stats_.reservedBytes += s.grids.size() + s.runs.size() + s.regions.size() + s.parts.size() + s.planes.size();
-    for (const Buffer* b : {&atoms_, &pieces_, &scopes_[0], &scopes_[1], &generations_}) stats_.reservedBytes += b->size();
+    for (const Buffer* b : {&atoms_, &pieces_, &scopes_[0], &scopes_[1], &generations_})
+        stats_.reservedBytes += b->size();
 }
 
 Status GpuRoofs::grow(const RoofInputs& inputs) {
@@ -304,8 +308,9 @@ Status GpuRoofs::growHouse(const RoofInputs& inputs, uint32_t house) {
     const RoofTables& t = *inputs.town;
     require(house < t.houses.size(), "a house of the town");
     // A generation has eight bits, and what has gone is swept out by growing all anew when room runs out.
-    const bool possible = view_.revision != 0 && generationOf_.size() == t.houses.size() && generationOf_[house] < 255 &&
-                          own_.holds(Counts::of(t)) && grammarRevision_ == inputs.grammarRevision;
+    const bool possible = view_.revision != 0 && generationOf_.size() == t.houses.size() &&
+                          generationOf_[house] < 255 && own_.holds(Counts::of(t)) &&
+                          grammarRevision_ == inputs.grammarRevision;
     if (!possible) return grow(inputs);
     generationOf_[house] += 1;
     Set& set = sets_[front_];

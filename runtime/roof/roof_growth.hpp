@@ -15,7 +15,7 @@ namespace espalier {
 struct RoofInputs {
     const RoofTables* town = nullptr;
     const RuleMap* grammar = nullptr;
-    uint64_t grammarRevision = 1;   // changes with rules and parameters, which are uploaded anew then
+    uint64_t grammarRevision = 1;      // changes with rules and parameters, which are uploaded anew then
     std::span<const RoofMesh> meshes;  // by the numbers that the grammar was compiled with
 };
 
@@ -38,10 +38,10 @@ struct RoofStats {
     uint64_t tiles = 0, clipped = 0;    // cells that are drawn; those of them that an outline crosses
     uint32_t waves = 0, stopped = 0;    // of the latest expansion; shapes that a limit ended
     uint32_t expansions = 0, overflow = 0;
-    uint64_t bytes = 0;     // of grids, runs and the regions that Join made
+    uint64_t bytes = 0;  // of grids, runs and the regions that Join made
     uint64_t reservedBytes = 0;
-    uint64_t hash = 0;      // of all grids, independent of their order; of the latest full growth
-    double expandMs = 0;    // GPU time of the latest expansion
+    uint64_t hash = 0;    // of all grids, independent of their order; of the latest full growth
+    double expandMs = 0;  // GPU time of the latest expansion
 };
 
 struct RoofRecords {

@@ -93,7 +93,7 @@ TEST_CASE("mistakes are named with place, rule and hint") {
         {"A -> Marching(0.1, 0, true) {A} \xC3\xA4", "has no meaning here"},
         {"/* A -> A", "this comment is never closed"},
         {"A -> Marching(0.1, 0, true) {A, S(1) Shape(\"leaf)}", "this text is not closed before the line's end"},
-        {"A -> Split(2) {A}", "isn't available"},
+        {"A -> Split(2) {A}", "1:6: A: write Split(X or Y, size"},
         {"width -0.1\nA -> Marching(0.1, 0, true) {A}", "grammar:1:7: width: the width can't be negative"},
         {"width sqrt(0) - 1e-3\nA -> Marching(0.1, 0, true) {A}", "the width can't be negative"},
         {"width nan\nA -> Marching(0.1, 0, true) {A}", "grammar:1:7: width: 'nan' is not known"},
