@@ -20,11 +20,15 @@
 #include "sample_game/theme.hpp"
 #include "sample_game/ui_renderer.hpp"
 #include "sample_game/vulkan_host.hpp"
+#include "tools/document/document.hpp"
 #include "tools/scene/picture.hpp"
 
 namespace sample {
 namespace {
 
+using espalier::document::Action;
+using espalier::document::Document;
+using espalier::document::SeedRecord;
 using espalier::scene::Scene;
 namespace fs = std::filesystem;
 
@@ -103,7 +107,8 @@ class App {
     void handleMouse();
     void plantAt(double x, double y);
     void answerPanel();
-    void replant();
+    void perform(const Action& action, uint32_t gesture = 0);
+    const Scene& scene() const { return document_->scene(); }
     void watchGrammars();
     void updateGrowth();
     bool drawFrame(bool last);
@@ -123,8 +128,8 @@ class App {
     std::unique_ptr<UiRenderer> ui_;
     bool imgui_ = false;
     float scale_ = 1;
-    Scene scene_;
-    std::vector<espalier::scene::Seed> sceneSeeds_;
+    std::unique_ptr<Document> document_;
+    std::vector<SeedRecord> sceneSeeds_;
     std::vector<fs::file_time_type> grammarTimes_;
     double nextLook_ = 0;
     OrbitCamera orbit_;
@@ -137,6 +142,7 @@ class App {
 
 App::~App() {
     ui_.reset();
+    document_.reset();
     context_.reset();
     host_.reset();
     if (imgui_) {
@@ -184,15 +190,16 @@ bool App::openContext() {
     if (espCreate(&def, &made) != ESP_OK) return fail(espLastError(nullptr));
     context_.reset(made);
     std::string error;
-    if (!openScene(made, options_.request, scene_, error) || !plantAll(made, scene_, error)) return fail(error);
-    sceneSeeds_ = scene_.seeds;
-    for (const auto& grammar : scene_.grammars) grammarTimes_.push_back(newestGrammar(grammar.file));
+    document_ = std::make_unique<Document>(made);
+    if (!document_->open(options_.request, error)) return fail(error);
+    for (const auto& seed : scene().seeds) sceneSeeds_.push_back(document_->recordOf(seed));
+    for (const auto& grammar : scene().grammars) grammarTimes_.push_back(newestGrammar(grammar.file));
     panel_.deviceName = espDeviceName(made);
-    panel_.errors.resize(scene_.grammars.size() + 1);
-    panel_.look = scene_.look;
+    panel_.errors.resize(scene().grammars.size() + 1);
+    panel_.look = scene().look;
     panel_.grow = espDefaultGrowDef();
     panel_.validation = host_->validation();
-    glfwSetWindowTitle(window_.get(), ("Espalier \u2014 " + scene_.name).c_str());
+    glfwSetWindowTitle(window_.get(), ("Espalier \u2014 " + scene().name).c_str());
     return true;
 }
 
@@ -220,7 +227,7 @@ bool App::open() {
 
 float App::reach() const {
     EspSurfaceInfo info;
-    if (espSurfaceInfo(context_.get(), scene_.surface, &info) != ESP_OK) return 1;
+    if (espSurfaceInfo(context_.get(), scene().surfaces.front().id, &info) != ESP_OK) return 1;
     float sum = 0;
     for (int i = 0; i < 3; ++i) sum += std::pow(info.boundsMax[i] - info.boundsMin[i], 2.f);
     return std::sqrt(sum);
@@ -284,32 +291,43 @@ void App::plantAt(double x, double y) {
     const Ray ray = orbit_.ray(float(x) / size.x, float(y) / size.y, size.x / size.y, shift());
     EspHit hit;
     if (espPick(context_.get(), ray.origin, ray.direction, &hit) != ESP_OK) return;
-    espalier::scene::Seed seed;
-    seed.grammar = uint32_t(panel_.plantGrammar);
-    std::copy(hit.position, hit.position + 3, seed.position.begin());
-    seed.number = std::random_device()();
-    scene_.seeds.push_back(seed);
-    replant();
+    const SeedRecord seed{document_->freshKey(),
+                          uint32_t(panel_.plantGrammar),
+                          {hit.position[0], hit.position[1], hit.position[2]},
+                          {0, 1, 0},
+                          std::random_device()()};
+    perform(espalier::document::AddSeeds{{seed}, {uint32_t(scene().seeds.size())}});
 }
 
-void App::replant() {
+void App::perform(const Action& action, uint32_t gesture) {
     generalError().clear();
-    plantAll(context_.get(), scene_, generalError());
+    document_->perform(action, generalError(), gesture);
+    wake();
 }
 
 void App::answerPanel() {
+    using namespace espalier::document;
+    std::vector<SeedRecord> seeds;
+    RemoveSeeds all;
+    for (const auto& seed : scene().seeds) {
+        seeds.push_back(document_->recordOf(seed));
+        all.keys.push_back(seed.key);
+    }
     if (panel_.newNumbers) {
         std::random_device random;
-        for (auto& seed : scene_.seeds) seed.number = random();
-        replant();
+        for (SeedRecord& seed : seeds) seed.number = random();
+        perform(ChangeSeeds{seeds});
     }
-    if (panel_.clearSeeds) {
-        scene_.seeds.clear();
-        replant();
-    }
+    if (panel_.clearSeeds) perform(all);
     if (panel_.sceneSeeds) {
-        scene_.seeds = sceneSeeds_;
-        replant();
+        AddSeeds add{sceneSeeds_, {}};
+        for (SeedRecord& seed : add.seeds) {
+            seed.key = document_->freshKey();
+            add.places.push_back(uint32_t(add.places.size()));
+        }
+        const uint32_t gesture = uint32_t(document_->revision()) + 1;
+        perform(all, gesture);
+        perform(add, gesture);
     }
     if (panel_.frameAll) look(espFrameAll(context_.get()));
     if (panel_.newNumbers || panel_.clearSeeds || panel_.sceneSeeds || panel_.frameAll || panel_.paramsChanged) wake();
@@ -320,13 +338,14 @@ void App::answerPanel() {
 void App::watchGrammars() {
     if (glfwGetTime() < nextLook_) return;
     nextLook_ = glfwGetTime() + kFilesLookedAtEvery;
-    for (size_t i = 0; i < scene_.grammars.size(); ++i) {
-        const fs::file_time_type time = newestGrammar(scene_.grammars[i].file);
+    for (size_t i = 0; i < scene().grammars.size(); ++i) {
+        const fs::file_time_type time = newestGrammar(scene().grammars[i].file);
         if (time == grammarTimes_[i]) continue;
         grammarTimes_[i] = time;
-        std::string error;
-        panel_.errors[i].clear();
-        if (!recompile(context_.get(), scene_.grammars[i], error)) panel_.errors[i] = error;
+        std::string text, error;
+        if (espalier::scene::readText(scene().grammars[i].file, text, error))
+            perform(document_->withText(uint32_t(i), text));
+        panel_.errors[i] = error.empty() ? scene().grammars[i].error : error;
         wake();
     }
 }
@@ -410,13 +429,13 @@ bool App::loop() {
         }
         ImGui_ImplGlfw_NewFrame();
         ImGui::NewFrame();
-        if (frames_ == 0) look(scene_.camera);
+        if (frames_ == 0) look(scene().camera);
         handleKeys();
         handleMouse();
         const bool happened = !events_.keys.empty() || !events_.clicks.empty();
         events_.keys.clear();
         events_.clicks.clear();
-        showPanel(context_.get(), scene_, scale_, panel_);
+        showPanel(context_.get(), scene(), scale_, panel_);
         answerPanel();
         updateGrowth();
         ++frames_;

@@ -38,12 +38,14 @@ int preference(VkPhysicalDevice device) {
     }
 }
 
+}  // namespace
+
 void imageBarrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
     barrier.oldLayout = from;
     barrier.newLayout = to;
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
@@ -54,8 +56,6 @@ void imageBarrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, V
     dependency.pImageMemoryBarriers = &barrier;
     vkCmdPipelineBarrier2(commands, &dependency);
 }
-
-}  // namespace
 
 VKAPI_ATTR VkBool32 VKAPI_CALL VulkanHost::onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                                      VkDebugUtilsMessageTypeFlagsEXT,
@@ -213,6 +213,10 @@ bool VulkanHost::makeSwapchain() {
         return false;
     }
     vkDeviceWaitIdle(device_);
+    if (!(can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT)) {
+        error_ = "pictures can't be copied into the window";
+        return false;
+    }
     canCopy_ = can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     const VkSwapchainKHR old = swapchain_;
     VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
@@ -223,7 +227,8 @@ bool VulkanHost::makeSwapchain() {
     info.imageColorSpace = usable->colorSpace;
     info.imageExtent = extent;
     info.imageArrayLayers = 1;
-    info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | (canCopy_ ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0);
+    info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                      (canCopy_ ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0);
     info.preTransform = can.currentTransform;
     info.compositeAlpha = can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                               ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR

@@ -24,6 +24,9 @@ struct Frame {
 
 constexpr uint32_t kFramesInFlight = 2;
 
+// Of a colour image, from all work before to all work after.
+void imageBarrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to);
+
 // The sample's own instance, device, queue and swapchain, as a game engine has them before it loads Espalier.
 // Errors end a call with a message in error(); after a lost device nothing but destruction is possible.
 class VulkanHost {

@@ -68,8 +68,8 @@ TEST_CASE("scenes with mistakes tell the place of each") {
     const std::string out = " -o " + folder.file("frames"), capture = program("espalier-capture") + " ";
     refuses(capture + folder.write("a.json", "{\"surface\": ") + out, folder, {"a.json:1:"});
     refuses(capture + folder.write("b.json", "[]") + out, folder, {"b.json:1:1", "object"});
-    refuses(capture + folder.write("c.json", "{\n \"surfaces\": \"x\",\n \"grammars\": []\n}") + out, folder,
-            {"c.json:2:", "'surfaces'", "'surface' is missing", "c.json:3:", "at least one"});
+    refuses(capture + folder.write("c.json", "{\n \"surfce\": \"x\",\n \"grammars\": []\n}") + out, folder,
+            {"c.json:2:", "'surfce'", "'surface' is missing", "c.json:3:", "at least one"});
     std::string text = sceneOf(content("ruin.surface.glb"), "none.grammar");
     refuses(capture + folder.write("d.json", text) + out, folder, {"none.grammar", "No such file"});
     text.replace(text.find("[0, 1, 0.4]"), 11, "[0, 1]");

@@ -1,5 +1,6 @@
 // A scene or a surface in, PNG frames and figures out, without a window: for tests that compare pictures and counts.
-// Frame 0 shows the scene's own view, the others follow on one turn around its target: the same on every run.
+// Frame 0 shows the scene's own view, the others follow on one turn around its target: the same on every run. With
+// --replay the frames are those of a recorded run instead.
 #include <CLI/CLI.hpp>
 #include <cinttypes>
 #include <cmath>
@@ -8,10 +9,14 @@
 #include <filesystem>
 #include <memory>
 
+#include "tools/document/document.hpp"
+#include "tools/document/run.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene.hpp"
 
 using namespace espalier::scene;
+using espalier::document::Document;
+using espalier::document::Run;
 
 namespace {
 
@@ -20,7 +25,8 @@ struct Options {
     std::vector<std::string> layers;
     uint32_t frames = 1;
     uint32_t width = 1280, height = 720;
-    std::string size = "1280x720", folder = "out", stats, view = "shaded", walk = "intrinsic", camera, cache;
+    std::string size, folder = "out", stats, view = "shaded", walk = "intrinsic", camera, cache, replay;
+    uint32_t every = 1;
     long long seed = -1;
     uint32_t maxNodes = espDefaultGrowDef().maxNodes;
     float leafCap = 0;
@@ -34,12 +40,17 @@ int fail(const std::string& message) {
 
 void addOptions(CLI::App& app, Options& options) {
     app.set_version_flag("--version", ESPALIER_VERSION);
-    app.add_option("FILE", options.request.file, "a scene (SCENE.json) or what espalier-bake wrote (SURFACE.glb)")
-        ->required();
+    app.add_option("FILE", options.request.file,
+                   "a scene (SCENE.json), a project's folder or what espalier-bake wrote (SURFACE.glb)");
+    app.add_option("--replay", options.replay,
+                   "a recorded run: opens what it was recorded on (or FILE), does what was done and writes its frames");
+    app.add_option("--every", options.every, "of a run, writes each N-th frame and the last")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000000));
     app.add_option("--frames", options.frames, "how many; they go once around the scene's target")
         ->capture_default_str()
         ->check(CLI::Range(1, 100000));
-    app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels (default 1280x720, of a run its own)");
     app.add_option("-o,--out", options.folder, "folder for frame_0000.png ...")->capture_default_str();
     app.add_option("--stats", options.stats, "writes counts, times, bytes and the growth's hash as JSON");
     app.add_option("--seed", options.seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
@@ -79,12 +90,7 @@ bool parseCamera(const std::string& text, EspCamera& camera) {
 }
 
 bool parseView(const std::string& text, EspLook& look) {
-    const char* names[] = {"shaded", "charts", "normals", "lod"};
-    for (int i = 0; i < 4; ++i)
-        if (text == names[i]) {
-            look.view = EspView(i);
-            return true;
-        }
+    if (text != "layer" && viewNamed(text, look.view)) return true;
     if (text.rfind("layer:", 0) != 0) return false;
     look.view = ESP_VIEW_LAYER;
     look.viewLayer = text.c_str() + 6;
@@ -105,7 +111,73 @@ std::string statsJson(const EspStats& stats) {
     return text;
 }
 
-int run(const Options& options) {
+// Where frames go and how they look.
+struct Film {
+    EspContext* context;
+    EspDrawDef draw = espDefaultDrawDef();
+    std::string folder;
+    std::vector<uint8_t> pixels;
+
+    bool begin(std::string& error) {
+        std::error_code code;
+        std::filesystem::create_directories(folder, code);
+        if (code) error = folder + ": can't be made: " + code.message();
+        pixels.resize(size_t(draw.width) * draw.height * 4);
+        return !code;
+    }
+    bool take(uint32_t frame, std::string& error) {
+        if (espDraw(context, &draw) != ESP_OK || espReadPixels(context, pixels.data(), pixels.size()) != ESP_OK) {
+            error = espLastError(context);
+            return false;
+        }
+        char name[32];
+        std::snprintf(name, sizeof name, "frame_%04u.png", frame);
+        const std::string path = (std::filesystem::path(folder) / name).string();
+        return writePng(path, pixels.data(), draw.width, draw.height, error);
+    }
+};
+
+bool filmTurn(const Scene& scene, uint32_t frames, Film& film, std::string& error) {
+    for (uint32_t frame = 0; frame < frames; ++frame) {
+        film.draw.camera = turned(scene.camera, 2 * 3.14159265f * float(frame) / float(frames));
+        if (!film.take(frame, error)) return false;
+    }
+    return true;
+}
+
+// All frames are grown, so that each is what it was when it was recorded; some are drawn.
+bool filmRun(const Run& run, uint32_t every, Document& document, Film& film, uint32_t& taken, std::string& error) {
+    size_t next = 0;
+    const uint32_t frames = run.frames();
+    for (uint32_t frame = 0; frame < frames; ++frame) {
+        for (; next < run.lines.size() && run.lines[next].frame == frame; ++next)
+            if (!document.perform(run.lines[next].action, error, run.lines[next].gesture)) {
+                error = "frame " + std::to_string(frame) + ", line " + std::to_string(next + 2) + ": " + error;
+                return false;
+            }
+        if (espUpdate(film.context) != ESP_OK) {
+            error = espLastError(film.context);
+            return false;
+        }
+        if (frame % every && frame + 1 < frames) continue;
+        film.draw.camera = document.scene().camera;
+        film.draw.look = document.scene().look;
+        film.draw.look.viewLayer = document.scene().viewLayer.c_str();
+        if (!film.take(frame, error)) return false;
+        ++taken;
+    }
+    return true;
+}
+
+int run(Options options) {
+    std::string error;
+    Run recorded;
+    const bool replays = !options.replay.empty();
+    if (replays) {
+        if (!readRun(options.replay, recorded, error)) return fail(error);
+        if (options.request.file.empty()) options.request.file = recorded.head.scene;
+        if (options.size.empty()) options.width = recorded.head.width, options.height = recorded.head.height;
+    }
     EspContextDef def = espDefaultContextDef();
     const char* wanted = std::getenv("ESPALIER_VALIDATION");
     def.validation = options.validation || (wanted && std::string(wanted) == "1");
@@ -118,44 +190,35 @@ int run(const Options& options) {
     if (espCreate(&def, &made) != ESP_OK) return fail(espLastError(nullptr));
     const std::unique_ptr<EspContext, void (*)(EspContext*)> context(made, espDestroy);
 
-    std::string error;
-    Scene scene;
     EspGrowDef grow = espDefaultGrowDef();
     grow.walk = options.walk == "paper" ? ESP_WALK_PAPER : ESP_WALK_INTRINSIC;
     grow.maxNodes = options.maxNodes;
     grow.leafDensityCap = options.leafCap;
     if (espSetGrow(made, &grow) != ESP_OK) return fail(espLastError(made));
-    if (!openScene(made, options.request, scene, error) || !plantAll(made, scene, error)) return fail(error);
+    Document document(made);
+    if (!document.open(options.request, error)) return fail(error);
     if (espUpdate(made) != ESP_OK) return fail(espLastError(made));
 
-    EspDrawDef draw = espDefaultDrawDef();
-    draw.width = options.width;
-    draw.height = options.height;
-    draw.look = scene.look;
-    if (!parseView(options.view, draw.look)) return fail("--view: no such view: " + options.view);
+    Scene scene = document.scene();
+    Film film{made, espDefaultDrawDef(), options.folder, {}};
+    film.draw.width = options.width;
+    film.draw.height = options.height;
+    film.draw.look = scene.look;
+    if (!parseView(options.view, film.draw.look)) return fail("--view: no such view: " + options.view);
     if (!options.camera.empty() && !parseCamera(options.camera, scene.camera))
         return fail("--camera takes six or seven numbers with commas between them, not '" + options.camera + "'");
-    std::error_code code;
-    std::filesystem::create_directories(options.folder, code);
-    if (code) return fail(options.folder + ": can't be made: " + code.message());
-
-    std::vector<uint8_t> pixels(size_t(draw.width) * draw.height * 4);
-    for (uint32_t frame = 0; frame < options.frames; ++frame) {
-        draw.camera = turned(scene.camera, 2 * 3.14159265f * float(frame) / float(options.frames));
-        if (espDraw(made, &draw) != ESP_OK || espReadPixels(made, pixels.data(), pixels.size()) != ESP_OK)
-            return fail(espLastError(made));
-        char name[32];
-        std::snprintf(name, sizeof name, "frame_%04u.png", frame);
-        const std::string path = (std::filesystem::path(options.folder) / name).string();
-        if (!writePng(path, pixels.data(), draw.width, draw.height, error)) return fail(error);
-    }
+    if (!film.begin(error)) return fail(error);
+    uint32_t taken = replays ? 0 : options.frames;
+    if (!(replays ? filmRun(recorded, options.every, document, film, taken, error)
+                  : filmTurn(scene, options.frames, film, error)))
+        return fail(replays ? options.replay + ": " + error : error);
     EspStats stats;
     if (espReadStats(made, &stats) != ESP_OK) return fail(espLastError(made));
     if (!options.stats.empty() && !writeText(options.stats, statsJson(stats), error)) return fail(error);
     std::printf("%u frames in %s: %u seeds, %" PRIu64 " nodes, %u branches, %" PRIu64 " leaves, %" PRIu64
                 " polygons (%s)\n",
-                options.frames, options.folder.c_str(), stats.seeds, stats.nodes, stats.branches, stats.leaves,
-                stats.polygons, espDeviceName(made));
+                taken, options.folder.c_str(), stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons,
+                espDeviceName(made));
     return 0;
 }
 
@@ -171,7 +234,9 @@ int main(int argc, char** argv) {
         return app.exit(e) ? 2 : 0;
     }
     if (options.seed >= 0) options.request.seed = uint32_t(options.seed);
-    if (!parseSize(options.size, options.width, options.height))
+    if (options.request.file.empty() && options.replay.empty())
+        return fail("FILE or --replay says what to show; see --help");
+    if (!options.size.empty() && !parseSize(options.size, options.width, options.height))
         return fail("--size takes WIDTHxHEIGHT, 1 to 16384 each, not '" + options.size + "'");
     for (const std::string& layer : options.layers) {
         const size_t sign = layer.find('=');

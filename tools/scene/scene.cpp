@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "tools/scene/daylight.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene_file.hpp"
 
@@ -24,42 +25,37 @@ bool fromContext(const EspContext* context, EspResult result, std::string& error
     return false;
 }
 
-bool compileFile(EspContext* context, const std::string& file, EspGrammar& grammar, bool again, std::string& error) {
-    std::string text;
-    if (!readText(file, text, error)) return false;
-    const EspGrammarDef def{file.c_str(), text.data(), text.size()};
-    return fromContext(context,
-                       again ? espRecompileGrammar(context, grammar, &def) : espCompileGrammar(context, &def, &grammar),
-                       error);
+bool compile(EspContext* context, LoadedGrammar& grammar, const std::string& text, std::string& error) {
+    const EspGrammarDef def{grammar.file.c_str(), text.data(), text.size()};
+    if (!fromContext(context, espCompileGrammar(context, &def, &grammar.id), error)) return false;
+    grammar.text = grammar.grows = text;
+    return true;
 }
 
-bool layLayer(EspContext* context, const Scene& scene, const std::string& name, const std::string& file,
-              std::string& error) {
-    bool known = false;
-    for (const std::string& layer : scene.layers) known = known || layer == name;
-    if (!known) {
-        error = file + ": no grammar of this scene reads a layer '" + name + "'";
+bool compileFile(EspContext* context, LoadedGrammar& grammar, std::string& error) {
+    std::string text;
+    return readText(grammar.file, text, error) && compile(context, grammar, text, error);
+}
+
+bool layLayer(EspContext* context, const Scene& scene, const SceneLayer& layer, std::string& error) {
+    if (std::find(scene.layers.begin(), scene.layers.end(), layer.name) == scene.layers.end()) {
+        error = layer.file + ": no grammar of this scene reads a layer '" + layer.name + "'";
         return false;
     }
     GreyPicture picture;
-    if (!readGrey(file, picture, error)) return false;
+    if (!readGrey(layer.file, picture, error)) return false;
     EspLayerDef def = espDefaultLayerDef();
-    def.surface = scene.surface;
-    def.name = name.c_str();
-    def.space = ESP_LAYER_MATERIAL_UV;
+    def.name = layer.name.c_str();
+    def.space = layer.surface < 0 ? ESP_LAYER_MATERIAL_UV : ESP_LAYER_WALK_UV;
     def.texels = picture.texels.data();
     def.width = picture.width;
     def.height = picture.height;
-    return fromContext(context, espSetLayer(context, &def), error);
-}
-
-void noteLayers(EspContext* context, Scene& scene) {
-    for (const LoadedGrammar& grammar : scene.grammars)
-        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i) {
-            const std::string name = espLayerName(context, grammar.id, i);
-            if (std::find(scene.layers.begin(), scene.layers.end(), name) == scene.layers.end())
-                scene.layers.push_back(name);
-        }
+    for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+        if (layer.surface >= 0 && size_t(layer.surface) != i) continue;
+        def.surface = scene.surfaces[i].id;
+        if (!fromContext(context, espSetLayer(context, &def), error)) return false;
+    }
+    return true;
 }
 
 // Numbers of 0 to 1 that are the same on every machine.
@@ -124,18 +120,17 @@ bool isUnbakedModel(const std::string& path) {
 
 // glTF's unit is the metre, but many scans come in another: a statue of a centimetre, or of a kilometre, is shown as
 // one of two metres, so that ivy on it is ivy.
-bool loadAtLivingSize(EspContext* context, const std::string& file, EspSurface& surface, EspSurfaceInfo& info,
-                      std::string& error) {
+bool loadAtLivingSize(EspContext* context, LoadedSurface& surface, EspSurfaceInfo& info, std::string& error) {
     constexpr float kSmallest = .1f, kLargest = 500, kUsual = 2;
-    EspTransform place = espIdentity();
     for (int attempt = 0; attempt < 2; ++attempt) {
-        if (!fromContext(context, espLoadSurface(context, file.c_str(), &place, &surface), error) ||
-            !fromContext(context, espSurfaceInfo(context, surface, &info), error))
+        const EspTransform place = surface.placing.transform();
+        if (!fromContext(context, espLoadSurface(context, surface.file.c_str(), &place, &surface.id), error) ||
+            !fromContext(context, espSurfaceInfo(context, surface.id, &info), error))
             return false;
         const float size = largestSide(info);
         if (attempt == 1 || (size >= kSmallest && size <= kLargest) || !(size > 0)) return true;
-        for (int i = 0; i < 3; ++i) place.rows[i][i] = kUsual / size;
-        if (!fromContext(context, espDestroySurface(context, surface), error)) return false;
+        surface.placing.scale = kUsual / size;
+        if (!fromContext(context, espDestroySurface(context, surface.id), error)) return false;
     }
     return true;
 }
@@ -147,11 +142,13 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
         return false;
     }
     EspSurfaceInfo info;
-    if (!loadAtLivingSize(context, request.file, out.surface, info, error)) return false;
+    LoadedSurface& surface = out.surfaces.emplace_back();
+    surface.file = request.file;
+    if (!loadAtLivingSize(context, surface, info, error)) return false;
     const char* standard = request.layers.empty() ? "ivy_free.grammar" : "ivy_guided.grammar";
     LoadedGrammar grammar;
     grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/" + standard : request.grammar;
-    if (!compileFile(context, grammar.file, grammar.id, false, error)) return false;
+    if (!compileFile(context, grammar, error)) return false;
     out.grammars.push_back(grammar);
     fitToModel(context, info, grammar);
     plantAround(context, info, request.seed.value_or(1), out);
@@ -159,27 +156,42 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     return true;
 }
 
-bool setParam(EspContext* context, const LoadedGrammar& grammar, const SceneParam& param, std::string& error) {
-    return fromContext(context, espSetParam(context, grammar.id, param.name.c_str(), param.value.data(), param.count),
-                       error);
+bool loadGrammar(EspContext* context, const SceneGrammar& described, LoadedGrammar& grammar, std::string& error) {
+    const bool good = described.text ? compile(context, grammar, described.grows.value_or(*described.text), error)
+                                     : compileFile(context, grammar, error);
+    if (!good) return false;
+    // A project may have been saved with a mistake in its text: it stands there with its message, as it was.
+    if (described.grows) setText(context, grammar, *described.text);
+    for (const SceneParam& param : described.params) {
+        const ParamValue& v = param.value;
+        if (fromContext(context, espSetParam(context, grammar.id, v.name.c_str(), v.value.data(), v.count), error))
+            continue;
+        error = param.place + ": " + error;
+        return false;
+    }
+    return true;
 }
 
 bool openDescription(EspContext* context, const Request& request, Scene& out, std::string& error) {
     SceneFile file;
     if (!readSceneFile(request.file, file, error)) return false;
-    if (!fromContext(context, espLoadSurface(context, file.surface.c_str(), nullptr, &out.surface), error))
-        return false;
+    for (const SceneSurface& described : file.surfaces) {
+        LoadedSurface& surface = out.surfaces.emplace_back(LoadedSurface{described.file, described.placing, {}});
+        const EspTransform place = surface.placing.transform();
+        if (!fromContext(context, espLoadSurface(context, surface.file.c_str(), &place, &surface.id), error))
+            return false;
+    }
     uint32_t number = request.seed.value_or(0);
     for (size_t i = 0; i < file.grammars.size(); ++i) {
-        const SceneGrammar& described = file.grammars[i];
+        SceneGrammar described = file.grammars[i];
         LoadedGrammar grammar;
-        grammar.file = i == 0 && !request.grammar.empty() ? request.grammar : described.file;
-        if (!compileFile(context, grammar.file, grammar.id, false, error)) return false;
-        for (const SceneParam& param : described.params)
-            if (!setParam(context, grammar, param, error)) {
-                error = param.place + ": " + error;
-                return false;
-            }
+        if (i == 0 && !request.grammar.empty()) {
+            described.file = request.grammar;
+            described.text.reset();
+            described.grows.reset();
+        }
+        grammar.file = described.file;
+        if (!loadGrammar(context, described, grammar, error)) return false;
         out.grammars.push_back(grammar);
         for (Seed seed : described.seeds) {
             seed.grammar = uint32_t(i);
@@ -188,10 +200,10 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         }
     }
     noteLayers(context, out);
-    for (const auto& [name, picture] : file.layers) {
+    for (const SceneLayer& layer : file.layers) {
         // A scene may paint layers that only some grammar, given in place of its own, doesn't read.
-        if (std::find(out.layers.begin(), out.layers.end(), name) == out.layers.end()) continue;
-        if (!layLayer(context, out, name, picture, error)) return false;
+        if (std::find(out.layers.begin(), out.layers.end(), layer.name) == out.layers.end()) continue;
+        if (!layLayer(context, out, layer, error)) return false;
     }
     out.camera = espFrameAll(context);
     if (file.hasCamera) {
@@ -199,7 +211,8 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         std::copy(file.target.begin(), file.target.end(), out.camera.target);
     }
     if (file.fov > 0) out.camera.fovY = file.fov * kPi / 180;
-    file.applyLook(out.look);
+    file.applyLook(out.ownLook);
+    out.hour = file.hour;
     return true;
 }
 
@@ -211,35 +224,89 @@ std::string contentFolder() {
     return (program.parent_path().parent_path() / "content").string();
 }
 
-bool openScene(EspContext* context, const Request& request, Scene& out, std::string& error) {
+EspTransform Placing::transform() const {
+    const float c = scale * std::cos(turn), s = scale * std::sin(turn);
+    return {{{c, 0, s, position[0]}, {0, scale, 0, position[1]}, {-s, 0, c, position[2]}}};
+}
+
+void noteLayers(const EspContext* context, Scene& scene) {
+    scene.layers.clear();
+    for (const LoadedGrammar& grammar : scene.grammars)
+        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i) {
+            const std::string name = espLayerName(context, grammar.id, i);
+            if (std::find(scene.layers.begin(), scene.layers.end(), name) == scene.layers.end())
+                scene.layers.push_back(name);
+        }
+}
+
+bool openScene(EspContext* context, const Request& asked, Scene& out, std::string& error) {
+    namespace fs = std::filesystem;
+    Request request = asked;
+    std::error_code ignored;
+    if (fs::is_directory(request.file, ignored) && fs::exists(fs::path(request.file) / "project.json", ignored))
+        request.file = (fs::path(request.file) / "project.json").string();
     out = Scene{};
-    out.name = std::filesystem::path(request.file).filename().string();
-    out.look = espDefaultLook();
-    const bool described = std::filesystem::path(request.file).extension() == ".json";
+    out.name = fs::path(asked.file).filename().string();
+    out.ownLook = espDefaultLook();
+    const bool described = fs::path(request.file).extension() == ".json";
     if (!(described ? openDescription : openSurface)(context, request, out, error)) return false;
     noteLayers(context, out);
     for (const auto& [name, picture] : request.layers)
-        if (!layLayer(context, out, name, picture, error)) return false;
+        if (!layLayer(context, out, {name, picture, -1}, error)) return false;
+    out.look = out.ownLook;
+    if (out.hour != kOwnSun) applyDaylight(out.hour, out.look);
+    uint32_t key = 0;
+    for (Seed& seed : out.seeds) seed.key = ++key;
     return true;
 }
 
-bool plantAll(EspContext* context, const Scene& scene, std::string& error) {
+bool plantAll(EspContext* context, Scene& scene, std::string& error) {
     if (!fromContext(context, espRemoveAllSeeds(context), error)) return false;
-    for (const Seed& seed : scene.seeds) {
+    for (Seed& seed : scene.seeds) {
         EspSeedDef def = espDefaultSeedDef();
         def.grammar = scene.grammars[seed.grammar].id;
         std::copy(seed.position.begin(), seed.position.end(), def.position);
         std::copy(seed.direction.begin(), seed.direction.end(), def.direction);
         def.number = seed.number;
-        EspSeed planted;
-        if (!fromContext(context, espPlant(context, &def, &planted), error)) return false;
+        if (!fromContext(context, espPlant(context, &def, &seed.planted), error)) return false;
     }
     return true;
 }
 
-bool recompile(EspContext* context, const LoadedGrammar& grammar, std::string& error) {
-    EspGrammar id = grammar.id;
-    return compileFile(context, grammar.file, id, true, error);
+bool setText(EspContext* context, LoadedGrammar& grammar, const std::string& text) {
+    grammar.text = text;
+    grammar.error.clear();
+    const EspGrammarDef def{grammar.file.c_str(), text.data(), text.size()};
+    if (!fromContext(context, espRecompileGrammar(context, grammar.id, &def), grammar.error)) return false;
+    grammar.grows = text;
+    return true;
+}
+
+std::vector<ParamValue> changedParams(const EspContext* context, EspGrammar grammar) {
+    std::vector<ParamValue> changed;
+    for (uint32_t i = 0; i < espParamCount(context, grammar); ++i) {
+        EspParamInfo info;
+        if (espParamInfo(context, grammar, i, &info) != ESP_OK) continue;
+        ParamValue value{info.name, {}, info.kind == ESP_PARAM_COLOUR ? 3u : 1u};
+        std::copy(info.value, info.value + value.count, value.value.begin());
+        if (!std::equal(info.value, info.value + value.count, info.initial)) changed.push_back(value);
+    }
+    return changed;
+}
+
+namespace {
+constexpr const char* kViews[] = {"shaded", "charts", "normals", "lod", "layer"};
+}
+
+bool viewNamed(const std::string& name, EspView& out) {
+    const auto found = std::find(std::begin(kViews), std::end(kViews), name);
+    if (found == std::end(kViews)) return false;
+    out = EspView(found - std::begin(kViews));
+    return true;
+}
+
+const char* nameOf(EspView view) {
+    return size_t(view) < std::size(kViews) ? kViews[view] : "shaded";
 }
 
 EspCamera turned(const EspCamera& camera, float radians) {

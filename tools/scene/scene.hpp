@@ -19,41 +19,83 @@ struct Request {
     std::optional<uint32_t> seed;  // the seeds' numbers are this, this + 1 ... instead of the scene's own
 };
 
-struct LoadedGrammar {
+// How a surface stands in the scene: scaled evenly, turned about the vertical, moved.
+struct Placing {
+    std::array<float, 3> position{};
+    float turn = 0;  // radians, counterclockwise from above
+    float scale = 1;
+    EspTransform transform() const;
+    bool operator==(const Placing&) const = default;
+};
+
+struct LoadedSurface {
     std::string file;
+    Placing placing;
+    EspSurface id{};
+};
+
+struct ParamValue {
+    std::string name;
+    std::array<float, 3> value{};
+    uint32_t count = 1;  // 3: a colour
+    bool operator==(const ParamValue&) const = default;
+};
+
+struct LoadedGrammar {
+    std::string file;   // where it came from; what it includes lies beside it
+    std::string text;   // as it stands in the editor; it may have mistakes
+    std::string grows;  // the text that was compiled last and grows
+    std::string error;  // of `text`; empty: it grows
     EspGrammar id{};
 };
 
 struct Seed {
+    uint32_t key = 0;      // tells the seeds of an opened scene apart, from 1
     uint32_t grammar = 0;  // index into Scene::grammars
     std::array<float, 3> position{}, direction{0, 1, 0};
     uint32_t number = 1;
+    EspSeed planted{};
 };
 
-// A scene whose surface, grammars and layers are in a context. Seeds are planted by plantAll.
+constexpr float kOwnSun = -1;  // no hour: the scene's own light
+
+// A scene whose surfaces, grammars and layers are in a context. Seeds are planted by plantAll.
 struct Scene {
     std::string name;
-    EspSurface surface{};
+    std::vector<LoadedSurface> surfaces;
     std::vector<LoadedGrammar> grammars;
     std::vector<Seed> seeds;
     std::vector<std::string> layers;
     EspCamera camera{};
-    EspLook look{};
+    EspLook ownLook{};      // as the file says
+    EspLook look{};         // that, with the light of the hour
+    float hour = kOwnSun;   // of the day, 0 to 24; what the light is made from unless it is kOwnSun
+    std::string viewLayer;  // of look.view ESP_VIEW_LAYER; look.viewLayer is left alone
 };
 
-// Reads the file (docs/scene_format.md) or the bare surface, for which the default ivy is taken, fitted to the
-// model's size, with seeds around its foot and a camera that shows everything. False: `error` tells file, place
-// and cause, and the context may hold parts of the scene.
+// Reads the scene or project (docs/scene_format.md; of a project also its folder) or the bare surface, for which the
+// default ivy is taken, fitted to the model's size, with seeds around its foot and a camera that shows everything.
+// False: `error` tells file, place and cause, and the context may hold parts of the scene.
 bool openScene(EspContext* context, const Request& request, Scene& out, std::string& error);
 
 // Takes away all seeds and plants the scene's.
-bool plantAll(EspContext* context, const Scene& scene, std::string& error);
+bool plantAll(EspContext* context, Scene& scene, std::string& error);
 
-// Compiles the grammar's file anew; on failure the old one keeps growing.
-bool recompile(EspContext* context, const LoadedGrammar& grammar, std::string& error);
+// Gives the grammar another text. False: it has mistakes, told in grammar.error, and the last good one keeps growing.
+bool setText(EspContext* context, LoadedGrammar& grammar, const std::string& text);
+
+// Values that aren't the grammar's own.
+std::vector<ParamValue> changedParams(const EspContext* context, EspGrammar grammar);
+
+// The names of all layers that the grammars read, into scene.layers.
+void noteLayers(const EspContext* context, Scene& scene);
 
 // The folder with the content that is installed beside the running program.
 std::string contentFolder();
+
+// shaded, charts, normals, lod, layer. False: there is no such view.
+bool viewNamed(const std::string& name, EspView& out);
+const char* nameOf(EspView view);
 
 // The camera turned about its target and the vertical.
 EspCamera turned(const EspCamera& camera, float radians);

@@ -12,14 +12,19 @@
 namespace espalier::scene {
 namespace {
 
+constexpr float kRadians = 3.14159265f / 180;
+
 class Reader {
   public:
     Reader(std::string path, SceneFile& out) : path_(std::move(path)), out_(out) {}
     std::string errors;
 
     void readScene(const Json& json) {
-        if (!isObject(json, "a scene", {"surface", "grammars", "layers", "camera", "sun", "sky", "exposure"})) return;
-        if (const Json* surface = need(json, "surface")) out_.surface = file(*surface);
+        if (!readVersion(json)) return;
+        if (!isObject(json, "a scene",
+                      {"project", "surface", "surfaces", "grammars", "layers", "camera", "sun", "sky", "exposure"}))
+            return;
+        readSurfaces(json);
         if (const Json* grammars = need(json, "grammars")) {
             if (grammars->kind != Json::Kind::list || grammars->items.empty())
                 fail(*grammars, "'grammars' must be a list of at least one");
@@ -27,10 +32,13 @@ class Reader {
         }
         if (const Json* layers = json.find("layers")) {
             if (layers->kind != Json::Kind::object) fail(*layers, "'layers' must be an object");
-            for (const auto& [name, picture] : layers->members) out_.layers.push_back({name, file(picture)});
+            for (const auto& [name, picture] : layers->members) readLayer(name, picture);
         }
         if (const Json* camera = json.find("camera")) readCamera(*camera);
-        if (const Json* sun = json.find("sun"); sun && isObject(*sun, "'sun'", {"direction", "colour", "intensity"})) {
+        if (const Json* sun = json.find("sun");
+            sun && isObject(*sun, "'sun'", {"direction", "colour", "intensity", "hour", "shadows"})) {
+            number(*sun, "hour", 0, 24, out_.hour);
+            flag(*sun, "shadows", out_.shadows);
             vector(*sun, "direction", out_.sunDirection);
             vector(*sun, "colour", out_.sunColour);
             number(*sun, "intensity", 0, 1e4f, out_.sunIntensity);
@@ -46,6 +54,72 @@ class Reader {
     }
 
   private:
+    // False: nothing else of the file can be judged.
+    bool readVersion(const Json& json) {
+        const Json* version = json.find("project");
+        if (!version) return true;
+        if (version->kind != Json::Kind::number || version->number < 1 ||
+            version->number != std::floor(version->number) || version->number > 1e6) {
+            fail(*version, "'project' must be the version of the project's format, a whole number");
+            return false;
+        }
+        out_.project = int(version->number);
+        if (out_.project <= SceneFile::kProjectVersion) return true;
+        fail(*version, "this project was saved by a newer Espalier (format " + std::to_string(out_.project) +
+                           "); this one reads up to " + std::to_string(SceneFile::kProjectVersion));
+        return false;
+    }
+    void readSurfaces(const Json& json) {
+        const Json* one = json.find("surface");
+        const Json* many = json.find("surfaces");
+        if (one && many) fail(*one, "'surface' and 'surfaces' exclude each other");
+        if (one) out_.surfaces.push_back({file(*one), {}});
+        if (!one && !many) fail(json, "'surface' is missing");
+        if (!many) return;
+        if (many->kind != Json::Kind::list || many->items.empty())
+            fail(*many, "'surfaces' must be a list of at least one");
+        for (const Json& surface : many->items) {
+            if (!isObject(surface, "a surface", {"file", "position", "turn", "scale"})) continue;
+            SceneSurface& placed = out_.surfaces.emplace_back();
+            if (const Json* name = need(surface, "file")) placed.file = file(*name);
+            if (const Json* at = surface.find("position"); at && !threeNumbers(*at, placed.placing.position))
+                fail(*at, "'position' must be three numbers");
+            float degrees = 0;
+            number(surface, "turn", -360, 360, degrees);
+            placed.placing.turn = degrees * kRadians;
+            number(surface, "scale", 1e-4f, 1e4f, placed.placing.scale);
+        }
+    }
+    void readLayer(const std::string& name, const Json& json) {
+        if (json.kind != Json::Kind::list) return out_.layers.push_back({name, file(json), -1});
+        for (const Json& picture : json.items) {
+            if (!isObject(picture, "a layer's picture", {"surface", "file"})) continue;
+            float index = 0;
+            number(picture, "surface", 0, float(out_.surfaces.size()) - 1, index);
+            if (const Json* on = need(picture, "file")) out_.layers.push_back({name, file(*on), int(index)});
+        }
+    }
+    // A text is a list of its lines.
+    bool lines(const Json& json, const char* name, std::optional<std::string>& out) {
+        const Json* found = json.find(name);
+        if (!found) return false;
+        std::string text;
+        bool good = found->kind == Json::Kind::list;
+        for (const Json& line : found->items) {
+            good = good && line.kind == Json::Kind::text;
+            text += line.text + "\n";
+        }
+        if (!good) fail(*found, std::string("'") + name + "' must be a list of lines");
+        out = text;
+        return good;
+    }
+    void flag(const Json& json, const char* name, bool& out) {
+        const Json* found = json.find(name);
+        if (!found) return;
+        if (found->kind != Json::Kind::flag) fail(*found, std::string("'") + name + "' must be true or false");
+        out = found->flag;
+    }
+
     void fail(const Json& at, const std::string& message) { errors += place(at) + ": " + message + "\n"; }
     std::string place(const Json& at) const {
         return path_ + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
@@ -105,9 +179,11 @@ class Reader {
     }
 
     void readGrammar(const Json& json) {
-        if (!isObject(json, "a grammar", {"file", "params", "seeds"})) return;
+        if (!isObject(json, "a grammar", {"file", "text", "grows", "params", "seeds"})) return;
         SceneGrammar& grammar = out_.grammars.emplace_back();
         if (const Json* name = need(json, "file")) grammar.file = file(*name);
+        lines(json, "text", grammar.text);
+        if (lines(json, "grows", grammar.grows) && !grammar.text) fail(json, "'grows' needs a 'text'");
         if (const Json* params = json.find("params")) {
             if (params->kind != Json::Kind::object) fail(*params, "'params' must be an object");
             for (const auto& [name, value] : params->members) readParam(grammar, name, value);
@@ -118,13 +194,15 @@ class Reader {
         }
     }
     void readParam(SceneGrammar& grammar, const std::string& name, const Json& value) {
-        SceneParam param{name, {}, 1, place(value)};
+        SceneParam param;
+        param.value.name = name;
+        param.place = place(value);
         if (value.kind == Json::Kind::number)
-            param.value[0] = float(value.number);
+            param.value.value[0] = float(value.number);
         else if (value.kind == Json::Kind::flag)
-            param.value[0] = value.flag;
-        else if (threeNumbers(value, param.value))
-            param.count = 3;
+            param.value.value[0] = value.flag;
+        else if (threeNumbers(value, param.value.value))
+            param.value.count = 3;
         else
             return fail(value, "'" + name + "' must be a number, true, false or three numbers");
         grammar.params.push_back(param);
@@ -180,6 +258,7 @@ void SceneFile::applyLook(EspLook& look) const {
     set(look.background, background, 1);
     set(look.horizon, horizon, 1);
     look.exposure = exposure;
+    look.shadows = shadows;
 }
 
 bool readSceneFile(const std::string& path, SceneFile& out, std::string& error) {

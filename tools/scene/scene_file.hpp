@@ -11,34 +11,53 @@
 namespace espalier::scene {
 
 struct SceneParam {
-    std::string name;
-    std::array<float, 3> value{};
-    uint32_t count = 1;
+    ParamValue value;
     std::string place;  // "file:line:column", for messages
+};
+
+struct SceneSurface {
+    std::string file;
+    Placing placing;
 };
 
 struct SceneGrammar {
     std::string file;
+    std::optional<std::string> text;   // takes the place of the file's
+    std::optional<std::string> grows;  // what grows while `text` doesn't compile
     std::vector<SceneParam> params;
     std::vector<Seed> seeds;
 };
 
+// A picture for a layer: drawn in the model's UVs and laid on every surface, or in the walk's UVs of one of them.
+struct SceneLayer {
+    std::string name, file;
+    int surface = -1;  // index into SceneFile::surfaces; -1: all, in the model's UVs
+};
+
 // A scene file as it is written (docs/scene_format.md), with paths made relative to the caller's folder.
 struct SceneFile {
-    std::string surface;
+    static constexpr int kProjectVersion = 1;
+    int project = 0;  // version of a project file; 0: a scene that was written by hand
+    std::vector<SceneSurface> surfaces;
     std::vector<SceneGrammar> grammars;
-    std::vector<std::pair<std::string, std::string>> layers;
+    std::vector<SceneLayer> layers;
     bool hasCamera = false;
     std::array<float, 3> eye{}, target{};
     float fov = 0;  // degrees, 0: not said
 
     std::optional<std::array<float, 3>> sunDirection, sunColour, skyColour, groundColour, background, horizon;
     float sunIntensity = 1, exposure = 0;
+    float hour = kOwnSun;
+    bool shadows = true;
 
     void applyLook(EspLook& look) const;
 };
 
 // False: `error` holds a line "file:line:column: message" for every mistake found.
 bool readSceneFile(const std::string& path, SceneFile& out, std::string& error);
+
+// The text of a scene file that lies at `path`: names of files are written relative to its folder. Reading it gives
+// the same SceneFile again, but for places and the file names' spelling.
+std::string writeSceneText(const std::string& path, const SceneFile& file);
 
 }  // namespace espalier::scene

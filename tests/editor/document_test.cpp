@@ -1,0 +1,229 @@
+// Undo and redo, judged by the growth's fingerprint, which knows nothing of documents; projects, by opening them in
+// another context; and saves that are killed.
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <set>
+
+#include "tests/editor/editing.hpp"
+#include "tools/document/project.hpp"
+#include "tools/scene/scene_file.hpp"
+
+using namespace espalier::document;
+using espalier::scene::Scene;
+
+namespace {
+
+// Something that a user may do, by chance.
+Action randomEdit(std::mt19937& random, Editing& editing) {
+    const auto chance = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
+    const Scene& scene = editing.document->scene();
+    const auto anySeed = [&] { return editing.document->recordOf(scene.seeds[random() % scene.seeds.size()]); };
+    switch (scene.seeds.empty() ? 0 : random() % 6) {
+        case 0: {
+            // Numbers that come often, so that the order of planting counts.
+            const SeedRecord seed{editing.document->freshKey(),
+                                  0,
+                                  {chance(-3, 3), chance(0, 1), .4f},
+                                  {chance(-1, 1), 1, 0},
+                                  uint32_t(random() % 2)};
+            return AddSeeds{{seed}, {uint32_t(random() % (scene.seeds.size() + 1))}};
+        }
+        case 1:
+            return RemoveSeeds{{anySeed().key}};
+        case 2: {
+            SeedRecord seed = anySeed();
+            seed.position[0] = chance(-3, 3);
+            seed.number = random() % 2;
+            return ChangeSeeds{{seed}};
+        }
+        case 3:
+            return SetParam{0, {"reach", {chance(.3f, 1.5f)}}};
+        case 4:
+            return SetLight{chance(0, 24), chance(-1, 1), random() % 2 == 0};
+        default: {
+            std::string text = scene.grammars[0].text;
+            if (random() % 2)
+                text += "Broken -> }\n";
+            else
+                text += "// a comment\n";
+            SetText action = editing.document->withText(0, text);
+            action.params.push_back({"wander", {chance(0, .6f)}});
+            return action;
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("whatever is done is undone step by step, and done again, to the same growth") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    std::mt19937 random(7);
+    std::vector<uint64_t> hashes{editing.hash()};
+    std::vector<std::string> texts{editing.document->scene().grammars[0].text};
+    for (int i = 0; i < 16; ++i) {
+        REQUIRE_MESSAGE(editing.perform(randomEdit(random, editing)), editing.error);
+        hashes.push_back(editing.hash());
+        texts.push_back(editing.document->scene().grammars[0].text);
+    }
+    CHECK(std::set<uint64_t>(hashes.begin(), hashes.end()).size() > 7);
+    for (size_t i = hashes.size() - 1; i-- > 0;) {
+        REQUIRE_MESSAGE(editing.perform(Undo{}), editing.error);
+        CHECK_MESSAGE(editing.hash() == hashes[i], "after undoing step ", i);
+        CHECK(editing.document->scene().grammars[0].text == texts[i]);
+    }
+    CHECK(!editing.perform(Undo{}));
+    CHECK(contains(editing.error, "nothing to undo"));
+    for (size_t i = 1; i < hashes.size(); ++i) {
+        REQUIRE_MESSAGE(editing.perform(Redo{}), editing.error);
+        CHECK_MESSAGE(editing.hash() == hashes[i], "after doing again step ", i);
+    }
+    CHECK(!editing.perform(Redo{}));
+}
+
+TEST_CASE("a gesture is one step, and a new edit forgets what was undone") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    for (int i = 0; i < 5; ++i) CHECK(editing.perform(SetParam{0, {"reach", {1 + .1f * float(i)}}}, 1));
+    CHECK(editing.document->undoSteps() == 1);
+    for (int i = 0; i < 5; ++i) CHECK(editing.perform(SetParam{0, {"reach", {2}}}, 2));
+    CHECK(editing.document->undoSteps() == 2);
+    CHECK(editing.perform(Undo{}));
+    CHECK(editing.param(0, "reach") == doctest::Approx(1.4));
+    CHECK(editing.perform(Undo{}));
+    CHECK(editing.param(0, "reach") == 1);
+    CHECK(editing.perform(SetParam{0, {"twigs", {3}}}));
+    CHECK(editing.document->redoName() == nullptr);
+}
+
+TEST_CASE("what can't be done changes nothing") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const uint64_t before = editing.hash();
+    CHECK(!editing.perform(SetParam{0, {"no such parameter", {1}}}));
+    CHECK(!editing.perform(SetParam{9, {"reach", {1}}}));
+    CHECK(!editing.perform(RemoveSeeds{{77}}));
+    CHECK(!editing.perform(ChangeSeeds{{SeedRecord{77, 0, {}, {0, 1, 0}, 1}}}));
+    CHECK(!editing.perform(AddSeeds{{SeedRecord{1, 0, {}, {0, 1, 0}, 1}}, {0}}));  // a key that is taken
+    CHECK(!editing.perform(AddSeeds{{SeedRecord{9, 0, {NAN, 0, 0}, {0, 1, 0}, 1}}, {0}}));
+    CHECK(!editing.perform(AddSeeds{{SeedRecord{9, 0, {}, {0, 1, 0}, 1}}, {9}}));
+    CHECK(!editing.perform(SetLight{25, 0, true}));
+    CHECK(editing.document->undoSteps() == 0);
+    CHECK(editing.document->revision() == 0);
+    CHECK(editing.hash() == before);
+}
+
+TEST_CASE("a text with mistakes stands with its message while the last good one grows") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const uint64_t before = editing.hash();
+    const std::string good = editing.document->scene().grammars[0].text;
+    CHECK(editing.perform(editing.document->withText(0, good + "Ivy -> }\n")));
+    CHECK(contains(editing.document->scene().grammars[0].error, ".grammar:"));
+    CHECK(editing.hash() == before);
+    CHECK(editing.perform(Undo{}));
+    CHECK(editing.document->scene().grammars[0].error.empty());
+    CHECK(editing.hash() == before);
+}
+
+TEST_CASE("a project opens as it was saved, in another context and from another place") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    std::mt19937 random(11);
+    for (int i = 0; i < 12; ++i) REQUIRE_MESSAGE(editing.perform(randomEdit(random, editing)), editing.error);
+    const std::string good = editing.document->scene().grammars[0].grows;
+    REQUIRE(editing.perform(editing.document->withText(0, good + "Unfinished -> Marching(\n")));
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("garden"), editing.error), editing.error);
+
+    Editing again(folder.file("garden"));
+    CHECK(again.hash() == editing.hash());
+    const Scene &a = editing.document->scene(), &b = again.document->scene();
+    CHECK(a.hour == b.hour);
+    CHECK(a.look.exposure == b.look.exposure);
+    CHECK(a.look.shadows == b.look.shadows);
+    CHECK(a.grammars[0].text == b.grammars[0].text);
+    CHECK(contains(b.grammars[0].error, ".grammar:"));
+    REQUIRE(a.seeds.size() == b.seeds.size());
+    for (size_t i = 0; i < a.seeds.size(); ++i) {
+        CHECK(a.seeds[i].position == b.seeds[i].position);
+        CHECK(a.seeds[i].number == b.seeds[i].number);
+    }
+    for (int i = 0; i < 3; ++i) CHECK(a.camera.eye[i] == b.camera.eye[i]);
+
+    // Saving what was opened gives the same file.
+    REQUIRE(saveProject(*again.document, folder.file("garden2"), again.error));
+    CHECK(readAll(folder.file("garden2/project.json")) == readAll(folder.file("garden/project.json")));
+}
+
+TEST_CASE("a project of a newer program is refused by name, a mangled one with its place") {
+    const Folder folder;
+    folder.write("mangled.json", "{\"project\": 1,\n \"surfaces\": []}");
+    folder.write("newer.json", "{\"project\": 2,\n \"unheard\": 1}");
+    const std::string capture = program("espalier-capture") + " -o " + folder.file("out") + " ";
+    const Ran newer = run(capture + folder.file("newer.json"));
+    CHECK(newer.code > 0);
+    CHECK(contains(newer.output, "newer.json:1:"));
+    CHECK(contains(newer.output, "newer Espalier"));
+    CHECK(!contains(newer.output, "unheard"));
+    const Ran mangled = run(capture + folder.file("mangled.json"));
+    CHECK(mangled.code > 0);
+    CHECK(contains(mangled.output, "mangled.json:2:"));
+}
+
+TEST_CASE("an autosave is offered until the project is saved") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const std::string garden = folder.file("garden");
+    CHECK(recoverable(garden).empty());
+    REQUIRE(saveProject(*editing.document, garden, editing.error));
+    REQUIRE(editing.perform(SetParam{0, {"reach", {.5f}}}));
+    REQUIRE(autosave(*editing.document, garden, editing.error));
+    REQUIRE(!recoverable(garden).empty());
+    Editing old(garden), recovered(recoverable(garden));
+    CHECK(old.param(0, "reach") == 1);
+    CHECK(recovered.param(0, "reach") == .5f);
+    REQUIRE(saveProject(*editing.document, garden, editing.error));
+    CHECK(recoverable(garden).empty());
+}
+
+TEST_CASE("killed at any moment of a save, the project opens as it was or as it should be") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const std::string garden = folder.file("garden");
+    REQUIRE(saveProject(*editing.document, garden, editing.error));
+    std::mt19937 random(3);
+    std::set<std::string> seen;
+    int killed = 0;
+    for (int round = 0; round < 100; ++round) {
+        // The child has no threads of the driver and may only save: its document is a copy of ours.
+        const pid_t child = fork();
+        REQUIRE(child >= 0);
+        if (child == 0) {
+            for (float reach = .3f + .03f * float(round);; reach += .001f) {
+                std::string error;
+                if (!editing.document->perform(SetParam{0, {"reach", {reach}}}, error) ||
+                    !saveProject(*editing.document, garden, error))
+                    _exit(1);
+            }
+        }
+        usleep(useconds_t(random() % 30000));
+        kill(child, SIGKILL);
+        int status = 0;
+        waitpid(child, &status, 0);
+        killed += WIFSIGNALED(status);
+        espalier::scene::SceneFile file;
+        std::string error;
+        REQUIRE_MESSAGE(readSceneFile(garden + "/project.json", file, error), error);
+        seen.insert(readAll(garden + "/project.json"));
+    }
+    CHECK(killed == 100);
+    CHECK(seen.size() > 3);
+    Editing again(garden);
+    CHECK(again.document->scene().seeds.size() == 2);
+    // What an interrupted save left behind goes with the next.
+    REQUIRE(saveProject(*editing.document, garden, editing.error));
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(garden))
+        CHECK_MESSAGE(entry.path().filename().string()[0] != '.', entry.path().string());
+}

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace espalier::document {
+
+// What can be done to a document, each thing a plain record: the window performs them, undo is made of them, and a
+// recorded run is a list of them. Indices and keys are those of scene::Scene. kName is the word for it in a run.
+
+struct Param {
+    std::string name;
+    std::vector<float> value;  // one number, or three of a colour
+    template <class V>
+    void fields(V&& v) {
+        v("name", name), v("value", value);
+    }
+    bool operator==(const Param&) const = default;
+};
+struct SetParam {
+    static constexpr const char* kName = "param";
+    uint32_t grammar = 0;
+    Param param;
+    template <class V>
+    void fields(V&& v) {
+        v("grammar", grammar), v("param", param);
+    }
+};
+// The text of a grammar, and the parameters that aren't its own; all others are as the text says. (A text that lost a
+// parameter and gets it back would otherwise not know its value.)
+struct SetText {
+    static constexpr const char* kName = "text";
+    uint32_t grammar = 0;
+    std::string text;
+    std::vector<Param> params;
+    template <class V>
+    void fields(V&& v) {
+        v("grammar", grammar), v("text", text), v("params", params);
+    }
+};
+struct SeedRecord {
+    uint32_t key = 0;
+    uint32_t grammar = 0;
+    std::array<float, 3> position{}, direction{};
+    uint32_t number = 1;
+    template <class V>
+    void fields(V&& v) {
+        v("key", key), v("grammar", grammar), v("position", position), v("direction", direction), v("number", number);
+    }
+    bool operator==(const SeedRecord&) const = default;
+};
+// Seeds that come: at their places in the scene's list, since the order tells seeds of one number apart.
+struct AddSeeds {
+    static constexpr const char* kName = "plant";
+    std::vector<SeedRecord> seeds;
+    std::vector<uint32_t> places;  // rising; where each stands afterwards
+    template <class V>
+    void fields(V&& v) {
+        v("seeds", seeds), v("places", places);
+    }
+};
+struct RemoveSeeds {
+    static constexpr const char* kName = "remove_seeds";
+    std::vector<uint32_t> keys;
+    template <class V>
+    void fields(V&& v) {
+        v("keys", keys);
+    }
+};
+struct ChangeSeeds {
+    static constexpr const char* kName = "change_seeds";
+    std::vector<SeedRecord> seeds;  // told apart by key
+    template <class V>
+    void fields(V&& v) {
+        v("seeds", seeds);
+    }
+};
+struct SetLight {
+    static constexpr const char* kName = "light";
+    float hour = -1;  // 0 to 24, -1: the scene's own light
+    float exposure = 0;
+    bool shadows = true;
+    template <class V>
+    void fields(V&& v) {
+        v("hour", hour), v("exposure", exposure), v("shadows", shadows);
+    }
+};
+
+// Not undone, but part of a run:
+struct SetCamera {
+    static constexpr const char* kName = "camera";
+    std::array<float, 3> eye{}, target{};
+    float fov = .7f;  // radians
+    template <class V>
+    void fields(V&& v) {
+        v("eye", eye), v("target", target), v("fov", fov);
+    }
+};
+struct SetView {
+    static constexpr const char* kName = "view";
+    std::string view;   // shaded, charts, normals, lod or layer
+    std::string layer;  // of the view "layer"
+    template <class V>
+    void fields(V&& v) {
+        v("view", view), v("layer", layer);
+    }
+};
+struct Undo {
+    static constexpr const char* kName = "undo";
+    template <class V>
+    void fields(V&&) {}
+};
+struct Redo {
+    static constexpr const char* kName = "redo";
+    template <class V>
+    void fields(V&&) {}
+};
+
+using Action =
+    std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, SetCamera, SetView, Undo, Redo>;
+
+// One line of a run: {"frame": 3, "gesture": 2, "NAME": {fields}}; see run.hpp.
+struct RunLine {
+    uint32_t frame = 0;
+    uint32_t gesture = 0;
+    Action action;
+};
+std::string toJson(const RunLine& line);
+// False: `error` is "line:column: message".
+bool fromJson(const std::string& text, RunLine& out, std::string& error);
+
+}  // namespace espalier::document

@@ -1,0 +1,321 @@
+// Actions in, a changed scene and context out, with what takes each back. An action's inverse is made of actions
+// too, so undoing, redoing and replaying share all of the code below.
+#include "tools/document/document.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/scene/daylight.hpp"
+
+namespace espalier::document {
+namespace {
+
+using scene::Seed;
+
+constexpr size_t kMaxSteps = 10000;
+
+Seed seedOf(const SeedRecord& record) {
+    Seed seed;
+    seed.key = record.key;
+    seed.grammar = record.grammar;
+    seed.position = record.position;
+    seed.direction = record.direction;
+    seed.number = record.number;
+    return seed;
+}
+
+bool finite(const std::array<float, 3>& v) {
+    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+// Within one gesture only the first value counts for undo: what later actions set is overwritten anyway.
+bool overwrites(const Action& earlier, const Action& later) {
+    if (earlier.index() != later.index()) return false;
+    if (const auto* a = std::get_if<SetParam>(&earlier)) {
+        const auto& b = std::get<SetParam>(later);
+        return a->grammar == b.grammar && a->param.name == b.param.name;
+    }
+    if (const auto* a = std::get_if<SetText>(&earlier)) return a->grammar == std::get<SetText>(later).grammar;
+    if (const auto* a = std::get_if<ChangeSeeds>(&earlier)) {
+        const auto& b = std::get<ChangeSeeds>(later);
+        return std::equal(a->seeds.begin(), a->seeds.end(), b.seeds.begin(), b.seeds.end(),
+                          [](const SeedRecord& x, const SeedRecord& y) { return x.key == y.key; });
+    }
+    return std::holds_alternative<SetLight>(earlier);
+}
+
+}  // namespace
+
+Document::~Document() = default;
+
+bool Document::failed(EspResult result, std::string& error) const {
+    if (result == ESP_OK) return false;
+    error = espLastError(context_);
+    if (error.empty()) error = "error " + std::to_string(int(result));
+    return true;
+}
+
+bool Document::open(const scene::Request& request, std::string& error) {
+    if (!openScene(context_, request, scene_, error) || !plantAll(context_, scene_, error)) return false;
+    for (const Seed& seed : scene_.seeds) lastKey_ = std::max(lastKey_, seed.key);
+    return true;
+}
+
+const Seed* Document::seed(uint32_t key) const {
+    const size_t i = indexOf(key);
+    return i < scene_.seeds.size() ? &scene_.seeds[i] : nullptr;
+}
+
+size_t Document::indexOf(uint32_t key) const {
+    const auto found =
+        std::find_if(scene_.seeds.begin(), scene_.seeds.end(), [&](const Seed& seed) { return seed.key == key; });
+    return size_t(found - scene_.seeds.begin());
+}
+
+SeedRecord Document::recordOf(const Seed& seed) const {
+    return {seed.key, seed.grammar, seed.position, seed.direction, seed.number};
+}
+
+// ---- One step there, one back
+
+bool Document::perform(const Action& action, std::string& error, uint32_t gesture) {
+    std::vector<Action> back;
+    if (!carryOut(action, back, error)) return false;
+    if (isEdit(action)) remember(action, std::move(back), gesture);
+    if (isEdit(action) || std::holds_alternative<Undo>(action) || std::holds_alternative<Redo>(action)) ++revision_;
+    if (listener_) listener_(action, gesture);
+    return true;
+}
+
+bool Document::carryOut(const Action& action, std::vector<Action>& back, std::string& error) {
+    return std::visit([&](const auto& a) { return carryOut(a, back, error); }, action);
+}
+
+void Document::remember(const Action& action, std::vector<Action> back, uint32_t gesture) {
+    undone_.clear();
+    if (gesture && !done_.empty() && done_.back().gesture == gesture) {
+        Step& step = done_.back();
+        for (Action& inverse : back) {
+            const bool known = !step.back.empty() && overwrites(step.back.back(), inverse);
+            if (!known) step.back.push_back(std::move(inverse));
+        }
+        return;
+    }
+    done_.push_back({nameOf(action), gesture, std::move(back)});
+    if (done_.size() > kMaxSteps) done_.erase(done_.begin());
+}
+
+bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string& error) {
+    if (from.empty()) {
+        error = &from == &done_ ? "there is nothing to undo" : "there is nothing to redo";
+        return false;
+    }
+    Step step = std::move(from.back());
+    from.pop_back();
+    Step opposite{step.name, 0, {}};
+    for (auto action = step.back.rbegin(); action != step.back.rend(); ++action)
+        if (!carryOut(*action, opposite.back, error)) return false;
+    to.push_back(std::move(opposite));
+    return true;
+}
+
+const char* Document::undoName() const {
+    return done_.empty() ? nullptr : done_.back().name.c_str();
+}
+const char* Document::redoName() const {
+    return undone_.empty() ? nullptr : undone_.back().name.c_str();
+}
+
+// ---- Grammars
+
+std::vector<Param> Document::paramsOf(uint32_t grammar) const {
+    std::vector<Param> params;
+    for (const scene::ParamValue& value : scene::changedParams(context_, scene_.grammars[grammar].id))
+        params.push_back({value.name, {value.value.begin(), value.value.begin() + value.count}});
+    return params;
+}
+
+SetText Document::withText(uint32_t grammar, std::string text) const {
+    return {grammar, std::move(text), grammar < scene_.grammars.size() ? paramsOf(grammar) : std::vector<Param>{}};
+}
+
+bool Document::carryOut(const SetParam& action, std::vector<Action>& back, std::string& error) {
+    if (action.grammar >= scene_.grammars.size()) {
+        error = "there is no grammar " + std::to_string(action.grammar);
+        return false;
+    }
+    const EspGrammar grammar = scene_.grammars[action.grammar].id;
+    SetParam before{action.grammar, {action.param.name, {}}};
+    for (uint32_t i = 0; i < espParamCount(context_, grammar); ++i) {
+        EspParamInfo info;
+        if (espParamInfo(context_, grammar, i, &info) == ESP_OK && info.name == action.param.name)
+            before.param.value.assign(info.value, info.value + (info.kind == ESP_PARAM_COLOUR ? 3 : 1));
+    }
+    if (failed(espSetParam(context_, grammar, action.param.name.c_str(), action.param.value.data(),
+                           uint32_t(action.param.value.size())),
+               error))
+        return false;
+    back.push_back(before);
+    return true;
+}
+
+bool Document::carryOut(const SetText& action, std::vector<Action>& back, std::string& error) {
+    if (action.grammar >= scene_.grammars.size()) {
+        error = "there is no grammar " + std::to_string(action.grammar);
+        return false;
+    }
+    scene::LoadedGrammar& grammar = scene_.grammars[action.grammar];
+    back.push_back(SetText{action.grammar, grammar.text, paramsOf(action.grammar)});
+    if (setText(context_, grammar, action.text)) noteLayers(context_, scene_);
+    // While a text has mistakes the parameters are those of the last good one; those that are there get their values.
+    for (uint32_t i = 0; i < espParamCount(context_, grammar.id); ++i) {
+        EspParamInfo info;
+        if (espParamInfo(context_, grammar.id, i, &info) != ESP_OK) continue;
+        const auto own = std::find_if(action.params.begin(), action.params.end(),
+                                      [&](const Param& param) { return param.name == info.name; });
+        const uint32_t count = info.kind == ESP_PARAM_COLOUR ? 3 : 1;
+        if (own == action.params.end())
+            espSetParam(context_, grammar.id, info.name, info.initial, count);
+        else
+            espSetParam(context_, grammar.id, info.name, own->value.data(), uint32_t(own->value.size()));
+    }
+    return true;
+}
+
+// ---- Seeds. What grows has to be a function of the list alone, not of how it came to be: the plugin tells seeds of
+// one number apart by the order in which they were planted. So the list is planted anew.
+
+bool Document::carryOut(const AddSeeds& action, std::vector<Action>& back, std::string& error) {
+    const std::vector<Seed> before = scene_.seeds;
+    if (action.places.size() != action.seeds.size()) {
+        error = "each seed needs a place in the list";
+        return false;
+    }
+    RemoveSeeds remove;
+    for (size_t i = 0; i < action.seeds.size(); ++i) {
+        const SeedRecord& record = action.seeds[i];
+        if (record.key == 0 || seed(record.key) || record.grammar >= scene_.grammars.size() ||
+            !finite(record.position) || !finite(record.direction) || action.places[i] > scene_.seeds.size()) {
+            error = "a seed that can't be planted: key " + std::to_string(record.key);
+            scene_.seeds = before;
+            return false;
+        }
+        scene_.seeds.insert(scene_.seeds.begin() + action.places[i], seedOf(record));
+        remove.keys.push_back(record.key);
+        lastKey_ = std::max(lastKey_, record.key);
+    }
+    if (!replant(before, error)) return false;
+    back.push_back(std::move(remove));
+    return true;
+}
+
+bool Document::carryOut(const RemoveSeeds& action, std::vector<Action>& back, std::string& error) {
+    const std::vector<Seed> before = scene_.seeds;
+    AddSeeds add;
+    for (size_t i = 0; i < before.size(); ++i)
+        if (std::find(action.keys.begin(), action.keys.end(), before[i].key) != action.keys.end()) {
+            add.seeds.push_back(recordOf(before[i]));
+            add.places.push_back(uint32_t(i));
+        }
+    if (add.seeds.size() != action.keys.size()) {
+        error = "there is no such seed";
+        return false;
+    }
+    std::erase_if(scene_.seeds, [&](const Seed& seed) {
+        return std::find(action.keys.begin(), action.keys.end(), seed.key) != action.keys.end();
+    });
+    if (!replant(before, error)) return false;
+    back.push_back(std::move(add));
+    return true;
+}
+
+bool Document::carryOut(const ChangeSeeds& action, std::vector<Action>& back, std::string& error) {
+    const std::vector<Seed> before = scene_.seeds;
+    ChangeSeeds inverse;
+    for (const SeedRecord& record : action.seeds) {
+        const size_t i = indexOf(record.key);
+        if (i == before.size() || record.grammar >= scene_.grammars.size() || !finite(record.position) ||
+            !finite(record.direction)) {
+            error = "a seed that can't be changed: key " + std::to_string(record.key);
+            scene_.seeds = before;
+            return false;
+        }
+        inverse.seeds.push_back(recordOf(before[i]));
+        scene_.seeds[i] = seedOf(record);
+    }
+    if (!replant(before, error)) return false;
+    back.push_back(std::move(inverse));
+    return true;
+}
+
+bool Document::replant(const std::vector<Seed>& before, std::string& error) {
+    if (plantAll(context_, scene_, error)) return true;
+    scene_.seeds = before;
+    std::string ignored;
+    plantAll(context_, scene_, ignored);
+    return false;
+}
+
+// ---- Light and camera
+
+bool Document::carryOut(const SetLight& action, std::vector<Action>& back, std::string& error) {
+    if (action.hour != scene::kOwnSun && !(action.hour >= 0 && action.hour <= 24)) {
+        error = "an hour is 0 to 24, or -1 for the scene's own light";
+        return false;
+    }
+    const EspLook view = scene_.look;
+    back.push_back(SetLight{scene_.hour, view.exposure, view.shadows != 0});
+    scene_.hour = action.hour;
+    scene_.look = scene_.ownLook;
+    if (action.hour != scene::kOwnSun) scene::applyDaylight(action.hour, scene_.look);
+    scene_.look.exposure = action.exposure;
+    scene_.look.shadows = action.shadows;
+    scene_.look.view = view.view;
+    return true;
+}
+
+bool Document::carryOut(const SetCamera& action, std::vector<Action>&, std::string& error) {
+    if (!finite(action.eye) || !finite(action.target) || action.eye == action.target ||
+        !(action.fov > .01f && action.fov < 3.1f)) {
+        error = "a camera that sees nothing";
+        return false;
+    }
+    std::copy(action.eye.begin(), action.eye.end(), scene_.camera.eye);
+    std::copy(action.target.begin(), action.target.end(), scene_.camera.target);
+    scene_.camera.fovY = action.fov;
+    return true;
+}
+
+bool Document::carryOut(const SetView& action, std::vector<Action>&, std::string& error) {
+    if (scene::viewNamed(action.view, scene_.look.view)) {
+        scene_.viewLayer = action.layer;
+        return true;
+    }
+    error = "there is no view '" + action.view + "'";
+    return false;
+}
+
+// ---- What actions are
+
+const char* nameOf(const Action& action) {
+    struct Names {
+        const char* operator()(const SetParam&) const { return "Change a parameter"; }
+        const char* operator()(const SetText&) const { return "Edit the grammar"; }
+        const char* operator()(const AddSeeds&) const { return "Plant"; }
+        const char* operator()(const RemoveSeeds&) const { return "Remove seeds"; }
+        const char* operator()(const ChangeSeeds&) const { return "Change seeds"; }
+        const char* operator()(const SetLight&) const { return "Change the light"; }
+        const char* operator()(const SetCamera&) const { return "Move the camera"; }
+        const char* operator()(const SetView&) const { return "Change the view"; }
+        const char* operator()(const Undo&) const { return "Undo"; }
+        const char* operator()(const Redo&) const { return "Redo"; }
+    };
+    return std::visit(Names{}, action);
+}
+
+bool isEdit(const Action& action) {
+    return !std::holds_alternative<SetCamera>(action) && !std::holds_alternative<SetView>(action) &&
+           !std::holds_alternative<Undo>(action) && !std::holds_alternative<Redo>(action);
+}
+
+}  // namespace espalier::document

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tools/document/action.hpp"
+#include "tools/scene/scene.hpp"
+
+namespace espalier::document {
+
+// A scene that is being edited: everything that changes it is an action, and every action but those of the camera can
+// be undone. One thread; the context outlives the document, and nobody else edits what it holds.
+class Document {
+  public:
+    explicit Document(EspContext* context) : context_(context) {}
+    ~Document();
+    Document(const Document&) = delete;
+
+    // See scene::openScene; seeds are planted. Once a document.
+    bool open(const scene::Request& request, std::string& error);
+
+    // Does it now. Actions of one gesture (not 0), such as those of a dragged slider, become one step of undo.
+    // False: `error` tells why, and the document is as it was. A text with mistakes is taken, and its grammar's
+    // `error` tells them.
+    bool perform(const Action& action, std::string& error, uint32_t gesture = 0);
+
+    // What the next undo and redo would take back or do again, in a few words; null: there is nothing.
+    const char* undoName() const;
+    const char* redoName() const;
+    size_t undoSteps() const { return done_.size(); }
+
+    // Rises with every action that changes what a project holds; undoing one is a change too.
+    uint64_t revision() const { return revision_; }
+
+    // Called with every action that was asked for and done, after it.
+    using Listener = std::function<void(const Action&, uint32_t gesture)>;
+    void listen(Listener listener) { listener_ = std::move(listener); }
+
+    const scene::Scene& scene() const { return scene_; }
+    EspContext* context() const { return context_; }
+    const scene::Seed* seed(uint32_t key) const;
+    // A key that no seed of this document has or had.
+    uint32_t freshKey() { return ++lastKey_; }
+    SeedRecord recordOf(const scene::Seed& seed) const;
+    // Another text for a grammar, whose parameters keep their values.
+    SetText withText(uint32_t grammar, std::string text) const;
+
+  private:
+    struct Step {
+        std::string name;
+        uint32_t gesture = 0;
+        std::vector<Action> back;  // performed from the last to the first, they take the step back
+    };
+    // Does an action and tells what takes it back.
+    bool carryOut(const Action& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetParam& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetText& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const AddSeeds& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const RemoveSeeds& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const ChangeSeeds& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetLight& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetCamera& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetView& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const Undo&, std::vector<Action>&, std::string& error) { return move(done_, undone_, error); }
+    bool carryOut(const Redo&, std::vector<Action>&, std::string& error) { return move(undone_, done_, error); }
+
+    bool move(std::vector<Step>& from, std::vector<Step>& to, std::string& error);
+    void remember(const Action& action, std::vector<Action> back, uint32_t gesture);
+    bool failed(EspResult result, std::string& error) const;
+    std::vector<Param> paramsOf(uint32_t grammar) const;
+    bool replant(const std::vector<scene::Seed>& before, std::string& error);
+    size_t indexOf(uint32_t key) const;
+
+    EspContext* context_;
+    scene::Scene scene_;
+    std::vector<Step> done_, undone_;
+    uint64_t revision_ = 0;
+    uint32_t lastKey_ = 0;
+    Listener listener_;
+};
+
+// The words for an action in menus, such as "Plant seeds".
+const char* nameOf(const Action& action);
+// Whether undo takes it back, and a project holds what it changes.
+bool isEdit(const Action& action);
+
+}  // namespace espalier::document

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tools/scene/json_out.hpp"
+#include "tools/scene/json_tree.hpp"
+
+namespace espalier::document {
+
+// A record that is kept as JSON names its fields once, in a member
+//     template <class V> void fields(V&& v) { v("radius", radius); ... }
+// which FieldWriter and FieldReader visit.
+class FieldWriter {
+  public:
+    explicit FieldWriter(nlohmann::ordered_json& out) : out_(out) {}
+
+    template <class T>
+    void operator()(const char* name, T& value) {
+        out_[name] = json(value);
+    }
+
+  private:
+    using Out = nlohmann::ordered_json;
+    static Out json(bool value) { return value; }
+    static Out json(uint32_t value) { return value; }
+    static Out json(const std::string& value) { return value; }
+    static Out json(float value) { return scene::shortest(value); }
+    template <size_t N>
+    static Out json(const std::array<float, N>& value) {
+        return scene::shortestList(value);
+    }
+    template <class T>
+    static Out json(std::vector<T>& values) {
+        Out list = Out::array();
+        for (T& value : values) list.push_back(json(value));
+        return list;
+    }
+    template <class T>
+    requires requires(T t, FieldWriter w) { t.fields(w); }
+    static Out json(T& record) {
+        Out object = Out::object();
+        record.fields(FieldWriter(object));
+        return object;
+    }
+
+    Out& out_;
+};
+
+// Every field must be there and of its kind; what else stands in the object is an error too. error(): "line:column:
+// message" of the first mistake, empty if there is none.
+class FieldReader {
+  public:
+    explicit FieldReader(const scene::Json& from, std::string& error) : from_(from), error_(error) {}
+
+    template <class T>
+    void operator()(const char* name, T& value) {
+        ++known_;
+        const scene::Json* json = from_.find(name);
+        if (!json) return fail(from_, std::string("'") + name + "' is missing");
+        if (!read(*json, value)) fail(*json, std::string("'") + name + "' isn't what it should be");
+    }
+    // After all fields.
+    void end() {
+        if (known_ < from_.members.size()) fail(from_, "there is a key too much");
+    }
+
+  private:
+    using Kind = scene::Json::Kind;
+    static bool read(const scene::Json& json, bool& value) {
+        value = json.flag;
+        return json.kind == Kind::flag;
+    }
+    static bool read(const scene::Json& json, uint32_t& value) {
+        if (json.kind != Kind::number || json.number < 0 || json.number > 4294967295.0 ||
+            json.number != std::floor(json.number))
+            return false;
+        value = uint32_t(json.number);
+        return true;
+    }
+    static bool read(const scene::Json& json, float& value) {
+        if (json.kind != Kind::number || !std::isfinite(float(json.number))) return false;
+        value = float(json.number);
+        return true;
+    }
+    static bool read(const scene::Json& json, std::string& value) {
+        value = json.text;
+        return json.kind == Kind::text;
+    }
+    template <size_t N>
+    static bool read(const scene::Json& json, std::array<float, N>& value) {
+        if (json.kind != Kind::list || json.items.size() != N) return false;
+        for (size_t i = 0; i < N; ++i)
+            if (!read(json.items[i], value[i])) return false;
+        return true;
+    }
+    template <class T>
+    bool read(const scene::Json& json, std::vector<T>& values) {
+        if (json.kind != Kind::list) return false;
+        values.resize(json.items.size());
+        for (size_t i = 0; i < values.size(); ++i)
+            if (!read(json.items[i], values[i])) return false;
+        return true;
+    }
+    template <class T>
+    requires requires(T t, FieldWriter w) { t.fields(w); }
+    bool read(const scene::Json& json, T& record) {
+        if (json.kind != Kind::object) return false;
+        FieldReader inner(json, error_);
+        record.fields(inner);
+        inner.end();
+        return error_.empty();
+    }
+    void fail(const scene::Json& at, const std::string& message) {
+        if (error_.empty()) error_ = std::to_string(at.line) + ":" + std::to_string(at.column) + ": " + message;
+    }
+
+    const scene::Json& from_;
+    std::string& error_;
+    size_t known_ = 0;
+};
+
+}  // namespace espalier::document

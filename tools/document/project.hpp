@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "tools/document/document.hpp"
+
+namespace espalier::document {
+
+// A project is a folder: project.json (docs/scene_format.md), which scene::openScene opens, and the pictures of its
+// layers. Saving writes new files beside the old ones and then project.json in one step, so that whenever the program
+// is stopped, the project opens as it was before or as it is after. Files that no project.json names any more are
+// removed afterwards.
+
+// False: `error` tells file and cause, and the project is as it was.
+bool saveProject(const Document& document, const std::string& folder, std::string& error);
+
+// The same into autosave.json of the folder, which leaves project.json alone; saveProject removes it.
+bool autosave(const Document& document, const std::string& folder, std::string& error);
+// The autosave of a folder that is younger than its project, empty if there is none: a program has ended without
+// saving. It is opened as any scene file.
+std::string recoverable(const std::string& folder);
+void dropAutosave(const std::string& folder);
+
+}  // namespace espalier::document

@@ -1,0 +1,111 @@
+// Runs in and out of their files.
+#include "tools/document/run.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "tools/document/fields.hpp"
+#include "tools/scene/picture.hpp"
+
+namespace espalier::document {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint32_t kVersion = 1;
+constexpr uint32_t kMaxFrames = 1000000;
+
+std::string checkHead(const RunHead& head) {
+    if (head.version > kVersion)
+        return "1:1: this run was recorded by a newer Espalier (format " + std::to_string(head.version) +
+               "); this one reads up to " + std::to_string(kVersion);
+    if (head.width < 1 || head.height < 1 || head.width > 16384 || head.height > 16384)
+        return "1:1: frames of " + std::to_string(head.width) + " x " + std::to_string(head.height) + " pixels";
+    if (!(head.step > 0 && head.step <= 10)) return "1:1: 'step' must be above 0 and at most 10 seconds";
+    return {};
+}
+
+bool readHead(const std::string& text, RunHead& head, std::string& error) {
+    scene::Json json;
+    if (!scene::readJson(text, json, error)) return false;
+    if (!json.find("espalier_run")) {
+        error = "1:1: this isn't a recorded run: its first line has no 'espalier_run'";
+        return false;
+    }
+    FieldReader reader(json, error);
+    head.fields(reader);
+    reader.end();
+    if (error.empty()) error = checkHead(head);
+    return error.empty();
+}
+
+}  // namespace
+
+bool readRun(const std::string& path, Run& out, std::string& error) {
+    out = Run{};
+    std::string text;
+    if (!scene::readText(path, text, error)) return false;
+    size_t number = 0;
+    for (size_t begin = 0; begin < text.size(); ++number) {
+        const size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string line = text.substr(begin, end - begin);
+        begin = end + 1;
+        // A line is a text of its own to the reader; what it says of line 1 is said of this one.
+        const auto fail = [&](const std::string& message) {
+            const size_t colon = message.find(':');
+            error = path + ":" + std::to_string(number + 1) + message.substr(colon == std::string::npos ? 0 : colon);
+            return false;
+        };
+        std::string mistake;
+        if (number == 0) {
+            if (!readHead(line, out.head, mistake)) return fail(mistake);
+            continue;
+        }
+        if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+        RunLine& entry = out.lines.emplace_back();
+        if (!fromJson(line, entry, mistake)) return fail(mistake);
+        if (out.lines.size() > 1 && entry.frame < out.lines[out.lines.size() - 2].frame)
+            return fail("1:1: frame " + std::to_string(entry.frame) + " comes after a later one");
+        if (entry.frame > kMaxFrames) return fail("1:1: more than a million frames");
+    }
+    if (number == 0) {
+        error = path + ": the file is empty";
+        return false;
+    }
+    if (!fs::path(out.head.scene).is_absolute())
+        out.head.scene = (fs::path(path).parent_path() / out.head.scene).lexically_normal().string();
+    return true;
+}
+
+bool Recorder::begin(const std::string& path, RunHead head, std::string& error) {
+    errno = 0;
+    file_.reset(std::fopen(path.c_str(), "w"));
+    if (!file_) {
+        error = path + ": can't be written: " + std::strerror(errno);
+        return false;
+    }
+    const fs::path folder = fs::absolute(path).parent_path().lexically_normal();
+    const fs::path near = fs::absolute(head.scene).lexically_normal().lexically_relative(folder);
+    if (!near.empty()) head.scene = near.string();
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    head.fields(FieldWriter(json));
+    frame_ = 0;
+    std::fprintf(file_.get(), "%s\n", json.dump().c_str());
+    std::fflush(file_.get());
+    return true;
+}
+
+void Recorder::note(const Action& action, uint32_t gesture) {
+    if (!file_) return;
+    if (std::holds_alternative<SetCamera>(action)) camera_ = action;
+    std::fprintf(file_.get(), "%s\n", toJson(RunLine{frame_, gesture, action}).c_str());
+    std::fflush(file_.get());
+}
+
+void Recorder::end() {
+    if (file_ && std::holds_alternative<SetCamera>(camera_)) note(Action(camera_), 0);
+    file_.reset();
+}
+
+}  // namespace espalier::document

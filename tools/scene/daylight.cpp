@@ -1,0 +1,52 @@
+// Hour -> light. Colours of a clear day by the sun's height, blended between a few looks that were chosen by eye.
+#include "tools/scene/daylight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace espalier::scene {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+
+struct Light {
+    float height;  // sine of the sun's height
+    float sun[3], sky[3], ground[3], background[3], horizon[3];
+};
+
+constexpr Light kLights[] = {
+    {-.25f, {.10f, .13f, .22f}, {.035f, .05f, .10f}, {.015f, .017f, .02f}, {.008f, .014f, .04f}, {.02f, .03f, .07f}},
+    {-.05f, {.14f, .13f, .20f}, {.09f, .11f, .19f}, {.03f, .03f, .035f}, {.05f, .08f, .19f}, {.42f, .24f, .20f}},
+    {.08f, {1.9f, .85f, .34f}, {.22f, .26f, .40f}, {.09f, .07f, .06f}, {.17f, .26f, .48f}, {.86f, .50f, .28f}},
+    {.35f, {2.9f, 2.3f, 1.65f}, {.36f, .45f, .62f}, {.14f, .12f, .09f}, {.30f, .44f, .66f}, {.78f, .76f, .72f}},
+    {1.f, {3.2f, 2.98f, 2.62f}, {.42f, .52f, .68f}, {.16f, .14f, .11f}, {.30f, .47f, .72f}, {.74f, .80f, .86f}},
+};
+
+}  // namespace
+
+void applyDaylight(float hour, EspLook& look) {
+    constexpr float kLatitude = .95f;  // radians off the zenith that noon's sun keeps
+    const float angle = (hour - 12) / 12 * kPi;
+    const float up = std::cos(angle) * std::sin(kLatitude), south = std::cos(angle) * std::cos(kLatitude);
+    const float direction[3] = {-std::sin(angle), up, south};
+    const size_t last = std::size(kLights) - 1;
+    size_t i = 0;
+    while (i + 1 < last && up > kLights[i + 1].height) ++i;
+    const Light &a = kLights[i], &b = kLights[i + 1];
+    const float t = std::clamp((up - a.height) / (b.height - a.height), 0.f, 1.f);
+    const auto blend = [&](float* to, const float* from, const float* next) {
+        for (int c = 0; c < 3; ++c) to[c] = from[c] + t * (next[c] - from[c]);
+    };
+    blend(look.sunColour, a.sun, b.sun);
+    blend(look.skyColour, a.sky, b.sky);
+    blend(look.groundColour, a.ground, b.ground);
+    blend(look.background, a.background, b.background);
+    blend(look.horizon, a.horizon, b.horizon);
+    // By night the light comes from the moon, where the sun stood half a day before; it never lights from below.
+    const float side = up < -.05f ? -1 : 1;
+    for (int c = 0; c < 3; ++c) look.sunDirection[c] = side * direction[c];
+    look.sunDirection[1] = std::max(look.sunDirection[1], .04f);
+}
+
+}  // namespace espalier::scene

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <charconv>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+namespace espalier::scene {
+
+// A float as the shortest decimal that reads as the same float: 0.1, not 0.10000000149011612.
+inline nlohmann::ordered_json shortest(float value) {
+    if (value > -1e6f && value < 1e6f && value == float(int(value))) return int(value);
+    char text[32];
+    *std::to_chars(text, text + 31, value).ptr = 0;
+    return std::strtod(text, nullptr);
+}
+
+template <class Floats>
+nlohmann::ordered_json shortestList(const Floats& values) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (float value : values) list.push_back(shortest(value));
+    return list;
+}
+
+}  // namespace espalier::scene

@@ -1,0 +1,93 @@
+// SceneFile -> JSON, the inverse of scene_file.cpp.
+#include <filesystem>
+
+#include "tools/scene/json_out.hpp"
+#include "tools/scene/scene_file.hpp"
+
+namespace espalier::scene {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr float kDegrees = 180 / 3.14159265f;
+
+ordered_json linesOf(const std::string& text) {
+    ordered_json lines = ordered_json::array();
+    for (size_t begin = 0; begin < text.size();) {
+        const size_t end = std::min(text.find('\n', begin), text.size());
+        lines.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return lines;
+}
+
+ordered_json surfaceJson(const SceneSurface& surface, const std::string& file) {
+    ordered_json json{{"file", file}};
+    const Placing& p = surface.placing;
+    if (p.position != std::array<float, 3>{}) json["position"] = shortestList(p.position);
+    if (p.turn != 0) json["turn"] = shortest(p.turn * kDegrees);
+    if (p.scale != 1) json["scale"] = shortest(p.scale);
+    return json;
+}
+
+ordered_json grammarJson(const SceneGrammar& grammar, const std::string& file) {
+    ordered_json json{{"file", file}};
+    if (grammar.text) json["text"] = linesOf(*grammar.text);
+    if (grammar.grows) json["grows"] = linesOf(*grammar.grows);
+    ordered_json& params = json["params"] = ordered_json::object();
+    for (const SceneParam& param : grammar.params)
+        params[param.value.name] =
+            param.value.count == 3 ? shortestList(param.value.value) : shortest(param.value.value[0]);
+    ordered_json& seeds = json["seeds"] = ordered_json::array();
+    for (const Seed& seed : grammar.seeds)
+        seeds.push_back({{"position", shortestList(seed.position)},
+                         {"direction", shortestList(seed.direction)},
+                         {"seed", seed.number}});
+    return json;
+}
+
+}  // namespace
+
+std::string writeSceneText(const std::string& path, const SceneFile& file) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::absolute(path).parent_path();
+    const auto beside = [&](const std::string& name) {
+        const fs::path near = fs::absolute(name).lexically_normal().lexically_relative(folder.lexically_normal());
+        return near.empty() ? fs::absolute(name).string() : near.string();
+    };
+    ordered_json json;
+    if (file.project) json["project"] = file.project;
+    for (const SceneSurface& surface : file.surfaces)
+        json["surfaces"].push_back(surfaceJson(surface, beside(surface.file)));
+    json["grammars"] = ordered_json::array();
+    for (const SceneGrammar& grammar : file.grammars)
+        json["grammars"].push_back(grammarJson(grammar, beside(grammar.file)));
+    for (const SceneLayer& layer : file.layers) {
+        if (layer.surface < 0)
+            json["layers"][layer.name] = beside(layer.file);
+        else
+            json["layers"][layer.name].push_back({{"surface", layer.surface}, {"file", beside(layer.file)}});
+    }
+    if (file.hasCamera)
+        json["camera"] = {
+            {"eye", shortestList(file.eye)}, {"target", shortestList(file.target)}, {"fov", shortest(file.fov)}};
+    const auto vector = [](ordered_json& to, const char* name, const std::optional<std::array<float, 3>>& value) {
+        if (value) to[name] = shortestList(*value);
+    };
+    ordered_json sun = ordered_json::object(), sky = ordered_json::object();
+    vector(sun, "direction", file.sunDirection);
+    vector(sun, "colour", file.sunColour);
+    if (file.sunIntensity != 1) sun["intensity"] = shortest(file.sunIntensity);
+    if (file.hour != kOwnSun) sun["hour"] = shortest(file.hour);
+    if (!file.shadows) sun["shadows"] = false;
+    vector(sky, "colour", file.skyColour);
+    vector(sky, "ground", file.groundColour);
+    vector(sky, "background", file.background);
+    vector(sky, "horizon", file.horizon);
+    if (!sun.empty()) json["sun"] = sun;
+    if (!sky.empty()) json["sky"] = sky;
+    if (file.exposure != 0) json["exposure"] = shortest(file.exposure);
+    return json.dump(1) + "\n";
+}
+
+}  // namespace espalier::scene
