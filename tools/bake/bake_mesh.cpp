@@ -9,6 +9,7 @@ namespace espalier::bakery {
 namespace {
 
 constexpr double kWeldRadius = 1e-6;  // of the bounding radius
+constexpr double kFinShare = 5e-5;    // of the area: fins smaller than that are left out
 constexpr size_t kMaxTriangles = size_t(1) << 26;
 
 // A hash table from 64-bit keys to small numbers, open addressing.
@@ -217,8 +218,11 @@ Result<BakeMesh> buildMesh(const Model& model, std::vector<Diagnostic>& warnings
     std::vector<uint32_t> point = weld(model, kWeldRadius * mesh.radius, mesh.points);
     size_t degenerate = collectTriangles(model, point, mesh);
     if (mesh.triangles.empty()) return Failure(model.name, "no triangle can be baked: all lack area");
-    size_t nonManifold = 0, unlike = 0;
+    size_t copies = dropCopies(mesh, kFinShare * mesh.area), nonManifold = 0, unlike = 0;
     pairEdges(mesh, nonManifold, unlike);
+    if (copies > 0)
+        warn(warnings, model,
+             std::to_string(copies) + " triangles that others cover exactly, or of small fins, left out");
     if (degenerate > 0) warn(warnings, model, std::to_string(degenerate) + " triangles without area left out");
     if (nonManifold > 0)
         warn(warnings, model, std::to_string(nonManifold) + " edges with more than two triangles: paired by direction");

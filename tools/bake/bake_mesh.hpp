@@ -39,8 +39,9 @@ struct BakeMesh {
     std::vector<glm::vec3> normals;       // per corner: the shading normal
     std::vector<float> curvature;         // per point, 1/m, positive on bulges
     glm::dvec3 boundsMin{0}, boundsMax{0};
-    double radius = 0;  // half the diagonal of the bounds
-    double area = 0;    // of the model, what is left out included
+    bool metric = false;  // UVs are in metres and charts lie anywhere: layOut has to place them
+    double radius = 0;    // half the diagonal of the bounds
+    double area = 0;      // of the model, what is left out included
 
     uint32_t chartCount() const { return uint32_t(orientation.size()); }
     uint32_t chartOf(uint32_t halfEdge) const { return triangles[halfEdge / 3].chart; }
@@ -61,21 +62,27 @@ double area3(const BakeMesh& mesh, const Triangle& t);
 // Refuses models without area or with NaN.
 Result<BakeMesh> buildMesh(const Model& model, std::vector<Diagnostic>& warnings);
 
+// Drops triangles that others cover exactly, and fins smaller than finArea (m²), before edges are paired; returns how
+// many.
+size_t dropCopies(BakeMesh& mesh, double finArea);
+
 // Cuts the mesh into charts and gives every corner its UV: sorts triangles by chart (twins follow), fills in joined,
 // orientation and firstTriangle. Charts may still lie over each other: layOut places them.
-Status makeAtlas(const Model& model, BakeMesh& mesh, std::vector<Diagnostic>& warnings);
+// resolution: of the finest level, in which charts should be wide enough for their gutters.
+Status makeAtlas(const Model& model, BakeMesh& mesh, uint32_t resolution, BakeReport& report);
 
 // Puts shading normals and mean curvature on the mesh.
 void addNormalsAndCurvature(const Model& model, BakeMesh& mesh);
 
-// Moves the UVs into [0,1]² as a whole, refuses overlaps, moves charts apart where their gutters are too narrow.
+// Keeps the charts where they are, moved into [0,1]² as a whole, if none lies over another and their gutters are wide
+// enough; else places each anew, at one density. Refuses models whose charts don't fit.
 // coarsest[chart]: the coarsest level that its place allows for; later rasterising may lower it.
 struct LayoutOptions {
     uint32_t resolution, levels;
     bool keep;
 };
 Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, const LayoutOptions& options,
-                                     std::vector<Diagnostic>& warnings);
+                                     BakeReport& report);
 
 // Places charts as masks on a grid so that their bands don't meet. levelOf(scale) is decided within.
 // Returns per chart the offset, and the one scale: uv' = uv * scale + offset; scale 0: nothing fits.

@@ -1,21 +1,17 @@
-// In: charts where the model's UVs put them. Out: charts in [0,1]², none over another, far enough apart for the
-// band of texels around them; refusal with figures where the UVs can't serve.
+// In: charts where the model's UVs put them, or anywhere. Out: charts in [0,1]², none over another, far enough apart
+// for the band of texels around them.
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/jobs.hpp"
 #include "tools/bake/bake_mesh.hpp"
 
 namespace espalier::bakery {
 namespace {
 
-constexpr double kOverlapRefused = 0.005;  // of the covered texels
-constexpr double kWalkableShare = 0.9;     // of the area: kept layouts let so much be walked at the coarsest level
-
-std::string percent(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g %%", share * 100);
-    return text;
-}
+constexpr double kGuessedFill = 0.6;    // of the square: what charts may cover when there were no bands
+constexpr int kTurns = 45;              // angles tried to lay a chart into the smallest box
+constexpr double kWalkableShare = 0.9;  // of the area: kept layouts let so much be walked at the coarsest level
 
 void transform(BakeMesh& mesh, double scale, glm::dvec2 offset) {
     for (Triangle& t : mesh.triangles)
@@ -60,29 +56,77 @@ double walkableShare(const BakeMesh& mesh, const std::vector<uint32_t>& borders,
     return good / all;
 }
 
+// The angle by which the chart's box gets smallest, as (cosine, sine).
+glm::dvec2 smallestBox(const std::vector<glm::dvec2>& border) {
+    glm::dvec2 best(1, 0);
+    double least = 1e300;
+    for (int i = 0; i < kTurns; ++i) {
+        double angle = i * (1.5707963267948966 / kTurns);
+        glm::dvec2 turn(std::cos(angle), std::sin(angle)), low(1e300), high(-1e300);
+        for (glm::dvec2 p : border) {
+            glm::dvec2 q(turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y);
+            low = glm::min(low, q), high = glm::max(high, q);
+        }
+        double box = (high.x - low.x) * (high.y - low.y);
+        if (box < least * (1 - 1e-6)) least = box, best = turn;
+    }
+    return best;
+}
+
+void turnIntoBox(BakeMesh& mesh, uint32_t chart, double scale) {
+    double area = 0, flat = 0;
+    std::vector<glm::dvec2> border;
+    uint32_t first = mesh.firstTriangle[chart], last = mesh.firstTriangle[chart + 1];
+    for (uint32_t t = first; t < last; ++t) {
+        area += area3(mesh, mesh.triangles[t]), flat += std::abs(uvArea(mesh.triangles[t]));
+        for (uint32_t h = t * 3; h < t * 3 + 3; ++h)
+            if (!mesh.joined[h]) border.push_back(mesh.uvAt(h));
+    }
+    glm::dvec2 turn = smallestBox(border), low(1e300);
+    scale *= std::sqrt(area / flat);
+    auto place = [&](glm::dvec2 p) {
+        return glm::dvec2(turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y) * scale;
+    };
+    for (glm::dvec2 p : border) low = glm::min(low, place(p));
+    for (uint32_t t = first; t < last; ++t)
+        for (glm::dvec2& uv : mesh.triangles[t].uv) uv = place(uv) - low;
+}
+
+// Gives every chart the same density, turns it into its smallest box, lower left corner at the origin; all together
+// as large as would just about fill the square.
+void makeMetric(BakeMesh& mesh) {
+    double total = 0;
+    for (const Triangle& t : mesh.triangles) total += area3(mesh, t);
+    double all = std::sqrt(kGuessedFill / total);
+    parallelFor(mesh.chartCount(), 4, [&](size_t begin, size_t end) {
+        for (size_t c = begin; c < end; ++c) turnIntoBox(mesh, uint32_t(c), all);
+    });
+    mesh.metric = true;
+}
+
 }  // namespace
 
 Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, const LayoutOptions& options,
-                                     std::vector<Diagnostic>& warnings) {
-    auto warn = [&](std::string text) { warnings.push_back({name, 0, 0, {}, std::move(text), true}); };
-    if (enclose(mesh)) warn("UVs outside of [0,1]²: the walk's charts were moved into it");
-    IdImage image;
-    uint64_t covered = 0, overlaps = 0;
-    drawTriangles(mesh, options.resolution, image, &covered, &overlaps);
-    if (covered == 0) return Failure(name, "the UVs cover no texel at all at this resolution");
-    double share = double(overlaps) / double(covered);
-    if (share > kOverlapRefused)
-        return Failure(name, "the UVs overlap: " + percent(share) + " of the covered texels are hit more than once (" +
-                                 std::to_string(overlaps) + " of " + std::to_string(covered) + " at " +
-                                 std::to_string(options.resolution) + "²): an unwrapped UV set is needed to bake it");
-    if (overlaps > 0) warn(percent(share) + " of the texels are covered more than once");
+                                     BakeReport& report) {
     std::vector<uint32_t> coarsest(mesh.chartCount(), options.levels - 1);
-    if (options.keep) return coarsest;
-    std::vector<uint32_t> borders = borderEdges(mesh);
-    uint32_t last = options.resolution >> (options.levels - 1);
-    if (walkableShare(mesh, borders, last) >= kWalkableShare &&
-        walkableShare(mesh, borders, options.resolution) > 1 - 1e-12)
-        return coarsest;
+    IdImage image;
+    uint64_t covered = 0;
+    if (!mesh.metric) {
+        if (enclose(mesh))
+            report.warnings.push_back(
+                {name, 0, 0, {}, "UVs outside of [0,1]²: the walk's charts were moved into it", true});
+        drawTriangles(mesh, options.resolution, image, &covered, &report.overlaps);
+        report.layoutKept = options.keep;
+        if (options.keep) return coarsest;
+        std::vector<uint32_t> borders = borderEdges(mesh);
+        uint32_t last = options.resolution >> (options.levels - 1);
+        if (report.overlaps == 0 && walkableShare(mesh, borders, last) >= kWalkableShare &&
+            walkableShare(mesh, borders, options.resolution) > 1 - 1e-12) {
+            report.layoutKept = true;
+            return coarsest;
+        }
+    }
+    makeMetric(mesh);
     Placement placed = packCharts(mesh, options.resolution, options.levels);
     if (placed.scale <= 0)
         return Failure(name, std::to_string(mesh.chartCount()) + " charts don't fit into " +
@@ -90,6 +134,7 @@ Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, co
                                  "² with room around each: bake at a higher resolution");
     for (Triangle& t : mesh.triangles)
         for (glm::dvec2& uv : t.uv) uv = uv * placed.scale + placed.offset[t.chart];
+    drawTriangles(mesh, options.resolution, image, &covered, &report.overlaps);
     return std::move(placed.coarsest);
 }
 

@@ -11,6 +11,11 @@ std::string BakeReport::json() const {
     j["source"] = source;
     j["triangles"] = triangles;
     j["charts"] = charts;
+    j["made_charts"] = madeCharts;
+    j["layout"] = layoutKept ? "kept" : "made";
+    j["uvs"] = ordered_json::array();
+    for (const UvFate& u : uvs) j["uvs"].push_back({{"cause", u.cause}, {"charts", u.charts}, {"area", u.area}});
+    j["overlapping_texels"] = overlaps;
     j["texels"] = {{"inner", innerTexels}, {"link", linkTexels}, {"open", openTexels}};
     j["crossings"] = {{"seam", seamCrossings},
                       {"nearest", nearestCrossings},
