@@ -310,9 +310,11 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     uint edgeB = 0u;
     vec2 e = vec2(0.0f);
     bool insideLeft = false;
+    float over1 = 1.0f;   // -1: to the back of a sheet
     if (leaves) {
         Crossing c = readCrossing(surfaces.v[instance].crossings, leave.crossing);
-        insideLeft = (c.flags & 4u) != 0u;
+        insideLeft = (c.flags & kCrossingInsideLeft) != 0u;
+        over1 = (c.flags & kCrossingTurned) != 0u ? -1.0f : 1.0f;
         // The search began where the last stretch ended before its correction; the walk itself meets the same
         // line here.
         vec2 ab = c.b - c.a;
@@ -339,7 +341,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             readChart(surfaces.v[toInstance].charts, toChart, toOrientation, coarsest);
             toLevel = level < coarsest ? level : coarsest;
             // Seen from outside, the far chart lies on the other side of the edge; mirrored UVs swap sides.
-            insideLeft = insideLeft == (toOrientation * w.orientation < 0.0f);
+            insideLeft = insideLeft == (toOrientation * w.orientation * over1 < 0.0f);
         }
         to = nudgedInside(to, e, insideLeft, texel);
     }
@@ -368,9 +370,9 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             // The hinge: the components along the edge and across it pass over unchanged.
             vec3 ea = edgeIn(edgeA, n);
             vec3 eb = edgeIn(edgeB, p.normal);
-            t1 = unit3(eb * dot3(t, ea) + cross3(eb, p.normal) * dot3(t, cross3(ea, n)));
+            t1 = unit3(eb * dot3(t, ea) + cross3(eb, p.normal) * (over1 * dot3(t, cross3(ea, n))));
             t1 = headedInside(p, t1, e, insideLeft);
-            vec3 mean = n + p.normal;
+            vec3 mean = n + p.normal * over1;
             float mean2 = dot3(mean, mean);
             jointNormal = mean2 > 1e-4f ? mean * rsqrtExact(mean2) : p.normal;
         } else {

@@ -8,6 +8,7 @@
 
 #include "runtime/core/jobs.hpp"
 #include "tools/bake/bake_mesh.hpp"
+#include "tools/bake/contact.hpp"
 
 namespace espalier {
 namespace {
@@ -75,8 +76,9 @@ std::vector<TrianglePlane> makeRecords(const BakeMesh& mesh) {
 // Rasterises all levels and settles down to which level each chart can be walked. Returns per level, per chart,
 // whether it can.
 std::vector<std::vector<uint8_t>> makeLevels(const BakeMesh& mesh, const std::vector<Link>& links,
-                                             const std::vector<uint32_t>& allowed, const BakeOptions& options,
-                                             Stages& stages, SurfaceData& surface) {
+                                             const Contacts& contacts, const std::vector<uint32_t>& allowed,
+                                             const BakeOptions& options, Stages& stages, SurfaceData& surface,
+                                             BakeReport& report) {
     std::vector<Plane> planes = makePlanes(mesh);
     std::vector<uint32_t> creases = creaseEdges(mesh), borders = borderEdges(mesh);
     LevelSource source{mesh, planes, links, surface.crossings, creases, surface.charts};
@@ -91,6 +93,8 @@ std::vector<std::vector<uint8_t>> makeLevels(const BakeMesh& mesh, const std::ve
         drawTriangles(mesh, options.resolution >> l, image, nullptr, nullptr);
         drawGutters(mesh, borders, image, walkable[l]);
         surface.levels[l] = composeLevel(source, image, walkable[l]);
+        uint64_t buried = contacts.bury(surface.crossings, planes, surface.levels[l]);
+        if (l == 0) report.buriedTexels = buried;
         for (size_t c = 0; c < walkable[l].size(); ++c)
             if (walkable[l][c]) surface.charts[c].coarsestLevel = l;
     }
@@ -181,10 +185,14 @@ Result<Baked> bake(const Model& model, const BakeOptions& given) {
     surface.boundsMax = glm::vec3(mesh->boundsMax);
     surface.charts = makeCharts(*mesh);
     surface.triangles = makeRecords(*mesh);
-    std::vector<Link> links = findLinks(*mesh, nearestTolerance(surface, options));
+    double tolerance = nearestTolerance(surface, options);
+    std::vector<Link> links = findLinks(*mesh, tolerance);
     surface.crossings = makeCrossings(*mesh, links);
+    stages.begin(0.35f, "contacts");
+    Contacts contacts(*mesh, links, tolerance, 1.0 / options.resolution);
+    for (const Contact& contact : contacts.list()) surface.crossings.push_back(contact.crossing);
 
-    auto walkable = makeLevels(*mesh, links, *allowed, options, stages, surface);
+    auto walkable = makeLevels(*mesh, links, contacts, *allowed, options, stages, surface, report);
     for (const SurfaceLevelData& level : surface.levels)
         if (level.crossingRefs.size() >= (size_t(1) << 24))
             return Failure(model.name, "more borders than a level can list: bake at a lower resolution");
@@ -193,7 +201,7 @@ Result<Baked> bake(const Model& model, const BakeOptions& given) {
     stages.begin(0.93f, "hash");
     surface.hash = walkHash(surface);
     stages.begin(0.95f, "report");
-    measure(*mesh, links, surface, report);
+    measure(*mesh, links, contacts.list(), surface, report);
     reportLevels(model.name, surface, walkable, report);
     stages.end();
     if (options.progress) options.progress(1.0f, "done");

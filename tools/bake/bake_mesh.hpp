@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/surface/contacts.hpp"
 #include "tools/bake/bake.hpp"
 
 namespace espalier::bakery {
@@ -135,7 +136,7 @@ struct LevelSource {
     const BakeMesh& mesh;
     const std::vector<Plane>& planes;
     const std::vector<Link>& links;
-    const std::vector<Crossing>& crossings;  // one per link
+    const std::vector<Crossing>& crossings;  // one per link, then the contacts
     const std::vector<uint32_t>& creases;
     const std::vector<Chart>& charts;
 };
@@ -150,7 +151,8 @@ std::vector<uint32_t> creaseEdges(const BakeMesh& mesh);
 void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface);
 
 // Fills the report's figures by walking through the finished surface's records.
-void measure(const BakeMesh& mesh, const std::vector<Link>& links, const SurfaceData& surface, BakeReport& report);
+void measure(const BakeMesh& mesh, const std::vector<Link>& links, const std::vector<Contact>& contacts,
+             const SurfaceData& surface, BakeReport& report);
 
 // Rows of a texel grid that a segment, grown by the box of half-width `grow`, touches: calls
 // row(y, x0, x1) with whole texel numbers, x0 <= x1, for texels as unit squares shrunk to their centres

@@ -35,7 +35,6 @@ struct LevelWork {
 
 // Lists the crossings of each texel's own chart that pass its square.
 void listCrossings(LevelWork& work, std::vector<uint8_t>& walkable) {
-    const auto& mesh = work.source.mesh;
     const auto& crossings = work.source.crossings;
     uint32_t size = work.image.size;
     size_t bands = (size + kBandRows - 1) / kBandRows;
@@ -48,7 +47,7 @@ void listCrossings(LevelWork& work, std::vector<uint8_t>& walkable) {
         for (uint32_t i = 0; i < crossings.size(); ++i) {
             glm::dvec2 a = glm::dvec2(crossings[i].a) * double(size), b = glm::dvec2(crossings[i].b) * double(size);
             if (std::max(a.y, b.y) + 1 < double(begin) || std::min(a.y, b.y) - 1 > double(end)) continue;
-            uint32_t chart = mesh.chartOf(work.source.links[i].from);
+            uint32_t chart = crossings[i].flags >> 16;
             gridSegment(a, b, kCrossingGrow, size, int64_t(begin), int64_t(end),
                         [&](int64_t y, int64_t x0, int64_t x1) {
                             for (int64_t x = x0; x <= x1; ++x)
@@ -79,7 +78,7 @@ void listCrossings(LevelWork& work, std::vector<uint8_t>& walkable) {
     for (const auto& band : crowded)
         for (uint32_t texel : band) {
             uint32_t crossing = level.crossingRefs[level.crossingHead[texel] >> 8];
-            walkable[mesh.chartOf(work.source.links[crossing].from)] = 0;
+            walkable[crossings[crossing].flags >> 16] = 0;
         }
 }
 

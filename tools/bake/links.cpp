@@ -2,8 +2,9 @@
 // to the nearest border that runs along it the other way (T-junctions, cracks), else nowhere (Buron 2015 §4).
 #include <algorithm>
 #include <cmath>
-#include <nanoflann.hpp>
+#include <tuple>
 
+#include "runtime/surface/box_tree.hpp"
 #include "shaders/shared/exact.h"
 #include "tools/bake/bake_mesh.hpp"
 
@@ -12,25 +13,6 @@ namespace {
 
 constexpr double kMinPiece = 1e-4;  // of an edge's length: shorter pieces are not linked
 constexpr double kAgainst = -0.9;   // cosine: linked borders run against each other
-constexpr size_t kMaxPieces = 64;   // that a long border is cut into for the search
-
-// A piece of an open border, as the kd-tree sees it: its middle.
-struct Piece {
-    glm::dvec3 middle;
-    double half;
-    uint32_t edge;  // into the open borders
-};
-
-struct Cloud {
-    const std::vector<Piece>& pieces;
-    size_t kdtree_get_point_count() const { return pieces.size(); }
-    double kdtree_get_pt(size_t i, size_t k) const { return pieces[i].middle[int(k)]; }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-        return false;
-    }
-};
-
 // Two open borders that run along each other, e over [e0, e1], f over the same points.
 struct Neighbours {
     double distance;
@@ -49,23 +31,6 @@ struct Border {
     double at(glm::dvec3 p) const { return glm::dot(p - a, b - a) / glm::dot(b - a, b - a); }
     glm::dvec3 point(double t) const { return a + (b - a) * t; }
 };
-
-std::vector<Piece> cutPieces(const std::vector<Border>& borders, double& longest) {
-    std::vector<double> lengths;
-    for (const Border& b : borders) lengths.push_back(glm::length(b.b - b.a));
-    std::vector<double> sorted = lengths;
-    std::nth_element(sorted.begin(), sorted.begin() + long(sorted.size() / 2), sorted.end());
-    double unit = sorted[sorted.size() / 2] * 2;
-    std::vector<Piece> pieces;
-    longest = 0;
-    for (uint32_t i = 0; i < borders.size(); ++i) {
-        size_t n = std::clamp(size_t(lengths[i] / unit) + 1, size_t(1), kMaxPieces);
-        for (size_t k = 0; k < n; ++k)
-            pieces.push_back({borders[i].point((double(k) + 0.5) / double(n)), lengths[i] / double(n) / 2, i});
-        longest = std::max(longest, lengths[i] / double(n) / 2);
-    }
-    return pieces;
-}
 
 // Compares e with f: the part of e that f runs along within the tolerance.
 bool runAlong(const Border& e, const Border& f, double tolerance, Neighbours& out) {
@@ -88,31 +53,16 @@ bool runAlong(const Border& e, const Border& f, double tolerance, Neighbours& ou
 }
 
 std::vector<Neighbours> findNeighbours(const std::vector<Border>& borders, double tolerance) {
-    double longest = 0;
-    std::vector<Piece> pieces = cutPieces(borders, longest);
-    Cloud cloud{pieces};
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3> tree(
-        3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-    tree.buildIndex();
+    std::vector<Box> boxes(borders.size());
+    for (size_t i = 0; i < boxes.size(); ++i) boxes[i].add(borders[i].a), boxes[i].add(borders[i].b);
+    BoxTree tree(std::move(boxes), {});
     std::vector<Neighbours> found;
-    std::vector<std::pair<uint32_t, double>> near;
-    std::vector<uint32_t> seen(borders.size(), kNone);
-    nanoflann::SearchParams params;
-    uint32_t stamp = 0;
-    for (size_t i = 0; i < pieces.size(); ++i) {
-        double reach = pieces[i].half + longest + tolerance;
-        near.clear();
-        tree.radiusSearch(&pieces[i].middle.x, reach * reach, near, params);
-        uint32_t e = pieces[i].edge;
-        if (i == 0 || pieces[i - 1].edge != e) ++stamp;
-        for (const auto& [index, squared] : near) {
-            uint32_t f = pieces[index].edge;
-            if (f <= e || seen[f] == stamp || borders[f].half / 3 == borders[e].half / 3) continue;
-            seen[f] = stamp;
-            Neighbours pair{0, e, f, 0, 0};
-            if (runAlong(borders[e], borders[f], tolerance, pair)) found.push_back(pair);
-        }
-    }
+    tree.pairs(tree, glm::dmat4(1), tolerance, [&](uint32_t i, uint32_t j) {
+        uint32_t e = std::min(i, j), f = std::max(i, j);
+        if (borders[f].half / 3 == borders[e].half / 3) return;
+        Neighbours pair{0, e, f, 0, 0};
+        if (runAlong(borders[e], borders[f], tolerance, pair)) found.push_back(pair);
+    });
     std::sort(found.begin(), found.end(), [](const Neighbours& x, const Neighbours& y) {
         return std::tie(x.distance, x.e, x.f) < std::tie(y.distance, y.e, y.f);
     });

@@ -64,17 +64,20 @@ Back wayBack(const SurfaceData& surface, glm::dvec2 uv, uint32_t chart, uint32_t
     return best;
 }
 
-void measureCrossings(const std::vector<Link>& links, const SurfaceData& surface, BakeReport& report) {
+void measureCrossings(const std::vector<Link>& links, const std::vector<Contact>& contacts, const SurfaceData& surface,
+                      BakeReport& report) {
     std::vector<double> trips, gaps;
     double size = surface.levels[0].size;
-    for (uint32_t i = 0; i < links.size(); ++i) {
+    for (uint32_t i = 0; i < surface.crossings.size(); ++i) {
         const Crossing& c = surface.crossings[i];
         uint32_t kind = c.flags & 3u;
         if (kind == kCrossingOpen) continue;
         (kind == kCrossingSeam      ? report.seamCrossings
          : kind == kCrossingNearest ? report.nearestCrossings
                                     : report.contactCrossings)++;
-        const TrianglePlane &here = surface.triangles[links[i].from / 3], &there = surface.triangles[links[i].to / 3];
+        bool contact = i >= links.size();
+        const TrianglePlane& here = surface.triangles[contact ? contacts[i - links.size()].from : links[i].from / 3];
+        const TrianglePlane& there = surface.triangles[contact ? contacts[i - links.size()].to : links[i].to / 3];
         bool dangling = false;
         for (int probe = 0; probe < kProbes; ++probe) {
             double t = fraction(i * kProbes + uint32_t(probe));
@@ -127,7 +130,8 @@ void measureStretch(const BakeMesh& mesh, const SurfaceData& surface, BakeReport
 
 }  // namespace
 
-void measure(const BakeMesh& mesh, const std::vector<Link>& links, const SurfaceData& surface, BakeReport& report) {
+void measure(const BakeMesh& mesh, const std::vector<Link>& links, const std::vector<Contact>& contacts,
+             const SurfaceData& surface, BakeReport& report) {
     report.triangles = uint32_t(mesh.triangles.size());
     report.charts = mesh.chartCount();
     for (const Texel& t : surface.levels[0].texels) {
@@ -136,9 +140,10 @@ void measure(const BakeMesh& mesh, const std::vector<Link>& links, const Surface
         report.linkTexels += kind == kTexelLink;
         report.openTexels += kind == kTexelOpen;
     }
+    report.linkTexels -= report.buriedTexels;
     for (const Chart& c : surface.charts) report.walkableArea += c.area;
     measureStretch(mesh, surface, report);
-    measureCrossings(links, surface, report);
+    measureCrossings(links, contacts, surface, report);
 }
 
 }  // namespace espalier::bakery

@@ -16,7 +16,7 @@ std::string BakeReport::json() const {
     j["uvs"] = ordered_json::array();
     for (const UvFate& u : uvs) j["uvs"].push_back({{"cause", u.cause}, {"charts", u.charts}, {"area", u.area}});
     j["overlapping_texels"] = overlaps;
-    j["texels"] = {{"inner", innerTexels}, {"link", linkTexels}, {"open", openTexels}};
+    j["texels"] = {{"inner", innerTexels}, {"link", linkTexels}, {"open", openTexels}, {"buried", buriedTexels}};
     j["crossings"] = {{"seam", seamCrossings},
                       {"nearest", nearestCrossings},
                       {"contact", contactCrossings},

@@ -1,0 +1,138 @@
+// In: two triangles. Out: the stretches along which they touch. A corner within its reach of the other's plane lies
+// in it, so that walls that stand on a floor, or a hair above or below it, touch it along their lower edge.
+#include "runtime/surface/contact_segments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace espalier {
+namespace {
+
+using glm::dvec3;
+
+constexpr double kParallel = 0.995;  // cosine: planes that meet at less than 6° may count as one
+
+// What a triangle shares with a plane.
+struct Trace {
+    enum Kind { none, line, flat } kind = none;
+    dvec3 a{0}, b{0};
+    int edge = -1;
+};
+
+Trace trace(const ContactShape& s, const ContactShape& plane) {
+    std::array<double, 3> d;
+    int zeros = 0, positive = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        d[k] = glm::dot(plane.normal, s.p[k] - plane.p[0]);
+        if (std::abs(d[k]) <= s.reach[k]) d[k] = 0;
+        zeros += d[k] == 0;
+        positive += d[k] > 0;
+    }
+    Trace out;
+    if (zeros == 3) {
+        out.kind = Trace::flat;
+        return out;
+    }
+    if (zeros < 2 && (positive == 0 || positive == 3 - zeros)) return out;
+    int found = 0;
+    auto add = [&](dvec3 p) { (found++ == 0 ? out.a : out.b) = p; };
+    for (size_t k = 0; k < 3; ++k) {
+        size_t n = (k + 1) % 3;
+        if (d[k] == 0) add(s.p[k]);
+        if (d[k] == 0 && d[n] == 0) out.edge = int(k);
+        if (d[k] * d[n] < 0) {
+            // The same bits from both of an edge's triangles.
+            bool swap = std::tie(s.p[k].x, s.p[k].y, s.p[k].z) > std::tie(s.p[n].x, s.p[n].y, s.p[n].z);
+            size_t i = swap ? n : k, j = swap ? k : n;
+            add(s.p[i] + (s.p[j] - s.p[i]) * (d[i] / (d[i] - d[j])));
+        }
+    }
+    if (found == 2) out.kind = Trace::line;
+    return out;
+}
+
+double reachOf(const ContactShape& s) {
+    return std::max({s.reach[0], s.reach[1], s.reach[2]});
+}
+
+// The edge of t that a-b runs along; -1: none.
+int edgeAlong(const ContactShape& t, dvec3 a, dvec3 b) {
+    double reach = reachOf(t);
+    for (size_t k = 0; k < 3; ++k) {
+        dvec3 u = glm::normalize(t.p[(k + 1) % 3] - t.p[k]);
+        dvec3 fa = a - t.p[k], fb = b - t.p[k];
+        if (glm::length(fa - u * glm::dot(u, fa)) <= reach && glm::length(fb - u * glm::dot(u, fb)) <= reach)
+            return int(k);
+    }
+    return -1;
+}
+
+// Outlines of s as far as they lie in t, whose plane is the same. `first`: s is side 0.
+void clipOutlines(const ContactShape& s, const ContactShape& t, bool first, std::array<ContactSegment, 6>& out,
+                  int& count) {
+    double slack = std::max(reachOf(s), reachOf(t));
+    for (size_t k = 0; k < 3; ++k) {
+        if (!s.outline[k]) continue;
+        dvec3 a = s.p[k], d = s.p[(k + 1) % 3] - a;
+        double t0 = 0, t1 = 1, length = glm::length(d);
+        for (size_t e = 0; e < 3; ++e) {
+            dvec3 inward = glm::normalize(glm::cross(t.normal, t.p[(e + 1) % 3] - t.p[e]));
+            double at = glm::dot(inward, a - t.p[e]) + slack, rate = glm::dot(inward, d);
+            if (std::abs(rate) < 1e-12 * length) {
+                if (at < 0) t1 = -1;
+            } else if (rate > 0) {
+                t0 = std::max(t0, -at / rate);
+            } else {
+                t1 = std::min(t1, -at / rate);
+            }
+        }
+        if ((t1 - t0) * length <= 2 * slack) continue;
+        dvec3 p = a + d * t0, q = a + d * t1;
+        auto onto = [&](dvec3 x) { return x - t.normal * glm::dot(t.normal, x - t.p[0]); };
+        ContactSegment& segment = out[size_t(count++)];
+        segment.side[first ? 0 : 1] = {p, q, int(k)};
+        segment.side[first ? 1 : 0] = {onto(p), onto(q), edgeAlong(t, onto(p), onto(q))};
+    }
+}
+
+}  // namespace
+
+int touch(const ContactShape& s, const ContactShape& t, std::array<ContactSegment, 6>& out) {
+    Trace of[2] = {trace(s, t), {}};
+    if (of[0].kind == Trace::none) return 0;
+    of[1] = trace(t, s);
+    if (of[1].kind == Trace::none) return 0;
+    int count = 0;
+    if (of[0].kind == Trace::flat || of[1].kind == Trace::flat) {
+        if (std::abs(glm::dot(s.normal, t.normal)) < kParallel) return 0;
+        clipOutlines(s, t, true, out, count);
+        clipOutlines(t, s, false, out, count);
+        return count;
+    }
+    dvec3 u = of[0].b - of[0].a, v = of[1].b - of[1].a;
+    double lu = glm::length(u), lv = glm::length(v);
+    if (lu <= 0 || lv <= 0) return 0;
+    // Along the longer of the two, whose direction is the surer.
+    dvec3 d = lu >= lv ? u / lu : v / lv;
+    dvec3 origin = lu >= lv ? of[0].a : of[1].a;
+    double low = -1e300, high = 1e300;
+    for (Trace& tr : of) {
+        if (glm::dot(d, tr.b - tr.a) < 0) std::swap(tr.a, tr.b);
+        low = std::max(low, glm::dot(d, tr.a - origin));
+        high = std::min(high, glm::dot(d, tr.b - origin));
+    }
+    if (high - low <= 1e-6 * std::max(lu, lv)) return 0;
+    for (int i = 0; i < 2; ++i) {
+        const Trace& tr = of[i];
+        double from = glm::dot(d, tr.a - origin), to = glm::dot(d, tr.b - origin);
+        auto at = [&](double x) { return tr.a + (tr.b - tr.a) * ((x - from) / (to - from)); };
+        out[0].side[i] = {at(low), at(high), tr.edge};
+    }
+    // Planes that meet at a small angle may have lines far from each other.
+    double apart = glm::length((out[0].side[0].a + out[0].side[0].b - out[0].side[1].a - out[0].side[1].b) * 0.5);
+    if (apart > 3 * std::max(reachOf(s), reachOf(t)) + 1e-9 * std::max(lu, lv)) return 0;
+    return 1;
+}
+
+}  // namespace espalier

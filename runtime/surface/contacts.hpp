@@ -1,0 +1,62 @@
+#pragma once
+
+// Where surfaces touch or run into each other, so that plants go from one to the other. The same code serves the
+// baker, for the pieces of one model, and the runtime, for surfaces that were placed against each other.
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "runtime/surface/box_tree.hpp"
+#include "shaders/shared/surface_records.h"
+
+namespace espalier {
+
+// A mesh as contacts are found on it. Half-edge 3 t + k runs from corner k to corner (k + 1) % 3 of triangle t.
+struct ContactMesh {
+    struct Triangle {
+        std::array<uint32_t, 3> point;
+        std::array<glm::dvec2, 3> uv;  // the walk's
+        uint32_t chart;
+        uint32_t shell;   // connected over twins; contacts are looked for between shells only
+        uint32_t body;    // shells joined at their borders
+    };
+    std::vector<glm::dvec3> points;      // welded; object space, metres
+    std::vector<Triangle> triangles;
+    std::vector<uint32_t> twin;          // per half-edge, kNoIndex at borders
+    std::vector<uint8_t> chartBorder;    // per half-edge: the chart ends here
+    std::vector<float> orientation;      // per chart, as Chart::orientation
+    std::vector<uint8_t> solid;          // per body: it encloses room (BodyTest); others are sheets
+    std::vector<double> reach;           // per point: what lies nearer touches; metres
+
+    BoxTree tree() const;                // over the triangles, grouped by shell
+    glm::dvec3 at(uint32_t triangle, uint32_t corner) const { return points[triangles[triangle].point[corner]]; }
+};
+
+// Sets `reach` to `tolerance`, less at points of triangles that are not much larger than that.
+void setReach(ContactMesh& mesh, double tolerance);
+
+// A stretch of contact as one side's walk meets it: the record, and the triangles on both sides.
+struct Contact {
+    Crossing crossing;  // complete but for the instance in `target`
+    uint32_t from, to;  // triangles
+};
+
+struct ContactOptions {
+    double tolerance;     // metres of a's object space; what is nearer touches
+    double borderShift;   // UV: contacts along a chart's border are moved so far inside, before the border's own
+    glm::dmat4 toA{1};    // b's object space -> a's
+};
+
+// All contacts between the shells of `mesh`, both directions, in an order that depends on the input alone.
+std::vector<Contact> contactsWithin(const ContactMesh& mesh, const BoxTree& tree, const ContactOptions& options);
+
+// The contacts from a to b (fromA) and from b to a.
+struct ContactsBetween {
+    std::vector<Contact> fromA, fromB;
+};
+ContactsBetween contactsBetween(const ContactMesh& a, const BoxTree& treeA, const ContactMesh& b, const BoxTree& treeB,
+                                const ContactOptions& options);
+
+}  // namespace espalier

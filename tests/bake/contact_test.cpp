@@ -1,0 +1,176 @@
+// Pieces that touch: where they meet is known by construction.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "tests/bake/kits.hpp"
+
+using namespace espalier;
+using namespace espalier::test;
+using glm::dvec3;
+
+namespace {
+
+bool near(glm::vec3 p, dvec3 q, double tolerance) {
+    return glm::length(dvec3(p) - q) <= tolerance;
+}
+
+int floorOf(Kit& kit, double half) {
+    return kit.panel({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half});
+}
+
+}  // namespace
+
+TEST_CASE("a walk leaves the floor for a wall that stands on it, and comes back") {
+    struct Case {
+        double lift;  // of the wall's underside over the floor
+        bool underside;
+        double tolerance;
+    };
+    for (Case c : {Case{0, true, 1e-3}, {0, false, 1e-3}, {1e-5, true, 1e-3}, {-1e-5, false, 1e-3}, {0.002, true, 0.008},
+                   {0.002, false, 0.008}, {-0.1, true, 1e-3}, {-0.1, false, 1e-3}}) {
+        CAPTURE(c.lift);
+        CAPTURE(c.underside);
+        Kit kit;
+        int floor = floorOf(kit, 2);
+        int box = kit.box({0, 0.5 + c.lift, 0}, dvec3(0.5), c.underside);
+        Baked baked = kit.bake();
+        Stroll walk(baked.surface);
+        for (uint32_t level : {0u, 1u}) {
+            // From the floor at x = 1.4 along -x, up the wall at x = 0.5.
+            REQUIRE(walk.start(kit, floor, 3.4 / 4, 0.53, {-1, 0, 0}, level));
+            double z = 2 - 4 * 0.53;
+            CHECK(walk.go(1.4) == kWalkDone);
+            CHECK_MESSAGE(near(walk.w.position, {0.5, 0.5, z}, c.tolerance), walk.w.position.x, " ", walk.w.position.y);
+            CHECK(near(walk.w.walk.direction, {0, 1, 0}, 1e-3));
+            walk.turnBack();
+            CHECK(walk.go(1.4) == kWalkDone);
+            CHECK(near(walk.w.position, {1.4, 0, z}, c.tolerance));
+        }
+        // Aslant: the angle to the contact line is kept.
+        REQUIRE(walk.start(kit, floor, 3.4 / 4, 0.5, {-3, 0, -1}));
+        CHECK(walk.go(1.2 * std::sqrt(10.0) / 3) == kWalkDone);
+        CHECK(near(walk.w.position, {0.5, 0.3, -0.4}, c.tolerance));
+        (void)box;
+    }
+}
+
+TEST_CASE("what lies within or under a piece is no ground") {
+    for (double sunk : {0.0, 0.25}) {
+        for (bool underside : {true, false}) {
+            CAPTURE(sunk);
+            CAPTURE(underside);
+            Kit kit;
+            floorOf(kit, 2);
+            kit.box({0, 0.5 - sunk, 0}, dvec3(0.5), underside);
+            Baked baked = kit.bake();
+            const SurfaceLevelData& level = baked.surface.levels[0];
+            int wrong = 0, buried = 0;
+            for (size_t i = 0; i < level.texels.size(); ++i) {
+                const Texel& t = level.texels[i];
+                if (texelClass(t.bits) == kTexelEmpty || level.aux[i].triangle == kNoIndex) continue;
+                glm::vec3 p = t.position;
+                bool onFloor = level.aux[i].triangle < 2;
+                float side = std::max(std::abs(p.x), std::abs(p.z));
+                if (std::abs(side - 0.5f) < 0.02f && onFloor) continue;  // beside the contact
+                if (!onFloor && std::abs(p.y) < 0.02f && std::abs(side - 0.5f) < 0.01f) continue;
+                bool expected = onFloor ? side < 0.5f : p.y < 0.01f;
+                bool ground = texelClass(t.bits) == kTexelInner;
+                buried += expected && !ground;
+                // Gutters are no ground either, within two texels of a chart's border.
+                if (expected && ground) ++wrong;
+                if (!expected && !ground && onFloor && side < 1.95f) ++wrong;
+            }
+            CHECK(wrong == 0);
+            CHECK(buried > 200);
+        }
+    }
+}
+
+TEST_CASE("a sheet that stands on a floor is climbed from both sides") {
+    for (double lift : {0.0, -0.2, 0.003}) {
+        CAPTURE(lift);
+        Kit kit;
+        int floor = floorOf(kit, 2);
+        kit.panel({0, lift, 1}, {0, 0, -2}, {0, 1, 0});  // in x = 0, its outside towards +x
+        Baked baked = kit.bake();
+        Stroll walk(baked.surface);
+        for (double from : {1.0, -1.0}) {
+            CAPTURE(from);
+            REQUIRE(walk.start(kit, floor, (from + 2) / 4, 0.55, {-from, 0, 0}));
+            CHECK(walk.go(1.5) == kWalkDone);
+            CHECK(near(walk.w.position, {0, 0.5, -0.2}, 0.008));
+            CHECK(near(walk.w.walk.direction, {0, 1, 0}, 1e-3));
+        }
+        // Down again on its outside.
+        walk.turnBack();
+        CHECK(walk.go(1.5) == kWalkDone);
+        CHECK(near(walk.w.position, {1, 0, -0.2}, 0.008));
+        // Beside the sheet's end nothing is in the way.
+        REQUIRE(walk.start(kit, floor, 0.75, 0.9, {-1, 0, 0}));
+        CHECK(walk.go(2) == kWalkDone);
+        CHECK(near(walk.w.position, {-1, 0, -1.6}, 1e-3));
+    }
+}
+
+TEST_CASE("boxes stacked, side by side and through each other: walks stay on the outside and go everywhere") {
+    std::vector<std::pair<dvec3, glm::dmat3>> boxes;
+    auto axes = [](dvec3 half, double turn) {
+        double c = std::cos(turn), s = std::sin(turn);
+        return glm::dmat3(dvec3(c, 0, -s) * half.x, dvec3(0, half.y, 0), dvec3(s, 0, c) * half.z);
+    };
+    boxes.push_back({{0, 0, 0}, axes({1, 0.5, 1}, 0)});
+    boxes.push_back({{0, 1, 0}, axes({0.7, 0.5, 0.7}, 0)});          // stands on the first, exactly
+    boxes.push_back({{1.5, 0, 0.1}, axes({0.5, 0.4, 0.5}, 0)});      // beside it, face to face
+    boxes.push_back({{-0.9, 0.45, 0.3}, axes({0.5, 0.35, 0.4}, 0.4)});  // through it
+    boxes.push_back({{0.3, 1.5, 0.2}, axes({0.2, 0.4, 1.1}, 0.7)});  // through the second's top
+    Kit kit;
+    for (auto& [middle, a] : boxes) kit.box(middle, a);
+    Baked baked = kit.bake(1024);
+    CHECK(baked.report.contactCrossings > 30);
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> unit(0, 1);
+    auto depth = [&](glm::vec3 p) {  // inside of any box
+        double deepest = -1;
+        for (auto& [middle, a] : boxes) {
+            dvec3 d = glm::inverse(a) * (dvec3(p) - middle), room = 1.0 - glm::abs(d);
+            double least = 1e9;
+            for (int k = 0; k < 3; ++k) least = std::min(least, room[k] * glm::length(a[k]));
+            deepest = std::max(deepest, least);
+        }
+        return deepest;
+    };
+    int ended = 0, deep = 0, walks = 0;
+    std::vector<int> seen(boxes.size(), 0);
+    Stroll walk(baked.surface);
+    while (walks < 600) {
+        int panel = int(unit(random) * kit.count());
+        double s = 0.02 + 0.96 * unit(random), t = 0.02 + 0.96 * unit(random);
+        if (depth(kit[panel].at(s, t)) > 1e-3) continue;
+        if (panel / 6 != 4) {
+            // Not covered by a face that touches it.
+            if (depth(kit[panel].at(s, t) + kit[panel].normal() * 1e-2) > 0) continue;
+        }
+        const Panel& p = kit[panel];
+        double angle = 6.2831853 * unit(random);
+        if (!walk.start(kit, panel, s, t, glm::normalize(p.right) * std::cos(angle) + glm::normalize(p.up) * std::sin(angle)))
+            continue;
+        ++walks;
+        walk.samples.clear();
+        for (int i = 0; i < 60; ++i)
+            if (walk.go(0.1) != kWalkDone) {
+                ++ended;
+                break;
+            }
+        for (glm::vec3 q : walk.samples) {
+            deep += depth(q) > 0.01;
+            for (size_t b = 0; b < boxes.size(); ++b) {
+                dvec3 d = glm::abs(glm::inverse(boxes[b].second) * (dvec3(q) - boxes[b].first));
+                if (std::max({d.x, d.y, d.z}) < 1.001) seen[b] |= 1 << (panel / 6);
+            }
+        }
+    }
+    CHECK(ended == 0);
+    CHECK(deep == 0);
+    for (int from : seen) CHECK(from == 31);  // each box was reached from each
+}
