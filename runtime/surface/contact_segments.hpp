@@ -9,9 +9,9 @@ namespace espalier {
 
 struct ContactShape {
     std::array<glm::dvec3, 3> p;
-    std::array<double, 3> reach;    // per corner: nearer to the other's plane it lies in it
-    std::array<bool, 3> outline;    // per edge: the surface bends or ends there
-    glm::dvec3 normal;              // unit
+    std::array<double, 3> reach;  // per corner: nearer to the other's plane it lies in it
+    std::array<bool, 3> outline;  // per edge: the surface bends or ends there
+    glm::dvec3 normal;            // unit
 };
 
 // A stretch of contact, as it lies on each side. edge: along that edge of the side's triangle, -1: across the triangle.

@@ -20,8 +20,8 @@ using glm::dvec2;
 using glm::dvec3;
 
 constexpr double kTurn = 6.283185307179586;
-constexpr double kSameAngle = 0.06;    // radians: flaps nearer to each other coincide
-constexpr double kReachShare = 0.1;    // of the least altitude of a point's triangles
+constexpr double kSameAngle = 0.06;  // radians: flaps nearer to each other coincide
+constexpr double kReachShare = 0.1;  // of the least altitude of a point's triangles
 constexpr double kOutlineCosine = 0.999;
 
 // One mesh of a search: where its points are in the space of the search, side 0's object space.
@@ -76,9 +76,8 @@ struct Flap {
 
 // Stretches that were found by several pairs of triangles become one each.
 void merge(std::vector<Found>& found) {
-    std::sort(found.begin(), found.end(), [](const Found& x, const Found& y) {
-        return std::tie(x.key, x.triangle) < std::tie(y.key, y.triangle);
-    });
+    std::sort(found.begin(), found.end(),
+              [](const Found& x, const Found& y) { return std::tie(x.key, x.triangle) < std::tie(y.key, y.triangle); });
     std::vector<Found> out;
     for (size_t i = 0; i < found.size();) {
         size_t j = i + 1;
@@ -201,7 +200,8 @@ class Assembler {
                 if (solid(f) || solid(g)) return nullptr;
                 a = kTurn;
             }
-            if (!best || a < least - kSameAngle || (a < least + kSameAngle && before(g, *best, f))) best = &g, least = a;
+            if (!best || a < least - kSameAngle || (a < least + kSameAngle && before(g, *best, f)))
+                best = &g, least = a;
         }
         return best;
     }
@@ -312,7 +312,8 @@ std::vector<Contact> contactsWithin(const ContactMesh& mesh, const BoxTree& tree
     std::vector<Found> found;
     tree.pairs(tree, glm::dmat4(1), options.tolerance, [&](uint32_t i, uint32_t j) {
         if (mesh.triangles[i].shell == mesh.triangles[j].shell) return;
-        if (mesh.triangles[i].shell > mesh.triangles[j].shell) std::swap(i, j);  // one order for all pairs of two shells
+        if (mesh.triangles[i].shell > mesh.triangles[j].shell)
+            std::swap(i, j);  // one order for all pairs of two shells
         find(view, i, view, j, 1, found);
     });
     merge(found);

@@ -19,18 +19,18 @@ struct ContactMesh {
         std::array<uint32_t, 3> point;
         std::array<glm::dvec2, 3> uv;  // the walk's
         uint32_t chart;
-        uint32_t shell;   // connected over twins; contacts are looked for between shells only
-        uint32_t body;    // shells joined at their borders
+        uint32_t shell;  // connected over twins; contacts are looked for between shells only
+        uint32_t body;   // shells joined at their borders
     };
-    std::vector<glm::dvec3> points;      // welded; object space, metres
+    std::vector<glm::dvec3> points;  // welded; object space, metres
     std::vector<Triangle> triangles;
-    std::vector<uint32_t> twin;          // per half-edge, kNoIndex at borders
-    std::vector<uint8_t> chartBorder;    // per half-edge: the chart ends here
-    std::vector<float> orientation;      // per chart, as Chart::orientation
-    std::vector<uint8_t> solid;          // per body: it encloses room (BodyTest); others are sheets
-    std::vector<double> reach;           // per point: what lies nearer touches; metres
+    std::vector<uint32_t> twin;        // per half-edge, kNoIndex at borders
+    std::vector<uint8_t> chartBorder;  // per half-edge: the chart ends here
+    std::vector<float> orientation;    // per chart, as Chart::orientation
+    std::vector<uint8_t> solid;        // per body: it encloses room (BodyTest); others are sheets
+    std::vector<double> reach;         // per point: what lies nearer touches; metres
 
-    BoxTree tree() const;                // over the triangles, grouped by shell
+    BoxTree tree() const;  // over the triangles, grouped by shell
     glm::dvec3 at(uint32_t triangle, uint32_t corner) const { return points[triangles[triangle].point[corner]]; }
 };
 
@@ -44,9 +44,9 @@ struct Contact {
 };
 
 struct ContactOptions {
-    double tolerance;     // metres of a's object space; what is nearer touches
-    double borderShift;   // UV: contacts along a chart's border are moved so far inside, before the border's own
-    glm::dmat4 toA{1};    // b's object space -> a's
+    double tolerance;    // metres of a's object space; what is nearer touches
+    double borderShift;  // UV: contacts along a chart's border are moved so far inside, before the border's own
+    glm::dmat4 toA{1};   // b's object space -> a's
 };
 
 // All contacts between the shells of `mesh`, both directions, in an order that depends on the input alone.

@@ -207,8 +207,10 @@ TEST_CASE("curvature of a sphere is one over its radius, positive; inside out it
         for (bool inward : {false, true}) {
             Model model = cube(24);
             for (glm::vec3& p : model.positions) p = glm::normalize(p) * radius;
-            if (inward)
+            if (inward) {  // by its normals too: without, its faces would be turned
                 for (size_t i = 0; i < model.indices.size(); i += 3) std::swap(model.indices[i], model.indices[i + 1]);
+                for (glm::vec3 p : model.positions) model.normals.push_back(-p / radius);
+            }
             Baked baked = bakeOrFail(model, 128);
             float boundsRadius = surfaceRef(baked.surface).radius;
             double sum = 0, count = 0;

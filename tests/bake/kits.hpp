@@ -69,7 +69,8 @@ class Kit {
             bool flip = std::find(flipped.begin(), flipped.end(), i) != flipped.end();
             for (uint32_t v : {0u, 1u, 3u, 0u, 3u, 2u}) m.indices.push_back(base + v);
             if (flip)
-                for (size_t k = m.indices.size() - 6; k < m.indices.size(); k += 3) std::swap(m.indices[k], m.indices[k + 1]);
+                for (size_t k = m.indices.size() - 6; k < m.indices.size(); k += 3)
+                    std::swap(m.indices[k], m.indices[k + 1]);
         }
         return m;
     }

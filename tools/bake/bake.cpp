@@ -9,6 +9,7 @@
 #include "runtime/core/jobs.hpp"
 #include "tools/bake/bake_mesh.hpp"
 #include "tools/bake/contact.hpp"
+#include "tools/bake/repair.hpp"
 
 namespace espalier {
 namespace {
@@ -158,21 +159,30 @@ double nearestTolerance(const SurfaceData& surface, const BakeOptions& options) 
 
 }  // namespace
 
-Result<Baked> bake(const Model& model, const BakeOptions& given) {
+Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     BakeOptions options = given;
-    Status valid = checkOptions(model.name, options);
+    Status valid = checkOptions(asGiven.name, options);
     if (!valid) return std::move(valid.failure());
     Baked out;
     BakeReport& report = out.report;
     SurfaceData& surface = out.surface;
     // A file's folder says where somebody works, not what was baked.
-    report.source = surface.source = model.name.substr(model.name.find_last_of("/\\") + 1);
-    report.warnings = model.warnings;
+    report.source = surface.source = asGiven.name.substr(asGiven.name.find_last_of("/\\") + 1);
+    report.warnings = asGiven.warnings;
     Stages stages(options, report);
 
     stages.begin(0.0f, "mesh");
-    auto mesh = buildMesh(model, report.warnings);
+    std::vector<Diagnostic> found;
+    auto mesh = buildMesh(asGiven, found);
     if (!mesh) return std::move(mesh.failure());
+    std::optional<Model> turned = repairOrientation(asGiven, *mesh, report.warnings);
+    const Model& model = turned ? *turned : asGiven;
+    if (turned) {
+        found.clear();
+        mesh = buildMesh(model, found);
+        if (!mesh) return std::move(mesh.failure());
+    }
+    report.warnings.insert(report.warnings.end(), found.begin(), found.end());
     stages.begin(0.05f, "atlas");
     Status cut = makeAtlas(model, *mesh, options.resolution, report);
     if (!cut) return std::move(cut.failure());

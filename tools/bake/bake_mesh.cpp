@@ -126,7 +126,18 @@ glm::dvec3 normalOf(const BakeMesh& mesh, const Triangle& t) {
     return length > 0 ? n / length : glm::dvec3(0);
 }
 
-// Pairs half-edges that run along one edge in opposite directions. Of more than two, the flattest pairs go first.
+// The angle by which a walk that comes to half-edge a turns towards its outside until it stands on b's triangle, which
+// runs along the same edge the other way. Faces that coincide count as back to back.
+double outsideAngle(const BakeMesh& mesh, uint32_t a, uint32_t b) {
+    glm::dvec3 na = normalOf(mesh, mesh.triangles[a / 3]), nb = normalOf(mesh, mesh.triangles[b / 3]);
+    glm::dvec3 along = glm::normalize(mesh.pointAt(BakeMesh::next(a)) - mesh.pointAt(a));
+    glm::dvec3 intoA = glm::cross(na, along), intoB = glm::cross(along, nb);
+    double angle = std::atan2(glm::dot(intoB, na), glm::dot(intoB, intoA));
+    return angle < 1e-6 ? angle + 6.283185307179586 : angle;
+}
+
+// Pairs half-edges that run along one edge in opposite directions. Of more than two, those go together whose outsides
+// face each other most closely: a walk goes on along the outside.
 void pairEdges(BakeMesh& mesh, size_t& nonManifold, size_t& unlike) {
     size_t count = mesh.triangles.size() * 3;
     std::vector<Edge> edges(count);
@@ -139,7 +150,7 @@ void pairEdges(BakeMesh& mesh, size_t& nonManifold, size_t& unlike) {
     mesh.twin.assign(count, kNone);
     auto startOf = [&](uint32_t h) { return mesh.triangles[h / 3].point[h % 3]; };
     struct Pair {
-        double dot;
+        double angle;
         uint32_t a, b;
     };
     std::vector<Pair> pairs;
@@ -159,10 +170,10 @@ void pairEdges(BakeMesh& mesh, size_t& nonManifold, size_t& unlike) {
                 for (size_t q = p + 1; q < j; ++q) {
                     uint32_t a = edges[p].half, b = edges[q].half;
                     if (startOf(a) == startOf(b)) continue;
-                    pairs.push_back(
-                        {glm::dot(normalOf(mesh, mesh.triangles[a / 3]), normalOf(mesh, mesh.triangles[b / 3])), a, b});
+                    pairs.push_back({outsideAngle(mesh, a, b), a, b});
                 }
-            std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.dot > y.dot; });
+            std::stable_sort(pairs.begin(), pairs.end(),
+                             [](const Pair& x, const Pair& y) { return x.angle < y.angle; });
             for (const Pair& p : pairs)
                 if (mesh.twin[p.a] == kNone && mesh.twin[p.b] == kNone) mesh.twin[p.a] = p.b, mesh.twin[p.b] = p.a;
         }

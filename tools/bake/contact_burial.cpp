@@ -10,9 +10,9 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr size_t kSamples = 9;       // judged per region
-constexpr double kFacing = 0.95;     // cosine: faces that cover one another
-constexpr double kLevelShare = 0.02; // of the tolerance: faces nearer to each other lie at one height
+constexpr size_t kSamples = 9;        // judged per region
+constexpr double kFacing = 0.95;      // cosine: faces that cover one another
+constexpr double kLevelShare = 0.02;  // of the tolerance: faces nearer to each other lie at one height
 const glm::dvec3 kRays[3] = {{0.5377, 0.7483, 0.3883}, {-0.6157, 0.4621, -0.6382}, {0.2113, -0.8341, 0.5094}};
 
 // 1 or -1 where the ray leaves or enters through a-b-c, else 0.
@@ -82,8 +82,7 @@ bool Contacts::covered(glm::dvec3 p, uint32_t triangle) const {
 bool Contacts::hidden(glm::dvec3 p, uint32_t triangle) const {
     uint32_t body = mesh_.triangles[triangle].body;
     glm::dvec3 n = normals_[triangle];
-    return inside(p + n * (0.1 * tolerance_), body) || inside(p + n * (1.5 * tolerance_), body) ||
-           covered(p, triangle);
+    return inside(p + n * (0.1 * tolerance_), body) || inside(p + n * (1.5 * tolerance_), body) || covered(p, triangle);
 }
 
 uint64_t Contacts::bury(const std::vector<Crossing>& crossings, const std::vector<Plane>& planes,
