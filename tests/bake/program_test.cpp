@@ -55,7 +55,7 @@ TEST_CASE("espalier-bake writes surface, report and pictures") {
     CHECK(surface->levels.size() == 2);
     CHECK(surface->levels[0].size == 128);
     CHECK(surface->source == "cube.glb");
-    for (const char* picture : {"charts.png", "links.png", "stretch.png"})
+    for (const char* picture : {"charts.png", "links.png", "contacts.png", "stretch.png"})
         CHECK(r.has((std::string("out/pictures/") + picture).c_str()));
     auto text = readTextFile(r.file("out/r.json"));
     REQUIRE(text);

@@ -1,6 +1,5 @@
 // In: a level's texels and the contacts. Out: which texels are buried. Contacts part a chart's texels into regions;
-// a region is judged by some of its points, texels on a contact each by itself. A point is judged by rays, which
-// count how often they leave a solid body more than they enter it.
+// a region is judged by some of its points, texels on a contact each by itself.
 #include <algorithm>
 #include <cmath>
 
@@ -10,79 +9,14 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr size_t kSamples = 9;        // judged per region
-constexpr double kFacing = 0.95;      // cosine: faces that cover one another
-constexpr double kLevelShare = 0.02;  // of the tolerance: faces nearer to each other lie at one height
-const glm::dvec3 kRays[3] = {{0.5377, 0.7483, 0.3883}, {-0.6157, 0.4621, -0.6382}, {0.2113, -0.8341, 0.5094}};
-
-// 1 or -1 where the ray leaves or enters through a-b-c, else 0.
-int passage(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 origin, glm::dvec3 direction) {
-    glm::dvec3 e1 = b - a, e2 = c - a, h = glm::cross(direction, e2);
-    double det = glm::dot(e1, h);  // negative: the ray goes the way of the normal
-    if (det == 0) return 0;
-    glm::dvec3 s = origin - a, q = glm::cross(s, e1);
-    double u = glm::dot(s, h) / det, v = glm::dot(direction, q) / det, t = glm::dot(e2, q) / det;
-    if (u < 0 || v < 0 || u + v > 1 || t < 0) return 0;
-    return det < 0 ? 1 : -1;
-}
+constexpr size_t kSamples = 9;  // judged per region
 
 }  // namespace
 
-bool Contacts::inside(glm::dvec3 p, glm::dvec3 direction, uint32_t ownBody) const {
-    struct Count {
-        uint32_t body;
-        int count;
-    };
-    thread_local std::vector<Count> counts;
-    counts.clear();
-    wallTree_.along(p, direction, [&](uint32_t i) {
-        const Cap& w = walls_[i];
-        if (w.body == ownBody) return;
-        int passed = passage(w.a, w.b, w.c, p, direction);
-        if (passed == 0) return;
-        for (Count& c : counts)
-            if (c.body == w.body) {
-                c.count += passed;
-                return;
-            }
-        counts.push_back({w.body, passed});
-    });
-    return std::any_of(counts.begin(), counts.end(), [](const Count& c) { return c.count > 0; });
-}
-
-// Two rays that agree decide; a ray along an edge may err.
-bool Contacts::inside(glm::dvec3 p, uint32_t ownBody) const {
-    bool first = inside(p, kRays[0], ownBody);
-    return inside(p, kRays[1], ownBody) == first ? first : inside(p, kRays[2], ownBody);
-}
-
-bool Contacts::covered(glm::dvec3 p, uint32_t triangle) const {
-    const auto& own = mesh_.triangles[triangle];
-    glm::dvec3 n = normals_[triangle];
-    Box around;
-    around.add(p);
-    bool found = false;
-    tree_.near(around.grown(tolerance_), [&](uint32_t t) {
-        const auto& other = mesh_.triangles[t];
-        double facing = glm::dot(n, normals_[t]);
-        if (found || other.body == own.body || std::abs(facing) < kFacing) return;
-        if (facing < 0 && (!mesh_.solid[own.body] || mesh_.solid[other.body])) return;
-        double above = glm::dot(normals_[t], mesh_.at(t, 0) - p) * (facing > 0 ? 1 : -1);
-        if (std::abs(above) > tolerance_) return;
-        for (uint32_t k = 0; k < 3; ++k) {
-            glm::dvec3 a = mesh_.at(t, k), e = mesh_.at(t, (k + 1) % 3) - a;
-            if (glm::dot(glm::cross(normals_[t], e), p - a) < 0) return;
-        }
-        double level = kLevelShare * tolerance_;
-        found = facing < 0 || above > level || (above > -level && other.body < own.body);
-    });
-    return found;
-}
-
-bool Contacts::hidden(glm::dvec3 p, uint32_t triangle) const {
-    uint32_t body = mesh_.triangles[triangle].body;
-    glm::dvec3 n = normals_[triangle];
-    return inside(p + n * (0.1 * tolerance_), body) || inside(p + n * (1.5 * tolerance_), body) || covered(p, triangle);
+bool Contacts::hidden(glm::dvec3 p, uint32_t t) const {
+    glm::dvec3 a = mesh_.at(t, 0), n = glm::cross(mesh_.at(t, 1) - a, mesh_.at(t, 2) - a);
+    uint32_t body = mesh_.triangles[t].body;
+    return bodies_.hide({p, n / glm::length(n), body, mesh_.solid[body] != 0}, tolerance_);
 }
 
 uint64_t Contacts::bury(const std::vector<Crossing>& crossings, const std::vector<Plane>& planes,

@@ -92,7 +92,8 @@ void measureCrossings(const std::vector<Link>& links, const std::vector<Contact>
             double texel = std::sqrt(glm::length(glm::cross(glm::dvec3(here.du), glm::dvec3(here.dv)))) / size;
             gaps.push_back(glm::length(onTriangle(here, p) - onTriangle(there, q)) / texel);
         }
-        if (dangling) ++report.danglingCrossings;
+        // From the back of a sheet no way leads back: there walks are on its outside.
+        if (dangling && (c.flags & kCrossingTurned) == 0) ++report.danglingCrossings;
     }
     report.roundTrip50 = percentile(trips, 0.5);
     report.roundTrip999 = percentile(trips, 0.999);

@@ -107,6 +107,7 @@ void drawBorders(const SurfaceData& surface, Canvas& canvas) {
     float size = float(canvas.size());
     for (const Crossing& c : surface.crossings) {
         vec3 color(0.95f);
+        if ((c.flags & 3u) == kCrossingContact) continue;
         if ((c.flags & 3u) == kCrossingOpen) color = vec3(0.95f, 0.25f, 0.2f);
         if ((c.flags & 3u) == kCrossingNearest) color = vec3(1.0f, 0.75f, 0.1f);
         canvas.line(c.a * size, c.b * size, color, 1.3f, 0.9f);
@@ -129,6 +130,66 @@ void drawLinks(const SurfaceData& surface, Canvas& canvas) {
     }
 }
 
+// Which texels lie within a chart: gutters are link texels too, buried ones lie inside.
+std::vector<uint8_t> insideCharts(const SurfaceData& surface) {
+    int size = int(surface.levels[0].size);
+    std::vector<uint8_t> inside(size_t(size) * size_t(size), 0);
+    for (size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
+        vec2 p[3], low(1e30f), high(-1e30f);
+        for (size_t k = 0; k < 3; ++k) {
+            p[k] = surface.vertices[surface.indices[i + k]].walkUv * float(size) - 0.5f;
+            low = glm::min(low, p[k]), high = glm::max(high, p[k]);
+        }
+        auto cross = [](vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; };
+        float turn = cross(p[1] - p[0], p[2] - p[0]) < 0 ? -1.0f : 1.0f;
+        for (int y = std::max(0, int(std::ceil(low.y))); y <= std::min(size - 1, int(high.y)); ++y)
+            for (int x = std::max(0, int(std::ceil(low.x))); x <= std::min(size - 1, int(high.x)); ++x) {
+                vec2 q = vec2(float(x), float(y));
+                bool in = true;
+                for (int k = 0; k < 3; ++k) in = in && turn * cross(p[(k + 1) % 3] - p[k], q - p[k]) >= 0;
+                if (in) inside[size_t(y) * size_t(size) + size_t(x)] = 1;
+            }
+    }
+    return inside;
+}
+
+// Ground in grey, buried texels hatched in red, contacts in the colour of their pair: a line with feathers on the side
+// from which a walk may come; dashed where they lead to the back of a sheet.
+Status writeContacts(const SurfaceData& surface, const std::string& path) {
+    uint32_t size = surface.levels[0].size;
+    Canvas canvas(size);
+    std::vector<uint8_t> inside = insideCharts(surface);
+    for (uint32_t y = 0; y < size; ++y)
+        for (uint32_t x = 0; x < size; ++x) {
+            uint32_t at = texelIndex(size, x, y), kind = texelClass(surface.levels[0].texels[at].bits);
+            if (kind == kTexelEmpty || !inside[size_t(y) * size + x]) continue;
+            float light = shade(unpackOct(surface.levels[0].aux[at].normal));
+            bool hatch = (x + y) % 8 < 3;
+            canvas.at(x, y) = kind == kTexelInner
+                                  ? vec3(0.62f, 0.63f, 0.6f) * light
+                                  : (hatch ? vec3(0.72f, 0.2f, 0.16f) : vec3(0.3f, 0.13f, 0.12f)) * light;
+        }
+    drawBorders(surface, canvas);
+    float scale = float(size), since = 0;
+    for (const Crossing& c : surface.crossings) {
+        if ((c.flags & 3u) != kCrossingContact) continue;
+        uint32_t here = c.flags >> 16, there = c.target & 0xFFFFu;
+        vec3 color = fromHue(std::fmod(float(here + there) * 0.61803399f, 1.0f), 0.75f, 1.0f);
+        vec2 a = c.a * scale, b = c.b * scale, d = b - a;
+        float length = glm::length(d);
+        if (!(length > 0)) continue;
+        vec2 side = vec2(-d.y, d.x) * ((c.flags & kCrossingInsideLeft) != 0 ? 1.0f : -1.0f) / length;
+        float step = (c.flags & kCrossingTurned) != 0 ? 4.0f : length;
+        for (float t = 0; t < length; t += 2 * step)
+            canvas.line(a + d * (t / length), a + d * (std::min(t + step, length) / length), color, 1.6f, 1.0f);
+        for (float t = 6 - since; t < length; t += 6)
+            canvas.line(a + d * (std::max(t, 0.0f) / length), a + d * (std::max(t, 0.0f) / length) + side * 4.0f, color,
+                        1.0f, 0.8f);
+        since = std::fmod(since + length, 6.0f);
+    }
+    return canvas.write(path);
+}
+
 }  // namespace
 
 Status writePictures(const SurfaceData& surface, const std::string& folder) {
@@ -148,6 +209,8 @@ Status writePictures(const SurfaceData& surface, const std::string& folder) {
     drawLinks(surface, links);
     drawBorders(surface, links);
     done = links.write(folder + "/links.png");
+    if (!done) return done;
+    done = writeContacts(surface, folder + "/contacts.png");
     if (!done) return done;
 
     // One scale for all charts, so that charts given too little room show as well.

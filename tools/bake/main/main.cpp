@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::Range(0, 8));
     app.add_option("--report", arguments.report, "write the report (JSON) here");
-    app.add_option("--images", arguments.images, "write charts.png, links.png and stretch.png into this folder");
+    app.add_option("--images", arguments.images, "write charts, links, contacts and stretch as .png into this folder");
     app.add_option("--tolerance", arguments.tolerance,
                    "metres within which borders without a twin are linked; 0: one texel's footprint")
         ->check(CLI::NonNegativeNumber);

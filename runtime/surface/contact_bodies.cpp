@@ -1,0 +1,135 @@
+// In: a mesh. Out: its solid bodies, and answers to whether a place is hidden by them. Rays count how often they leave
+// a solid body more than they enter it.
+#include "runtime/surface/contact_bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace espalier {
+namespace {
+
+constexpr double kMostCap = 0.4;      // of a body's area: what is more open is a sheet
+constexpr double kFacing = 0.95;      // cosine: faces that cover one another
+constexpr double kLevelShare = 0.02;  // of the tolerance: faces nearer to each other lie at one height
+const glm::dvec3 kRays[3] = {{0.5377, 0.7483, 0.3883}, {-0.6157, 0.4621, -0.6382}, {0.2113, -0.8341, 0.5094}};
+
+// 1 or -1 where the ray leaves or enters through a-b-c, else 0.
+int passage(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 origin, glm::dvec3 direction) {
+    glm::dvec3 e1 = b - a, e2 = c - a, h = glm::cross(direction, e2);
+    double det = glm::dot(e1, h);  // negative: the ray goes the way of the normal
+    if (det == 0) return 0;
+    glm::dvec3 s = origin - a, q = glm::cross(s, e1);
+    double u = glm::dot(s, h) / det, v = glm::dot(direction, q) / det, t = glm::dot(e2, q) / det;
+    if (u < 0 || v < 0 || u + v > 1 || t < 0) return 0;
+    return det < 0 ? 1 : -1;
+}
+
+}  // namespace
+
+Bodies::Bodies(ContactMesh& mesh, std::span<const float> open) : mesh_(&mesh), tree_(mesh.tree()) {
+    uint32_t bodies = 0;
+    for (const auto& t : mesh.triangles) bodies = std::max(bodies, t.body + 1);
+    std::vector<double> area(bodies, 0), capArea(bodies, 0), volume(bodies, 0);
+    auto add = [&](const Wall& w, bool cap) {
+        glm::dvec3 n = glm::cross(w.b - w.a, w.c - w.a);
+        (cap ? capArea : area)[w.body] += glm::length(n) / 2;
+        volume[w.body] += glm::dot(w.a - mesh.points[0], n) / 6;
+        walls_.push_back(w);
+    };
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        add({mesh.at(t, 0), mesh.at(t, 1), mesh.at(t, 2), mesh.triangles[t].body}, false);
+
+    // Each hole is closed by a fan around its middle; holes that share a point count as one.
+    std::vector<uint32_t> parent(mesh.points.size()), rim;
+    std::iota(parent.begin(), parent.end(), 0u);
+    auto hole = [&](uint32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    auto start = [&](uint32_t h) { return mesh.triangles[h / 3].point[h % 3]; };
+    auto end = [&](uint32_t h) { return mesh.triangles[h / 3].point[(h + 1) % 3]; };
+    for (uint32_t h = 0; h < open.size(); ++h)
+        if (open[h] > 0.5f) {
+            rim.push_back(h);
+            parent[hole(end(h))] = hole(start(h));
+        }
+    std::vector<glm::dvec4> middle(rim.empty() ? 0 : mesh.points.size(), glm::dvec4(0));
+    for (uint32_t h : rim) {
+        glm::dvec3 a = mesh.points[start(h)], b = mesh.points[end(h)];
+        middle[hole(start(h))] += glm::dvec4((a + b) / 2.0, 1) * glm::length(b - a);
+    }
+    for (uint32_t h : rim) {
+        glm::dvec4 m = middle[hole(start(h))];
+        add({mesh.points[end(h)], mesh.points[start(h)], glm::dvec3(m) / m.w, mesh.triangles[h / 3].body}, true);
+    }
+    mesh.solid.resize(bodies);
+    for (size_t b = 0; b < bodies; ++b) mesh.solid[b] = volume[b] > 0 && capArea[b] < kMostCap * area[b];
+    std::erase_if(walls_, [&](const Wall& w) { return !mesh.solid[w.body]; });
+    std::vector<Box> boxes(walls_.size());
+    for (size_t i = 0; i < boxes.size(); ++i)
+        boxes[i].add(walls_[i].a), boxes[i].add(walls_[i].b), boxes[i].add(walls_[i].c);
+    wallTree_ = BoxTree(std::move(boxes), {});
+}
+
+bool Bodies::inside(glm::dvec3 p, glm::dvec3 direction, uint32_t ownBody) const {
+    struct Count {
+        uint32_t body;
+        int count;
+    };
+    thread_local std::vector<Count> counts;
+    counts.clear();
+    wallTree_.along(p, direction, [&](uint32_t i) {
+        const Wall& w = walls_[i];
+        if (w.body == ownBody) return;
+        int passed = passage(w.a, w.b, w.c, p, direction);
+        if (passed == 0) return;
+        for (Count& c : counts)
+            if (c.body == w.body) {
+                c.count += passed;
+                return;
+            }
+        counts.push_back({w.body, passed});
+    });
+    return std::any_of(counts.begin(), counts.end(), [](const Count& c) { return c.count > 0; });
+}
+
+// Two rays that agree decide; a ray along an edge may err.
+bool Bodies::inside(glm::dvec3 p, uint32_t ownBody) const {
+    bool first = inside(p, kRays[0], ownBody);
+    return inside(p, kRays[1], ownBody) == first ? first : inside(p, kRays[2], ownBody);
+}
+
+bool Bodies::covered(const HiddenQuery& q, double tolerance) const {
+    Box around;
+    around.add(q.position);
+    bool found = false;
+    tree_.near(around.grown(tolerance), [&](uint32_t t) {
+        const auto& other = mesh_->triangles[t];
+        if (found || other.body == q.body) return;
+        glm::dvec3 a = mesh_->at(t, 0), n = glm::cross(mesh_->at(t, 1) - a, mesh_->at(t, 2) - a);
+        n /= std::max(glm::length(n), 1e-300);
+        double facing = glm::dot(q.normal, n);
+        if (std::abs(facing) < kFacing) return;
+        // Sheets back to back, as double-sided ones are made, hide nothing; nor does a solid's face what stands off it.
+        if (facing < 0 && (!q.solid || mesh_->solid[other.body])) return;
+        double above = glm::dot(n, a - q.position) * (facing > 0 ? 1 : -1);
+        if (std::abs(above) > tolerance) return;
+        for (uint32_t k = 0; k < 3; ++k) {
+            glm::dvec3 corner = mesh_->at(t, k), e = mesh_->at(t, (k + 1) % 3) - corner;
+            if (glm::dot(glm::cross(n, e), q.position - corner) < 0) return;
+        }
+        double level = kLevelShare * tolerance;
+        bool first = q.body == kNoIndex ? q.yields : other.body < q.body;
+        found = facing < 0 || above > level || (above > -level && first);
+    });
+    return found;
+}
+
+bool Bodies::hide(const HiddenQuery& q, double tolerance) const {
+    if (tree_.empty()) return false;
+    return inside(q.position + q.normal * (0.1 * tolerance), q.body) ||
+           inside(q.position + q.normal * (1.5 * tolerance), q.body) || covered(q, tolerance);
+}
+
+}  // namespace espalier

@@ -1,0 +1,46 @@
+#pragma once
+
+// Which bodies of a mesh are solid, and what is hidden by them: the ground that contacts take away.
+
+#include <span>
+
+#include "runtime/surface/contacts.hpp"
+
+namespace espalier {
+
+// A place on some surface, asked about: is it hidden by these bodies?
+struct HiddenQuery {
+    glm::dvec3 position, normal;  // normal: unit, outward; in the space of the bodies' mesh
+    uint32_t body = kNoIndex;     // its own body when it is one of these
+    bool solid = false;           // it belongs to a solid body
+    bool yields = false;          // of equal faces in one place it is the one that is hidden; unused when body is set
+};
+
+class Bodies {
+  public:
+    Bodies() = default;
+    // Sets mesh.solid. A body is solid when it encloses room, its holes closed by fans: kits leave out what stands on
+    // the ground. open: per half-edge the share of it that leads nowhere. The mesh must outlive this, unchanged.
+    Bodies(ContactMesh& mesh, std::span<const float> open);
+
+    // Inside of a solid body other than its own, or covered by a face nearer than the tolerance (metres).
+    bool hide(const HiddenQuery& query, double tolerance) const;
+
+    const BoxTree& tree() const { return tree_; }  // over the mesh's triangles
+
+  private:
+    struct Wall {
+        glm::dvec3 a, b, c;
+        uint32_t body;
+    };
+    bool inside(glm::dvec3 p, uint32_t ownBody) const;
+    bool inside(glm::dvec3 p, glm::dvec3 direction, uint32_t ownBody) const;
+    bool covered(const HiddenQuery& query, double tolerance) const;
+
+    const ContactMesh* mesh_ = nullptr;
+    BoxTree tree_;
+    std::vector<Wall> walls_;  // triangles of solid bodies and what closes their holes
+    BoxTree wallTree_;
+};
+
+}  // namespace espalier
