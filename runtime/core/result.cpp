@@ -5,7 +5,8 @@ namespace espalier {
 
 std::string toString(const Diagnostic& d) {
     std::string text = d.file;
-    if (d.line > 0) text += ":" + std::to_string(d.line) + ":" + std::to_string(d.column);
+    if (d.line > 0) text += ":" + std::to_string(d.line);
+    if (d.line > 0 && d.column > 0) text += ":" + std::to_string(d.column);
     if (!text.empty()) text += ": ";
     if (d.warning) text += "warning: ";
     if (!d.rule.empty()) text += d.rule + ": ";

@@ -22,7 +22,7 @@ bool isKnown(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view file) {
+Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view file, uint64_t maxTexels) {
     const auto* from = reinterpret_cast<const stbi_uc*>(bytes.data());
     int width = 0, height = 0, channels = 0;
     if (!isKnown(bytes)) return Failure(file, "neither PNG nor JPEG");
@@ -32,6 +32,8 @@ Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view
     if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
         return Failure(file,
                        std::to_string(width) + "×" + std::to_string(height) + " texels; 1 to 16384 a side are read");
+    if (uint64_t(width) * uint64_t(height) > maxTexels)
+        return Failure(file, std::to_string(width) + "×" + std::to_string(height) + " texels, absurdly many here");
     std::unique_ptr<stbi_uc, void (*)(void*)> texels(
         stbi_load_from_memory(from, int(bytes.size()), &width, &height, &channels, 4), stbi_image_free);
     if (!texels) return Failure(file, std::string("damaged image: ") + stbi_failure_reason());

@@ -10,7 +10,8 @@
 namespace espalier {
 
 // Decodes a PNG or JPEG of 1 to 16384 texels a side; `encoded` stays empty. A failure names `file` and the cause: other
-// formats, damage, want of memory. Never throws; may be called from any thread.
-Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view file);
+// formats, damage, want of memory, more than maxTexels. Never throws; may be called from any thread.
+Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view file,
+                              uint64_t maxTexels = uint64_t(1) << 28);
 
 }  // namespace espalier

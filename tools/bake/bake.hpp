@@ -68,8 +68,8 @@ struct Baked {
     BakeReport report;
 };
 
-// Reads .gltf or .glb with Draco, quantisation, meshopt, sparse accessors and every triangle mode.
-// uvSet: which TEXCOORD (0 or 1) the walk's charts come from; materials keep theirs.
+// Reads glTF 2.0, OBJ or PLY (tools/bake/import_model.hpp, which has further options).
+// uvSet: which TEXCOORD, 0 to 7, of a glTF file the walk's charts come from; materials keep theirs.
 Result<Model> importModel(const std::string& path, int uvSet = 0);
 
 // Refuses models whose UVs can't serve, saying what is wrong and how much of the area it concerns.

@@ -44,6 +44,9 @@ Result<Strided> locate(const Document& document, int index) {
     if (size <= 0 || components <= 0) return Failure(document.path, place + ": unknown type");
     if (accessor.count == 0 || accessor.count > kMaxCount)
         return Failure(document.path, place + ": absurd count " + std::to_string(accessor.count));
+    if (!document.intake->take(accessor.count * uint64_t(components) * 4))
+        return Failure(document.path, place + ": " + std::to_string(accessor.count) +
+                                          " elements, absurdly many for a file of its size");
     Strided out;
     out.count = accessor.count;
     out.componentType = accessor.componentType;
@@ -165,18 +168,20 @@ Status readDracoAttribute(const Document& document, const draco::Mesh& mesh, int
 
 // The attributes that are read, and where they go.
 struct Wanted {
-    const char* name;
+    std::string name;
     int components;
     std::vector<float>* into;
 };
-std::array<Wanted, 4> wantedOf(Primitive& out) {
+std::array<Wanted, 4> wantedOf(Primitive& out, UvSets sets) {
+    auto uvs = [](int set) { return "TEXCOORD_" + std::to_string(set); };
     return {{{"POSITION", 3, &out.positions},
              {"NORMAL", 3, &out.normals},
-             {"TEXCOORD_0", 2, &out.uvs[0]},
-             {"TEXCOORD_1", 2, &out.uvs[1]}}};
+             {uvs(sets.walk), 2, &out.walkUvs},
+             {uvs(sets.drawn), 2, &out.drawnUvs}}};
 }
 
-Result<Primitive> readDraco(const Document& document, const tinygltf::Value& extension, const std::string& place) {
+Result<Primitive> readDraco(const Document& document, const tinygltf::Value& extension, UvSets sets,
+                            const std::string& place) {
     if (!extension.IsObject() || !extension.Get("bufferView").IsInt() || !extension.Get("attributes").IsObject())
         return Failure(document.path, place + ": KHR_draco_mesh_compression is incomplete");
     auto bytes = part(document, extension.Get("bufferView").Get<int>(), 0, 0, place);
@@ -189,8 +194,10 @@ Result<Primitive> readDraco(const Document& document, const tinygltf::Value& ext
     if (!decoded.ok())
         return Failure(document.path, place + ": damaged Draco data: " + decoded.status().error_msg_string());
     const draco::Mesh& mesh = *decoded.value();
+    if (!document.intake->take(uint64_t(mesh.num_points()) * 40 + uint64_t(mesh.num_faces()) * 12))
+        return Failure(document.path, place + ": the Draco data holds absurdly much for its size");
     Primitive out;
-    for (const Wanted& w : wantedOf(out)) {
+    for (const Wanted& w : wantedOf(out, sets)) {
         const tinygltf::Value& id = extension.Get("attributes").Get(w.name);
         if (!id.IsInt()) continue;
         Status read = readDracoAttribute(document, mesh, id.Get<int>(), w.components, place + "." + w.name, *w.into);
@@ -235,19 +242,19 @@ Result<std::vector<uint32_t>> readIndices(const Document& document, int accessor
     return out;
 }
 
-Result<Primitive> readPrimitive(const Document& document, const tinygltf::Primitive& primitive,
+Result<Primitive> readPrimitive(const Document& document, const tinygltf::Primitive& primitive, UvSets sets,
                                 const std::string& place) {
     Primitive out;
     auto packed = primitive.extensions.find("KHR_draco_mesh_compression");
     if (packed != primitive.extensions.end()) {
-        auto read = readDraco(document, packed->second, place);
+        auto read = readDraco(document, packed->second, sets, place);
         if (!read) return std::move(read.failure());
         out = std::move(*read);
     } else {
-        for (const Wanted& w : wantedOf(out)) {
+        for (const Wanted& w : wantedOf(out, sets)) {
             auto it = primitive.attributes.find(w.name);
             if (it == primitive.attributes.end()) continue;
-            auto read = readFloats(document, it->second, w.components, w.name);
+            auto read = readFloats(document, it->second, w.components, w.name.c_str());
             if (!read) return std::move(read.failure());
             *w.into = std::move(*read);
         }
@@ -269,9 +276,11 @@ Result<Primitive> readPrimitive(const Document& document, const tinygltf::Primit
         if (i >= count)
             return Failure(document.path,
                            place + ": index " + std::to_string(i) + " of " + std::to_string(count) + " vertices");
-    if (out.normals.size() != count * 3) out.normals.clear();
-    for (auto& uv : out.uvs)
-        if (uv.size() != count * 2) uv.clear();
+    for (const Wanted& w : wantedOf(out, sets))
+        if (!w.into->empty() && w.into->size() != count * size_t(w.components))
+            return Failure(document.path, place + ": " + w.name + " has " +
+                                              std::to_string(w.into->size() / size_t(w.components)) +
+                                              " elements, POSITION " + std::to_string(count));
     return out;
 }
 

@@ -20,29 +20,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr uint64_t kMaxDecodedBytes = uint64_t(4) << 30;
 constexpr int kMaxDepth = 128;
 
-Result<std::vector<uint8_t>> loadFile(const std::string& path, const std::string& blame) {
-    auto read = readFile(path);
-    if (!read) {
-        Diagnostic d = read.failure().diagnostics.front();
-        return Failure(blame, d.file == blame ? d.message : "cannot read '" + path + "': " + d.message);
-    }
-    std::vector<uint8_t> bytes(read->size());
-    if (!bytes.empty()) std::memcpy(bytes.data(), read->data(), bytes.size());
-    return bytes;
-}
-
-uint32_t word(const std::vector<uint8_t>& bytes, size_t at) {
+uint32_t word(Bytes bytes, size_t at) {
     uint32_t value;
     std::memcpy(&value, bytes.data() + at, 4);
     return value;
 }
 
 // Splits a .glb into text and binary chunk.
-Status splitBinary(const std::string& path, const std::vector<uint8_t>& file, std::string& text,
-                   std::vector<uint8_t>& binary) {
+Status splitBinary(const std::string& path, Bytes file, std::string& text, std::vector<uint8_t>& binary) {
     if (file.size() < 20) return Failure(path, "truncated: a .glb has at least 20 bytes");
     if (word(file, 4) != 2) return Failure(path, "not glTF 2.0: container version " + std::to_string(word(file, 4)));
     if (word(file, 8) > file.size())
@@ -64,9 +51,11 @@ Status splitBinary(const std::string& path, const std::vector<uint8_t>& file, st
     return Done{};
 }
 
-// tinygltf recurses over extras and extensions: a document nested without end would end the stack.
-bool nestedTooDeep(const std::string& text) {
+// tinygltf recurses over extras and extensions: a document nested without end would end the stack. And it makes some
+// hundred bytes of each value: one that is made of empty objects would become a large multiple of its text.
+Status judgeText(const std::string& path, const std::string& text, Intake& intake) {
     int depth = 0;
+    uint64_t objects = 0, values = 0;
     bool quoted = false;
     for (size_t i = 0; i < text.size(); ++i) {
         char c = text[i];
@@ -76,12 +65,16 @@ bool nestedTooDeep(const std::string& text) {
         } else if (c == '"') {
             quoted = true;
         } else if (c == '{' || c == '[') {
-            if (++depth > kMaxDepth) return true;
+            ++objects;
+            if (++depth > kMaxDepth) return Failure(path, "the JSON is nested too deeply");
         } else if (c == '}' || c == ']') {
             --depth;
+        } else if (c == ',') {
+            ++values;
         }
     }
-    return false;
+    if (!intake.take(objects * 768 + values * 256)) return Failure(path, "the JSON holds absurdly many values");
+    return Done{};
 }
 
 bool getSize(const json& object, const char* key, uint64_t& value, bool required) {
@@ -132,7 +125,7 @@ Status loadBuffers(Document& document, const json& root, std::vector<uint8_t> bi
         std::vector<uint8_t> bytes;
         std::string uri = textOf(buffer, "uri");
         if (!uri.empty()) {
-            auto read = readUri(document.path, uri);
+            auto read = readUri(document, uri);
             if (!read) return std::move(read.failure());
             bytes = std::move(*read);
         } else if (i == 0 && !binary.empty()) {
@@ -160,6 +153,8 @@ Result<Bytes> range(const Document& document, const json& view, const std::strin
     if (buffer >= document.storage.size())
         return Failure(document.path, place + ": buffer " + std::to_string(buffer) + " does not exist");
     const auto& bytes = document.storage[buffer];
+    if (bytes.empty() && length > 0)
+        return Failure(document.path, place + ": buffer " + std::to_string(buffer) + " holds nothing: it has no uri");
     if (offset > bytes.size() || length > bytes.size() - offset)
         return Failure(document.path, place + ": bytes " + std::to_string(offset) + " to " +
                                           std::to_string(offset + length) + " lie outside of buffer " +
@@ -167,8 +162,7 @@ Result<Bytes> range(const Document& document, const json& view, const std::strin
     return Bytes(bytes).subspan(offset, length);
 }
 
-Result<std::vector<uint8_t>> decodeMeshopt(const Document& document, const json& packed, const std::string& place,
-                                           uint64_t& decodedSoFar) {
+Result<std::vector<uint8_t>> decodeMeshopt(const Document& document, const json& packed, const std::string& place) {
     auto source = range(document, packed, place + ".EXT_meshopt_compression");
     if (!source) return std::move(source.failure());
     uint64_t stride = 0, count = 0;
@@ -177,9 +171,8 @@ Result<std::vector<uint8_t>> decodeMeshopt(const Document& document, const json&
     std::string mode = textOf(packed, "mode"), filter = textOf(packed, "filter");
     bool attributes = mode == "ATTRIBUTES";
     bool fits = attributes ? (stride > 0 && stride <= 256 && stride % 4 == 0) : (stride == 2 || stride == 4);
-    // The densest meshopt data is about 1/64 of what it decodes to; more is a made-up count.
-    if (!fits || count > kMaxDecodedBytes / stride || count * stride > source->size() * 4096 ||
-        (decodedSoFar += count * stride) > kMaxDecodedBytes)
+    // The densest meshopt data is 1/64 of what it decodes to; more is a made-up count.
+    if (!fits || count > source->size() * 64 / stride || !document.intake->take(count * stride))
         return Failure(document.path, place + ": absurd meshopt stride or count");
     if (mode == "TRIANGLES" && count % 3 != 0) return Failure(document.path, place + ": meshopt count is not whole");
     std::vector<uint8_t> out(count * stride);
@@ -198,7 +191,6 @@ Status loadViews(Document& document, const json& root) {
     const json* views = member(root, "bufferViews");
     if (!views) return Done{};
     if (!views->is_array()) return Failure(document.path, "bufferViews: not an array");
-    uint64_t decoded = 0;
     size_t buffers = document.storage.size();
     document.storage.reserve(buffers + views->size());  // spans into it stay valid
     for (size_t i = 0; i < views->size(); ++i) {
@@ -209,7 +201,7 @@ Status loadViews(Document& document, const json& root) {
             return Failure(document.path, place + ": not a buffer view");
         const json* packed = extension(view, "EXT_meshopt_compression");
         if (packed && packed->is_object()) {
-            auto bytes = decodeMeshopt(document, *packed, place, decoded);
+            auto bytes = decodeMeshopt(document, *packed, place);
             if (!bytes) return std::move(bytes.failure());
             document.storage.push_back(std::move(*bytes));
             document.views.push_back(document.storage.back());
@@ -225,14 +217,17 @@ Status loadViews(Document& document, const json& root) {
 
 Status checkRequired(const Document& document, const json& root) {
     static constexpr std::array kKnown = {"KHR_draco_mesh_compression", "KHR_mesh_quantization",
-                                          "EXT_meshopt_compression",    "KHR_texture_transform",
-                                          "ESPALIER_surface",           "KHR_materials_unlit"};
+                                          "EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "ESPALIER_surface"};
+    // What changes how a model looks or moves, but not where its triangles are.
+    static constexpr std::array kHarmless = {"KHR_materials_", "KHR_texture_",   "EXT_texture_", "KHR_lights_",
+                                             "EXT_lights_",    "KHR_animation_", "KHR_xmp"};
     const json* required = member(root, "extensionsRequired");
     if (!required || !required->is_array()) return Done{};
     for (const json& name : *required) {
         if (!name.is_string()) continue;
         std::string text = name.get<std::string>();
-        bool known = text.rfind("KHR_materials_", 0) == 0;
+        bool known = false;
+        for (const char* prefix : kHarmless) known = known || text.rfind(prefix, 0) == 0;
         for (const char* k : kKnown) known = known || text == k;
         if (!known) return Failure(document.path, "extensionsRequired: " + text + " is not supported");
     }
@@ -262,6 +257,16 @@ int hexDigit(char c) {
     return -1;
 }
 
+std::string decodePercent(std::string_view text) {
+    std::string out;
+    for (size_t i = 0; i < text.size(); ++i) {
+        bool coded = text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0;
+        out += coded ? char(hexDigit(text[i + 1]) * 16 + hexDigit(text[i + 2])) : text[i];
+        if (coded) i += 2;
+    }
+    return out;
+}
+
 std::vector<uint8_t> decodeBase64(std::string_view text) {
     std::vector<uint8_t> out;
     out.reserve(text.size() / 4 * 3);
@@ -287,41 +292,32 @@ std::vector<uint8_t> decodeBase64(std::string_view text) {
 
 }  // namespace
 
-Result<std::vector<uint8_t>> readUri(const std::string& documentPath, const std::string& uri) {
+Result<std::vector<uint8_t>> readUri(const Document& document, const std::string& uri) {
     if (uri.rfind("data:", 0) == 0) {
-        size_t comma = uri.find(";base64,");
-        if (comma == std::string::npos) return Failure(documentPath, "a data URI that is not base64");
-        return decodeBase64(std::string_view(uri).substr(comma + 8));
+        size_t comma = uri.find(',');
+        if (comma == std::string::npos) return Failure(document.path, "a data URI without data");
+        std::string data = uri.substr(comma + 1);
+        if (std::string_view(uri).substr(0, comma).ends_with(";base64")) return decodeBase64(data);
+        data = decodePercent(data);
+        return std::vector<uint8_t>(data.begin(), data.end());
     }
-    std::string name;
-    for (size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0 && hexDigit(uri[i + 2]) >= 0) {
-            name += char(hexDigit(uri[i + 1]) * 16 + hexDigit(uri[i + 2]));
-            i += 2;
-        } else {
-            name += uri[i];
-        }
-    }
-    if (name.find("://") != std::string::npos || std::filesystem::path(name).is_absolute() ||
-        name.find('\0') != std::string::npos)
-        return Failure(documentPath, "URI '" + uri + "' is not a file beside the model");
-    return loadFile((std::filesystem::path(documentPath).parent_path() / name).string(), documentPath);
+    return document.intake->readBeside(document.path, decodePercent(uri));
 }
 
-Result<Document> openDocument(const std::string& path) {
-    auto file = loadFile(path, path);
-    if (!file) return std::move(file.failure());
+Result<Document> openDocument(const std::string& path, Bytes file, Intake& intake) {
     Document document;
     document.path = path;
+    document.intake = &intake;
     std::string text;
     std::vector<uint8_t> binary;
-    if (file->size() >= 4 && word(*file, 0) == surface_file::kGlbMagic) {
-        Status split = splitBinary(path, *file, text, binary);
+    if (file.size() >= 4 && word(file, 0) == surface_file::kGlbMagic) {
+        Status split = splitBinary(path, file, text, binary);
         if (!split) return std::move(split.failure());
     } else {
-        text.assign(file->begin(), file->end());
+        text.assign(file.begin(), file.end());
     }
-    if (nestedTooDeep(text)) return Failure(path, "the JSON is nested too deeply");
+    Status judged = judgeText(path, text, intake);
+    if (!judged) return std::move(judged.failure());
     json root = json::parse(text, nullptr, false);
     if (root.is_discarded() || !root.is_object()) return Failure(path, "not glTF: the JSON does not parse");
     std::string version = root.contains("asset") ? textOf(root["asset"], "version") : std::string();

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "runtime/surface/picture.hpp"
 #include "tools/bake/import.hpp"
 
 namespace espalier::import {
@@ -17,8 +16,7 @@ Result<std::vector<uint8_t>> imageBytes(const Document& document, int index, con
         !document.images[size_t(index)].is_object())
         return Failure(document.path, place + " does not exist");
     const json& image = document.images[size_t(index)];
-    if (image.contains("uri") && image["uri"].is_string())
-        return readUri(document.path, image["uri"].get<std::string>());
+    if (image.contains("uri") && image["uri"].is_string()) return readUri(document, image["uri"].get<std::string>());
     if (!image.contains("bufferView") || !image["bufferView"].is_number_unsigned() ||
         image["bufferView"].get<uint64_t>() >= document.views.size())
         return Failure(document.path, place + ": neither a file nor a buffer view");
@@ -30,11 +28,9 @@ Result<Picture> decodeImage(const Document& document, int index) {
     std::string place = "images[" + std::to_string(index) + "]";
     auto bytes = imageBytes(document, index, place);
     if (!bytes) return std::move(bytes.failure());
-    auto decoded = decodePicture(std::as_bytes(std::span(*bytes)), document.path);
+    auto decoded = readPicture(std::move(*bytes), document.path, *document.intake);
     if (!decoded) return Failure(document.path, place + ": " + decoded.failure().diagnostics.front().message);
-    Picture image = std::move(*decoded);
-    image.encoded = std::move(*bytes);
-    return image;
+    return decoded;
 }
 
 // Decodes each image once, when a material first asks for it.
