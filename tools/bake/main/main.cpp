@@ -1,7 +1,8 @@
-// espalier-bake: a model becomes a surface that plants can grow on.
+// espalier-bake: a model becomes a surface that plants can grow on, or a folder of models a folder of surfaces.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <new>
@@ -9,6 +10,7 @@
 
 #include "runtime/core/file.hpp"
 #include "tools/bake/bake.hpp"
+#include "tools/bake/main/folder.hpp"
 #include "tools/bake/pictures.hpp"
 
 using namespace espalier;
@@ -16,11 +18,27 @@ using namespace espalier;
 namespace {
 
 struct Arguments {
-    std::string model, output, report, images;
-    uint32_t resolution = 1024, levels = 0;
-    int uvSet = 0;
+    std::string model, output, report, images, shard;
+    ImportOptions importing;
+    BakeOptions bake;
     double tolerance = 0;
-    bool keepLayout = false, quiet = false;
+    unsigned jobs = 0;
+    bool quiet = false;
+};
+
+// While one lives, signals that would end the program wait: what is being written gets whole or not there.
+class Uninterrupted {
+  public:
+    Uninterrupted() {
+        sigset_t blocked;
+        sigemptyset(&blocked);
+        for (int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&blocked, signal);
+        ::sigprocmask(SIG_BLOCK, &blocked, &before_);
+    }
+    ~Uninterrupted() { ::sigprocmask(SIG_SETMASK, &before_, nullptr); }
+
+  private:
+    sigset_t before_;
 };
 
 int fail(const Failure& failure) {
@@ -37,21 +55,16 @@ void showProgress(float done, const char* stage) {
     }
 }
 
-int run(const Arguments& arguments) {
+int runModel(Arguments& arguments) {
     if (!arguments.quiet) showProgress(0, "read");
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.model, arguments.output, ignored))
         return fail(Failure(arguments.output, "the surface would overwrite its model"));
-    auto model = importModel(arguments.model, arguments.uvSet);
+    auto model = importModel(arguments.model, arguments.importing);
     if (!model) return fail(model.failure());
-    BakeOptions options;
-    options.resolution = arguments.resolution;
-    options.levels = arguments.levels;
-    options.nearestTolerance = float(arguments.tolerance);
-    options.keepLayout = arguments.keepLayout;
     if (!arguments.quiet)
-        options.progress = [](float done, const char* stage) { showProgress(0.1f + done * 0.7f, stage); };
-    auto baked = bake(*model, options);
+        arguments.bake.progress = [](float done, const char* stage) { showProgress(0.1f + done * 0.7f, stage); };
+    auto baked = bake(*model, arguments.bake);
     if (!baked) return fail(baked.failure());
     if (!arguments.images.empty()) {
         if (!arguments.quiet) showProgress(0.82f, "pictures");
@@ -59,6 +72,7 @@ int run(const Arguments& arguments) {
         if (!drawn) return fail(drawn.failure());
     }
     if (!arguments.quiet) showProgress(0.85f, "write");
+    Uninterrupted writing;
     // The report first: a surface that exists is one that is complete.
     if (!arguments.report.empty()) {
         Status written = writeFile(arguments.report, baked->report.json());
@@ -74,18 +88,49 @@ int run(const Arguments& arguments) {
     return 0;
 }
 
+int runFolder(const Arguments& arguments, const CLI::App& app) {
+    folder::Options options;
+    options.folder = arguments.model;
+    options.out = arguments.output;
+    options.importing = arguments.importing;
+    options.bake = arguments.bake;
+    options.jobs = arguments.jobs;
+    options.quiet = arguments.quiet;
+    if (!arguments.report.empty() || !arguments.images.empty())
+        return fail(Failure(arguments.model, "is a folder: --report and --images are for one model"));
+    if (!arguments.shard.empty()) {
+        char rest = 0;
+        if (std::sscanf(arguments.shard.c_str(), "%u/%u%c", &options.shard, &options.shards, &rest) != 2 ||
+            options.shard < 1 || options.shard > options.shards)
+            return fail(Failure("--shard " + arguments.shard, "is not i/n with i from 1 to n"));
+    }
+    // What changes a surface is all but where things lie and how the work is spread.
+    for (const CLI::Option* option : app.get_options()) {
+        std::string name = option->get_name();
+        if (option->count() == 0 || name == "MODEL" || name == "--output" || name == "--shard" || name == "--jobs" ||
+            name == "--quiet")
+            continue;
+        options.asked += (options.asked.empty() ? "" : " ") + name;
+        for (const std::string& value : option->results()) options.asked += "=" + value;
+    }
+    return folder::run(options);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Bakes a glTF model into a surface that plants can grow on.", "espalier-bake");
+    CLI::App app("Bakes a model, or all models of a folder, into surfaces that plants can grow on.", "espalier-bake");
     Arguments arguments;
     app.set_version_flag("--version", std::string("espalier-bake ") + ESPALIER_VERSION);
-    app.add_option("MODEL", arguments.model, ".gltf or .glb with unwrapped UVs")->required();
-    app.add_option("-o,--output", arguments.output, "the surface to write (.glb)")->required();
-    app.add_option("--resolution", arguments.resolution,
+    app.add_option("MODEL", arguments.model, ".gltf, .glb, .obj or .ply; or a folder of such")->required();
+    app.add_option("-o,--output", arguments.output,
+                   "the surface to write (.glb); or the folder for surfaces and their report")
+        ->required();
+    app.add_option("--resolution", arguments.bake.resolution,
                    "texels a side of the finest level, a power of two, 64 to 8192")
         ->capture_default_str();
-    app.add_option("--levels", arguments.levels, "levels, each half as fine as the one before; 0: down to 64 texels")
+    app.add_option("--levels", arguments.bake.levels,
+                   "levels, each half as fine as the one before; 0: down to 64 texels")
         ->capture_default_str()
         ->check(CLI::Range(0, 8));
     app.add_option("--report", arguments.report, "write the report (JSON) here");
@@ -93,14 +138,22 @@ int main(int argc, char** argv) {
     app.add_option("--tolerance", arguments.tolerance,
                    "metres within which borders without a twin are linked; 0: one texel's footprint")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--uv-set", arguments.uvSet, "the TEXCOORD set that is unwrapped")
+    app.add_option("--uv-set", arguments.importing.uvSet, "the TEXCOORD set that is unwrapped")
         ->capture_default_str()
-        ->check(CLI::Range(0, 1));
-    app.add_flag("--keep-layout", arguments.keepLayout, "never move charts apart");
+        ->check(CLI::Range(0, 7));
+    app.add_option("--scene", arguments.importing.scene, "which of a glTF file's scenes, from 0; else its default one")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--jobs", arguments.jobs, "of a folder: models at once; 0: as many as there are cores");
+    app.add_option("--shard", arguments.shard, "of a folder: i/n bakes every nth model from the ith on");
+    app.add_flag("--keep-layout", arguments.bake.keepLayout, "never move charts apart");
     app.add_flag("-q,--quiet", arguments.quiet, "no progress, warnings only");
     CLI11_PARSE(app, argc, argv);
+    ::signal(SIGXFSZ, SIG_IGN);  // too large a file is an error like a full disk, with a message
+    arguments.bake.nearestTolerance = float(arguments.tolerance);
     try {
-        return run(arguments);
+        std::error_code ignored;
+        return std::filesystem::is_directory(arguments.model, ignored) ? runFolder(arguments, app)
+                                                                       : runModel(arguments);
     } catch (const std::bad_alloc&) {
         return fail(Failure(arguments.model, "baking it at this resolution takes more memory than there is"));
     }
