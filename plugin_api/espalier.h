@@ -156,7 +156,8 @@ ESP_API const char* espLayerName(const EspContext* context, EspGrammar grammar, 
 
 typedef enum EspLayerSpace {
     ESP_LAYER_WALK_UV = 0,       /* drawn in the surface's walk UV set */
-    ESP_LAYER_MATERIAL_UV = 1    /* drawn in the model's own UV set; resampled on loading */
+    ESP_LAYER_MATERIAL_UV = 1,   /* drawn in the model's own UV set; resampled on loading */
+    ESP_LAYER_TEXELS = 2         /* as espReadLayer gave it: the same size, taken as it is, gutters too */
 } EspLayerSpace;
 
 /* texels: height rows of width floats in [0,1], the first row at v = 0; 1 to 8192 each. NULL removes the layer. */
@@ -181,7 +182,8 @@ ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
  * destroyed. Strokes of one layer are to be swapped in the order in which a history goes: last done, first undone. */
 typedef enum EspBrushMode {
     ESP_BRUSH_PAINT = 0,         /* towards `value` */
-    ESP_BRUSH_ERASE = 1          /* back to the layer's fill */
+    ESP_BRUSH_ERASE = 1,         /* back to the layer's fill */
+    ESP_BRUSH_SMOOTH = 2         /* towards the mean of the surface around, over seams too */
 } EspBrushMode;
 
 typedef struct EspBrush {
@@ -219,6 +221,9 @@ ESP_API uint64_t espStrokeBytes(const EspContext* context, EspStroke stroke);   
 /* Sets the whole layer, on all surfaces; out is an ended stroke. */
 ESP_API EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out);
 
+/* espSetLayer that can be undone: out is an ended stroke. texels must not be NULL. */
+ESP_API EspResult espImportLayer(EspContext* context, const EspLayerDef* def, EspStroke* out);
+
 /* The layers that are painted on any surface; a name is valid until the next call that changes layers. */
 ESP_API uint32_t espPaintedLayerCount(const EspContext* context);
 ESP_API const char* espPaintedLayerName(const EspContext* context, uint32_t index);
@@ -233,13 +238,63 @@ typedef struct EspSeedDef {
     const char* symbol;       /* start symbol; NULL: the grammar's first */
     float position[3];        /* world; the nearest surface point is taken */
     float direction[3];       /* world; laid into the surface. Zero: upward, or any where the surface is level */
-    uint32_t number;          /* the seed's random number: seeds of unlike numbers grow unlike plants, and the first,
-                                 second ... of one number since espRemoveAllSeeds the same ones every time */
+    uint32_t number;          /* the seed's random number: seeds of unlike numbers grow unlike plants */
+    uint32_t twin;            /* tells apart seeds of one number, from 1; 0: the first that isn't planted yet */
 } EspSeedDef;
 ESP_API EspSeedDef espDefaultSeedDef(void);
 ESP_API EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out);
 ESP_API EspResult espRemoveSeed(EspContext* context, EspSeed seed);
 ESP_API EspResult espRemoveAllSeeds(EspContext* context);
+
+typedef struct EspSeedInfo {
+    EspSeedDef def;           /* as it was planted or last moved: planted again, it grows the same plant to the bit.
+                                 symbol: "" or valid as long as the seed */
+    EspSurface surface;
+    float position[3];        /* on the surface, world */
+    float normal[3], direction[3];   /* unit, world; the direction is laid into the surface */
+} EspSeedInfo;
+
+ESP_API uint32_t espSeedCount(const EspContext* context);
+/* In an order that doesn't change while no seed comes or goes. */
+ESP_API EspResult espSeedAt(const EspContext* context, uint32_t index, EspSeed* out);
+ESP_API EspResult espSeedInfo(const EspContext* context, EspSeed seed, EspSeedInfo* out);
+/* To the surface point nearest to `position`; its plant keeps its random numbers. */
+ESP_API EspResult espMoveSeed(EspContext* context, EspSeed seed, const float position[3], const float direction[3]);
+/* twin: as in EspSeedDef. */
+ESP_API EspResult espSetSeedNumber(EspContext* context, EspSeed seed, uint32_t number, uint32_t twin);
+/* A value for this seed alone in place of its grammar's; count 0: the grammar's again. Limited to the range. Kept by
+ * name when the grammar is compiled anew. Seeds of the same settings share one copy of the grammar's rule map. */
+ESP_API EspResult espSetSeedParam(EspContext* context, EspSeed seed, const char* name, const float* value,
+                                  uint32_t count);
+/* *count: 0 where the seed has no value of its own. */
+ESP_API EspResult espSeedParam(const EspContext* context, EspSeed seed, const char* name, float value[3],
+                               uint32_t* count);
+
+/* ---- Plants ------------------------------------------------------------------------------------------------- */
+
+/* These look at what the last espUpdate grew. The first call after a growth reads it back, and waits for the GPU. */
+typedef struct EspPlantHit {
+    EspSeed seed;
+    uint64_t branch;          /* key: stays the same as long as the rules that led to the branch do */
+    float position[3];        /* world */
+    float distance;           /* along the ray, metres */
+    uint32_t depth;           /* branches from the seed, 0: the seed's own */
+} EspPlantHit;
+/* The branch that the ray meets first; ESP_INVALID_ARGUMENT if none, or if a surface hides it. */
+ESP_API EspResult espPickPlant(EspContext* context, const float origin[3], const float direction[3], EspPlantHit* out);
+
+/* The walk of a branch (Buron 2015, Figure 4). Where chart or surface changes from one sample to the next, the walk
+ * has gone over a crossing. */
+typedef struct EspPathSample {
+    float position[3];        /* world */
+    float uv[2];              /* the surface's walk UV */
+    uint32_t chart;
+    EspSurface surface;
+    int inserted;             /* 1: put in by a seam, a crease or a bend, not a step of the grammar */
+} EspPathSample;
+/* From the node that the branch leaves from to its tip. *count: room in samples, set to how many there are. */
+ESP_API EspResult espBranchPath(EspContext* context, uint64_t branch, EspPathSample* samples, uint32_t* count);
+ESP_API EspResult espPlantNodes(EspContext* context, EspSeed seed, uint32_t* nodes);
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 

@@ -35,6 +35,7 @@ PaintEnv environment(const Canvas& canvas, uint64_t blocks, size_t count) {
     env.perScale = 1 / canvas.surface.scale;
     env.count = uint32_t(count);
     env.instance = canvas.instance;
+    env.size = canvas.surface.levels[0].size;
     env.surfaces = canvas.surfaces;
     return env;
 }
@@ -85,7 +86,7 @@ Status Painter::makeRoom(Commands& commands, BlockRecord& record, size_t blocks)
     return Done{};
 }
 
-Result<std::vector<Painter::Placed>> Painter::begin(Commands& commands, std::span<PaintJob> jobs) {
+Result<std::vector<uint64_t>> Painter::begin(Commands& commands, std::span<PaintJob> jobs) {
     std::vector<uint32_t> words;
     std::vector<std::vector<uint32_t>> fresh(jobs.size());
     for (size_t j = 0; j < jobs.size(); ++j) {
@@ -103,12 +104,12 @@ Result<std::vector<Painter::Placed>> Painter::begin(Commands& commands, std::spa
     if (!uploaded) return uploaded.failure();
     commands.barrier(Use::transfer, Use::compute);
 
-    std::vector<Placed> placed(jobs.size());
+    std::vector<uint64_t> placed(jobs.size());
     uint64_t next = words_.address();
     Pass pass(commands, "paint save");
     for (size_t j = 0; j < jobs.size(); ++j) {
         BlockRecord& record = *jobs[j].record;
-        placed[j].blocks = next;
+        placed[j] = next;
         next += jobs[j].blocks.size() * sizeof(uint32_t);
         if (!fresh[j].empty())
             move(pass, {wordsOf(*jobs[j].canvas.layer),
@@ -130,7 +131,7 @@ Result<std::vector<Painter::Placed>> Painter::begin(Commands& commands, std::spa
 Status Painter::dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs) {
     Result<Commands> commands = Commands::begin(device_, "paint");
     if (!commands) return commands.failure();
-    Result<std::vector<Placed>> placed = begin(*commands, jobs);
+    Result<std::vector<uint64_t>> placed = begin(*commands, jobs);
     if (!placed) return placed.failure();
     for (size_t first = 0; first < dabs.size(); first += kDabsAtOnce) {
         const std::span<const DabRecord> some = dabs.subspan(first, std::min<size_t>(kDabsAtOnce, dabs.size() - first));
@@ -144,7 +145,7 @@ Status Painter::dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<cons
         Pass pass(*commands, "paint dabs");
         for (size_t j = 0; j < jobs.size(); ++j)
             pass.dispatchItems(dabs_, uint32_t(jobs[j].blocks.size()) * kBlockTexels,
-                               environment(jobs[j].canvas, (*placed)[j].blocks, jobs[j].blocks.size()), {stroke_});
+                               environment(jobs[j].canvas, (*placed)[j], jobs[j].blocks.size()), {stroke_});
         pass.barrier(Use::compute, Use::compute | Use::transfer);
     }
     Result<uint64_t> submitted = commands->submit();
@@ -154,20 +155,72 @@ Status Painter::dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<cons
 Status Painter::fill(std::span<PaintJob> jobs, float value) {
     Result<Commands> commands = Commands::begin(device_, "paint fill");
     if (!commands) return commands.failure();
-    Result<std::vector<Placed>> placed = begin(*commands, jobs);
+    Result<std::vector<uint64_t>> placed = begin(*commands, jobs);
     if (!placed) return placed.failure();
     {
         Pass pass(*commands, "paint fill");
         for (size_t j = 0; j < jobs.size(); ++j)
             move(pass, {wordsOf(*jobs[j].canvas.layer),
                         {},
-                        at<UintBuf, uint32_t>((*placed)[j].blocks),
+                        at<UintBuf, uint32_t>((*placed)[j]),
                         {},
                         uint32_t(jobs[j].blocks.size()),
                         0,
                         kBlocksFill,
                         floatBitsToUint(value)});
     }
+    Result<uint64_t> submitted = commands->submit();
+    return submitted ? Status(Done{}) : submitted.failure();
+}
+
+// Dab by dab, since what one leaves the next one averages: inner texels first, then the gutters that stand for them.
+Status Painter::smooth(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs) {
+    if (!smooth_) {
+        Result<Program> made = Program::compute(device_, "paint/smooth.comp", {.exact = true, .constants = {}});
+        if (!made) return made.failure();
+        smooth_ = std::move(*made);
+    }
+    size_t most = 0;
+    for (const PaintJob& job : jobs) most = std::max(most, job.blocks.size());
+    Status room = ensure(device_, result_, "paint result", most * kBlockBytes);
+    if (!room) return room;
+    Result<Commands> commands = Commands::begin(device_, "paint");
+    if (!commands) return commands.failure();
+    Result<std::vector<uint64_t>> placed = begin(*commands, jobs);
+    if (!placed) return placed.failure();
+    brush.dabs = 1;
+    for (const DabRecord& dab : dabs)
+        for (brush.gutters = 0; brush.gutters < 2; ++brush.gutters) {
+            StrokeUniforms uniforms{};
+            uniforms.brush = brush;
+            uniforms.dabs[0] = dab;
+            Status uploaded = commands->upload(stroke_, std::as_bytes(std::span(&uniforms, 1)));
+            if (!uploaded) return uploaded;
+            commands->barrier(Use::transfer, Use::compute);
+            Pass pass(*commands, "paint smooth");
+            for (size_t j = 0; j < jobs.size(); ++j) {
+                const uint32_t count = uint32_t(jobs[j].blocks.size());
+                PaintEnv env = environment(jobs[j].canvas, (*placed)[j], count);
+                env.result = at<FloatBuf, float>(result_.address());
+                pass.dispatchItems(smooth_, count * kBlockTexels, env, {stroke_});
+                pass.barrier(Use::compute, Use::compute);
+                move(pass,
+                     {wordsOf(*jobs[j].canvas.layer), wordsOf(result_), env.blocks, {}, count, 0, kBlocksTake, 0});
+                pass.barrier(Use::compute, Use::compute | Use::transfer);
+            }
+        }
+    Result<uint64_t> submitted = commands->submit();
+    return submitted ? Status(Done{}) : submitted.failure();
+}
+
+Status Painter::replace(PaintJob& job, std::span<const float> texels) {
+    Result<Commands> commands = Commands::begin(device_, "paint replace");
+    if (!commands) return commands.failure();
+    Result<std::vector<uint64_t>> placed = begin(*commands, {&job, 1});
+    if (!placed) return placed.failure();
+    commands->barrier(Use::compute, Use::transfer);
+    Status uploaded = commands->upload(*job.canvas.layer, std::as_bytes(texels));
+    if (!uploaded) return uploaded;
     Result<uint64_t> submitted = commands->submit();
     return submitted ? Status(Done{}) : submitted.failure();
 }

@@ -50,8 +50,13 @@ class Painter {
 
     // Applies the dabs in order. Blocks that a record doesn't hold yet are kept in it first.
     Status dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs);
+    // Smooths by the dabs, one after the other: texels go towards the mean of places brush.reach away, found by walking
+    // over the surface. The canvases need their table of surfaces.
+    Status smooth(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs);
     // Sets all texels of the jobs' blocks, likewise.
     Status fill(std::span<PaintJob> jobs, float value);
+    // Sets all texels of one canvas: size² floats in texelIndex order. The job's blocks are those to be kept.
+    Status replace(PaintJob& job, std::span<const float> texels);
     // Drops from a record the blocks that are as they were, and gives back the room it doesn't need; from then on it
     // takes no more dabs. Waits for the GPU.
     Status close(const Canvas& canvas, BlockRecord& record);
@@ -60,19 +65,17 @@ class Painter {
 
   private:
     explicit Painter(Device& device) : device_(device) {}
-    // The jobs' blocks and those new to their records, on the GPU one after the other; the new ones are saved.
-    struct Placed {
-        uint64_t blocks = 0;  // address
-    };
-    Result<std::vector<Placed>> begin(Commands& commands, std::span<PaintJob> jobs);
+    // Puts the jobs' blocks on the GPU, and keeps those that are new to their records. Addresses of the blocks.
+    Result<std::vector<uint64_t>> begin(Commands& commands, std::span<PaintJob> jobs);
     Status makeRoom(Commands& commands, BlockRecord& record, size_t blocks);
     Status upload(Commands& commands, const std::vector<uint32_t>& words);
     void move(Pass& pass, BlocksEnv env);
 
     Device& device_;
-    Program dabs_, blocks_;
-    Buffer stroke_;  // BrushRecord and its dabs
-    Buffer words_;   // numbers of blocks
+    Program dabs_, blocks_, smooth_;  // the last one made when first asked for
+    Buffer stroke_;                   // BrushRecord and its dabs
+    Buffer words_;                    // numbers of blocks
+    Buffer result_;                   // of smoothing
 };
 
 }  // namespace espalier

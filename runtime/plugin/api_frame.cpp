@@ -14,7 +14,7 @@ constexpr uint32_t kMaxSide = 16384;
 
 // The root of a seed's derivation path. Doesn't depend on other seeds or grammars.
 uint64_t seedKey(const PlantedSeed& seed) {
-    return combineKeys(mix64(seed.number), seed.ordinal);
+    return combineKeys(mix64(seed.number), seed.twin - 1);
 }
 
 EspResult update(EspContext& context) {
@@ -26,27 +26,37 @@ EspResult update(EspContext& context) {
     }
     Status tables = context.refreshTables();
     if (!tables) return failGpu(&context, tables.failure());
+    Status variants = refreshVariants(context);
+    if (!variants) return failGpu(&context, variants.failure());
 
     std::vector<RuleMapRef> maps;
     std::vector<float> widths;
     std::vector<std::pair<uint32_t, uint32_t>> places;  // grammar id -> index in maps
-    context.grammars.forEach([&](uint32_t id, const LoadedGrammar& grammar) {
-        RuleMapRef ref = grammar.map.refAt(grammar.words.address());
-        for (size_t i = 0; i < grammar.layerOf.size() && i < kMaxLayers; ++i) ref.layerOf[i] = grammar.layerOf[i];
-        places.push_back({id, uint32_t(maps.size())});
+    const auto addMap = [&](const RuleMap& map, const Buffer& words, const std::vector<uint32_t>& layerOf) {
+        RuleMapRef ref = map.refAt(words.address());
+        for (size_t i = 0; i < layerOf.size() && i < kMaxLayers; ++i) ref.layerOf[i] = layerOf[i];
         maps.push_back(ref);
-        widths.push_back(grammar.map.width());
+        widths.push_back(map.width());
+    };
+    context.grammars.forEach([&](uint32_t id, const LoadedGrammar& grammar) {
+        places.push_back({id, uint32_t(maps.size())});
+        addMap(grammar.map, grammar.words, grammar.layerOf);
     });
+    const uint32_t firstVariant = uint32_t(maps.size());
+    for (const GrammarVariant& variant : context.variants) addMap(variant.map, variant.words, variant.layerOf);
     std::vector<Seed> seeds;
-    context.seeds.forEach([&](uint32_t, const PlantedSeed& planted) {
+    std::vector<uint32_t> seedIds;
+    context.seeds.forEach([&](uint32_t seedId, const PlantedSeed& planted) {
         Seed seed{};
         seed.key = seedKey(planted);
         seed.walk = planted.walk;
         for (const auto& [id, index] : places)
             if (id == planted.grammar) seed.grammar = index;
+        if (planted.variant != kNoIndex) seed.grammar = firstVariant + planted.variant;
         const RuleMap& map = context.grammars.find(planted.grammar)->map;
         seed.symbol = planted.symbol.empty() ? map.startSymbol() : *map.findSymbol(planted.symbol);
         seeds.push_back(seed);
+        seedIds.push_back(seedId);
     });
 
     GrowthInputs inputs;
@@ -68,6 +78,7 @@ EspResult update(EspContext& context) {
     inputs.limits.leafDensityCap = context.grow.leafDensityCap;
     std::vector<uint32_t> ids;
     for (const auto& [id, index] : places) ids.push_back(id);
+    for (uint32_t i = 0; i < context.variants.size(); ++i) ids.push_back(i);  // no grammar's id is so small
     // Indices of grammars stay what they were only as long as none goes.
     const std::vector<uint32_t>& known = context.grownGrammars;
     if (known.size() > ids.size() || !std::equal(known.begin(), known.end(), ids.begin()))
@@ -82,6 +93,7 @@ EspResult update(EspContext& context) {
     if (!grown) return failGpu(&context, grown.failure());
     context.grownRevision = context.revision;
     context.grownGrammars = std::move(ids);
+    context.grownSeeds = std::move(seedIds);
     context.changes = {.everything = false, .tiles = {}, .params = {}, .grammars = {}};
     return ESP_OK;
 }

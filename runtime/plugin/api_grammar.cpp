@@ -133,7 +133,7 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
         *old = std::move(*grammar);
         context->compileMs = old->compileMs;
         context->changes.grammars.push_back(context->grammarIndex(id.id));
-        ++context->revision;
+        old->edition = ++context->revision;
         return ESP_OK;
     });
 }
@@ -145,7 +145,7 @@ EspResult espDestroyGrammar(EspContext* context, EspGrammar id) {
         context->seeds.forEach([&](uint32_t seedId, const PlantedSeed& seed) {
             if (seed.grammar == id.id) gone.push_back(seedId);
         });
-        for (uint32_t seedId : gone) context->seeds.erase(seedId);
+        for (uint32_t seedId : gone) removeSeed(*context, seedId);
         context->grammars.erase(id.id);
         ++context->revision;
         return ESP_OK;
@@ -191,7 +191,7 @@ EspResult espSetParam(EspContext* context, EspGrammar id, const char* name, cons
         if (const uint32_t slots = grammar->map.setParam(*index, std::span(value, count))) {
             grammar->stale = true;
             context->changes.markParams(context->grammarIndex(id.id), slots);
-            ++context->revision;
+            grammar->edition = ++context->revision;
         }
         return ESP_OK;
     });

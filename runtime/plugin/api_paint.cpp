@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "runtime/plugin/context.hpp"
 
@@ -12,6 +13,7 @@ namespace {
 constexpr uint32_t kMaxDabs = 1u << 16;  // of one call
 constexpr float kSteepest = 1e30f;       // a fade of no width
 constexpr float kSlopeFade = kPi / 4;    // radians at softness 1
+constexpr float kSmoothReach = .12f;     // of the radius, to what is averaged
 
 // The numbers by which a kernel applies the brush; `fill` is the layer's.
 BrushRecord recordOf(const EspBrush& brush, float fill) {
@@ -39,7 +41,7 @@ BrushRecord recordOf(const EspBrush& brush, float fill) {
 const char* mistakeIn(const EspBrush& brush) {
     const auto share = [](float v) { return v >= 0 && v <= 1; };
     if (!brush.layer || !*brush.layer) return "a brush needs a layer's name";
-    if (brush.mode < ESP_BRUSH_PAINT || brush.mode > ESP_BRUSH_ERASE) return "there is no such mode";
+    if (brush.mode < ESP_BRUSH_PAINT || brush.mode > ESP_BRUSH_SMOOTH) return "there is no such mode";
     if (!(brush.radius > 1e-6f && brush.radius < 1e6f)) return "the radius must be over 0, in metres";
     if (!share(brush.value) || !share(brush.strength) || !share(brush.hardness) || !share(brush.limitSoftness))
         return "value, strength, hardness and limitSoftness are 0 to 1";
@@ -123,9 +125,35 @@ EspResult begin(EspContext& context, const EspBrush& brush, EspStroke* out) {
     PaintStroke stroke;
     stroke.layer = brush.layer;
     stroke.radius = brush.radius;
+    stroke.smooths = brush.mode == ESP_BRUSH_SMOOTH;
     stroke.brush = recordOf(brush, declaredFill(context, brush.layer).value_or(0));
     out->id = context.strokes.insert(std::move(stroke));
     return out->id ? ESP_OK : fail(&context, ESP_OUT_OF_MEMORY, "espBeginStroke: no ids left");
+}
+
+// Smoothing walks, so it needs the table of surfaces; and steps of a texel and a half at least.
+Status smooth(EspContext& context, std::vector<PaintJob>& jobs, const PaintStroke& stroke,
+              std::span<const DabRecord> dabs) {
+    Status tables = context.refreshTables();
+    if (!tables) return tables;
+    for (PaintJob& job : jobs) {
+        job.canvas.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
+        float texel = 0;
+        context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
+            if (surface.instance != job.canvas.instance) return;
+            double area = 0;
+            for (const Chart& chart : surface.data.charts) {
+                texel += chart.metresPerUv * chart.area;
+                area += chart.area;
+            }
+            texel *= surface.scale / float(std::max(area, 1e-20)) / float(job.canvas.surface.levels[0].size);
+        });
+        BrushRecord brush = stroke.brush;
+        brush.reach = std::max(kSmoothReach * stroke.radius, 1.5f * texel);
+        Status smoothed = context.painter->smooth({&job, 1}, brush, dabs);
+        if (!smoothed) return smoothed;
+    }
+    return Done{};
 }
 
 EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const EspDab> dabs) {
@@ -153,7 +181,8 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
     std::vector<PaintJob> jobs;
     const float fill = declaredFill(context, stroke.layer).value_or(0);
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
-    Status painted = context.painter->dabs(jobs, stroke.brush, records);
+    Status painted =
+        stroke.smooths ? smooth(context, jobs, stroke, records) : context.painter->dabs(jobs, stroke.brush, records);
     if (!painted) return failGpu(&context, painted.failure());
     for (const auto& [surface, blocks] : touched) layerChanged(context, surface, stroke.layer, blocks);
     return ESP_OK;
@@ -181,6 +210,15 @@ EspResult swap(EspContext& context, PaintStroke& stroke) {
     return ESP_OK;
 }
 
+// Ends a stroke that painted in one go, and gives it an id.
+EspResult keepEnded(EspContext& context, PaintStroke stroke, EspStroke* out) {
+    if (EspResult bad = end(context, stroke)) return bad;
+    for (const PaintStroke::Part& part : stroke.parts)
+        layerChanged(context, part.surface, stroke.layer, part.record.blocks());
+    out->id = context.strokes.insert(std::move(stroke));
+    return out->id ? ESP_OK : fail(&context, ESP_OUT_OF_MEMORY, "painting: no ids left");
+}
+
 EspResult fillLayer(EspContext& context, const char* name, float value, EspStroke* out) {
     if (EspResult bad = makePainter(context)) return bad;
     PaintStroke stroke;
@@ -196,12 +234,27 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
     Status filled = context.painter->fill(jobs, value);
     if (!filled) return failGpu(&context, filled.failure());
-    if (EspResult bad = end(context, stroke)) return bad;
-    for (const PaintStroke::Part& part : stroke.parts)
-        layerChanged(context, part.surface, stroke.layer, part.record.blocks());
-    out->id = context.strokes.insert(std::move(stroke));
-    return out->id ? ESP_OK : fail(&context, ESP_OUT_OF_MEMORY, "espFillLayer: no ids left");
+    return keepEnded(context, std::move(stroke), out);
 }
+
+}  // namespace
+
+EspResult replaceLayer(EspContext& context, uint32_t surface, const std::string& name, std::span<const float> texels,
+                       EspStroke* out) {
+    if (EspResult bad = makePainter(context)) return bad;
+    PaintStroke stroke;
+    stroke.layer = name;
+    std::vector<uint32_t> blocks(texels.size() / kBlockTexels);
+    std::iota(blocks.begin(), blocks.end(), 0u);
+    std::vector<PaintJob> jobs;
+    const float fill = declaredFill(context, name).value_or(0);
+    if (EspResult bad = jobsFor(context, stroke, fill, {{surface, std::move(blocks)}}, jobs)) return bad;
+    Status replaced = context.painter->replace(jobs.front(), texels);
+    if (!replaced) return failGpu(&context, replaced.failure());
+    return keepEnded(context, std::move(stroke), out);
+}
+
+namespace {
 
 EspResult readLayer(EspContext& context, uint32_t surface, const char* name, float* texels, uint32_t* size) {
     const PlacedSurface* placed = context.surfaces.find(surface);

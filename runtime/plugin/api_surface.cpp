@@ -215,7 +215,7 @@ EspResult espDestroySurface(EspContext* context, EspSurface surface) {
         context->seeds.forEach([&](uint32_t id, const PlantedSeed& seed) {
             if (seed.surface == surface.id) gone.push_back(id);
         });
-        for (uint32_t id : gone) context->seeds.erase(id);
+        for (uint32_t id : gone) removeSeed(*context, id);
         std::erase_if(context->layers, [&](const PaintedLayer& layer) { return layer.surface == surface.id; });
         context->renderer->removeSurface(placed->instance);
         context->surfaces.erase(surface.id);

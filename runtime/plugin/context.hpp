@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <exception>
 #include <filesystem>
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "runtime/paint/painter.hpp"
 #include "runtime/plugin/id_table.hpp"
 #include "runtime/plugin/mesh_tree.hpp"
+#include "runtime/plugin/plants.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/surface/gpu_surface.hpp"
 #include "runtime/surface/surface.hpp"
@@ -52,7 +55,16 @@ struct LoadedGrammar {
     Buffer words;  // uploaded from the map when stale
     bool stale = true;
     std::vector<uint32_t> layerOf;  // scene layer of each of the map's contexts
+    uint64_t edition = 0;           // the context's revision when text or parameters last changed
     double compileMs = 0;
+};
+
+// A value that a seed has in place of its grammar's.
+struct SeedParam {
+    std::string name;
+    std::array<float, 3> value{};
+    uint32_t count = 0;
+    bool operator==(const SeedParam&) const = default;
 };
 
 struct PlantedSeed {
@@ -60,14 +72,46 @@ struct PlantedSeed {
     uint32_t surface = 0;  // id
     std::string symbol;    // empty: the grammar's first
     uint32_t number = 0;
-    uint32_t ordinal = 0;  // tells apart seeds of one number: how many of that number were planted before it
+    uint32_t twin = 1;  // tells apart seeds of one number
     Walk walk{};
+    glm::vec3 position{0}, normal{0}, direction{0};  // world
+    glm::vec3 givenPosition{0}, givenDirection{0};   // as the host asked
+    std::vector<SeedParam> params;                   // by name
+    uint32_t variant = kNoIndex;                     // place in EspContext::variants, since the last refreshVariants
+};
+
+// A grammar as seeds with values of their own grow by it.
+struct GrammarVariant {
+    uint32_t grammar = 0;  // id
+    uint64_t edition = 0;  // of the grammar that it was made from
+    std::vector<SeedParam> params;
+    std::vector<uint32_t> layerOf;
+    RuleMap map;
+    Buffer words;
+    bool used = false;
+};
+
+// Which twins of which numbers are planted.
+class TwinTable {
+  public:
+    // wanted: 0 for the first that is free. False: it is taken, or beyond 2^20.
+    bool take(uint32_t number, uint32_t wanted, uint32_t& twin);
+    void release(uint32_t number, uint32_t twin);
+
+  private:
+    static constexpr uint32_t kMaxTwin = 1u << 20;
+    struct Uses {
+        std::vector<bool> taken;  // [twin - 1]
+        uint32_t firstFree = 0;   // none before it is free
+    };
+    std::unordered_map<uint32_t, Uses> numbers_;
 };
 
 // A stroke: open while it takes dabs, then a record for undoing.
 struct PaintStroke {
     std::string layer;
     BrushRecord brush{};
+    bool smooths = false;
     float radius = 0;  // metres
     bool open = true;
     struct Part {
@@ -104,7 +148,8 @@ struct EspContext {
     espalier::IdTable<espalier::PaintStroke> strokes;
     std::unique_ptr<espalier::Painter> painter;  // made with the first stroke
     std::vector<espalier::SceneLayer> sceneLayers;
-    std::unordered_map<uint32_t, uint32_t> numberUses;  // seeds planted with that number
+    espalier::TwinTable twins;
+    std::vector<espalier::GrammarVariant> variants;
 
     EspGrowDef grow;
     // Of the inputs, since the last growth. Edits go through touch(), or note here what they changed and raise
@@ -119,6 +164,10 @@ struct EspContext {
     espalier::Buffer surfaceTable;  // SurfaceRef[surfaceSlots()]
     espalier::Buffer layerTable;    // LayerRef[surfaceSlots() * kMaxLayers]
     double compileMs = 0;
+
+    std::vector<uint32_t> grownSeeds;        // ids, in the order of growth's indices
+    std::optional<espalier::Plants> plants;  // what was grown, read back when asked for
+    uint64_t plantsRevision = 0;             // of the growth's view
 
     bool hasPicture = false;
     uint32_t pictureWidth = 0, pictureHeight = 0;
@@ -177,6 +226,11 @@ struct SurfacePoint {
 std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction);
 std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point);
 
+// Takes a seed out, and all notes of it.
+void removeSeed(EspContext& context, uint32_t id);
+// Makes the variants that seeds ask for, and brings up to date those whose grammar has changed.
+Status refreshVariants(EspContext& context);
+
 // The number of the layer that a grammar's context reads; made if need be. Nothing: there are kMaxLayers already.
 std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill);
 PaintedLayer* paintedLayer(EspContext& context, uint32_t surface, const std::string& name);
@@ -184,6 +238,9 @@ PaintedLayer* paintedLayer(EspContext& context, uint32_t surface, const std::str
 std::optional<float> declaredFill(const EspContext& context, const std::string& name);
 // Tells growth that these 8×8 blocks of a layer have changed.
 void layerChanged(EspContext& context, uint32_t surface, const std::string& name, std::span<const uint32_t> blocks);
+// Sets all texels of a layer (texelIndex order), and makes an ended stroke of it.
+EspResult replaceLayer(EspContext& context, uint32_t surface, const std::string& name, std::span<const float> texels,
+                       EspStroke* out);
 void wholeLayerChanged(EspContext& context, uint32_t surface, const std::string& name);
 
 }  // namespace espalier

@@ -9,6 +9,9 @@ CONST_UINT(kBlocksSave, 0u);      // kept = layer
 CONST_UINT(kBlocksSwap, 1u);      // each gets the other's
 CONST_UINT(kBlocksCompare, 2u);   // marks[block] != 0: some texel differs
 CONST_UINT(kBlocksFill, 3u);      // layer = value
+CONST_UINT(kBlocksTake, 4u);      // layer = kept, but where that is kBlocksUntouched
+
+CONST_UINT(kBlocksUntouched, 0xFFFFFFFFu);   // bits that no texel has
 
 // Push constants. Texels are moved as bits.
 struct BlocksEnv {

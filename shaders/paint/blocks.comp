@@ -18,6 +18,11 @@ void main() {
         env.layer.v[at] = env.value;
         return;
     }
+    if (env.job == kBlocksTake) {
+        uint taken = env.kept.v[kept];
+        if (taken != kBlocksUntouched) env.layer.v[at] = taken;
+        return;
+    }
     uint texel = env.layer.v[at];
     if (env.job == kBlocksCompare) {
         if (texel != env.kept.v[kept]) atomicOr(env.marks.v[block], 1u);

@@ -28,8 +28,9 @@ struct BrushRecord {
     float heightLow, heightHigh, perHeight;   // metres
     uint flags;
     uint dabs;                 // of this dispatch
-    float reach;               // smoothing: metres to the neighbours that are averaged
-    uint spare[2];
+    float reach;               // smoothing: metres to the places that are averaged
+    uint gutters;              // smoothing: 0 inner texels, 1 the gutters
+    uint spare;
 };
 STATIC_SIZE(BrushRecord, 64);
 
@@ -51,9 +52,10 @@ struct PaintEnv {
     vec4 toWorld[3];           // rows
     float perScale;            // 1 / the placement's scale
     uint count;                // of blocks
-    uint instance, spare;
+    uint instance;
+    uint size;                 // texels a side
     SurfaceBuf surfaces;       // for smoothing, which walks
-    FloatBuf result;           // and writes here first, [block of this dispatch * 64 + texel]
+    FloatBuf result;           // and writes here first, [64 * i]: block blocks[i]
 };
 STATIC_SIZE(PaintEnv, 112);
 

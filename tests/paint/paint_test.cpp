@@ -1,4 +1,5 @@
 // Painting through the public interface: every texel against the formula in double precision, seams, undoing, growth.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -305,4 +306,79 @@ TEST_CASE("painting refuses what isn't a brush, a dab or a stroke, and stays as 
     float texel = 0;
     uint32_t side = 1;
     CHECK(espReadLayer(painting.context, painting.surface, "paint", &texel, &side) == ESP_INVALID_ARGUMENT);
+}
+
+TEST_CASE("smoothing lowers what stands out, on both sides of a seam alike, and keeps what is even") {
+    for (const Model& model : {cube(2), cubeCross(2)}) {
+        Painting painting(model, 256);
+        // An edge of the cube goes through the middle of a hard spot.
+        painting.stroke(brushOn("paint", .3f, 1, 1), {dabAt({1, 1, 0})});
+        const std::vector<float> hard = painting.layer("paint");
+        EspBrush brush = brushOn("paint", .7f, 1, .5f);
+        brush.mode = ESP_BRUSH_SMOOTH;
+        const EspStroke stroke = painting.stroke(brush, std::vector<EspDab>(12, dabAt({1, 1, 0})));
+        const std::vector<float> soft = painting.layer("paint");
+        const auto steepest = [&](const std::vector<float>& layer) {
+            float most = 0;
+            for (uint32_t y = 0; y < painting.size(); ++y)
+                for (uint32_t x = 0; x + 1 < painting.size(); ++x)
+                    if (texelClass(painting.texel(x, y).bits) == kTexelInner &&
+                        texelClass(painting.texel(x + 1, y).bits) == kTexelInner)
+                        most = std::max(most,
+                                        std::abs(layer[y * painting.size() + x + 1] - layer[y * painting.size() + x]));
+            return most;
+        };
+        CHECK(steepest(hard) == 1);
+        CHECK(steepest(soft) < .3f);
+        CHECK(seamGaps(painting, soft).worst < .05f);
+        CHECK(*std::max_element(soft.begin(), soft.end()) <= 1);
+        CHECK(*std::min_element(soft.begin(), soft.end()) >= 0);
+        // The hill stays where it was: symmetric about the edge, as seen from both faces.
+        const auto at = [&](glm::vec3 p) {
+            EspHit hit{};
+            const float point[3] = {p.x, p.y, p.z};
+            painting.ok(espNearest(painting.context, point, &hit));
+            return readAt(soft, painting.size(), {hit.uv[0], hit.uv[1]});
+        };
+        for (float d : {.02f, .1f, .2f, .3f, .4f}) {
+            CHECK(at({1, 1 - d, 0}) == doctest::Approx(at({1 - d, 1, 0})).epsilon(.1));
+            CHECK(at({1, 1 - d, .1}) == doctest::Approx(at({1 - d, 1, .1})).epsilon(.1));
+        }
+        CHECK(at({1, .98f, 0}) > at({1, .7f, 0}));
+        painting.ok(espSwapStroke(painting.context, stroke));
+        CHECK(painting.layer("paint") == hard);
+        // An even layer stays even.
+        EspStroke fill{};
+        painting.ok(espFillLayer(painting.context, "paint", .5f, &fill));
+        painting.stroke(brush, {dabAt({1, 1, 0})});
+        const std::vector<float> even = painting.layer("paint");
+        CHECK(std::ranges::all_of(even, [](float v) { return v == 0 || std::abs(v - .5f) < 1e-5f; }));
+    }
+}
+
+TEST_CASE("what a layer gave is taken back bit for bit, and an import can be undone") {
+    Painting painting;
+    painting.stroke(brushOn("paint", .9f, .7f), {dabAt({1, 1, 0}), dabAt({0, 1, 1})});
+    const std::vector<float> painted = painting.layer("paint");
+    EspLayerDef def = espDefaultLayerDef();
+    def.surface = painting.surface;
+    def.name = "copy";
+    def.space = ESP_LAYER_TEXELS;
+    def.texels = painted.data();
+    def.width = def.height = painting.size();
+    painting.ok(espSetLayer(painting.context, &def));
+    CHECK(painting.layer("copy") == painted);
+    def.width = 64;
+    CHECK(espSetLayer(painting.context, &def) == ESP_INVALID_ARGUMENT);
+    // A picture over what is painted, and away again.
+    const float grey[4] = {.25f, .25f, .25f, .25f};
+    def.space = ESP_LAYER_WALK_UV;
+    def.texels = grey;
+    def.width = def.height = 2;
+    EspStroke import{};
+    painting.ok(espImportLayer(painting.context, &def, &import));
+    CHECK(painting.layer("copy") != painted);
+    CHECK(espStrokeBytes(painting.context, import) > 0);
+    painting.ok(espSwapStroke(painting.context, import));
+    CHECK(painting.layer("copy") == painted);
 }

@@ -55,5 +55,6 @@ double median(std::vector<double> values);
 void growthCases(Bench& bench);
 void emitCases(Bench& bench);
 void bakeCases(Bench& bench);
+void paintCases(Bench& bench);
 
 }  // namespace espalier

@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
     growthCases(bench);
     emitCases(bench);
     bakeCases(bench);
+    paintCases(bench);
     if (csv.empty()) return 0;
     Status written = bench.writeCsv(csv);
     if (!written) std::fprintf(stderr, "espalier-bench: %s\n", written.failure().text().c_str());

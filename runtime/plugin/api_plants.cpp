@@ -1,0 +1,109 @@
+// Plants that have grown: picking a branch, showing its way over the charts, cutting it away for good.
+#include <cmath>
+
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+// The plants as last grown, read back if that is still to do; null on failure.
+const Plants* readPlants(EspContext& context) {
+    const uint64_t revision = context.growth->view().revision;
+    if (context.plants && context.plantsRevision == revision) return &*context.plants;
+    Result<GrowthRecords> records = context.growth->read();
+    if (!records) {
+        (void)failGpu(&context, records.failure());
+        return nullptr;
+    }
+    std::vector<glm::mat4> toWorld(context.surfaceSlots(), glm::mat4(1));
+    context.surfaces.forEach(
+        [&](uint32_t, const PlacedSurface& surface) { toWorld[surface.instance] = surface.toWorld; });
+    context.plants.emplace(std::move(*records), toWorld);
+    context.plantsRevision = revision;
+    return &*context.plants;
+}
+
+EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, EspPlantHit* out) {
+    const Plants* plants = readPlants(context);
+    if (!plants) return context.device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY;
+    direction = glm::normalize(direction);
+    // What a surface hides isn't picked; a stem lies on its surface, so a little behind it is not behind.
+    const auto wall = pickSurfaces(context, origin, direction);
+    const float slack = .05f;
+    const auto hit =
+        plants->pick(origin, direction, wall ? wall->distance + slack : std::numeric_limits<float>::infinity());
+    // Not logged: a ray that meets nothing is an answer.
+    if (!hit) return ESP_INVALID_ARGUMENT;
+    *out = EspPlantHit{};
+    const uint32_t seed = plants->seedOf(hit->branch);
+    if (seed < context.grownSeeds.size()) out->seed.id = context.grownSeeds[seed];
+    out->branch = plants->keyOf(hit->branch);
+    out->depth = plants->depthOf(hit->branch);
+    out->distance = hit->distance;
+    for (int i = 0; i < 3; ++i) out->position[i] = hit->position[i];
+    return ESP_OK;
+}
+
+EspResult branchPath(EspContext& context, uint64_t branch, EspPathSample* samples, uint32_t* count) {
+    const Plants* plants = readPlants(context);
+    if (!plants) return context.device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY;
+    const auto index = plants->findBranch(branch);
+    if (!index) return fail(&context, ESP_INVALID_ARGUMENT, "espBranchPath: no such branch has grown");
+    const std::vector<uint32_t> nodes = plants->nodesOf(*index);
+    const uint32_t room = samples ? *count : 0;
+    *count = uint32_t(nodes.size());
+    for (uint32_t i = 0; i < std::min(room, *count); ++i) {
+        const Node& node = plants->node(nodes[i]);
+        EspPathSample sample{};
+        for (int k = 0; k < 3; ++k) sample.position[k] = plants->positionOf(nodes[i])[k];
+        const glm::vec2 uv = unpackUv(node.uv);
+        sample.uv[0] = uv.x;
+        sample.uv[1] = uv.y;
+        sample.chart = node.place & 0xFFFFu;
+        context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
+            if (surface.instance == node.place >> 16) sample.surface.id = id;
+        });
+        sample.inserted = (node.flags & kNodeInserted) != 0;
+        samples[i] = sample;
+    }
+    return ESP_OK;
+}
+
+}  // namespace
+}  // namespace espalier
+
+using namespace espalier;
+
+extern "C" {
+
+EspResult espPickPlant(EspContext* context, const float origin[3], const float direction[3], EspPlantHit* out) {
+    return guarded(context, [&] {
+        bool usable = origin && direction && out;
+        for (int i = 0; usable && i < 3; ++i) usable = std::isfinite(origin[i]) && std::isfinite(direction[i]);
+        if (!usable || (direction[0] == 0 && direction[1] == 0 && direction[2] == 0))
+            return fail(context, ESP_INVALID_ARGUMENT, "espPickPlant: null pointer, or a ray that isn't one");
+        return pickPlant(*context, {origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, out);
+    });
+}
+
+EspResult espBranchPath(EspContext* context, uint64_t branch, EspPathSample* samples, uint32_t* count) {
+    return guarded(context, [&] {
+        if (!count) return fail(context, ESP_INVALID_ARGUMENT, "espBranchPath: null pointer");
+        return branchPath(*context, branch, samples, count);
+    });
+}
+
+EspResult espPlantNodes(EspContext* context, EspSeed seed, uint32_t* nodes) {
+    return guarded(context, [&] {
+        if (!nodes || !context->seeds.find(seed.id))
+            return fail(context, ESP_INVALID_ARGUMENT, "espPlantNodes: no such seed, or null");
+        const Plants* plants = readPlants(*context);
+        if (!plants) return context->device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY;
+        *nodes = 0;
+        for (uint32_t i = 0; i < context->grownSeeds.size(); ++i)
+            if (context->grownSeeds[i] == seed.id) *nodes = plants->nodesOfSeed(i);
+        return ESP_OK;
+    });
+}
+
+}  // extern "C"

@@ -1,0 +1,275 @@
+// Seeds: places with a direction that plants grow from, what a seed has of its own, and the branches of its plant that
+// are cut away.
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr uint32_t kMaxSeeds = 1u << 20;
+
+glm::vec3 vec(const float v[3]) {
+    return {v[0], v[1], v[2]};
+}
+void put(float to[3], glm::vec3 from) {
+    for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+bool finite(const float v[3]) {
+    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+// The unit tangent nearest to `wanted` on a plane; any where there is none.
+glm::vec3 laidInto(glm::vec3 wanted, glm::vec3 normal) {
+    const auto tangent = [&](glm::vec3 v) { return v - normal * glm::dot(v, normal); };
+    const float length = glm::length(wanted);
+    glm::vec3 best = length > 0 ? tangent(wanted / length) : glm::vec3(0);
+    if (!(glm::length(best) > 1e-3f)) best = tangent({0, 1, 0});
+    if (!(glm::length(best) > 1e-3f)) best = tangent({1, 0, 0});
+    if (!(glm::length(best) > 1e-3f)) best = tangent({0, 0, 1});
+    return glm::normalize(best);
+}
+
+// Puts a seed on the surface nearest to a point. False: there is none.
+bool place(const EspContext& context, glm::vec3 position, glm::vec3 direction, PlantedSeed& seed) {
+    const auto point = nearestOnSurfaces(context, position);
+    if (!point) return false;
+    const PlacedSurface& surface = *context.surfaces.find(point->surface);
+    seed.surface = point->surface;
+    seed.walk.place = (surface.instance << 16) | point->chart;
+    seed.walk.uv = point->uv;
+    seed.givenPosition = position;
+    seed.givenDirection = direction;
+    seed.position = point->position;
+    seed.normal = point->normal;
+    seed.direction = laidInto(direction, point->normal);
+    seed.walk.direction = glm::normalize(glm::mat3(surface.toObject) * seed.direction);
+    return true;
+}
+
+EspResult plant(EspContext& context, const EspSeedDef& def, EspSeed* out) {
+    const LoadedGrammar* grammar = context.grammars.find(def.grammar.id);
+    if (!grammar) return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: no such grammar");
+    if (!finite(def.position) || !finite(def.direction))
+        return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: position or direction not finite");
+    if (context.seeds.size() >= kMaxSeeds)
+        return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: there are 1048576 seeds already");
+    if (def.symbol && *def.symbol) {
+        const auto symbol = grammar->map.findSymbol(def.symbol);
+        if (!symbol || !grammar->map.symbols()[*symbol].grows)
+            return fail(&context, ESP_INVALID_ARGUMENT,
+                        grammar->name + ": no rule grows from '" + std::string(def.symbol) + "'");
+    }
+    PlantedSeed seed;
+    seed.grammar = def.grammar.id;
+    seed.symbol = def.symbol ? def.symbol : "";
+    if (!place(context, vec(def.position), vec(def.direction), seed))
+        return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: there is no surface to plant on");
+    if (!context.twins.take(def.number, def.twin, seed.twin))
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    "espPlant: twin " + std::to_string(def.twin) + " of number " + std::to_string(def.number) +
+                        " is planted already");
+    seed.number = def.number;
+    const uint32_t id = context.seeds.insert(std::move(seed));
+    if (!id) return fail(&context, ESP_OUT_OF_MEMORY, "espPlant: no ids left");
+    ++context.revision;
+    out->id = id;
+    return ESP_OK;
+}
+
+PlantedSeed* find(const EspContext* context, EspSeed seed) {
+    return const_cast<EspContext*>(context)->seeds.find(seed.id);
+}
+
+EspResult setNumber(EspContext& context, PlantedSeed& seed, uint32_t number, uint32_t twin) {
+    if (number == seed.number && (twin == 0 || twin == seed.twin)) return ESP_OK;
+    uint32_t taken = 0;
+    if (!context.twins.take(number, twin, taken))
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    "espSetSeedNumber: twin " + std::to_string(twin) + " of number " + std::to_string(number) +
+                        " is planted already");
+    context.twins.release(seed.number, seed.twin);
+    seed.number = number;
+    seed.twin = taken;
+    ++context.revision;
+    return ESP_OK;
+}
+
+EspResult setParam(EspContext& context, PlantedSeed& seed, const char* name, const float* value, uint32_t count) {
+    const auto known = std::ranges::find(seed.params, name, &SeedParam::name);
+    if (count == 0) {
+        if (known == seed.params.end()) return ESP_OK;
+        seed.params.erase(known);
+        ++context.revision;
+        return ESP_OK;
+    }
+    const RuleMap& map = context.grammars.find(seed.grammar)->map;
+    if (!map.findParam(name))
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    std::string("espSetSeedParam: the seed's grammar has no parameter '") + name + "'");
+    SeedParam param{name, {}, count};
+    for (uint32_t i = 0; i < count; ++i) {
+        if (!std::isfinite(value[i]))
+            return fail(&context, ESP_INVALID_ARGUMENT, std::string("espSetSeedParam: ") + name + ": not a number");
+        param.value[i] = value[i];
+    }
+    if (known != seed.params.end()) {
+        if (*known == param) return ESP_OK;
+        *known = param;
+    } else {
+        // In order of names, so that the same settings make the same list.
+        seed.params.insert(std::ranges::lower_bound(seed.params, param.name, {}, &SeedParam::name), param);
+    }
+    ++context.revision;
+    return ESP_OK;
+}
+
+}  // namespace
+
+bool TwinTable::take(uint32_t number, uint32_t wanted, uint32_t& twin) {
+    Uses& uses = numbers_[number];
+    if (wanted == 0) {
+        while (uses.firstFree < uses.taken.size() && uses.taken[uses.firstFree]) ++uses.firstFree;
+        wanted = uses.firstFree + 1;
+    }
+    if (wanted > kMaxTwin) return false;
+    if (wanted > uses.taken.size()) uses.taken.resize(wanted);
+    if (uses.taken[wanted - 1]) return false;
+    uses.taken[wanted - 1] = true;
+    twin = wanted;
+    return true;
+}
+
+void TwinTable::release(uint32_t number, uint32_t twin) {
+    Uses& uses = numbers_[number];
+    uses.taken[twin - 1] = false;
+    uses.firstFree = std::min(uses.firstFree, twin - 1);
+}
+
+void removeSeed(EspContext& context, uint32_t id) {
+    const PlantedSeed* seed = context.seeds.find(id);
+    context.twins.release(seed->number, seed->twin);
+    context.seeds.erase(id);
+}
+
+}  // namespace espalier
+
+using namespace espalier;
+
+extern "C" {
+
+EspSeedDef espDefaultSeedDef(void) {
+    EspSeedDef def{};
+    def.number = 1;
+    return def;
+}
+
+EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out) {
+    return guarded(context, [&] {
+        if (!def || !out) return fail(context, ESP_INVALID_ARGUMENT, "espPlant: null pointer");
+        return plant(*context, *def, out);
+    });
+}
+
+EspResult espRemoveSeed(EspContext* context, EspSeed seed) {
+    return guarded(context, [&] {
+        if (!find(context, seed)) return fail(context, ESP_INVALID_ARGUMENT, "espRemoveSeed: no such seed");
+        removeSeed(*context, seed.id);
+        ++context->revision;
+        return ESP_OK;
+    });
+}
+
+EspResult espRemoveAllSeeds(EspContext* context) {
+    return guarded(context, [&] {
+        if (context->seeds.size() == 0) return ESP_OK;
+        std::vector<uint32_t> all;
+        context->seeds.forEach([&](uint32_t id, const PlantedSeed&) { all.push_back(id); });
+        for (uint32_t id : all) context->seeds.erase(id);
+        context->twins = {};
+        ++context->revision;
+        return ESP_OK;
+    });
+}
+
+uint32_t espSeedCount(const EspContext* context) {
+    return context ? context->seeds.size() : 0;
+}
+
+EspResult espSeedAt(const EspContext* context, uint32_t index, EspSeed* out) {
+    return guarded(context, [&] {
+        if (!out || index >= context->seeds.size())
+            return fail(context, ESP_INVALID_ARGUMENT, "espSeedAt: null pointer, or beyond the last seed");
+        uint32_t at = 0;
+        context->seeds.forEach([&](uint32_t id, const PlantedSeed&) {
+            if (at++ == index) out->id = id;
+        });
+        return ESP_OK;
+    });
+}
+
+EspResult espSeedInfo(const EspContext* context, EspSeed id, EspSeedInfo* out) {
+    return guarded(context, [&] {
+        const PlantedSeed* seed = find(context, id);
+        if (!seed || !out) return fail(context, ESP_INVALID_ARGUMENT, "espSeedInfo: no such seed, or null");
+        *out = EspSeedInfo{};
+        out->def.grammar.id = seed->grammar;
+        out->def.symbol = seed->symbol.c_str();
+        put(out->def.position, seed->givenPosition);
+        put(out->def.direction, seed->givenDirection);
+        out->def.number = seed->number;
+        out->def.twin = seed->twin;
+        out->surface.id = seed->surface;
+        put(out->position, seed->position);
+        put(out->normal, seed->normal);
+        put(out->direction, seed->direction);
+        return ESP_OK;
+    });
+}
+
+EspResult espMoveSeed(EspContext* context, EspSeed id, const float position[3], const float direction[3]) {
+    return guarded(context, [&] {
+        PlantedSeed* seed = find(context, id);
+        if (!seed || !position || !direction || !finite(position) || !finite(direction))
+            return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: no such seed, or a place that isn't one");
+        if (!place(*context, vec(position), vec(direction), *seed))
+            return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: there is no surface");
+        ++context->revision;
+        return ESP_OK;
+    });
+}
+
+EspResult espSetSeedNumber(EspContext* context, EspSeed id, uint32_t number, uint32_t twin) {
+    return guarded(context, [&] {
+        PlantedSeed* seed = find(context, id);
+        if (!seed) return fail(context, ESP_INVALID_ARGUMENT, "espSetSeedNumber: no such seed");
+        return setNumber(*context, *seed, number, twin);
+    });
+}
+
+EspResult espSetSeedParam(EspContext* context, EspSeed id, const char* name, const float* value, uint32_t count) {
+    return guarded(context, [&] {
+        PlantedSeed* seed = find(context, id);
+        if (!seed || !name || (!value && count) || count > 3)
+            return fail(context, ESP_INVALID_ARGUMENT,
+                        "espSetSeedParam: no such seed, or null, or more than 3 numbers");
+        return setParam(*context, *seed, name, value, count);
+    });
+}
+
+EspResult espSeedParam(const EspContext* context, EspSeed id, const char* name, float value[3], uint32_t* count) {
+    return guarded(context, [&] {
+        const PlantedSeed* seed = find(context, id);
+        if (!seed || !name || !value || !count)
+            return fail(context, ESP_INVALID_ARGUMENT, "espSeedParam: no such seed, or null");
+        *count = 0;
+        const auto known = std::ranges::find(seed->params, name, &SeedParam::name);
+        if (known == seed->params.end()) return ESP_OK;
+        *count = known->count;
+        std::copy_n(known->value.begin(), known->count, value);
+        return ESP_OK;
+    });
+}
+
+}  // extern "C"

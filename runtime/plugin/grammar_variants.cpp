@@ -1,0 +1,76 @@
+// Seeds with values of their own grow by a copy of their grammar's rule map in which these are set: a variant. Seeds of
+// the same settings share one. A variant keeps its place among growth's grammars, behind the grammars themselves; a
+// place that nobody uses any more is given to the next one that comes.
+#include <algorithm>
+
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+// The variant that a seed asks for, if there is one.
+uint32_t placeOf(const std::vector<GrammarVariant>& variants, const PlantedSeed& seed) {
+    for (uint32_t i = 0; i < variants.size(); ++i)
+        if (variants[i].used && variants[i].grammar == seed.grammar && variants[i].params == seed.params) return i;
+    return kNoIndex;
+}
+
+uint32_t freePlace(std::vector<GrammarVariant>& variants, const std::vector<bool>& wanted) {
+    for (uint32_t i = 0; i < variants.size(); ++i)
+        if (!wanted[i]) return i;
+    variants.emplace_back();
+    return uint32_t(variants.size() - 1);
+}
+
+// The grammar's map with the variant's values; parameters that it hasn't got (any more) are passed over.
+Status fill(EspContext& context, GrammarVariant& variant, uint32_t place) {
+    const LoadedGrammar& grammar = *context.grammars.find(variant.grammar);
+    RuleMap map = grammar.map;
+    for (const SeedParam& param : variant.params)
+        if (const auto index = map.findParam(param.name))
+            map.setParam(*index, std::span(param.value.data(), param.count));
+    Result<Buffer> words = makeBuffer(*context.device, "rule map variant", std::as_bytes(map.words()));
+    if (!words) return words.failure();
+    variant.map = std::move(map);
+    variant.words = std::move(*words);
+    variant.edition = grammar.edition;
+    variant.layerOf = grammar.layerOf;
+    variant.used = true;
+    context.changes.grammars.push_back(context.grammars.size() + place);
+    return Done{};
+}
+
+}  // namespace
+
+Status refreshVariants(EspContext& context) {
+    std::vector<GrammarVariant>& variants = context.variants;
+    std::vector<bool> wanted(variants.size());
+    context.seeds.forEach([&](uint32_t, PlantedSeed& seed) {
+        seed.variant = seed.params.empty() ? kNoIndex : placeOf(variants, seed);
+        if (seed.variant != kNoIndex) wanted[seed.variant] = true;
+    });
+    Status status = Done{};
+    context.seeds.forEach([&](uint32_t, PlantedSeed& seed) {
+        if (seed.params.empty() || seed.variant != kNoIndex || !status) return;
+        seed.variant = placeOf(variants, seed);  // made for a seed before this one
+        if (seed.variant != kNoIndex) return;
+        const uint32_t place = freePlace(variants, wanted);
+        GrammarVariant variant;
+        variant.grammar = seed.grammar;
+        variant.params = seed.params;
+        status = fill(context, variant, place);
+        if (!status) return;
+        variants[place] = std::move(variant);
+        wanted.resize(variants.size());
+        wanted[place] = true;
+        seed.variant = place;
+    });
+    for (uint32_t i = 0; i < variants.size() && status; ++i) {
+        variants[i].used = wanted[i];
+        if (wanted[i] && variants[i].edition != context.grammars.find(variants[i].grammar)->edition)
+            status = fill(context, variants[i], i);
+    }
+    return status;
+}
+
+}  // namespace espalier

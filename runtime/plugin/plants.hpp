@@ -1,0 +1,56 @@
+#pragma once
+
+// The plants as the CPU knows them, for picking and for showing a branch's way: read back once a growth, when asked.
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "runtime/expand/growth.hpp"
+
+namespace espalier {
+
+struct PlantHit {
+    uint32_t branch = 0;  // index
+    glm::vec3 position{0};
+    float distance = 0;  // along the ray, metres
+};
+
+class Plants {
+  public:
+    Plants() = default;
+    // toWorld: by surface instance.
+    Plants(GrowthRecords records, std::span<const glm::mat4> toWorld);
+
+    // The first span that the ray meets before `limit` metres. Spans thinner than a few thousandths of their distance
+    // are taken to be that thick, so that a twig can be hit. direction: unit.
+    std::optional<PlantHit> pick(glm::vec3 origin, glm::vec3 direction, float limit) const;
+
+    // Index of the branch of this key.
+    std::optional<uint32_t> findBranch(uint64_t key) const;
+    uint64_t keyOf(uint32_t branch) const { return firstChunk(branch).key; }
+    uint32_t seedOf(uint32_t branch) const { return records_.branches[branch].seed; }
+    uint32_t depthOf(uint32_t branch) const { return firstChunk(branch).depth & 0xFFFFu; }
+    // Its nodes in order, beginning with the one that it leaves from, if any.
+    std::vector<uint32_t> nodesOf(uint32_t branch) const;
+    const Node& node(uint32_t index) const { return records_.nodes[index]; }
+    glm::vec3 positionOf(uint32_t node) const { return positions_[node]; }  // world
+    // Nodes of a seed's plant, by its index in the growth.
+    uint32_t nodesOfSeed(uint32_t seed) const { return seed < seedNodes_.size() ? seedNodes_[seed] : 0; }
+
+  private:
+    const Chunk& firstChunk(uint32_t branch) const { return records_.chunks[records_.branches[branch].firstChunk]; }
+
+    struct Span {
+        uint32_t from, to;  // nodes
+        uint32_t branch;
+    };
+    GrowthRecords records_;
+    std::vector<glm::vec3> positions_;
+    std::vector<Span> spans_;
+    std::vector<uint32_t> seedNodes_;
+};
+
+}  // namespace espalier

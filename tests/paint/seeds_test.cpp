@@ -1,0 +1,170 @@
+// Seeds that move, have settings of their own and lose branches; plants that are picked.
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include "tests/paint/fixture.hpp"
+
+using namespace espalier;
+using namespace espalier::test;
+
+namespace {
+
+EspSeedInfo infoOf(const Painting& painting, EspSeed seed) {
+    EspSeedInfo info{};
+    painting.ok(espSeedInfo(painting.context, seed, &info));
+    return info;
+}
+
+const glm::vec3 kFoot(1, -.8f, 0), kUp(0, 1, 0);
+
+// The path of a branch, asked for twice as hosts do.
+std::vector<EspPathSample> pathOf(const Painting& painting, uint64_t branch) {
+    uint32_t count = 0;
+    painting.ok(espBranchPath(painting.context, branch, nullptr, &count));
+    std::vector<EspPathSample> path(count);
+    painting.ok(espBranchPath(painting.context, branch, path.data(), &count));
+    REQUIRE(count == path.size());
+    return path;
+}
+
+EspResult pick(const Painting& painting, glm::vec3 from, glm::vec3 towards, EspPlantHit* hit) {
+    const glm::vec3 way = towards - from;
+    return espPickPlant(painting.context, &from.x, &way.x, hit);
+}
+
+}  // namespace
+
+TEST_CASE("seeds are listed, moved and given other numbers, and planted again from what they say of themselves") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    const EspSeed first = painting.plant(grammar, kFoot, kUp), second = painting.plant(grammar, {0, -.8f, 1}, kUp);
+    const uint64_t both = painting.grown().hash;
+    REQUIRE(espSeedCount(painting.context) == 2);
+    std::set<uint32_t> ids;
+    for (uint32_t i = 0; i < 2; ++i) {
+        EspSeed seed{};
+        painting.ok(espSeedAt(painting.context, i, &seed));
+        ids.insert(seed.id);
+    }
+    CHECK(ids == std::set<uint32_t>{first.id, second.id});
+    EspSeed none{};
+    CHECK(espSeedAt(painting.context, 2, &none) == ESP_INVALID_ARGUMENT);
+
+    const EspSeedInfo info = infoOf(painting, first), other = infoOf(painting, second);
+    CHECK(info.def.number == 1);
+    CHECK(info.def.twin == 1);
+    CHECK(other.def.twin == 2);
+    CHECK(info.normal[0] == doctest::Approx(1));
+    CHECK(info.position[1] == doctest::Approx(-.8));
+    CHECK(info.direction[1] == doctest::Approx(1));
+    // Away and planted again: the same plant, whichever of the two comes back first.
+    painting.ok(espRemoveSeed(painting.context, first));
+    painting.ok(espRemoveSeed(painting.context, second));
+    EspSeed again{};
+    painting.ok(espPlant(painting.context, &other.def, &again));
+    CHECK(infoOf(painting, again).def.twin == 2);
+    CHECK(espPlant(painting.context, &other.def, &none) == ESP_INVALID_ARGUMENT);  // it is planted already
+    EspSeed back{};
+    painting.ok(espPlant(painting.context, &info.def, &back));
+    CHECK(painting.grown().hash == both);
+
+    // To another face and back; another number and back.
+    const float away[3] = {-1, 0, 0}, home[3] = {1, -.8f, 0}, up[3] = {0, 1, 0};
+    painting.ok(espMoveSeed(painting.context, back, away, up));
+    CHECK(infoOf(painting, back).normal[0] == doctest::Approx(-1));
+    CHECK(painting.grown().hash != both);
+    painting.ok(espMoveSeed(painting.context, back, home, up));
+    CHECK(painting.grown().hash == both);
+    painting.ok(espSetSeedNumber(painting.context, back, 7, 0));
+    CHECK(infoOf(painting, back).def.twin == 1);
+    CHECK(painting.grown().hash != both);
+    CHECK(espSetSeedNumber(painting.context, back, 1, 2) == ESP_INVALID_ARGUMENT);
+    painting.ok(espSetSeedNumber(painting.context, back, 1, 1));
+    CHECK(painting.grown().hash == both);
+    const float nowhere[3] = {NAN, 0, 0};
+    CHECK(espMoveSeed(painting.context, back, nowhere, up) == ESP_INVALID_ARGUMENT);
+    CHECK(espMoveSeed(painting.context, EspSeed{999}, home, up) == ESP_INVALID_ARGUMENT);
+}
+
+TEST_CASE("a seed's own settings are those of a grammar with these settings, and outlive a recompilation") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    const EspSeed seed = painting.plant(grammar, kFoot, kUp);
+    const uint64_t usual = painting.grown().hash;
+    const float longer = 3, shorter = .5f;
+    painting.ok(espSetParam(painting.context, grammar, "reach", &longer, 1));
+    const uint64_t wanted = painting.grown().hash;
+    const float before = 2;
+    painting.ok(espSetParam(painting.context, grammar, "reach", &before, 1));
+    CHECK(painting.grown().hash == usual);
+
+    painting.ok(espSetSeedParam(painting.context, seed, "reach", &longer, 1));
+    CHECK(painting.grown().hash == wanted);
+    float value[3] = {};
+    uint32_t count = 0;
+    painting.ok(espSeedParam(painting.context, seed, "reach", value, &count));
+    CHECK(count == 1);
+    CHECK(value[0] == 3);
+    // The grammar's own value has no say; another seed has it still.
+    painting.ok(espSetParam(painting.context, grammar, "reach", &shorter, 1));
+    CHECK(painting.grown().hash == wanted);
+    EspGrammarDef def{"again", kMaskedIvy, std::strlen(kMaskedIvy)};
+    painting.ok(espRecompileGrammar(painting.context, grammar, &def));
+    CHECK(painting.grown().hash == wanted);
+    const EspSeed twin = painting.plant(grammar, {-1, -.8f, 0}, kUp);
+    const uint64_t two = painting.grown().hash;
+    painting.ok(espSetSeedParam(painting.context, twin, "reach", &longer, 1));
+    CHECK(painting.grown().hash != two);
+    painting.ok(espSetSeedParam(painting.context, twin, "reach", nullptr, 0));
+    CHECK(painting.grown().hash == two);
+    painting.ok(espRemoveSeed(painting.context, twin));
+    painting.ok(espSetParam(painting.context, grammar, "reach", &before, 1));
+    painting.ok(espSetSeedParam(painting.context, seed, "reach", nullptr, 0));
+    CHECK(painting.grown().hash == usual);
+    CHECK(espSetSeedParam(painting.context, seed, "nothing", &longer, 1) == ESP_INVALID_ARGUMENT);
+    const float bad = NAN;
+    CHECK(espSetSeedParam(painting.context, seed, "reach", &bad, 1) == ESP_INVALID_ARGUMENT);
+}
+
+TEST_CASE("a branch is picked where it grew, its path leads along it") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    const EspSeed seed = painting.plant(grammar, kFoot, kUp);
+    const EspStats whole = painting.grown();
+    // Straight at the foot: one of the two stems that begin there.
+    EspPlantHit hit{};
+    REQUIRE(pick(painting, {4, -.7f, 0}, {1, -.7f, 0}, &hit) == ESP_OK);
+    CHECK(hit.seed.id == seed.id);
+    CHECK(hit.depth <= 1);
+    CHECK(hit.distance == doctest::Approx(3).epsilon(.02));
+    CHECK(hit.position[0] == doctest::Approx(1).epsilon(.02));
+    // From behind the cube hides it, and beside it is nothing.
+    EspPlantHit none{};
+    CHECK(pick(painting, {-4, -.7f, 0}, {1, -.7f, 0}, &none) == ESP_INVALID_ARGUMENT);
+    CHECK(pick(painting, {4, .3f, -.95f}, {1, .3f, -.95f}, &none) == ESP_INVALID_ARGUMENT);
+
+    const std::vector<EspPathSample> path = pathOf(painting, hit.branch);
+    REQUIRE(path.size() > 5);
+    float nearest = 9, length = 0;
+    uint32_t crossings = 0;
+    for (size_t i = 0; i < path.size(); ++i) {
+        const glm::vec3 p(path[i].position[0], path[i].position[1], path[i].position[2]);
+        CHECK(path[i].surface.id == painting.surface.id);
+        CHECK(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) == doctest::Approx(1).epsilon(.001));
+        nearest = std::min(nearest, glm::distance(p, glm::vec3(hit.position[0], hit.position[1], hit.position[2])));
+        if (i == 0) continue;
+        const glm::vec3 q(path[i - 1].position[0], path[i - 1].position[1], path[i - 1].position[2]);
+        length += glm::distance(p, q);
+        CHECK(glm::distance(p, q) < .06f);
+        if (path[i].chart != path[i - 1].chart) ++crossings;
+    }
+    CHECK(nearest < .05f);
+    CHECK(length > 1.3f);   // two metres, or seven tenths of that
+    CHECK(crossings >= 1);  // the face is 1.8 m high above the foot
+    uint32_t count = 0;
+    CHECK(espBranchPath(painting.context, 12345, nullptr, &count) == ESP_INVALID_ARGUMENT);
+    uint32_t nodes = 0;
+    painting.ok(espPlantNodes(painting.context, seed, &nodes));
+    CHECK(nodes == whole.nodes);
+}
