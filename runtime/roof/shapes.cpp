@@ -169,7 +169,7 @@ class HouseMaker {
             return plan;
         }
         if (shape == RoofShape::pyramid && !pyramid(slope, speeds))
-            say("no point of it sees all its eaves, so it can't carry a pyramid: a hip roof instead");
+            say("its middle lies too near some eaves for a pyramid: a hip roof instead");
         if (shape == RoofShape::gable || shape == RoofShape::halfHip || shape == RoofShape::gambrel)
             chooseGables(speeds);
         ownSlopes(speeds);
@@ -224,10 +224,19 @@ class HouseMaker {
             glm::dvec2 d = edges_.along(e), q = apex - edges_.corner[e];
             distance.push_back(d.x * q.y - d.y * q.x);
         }
-        double least = *std::min_element(distance.begin(), distance.end());
-        if (!(least > 0.05)) return false;
-        for (size_t e = 0; e < distance.size(); e++) speeds[e] = distance[e] / (slope * least);
+        auto [least, most] = std::minmax_element(distance.begin(), distance.end());
+        if (!(*least > 0.25 * *most)) return false;  // nor are some faces much steeper than others
+        for (size_t e = 0; e < distance.size(); e++) speeds[e] = distance[e] / (slope * *least);
         return true;
+    }
+
+    // Both corners are convex and not blunt, as those of an octagon or a bay are.
+    bool endsWing(size_t e) const {
+        auto sharp = [&](size_t corner) {
+            return edges_.turn(corner) > 0 &&
+                   glm::dot(edges_.along(edges_.previous[corner]), edges_.along(corner)) < 0.45;
+        };
+        return sharp(e) && sharp(edges_.next[e]);
     }
 
     // A gable stands where a hip roof would be a triangle between two convex corners: at the end of a wing. Of two such
@@ -244,8 +253,7 @@ class HouseMaker {
                 if (f.side == kNone) continue;
                 uint32_t third = facets.sides[facets.sides[f.side].next].next;
                 bool triangle = facets.sides[third].next == f.side;
-                if (triangle && edges_.turn(f.edge) > kCollinear && edges_.turn(edges_.next[f.edge]) > kCollinear)
-                    ends.push_back(f.edge);
+                if (triangle && endsWing(f.edge)) ends.push_back(f.edge);
             }
             return true;
         };

@@ -27,7 +27,7 @@ enum class FaceKind : uint32_t {
 enum class JointKind : uint32_t {
     hip,        // between two slopes, rising, the roof falls away on both sides
     valley,     // between two slopes, the roof rises on both sides
-    ridge,      // level, the roof falls away on both sides
+    ridge,      // level or nearly so, the roof falls away on both sides
     verge,      // against a gable's wall
     breakLine,  // level, a steeper face below: mansard, gambrel, half-hip
     wall,       // an upright edge between walls, or the border of a level roof

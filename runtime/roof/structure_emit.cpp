@@ -7,6 +7,10 @@ namespace espalier {
 
 namespace {
 
+// Real outlines are a little out of square, and so their ridges a little out of level: a ridge may rise this much of
+// what the roof beside it falls (a square corner's hip rises as much).
+constexpr double kRidgeRise = 0.25;
+
 // How fast the facet's roof rises to the left of the direction.
 double riseLeft(const Facets::Facet& facet, glm::dvec2 direction) {
     return facet.slope * glm::dot(facet.uphill, glm::dvec2(-direction.y, direction.x));
@@ -24,10 +28,9 @@ JointKind jointKind(const Facets& f, const Facets::Side& side, uint32_t to) {
     if (!(length > 0)) return JointKind::wall;
     glm::dvec2 direction = glm::dvec2(d) / length;
     double left = riseLeft(here, direction), right = -riseLeft(there, direction);
-    // Nearly level joints between nearly level roofs are told apart by the steeper side.
-    bool level = std::abs(d.z) <= 1e-5 + 1e-5 * length;
-    if (level && left <= 0 && right <= 0) return left < 0 && right < 0 ? JointKind::ridge : JointKind::breakLine;
-    if (level && left * right <= 0) return JointKind::breakLine;
+    double rise = std::abs(d.z) / length;
+    if (left < 0 && right < 0 && rise <= kRidgeRise * std::min(-left, -right)) return JointKind::ridge;
+    if (rise <= 1e-5 + 1e-5 / length && left * right <= 0) return JointKind::breakLine;
     return left + right < 0 ? JointKind::hip : JointKind::valley;
 }
 

@@ -47,6 +47,25 @@ TEST_CASE("hip roofs over every real outline") {
     }
 }
 
+TEST_CASE("stress polygons and broken outlines are repaired or named") {
+    for (const char* file : {"polygon_stress_cases.json", "corrupted_footprints.json"}) {
+        size_t made = 0, left = 0;
+        for (Footprint& f : casesOf(file)) {
+            f.slope = 1;
+            std::vector<Diagnostic> said;
+            RoofStructure roof = roofOf(f, said);
+            INFO(file << " " << f.id << ": " << toString(said));
+            for (uint32_t h = 0; h < roof.houses.size(); h++) CHECK(judge(roof, h).problem == "");
+            bool named = false;
+            for (const Diagnostic& d : said) named = named || (!d.warning && d.rule == f.id);
+            CHECK((!roof.houses.empty() || named));
+            (roof.houses.empty() ? left : made)++;
+            if (roof.houses.empty()) MESSAGE(toString(said));
+        }
+        MESSAGE(std::string(file) << ": " << made << " made, " << left << " named");
+    }
+}
+
 TEST_CASE("every shape over letters and courtyards, turned and moved") {
     for (Footprint f : letters())
         for (uint32_t shape = 0; shape <= uint32_t(RoofShape::flat); shape++)

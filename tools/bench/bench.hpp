@@ -56,5 +56,6 @@ void growthCases(Bench& bench);
 void emitCases(Bench& bench);
 void bakeCases(Bench& bench);
 void paintCases(Bench& bench);
+void roofStructureCases(Bench& bench);
 
 }  // namespace espalier

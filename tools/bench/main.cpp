@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
     emitCases(bench);
     bakeCases(bench);
     paintCases(bench);
+    roofStructureCases(bench);
     if (csv.empty()) return 0;
     Status written = bench.writeCsv(csv);
     if (!written) std::fprintf(stderr, "espalier-bench: %s\n", written.failure().text().c_str());

@@ -1,0 +1,267 @@
+// In: a feature's properties. Out: the footprint's shape, heights, slopes and look (wiki.openstreetmap.org,
+// Simple 3D Buildings), and `edges`, which is ours: [{"edge": 2, "gable": true, "angle": 35}].
+#include "runtime/roof/footprint_tags.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace espalier {
+
+namespace {
+
+using nlohmann::json;
+
+struct NamedShape {
+    const char* name;
+    RoofShape shape;
+    bool exact;  // else the nearest that there is
+};
+constexpr NamedShape kShapes[] = {
+    {"hipped", RoofShape::hip, true},          {"hip", RoofShape::hip, true},
+    {"gabled", RoofShape::gable, true},        {"gable", RoofShape::gable, true},
+    {"half-hipped", RoofShape::halfHip, true}, {"half_hipped", RoofShape::halfHip, true},
+    {"pyramidal", RoofShape::pyramid, true},   {"pyramid", RoofShape::pyramid, true},
+    {"skillion", RoofShape::shed, true},       {"lean_to", RoofShape::shed, true},
+    {"shed", RoofShape::shed, true},           {"gambrel", RoofShape::gambrel, true},
+    {"mansard", RoofShape::mansard, true},     {"flat", RoofShape::flat, true},
+    {"dome", RoofShape::pyramid, false},       {"onion", RoofShape::pyramid, false},
+    {"cone", RoofShape::pyramid, false},       {"round", RoofShape::gable, false},
+    {"saltbox", RoofShape::gable, false},      {"cross_gabled", RoofShape::gable, false},
+};
+
+constexpr std::pair<const char*, RoofMaterial> kMaterials[] = {
+    {"roof_tiles", RoofMaterial::tiles},
+    {"tile", RoofMaterial::tiles},
+    {"tiles", RoofMaterial::tiles},
+    {"slate", RoofMaterial::slate},
+    {"metal", RoofMaterial::metal},
+    {"metal_sheet", RoofMaterial::metal},
+    {"zinc", RoofMaterial::metal},
+    {"tin", RoofMaterial::metal},
+    {"copper", RoofMaterial::copper},
+    {"thatch", RoofMaterial::thatch},
+    {"wood", RoofMaterial::wood},
+    {"stone", RoofMaterial::stone},
+    {"concrete", RoofMaterial::concrete},
+    {"eternit", RoofMaterial::slate},
+    {"tar_paper", RoofMaterial::asphalt},
+    {"asphalt", RoofMaterial::asphalt},
+    {"gravel", RoofMaterial::gravel},
+    {"glass", RoofMaterial::glass},
+    {"asphalt_shingle", RoofMaterial::asphalt},
+    {"grass", RoofMaterial::grass},
+};
+
+constexpr std::pair<const char*, uint32_t> kColours[] = {
+    {"black", 0x000000}, {"white", 0xffffff},  {"gray", 0x808080},   {"grey", 0x808080},      {"silver", 0xc0c0c0},
+    {"red", 0xff0000},   {"maroon", 0x800000}, {"brown", 0xa52a2a},  {"orange", 0xffa500},    {"yellow", 0xffff00},
+    {"green", 0x008000}, {"olive", 0x808000},  {"blue", 0x0000ff},   {"navy", 0x000080},      {"teal", 0x008080},
+    {"beige", 0xf5f5dc}, {"tan", 0xd2b48c},    {"purple", 0x800080}, {"darkgray", 0xa9a9a9},  {"lightgray", 0xd3d3d3},
+    {"lime", 0x00ff00},  {"aqua", 0x00ffff},   {"pink", 0xffc0cb},   {"firebrick", 0xb22222}, {"sienna", 0xa0522d},
+};
+
+constexpr const char* kCompass[] = {"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
+                                    "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
+
+std::string lower(std::string s) {
+    for (char& c : s) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return s;
+}
+
+class Tags {
+  public:
+    Tags(const json& tags, const std::string& file, Footprint& f, std::vector<Diagnostic>& diagnostics)
+        : tags_(tags), file_(file), f_(f), diagnostics_(diagnostics) {}
+
+    void apply() {
+        shape();
+        number("height", 0.1, 1000, f_.height);
+        number("building:levels", 0, 300, f_.levels);
+        number("roof:levels", 0, 50, f_.roofLevels);
+        number("roof:height", 0, 500, f_.roofHeight);
+        if (f_.roofHeight && *f_.roofHeight == 0) f_.roofHeight.reset(), f_.shape = RoofShape::flat;
+        std::optional<double> angle = f_.slope ? std::optional(std::atan(*f_.slope)) : std::nullopt, parapet;
+        if (number("roof:angle", 0, 85, angle)) {
+            f_.slope = std::tan(glm::radians(*angle));
+            if (*angle == 0) f_.slope.reset(), f_.shape = RoofShape::flat;
+        }
+        std::optional<double> least, storeys;
+        if (number("building:min_level", 0, 300, storeys)) f_.baseHeight = 3 * *storeys;
+        if (number("min_height", 0, 1000, least)) f_.baseHeight = *least;
+        if (f_.height && *f_.height <= f_.baseHeight) {
+            warn("height", "is not above min_height");
+            f_.baseHeight = 0;
+        }
+        if (number("parapet", 0, 10, parapet)) f_.parapet = *parapet;
+        direction();
+        orientation();
+        material();
+        colour();
+        edges();
+        unknown();
+    }
+
+  private:
+    void warn(const std::string& key, const std::string& what) {
+        diagnostics_.push_back({file_, 0, 0, f_.id, key + " " + what + ": ignored", true});
+    }
+    const json* find(const char* key) const {
+        auto it = tags_.find(key);
+        return it == tags_.end() || it->is_null() ? nullptr : &*it;
+    }
+    std::optional<std::string> text(const char* key) {
+        const json* value = find(key);
+        if (!value) return {};
+        if (value->is_string()) return value->get<std::string>();
+        warn(key, "is not a text");
+        return {};
+    }
+    static std::string shown(const std::string& s) { return "'" + s.substr(0, 40) + "'"; }
+
+    // A number, with metres or degrees written after it or not.
+    static std::optional<double> parse(const json& value) {
+        if (value.is_number()) return value.get<double>();
+        if (!value.is_string()) return {};
+        const std::string& s = value.get_ref<const std::string&>();
+        double d = 0;
+        auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), d);
+        if (error != std::errc()) return {};
+        std::string unit(end, size_t(s.data() + s.size() - end));
+        unit.erase(std::remove(unit.begin(), unit.end(), ' '), unit.end());
+        if (unit == "'" || unit == "ft") return d * 0.3048;
+        if (unit.empty() || unit == "m" || unit == "°" || unit == "deg") return d;
+        return {};
+    }
+    bool number(const char* key, double low, double high, std::optional<double>& out) {
+        const json* value = find(key);
+        if (!value) return false;
+        std::optional<double> n = parse(*value);
+        if (!n || !std::isfinite(*n)) {
+            warn(key, "is not a number");
+            return false;
+        }
+        if (*n < low || *n > high) {
+            char range[96];
+            std::snprintf(range, sizeof range, "is %g, not between %g and %g", *n, low, high);
+            warn(key, range);
+            return false;
+        }
+        out = n;
+        return true;
+    }
+
+    void shape() {
+        std::optional<std::string> name = text("roof:shape");
+        if (!name) return;
+        for (const NamedShape& s : kShapes)
+            if (lower(*name) == s.name) {
+                f_.shape = s.shape;
+                if (!s.exact)
+                    diagnostics_.push_back({file_, 0, 0, f_.id,
+                                            "roof:shape " + shown(*name) + " is not made: the nearest shape instead",
+                                            true});
+                return;
+            }
+        warn("roof:shape", shown(*name) + " is unknown");
+    }
+    void direction() {
+        const json* value = find("roof:direction");
+        if (!value) return;
+        std::optional<double> degrees = parse(*value);
+        if (!degrees && value->is_string())
+            for (int i = 0; i < 16; i++)
+                if (lower(value->get<std::string>()) == lower(kCompass[i])) degrees = 22.5 * i;
+        if (!degrees || !std::isfinite(*degrees))
+            return warn("roof:direction", "is neither degrees nor a compass point");
+        f_.direction = glm::radians(std::fmod(*degrees, 360));
+    }
+    void orientation() {
+        std::optional<std::string> name = text("roof:orientation");
+        if (!name) return;
+        if (*name != "along" && *name != "across")
+            return warn("roof:orientation", shown(*name) + " is neither along nor across");
+        f_.orientation = *name == "along" ? RidgeOrientation::along : RidgeOrientation::across;
+    }
+    void material() {
+        std::optional<std::string> name = text("roof:material");
+        if (!name) return;
+        for (auto [known, material] : kMaterials)
+            if (lower(*name) == known) {
+                f_.material = material;
+                return;
+            }
+        warn("roof:material", shown(*name) + " is unknown");
+    }
+    void colour() {
+        std::optional<std::string> name = text(find("roof:colour") ? "roof:colour" : "roof:color");
+        if (!name) return;
+        std::string c = lower(*name);
+        std::optional<uint32_t> rgb;
+        for (auto [known, value] : kColours)
+            if (c == known) rgb = value;
+        if (c.size() == 4 && c[0] == '#') c = {'#', c[1], c[1], c[2], c[2], c[3], c[3]};
+        uint32_t value = 0;
+        if (c.size() == 7 && c[0] == '#') {
+            auto [end, error] = std::from_chars(c.data() + 1, c.data() + 7, value, 16);
+            if (error == std::errc() && end == c.data() + 7) rgb = value;
+        }
+        if (!rgb) return warn("roof:colour", shown(*name) + " is neither #rrggbb nor a known name");
+        f_.colour = 0xff000000u | (*rgb & 0xff) << 16 | (*rgb & 0xff00) | *rgb >> 16;
+    }
+
+    void edges() {
+        const json* list = find("edges");
+        if (!list) return;
+        size_t count = 0;
+        for (const auto& ring : f_.rings) count += ring.size();
+        if (!list->is_array()) return warn("edges", "is not a list");
+        for (const json& entry : *list) {
+            if (!entry.is_object() || !entry.contains("edge") || !entry["edge"].is_number_unsigned()) {
+                warn("edges", "has an entry without the number of its edge");
+                continue;
+            }
+            uint64_t edge = entry["edge"].get<uint64_t>();
+            if (edge >= count) {
+                warn("edges", "names edge " + std::to_string(edge) + " of " + std::to_string(count));
+                continue;
+            }
+            EdgeRoof own{uint32_t(edge), {}, {}};
+            if (entry.contains("gable") && entry["gable"].is_boolean()) own.gable = entry["gable"].get<bool>();
+            if (entry.contains("angle")) {
+                std::optional<double> angle = parse(entry["angle"]);
+                if (angle && *angle > 0 && *angle <= 85)
+                    own.slope = std::tan(glm::radians(*angle));
+                else
+                    warn("edges", "has an angle that is not between 0 and 85");
+            }
+            f_.edges.push_back(own);
+        }
+    }
+
+    void unknown() {
+        static constexpr std::array known{"roof:shape",     "roof:height",      "roof:angle",
+                                          "roof:direction", "roof:orientation", "roof:material",
+                                          "roof:colour",    "roof:color",       "roof:levels"};
+        for (const auto& [key, value] : tags_.items())
+            if (key.rfind("roof:", 0) == 0 && std::find(known.begin(), known.end(), key) == known.end())
+                warn(key.substr(0, 40), "is not known");
+    }
+
+    const json& tags_;
+    const std::string& file_;
+    Footprint& f_;
+    std::vector<Diagnostic>& diagnostics_;
+};
+
+}  // namespace
+
+void applyTags(const json& tags, const std::string& file, Footprint& footprint, std::vector<Diagnostic>& diagnostics) {
+    if (tags.is_object()) Tags(tags, file, footprint, diagnostics).apply();
+}
+
+}  // namespace espalier
