@@ -70,7 +70,8 @@ Result<Town> parseFootprints(const std::string& text, const std::string& file);
 Result<Town> readFootprints(const std::string& path);
 
 // An outline that the structure can be made of: outer rings counterclockwise, holes clockwise, simple, disjoint,
-// corners on a grid of 1/1024 mm about `origin`, no corner nearer than 5 mm to the next or within 2 mm of a straight
+// corners on a grid of 2^-20 m about `origin` (coarser for large ones, so that floats hold them), no corner nearer than
+// 5 mm to the next or within 2 mm of a straight
 // line.
 struct RepairedOutline {
     glm::dvec2 origin;

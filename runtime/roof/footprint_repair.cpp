@@ -14,11 +14,10 @@ using ClipperLib::IntPoint;
 using ClipperLib::Path;
 using ClipperLib::Paths;
 
-constexpr double kGrid = 1024 * 1000;  // grid lines a metre
-constexpr double kNear = 0.005;        // metres: corners nearer than this are one
-constexpr double kStraight = 0.002;    // metres off the line between its neighbours: no corner
-constexpr double kLeastArea = 0.05;    // square metres
-constexpr double kFarthest = 100000;   // metres from the house's first corner
+constexpr double kNear = 0.005;       // metres: corners nearer than this are one
+constexpr double kStraight = 0.002;   // metres off the line between its neighbours: no corner
+constexpr double kLeastArea = 0.05;   // square metres
+constexpr double kFarthest = 100000;  // metres from the house's first corner
 
 double areaOf(const std::vector<glm::dvec2>& ring) {
     double twice = 0;
@@ -77,7 +76,7 @@ struct Segment {
 };
 
 int side(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
-    // Exact: grid coordinates within 2^27 give products within 2^56, held by the 64-bit mantissa of long double.
+    // Exact: corners hold 24 bits, so that their differences give products of 50, held by the 64 of long double.
     long double d = (long double)(b.x - a.x) * (c.y - a.y) - (long double)(b.y - a.y) * (c.x - a.x);
     return d > 0 ? 1 : d < 0 ? -1 : 0;
 }
@@ -123,14 +122,19 @@ bool inside(glm::dvec2 p, const std::vector<glm::dvec2>& ring) {
     return in;
 }
 
-Path toPath(const std::vector<glm::dvec2>& ring) {
+// Grid lines a metre: a power of two, such that floats hold every corner. The finest is about 1/1000 mm.
+double gridFor(double radius) {
+    return std::exp2(std::min(20.0, 23 - std::ceil(std::log2(std::max(radius, 1.0)))));
+}
+
+Path toPath(const std::vector<glm::dvec2>& ring, double grid) {
     Path path;
-    for (glm::dvec2 p : ring) path.push_back({std::llround(p.x * kGrid), std::llround(p.y * kGrid)});
+    for (glm::dvec2 p : ring) path.push_back({std::llround(p.x * grid), std::llround(p.y * grid)});
     return path;
 }
-std::vector<glm::dvec2> toRing(const Path& path) {
+std::vector<glm::dvec2> toRing(const Path& path, double grid) {
     std::vector<glm::dvec2> ring;
-    for (IntPoint p : path) ring.push_back({double(p.X) / kGrid, double(p.Y) / kGrid});
+    for (IntPoint p : path) ring.push_back({double(p.X) / grid, double(p.Y) / grid});
     return ring;
 }
 
@@ -138,29 +142,29 @@ using Rings = std::vector<std::vector<glm::dvec2>>;
 
 // The outer ring without the holes, as parts that neither cross nor touch themselves: the result is drawn in by a hair
 // and out again, which opens what only touches.
-std::vector<Rings> clipRings(const Rings& rings) {
+std::vector<Rings> clipRings(const Rings& rings, double grid) {
     Paths outer, holes, area;
-    ClipperLib::SimplifyPolygon(toPath(rings[0]), outer, ClipperLib::pftEvenOdd);
-    for (size_t i = 1; i < rings.size(); i++) holes.push_back(toPath(rings[i]));
+    ClipperLib::SimplifyPolygon(toPath(rings[0], grid), outer, ClipperLib::pftEvenOdd);
+    for (size_t i = 1; i < rings.size(); i++) holes.push_back(toPath(rings[i], grid));
     ClipperLib::SimplifyPolygons(holes, ClipperLib::pftEvenOdd);
     ClipperLib::Clipper clipper;
     clipper.AddPaths(outer, ClipperLib::ptSubject, true);
     clipper.AddPaths(holes, ClipperLib::ptClip, true);
     clipper.Execute(ClipperLib::ctDifference, area, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
-    ClipperLib::CleanPolygons(area, kNear / 4 * kGrid);
+    ClipperLib::CleanPolygons(area, kNear / 4 * grid);
     ClipperLib::ClipperOffset offset(4);
     Paths shrunk;
     offset.AddPaths(area, ClipperLib::jtMiter, ClipperLib::etClosedPolygon);
-    offset.Execute(shrunk, -kNear * kGrid);
+    offset.Execute(shrunk, -kNear * grid);
     offset.Clear();
     offset.AddPaths(shrunk, ClipperLib::jtMiter, ClipperLib::etClosedPolygon);
     ClipperLib::PolyTree tree;
-    offset.Execute(tree, kNear * 0.4 * kGrid);
+    offset.Execute(tree, kNear * 0.4 * grid);
     std::vector<Rings> parts;
     for (ClipperLib::PolyNode* node = tree.GetFirst(); node; node = node->GetNext()) {
         if (node->IsHole()) continue;
-        Rings part{toRing(node->Contour)};
-        for (ClipperLib::PolyNode* hole : node->Childs) part.push_back(toRing(hole->Contour));
+        Rings part{toRing(node->Contour, grid)};
+        for (ClipperLib::PolyNode* hole : node->Childs) part.push_back(toRing(hole->Contour, grid));
         parts.push_back(std::move(part));
     }
     return parts;
@@ -220,10 +224,11 @@ std::vector<RepairedOutline> repairOutline(const Footprint& footprint, std::vect
     if (glm::length(high - low) > kFarthest) return say("the outline is larger than 100 km: left out", false);
 
     glm::dvec2 origin = glm::round((low + high) / 2.0);
+    double grid = gridFor(glm::length(high - low) / 2 + 1);
     Rings given, rings;
     for (const auto& ring : footprint.rings) {
         given.emplace_back();
-        for (glm::dvec2 p : ring) given.back().push_back(glm::round((p - origin) * kGrid) / kGrid);
+        for (glm::dvec2 p : ring) given.back().push_back(glm::round((p - origin) * grid) / grid);
     }
     rings = given;
     bool whole = tidy(rings);
@@ -236,7 +241,7 @@ std::vector<RepairedOutline> repairOutline(const Footprint& footprint, std::vect
     if (whole && holesInside && sound(rings)) {
         parts.push_back(std::move(rings));
     } else {
-        for (Rings& part : clipRings(given))
+        for (Rings& part : clipRings(given, grid))
             if (tidy(part) && sound(part)) parts.push_back(std::move(part));
         if (parts.empty()) return say("the outline has no area that could carry a roof: left out", false);
         say(parts.size() == 1

@@ -79,7 +79,7 @@ void Wavefront<T>::addArc(uint32_t from, uint32_t to, int left, int right) {
 template <class T>
 int Wavefront<T>::addCorner(int left, int right, Vec<T> start, uint32_t node) {
     int c = int(corners_.size());
-    corners_.push_back({-1, -1, left, right, start, {0, 0}, now_, node, true, false, T(-1), -1});
+    corners_.push_back({-1, -1, left, right, start, {0, 0}, now_, node, true, false, T(-1), 0, 0, false});
     sides_[right].push_back(c);
     alive_++;
     return c;
@@ -131,7 +131,6 @@ void Wavefront<T>::start(int corner) {
     if (!setOff(corner)) return slide(corner);
     scheduleShrink(before);
     scheduleShrink(corner);
-    if (corners_[corner].reflex) scheduleSplit(corner);
 }
 
 // A loop of two sides: they lie on each other, and a ridge is left.
@@ -173,25 +172,50 @@ void Wavefront<T>::slide(int corner) {
     start(merged);
 }
 
-// When the side that begins at the corner has no length left.
+// When the side that begins at the corner has no length left; infinity: it grows.
 template <class T>
-void Wavefront<T>::scheduleShrink(int corner) {
+T Wavefront<T>::shrinkTime(int corner) const {
     const Corner &a = corners_[corner], &b = corners_[a.next];
     const Line& line = lines_[a.right];
     T length = dot(at(b, now_) - at(a, now_), line.along);
     T rate = dot(b.velocity - a.velocity, line.along);
     bool gone = length <= tolerance_.length && rate <= tolerance_.length;
-    if (!gone && rate >= 0) return;
-    T wait = length > 0 && rate < 0 ? length / -rate : T(0);
-    events_.push({now_ + wait, Kind::shrink, corner, a.next});
+    if (!gone && rate >= 0) return std::numeric_limits<double>::infinity();
+    return now_ + (length > 0 && rate < 0 ? length / -rate : T(0));
 }
 
-// The next line that the reflex corner meets, after the one it met last.
+template <class T>
+void Wavefront<T>::scheduleShrink(int corner) {
+    T time = shrinkTime(corner);
+    if (time < std::numeric_limits<double>::infinity())
+        events_.push({time, Kind::shrink, corner, corners_[corner].next});
+    // The reflex corners at its ends may live longer than was thought when they looked for splits.
+    for (int c : {corner, corners_[corner].next})
+        if (corners_[c].reflex && !corners_[c].waiting) scheduleSplit(c);
+}
+
+// Queues the next line that the reflex corner meets while it lives: no longer than the sides beside it.
 template <class T>
 void Wavefront<T>::scheduleSplit(int corner) {
     Corner& c = corners_[corner];
-    T best = std::numeric_limits<double>::infinity();
-    int face = -1;
+    if (c.candidate == c.last) {
+        T horizon = std::min(shrinkTime(c.previous), shrinkTime(corner));
+        if (horizon > c.searched) findSplits(corner, horizon);
+    }
+    c.waiting = c.candidate < c.last;
+    if (!c.waiting) return;
+    const Meeting& next = pool_[c.candidate++];
+    events_.push({std::max(next.time, now_), Kind::split, corner, next.face});
+}
+
+// Puts the next meetings with lines after `searched` into the pool, all up to the horizon or as many as are worth
+// sorting.
+template <class T>
+void Wavefront<T>::findSplits(int corner, T horizon) {
+    constexpr size_t kMost = 64;
+    Corner& c = corners_[corner];
+    found_.clear();
+    T until = horizon + tolerance_.length;
     for (int f = 0; f < int(lines_.size()); f++) {
         if (f == c.left || f == c.right) continue;
         const Line& line = lines_[f];
@@ -200,13 +224,21 @@ void Wavefront<T>::scheduleSplit(int corner) {
         T distance = dot(line.normal, c.start) - line.offset - line.speed * c.born;
         if (distance < -tolerance_.length) continue;
         T time = c.born + (distance > 0 ? distance / closing : T(0));
-        if (time < c.splitTime || (time == c.splitTime && f <= c.splitFace)) continue;
-        if (time < best) best = time, face = f;
+        if (time > c.searched && time <= until) found_.push_back({time, f});
     }
-    if (face < 0) return;
-    c.splitTime = best;
-    c.splitFace = face;
-    events_.push({std::max(best, now_), Kind::split, corner, face});
+    if (found_.size() > kMost) {
+        std::nth_element(found_.begin(), found_.begin() + kMost, found_.end());
+        T cut = found_[kMost].time;
+        // Meetings of one moment stay together.
+        auto later = [&](const Meeting& m) { return m.time > cut; };
+        found_.erase(std::remove_if(found_.begin(), found_.end(), later), found_.end());
+        until = cut;
+    }
+    std::sort(found_.begin(), found_.end());
+    c.searched = until;
+    c.candidate = int(pool_.size());
+    pool_.insert(pool_.end(), found_.begin(), found_.end());
+    c.last = int(pool_.size());
 }
 
 template <class T>
@@ -262,6 +294,7 @@ void Wavefront<T>::split(int corner, int face) {
     if (!corners_[corner].alive) return;
     Vec<T> p = at(corners_[corner], now_);
     int side = sideHit(corner, face, p);
+    corners_[corner].waiting = false;
     if (side < 0) return scheduleSplit(corner);
     const Corner c = corners_[corner];
     int beyond = corners_[side].next;
@@ -325,7 +358,6 @@ void Wavefront<T>::breakAll() {
     for (size_t c = count; c < corners_.size(); c++) {
         if (!corners_[c].alive) continue;
         scheduleShrink(int(c));
-        if (corners_[c].reflex) scheduleSplit(int(c));
     }
 }
 
@@ -334,10 +366,7 @@ bool Wavefront<T>::run() {
     int count = int(corners_.size());
     for (int c = 0; c < count; c++)
         if (!setOff(c)) return false;  // neighbours in one line at different speeds, or a spike
-    for (int c = 0; c < count; c++) {
-        scheduleShrink(c);
-        if (corners_[c].reflex) scheduleSplit(c);
-    }
+    for (int c = 0; c < count; c++) scheduleShrink(c);
     if (input_.breakHeight < std::numeric_limits<double>::infinity())
         events_.push({T(input_.breakHeight), Kind::stop, std::numeric_limits<int>::max(), 0});
     // Each shrink or split uses up corners and sides; more than this many events is a loop.

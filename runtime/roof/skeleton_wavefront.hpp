@@ -46,8 +46,9 @@ class Wavefront {
         T born;
         uint32_t node;
         bool alive, reflex;
-        T splitTime;  // the split last looked at, and its face; later ones come after it
-        int splitFace;
+        T searched;           // splits up to this time are in the pool, or were looked at
+        int candidate, last;  // those still to be looked at, in the pool
+        bool waiting;         // one of them is in the queue
     };
     enum class Kind { shrink, split, stop };
     struct Event {
@@ -55,6 +56,12 @@ class Wavefront {
         Kind kind;
         int corner, other;  // shrink: the side's ends; split: the corner and the face it meets
         bool operator<(const Event& b) const { return time > b.time || (time == b.time && corner > b.corner); }
+    };
+
+    struct Meeting {
+        T time;
+        int face;
+        bool operator<(const Meeting& b) const { return time < b.time || (time == b.time && face < b.face); }
     };
 
     Vec<T> at(const Corner& c, T time) const { return c.start + (time - c.born) * c.velocity; }
@@ -68,8 +75,10 @@ class Wavefront {
     void start(int corner);
     void close(int a, int b);
     void slide(int corner);
+    T shrinkTime(int corner) const;
     void scheduleShrink(int corner);
     void scheduleSplit(int corner);
+    void findSplits(int corner, T horizon);
     void shrink(int a, int b);
     void split(int corner, int face);
     int sideHit(int corner, int face, Vec<T> p) const;
@@ -83,6 +92,8 @@ class Wavefront {
     std::vector<std::vector<int>> sides_;  // a face each: the corners at which its sides begin or began
     std::vector<Corner> corners_;
     std::priority_queue<Event> events_;
+    std::vector<Meeting> pool_;  // of reflex corners with lines, in runs sorted by time
+    std::vector<Meeting> found_;
     T now_ = 0;
     int alive_ = 0;
 };

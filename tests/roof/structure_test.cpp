@@ -60,7 +60,6 @@ TEST_CASE("stress polygons and broken outlines are repaired or named") {
             for (const Diagnostic& d : said) named = named || (!d.warning && d.rule == f.id);
             CHECK((!roof.houses.empty() || named));
             (roof.houses.empty() ? left : made)++;
-            if (roof.houses.empty()) MESSAGE(toString(said));
         }
         MESSAGE(std::string(file) << ": " << made << " made, " << left << " named");
     }
@@ -80,5 +79,82 @@ TEST_CASE("every shape over letters and courtyards, turned and moved") {
                 CHECK(judge(roof, 0).problem == "");
                 bool pyramidless = RoofShape(shape) == RoofShape::pyramid;
                 if (!pyramidless) CHECK(roof.houses[0].shape == RoofShape(shape));
+            }
+}
+
+namespace {
+
+size_t edgesOf(const Footprint& f) {
+    size_t count = 0;
+    for (const Ring& ring : f.rings) count += ring.size();
+    return count;
+}
+
+// Makes the roof and judges it with the slopes that its edges ask for; nothing may have been done otherwise than asked.
+void judgeEdges(const Footprint& f) {
+    std::vector<Diagnostic> said;
+    RoofStructure roof = roofOf(f, said);
+    INFO(f.id << " " << toString(said));
+    REQUIRE(roof.houses.size() == 1);
+    CHECK(said.empty());
+    bool scaled = f.roofHeight || f.height;
+    std::set<uint32_t> gables;
+    Verdict verdict = judge(roof, 0, [&](const RoofFace& face) {
+        double slope = f.slope.value_or(-1);
+        for (const EdgeRoof& own : f.edges)
+            if (own.edge == face.edge && own.slope) slope = *own.slope;
+        return scaled || face.tier ? -1 : slope;
+    });
+    CHECK(verdict.problem == "");
+    for (const RoofFace& face : roof.faces)
+        if (face.kind == FaceKind::gable) gables.insert(face.edge);
+    for (const EdgeRoof& own : f.edges)
+        if (own.gable) CHECK(gables.count(own.edge) == size_t(*own.gable));
+    if (f.roofHeight)
+        CHECK(roof.houses[0].ridgeHeight - roof.houses[0].eaveHeight == doctest::Approx(*f.roofHeight).epsilon(1e-4));
+}
+
+}  // namespace
+
+TEST_CASE("slopes and gables an edge") {
+    size_t fixtures = 0;
+    for (const Footprint& letter : letters()) {
+        uint32_t count = uint32_t(edgesOf(letter));
+        for (uint32_t e = 0; e < count; e += 3, fixtures++) {
+            Footprint f = letter;
+            f.id += ", gable on edge " + std::to_string(e);
+            f.slope = 0.7;
+            f.edges = {{e, true, {}}};
+            judgeEdges(f);
+        }
+        for (int variant = 0; variant < 4; variant++, fixtures++) {
+            Footprint f = letter;
+            f.id += ", slopes " + std::to_string(variant);
+            f.slope = 0.7;
+            for (uint32_t e = 0; e < count; e++)
+                if (variant == 0 ? e % 2 == 0 : variant == 1 ? e == 0 : variant == 2)
+                    f.edges.push_back({e, {}, variant == 2 ? 0.4 + 0.13 * ((e * 7) % 11) : 1.4});
+            if (variant == 3) f.roofHeight = 3.5;
+            judgeEdges(f);
+        }
+    }
+    MESSAGE(fixtures << " fixtures");
+}
+
+TEST_CASE("hairline outlines") {
+    // Ties missed by a hair of every size, from a grid line to a centimetre.
+    for (double hair : {1e-6, 1e-5, 1e-4, 1e-3, 4e-3, 6e-3, 1e-2})
+        for (Footprint f : letters())
+            for (int variant = 0; variant < 3; variant++) {
+                f.slope = 0.7;
+                Footprint g = f;
+                Ring& ring = g.rings[0];
+                if (variant == 0) ring[2] += glm::dvec2(hair, 0);
+                if (variant == 1)
+                    for (size_t i = 0; i < ring.size(); i += 2) ring[i] += glm::dvec2(-hair, hair * double(i % 3));
+                if (variant == 2) ring.insert(ring.begin() + 1, (ring[0] + ring[1]) / 2.0 + glm::dvec2(0, hair));
+                g.id += ", a hair of " + std::to_string(hair) + ", " + std::to_string(variant);
+                INFO(g.id);
+                CHECK(judgeRoof(g, true) == 1);
             }
 }
