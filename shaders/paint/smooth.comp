@@ -37,12 +37,10 @@ bool innerAt(uint size, vec2 uv, out float value) {
     return weight > 0.0;
 }
 
-// Walks from a texel's centre; the layer's value where that ends.
-bool valueAcross(uint size, uint chart, vec2 uv, vec3 direction, float turn, float metres, out float value) {
-    WalkState w;
-    bool alive = startWalk(env.surfaces, 0u, (env.instance << 16u) | chart, uv, direction, w);
-    if (!alive) return false;
-    rotateHeading(w, turn);
+// The layer's value so many metres along the walk's heading. Where no border is so near, straight over the chart.
+bool valueAlong(uint size, WalkState w, float metres, out float value) {
+    vec2 step = tangentRate(w.du, w.dv, w.walk.direction) * (metres * env.perScale);
+    if (length2(step) < w.clear) return innerAt(size, w.walk.uv + step, value);
     float remaining = metres;
     uint event = kWalkRetry;
     vec3 normal;
@@ -52,14 +50,18 @@ bool valueAcross(uint size, uint chart, vec2 uv, vec3 direction, float turn, flo
 }
 
 float smoothed(uint size, uint chart, vec2 uv, float value, float share) {
+    WalkState w;
+    // Any tangent will do to begin with.
+    if (!startWalk(env.surfaces, 0u, (env.instance << 16u) | chart, uv, vec3(0.0), w)) return value;
     float sum = 0.0;
     float count = 0.0;
     for (uint k = 0u; k < kNeighbours; ++k) {
         float there;
-        // Along any tangent, since a direction of nothing is taken as one.
-        if (!valueAcross(size, chart, uv, vec3(0.0), float(k) * kNeighbourAngle, brush.reach, there)) continue;
-        sum += there;
-        count += 1.0;
+        if (valueAlong(size, w, brush.reach, there)) {
+            sum += there;
+            count += 1.0;
+        }
+        rotateHeading(w, kNeighbourAngle);
     }
     return count > 0.0 ? towards(value, sum * rcpExact(count), share) : value;
 }
@@ -81,7 +83,9 @@ bool farSide(uint size, uvec2 at, Texel texel, out float value) {
     if (best > 8.5) return false;
     vec3 way = texel.position - env.texels.v[texelIndex(size, from.x, from.y)].position;
     vec2 uv = (vec2(from) + 0.5) * rcpExact(float(size));
-    return valueAcross(size, texelChart(texel.bits), uv, way, 0.0, length3(way) * rcpExact(env.perScale), value);
+    WalkState w;
+    return startWalk(env.surfaces, 0u, (env.instance << 16u) | texelChart(texel.bits), uv, way, w) &&
+           valueAlong(size, w, length3(way) * rcpExact(env.perScale), value);
 }
 
 void main() {
