@@ -144,9 +144,10 @@ Status makeAtlas(const Model& model, BakeMesh& mesh, uint32_t resolution, BakeRe
                     mesh.joined[patch.triangles[i] * 3 + k] = patch.twin[i * 3 + k] != kNone;
                 }
             }
-            mesh.orientation.push_back(1.0f);
             ++charts;
         }
+        charts = foldOut(mesh, kept, charts);
+        mesh.orientation.resize(charts, 1.0f);
     }
     if (charts > 65535)
         return Failure(model.name, "the model falls into " + std::to_string(charts) + " charts; 65535 is the limit");

@@ -79,10 +79,10 @@ void flatten(Patch& patch);
 // What a flattening is worth.
 struct PatchVerdict {
     std::vector<uint32_t> tangled;  // vertices at turned over triangles, at cones that wind twice, of holes inside out
-    std::vector<uint32_t> crossed;  // vertices where the outer border meets itself
-    bool insideOut = false;         // the outer border runs the wrong way round
+    std::vector<uint32_t> crossed;  // vertices where the outer border meets itself within a few edges
+    bool overlapping = false;       // it does so from afar, or runs the wrong way round
     double stretch95 = 0;           // of its area
-    bool good() const { return tangled.empty() && crossed.empty() && !insideOut; }
+    bool good() const { return tangled.empty() && crossed.empty() && !overlapping; }
 };
 PatchVerdict judgePatch(const Patch& patch);
 
@@ -94,5 +94,9 @@ void untangle(Patch& patch, const std::vector<uint32_t>& tangled, int rings);
 // creases. Connected parts, at least two, as triangles of the mesh. At least two triangles.
 std::vector<std::vector<uint32_t>> divide(const BakeMesh& mesh, const Facets& facets, const Patch& patch,
                                           const PatchVerdict& verdict);
+
+// Joins small charts, numbered from `first` on, to others as one unfolds a box; UVs are in metres. Returns how many
+// charts there are then.
+uint32_t foldOut(BakeMesh& mesh, uint32_t first, uint32_t charts);
 
 }  // namespace espalier::bakery

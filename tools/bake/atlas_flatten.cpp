@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kRounds = 24;
 constexpr double kSettled = 1e-4;      // of the patch's size: a round that moves less is the last
-constexpr double kMostCotangent = 60;  // slivers are treated as if they were no sharper than 1°
+constexpr double kLeastHeight = 0.01;  // of a triangle over its longest edge: slivers are treated as if they had it
 
 struct Shape {
     glm::dvec2 p[3];      // in the triangle's own plane
@@ -23,14 +23,21 @@ std::vector<Shape> measureShapes(const Patch& patch) {
     std::vector<Shape> shapes(patch.triangles.size());
     for (size_t t = 0; t < shapes.size(); ++t) {
         const auto& c = patch.corner[t];
-        glm::dvec3 e1 = patch.point[c[1]] - patch.point[c[0]], e2 = patch.point[c[2]] - patch.point[c[0]];
-        double length = glm::length(e1), along = glm::dot(e1, e2) / length;
-        double up = glm::length(glm::cross(e1, e2)) / length;
+        double edge[3];
+        size_t base = 0;
+        for (size_t k = 0; k < 3; ++k) {
+            edge[k] = glm::length(patch.point[c[(k + 1) % 3]] - patch.point[c[k]]);
+            if (edge[k] > edge[base]) base = k;
+        }
+        glm::dvec3 origin = patch.point[c[base]], e1 = patch.point[c[(base + 1) % 3]] - origin,
+                   e2 = patch.point[c[(base + 2) % 3]] - origin;
+        double up = std::max(glm::length(glm::cross(e1, e2)) / edge[base], kLeastHeight * edge[base]);
         Shape& s = shapes[t];
-        s.p[0] = {0, 0}, s.p[1] = {length, 0}, s.p[2] = {along, up};
+        s.p[base] = {0, 0}, s.p[(base + 1) % 3] = {edge[base], 0};
+        s.p[(base + 2) % 3] = {glm::dot(e1, e2) / edge[base], up};
         for (int k = 0; k < 3; ++k) {
             glm::dvec2 a = s.p[k] - s.p[(k + 2) % 3], b = s.p[(k + 1) % 3] - s.p[(k + 2) % 3];
-            s.cotangent[k] = std::clamp(glm::dot(a, b) / cross(a, b), -kMostCotangent, kMostCotangent);
+            s.cotangent[k] = glm::dot(a, b) / cross(a, b);
         }
     }
     return shapes;
@@ -133,7 +140,7 @@ void flatten(Patch& patch) {
     }
     stitcher.solve(rotation, patch.uv);
     double area = 0;
-    for (const Shape& s : shapes) area += cross(s.p[1], s.p[2]) / 2;
+    for (const Shape& s : shapes) area += cross(s.p[1] - s.p[0], s.p[2] - s.p[0]) / 2;
     std::vector<glm::dvec2> before;
     for (int round = 0; round < kRounds; ++round) {
         before = patch.uv;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUvTolerance = 1e-6;  // within which two corners' UVs agree
 constexpr double kMinUvArea = 1e-13;   // of a triangle; below, its map has no inverse worth the name
-constexpr double kKeptStretch = 2;     // 95th percentile of a chart's stretch: more is remade
+constexpr double kKeptStretch = 1.5;   // 95th percentile of a chart's stretch: more is remade
 constexpr double kNarrowTexels = 3;    // charts narrower than that on the finest level are remade with their neighbours
 constexpr double kAtlasFill = 0.5;     // the share of the square that charts will cover, as a guess
 constexpr size_t kFoldTriangles = 4;   // flipped islands up to this many triangles are folds of the chart around them

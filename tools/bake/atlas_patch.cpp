@@ -72,6 +72,7 @@ class Ways {
 
 // 1 for triangles at what is tangled or crossed; empty where that is too much, or everything.
 std::vector<uint8_t> cutOut(const Patch& patch, const PatchVerdict& verdict) {
+    if (verdict.overlapping) return {};
     std::vector<uint8_t> bad(patch.point.size(), 0), side(patch.triangles.size(), 0);
     for (const auto* list : {&verdict.tangled, &verdict.crossed})
         for (uint32_t v : *list) bad[v] = 1;

@@ -8,6 +8,7 @@
 namespace espalier::bakery {
 namespace {
 
+constexpr uint32_t kNearEdges = 12;   // of a border: what meets within so many edges is a local fault
 constexpr double kLeastScale = 1e-3;  // of a triangle's area in UV to its own: below it counts as flipped
 
 struct Segment {
@@ -70,7 +71,14 @@ void findMeetings(const Patch& patch, const std::vector<std::vector<uint32_t>>& 
                 const Segment &s = segments[entries[p].segment], &t = segments[entries[q].segment];
                 if (s.from == t.from || s.from == t.to || s.to == t.from || s.to == t.to) continue;
                 if (!meet(s, t)) continue;
-                if (s.loop == 0 && t.loop == 0) out.crossed.insert(out.crossed.end(), {s.from, s.to, t.from, t.to});
+                if (s.loop == 0 && t.loop == 0) {
+                    uint32_t i0 = entries[p].segment, i1 = entries[q].segment, n = uint32_t(loops[0].size());
+                    uint32_t apart = i0 < i1 ? i1 - i0 : i0 - i1;
+                    if (std::min(apart, n - apart) > kNearEdges)
+                        out.overlapping = true;
+                    else
+                        out.crossed.insert(out.crossed.end(), {s.from, s.to, t.from, t.to});
+                }
                 meets[s.loop] = meets[t.loop] = 1;
             }
         i = j;
@@ -78,7 +86,7 @@ void findMeetings(const Patch& patch, const std::vector<std::vector<uint32_t>>& 
     for (uint32_t l = 1; l < loops.size(); ++l)
         if (meets[l] || signedArea(patch, loops[l]) > 0)
             for (uint32_t h : loops[l]) out.tangled.push_back(patch.corner[h / 3][h % 3]);
-    if (signedArea(patch, loops[0]) < 0) out.insideOut = true;
+    if (signedArea(patch, loops[0]) < 0) out.overlapping = true;
 }
 
 // Vertices around which triangles go more than once: they pass the ray along +u more than once.

@@ -10,7 +10,7 @@ namespace espalier::bakery {
 namespace {
 
 constexpr double kGuessedFill = 0.6;    // of the square: what charts may cover when there were no bands
-constexpr int kTurns = 45;              // angles tried to lay a chart into the smallest box
+constexpr int kTurns = 24;              // angles tried to lay a chart into the smallest box
 constexpr double kWalkableShare = 0.9;  // of the area: kept layouts let so much be walked at the coarsest level
 
 void transform(BakeMesh& mesh, double scale, glm::dvec2 offset) {
@@ -56,14 +56,24 @@ double walkableShare(const BakeMesh& mesh, const std::vector<uint32_t>& borders,
     return good / all;
 }
 
-// The angle by which the chart's box gets smallest, as (cosine, sine).
-glm::dvec2 smallestBox(const std::vector<glm::dvec2>& border) {
-    glm::dvec2 best(1, 0);
-    double least = 1e300;
+// The turn by which the chart's box gets smallest, as (cosine, sine): one that lays a long border edge flat, if there
+// are straight ones, or one of evenly spaced angles. border: starts of border edges, with where they lead.
+glm::dvec2 smallestBox(const std::vector<std::pair<glm::dvec2, glm::dvec2>>& border) {
+    std::vector<glm::dvec2> turns, longest;
+    for (const auto& [a, b] : border) longest.push_back(b - a);
+    size_t some = std::min(longest.size(), size_t(kTurns));
+    std::partial_sort(longest.begin(), longest.begin() + long(some), longest.end(),
+                      [](glm::dvec2 x, glm::dvec2 y) { return glm::dot(x, x) > glm::dot(y, y); });
+    for (size_t i = 0; i < some; ++i) turns.push_back(glm::normalize(glm::dvec2(longest[i].x, -longest[i].y)));
     for (int i = 0; i < kTurns; ++i) {
         double angle = i * (1.5707963267948966 / kTurns);
-        glm::dvec2 turn(std::cos(angle), std::sin(angle)), low(1e300), high(-1e300);
-        for (glm::dvec2 p : border) {
+        turns.push_back({std::cos(angle), std::sin(angle)});
+    }
+    glm::dvec2 best(1, 0);
+    double least = 1e300;
+    for (glm::dvec2 turn : turns) {
+        glm::dvec2 low(1e300), high(-1e300);
+        for (const auto& [p, unused] : border) {
             glm::dvec2 q(turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y);
             low = glm::min(low, q), high = glm::max(high, q);
         }
@@ -75,19 +85,19 @@ glm::dvec2 smallestBox(const std::vector<glm::dvec2>& border) {
 
 void turnIntoBox(BakeMesh& mesh, uint32_t chart, double scale) {
     double area = 0, flat = 0;
-    std::vector<glm::dvec2> border;
+    std::vector<std::pair<glm::dvec2, glm::dvec2>> border;
     uint32_t first = mesh.firstTriangle[chart], last = mesh.firstTriangle[chart + 1];
     for (uint32_t t = first; t < last; ++t) {
         area += area3(mesh, mesh.triangles[t]), flat += std::abs(uvArea(mesh.triangles[t]));
         for (uint32_t h = t * 3; h < t * 3 + 3; ++h)
-            if (!mesh.joined[h]) border.push_back(mesh.uvAt(h));
+            if (!mesh.joined[h]) border.push_back({mesh.uvAt(h), mesh.uvAt(BakeMesh::next(h))});
     }
     glm::dvec2 turn = smallestBox(border), low(1e300);
     scale *= std::sqrt(area / flat);
     auto place = [&](glm::dvec2 p) {
         return glm::dvec2(turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y) * scale;
     };
-    for (glm::dvec2 p : border) low = glm::min(low, place(p));
+    for (const auto& [p, unused] : border) low = glm::min(low, place(p));
     for (uint32_t t = first; t < last; ++t)
         for (glm::dvec2& uv : mesh.triangles[t].uv) uv = place(uv) - low;
 }

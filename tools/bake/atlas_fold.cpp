@@ -1,0 +1,234 @@
+// In: charts, flattened, in metres. Out: fewer: small charts are folded out at an edge that they share with another, as
+// a box is unfolded. Rigid motions only: nothing is stretched by it. What fits along several edges is joined along all.
+#include <algorithm>
+#include <cmath>
+
+#include "tools/bake/atlas.hpp"
+
+namespace espalier::bakery {
+namespace {
+
+constexpr double kLargest = 0.04;   // of the model's area: charts don't grow beyond it by folding
+constexpr double kLongest = 0.4;    // of the square root of the model's area: nor their boxes
+constexpr double kLeastFill = 0.4;  // of their box by the chart
+constexpr double kLeastEdge = 0.1;  // of the smaller chart's border that has to fit
+constexpr double kFits = 2e-3;      // of an edge's length: ends nearer than that fall together
+constexpr int kRounds = 24;
+
+// A rigid motion of the plane: turn, then shift.
+struct Motion {
+    glm::dvec2 turn{1, 0}, shift{0};
+    glm::dvec2 operator()(glm::dvec2 p) const {
+        return glm::dvec2(turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y) + shift;
+    }
+};
+
+struct Piece {
+    std::vector<uint32_t> triangles;
+    double area = 0, border = 0;
+};
+
+struct Fold {
+    double score;
+    uint32_t a, b;                // charts: b is moved
+    std::vector<uint32_t> edges;  // half-edges of a along b
+    Motion motion;
+    bool operator<(const Fold& o) const { return std::tie(o.score, a, b) < std::tie(score, o.a, o.b); }
+};
+
+class Folder {
+  public:
+    Folder(BakeMesh& mesh, uint32_t first, uint32_t count) : mesh_(mesh), first_(first), pieces_(count) {
+        for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+            if (mesh.triangles[t].chart < first) continue;
+            Piece& p = pieces_[mesh.triangles[t].chart - first];
+            p.triangles.push_back(t);
+            p.area += area3(mesh, mesh.triangles[t]);
+            for (uint32_t h = t * 3; h < t * 3 + 3; ++h)
+                if (!mesh.joined[h]) p.border += length(h);
+        }
+        for (const Triangle& t : mesh.triangles) total_ += area3(mesh, t);
+    }
+
+    void run() {
+        for (int round = 0; round < kRounds; ++round) {
+            std::vector<Fold> folds = findFolds();
+            std::sort(folds.begin(), folds.end());
+            std::vector<uint8_t> busy(pieces_.size(), 0);
+            bool any = false;
+            for (const Fold& f : folds) {
+                if (busy[f.a] || busy[f.b] || !isFree(f)) continue;
+                busy[f.a] = busy[f.b] = 1;
+                apply(f);
+                any = true;
+            }
+            if (!any) break;
+        }
+    }
+
+  private:
+    double length(uint32_t h) const { return glm::length(mesh_.uvAt(BakeMesh::next(h)) - mesh_.uvAt(h)); }
+    uint32_t pieceOf(uint32_t h) const { return mesh_.chartOf(h) - first_; }
+
+    // The motion that lays the twin of h, of another chart, along h.
+    Motion along(uint32_t h) const {
+        uint32_t twin = mesh_.twin[h];
+        glm::dvec2 to = mesh_.uvAt(BakeMesh::next(h)) - mesh_.uvAt(h);
+        glm::dvec2 from = mesh_.uvAt(twin) - mesh_.uvAt(BakeMesh::next(twin));
+        Motion m;
+        m.turn = {glm::dot(from, to), cross(from, to)};
+        m.turn /= glm::length(m.turn);
+        m.shift = mesh_.uvAt(h) - m(mesh_.uvAt(BakeMesh::next(twin)));
+        return m;
+    }
+    bool fits(uint32_t h, const Motion& m) const {
+        uint32_t twin = mesh_.twin[h];
+        double most = kFits * length(h);
+        return glm::length(m(mesh_.uvAt(BakeMesh::next(twin))) - mesh_.uvAt(h)) <= most &&
+               glm::length(m(mesh_.uvAt(twin)) - mesh_.uvAt(BakeMesh::next(h))) <= most;
+    }
+
+    // For every two charts that share edges: the smaller one folded out at the longest of them.
+    std::vector<Fold> findFolds() const {
+        struct Shared {
+            uint64_t pair;
+            double length;
+            uint32_t half;
+        };
+        std::vector<Shared> shared;
+        for (uint32_t h = 0; h < mesh_.twin.size(); ++h) {
+            uint32_t twin = mesh_.twin[h];
+            if (mesh_.joined[h] || twin == kNone || mesh_.chartOf(h) < first_ || mesh_.chartOf(twin) < first_) continue;
+            uint32_t a = pieceOf(h), b = pieceOf(twin);
+            if (a == b || pieces_[a].area + pieces_[b].area > kLargest * total_) continue;
+            if (std::tie(pieces_[a].area, b) < std::tie(pieces_[b].area, a)) continue;
+            shared.push_back({uint64_t(a) << 32 | b, length(h), h});
+        }
+        std::sort(shared.begin(), shared.end(), [](const Shared& x, const Shared& y) {
+            return std::tie(x.pair, y.length, x.half) < std::tie(y.pair, x.length, y.half);
+        });
+        std::vector<Fold> folds;
+        for (size_t i = 0, j; i < shared.size(); i = j) {
+            Fold f{0, uint32_t(shared[i].pair >> 32), uint32_t(shared[i].pair), {}, along(shared[i].half)};
+            double fitting = 0;
+            for (j = i; j < shared.size() && shared[j].pair == shared[i].pair; ++j)
+                if (fits(shared[j].half, f.motion)) fitting += shared[j].length, f.edges.push_back(shared[j].half);
+            f.score = fitting / std::min(pieces_[f.a].border, pieces_[f.b].border);
+            if (f.score >= kLeastEdge && isCompact(f, shared[i].half)) folds.push_back(std::move(f));
+        }
+        return folds;
+    }
+
+    bool isCompact(const Fold& f, uint32_t h) const {
+        glm::dvec2 axis = glm::normalize(mesh_.uvAt(BakeMesh::next(h)) - mesh_.uvAt(h)), low(1e300), high(-1e300);
+        auto grow = [&](glm::dvec2 p) {
+            glm::dvec2 q(glm::dot(axis, p), cross(axis, p));
+            low = glm::min(low, q), high = glm::max(high, q);
+        };
+        for (uint32_t t : pieces_[f.a].triangles)
+            for (glm::dvec2 p : mesh_.triangles[t].uv) grow(p);
+        for (uint32_t t : pieces_[f.b].triangles)
+            for (glm::dvec2 p : mesh_.triangles[t].uv) grow(f.motion(p));
+        glm::dvec2 size = high - low;
+        return std::max(size.x, size.y) <= kLongest * std::sqrt(total_) &&
+               pieces_[f.a].area + pieces_[f.b].area >= kLeastFill * size.x * size.y;
+    }
+
+    struct Line {
+        glm::dvec2 a, b;
+    };
+    std::vector<Line> borderOf(const Piece& piece, const Motion& m) const {
+        std::vector<Line> out;
+        for (uint32_t t : piece.triangles)
+            for (uint32_t h = t * 3; h < t * 3 + 3; ++h)
+                if (!mesh_.joined[h]) out.push_back({m(mesh_.uvAt(h)), m(mesh_.uvAt(BakeMesh::next(h)))});
+        return out;
+    }
+    // Whether some triangle's middle lies inside a border.
+    bool anyInside(const Piece& piece, const Motion& m, const std::vector<Line>& border) const {
+        for (uint32_t t : piece.triangles) {
+            const auto& uv = mesh_.triangles[t].uv;
+            glm::dvec2 p = m((uv[0] + uv[1] + uv[2]) / 3.0);
+            bool inside = false;
+            for (const Line& l : border)
+                if ((l.a.y > p.y) != (l.b.y > p.y) && p.x < l.a.x + (l.b.x - l.a.x) * (p.y - l.a.y) / (l.b.y - l.a.y))
+                    inside = !inside;
+            if (inside) return true;
+        }
+        return false;
+    }
+
+    // Whether the folded chart lies beside the other, nowhere over it. Borders may touch.
+    bool isFree(const Fold& f) const {
+        const Piece &a = pieces_[f.a], &b = pieces_[f.b];
+        std::vector<Line> here = borderOf(a, {}), there = borderOf(b, f.motion);
+        double slack = 1e-9 * std::sqrt(total_);
+        for (const Line& s : here)
+            for (const Line& t : there) {
+                glm::dvec2 d = s.b - s.a, e = t.b - t.a;
+                double ld = glm::length(d) * slack, le = glm::length(e) * slack;
+                double p = cross(d, t.a - s.a), q = cross(d, t.b - s.a), u = cross(e, s.a - t.a),
+                       v = cross(e, s.b - t.a);
+                if (((p > ld && q < -ld) || (p < -ld && q > ld)) && ((u > le && v < -le) || (u < -le && v > le)))
+                    return false;
+            }
+        return !anyInside(b, f.motion, here) && !anyInside(a, {}, there);
+    }
+
+    void apply(const Fold& f) {
+        Piece &a = pieces_[f.a], &b = pieces_[f.b];
+        for (uint32_t t : b.triangles) {
+            for (glm::dvec2& uv : mesh_.triangles[t].uv) uv = f.motion(uv);
+            mesh_.triangles[t].chart = first_ + f.a;
+        }
+        for (uint32_t h : f.edges) {
+            uint32_t twin = mesh_.twin[h];
+            a.border -= length(h);
+            b.border -= length(twin);
+            mesh_.joined[h] = mesh_.joined[twin] = 1;
+        }
+        for (uint32_t h : f.edges) {
+            moveVertex(mesh_.twin[h], mesh_.uvAt(BakeMesh::next(h)));
+            moveVertex(BakeMesh::next(mesh_.twin[h]), mesh_.uvAt(h));
+        }
+        a.triangles.insert(a.triangles.end(), b.triangles.begin(), b.triangles.end());
+        a.area += b.area, a.border += b.border;
+        b = {};
+    }
+
+    // Moves the vertex at a corner, with all triangles around it that are joined there, both ways.
+    void moveVertex(uint32_t corner, glm::dvec2 to) {
+        for (bool left : {true, false}) {
+            uint32_t h = corner;
+            do {
+                mesh_.triangles[h / 3].uv[h % 3] = to;
+                uint32_t edge = left ? BakeMesh::next(BakeMesh::next(h)) : h;
+                if (!mesh_.joined[edge]) break;
+                h = left ? mesh_.twin[edge] : BakeMesh::next(mesh_.twin[edge]);
+            } while (h != corner);
+        }
+    }
+
+    BakeMesh& mesh_;
+    uint32_t first_;
+    std::vector<Piece> pieces_;
+    double total_ = 0;
+};
+
+}  // namespace
+
+uint32_t foldOut(BakeMesh& mesh, uint32_t first, uint32_t charts) {
+    if (charts - first < 2) return charts;
+    Folder(mesh, first, charts - first).run();
+    std::vector<uint32_t> number(charts, kNone);
+    uint32_t count = first;
+    for (Triangle& t : mesh.triangles) {
+        if (t.chart < first) continue;
+        uint32_t& n = number[t.chart];
+        if (n == kNone) n = count++;
+        t.chart = n;
+    }
+    return count;
+}
+
+}  // namespace espalier::bakery
