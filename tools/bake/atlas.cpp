@@ -105,20 +105,25 @@ void sortByChart(BakeMesh& mesh, uint32_t charts) {
 
 }  // namespace
 
-Status makeAtlas(const Model& model, BakeMesh& mesh, uint32_t resolution, BakeReport& report) {
+Status makeAtlas(const Model& model, BakeMesh& mesh, uint32_t resolution, bool keep, BakeReport& report) {
     size_t count = mesh.triangles.size();
-    Islands islands = judgeUvs(model, mesh, resolution);
+    Islands islands = judgeUvs(model, mesh, resolution, keep);
     report.uvs = tell(mesh, islands);
     std::vector<uint8_t> wanted(count);
     size_t toMake = 0;
-    for (size_t t = 0; t < count; ++t) toMake += wanted[t] = islands.fault[islands.island[t]] != UvFault::none;
+    uint32_t mended = 0;
+    for (size_t t = 0; t < count; ++t) {
+        uint32_t i = islands.island[t];
+        toMake += wanted[t] = islands.fault[i] != UvFault::none && !islands.mended[i];
+    }
     mesh.joined.assign(count * 3, 0);
     for (uint32_t h = 0; h < count * 3; ++h) mesh.joined[h] = !wanted[h / 3] && !islands.cut[h];
-    mesh.metric = toMake > 0;
+    for (uint8_t m : islands.mended) mended += m;
+    mesh.metric = toMake + mended > 0;
     // Kept islands come first.
     uint32_t charts = 0;
     for (size_t i = 0; i < islands.triangles.size(); ++i) {
-        if (islands.fault[i] != UvFault::none) continue;
+        if (islands.fault[i] != UvFault::none && !islands.mended[i]) continue;
         double area = 0, flat = 0;
         for (uint32_t t : islands.triangles[i]) {
             area += area3(mesh, mesh.triangles[t]), flat += uvArea(mesh.triangles[t]);
@@ -152,7 +157,7 @@ Status makeAtlas(const Model& model, BakeMesh& mesh, uint32_t resolution, BakeRe
     if (charts > 65535)
         return Failure(model.name, "the model falls into " + std::to_string(charts) + " charts; 65535 is the limit");
     sortByChart(mesh, charts);
-    report.madeCharts = charts - kept;
+    report.madeCharts = charts - kept + mended;
     return Done{};
 }
 

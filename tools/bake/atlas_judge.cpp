@@ -75,6 +75,17 @@ UvFault judgeIsland(const BakeMesh& mesh, Patch& patch, double texel) {
     return hasNeighbours && isNarrow(patch, texel) ? UvFault::narrow : UvFault::none;
 }
 
+// Flattens an island that overlaps itself or is stretched, within its own outline: seams stay where an artist put them.
+bool mend(BakeMesh& mesh, Patch& patch, double texel) {
+    if (!canFlatten(patch)) return false;
+    flatten(patch);
+    PatchVerdict verdict = judgePatch(patch);
+    if (!verdict.good() || verdict.stretch95 > kKeptStretch || isNarrow(patch, texel)) return false;
+    for (size_t t = 0; t < patch.triangles.size(); ++t)
+        for (size_t k = 0; k < 3; ++k) mesh.triangles[patch.triangles[t]].uv[k] = patch.uv[patch.corner[t][k]];
+    return true;
+}
+
 }  // namespace
 
 const char* toString(UvFault fault) {
@@ -97,7 +108,7 @@ const char* toString(UvFault fault) {
     return "";
 }
 
-Islands judgeUvs(const Model& model, BakeMesh& mesh, uint32_t resolution) {
+Islands judgeUvs(const Model& model, BakeMesh& mesh, uint32_t resolution, bool keep) {
     size_t count = mesh.triangles.size();
     Islands out;
     std::vector<UvFault> fault = readUvs(model, mesh);
@@ -133,15 +144,18 @@ Islands judgeUvs(const Model& model, BakeMesh& mesh, uint32_t resolution) {
     for (uint32_t h : folds) {
         uint32_t a = out.island[h / 3], b = out.island[mesh.twin[h] / 3];
         uint32_t small = out.triangles[a].size() < out.triangles[b].size() ? a : b;
-        if (out.triangles[small].size() <= kFoldTriangles) out.fault[a] = out.fault[b] = UvFault::folded;
+        if (!keep && out.triangles[small].size() <= kFoldTriangles) out.fault[a] = out.fault[b] = UvFault::folded;
     }
+    out.mended.assign(out.triangles.size(), 0);
     double texel = std::sqrt(mesh.area / kAtlasFill) / resolution;
     std::vector<uint32_t> local(count, 0);
     parallelFor(out.triangles.size(), 8, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            if (out.fault[i] != UvFault::none) continue;
+            if (out.fault[i] != UvFault::none || keep) continue;
             Patch patch = makePatch(mesh, out.triangles[i], out.cut, local);
             out.fault[i] = judgeIsland(mesh, patch, texel);
+            if (out.fault[i] == UvFault::overlapping || out.fault[i] == UvFault::stretched)
+                out.mended[i] = mend(mesh, patch, texel);
         }
     });
     return out;

@@ -182,8 +182,8 @@ void straighten(const BakeMesh& mesh, const Facets& facets, std::vector<uint32_t
     }
 }
 
-// Numbers connected pieces of equal label; pieces too small to be charts join the neighbour with the longest border.
-uint32_t renumber(const BakeMesh& mesh, const Facets& facets, std::vector<uint32_t>& label) {
+// Numbers connected pieces of equal label.
+uint32_t renumber(const BakeMesh& mesh, std::vector<uint32_t>& label) {
     UnionFind sets(label.size());
     for (uint32_t h = 0; h < mesh.twin.size(); ++h)
         if (uint32_t twin = mesh.twin[h]; twin != kNone && label[h / 3] != kNone && label[h / 3] == label[twin / 3])
@@ -196,7 +196,6 @@ uint32_t renumber(const BakeMesh& mesh, const Facets& facets, std::vector<uint32
         if (n == kNone) n = count++;
         label[t] = n;
     }
-    (void)facets;
     return count;
 }
 
@@ -231,7 +230,7 @@ uint32_t segment(const BakeMesh& mesh, const Facets& facets, const std::vector<u
         label[t] = n;
     }
     straighten(mesh, facets, label, count);
-    return renumber(mesh, facets, label);
+    return renumber(mesh, label);
 }
 
 }  // namespace espalier::bakery

@@ -184,7 +184,7 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     }
     report.warnings.insert(report.warnings.end(), found.begin(), found.end());
     stages.begin(0.05f, "atlas");
-    Status cut = makeAtlas(model, *mesh, options.resolution, report);
+    Status cut = makeAtlas(model, *mesh, options.resolution, options.keepLayout, report);
     if (!cut) return std::move(cut.failure());
     addNormalsAndCurvature(model, *mesh);
     stages.begin(0.1f, "layout");

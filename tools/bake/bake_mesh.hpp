@@ -70,7 +70,8 @@ size_t dropCopies(BakeMesh& mesh, double finArea);
 // Cuts the mesh into charts and gives every corner its UV: sorts triangles by chart (twins follow), fills in joined,
 // orientation and firstTriangle. Charts may still lie over each other: layOut places them.
 // resolution: of the finest level, in which charts should be wide enough for their gutters.
-Status makeAtlas(const Model& model, BakeMesh& mesh, uint32_t resolution, BakeReport& report);
+// keep: the model's charts serve however stretched or narrow they are.
+Status makeAtlas(const Model& model, BakeMesh& mesh, uint32_t resolution, bool keep, BakeReport& report);
 
 // Puts shading normals and mean curvature on the mesh.
 void addNormalsAndCurvature(const Model& model, BakeMesh& mesh);
