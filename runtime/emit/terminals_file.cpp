@@ -34,6 +34,7 @@ class Reader {
     Reader(std::span<const std::byte> bytes, TerminalData& data) : bytes_(bytes), data_(data) {}
 
     void read() {
+        open_ = data_.kinds.size() == 1;
         openChunks();
         readMaterials();
         readMeshes();
@@ -185,6 +186,8 @@ class Reader {
             if (!splitName(mesh.value("name", ""), variant, lod)) continue;
             const std::string kind = variant.substr(0, variant.find('_'));
             auto it = std::find(data_.kinds.begin(), data_.kinds.end(), kind);
+            if (it == data_.kinds.end() && open_ && data_.kinds.size() < kMaxTerminalKinds)
+                it = data_.kinds.insert(it, kind);
             if (it != data_.kinds.end()) found[{uint32_t(it - data_.kinds.begin()), variant}][lod] = &mesh;
         }
         check(!found.empty(), "it holds no terminal meshes (KIND_lodN)");
@@ -245,6 +248,7 @@ class Reader {
     std::span<const std::byte> bytes_, binary_;
     TerminalData& data_;
     json root_;
+    bool open_ = false;
     const json noList_ = json::array(), noObject_ = json::object();
     std::map<uint64_t, int> pictures_;
 };

@@ -51,6 +51,7 @@ class RendererImpl final : public Renderer {
         return models_.set(device_, index, data, toWorld);
     }
     void removeSurface(uint32_t index) override { models_.remove(index); }
+    Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes) override;
     Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) override;
     Result<std::vector<uint8_t>> readPixels() override;
     RenderStats stats() const override;
@@ -61,6 +62,8 @@ class RendererImpl final : public Renderer {
         uint64_t growth = 0, models = 0;
         glm::vec3 sun{0};
         uint32_t nodes = 0, leaves = 0;
+        uint64_t roofs = 0;
+        glm::vec4 sphere{0};
         bool operator==(const ShadowKey&) const = default;
     };
 
@@ -79,6 +82,7 @@ class RendererImpl final : public Renderer {
     Device& device_;
     Terminals terminals_;
     Emit emit_;
+    std::unique_ptr<RoofDraw> roofs_;
     Models models_;
     Targets targets_;
     Image shadowMap_;
@@ -89,7 +93,7 @@ class RendererImpl final : public Renderer {
     Buffer frames_, tiles_;
     uint32_t frameSlot_ = 0;
     ShadowKey shadowKey_;
-    bool grows_ = false, shadowDrawn_ = false;
+    bool grows_ = false, roofed_ = false, shadowDrawn_ = false;
 };
 
 Status RendererImpl::makePrograms() {
@@ -199,6 +203,13 @@ Status RendererImpl::setUp(TerminalData data) {
     return makePrograms();
 }
 
+Result<std::vector<RoofMesh>> RendererImpl::loadRoofMeshes(TerminalData meshes) {
+    auto made = RoofDraw::create(device_, std::move(meshes), kSceneFormat, kDepthFormat, targets_.samples);
+    if (!made) return made.failure();
+    roofs_ = std::move(*made);
+    return roofs_->bounds();
+}
+
 Result<uint64_t> RendererImpl::upload(Commands& commands, const FrameRecord& frame) {
     const uint64_t offset = frameSlot_++ % kFrameSlots * sizeof(FrameRecord);
     commands.barrier(Use::vertex | Use::fragment, Use::transfer);
@@ -254,6 +265,10 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
         view.leastPixels = 0.35f;
         if (Status s = emit_.cull(commands, {inputs.growth, inputs.surfaces}, view, "shadow emit", false); !s) return s;
     }
+    if (roofed_) {
+        const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, lodPixels);
+        if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
+    }
     commands.transition(shadowMap_, ImageState::depthTarget, true);
     {
         DrawTargets targets;
@@ -262,6 +277,7 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
         DrawPass pass(commands, "shadow draw", targets);
         models_.drawDepth(pass, modelDepth_, *address);
         if (grows_) drawTerminals(pass, *address, true);
+        if (roofed_) roofs_->draw(pass, *address, nullptr, nullptr);
     }
     commands.transition(shadowMap_, ImageState::sampled);
     return Done{};
@@ -298,6 +314,9 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.tiles = push.tiles;
     view.width = targets_.width;
     view.height = targets_.height;
+    if (roofed_)
+        if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
+    if (!grows_) return Done{};
     return emit_.cull(commands, {inputs.growth, inputs.surfaces}, view, "emit", true);
 }
 
@@ -309,6 +328,7 @@ void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {
     targets.depth->view = targets_.depth.view();
     DrawPass pass(commands, "draw scene", targets);
     if (grows_) drawTerminals(pass, reinterpret_cast<uint64_t>(post.frame.v), false);
+    if (roofed_) roofs_->draw(pass, reinterpret_cast<uint64_t>(post.frame.v), &shadowMap_, &shadowSampler_);
     pass.draw(sky_, 3, 1, post);
 }
 
@@ -359,17 +379,33 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
     const GrowthView& growth = inputs.growth;
     grows_ = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
+    roofed_ = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
 
     glm::vec3 low, high;
     models_.bounds(low, high);
-    const float radius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.06f;
+    if (roofed_) {
+        low = models_.empty() ? inputs.roofs->low : glm::min(low, inputs.roofs->low);
+        high = models_.empty() ? inputs.roofs->high : glm::max(high, inputs.roofs->high);
+    }
+    float radius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.06f;
+    glm::vec3 center = (low + high) * 0.5f;
     FrameRecord frame = makeFrame(inputs, target.width, target.height);
-    const SunView sun = makeSunView(frame.sunDirection, (low + high) * 0.5f, radius);
+    // A town is larger than a map of shadows can resolve: it covers what is looked at.
+    if (roofed_) {
+        const float reach = std::exp2(std::ceil(std::log2(1.6f * glm::length(inputs.camera.target - inputs.camera.eye))));
+        if (reach < radius) {
+            radius = std::max(reach, 8.0f);
+            center = glm::round(inputs.camera.target / (0.125f * radius)) * (0.125f * radius);
+        }
+    }
+    const SunView sun = makeSunView(frame.sunDirection, center, radius);
     frame.shadowMatrix = sun.toTexture;
     frame.shadowTexel = 1.0f / kShadowSize;
-    frame.unit = lengthUnit(high - low);
+    frame.unit = roofed_ ? 1.0f : lengthUnit(high - low);
     frame.shadowOffset = 1.2f * sun.width / kShadowSize;
-    const ShadowKey key{growth.revision, models_.revision(), frame.sunDirection, growth.nodeCount, growth.leafCount};
+    const ShadowKey key{growth.revision,  models_.revision(), frame.sunDirection,
+                        growth.nodeCount, growth.leafCount,   roofed_ ? inputs.roofs->revision : 0,
+                        glm::vec4(center, radius)};
     if (frame.shadows && (!shadowDrawn_ || key != shadowKey_)) {
         if (Status s = drawShadows(commands, inputs, sun, kShadowLodPixels); !s) return s;
         shadowKey_ = key;
@@ -386,7 +422,7 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     // Some devices do a pass' work when the next one needs it: only the whole is a true time.
     Pass whole(commands, "draw");
     drawModels(commands, *address, inputs);
-    if (grows_)
+    if (grows_ || roofed_)
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
     drawGrowth(commands, push);
     commands.transition(targets_.color, ImageState::sampled);
@@ -405,6 +441,7 @@ Result<std::vector<uint8_t>> RendererImpl::readPixels() {
 RenderStats RendererImpl::stats() const {
     RenderStats stats;
     if (grows_) stats.emit = emit_.stats();
+    if (roofed_) stats.roofs = roofs_->stats();
     stats.modelTriangles = models_.triangles();
     stats.emitMs = device_.milliseconds("emit");
     stats.drawMs = std::max(0.0, device_.milliseconds("draw") - stats.emitMs);

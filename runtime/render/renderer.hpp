@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "runtime/emit/emit.hpp"
+#include "runtime/render/roof_draw.hpp"
 #include "runtime/surface/surface.hpp"
 
 namespace espalier {
@@ -38,6 +39,7 @@ struct DrawInputs {
     GrowthView growth;    // nodeCount 0: nothing grows
     SurfaceBuf surfaces;  // device address of the SurfaceRef table; 0: no growth and no chart view
     LayerBuf layers;      // surfaces * kMaxLayers; 0: no layer view
+    const RoofView* roofs = nullptr;  // none; needs loadRoofMeshes()
     Camera camera;
     Look look;
 };
@@ -53,6 +55,7 @@ struct DrawTarget {
 
 struct RenderStats {
     EmitStats emit;
+    RoofDrawStats roofs;
     uint64_t modelTriangles = 0;
     double emitMs = 0, drawMs = 0, shadowMs = 0;  // GPU time of the last finished frame; shadow: of the last redraw
 };
@@ -66,6 +69,9 @@ class Renderer {
     // The drawn mesh of surface instance `index`; uploads and waits.
     virtual Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld) = 0;
     virtual void removeSurface(uint32_t index) = 0;
+
+    // Meshes that roofs are drawn with, kind 0 being none; returns their bounds. Once, before the first roofs.
+    virtual Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes) = 0;
 
     // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed.
     virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;

@@ -253,8 +253,23 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome) {
     view_.meshes = addressOf<RoofMeshBuf>(meshes_);
     view_.generations = addressOf<UintBuf>(generations_);
     view_.gridCount = last_.grids;
+    view_.rowCount = last_.rows;
+    view_.tileCount = last_.touched;
+    view_.clippedCount = last_.touched - last_.whole;
     view_.revision += 1;
     const RoofTables& t = *inputs.town;
+    view_.low = glm::vec3(1e9f);
+    view_.high = -view_.low;
+    for (const RoofTables::House& house : t.houses)
+        for (uint32_t i = house.firstAtom; i < house.firstAtom + house.atomCount; ++i) {
+            const RoofAtom& atom = t.atoms[i];
+            for (float along : {0.0f, atom.eaveLength})
+                for (float up : {0.0f, atom.wallHeight + atom.height}) {
+                    const glm::vec3 p = atom.foot + atom.tangent * along + glm::vec3(0, up, 0);
+                    view_.low = glm::min(view_.low, p);
+                    view_.high = glm::max(view_.high, p);
+                }
+        }
     stats_.houses = uint32_t(t.houses.size());
     stats_.atoms = uint32_t(t.atoms.size());
     stats_.grids = last_.grids;

@@ -28,8 +28,10 @@ struct RoofView {
     Vec4Buf planes{};
     RoofMeshBuf meshes{};
     UintBuf generations{};  // [house]: grids of another generation are gone
-    uint32_t gridCount = 0;
+    uint32_t gridCount = 0, rowCount = 0;
+    uint64_t tileCount = 0, clippedCount = 0;
     uint64_t revision = 0;
+    glm::vec3 low{0}, high{0};  // of the town
 };
 
 struct RoofStats {

@@ -11,6 +11,7 @@
 #include "tools/content/leaf.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/preview.hpp"
+#include "tools/content/roof_mesh.hpp"
 #include "tools/content/ruin.hpp"
 
 namespace espalier::content {
@@ -126,6 +127,16 @@ Status writeTerminals(const Options& options) {
     return previewTerminals(options, glb, leaves, bark, pebbles);
 }
 
+Status writeRoofMeshes(const Options& options) {
+    const RoofMeshes meshes = makeRoofMeshes();
+    Glb glb;
+    glb.materials = {{"rough", -1, -1, 0.9f, 0, false, false},
+                     {"smooth", -1, -1, 0.7f, 0, false, false},
+                     {"glass", -1, -1, 0.4f, 0, false, false}};
+    for (const RoofMeshes::Entry& e : meshes.all) glb.meshes.push_back({e.name, &e.mesh, e.material});
+    return writeGlb(options.directory + "/roofs.glb", glb);
+}
+
 }  // namespace
 
 Status generate(const Options& options) {
@@ -133,6 +144,7 @@ Status generate(const Options& options) {
     if (!options.previewDirectory.empty())
         if (Status s = makeDirectory(options.previewDirectory); !s) return s;
     if (Status s = writeRuin(options); !s) return s;
+    if (Status s = writeRoofMeshes(options); !s) return s;
     return writeTerminals(options);
 }
 

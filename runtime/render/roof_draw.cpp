@@ -1,0 +1,230 @@
+// Enters: grids of cells and a view. Leaves: draws. One kernel looks at grids, one at the rows of near ones and counts
+// cells by mesh and level of detail, one scans, one writes the instances (Buron 2013 §3.3: cells that are wholly clipped
+// are never made, those that an outline crosses are clipped when drawn, the others pay nothing).
+#include "runtime/render/roof_draw.hpp"
+
+#include <algorithm>
+
+#include "runtime/core/check.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr uint32_t kSlots = 8;  // views that recordings in flight may still read
+constexpr uint32_t kMostRows = 1u << 20, kMostTiles = 3u << 20, kMostCuts = 1u << 19, kMostRectangles = 1u << 19;
+constexpr float kLeastCell = 4.5f;  // pixels below which cells are a pattern
+// Meshes are measured in cells, though their heights are metres: errors count for more than they seem.
+constexpr float kErrorScale = 5;
+
+template <class Buf>
+Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
+    Buf b{};
+    b.v = reinterpret_cast<decltype(b.v)>(buffer.address() + offset);
+    return b;
+}
+
+std::vector<RoofMesh> boundsOf(const TerminalData& data) {
+    std::vector<RoofMesh> all(data.kinds.size(), RoofMesh{{0, 0, 0}, {1, 1, 0}});
+    for (const TerminalVariant& v : data.variants) {
+        RoofMesh b{glm::vec3(1e9f), glm::vec3(-1e9f)};
+        const TerminalLod& lod = v.lods.front();
+        for (uint32_t i = 0; i < lod.vertexCount; ++i) {
+            b.low = glm::min(b.low, data.vertices[lod.firstVertex + i].position);
+            b.high = glm::max(b.high, data.vertices[lod.firstVertex + i].position);
+        }
+        all[v.kind] = b;
+    }
+    return all;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData meshes, VkFormat color, VkFormat depth,
+                                                   uint32_t samples) {
+    auto out = std::make_unique<RoofDraw>();
+    out->device_ = &device;
+    out->bounds_ = boundsOf(meshes);
+    for (TerminalVariant& v : meshes.variants)
+        for (TerminalLod& lod : v.lods) lod.error *= kErrorScale;
+    Result<Terminals> terminals = Terminals::create(device, std::move(meshes));
+    if (!terminals) return terminals.failure();
+    out->terminals_ = std::move(*terminals);
+    if (Status s = out->makePrograms(device, color, depth, samples); !s) return s.failure();
+    const struct {
+        Buffer& buffer;
+        const char* name;
+        uint64_t bytes;
+        BufferUse use;
+    } buffers[] = {{out->views_, "roof views", kSlots * sizeof(EmitView), BufferUse::device},
+                   {out->envs_, "roof draw environments", kSlots * sizeof(RoofDrawEnv), BufferUse::device},
+                   {out->state_, "roof draw state", sizeof(RoofDrawState), BufferUse::device},
+                   {out->readback_, "roof draw counts", sizeof(RoofDrawState), BufferUse::readback}};
+    for (const auto& b : buffers) {
+        Result<Buffer> made = Buffer::create(device, b.name, b.bytes, b.use);
+        if (!made) return made.failure();
+        b.buffer = std::move(*made);
+    }
+    std::fill(out->readback_.mappedAs<uint32_t>().begin(), out->readback_.mappedAs<uint32_t>().end(), 0u);
+    return out;
+}
+
+Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
+    for (auto [program, shader] : {std::pair{&cullGrids_, "roof/cull_grids.comp"}, std::pair{&cullRows_, "roof/cull_rows.comp"},
+                                   std::pair{&scan_, "roof/scan.comp"}, std::pair{&writeRows_, "roof/write_rows.comp"}}) {
+        // Exact, so that counting and writing decide alike, whatever a compiler makes of either.
+        Result<Program> made = Program::compute(device, shader, {.exact = true, .constants = {}});
+        if (!made) return made.failure();
+        *program = std::move(*made);
+    }
+    const struct {
+        Program& program;
+        const char* name;
+        const char* vertex;
+        const char* fragment;
+    } rows[] = {{tile_, "roof tile", "roof/tile.vert", "roof/tile.frag"},
+                {cutTile_, "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag"},
+                {rectangle_, "far roof", "roof/rectangle.vert", "roof/rectangle.frag"},
+                {tileDepth_, "roof tile shadow", "roof/tile.vert", ""},
+                {cutTileDepth_, "cut roof tile shadow", "roof/cut_tile.vert", ""},
+                {rectangleDepth_, "far roof shadow", "roof/rectangle.vert", ""}};
+    for (const auto& r : rows) {
+        GraphicsDesc desc;
+        desc.name = r.name;
+        desc.vertex = r.vertex;
+        desc.fragment = r.fragment;
+        desc.depth = depth;
+        if (*r.fragment) {
+            desc.colors = {color};
+            desc.samples = samples;
+            desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+        } else {
+            desc.depthBiasConstant = 2;
+            desc.depthBiasSlope = 1.8f;
+        }
+        Result<Program> made = Program::graphics(device, desc);
+        if (!made) return made.failure();
+        r.program = std::move(*made);
+    }
+    return Done{};
+}
+
+Status RoofDraw::reserve(const RoofView& roofs) {
+    const struct {
+        Buffer& buffer;
+        const char* name;
+        uint64_t count, most, size;
+    } rows[] = {{rows_, "roof rows", uint64_t(roofs.rowCount) + roofs.gridCount, kMostRows, sizeof(RoofRow)},
+                {tiles_, "roof tiles", roofs.tileCount, kMostTiles, sizeof(RoofTile)},
+                {cuts_, "cut roof tiles", roofs.clippedCount + roofs.gridCount, kMostCuts, sizeof(RoofCutTile)},
+                {rectangles_, "far roofs", 2ull * roofs.gridCount, kMostRectangles, sizeof(RoofTile)}};
+    for (const auto& r : rows) {
+        const uint64_t bytes = std::min<uint64_t>(std::max<uint64_t>(r.count + r.count / 4, 1024), r.most) * r.size;
+        if (r.buffer && r.buffer.size() >= bytes) continue;
+        Result<Buffer> made = Buffer::create(*device_, r.name, bytes);
+        if (!made) return made.failure();
+        r.buffer = std::move(*made);
+    }
+    return Done{};
+}
+
+Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView& view, bool shadow,
+                      std::string_view passName) {
+    if (Status s = reserve(roofs); !s) return s;
+    const uint32_t slot = slot_++ % kSlots;
+    RoofDrawEnv env{};
+    env.roofs.grids = roofs.grids;
+    env.roofs.runs = roofs.runs;
+    env.roofs.regions = roofs.regions;
+    env.roofs.parts = roofs.parts;
+    env.roofs.planes = roofs.planes;
+    env.roofs.meshes = roofs.meshes;
+    env.roofs.generations = roofs.generations;
+    env.view = addressOf<EmitViewBuf>(views_, slot * sizeof(EmitView));
+    env.table = addressOf<EmitTableBuf>(terminals_.tableBuffer());
+    env.state = addressOf<RoofDrawStateBuf>(state_);
+    env.rows = addressOf<RoofRowBuf>(rows_);
+    env.tiles = addressOf<RoofTileBuf>(tiles_);
+    env.cuts = addressOf<RoofCutTileBuf>(cuts_);
+    env.rectangles = addressOf<RoofTileBuf>(rectangles_);
+    env.gridCount = roofs.gridCount;
+    env.rowRoom = uint32_t(rows_.size() / sizeof(RoofRow));
+    env.tileRoom = uint32_t(tiles_.size() / sizeof(RoofTile));
+    env.cutRoom = uint32_t(cuts_.size() / sizeof(RoofCutTile));
+    env.rectangleRoom = uint32_t(rectangles_.size() / sizeof(RoofTile));
+    env.leastCell = kLeastCell;
+    env.flags = shadow ? kRoofShadow : 0;
+    RoofDrawState fresh{};
+    fresh.rowGroups[1] = fresh.rowGroups[2] = 1;
+
+    Pass pass(commands, passName);
+    pass.barrier(Use::compute | Use::vertex | Use::indirect | Use::transfer, Use::transfer | Use::compute);
+    Status uploads[] = {commands.upload(views_, std::as_bytes(std::span(&view, 1)), slot * sizeof(EmitView)),
+                        commands.upload(envs_, std::as_bytes(std::span(&env, 1)), slot * sizeof(RoofDrawEnv)),
+                        commands.upload(state_, std::as_bytes(std::span(&fresh, 1)))};
+    for (Status& s : uploads)
+        if (!s) return s;
+    pass.barrier(Use::transfer, Use::compute | Use::vertex);
+    RoofCullPush push{};
+    push.env = addressOf<RoofDrawEnvBuf>(envs_, slot * sizeof(RoofDrawEnv));
+    pass.dispatchItems(cullGrids_, roofs.gridCount, push);
+    pass.barrier(Use::compute, Use::compute | Use::indirect);
+    const uint64_t groups = offsetof(RoofDrawState, rowGroups);
+    pass.dispatchIndirect(cullRows_, state_, groups, push);
+    pass.barrier(Use::compute, Use::compute);
+    pass.dispatch(scan_, {1, 1, 1}, push);
+    pass.barrier(Use::compute, Use::compute | Use::indirect);
+    pass.dispatchIndirect(writeRows_, state_, groups, push);
+    pass.barrier(Use::compute, Use::indirect | Use::vertex | Use::transfer);
+    if (!shadow) {
+        commands.copy(state_, readback_, sizeof(RoofDrawState));
+        commands.barrier(Use::transfer, Use::host);
+    }
+    env_ = envs_.address() + slot * sizeof(RoofDrawEnv);
+    return Done{};
+}
+
+void RoofDraw::draw(DrawPass& pass, uint64_t frame, const Image* shadowMap, const Sampler* shadowSampler) {
+    const EmitTable& table = terminals_.table();
+    const bool depthOnly = shadowMap == nullptr;
+    RoofDrawPush push{};
+    push.frame.v = reinterpret_cast<FrameRecord*>(frame);
+    push.env.v = reinterpret_cast<RoofDrawEnv*>(env_);
+    push.vertices = addressOf<TerminalVertexBuf>(terminals_.vertices());
+    push.roughness = 0.9f;
+    const uint64_t rectangles = offsetof(RoofDrawState, rectangleDraw);
+    if (depthOnly)
+        pass.drawIndirect(rectangleDepth_, state_, rectangles, 1, push);
+    else
+        pass.drawIndirect(rectangle_, state_, rectangles, 1, push, {{*shadowMap, *shadowSampler}});
+    pass.setIndices(terminals_.batches());
+    for (uint32_t b = 0; b < table.bucketCount; ++b) {
+        const BucketRecord& bucket = table.buckets[b];
+        push.bucket = b;
+        push.firstVertex = bucket.firstVertex;
+        push.vertexCount = bucket.vertexCount;
+        push.batch = bucket.batch;
+        push.roughness = terminals_.data().materials[bucket.material].roughness;
+        for (uint32_t cut : {0u, 1u}) {
+            const uint64_t offset = offsetof(RoofDrawState, draws) + (128ull * cut + 2 * b) * sizeof(DrawCommand);
+            if (depthOnly)
+                pass.drawIndexedIndirect(cut ? cutTileDepth_ : tileDepth_, state_, offset, 2, push);
+            else
+                pass.drawIndexedIndirect(cut ? cutTile_ : tile_, state_, offset, 2, push, {{*shadowMap, *shadowSampler}});
+        }
+    }
+}
+
+RoofDrawStats RoofDraw::stats() const {
+    const RoofDrawState& state = *reinterpret_cast<const RoofDrawState*>(readback_.mapped());
+    RoofDrawStats stats;
+    for (uint32_t b = 0; b < kMaxBuckets; ++b) {
+        stats.tiles += state.whole[b];
+        stats.cutTiles += state.cut[b];
+    }
+    stats.rectangles = state.rectangles;
+    stats.triangles = state.triangles;
+    stats.overflow = state.overflow;
+    return stats;
+}
+
+}  // namespace espalier

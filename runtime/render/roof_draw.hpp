@@ -1,0 +1,47 @@
+#pragma once
+
+// Drawing roofs: culled grid by grid and row by row on the GPU, drawn by indirect draws.
+
+#include "runtime/emit/emit.hpp"
+#include "runtime/roof/roof_growth.hpp"
+#include "shaders/roof/draw_records.h"
+
+namespace espalier {
+
+struct RoofDrawStats {
+    uint32_t tiles = 0, cutTiles = 0, rectangles = 0;  // instances seen
+    uint64_t triangles = 0;
+    uint32_t overflow = 0;
+};
+
+class RoofDraw {
+  public:
+    // meshes: by the numbers that grids carry; kind 0 is none. targets: how the pictures that it draws into are made.
+    static Result<std::unique_ptr<RoofDraw>> create(Device& device, TerminalData meshes, VkFormat color, VkFormat depth,
+                                                    uint32_t samples);
+
+    // Bounds of the meshes, for RoofInputs.
+    const std::vector<RoofMesh>& bounds() const { return bounds_; }
+
+    // Records the culling for a view; what an earlier one left is lost. shadow: patterns instead of cells.
+    Status cull(Commands& commands, const RoofView& roofs, const EmitView& view, bool shadow, std::string_view passName);
+    // Draws what the last cull left. frame: address of the FrameRecord. Depth only without a shadow map.
+    void draw(DrawPass& pass, uint64_t frame, const Image* shadowMap, const Sampler* shadowSampler);
+    // Of the last cull for a picture that has finished.
+    RoofDrawStats stats() const;
+
+  private:
+    Status makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples);
+    Status reserve(const RoofView& roofs);
+
+    Device* device_ = nullptr;
+    Terminals terminals_;
+    std::vector<RoofMesh> bounds_;
+    Program cullGrids_, cullRows_, scan_, writeRows_;
+    Program tile_, cutTile_, rectangle_, tileDepth_, cutTileDepth_, rectangleDepth_;
+    Buffer views_, envs_, state_, rows_, tiles_, cuts_, rectangles_, readback_;
+    uint64_t env_ = 0;  // of the last cull
+    uint32_t slot_ = 0;
+};
+
+}  // namespace espalier

@@ -1,0 +1,48 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// A grid each: is it seen, and as cells or as a pattern? Cells' rows are listed for cull_rows.
+#include "shaders/emit/bucket_count.glsl"
+#include "shaders/roof/draw_records.h"
+#include "shaders/shared/dispatch.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Data { RoofCullPush push; };
+
+void main() {
+    RoofDrawEnv env = push.env.v[0];
+    uint i = itemIndex();
+    if (i >= env.gridCount) return;
+    RoofGrid g = env.roofs.grids.v[i];
+    if ((g.house >> 24u) != env.roofs.generations.v[g.house & 0xFFFFFFu]) return;
+    if (env.table.v[0].kinds[g.mesh & 255u].variantCount == 0u) return;
+    bool many = g.firstRow != kNoIndex;
+    vec2 size = many ? min(g.extent, g.step * vec2(g.cells & 0xFFFFu, g.cells >> 16u)) : g.size;
+    vec3 center = g.origin + g.axisX * (0.5 * size.x) + g.axisY * (0.5 * size.y);
+    float reach = 0.5 * length(size) + 0.5 * g.thickness;
+    EmitView view = env.view.v[0];
+    if (outside(view, center, reach) || hidden(view, center, reach)) return;
+    float far = view.parallel != 0u ? 1.0 : max(distance(view.eye, center) - reach, 0.05);
+    float pixels = view.pixelScale / far;
+    if (pixels * max(size.x, size.y) < 0.7) return;
+    bool shadow = (env.flags & kRoofShadow) != 0u;
+    if (many && (shadow || pixels * max(min(g.step.x, g.step.y), 0.25 * max(g.step.x, g.step.y)) < env.leastCell)) {
+        uint first = 0u;
+        uint count = 1u;
+        if (g.region != kNoIndex) {
+            first = env.roofs.regions.v[g.region].firstPart;
+            count = env.roofs.regions.v[g.region].partCount;
+        }
+        uint at = atomicAdd(env.state.v[0].rectangles, count);
+        for (uint p = 0u; p < count && at + p < env.rectangleRoom; ++p)
+            env.rectangles.v[at + p] = RoofTile(i, g.region != kNoIndex ? first + p : kNoIndex);
+        return;
+    }
+    uint rows = g.cells >> 16u;
+    uint at = atomicAdd(env.state.v[0].rows, rows);
+    for (uint r = 0u; r < rows && at + r < env.rowRoom; ++r) {
+        env.rows.v[at + r].grid = i;
+        env.rows.v[at + r].row = r;
+        if (((at + r) & 63u) == 0u) atomicAdd(env.state.v[0].rowGroups[0], 1u);
+    }
+}

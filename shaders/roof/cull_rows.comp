@@ -1,0 +1,53 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// A row of cells each: its bucket, and how many whole and cut cells it adds to that.
+#include "shaders/roof/row_cells.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Data { RoofCullPush push; };
+
+void main() {
+    RoofDrawEnv env = push.env.v[0];
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= min(env.state.v[0].rows, env.rowRoom)) return;
+    RoofRow item = env.rows.v[i];
+    RoofGrid g = env.roofs.grids.v[item.grid];
+    RoofMesh mesh = env.roofs.meshes.v[g.mesh & 255u];
+    RoofRun run = runOf(env, g, item.row);
+    env.rows.v[i].bucket = kNoBucket;
+    if (runCount(run.touched) == 0u) return;
+    EmitView view = env.view.v[0];
+    vec3 from = g.origin + g.axisY * (float(item.row) * g.step.y) + g.axisX * (float(runFirst(run.touched)) * g.step.x);
+    vec3 along = g.axisX * (float(runCount(run.touched)) * g.step.x);
+    float reach = 0.5 * length(along) + max(g.size.x, g.size.y) + g.thickness;
+    vec3 center = from + 0.5 * along;
+    if (outside(view, center, reach)) return;
+    // The nearest point of the row decides the level of detail of all its cells.
+    float t = clamp(dot(view.eye - from, along) / max(dot(along, along), 1e-9), 0.0, 1.0);
+    float far = view.parallel != 0u ? 1.0 : max(distance(view.eye, from + along * t) - max(g.size.x, g.size.y), 0.05);
+    float pixels = view.pixelScale / far * max(g.size.x, g.size.y);
+    VariantRecord variant = env.table.v[0].variants[env.table.v[0].kinds[g.mesh & 255u].firstVariant];
+    uint lod = variant.lodCount - 1u;
+    while (lod > 0u && variant.error[lod] * pixels > view.lodPixels) --lod;
+    uint bucket = variant.firstBucket + lod;
+    uint whole = runCount(run.whole);
+    uint cut = 0u;
+    for (uint k = 0u; k < runCount(run.touched); ++k) {
+        uint column = runFirst(run.touched) + k;
+        if (column - runFirst(run.whole) < runCount(run.whole)) continue;
+        CellFate fate = cellFate(env, g, mesh, column, item.row);
+        if (fate.whole) {
+            whole += 1u;
+        } else if (g.region == kNoIndex) {
+            cut += 1u;
+        } else {
+            RoofRegion r = env.roofs.regions.v[g.region];
+            CellBox box = cellBox(g, mesh, column, item.row);
+            for (uint p = 0u; p < r.partCount; ++p) cut += partPlanes(env, g, r, p, box) == kPartMissed ? 0u : 1u;
+        }
+    }
+    env.rows.v[i].bucket = bucket;
+    env.rows.v[i].wholePlace = whole > 0u ? atomicAdd(env.state.v[0].whole[bucket], whole) : 0u;
+    env.rows.v[i].cutPlace = cut > 0u ? atomicAdd(env.state.v[0].cut[bucket], cut) : 0u;
+}

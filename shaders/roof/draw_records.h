@@ -1,0 +1,89 @@
+// Drawing roofs: grids are looked at one by one, of near ones the rows, of rows the cells. Whole cells are instances of a
+// mesh, cells that an outline crosses are instances with planes, far grids are rectangles whose pattern stands for cells.
+#ifndef ESPALIER_ROOF_DRAW_RECORDS_H
+#define ESPALIER_ROOF_DRAW_RECORDS_H
+#include "shaders/render/frame_records.h"
+#include "shaders/shared/roof_records.h"
+
+ESPALIER_BEGIN
+
+// A row of a near grid.
+struct RoofRow {
+    uint grid, row;
+    uint bucket;
+    uint wholePlace, cutPlace;   // in the bucket
+};
+STATIC_SIZE(RoofRow, 20);
+
+// cell: bits 15..0 column, 31..16 row.
+struct RoofTile {
+    uint grid, cell;
+};
+STATIC_SIZE(RoofTile, 8);
+
+// planes: bits 7..0 of the part's planes that cut it, then of the grid's rectangle: left, right, upper.
+CONST_UINT(kCutLeft, 1u << 8u);
+CONST_UINT(kCutRight, 1u << 9u);
+CONST_UINT(kCutUpper, 1u << 10u);
+struct RoofCutTile {
+    uint grid, cell;
+    uint part;           // kNoIndex: none
+    uint planes;
+};
+STATIC_SIZE(RoofCutTile, 16);
+
+struct RoofDrawState {
+    uint rows;
+    uint rowGroups[3];
+    uint whole[64], cut[64];             // instances a bucket
+    uint wholeStarts[64], cutStarts[64];
+    DrawCommand draws[256];              // of bucket b: 2b, 2b + 1 whole ones, 128 + 2b, 128 + 2b + 1 cut ones
+    uint rectangles;
+    uint rectangleDraw[4];               // VkDrawIndirectCommand
+    uint overflow;
+    uint triangles;
+    uint spare;
+};
+STATIC_SIZE(RoofDrawState, 6192);
+
+BUFFER(RoofRowBuf, RoofRow)
+BUFFER(RoofTileBuf, RoofTile)
+BUFFER(RoofCutTileBuf, RoofCutTile)
+BUFFER(RoofDrawStateBuf, RoofDrawState)
+
+CONST_UINT(kRoofShadow, 1u);   // far rectangles only, as coarse as shadows are
+struct RoofDrawEnv {
+    RoofEnv roofs;                // grids, runs, regions, parts, planes, meshes, generations
+    EmitViewBuf view;
+    EmitTableBuf table;
+    RoofDrawStateBuf state;
+    RoofRowBuf rows;
+    RoofTileBuf tiles;
+    RoofCutTileBuf cuts;
+    RoofTileBuf rectangles;       // grid, part
+    uint gridCount;
+    uint rowRoom, tileRoom, cutRoom, rectangleRoom;
+    float leastCell;              // pixels below which cells are a pattern
+    uint flags;
+    uint spare;
+};
+STATIC_SIZE(RoofDrawEnv, 232);
+BUFFER(RoofDrawEnvBuf, RoofDrawEnv)
+
+struct RoofCullPush {
+    RoofDrawEnvBuf env;
+};
+STATIC_SIZE(RoofCullPush, 8);
+
+struct RoofDrawPush {
+    FrameBuf frame;
+    RoofDrawEnvBuf env;
+    TerminalVertexBuf vertices;
+    uint bucket, firstVertex, vertexCount, batch;
+    float roughness;
+    uint spare;
+};
+STATIC_SIZE(RoofDrawPush, 48);
+
+ESPALIER_END
+#endif

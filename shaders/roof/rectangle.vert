@@ -1,0 +1,32 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// A far grid as one rectangle a part of its region.
+#include "shaders/roof/place.glsl"
+
+layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
+layout(location = 0) out vec3 position;
+layout(location = 1) out vec3 normal;
+layout(location = 2) out vec4 surface;      // in cells along x and y, -, tint
+layout(location = 3) flat out uvec4 look;   // colour, key, bond, mesh
+out float gl_ClipDistance[8];
+
+void main() {
+    RoofDrawEnv env = push.env.v[0];
+    uint vertex = uint(gl_VertexIndex);
+    RoofTile item = env.rectangles.v[vertex / 6u];
+    RoofGrid g = env.roofs.grids.v[item.grid];
+    uint corner = vertex % 6u;
+    vec2 share = vec2(corner == 1u || corner == 2u || corner == 4u ? 1.0 : 0.0, corner == 2u || corner == 4u || corner == 5u ? 1.0 : 0.0);
+    vec2 cells = vec2(g.cells & 0xFFFFu, g.cells >> 16u);
+    vec2 size = (g.mesh & kGridRect) != 0u ? min(g.extent, max(g.step * cells, g.size)) : g.step * cells;
+    vec3 at = vec3(share * size, 0.01);
+    position = gridPoint(g, at);
+    normal = cross(g.axisX, g.axisY);
+    surface = vec4(at.xy / max(g.step, vec2(1e-3)), 0.0, float(g.colour >> 24u) * (1.0 / 255.0));
+    look = uvec4(g.colour & 0xFFFFFFu, uint(g.key), (g.mesh & kGridBond) != 0u ? 1u : 0u, g.mesh & 255u);
+    gl_Position = push.frame.v[0].viewProjection * vec4(position, 1.0);
+    uint count = item.cell == kNoIndex ? 0u : env.roofs.parts.v[item.cell].counts & 255u;
+    for (uint i = 0u; i < 8u; ++i)
+        gl_ClipDistance[i] = i < count ? planeDistance(env, g, item.cell, i, position, at) : 1.0;
+}

@@ -1,0 +1,27 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// Cells drawn as meshes.
+#include "shaders/roof/draw_records.h"
+#include "shaders/roof/look.glsl"
+
+layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 surface;
+layout(location = 3) flat in uvec4 look;
+layout(location = 0) out vec4 color;
+
+void main() {
+    vec3 n = normalize(normal);
+    if (dot(n, push.frame.v[0].eye - position) < 0.0) n = -n;
+    uint view = push.frame.v[0].view;
+    if (view != kViewShaded) {
+        vec3 shown = view == kViewLod ? lodColor(look.z) : hashColor(look.y);
+        color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(push.frame, shown, n);
+        return;
+    }
+    float variation = float(look.y & 255u) * (1.0 / 255.0);
+    vec3 base = weathered(unpackColour(look.x), variation, surface.w, position);
+    color = shade(push.frame, base, n, position, push.roughness);
+}

@@ -1,0 +1,52 @@
+// Cells as meshes. ESPALIER_CUT: those that planes cut, by clip distances.
+#include "shaders/emit/triangle_vertex.glsl"
+#include "shaders/roof/place.glsl"
+
+layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
+layout(location = 0) out vec3 position;
+layout(location = 1) out vec3 normal;
+layout(location = 2) out vec4 surface;      // along x and y of the shape in metres, share of the cell's height, tint
+layout(location = 3) flat out uvec4 look;   // colour, hash, bucket, mesh
+#ifdef ESPALIER_CUT
+out float gl_ClipDistance[8];
+#endif
+
+void main() {
+    RoofDrawEnv env = push.env.v[0];
+    uint vertex = uint(gl_VertexIndex);
+    uint instance = vertex / push.vertexCount;
+    uint local = vertex - instance * push.vertexCount;
+    instance += uint(gl_InstanceIndex) * push.batch;
+#ifdef ESPALIER_CUT
+    RoofCutTile tile = env.cuts.v[env.state.v[0].cutStarts[push.bucket] + instance];
+#else
+    RoofTile tile = env.tiles.v[env.state.v[0].wholeStarts[push.bucket] + instance];
+#endif
+    RoofGrid g = env.roofs.grids.v[tile.grid];
+    TerminalVertex mesh = push.vertices.v[push.firstVertex + local];
+    uint column = tile.cell & 0xFFFFu;
+    uint row = tile.cell >> 16u;
+    float shift = (g.mesh & kGridBond) != 0u && (row & 1u) != 0u ? -0.5 : 0.0;
+    vec2 corner = vec2((float(column) + shift) * g.step.x, float(row) * g.step.y);
+    vec3 at = vec3(corner + mesh.position.xy * g.size, mesh.position.z * g.thickness);
+    position = gridPoint(g, at);
+    vec3 n = octahedralToUnit(mesh.normal);
+    // Normals are the mesh's in metres: what is stretched leans away.
+    n = normalize(vec3(n.xy / max(g.size, vec2(1e-4)), n.z / max(g.thickness, 1e-4)));
+    normal = g.axisX * n.x + g.axisY * n.y + cross(g.axisX, g.axisY) * n.z;
+    surface = vec4(at.xy, mesh.position.y, float(g.colour >> 24u) * (1.0 / 255.0));
+    look = uvec4(g.colour & 0xFFFFFFu, cellHash(g, column, row), push.bucket, g.mesh & 255u);
+    gl_Position = push.frame.v[0].viewProjection * vec4(position, 1.0);
+#ifdef ESPALIER_CUT
+    uint bits = tile.planes;
+    for (uint i = 0u; i < 8u; ++i) {
+        float d = 1.0;
+        if (bits != 0u) {
+            uint bit = uint(findLSB(bits));
+            bits &= bits - 1u;
+            d = planeDistance(env, g, tile.part, bit, position, at);
+        }
+        gl_ClipDistance[i] = d;
+    }
+#endif
+}
