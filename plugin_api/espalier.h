@@ -391,6 +391,80 @@ typedef struct EspTriangles {
 } EspTriangles;
 ESP_API EspResult espMaterialise(EspContext* context, EspTriangles* out);
 
+/* ---- Roofs -------------------------------------------------------------------------------------------------- */
+
+/* A town: buildings from footprints, on which a grammar of roofs (docs/roof_grammar.md) grows walls and roofs. One a
+ * context. text: GeoJSON with OpenStreetMap's tags, or a plan in metres (docs/roofs.md); features that can't be used are
+ * named in warnings, the rest of the town stands. */
+typedef struct EspTownDef {
+    const char* name;        /* for messages, usually the file's path */
+    const char* text;
+    size_t length;
+    EspGrammar grammar;      /* may be set later */
+} EspTownDef;
+ESP_API EspTownDef espDefaultTownDef(void);
+/* Replaces the town that there was. It grows in the next espUpdate. */
+ESP_API EspResult espLoadTown(EspContext* context, const EspTownDef* def);
+ESP_API EspResult espRemoveTown(EspContext* context);
+/* The grammar that the town grows by; its parameters and recompiling are those of any grammar. */
+ESP_API EspResult espSetTownGrammar(EspContext* context, EspGrammar grammar);
+ESP_API EspResult espTownGrammar(const EspContext* context, EspGrammar* out);
+
+typedef enum EspRoofShape {
+    ESP_ROOF_HIP = 0, ESP_ROOF_GABLE = 1, ESP_ROOF_HALF_HIP = 2, ESP_ROOF_PYRAMID = 3, ESP_ROOF_SHED = 4,
+    ESP_ROOF_GAMBREL = 5, ESP_ROOF_MANSARD = 6, ESP_ROOF_FLAT = 7
+} EspRoofShape;
+
+/* What one edge of a house has of its own. Edge i leads from corner i to the next of its ring, counted over all rings. */
+typedef struct EspHouseEdge {
+    uint32_t edge;
+    int gable;               /* 1: a gable stands on it, 0: an eave, -1: as the shape says */
+    float slope;             /* tangent of the pitch; 0: as the shape says */
+} EspHouseEdge;
+
+typedef struct EspHouseInfo {
+    const char* id;          /* the feature's; lives as long as the town */
+    EspRoofShape shape;
+    float slope;             /* tangent of the pitch; 0: the shape's own */
+    float baseHeight, eaveHeight, ridgeHeight;   /* metres above the ground */
+    uint32_t cornerCount;    /* of all rings */
+    uint32_t edgeCount;      /* edges with something of their own */
+    float boundsMin[3], boundsMax[3];            /* world */
+} EspHouseInfo;
+
+ESP_API uint32_t espHouseCount(const EspContext* context);
+ESP_API EspResult espHouseInfo(const EspContext* context, uint32_t house, EspHouseInfo* out);
+/* Corners in the plan, two floats each: world x and z. Room for EspHouseInfo::cornerCount pairs, edgeCount edges; either
+ * may be NULL. */
+ESP_API EspResult espHouseShape(const EspContext* context, uint32_t house, float* corners, EspHouseEdge* edges);
+
+/* Changes one house; it alone grows anew in the next espUpdate. */
+typedef struct EspHouseDef {
+    EspRoofShape shape;
+    float slope;             /* 0: the shape's own */
+    float eaveHeight;        /* metres above the house's base; 0: as it is */
+    const EspHouseEdge* edges;
+    uint32_t edgeCount;
+    const float* corners;    /* of the outer ring, as espHouseShape gives them; NULL: as they are */
+    uint32_t cornerCount;
+} EspHouseDef;
+ESP_API EspResult espSetHouse(EspContext* context, uint32_t house, const EspHouseDef* def);
+
+typedef struct EspRoofStats {
+    uint32_t houses, eaves;
+    uint64_t tiles;              /* cells of all grids */
+    uint64_t clippedTiles;       /* those of them that an outline crosses */
+    uint32_t grids;              /* records that they are kept in */
+    uint32_t drawnTiles, drawnRectangles;   /* instances in the last frame; rectangles stand for far cells */
+    uint64_t drawnTriangles;
+    uint32_t stopped;            /* shapes that a limit ended */
+    uint32_t overflow;           /* instances left out of the last frame for want of room */
+    uint64_t bytes;              /* of what was grown */
+    double structureMs, expandMs;   /* from footprints to roofs, on the CPU; the latest expansion, GPU time */
+    uint64_t hash;               /* canonical, of the latest growth of the whole town */
+} EspRoofStats;
+ESP_API EspResult espReadRoofStats(EspContext* context, EspRoofStats* out);
+
 #ifdef __cplusplus
 }
 #endif

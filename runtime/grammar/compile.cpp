@@ -13,11 +13,12 @@ namespace {
 constexpr uint64_t kCompilerVersion = 3;
 
 uint64_t contentHashOf(const std::vector<std::string>& sources, const std::vector<std::string>& names,
-                       const std::vector<TerminalMesh>& meshes) {
+                       const std::vector<TerminalMesh>& meshes, const std::vector<TerminalMesh>& roofMeshes) {
     uint64_t hash = kCompilerVersion;
     for (const std::string& s : sources) hash = hashText(s, mix64(hash + s.size()));
     for (const std::string& s : names) hash = hashText(s, mix64(hash + s.size()));
     for (const TerminalMesh& m : meshes) hash = hashText(m.name, mix64(hash + (m.bark ? 1 : 2)));
+    for (const TerminalMesh& m : roofMeshes) hash = hashText(m.name, mix64(hash + 3));
     return hash;
 }
 
@@ -35,7 +36,7 @@ void parse(std::string_view text, Parsed& p) {
     std::vector<std::string> sources;
     grammar::Compilation& c = p.compilation;
     grammar::parseModule(text, c.options, c.module, c.reporter, sources);
-    p.contentHash = contentHashOf(sources, c.module.files, c.options.meshes);
+    p.contentHash = contentHashOf(sources, c.module.files, c.options.meshes, c.options.roofMeshes);
 }
 
 void lowerWidth(grammar::Compilation& c) {

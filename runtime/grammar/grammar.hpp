@@ -56,6 +56,7 @@ struct CompileOptions {
     std::string fileName = "grammar";  // for diagnostics
     IncludeReader readInclude;         // none: includes are refused
     std::vector<TerminalMesh> meshes = standardTerminalMeshes();
+    std::vector<TerminalMesh> roofMeshes;  // for grammars of roofs; empty: `meshes`
 };
 
 // A compiled grammar with its parameters at some setting. A value type; calls on one object from one thread.

@@ -240,7 +240,7 @@ class RoofLowering {
         const Expr& text = c_.module.exprs[e.args.empty() ? 0 : e.args[0]];
         if (e.args.size() != 1 || text.kind != ExprKind::string || e.hasItems)
             return error(e.place, env, "a terminal of a roof is a mesh's name between quotes: Shape(\"slate\")"), r;
-        const auto& meshes = c_.options.meshes;
+        const auto& meshes = c_.options.roofMeshes.empty() ? c_.options.meshes : c_.options.roofMeshes;
         auto mesh =
             std::find_if(meshes.begin(), meshes.end(), [&](const TerminalMesh& m) { return m.name == text.text; });
         if (mesh == meshes.end()) {
@@ -450,8 +450,9 @@ class RoofLowering {
     // True if no code of the rule reads where the shape stands or which it is; turning needs a cell's own origin.
     bool placeFree(const RuleRecord& r) const {
         auto fixed = [](uint32_t slot) {
-            return slot < kSlotDraw || slot == kSlotImmediate || slot == kSlotZero || slot == kSlotOne ||
-                   slot >= kSlotWallHeight || (slot >= kSlotRoofHeight && slot <= kSlotRoofSlope) || slot == kSlotTier;
+            const bool place = slot >= kSlotPos0 && slot < kSlotLocalNormal;
+            const bool drawn = slot >= kSlotDraw && slot < kSlotPos0;  // layers too
+            return !place && !drawn && slot != kSlotIndex && slot != kSlotCount;
         };
         auto codeFixed = [&](const CodeRange& range) {
             for (uint32_t i = 0; i < range.count; ++i) {

@@ -110,6 +110,7 @@ constexpr AccessorInfo kRoofAccessors[] = {
     {"roofSlope", kSlotRoofSlope, Where::onRoofs},
     {"projectHeight", kSlotProjectHeight, Where::onRoofs},
     {"projectionHeight", kSlotProjectHeight, Where::onRoofs},
+    {"fold", kSlotProjectHeight, Where::onRoofs},
     {"sizeX", kSlotSizeX, Where::onRoofs},
     {"sizeY", kSlotSizeY, Where::onRoofs},
     {"eaveStart", kSlotEaveStart, Where::onRoofs},

@@ -72,6 +72,7 @@ EspResult create(const EspContextDef& def, EspContext** out) {
     context->device = std::move(*device);
 
     const std::filesystem::path terminals = def.terminals ? def.terminals : contentFolder() / "terminals.glb";
+    context->roofMeshFile = std::filesystem::path(terminals).replace_filename("roofs.glb");
     if (EspResult readable = checkReadable(context.get(), terminals.c_str()))
         return failCreation(readable, "terminal meshes: " + context->error);
     Result<TerminalData> meshes = readTerminals(terminals);

@@ -34,6 +34,10 @@ EspResult update(EspContext& context) {
     std::vector<std::pair<uint32_t, uint32_t>> places;  // grammar id -> index in maps
     const auto addMap = [&](const RuleMap& map, const Buffer& words, const std::vector<uint32_t>& layerOf) {
         RuleMapRef ref = map.refAt(words.address());
+        if (map.roofs()) {  // keeps its number, but growth has nothing to do with it
+            ref = RuleMapRef{};
+            ref.features = kFeatureKnown;
+        }
         for (size_t i = 0; i < layerOf.size() && i < kMaxLayers; ++i) ref.layerOf[i] = layerOf[i];
         maps.push_back(ref);
         widths.push_back(map.width());
@@ -159,6 +163,7 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     Status tables = context.refreshTables();
     if (!tables) return failGpu(&context, tables.failure());
     inputs.growth = context.growth->view();
+    if (context.town) inputs.roofs = &context.town->view;
     inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
     inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
     inputs.camera = {vec(def.camera.eye), vec(def.camera.target), vec(def.camera.up),
@@ -252,7 +257,10 @@ EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
 }
 
 EspResult espUpdate(EspContext* context) {
-    return guarded(context, [&] { return update(*context); });
+    return guarded(context, [&] {
+        if (EspResult bad = updateTown(*context)) return bad;
+        return update(*context);
+    });
 }
 
 EspLook espDefaultLook(void) {
@@ -311,8 +319,14 @@ EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes) {
 
 EspCamera espFrameAll(const EspContext* context) {
     EspCamera camera = espDefaultDrawDef().camera;
-    if (!context || context->surfaces.size() == 0) return camera;
+    if (!context || (context->surfaces.size() == 0 && !context->town)) return camera;
     glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
+    for (uint32_t i = 0; i < espHouseCount(context); ++i) {
+        EspHouseInfo house;
+        if (espHouseInfo(context, i, &house) != ESP_OK) continue;
+        low = glm::min(low, vec(house.boundsMin));
+        high = glm::max(high, vec(house.boundsMax));
+    }
     context->surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
         low = glm::min(low, vec(surface.info.boundsMin));
         high = glm::max(high, vec(surface.info.boundsMax));

@@ -23,6 +23,7 @@ Result<RuleMap> compile(const EspContext& context, const EspGrammarDef& def) {
         if (!text) return std::nullopt;
         return std::move(*text);
     };
+    options.roofMeshes = context.roofMeshNames;
     return compileGrammar({def.text, def.length}, options, context.cacheFolder);
 }
 
@@ -30,11 +31,14 @@ Result<RuleMap> compile(const EspContext& context, const EspGrammarDef& def) {
 // parameters are taken over by name.
 Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, const LoadedGrammar* old) {
     const auto begin = std::chrono::steady_clock::now();
+    // Without their file, grammars of roofs know no meshes; ivy doesn't mind.
+    (void)knowRoofMeshes(context);
     Result<RuleMap> map = compile(context, def);
     if (!map) return map.failure();
     LoadedGrammar grammar;
     grammar.name = def.name ? def.name : "grammar";
     grammar.map = std::move(*map);
+    grammar.revision = ++context.grammarRevisions;
     for (const Diagnostic& warning : grammar.map.warnings()) context.log(Severity::warning, toString(warning));
     if (old)
         for (const ParamInfo& param : old->map.params())
@@ -192,6 +196,7 @@ EspResult espSetParam(EspContext* context, EspGrammar id, const char* name, cons
             grammar->stale = true;
             context->changes.markParams(context->grammarIndex(id.id), slots);
             grammar->edition = ++context->revision;
+            grammar->revision = ++context->grammarRevisions;
         }
         return ESP_OK;
     });

@@ -51,6 +51,8 @@ bool place(const EspContext& context, glm::vec3 position, glm::vec3 direction, P
 EspResult plant(EspContext& context, const EspSeedDef& def, EspSeed* out) {
     const LoadedGrammar* grammar = context.grammars.find(def.grammar.id);
     if (!grammar) return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: no such grammar");
+    if (grammar->map.roofs())
+        return fail(&context, ESP_INVALID_ARGUMENT, grammar->name + ": makes roofs and can't be planted");
     if (!finite(def.position) || !finite(def.direction))
         return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: position or direction not finite");
     if (context.seeds.size() >= kMaxSeeds)

@@ -22,6 +22,8 @@
 #include "runtime/plugin/mesh_tree.hpp"
 #include "runtime/plugin/plants.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/roof/footprint.hpp"
+#include "runtime/roof/roof_growth.hpp"
 #include "runtime/surface/gpu_surface.hpp"
 #include "runtime/surface/surface.hpp"
 
@@ -54,6 +56,7 @@ struct LoadedGrammar {
     RuleMap map;
     Buffer words;  // uploaded from the map when stale
     bool stale = true;
+    uint64_t revision = 0;  // of rules and parameters, unlike any other grammar's
     std::vector<uint32_t> layerOf;  // scene layer of each of the map's contexts
     uint64_t edition = 0;           // the context's revision when text or parameters last changed
     double compileMs = 0;
@@ -121,6 +124,21 @@ struct PaintStroke {
     std::vector<Part> parts;
 };
 
+// A town and what has been made of it.
+struct LoadedTown {
+    std::string name;
+    std::vector<Footprint> footprints;
+    std::vector<uint32_t> footprintOf;  // [house]
+    RoofStructure structure;
+    RoofTables tables;
+    uint32_t grammar = 0;            // id; 0: none yet
+    bool stale = true;               // all of it has to grow
+    std::vector<uint32_t> changed;   // houses that have to, if not all
+    uint64_t grammarRevision = 0;    // what the roofs were grown from
+    RoofView view;                   // of what stands
+    double structureMs = 0;
+};
+
 // A layer as kernels know it: its number is the place in this list. Two grammars that name the same layer, but
 // want another value where nothing is painted, read two of them.
 struct SceneLayer {
@@ -141,6 +159,14 @@ struct EspContext {
     std::unique_ptr<espalier::Device> device;
     std::unique_ptr<espalier::Growth> growth;
     std::unique_ptr<espalier::Renderer> renderer;
+    // Made when the first grammar of roofs or town asks for them.
+    std::unique_ptr<espalier::RoofGrowth> roofs;
+    std::vector<espalier::RoofMesh> roofBounds;
+    std::optional<espalier::TerminalData> roofMeshes;  // until the renderer has them
+    std::vector<espalier::TerminalMesh> roofMeshNames;
+    std::filesystem::path roofMeshFile;
+    std::optional<espalier::LoadedTown> town;
+    uint64_t grammarRevisions = 0;
     espalier::IdTable<espalier::PlacedSurface> surfaces;
     espalier::IdTable<espalier::LoadedGrammar> grammars;
     espalier::IdTable<espalier::PlantedSeed> seeds;
@@ -188,6 +214,10 @@ struct EspContext {
 namespace espalier {
 
 EspResult fail(const EspContext* context, EspResult code, std::string message);
+// Names of the meshes that grammars of roofs may ask for; reads their file the first time.
+Status knowRoofMeshes(EspContext& context);
+// Grows what has changed of the town.
+EspResult updateTown(EspContext& context);
 EspResult failContent(const EspContext* context, const Failure& failure);
 // For failures of GPU work: DEVICE_LOST or OUT_OF_MEMORY, as the device says.
 EspResult failGpu(const EspContext* context, const Failure& failure);

@@ -204,6 +204,8 @@ class HouseAtoms {
                 if (segment.face != kNoFace && s_.faces[segment.face].kind != FaceKind::gable)
                     normal = unitOr(normal + normalOf(s_.faces[segment.face]), normal);
                 piece.normal = frame.turned(normal);
+                const float lean = glm::clamp(glm::dot(normal, normalOf(face)), 0.05f, 1.0f);
+                piece.fold = std::sqrt(1 - lean * lean) / lean;
                 piece.kind = uint32_t(segment.kind) + 1;
                 piece.upper = kNoIndex;
                 piece.owner = segment.face == kNoFace || f < segment.face ? 1 : 0;
@@ -237,7 +239,6 @@ class HouseAtoms {
         for (bool sameEdge : {true, false})
             for (const auto& [piece, face, other] : beyond_) {
                 if (other == kNoFace || s_.faces[other].tier <= s_.faces[face].tier) continue;
-                if (t_.pieces[piece].kind != uint32_t(JointKind::breakLine) + 1) continue;
                 if (sameEdge && s_.faces[other].edge != s_.faces[face].edge) continue;
                 const uint32_t upper = atomOf_.at(other);
                 if (claimed[upper]) continue;

@@ -27,6 +27,8 @@ void main() {
     if (pixels * max(size.x, size.y) < 0.7) return;
     bool shadow = (env.flags & kRoofShadow) != 0u;
     if (many && (shadow || pixels * max(min(g.step.x, g.step.y), 0.25 * max(g.step.x, g.step.y)) < env.leastCell)) {
+        // Sparse cells would paint over what lies between them.
+        if (g.size.x * g.size.y < 0.6 * g.step.x * g.step.y) return;
         uint first = 0u;
         uint count = 1u;
         if (g.region != kNoIndex) {

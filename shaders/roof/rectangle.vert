@@ -18,9 +18,22 @@ void main() {
     RoofGrid g = env.roofs.grids.v[item.grid];
     uint corner = vertex % 6u;
     vec2 share = vec2(corner == 1u || corner == 2u || corner == 4u ? 1.0 : 0.0, corner == 2u || corner == 4u || corner == 5u ? 1.0 : 0.0);
-    vec2 cells = vec2(g.cells & 0xFFFFu, g.cells >> 16u);
-    vec2 size = (g.mesh & kGridRect) != 0u ? min(g.extent, max(g.step * cells, g.size)) : g.step * cells;
-    vec3 at = vec3(share * size, 0.01);
+    // Where nothing repeats, what the mesh covers; else all cells.
+    RoofMesh mesh = env.roofs.meshes.v[g.mesh & 255u];
+    uvec2 cells = uvec2(g.cells & 0xFFFFu, g.cells >> 16u);
+    vec2 low = vec2(0.0);
+    vec2 high = min(g.extent, g.step * vec2(cells));
+    float lift = (env.flags & kRoofShadow) != 0u ? -0.04 : 0.01;   // cells don't shade themselves
+    if (cells.y == 1u) {
+        low.y = mesh.low.y * g.size.y;
+        high.y = mesh.high.y * g.size.y;
+        lift = mesh.high.z * g.thickness * 0.7;
+    }
+    if (cells.x == 1u) {
+        low.x = mesh.low.x * g.size.x;
+        high.x = mesh.high.x * g.size.x;
+    }
+    vec3 at = vec3(mix(low, high, share), lift);
     position = gridPoint(g, at);
     normal = cross(g.axisX, g.axisY);
     surface = vec4(at.xy / max(g.step, vec2(1e-3)), 0.0, float(g.colour >> 24u) * (1.0 / 255.0));

@@ -239,6 +239,7 @@ FN RoofScope pieceSegment(RoofScope shape, RoofRegion r, RoofPiece piece, bool f
     RoofScope s = segmentOf(shape, from, to, upward());
     s.axisY = axisOf(cross3(normal, s.axisX));
     s.region = kNoIndex;
+    s.projectHeight = piece.fold;
     s.marks |= (piece.kind << kShapeJoint) | (piece.owner != 0u ? kShapeOwner : 0u);
     return s;
 }
@@ -285,7 +286,7 @@ FN RoofChild joinedRoof(RoofEnv env, RoofNumbers n, RoofScope shape, uint k) {
         RoofPiece piece = env.pieces.v[atom.firstPiece + k - 2u];
         RoofChild top = childFor(pieceSegment(shape, r, piece, false), 2u);
         top.number = k;
-        top.made = piece.kind == 3u || piece.kind == 5u;   // ridge, breakLine
+        top.made = piece.kind == 3u || piece.upper != kNoIndex;   // ridges, and what goes on
         if (piece.upper != kNoIndex)
             top.shape.atom = piece.upper;
         else

@@ -15,15 +15,16 @@ CONST_UINT(kPartPlanes, 8u);      // of one part at most: what gl_ClipDistance o
 CONST_UINT(kMaxRoofDepth, 64u);   // rules one after another, at most
 CONST_UINT(kMaxRoofCells, 4096u); // of a Repeat along one axis
 
-// A piece of an atom's outline above the eave, in the region's frame, from eave[1] round to eave[0]. 48 bytes.
+// A piece of an atom's outline above the eave, in the region's frame, from eave[1] round to eave[0]. 52 bytes.
 struct RoofPiece {
     vec3 from, to;
     vec3 normal;        // of the caps that cover it: between the two faces' normals, in the frame
     uint kind;          // JointKind + 1
     uint upper;         // atom that grows on from here above a break; kNoIndex
     uint owner;         // 1: of the two faces this one draws what covers the joint
+    float fold;         // tangent of the angle by which either face leans away from what lies between them
 };
-STATIC_SIZE(RoofPiece, 48);
+STATIC_SIZE(RoofPiece, 52);
 
 // 120 bytes. Tier 0's shape begins as the segment at the wall's foot.
 struct RoofAtom {
@@ -83,7 +84,7 @@ struct RoofScope {
     uint cells;         // bits 15..0 along x, 31..16 along y
     float thickness;    // factor of terminals' z
     uint colour;        // bits 23..0 square roots of red, green, blue; 31..24 tint
-    float projectHeight;
+    float projectHeight;   // of segments of an outline: RoofPiece::fold
     float base;         // height of the eave that its region is measured from
     float stretch;      // factor by which the roof is higher than the structure says
     uint region;

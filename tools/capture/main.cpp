@@ -2,6 +2,7 @@
 // Frame 0 shows the scene's own view, the others follow on one turn around its target: the same on every run. With
 // --replay the frames are those of a recorded run instead.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -219,6 +220,13 @@ int run(Options options) {
                 " polygons (%s)\n",
                 taken, options.folder.c_str(), stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons,
                 espDeviceName(made));
+    EspRoofStats roofs;
+    if (espReadRoofStats(made, &roofs) == ESP_OK && roofs.houses > 0)
+        std::printf("%u houses: %" PRIu64 " tiles (%" PRIu64 " clipped) in %u records, %.2f bytes a tile; "
+                    "structure %.0f ms, expand %.1f ms; drawn: %u tiles, %u far grids, %" PRIu64 " triangles\n",
+                    roofs.houses, roofs.tiles, roofs.clippedTiles, roofs.grids,
+                    double(roofs.bytes) / double(std::max<uint64_t>(roofs.tiles, 1)), roofs.structureMs, roofs.expandMs,
+                    roofs.drawnTiles, roofs.drawnRectangles, roofs.drawnTriangles);
     return 0;
 }
 

@@ -63,6 +63,30 @@ Mesh board() {
     return m;
 }
 
+void addBoard(Mesh& m, vec3 low, vec3 high) {
+    const Mesh one = board();
+    const uint32_t first = uint32_t(m.positions.size());
+    for (size_t i = 0; i < one.positions.size(); ++i) {
+        m.positions.push_back(low + one.positions[i] * (high - low));
+        m.normals.push_back(one.normals[i]);
+        m.uvs.push_back(one.uvs[i]);
+        m.weld.push_back(uint32_t(m.weld.size()));
+    }
+    for (uint32_t i : one.indices) m.indices.push_back(first + i);
+}
+
+// A window's frame with its cross.
+Mesh frame() {
+    Mesh m;
+    addBoard(m, {0, 0, 0}, {1, 0.06f, 1.4f});
+    addBoard(m, {0, 0.94f, 0}, {1, 1, 1});
+    addBoard(m, {0, 0.06f, 0}, {0.07f, 0.94f, 1});
+    addBoard(m, {0.93f, 0.06f, 0}, {1, 0.94f, 1});
+    addBoard(m, {0.47f, 0.06f, 0}, {0.53f, 0.94f, 0.8f});
+    addBoard(m, {0.07f, 0.6f, 0}, {0.93f, 0.64f, 0.7f});
+    return m;
+}
+
 }  // namespace
 
 RoofMeshes makeRoofMeshes() {
@@ -74,6 +98,7 @@ RoofMeshes makeRoofMeshes() {
     out.all.push_back({"panel_lod0", panel(), 0});
     out.all.push_back({"board_lod0", board(), 1});
     out.all.push_back({"glass_lod0", panel(), 2});
+    out.all.push_back({"frame_lod0", frame(), 1});
     return out;
 }
 

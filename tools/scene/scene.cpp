@@ -156,6 +156,30 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     return true;
 }
 
+// A town on its own: roofs of slate, unless a grammar is asked for.
+bool openTown(EspContext* context, const Request& request, Scene& out, std::string& error) {
+    LoadedGrammar grammar;
+    grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/roof_slate.grammar" : request.grammar;
+    std::string text;
+    if (!compileFile(context, grammar, error) || !readText(request.file, text, error)) return false;
+    out.grammars.push_back(grammar);
+    EspTownDef def = espDefaultTownDef();
+    def.name = request.file.c_str();
+    def.text = text.data();
+    def.length = text.size();
+    def.grammar = grammar.id;
+    if (!fromContext(context, espLoadTown(context, &def), error)) return false;
+    out.camera = espFrameAll(context);
+    return true;
+}
+
+bool isTown(const std::string& file) {
+    if (std::filesystem::path(file).extension() == ".geojson") return true;
+    std::string text, ignored;
+    return std::filesystem::path(file).extension() == ".json" && readText(file, text, ignored) &&
+           (text.find("\"buildings\"") != std::string::npos || text.find("\"FeatureCollection\"") != std::string::npos);
+}
+
 bool loadGrammar(EspContext* context, const SceneGrammar& described, LoadedGrammar& grammar, std::string& error) {
     const bool good = described.text ? compile(context, grammar, described.grows.value_or(*described.text), error)
                                      : compileFile(context, grammar, error);
@@ -249,7 +273,8 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     out.name = fs::path(asked.file).filename().string();
     out.ownLook = espDefaultLook();
     const bool described = fs::path(request.file).extension() == ".json";
-    if (!(described ? openDescription : openSurface)(context, request, out, error)) return false;
+    const auto open = isTown(request.file) ? openTown : described ? openDescription : openSurface;
+    if (!open(context, request, out, error)) return false;
     noteLayers(context, out);
     for (const auto& [name, picture] : request.layers)
         if (!layLayer(context, out, {name, picture, -1}, error)) return false;
