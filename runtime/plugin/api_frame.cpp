@@ -150,8 +150,7 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
                     look.layer = *number;
                     found = true;
                 }
-        if (!found)
-            return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
+        if (!found) return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
     }
     return ESP_OK;
 }

@@ -30,7 +30,8 @@ void tell(EspContext& context, const std::vector<Diagnostic>& all) {
         context.log(Severity::warning, toString(d));
     }
     if (all.size() > kMaxWarnings)
-        context.log(Severity::warning, std::to_string(all.size() - kMaxWarnings) + " further messages about footprints");
+        context.log(Severity::warning,
+                    std::to_string(all.size() - kMaxWarnings) + " further messages about footprints");
 }
 
 Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
@@ -108,7 +109,8 @@ EspResult setHouse(EspContext& context, uint32_t index, const EspHouseDef& def) 
     appendRoof(footprint, made, diagnostics);
     if (made.houses.size() != siblings.size()) {
         std::string why = toString(diagnostics);
-        return fail(&context, ESP_INVALID_CONTENT, why.empty() ? "the outline falls into other pieces than before" : why);
+        return fail(&context, ESP_INVALID_CONTENT,
+                    why.empty() ? "the outline falls into other pieces than before" : why);
     }
     town.footprints[number] = footprint;
     for (size_t i = 0; i < siblings.size(); ++i) {
@@ -282,8 +284,8 @@ EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* de
         if (!houseOf(context, index) || !def)
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: no such house, or null");
         if (def->shape < ESP_ROOF_HIP || def->shape > ESP_ROOF_FLAT || (def->edgeCount && !def->edges) ||
-            (def->corners && def->cornerCount < 3) || def->cornerCount > kMostCorners || def->edgeCount > kMostCorners ||
-            !finiteDef(*def))
+            (def->corners && def->cornerCount < 3) || def->cornerCount > kMostCorners ||
+            def->edgeCount > kMostCorners || !finiteDef(*def))
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: a value out of its range");
         return setHouse(*context, index, *def);
     });

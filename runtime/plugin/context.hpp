@@ -56,7 +56,7 @@ struct LoadedGrammar {
     RuleMap map;
     Buffer words;  // uploaded from the map when stale
     bool stale = true;
-    uint64_t revision = 0;  // of rules and parameters, unlike any other grammar's
+    uint64_t revision = 0;          // of rules and parameters, unlike any other grammar's
     std::vector<uint32_t> layerOf;  // scene layer of each of the map's contexts
     uint64_t edition = 0;           // the context's revision when text or parameters last changed
     double compileMs = 0;
@@ -131,11 +131,11 @@ struct LoadedTown {
     std::vector<uint32_t> footprintOf;  // [house]
     RoofStructure structure;
     RoofTables tables;
-    uint32_t grammar = 0;            // id; 0: none yet
-    bool stale = true;               // all of it has to grow
-    std::vector<uint32_t> changed;   // houses that have to, if not all
-    uint64_t grammarRevision = 0;    // what the roofs were grown from
-    RoofView view;                   // of what stands
+    uint32_t grammar = 0;           // id; 0: none yet
+    bool stale = true;              // all of it has to grow
+    std::vector<uint32_t> changed;  // houses that have to, if not all
+    uint64_t grammarRevision = 0;   // what the roofs were grown from
+    RoofView view;                  // of what stands
     double structureMs = 0;
 };
 

@@ -1,6 +1,6 @@
 // Enters: grids of cells and a view. Leaves: draws. One kernel looks at grids, one at the rows of near ones and counts
-// cells by mesh and level of detail, one scans, one writes the instances (Buron 2013 §3.3: cells that are wholly clipped
-// are never made, those that an outline crosses are clipped when drawn, the others pay nothing).
+// cells by mesh and level of detail, one scans, one writes the instances (Buron 2013 §3.3: cells that are wholly
+// clipped are never made, those that an outline crosses are clipped when drawn, the others pay nothing).
 #include "runtime/render/roof_draw.hpp"
 
 #include <algorithm>
@@ -69,8 +69,9 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
 }
 
 Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
-    for (auto [program, shader] : {std::pair{&cullGrids_, "roof/cull_grids.comp"}, std::pair{&cullRows_, "roof/cull_rows.comp"},
-                                   std::pair{&scan_, "roof/scan.comp"}, std::pair{&writeRows_, "roof/write_rows.comp"}}) {
+    for (auto [program, shader] :
+         {std::pair{&cullGrids_, "roof/cull_grids.comp"}, std::pair{&cullRows_, "roof/cull_rows.comp"},
+          std::pair{&scan_, "roof/scan.comp"}, std::pair{&writeRows_, "roof/write_rows.comp"}}) {
         // Exact, so that counting and writing decide alike, whatever a compiler makes of either.
         Result<Program> made = Program::compute(device, shader, {.exact = true, .constants = {}});
         if (!made) return made.failure();
@@ -209,7 +210,8 @@ void RoofDraw::draw(DrawPass& pass, uint64_t frame, const Image* shadowMap, cons
             if (depthOnly)
                 pass.drawIndexedIndirect(cut ? cutTileDepth_ : tileDepth_, state_, offset, 2, push);
             else
-                pass.drawIndexedIndirect(cut ? cutTile_ : tile_, state_, offset, 2, push, {{*shadowMap, *shadowSampler}});
+                pass.drawIndexedIndirect(cut ? cutTile_ : tile_, state_, offset, 2, push,
+                                         {{*shadowMap, *shadowSampler}});
         }
     }
 }

@@ -24,7 +24,8 @@ class RoofDraw {
     const std::vector<RoofMesh>& bounds() const { return bounds_; }
 
     // Records the culling for a view; what an earlier one left is lost. shadow: patterns instead of cells.
-    Status cull(Commands& commands, const RoofView& roofs, const EmitView& view, bool shadow, std::string_view passName);
+    Status cull(Commands& commands, const RoofView& roofs, const EmitView& view, bool shadow,
+                std::string_view passName);
     // Draws what the last cull left. frame: address of the FrameRecord. Depth only without a shadow map.
     void draw(DrawPass& pass, uint64_t frame, const Image* shadowMap, const Sampler* shadowSampler);
     // Of the last cull for a picture that has finished.

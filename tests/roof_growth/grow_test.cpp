@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <set>
+
 #include "tests/roof_growth/grow_support.hpp"
 
 using namespace roof_test;
@@ -37,4 +40,205 @@ TEST_CASE("the GPU grows what the CPU grows") {
     CHECK(stats.grids == cpu.status.grids);
     CHECK(stats.tiles == cpu.status.touched);
     CHECK(stats.tiles - stats.clipped == cpu.status.whole);
+}
+
+// Buron 2013 §4 as printed, but for ASCII, behind the prelude that it leaves open.
+static const std::string kBalcony =
+    "let sizeTiles = vec2(0.3, 0.25)\n"
+    "House -> Extrude(wallHeight) {WallBalcShape, TopWall}\n"
+    "TopWall     -> Join(3, roofPos1, roofPos2) {RoofSection, NULL, MansardTop}\n"
+    "RoofSection -> Split(X, 2, 1, ~) {RoofCov, Balcony, RoofCov}\n"
+    "Balcony     -> Split(Y, 0.5, 2, ~) {RoofCov, BalconyPart, RoofCov}\n"
+    "BalconyPart -> Project(localTangent(), cross(localTangent(), globalNormal())) {BalconyFlat}\n"
+    "BalconyFlat -> Explode() {FloorShape, NULL, RightBalc, BackBalc, LeftBalc}\n"
+    "RightBalc   -> Join(projectHeight(), currentPos1(), currentPos1()) {WallBalcShape, NULL, NULL}\n"
+    "LeftBalc    -> Join(projectHeight(), currentPos0(), currentPos0()) {WallBalcShape, NULL, NULL}\n"
+    "BackBalc    -> Join(projectHeight(), currentPos0(), currentPos1()) {NULL, WindowShape, NULL}\n"
+    "RoofCov     -> Repeat(XY, sizeTiles) {TilesShape}\n"
+    "MansardTop  -> NULL\n"
+    "TilesShape -> Shape(\"slate\")\n"
+    "FloorShape -> Shape(\"panel\")\n"
+    "WallBalcShape -> Shape(\"panel\")\n"
+    "WindowShape -> Tint(1) Shape(\"ridge\")\n";
+
+TEST_CASE("the paper's balcony closes its hole") {
+    // A gable's rectangle, 3 m high over 3 m of plan: 45 degrees, so that what is projected is known.
+    Roofs r = roofs({footprint(kRectangle, RoofShape::hip, 1)}, kBalcony);
+    CpuRoofs cpu = growRoofsOnCpu(r.inputs());
+    // Of the face over the first edge: floor, two side walls clipped to triangles, a window.
+    const RoofGrid* floor = nullptr;
+    const RoofGrid* window = nullptr;
+    std::vector<const RoofGrid*> sides;
+    for (const RoofGrid& g : cpu.records.grids) {
+        if (g.atom != 0 || g.cells != 0x10001u) continue;
+        const float up = glm::cross(g.axisX, g.axisY).y;
+        if ((g.mesh & 255u) == 1)
+            window = &g;
+        else if (std::abs(up) > 0.9f)
+            floor = &g;
+        else if (g.region != kNoIndex)
+            sides.push_back(&g);
+    }
+    REQUIRE(floor);
+    REQUIRE(window);
+    REQUIRE(sides.size() == 2);
+    const float depth = 2 / std::sqrt(2.0f);
+    CHECK(floor->size.x == doctest::Approx(1));
+    CHECK(floor->size.y == doctest::Approx(depth));
+    CHECK(floor->origin.y == doctest::Approx(r.structure.houses[0].eaveHeight + 0.5f / std::sqrt(2.0f)));
+    CHECK(window->size.x == doctest::Approx(1));
+    CHECK(window->size.y == doctest::Approx(depth));  // as high as the roof has risen
+    for (const RoofGrid* g : sides) {
+        CHECK(g->size.x == doctest::Approx(depth));
+        CHECK(g->size.y == doctest::Approx(depth));
+    }
+}
+
+namespace {
+
+// Area of what of a rectangle lies inside a polygon, without any of the code under test: the polygon (any simple one)
+// clipped by the rectangle's four sides.
+double overlap(std::vector<glm::dvec2> polygon, glm::dvec2 low, glm::dvec2 high) {
+    for (int side = 0; side < 4; ++side) {
+        auto inside = [&](glm::dvec2 p) {
+            return side == 0 ? p.x - low.x : side == 1 ? high.x - p.x : side == 2 ? p.y - low.y : high.y - p.y;
+        };
+        std::vector<glm::dvec2> next;
+        for (size_t i = 0; i < polygon.size(); ++i) {
+            const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+            const double da = inside(a), db = inside(b);
+            if (da >= 0) next.push_back(a);
+            if ((da < 0) != (db < 0)) next.push_back(a + (b - a) * (da / (da - db)));
+        }
+        polygon = next;
+    }
+    double twice = 0;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        twice += a.x * b.y - a.y * b.x;
+    }
+    return 0.5 * twice;
+}
+
+}  // namespace
+
+TEST_CASE("cells are made where their face is, and whole where it covers them") {
+    const std::vector<std::vector<glm::dvec2>> plans = {
+        kRectangle,
+        kEll,
+        {{0, 0}, {16, 0}, {16, 6}, {11, 6}, {11, 13}, {5, 13}, {5, 6}, {0, 6}},
+        {{0, 0}, {16, 0}, {16, 13}, {11, 13}, {11, 5}, {5, 5}, {5, 13}, {0, 13}},
+        {{0, 0}, {9, -2}, {17, 1}, {12, 4}, {14, 11}, {6, 8}, {1, 12}}};
+    for (const auto& plan : plans) {
+        Roofs r = roofs({footprint(plan)}, kSlates);
+        CpuRoofs cpu = growRoofsOnCpu(r.inputs());
+        for (const RoofGrid& g : cpu.records.grids) {
+            // The outline in the grid's own coordinates, from the structure; hips cut several faces of one edge apart.
+            std::vector<std::vector<glm::dvec2>> outlines;
+            const RoofHouse& house = r.structure.houses[0];
+            const glm::dvec3 origin(house.origin.x, 0, -house.origin.y);
+            std::set<uint32_t> edges;  // atoms of a hip are its eaves, in the order of edges
+            for (const RoofFace& face : r.structure.faces) edges.insert(face.edge);
+            for (const RoofFace& face : r.structure.faces) {
+                if (uint32_t(std::distance(edges.begin(), edges.find(face.edge))) != g.atom) continue;
+                std::vector<glm::dvec3> corners;
+                if (!face.detached) corners.push_back(face.eave[0]), corners.push_back(face.eave[1]);
+                for (uint32_t i = 0; i + (face.detached ? 0 : 1) < face.segmentCount; ++i)
+                    corners.push_back(r.structure.segments[face.firstSegment + i].to);
+                std::vector<glm::dvec2> outline;
+                for (glm::dvec3 c : corners) {
+                    const glm::dvec3 d = c + origin - glm::dvec3(g.origin);
+                    outline.emplace_back(glm::dot(d, glm::dvec3(g.axisX)), glm::dot(d, glm::dvec3(g.axisY)));
+                }
+                outlines.push_back(outline);
+            }
+            REQUIRE(!outlines.empty());
+            const glm::dvec2 step(g.step);
+            double covered = 0, area = 0;
+            for (const auto& outline : outlines) area += overlap(outline, glm::dvec2(-1e6), glm::dvec2(1e6));
+            for (uint32_t row = 0; row < g.cells >> 16; ++row)
+                for (uint32_t column = 0; column < (g.cells & 0xFFFFu); ++column) {
+                    const glm::dvec2 low(column * step.x, row * step.y);
+                    double share = 0;
+                    for (const auto& outline : outlines) share += overlap(outline, low, low + step);
+                    const RoofRun run = cpu.records.runs[g.firstRow + row];
+                    auto within = [&](uint32_t packed) {
+                        return column >= (packed & 0xFFFFu) && column < (packed & 0xFFFFu) + (packed >> 16);
+                    };
+                    const double whole = step.x * step.y;
+                    if (share > 0.02 * whole && !within(run.touched)) FAIL_CHECK("a cell is missing");
+                    if (share < 0.97 * whole && within(run.whole)) FAIL_CHECK("a cell is not whole");
+                    if (within(run.touched)) covered += share;
+                }
+            CHECK(covered > 0.999 * area);
+        }
+    }
+}
+
+TEST_CASE("one house grown anew gives what all grown anew give") {
+    Result<std::unique_ptr<Device>> device = Device::create({});
+    REQUIRE(device);
+    auto made = RoofGrowth::create(**device);
+    REQUIRE(made);
+    RoofGrowth& growth = **made;
+    std::vector<Footprint> all;
+    for (int i = 0; i < 12; ++i) {
+        std::vector<glm::dvec2> plan = i % 2 ? kEll : kRectangle;
+        for (glm::dvec2& p : plan) p.x += 20 * i;
+        all.push_back(footprint(plan));
+        all.back().id = "house " + std::to_string(i);
+    }
+    Roofs r = roofs(all, kBalcony);
+    REQUIRE(growth.grow(r.inputs()));
+    all[5].shape = RoofShape::mansard;
+    replaceAtoms(r.tables, 5, structureOf({all[5]}));
+    REQUIRE(growth.growHouse(r.inputs(), 5));
+    CHECK(growth.stats().expansions == 2);
+    auto living = [&](const RoofRecords& records) {
+        std::vector<std::pair<uint64_t, uint32_t>> keys;
+        for (const RoofGrid& g : records.grids)
+            if ((g.house >> 24) == ((g.house & 0xFFFFFFu) == 5 ? records.grids.back().house >> 24 : 0u))
+                keys.emplace_back(g.key, g.cells);
+        std::sort(keys.begin(), keys.end());
+        return keys;
+    };
+    Result<RoofRecords> after = growth.read();
+    REQUIRE(after);
+    auto patched = living(*after);
+    Roofs fresh = roofs(all, kBalcony);
+    CpuRoofs whole = growRoofsOnCpu(fresh.inputs());
+    std::vector<std::pair<uint64_t, uint32_t>> expected;
+    for (const RoofGrid& g : whole.records.grids) expected.emplace_back(g.key, g.cells);
+    std::sort(expected.begin(), expected.end());
+    CHECK(patched == expected);
+}
+
+TEST_CASE("mistakes in grammars of roofs are named") {
+    const struct {
+        const char* text;
+        const char* expected;
+    } cases[] = {
+        {"A -> Split(Z, 1) {B}\nB -> NULL", "X or Y"},
+        {"A -> Split(X, 1, ~) {B}\nB -> NULL", "2 sizes and 1 parts"},
+        {"A -> Join(1, 2, 3) {NULL}", "expected a vector"},
+        {"A -> Extrude(~) {NULL}", "'~' is a size of Split"},
+        {"A -> Extrude(heading.x) {NULL}", "belongs to growth"},
+        {"A -> Extrude(localTangent) {NULL}", "is a vector"},
+        {"A -> Explode() {Shape(\"slat\")}", "there is no mesh \"slat\" (did you mean 'slate'?)"},
+        {"A -> Explode() {B, C}\nB -> Marching(1, 0, true) {B}\nC -> NULL", "either marches or makes roofs"},
+        {"let a = b\nlet b = a\nA -> Project(a, b) {NULL}", "defined by itself"},
+        {"A -> Repeat(XY, 1, fitted) {Shape(\"slate\")}", "fit, clip or bond"},
+    };
+    for (const auto& c : cases) {
+        const std::string text = failureText(c.text);
+        INFO(c.text << "\n" << text);
+        CHECK(text.find(c.expected) != std::string::npos);
+    }
+}
+
+TEST_CASE("endless recursion is stopped and counted") {
+    Roofs r = roofs({footprint(kRectangle)}, "House -> Explode() {House, NULL}\n");
+    CpuRoofs cpu = growRoofsOnCpu(r.inputs());
+    CHECK(cpu.status.stopped == 4);
+    CHECK(cpu.records.grids.empty());
 }

@@ -57,5 +57,6 @@ void emitCases(Bench& bench);
 void bakeCases(Bench& bench);
 void paintCases(Bench& bench);
 void roofStructureCases(Bench& bench);
+void roofGrowthCases(Bench& bench);
 
 }  // namespace espalier

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
     bakeCases(bench);
     paintCases(bench);
     roofStructureCases(bench);
+    roofGrowthCases(bench);
     if (csv.empty()) return 0;
     Status written = bench.writeCsv(csv);
     if (!written) std::fprintf(stderr, "espalier-bench: %s\n", written.failure().text().c_str());

@@ -222,7 +222,8 @@ int run(Options options) {
                 espDeviceName(made));
     EspRoofStats roofs;
     if (espReadRoofStats(made, &roofs) == ESP_OK && roofs.houses > 0)
-        std::printf("%u houses: %" PRIu64 " tiles (%" PRIu64 " clipped) in %u records, %.2f bytes a tile; "
+        std::printf("%u houses: %" PRIu64 " tiles (%" PRIu64
+                    " clipped) in %u records, %.2f bytes a tile; "
                     "structure %.0f ms, expand %.1f ms; drawn: %u tiles, %u far grids, %" PRIu64 " triangles\n",
                     roofs.houses, roofs.tiles, roofs.clippedTiles, roofs.grids,
                     double(roofs.bytes) / double(std::max<uint64_t>(roofs.tiles, 1)), roofs.structureMs, roofs.expandMs,

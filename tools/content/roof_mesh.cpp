@@ -40,8 +40,10 @@ Mesh ridge(int lod) {
         return vec3(x, 0.5f * t * swell, (lod == 0 ? 1 - t * t * (0.55f + 0.45f * t * t) : 1 - std::abs(t)) * swell);
     };
     Mesh m;
-    for (int i = 0; i < steps; ++i) addQuad(m, at(i, 0, 1.08f), at(i, 1.06f, 1.0f), at(i + 1, 1.06f, 1.0f), at(i + 1, 0, 1.08f));
-    for (int i = 0; i < steps && lod == 0; ++i) addQuad(m, at(i + 1, 0, 1.08f), at(i + 1, 0, 0.9f), at(i, 0, 0.9f), at(i, 0, 1.08f));
+    for (int i = 0; i < steps; ++i)
+        addQuad(m, at(i, 0, 1.08f), at(i, 1.06f, 1.0f), at(i + 1, 1.06f, 1.0f), at(i + 1, 0, 1.08f));
+    for (int i = 0; i < steps && lod == 0; ++i)
+        addQuad(m, at(i + 1, 0, 1.08f), at(i + 1, 0, 0.9f), at(i, 0, 0.9f), at(i, 0, 1.08f));
     return m;
 }
 

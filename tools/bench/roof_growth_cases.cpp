@@ -1,0 +1,63 @@
+// roof/expand-...: all roofs of a town with a full covering, the same loop in C++ on two threads beside it; one house
+// beside the town; bytes a tile.
+#include <fstream>
+#include <sstream>
+
+#include "runtime/roof/roof_growth.hpp"
+#include "runtime/roof/shapes.hpp"
+#include "tools/bench/bench.hpp"
+
+namespace espalier {
+namespace {
+
+// Ten tiles a square metre.
+const char* kCovering =
+    "House -> Extrude(wallHeight) {NULL, TopWall}\n"
+    "TopWall -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, TopWall}\n"
+    "Cover : faceKind == gableFace -> NULL\n"
+    "Cover -> Repeat(XY, vec2(0.4, 0.25), bond) {Shape(\"slate\")}\n";
+
+}  // namespace
+
+void roofGrowthCases(Bench& bench) {
+    const std::string name = "roof/expand-bayreuth",
+                      path = bench.options().dataFolder + "/footprints/osm_north_bayreuth_DE.geojson";
+    if (!bench.wants(name)) return;
+    Result<Town> town = readFootprints(path);
+    if (!town) return bench.skip(name, "needs " + path);
+    Result<std::unique_ptr<Device>> device = Device::create();
+    if (!device) return bench.skip(name, device.failure().text());
+    auto growth = RoofGrowth::create(**device);
+    CompileOptions options;
+    options.roofMeshes = {{"slate", false}};
+    Result<RuleMap> map = compileGrammar(kCovering, options);
+    if (!growth || !map) return bench.skip(name, "the grammar doesn't compile");
+    std::vector<Diagnostic> diagnostics;
+    const RoofStructure structure = roofsOf(town->footprints, diagnostics);
+    RoofTables tables = makeAtoms(structure);
+    const std::vector<RoofMesh> meshes(1, RoofMesh{{0, 0, 0}, {1, 1.1f, 0.02f}});
+    RoofInputs inputs;
+    inputs.town = &tables;
+    inputs.grammar = &*map;
+    inputs.meshes = meshes;
+    const Pair whole = medianSeconds(
+        bench.options().repeats, [&] { (void)(*growth)->grow(inputs); }, [&] { (void)growRoofsOnCpu(inputs, 2); });
+    const RoofStats stats = (*growth)->stats();
+    bench.add(
+        {name, "all roofs anew, wall clock", "ms", 1e3 * whole.a, "the same in C++ on two threads", 1e3 * whole.b});
+    bench.add({name + "/gpu", "GPU time of it", "ms", stats.expandMs, "bound on a graphics card", 10});
+    bench.add({name + "/tiles", "tiles", "tiles", double(stats.tiles), "asked for", 9.5e6});
+    bench.add({name + "/memory", "bytes of a tile", "B", double(stats.bytes) / double(stats.tiles), "bound", 8});
+    uint32_t house = 0;
+    const Pair one = medianSeconds(
+        bench.options().repeats * 3,
+        [&] {
+            house = (house + 997) % uint32_t(tables.houses.size());
+            (void)(*growth)->growHouse(inputs, house);
+        },
+        [] {});
+    bench.add(
+        {name + "/house", "one house anew, wall clock", "ms", 1e3 * one.a, "a 200th of the town", 1e3 * whole.a / 200});
+}
+
+}  // namespace espalier
