@@ -13,8 +13,9 @@ constexpr double kUvTolerance = 1e-6;  // within which two corners' UVs agree
 constexpr double kMinUvArea = 1e-13;   // of a triangle; below, its map has no inverse worth the name
 constexpr double kKeptStretch = 1.5;   // 95th percentile of a chart's stretch: more is remade
 constexpr double kNarrowTexels = 3;    // charts narrower than that on the finest level are remade with their neighbours
-constexpr double kAtlasFill = 0.5;     // the share of the square that charts will cover, as a guess
-constexpr size_t kFoldTriangles = 4;   // flipped islands up to this many triangles are folds of the chart around them
+constexpr double kWorthMending = 0.003;  // of the area: charts above that keep their outline if they can
+constexpr double kAtlasFill = 0.5;       // the share of the square that charts will cover, as a guess
+constexpr size_t kFoldTriangles = 4;     // flipped islands up to this many triangles are folds of the chart around them
 
 bool uvsAgree(const BakeMesh& mesh, uint32_t h, uint32_t twin) {
     glm::dvec2 d0 = mesh.uvAt(h) - mesh.uvAt(BakeMesh::next(twin));
@@ -154,7 +155,10 @@ Islands judgeUvs(const Model& model, BakeMesh& mesh, uint32_t resolution, bool k
             if (out.fault[i] != UvFault::none || keep) continue;
             Patch patch = makePatch(mesh, out.triangles[i], out.cut, local);
             out.fault[i] = judgeIsland(mesh, patch, texel);
-            if (out.fault[i] == UvFault::overlapping || out.fault[i] == UvFault::stretched)
+            double area = 0;
+            for (uint32_t t : out.triangles[i]) area += area3(mesh, mesh.triangles[t]);
+            bool large = area > kWorthMending * mesh.area;  // small ones had better be joined to others
+            if (large && (out.fault[i] == UvFault::overlapping || out.fault[i] == UvFault::stretched))
                 out.mended[i] = mend(mesh, patch, texel);
         }
     });
