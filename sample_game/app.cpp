@@ -1,92 +1,59 @@
-// The sample game: a host that has a window, a device and a frame loop, and lets Espalier draw into its frames.
-// It draws only when something has changed, so that a still scene leaves the machine alone.
+// The sample game and its editor: a host that has a window, a device and a frame loop, and lets Espalier draw into its
+// frames. It draws only when something has changed, so that a still scene leaves the machine alone.
 #define GLFW_INCLUDE_NONE
 #include "sample_game/app.hpp"
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <random>
 
-#include "sample_game/orbit_camera.hpp"
-#include "sample_game/panel.hpp"
+#include "sample_game/brush_tool.hpp"
+#include "sample_game/input.hpp"
+#include "sample_game/navigation.hpp"
+#include "sample_game/panels.hpp"
+#include "sample_game/scene_image.hpp"
+#include "sample_game/seed_tool.hpp"
+#include "sample_game/session.hpp"
+#include "sample_game/settings.hpp"
 #include "sample_game/theme.hpp"
 #include "sample_game/ui_renderer.hpp"
 #include "sample_game/vulkan_host.hpp"
-#include "tools/document/document.hpp"
 #include "tools/scene/picture.hpp"
 
 namespace sample {
 namespace {
 
-using espalier::document::Action;
-using espalier::document::Document;
-using espalier::document::SeedRecord;
-using espalier::scene::Scene;
+using namespace espalier::document;
 namespace fs = std::filesystem;
 
-constexpr double kSlowDrawMs = 50;
-constexpr int kFramesAfterChange = 3;       // ImGui settles within two
-constexpr double kFilesLookedAtEvery = .3;  // seconds
-
-// The newest change among the grammars of a folder: an included file counts too.
-fs::file_time_type newestGrammar(const fs::path& file) {
-    fs::file_time_type newest = fs::file_time_type::min();
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(file.parent_path().empty() ? "." : file.parent_path(), ignored))
-        if (entry.path().extension() == ".grammar" || entry.path() == file)
-            newest = std::max(newest, entry.last_write_time(ignored));
-    return newest;
-}
-
-// What came in since the last frame. Frames may take long on a software device, and ImGui only knows what is down at
-// the moment a frame begins: what was pressed and let go in between would be lost.
-struct Events {
-    struct Click {
-        double x, y;
-    };
-    std::vector<int> keys;
-    std::vector<Click> clicks;  // of the left button, without a drag
-    double pressX = 0, pressY = 0;
-    bool moved = false;
-
-    static Events& of(GLFWwindow* window) { return *static_cast<Events*>(glfwGetWindowUserPointer(window)); }
-    static void onKey(GLFWwindow* window, int key, int, int action, int) {
-        if (action == GLFW_PRESS) of(window).keys.push_back(key);
-    }
-    static void onMove(GLFWwindow* window, double x, double y) {
-        Events& events = of(window);
-        if (std::abs(x - events.pressX) + std::abs(y - events.pressY) > 4) events.moved = true;
-    }
-    static void onButton(GLFWwindow* window, int button, int action, int) {
-        Events& events = of(window);
-        if (action == GLFW_PRESS) {
-            glfwGetCursorPos(window, &events.pressX, &events.pressY);
-            events.moved = false;
-        } else if (button == GLFW_MOUSE_BUTTON_LEFT && !events.moved && !ImGui::GetIO().WantCaptureMouse) {
-            events.clicks.push_back({events.pressX, events.pressY});
-        }
-    }
-    bool pressed(int key) const { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
-};
-
-// Where compiled grammars are kept between runs; empty where the system names no place for that.
-std::string cacheFolder() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return std::string(cache) + "/espalier";
-    if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/espalier";
-    return {};
-}
+constexpr double kSlowDrawMs = 40, kSlowGrowthMs = 500;
+constexpr int kFramesAfterChange = 3;  // ImGui settles within two
+constexpr double kLookEvery = .3;      // seconds
+constexpr size_t kHistory = 240;       // frames in the graph
 
 struct WindowCloser {
     void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 };
+
+// As of the last frame: whether a press there is the panels' own. ImGui knows only what lies under the mouse at the
+// beginning of a frame, which with slow frames isn't where it was pressed.
+bool overPanel(float x, float y) {
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    if (!gui.OpenPopupStack.empty()) return true;
+    for (const ImGuiWindow* window : gui.Windows)
+        if (window->WasActive && !window->Hidden && !(window->Flags & ImGuiWindowFlags_NoMouseInputs) &&
+            window->OuterRectClipped.Contains({x, y}))
+            return true;
+    return false;
+}
 
 class App {
   public:
@@ -101,49 +68,53 @@ class App {
         return false;
     }
     bool openWindow();
-    bool openContext();
     void openUi();
-    void handleKeys();
-    void handleMouse();
-    void plantAt(double x, double y);
-    void answerPanel();
-    void perform(const Action& action, uint32_t gesture = 0);
-    const Scene& scene() const { return document_->scene(); }
-    void watchGrammars();
-    void updateGrowth();
-    bool drawFrame(bool last);
+    bool openDocument(const espalier::scene::Request& request, std::string& error);
+    void lookFrom(const EspCamera& camera);
+    float reach() const;
+
+    bool rescale();
+    void handleKeys(const std::vector<KeyEvent>& keys);
+    void handleKey(const KeyEvent& key);
+    void handlePointer(const std::vector<PointerEvent>& events);
+    void setEditing(bool editing);
+    void catchMouse(bool caught);
+    void chooseTool(Tool tool);
+    void hover();
+    void showUi();
+    bool update();
+    bool showOpening(const std::string& file);
+    bool drawFrame(bool moving, bool last);
     void screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height);
     void wake() { awake_ = kFramesAfterChange; }
-    std::string& generalError() { return panel_.errors.back(); }
-    float reach() const;
-    void look(const EspCamera& camera);
-    // So that what is looked at stands in the middle of what the panel leaves free.
-    float shift() const { return panelWidth(scale_, panel_) / std::max(1.f, ImGui::GetIO().DisplaySize.x); }
 
     AppOptions options_;
-    bool glfw_ = false;
+    bool glfw_ = false, imgui_ = false;
     std::unique_ptr<GLFWwindow, WindowCloser> window_;
     std::unique_ptr<VulkanHost> host_;
-    std::unique_ptr<EspContext, void (*)(EspContext*)> context_{nullptr, espDestroy};
+    std::unique_ptr<SceneImage> image_;
     std::unique_ptr<UiRenderer> ui_;
-    bool imgui_ = false;
-    float scale_ = 1;
-    std::unique_ptr<Document> document_;
-    std::vector<SeedRecord> sceneSeeds_;
-    std::vector<fs::file_time_type> grammarTimes_;
-    double nextLook_ = 0;
-    OrbitCamera orbit_;
-    PanelState panel_;
+    std::unique_ptr<Input> input_;
+    std::string layoutFile_;  // of ImGui's windows
+
+    Workspace work_;
+    Session session_;
+    Navigation navigation_;
+    BrushTool brush_;
+    SeedTool seeds_;
+
     int awake_ = kFramesAfterChange;
-    uint64_t frames_ = 0;
-    Events events_;
-    bool dragging_ = false;
+    int panelButtons_ = 0;  // that were pressed over a panel and are down
+    uint64_t frames_ = 0, grownRevision_ = 0;
+    bool coarse_ = false, growing_ = false, screenshot_ = false;
+    float themeScale_ = 0;
 };
 
 App::~App() {
     ui_.reset();
-    document_.reset();
-    context_.reset();
+    image_.reset();
+    work_.document.reset();
+    work_.context.reset();
     host_.reset();
     if (imgui_) {
         ImGui_ImplGlfw_Shutdown();
@@ -152,6 +123,8 @@ App::~App() {
     window_.reset();
     if (glfw_) glfwTerminate();
 }
+
+// ---- Opening
 
 bool App::openWindow() {
     glfwSetErrorCallback([](int, const char* text) { std::fprintf(stderr, "espalier-sample: window: %s\n", text); });
@@ -170,7 +143,23 @@ bool App::openWindow() {
     return true;
 }
 
-bool App::openContext() {
+void App::openUi() {
+    ImGui::CreateContext();
+    imgui_ = true;
+    // Tests and scripts leave nothing behind.
+    layoutFile_ = options_.frames || configFolder().empty() ? "" : configFolder() + "/windows.ini";
+    if (!layoutFile_.empty()) {
+        std::error_code ignored;
+        fs::create_directories(configFolder(), ignored);
+        readLayout(work_.layout, work_.brush);
+    }
+    ImGui::GetIO().IniFilename = layoutFile_.empty() ? nullptr : layoutFile_.c_str();
+    input_ = std::make_unique<Input>(window_.get());
+    ImGui_ImplGlfw_InitForVulkan(window_.get(), true);
+    rescale();
+}
+
+bool App::openDocument(const espalier::scene::Request& request, std::string& error) {
     EspHostDevice device{};
     device.getInstanceProcAddr = reinterpret_cast<void*>(vkGetInstanceProcAddr);
     device.instance = host_->instance();
@@ -186,275 +175,385 @@ bool App::openContext() {
     def.log = [](void*, EspLogLevel level, const char* message) {
         if (level == ESP_LOG_WARNING) std::fprintf(stderr, "espalier-sample: warning: %s\n", message);
     };
+    // The old document stays until the new one is there.
     EspContext* made = nullptr;
-    if (espCreate(&def, &made) != ESP_OK) return fail(espLastError(nullptr));
-    context_.reset(made);
-    std::string error;
-    document_ = std::make_unique<Document>(made);
-    if (!document_->open(options_.request, error)) return fail(error);
-    for (const auto& seed : scene().seeds) sceneSeeds_.push_back(document_->recordOf(seed));
-    for (const auto& grammar : scene().grammars) grammarTimes_.push_back(newestGrammar(grammar.file));
-    panel_.deviceName = espDeviceName(made);
-    panel_.errors.resize(scene().grammars.size() + 1);
-    panel_.look = scene().look;
-    panel_.grow = espDefaultGrowDef();
-    panel_.validation = host_->validation();
-    glfwSetWindowTitle(window_.get(), ("Espalier \u2014 " + scene().name).c_str());
+    if (espCreate(&def, &made) != ESP_OK) {
+        error = espLastError(nullptr);
+        return false;
+    }
+    std::unique_ptr<EspContext, void (*)(EspContext*)> context(made, espDestroy);
+    auto document = std::make_unique<Document>(made);
+    if (!document->open(request, error)) return false;
+    host_->waitIdle();
+    if (work_.document) session_.end(work_);
+    work_.document = std::move(document);
+    work_.context = std::move(context);
+    work_.selected.clear();
+    work_.plantGrammar = work_.openGrammar = 0;
+    work_.brush.layer = work_.scene().layers.empty() ? "" : work_.scene().layers.front();
+    work_.stats = {};
+    work_.redraw = true;
+    grownRevision_ = ~0ull;
+    espSetGrow(made, &work_.grow);
+    session_.begin(work_, request.file);
+    if (options_.frames) session_.forgetRecovery(false);
+    lookFrom(work_.scene().camera);
+    glfwSetWindowTitle(window_.get(), ("Espalier \u2014 " + work_.scene().name).c_str());
     return true;
 }
 
-void App::openUi() {
-    ImGui::CreateContext();
-    imgui_ = true;
-    ImGui::GetIO().IniFilename = nullptr;  // nothing is left behind in the folder it was started from
-    // Ours first: ImGui's backend calls on to what was there before it.
-    glfwSetWindowUserPointer(window_.get(), &events_);
-    glfwSetKeyCallback(window_.get(), Events::onKey);
-    glfwSetMouseButtonCallback(window_.get(), Events::onButton);
-    glfwSetCursorPosCallback(window_.get(), Events::onMove);
-    ImGui_ImplGlfw_InitForVulkan(window_.get(), true);
-    float y = 1;
-    glfwGetWindowContentScale(window_.get(), &scale_, &y);
-    applyTheme(scale_);
-}
-
 bool App::open() {
-    if (!openWindow() || !openContext()) return false;
+    if (!openWindow()) return false;
     openUi();
     ui_ = std::make_unique<UiRenderer>(*host_);
-    return ui_->create() || fail(ui_->error());
+    image_ = std::make_unique<SceneImage>(*host_);
+    if (!ui_->create()) return fail(ui_->error());
+    std::string error;
+    if (!showOpening(options_.request.file)) return false;
+    if (!openDocument(options_.request, error)) return fail(error);
+    work_.editing = options_.editor;
+    if (!options_.record.empty() &&
+        !session_.startRecording(work_, options_.record, uint32_t(options_.width), uint32_t(options_.height)))
+        return fail(work_.error);
+    return true;
 }
 
 float App::reach() const {
-    EspSurfaceInfo info;
-    if (espSurfaceInfo(context_.get(), scene().surfaces.front().id, &info) != ESP_OK) return 1;
-    float sum = 0;
-    for (int i = 0; i < 3; ++i) sum += std::pow(info.boundsMax[i] - info.boundsMin[i], 2.f);
-    return std::sqrt(sum);
-}
-
-// From a little further away than the camera says, since the panel takes a part of the picture's width.
-void App::look(const EspCamera& camera) {
-    EspCamera further = camera;
-    const float free = std::clamp(1 - shift(), .4f, 1.f);
-    for (int i = 0; i < 3; ++i) further.eye[i] = camera.target[i] + (camera.eye[i] - camera.target[i]) / free;
-    orbit_.set(further, reach());
-}
-
-void App::handleKeys() {
-    const ImGuiIO& io = ImGui::GetIO();
-    const auto pressed = [&](int key) { return events_.pressed(key); };
-    if (pressed(GLFW_KEY_F1)) panel_.showHelp = !panel_.showHelp;
-    if (pressed(GLFW_KEY_F2)) panel_.showPanel = !panel_.showPanel;
-    if (pressed(GLFW_KEY_F12)) panel_.screenshot = true;
-    if (io.WantTextInput) return;
-    const bool control = io.KeyCtrl || pressed(GLFW_KEY_LEFT_CONTROL) || pressed(GLFW_KEY_RIGHT_CONTROL);
-    if (control && pressed(GLFW_KEY_Q)) glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
-    if (control || io.KeyAlt || io.KeySuper) return;
-    if (pressed(GLFW_KEY_ESCAPE)) {
-        // Never quits: first closes the help, then puts the tool away.
-        if (panel_.showHelp)
-            panel_.showHelp = false;
-        else
-            panel_.tool = Tool::look;
-    }
-    if (pressed(GLFW_KEY_Q)) panel_.tool = Tool::look;
-    if (pressed(GLFW_KEY_S)) panel_.tool = Tool::plant;
-    if (pressed(GLFW_KEY_R)) panel_.newNumbers = true;
-    if (pressed(GLFW_KEY_F)) panel_.frameAll = true;
-    for (int i = 0; i < 4; ++i)
-        if (pressed(GLFW_KEY_1 + i)) panel_.look.view = EspView(i);
-}
-
-void App::handleMouse() {
-    const ImGuiIO& io = ImGui::GetIO();
-    const bool buttons[3] = {io.MouseDown[0], io.MouseDown[1], io.MouseDown[2]};
-    const bool down = buttons[0] || buttons[1] || buttons[2];
-    if (!down)
-        dragging_ = false;
-    else if (!io.WantCaptureMouse)
-        dragging_ = true;
-    if (dragging_ && events_.moved) {
-        const float x = io.MouseDelta.x / io.DisplaySize.y, y = io.MouseDelta.y / io.DisplaySize.y;
-        if (buttons[1] || io.KeyShift)
-            orbit_.pan(x, y);
-        else
-            orbit_.turn(x, y);
-    }
-    if (panel_.tool == Tool::plant)
-        for (const Events::Click& click : events_.clicks) plantAt(click.x, click.y);
-    if (io.MouseWheel != 0 && !io.WantCaptureMouse) orbit_.zoom(io.MouseWheel);
-}
-
-void App::plantAt(double x, double y) {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const Ray ray = orbit_.ray(float(x) / size.x, float(y) / size.y, size.x / size.y, shift());
-    EspHit hit;
-    if (espPick(context_.get(), ray.origin, ray.direction, &hit) != ESP_OK) return;
-    const SeedRecord seed{document_->freshKey(),
-                          uint32_t(panel_.plantGrammar),
-                          {hit.position[0], hit.position[1], hit.position[2]},
-                          {0, 1, 0},
-                          std::random_device()()};
-    perform(espalier::document::AddSeeds{{seed}, {uint32_t(scene().seeds.size())}});
-}
-
-void App::perform(const Action& action, uint32_t gesture) {
-    generalError().clear();
-    document_->perform(action, generalError(), gesture);
-    wake();
-}
-
-void App::answerPanel() {
-    using namespace espalier::document;
-    std::vector<SeedRecord> seeds;
-    RemoveSeeds all;
-    for (const auto& seed : scene().seeds) {
-        seeds.push_back(document_->recordOf(seed));
-        all.keys.push_back(seed.key);
-    }
-    if (panel_.newNumbers) {
-        std::random_device random;
-        for (SeedRecord& seed : seeds) seed.number = random();
-        perform(ChangeSeeds{seeds});
-    }
-    if (panel_.clearSeeds) perform(all);
-    if (panel_.sceneSeeds) {
-        AddSeeds add{sceneSeeds_, {}};
-        for (SeedRecord& seed : add.seeds) {
-            seed.key = document_->freshKey();
-            add.places.push_back(uint32_t(add.places.size()));
+    float low[3] = {1e30f, 1e30f, 1e30f}, high[3] = {-1e30f, -1e30f, -1e30f};
+    for (const auto& surface : work_.scene().surfaces) {
+        EspSurfaceInfo info;
+        if (espSurfaceInfo(work_.context.get(), surface.id, &info) != ESP_OK) continue;
+        for (int i = 0; i < 3; ++i) {
+            low[i] = std::min(low[i], info.boundsMin[i]);
+            high[i] = std::max(high[i], info.boundsMax[i]);
         }
-        const uint32_t gesture = uint32_t(document_->revision()) + 1;
-        perform(all, gesture);
-        perform(add, gesture);
     }
-    if (panel_.frameAll) look(espFrameAll(context_.get()));
-    if (panel_.newNumbers || panel_.clearSeeds || panel_.sceneSeeds || panel_.frameAll || panel_.paramsChanged) wake();
-    panel_.newNumbers = panel_.clearSeeds = panel_.sceneSeeds = panel_.frameAll = panel_.paramsChanged = false;
-    if (espSetGrow(context_.get(), &panel_.grow) != ESP_OK) generalError() = espLastError(context_.get());
+    return low[0] > high[0] ? 1 : glm::distance(vec(low), vec(high));
 }
 
-void App::watchGrammars() {
-    if (glfwGetTime() < nextLook_) return;
-    nextLook_ = glfwGetTime() + kFilesLookedAtEvery;
-    for (size_t i = 0; i < scene().grammars.size(); ++i) {
-        const fs::file_time_type time = newestGrammar(scene().grammars[i].file);
-        if (time == grammarTimes_[i]) continue;
-        grammarTimes_[i] = time;
-        std::string text, error;
-        if (espalier::scene::readText(scene().grammars[i].file, text, error))
-            perform(document_->withText(uint32_t(i), text));
-        panel_.errors[i] = error.empty() ? scene().grammars[i].error : error;
+void App::lookFrom(const EspCamera& camera) {
+    work_.camera.set(camera, reach());
+    work_.redraw = true;
+}
+
+// ---- What the user does
+
+// The display's scale, or the size of letters, has changed.
+bool App::rescale() {
+    float scale = 1, y = 1;
+    glfwGetWindowContentScale(window_.get(), &scale, &y);
+    scale = std::max(scale, .5f) * work_.layout.sizeOfAll;
+    if (scale == themeScale_ || (themeScale_ > 0 && ImGui::IsMouseDown(0))) return true;
+    themeScale_ = work_.scale = scale;
+    applyTheme(scale);
+    wake();
+    return !ui_ || ui_->updateFonts() || fail(ui_->error());
+}
+
+void App::catchMouse(bool caught) {
+    navigation_.caught = caught;
+    glfwSetInputMode(window_.get(), GLFW_CURSOR, caught ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    ImGuiIO& io = ImGui::GetIO();
+    io.ConfigFlags = caught ? io.ConfigFlags | ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange
+                            : io.ConfigFlags & ~(ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange);
+}
+
+void App::setEditing(bool editing) {
+    brush_.cancel(work_);
+    catchMouse(false);
+    work_.editing = editing;
+    work_.redraw = true;
+}
+
+void App::chooseTool(Tool tool) {
+    brush_.cancel(work_);
+    work_.choose(tool);
+}
+
+void App::handleKeys(const std::vector<KeyEvent>& keys) {
+    for (const KeyEvent& key : keys) {
+        const bool functionKey = key.key >= GLFW_KEY_F1 && key.key <= GLFW_KEY_F12;
+        const bool control = key.mods & GLFW_MOD_CONTROL;
+        const bool file = control && (key.key == GLFW_KEY_S || key.key == GLFW_KEY_O || key.key == GLFW_KEY_Q);
+        if (!ImGui::GetCurrentContext()->OpenPopupStack.empty() && !functionKey) continue;
+        if (ImGui::GetIO().WantTextInput && !functionKey && !file) continue;
+        handleKey(key);
+    }
+}
+
+void App::handleKey(const KeyEvent& event) {
+    const int key = event.key;
+    const bool control = event.mods & GLFW_MOD_CONTROL, shift = event.mods & GLFW_MOD_SHIFT;
+    if (key == GLFW_KEY_F1) work_.layout.help = !work_.layout.help;
+    if (key == GLFW_KEY_F2) work_.layout.panel = !work_.layout.panel, work_.redraw = true;
+    if (key == GLFW_KEY_F3) work_.layout.figures = !work_.layout.figures;
+    if (key == GLFW_KEY_F4) work_.layout.grammar = !work_.layout.grammar;
+    if (key == GLFW_KEY_F12) screenshot_ = true;
+    if (control) {
+        if (key == GLFW_KEY_Q) session_.quit = true;
+        if (key == GLFW_KEY_S) askToSave(work_, session_);
+        if (key == GLFW_KEY_O) askToOpen();
+        if (brush_.painting()) return;
+        if (key == GLFW_KEY_Z && !shift && work_.document->undoName()) work_.perform(Undo{});
+        if (((key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y) && work_.document->redoName()) work_.perform(Redo{});
+        return;
+    }
+    if (key == GLFW_KEY_TAB) return setEditing(!work_.editing);
+    if (key == GLFW_KEY_ESCAPE) {
+        // Never quits: frees the mouse, closes the help, puts the tool away.
+        if (navigation_.caught)
+            catchMouse(false);
+        else if (work_.layout.help)
+            work_.layout.help = false;
+        else if (brush_.sizing())
+            brush_.cancel(work_);
+        else
+            chooseTool(Tool::look);
+    }
+    if (key == GLFW_KEY_HOME) lookFrom(espFrameAll(work_.context.get()));
+    if (!work_.editing) {
+        if (key == GLFW_KEY_G) navigation_.toggleFlying();
+        if (key == GLFW_KEY_SPACE) navigation_.jump();
+        return;
+    }
+    if (navigation_.dragging()) return;  // letters fly
+    if (key == GLFW_KEY_Q) chooseTool(Tool::look);
+    if (key == GLFW_KEY_B) chooseTool(Tool::paint);
+    if (key == GLFW_KEY_S) chooseTool(Tool::seeds);
+    if (work_.tool == Tool::paint) {
+        float& radius = work_.brush.radius;
+        if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, .005f);
+        if (key == GLFW_KEY_RIGHT_BRACKET) radius = std::min(radius * 1.15f, 20.f);
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        if (key == GLFW_KEY_F) brush_.startSizing(work_, {mouse.x, mouse.y}, shift);
+    } else if (key == GLFW_KEY_F) {
+        lookFrom(espFrameAll(work_.context.get()));
+    }
+    if (work_.tool == Tool::seeds) {
+        if (key == GLFW_KEY_DELETE || key == GLFW_KEY_X) seeds_.remove(work_);
+        if (key == GLFW_KEY_A) seeds_.selectAll(work_);
+    }
+    if (key == GLFW_KEY_R) {
+        ChangeSeeds change;
+        for (const auto& seed : work_.scene().seeds) {
+            change.seeds.push_back(work_.document->recordOf(seed));
+            change.seeds.back().number = seed.number * 747796405u + 2891336453u;
+        }
+        work_.perform(change);
+    }
+    if (key == GLFW_KEY_V && !work_.brush.layer.empty()) {
+        const bool seen = work_.scene().look.view == ESP_VIEW_LAYER;
+        work_.perform(SetView{seen ? "shaded" : "layer", seen ? "" : work_.brush.layer});
+    }
+    for (int i = 0; i < 4; ++i)
+        if (key == GLFW_KEY_1 + i) work_.perform(SetView{espalier::scene::nameOf(EspView(i)), ""});
+}
+
+void App::handlePointer(const std::vector<PointerEvent>& events) {
+    using Kind = PointerEvent::Kind;
+    for (const PointerEvent& event : events) {
+        const bool busy = navigation_.dragging() || brush_.painting() || brush_.sizing() || seeds_.dragging();
+        if (!navigation_.caught && !busy) {
+            if (event.kind == Kind::press && (panelButtons_ > 0 || overPanel(event.x, event.y))) {
+                ++panelButtons_;
+                continue;
+            }
+            if (event.kind == Kind::release && panelButtons_ > 0) {
+                --panelButtons_;
+                continue;
+            }
+        }
+        if (!work_.editing && event.kind == Kind::press && event.button == GLFW_MOUSE_BUTTON_LEFT &&
+            !navigation_.caught) {
+            catchMouse(true);
+            continue;
+        }
+        const bool toolFirst = brush_.painting() || brush_.sizing() || seeds_.dragging();
+        if (!toolFirst && navigation_.take(work_, event)) continue;
+        if (!work_.editing || panelButtons_ > 0) continue;
+        if (work_.tool == Tool::paint) brush_.take(work_, event);
+        if (work_.tool == Tool::seeds) seeds_.take(work_, event);
+        if (toolFirst) navigation_.follow({event.x, event.y});
+    }
+    brush_.flush(work_);
+}
+
+void App::hover() {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    work_.hit.reset();
+    if (!work_.editing || work_.tool != Tool::paint || !ImGui::IsMousePosValid(&mouse)) return;
+    if (!brush_.painting() && overPanel(mouse.x, mouse.y)) return;
+    work_.hit = work_.pick({mouse.x, mouse.y});
+}
+
+// ---- A frame
+
+void App::showUi() {
+    const auto& layers = work_.scene().layers;
+    if (std::find(layers.begin(), layers.end(), work_.brush.layer) == layers.end())
+        work_.brush.layer = layers.empty() ? "" : layers.front();
+    if (work_.editing) {
+        hover();
+        if (work_.tool == Tool::paint) brush_.draw(work_, input_->mods());
+        if (work_.tool == Tool::seeds) seeds_.draw(work_);
+        showMenu(work_, session_);
+        showPanel(work_);
+        showGrammarWindow(work_);
+        showFigures(work_, host_->validationMessages(), host_->validation());
+    }
+    showStatus(work_, navigation_.caught, navigation_.flying());
+    showHelp(work_);
+}
+
+// Growth that takes longer than a blink is announced one frame before.
+bool App::update() {
+    const bool changed = work_.document->revision() != grownRevision_ || brush_.painting();
+    if (changed && !growing_ && !brush_.painting() && frames_ > 0 && work_.stats.expandMs > kSlowGrowthMs) {
+        growing_ = true;
+        showGrowing(work_);
         wake();
+        return false;
     }
-}
-
-void App::updateGrowth() {
-    if (espUpdate(context_.get()) != ESP_OK) generalError() = espLastError(context_.get());
-    EspStats stats;
-    if (espReadStats(context_.get(), &stats) == ESP_OK) panel_.stats = stats;
-    panel_.validationMessages = host_->validationMessages();
+    growing_ = false;
+    const uint32_t before = work_.stats.expansions;
+    if (espUpdate(work_.context.get()) != ESP_OK) work_.error = espLastError(work_.context.get());
+    grownRevision_ = work_.document->revision();
+    if (espReadStats(work_.context.get(), &work_.stats) != ESP_OK) work_.error = espLastError(work_.context.get());
+    const bool grew = work_.stats.expansions != before;
+    work_.redraw = work_.redraw || grew;
+    return grew;
 }
 
 void App::screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height) {
-    std::string error;
-    if (espalier::scene::writePng(path, rgba.data(), width, height, error))
-        panel_.message = "Written: " + path;
-    else
-        generalError() = error;
+    if (espalier::scene::writePng(path, rgba.data(), width, height, work_.error)) work_.message = "Written: " + path;
     wake();
 }
 
-bool App::drawFrame(bool last) {
+bool App::showOpening(const std::string& file) {
+    glfwPollEvents();
+    const std::optional<Frame> frame = host_->begin();
+    if (!frame) return host_->error().empty() || fail(host_->error());
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    const std::string text = "Opening " + fs::path(file).filename().string() + " ...";
+    const ImVec2 size = ImGui::GetIO().DisplaySize, extent = ImGui::CalcTextSize(text.c_str());
+    ImGui::GetForegroundDrawList()->AddText({(size.x - extent.x) / 2, size.y / 2}, IM_COL32(220, 225, 215, 255),
+                                            text.c_str());
+    ImGui::Render();
+    imageBarrier(frame->commands, frame->image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const VkClearColorValue dark{{.1f, .1f, .1f, 1}};
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdClearColorImage(frame->commands, frame->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &dark, 1, &all);
+    imageBarrier(frame->commands, frame->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    return (ui_->draw(*frame, *ImGui::GetDrawData()) || fail(ui_->error())) &&
+           (host_->end(*frame) || fail(host_->error()));
+}
+
+bool App::drawFrame(bool moving, bool last) {
     const std::optional<Frame> frame = host_->begin();
     if (!frame) {
         if (!host_->error().empty()) return fail(host_->error());
-        if (ImGui::GetFrameCount()) ImGui::EndFrame();
+        ImGui::EndFrame();
         glfwWaitEventsTimeout(.05);  // minimised, or about to be resized
+        work_.redraw = true;
         return true;
     }
     EspDrawDef draw = espDefaultDrawDef();
-    draw.width = frame->extent.width;
-    draw.height = frame->extent.height;
-    draw.camera = orbit_.camera(shift());
-    draw.look = panel_.look;
-    draw.look.viewLayer = panel_.viewLayer.c_str();
+    draw.camera = work_.camera.camera(work_.shift());
+    draw.look = work_.scene().look;
+    draw.look.viewLayer = work_.scene().viewLayer.c_str();
     // While the camera moves on a slow device, less detail: what counts then is that it follows the hand.
-    if (dragging_ && panel_.stats.drawMs > kSlowDrawMs) draw.look.windowLodPixels *= 4;
-    draw.commandBuffer = frame->commands;
-    draw.colourImage = reinterpret_cast<void*>(frame->image);
-    draw.colourView = reinterpret_cast<void*>(frame->view);
-    draw.colourFormat = host_->format();
-    draw.frame = frame->number;
-    draw.framesDone = frame->finished;
-    if (espDraw(context_.get(), &draw) != ESP_OK) return fail(espLastError(context_.get()));
+    const bool slow = moving && !last && work_.stats.drawMs > kSlowDrawMs;
+    if (slow) draw.look.windowLodPixels *= 4;
+    const float scale = slow && work_.layout.halfWhileMoving ? .5f : 1;
+    if (!image_->show(work_.context.get(), *frame, draw, scale, work_.redraw)) return fail(image_->error());
+    if (image_->drew()) {
+        coarse_ = slow;
+        work_.redraw = false;
+    }
     ImGui::Render();
     if (!ui_->draw(*frame, *ImGui::GetDrawData())) return fail(ui_->error());
 
     VulkanHost::TakePicture take;
     std::string path = last ? options_.screenshot : "";
-    if (panel_.screenshot && path.empty())
+    if (screenshot_ && path.empty())
         for (int i = 1; path.empty() || fs::exists(path); ++i) path = "espalier-" + std::to_string(i) + ".png";
     if (!path.empty())
         take = [&](const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height) {
             screenshot(path, rgba, width, height);
         };
-    panel_.screenshot = false;
+    screenshot_ = false;
     return host_->end(*frame, take) || fail(host_->error());
 }
 
 bool App::loop() {
     using Clock = std::chrono::steady_clock;
-    while (!glfwWindowShouldClose(window_.get())) {
+    double before = glfwGetTime();
+    std::vector<PointerEvent> pointer;
+    std::vector<KeyEvent> keys;
+    while (!glfwWindowShouldClose(window_.get()) && !session_.quit) {
         // Asleep until the user does something, or it is time to look at the grammars' files.
         if (awake_ > 0 || options_.frames) {
             glfwPollEvents();
         } else {
             const double asleep = glfwGetTime();
-            glfwWaitEventsTimeout(kFilesLookedAtEvery);
-            if (glfwGetTime() - asleep < .9 * kFilesLookedAtEvery) wake();
+            glfwWaitEventsTimeout(kLookEvery);
+            if (glfwGetTime() - asleep < .9 * kLookEvery) wake();
         }
-        const auto begin = Clock::now();
-        watchGrammars();
+        const double now = glfwGetTime();
+        const float seconds = float(std::min(now - before, .5));
+        before = now;
+        if (session_.step(work_, now)) wake();
         if (awake_ == 0 && !options_.frames) continue;
-
-        float scale = 1, y = 1;
-        glfwGetWindowContentScale(window_.get(), &scale, &y);
-        if (scale != scale_ && scale > 0) {
-            scale_ = scale;
-            applyTheme(scale_);
-            if (!ui_->updateFonts()) return fail(ui_->error());
-            wake();
+        const auto begin = Clock::now();
+        if (!session_.openNext.empty()) {
+            const std::string file = std::exchange(session_.openNext, {});
+            if (!showOpening(file)) return false;
+            work_.error.clear();
+            openDocument({file, {}, {}, {}}, work_.error);
         }
+        if (!rescale()) return false;
+
         ImGui_ImplGlfw_NewFrame();
         ImGui::NewFrame();
-        if (frames_ == 0) look(scene().camera);
-        handleKeys();
-        handleMouse();
-        const bool happened = !events_.keys.empty() || !events_.clicks.empty();
-        events_.keys.clear();
-        events_.clicks.clear();
-        showPanel(context_.get(), scene(), scale_, panel_);
-        answerPanel();
-        updateGrowth();
+        work_.window = {ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};
+        float wheel = 0;
+        input_->take(pointer, keys, wheel);
+        handleKeys(keys);
+        handlePointer(pointer);
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        if (!overPanel(mouse.x, mouse.y)) navigation_.wheel(work_, wheel);
+        const bool moved = navigation_.step(work_, *input_, seconds, ImGui::GetIO().WantTextInput);
+        if (moved || frames_ == 0) {
+            const EspCamera camera = work_.camera.camera(0);
+            work_.perform(SetCamera{array(vec(camera.eye)), array(vec(camera.target)), camera.fovY});
+        }
+        showUi();
+        const bool grew = update();
+        if (coarse_ && !moved) work_.redraw = true;
         ++frames_;
         const bool last = options_.frames && frames_ >= options_.frames;
-        if (!drawFrame(last)) return false;
-        panel_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-        const ImGuiIO& io = ImGui::GetIO();
-        const bool input = happened || io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 ||
-                           io.MouseDown[0] || io.MouseDown[1] || io.MouseDown[2] || ImGui::IsAnyItemActive();
-        if (input)
+        if (!drawFrame(moved, last)) return false;
+        session_.nextFrame();
+        work_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+        const bool drew = image_->drew();
+        work_.history.push_back({grew ? float(work_.stats.expandMs) : 0, drew ? float(work_.stats.emitMs) : 0,
+                                 drew ? float(work_.stats.drawMs) : 0, float(work_.frameMs)});
+        if (work_.history.size() > kHistory) work_.history.erase(work_.history.begin());
+        const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || navigation_.dragging();
+        if (moved || held || wheel != 0 || !pointer.empty() || !keys.empty() || grew)
             wake();
         else if (awake_ > 0)
             --awake_;
         if (last) break;
     }
+    session_.end(work_);
+    if (!layoutFile_.empty()) writeLayout(work_.layout, work_.brush);
     if (host_->validationMessages())
         return fail(std::to_string(host_->validationMessages()) + " messages of the validation layer");
-    // A user has seen the message in the panel; a script sees the exit code.
-    if (options_.frames && !generalError().empty()) return fail(generalError());
+    // A user has seen the message; a script sees the exit code.
+    if (options_.frames && !work_.error.empty()) return fail(work_.error);
     return true;
 }
 

@@ -12,6 +12,8 @@ struct AppOptions {
     int width = 1280, height = 720;  // of the window, in screen coordinates
     bool validation = false;
     uint64_t frames = 0;     // ends after so many, 0: when the user closes the window
+    bool editor = false;     // begins in the editor
+    std::string record;      // begins with recording a run into this file
     std::string screenshot;  // written after the last of `frames`
 };
 

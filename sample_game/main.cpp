@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
     std::string size = "1280x720";
     long long seed = -1;
     cli.add_option("FILE", options.request.file,
-                   "a scene (SCENE.json) or what espalier-bake wrote (SURFACE.glb); default: the sample scene");
+                   "a scene (SCENE.json), a project's folder or what espalier-bake wrote (SURFACE.glb); default: the "
+                   "sample scene");
     cli.add_option("--layer", layers, "NAME=FILE: a picture drawn in the model's UVs");
     cli.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
     cli.add_option("--seed", seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
@@ -22,6 +23,8 @@ int main(int argc, char** argv) {
     cli.add_option("--frames", options.frames, "ends after so many frames; 0: when the window is closed")
         ->capture_default_str();
     cli.add_option("--screenshot", options.screenshot, "writes the last of --frames as PNG");
+    cli.add_flag("--editor", options.editor, "begins in the editor (Tab)");
+    cli.add_option("--record", options.record, "records what is done into this file, for espalier-capture --replay");
     cli.add_flag("--validation", options.validation, "with Vulkan's validation layer (also: ESPALIER_VALIDATION=1)");
     try {
         cli.parse(argc, argv);

@@ -1,5 +1,6 @@
 // Undo and redo, judged by the growth's fingerprint, which knows nothing of documents; projects, by opening them in
 // another context; and saves that are killed.
+#include <OpenImageIO/imageio.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,7 +9,6 @@
 
 #include "tests/editor/editing.hpp"
 #include "tools/document/project.hpp"
-#include "tools/scene/scene_file.hpp"
 
 using namespace espalier::document;
 using espalier::scene::Scene;
@@ -188,24 +188,117 @@ TEST_CASE("an autosave is offered until the project is saved") {
     CHECK(recoverable(garden).empty());
 }
 
+namespace {
+
+StrokeBegin brush(const std::string& mode, float radius) {
+    StrokeBegin begin;
+    begin.layer = "mask";
+    begin.mode = mode;
+    begin.radius = radius;
+    return begin;
+}
+
+std::vector<float> texels(Editing& editing) {
+    espalier::scene::GreyPicture picture;
+    REQUIRE_MESSAGE(editing.document->readLayer(0, "mask", picture, editing.error), editing.error);
+    return picture.texels;
+}
+
+// Painted, filled or imported, by chance.
+void randomPaint(std::mt19937& random, Editing& editing, const Folder& folder) {
+    const auto chance = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
+    if (random() % 8 == 0) {
+        REQUIRE_MESSAGE(editing.perform(FillLayer{"mask", chance(0, 1)}), editing.error);
+        return;
+    }
+    if (random() % 8 == 0) {
+        espalier::scene::GreyPicture picture{64, 64, std::vector<float>(64 * 64)};
+        for (float& texel : picture.texels) texel = chance(0, 1);
+        REQUIRE_MESSAGE(writeGrey(folder.file("import.exr"), picture, editing.error), editing.error);
+        REQUIRE_MESSAGE(editing.perform(LoadLayer{"mask", folder.file("import.exr"), 0, true}), editing.error);
+        return;
+    }
+    const uint32_t gesture = random();
+    REQUIRE_MESSAGE(editing.perform(brush(random() % 3 ? "paint" : "erase", chance(.05f, .8f)), gesture),
+                    editing.error);
+    for (int i = 0; i < 3; ++i)
+        REQUIRE_MESSAGE(
+            editing.perform(StrokeDabs{{{chance(-3, 3), chance(0, 3), .3f, 0, 0, 1, 1}, {0, 1, .3f, 0, 0, 1, .5f}}},
+                            gesture),
+            editing.error);
+    REQUIRE_MESSAGE(editing.perform(StrokeEnd{}, gesture), editing.error);
+}
+
+}  // namespace
+
+TEST_CASE("what is painted, filled and imported is undone and done again to the bit") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    std::mt19937 random(5);
+    const std::vector<float> before = texels(editing);
+    constexpr int kSteps = 30;
+    for (int i = 0; i < kSteps; ++i) randomPaint(random, editing, folder);
+    const std::vector<float> after = texels(editing);
+    CHECK(after != before);
+    CHECK(editing.document->undoSteps() == kSteps);
+    CHECK(editing.document->historyBytes() > 1000);
+    for (int i = 0; i < kSteps; ++i) REQUIRE_MESSAGE(editing.perform(Undo{}), editing.error);
+    CHECK(texels(editing) == before);
+    for (int i = 0; i < kSteps; ++i) REQUIRE_MESSAGE(editing.perform(Redo{}), editing.error);
+    CHECK(texels(editing) == after);
+
+    // A stroke that isn't ended keeps other edits waiting, and one without a dab is no step.
+    REQUIRE(editing.perform(brush("paint", 1)));
+    CHECK(!editing.perform(Undo{}));
+    CHECK(!editing.perform(FillLayer{"mask", 0}));
+    CHECK(editing.perform(SetView{"layer", "mask"}));
+    CHECK(editing.perform(StrokeEnd{}));
+    CHECK(!editing.perform(StrokeEnd{}));
+    CHECK(editing.document->undoSteps() == kSteps);
+}
+
+TEST_CASE("a project keeps its layers to the bit, and no file of theirs too many") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    std::mt19937 random(6);
+    const std::string garden = folder.file("garden");
+    for (int i = 0; i < 3; ++i) {
+        randomPaint(random, editing, folder);
+        REQUIRE_MESSAGE(saveProject(*editing.document, garden, editing.error), editing.error);
+    }
+    const std::vector<float> painted = texels(editing);
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(garden)) files += entry.is_regular_file();
+    CHECK(files == 2);  // project.json and one layer
+    Editing again(garden);
+    CHECK(texels(again) == painted);
+    CHECK(again.hash() == editing.hash());
+}
+
 TEST_CASE("killed at any moment of a save, the project opens as it was or as it should be") {
     const Folder folder;
     Editing editing(smallScene(folder));
     const std::string garden = folder.file("garden");
-    REQUIRE(saveProject(*editing.document, garden, editing.error));
+    REQUIRE(editing.perform(FillLayer{"mask", .5f}));
+    ProjectData data;
+    REQUIRE(gather(*editing.document, data, editing.error));
+    data.layers[0].picture = {64, 64, std::vector<float>(64 * 64)};
+    REQUIRE(writeProject(data, garden, editing.error));
     std::mt19937 random(3);
-    std::set<std::string> seen;
+    std::set<float> seen;
     int killed = 0;
     for (int round = 0; round < 100; ++round) {
-        // The child has no threads of the driver and may only save: its document is a copy of ours.
+        // The child has none of our threads: it writes what was gathered before, ever another version of it.
         const pid_t child = fork();
         REQUIRE(child >= 0);
         if (child == 0) {
-            for (float reach = .3f + .03f * float(round);; reach += .001f) {
+            OIIO::attribute("exr_threads", -1);
+            OIIO::attribute("threads", 1);
+            for (float version = float(round);; version += .001f) {
                 std::string error;
-                if (!editing.document->perform(SetParam{0, {"reach", {reach}}}, error) ||
-                    !saveProject(*editing.document, garden, error))
-                    _exit(1);
+                data.file.hour = version / 100;
+                std::fill(data.layers[0].picture.texels.begin(), data.layers[0].picture.texels.end(), version / 100);
+                if (!writeProject(data, garden, error)) _exit(1);
             }
         }
         usleep(useconds_t(random() % 30000));
@@ -213,17 +306,26 @@ TEST_CASE("killed at any moment of a save, the project opens as it was or as it 
         int status = 0;
         waitpid(child, &status, 0);
         killed += WIFSIGNALED(status);
+        // Whole, and the picture is the one that belongs to the file.
         espalier::scene::SceneFile file;
+        espalier::scene::GreyPicture picture;
         std::string error;
         REQUIRE_MESSAGE(readSceneFile(garden + "/project.json", file, error), error);
-        seen.insert(readAll(garden + "/project.json"));
+        REQUIRE(file.layers.size() == 1);
+        REQUIRE_MESSAGE(readGrey(file.layers[0].file, picture, error), error);
+        REQUIRE(picture.texels.size() == 64 * 64);
+        if (!seen.empty() || file.hour != -1) {
+            CHECK(picture.texels.front() == file.hour);
+            CHECK(picture.texels.back() == file.hour);
+        }
+        seen.insert(file.hour);
     }
     CHECK(killed == 100);
     CHECK(seen.size() > 3);
-    Editing again(garden);
-    CHECK(again.document->scene().seeds.size() == 2);
     // What an interrupted save left behind goes with the next.
     REQUIRE(saveProject(*editing.document, garden, editing.error));
     for (const auto& entry : std::filesystem::recursive_directory_iterator(garden))
         CHECK_MESSAGE(entry.path().filename().string()[0] != '.', entry.path().string());
+    Editing again(garden);
+    CHECK(again.document->scene().seeds.size() == 2);
 }

@@ -9,7 +9,7 @@ namespace {
 template <size_t I = 0>
 bool make(const std::string& name, Action& out) {
     if constexpr (I < std::variant_size_v<Action>) {
-        if (name != std::variant_alternative_t<I, Action>::kName) return make<I + 1>(name, out);
+        if (name.empty() || name != std::variant_alternative_t<I, Action>::kName) return make<I + 1>(name, out);
         out.emplace<I>();
         return true;
     }

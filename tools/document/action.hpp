@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -89,6 +90,57 @@ struct SetLight {
     }
 };
 
+// A stroke: its brush, dabs as often as wanted, its end; one step of undo. Other edits wait for the end.
+struct StrokeBegin {
+    static constexpr const char* kName = "stroke";
+    std::string layer;
+    std::string mode = "paint";                                      // paint, erase, smooth
+    float radius = .25f, value = 1, strength = .5f, hardness = .5f;  // as of EspBrush
+    std::array<float, 2> slope{0, 3.1415927f};                       // radians
+    std::array<float, 2> height{-1e6f, 1e6f};                        // metres
+    float softness = 0;
+    bool frontOnly = false;
+    template <class V>
+    void fields(V&& v) {
+        v("layer", layer), v("mode", mode), v("radius", radius), v("value", value), v("strength", strength);
+        v("hardness", hardness), v("slope", slope), v("height", height), v("softness", softness);
+        v("front_only", frontOnly);
+    }
+};
+struct StrokeDabs {
+    static constexpr const char* kName = "dabs";
+    std::vector<std::array<float, 7>> dabs;  // position, normal, pressure
+    template <class V>
+    void fields(V&& v) {
+        v("dabs", dabs);
+    }
+};
+struct StrokeEnd {
+    static constexpr const char* kName = "stroke_end";
+    template <class V>
+    void fields(V&&) {}
+};
+struct FillLayer {
+    static constexpr const char* kName = "fill";
+    std::string layer;
+    float value = 0;
+    template <class V>
+    void fields(V&& v) {
+        v("layer", layer), v("value", value);
+    }
+};
+// From a picture in the surface's walk UVs, or in the model's own.
+struct LoadLayer {
+    static constexpr const char* kName = "load_layer";
+    std::string layer, file;
+    uint32_t surface = 0;
+    bool walkUv = true;
+    template <class V>
+    void fields(V&& v) {
+        v("layer", layer), v("file", file), v("surface", surface), v("walk_uv", walkUv);
+    }
+};
+
 // Not undone, but part of a run:
 struct SetCamera {
     static constexpr const char* kName = "camera";
@@ -119,8 +171,22 @@ struct Redo {
     void fields(V&&) {}
 };
 
-using Action =
-    std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, SetCamera, SetView, Undo, Redo>;
+// Inverses only, never part of a run: each exchanges what is painted with what it keeps, so it is its own inverse.
+struct SwapStroke {
+    static constexpr const char* kName = "";
+    std::shared_ptr<const struct StrokeRecord> stroke;
+    template <class V>
+    void fields(V&&) {}
+};
+struct SwapTiles {
+    static constexpr const char* kName = "";
+    std::shared_ptr<const struct LayerTiles> tiles;
+    template <class V>
+    void fields(V&&) {}
+};
+
+using Action = std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, StrokeBegin, StrokeDabs,
+                            StrokeEnd, FillLayer, LoadLayer, SetCamera, SetView, Undo, Redo, SwapStroke, SwapTiles>;
 
 // One line of a run: {"frame": 3, "gesture": 2, "NAME": {fields}}; see run.hpp.
 struct RunLine {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/document/layer_history.hpp"
 #include "tools/scene/daylight.hpp"
 
 namespace espalier::document {
@@ -46,7 +47,9 @@ bool overwrites(const Action& earlier, const Action& later) {
 
 }  // namespace
 
-Document::~Document() = default;
+Document::~Document() {
+    if (stroking()) espDestroyStroke(context_, stroke_);
+}
 
 bool Document::failed(EspResult result, std::string& error) const {
     if (result == ESP_OK) return false;
@@ -80,8 +83,14 @@ SeedRecord Document::recordOf(const Seed& seed) const {
 
 bool Document::perform(const Action& action, std::string& error, uint32_t gesture) {
     std::vector<Action> back;
+    const bool strokes = std::holds_alternative<StrokeDabs>(action) || std::holds_alternative<StrokeEnd>(action);
+    if (stroking() && !strokes &&
+        (isEdit(action) || std::holds_alternative<Undo>(action) || std::holds_alternative<Redo>(action))) {
+        error = "a stroke isn't ended yet";
+        return false;
+    }
     if (!carryOut(action, back, error)) return false;
-    if (isEdit(action)) remember(action, std::move(back), gesture);
+    if (!back.empty()) remember(action, std::move(back), gesture);
     if (isEdit(action) || std::holds_alternative<Undo>(action) || std::holds_alternative<Redo>(action)) ++revision_;
     if (listener_) listener_(action, gesture);
     return true;
@@ -102,7 +111,23 @@ void Document::remember(const Action& action, std::vector<Action> back, uint32_t
         return;
     }
     done_.push_back({nameOf(action), gesture, std::move(back)});
-    if (done_.size() > kMaxSteps) done_.erase(done_.begin());
+    forgetOldest();
+}
+
+size_t Document::historyBytes() const {
+    size_t bytes = 0;
+    for (const std::vector<Step>* steps : {&done_, &undone_})
+        for (const Step& step : *steps)
+            for (const Action& action : step.back) bytes += keptBytes(action);
+    return bytes;
+}
+
+void Document::forgetOldest() {
+    size_t over = historyBytes();
+    auto keep = done_.begin();
+    for (; keep + 1 < done_.end() && (over > kMaxHistoryBytes || size_t(done_.end() - keep) > kMaxSteps); ++keep)
+        for (const Action& action : keep->back) over -= keptBytes(action);
+    done_.erase(done_.begin(), keep);
 }
 
 bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string& error) {
@@ -305,6 +330,13 @@ const char* nameOf(const Action& action) {
         const char* operator()(const RemoveSeeds&) const { return "Remove seeds"; }
         const char* operator()(const ChangeSeeds&) const { return "Change seeds"; }
         const char* operator()(const SetLight&) const { return "Change the light"; }
+        const char* operator()(const StrokeBegin&) const { return "Paint"; }
+        const char* operator()(const StrokeDabs&) const { return "Paint"; }
+        const char* operator()(const StrokeEnd&) const { return "Paint"; }
+        const char* operator()(const FillLayer&) const { return "Fill a layer"; }
+        const char* operator()(const LoadLayer&) const { return "Import a layer"; }
+        const char* operator()(const SwapStroke&) const { return "Paint"; }
+        const char* operator()(const SwapTiles&) const { return "Import a layer"; }
         const char* operator()(const SetCamera&) const { return "Move the camera"; }
         const char* operator()(const SetView&) const { return "Change the view"; }
         const char* operator()(const Undo&) const { return "Undo"; }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/document/action.hpp"
+#include "tools/scene/picture.hpp"
 #include "tools/scene/scene.hpp"
 
 namespace espalier::document {
@@ -30,6 +31,9 @@ class Document {
     const char* undoName() const;
     const char* redoName() const;
     size_t undoSteps() const { return done_.size(); }
+    // What is kept for undo and redo. Past kMaxHistoryBytes the oldest steps are forgotten.
+    size_t historyBytes() const;
+    static constexpr size_t kMaxHistoryBytes = size_t(256) << 20;
 
     // Rises with every action that changes what a project holds; undoing one is a change too.
     uint64_t revision() const { return revision_; }
@@ -41,6 +45,9 @@ class Document {
     const scene::Scene& scene() const { return scene_; }
     EspContext* context() const { return context_; }
     const scene::Seed* seed(uint32_t key) const;
+    bool stroking() const { return stroke_.id != 0; }
+    // One surface's layer over its walk UVs, the first row at v = 0.
+    bool readLayer(size_t surface, const std::string& layer, scene::GreyPicture& out, std::string& error) const;
     // A key that no seed of this document has or had.
     uint32_t freshKey() { return ++lastKey_; }
     SeedRecord recordOf(const scene::Seed& seed) const;
@@ -61,6 +68,13 @@ class Document {
     bool carryOut(const RemoveSeeds& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const ChangeSeeds& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetLight& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const StrokeBegin& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const StrokeDabs& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const StrokeEnd& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const FillLayer& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const LoadLayer& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SwapStroke& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SwapTiles& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetCamera& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetView& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const Undo&, std::vector<Action>&, std::string& error) { return move(done_, undone_, error); }
@@ -68,14 +82,19 @@ class Document {
 
     bool move(std::vector<Step>& from, std::vector<Step>& to, std::string& error);
     void remember(const Action& action, std::vector<Action> back, uint32_t gesture);
+    void forgetOldest();
     bool failed(EspResult result, std::string& error) const;
     std::vector<Param> paramsOf(uint32_t grammar) const;
+    bool setLayer(uint32_t surface, const std::string& layer, const scene::GreyPicture& picture, EspLayerSpace space,
+                  std::string& error);
     bool replant(const std::vector<scene::Seed>& before, std::string& error);
     size_t indexOf(uint32_t key) const;
 
     EspContext* context_;
     scene::Scene scene_;
     std::vector<Step> done_, undone_;
+    EspStroke stroke_{};  // open
+    bool strokeHasDabs_ = false;
     uint64_t revision_ = 0;
     uint32_t lastKey_ = 0;
     Listener listener_;

@@ -2,11 +2,12 @@
 // project.json, which names them, is replaced in one step.
 #include "tools/document/project.hpp"
 
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 
 #include "tools/document/durable.hpp"
 #include "tools/scene/picture.hpp"
-#include "tools/scene/scene_file.hpp"
 
 namespace espalier::document {
 namespace {
@@ -16,6 +17,7 @@ using scene::SceneFile;
 
 constexpr const char* kProject = "project.json";
 constexpr const char* kAutosave = "autosave.json";
+constexpr const char* kLayers = "layers";
 constexpr float kDegrees = 180 / 3.14159265f;
 
 std::array<float, 3> three(const float* v) {
@@ -37,6 +39,37 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
     out.eye = three(scene.camera.eye);
     out.target = three(scene.camera.target);
     out.fov = scene.camera.fovY * kDegrees;
+}
+
+// A name for what the texels are.
+std::string hashOf(const std::vector<float>& texels) {
+    uint64_t hash = 1469598103934665603ull;
+    for (float value : texels) {
+        uint32_t bits;
+        std::memcpy(&bits, &value, sizeof bits);
+        hash = (hash ^ bits) * 1099511628211ull;
+        hash ^= hash >> 29;
+    }
+    char text[20];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+// Each layer into a file, unless a file holds just that already.
+bool writeLayers(const ProjectData& data, const fs::path& folder, SceneFile& out, std::string& error) {
+    for (const ProjectData::Layer& layer : data.layers) {
+        const std::string file =
+            layer.name + "-" + std::to_string(layer.surface) + "-" + hashOf(layer.picture.texels) + ".exr";
+        const fs::path path = folder / kLayers / file;
+        std::error_code code;
+        fs::create_directories(path.parent_path(), code);
+        const auto write = [&](const std::string& beside, std::string& why) {
+            return writeGrey(beside, layer.picture, why);
+        };
+        if (!fs::exists(path, code) && !writeDurably(path.string(), write, error)) return false;
+        out.layers.push_back({layer.name, path.string(), layer.surface});
+    }
+    return true;
 }
 
 SceneFile describe(const Document& document) {
@@ -66,29 +99,59 @@ bool makeFolder(const std::string& folder, std::string& error) {
     return !code;
 }
 
-// What interrupted saves have left behind.
+// What interrupted saves have left behind, and layers that no file of the project names.
 void sweep(const fs::path& folder) {
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-        if (entry.path().filename().string().rfind(kUnfinished, 0) == 0) fs::remove(entry.path(), ignored);
+    std::string named, text, error;
+    for (const char* file : {kProject, kAutosave})
+        if (scene::readText((folder / file).string(), text, error)) named += text;
+    for (const fs::path& place : {folder, folder / kLayers})
+        for (const auto& entry : fs::directory_iterator(place, ignored)) {
+            const std::string name = entry.path().filename().string();
+            const bool unnamed = place != folder && named.find(name) == std::string::npos;
+            if (name.rfind(kUnfinished, 0) == 0 || unnamed) fs::remove(entry.path(), ignored);
+        }
 }
 
-bool save(const Document& document, const std::string& folder, const char* name, std::string& error) {
+bool write(const ProjectData& data, const std::string& folder, const char* name, std::string& error) {
     const std::string path = (fs::path(folder) / name).string();
-    return makeFolder(folder, error) && writeTextDurably(path, writeSceneText(path, describe(document)), error);
+    SceneFile file = data.file;
+    return makeFolder(folder, error) && writeLayers(data, folder, file, error) &&
+           writeTextDurably(path, writeSceneText(path, file), error);
 }
 
 }  // namespace
 
-bool saveProject(const Document& document, const std::string& folder, std::string& error) {
-    if (!save(document, folder, kProject, error)) return false;
+bool gather(const Document& document, ProjectData& out, std::string& error) {
+    out = {describe(document), {}};
+    EspContext* context = document.context();
+    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i) {
+        const std::string name = espPaintedLayerName(context, i);
+        for (size_t surface = 0; surface < document.scene().surfaces.size(); ++surface) {
+            ProjectData::Layer& layer = out.layers.emplace_back();
+            layer.name = name;
+            layer.surface = int(surface);
+            if (!document.readLayer(surface, name, layer.picture, error)) return false;
+        }
+    }
+    return true;
+}
+
+bool writeProject(const ProjectData& data, const std::string& folder, std::string& error) {
+    if (!write(data, folder, kProject, error)) return false;
     dropAutosave(folder);
     sweep(folder);
     return true;
 }
 
+bool saveProject(const Document& document, const std::string& folder, std::string& error) {
+    ProjectData data;
+    return gather(document, data, error) && writeProject(data, folder, error);
+}
+
 bool autosave(const Document& document, const std::string& folder, std::string& error) {
-    return save(document, folder, kAutosave, error);
+    ProjectData data;
+    return gather(document, data, error) && write(data, folder, kAutosave, error);
 }
 
 std::string recoverable(const std::string& folder) {

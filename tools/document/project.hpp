@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/document/document.hpp"
+#include "tools/scene/scene_file.hpp"
 
 namespace espalier::document {
 
@@ -11,7 +13,20 @@ namespace espalier::document {
 // is stopped, the project opens as it was before or as it is after. Files that no project.json names any more are
 // removed afterwards.
 
-// False: `error` tells file and cause, and the project is as it was.
+// All that is written, taken from the document and its context; writing needs neither.
+struct ProjectData {
+    struct Layer {
+        std::string name;
+        int surface = 0;  // index into SceneFile::surfaces
+        scene::GreyPicture picture;
+    };
+    scene::SceneFile file;
+    std::vector<Layer> layers;
+};
+bool gather(const Document& document, ProjectData& out, std::string& error);
+bool writeProject(const ProjectData& data, const std::string& folder, std::string& error);
+
+// Both. False: `error` tells file and cause, and the project is as it was.
 bool saveProject(const Document& document, const std::string& folder, std::string& error);
 
 // The same into autosave.json of the folder, which leaves project.json alone; saveProject removes it.

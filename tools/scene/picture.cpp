@@ -78,6 +78,20 @@ bool readColour(const std::string& path, ColourPicture& out, std::string& error)
     return read(path, 4, OIIO::TypeDesc::UINT8, out.width, out.height, out.rgba, error);
 }
 
+bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error) {
+    const bool floats = std::filesystem::path(path).extension() == ".exr";
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path);
+    OIIO::ImageSpec spec(int(picture.width), int(picture.height), 1,
+                         floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT16);
+    spec["png:compressionLevel"] = 1;
+    spec["compression"] = "zips";
+    spec.channelnames = {"Y"};
+    const bool good = output && output->open(path, spec) &&
+                      output->write_image(OIIO::TypeDesc::FLOAT, picture.texels.data()) && output->close();
+    if (!good) error = path + ": can't be written: " + (output ? output->geterror() : OIIO::geterror());
+    return good;
+}
+
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error) {
     const std::string temporary = temporaryBeside(path);
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");

@@ -20,6 +20,9 @@ struct ColourPicture {
 bool readGrey(const std::string& path, GreyPicture& out, std::string& error);
 bool readColour(const std::string& path, ColourPicture& out, std::string& error);
 
+// Writes one channel: 16 bits as .png, floats as .exr.
+bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error);
+
 // Writes a PNG beside `path` first and renames it, so that a failure leaves nothing half-written.
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error);
 

@@ -1,0 +1,169 @@
+// Moves of the mouse -> dabs: the way between two events is walked in steps of a few pixels, each is picked, and a
+// dab is laid wherever the last one is further away than the spacing, measured in the scene. So the paint doesn't
+// depend on how fast the frames come.
+#define GLFW_INCLUDE_NONE
+#include "sample_game/brush_tool.hpp"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sample {
+namespace {
+
+using namespace espalier::document;
+
+constexpr float kPixelsBetweenPicks = 3;
+constexpr float kSmallest = .005f, kLargest = 20;
+
+const char* modeOf(int mods) {
+    return mods & GLFW_MOD_CONTROL ? "erase" : mods & GLFW_MOD_SHIFT ? "smooth" : "paint";
+}
+
+}  // namespace
+
+void BrushTool::begin(Workspace& work, int mods) {
+    if (work.brush.layer.empty()) {
+        work.error = "No grammar here reads a layer, so there is nothing to paint.";
+        return;
+    }
+    const Brush& b = work.brush;
+    StrokeBegin action;
+    action.layer = b.layer;
+    action.mode = modeOf(mods);
+    action.radius = b.radius;
+    action.strength = b.strength;
+    action.hardness = b.hardness;
+    action.value = b.value;
+    if (b.limited) {
+        action.slope = {b.slope[0] * 3.14159265f / 180, b.slope[1] * 3.14159265f / 180};
+        action.height = {b.height[0], b.height[1]};
+        action.softness = b.softness;
+    }
+    action.frontOnly = b.frontOnly;
+    gesture_ = work.newGesture();
+    painting_ = work.perform(action, gesture_);
+    lastDab_.reset();
+    dabs_.dabs.clear();
+}
+
+void BrushTool::end(Workspace& work) {
+    flush(work);
+    if (painting_) work.perform(StrokeEnd{}, gesture_);
+    painting_ = false;
+}
+
+void BrushTool::flush(Workspace& work) {
+    if (!painting_ || dabs_.dabs.empty()) return;
+    work.perform(dabs_, gesture_);
+    dabs_.dabs.clear();
+}
+
+void BrushTool::cancel(Workspace& work) {
+    if (sizing_ != Sizing::none) (sizing_ == Sizing::radius ? work.brush.radius : work.brush.strength) = before_;
+    sizing_ = Sizing::none;
+    end(work);
+}
+
+void BrushTool::layDab(const Workspace& work, const EspHit& hit) {
+    const glm::vec3 at = vec(hit.position);
+    if (lastDab_ && glm::distance(at, *lastDab_) < work.brush.spacing * work.brush.radius) return;
+    lastDab_ = at;
+    dabs_.dabs.push_back({at.x, at.y, at.z, hit.normal[0], hit.normal[1], hit.normal[2], 1});
+}
+
+void BrushTool::moveTo(Workspace& work, glm::vec2 at) {
+    const float length = glm::distance(at, last_);
+    const int steps = std::clamp(int(length / kPixelsBetweenPicks), 1, 400);
+    for (int i = 1; i <= steps; ++i)
+        if (const auto hit = work.pick(glm::mix(last_, at, float(i) / float(steps)))) layDab(work, *hit);
+    last_ = at;
+}
+
+bool BrushTool::take(Workspace& work, const PointerEvent& event) {
+    using Kind = PointerEvent::Kind;
+    const glm::vec2 at{event.x, event.y};
+    if (sizing_ != Sizing::none) {
+        if (event.kind == Kind::move) {
+            const float moved = (at.x - sizingFrom_.x) / work.scale;
+            if (sizing_ == Sizing::radius)
+                work.brush.radius = std::clamp(before_ * std::exp(moved / 150), kSmallest, kLargest);
+            else
+                work.brush.strength = std::clamp(before_ + moved / 300, .01f, 1.f);
+        } else if (event.kind == Kind::press) {
+            if (event.button == GLFW_MOUSE_BUTTON_RIGHT)
+                cancel(work);
+            else
+                sizing_ = Sizing::none;
+        }
+        return true;
+    }
+    if (event.kind == Kind::press && event.button == GLFW_MOUSE_BUTTON_LEFT) {
+        begin(work, event.mods);
+        last_ = at;
+        if (const auto hit = work.pick(at); painting_ && hit) layDab(work, *hit);
+        return true;
+    }
+    if (!painting_) return false;
+    if (event.kind == Kind::move) moveTo(work, at);
+    if (event.kind == Kind::release && event.button == GLFW_MOUSE_BUTTON_LEFT) end(work);
+    return true;
+}
+
+void BrushTool::startSizing(Workspace& work, glm::vec2 at, bool strength) {
+    if (painting_) return;
+    sizing_ = strength ? Sizing::strength : Sizing::radius;
+    before_ = strength ? work.brush.strength : work.brush.radius;
+    sizingFrom_ = at;
+    sizingAt_ = work.hit;
+}
+
+void BrushTool::draw(const Workspace& work, int mods) const {
+    const auto& hit = sizing_ != Sizing::none ? sizingAt_ : work.hit;
+    if (!hit) return;
+    const std::string mode = modeOf(mods);
+    const ImU32 colour = mode == "erase"    ? IM_COL32(255, 120, 90, 255)
+                         : mode == "smooth" ? IM_COL32(110, 180, 255, 255)
+                                            : IM_COL32(160, 240, 120, 255);
+    const glm::vec3 centre = vec(hit->position), normal = glm::normalize(vec(hit->normal));
+    glm::vec3 u, v;
+    tangents(normal, u, v);
+    // The circle is let down onto the surface where that is near, and hangs free over edges.
+    constexpr int kPoints = 48;
+    const auto ring = [&](float radius, ImVec2* points) {
+        int count = 0;
+        for (int i = 0; i < kPoints; ++i) {
+            const float angle = 6.2831853f * float(i) / kPoints;
+            glm::vec3 p = centre + radius * (std::cos(angle) * u + std::sin(angle) * v);
+            const glm::vec3 from = p + radius * normal, down = -normal;
+            EspHit under;
+            if (espPick(work.context.get(), &from.x, &down.x, &under) == ESP_OK && under.distance < 2 * radius)
+                p = vec(under.position);
+            if (const auto at = work.place(p)) points[count++] = {at->x, at->y};
+        }
+        return count;
+    };
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    ImVec2 outer[kPoints], inner[kPoints];
+    const int count = ring(work.brush.radius, outer);
+    if (count > 2) {
+        list.AddPolyline(outer, count, IM_COL32(0, 0, 0, 160), ImDrawFlags_Closed, 4 * work.scale);
+        list.AddPolyline(outer, count, colour, ImDrawFlags_Closed, 2 * work.scale);
+    }
+    if (work.brush.hardness > .05f) {
+        const int few = ring(work.brush.radius * work.brush.hardness, inner);
+        if (few > 2) list.AddPolyline(inner, few, (colour & 0xFFFFFF) | 0x70000000, ImDrawFlags_Closed, work.scale);
+    }
+    if (const auto at = work.place(centre)) list.AddCircleFilled({at->x, at->y}, 2.5f * work.scale, colour);
+    if (sizing_ == Sizing::none) return;
+    char text[64];
+    if (sizing_ == Sizing::radius)
+        std::snprintf(text, sizeof text, "radius %.2f m", work.brush.radius);
+    else
+        std::snprintf(text, sizeof text, "strength %.2f", work.brush.strength);
+    if (const auto at = work.place(centre)) list.AddText({at->x + 12, at->y - 8}, IM_COL32_WHITE, text);
+}
+
+}  // namespace sample

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "sample_game/input.hpp"
+#include "sample_game/workspace.hpp"
+
+namespace sample {
+
+// Painting: a drag with the left button lays dabs along the way of the mouse over whatever surfaces lie under it.
+// Ctrl erases, Shift smooths, for as long as the stroke lasts. F, then a move sets the radius, with Shift the strength.
+class BrushTool {
+  public:
+    // In order; true: it was the brush's.
+    bool take(Workspace& work, const PointerEvent& event);
+    // After the events of a frame: what they laid goes to the document at once.
+    void flush(Workspace& work);
+    void startSizing(Workspace& work, glm::vec2 at, bool strength);
+    void cancel(Workspace& work);
+    bool painting() const { return painting_; }
+    bool sizing() const { return sizing_ != Sizing::none; }
+    // The circle on the surface, in what the keys would do now.
+    void draw(const Workspace& work, int mods) const;
+
+  private:
+    enum class Sizing { none, radius, strength };
+    void begin(Workspace& work, int mods);
+    void end(Workspace& work);
+    void moveTo(Workspace& work, glm::vec2 at);
+    void layDab(const Workspace& work, const EspHit& hit);
+
+    bool painting_ = false;
+    glm::vec2 last_{0};
+    std::optional<glm::vec3> lastDab_;
+    espalier::document::StrokeDabs dabs_;
+    uint32_t gesture_ = 0;
+    Sizing sizing_ = Sizing::none;
+    glm::vec2 sizingFrom_{0};
+    float before_ = 0;
+    std::optional<EspHit> sizingAt_;
+};
+
+}  // namespace sample

@@ -1,0 +1,55 @@
+// GLFW's callbacks -> lists of events.
+#define GLFW_INCLUDE_NONE
+#include "sample_game/input.hpp"
+
+#include <GLFW/glfw3.h>
+
+#include <utility>
+
+namespace sample {
+
+Input& Input::of(GLFWwindow* window) {
+    return *static_cast<Input*>(glfwGetWindowUserPointer(window));
+}
+
+Input::Input(GLFWwindow* window) : window_(window) {
+    glfwSetWindowUserPointer(window, this);
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
+        if (action != GLFW_RELEASE) of(w).keys_.push_back({key, mods});
+    });
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+        Input& in = of(w);
+        in.x_ = float(x);
+        in.y_ = float(y);
+        in.pointer_.push_back({PointerEvent::Kind::move, 0, in.mods(), in.x_, in.y_});
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
+        Input& in = of(w);
+        double x = 0, y = 0;
+        glfwGetCursorPos(w, &x, &y);
+        in.x_ = float(x);
+        in.y_ = float(y);
+        const auto kind = action == GLFW_PRESS ? PointerEvent::Kind::press : PointerEvent::Kind::release;
+        in.pointer_.push_back({kind, button, mods, in.x_, in.y_});
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { of(w).wheel_ += float(y); });
+}
+
+void Input::take(std::vector<PointerEvent>& pointer, std::vector<KeyEvent>& keys, float& wheel) {
+    pointer = std::exchange(pointer_, {});
+    keys = std::exchange(keys_, {});
+    wheel = std::exchange(wheel_, 0.f);
+}
+
+bool Input::down(int key) const {
+    return glfwGetKey(window_, key) == GLFW_PRESS;
+}
+
+int Input::mods() const {
+    const auto either = [&](int left, int right, int mod) { return down(left) || down(right) ? mod : 0; };
+    return either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT, GLFW_MOD_SHIFT) |
+           either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL, GLFW_MOD_CONTROL) |
+           either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT, GLFW_MOD_ALT);
+}
+
+}  // namespace sample

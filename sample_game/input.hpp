@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+struct GLFWwindow;
+
+namespace sample {
+
+// What came in since the last frame, in order and with the place where it happened. Frames may take long on a software
+// device; asking at a frame's beginning what is down, as ImGui does, would lose strokes and clicks in between.
+struct PointerEvent {
+    enum class Kind { press, move, release };
+    Kind kind = Kind::move;
+    int button = 0;  // GLFW_MOUSE_BUTTON_...; of press and release
+    int mods = 0;    // GLFW_MOD_... as they were then
+    float x = 0, y = 0;
+};
+struct KeyEvent {
+    int key = 0, mods = 0;
+};
+
+class Input {
+  public:
+    // Takes over the window's callbacks; ImGui's backend, which is to be made afterwards, calls on to them.
+    explicit Input(GLFWwindow* window);
+    Input(const Input&) = delete;
+
+    // What came since the last call.
+    void take(std::vector<PointerEvent>& pointer, std::vector<KeyEvent>& keys, float& wheel);
+    bool down(int key) const;
+    int mods() const;
+
+  private:
+    static Input& of(GLFWwindow* window);
+    GLFWwindow* window_;
+    std::vector<PointerEvent> pointer_;
+    std::vector<KeyEvent> keys_;
+    float wheel_ = 0;
+    float x_ = 0, y_ = 0;
+};
+
+}  // namespace sample

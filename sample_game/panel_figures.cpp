@@ -1,0 +1,101 @@
+// Counts, memory and the time of each stage, over the picture at the right.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sample_game/panels.hpp"
+
+namespace sample {
+namespace {
+
+std::string grouped(uint64_t value) {
+    std::string text = std::to_string(value);
+    for (int at = int(text.size()) - 3; at > 0; at -= 3) text.insert(size_t(at), ",");
+    return text;
+}
+
+std::string ms(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, value < 10 ? "%.2f ms" : "%.0f ms", value);
+    return text;
+}
+
+constexpr const char* kStages[] = {"Expand", "Emit", "Draw"};
+constexpr ImU32 kColours[] = {IM_COL32(120, 200, 90, 255), IM_COL32(90, 160, 230, 255), IM_COL32(230, 160, 70, 255)};
+
+// Stages stacked, one column a frame, the latest at the right.
+void graph(const Workspace& work) {
+    const float s = work.scale, height = 56 * s, width = ImGui::GetContentRegionAvail().x;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(0, 0, 0, 90));
+    float highest = 20;
+    for (const auto& frame : work.history) highest = std::max(highest, frame[0] + frame[1] + frame[2]);
+    const float column = 2 * s;
+    const size_t shown = std::min(work.history.size(), size_t(width / column));
+    for (size_t i = 0; i < shown; ++i) {
+        const auto& frame = work.history[work.history.size() - shown + i];
+        const float x = at.x + width - column * float(shown - i);
+        float y = at.y + height;
+        for (int stage = 0; stage < 3; ++stage) {
+            const float top = y - height * frame[stage] / highest;
+            if (y - top > .3f) list.AddRectFilled({x, top}, {x + column - 1, y}, kColours[stage]);
+            y = top;
+        }
+    }
+    list.AddText({at.x + 4, at.y + 2}, ImGui::GetColorU32(ImGuiCol_TextDisabled), ms(highest).c_str());
+    ImGui::Dummy({width, height});
+}
+
+}  // namespace
+
+void showFigures(const Workspace& work, uint32_t validationMessages, bool validation) {
+    if (!work.layout.figures) return;
+    const float s = work.scale, margin = 12 * s;
+    ImGui::SetNextWindowPos({work.window.x - margin, margin + ImGui::GetFrameHeight()}, ImGuiCond_Always, {1, 0});
+    ImGui::SetNextWindowSize({235 * s, 0});
+    ImGui::SetNextWindowBgAlpha(.72f);
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize;
+    if (ImGui::Begin("figures", nullptr, flags)) {
+        const auto row = [](const char* name, const std::string& value, ImU32 colour = 0) {
+            if (colour) {
+                const ImVec2 at = ImGui::GetCursorScreenPos();
+                const float size = ImGui::GetFontSize() * .6f, down = ImGui::GetFontSize() * .25f;
+                ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + down}, {at.x + size, at.y + down + size},
+                                                          colour);
+                ImGui::SetCursorPosX(ImGui::GetCursorPosX() + size * 1.6f);
+            }
+            ImGui::TextDisabled("%s", name);
+            ImGui::SameLine();
+            ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
+            ImGui::TextUnformatted(value.c_str());
+        };
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 2 * s});
+        const EspStats& stats = work.stats;
+        row("Seeds", grouped(stats.seeds));
+        row("Branches", grouped(stats.branches));
+        row("Nodes", grouped(stats.nodes));
+        row("Leaves", grouped(stats.leaves));
+        row("Triangles drawn", grouped(stats.drawnPolygons));
+        row("at full detail", grouped(stats.polygons));
+        ImGui::Spacing();
+        const double times[] = {stats.expandMs, stats.emitMs, stats.drawMs};
+        for (int i = 0; i < 3; ++i) row(kStages[i], ms(times[i]), kColours[i]);
+        row("Frame", ms(work.frameMs));
+        graph(work);
+        row("Grown so far", grouped(stats.expansions));
+        row("GPU memory", grouped(stats.totalBytes >> 20) + " MiB");
+        row("Undo", grouped(work.document->undoSteps()) + " steps");
+        if (stats.overflow) row("Ran out of room", grouped(stats.overflow));
+        if (stats.stopped) row("Stopped by a limit", grouped(stats.stopped));
+        if (validation) row("Validation messages", grouped(validationMessages));
+        ImGui::PopStyleVar();
+    }
+    ImGui::End();
+}
+
+}  // namespace sample

@@ -1,0 +1,284 @@
+// A slider, check box or colour for every parameter of every grammar, its presets, and the window with its text.
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+#include "sample_game/panels.hpp"
+#include "sample_game/settings.hpp"
+
+namespace sample {
+namespace {
+
+using namespace espalier::document;
+
+const ImVec4 kErrorColour{1, .55f, .45f, 1};
+
+float encodeSrgb(float v) {
+    return v <= .0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - .055f;
+}
+float decodeSrgb(float v) {
+    return v <= .04045f ? v / 12.92f : std::pow((v + .055f) / 1.055f, 2.4f);
+}
+
+// "%.2f m": as many digits as the range asks for; a unit may hold a percent sign.
+std::string formatOf(const EspParamInfo& param) {
+    const float range = std::max(std::abs(param.low), std::abs(param.high));
+    const int digits = param.kind == ESP_PARAM_INT ? 0
+                       : range < .1f               ? 4
+                       : range < 1.5f              ? 3
+                       : range < 15                ? 2
+                       : range < 150               ? 1
+                                                   : 0;
+    std::string format = param.low > 0 && param.high / param.low > 200 ? "%.3g" : "%." + std::to_string(digits) + "f";
+    if (param.unit[0]) format += " ";
+    for (const char* c = param.unit; *c; ++c) format += *c == '%' ? std::string("%%") : std::string(1, *c);
+    return format;
+}
+
+bool isInitial(const EspParamInfo& param) {
+    const int count = param.kind == ESP_PARAM_COLOUR ? 3 : 1;
+    for (int i = 0; i < count; ++i)
+        if (std::abs(param.value[i] - param.initial[i]) > 1e-6f * std::max(1.f, std::abs(param.initial[i])))
+            return false;
+    return true;
+}
+
+// One row. True: the value changed.
+bool editParam(const EspParamInfo& param, float* value) {
+    if (param.kind == ESP_PARAM_BOOL) {
+        bool on = value[0] != 0;
+        const bool changed = ImGui::Checkbox("##value", &on);
+        value[0] = on;
+        return changed;
+    }
+    if (param.kind == ESP_PARAM_COLOUR) {
+        float shown[3];
+        for (int i = 0; i < 3; ++i) shown[i] = encodeSrgb(value[i]);
+        if (!ImGui::ColorEdit3("##value", shown, ImGuiColorEditFlags_Float)) return false;
+        for (int i = 0; i < 3; ++i) value[i] = decodeSrgb(shown[i]);
+        return true;
+    }
+    // Ranges over several decades, such as 0.02 to 20, get a slider by ratio.
+    const bool wide = param.low > 0 && param.high / param.low > 200;
+    const ImGuiSliderFlags flags =
+        ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+    return ImGui::SliderFloat("##value", value, param.low, param.high, formatOf(param).c_str(), flags);
+}
+
+void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                        {ImGui::GetStyle().ItemSpacing.x, ImGui::GetStyle().ItemSpacing.y / 3});
+    ImGui::TextUnformatted(param.label);
+    ImGui::PopStyleVar();
+    const float button = ImGui::GetFrameHeight();
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
+    float value[3];
+    std::memcpy(value, param.value, sizeof value);
+    bool changed = editParam(param, value);
+    uint32_t gesture = changed ? widgetGesture(work) : 0;
+    toolTip((std::string(param.name) + "\nCtrl+click to type a value").c_str());
+    if (!isInitial(param)) {
+        ImGui::SameLine();
+        if (ImGui::Button("\u21ba", {button, button})) {
+            std::memcpy(value, param.initial, sizeof value);
+            changed = true;
+            gesture = 0;
+        }
+        toolTip("Back to the grammar's own value");
+    }
+    const int count = param.kind == ESP_PARAM_COLOUR ? 3 : 1;
+    if (changed) work.perform(SetParam{grammar, {param.name, {value, value + count}}}, gesture);
+}
+
+std::vector<Param> values(const Workspace& work, EspGrammar grammar) {
+    std::vector<Param> all;
+    for (uint32_t i = 0; i < espParamCount(work.context.get(), grammar); ++i) {
+        EspParamInfo info;
+        if (espParamInfo(work.context.get(), grammar, i, &info) == ESP_OK)
+            all.push_back({info.name, {info.value, info.value + (info.kind == ESP_PARAM_COLOUR ? 3 : 1)}});
+    }
+    return all;
+}
+
+void presets(Workspace& work, uint32_t index) {
+    const auto& grammar = work.scene().grammars[index];
+    static char name[64] = "";  // of the preset that is being saved
+    ImGui::SetNextItemWidth(-1);
+    if (!ImGui::BeginCombo("##presets", "Presets")) return;
+    const auto apply = [&](const std::vector<Param>& params) {
+        const uint32_t gesture = work.newGesture();
+        for (const Param& param : params) work.perform(SetParam{index, param}, gesture);
+    };
+    if (ImGui::Selectable("As the grammar says")) {
+        std::vector<Param> initial = values(work, grammar.id);
+        for (uint32_t i = 0; i < initial.size(); ++i) {
+            EspParamInfo info;
+            if (espParamInfo(work.context.get(), grammar.id, i, &info) == ESP_OK)
+                initial[i].value.assign(info.initial, info.initial + initial[i].value.size());
+        }
+        apply(initial);
+    }
+    for (const std::string& preset : presetNames(grammarName(work.scene(), index)))
+        if (ImGui::Selectable(preset.c_str())) {
+            std::vector<Param> params;
+            if (readPreset(grammarName(work.scene(), index), preset, params, work.error)) apply(params);
+        }
+    ImGui::Separator();
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 4);
+    ImGui::InputTextWithHint("##name", "name", name, sizeof name);
+    ImGui::SameLine();
+    if (ImGui::Button("Keep", {-1, 0}) && name[0]) {
+        writePreset(grammarName(work.scene(), index), name, values(work, grammar.id), work.error);
+        name[0] = 0;
+    }
+    toolTip("Keeps the values as they are now under this name");
+    ImGui::EndCombo();
+}
+
+// Of "file:line:column: rule: message" lines, those of this file by their line.
+std::vector<std::pair<int, std::string>> mistakes(const espalier::scene::LoadedGrammar& grammar) {
+    std::vector<std::pair<int, std::string>> found;
+    std::istringstream lines(grammar.error);
+    for (std::string line; std::getline(lines, line);) {
+        int number = 0;
+        std::string text = line;
+        if (line.rfind(grammar.file + ":", 0) == 0) {
+            const std::string rest = line.substr(grammar.file.size() + 1);
+            number = std::atoi(rest.c_str());
+            text = "line " + rest;
+        }
+        found.push_back({number, text});
+    }
+    return found;
+}
+
+struct TextState {
+    uint32_t grammar = ~0u;
+    std::string shown;  // what the widget holds
+    int cursorLine = 0, scrolledTo = -1;
+    float changedAt = -1e9f;
+    uint32_t gesture = 0;
+};
+
+int onEdit(ImGuiInputTextCallbackData* data) {
+    auto& state = *static_cast<TextState*>(data->UserData);
+    if (data->EventFlag == ImGuiInputTextFlags_CallbackResize) {
+        state.shown.resize(size_t(data->BufTextLen));
+        data->Buf = state.shown.data();
+    } else {
+        state.cursorLine = int(std::count(data->Buf, data->Buf + data->CursorPos, '\n'));
+    }
+    return 0;
+}
+
+void lineNumbers(int lines, const std::vector<std::pair<int, std::string>>& wrong, float width, float height) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float line = ImGui::GetFontSize(), pad = ImGui::GetStyle().FramePadding.y;
+    for (int i = 1; i <= lines; ++i) {
+        const auto found = std::find_if(wrong.begin(), wrong.end(), [&](const auto& w) { return w.first == i; });
+        const std::string text = std::to_string(i);
+        const ImVec2 place{at.x + width - ImGui::CalcTextSize(text.c_str()).x - 6, at.y + pad + line * float(i - 1)};
+        if (found != wrong.end()) {
+            list.AddRectFilled({at.x, place.y}, {at.x + width - 2, place.y + line}, IM_COL32(150, 40, 30, 255), 2);
+            if (ImGui::IsMouseHoveringRect({at.x, place.y}, {at.x + width + 600, place.y + line}))
+                ImGui::SetTooltip("%s", found->second.c_str());
+        }
+        list.AddText(place, ImGui::GetColorU32(found != wrong.end() ? ImGuiCol_Text : ImGuiCol_TextDisabled),
+                     text.c_str());
+    }
+    ImGui::Dummy({width, height});
+}
+
+}  // namespace
+
+void grammarsPanel(Workspace& work) {
+    for (uint32_t i = 0; i < work.scene().grammars.size(); ++i) {
+        const auto& grammar = work.scene().grammars[i];
+        ImGui::PushID(int(i));
+        if (ImGui::CollapsingHeader(grammarName(work.scene(), i).c_str(),
+                                    i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
+            const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+            if (ImGui::Button("Text  F4", {half, 0})) {
+                work.layout.grammar = !work.layout.grammar || work.openGrammar != i;
+                work.openGrammar = i;
+            }
+            toolTip("Edit the grammar: the plant follows as you type");
+            ImGui::SameLine();
+            presets(work, i);
+            if (!grammar.error.empty()) {
+                ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
+                ImGui::TextWrapped("The text has mistakes; what grew last goes on growing.");
+                ImGui::PopStyleColor();
+            }
+            for (uint32_t p = 0; p < espParamCount(work.context.get(), grammar.id); ++p) {
+                EspParamInfo info;
+                if (espParamInfo(work.context.get(), grammar.id, p, &info) != ESP_OK) continue;
+                ImGui::PushID(int(p));
+                paramRow(work, i, info);
+                ImGui::PopID();
+            }
+        }
+        ImGui::PopID();
+    }
+}
+
+void showGrammarWindow(Workspace& work) {
+    if (!work.layout.grammar || work.scene().grammars.empty()) return;
+    static TextState state;
+    work.openGrammar = std::min(work.openGrammar, uint32_t(work.scene().grammars.size() - 1));
+    const auto& grammar = work.scene().grammars[work.openGrammar];
+    const float s = work.scale;
+    ImGui::SetNextWindowPos({work.window.x - 600 * s, 60 * s}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({580 * s, 520 * s}, ImGuiCond_FirstUseEver);
+    const std::string title = grammarName(work.scene(), work.openGrammar) + "###grammar";
+    if (ImGui::Begin(title.c_str(), &work.layout.grammar)) {
+        const auto wrong = mistakes(grammar);
+        const bool another = state.grammar != work.openGrammar;
+        const bool active = ImGui::GetActiveID() && state.gesture && ImGui::GetTime() - state.changedAt < 1;
+        // Undo and files change the text from outside.
+        if (another || (!active && state.shown != grammar.text)) state.shown = grammar.text;
+        state.grammar = work.openGrammar;
+        const int lines = 1 + int(std::count(state.shown.begin(), state.shown.end(), '\n'));
+        const float line = ImGui::GetFontSize();
+        const float below =
+            wrong.empty() ? line * 1.6f : line * (1.6f + 1.4f * float(std::min<size_t>(wrong.size(), 4)));
+        const float height = line * float(lines + 1) + 2 * ImGui::GetStyle().FramePadding.y;
+        if (ImGui::BeginChild("text", {0, -below})) {
+            const float margin = ImGui::CalcTextSize("0000").x + 8;
+            lineNumbers(lines, wrong, margin, height);
+            ImGui::SameLine(0, 0);
+            const ImGuiInputTextFlags flags = ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CallbackResize |
+                                              ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo;
+            const bool changed = ImGui::InputTextMultiline("##grammar", state.shown.data(), state.shown.size() + 1,
+                                                           {-1, height}, flags, onEdit, &state);
+            if (ImGui::IsItemActive() && state.cursorLine != state.scrolledTo) {
+                state.scrolledTo = state.cursorLine;
+                const float y = line * float(state.cursorLine), view = ImGui::GetWindowHeight();
+                if (y < ImGui::GetScrollY()) ImGui::SetScrollY(y);
+                if (y + 2 * line > ImGui::GetScrollY() + view) ImGui::SetScrollY(y + 2 * line - view);
+            }
+            if (changed && state.shown != grammar.text) {
+                // A pause ends a step of undo.
+                if (ImGui::GetTime() - state.changedAt > 1.5 || !state.gesture) state.gesture = work.newGesture();
+                state.changedAt = float(ImGui::GetTime());
+                work.perform(work.document->withText(work.openGrammar, state.shown), state.gesture);
+            }
+        }
+        ImGui::EndChild();
+        if (wrong.empty()) {
+            ImGui::TextDisabled("It compiles. %d lines, %s", lines, grammar.file.c_str());
+        } else {
+            ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
+            for (size_t i = 0; i < wrong.size() && i < 4; ++i) ImGui::TextWrapped("%s", wrong[i].second.c_str());
+            ImGui::PopStyleColor();
+        }
+    }
+    ImGui::End();
+}
+
+}  // namespace sample

@@ -1,0 +1,289 @@
+// The bar at the top with its dialogues, the line at the bottom, the help.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "sample_game/panels.hpp"
+
+namespace sample {
+namespace {
+
+using namespace espalier::document;
+
+// A dialogue that asks for a path. True: it was confirmed.
+bool askPath(const char* title, const char* label, const char* button, char* path, size_t size) {
+    bool confirmed = false;
+    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return false;
+    ImGui::TextUnformatted(label);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 32);
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    confirmed = ImGui::InputText("##path", path, size, ImGuiInputTextFlags_EnterReturnsTrue);
+    confirmed |= ImGui::Button(button);
+    ImGui::SameLine();
+    const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if (confirmed || cancelled) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    return confirmed && path[0];
+}
+
+struct Dialogues {
+    const char* open = nullptr;
+    char project[512] = "", file[512] = "", run[512] = "", picture[512] = "";
+    std::string layer;  // of the picture
+};
+
+Dialogues& dialogues() {
+    static Dialogues state;
+    return state;
+}
+
+void put(char* to, size_t size, const std::string& text) {
+    std::snprintf(to, size, "%s", text.c_str());
+}
+
+void fileMenu(Workspace& work, Session& session) {
+    Dialogues& d = dialogues();
+    if (ImGui::MenuItem("Open ...", "Ctrl+O")) d.open = "Open";
+    if (ImGui::MenuItem("Save", "Ctrl+S")) askToSave(work, session);
+    if (ImGui::MenuItem("Save as ...")) {
+        put(d.project, sizeof d.project, session.folder());
+        d.open = "Save the project";
+    }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Record a run ...", nullptr, false, !session.recording())) d.open = "Record a run";
+    if (ImGui::MenuItem("End the recording", nullptr, false, session.recording())) session.stopRecording(work);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Quit", "Ctrl+Q")) session.quit = true;
+}
+
+// Of several surfaces each has a picture of its own: mask.png, mask-1.png ...
+std::string pictureOf(const Workspace& work, const std::filesystem::path& path, size_t surface) {
+    if (surface == 0 || work.scene().surfaces.size() < 2) return path.string();
+    return (path.parent_path() / (path.stem().string() + "-" + std::to_string(surface) + path.extension().string()))
+        .string();
+}
+
+void exportLayer(Workspace& work, const std::string& layer, const std::string& path) {
+    work.error.clear();
+    for (size_t i = 0; i < work.scene().surfaces.size(); ++i) {
+        espalier::scene::GreyPicture picture;
+        if (!work.document->readLayer(i, layer, picture, work.error) ||
+            !writeGrey(pictureOf(work, path, i), picture, work.error))
+            return;
+    }
+    work.message = "Written: " + path;
+}
+
+void showDialogues(Workspace& work, Session& session) {
+    Dialogues& d = dialogues();
+    if (d.open) {
+        if (!d.project[0]) put(d.project, sizeof d.project, std::filesystem::path(work.scene().name).stem().string());
+        if (!d.run[0]) put(d.run, sizeof d.run, "run.jsonl");
+        ImGui::OpenPopup(d.open);
+        d.open = nullptr;
+    }
+    if (askPath("Save the project", "Folder of the project:", "Save", d.project, sizeof d.project))
+        session.save(work, d.project);
+    if (askPath("Open", "A project's folder, a scene (.json) or a baked surface (.glb):", "Open", d.file,
+                sizeof d.file))
+        session.openNext = d.file;
+    if (askPath("Record a run", "File for what is done from now on:", "Record", d.run, sizeof d.run))
+        session.startRecording(work, d.run, uint32_t(work.window.x), uint32_t(work.window.y));
+    if (askPath("Import a layer", "Picture in the surface's walk UVs, as the editor exports it:", "Import", d.picture,
+                sizeof d.picture))
+        for (uint32_t i = 0; i < work.scene().surfaces.size(); ++i)
+            work.perform(LoadLayer{d.layer, pictureOf(work, d.picture, i), i, true});
+    if (askPath("Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture,
+                sizeof d.picture))
+        exportLayer(work, d.layer, d.picture);
+    if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");
+    if (ImGui::BeginPopupModal("Unsaved work", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+        ImGui::TextUnformatted("The last session ended without saving. What it had changed was kept.");
+        if (session.recovery().empty()) ImGui::CloseCurrentPopup();
+        if (ImGui::Button("Open it")) {
+            session.openNext = session.recovery();
+            session.forgetRecovery(false);
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::SameLine();
+        if (ImGui::Button("Throw it away")) {
+            session.forgetRecovery(true);
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::EndPopup();
+    }
+}
+
+}  // namespace
+
+void askToSave(Workspace& work, Session& session) {
+    if (!session.folder().empty())
+        session.save(work, session.folder());
+    else
+        dialogues().open = "Save the project";
+}
+
+void askForLayer(const std::string& layer, bool import) {
+    Dialogues& d = dialogues();
+    if (d.layer != layer) put(d.picture, sizeof d.picture, layer + ".exr");
+    d.layer = layer;
+    d.open = import ? "Import a layer" : "Export a layer";
+}
+
+void askToOpen() {
+    dialogues().open = "Open";
+}
+
+void showMenu(Workspace& work, Session& session) {
+    if (ImGui::BeginMainMenuBar()) {
+        if (ImGui::BeginMenu("File")) {
+            fileMenu(work, session);
+            ImGui::EndMenu();
+        }
+        if (ImGui::BeginMenu("Edit")) {
+            const char *undo = work.document->undoName(), *redo = work.document->redoName();
+            const std::string back = undo ? std::string("Undo: ") + undo : "Undo";
+            const std::string again = redo ? std::string("Redo: ") + redo : "Redo";
+            if (ImGui::MenuItem(back.c_str(), "Ctrl+Z", false, undo)) work.perform(Undo{});
+            if (ImGui::MenuItem(again.c_str(), "Ctrl+Shift+Z", false, redo)) work.perform(Redo{});
+            ImGui::EndMenu();
+        }
+        if (ImGui::BeginMenu("View")) {
+            ImGui::MenuItem("Panel", "F2", &work.layout.panel);
+            ImGui::MenuItem("Figures", "F3", &work.layout.figures);
+            ImGui::MenuItem("Grammar", "F4", &work.layout.grammar);
+            ImGui::MenuItem("Coarser while moving", nullptr, &work.layout.halfWhileMoving);
+            toolTip("While the camera moves on a slow device, the picture has half the pixels a side");
+            ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
+            ImGui::SliderFloat("Size of letters", &work.layout.sizeOfAll, .5f, 2.5f, "%.2f",
+                               ImGuiSliderFlags_AlwaysClamp);
+            ImGui::EndMenu();
+        }
+        if (ImGui::BeginMenu("Help")) {
+            ImGui::MenuItem("Keys and mouse", "F1", &work.layout.help);
+            ImGui::EndMenu();
+        }
+        std::string name =
+            session.folder().empty() ? work.scene().name : std::filesystem::path(session.folder()).filename().string();
+        if (session.modified(work)) name += " *";
+        if (session.recording()) name += "   \u25cf recording";
+        ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(name.c_str()).x - 12 * work.scale);
+        ImGui::TextDisabled("%s", name.c_str());
+        ImGui::EndMainMenuBar();
+    }
+    showDialogues(work, session);
+}
+
+void showStatus(const Workspace& work, bool caught, bool flying) {
+    std::string text;
+    if (!work.editing)
+        text = std::string(caught ? "Mouse: look   " : "Click: look around   ") +
+               "W A S D: " + (flying ? "fly   Q E: down, up   G: walk" : "walk   Space: jump   Shift: run   G: fly") +
+               "   Tab: the editor" + (caught ? "   Esc: free the mouse" : "");
+    else if (work.tool == Tool::paint)
+        text = "Drag: paint " + work.brush.layer +
+               "   Ctrl: erase   Shift: smooth   [ ]: size   V: show the layer   right drag: look, with W A S D: fly   "
+               "middle drag: turn";
+    else if (work.tool == Tool::seeds)
+        text =
+            "Click: plant   drag: plant with a direction   Ctrl+drag: a row   click a seed: choose, drag it: move   "
+            "Del: remove";
+    else
+        text =
+            "Drag: turn around   Shift+drag: sideways   wheel: nearer   right drag: look, with W A S D: fly   "
+            "B: paint   S: seeds   Tab: walk";
+    const bool bad = !work.error.empty();
+    const float height = ImGui::GetFrameHeight() + 4 * work.scale;
+    ImGui::SetNextWindowPos({0, work.window.y - height});
+    ImGui::SetNextWindowSize({work.window.x, height});
+    ImGui::SetNextWindowBgAlpha(work.editing ? .96f : .55f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12 * work.scale, 4 * work.scale});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                   ImGuiWindowFlags_NoNav;
+    if (ImGui::Begin("status", nullptr, flags)) {
+        ImGui::TextUnformatted(text.c_str());
+        const std::string& news = bad ? work.error : work.message;
+        const std::string line = news.substr(0, news.find('\n'));
+        const float width = ImGui::CalcTextSize(line.c_str()).x;
+        if (!line.empty()) {
+            ImGui::SameLine(std::max(ImGui::CalcTextSize(text.c_str()).x + 40 * work.scale,
+                                     work.window.x - width - 12 * work.scale));
+            ImGui::TextColored(bad ? ImVec4(1, .55f, .45f, 1) : ImVec4(.62f, .85f, .5f, 1), "%s", line.c_str());
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", news.c_str());
+        }
+    }
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+}
+
+void showHelp(Workspace& work) {
+    if (!work.layout.help) return;
+    struct Row {
+        const char *keys, *what;
+    };
+    const Row camera[] = {{"Tab", "between the game and the editor"},
+                          {"W A S D, mouse", "walk and look (game); G flies, Space jumps, Shift runs"},
+                          {"Middle drag, Alt+drag", "turn around; with Shift sideways"},
+                          {"Right drag", "look around; with W A S D Q E fly"},
+                          {"Wheel", "nearer, further"},
+                          {"Home", "show everything"}};
+    const Row paint[] = {{"B, then drag", "paint the chosen layer"},
+                         {"Ctrl+drag, Shift+drag", "erase, smooth"},
+                         {"[ and ]", "smaller, larger brush"},
+                         {"F, Shift+F, then move", "radius, strength; click to keep it"},
+                         {"V", "show or hide what is painted"}};
+    const Row seeds[] = {{"S, then click", "plant; drag gives the direction"},
+                         {"Ctrl+drag", "plant a row"},
+                         {"Click, Shift+click", "choose seeds; drag moves them"},
+                         {"A, Del", "choose all, remove"},
+                         {"R", "other random numbers for all"}};
+    const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z", "undo, redo: of everything"},
+                       {"Ctrl+S, Ctrl+O", "save, open"},
+                       {"1 2 3 4", "shaded, charts, normals, levels of detail"},
+                       {"F2 F3 F4", "panel, figures, grammar"},
+                       {"F12", "write a screenshot"},
+                       {"Esc", "puts the tool away"}};
+    ImGui::SetNextWindowPos({work.window.x / 2, work.window.y / 2}, ImGuiCond_Always, {.5f, .5f});
+    ImGui::SetNextWindowSize({680 * work.scale, 0});
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
+    if (ImGui::Begin("Keys and mouse", &work.layout.help, flags)) {
+        ImGui::TextWrapped(
+            "A path of ivy up a wall: B, Clear the mask, drag up the wall; then S and a "
+            "click at the foot of what you painted.");
+        const auto table = [&](const char* title, const Row* rows, size_t count) {
+            ImGui::Spacing();
+            ImGui::TextColored({.62f, .85f, .5f, 1}, "%s", title);
+            if (!ImGui::BeginTable(title, 2)) return;
+            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 230 * work.scale);
+            for (size_t i = 0; i < count; ++i) {
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(rows[i].keys);
+                ImGui::TableNextColumn();
+                ImGui::TextDisabled("%s", rows[i].what);
+            }
+            ImGui::EndTable();
+        };
+        table("Camera", camera, std::size(camera));
+        table("Painting", paint, std::size(paint));
+        table("Seeds", seeds, std::size(seeds));
+        table("Everything", all, std::size(all));
+    }
+    ImGui::End();
+}
+
+void showGrowing(const Workspace& work) {
+    ImGui::SetNextWindowPos({(work.window.x + work.panelUnits()) / 2, work.window.y - 90 * work.scale},
+                            ImGuiCond_Always, {.5f, .5f});
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
+    if (ImGui::Begin("growing", nullptr, flags)) ImGui::TextUnformatted("Growing ...");
+    ImGui::End();
+}
+
+}  // namespace sample

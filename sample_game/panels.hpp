@@ -1,0 +1,36 @@
+#pragma once
+
+#include "sample_game/session.hpp"
+#include "sample_game/workspace.hpp"
+
+namespace sample {
+
+// Each is laid out between ImGui::NewFrame and Render, shows the workspace and performs what the user does with it.
+void showMenu(Workspace& work, Session& session);  // the bar at the top, and its dialogues
+void showPanel(Workspace& work);                   // at the left: the tool, layers, seeds, grammars, light
+void showGrammarWindow(Workspace& work);           // the text, with mistakes at their lines
+void showFigures(const Workspace& work, uint32_t validationMessages, bool validation);
+void showStatus(const Workspace& work, bool caught, bool flying);  // at the bottom: what keys and buttons do now
+void showHelp(Workspace& work);                                    // over all: F1
+void showGrowing(const Workspace& work);                           // while growth takes longer than a blink
+
+// Ctrl+S and Ctrl+O: at once, or by a dialogue of showMenu().
+void askToSave(Workspace& work, Session& session);
+void askToOpen();
+void askForLayer(const std::string& layer, bool import);
+
+// The parts of showPanel().
+void brushPanel(Workspace& work);
+void layersPanel(Workspace& work);
+void seedsPanel(Workspace& work);
+void grammarsPanel(Workspace& work);
+void lightPanel(Workspace& work);
+
+// A grammar's file, told apart from others of the same file by its place.
+std::string grammarName(const espalier::scene::Scene& scene, size_t index);
+// The number that belongs to the widget that is being dragged or typed into: what it does is one step of undo.
+uint32_t widgetGesture(Workspace& work);
+// Shown when the mouse rests on the last widget.
+void toolTip(const char* text);
+
+}  // namespace sample

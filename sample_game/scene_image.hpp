@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include "plugin_api/espalier.h"
+#include "sample_game/vulkan_host.hpp"
+
+namespace sample {
+
+// The picture of the scene, kept between frames: while only the panels change, it is copied into the window instead of
+// being drawn anew, which on a software device is the difference between a sluggish panel and one that isn't felt.
+// While the camera moves it may be drawn smaller and is enlarged.
+class SceneImage {
+  public:
+    explicit SceneImage(const VulkanHost& host) : host_(host) {}
+    SceneImage(const SceneImage&) = delete;
+    ~SceneImage();
+
+    // Records into the frame. draw: what to look at; its size, image and frame are filled in. redraw: false shows
+    // what was drawn last, if that had this size. scale: of the sides, above 0, up to 1. Leaves the window's image in
+    // COLOR_ATTACHMENT_OPTIMAL.
+    bool show(EspContext* context, const Frame& frame, EspDrawDef draw, float scale, bool redraw);
+    const std::string& error() const { return error_; }
+    // Whether the last show() drew.
+    bool drew() const { return drew_; }
+
+  private:
+    bool make(uint32_t width, uint32_t height);
+    void drop();
+    bool check(VkResult result, const char* what);
+
+    const VulkanHost& host_;
+    std::string error_;
+    VkImage image_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
+    VkExtent2D size_{}, drawn_{}, window_{};
+    bool drew_ = false;
+};
+
+}  // namespace sample

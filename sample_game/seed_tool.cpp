@@ -1,0 +1,155 @@
+// Clicks and drags -> seeds that come, move and go. Markers are drawn over the scene.
+#define GLFW_INCLUDE_NONE
+#include "sample_game/seed_tool.hpp"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <random>
+
+namespace sample {
+namespace {
+
+using namespace espalier::document;
+using espalier::scene::Seed;
+
+constexpr float kReach = 11;      // pixels at 96 dpi around a seed's marker
+constexpr float kRowStep = .25f;  // metres between two seeds of a row
+constexpr float kArrow = .3f;     // metres
+
+}  // namespace
+
+SeedRecord SeedTool::newSeed(Workspace& work, const EspHit& hit) const {
+    return {work.document->freshKey(), work.plantGrammar, array(vec(hit.position)), {0, 1, 0}, std::random_device()()};
+}
+
+void SeedTool::plant(Workspace& work, const SeedRecord& seed, uint32_t gesture) {
+    if (work.perform(AddSeeds{{seed}, {uint32_t(work.scene().seeds.size())}}, gesture)) work.selected = {seed.key};
+}
+
+uint32_t SeedTool::seedAt(const Workspace& work, glm::vec2 at) const {
+    uint32_t best = 0;
+    float nearest = kReach * work.scale;
+    for (const Seed& seed : work.scene().seeds) {
+        const auto place = work.place(vec(seed.position));
+        if (!place || glm::distance(*place, at) > nearest || !work.visible(vec(seed.position))) continue;
+        nearest = glm::distance(*place, at);
+        best = seed.key;
+    }
+    return best;
+}
+
+bool SeedTool::take(Workspace& work, const PointerEvent& event) {
+    using Kind = PointerEvent::Kind;
+    const glm::vec2 at{event.x, event.y};
+    if (event.kind == Kind::press && event.button == GLFW_MOUSE_BUTTON_LEFT) {
+        from_ = last_ = at;
+        moved_ = false;
+        gesture_ = work.newGesture();
+        if (const uint32_t key = seedAt(work, at)) {
+            const bool more = event.mods & GLFW_MOD_SHIFT;
+            if (more && work.selected.erase(key)) return true;
+            if (!more && !work.selected.count(key)) work.selected.clear();
+            work.selected.insert(key);
+            drag_ = Drag::move;
+            return true;
+        }
+        const auto hit = work.pick(at);
+        if (!hit) {
+            work.selected.clear();
+            return true;
+        }
+        pending_ = newSeed(work, *hit);
+        normal_ = vec(hit->normal);
+        drag_ = event.mods & GLFW_MOD_CONTROL ? Drag::row : Drag::direction;
+        if (drag_ == Drag::row) {
+            plant(work, pending_, gesture_);
+            lastInRow_ = vec(hit->position);
+        }
+        return true;
+    }
+    if (drag_ == Drag::none) return false;
+    if (event.kind == Kind::move) {
+        moved_ = moved_ || glm::distance(at, from_) > 4 * work.scale;
+        const auto hit = work.pick(at);
+        if (!moved_ || !hit) return true;
+        const glm::vec3 point = vec(hit->position);
+        if (drag_ == Drag::direction) {
+            const glm::vec3 to = point - vec(pending_.position);
+            if (glm::length(to) > 1e-4f) pending_.direction = array(glm::normalize(to));
+        } else if (drag_ == Drag::row && lastInRow_ && glm::distance(point, *lastInRow_) > kRowStep) {
+            plant(work, newSeed(work, *hit), gesture_);
+            lastInRow_ = point;
+        } else if (drag_ == Drag::move) {
+            const auto before = work.pick(last_);
+            if (!before) return true;
+            const glm::vec3 by = point - vec(before->position);
+            ChangeSeeds change;
+            for (uint32_t key : work.selected)
+                if (const Seed* seed = work.document->seed(key)) {
+                    SeedRecord record = work.document->recordOf(*seed);
+                    record.position = array(vec(record.position) + by);
+                    // A single one follows the mouse onto whatever surface is under it.
+                    if (work.selected.size() == 1) record.position = array(point);
+                    change.seeds.push_back(record);
+                }
+            work.perform(change, gesture_);
+        }
+        last_ = at;
+        return true;
+    }
+    if (event.kind == Kind::release && event.button == GLFW_MOUSE_BUTTON_LEFT) {
+        if (drag_ == Drag::direction) plant(work, pending_, gesture_);
+        drag_ = Drag::none;
+    }
+    return true;
+}
+
+void SeedTool::remove(Workspace& work) {
+    RemoveSeeds action;
+    for (const Seed& seed : work.scene().seeds)
+        if (work.selected.count(seed.key)) action.keys.push_back(seed.key);
+    if (!action.keys.empty()) work.perform(action);
+    work.selected.clear();
+}
+
+void SeedTool::selectAll(Workspace& work) {
+    std::set<uint32_t> all;
+    for (const Seed& seed : work.scene().seeds) all.insert(seed.key);
+    work.selected = work.selected == all ? std::set<uint32_t>{} : all;
+}
+
+void SeedTool::draw(const Workspace& work) const {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float s = work.scale;
+    const auto arrow = [&](glm::vec3 from, glm::vec3 direction, ImU32 colour, float width) {
+        const auto a = work.place(from), b = work.place(from + kArrow * direction);
+        if (!a || !b) return;
+        list.AddLine({a->x, a->y}, {b->x, b->y}, IM_COL32(0, 0, 0, 150), width + 2 * s);
+        list.AddLine({a->x, a->y}, {b->x, b->y}, colour, width);
+        const glm::vec2 along = *b - *a;
+        const float length = glm::length(along);
+        if (length < 4) return;
+        const glm::vec2 d = along / length * 7.f * s, side{-d.y * .6f, d.x * .6f};
+        list.AddTriangleFilled({b->x + d.x * .4f, b->y + d.y * .4f},
+                               {b->x - d.x * .6f + side.x, b->y - d.y * .6f + side.y},
+                               {b->x - d.x * .6f - side.x, b->y - d.y * .6f - side.y}, colour);
+    };
+    for (const Seed& seed : work.scene().seeds) {
+        const glm::vec3 point = vec(seed.position);
+        const auto at = work.place(point);
+        if (!at) continue;
+        const bool chosen = work.selected.count(seed.key);
+        const ImU32 alpha = work.visible(point) ? 0xFF000000 : 0x50000000;
+        const ImU32 colour = (chosen ? IM_COL32(255, 190, 60, 0) : IM_COL32(235, 245, 225, 0)) | alpha;
+        const glm::vec3 direction = vec(seed.direction);
+        if (chosen && glm::length(direction) > 0) arrow(point, glm::normalize(direction), colour, 2 * s);
+        list.AddCircleFilled({at->x, at->y}, 5.5f * s, IM_COL32(0, 0, 0, 0) | (alpha / 2 & 0xFF000000));
+        list.AddCircleFilled({at->x, at->y}, 4 * s, colour);
+    }
+    if (drag_ == Drag::direction)
+        arrow(vec(pending_.position), vec(pending_.direction), IM_COL32(255, 190, 60, 255), 2.5f * s);
+}
+
+}  // namespace sample

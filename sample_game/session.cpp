@@ -1,0 +1,124 @@
+// Saves and autosaves by tools/document, grammars' files by their times, runs by the document's listener.
+#include "sample_game/session.hpp"
+
+#include <algorithm>
+
+#include "sample_game/settings.hpp"
+#include "tools/document/project.hpp"
+#include "tools/scene/picture.hpp"
+
+namespace sample {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace espalier::document;
+
+constexpr double kAutosaveEvery = 60, kLookEvery = .3;  // seconds
+
+// The newest change among the grammars of a folder: an included file counts too.
+fs::file_time_type newestGrammar(const fs::path& file) {
+    fs::file_time_type newest = fs::file_time_type::min();
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(file.parent_path().empty() ? "." : file.parent_path(), ignored))
+        if (entry.path().extension() == ".grammar" || entry.path() == file)
+            newest = std::max(newest, entry.last_write_time(ignored));
+    return newest;
+}
+
+}  // namespace
+
+void Session::begin(Workspace& work, const std::string& file) {
+    file_ = fs::absolute(file).lexically_normal().string();
+    fs::path place(file_);
+    std::error_code ignored;
+    const bool recovered = place.filename() == "autosave.json";
+    if (place.filename() == "project.json" || recovered) place = place.parent_path();
+    folder_ = fs::exists(place / "project.json", ignored) ? place.string() : "";
+    savedRevision_ = recovered ? ~0ull : work.document->revision();
+    autosavedRevision_ = work.document->revision();
+    recovery_ = recovered ? "" : recoverable(autosaveFolder());
+    grammarTimes_.clear();
+    for (const auto& grammar : work.scene().grammars) grammarTimes_.push_back(newestGrammar(grammar.file));
+    work.document->listen([this](const Action& action, uint32_t gesture) { recorder_.note(action, gesture); });
+}
+
+std::string Session::autosaveFolder() const {
+    if (!folder_.empty()) return folder_;
+    // Of what was never saved, beside the user's settings, by the file that it was opened from.
+    std::string name = file_;
+    std::replace(name.begin(), name.end(), '/', '-');
+    return configFolder().empty() ? "" : configFolder() + "/unsaved/" + name;
+}
+
+bool Session::step(Workspace& work, double now) {
+    if (now >= nextAutosave_) {
+        nextAutosave_ = now + kAutosaveEvery;
+        const uint64_t revision = work.document->revision();
+        if (recovery_.empty() && modified(work) && revision != autosavedRevision_ && !autosaveFolder().empty() &&
+            autosave(*work.document, autosaveFolder(), work.error))
+            autosavedRevision_ = revision;
+    }
+    if (now < nextLook_) return false;
+    nextLook_ = now + kLookEvery;
+    return watchGrammars(work);
+}
+
+bool Session::watchGrammars(Workspace& work) {
+    bool changed = false;
+    grammarTimes_.resize(work.scene().grammars.size(), fs::file_time_type::min());
+    for (uint32_t i = 0; i < work.scene().grammars.size(); ++i) {
+        const std::string file = work.scene().grammars[i].file;
+        const fs::file_time_type time = newestGrammar(file);
+        if (time == grammarTimes_[i]) continue;
+        grammarTimes_[i] = time;
+        std::string text;
+        if (espalier::scene::readText(file, text, work.error)) work.perform(work.document->withText(i, text));
+        changed = true;
+    }
+    return changed;
+}
+
+void Session::end(Workspace& work) {
+    if (recording()) stopRecording(work);
+    if (modified(work) && recovery_.empty() && !autosaveFolder().empty())
+        autosave(*work.document, autosaveFolder(), work.error);
+}
+
+void Session::save(Workspace& work, const std::string& folder) {
+    work.error.clear();
+    if (!saveProject(*work.document, folder, work.error)) return;
+    if (folder_.empty() && !autosaveFolder().empty()) {
+        std::error_code ignored;
+        fs::remove_all(autosaveFolder(), ignored);
+    }
+    folder_ = fs::absolute(folder).lexically_normal().string();
+    savedRevision_ = autosavedRevision_ = work.document->revision();
+    recovery_.clear();
+    work.message = "Saved: " + folder;
+}
+
+void Session::forgetRecovery(bool deleteIt) {
+    if (deleteIt) dropAutosave(fs::path(recovery_).parent_path().string());
+    recovery_.clear();
+}
+
+bool Session::startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height) {
+    work.error.clear();
+    std::string from = file_;
+    // What was edited since is part of what the run begins with.
+    if (work.document->revision() != 0) {
+        from = path + ".project";
+        if (!saveProject(*work.document, from, work.error)) return false;
+    }
+    if (!recorder_.begin(path, {1, from, width, height, 1 / 30.f}, work.error)) return false;
+    recordingTo_ = path;
+    const EspCamera camera = work.camera.camera(0);
+    return work.perform(SetCamera{array(vec(camera.eye)), array(vec(camera.target)), camera.fovY});
+}
+
+void Session::stopRecording(Workspace& work) {
+    work.message = "Recorded: " + recordingTo_ + ", " + std::to_string(recorder_.frame() + 1) + " frames";
+    recorder_.end();
+}
+
+}  // namespace sample

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sample_game/workspace.hpp"
+#include "tools/document/run.hpp"
+
+namespace sample {
+
+// The document's life on disk: saving, autosaves, what changes there from outside, and runs that are recorded.
+class Session {
+  public:
+    // After the document was opened from `file`.
+    void begin(Workspace& work, const std::string& file);
+    // Once a frame, with the seconds since the program's start: looks at grammars' files and autosaves in time.
+    // True: something has changed.
+    bool step(Workspace& work, double now);
+    // The end of the program: what wasn't saved stays as an autosave.
+    void end(Workspace& work);
+
+    // The project's folder; empty: the document was never saved.
+    const std::string& folder() const { return folder_; }
+    bool modified(const Workspace& work) const { return work.document->revision() != savedRevision_; }
+    void save(Workspace& work, const std::string& folder);
+    // Of an earlier run that ended without saving; empty: there is none. Asked until answered.
+    const std::string& recovery() const { return recovery_; }
+    void forgetRecovery(bool deleteIt);
+
+    // What to open next; the application does it.
+    std::string openNext;
+    bool quit = false;
+
+    bool recording() const { return recorder_.on(); }
+    // Of what was opened; the run's file names it.
+    bool startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height);
+    void stopRecording(Workspace& work);
+    void nextFrame() { recorder_.nextFrame(); }
+
+  private:
+    std::string autosaveFolder() const;
+    bool watchGrammars(Workspace& work);
+
+    std::string file_, folder_, recovery_, recordingTo_;
+    uint64_t savedRevision_ = 0, autosavedRevision_ = 0;
+    double nextAutosave_ = 0, nextLook_ = 0;
+    std::vector<std::filesystem::file_time_type> grammarTimes_;
+    espalier::document::Recorder recorder_;
+};
+
+}  // namespace sample

@@ -1,0 +1,147 @@
+// Mouse and keys in, a camera out. Pitch stops short of the poles, so that up stays up. Walking asks the plugin for
+// the ground and for walls, as any game asks its physics.
+#include "sample_game/view_camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sample {
+namespace {
+
+constexpr float kMaxPitch = 1.55f;
+constexpr float kEyeHeight = 1.65f, kBody = .3f, kStep = .45f, kGravity = 9.81f;
+
+bool pick(const EspContext* context, glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
+    return espPick(context, &from.x, &along.x, &hit) == ESP_OK && hit.distance <= reach;
+}
+
+}  // namespace
+
+void ViewCamera::set(const EspCamera& camera, float reach) {
+    eye_ = {camera.eye[0], camera.eye[1], camera.eye[2]};
+    const glm::vec3 d = glm::vec3(camera.target[0], camera.target[1], camera.target[2]) - eye_;
+    distance_ = std::max(glm::length(d), 1e-4f);
+    yaw_ = std::atan2(-d.x, -d.z);
+    pitch_ = std::clamp(std::asin(std::clamp(d.y / distance_, -1.f, 1.f)), -kMaxPitch, kMaxPitch);
+    fovY_ = camera.fovY;
+    reach_ = std::max(reach, 1e-3f);
+    fall_ = 0;
+}
+
+glm::vec3 ViewCamera::ahead() const {
+    const float c = std::cos(pitch_);
+    return {-c * std::sin(yaw_), std::sin(pitch_), -c * std::cos(yaw_)};
+}
+glm::vec3 ViewCamera::right() const {
+    return {std::cos(yaw_), 0, -std::sin(yaw_)};
+}
+glm::vec3 ViewCamera::above() const {
+    return glm::cross(right(), ahead());
+}
+
+void ViewCamera::look(float x, float y) {
+    yaw_ -= 2.5f * x;
+    pitch_ = std::clamp(pitch_ - 2.5f * y, -kMaxPitch, kMaxPitch);
+}
+
+void ViewCamera::orbit(float x, float y) {
+    const glm::vec3 target = eye_ + distance_ * ahead();
+    yaw_ -= 4 * x;
+    pitch_ = std::clamp(pitch_ - 4 * y, -kMaxPitch, kMaxPitch);
+    eye_ = target - distance_ * ahead();
+}
+
+void ViewCamera::pan(float x, float y) {
+    // What is under the mouse stays under it, at the target's depth.
+    const float metres = 2 * distance_ * std::tan(fovY_ / 2);
+    eye_ += metres * (-x * right() + y * above());
+}
+
+void ViewCamera::zoom(float steps) {
+    const glm::vec3 target = eye_ + distance_ * ahead();
+    distance_ = std::clamp(distance_ * std::pow(.88f, steps), reach_ * 1e-3f, reach_ * 50);
+    eye_ = target - distance_ * ahead();
+}
+
+void ViewCamera::fly(glm::vec3 steps, float seconds, bool fast) {
+    const float speed = std::clamp(reach_ * .2f, .3f, 12.f) * (fast ? 3.f : 1.f);
+    eye_ += seconds * speed * (steps.x * right() + steps.y * glm::vec3(0, 1, 0) + steps.z * ahead());
+    fall_ = 0;
+}
+
+void ViewCamera::walk(const EspContext* context, glm::vec2 rightAhead, float seconds, bool fast, bool jump) {
+    const glm::vec3 level{-std::sin(yaw_), 0, -std::cos(yaw_)};
+    glm::vec3 move = (rightAhead.x * right() + rightAhead.y * level) * (fast ? 3.4f : 1.7f) * seconds;
+    // Against a wall only what goes along it is left; in a corner nothing.
+    for (int wall = 0; wall < 2 && glm::length(move) > 1e-5f; ++wall) {
+        EspHit hit;
+        const glm::vec3 knee = eye_ - glm::vec3(0, kEyeHeight - kStep - .1f, 0);
+        const float length = glm::length(move);
+        if (!pick(context, knee, move / length, length + kBody, hit) &&
+            !pick(context, eye_ - glm::vec3(0, .2f, 0), move / length, length + kBody, hit))
+            break;
+        glm::vec3 normal{hit.normal[0], 0, hit.normal[2]};
+        if (glm::length(normal) < .3f) break;  // a slope: walked up
+        normal = glm::normalize(normal);
+        if (wall == 1)
+            move = {};
+        else
+            move -= std::min(0.f, glm::dot(move, normal)) * normal;
+    }
+    eye_ += move;
+    EspHit ground;
+    const float drop = std::max(0.f, -fall_ * seconds);
+    const glm::vec3 hip = eye_ - glm::vec3(0, kEyeHeight - kStep, 0);
+    const bool stands = fall_ <= 0 && pick(context, hip, {0, -1, 0}, 2 * kStep + drop, ground);
+    if (stands && jump) {
+        fall_ = 3.4f;
+    } else if (stands) {
+        // Steps are climbed within a tenth of a second, not in one frame.
+        const float rise = ground.position[1] + kEyeHeight - eye_.y;
+        eye_.y += fall_ < 0 ? rise : rise * std::min(1.f, seconds * 12);
+        fall_ = 0;
+        return;
+    }
+    fall_ -= kGravity * seconds;
+    // Off the world's rim there is nothing to fall onto.
+    if (fall_ < 0 && !pick(context, eye_, {0, -1, 0}, 1e6f, ground)) {
+        fall_ = 0;
+        return;
+    }
+    eye_.y += fall_ * seconds;
+}
+
+EspCamera ViewCamera::camera(float shift) const {
+    EspCamera camera{};
+    camera.shift[0] = shift;
+    const glm::vec3 target = eye_ + distance_ * ahead();
+    for (int i = 0; i < 3; ++i) {
+        camera.eye[i] = eye_[i];
+        camera.target[i] = target[i];
+    }
+    camera.up[1] = 1;
+    camera.fovY = fovY_;
+    camera.nearPlane = std::clamp(distance_ * .02f, reach_ * 1e-4f, std::min(.08f, reach_ * .02f));
+    return camera;
+}
+
+Ray ViewCamera::ray(glm::vec2 at, float aspect, float shift) const {
+    const float t = std::tan(fovY_ / 2);
+    return {eye_,
+            glm::normalize((2 * at.x - 1 - shift) * t * aspect * right() + (1 - 2 * at.y) * t * above() + ahead())};
+}
+
+bool ViewCamera::project(glm::vec3 point, float aspect, float shift, glm::vec2& at) const {
+    const glm::vec3 d = point - eye_;
+    const float depth = glm::dot(d, ahead()), t = std::tan(fovY_ / 2);
+    if (depth < 1e-3f) return false;
+    at.x = .5f * (glm::dot(d, right()) / (depth * t * aspect) + 1 + shift);
+    at.y = .5f * (1 - glm::dot(d, above()) / (depth * t));
+    return true;
+}
+
+float ViewCamera::pixelsPerMetre(float distance, float height) const {
+    return height / (2 * std::max(distance, 1e-3f) * std::tan(fovY_ / 2));
+}
+
+}  // namespace sample

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "plugin_api/espalier.h"
+
+namespace sample {
+
+struct Ray {
+    glm::vec3 origin, direction;
+};
+
+// The camera of the game and of the editor: it stands at `eye` and looks along yaw and pitch, at a point `distance`
+// away, about which the editor turns it. Angles in radians, lengths in metres.
+class ViewCamera {
+  public:
+    // reach: how large what is looked at is.
+    void set(const EspCamera& camera, float reach);
+
+    // ---- Editor. Moves of the mouse by fractions of the window's height; x to the right, y down.
+    void orbit(float x, float y);
+    void pan(float x, float y);
+    void zoom(float steps);  // positive: nearer
+    // ---- Both
+    void look(float x, float y);
+    // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`.
+    void fly(glm::vec3 steps, float seconds, bool fast);
+    // ---- Game: on the ground, with a body that walls stop and steps don't. Falls if there is nothing below.
+    void walk(const EspContext* context, glm::vec2 rightAhead, float seconds, bool fast, bool jump);
+    bool falling() const { return fall_ < 0; }
+
+    // shift: of the lens, to the right; see EspCamera.
+    EspCamera camera(float shift) const;
+    // Through a point of the window, 0 to 1, the first at the left and top.
+    Ray ray(glm::vec2 at, float aspect, float shift) const;
+    // Where a point is seen, as for ray(); false: behind the camera.
+    bool project(glm::vec3 point, float aspect, float shift, glm::vec2& at) const;
+
+    glm::vec3 eye() const { return eye_; }
+    glm::vec3 ahead() const;
+    float distance() const { return distance_; }
+    float pixelsPerMetre(float distance, float height) const;
+
+  private:
+    glm::vec3 right() const;
+    glm::vec3 above() const;
+
+    glm::vec3 eye_{0, 1.7f, 5};
+    float yaw_ = 0, pitch_ = 0, distance_ = 5, fovY_ = .7f, reach_ = 1;
+    float fall_ = 0;  // metres a second upward
+};
+
+}  // namespace sample

@@ -1,0 +1,70 @@
+// Points of the window to points of the scene and back, and the way of an action to the document.
+#include "sample_game/workspace.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sample {
+
+glm::vec3 vec(const float* v) {
+    return {v[0], v[1], v[2]};
+}
+glm::vec3 vec(const std::array<float, 3>& v) {
+    return {v[0], v[1], v[2]};
+}
+std::array<float, 3> array(glm::vec3 v) {
+    return {v.x, v.y, v.z};
+}
+
+void tangents(glm::vec3 normal, glm::vec3& u, glm::vec3& v) {
+    u = glm::normalize(glm::cross(normal, std::abs(normal.y) < .9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
+    v = glm::cross(normal, u);
+}
+
+float Workspace::panelUnits() const {
+    return editing && layout.panel ? std::min(layout.panelWidth * scale, window.x * .6f) : 0;
+}
+
+// So that what is looked at stands in the middle of what the panel leaves free.
+float Workspace::shift() const {
+    return panelUnits() / std::max(1.f, window.x);
+}
+
+bool Workspace::perform(const espalier::document::Action& action, uint32_t gesture) {
+    error.clear();
+    redraw = true;
+    return document->perform(action, error, gesture);
+}
+
+void Workspace::choose(Tool chosen) {
+    using espalier::document::SetView;
+    const bool layer = scene().look.view == ESP_VIEW_LAYER;
+    if (chosen == Tool::paint && tool != Tool::paint && scene().look.view == ESP_VIEW_SHADED && !brush.layer.empty())
+        perform(SetView{"layer", brush.layer});
+    if (chosen != Tool::paint && tool == Tool::paint && layer) perform(SetView{"shaded", ""});
+    tool = chosen;
+}
+
+std::optional<EspHit> Workspace::pick(glm::vec2 at) const {
+    const Ray ray = camera.ray(at / window, window.x / window.y, shift());
+    EspHit found;
+    if (espPick(context.get(), &ray.origin.x, &ray.direction.x, &found) != ESP_OK) return {};
+    return found;
+}
+
+std::optional<glm::vec2> Workspace::place(glm::vec3 point) const {
+    glm::vec2 at;
+    if (!camera.project(point, window.x / window.y, shift(), at)) return {};
+    return at * window;
+}
+
+bool Workspace::visible(glm::vec3 point) const {
+    const glm::vec3 eye = camera.eye(), to = point - eye;
+    const float distance = glm::length(to);
+    const glm::vec3 direction = to / std::max(distance, 1e-6f);
+    EspHit found;
+    return espPick(context.get(), &eye.x, &direction.x, &found) != ESP_OK ||
+           found.distance > distance - std::max(.02f, distance * .01f);
+}
+
+}  // namespace sample

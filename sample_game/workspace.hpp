@@ -1,0 +1,93 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sample_game/view_camera.hpp"
+#include "tools/document/document.hpp"
+
+namespace sample {
+
+enum class Tool { look, paint, seeds, prune };
+
+// What the brush paints with, but for what the keys say while it does.
+struct Brush {
+    std::string layer;
+    float radius = .25f;  // metres
+    float strength = .6f, hardness = .5f, value = 1;
+    float spacing = .3f;              // of the radius, between two dabs
+    bool limited = false;             // to slopes and heights
+    float slope[2] = {0, 180};        // degrees between the surface's normal and the upward
+    float height[2] = {-1e6f, 1e6f};  // metres
+    float softness = .3f;
+    bool frontOnly = false;
+};
+
+// What is remembered from one run to the next, besides the places of movable windows.
+struct Layout {
+    bool panel = true, figures = true, grammar = false, atlas = false, help = false;
+    float panelWidth = 320;  // at 96 dpi
+    float sizeOfAll = 1;     // of letters and panels, besides the display's own scale
+    bool halfWhileMoving = true;
+};
+
+// What the tools and the panels of the editor share: the document, how it is looked at, what is chosen.
+struct Workspace {
+    std::unique_ptr<EspContext, void (*)(EspContext*)> context{nullptr, espDestroy};
+    std::unique_ptr<espalier::document::Document> document;
+    ViewCamera camera;
+
+    // How the window is: size in ImGui's units, scale of the display, what the panel takes at the left (of the width).
+    glm::vec2 window{1280, 720};
+    float scale = 1;
+    bool editing = false;  // Tab: the editor is open
+
+    Tool tool = Tool::look;
+    Brush brush;
+    std::set<uint32_t> selected;  // keys of seeds
+    uint32_t plantGrammar = 0;
+    uint32_t openGrammar = 0;  // in the grammar's window
+    Layout layout;
+    EspGrowDef grow = espDefaultGrowDef();
+
+    std::string message, error;  // the latest of each
+    EspStats stats{};
+    double frameMs = 0;
+    std::vector<std::array<float, 4>> history;  // expand, emit, draw, frame; milliseconds of the latest frames
+
+    // What the mouse points at in the scene, if it points at anything and isn't over a panel.
+    std::optional<EspHit> hit;
+    bool redraw = true;  // the scene's picture is out of date
+
+    const espalier::scene::Scene& scene() const { return document->scene(); }
+    float shift() const;
+    float panelUnits() const;  // what the panel takes at the left, in ImGui's units
+    // A message appears where it fails.
+    bool perform(const espalier::document::Action& action, uint32_t gesture = 0);
+    // Painting shows what is painted, everything else the scene.
+    void choose(Tool chosen);
+    // A number for the actions that belong together from now on.
+    uint32_t newGesture() { return ++gesture_; }
+    uint32_t gesture() const { return gesture_; }
+
+    std::optional<EspHit> pick(glm::vec2 at) const;
+    // Where a point of the scene is in the window; nothing: behind the camera.
+    std::optional<glm::vec2> place(glm::vec3 point) const;
+    // Nothing of the scene is before the point.
+    bool visible(glm::vec3 point) const;
+
+  private:
+    uint32_t gesture_ = 0;
+};
+
+glm::vec3 vec(const float* v);
+glm::vec3 vec(const std::array<float, 3>& v);
+std::array<float, 3> array(glm::vec3 v);
+// Two directions that lie in the plane across `normal`.
+void tangents(glm::vec3 normal, glm::vec3& u, glm::vec3& v);
+
+}  // namespace sample

@@ -1,0 +1,48 @@
+// The editor in a real window, driven by mouse and keys; judged by the run that it records, which is then replayed.
+#include <algorithm>
+
+#include "tests/editor/editing.hpp"
+#include "tools/document/run.hpp"
+
+using namespace espalier::document;
+
+TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are planted, undone and done again") {
+    if (run("command -v xvfb-run && command -v xdotool").code != 0) {
+        MESSAGE("xvfb-run or xdotool isn't installed; skipped");
+        return;
+    }
+    const Folder folder;
+    const std::string scene = smallScene(folder);
+    const Ran ran = run("xvfb-run -a -s '-screen 0 900x560x24' tests/editor/drive " + program("espalier-sample") + " " +
+                        scene + " " + folder.path.string());
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    CHECK_MESSAGE(!contains(ran.output, "alidation"), ran.output);
+
+    Run recorded;
+    std::string error;
+    REQUIRE_MESSAGE(readRun(folder.file("run.jsonl"), recorded, error), error);
+    const auto count = [&](auto which) {
+        return std::count_if(recorded.lines.begin(), recorded.lines.end(),
+                             [&](const RunLine& line) { return std::holds_alternative<decltype(which)>(line.action); });
+    };
+    CHECK(count(StrokeBegin{}) == 2);
+    CHECK(count(StrokeEnd{}) == 2);
+    CHECK(count(StrokeDabs{}) >= 2);
+    CHECK(count(AddSeeds{}) == 1);
+    CHECK(count(Undo{}) == 1);
+    CHECK(count(Redo{}) == 1);
+    CHECK(count(SetParam{}) == 0);
+    std::vector<std::string> modes;
+    for (const RunLine& line : recorded.lines)
+        if (const auto* stroke = std::get_if<StrokeBegin>(&line.action)) modes.push_back(stroke->mode);
+    CHECK(modes == std::vector<std::string>{"paint", "erase"});
+
+    // What was done and not saved was kept.
+    bool kept = false;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path / "config"))
+        kept = kept || entry.path().filename() == "autosave.json";
+    CHECK(kept);
+    const Ran replayed = run(program("espalier-capture") + " --replay " + folder.file("run.jsonl") +
+                             " --size 160x90 --every 100000 -o " + folder.file("frames"));
+    CHECK_MESSAGE(replayed.code == 0, replayed.output);
+}
