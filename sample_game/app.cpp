@@ -189,6 +189,8 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.document = std::move(document);
     work_.context = std::move(context);
     work_.selected.clear();
+    work_.branch.reset();
+    work_.path.clear();
     work_.plantGrammar = work_.openGrammar = 0;
     work_.brush.layer = work_.scene().layers.empty() ? "" : work_.scene().layers.front();
     work_.stats = {};
@@ -320,6 +322,7 @@ void App::handleKey(const KeyEvent& event) {
     if (key == GLFW_KEY_Q) chooseTool(Tool::look);
     if (key == GLFW_KEY_B) chooseTool(Tool::paint);
     if (key == GLFW_KEY_S) chooseTool(Tool::seeds);
+    if (key == GLFW_KEY_P) chooseTool(Tool::branch);
     if (work_.tool == Tool::paint) {
         float& radius = work_.brush.radius;
         if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, .005f);
@@ -373,6 +376,8 @@ void App::handlePointer(const std::vector<PointerEvent>& events) {
         if (!work_.editing || panelButtons_ > 0) continue;
         if (work_.tool == Tool::paint) brush_.take(work_, event);
         if (work_.tool == Tool::seeds) seeds_.take(work_, event);
+        if (work_.tool == Tool::branch && event.kind == Kind::press && event.button == GLFW_MOUSE_BUTTON_LEFT)
+            work_.pickBranch({event.x, event.y});
         if (toolFirst) navigation_.follow({event.x, event.y});
     }
     brush_.flush(work_);
@@ -396,6 +401,7 @@ void App::showUi() {
         hover();
         if (work_.tool == Tool::paint) brush_.draw(work_, input_->mods());
         if (work_.tool == Tool::seeds) seeds_.draw(work_);
+        if (work_.tool == Tool::branch) showWalk(work_);
         showMenu(work_, session_);
         showPanel(work_);
         showGrammarWindow(work_);
@@ -420,6 +426,7 @@ bool App::update() {
     grownRevision_ = work_.document->revision();
     if (espReadStats(work_.context.get(), &work_.stats) != ESP_OK) work_.error = espLastError(work_.context.get());
     const bool grew = work_.stats.expansions != before;
+    if (grew && work_.branch) work_.readPath();
     work_.redraw = work_.redraw || grew;
     return grew;
 }

@@ -14,6 +14,10 @@ Input& Input::of(GLFWwindow* window) {
 
 Input::Input(GLFWwindow* window) : window_(window) {
     glfwSetWindowUserPointer(window, this);
+    double startX = 0, startY = 0;
+    glfwGetCursorPos(window, &startX, &startY);
+    x_ = float(startX);
+    y_ = float(startY);
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
         if (action != GLFW_RELEASE) of(w).keys_.push_back({key, mods});
     });
@@ -25,10 +29,7 @@ Input::Input(GLFWwindow* window) : window_(window) {
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
         Input& in = of(w);
-        double x = 0, y = 0;
-        glfwGetCursorPos(w, &x, &y);
-        in.x_ = float(x);
-        in.y_ = float(y);
+        // Where the last move ended: what GLFW could tell now is where the mouse is by now, which may be elsewhere.
         const auto kind = action == GLFW_PRESS ? PointerEvent::Kind::press : PointerEvent::Kind::release;
         in.pointer_.push_back({kind, button, mods, in.x_, in.y_});
     });

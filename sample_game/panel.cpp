@@ -19,9 +19,11 @@ void toolButtons(Workspace& work) {
         Tool tool;
         const char* tip;
     };
-    const Entry entries[] = {{"Look  Q", Tool::look, "Turn around the scene by dragging"},
-                             {"Paint  B", Tool::paint, "Paint a layer, such as where ivy grows"},
-                             {"Seeds  S", Tool::seeds, "Plant, choose, move and turn seeds"}};
+    const Entry entries[] = {{"Look Q", Tool::look, "Turn around the scene by dragging"},
+                             {"Paint B", Tool::paint, "Paint a layer, such as where ivy grows"},
+                             {"Seeds S", Tool::seeds, "Plant, choose, move and turn seeds"},
+                             {"Walk P", Tool::branch, "Pick a branch and see how it walked over the atlas"}};
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * work.scale, ImGui::GetStyle().FramePadding.y});
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - gap * float(std::size(entries) - 1)) / std::size(entries);
     for (const Entry& entry : entries) {
@@ -32,6 +34,7 @@ void toolButtons(Workspace& work) {
         toolTip(entry.tip);
         if (&entry != std::end(entries) - 1) ImGui::SameLine();
     }
+    ImGui::PopStyleVar();
 }
 
 bool slider(const char* label, float* value, float low, float high, const char* format, bool byRatio = false) {
@@ -64,6 +67,36 @@ void limits(Brush& brush) {
         brush.height[1] = shown[1] >= 100 ? 1e6f : shown[1];
     }
     slider("Softness", &brush.softness, 0, 1, "%.2f");
+}
+
+// Values that the chosen seeds have in place of their grammar's.
+void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
+    if (!ImGui::TreeNode("Values of their own")) return;
+    const EspGrammar grammar = work.scene().grammars[chosen[0].grammar].id;
+    for (uint32_t i = 0; i < espParamCount(work.context.get(), grammar); ++i) {
+        EspParamInfo info;
+        if (espParamInfo(work.context.get(), grammar, i, &info) != ESP_OK || info.kind == ESP_PARAM_COLOUR) continue;
+        const auto named = [&](const Param& param) { return param.name == info.name; };
+        const auto own = std::find_if(chosen[0].params.begin(), chosen[0].params.end(), named);
+        bool has = own != chosen[0].params.end();
+        float value = has ? own->value[0] : info.value[0];
+        ImGui::PushID(int(i));
+        bool changed = ImGui::Checkbox(info.label, &has);
+        uint32_t gesture = 0;
+        if (has && !changed) {
+            ImGui::SetNextItemWidth(-1);
+            changed = ImGui::SliderFloat("##own", &value, info.low, info.high, "%.3g", ImGuiSliderFlags_AlwaysClamp);
+            gesture = widgetGesture(work);
+        }
+        ImGui::PopID();
+        if (!changed) continue;
+        for (SeedRecord& seed : chosen) {
+            std::erase_if(seed.params, named);
+            if (has) seed.params.push_back({info.name, {value}});
+        }
+        work.perform(ChangeSeeds{chosen}, gesture);
+    }
+    ImGui::TreePop();
 }
 
 // One row of a seed's numbers for all that are chosen.
@@ -109,6 +142,7 @@ void chosenSeeds(Workspace& work) {
         }
     }
     if (changed) work.perform(ChangeSeeds{chosen}, widgetGesture(work));
+    ownValues(work, chosen);
     if (ImGui::Button("Remove  Del", {-1, 0})) {
         RemoveSeeds remove;
         for (const SeedRecord& seed : chosen) remove.keys.push_back(seed.key);
@@ -279,6 +313,7 @@ void showPanel(Workspace& work) {
             brushPanel(work);
         }
         if (work.tool == Tool::seeds) seedsPanel(work);
+        if (work.tool == Tool::branch) branchPanel(work);
         ImGui::Spacing();
         grammarsPanel(work);
         if (work.tool != Tool::paint && ImGui::CollapsingHeader("Layers")) layersPanel(work);

@@ -94,7 +94,7 @@ void showDialogues(Workspace& work, Session& session) {
     if (askPath("Import a layer", "Picture in the surface's walk UVs, as the editor exports it:", "Import", d.picture,
                 sizeof d.picture))
         for (uint32_t i = 0; i < work.scene().surfaces.size(); ++i)
-            work.perform(LoadLayer{d.layer, pictureOf(work, d.picture, i), i, true});
+            work.perform(LoadLayer{d.layer, pictureOf(work, d.picture, i), i});
     if (askPath("Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture,
                 sizeof d.picture))
         exportLayer(work, d.layer, d.picture);
@@ -168,7 +168,7 @@ void showMenu(Workspace& work, Session& session) {
         std::string name =
             session.folder().empty() ? work.scene().name : std::filesystem::path(session.folder()).filename().string();
         if (session.modified(work)) name += " *";
-        if (session.recording()) name += "   \u25cf recording";
+        if (session.recording()) name += "   REC";
         ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(name.c_str()).x - 12 * work.scale);
         ImGui::TextDisabled("%s", name.c_str());
         ImGui::EndMainMenuBar();
@@ -240,7 +240,8 @@ void showHelp(Workspace& work) {
                          {"Ctrl+drag", "plant a row"},
                          {"Click, Shift+click", "choose seeds; drag moves them"},
                          {"A, Del", "choose all, remove"},
-                         {"R", "other random numbers for all"}};
+                         {"R", "other random numbers for all"},
+                         {"P, then click", "the walk of a branch"}};
     const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z", "undo, redo: of everything"},
                        {"Ctrl+S, Ctrl+O", "save, open"},
                        {"1 2 3 4", "shaded, charts, normals, levels of detail"},

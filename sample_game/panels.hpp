@@ -11,8 +11,9 @@ void showPanel(Workspace& work);                   // at the left: the tool, lay
 void showGrammarWindow(Workspace& work);           // the text, with mistakes at their lines
 void showFigures(const Workspace& work, uint32_t validationMessages, bool validation);
 void showStatus(const Workspace& work, bool caught, bool flying);  // at the bottom: what keys and buttons do now
-void showHelp(Workspace& work);                                    // over all: F1
-void showGrowing(const Workspace& work);                           // while growth takes longer than a blink
+void showWalk(const Workspace& work);     // of the picked branch, on the model and in the atlas
+void showHelp(Workspace& work);           // over all: F1
+void showGrowing(const Workspace& work);  // while growth takes longer than a blink
 
 // Ctrl+S and Ctrl+O: at once, or by a dialogue of showMenu().
 void askToSave(Workspace& work, Session& session);
@@ -24,6 +25,7 @@ void brushPanel(Workspace& work);
 void layersPanel(Workspace& work);
 void seedsPanel(Workspace& work);
 void grammarsPanel(Workspace& work);
+void branchPanel(const Workspace& work);
 void lightPanel(Workspace& work);
 
 // A grammar's file, told apart from others of the same file by its place.

@@ -52,6 +52,22 @@ std::optional<EspHit> Workspace::pick(glm::vec2 at) const {
     return found;
 }
 
+void Workspace::pickBranch(glm::vec2 at) {
+    const Ray ray = camera.ray(at / window, window.x / window.y, shift());
+    EspPlantHit found;
+    branch.reset();
+    if (espPickPlant(context.get(), &ray.origin.x, &ray.direction.x, &found) == ESP_OK) branch = found;
+    readPath();
+}
+
+void Workspace::readPath() {
+    uint32_t count = 0;
+    path.clear();
+    if (!branch || espBranchPath(context.get(), branch->branch, nullptr, &count) != ESP_OK) return;
+    path.resize(count);
+    if (espBranchPath(context.get(), branch->branch, path.data(), &count) != ESP_OK) path.clear();
+}
+
 std::optional<glm::vec2> Workspace::place(glm::vec3 point) const {
     glm::vec2 at;
     if (!camera.project(point, window.x / window.y, shift(), at)) return {};

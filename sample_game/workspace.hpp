@@ -12,7 +12,7 @@
 
 namespace sample {
 
-enum class Tool { look, paint, seeds, prune };
+enum class Tool { look, paint, seeds, branch };
 
 // What the brush paints with, but for what the keys say while it does.
 struct Brush {
@@ -48,7 +48,9 @@ struct Workspace {
 
     Tool tool = Tool::look;
     Brush brush;
-    std::set<uint32_t> selected;  // keys of seeds
+    std::set<uint32_t> selected;        // keys of seeds
+    std::optional<EspPlantHit> branch;  // that was picked
+    std::vector<EspPathSample> path;    // its walk; what grows anew may have lost it
     uint32_t plantGrammar = 0;
     uint32_t openGrammar = 0;  // in the grammar's window
     Layout layout;
@@ -75,6 +77,8 @@ struct Workspace {
     uint32_t gesture() const { return gesture_; }
 
     std::optional<EspHit> pick(glm::vec2 at) const;
+    void pickBranch(glm::vec2 at);
+    void readPath();  // of the branch, from the last growth
     // Where a point of the scene is in the window; nothing: behind the camera.
     std::optional<glm::vec2> place(glm::vec3 point) const;
     // Nothing of the scene is before the point.

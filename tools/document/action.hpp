@@ -47,9 +47,11 @@ struct SeedRecord {
     uint32_t grammar = 0;
     std::array<float, 3> position{}, direction{};
     uint32_t number = 1;
+    std::vector<Param> params = {};  // in place of its grammar's
     template <class V>
     void fields(V&& v) {
         v("key", key), v("grammar", grammar), v("position", position), v("direction", direction), v("number", number);
+        v("params", params);
     }
     bool operator==(const SeedRecord&) const = default;
 };
@@ -129,15 +131,14 @@ struct FillLayer {
         v("layer", layer), v("value", value);
     }
 };
-// From a picture in the surface's walk UVs, or in the model's own.
+// From a picture in the surface's walk UVs.
 struct LoadLayer {
     static constexpr const char* kName = "load_layer";
     std::string layer, file;
     uint32_t surface = 0;
-    bool walkUv = true;
     template <class V>
     void fields(V&& v) {
-        v("layer", layer), v("file", file), v("surface", surface), v("walk_uv", walkUv);
+        v("layer", layer), v("file", file), v("surface", surface);
     }
 };
 
@@ -171,22 +172,15 @@ struct Redo {
     void fields(V&&) {}
 };
 
-// Inverses only, never part of a run: each exchanges what is painted with what it keeps, so it is its own inverse.
+// An inverse only, never part of a run: exchanges what is painted with what the stroke keeps; its own inverse.
 struct SwapStroke {
     static constexpr const char* kName = "";
     std::shared_ptr<const struct StrokeRecord> stroke;
     template <class V>
     void fields(V&&) {}
 };
-struct SwapTiles {
-    static constexpr const char* kName = "";
-    std::shared_ptr<const struct LayerTiles> tiles;
-    template <class V>
-    void fields(V&&) {}
-};
-
 using Action = std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, StrokeBegin, StrokeDabs,
-                            StrokeEnd, FillLayer, LoadLayer, SetCamera, SetView, Undo, Redo, SwapStroke, SwapTiles>;
+                            StrokeEnd, FillLayer, LoadLayer, SetCamera, SetView, Undo, Redo, SwapStroke>;
 
 // One line of a run: {"frame": 3, "gesture": 2, "NAME": {fields}}; see run.hpp.
 struct RunLine {

@@ -22,7 +22,17 @@ Seed seedOf(const SeedRecord& record) {
     seed.position = record.position;
     seed.direction = record.direction;
     seed.number = record.number;
+    for (const Param& param : record.params) {
+        scene::ParamValue& value = seed.params.emplace_back();
+        value.name = param.name;
+        value.count = uint32_t(std::min(param.value.size(), value.value.size()));
+        std::copy_n(param.value.begin(), value.count, value.value.begin());
+    }
     return seed;
+}
+
+Param paramOf(const scene::ParamValue& value) {
+    return {value.name, {value.value.begin(), value.value.begin() + value.count}};
 }
 
 bool finite(const std::array<float, 3>& v) {
@@ -76,7 +86,9 @@ size_t Document::indexOf(uint32_t key) const {
 }
 
 SeedRecord Document::recordOf(const Seed& seed) const {
-    return {seed.key, seed.grammar, seed.position, seed.direction, seed.number};
+    SeedRecord record{seed.key, seed.grammar, seed.position, seed.direction, seed.number};
+    for (const scene::ParamValue& value : seed.params) record.params.push_back(paramOf(value));
+    return record;
 }
 
 // ---- One step there, one back
@@ -156,7 +168,7 @@ const char* Document::redoName() const {
 std::vector<Param> Document::paramsOf(uint32_t grammar) const {
     std::vector<Param> params;
     for (const scene::ParamValue& value : scene::changedParams(context_, scene_.grammars[grammar].id))
-        params.push_back({value.name, {value.value.begin(), value.value.begin() + value.count}});
+        params.push_back(paramOf(value));
     return params;
 }
 
@@ -257,6 +269,7 @@ bool Document::carryOut(const RemoveSeeds& action, std::vector<Action>& back, st
 bool Document::carryOut(const ChangeSeeds& action, std::vector<Action>& back, std::string& error) {
     const std::vector<Seed> before = scene_.seeds;
     ChangeSeeds inverse;
+    bool onlyMoved = true;
     for (const SeedRecord& record : action.seeds) {
         const size_t i = indexOf(record.key);
         if (i == before.size() || record.grammar >= scene_.grammars.size() || !finite(record.position) ||
@@ -266,10 +279,21 @@ bool Document::carryOut(const ChangeSeeds& action, std::vector<Action>& back, st
             return false;
         }
         inverse.seeds.push_back(recordOf(before[i]));
+        onlyMoved = onlyMoved && record.number == before[i].number && record.grammar == before[i].grammar &&
+                    record.params == inverse.seeds.back().params;
         scene_.seeds[i] = seedOf(record);
+        scene_.seeds[i].planted = before[i].planted;
     }
-    if (!replant(before, error)) return false;
+    if (!(onlyMoved ? moveSeeds(action) : replant(before, error))) return false;
     back.push_back(std::move(inverse));
+    return true;
+}
+
+// Only what grows from these seeds grows anew.
+bool Document::moveSeeds(const ChangeSeeds& action) {
+    for (const SeedRecord& record : action.seeds)
+        espMoveSeed(context_, scene_.seeds[indexOf(record.key)].planted, record.position.data(),
+                    record.direction.data());
     return true;
 }
 
@@ -336,7 +360,6 @@ const char* nameOf(const Action& action) {
         const char* operator()(const FillLayer&) const { return "Fill a layer"; }
         const char* operator()(const LoadLayer&) const { return "Import a layer"; }
         const char* operator()(const SwapStroke&) const { return "Paint"; }
-        const char* operator()(const SwapTiles&) const { return "Import a layer"; }
         const char* operator()(const SetCamera&) const { return "Move the camera"; }
         const char* operator()(const SetView&) const { return "Change the view"; }
         const char* operator()(const Undo&) const { return "Undo"; }

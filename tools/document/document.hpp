@@ -74,7 +74,6 @@ class Document {
     bool carryOut(const FillLayer& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const LoadLayer& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SwapStroke& action, std::vector<Action>& back, std::string& error);
-    bool carryOut(const SwapTiles& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetCamera& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetView& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const Undo&, std::vector<Action>&, std::string& error) { return move(done_, undone_, error); }
@@ -85,8 +84,7 @@ class Document {
     void forgetOldest();
     bool failed(EspResult result, std::string& error) const;
     std::vector<Param> paramsOf(uint32_t grammar) const;
-    bool setLayer(uint32_t surface, const std::string& layer, const scene::GreyPicture& picture, EspLayerSpace space,
-                  std::string& error);
+    bool moveSeeds(const ChangeSeeds& action);
     bool replant(const std::vector<scene::Seed>& before, std::string& error);
     size_t indexOf(uint32_t key) const;
 

@@ -44,15 +44,12 @@ bool layLayer(EspContext* context, const Scene& scene, const SceneLayer& layer, 
     }
     GreyPicture picture;
     if (!readGrey(layer.file, picture, error)) return false;
-    EspLayerDef def = espDefaultLayerDef();
-    def.name = layer.name.c_str();
-    def.space = layer.surface < 0 ? ESP_LAYER_MATERIAL_UV : ESP_LAYER_WALK_UV;
-    def.texels = picture.texels.data();
-    def.width = picture.width;
-    def.height = picture.height;
     for (size_t i = 0; i < scene.surfaces.size(); ++i) {
         if (layer.surface >= 0 && size_t(layer.surface) != i) continue;
-        def.surface = scene.surfaces[i].id;
+        EspLayerDef def;
+        if (!fromContext(context, walkLayer(context, scene.surfaces[i].id, layer.name, picture, def), error))
+            return false;
+        if (layer.surface < 0) def.space = ESP_LAYER_MATERIAL_UV;
         if (!fromContext(context, espSetLayer(context, &def), error)) return false;
     }
     return true;
@@ -285,6 +282,20 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     return true;
 }
 
+EspResult walkLayer(EspContext* context, EspSurface surface, const std::string& name, const GreyPicture& picture,
+                    EspLayerDef& out) {
+    uint32_t side = 0;
+    if (EspResult asked = espReadLayer(context, surface, name.c_str(), nullptr, &side); asked != ESP_OK) return asked;
+    out = espDefaultLayerDef();
+    out.surface = surface;
+    out.name = name.c_str();
+    out.space = picture.width == side && picture.height == side ? ESP_LAYER_TEXELS : ESP_LAYER_WALK_UV;
+    out.texels = picture.texels.data();
+    out.width = picture.width;
+    out.height = picture.height;
+    return ESP_OK;
+}
+
 bool plantAll(EspContext* context, Scene& scene, std::string& error) {
     if (!fromContext(context, espRemoveAllSeeds(context), error)) return false;
     for (Seed& seed : scene.seeds) {
@@ -294,6 +305,11 @@ bool plantAll(EspContext* context, Scene& scene, std::string& error) {
         std::copy(seed.direction.begin(), seed.direction.end(), def.direction);
         def.number = seed.number;
         if (!fromContext(context, espPlant(context, &def, &seed.planted), error)) return false;
+        for (const ParamValue& own : seed.params)
+            if (!fromContext(context,
+                             espSetSeedParam(context, seed.planted, own.name.c_str(), own.value.data(), own.count),
+                             error))
+                return false;
     }
     return true;
 }

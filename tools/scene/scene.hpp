@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plugin_api/espalier.h"
+#include "tools/scene/picture.hpp"
 
 namespace espalier::scene {
 
@@ -54,6 +55,7 @@ struct Seed {
     uint32_t grammar = 0;  // index into Scene::grammars
     std::array<float, 3> position{}, direction{0, 1, 0};
     uint32_t number = 1;
+    std::vector<ParamValue> params;  // in place of its grammar's
     EspSeed planted{};
 };
 
@@ -77,6 +79,11 @@ struct Scene {
 // default ivy is taken, fitted to the model's size, with seeds around its foot and a camera that shows everything.
 // False: `error` tells file, place and cause, and the context may hold parts of the scene.
 bool openScene(EspContext* context, const Request& request, Scene& out, std::string& error);
+
+// What to set of a picture that is drawn in a surface's walk UVs: as espReadLayer gave it, or resampled if it is of
+// another size. `out` refers to name and picture.
+EspResult walkLayer(EspContext* context, EspSurface surface, const std::string& name, const GreyPicture& picture,
+                    EspLayerDef& out);
 
 // Takes away all seeds and plants the scene's.
 bool plantAll(EspContext* context, Scene& scene, std::string& error);

@@ -186,15 +186,17 @@ class Reader {
         if (lines(json, "grows", grammar.grows) && !grammar.text) fail(json, "'grows' needs a 'text'");
         if (const Json* params = json.find("params")) {
             if (params->kind != Json::Kind::object) fail(*params, "'params' must be an object");
-            for (const auto& [name, value] : params->members) readParam(grammar, name, value);
+            for (const auto& [name, value] : params->members) {
+                SceneParam param;
+                if (readParam(name, value, param)) grammar.params.push_back(param);
+            }
         }
         if (const Json* seeds = json.find("seeds")) {
             if (seeds->kind != Json::Kind::list) fail(*seeds, "'seeds' must be a list");
             for (const Json& seed : seeds->items) readSeed(grammar, seed);
         }
     }
-    void readParam(SceneGrammar& grammar, const std::string& name, const Json& value) {
-        SceneParam param;
+    bool readParam(const std::string& name, const Json& value, SceneParam& param) {
         param.value.name = name;
         param.place = place(value);
         if (value.kind == Json::Kind::number)
@@ -204,11 +206,11 @@ class Reader {
         else if (threeNumbers(value, param.value.value))
             param.value.count = 3;
         else
-            return fail(value, "'" + name + "' must be a number, true, false or three numbers");
-        grammar.params.push_back(param);
+            fail(value, "'" + name + "' must be a number, true, false or three numbers");
+        return value.kind == Json::Kind::number || value.kind == Json::Kind::flag || param.value.count == 3;
     }
     void readSeed(SceneGrammar& grammar, const Json& json) {
-        if (!isObject(json, "a seed", {"position", "direction", "seed"})) return;
+        if (!isObject(json, "a seed", {"position", "direction", "seed", "params"})) return;
         Seed seed;
         seed.number = uint32_t(grammar.seeds.size() + 1);
         if (const Json* position = need(json, "position"); position && !threeNumbers(*position, seed.position))
@@ -222,6 +224,11 @@ class Reader {
             else
                 seed.number = uint32_t(n->number);
         }
+        if (const Json* params = json.find("params"))
+            for (const auto& [name, value] : params->members) {
+                SceneParam param;
+                if (readParam(name, value, param)) seed.params.push_back(param.value);
+            }
         grammar.seeds.push_back(seed);
     }
     void readCamera(const Json& json) {

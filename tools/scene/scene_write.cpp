@@ -30,19 +30,23 @@ ordered_json surfaceJson(const SceneSurface& surface, const std::string& file) {
     return json;
 }
 
+ordered_json valueJson(const ParamValue& value) {
+    return value.count == 3 ? shortestList(value.value) : shortest(value.value[0]);
+}
+
 ordered_json grammarJson(const SceneGrammar& grammar, const std::string& file) {
     ordered_json json{{"file", file}};
     if (grammar.text) json["text"] = linesOf(*grammar.text);
     if (grammar.grows) json["grows"] = linesOf(*grammar.grows);
     ordered_json& params = json["params"] = ordered_json::object();
-    for (const SceneParam& param : grammar.params)
-        params[param.value.name] =
-            param.value.count == 3 ? shortestList(param.value.value) : shortest(param.value.value[0]);
+    for (const SceneParam& param : grammar.params) params[param.value.name] = valueJson(param.value);
     ordered_json& seeds = json["seeds"] = ordered_json::array();
-    for (const Seed& seed : grammar.seeds)
-        seeds.push_back({{"position", shortestList(seed.position)},
-                         {"direction", shortestList(seed.direction)},
-                         {"seed", seed.number}});
+    for (const Seed& seed : grammar.seeds) {
+        ordered_json& out = seeds.emplace_back(ordered_json{{"position", shortestList(seed.position)},
+                                                            {"direction", shortestList(seed.direction)},
+                                                            {"seed", seed.number}});
+        for (const ParamValue& own : seed.params) out["params"][own.name] = valueJson(own);
+    }
     return json;
 }
 
