@@ -72,7 +72,7 @@ Bodies::Bodies(ContactMesh& mesh, std::span<const float> open) : mesh_(&mesh), t
     wallTree_ = BoxTree(std::move(boxes), {});
 }
 
-bool Bodies::inside(glm::dvec3 p, glm::dvec3 direction, uint32_t ownBody) const {
+bool Bodies::inside(glm::dvec3 p, glm::dvec3 direction, const HiddenQuery& q) const {
     struct Count {
         uint32_t body;
         int count;
@@ -81,7 +81,7 @@ bool Bodies::inside(glm::dvec3 p, glm::dvec3 direction, uint32_t ownBody) const 
     counts.clear();
     wallTree_.along(p, direction, [&](uint32_t i) {
         const Wall& w = walls_[i];
-        if (w.body == ownBody) return;
+        if (w.body == q.body || w.body == q.except) return;
         int passed = passage(w.a, w.b, w.c, p, direction);
         if (passed == 0) return;
         for (Count& c : counts)
@@ -95,9 +95,10 @@ bool Bodies::inside(glm::dvec3 p, glm::dvec3 direction, uint32_t ownBody) const 
 }
 
 // Two rays that agree decide; a ray along an edge may err.
-bool Bodies::inside(glm::dvec3 p, uint32_t ownBody) const {
-    bool first = inside(p, kRays[0], ownBody);
-    return inside(p, kRays[1], ownBody) == first ? first : inside(p, kRays[2], ownBody);
+bool Bodies::inside(const HiddenQuery& q, double above) const {
+    glm::dvec3 p = q.position + q.normal * above;
+    bool first = inside(p, kRays[0], q);
+    return inside(p, kRays[1], q) == first ? first : inside(p, kRays[2], q);
 }
 
 bool Bodies::covered(const HiddenQuery& q, double tolerance) const {
@@ -106,7 +107,7 @@ bool Bodies::covered(const HiddenQuery& q, double tolerance) const {
     bool found = false;
     tree_.near(around.grown(tolerance), [&](uint32_t t) {
         const auto& other = mesh_->triangles[t];
-        if (found || other.body == q.body) return;
+        if (found || other.body == q.body || other.body == q.except) return;
         glm::dvec3 a = mesh_->at(t, 0), n = glm::cross(mesh_->at(t, 1) - a, mesh_->at(t, 2) - a);
         n /= std::max(glm::length(n), 1e-300);
         double facing = glm::dot(q.normal, n);
@@ -128,8 +129,7 @@ bool Bodies::covered(const HiddenQuery& q, double tolerance) const {
 
 bool Bodies::hide(const HiddenQuery& q, double tolerance) const {
     if (tree_.empty()) return false;
-    return inside(q.position + q.normal * (0.1 * tolerance), q.body) ||
-           inside(q.position + q.normal * (1.5 * tolerance), q.body) || covered(q, tolerance);
+    return inside(q, 0.1 * tolerance) || inside(q, 1.5 * tolerance) || covered(q, tolerance);
 }
 
 }  // namespace espalier

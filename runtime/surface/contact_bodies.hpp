@@ -12,6 +12,7 @@ namespace espalier {
 struct HiddenQuery {
     glm::dvec3 position, normal;  // normal: unit, outward; in the space of the bodies' mesh
     uint32_t body = kNoIndex;     // its own body when it is one of these
+    uint32_t except = kNoIndex;   // a further body that hides nothing here
     bool solid = false;           // it belongs to a solid body
     bool yields = false;          // of equal faces in one place it is the one that is hidden; unused when body is set
 };
@@ -33,8 +34,8 @@ class Bodies {
         glm::dvec3 a, b, c;
         uint32_t body;
     };
-    bool inside(glm::dvec3 p, uint32_t ownBody) const;
-    bool inside(glm::dvec3 p, glm::dvec3 direction, uint32_t ownBody) const;
+    bool inside(const HiddenQuery& query, double above) const;
+    bool inside(glm::dvec3 p, glm::dvec3 direction, const HiddenQuery& query) const;
     bool covered(const HiddenQuery& query, double tolerance) const;
 
     const ContactMesh* mesh_ = nullptr;

@@ -266,6 +266,10 @@ class Assembler {
                   (expected != to->insideLeft ? kCrossingTurned : 0u) | chart << 16;
         contact.from = f.triangle;
         contact.to = g.triangle;
+        contact.a = found_->segment.side[g.side].a;
+        contact.b = found_->segment.side[g.side].b;
+        contact.onward = g.away;
+        contact.back = f.away;
         return contact;
     }
 

@@ -41,6 +41,9 @@ void setReach(ContactMesh& mesh, double tolerance);
 struct Contact {
     Crossing crossing;  // complete but for the instance in `target`
     uint32_t from, to;  // triangles
+    // The stretch in space on the side that it leads to, and unit directions from there into the surface on that side
+    // and back into the one that it comes from.
+    glm::dvec3 a, b, onward, back;
 };
 
 struct ContactOptions {

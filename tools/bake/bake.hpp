@@ -48,7 +48,8 @@ struct BakeReport {
     std::string source;
     uint32_t triangles = 0, charts = 0;
     uint64_t innerTexels = 0, linkTexels = 0, openTexels = 0, buriedTexels = 0;
-    uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0;
+    uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0,
+             danglingContacts = 0;
     double walkableArea = 0;
     double stretch50 = 0, stretch95 = 0, stretchMax = 0;
     double roundTrip50 = 0, roundTrip999 = 0;                  // texels

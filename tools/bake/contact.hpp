@@ -23,7 +23,8 @@ class Contacts {
                   SurfaceLevelData& level) const;
 
   private:
-    bool hidden(glm::dvec3 p, uint32_t triangle) const;
+    bool hidden(glm::dvec3 p, uint32_t triangle, uint32_t exceptBody) const;
+    void dropHidden();
 
     ContactMesh mesh_;
     Bodies bodies_;

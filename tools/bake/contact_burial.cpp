@@ -9,15 +9,129 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr size_t kSamples = 9;  // judged per region
+constexpr size_t kSamples = 15;        // judged per region
+constexpr double kSeenShare = 0.05;    // of what is hidden: less is an error of judgement
+constexpr float kAlongBorder = 0.05f;  // texels
+constexpr size_t kMostParts = 32;      // that a contact is judged in
 
 }  // namespace
 
-bool Contacts::hidden(glm::dvec3 p, uint32_t t) const {
+bool Contacts::hidden(glm::dvec3 p, uint32_t t, uint32_t exceptBody) const {
     glm::dvec3 a = mesh_.at(t, 0), n = glm::cross(mesh_.at(t, 1) - a, mesh_.at(t, 2) - a);
     uint32_t body = mesh_.triangles[t].body;
-    return bodies_.hide({p, n / glm::length(n), body, mesh_.solid[body] != 0}, tolerance_);
+    return bodies_.hide({p, n / glm::length(n), body, exceptBody, mesh_.solid[body] != 0}, tolerance_);
 }
+
+// Where three pieces meet, a contact of two may lead from what is seen to what the third one hides, and back; another
+// leads on there.
+void Contacts::dropHidden() {
+    std::vector<std::vector<Contact>> kept(list_.size());
+    parallelFor(list_.size(), 64, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const Contact& c = list_[i];
+            uint32_t fromBody = mesh_.triangles[c.from].body, toBody = mesh_.triangles[c.to].body;
+            size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / tolerance_), size_t(1), kMostParts);
+            auto leads = [&](size_t k) {
+                glm::dvec3 p = c.a + (c.b - c.a) * ((double(k) + 0.5) / double(parts));
+                return hidden(p + c.onward * (0.3 * tolerance_), c.to, fromBody) ==
+                       hidden(p + c.back * (0.3 * tolerance_), c.from, toBody);
+            };
+            for (size_t k = 0; k < parts;) {
+                if (!leads(k)) {
+                    ++k;
+                    continue;
+                }
+                size_t first = k;
+                while (k < parts && (k == first || leads(k))) ++k;
+                Contact part = c;
+                float t0 = float(first) / float(parts), t1 = float(k) / float(parts);
+                auto cut = [&](glm::vec2& a, glm::vec2& b) {
+                    glm::vec2 from = a, d = b - a;
+                    a = t0 > 0 ? from + d * t0 : a, b = t1 < 1 ? from + d * t1 : b;
+                };
+                cut(part.crossing.a, part.crossing.b);
+                cut(part.crossing.ta, part.crossing.tb);
+                kept[i].push_back(part);
+            }
+        }
+    });
+    list_.clear();
+    for (const auto& parts : kept) list_.insert(list_.end(), parts.begin(), parts.end());
+}
+
+namespace {
+
+// The texel that holds uv.
+uint32_t texelOf(const SurfaceLevelData& level, glm::vec2 uv) {
+    glm::vec2 p = glm::clamp(uv * float(level.size), glm::vec2(0), glm::vec2(float(level.size) - 1));
+    return uint32_t(p.y) * level.size + uint32_t(p.x);
+}
+
+// Does a contact run along a chart's border at uv? Walks meet it before the border.
+bool contactAt(const std::vector<Crossing>& crossings, const SurfaceLevelData& level, glm::vec2 uv, uint32_t chart) {
+    uint32_t texel = texelOf(level, uv), at = texelIndex(level.size, texel % level.size, texel / level.size);
+    uint32_t head = level.crossingHead[at];
+    for (uint32_t i = 0; i < (head & 255u); ++i) {
+        const Crossing& c = crossings[level.crossingRefs[(head >> 8) + i]];
+        if ((c.flags & 3u) != kCrossingContact || c.flags >> 16 != chart) continue;
+        glm::vec2 d = c.b - c.a, r = uv - c.a;
+        float t = glm::clamp(glm::dot(r, d) / std::max(glm::dot(d, d), 1e-20f), 0.0f, 1.0f);
+        if (glm::length(r - d * t) * float(level.size) < kAlongBorder) return true;
+    }
+    return false;
+}
+
+// Regions that borders join are one, unless a contact runs along the border. Returns for each region the one that
+// stands for all that it is joined with. members, first: the regions' texels.
+std::vector<uint32_t> joinRegions(const std::vector<Crossing>& crossings, const SurfaceLevelData& level,
+                                  const std::vector<uint32_t>& members, const std::vector<uint32_t>& first) {
+    std::vector<uint32_t> regionOf(level.texels.size(), kNone), parent(first.size() - 1);
+    for (uint32_t r = 0; r < parent.size(); ++r) {
+        parent[r] = r;
+        for (uint32_t i = first[r]; i < first[r + 1]; ++i) regionOf[members[i]] = r;
+    }
+    auto find = [&](uint32_t r) {
+        while (parent[r] != r) r = parent[r] = parent[parent[r]];
+        return r;
+    };
+    float texel = 1.0f / float(level.size);
+    // Where texels are too large to tell sides apart there is nothing to join: regions of one texel judge themselves.
+    auto regionAt = [&](glm::vec2 at, glm::vec2 edge, bool left, uint32_t chart) {
+        glm::vec2 inward = glm::vec2(-edge.y, edge.x) * ((left ? 1.0f : -1.0f) / std::max(glm::length(edge), 1e-20f));
+        if (contactAt(crossings, level, at, chart) || contactAt(crossings, level, at + inward * (0.03f * texel), chart))
+            return kNone;
+        for (float reach : {0.6f, 1.2f}) {
+            uint32_t t = texelOf(level, at + inward * (reach * texel));
+            uint32_t index = texelIndex(level.size, t % level.size, t / level.size);
+            uint32_t head = level.crossingHead[index];
+            bool contact = false;
+            for (uint32_t i = 0; i < (head & 255u) && !contact; ++i)
+                contact = (crossings[level.crossingRefs[(head >> 8) + i]].flags & 3u) == kCrossingContact;
+            if (!contact && regionOf[t] != kNone && texelChart(level.texels[index].bits) == chart) return regionOf[t];
+        }
+        return kNone;
+    };
+    for (const Crossing& c : crossings) {
+        uint32_t kind = c.flags & 3u, chart = c.flags >> 16, other = c.target & 0xFFFFu;
+        if (kind != kCrossingSeam && kind != kCrossingNearest) continue;
+        // Contacts may part a long border often.
+        int steps = int(glm::length(c.b - c.a) * float(level.size)) + 1;
+        for (int k = 0; k < steps; ++k) {
+            float t = (float(k) + 0.5f) / float(steps);
+            glm::vec2 here = c.a + (c.b - c.a) * t, there = c.ta + (c.tb - c.ta) * t;
+            bool left = (c.flags & kCrossingInsideLeft) != 0;
+            uint32_t r = regionAt(here, c.b - c.a, left, chart);
+            // The far side's handedness isn't known here; whichever side holds the chart will do.
+            uint32_t q = regionAt(there, c.tb - c.ta, !left, other);
+            if (q == kNone) q = regionAt(there, c.tb - c.ta, left, other);
+            if (r != kNone && q != kNone) parent[std::max(find(r), find(q))] = std::min(find(r), find(q));
+        }
+    }
+    for (uint32_t r = 0; r < parent.size(); ++r) parent[r] = find(r);
+    return parent;
+}
+
+}  // namespace
 
 uint64_t Contacts::bury(const std::vector<Crossing>& crossings, const std::vector<Plane>& planes,
                         SurfaceLevelData& level) const {
@@ -60,22 +174,36 @@ uint64_t Contacts::bury(const std::vector<Crossing>& crossings, const std::vecto
         uint32_t x = i % size, y = i / size, at = texelIndex(size, x, y), t = level.aux[at].triangle;
         const Plane& plane = planes[t];
         glm::vec2 d(glm::dvec2((x + 0.5) / size, (y + 0.5) / size) - plane.uv0);
-        return hidden(glm::dvec3(plane.p0 + plane.e1 * glm::dot(plane.g1, d) + plane.e2 * glm::dot(plane.g2, d)), t);
+        return hidden(glm::dvec3(plane.p0 + plane.e1 * glm::dot(plane.g1, d) + plane.e2 * glm::dot(plane.g2, d)), t,
+                      kNone);
     };
     std::vector<uint8_t> buried(members.size(), 0);
-    parallelFor(first.size() - 1, 64, [&](size_t begin, size_t end) {
+    size_t regions = first.size() - 1;
+    std::vector<uint32_t> whole = joinRegions(crossings, level, members, first);
+    std::vector<double> seen(regions, 0), hides(regions, 0);  // texels, at the region that stands for the whole
+    std::vector<double> share(regions, 0);
+    parallelFor(regions, 64, [&](size_t begin, size_t end) {
         for (size_t r = begin; r < end; ++r) {
             size_t from = first[r], count = first[r + 1] - from, samples = std::min(count, kSamples), yes = 0;
             for (size_t s = 0; s < samples; ++s) yes += judge(members[from + (2 * s + 1) * count / (2 * samples)]);
-            bool mixed = yes > 0 && yes < samples;  // contacts leave gaps where pieces end
-            for (size_t i = from; i < from + count; ++i) buried[i] = mixed ? judge(members[i]) : yes > 0;
+            share[r] = double(yes) / double(samples);
         }
     });
+    for (size_t r = 0; r < regions; ++r) {
+        double count = first[r + 1] - first[r];
+        hides[whole[r]] += share[r] * count;
+        seen[whole[r]] += (1 - share[r]) * count;
+    }
+    // What is seen in parts is no ground in none: no contact closes off the rest, a walk may come there by a hole.
+    for (size_t r = 0; r < regions; ++r) {
+        bool gone = seen[whole[r]] <= kSeenShare * hides[whole[r]] && hides[whole[r]] > 0;
+        std::fill(buried.begin() + first[r], buried.begin() + first[r + 1], gone);
+    }
     uint64_t sum = 0;
     for (size_t i = 0; i < members.size(); ++i) {
         if (!buried[i]) continue;
         uint32_t& bits = level.texels[texelIndex(size, members[i] % size, members[i] / size)].bits;
-        bits = (bits & ~0x30000u) | kTexelLink << 16;
+        bits = (bits & ~0xFB0000u) | kTexelLink << 16;  // and no clearance
         ++sum;
     }
     return sum;

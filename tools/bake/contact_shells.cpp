@@ -63,6 +63,7 @@ Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, double 
         if (link.to == kNone) open[link.from] += float(link.from1 - link.from0);
     bodies_ = Bodies(mesh_, open);
     list_ = contactsWithin(mesh_, bodies_.tree(), {tolerance, kBorderShift * texel, glm::dmat4(1)});
+    dropHidden();
 }
 
 }  // namespace espalier::bakery

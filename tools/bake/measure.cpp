@@ -93,7 +93,8 @@ void measureCrossings(const std::vector<Link>& links, const std::vector<Contact>
             gaps.push_back(glm::length(onTriangle(here, p) - onTriangle(there, q)) / texel);
         }
         // From the back of a sheet no way leads back: there walks are on its outside.
-        if (dangling && (c.flags & kCrossingTurned) == 0) ++report.danglingCrossings;
+        if (dangling && (c.flags & kCrossingTurned) == 0)
+            ++(kind == kCrossingContact ? report.danglingContacts : report.danglingCrossings);
     }
     report.roundTrip50 = percentile(trips, 0.5);
     report.roundTrip999 = percentile(trips, 0.999);

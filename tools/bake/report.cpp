@@ -20,7 +20,8 @@ std::string BakeReport::json() const {
     j["crossings"] = {{"seam", seamCrossings},
                       {"nearest", nearestCrossings},
                       {"contact", contactCrossings},
-                      {"dangling", danglingCrossings}};
+                      {"dangling", danglingCrossings},
+                      {"dangling_contacts", danglingContacts}};
     j["walkable_area"] = walkableArea;
     j["stretch"] = {{"p50", stretch50}, {"p95", stretch95}, {"max", stretchMax}};
     j["round_trip_texels"] = {{"p50", roundTrip50}, {"p999", roundTrip999}};

@@ -1,0 +1,154 @@
+#include "tests/contact/oracle.hpp"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Triangle_3.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace espalier::contacttest {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Point = Kernel::Point_3;
+
+Vec3 from(const Point& p) {
+    return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+}
+
+// The solid angle of a triangle seen from p, over 4 pi (van Oosterom and Strackee).
+double solidAngle(Vec3 a, Vec3 b, Vec3 c, Vec3 p) {
+    a -= p, b -= p, c -= p;
+    double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    double up = glm::dot(a, glm::cross(b, c));
+    double down = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+    return std::atan2(up, down) / 6.283185307179586;
+}
+
+double toSegment(Vec3 p, Vec3 a, Vec3 b) {
+    double t = std::clamp(glm::dot(p - a, b - a) / std::max(glm::dot(b - a, b - a), 1e-300), 0.0, 1.0);
+    return glm::length(p - (a + (b - a) * t));
+}
+
+double toTriangle(Vec3 p, const Vec3 (&q)[3]) {
+    Vec3 n = glm::cross(q[1] - q[0], q[2] - q[0]);
+    bool within = true;
+    for (int k = 0; k < 3; ++k) within = within && glm::dot(glm::cross(n, q[(k + 1) % 3] - q[k]), p - q[k]) >= 0;
+    if (within) return std::abs(glm::dot(n, p - q[0])) / glm::length(n);
+    return std::min({toSegment(p, q[0], q[1]), toSegment(p, q[1], q[2]), toSegment(p, q[2], q[0])});
+}
+
+}  // namespace
+
+Oracle::Oracle(const Model& model) {
+    Vec3 low(1e300), high(-1e300);
+    for (uint32_t i : model.indices) {
+        low = glm::min(low, Vec3(model.positions[i]));
+        high = glm::max(high, Vec3(model.positions[i]));
+    }
+    radius_ = glm::length(high - low) / 2;
+    std::map<std::tuple<int64_t, int64_t, int64_t>, uint32_t> cells;
+    auto pointOf = [&](Vec3 p) {
+        Vec3 g = glm::round(p / (radius_ * 1e-6));
+        return cells.try_emplace({int64_t(g.x), int64_t(g.y), int64_t(g.z)}, uint32_t(cells.size())).first->second;
+    };
+    for (size_t i = 0; i + 2 < model.indices.size(); i += 3) {
+        Triangle t{};
+        for (size_t k = 0; k < 3; ++k) {
+            t.p[k] = Vec3(model.positions[model.indices[i + k]]);
+            t.point[k] = pointOf(t.p[k]);
+        }
+        if (glm::length(glm::cross(t.p[1] - t.p[0], t.p[2] - t.p[0])) > 1e-12 * radius_ * radius_)
+            triangles_.push_back(t);
+    }
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> edges;
+    for (uint32_t i = 0; i < triangles_.size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+            uint32_t a = triangles_[i].point[k], b = triangles_[i].point[(k + 1) % 3];
+            edges[std::minmax(a, b)].push_back(i * 3 + uint32_t(k));
+        }
+    std::vector<uint32_t> parent(triangles_.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    auto find = [&](uint32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    for (const auto& [edge, halves] : edges)
+        for (uint32_t h : halves) parent[find(h / 3)] = find(halves[0] / 3);
+    closed_.assign(triangles_.size(), 1);
+    for (uint32_t i = 0; i < triangles_.size(); ++i) triangles_[i].piece = find(i);
+    for (const auto& [edge, halves] : edges) {
+        if (halves.size() != 1) continue;
+        const Triangle& t = triangles_[halves[0] / 3];
+        closed_[t.piece] = 0;
+        borders_.push_back({t.p[halves[0] % 3], t.p[(halves[0] + 1) % 3]});
+        borderTriangle_.push_back(halves[0] / 3);
+    }
+}
+
+std::vector<ContactLine> Oracle::intersections() const {
+    using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, uint32_t>;
+    std::vector<Box> boxes;
+    std::vector<Kernel::Triangle_3> shapes;
+    for (uint32_t i = 0; i < triangles_.size(); ++i) {
+        const Vec3* p = triangles_[i].p;
+        shapes.emplace_back(Point(p[0].x, p[0].y, p[0].z), Point(p[1].x, p[1].y, p[1].z),
+                            Point(p[2].x, p[2].y, p[2].z));
+        CGAL::Bbox_3 box;
+        for (int k = 0; k < 3; ++k) box += CGAL::Bbox_3(p[k].x, p[k].y, p[k].z, p[k].x, p[k].y, p[k].z);
+        boxes.emplace_back(box, i);
+    }
+    std::vector<ContactLine> lines;
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& x, const Box& y) {
+        if (triangles_[x.info()].piece == triangles_[y.info()].piece) return;
+        auto shared = CGAL::intersection(shapes[x.info()], shapes[y.info()]);
+        if (!shared) return;
+        if (const auto* s = boost::get<Kernel::Segment_3>(&*shared))
+            lines.push_back({from(s->source()), from(s->target())});
+    });
+    return lines;
+}
+
+double Oracle::winding(Vec3 p) const {
+    double sum = 0;
+    for (const Triangle& t : triangles_)
+        if (closed_[t.piece]) sum += solidAngle(t.p[0], t.p[1], t.p[2], p);
+    return sum;
+}
+
+bool Oracle::visible(const ContactLine& line) const {
+    Vec3 d = glm::normalize(line.b - line.a), m = (line.a + line.b) * 0.5;
+    Vec3 u = glm::normalize(glm::cross(d, std::abs(d.x) < 0.7 ? Vec3(1, 0, 0) : Vec3(0, 1, 0))), v = glm::cross(d, u);
+    for (int k = 0; k < 16; ++k) {
+        double angle = (k + 0.5) * 6.283185307179586 / 16;
+        if (winding(m + (u * std::cos(angle) + v * std::sin(angle)) * (2e-4 * radius_)) < 0.5) return true;
+    }
+    return false;
+}
+
+double Oracle::toBorder(Vec3 p, double within) const {
+    double best = 1e300;
+    for (size_t i = 0; i < borders_.size(); ++i) {
+        double d = toSegment(p, borders_[i].a, borders_[i].b);
+        if (d >= best || d > within) continue;
+        // Where another piece touches, the model does go on.
+        Vec3 ab = borders_[i].b - borders_[i].a;
+        double t = std::clamp(glm::dot(p - borders_[i].a, ab) / glm::dot(ab, ab), 0.0, 1.0);
+        Vec3 at = borders_[i].a + ab * t;
+        uint32_t own = borderTriangle_[i];
+        bool goesOn = false;
+        for (uint32_t k = 0; k < triangles_.size() && !goesOn; ++k) {
+            if (k == own || triangles_[k].piece == triangles_[own].piece) continue;
+            goesOn = toTriangle(at, triangles_[k].p) <= 1e-4 * radius_;
+        }
+        if (!goesOn) best = d;
+    }
+    return best;
+}
+
+}  // namespace espalier::contacttest
