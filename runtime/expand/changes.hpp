@@ -12,13 +12,10 @@
 
 namespace espalier {
 
-// Tiles of one layer of one surface instance whose texels changed.
+// Tiles of one layer of one surface instance whose texels changed. They cover its UV, whatever size it has.
 struct DirtyTiles {
-    static constexpr uint32_t kSide = 256;            // tiles of kLayerTile texels
-    uint32_t instance = 0, layer = 0;                 // layer: the scene's number, below kMaxLayers
-    uint32_t size = 0;                                // texels a side of the layer, at most kSide * kLayerTile
-    std::array<uint64_t, kSide * kSide / 64> bits{};  // bit y * kSide + x
-    bool at(uint32_t x, uint32_t y) const { return bits[(y * kSide + x) / 64] >> (x % 64) & 1; }
+    uint32_t instance = 0, layer = 0;                             // layer: the scene's number, below kMaxLayers
+    std::array<uint64_t, kLayerTiles * kLayerTiles / 64> bits{};  // bit y * kLayerTiles + x
 };
 
 struct GrowthChanges {

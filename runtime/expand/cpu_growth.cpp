@@ -58,10 +58,11 @@ void runTerminals(Attempt& a, ExpandEnv env) {
         env.phase = phase;
         for (uint32_t i = 0; i < s.nodes; ++i) {
             Machine machine;
-            finishNode(machine, env, i, hash);
+            const NodeFinish finish = finishNode(machine, env, i, hash);
+            if (phase == kTerminalsWrite) keepFinish(env.nodes, i, finish);
         }
     }
-    for (uint32_t i = 0; i < s.branches; ++i) fitBranch(env, i);
+    for (uint32_t i = 0; i < s.branches; ++i) a.out.branches[i].thickness = thicknessOf(env, i);
     for (uint32_t i = 0; i < s.nodes; ++i) hash += fitNode(env, i);
     s.hash[0] = hash.x;
     s.hash[1] = hash.y;

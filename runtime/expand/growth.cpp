@@ -2,87 +2,18 @@
 // chunks, branches and leaves. Waves of a queue are recorded ahead as indirect dispatches, which cost nothing when
 // they turn out empty; the terminal passes follow in the same submission. What ran out of room is grown again with
 // more, into a second set of buffers, so that the last good growth stands until the new one is complete.
-#include "runtime/expand/growth.hpp"
-
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 #include "runtime/core/check.hpp"
-#include "runtime/expand/growth_plan.hpp"
-#include "runtime/gpu/buffer.hpp"
-#include "runtime/gpu/commands.hpp"
-#include "runtime/gpu/program.hpp"
-#include "shaders/shared/expand_tables.h"
+#include "runtime/expand/gpu_growth.hpp"
 
 namespace espalier {
 namespace {
 
 constexpr uint32_t kMostAttempts = 48;
 
-// The records of one growth.
-struct Records {
-    Buffer nodes, chunks, branches, leaves;
-};
-
-template <class Buf, class T>
-Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
-    return Buf{reinterpret_cast<T*>(buffer.address() + offset)};
-}
-
-class GpuGrowth final : public Growth {
-  public:
-    GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), room_(room) {}
-
-    Status setUp();
-    Status load(Program& program, const char* shader, std::vector<SpecConstant> constants);
-    Status loadKernels(WalkMode mode);
-    Status grow(const GrowthInputs& inputs) override;
-    GrowthView view() const override { return view_; }
-    GrowthStats stats() const override { return stats_; }
-    Result<GrowthRecords> read() override;
-
-  private:
-    struct Outcome {
-        GrowStatus status;
-        std::vector<Wave> waves;
-        double marchMs = 0, terminalsMs = 0, fitMs = 0;
-    };
-    Result<Outcome> attempt(const GrowthInputs& inputs, const GrowthCut& cut);
-    Status makeRoom(const GrowthInputs& inputs);
-    uint64_t densityWords(const GrowthLimits& limits) const {
-        if (limits.tangents == TangentMode::paper) return kDensityCells + 3ull * room_.nodes;
-        return limits.leafDensityCap > 0 ? kDensityCells : 1;
-    }
-    // The packed tables for kernels' uniform binding: something of its size when they are read by address.
-    uint32_t marchNumber() const { return (fetches_ ? 2 : 0) + (byAddress_ ? 1 : 0); }
-    Status viewSurfaces(const GrowthInputs& inputs);
-    const Buffer& uniformTables() const { return byAddress_ ? noTables_ : tables_; }
-    Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
-    Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut);
-    Status record(Commands& commands, const ExpandEnv& env, uint32_t first, uint32_t last, const GrowthLimits& limits);
-    void recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits);
-    ExpandEnv environment(const GrowthInputs& inputs);
-    void publish(const GrowthInputs& inputs, const Outcome& outcome);
-    uint64_t reserved() const;
-
-    Device& device_;
-    GrowthRoom room_;
-    uint32_t likelyWaves_ = 24;  // recorded in the first submission
-    // Made when first asked for; [1] reads tables by address, see kUniformTableWords.
-    std::array<Program, 4> march_;  // [2], [3] fetch surfaces as texels
-    std::array<Program, 2> marchPaper_, terminals_;
-    uint32_t features_ = 0;  // that these are specialised to: all that grammars ever used, so that they settle
-    Program packTables_, branchesFit_, fit_;
-    bool byAddress_ = false;
-    bool fetches_ = false;
-    TexelView surfaceView_;
-    Records sets_[2];
-    uint32_t front_ = 0;
-    Buffer items_[2], status_, waves_, grammars_, tables_, noTables_, noSurfaces_, density_, readback_;
-    GrowthView view_;
-    GrowthStats stats_;
-};
+}  // namespace
 
 Status GpuGrowth::setUp() {
     struct Row {
@@ -141,9 +72,9 @@ Status GpuGrowth::viewSurfaces(const GrowthInputs& inputs) {
     return Done{};
 }
 
-Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
-    Records& back = sets_[1 - front_];
-    uint64_t waves = inputs.limits.maxDepth + 2ull, words = 0;
+// Kernels for what these grammars ask of them.
+Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
+    uint64_t words = 0;
     placeTables(inputs, words);
     byAddress_ = words > kUniformTableWords;
     Status viewed = viewSurfaces(inputs);
@@ -154,49 +85,59 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
     if (inputs.limits.leafDensityCap > 0) features |= kFeatureDensity;
     if (inputs.limits.tangents == TangentMode::paper) features |= kFeatureJoints;
     if (features != features_) {
-        for (Program& program : march_) program = {};
-        for (Program& program : marchPaper_) program = {};
-        for (Program& program : terminals_) program = {};
+        for (auto* programs : {&march_, &marchAgain_})
+            for (Program& program : *programs) program = {};
+        for (auto* programs : {&marchPaper_, &terminals_, &terminalsAgain_})
+            for (Program& program : *programs) program = {};
         features_ = features;
     }
     Status kernels = loadKernels(inputs.limits.walk);
     if (!kernels) return kernels;
+    const uint64_t tableWords = byAddress_ ? words : kUniformTableWords;
+    Status made = ensure(tables_, "growth tables", tableWords * 4);
+    if (made) made = ensure(noTables_, "growth no tables", byAddress_ ? kUniformTableWords * 4 : 0);
+    return made ? ensure(grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)) : made;
+}
+
+Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
+    Status kernels = makeKernels(inputs);
+    if (!kernels) return kernels;
+    Plants& plants = plants_[1 - frontPlants_];
+    Links& links = links_[1 - frontLinks_];
+    const uint64_t waves = inputs.limits.maxDepth + 2ull;
     struct Row {
         Buffer* buffer;
         const char* name;
         uint64_t bytes;
     };
-    const Row rows[] = {{&back.nodes, "growth nodes", uint64_t(room_.nodes) * sizeof(Node)},
-                        {&back.chunks, "growth chunks", uint64_t(room_.chunks) * sizeof(Chunk)},
-                        {&back.branches, "growth branches", uint64_t(room_.branches) * sizeof(BranchRecord)},
-                        {&back.leaves, "growth leaves", uint64_t(room_.leaves) * sizeof(Leaf)},
+    const Row rows[] = {{&plants.nodes, "growth nodes", uint64_t(room_.nodes) * sizeof(Node)},
+                        {&plants.leaves, "growth leaves", uint64_t(room_.leaves) * sizeof(Leaf)},
+                        {&links.chunks, "growth chunks", uint64_t(room_.chunks) * sizeof(Chunk)},
+                        {&links.branches, "growth branches", uint64_t(room_.branches) * sizeof(BranchRecord)},
                         {&items_[0], "growth items even", uint64_t(room_.items) * sizeof(WorkItem)},
                         {&items_[1], "growth items odd", uint64_t(room_.items) * sizeof(WorkItem)},
                         {&status_, "growth status", sizeof(GrowStatus)},
                         {&waves_, "growth waves", waves * sizeof(Wave)},
-                        {&grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)},
-                        {&tables_, "growth tables", byAddress_ ? words * 4 : kUniformTableWords * 4},
-                        {&noTables_, "growth no tables", byAddress_ ? kUniformTableWords * 4 : 0},
                         {&density_, "growth density", densityWords(inputs.limits) * 4}};
     for (const Row& row : rows) {
         Status ok = ensure(*row.buffer, row.name, row.bytes);
         if (!ok) return ok;
     }
-    return ensure(readback_, "growth readback", sizeof(GrowStatus) + waves * sizeof(Wave), BufferUse::readback);
+    return ensure(readback_, "growth readback", sizeof(GrowStatus) + waves * sizeof(Wave) + sizeof(AgainState),
+                  BufferUse::readback);
 }
 
-ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs) {
-    Records& back = sets_[1 - front_];
+ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plants, const Links& links) {
     ExpandEnv env{};
     env.surfaces = inputs.surfaces;
     if (fetches_) env.scratch = addressOf<UintBuf, uint32_t>(*inputs.surfaceData);
     env.layers = inputs.layers;
     env.grammars = addressOf<RuleMapBuf, RuleMapRef>(grammars_);
     env.tables = addressOf<UintBuf, uint32_t>(tables_);
-    env.nodes = addressOf<NodeBuf, Node>(back.nodes);
-    env.chunks = addressOf<ChunkBuf, Chunk>(back.chunks);
-    env.branches = addressOf<BranchBuf, BranchRecord>(back.branches);
-    env.leaves = addressOf<LeafBuf, Leaf>(back.leaves);
+    env.nodes = addressOf<NodeBuf, Node>(plants.nodes);
+    env.chunks = addressOf<ChunkBuf, Chunk>(links.chunks);
+    env.branches = addressOf<BranchBuf, BranchRecord>(links.branches);
+    env.leaves = addressOf<LeafBuf, Leaf>(plants.leaves);
     env.itemCapacity = room_.items;
     env.status = addressOf<GrowStatusBuf, GrowStatus>(status_);
     env.waves = addressOf<WaveBuf, Wave>(waves_);
@@ -204,24 +145,47 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs) {
     return env;
 }
 
-Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut) {
-    std::vector<GrowStatus> status{freshStatus(inputs.limits, room_, cut)};
-    std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
-    wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_);
+Status GpuGrowth::uploadTables(Commands& commands, const GrowthInputs& inputs) {
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     uint64_t words = 0;
-    std::vector<GrammarTables> tables = placeTables(inputs, words);
-    Status steps[] = {commands.upload(status_, status), commands.upload(waves_, wave),
-                      commands.upload(items_[0], itemsOfSeeds(inputs.seeds)), commands.upload(grammars_, grammars),
-                      commands.upload(tables_, tables)};
+    Status steps[] = {commands.upload(grammars_, grammars), commands.upload(tables_, placeTables(inputs, words))};
     for (Status& step : steps)
         if (!step) return step;
     commands.barrier(Use::transfer, Use::compute | Use::indirect);
     if (grammars.empty()) return Done{};
     Pass pass(commands, "expand tables");
-    pass.dispatch(packTables_, {uint32_t(grammars.size()), 1, 1}, environment(inputs));
+    pass.dispatch(packTables_, {uint32_t(grammars.size()), 1, 1},
+                  environment(inputs, plants_[frontPlants_], links_[frontLinks_]));
     pass.barrier(Use::compute, Use::compute);
     return Done{};
+}
+
+Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut) {
+    std::vector<GrowStatus> status{freshStatus(inputs.limits, room_, cut)};
+    std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
+    wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_);
+    Status steps[] = {commands.upload(status_, status), commands.upload(waves_, wave),
+                      commands.upload(items_[0], itemsOfSeeds(inputs.seeds)), uploadTables(commands, inputs)};
+    for (Status& step : steps)
+        if (!step) return step;
+    return Done{};
+}
+
+void GpuGrowth::recordWaves(Pass& pass, const Program& march, bool fetching, const ExpandEnv& base, uint32_t first,
+                            uint32_t last) {
+    ExpandEnv env = base;
+    for (uint32_t w = first; w < last; ++w) {
+        env.wave = w;
+        env.items = addressOf<WorkItemBuf, WorkItem>(items_[w & 1]);
+        env.nextItems = addressOf<WorkItemBuf, WorkItem>(items_[(w + 1) & 1]);
+        const uint64_t groups = w * sizeof(Wave) + offsetof(Wave, groups);
+        if (fetching) {
+            pass.dispatchIndirect(march, waves_, groups, env, {uniformTables(), surfaceView_});
+        } else {
+            pass.dispatchIndirect(march, waves_, groups, env, {uniformTables()});
+        }
+        pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
+    }
 }
 
 // Waves [first, last), then the terminal passes, which do nothing should wave `last` not be empty.
@@ -231,19 +195,7 @@ Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t fir
     const Program& march = paper ? marchPaper_[byAddress_] : march_[marchNumber()];
     {
         Pass pass(commands, "expand march");
-        ExpandEnv env = base;
-        for (uint32_t w = first; w < last; ++w) {
-            env.wave = w;
-            env.items = addressOf<WorkItemBuf, WorkItem>(items_[w & 1]);
-            env.nextItems = addressOf<WorkItemBuf, WorkItem>(items_[(w + 1) & 1]);
-            const uint64_t groups = w * sizeof(Wave) + offsetof(Wave, groups);
-            if (paper) {
-                pass.dispatchIndirect(march, waves_, groups, env, {uniformTables()});
-            } else {
-                pass.dispatchIndirect(march, waves_, groups, env, {uniformTables(), surfaceView_});
-            }
-            pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
-        }
+        recordWaves(pass, march, !paper, base, first, last);
     }
     ExpandEnv env = base;
     env.wave = last;
@@ -289,7 +241,7 @@ void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthL
 Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const GrowthCut& cut) {
     Status room = makeRoom(inputs);
     if (!room) return room.failure();
-    ExpandEnv env = environment(inputs);
+    ExpandEnv env = environment(inputs, plants_[1 - frontPlants_], links_[1 - frontLinks_]);
     Outcome outcome;
     uint32_t first = 0;
     uint32_t most = inputs.limits.maxDepth + 1;
@@ -311,9 +263,9 @@ Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const 
         outcome.marchMs += device_.milliseconds("expand march");
         outcome.terminalsMs += device_.milliseconds("expand terminals");
         outcome.fitMs += device_.milliseconds("expand fit");
-        std::memcpy(&outcome.status, readback_.mapped(), sizeof(GrowStatus));
-        outcome.waves.resize(last + 1);
-        std::memcpy(outcome.waves.data(), readback_.mapped() + sizeof(GrowStatus), (last + 1) * sizeof(Wave));
+        Outcome read = readOutcome(last);
+        outcome.status = read.status;
+        outcome.waves = std::move(read.waves);
         bool short1 = outcome.status.items > room_.items || outcome.status.chunks > room_.chunks;
         if (outcome.waves[last].count == 0 || last == most || short1) return outcome;
         first = last;
@@ -321,18 +273,33 @@ Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const 
     }
 }
 
-void GpuGrowth::publish(const GrowthInputs& inputs, const Outcome& outcome) {
-    front_ = 1 - front_;
-    Records& records = sets_[front_];
-    view_.nodes = addressOf<NodeBuf, Node>(records.nodes);
-    view_.chunks = addressOf<ChunkBuf, Chunk>(records.chunks);
-    view_.branches = addressOf<BranchBuf, BranchRecord>(records.branches);
-    view_.leaves = addressOf<LeafBuf, Leaf>(records.leaves);
-    view_.nodeCount = outcome.status.nodes;
-    view_.chunkCount = outcome.status.chunks;
-    view_.branchCount = outcome.status.branches;
-    view_.leafCount = outcome.status.leaves;
+GpuGrowth::Outcome GpuGrowth::readOutcome(uint32_t last) {
+    Outcome outcome;
+    std::memcpy(&outcome.status, readback_.mapped(), sizeof(GrowStatus));
+    outcome.waves.resize(last + 1);
+    std::memcpy(outcome.waves.data(), readback_.mapped() + sizeof(GrowStatus), (last + 1) * sizeof(Wave));
+    return outcome;
+}
+
+// The links that were written are those of what is drawn from now on.
+void GpuGrowth::showLinks(const GrowStatus& status) {
+    frontLinks_ = 1 - frontLinks_;
+    const Plants& plants = plants_[frontPlants_];
+    const Links& links = links_[frontLinks_];
+    view_.nodes = addressOf<NodeBuf, Node>(plants.nodes);
+    view_.chunks = addressOf<ChunkBuf, Chunk>(links.chunks);
+    view_.branches = addressOf<BranchBuf, BranchRecord>(links.branches);
+    view_.leaves = addressOf<LeafBuf, Leaf>(plants.leaves);
+    view_.nodeCount = status.nodes;
+    view_.chunkCount = status.chunks;
+    view_.branchCount = status.branches;
+    view_.leafCount = status.leaves;
     view_.revision += 1;
+}
+
+void GpuGrowth::publish(const GrowthInputs& inputs, const Outcome& outcome) {
+    frontPlants_ = 1 - frontPlants_;
+    showLinks(outcome.status);
     stats_.seeds = uint32_t(inputs.seeds.size());
     takeCounters(outcome.status, stats_);
     auto empty = std::find_if(outcome.waves.begin(), outcome.waves.end(), [](const Wave& w) { return w.count == 0; });
@@ -347,14 +314,17 @@ void GpuGrowth::publish(const GrowthInputs& inputs, const Outcome& outcome) {
 
 uint64_t GpuGrowth::reserved() const {
     uint64_t bytes = 0;
-    for (const Records& r : sets_) bytes += r.nodes.size() + r.chunks.size() + r.branches.size() + r.leaves.size();
-    for (const Buffer* b : {&items_[0], &items_[1], &status_, &waves_, &grammars_, &tables_, &noTables_, &density_})
+    for (const Plants& p : plants_) bytes += p.nodes.size() + p.leaves.size();
+    for (const Links& l : links_) bytes += l.chunks.size() + l.branches.size();
+    for (const Buffer* b : {&items_[0], &items_[1], &status_, &waves_, &grammars_, &tables_, &noTables_, &density_,
+                            &again_, &marks_, &lists_, &edits_, &results_, &touched_})
         bytes += b->size();
     return bytes;
 }
 
 Result<GrowthRecords> GpuGrowth::read() {
-    Records& from = sets_[front_];
+    Plants& plants = plants_[frontPlants_];
+    Links& links = links_[frontLinks_];
     GrowthRecords to;
     auto fetch = [&](auto& values, const Buffer& buffer, uint32_t count) -> Status {
         if (count == 0) return Done{};
@@ -363,9 +333,9 @@ Result<GrowthRecords> GpuGrowth::read() {
         values = std::move(*got);
         return Done{};
     };
-    Status steps[] = {fetch(to.nodes, from.nodes, view_.nodeCount), fetch(to.chunks, from.chunks, view_.chunkCount),
-                      fetch(to.branches, from.branches, view_.branchCount),
-                      fetch(to.leaves, from.leaves, view_.leafCount)};
+    Status steps[] = {fetch(to.nodes, plants.nodes, view_.nodeCount), fetch(to.chunks, links.chunks, view_.chunkCount),
+                      fetch(to.branches, links.branches, view_.branchCount),
+                      fetch(to.leaves, plants.leaves, view_.leafCount)};
     for (Status& step : steps)
         if (!step) return step.failure();
     return to;
@@ -374,19 +344,43 @@ Result<GrowthRecords> GpuGrowth::read() {
 Status GpuGrowth::grow(const GrowthInputs& inputs) {
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
+    if (canRegrow(inputs)) {
+        const std::optional<SeedChanges> seeds =
+            seedChanges(seeds_, inputs.seeds, *inputs.changes, widths_, inputs.widths);
+        Result<bool> done = seeds ? regrow(inputs, *seeds) : Result<bool>(false);
+        surfaceView_ = {};  // no view outlives its buffer
+        if (!done) return done.failure();
+        if (*done) return Done{};
+    }
+    return growAll(inputs);
+}
+
+void GpuGrowth::remember(const GrowthInputs& inputs) {
+    limits_ = inputs.limits;
+    surfaceCount_ = inputs.surfaceCount;
+    maps_.assign(inputs.grammars.begin(), inputs.grammars.end());
+    widths_.assign(inputs.widths.begin(), inputs.widths.end());
+    seeds_.assign(inputs.seeds.begin(), inputs.seeds.end());
+}
+
+Status GpuGrowth::growAll(const GrowthInputs& inputs) {
     room_.items = std::max(room_.items, uint32_t(inputs.seeds.size()));
     GrowthCut cut = noCut(inputs.limits);
     uint32_t overflow = 0;
     for (uint32_t i = 0; i < kMostAttempts; ++i) {
         Result<Outcome> outcome = attempt(inputs, cut);
-        surfaceView_ = {};  // no view outlives its buffer
+        surfaceView_ = {};
         if (!outcome) return outcome.failure();
         Verdict verdict = judge(outcome->status, outcome->waves, inputs.limits, room_, cut);
         if (verdict == Verdict::impossible) break;
         if (verdict == Verdict::complete) {
             publish(inputs, *outcome);
+            const GrowthCut none = noCut(inputs.limits);
+            whole_ = cut.wave == none.wave && cut.key == none.key;
             stats_.overflow = overflow;
             stats_.expansions += 1;
+            stats_.derived = stats_.nodes;
+            remember(inputs);
             return Done{};
         }
         overflow += 1;
@@ -394,8 +388,6 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     return Failure("growth",
                    "the limit of " + std::to_string(inputs.limits.maxNodes) + " nodes leaves room for nothing");
 }
-
-}  // namespace
 
 Result<std::unique_ptr<Growth>> Growth::create(Device& device, const GrowthRoom& room) {
     auto growth = std::make_unique<GpuGrowth>(device, room);

@@ -48,7 +48,8 @@ struct GrowthInputs {
     const GrowthChanges* changes = nullptr;
 };
 
-// What the later stages read. Buffers belong to Growth and change only in grow().
+// What the later stages read. Buffers belong to Growth and change only in grow(). Counts include the gaps that edits
+// left: nodes without bark and with a radius below 0, chunks without marks, branches and leaves of kNoIndex.
 struct GrowthView {
     NodeBuf nodes{};
     ChunkBuf chunks{};
@@ -62,7 +63,9 @@ struct GrowthStats {
     uint32_t seeds = 0, chunks = 0, branches = 0, nodes = 0, steps = 0, leaves = 0, spans = 0;
     uint32_t inserted = 0;    // nodes that seams, creases and split spans put in
     uint32_t waves = 0;       // of the queue, in the latest grow()
-    uint32_t expansions = 0;  // grow() calls since creation
+    uint32_t expansions = 0;  // grow() calls since creation that had something to do
+    uint32_t regrowths = 0;   // of these, those that grew only what an edit concerned
+    uint32_t derived = 0;     // nodes that the latest grow() derived
     uint32_t overflow = 0;    // times that buffers were too small or a limit cut growth, in the latest grow()
     uint32_t stopped = 0;     // shapes that a limit ended
     uint32_t deadEnds = 0;    // branches that found no direction that their condition allows
@@ -91,7 +94,8 @@ class Growth {
     static Result<std::unique_ptr<Growth>> create(Device& device, const GrowthRoom& room = {});
     virtual ~Growth() = default;
 
-    // Grows everything anew and publishes it when complete; until then, and on failure, the last growth stands.
+    // Grows what inputs.changes and the seeds say, or everything anew, and publishes it when complete; until then, and
+    // on failure, the last growth stands.
     // Fails for inputs that can't be grown (a seed of no grammar, NaN) and when memory has run out.
     virtual Status grow(const GrowthInputs& inputs) = 0;
     virtual GrowthView view() const = 0;

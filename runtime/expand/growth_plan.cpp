@@ -14,10 +14,6 @@ namespace {
 
 constexpr uint64_t kWholeWave = 1ull << 32;
 
-uint32_t chunkLimit(const GrowthLimits& limits) {
-    return std::max(limits.maxNodes / 2, 4096u);
-}
-
 bool finite(const Seed& seed) {
     const Walk& w = seed.walk;
     bool ok = std::isfinite(w.uv.x) && std::isfinite(w.uv.y) && std::isfinite(w.arc);
@@ -54,6 +50,10 @@ GrowthCut findCut(std::span<const Wave> waves, const GrowthLimits& limits, const
 }
 
 }  // namespace
+
+uint32_t chunkLimit(const GrowthLimits& limits) {
+    return std::max(limits.maxNodes / 2, 4096u);
+}
 
 Status checkInputs(const GrowthInputs& inputs) {
     if (inputs.limits.maxDepth < 1 || inputs.limits.maxDepth > 65534)
@@ -183,6 +183,13 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
     return Verdict::retry;
 }
 
+void countBytes(GrowthStats& stats) {
+    stats.spans = stats.nodes - std::min(stats.seeds, stats.nodes);
+    stats.nodeBytes = uint64_t(stats.nodes) * sizeof(Node);
+    stats.leafBytes = uint64_t(stats.leaves) * sizeof(Leaf);
+    stats.chunkBytes = uint64_t(stats.chunks) * sizeof(Chunk) + uint64_t(stats.branches) * sizeof(BranchRecord);
+}
+
 void takeCounters(const GrowStatus& status, GrowthStats& stats) {
     stats.chunks = status.chunks;
     stats.branches = status.branches;
@@ -190,12 +197,9 @@ void takeCounters(const GrowStatus& status, GrowthStats& stats) {
     stats.leaves = status.leaves;
     stats.steps = status.steps;
     stats.inserted = status.inserted;
-    stats.spans = status.nodes - std::min(stats.seeds, status.nodes);
     stats.stopped = status.stopped;
     stats.deadEnds = status.deadEnds;
-    stats.nodeBytes = uint64_t(status.nodes) * sizeof(Node);
-    stats.leafBytes = uint64_t(status.leaves) * sizeof(Leaf);
-    stats.chunkBytes = uint64_t(status.chunks) * sizeof(Chunk) + uint64_t(status.branches) * sizeof(BranchRecord);
+    countBytes(stats);
     uint32_t low = 0, high = 0;
     for (uint32_t i = 0; i < kHashSlots; ++i) {
         low += status.hash[2 * i];

@@ -35,6 +35,11 @@ enum class Verdict { complete, retry, impossible };
 Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
               GrowthCut& cut);
 
+// Chunks at most.
+uint32_t chunkLimit(const GrowthLimits& limits);
+
+// Spans and bytes, from the other counts.
+void countBytes(GrowthStats& stats);
 // The figures that come from counters.
 void takeCounters(const GrowStatus& status, GrowthStats& stats);
 

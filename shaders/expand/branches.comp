@@ -15,7 +15,7 @@ void main() {
         if (env.phase == kTerminalsJoints) {
             sumJoint(env, i);
         } else {
-            fitBranch(env, i);
+            env.branches.v[i].thickness = thicknessOf(env, i);
         }
     }
 }

@@ -13,7 +13,10 @@ void main() {
     bool ready = complete(env);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     uvec2 hash = uvec2(0u);
-    for (uint i = gl_GlobalInvocationID.x; ready && i < count; i += lanes) finishNode(env, i, hash);
+    for (uint i = gl_GlobalInvocationID.x; ready && i < count; i += lanes) {
+        NodeFinish finish = finishNode(env, i, hash);
+        if (env.phase == kTerminalsWrite) keepFinish(env.nodes, i, finish);
+    }
     uint slot = (gl_WorkGroupID.x & (kHashSlots - 1u)) * 2u;
     atomicAdd(env.status.v[0].hash[slot], hash.x);
     atomicAdd(env.status.v[0].hash[slot + 1u], hash.y);

@@ -14,6 +14,8 @@ CONST_UINT(kDensityCells, 1u << 18u);
 CONST_UINT(kTerminalsWrite, 0u);
 CONST_UINT(kTerminalsCount, 1u);   // only count leaves by cell, for the density cap
 CONST_UINT(kTerminalsJoints, 2u);  // only sum branches' directions at their joints, for the paper's tangents
+CONST_UINT(kTerminalsAgain, 3u);   // of a regrowth: leaves are written as pending, nodes' results aside
+CONST_UINT(kLeafPending, 1u << 31u);   // of Leaf::node: not to be drawn yet
 
 // Counters of one growth. Taken counts may exceed capacities: then nothing was written beyond them, and the host
 // grows again with more room.
@@ -28,7 +30,8 @@ struct GrowStatus {
     uint limitKey;
     uint walkMode, tangentMode;
     float leafDensityCap;    // leaves per m² and seed, 0: none
-    uint spare[4];
+    uint spare[2];
+    u64 again;               // address of a regrowth's AgainState
     uint hash[128];          // [slot * 2]: low words, high words
 };
 STATIC_SIZE(GrowStatus, 632);
@@ -50,14 +53,19 @@ BUFFER(WaveBuf, Wave)
 struct GrammarTables {
     uint symbols, rules, successors, terminals, extrudes, code, sites;   // indices of words
     float width;             // metres: the surface is taken as coarse as suits shapes of this width
-    uint inputs, layers;
-    uint spare[2];
+    uint inputs, layers;     // of symbols and rules
+    uint sceneLayers;        // by the scene's numbers, of terminals too
+    uint extrudeInputs, extrudeLayers, extrudeParams;
 };
-STATIC_SIZE(GrammarTables, 48);
-CONST_UINT(kGrammarWords, 12u);
+STATIC_SIZE(GrammarTables, 56);
+CONST_UINT(kGrammarWords, 14u);
 CONST_UINT(kTableWidth, 7u);     // words of GrammarTables
 CONST_UINT(kTableInputs, 8u);
 CONST_UINT(kTableLayers, 9u);
+CONST_UINT(kTableSceneLayers, 10u);
+CONST_UINT(kTableExtrudeInputs, 11u);
+CONST_UINT(kTableExtrudeLayers, 12u);
+CONST_UINT(kTableExtrudeParams, 13u);
 
 // All that a kernel of expansion is handed, as push constants.
 struct ExpandEnv {
@@ -84,6 +92,8 @@ struct ExpandEnv {
 };
 STATIC_SIZE(ExpandEnv, 128);
 
+CONST_UINT(kItemsPerGroupAgain, 16u);   // of a regrowth: its few items shall not all go to one thread
+
 #ifdef __cplusplus
 // The CPU reference runs on one thread.
 inline uint atomicAdd(uint& memory, uint value) {
@@ -94,6 +104,11 @@ inline uint atomicAdd(uint& memory, uint value) {
 inline uint atomicOr(uint& memory, uint value) {
     uint old = memory;
     memory |= value;
+    return old;
+}
+inline uint atomicExchange(uint& memory, uint value) {
+    uint old = memory;
+    memory = value;
     return old;
 }
 inline uint atomicMax(uint& memory, uint value) {
@@ -131,8 +146,23 @@ FN uvec2 hashVec3(uvec2 h, vec3 v) {
 }
 FN uvec2 hashKey(u64 key) { return uvec2(uint(key), uint(key >> 32)); }
 
+// What a node adds to the structure's hash, key being its chunk's: all of it but where things lie in the buffers.
+FN uvec2 hashOfNode(u64 key, Node node) {
+    uvec2 h = hashVec3(hashKey(key), node.position);
+    h = hashWord(hashWord(hashWord(h, node.normal), node.tangent), node.uv);
+    h = hashWord(hashWord(hashWord(h, node.place), floatBitsToUint(node.radius)), floatBitsToUint(node.arc));
+    return hashWord(h, node.flags);
+}
+// The same of a leaf on the node with these flags. Both can be worked out again from what is kept, so that a regrowth
+// takes what it removes out of the sum.
+FN uvec2 hashOfLeaf(u64 key, uint flags, Leaf leaf) {
+    uvec2 h = hashWord(hashWord(hashWord(hashKey(key), leaf.place), leaf.pose), leaf.tint);
+    return hashWord(h, 0x1EAF0000u | (flags & 0x1F00u));
+}
+
 // What the pass over nodes needs of a chunk.
 struct ChunkBrief {
+    u64 key;
     float entryArc;
     uint symbol;
     vec4 args;
@@ -146,7 +176,7 @@ inline void writeItem(WorkItemBuf items, uint at, const WorkItem& item) { items.
 inline void writeChunk(ChunkBuf chunks, uint at, const Chunk& chunk) { chunks.v[at] = chunk; }
 inline ChunkBrief readBrief(ChunkBuf chunks, uint at) {
     const Chunk& c = chunks.v[at];
-    return {c.entry.arc, c.symbol, vec4(c.args[0], c.args[1], c.args[2], c.args[3]),
+    return {c.key, c.entry.arc, c.symbol, vec4(c.args[0], c.args[1], c.args[2], c.args[3]),
             c.previousNode, c.next, c.branch, c.firstNode, c.depth, c.step, c.marks};
 }
 #else
@@ -200,21 +230,21 @@ void writeItem(WorkItemBuf items, uint at, WorkItem item) {
 ChunkBrief readBrief(ChunkBuf chunks, uint at) {
     PairBuf from = PairBuf(uint64_t(chunks) + uint64_t(at) * 112u);
     ChunkBrief c;
-    c.entryArc = uintBitsToFloat(unpackUint2x32(from.v[4]).x);
-    uvec2 p = unpackUint2x32(from.v[5]);
-    c.symbol = p.x;
-    vec2 middle = uintBitsToFloat(unpackUint2x32(from.v[6]));
-    c.args = vec4(uintBitsToFloat(p.y), middle, uintBitsToFloat(unpackUint2x32(from.v[7]).x));
+    c.key = from.v[0];
+    uvec2 p = unpackUint2x32(from.v[4]);
+    c.entryArc = uintBitsToFloat(p.x);
+    c.symbol = p.y;
+    c.args = vec4(uintBitsToFloat(unpackUint2x32(from.v[5])), uintBitsToFloat(unpackUint2x32(from.v[6])));
+    c.previousNode = unpackUint2x32(from.v[7]).y;
     p = unpackUint2x32(from.v[8]);
-    c.previousNode = p.x;
-    c.next = p.y;
+    c.next = p.x;
+    c.branch = p.y;
     p = unpackUint2x32(from.v[9]);
-    c.branch = p.x;
-    c.firstNode = p.y;
+    c.firstNode = p.x;
+    c.depth = p.y;
     p = unpackUint2x32(from.v[10]);
-    c.depth = p.x;
-    c.step = p.y;
-    c.marks = unpackUint2x32(from.v[11]).x;
+    c.step = p.x;
+    c.marks = p.y;
     return c;
 }
 void writeChunk(ChunkBuf chunks, uint at, Chunk c) {
@@ -223,16 +253,16 @@ void writeChunk(ChunkBuf chunks, uint at, Chunk c) {
     to.v[1] = pairOf(c.entry.place, floatBitsToUint(c.entry.uv.x));
     to.v[2] = pairOf(c.entry.uv.y, c.entry.direction.x);
     to.v[3] = pairOf(c.entry.direction.y, c.entry.direction.z);
-    to.v[4] = pairOf(floatBitsToUint(c.entry.arc), c.exitHash);
-    to.v[5] = pairOf(c.symbol, floatBitsToUint(c.args[0]));
-    to.v[6] = pairOf(c.args[1], c.args[2]);
-    to.v[7] = pairOf(floatBitsToUint(c.args[3]), c.parent);
-    to.v[8] = pairOf(c.previousNode, c.next);
-    to.v[9] = pairOf(c.branch, c.firstNode);
-    to.v[10] = pairOf(c.depth, c.step);
-    to.v[11] = pairOf(c.marks, c.paramMask);
-    to.v[12] = pairOf(c.readTiles[0], c.readTiles[1]);
-    to.v[13] = pairOf(c.readTiles[2], c.readTiles[3]);
+    to.v[4] = pairOf(floatBitsToUint(c.entry.arc), c.symbol);
+    to.v[5] = pairOf(c.args[0], c.args[1]);
+    to.v[6] = pairOf(c.args[2], c.args[3]);
+    to.v[7] = pairOf(c.parent, c.previousNode);
+    to.v[8] = pairOf(c.next, c.branch);
+    to.v[9] = pairOf(c.firstNode, c.depth);
+    to.v[10] = pairOf(c.step, c.marks);
+    to.v[11] = pairOf(c.paramMask, c.firstChild);
+    to.v[12] = pairOf(c.nextSibling, c.reads[0]);
+    to.v[13] = pairOf(c.reads[1], c.reads[2]);
 }
 #endif
 

@@ -9,9 +9,14 @@ ESPALIER_BEGIN
 
 CONST_UINT(kMaxForebears, 64u);
 
+#ifndef ESPALIER_AGAIN
+// A node's radius before the fit; a regrowth has its own way to it.
+FN float bareRadius(ExpandEnv env, uint index) { return env.nodes.v[index].radius; }
+#endif
+
 // Thickness of a branch: s = min(1, q · s_parent), where q is the parent's radius at the joint over the branch's
 // first. Unrolled, the smallest product of the first q's on the way to the seed, or 1.
-FN void fitBranch(ExpandEnv env, uint branch) {
+FN float thicknessOf(ExpandEnv env, uint branch) {
     float product = 1.0f;
     float thickness = 1.0f;
     uint at = branch;
@@ -20,13 +25,13 @@ FN void fitBranch(ExpandEnv env, uint branch) {
         uint joint = env.chunks.v[chunk].previousNode;
         if (joint == kNoIndex) break;
         uint first = env.chunks.v[chunk].firstNode;
-        float mine = env.nodes.v[first].radius;
-        float parents = env.nodes.v[joint].radius;
+        float mine = bareRadius(env, first);
+        float parents = bareRadius(env, joint);
         if (mine > 0.0f && parents > 0.0f) product = product * divExact(parents, mine);
         thickness = smaller(thickness, product);
         at = env.chunks.v[env.nodes.v[joint].chunk].branch;
     }
-    env.branches.v[branch].thickness = thickness;
+    return larger(thickness, 1e-9f);
 }
 
 // Adds the branch's first direction to its joint's sum: in whole numbers, so that the order doesn't matter.
@@ -42,16 +47,12 @@ FN void sumJoint(ExpandEnv env, uint branch) {
     atomicAdd(env.density.v[at + 2u], uint(int(d.z)));
 }
 
-// Scales the node's radius and returns its hash: of everything but where things lie in the buffers.
+// Fits the node's radius to its branch and returns its hash.
 FN uvec2 fitNode(ExpandEnv env, uint index) {
     Node node = env.nodes.v[index];
-    u64 key = env.chunks.v[node.chunk].key;
-    node.radius = node.radius * env.branches.v[env.chunks.v[node.chunk].branch].thickness;
+    node.radius = bareRadius(env, index) * env.branches.v[env.chunks.v[node.chunk].branch].thickness;
     env.nodes.v[index].radius = node.radius;
-    uvec2 h = hashVec3(hashKey(key), node.position);
-    h = hashWord(hashWord(hashWord(h, node.normal), node.tangent), node.uv);
-    h = hashWord(hashWord(hashWord(h, node.place), floatBitsToUint(node.radius)), floatBitsToUint(node.arc));
-    return hashWord(h, node.flags);
+    return hashOfNode(env.chunks.v[node.chunk].key, node);
 }
 
 ESPALIER_END

@@ -6,44 +6,92 @@
 
 ESPALIER_BEGIN
 
-// A chunk's read set as it gathers; see Chunk::readTiles. A tile is noted for the texel that holds the texture
-// coordinate; the bilinear read touches texels one further, so who marks tiles dirty grows them by a texel.
+// A chunk's read set as it gathers, see Chunk::reads. Tiles of a layer's changes are grown by what a bilinear read takes
+// in, so a place is noted for the tile that it lies in alone.
 struct ReadSet {
-    uint layers, params;
-    uint tile0, tile1, tile2, tile3;
-    bool all;
+    uint params;
+    uint level;          // above kMaxReadLevel: everything
+    uint last;           // the place noted last: instance << 16 | finest tile
+    uint instance;
+    uint tile0, tile1, tile2, tile3, tile4;   // kNoIndex: none
+    bool beyond;         // places that are none of its nodes'
 };
 
 FN ReadSet emptyReadSet() {
     ReadSet r;
-    r.layers = 0u;
     r.params = 0u;
+    r.level = 0u;
+    r.last = kNoIndex;
+    r.instance = kNoIndex;
     r.tile0 = kNoIndex;
     r.tile1 = kNoIndex;
     r.tile2 = kNoIndex;
     r.tile3 = kNoIndex;
-    r.all = false;
+    r.tile4 = kNoIndex;
+    r.beyond = false;
     return r;
 }
 
-FN void noteTile(INOUT(ReadSet) r, uint tile) {
-    bool known = tile == r.tile0 || tile == r.tile1 || tile == r.tile2 || tile == r.tile3;
-    bool full = r.tile3 != kNoIndex;
-    r.all = r.all || (full && !known);
-    bool add = !known && !full;
-    // Slots fill from 0 on, and `tile3` last.
-    r.tile3 = add && r.tile2 != kNoIndex ? tile : r.tile3;
-    r.tile2 = add && r.tile1 != kNoIndex && r.tile2 == kNoIndex ? tile : r.tile2;
-    r.tile1 = add && r.tile0 != kNoIndex && r.tile1 == kNoIndex ? tile : r.tile1;
-    r.tile0 = add && r.tile0 == kNoIndex ? tile : r.tile0;
+// Puts a tile in front of the others, unless it is known. False: there is no room.
+FN bool addTile(INOUT(ReadSet) r, uint tile, bool wanted) {
+    bool known = tile == r.tile0 || tile == r.tile1 || tile == r.tile2 || tile == r.tile3 || tile == r.tile4;
+    bool full = r.tile4 != kNoIndex;
+    bool add = wanted && !known && !full;
+    r.tile4 = add ? r.tile3 : r.tile4;
+    r.tile3 = add ? r.tile2 : r.tile3;
+    r.tile2 = add ? r.tile1 : r.tile2;
+    r.tile1 = add ? r.tile0 : r.tile1;
+    r.tile0 = add ? tile : r.tile0;
+    return !wanted || known || !full;
+}
+FN uint tileOf(ReadSet r, uint i) {
+    uint t = i == 0u ? r.tile0 : r.tile1;
+    t = i == 2u ? r.tile2 : t;
+    t = i == 3u ? r.tile3 : t;
+    return i == 4u ? r.tile4 : t;
+}
+FN uint coarseTile(uint tile, uint level) { return (((tile >> 8u) >> level) << 8u) | ((tile & 255u) >> level); }
+
+// Notes a place. Where its tile finds no room, all move a level up, where some fall together.
+FN void notePlace(INOUT(ReadSet) r, uint instance, vec2 uv) {
+    uint x = uint(limited(uv.x * 256.0f, 0.0f, 255.0f));
+    uint y = uint(limited(uv.y * 256.0f, 0.0f, 255.0f));
+    uint place = ((instance & 0xFFFFu) << 16u) | (y << 8u) | x;
+    // A loop, since software devices skip only those.
+    for (bool again = place != r.last; again;) {
+        r.last = place;
+        bool same = r.instance == kNoIndex || r.instance == instance;
+        r.instance = instance;
+        r.level = same ? r.level : kMaxReadLevel + 1u;
+        again = !addTile(r, coarseTile(place & 0xFFFFu, r.level), r.level <= kMaxReadLevel);
+        ReadSet old = r;
+        for (uint i = 0u; i < (again ? kReadTiles : 0u); ++i) {
+            if (i == 0u) {
+                r = emptyReadSet();
+                r.params = old.params;
+                r.last = old.last;
+                r.instance = old.instance;
+                r.beyond = old.beyond;
+                r.level = old.level + 1u;
+            }
+            addTile(r, coarseTile(tileOf(old, i), 1u), true);
+        }
+    }
+}
+
+// Word i of Chunk::reads.
+FN uint readWord(ReadSet r, uint i) {
+    uint head = (r.instance & 255u) | (r.level << 8u);
+    uint low = i == 0u ? head : i == 1u ? r.tile1 : r.tile3;
+    uint high = i == 0u ? r.tile0 : i == 1u ? r.tile2 : r.tile4;
+    return (low & 0xFFFFu) | (high << 16u);
 }
 
 // A layer's value at uv: bilinear, clamped at the image's edge, the fill where nothing is painted.
-FN float layerAt(LayerBuf layers, uint instance, uint layer, vec2 uv, INOUT(ReadSet) reads) {
+FN float layerAt(LayerBuf layers, uint instance, uint layer, vec2 uv) {
     uint at = instance * kMaxLayers + layer;
     uint size = layers.v[at].size;
     float value = layers.v[at].fill;
-    reads.layers = reads.layers | (1u << layer);
     float fsize = float(size);
     FloatBuf texels = layers.v[at].texels;
     if (IS_GIVEN(texels)) {
@@ -59,10 +107,6 @@ FN float layerAt(LayerBuf layers, uint instance, uint layer, vec2 uv, INOUT(Read
         float high = texels.v[texelIndex(size, x, y1)] * (1.0f - fx) + texels.v[texelIndex(size, x1, y1)] * fx;
         value = low * (1.0f - fy) + high * fy;
     }
-    uint tx = uint(uv.x * fsize) / kLayerTile;
-    uint ty = uint(uv.y * fsize) / kLayerTile;
-    uint tile = ((ty & 255u) << 8u) | (tx & 255u);
-    noteTile(reads, ((instance & 255u) << 24u) | (layer << 16u) | tile);
     return value;
 }
 
@@ -112,7 +156,7 @@ FN WorldFrame frameOf(SurfaceBuf surfaces, uint instance, uint inputs) {
 
 // Fills the slots that the masks name. `depth`, `step`, `arc`: see rule_map.h.
 FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint inputs, uint layers, Place p, uint depth,
-                   uint step, float arc, INOUT(ReadSet) reads) {
+                   uint step, float arc) {
     SLOT(kSlotTexCoord) = p.uv.x;
     SLOT(kSlotTexCoord + 1u) = p.uv.y;
     SLOT(kSlotDepth) = float(depth);
@@ -124,7 +168,7 @@ FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint
         }
         for (uint left = layers; left != 0u; left = left & (left - 1u)) {
             uint i = lowestBit(left);
-            SLOT(kSlotLayer + i) = layerAt(env.layers, p.instance, env.grammars.v[grammar].layerOf[i] & 15u, p.uv, reads);
+            SLOT(kSlotLayer + i) = layerAt(env.layers, p.instance, env.grammars.v[grammar].layerOf[i] & 15u, p.uv);
         }
     }
     if ((kFeatures & kFeatureWorld) == 0u) return;

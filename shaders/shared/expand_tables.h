@@ -116,6 +116,15 @@ FN void packExtrude(ExtrudeRecordBuf from, UintBuf to, uint base, uint i) {
     to.v[at + 3u] = e.layers;
 }
 
+// A grammar's layers by the scene's numbers.
+FN uint sceneLayers(RuleMapBuf grammars, uint g, uint layers) {
+    uint scene = 0u;
+    for (uint left = layers; left != 0u; left = left & (left - 1u)) {
+        scene = scene | (1u << (grammars.v[g].layerOf[lowestBit(left)] & 15u));
+    }
+    return scene;
+}
+
 // Packs grammar `g`'s tables and gathers what its growth may ask of a place, all symbols and rules together: that is
 // given once a step. Invocation `lane` of `lanes` packs its share; inputs and layers must be zero before.
 FN void packGrammar(RuleMapBuf grammars, UintBuf tables, uint g, uint lane, uint lanes) {
@@ -125,6 +134,7 @@ FN void packGrammar(RuleMapBuf grammars, UintBuf tables, uint g, uint lane, uint
         packSymbol(grammars.v[g].symbols, tables, base, i);
         atomicOr(tables.v[at + kTableInputs], grammars.v[g].symbols.v[i].inputs);
         atomicOr(tables.v[at + kTableLayers], grammars.v[g].symbols.v[i].layers);
+        atomicOr(tables.v[at + kTableSceneLayers], sceneLayers(grammars, g, grammars.v[g].symbols.v[i].layers));
     }
     base = tables.v[at + 1u];
     for (uint i = lane; i < grammars.v[g].ruleCount; i += lanes) {
@@ -132,13 +142,21 @@ FN void packGrammar(RuleMapBuf grammars, UintBuf tables, uint g, uint lane, uint
         RuleRecord r = grammars.v[g].rules.v[i];
         atomicOr(tables.v[at + kTableInputs], r.startInputs | r.arriveInputs);
         atomicOr(tables.v[at + kTableLayers], r.startLayers | r.arriveLayers);
+        atomicOr(tables.v[at + kTableSceneLayers], sceneLayers(grammars, g, r.startLayers | r.arriveLayers));
     }
     base = tables.v[at + 2u];
     for (uint i = lane; i < grammars.v[g].successorCount; i += lanes) packSuccessor(grammars.v[g].successors, tables, base, i);
     base = tables.v[at + 3u];
     for (uint i = lane; i < grammars.v[g].terminalCount; i += lanes) packTerminal(grammars.v[g].terminals, tables, base, i);
     base = tables.v[at + 4u];
-    for (uint i = lane; i < grammars.v[g].extrudeCount; i += lanes) packExtrude(grammars.v[g].extrudes, tables, base, i);
+    for (uint i = lane; i < grammars.v[g].extrudeCount; i += lanes) {
+        packExtrude(grammars.v[g].extrudes, tables, base, i);
+        ExtrudeRecord e = grammars.v[g].extrudes.v[i];
+        atomicOr(tables.v[at + kTableExtrudeInputs], e.inputs);
+        atomicOr(tables.v[at + kTableExtrudeLayers], e.layers);
+        atomicOr(tables.v[at + kTableExtrudeParams], e.params);
+        atomicOr(tables.v[at + kTableSceneLayers], sceneLayers(grammars, g, e.layers));
+    }
     base = tables.v[at + 5u];
     for (uint i = lane; i < grammars.v[g].codeCount; i += lanes) {
         tables.v[base + 2u * i] = grammars.v[g].code.v[i].bits;

@@ -30,6 +30,8 @@ struct NodeSite {
     bool foot;           // a seed's: no span, but the radius of the first
     bool tip;
     uint seed;
+    u64 chunkKey;
+    uint flags;          // of the node
     u64 key;             // of the draws
     float before, after; // arcs of the nodes at both ends of its span
     float stepStart, stepEnd;
@@ -60,14 +62,13 @@ FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, uint colour, float siz
     }
     if (!here || counts) return;
     Leaf leaf;
-    leaf.node = site.index;
+    leaf.node = site.index | (env.phase == kTerminalsAgain ? kLeafPending : 0u);
     leaf.place = packLeafPlace(divExact(arc - site.before, larger(site.after - site.before, 1e-9f)), mesh, size);
     leaf.pose = packLeafPose(turn, pitch, lift, size);
     leaf.tint = packLeafTint(tint, vec3(0.0f), uint(key)) | colour;
     uint at = atomicAdd(env.status.v[0].leaves, 1u);
     if (at < env.status.v[0].leafCapacity) env.leaves.v[at] = leaf;
-    uvec2 h = hashWord(hashWord(hashWord(hashKey(key), leaf.place), leaf.pose), leaf.tint);
-    hash = hash + hashWord(h, 0x1EAFu);
+    hash = hash + hashOfLeaf(site.chunkKey, site.flags, leaf);
 }
 
 // Runs the node's program. One loop over gates and bodies alike: a trip makes an instance, or evaluates a gate that
@@ -155,8 +156,21 @@ FN void findStep(ExpandEnv env, uint firstNode, uint index, float arc, float ent
     }
 }
 
-// The node's radius, bark and tangent, and its leaves. hash: the sum of its leaves' hashes is added.
-FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
+// What the pass finds out about a node.
+struct NodeFinish {
+    uint tangent;
+    uint flags;
+    float radius;   // before the fit
+};
+FN void keepFinish(NodeBuf nodes, uint index, NodeFinish f) {
+    nodes.v[index].tangent = f.tangent;
+    nodes.v[index].flags = f.flags;
+    nodes.v[index].radius = f.radius;
+}
+
+// The node's radius, bark and tangent, and its leaves. hash: the sum of its leaves' hashes is added. It may run again
+// on a node that was finished before.
+FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
     Node node = env.nodes.v[index];
     uint chunk = node.chunk;
     ChunkBrief brief = readBrief(env.chunks, chunk);
@@ -183,6 +197,8 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
     site.foot = leader == kNoIndex;
     site.tip = follower == kNoIndex;
     site.seed = env.branches.v[branch].seed;
+    site.chunkKey = brief.key;
+    site.flags = node.flags;
     site.hash = uvec2(0u, 0u);
     site.after = node.arc;
     site.before = local > 0u ? env.nodes.v[index - 1u].arc : entryArc;
@@ -209,11 +225,10 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
         Place place;
         place.position = node.position;
         place.normal = unpackOct(node.normal);
-        place.heading = unpackOct(node.tangent);
+        place.heading = unpackOct(headingOfNode(node));
         place.uv = unpackUv(node.uv);
         place.instance = node.place >> 16u;
         place.level = 0u;
-        ReadSet reads = emptyReadSet();
         resetMachine(MACHINE_ONLY);
         SLOT(kSlotArg) = brief.args.x;
         SLOT(kSlotArg + 1u) = brief.args.y;
@@ -226,27 +241,27 @@ FN void finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
         SLOT(kSlotCount) = 0.0f;
         WorldFrame frame = frameOf(env.surfaces, place.instance, inputs);
         giveInputs(MACHINE env, frame, grammar, inputs, layers, place,
-                   brief.depth & 0xFFFFu, step, node.arc, reads);
+                   brief.depth & 0xFFFFu, step, node.arc);
         uint cell = 0u;
         if ((kFeatures & kFeatureDensity) != 0u && env.status.v[0].leafDensityCap > 0.0f)
             cell = densityCell(env, site.seed, node.place, place.uv);
         radius = runTerminals(MACHINE env, map, first, first + (range >> 16u), site, cell, barkFlags);
     }
     hash = hash + site.hash;
-    if (env.phase == kTerminalsWrite) {
-        vec3 normal = unpackOct(node.normal);
-        vec3 heading = unpackOct(node.tangent);
-        vec3 sum = segmentDirection(before, node.position) + segmentDirection(node.position, after);
-        if ((kFeatures & kFeatureJoints) != 0u && env.status.v[0].tangentMode != 0u) {
-            // The paper's average is over all adjacent segments, the branches' too.
-            uint at = kDensityCells + 3u * index;
-            sum = sum + vec3(float(int(env.density.v[at])), float(int(env.density.v[at + 1u])),
-                             float(int(env.density.v[at + 2u]))) * 9.53674316e-7f;
-        }
-        env.nodes.v[index].tangent = packOct(tangentFromSum(sum, normal, heading));
-        env.nodes.v[index].radius = radius;
-        env.nodes.v[index].flags = (node.flags & 0x7C003FFFu) | barkFlags | (site.tip ? kNodeTip : 0u);
+    vec3 normal = unpackOct(node.normal);
+    vec3 heading = unpackOct(headingOfNode(node));
+    vec3 sum = segmentDirection(before, node.position) + segmentDirection(node.position, after);
+    if ((kFeatures & kFeatureJoints) != 0u && env.status.v[0].tangentMode != 0u) {
+        // The paper's average is over all adjacent segments, the branches' too.
+        uint at = kDensityCells + 3u * index;
+        sum = sum + vec3(float(int(env.density.v[at])), float(int(env.density.v[at + 1u])),
+                         float(int(env.density.v[at + 2u]))) * 9.53674316e-7f;
     }
+    NodeFinish finish;
+    finish.tangent = tangentWithHeading(packOct(tangentFromSum(sum, normal, heading)), headingOfNode(node));
+    finish.flags = (node.flags & 0x7C003FFFu) | barkFlags | (site.tip ? kNodeTip : 0u);
+    finish.radius = roundRadius(radius);
+    return finish;
 }
 
 ESPALIER_END

@@ -13,7 +13,7 @@ ESPALIER_BEGIN
 CONST_UINT(kChunkNodes, 32u);
 CONST_UINT(kMaxArgs, 4u);
 CONST_UINT(kMaxLayers, 16u);
-CONST_UINT(kLayerTile, 32u);   // a layer's dirty tiles are this many texels wide
+CONST_UINT(kLayerTiles, 256u);   // a layer's changes are noted by this many tiles along either side
 
 // Where a walk stands, 28 bytes. direction: unit tangent of the surface, object space of its instance.
 struct Walk {
@@ -47,9 +47,10 @@ struct WorkItem {
     uint branch;         // the branch that it carries on, kNoIndex: it begins one
     uint seed;           // index of the seed that it comes from
     uint depth;          // bits 31..16 chunks one after another from the seed, 15..0 branches (0: the seed's own)
-    uint step;           // bits 31..24 generation (modulo 256), 23..0 steps of the grammar since its branch began
+    uint step;           // bit 31 kItemAgain, 23..0 steps of the grammar since its branch began
 };
 STATIC_SIZE(WorkItem, 80);
+CONST_UINT(kItemAgain, 1u << 31u);   // the chunk `origin` is to be grown again in its place
 
 // Node::flags
 //   bits 7..0   symbol of the extruded successor + 1 (0: none), bits 12..8 index in its chunk
@@ -65,7 +66,8 @@ CONST_UINT(kNodeInserted, 1u << 13u);
 CONST_UINT(kNodeTip, 1u << 14u);
 CONST_UINT(kNodeBark, 1u << 17u);
 
-// A recorded sample of a walk, 44 bytes. Object space of its instance.
+// A recorded sample of a walk, 44 bytes. Object space of its instance. One whose flags are 0 and radius is negative is
+// no node any more: a regrowth has taken it out.
 struct Node {
     vec3 position;
     uint normal;      // octahedral 2×16 snorm, outward
@@ -79,8 +81,20 @@ struct Node {
 };
 STATIC_SIZE(Node, 44);
 
+// Where the walk was going is kept as 2×8 octahedral bits in the lowest four of each half of normal and tangent, which
+// are of no account there.
+CONST_UINT(kHeadingBits, 0x000F000Fu);
+FN uint normalWithHeading(uint normal, uint heading) { return (normal & ~kHeadingBits) | ((heading >> 12u) & kHeadingBits); }
+FN uint tangentWithHeading(uint tangent, uint heading) { return (tangent & ~kHeadingBits) | ((heading >> 8u) & kHeadingBits); }
+FN uint headingOfNode(Node node) {
+    return ((node.normal & kHeadingBits) << 12u) | ((node.tangent & kHeadingBits) << 8u) | 0x00800080u;
+}
+// A radius before its branch is fitted to its parent has a mantissa of ten bits: so it can be told again from what the
+// fit made of it.
+FN float roundRadius(float radius) { return uintBitsToFloat((floatBitsToUint(radius) + 0x1000u) & 0xFFFFE000u); }
+
 // 16 bytes; only branches of at least one node have one. extent is final when the branch has ended. Its key, depth
-// and joint are its first chunk's.
+// and joint are its first chunk's. firstChunk kNoIndex: there is no such branch any more.
 struct BranchRecord {
     float extent;        // length in metres
     float thickness;     // factor of its radii, so that it is no thicker than its parent at the joint
@@ -89,30 +103,41 @@ struct BranchRecord {
 };
 STATIC_SIZE(BranchRecord, 16);
 
-// Chunk::marks: bits 31..16 layers that were read, 15..8 number of nodes, 7..0 flags
+// Chunk::marks: bits 31..16 layers that were read, 15..8 number of nodes, 7..0 flags; 0: there is no such chunk any more
 CONST_UINT(kChunkPublished, 1u);
-CONST_UINT(kChunkReadsAll, 2u);     // more tiles than readTiles holds
+CONST_UINT(kChunkReadsAll, 2u);     // it read on more than one surface instance: anywhere
 CONST_UINT(kChunkEndsBranch, 4u);
 CONST_UINT(kChunkStopped, 8u);      // a derivation or recursion limit ended it (counted in the stats)
 CONST_UINT(kChunkDeadEnd, 16u);     // no direction that its condition allows
+
+CONST_UINT(kChunkBeyond, 32u);      // it read at places that are none of its nodes': directions that failed
+
+// The read set: where the chunk read layers, failed directions and terminals included. kReadTiles tiles, which cover
+// the walk's UV by kLayerTiles >> level along either side.
+//   word 0 bits 7..0 surface instance, 11..8 level (above kMaxReadLevel: anywhere); then in halves from there on, lower
+//   ones first, tiles: bits 15..8 y, 7..0 x; 0xFFFF: unused
+CONST_UINT(kReadTiles, 5u);
+CONST_UINT(kMaxReadLevel, 8u);
 
 // 112 bytes. A chunk may be without nodes: its first step failed, and what it read says when to try again.
 struct Chunk {
     u64 key;             // of its entry
     Walk entry;
-    uint exitHash;       // of exit state, children and nodes
     uint symbol;         // as WorkItem::symbol
     float args[4];
     uint parent;         // chunk, kNoIndex for a seed's first
     uint previousNode;   // kNoIndex: its first node is a seed's foot
     uint next;           // the chunk that carries the branch on, kNoIndex
     uint branch;         // kNoIndex if it is without nodes and begins its branch
-    uint firstNode;
+    uint firstNode;      // of one without a branch: the index of its seed
     uint depth;          // as WorkItem::depth
-    uint step;           // as WorkItem::step
+    uint step;           // bits 31..24 shapes that a limit refused (at most 255), 23..0 steps of the grammar since its
+                         // branch began
     uint marks;
     uint paramMask;      // parameters of its grammar that it read (bit 31: any from 31 on)
-    uint readTiles[4];   // bits 31..24 surface instance, 23..16 layer, 15..8 tile y, 7..0 tile x; kNoIndex: unused
+    uint firstChild;     // of the chunks that it queued, in any order; the next one that its parent queued. kNoIndex
+    uint nextSibling;
+    uint reads[3];
 };
 STATIC_SIZE(Chunk, 112);
 FN uint chunkNodes(uint marks) { return (marks >> 8u) & 255u; }

@@ -23,6 +23,7 @@
     };
 #define STATIC_SIZE(T, bytes) static_assert(sizeof(T) == (bytes))
 #define IS_GIVEN(buffer) ((buffer).v != nullptr)
+#define UNUSED(x) (void)(x)
 
 namespace espalier {
 using glm::ivec2;
@@ -49,6 +50,7 @@ inline float uintBitsToFloat(uint b) { float x; std::memcpy(&x, &b, 4); return x
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { T v[]; };
 #define STATIC_SIZE(T, bytes)
 #define IS_GIVEN(buffer) (uint64_t(buffer) != 0ul)
+#define UNUSED(x)
 #define u64 uint64_t
 
 #endif

@@ -174,6 +174,7 @@ Status Scene::grow(Device& device, Growth& growth) {
     in.widths = widths;
     in.seeds = seeds_;
     in.limits = limits;
+    in.changes = changes;
     return growth.grow(in);
 }
 

@@ -41,6 +41,7 @@ class Scene {
     const SurfaceData& surface() const { return surface_; }
     GrowthLimits limits;
     std::vector<float> widths;
+    const GrowthChanges* changes = nullptr;  // see GrowthInputs::changes
     bool fetchSurfaces = true;  // see GrowthInputs::surfaceData
 
     Result<CpuGrowth> growOnCpu();

@@ -53,6 +53,7 @@ double seconds(const std::function<void()>& work);
 double median(std::vector<double> values);
 
 void growthCases(Bench& bench);
+void editCases(Bench& bench);
 void emitCases(Bench& bench);
 void bakeCases(Bench& bench);
 void paintCases(Bench& bench);

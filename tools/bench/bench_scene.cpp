@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "runtime/gpu/commands.hpp"
 #include "shaders/shared/random.h"
 
 namespace espalier {
@@ -60,6 +61,20 @@ bool BenchScene::setGrammar(const std::string& text) {
     return true;
 }
 
+bool BenchScene::paint(uint32_t layer, uint32_t size, const std::vector<float>& texels) {
+    const bool fresh = painted_[layer].size() != texels.size() * 4;
+    if (fresh) {
+        Result<Buffer> made = Buffer::create(*device_, "bench layer", texels.size() * 4);
+        if (!made) return false;
+        painted_[layer] = std::move(*made);
+        layerRefs_[layer] = {{reinterpret_cast<float*>(painted_[layer].address())}, size, 1};
+    }
+    Result<Commands> commands = Commands::begin(*device_, "paint");
+    if (!commands || !commands->upload(painted_[layer], texels)) return false;
+    if (fresh && !commands->upload(layers_, layerRefs_)) return false;
+    return bool(commands->finish());
+}
+
 void BenchScene::plant(uint32_t count) {
     const SurfaceLevelData& level = surface_.levels[0];
     std::vector<glm::uvec2> inner;
@@ -89,6 +104,7 @@ Status BenchScene::grow(Growth& growth) {
     in.grammars = {&map, 1};
     in.seeds = seeds_;
     in.limits = limits;
+    in.changes = changes;
     return growth.grow(in);
 }
 

@@ -2,6 +2,7 @@
 
 // What the growth and emit cases stand on: a device, a baked model, a grammar, seeds.
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +26,11 @@ class BenchScene {
     void plant(uint32_t count);
     GrowthLimits limits;
 
+    // Paints a layer of `size` texels a side; the next growth reads it. False: no memory.
+    bool paint(uint32_t layer, uint32_t size, const std::vector<float>& texels);
+    // What the next growths may take as changed; null: everything.
+    const GrowthChanges* changes = nullptr;
+
     Status grow(Growth& growth);
     Result<CpuGrowth> growOnCpu() const;
 
@@ -40,6 +46,8 @@ class BenchScene {
     RuleMap grammar_;
     std::vector<Seed> seeds_;
     Buffer table_, words_, layers_;
+    std::array<Buffer, kMaxLayers> painted_;
+    std::vector<LayerRef> layerRefs_ = std::vector<LayerRef>(kMaxLayers, LayerRef{{nullptr}, 0, 1});
 };
 
 // Recursive ivy as the paper's Figure 10a: stems that wander, twigs that end after some steps, bark and a leaf a span.

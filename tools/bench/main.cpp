@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     options.contentFolder = ESPALIER_CONTENT;
     CLI::App app("Espalier's benchmark: medians; every row names the other side and the ratio ours / other.");
     app.set_version_flag("--version", ESPALIER_VERSION);
-    app.add_option("--filter", options.filter, "only cases whose name contains this: growth/, emit/, bake/");
+    app.add_option("--filter", options.filter, "only cases whose name contains this: growth/, edit/, emit/, bake/");
     app.add_option("--csv", csv, "also write the rows to this file");
     app.add_option("--data", options.dataFolder, "folder of further models")->capture_default_str();
     app.add_option("--repeats", options.repeats, "measured runs of each")
@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
         std::printf("device: %s (%s)\n", (*device)->info().name.c_str(), (*device)->info().driver.c_str());
     Bench bench(options);
     growthCases(bench);
+    editCases(bench);
     emitCases(bench);
     bakeCases(bench);
     paintCases(bench);

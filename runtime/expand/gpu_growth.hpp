@@ -1,0 +1,122 @@
+#pragma once
+
+// Growth on the GPU, as growth.cpp (all anew) and regrowth.cpp (only what an edit concerns) share it.
+
+#include <array>
+#include <cstring>
+#include <optional>
+
+#include "runtime/expand/growth.hpp"
+#include "runtime/expand/growth_plan.hpp"
+#include "runtime/expand/seed_changes.hpp"
+#include "runtime/gpu/buffer.hpp"
+#include "runtime/gpu/commands.hpp"
+#include "runtime/gpu/program.hpp"
+#include "shaders/shared/expand_again.h"
+#include "shaders/shared/expand_tables.h"
+
+namespace espalier {
+
+template <class Buf, class T>
+Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
+    return Buf{reinterpret_cast<T*>(buffer.address() + offset)};
+}
+
+class GpuGrowth final : public Growth {
+  public:
+    GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), room_(room) {}
+
+    Status setUp();
+    Status grow(const GrowthInputs& inputs) override;
+    GrowthView view() const override { return view_; }
+    GrowthStats stats() const override { return stats_; }
+    Result<GrowthRecords> read() override;
+
+  private:
+    // What is drawn is in one of two sets. A full growth writes the other one of both; a regrowth adds to the nodes and
+    // leaves that are drawn, and writes the other links.
+    struct Plants {
+        Buffer nodes, leaves;
+    };
+    struct Links {
+        Buffer chunks, branches;
+    };
+    struct Outcome {
+        GrowStatus status;
+        std::vector<Wave> waves;
+        double marchMs = 0, terminalsMs = 0, fitMs = 0;
+    };
+
+    // Both kinds.
+    Status load(Program& program, const char* shader, std::vector<SpecConstant> constants);
+    Status loadKernels(WalkMode mode);
+    Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
+    Status viewSurfaces(const GrowthInputs& inputs);
+    Status makeKernels(const GrowthInputs& inputs);
+    Status makeRoom(const GrowthInputs& inputs);
+    Status uploadTables(Commands& commands, const GrowthInputs& inputs);
+    ExpandEnv environment(const GrowthInputs& inputs, const Plants& plants, const Links& links);
+    // Waves [first, last) of `march`.
+    void recordWaves(Pass& pass, const Program& march, bool fetching, const ExpandEnv& env, uint32_t first,
+                     uint32_t last);
+    Outcome readOutcome(uint32_t last);
+    void remember(const GrowthInputs& inputs);
+    void showLinks(const GrowStatus& status);
+    uint64_t reserved() const;
+    uint64_t densityWords(const GrowthLimits& limits) const {
+        if (limits.tangents == TangentMode::paper) return kDensityCells + 3ull * room_.nodes;
+        return limits.leafDensityCap > 0 ? kDensityCells : 1;
+    }
+    uint32_t marchNumber() const { return (fetches_ ? 2 : 0) + (byAddress_ ? 1 : 0); }
+    // The packed tables for kernels' uniform binding: something of its size when they are read by address.
+    const Buffer& uniformTables() const { return byAddress_ ? noTables_ : tables_; }
+
+    // All anew: growth.cpp.
+    Status growAll(const GrowthInputs& inputs);
+    Result<Outcome> attempt(const GrowthInputs& inputs, const GrowthCut& cut);
+    Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut);
+    Status record(Commands& commands, const ExpandEnv& env, uint32_t first, uint32_t last, const GrowthLimits& limits);
+    void recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits);
+    void publish(const GrowthInputs& inputs, const Outcome& outcome);
+
+    // What an edit concerns: regrowth.cpp. Each returns false where a full growth is called for.
+    bool canRegrow(const GrowthInputs& inputs) const;
+    Result<bool> regrow(const GrowthInputs& inputs, const SeedChanges& seeds);
+    Status makeAgainKernels();
+    Status makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords);
+    Status uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
+                       const std::vector<uint32_t>& edits);
+    Result<AgainState> findDirty(const GrowthInputs& inputs, const SeedChanges& seeds, ExpandEnv env);
+    Result<bool> growAgain(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
+    void recordAgain(Commands& commands, ExpandEnv env);
+    void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state);
+
+    Device& device_;
+    GrowthRoom room_;
+    uint32_t likelyWaves_ = 24;  // recorded in the first submission
+    // Made when first asked for; [1] reads tables by address, see kUniformTableWords.
+    std::array<Program, 4> march_, marchAgain_;  // [2], [3] fetch surfaces as texels
+    std::array<Program, 2> marchPaper_, terminals_, terminalsAgain_;
+    uint32_t features_ = 0;  // that these are specialised to: all that grammars ever used, so that they settle
+    Program packTables_, branchesFit_, fit_;
+    Program find_, start_, settle_, work_, apply_, thickness_, fitAgain_;
+    bool byAddress_ = false;
+    bool fetches_ = false;
+    TexelView surfaceView_;
+    Plants plants_[2];
+    Links links_[2];
+    uint32_t frontPlants_ = 0, frontLinks_ = 0;
+    Buffer items_[2], status_, waves_, grammars_, tables_, noTables_, noSurfaces_, density_, readback_;
+    Buffer again_, marks_, lists_, edits_, results_, touched_;
+    GrowthView view_;
+    GrowthStats stats_;
+    // What the growth that is shown was made from.
+    bool whole_ = false;  // and no limit cut it
+    GrowthLimits limits_;
+    uint32_t surfaceCount_ = 0;
+    std::vector<RuleMapRef> maps_;
+    std::vector<float> widths_;
+    std::vector<Seed> seeds_;
+};
+
+}  // namespace espalier

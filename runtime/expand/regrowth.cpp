@@ -1,0 +1,305 @@
+// Growing again what an edit concerns (expand_again.h says how). In: the same inputs as a full growth, notes of what
+// changed. Out: the same growth as a full one would give, by the structure's hash. A first submission finds the chunks
+// that read what has changed; a second one grows them in waves, as a full growth, makes the terminals that depend on
+// them, and publishes, unless limits or room turn out to be exceeded: then all is grown anew.
+#include <algorithm>
+
+#include "runtime/core/check.hpp"
+#include "runtime/expand/gpu_growth.hpp"
+
+namespace espalier {
+namespace {
+
+// Beyond this share of chunks to be grown, or of gaps among the nodes, all anew is the better way.
+constexpr uint32_t kMostDirtyOf = 2, kMostGapsOf = 3;
+
+bool sameLimits(const GrowthLimits& a, const GrowthLimits& b) {
+    return a.walk == b.walk && a.tangents == b.tangents && a.maxNodes == b.maxNodes && a.maxDepth == b.maxDepth &&
+           a.leafDensityCap == b.leafDensityCap;
+}
+
+template <class T>
+uint32_t capacityOf(const Buffer& buffer) {
+    return uint32_t(std::min<uint64_t>(buffer.size() / sizeof(T), 0x7FFFFFFF));
+}
+
+// Groups of a pass whose kernels go through lists by themselves.
+std::array<uint32_t, 3> spread(const Device& device) {
+    return {device.info().cpu ? 64u : 1024u, 1, 1};
+}
+
+}  // namespace
+
+bool GpuGrowth::canRegrow(const GrowthInputs& inputs) const {
+    if (!inputs.changes || inputs.changes->everything || !whole_ || !sameLimits(inputs.limits, limits_)) return false;
+    // Counts of leaves by cell and directions at joints are sums over the whole plant.
+    if (inputs.limits.walk == WalkMode::paper || inputs.limits.tangents == TangentMode::paper) return false;
+    if (inputs.limits.leafDensityCap > 0 || inputs.surfaceCount != surfaceCount_) return false;
+    if (view_.nodeCount - std::min(view_.nodeCount, stats_.nodes) > view_.nodeCount / kMostGapsOf) return false;
+    if (view_.leafCount - std::min(view_.leafCount, stats_.leaves) > view_.leafCount / kMostGapsOf) return false;
+    return inputs.grammars.size() >= maps_.size();
+}
+
+Status GpuGrowth::makeAgainKernels() {
+    const struct {
+        Program* program;
+        const char* shader;
+    } rows[] = {{&find_, "expand/again_find.comp"},     {&start_, "expand/again_start.comp"},
+                {&settle_, "expand/again_settle.comp"}, {&work_, "expand/again_work.comp"},
+                {&apply_, "expand/again_apply.comp"},   {&thickness_, "expand/again_thickness.comp"},
+                {&fitAgain_, "expand/again_fit.comp"}};
+    for (const auto& row : rows)
+        if (Status made = load(*row.program, row.shader, {}); !made) return made;
+    const uint32_t address = byAddress_ ? 1 : 0;
+    Status march = load(marchAgain_[marchNumber()], "expand/march_again.comp",
+                        {{0, address}, {1, fetches_ ? 0u : 1u}, {2, features_}});
+    if (!march) return march;
+    return load(terminalsAgain_[byAddress_], "expand/terminals_again.comp", {{0, address}, {2, features_}});
+}
+
+Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) {
+    const Links& from = links_[frontLinks_];
+    Links& to = links_[1 - frontLinks_];
+    const uint64_t chunks = std::max<uint64_t>(room_.chunks, capacityOf<Chunk>(from.chunks));
+    const uint64_t waves = inputs.limits.maxDepth + 2ull;
+    const struct {
+        Buffer* buffer;
+        const char* name;
+        uint64_t bytes;
+    } rows[] = {{&to.chunks, "growth chunks", chunks * sizeof(Chunk)},
+                {&to.branches, "growth branches",
+                 std::max<uint64_t>(from.branches.size(), room_.branches * sizeof(BranchRecord))},
+                {&items_[0], "growth items even", uint64_t(room_.items) * sizeof(WorkItem)},
+                {&items_[1], "growth items odd", uint64_t(room_.items) * sizeof(WorkItem)},
+                {&waves_, "growth waves", waves * sizeof(Wave)},
+                {&again_, "regrowth", sizeof(AgainState)},
+                {&marks_, "regrowth marks", chunks * sizeof(AgainMark)},
+                {&lists_, "regrowth lists", chunks * kLists * 4},
+                {&edits_, "regrowth edits", std::max<uint64_t>(editWords * 4, 16384)},
+                {&results_, "regrowth results", chunks / 4 * kChunkNodes * 12},
+                {&touched_, "regrowth touched", plants_[frontPlants_].nodes.size() / sizeof(Node) / 8 + 64}};
+    for (const auto& row : rows)
+        if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
+    return ensure(readback_, "growth readback", sizeof(GrowStatus) + waves * sizeof(Wave) + sizeof(AgainState),
+                  BufferUse::readback);
+}
+
+// Copies the links, and uploads counters, edits and the seeds that are planted anew as the first wave.
+Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
+                              const std::vector<uint32_t>& edits) {
+    const Links& from = links_[frontLinks_];
+    const Links& to = links_[1 - frontLinks_];
+    const Plants& plants = plants_[frontPlants_];
+    commands.copy(from.chunks, to.chunks, view_.chunkCount * sizeof(Chunk));
+    commands.copy(from.branches, to.branches, view_.branchCount * sizeof(BranchRecord));
+    commands.fill(marks_, 0);
+    commands.fill(touched_, 0);
+
+    std::vector<GrowStatus> status{freshStatus(inputs.limits, room_, noCut(inputs.limits))};
+    GrowStatus& s = status[0];
+    s.chunks = view_.chunkCount;
+    s.nodes = view_.nodeCount;
+    s.branches = view_.branchCount;
+    s.leaves = view_.leafCount;
+    s.chunkCapacity =
+        std::min({capacityOf<Chunk>(to.chunks), capacityOf<AgainMark>(marks_), uint32_t(lists_.size() / 4 / kLists)});
+    s.nodeCapacity = std::min(capacityOf<Node>(plants.nodes), uint32_t(touched_.size() * 8));
+    s.branchCapacity = capacityOf<BranchRecord>(to.branches);
+    s.leafCapacity = capacityOf<Leaf>(plants.leaves);
+    s.again = again_.address();
+
+    std::vector<AgainState> state(1);
+    AgainState& a = state[0];
+    a = {};
+    a.chunksBefore = addressOf<ChunkBuf, Chunk>(from.chunks);
+    a.branchesBefore = addressOf<BranchBuf, BranchRecord>(from.branches);
+    a.marks = addressOf<AgainMarkBuf, AgainMark>(marks_);
+    a.lists = addressOf<UintBuf, uint32_t>(lists_);
+    a.edits = addressOf<UintBuf, uint32_t>(edits_);
+    a.results = addressOf<UintBuf, uint32_t>(results_);
+    a.touched = addressOf<UintBuf, uint32_t>(touched_);
+    a.listCapacity = s.chunkCapacity;
+    a.resultCapacity = uint32_t(results_.size() / (kChunkNodes * 12));
+    a.chunkCount = view_.chunkCount;
+    a.nodeCount = view_.nodeCount;
+    a.branchCount = view_.branchCount;
+    a.leafCount = view_.leafCount;
+    a.liveNodes = stats_.nodes;
+    a.liveChunks = stats_.chunks;
+    a.mostNodes = inputs.limits.maxNodes;
+    a.mostChunks = chunkLimit(inputs.limits);
+
+    std::vector<WorkItem> all = itemsOfSeeds(inputs.seeds), items;
+    for (uint32_t index : seeds.planted) items.push_back(all[index]);
+    std::vector<Wave> waves(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
+    waves[0].count = waves[0].announced = uint32_t(items.size());
+    waves[0].groups[0] = (waves[0].count + kItemsPerGroupAgain - 1) / kItemsPerGroupAgain;
+    Status steps[] = {commands.upload(status_, status), commands.upload(again_, state), commands.upload(edits_, edits),
+                      commands.upload(waves_, waves), commands.upload(items_[0], items)};
+    for (Status& step : steps)
+        if (!step) return step;
+    // Packed tables change with parameters, grammars and where their words lie.
+    const bool same = inputs.changes->params.empty() && inputs.changes->grammars.empty() &&
+                      inputs.grammars.size() == maps_.size() && inputs.widths.size() == widths_.size() &&
+                      std::memcmp(inputs.grammars.data(), maps_.data(), maps_.size() * sizeof(RuleMapRef)) == 0 &&
+                      std::equal(widths_.begin(), widths_.end(), inputs.widths.begin());
+    if (!same) return uploadTables(commands, inputs);
+    commands.barrier(Use::transfer, Use::compute | Use::indirect);
+    return Done{};
+}
+
+Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedChanges& seeds, ExpandEnv env) {
+    const std::vector<uint32_t> edits = editWords(inputs, seeds);
+    Result<Commands> commands = Commands::begin(device_, "find what changed");
+    if (!commands) return commands.failure();
+    if (Status ok = uploadAgain(*commands, inputs, seeds, edits); !ok) return ok.failure();
+    {
+        Pass pass(*commands, "expand find");
+        env.items = addressOf<WorkItemBuf, WorkItem>(items_[0]);
+        pass.dispatch(find_, spread(device_), env);
+        pass.barrier(Use::compute, Use::compute);
+        pass.dispatch(start_, spread(device_), env);
+        pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
+    }
+    commands->copy(again_, readback_, sizeof(AgainState));
+    commands->barrier(Use::transfer, Use::host);
+    if (Status finished = commands->finish(); !finished) return finished.failure();
+    AgainState state;
+    std::memcpy(&state, readback_.mapped(), sizeof state);
+    return state;
+}
+
+// Everything after the march; does nothing while waves are left, or where it can't be published.
+void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
+    const auto groups = spread(device_);
+    {
+        Pass pass(commands, "expand terminals");
+        pass.dispatch(settle_, groups, env);
+        pass.barrier(Use::compute, Use::compute);
+        pass.dispatch(work_, groups, env);
+        pass.barrier(Use::compute, Use::compute);
+        env.phase = kTerminalsAgain;
+        pass.dispatch(terminalsAgain_[byAddress_], groups, env, {uniformTables()});
+        pass.barrier(Use::compute, Use::compute);
+    }
+    Pass pass(commands, "expand fit");
+    pass.dispatch(apply_, groups, env);
+    pass.barrier(Use::compute, Use::compute);
+    pass.dispatch(thickness_, groups, env);
+    pass.barrier(Use::compute, Use::compute);
+    pass.dispatch(fitAgain_, groups, env);
+    pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
+}
+
+// False: it isn't published.
+Result<bool> GpuGrowth::growAgain(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
+    const uint32_t most = inputs.limits.maxDepth + 1;
+    const uint64_t stateAt = sizeof(GrowStatus) + (inputs.limits.maxDepth + 2ull) * sizeof(Wave);
+    uint32_t first = 0;
+    uint32_t batch = std::min(likelyWaves_, most);
+    while (true) {
+        const uint32_t last = std::min(first + batch, most);
+        Result<Commands> commands = Commands::begin(device_, "grow again");
+        if (!commands) return commands.failure();
+        env.phase = lastWave(noCut(inputs.limits));
+        {
+            Pass pass(*commands, "expand march");
+            recordWaves(pass, marchAgain_[marchNumber()], true, env, first, last);
+        }
+        env.wave = last;
+        recordAgain(*commands, env);
+        commands->copy(status_, readback_, sizeof(GrowStatus));
+        commands->copy(waves_, readback_, (last + 1) * sizeof(Wave), 0, sizeof(GrowStatus));
+        commands->copy(again_, readback_, sizeof(AgainState), 0, stateAt);
+        commands->barrier(Use::transfer, Use::host);
+        if (Status finished = commands->finish(); !finished) return finished.failure();
+        device_.collect();
+        Outcome read = readOutcome(last);
+        outcome.status = read.status;
+        outcome.waves = std::move(read.waves);
+        outcome.marchMs += device_.milliseconds("expand march");
+        outcome.terminalsMs += device_.milliseconds("expand terminals");
+        outcome.fitMs += device_.milliseconds("expand fit");
+        std::memcpy(&state, readback_.mapped() + stateAt, sizeof state);
+        if (outcome.waves[last].count == 0 || last == most || outcome.status.items > 0) break;
+        first = last;
+        batch *= 2;
+    }
+    const GrowStatus& s = outcome.status;
+    const bool fits = s.chunks <= s.chunkCapacity && s.nodes <= s.nodeCapacity && s.branches <= s.branchCapacity &&
+                      s.leaves <= s.leafCapacity;
+    const uint64_t nodes = uint64_t(state.liveNodes) + s.nodes - state.nodeCount - state.goneNodes;
+    const uint64_t chunks = uint64_t(state.liveChunks) + s.chunks - state.chunkCount - state.goneChunks;
+    return fits && s.items == 0 && outcome.waves.back().count == 0 && state.overrun == 0 && nodes <= state.mostNodes &&
+           chunks <= state.mostChunks;
+}
+
+void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state) {
+    const GrowStatus& s = outcome.status;
+    GrowthStats delta;
+    takeCounters(s, delta);
+    showLinks(s);
+    stats_.seeds = uint32_t(inputs.seeds.size());
+    stats_.derived = s.nodes - state.nodeCount;
+    stats_.nodes += stats_.derived - state.goneNodes;
+    stats_.chunks += s.chunks - state.chunkCount - state.goneChunks;
+    stats_.branches += s.branches - state.branchCount - state.goneBranches;
+    stats_.leaves += s.leaves - state.leafCount - state.goneLeaves;
+    stats_.steps += s.steps - (state.goneNodes - state.goneInserted - state.goneFeet);
+    stats_.inserted += s.inserted - state.goneInserted;
+    stats_.stopped += s.stopped - state.goneStopped;
+    stats_.deadEnds += s.deadEnds - state.goneDeadEnds;
+    stats_.hash = uint64_t(uint32_t(stats_.hash >> 32) + uint32_t(delta.hash >> 32)) << 32 |
+                  (uint32_t(stats_.hash) + uint32_t(delta.hash));
+    countBytes(stats_);
+    stats_.expandMs = outcome.marchMs + outcome.terminalsMs + outcome.fitMs;
+    stats_.marchMs = outcome.marchMs;
+    stats_.terminalsMs = outcome.terminalsMs;
+    stats_.fitMs = outcome.fitMs;
+    auto empty = std::find_if(outcome.waves.begin(), outcome.waves.end(), [](const Wave& w) { return w.count == 0; });
+    stats_.waves = uint32_t(empty - outcome.waves.begin());
+    stats_.overflow = 0;
+    stats_.reservedBytes = reserved();
+    stats_.expansions += 1;
+    stats_.regrowths += 1;
+}
+
+Result<bool> GpuGrowth::regrow(const GrowthInputs& inputs, const SeedChanges& seeds) {
+    if (inputs.changes->none() && !seeds.any) {
+        stats_.derived = 0;
+        return true;
+    }
+    if (Status made = makeKernels(inputs); !made) return made.failure();
+    if (Status made = makeAgainKernels(); !made) return made.failure();
+    room_.items = std::max(room_.items, uint32_t(seeds.planted.size()));
+    const uint64_t words = kEditHead + seeds.to.size() + inputs.grammars.size() +
+                           uint64_t(dirtyGrid(kMaxReadLevel + 1)) * inputs.changes->tiles.size();
+    if (Status made = makeAgainRoom(inputs, words); !made) return made.failure();
+    const ExpandEnv env = environment(inputs, plants_[frontPlants_], links_[1 - frontLinks_]);
+    Result<AgainState> found = findDirty(inputs, seeds, env);
+    if (!found) return found.failure();
+    if (found->counts[kListDirty] > stats_.chunks / kMostDirtyOf) return false;
+    const bool nothing = found->counts[kListDirty] + found->counts[kListBranches] + found->counts[kListGone] == 0;
+    if (nothing && !seeds.any) {
+        remember(inputs);
+        stats_.derived = 0;
+        return true;
+    }
+    Outcome outcome;
+    AgainState state{};
+    Result<bool> grown = growAgain(inputs, env, outcome, state);
+    if (!grown) return grown.failure();
+    if (!*grown) {
+        // So that the next edits find room.
+        room_.nodes = std::max(room_.nodes, stats_.nodes + stats_.nodes / 2);
+        room_.leaves = std::max(room_.leaves, stats_.leaves + stats_.leaves / 2);
+        room_.chunks = std::max(room_.chunks, stats_.chunks + stats_.chunks / 2);
+        room_.branches = std::max(room_.branches, stats_.branches + stats_.branches / 2);
+        return false;
+    }
+    publishAgain(inputs, outcome, state);
+    remember(inputs);
+    return true;
+}
+
+}  // namespace espalier

@@ -1,0 +1,27 @@
+#pragma once
+
+// Which seeds came, went or changed between two growths, and an edit's notes as kernels read them.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "runtime/expand/growth.hpp"
+
+namespace espalier {
+
+struct SeedChanges {
+    bool any = false;               // else the indices are those of before
+    std::vector<uint32_t> to;       // new index of each old seed; kNoIndex: its plant goes
+    std::vector<uint32_t> planted;  // indices of new seeds, and of those that changed
+};
+
+// Compares by key. A seed whose grammar's rules or width changed counts as another. Nothing: keys aren't unique.
+std::optional<SeedChanges> seedChanges(std::span<const Seed> before, std::span<const Seed> now,
+                                       const GrowthChanges& changes, std::span<const float> widthsBefore,
+                                       std::span<const float> widthsNow);
+
+// AgainState::edits.
+std::vector<uint32_t> editWords(const GrowthInputs& inputs, const SeedChanges& seeds);
+
+}  // namespace espalier

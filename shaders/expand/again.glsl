@@ -1,0 +1,83 @@
+// What all kernels of a regrowth begin with.
+#ifndef ESPALIER_EXPAND_AGAIN_GLSL
+#define ESPALIER_EXPAND_AGAIN_GLSL
+#include "shaders/shared/exact.h"
+#include "shaders/shared/expand_again.h"
+
+#define AGAIN AgainStateBuf(env.status.v[0].again).v[0]
+
+void appendTo(ExpandEnv env, uint list, uint value) {
+    uint at = atomicAdd(AGAIN.counts[list], 1u);
+    uint capacity = AGAIN.listCapacity;
+    if (at < capacity) AGAIN.lists.v[list * capacity + at] = value;
+}
+uint listed(ExpandEnv env, uint list) { return min(AGAIN.counts[list], AGAIN.listCapacity); }
+uint listEntry(ExpandEnv env, uint list, uint i) { return AGAIN.lists.v[list * AGAIN.listCapacity + i]; }
+
+// Whether what was grown is whole and has room; then it is published.
+bool holds(ExpandEnv env) {
+    uint nodes = AGAIN.liveNodes + env.status.v[0].nodes - AGAIN.nodeCount - AGAIN.goneNodes;
+    uint chunks = AGAIN.liveChunks + env.status.v[0].chunks - AGAIN.chunkCount - AGAIN.goneChunks;
+    return complete(env) && AGAIN.overrun == 0u && env.status.v[0].leaves <= env.status.v[0].leafCapacity &&
+           nodes <= AGAIN.mostNodes && chunks <= AGAIN.mostChunks;
+}
+
+uint seedOf(BranchBuf branches, ChunkBuf chunks, uint chunk) {
+    uint branch = chunks.v[chunk].branch;
+    return branch == kNoIndex ? chunks.v[chunk].firstNode : branches.v[branch].seed;
+}
+
+// A node's radius before the fit: as its terminals have just given it, or told from what the last fit made of it.
+float bareRadius(ExpandEnv env, uint index) {
+    float radius = env.nodes.v[index].radius;
+    uint chunk = env.nodes.v[index].chunk;
+    bool fresh = ((AGAIN.marks.v[chunk].nodes >> ((env.nodes.v[index].flags >> 8u) & 31u)) & 1u) != 0u;
+    return fresh ? radius : roundRadius(divExact(radius, AGAIN.branchesBefore.v[env.chunks.v[chunk].branch].thickness));
+}
+
+bool startsBranch(ChunkBuf chunks, uint chunk) {
+    uint parent = chunks.v[chunk].parent;
+    return parent == kNoIndex || (chunks.v[parent].depth & 0xFFFFu) != (chunks.v[chunk].depth & 0xFFFFu);
+}
+
+// The next chunk of those that follow from `root`, parents first; kNoIndex after the last. prune: not those that
+// follow from `at`.
+uint nextChunk(ChunkBuf chunks, uint root, uint at, bool prune) {
+    uint child = prune ? kNoIndex : chunks.v[at].firstChild;
+    while (child == kNoIndex && at != root) {
+        child = chunks.v[at].nextSibling;
+        at = chunks.v[at].parent;
+    }
+    return child;
+}
+
+// An item that grows a chunk again in its place.
+WorkItem itemAgain(ExpandEnv env, uint chunk) {
+    WorkItem item;
+    item.key = env.chunks.v[chunk].key;
+    item.walk = env.chunks.v[chunk].entry;
+    item.symbol = env.chunks.v[chunk].symbol;
+    for (uint i = 0u; i < 4u; ++i) item.args[i] = env.chunks.v[chunk].args[i];
+    item.parent = env.chunks.v[chunk].parent;
+    item.origin = chunk;
+    item.branch = startsBranch(env.chunks, chunk) ? kNoIndex : env.chunks.v[chunk].branch;
+    item.seed = seedOf(env.branches, env.chunks, chunk);
+    item.depth = env.chunks.v[chunk].depth;
+    item.step = (env.chunks.v[chunk].step & 0xFFFFFFu) | kItemAgain;
+    return item;
+}
+void queueAgain(ExpandEnv env, WorkItemBuf items, uint wave, uint chunk, uint itemsPerGroup) {
+    uint at = atomicAdd(env.waves.v[wave].count, 1u);
+    if (at < env.itemCapacity) writeItem(items, at, itemAgain(env, chunk));
+    uint before = atomicAdd(env.waves.v[wave].announced, 1u);
+    uint added = groupsAdded(before, 1u, itemsPerGroup);
+    if (added > 0u) atomicAdd(env.waves.v[wave].groups[0], added);
+}
+
+// Lets a dirty chunk wait for `above`, which is grown before it. Its own children need not: they are found dirty.
+void waitFor(ExpandEnv env, uint chunk, uint below) {
+    if (below == chunk) return;
+    uint next = atomicExchange(AGAIN.marks.v[below].firstWaiting, chunk + 1u);
+    AGAIN.marks.v[chunk].nextWaiting = next;
+}
+#endif

@@ -1,0 +1,75 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define ESPALIER_AGAIN
+// A regrowth that holds is published: terminals' results come to their nodes, nodes that are gone are taken out.
+// A group a chunk; what was counted in the structure's hash is taken out of it.
+#include "shaders/shared/extensions.glsl"
+#include "shaders/expand/again.glsl"
+#include "shaders/shared/expand_fit.h"
+
+layout(local_size_x = 32) in;
+layout(push_constant, scalar) uniform Push { ExpandEnv env; };
+
+uvec2 hash = uvec2(0u);
+uint inserted = 0u;
+uint feet = 0u;
+
+// Takes a node out of the hash and lets its leaves go.
+void unhash(uint index, u64 key) {
+    hash -= hashOfNode(key, env.nodes.v[index]);
+    atomicOr(AGAIN.touched.v[index >> 5u], 1u << (index & 31u));
+}
+
+void takeOut(uint chunk, uint lane) {
+    ChunkBuf before = AGAIN.chunksBefore;
+    uint marks = before.v[chunk].marks;
+    uint index = before.v[chunk].firstNode + lane;
+    for (uint k = 0u; k < (lane < chunkNodes(marks) ? 1u : 0u); ++k) {
+        unhash(index, before.v[chunk].key);
+        uint flags = env.nodes.v[index].flags;
+        inserted += (flags & kNodeInserted) != 0u ? 1u : 0u;
+        feet += lane == 0u && before.v[chunk].previousNode == kNoIndex ? 1u : 0u;
+        env.nodes.v[index].flags = flags & 0x1F00u;
+        env.nodes.v[index].radius = -1.0;
+    }
+    if (lane == 0u) {
+        if ((marks & kChunkDeadEnd) != 0u) atomicAdd(AGAIN.goneDeadEnds, 1u);
+        atomicAdd(AGAIN.goneStopped, (before.v[chunk].step >> 24u) + ((marks & kChunkStopped) != 0u ? 1u : 0u));
+    }
+}
+
+void main() {
+    if (!holds(env)) return;
+    uint lane = gl_LocalInvocationID.x;
+    AgainMarkBuf marks = AGAIN.marks;
+    uint count = listed(env, kListWork);
+    for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
+        uint chunk = listEntry(env, kListWork, i);
+        bool wanted = ((marks.v[chunk].nodes >> lane) & 1u) != 0u;
+        bool grown = (marks.v[chunk].bits & kMarkGrown) != 0u;
+        for (uint k = 0u; k < (wanted ? 1u : 0u); ++k) {
+            uint index = env.chunks.v[chunk].firstNode + lane;
+            if (!grown) unhash(index, env.chunks.v[chunk].key);
+            uint at = (i * kChunkNodes + lane) * 3u;
+            env.nodes.v[index].tangent = AGAIN.results.v[at];
+            env.nodes.v[index].flags = AGAIN.results.v[at + 1u];
+            env.nodes.v[index].radius = uintBitsToFloat(AGAIN.results.v[at + 2u]);
+        }
+    }
+    count = listed(env, kListGrown);
+    for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
+        uint chunk = listEntry(env, kListGrown, i);
+        if ((marks.v[chunk].bits & kMarkAgain) != 0u) takeOut(chunk, lane);
+    }
+    count = listed(env, kListGone);
+    for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
+        uint chunk = listEntry(env, kListGone, i);
+        takeOut(chunk, lane);
+        if (lane == 0u) env.chunks.v[chunk].marks = 0u;
+    }
+    atomicAdd(AGAIN.goneInserted, inserted);
+    atomicAdd(AGAIN.goneFeet, feet);
+    uint slot = (gl_WorkGroupID.x & (kHashSlots - 1u)) * 2u;
+    atomicAdd(env.status.v[0].hash[slot], hash.x);
+    atomicAdd(env.status.v[0].hash[slot + 1u], hash.y);
+}

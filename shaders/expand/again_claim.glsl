@@ -1,0 +1,105 @@
+// What a regrowth does otherwise when a chunk begins and ends; see expand_again.h. Included by expand_grow.h.
+#include "shaders/expand/again.glsl"
+
+uint previousNodeOf(ExpandEnv env, WorkItem item) {
+    if ((item.step & kItemAgain) != 0u) return env.chunks.v[item.origin].previousNode;
+    if (item.parent == kNoIndex) return kNoIndex;
+    return item.origin == kNoIndex ? env.chunks.v[item.parent].previousNode
+                                   : env.chunks.v[item.parent].firstNode + item.origin;
+}
+uint joinSiblings(ExpandEnv env, WorkItem item, uint chunk) {
+    if ((item.step & kItemAgain) != 0u) return env.chunks.v[chunk].nextSibling;   // it stands among them
+    return item.parent == kNoIndex ? kNoIndex : atomicExchange(env.chunks.v[item.parent].firstChild, chunk);
+}
+
+// A branch whose first chunk is grown again stays the same.
+uint claimBranch(ExpandEnv env, uint chunk) {
+    if ((AGAIN.marks.v[chunk].bits & kMarkAgain) != 0u) {
+        uint branch = AGAIN.chunksBefore.v[chunk].branch;
+        if (branch != kNoIndex && AGAIN.branchesBefore.v[branch].firstChunk == chunk) return branch;
+    }
+    return atomicAdd(env.status.v[0].branches, 1u);
+}
+
+// The child that the item's parent had with the item's key before it was grown again.
+uint childBefore(ExpandEnv env, WorkItem item) {
+    if (item.parent == kNoIndex || (AGAIN.marks.v[item.parent].bits & kMarkAgain) == 0u) return kNoIndex;
+    ChunkBuf before = AGAIN.chunksBefore;
+    uint child = before.v[item.parent].firstChild;
+    while (child != kNoIndex && before.v[child].key != item.key) child = before.v[child].nextSibling;
+    return child;
+}
+
+bool entersAlike(Chunk c, WorkItem item) {
+    bool alike = c.depth == item.depth && (c.step & 0xFFFFFFu) == (item.step & 0xFFFFFFu) && c.symbol == item.symbol &&
+                 (item.branch == kNoIndex || item.branch == c.branch) && c.entry.place == item.walk.place;
+    for (uint i = 0u; i < 4u; ++i) alike = alike && floatBitsToUint(c.args[i]) == floatBitsToUint(item.args[i]);
+    return alike && floatBitsToUint(c.entry.uv) == floatBitsToUint(item.walk.uv) &&
+           floatBitsToUint(c.entry.direction) == floatBitsToUint(item.walk.direction) &&
+           floatBitsToUint(c.entry.arc) == floatBitsToUint(item.walk.arc);
+}
+
+// Gives a kept chunk the node that it now starts from, and so those that follow from it before its first step.
+void moveFoot(ExpandEnv env, uint chunk, uint node) {
+    uint old = env.chunks.v[chunk].previousNode;
+    uint at = old == node ? kNoIndex : chunk;
+    while (at != kNoIndex) {
+        bool moves = env.chunks.v[at].previousNode == old;
+        if (moves) env.chunks.v[at].previousNode = node;
+        at = nextChunk(env.chunks, chunk, at, !moves);
+    }
+}
+
+void keepChunk(ExpandEnv env, uint chunk, WorkItem item) {
+    AgainMarkBuf marks = AGAIN.marks;
+    marks.v[chunk].bits |= kMarkKept;
+    moveFoot(env, chunk, previousNodeOf(env, item));
+    env.chunks.v[chunk].nextSibling = atomicExchange(env.chunks.v[item.parent].firstChild, chunk);
+    if (item.branch != kNoIndex) {
+        env.chunks.v[item.parent].next = chunk;
+        env.branches.v[item.branch].extent = AGAIN.branchesBefore.v[item.branch].extent;
+    }
+    uint waiting = marks.v[chunk].firstWaiting;
+    while (waiting != 0u) {
+        queueAgain(env, env.nextItems, env.wave + 1u, waiting - 1u, kItemsPerGroupAgain);
+        waiting = marks.v[waiting - 1u].nextWaiting;
+    }
+}
+
+// Those that waited at a chunk that is now grown itself wait further down.
+void waitBelow(ExpandEnv env, uint chunk) {
+    AgainMarkBuf marks = AGAIN.marks;
+    uint waiting = marks.v[chunk].firstWaiting;
+    while (waiting != 0u) {
+        uint dirty = waiting - 1u;
+        waiting = marks.v[dirty].nextWaiting;
+        uint below = dirty;
+        uint above = env.chunks.v[dirty].parent;
+        while (above != chunk) {
+            below = above;
+            above = env.chunks.v[above].parent;
+        }
+        waitFor(env, dirty, below);
+    }
+}
+
+// The place where the item's chunk is to be grown. False: it stays as it was, or there is no room.
+bool claimChunk(ExpandEnv env, inout WorkItem item, out uint chunk) {
+    bool again = (item.step & kItemAgain) != 0u;
+    chunk = again ? item.origin : childBefore(env, item);
+    bool old = chunk != kNoIndex;
+    if (old && !again && (AGAIN.marks.v[chunk].bits & kMarkDirty) == 0u &&
+        entersAlike(AGAIN.chunksBefore.v[chunk], item)) {
+        keepChunk(env, chunk, item);
+        return false;
+    }
+    if (old) {
+        waitBelow(env, chunk);
+    } else {
+        chunk = atomicAdd(env.status.v[0].chunks, 1u);
+    }
+    if (chunk >= env.status.v[0].chunkCapacity) return false;
+    AGAIN.marks.v[chunk].bits |= old ? kMarkGrown | kMarkAgain : kMarkGrown;
+    appendTo(env, kListGrown, chunk);
+    return true;
+}

@@ -1,0 +1,88 @@
+// Growing again only what an edit concerns: what the kernels of a regrowth share (shaders/expand/again_*.comp, in the
+// order find, start, march, settle, work, terminals, apply, thickness, fit; runtime/expand/regrowth.cpp records them).
+//
+// Chunks and branches are a copy of those that are drawn from, so all of it may be changed; nodes and leaves are the
+// drawn ones: until everything is known to fit, new ones are only appended. A chunk that is grown again keeps its
+// place. The items that it queues are compared with its children before: a child with the same key and entry that read
+// nothing dirty is kept with all that follows from it, one with the same key is grown again in its place, another is
+// new; children that none asked for are gone with what follows from them.
+#ifndef ESPALIER_SHARED_EXPAND_AGAIN_H
+#define ESPALIER_SHARED_EXPAND_AGAIN_H
+#include "shaders/shared/expand_env.h"
+
+ESPALIER_BEGIN
+
+// Lists of indices, each with room for as many as there may be chunks.
+CONST_UINT(kListDirty, 0u);      // chunks that read what has changed
+CONST_UINT(kListGrown, 1u);      // chunks that were grown, in an old place or a new one
+CONST_UINT(kListGone, 2u);       // chunks that are no more
+CONST_UINT(kListBranches, 3u);   // branches with grown chunks, or whose terminals depend on what has changed
+CONST_UINT(kListKin, 4u);        // these and all branches that leave them, and so on: their thickness may change
+CONST_UINT(kListWork, 5u);       // chunks that have nodes whose terminals are to be made (AgainMark::nodes)
+CONST_UINT(kListFit, 6u);        // chunks whose nodes get their radius
+CONST_UINT(kLists, 7u);
+
+// AgainMark::bits
+CONST_UINT(kMarkDirty, 1u);
+CONST_UINT(kMarkAgain, 2u);      // grown again in its place
+CONST_UINT(kMarkGrown, 4u);      // that, or new
+CONST_UINT(kMarkKept, 8u);       // its parent was grown again and asked for it as it was
+// AgainMark::branchBits
+CONST_UINT(kBranchListed, 1u);
+CONST_UINT(kBranchRedo, 2u);     // all its terminals are to be made anew
+
+// Of a chunk; branchBits is of the branch of this index. Zero at first.
+// A dirty chunk with a dirty chunk before it waits until that has been grown: at the chunk below that one on the way
+// to it, since whether this is kept decides.
+struct AgainMark {
+    uint bits;
+    uint firstWaiting, nextWaiting;   // chunk + 1
+    uint branchBits;
+    uint nodes;                       // bit i: terminals of its node i are to be made
+};
+STATIC_SIZE(AgainMark, 20);
+BUFFER(AgainMarkBuf, AgainMark)
+
+struct AgainState {
+    ChunkBuf chunksBefore;
+    BranchBuf branchesBefore;
+    AgainMarkBuf marks;
+    UintBuf lists;           // [list * listCapacity + i]
+    UintBuf edits;           // see below
+    UintBuf results;         // 3 words a node of kListWork's chunks: NodeFinish
+    UintBuf touched;         // a bit a node: its leaves are to go
+    uint listCapacity, resultCapacity;   // chunks
+    uint chunkCount, nodeCount, branchCount, leafCount;   // before, with the gaps among them
+    uint liveNodes, liveChunks;          // before, without
+    uint mostNodes, mostChunks;          // limits
+    uint counts[8];          // of the lists
+    uint overrun;            // not 0: this is too much for a regrowth
+    uint goneNodes, goneChunks, goneBranches, goneLeaves, goneInserted, goneFeet, goneDeadEnds, goneStopped;
+    uint spare;
+};
+STATIC_SIZE(AgainState, 168);
+BUFFER(AgainStateBuf, AgainState)
+
+// AgainState::edits, words: 0 dirty layers (bits), 1 first word of the seeds' new indices (0: seeds are the same;
+// kNoIndex: gone), 2 first word of the masks of changed parameters, one a grammar (0: none), then one word for each of
+// 256 instances: where its dirty tiles begin (0: none). These are bits y * side + x of grids of side 256, 128, … 1,
+// each beginning with a new word.
+CONST_UINT(kEditLayers, 0u);
+CONST_UINT(kEditSeeds, 1u);
+CONST_UINT(kEditParams, 2u);
+CONST_UINT(kEditInstances, 4u);
+CONST_UINT(kEditHead, 260u);
+// First word of the grid of a level, and (level 9) of all.
+FN uint dirtyGrid(uint level) {
+    uint at = 0u;
+    for (uint i = 0u; i < level; ++i) {
+        uint side = kLayerTiles >> i;
+        at = at + (side * side + 31u) / 32u;
+    }
+    return at;
+}
+
+CONST_UINT(kMostVisited, 16384u);   // chunks that one invocation goes through, see kMaxTrips
+
+ESPALIER_END
+#endif

@@ -1,0 +1,334 @@
+// The steps of a chunk's growth: a rule is derived, branches are queued, a step is marched, its nodes are staged (Buron
+// 2015 §5, §8). expand_grow.h begins and ends chunks.
+//
+// Lanes of a group run in lockstep on every device, and on a software device a masked branch costs its full path, so
+// the loop has one walk, one run of each code and one push in it.
+#ifndef ESPALIER_SHARED_EXPAND_STEP_H
+#define ESPALIER_SHARED_EXPAND_STEP_H
+#include "shaders/shared/expand_scope.h"
+#include "shaders/shared/paper_walk.h"
+
+ESPALIER_BEGIN
+
+// Which walk: a kernel has one, chosen by ESPALIER_PAPER_WALK; the CPU has both.
+#ifdef __cplusplus
+#define PAPER_WALK(env) (env.status.v[0].walkMode != 0u)
+#elif defined(ESPALIER_PAPER_WALK)
+#define PAPER_WALK(env) true
+#else
+#define PAPER_WALK(env) false
+#endif
+
+// A seed's direction is in object space, a later chunk's is what the walk left.
+FN bool enterWalk(ExpandEnv env, uint level, Walk walk, bool seed, OUT(WalkState) w) {
+    if (PAPER_WALK(env)) {
+        if (!seed) return resumePaperWalk(env.surfaces, level, walk, w);
+        bool stands = startPaperWalk(env.surfaces, level, walk.place, walk.uv, walk.direction, w);
+        w.walk.arc = walk.arc;
+        return stands;
+    }
+    return resumeWalk(env.surfaces, level, walk, w);
+}
+FN void turnWalk(ExpandEnv env, INOUT(WalkState) w, float angle) {
+    if (PAPER_WALK(env)) {
+        rotatePaperHeading(w, angle);
+    } else {
+        rotateHeading(w, angle);
+    }
+}
+FN uint advanceWalk(ExpandEnv env, uint level, INOUT(WalkState) w, INOUT(float) remaining, OUT(vec3) normal) {
+    uint event;
+    if (PAPER_WALK(env)) {
+        event = paperAdvance(env.surfaces, level, w, remaining, normal);
+    } else {
+        event = walkAdvance(env.surfaces, level, w, remaining, normal);
+    }
+    return event;
+}
+FN vec3 headingOf(ExpandEnv env, WalkState w) { return PAPER_WALK(env) ? paperHeading3(w) : w.walk.direction; }
+
+CONST_UINT(kDetours, 10u);                 // directions tried over the semicircle when the heading fails (§8)
+CONST_FLOAT(kDetourAngle, 0.314159265f);   // between two of them on one side: the last ones go across the heading
+
+// Some software devices end every loop after some 65,000 trips of all loops of an invocation together: so a chunk
+// ends early after this many of its main loop, and an invocation takes no more items than these.
+CONST_UINT(kMaxTrips, 256u);
+CONST_UINT(kMostTaken, 4u);
+#ifdef ESPALIER_AGAIN
+CONST_UINT(kItemsPerGroup, kItemsPerGroupAgain);
+#else
+CONST_UINT(kItemsPerGroup, 64u);           // a group is dispatched for so many items; below kMostTaken an invocation
+#endif
+
+// A chunk's nodes are staged in an array of words of the invocation's own, since they get their place at its end.
+CONST_UINT(kStagedWords, 9u);   // of a node: what the march knows of it
+#ifdef __cplusplus
+#define STAGED(i) env.scratch.v[i]
+#else
+uint stagedNodes[288];
+#define STAGED(i) stagedNodes[i]
+#endif
+
+CONST_UINT(kPhaseDerive, 0u);    // a rule is to be found
+CONST_UINT(kPhaseMarch, 1u);     // a step is under way
+CONST_UINT(kPhaseEnded, 2u);     // the branch has ended
+CONST_UINT(kPhaseFull, 3u);      // the chunk is full: the branch goes on in the next
+CONST_UINT(kPhaseDead, 4u);      // no direction serves
+CONST_UINT(kPhaseStopped, 5u);   // a limit
+
+// A chunk while it grows.
+struct Grower {
+    uint phase;
+    // The shape that waits for its rule or is marching.
+    u64 key;
+    uint grammar, symbol;
+    vec4 args;
+    WalkState at;        // where it stands
+    // The step under way.
+    WalkState trial;     // how far it has come
+    uint rule;           // word 0 of its packed record
+    uint links;          // word 1
+    uint arriveCode;
+    uint conditionSlot, conditionValue;
+    float distance, angle, remaining;
+    uint attempt;        // 0: the heading as the rule turned it, then detours
+    bool fresh;          // the attempt has not left yet
+    bool arrived;        // it has reached its end: the condition is to be asked there
+    bool placed;         // the machine knows the place where `trial` stands
+    uint pending;        // samples staged for it
+    float lastArc;       // of the last sample staged
+    // What is done.
+    uint count;          // nodes
+    uint steps;
+    uint inserted;
+    uint trips;
+    uint pushed, refused;   // items
+    ReadSet reads;
+};
+
+// The constants of a chunk's growth.
+struct GrowthSite {
+    uint chunk;          // its own index
+    uint inputs, layers; // what its grammar asks of places
+    uint sceneLayers;    // what it or its terminals read of layers, by the scene's numbers
+    uint level;
+    uint depth;          // branches from the seed
+    uint stepBase;       // steps of its branch before it
+    float minStep;       // metres
+};
+
+FN void giveArgs(MACHINE_PARAM vec4 args) {
+    SLOT(kSlotArg) = args.x;
+    SLOT(kSlotArg + 1u) = args.y;
+    SLOT(kSlotArg + 2u) = args.z;
+    SLOT(kSlotArg + 3u) = args.w;
+}
+
+// The arguments of a successor, `head` being its first word.
+FN vec4 readArgs(MACHINE_PARAM ExpandEnv env, uint at, uint head) {
+    vec4 args = vec4(0.0f);
+    uint slots = TABLE(at + 3u);
+    for (uint i = 0u; i < ((head >> 24u) & 7u); ++i) {
+        uint immediate = TABLE(at + 4u + i);
+        float x = packedValue(MACHINE (slots >> (8u * i)) & 127u, immediate);
+        args.x = i == 0u ? x : args.x;
+        args.y = i == 1u ? x : args.y;
+        args.z = i == 2u ? x : args.z;
+        args.w = i == 3u ? x : args.w;
+    }
+    return args;
+}
+FN u64 successorKey(u64 key, uint head, uint nameHash) { return childKey(key, nameHash, (head >> 16u) & 255u); }
+
+FN Place placeOf(ExpandEnv env, WalkState w) {
+    Place p;
+    p.position = w.position;
+    p.normal = w.normal;
+    p.heading = headingOf(env, w);
+    p.uv = w.walk.uv;
+    p.instance = w.walk.place >> 16u;
+    p.level = w.level;
+    return p;
+}
+
+// An item without its links: origin, branch, depth and step.
+FN WorkItem itemOf(WorkItem entry, GrowthSite site, u64 key, uint grammar, uint symbol, vec4 args, Walk walk) {
+    WorkItem item;
+    item.key = key;
+    item.walk = walk;
+    item.symbol = (grammar << 16u) | symbol;
+    item.args[0] = args.x;
+    item.args[1] = args.y;
+    item.args[2] = args.z;
+    item.args[3] = args.w;
+    item.parent = site.chunk;
+    item.seed = entry.seed;
+    item.step = 0u;
+    return item;
+}
+
+// Puts an item into the next wave's queue, if it is wanted; beyond its capacity only the count grows. Those of a depth
+// that may not be grown are refused. There is one atomic here, since on a software device masked ones cost their full price: the rest is counted at the chunk's end.
+FN void pushItem(ExpandEnv env, WorkItem item, bool wanted, INOUT(Grower) g) {
+    bool push = wanted && (item.depth >> 16u) <= env.phase;
+    uint at = kNoIndex;
+    if (push) at = atomicAdd(env.waves.v[env.wave + 1u].count, 1u);
+    g.pushed = g.pushed + (push ? 1u : 0u);
+    g.refused = g.refused + (wanted && !push ? 1u : 0u);
+    if (at < env.itemCapacity) writeItem(env.nextItems, at, item);
+}
+
+// Finds the shape's rule and applies it: a List at once (its branches are queued, what it continues with waits for
+// its own rule), a March as far as its length and angle. The machine knows the place.
+FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, WorkItem entry, INOUT(Grower) g) {
+    giveArgs(MACHINE g.args);
+    uint at = map.symbols + g.symbol * kSymbolWords;
+    uint rules = TABLE(at);
+    uint sites = TABLE(at + 2u);
+    drawTable(MACHINE env, map, sites & 0xFFFFu, (sites >> 16u) & 255u, g.key, g.key);
+    runTable(MACHINE env, map, TABLE(at + 1u));
+    float selected = packedValue(MACHINE sites >> 24u, TABLE(at + 3u));
+    g.reads.params = g.reads.params | TABLE(at + 4u);
+    uint ruleCount = rules >> 16u;
+    if (!(selected >= 0.0f) || ruleCount == 0u) {
+        g.phase = kPhaseEnded;
+        return;
+    }
+    uint number = uint(selected);
+    at = map.rules + ((rules & 0xFFFFu) + (number < ruleCount ? number : ruleCount - 1u)) * kRuleWords;
+    uint head = TABLE(at);
+    uint links = TABLE(at + 1u);
+    uint slots = TABLE(at + 4u);
+    drawTable(MACHINE env, map, links >> 16u, (head >> 16u) & 255u, g.key, g.key);
+    runTable(MACHINE env, map, TABLE(at + 2u));
+    g.rule = head;
+    g.links = links;
+    g.arriveCode = TABLE(at + 3u);
+    g.distance = larger(packedValue(MACHINE slots & 127u, TABLE(at + 5u)), site.minStep);
+    g.angle = packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 6u));
+    g.conditionSlot = (slots >> 16u) & 127u;
+    g.conditionValue = TABLE(at + 7u);
+    g.reads.params = g.reads.params | TABLE(at + 8u);
+    g.attempt = 0u;
+    g.fresh = true;
+    g.phase = (head & 3u) == kRuleMarch ? kPhaseMarch : kPhaseEnded;
+
+    uint first = links & 0xFFFFu;
+    uint count = (head & 3u) == kRuleList ? (head >> 2u) & 63u : 0u;
+    u64 key = g.key;
+    for (uint i = first; i < first + count; ++i) {
+        at = map.successors + i * kSuccessorWords;
+        uint successor = TABLE(at);
+        runTable(MACHINE env, map, TABLE(at + 2u));
+        vec4 args = readArgs(MACHINE env, at, successor);
+        u64 child = successorKey(key, successor, TABLE(at + 1u));
+        uint symbol = successor & 0xFFFFu;
+        bool branches = (successor & kPackedContinues) == 0u;
+        Walk walk = g.at.walk;
+        walk.arc = 0.0f;
+        WorkItem item = itemOf(entry, site, child, g.grammar, symbol, args, walk);
+        item.origin = g.count == 0u ? kNoIndex : g.count - 1u;
+        item.branch = kNoIndex;
+        item.depth = entry.depth + 0x10001u;
+        pushItem(env, item, branches, g);
+        if (!branches) {
+            g.key = child;
+            g.symbol = symbol;
+            g.args = args;
+            g.phase = kPhaseDerive;
+        }
+    }
+}
+
+// Writes a sample into the stage.
+FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, uint flags, uint index) {
+    uint at = index * kStagedWords;
+    STAGED(at) = floatBitsToUint(w.position.x);
+    STAGED(at + 1u) = floatBitsToUint(w.position.y);
+    STAGED(at + 2u) = floatBitsToUint(w.position.z);
+    STAGED(at + 3u) = packOct(normal);
+    STAGED(at + 4u) = packOct(headingOf(env, w));
+    STAGED(at + 5u) = packUv(w.walk.uv);
+    STAGED(at + 6u) = w.walk.place;
+    STAGED(at + 7u) = floatBitsToUint(w.walk.arc);
+    STAGED(at + 8u) = flags | (index << 8u);
+}
+
+// The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes
+// first drawn by the key.
+FN float attemptAngle(Grower g) {
+    float side = ((uint(g.key >> 17) ^ g.attempt) & 1u) != 0u ? 1.0f : -1.0f;
+    return g.attempt == 0u ? g.angle : side * kDetourAngle * float((g.attempt + 1u) >> 1u);
+}
+
+// One stretch of the step under way.
+FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
+    if (g.fresh) {
+        g.trial = g.at;
+        g.remaining = g.distance;
+        g.pending = 0u;
+        g.lastArc = g.at.walk.arc;
+        g.fresh = false;
+        turnWalk(env, g.trial, attemptAngle(g));
+    }
+    vec3 normal;
+    uint event = advanceWalk(env, site.level, g.trial, g.remaining, normal);
+    bool goesOn = walkGoesOn(event);
+    bool arrived = event == kWalkDone;
+    g.arrived = arrived;
+    g.placed = false;
+    bool recorded = arrived || (goesOn && walkHasSample(event));
+    bool tiny = g.trial.walk.arc - g.lastArc < 0.02f * g.distance;
+    if (arrived && tiny && g.pending > 0u) g.pending = g.pending - 1u;
+    recorded = recorded && (arrived || !tiny);
+
+    uint index = g.count + g.pending;
+    bool room = index + (arrived ? 0u : 1u) < kChunkNodes;
+    bool full = recorded && !room && g.count > 0u;
+    g.phase = full ? kPhaseFull : g.phase;   // the whole step moves to the next chunk
+    if (recorded && room) {
+        uint flags = ((g.rule >> 8u) & 255u) | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
+        stageNode(env, g.trial, normal, flags, index);
+        g.pending = g.pending + 1u;
+        g.lastArc = g.trial.walk.arc;
+    }
+    if (!arrived && !goesOn) {
+        // A border of the model, or no surface: the next direction.
+        g.phase = g.attempt >= kDetours ? kPhaseDead : g.phase;
+        g.attempt = g.attempt + 1u;
+        g.fresh = true;
+    }
+}
+
+// At the end of a step: its condition, and its successor. The machine knows the place.
+FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, INOUT(Grower) g) {
+    g.arrived = false;
+    runTable(MACHINE env, map, g.arriveCode);
+    if (!holds(packedValue(MACHINE g.conditionSlot, g.conditionValue))) {
+        // Where the condition asks nothing of the place, no other direction can help.
+        bool blind = (g.rule & kRuleBlind) != 0u;
+        g.reads.beyond = g.reads.beyond || !blind;
+        g.phase = blind ? kPhaseEnded : g.attempt >= kDetours ? kPhaseDead : kPhaseMarch;
+        g.attempt = g.attempt + 1u;
+        g.fresh = true;
+        return;
+    }
+    g.at = g.trial;
+    g.count = g.count + g.pending;
+    g.inserted = g.inserted + g.pending - 1u;
+    g.pending = 0u;
+    g.steps = g.steps + 1u;
+    if ((g.rule & 252u) == 0u) {
+        g.phase = kPhaseEnded;   // no successor
+        return;
+    }
+    uint at = map.successors + (g.links & 0xFFFFu) * kSuccessorWords;
+    uint head = TABLE(at);
+    g.args = readArgs(MACHINE env, at, head);
+    g.key = successorKey(g.key, head, TABLE(at + 1u));
+    g.symbol = head & 0xFFFFu;
+    g.phase = g.count >= kChunkNodes ? kPhaseFull : kPhaseDerive;
+}
+
+ESPALIER_END
+#endif

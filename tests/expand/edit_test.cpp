@@ -1,0 +1,246 @@
+// After any edits, growing only what they concern gives what growing everything anew gives: by the structure's hash of
+// the CPU reference, which knows nothing of edits, and by all counts.
+#include <doctest/doctest.h>
+
+#include <cstdio>
+
+#include "shaders/shared/exact.h"
+#include "shaders/shared/random.h"
+#include "tests/expand/scene.hpp"
+
+using namespace espalier;
+using namespace espalier::growthtest;
+
+namespace {
+
+// Stems that a mask leads, twigs of twigs; bark thins towards tips and so depends on where a branch ends; leaves read
+// another layer than the rules do.
+const char* kGuided = R"(
+context mask = 1
+context cover = 1
+param reach = 40 [0 .. 1000] "steps" "Steps"
+param stride = 0.04 [0.01 .. 1] "m" "Step"
+param leafSize = 0.04 [0.01 .. 1] "m" "Leaves"
+param twigs = 0.3 [0 .. 1] "" "Twigs"
+Stem(n) -> Marching(stride, rand(-0.3, 0.3), mask(texCoord) > 0.5 and n < reach) {Fork(n + 1), Cover}
+Fork(n) -> Branch(2) {Twig(0, rand(0, 12)), Stem(n)} : 0.3
+Fork(n) -> Stem(n) : 0.7
+Twig(n, k) -> Marching(stride * 0.7, rand(-0.6, 0.6), mask(texCoord) > 0.5 and n < k) {Bud(n + 1, k), Cover}
+Bud(n, k) : rand() < twigs -> Branch(2) {Tip(0), Twig(n, k)}
+Bud(n, k) -> Twig(n, k)
+Tip(n) -> Marching(0.02, rand(-1, 1), n < 3) {Tip(n + 1), Cover}
+Cover -> Bark Leaves
+Bark -> S(0.002 + 0.01 * clamp(toTip / 0.5, 0, 1)) Shape("bark", C1)
+Leaves -> Repeat(floor(rand(0, 3) * cover(texCoord))) { T(rand(), 0.01) R(rand(-1, 1), 0.4) S(leafSize * rand(0.6, 1)) Shape("leaf") }
+)";
+
+const char* kPlain = R"(
+param reach = 25 [0 .. 1000] "steps" "Steps"
+Stem(n) -> Marching(0.05, rand(-0.2, 0.2), n < reach) {Fork(n + 1), Bark}
+Fork(n) -> Branch(2) {Twig(0), Stem(n)} : 0.2
+Fork(n) -> Stem(n) : 0.8
+Twig(n) -> Marching(0.03, rand(-0.5, 0.5), n < 6) {Twig(n + 1), Bark}
+Bark -> S(0.01) Shape("bark", C1)
+)";
+
+// A scene that is edited, its growth, and notes of the edits since.
+class Session {
+  public:
+    explicit Session(const Model& model, const GrowthRoom& room = {})
+        : scene(Scene::baked(model)), growth(gpu.growth(room)) {
+        changes.everything = false;
+        scene.addGrammar(kGuided);
+        scene.addGrammar(kPlain);
+        for (auto& layer : layers) layer.assign(kSize * kSize, 1.0f);
+    }
+    ~Session() { growth.reset(); }
+
+    // A round dab that is `value` inside; the texels that it touches are noted.
+    void dab(uint32_t layer, glm::vec2 at, float radius, float value) {
+        glm::ivec2 low = glm::max(glm::ivec2((at - radius) * float(kSize)), 0);
+        glm::ivec2 high = glm::min(glm::ivec2((at + radius) * float(kSize)) + 1, int(kSize));
+        for (int y = low.y; y < high.y; ++y)
+            for (int x = low.x; x < high.x; ++x)
+                if (glm::length((glm::vec2(x, y) + 0.5f) / float(kSize) - at) < radius)
+                    layers[layer][size_t(y) * kSize + size_t(x)] = value;
+        upload(layer);
+        changes.markTiles(0, layer, kSize, uint32_t(low.x), uint32_t(low.y), uint32_t(high.x), uint32_t(high.y));
+    }
+    void set(uint32_t grammar, const char* name, float value) {
+        RuleMap& map = scene.grammar(grammar);
+        changes.markParams(grammar, map.setParam(*map.findParam(name), {&value, 1}));
+    }
+    void upload(uint32_t layer) {
+        scene.paint(layer, kSize, [&](glm::vec2 uv) {
+            return layers[layer][size_t(uv.y * float(kSize)) * kSize + size_t(uv.x * float(kSize))];
+        });
+    }
+    void grow() {
+        scene.changes = &changes;
+        Status grown = scene.grow(gpu.device(), *growth);
+        if (!grown) FAIL(grown.failure().text());
+        changes = {.everything = false, .tiles = {}, .params = {}, .grammars = {}};
+    }
+    void check() {
+        grow();
+        Result<CpuGrowth> whole = scene.growOnCpu();
+        REQUIRE(whole);
+        const GrowthStats s = growth->stats();
+        const GrowthStats& w = whole->stats;
+        CHECK(s.hash == w.hash);
+        CHECK(s.nodes == w.nodes);
+        CHECK(s.chunks == w.chunks);
+        CHECK(s.branches == w.branches);
+        CHECK(s.leaves == w.leaves);
+        CHECK(s.steps == w.steps);
+        CHECK(s.inserted == w.inserted);
+        CHECK(s.deadEnds == w.deadEnds);
+        CHECK(s.stopped == w.stopped);
+        if (s.hash != w.hash) {
+            Result<GrowthRecords> records = growth->read();
+            REQUIRE(records);
+            for (const std::string& note : compareGrowth(*whole, *records).notes) std::printf("  %s\n", note.c_str());
+        }
+    }
+
+    static constexpr uint32_t kSize = 256;
+    TestDevice gpu;
+    Scene scene;
+    std::unique_ptr<Growth> growth;
+    GrowthChanges changes;
+    std::array<std::vector<float>, 2> layers;
+};
+
+}  // namespace
+
+TEST_CASE("a dab regrows what read it and what follows, and nothing else") {
+    Session s(flatSquare());
+    for (int i = 0; i < 40; ++i) s.scene.plant({-0.75f, 0, -0.78f + 0.04f * float(i)}, {1, 0, 0}, 0, uint64_t(i));
+    s.check();
+    const GrowthStats before = s.growth->stats();
+    REQUIRE(before.nodes > 1000);
+    s.dab(0, {0.5f, 0.5f}, 0.05f, 0);
+    s.check();
+    CHECK(s.growth->stats().hash != before.hash);
+    CHECK(s.growth->stats().regrowths == 1);
+    CHECK(s.growth->stats().derived < before.nodes / 2);
+    s.dab(0, {0.5f, 0.5f}, 0.05f, 1);
+    s.check();
+    CHECK(s.growth->stats().hash == before.hash);
+    CHECK(s.growth->stats().regrowths == 2);
+}
+
+TEST_CASE("a dab where nothing is read does nothing, one that paints what is there ends where it began") {
+    Session s(flatSquare());
+    for (int i = 0; i < 40; ++i) s.scene.plant({-0.75f, 0, -0.78f + 0.04f * float(i)}, {1, 0, 0}, 0, uint64_t(i));
+    s.check();
+    const GrowthStats before = s.growth->stats();
+    s.dab(0, {0.05f, 0.95f}, 0.01f, 0);
+    s.check();
+    CHECK(s.growth->stats().derived == 0);
+    CHECK(s.growth->stats().expansions == before.expansions);
+    s.dab(0, {0.5f, 0.5f}, 0.02f, 1);
+    s.check();
+    CHECK(s.growth->stats().hash == before.hash);
+    CHECK(s.growth->stats().derived > 0);
+    CHECK(s.growth->stats().derived < before.nodes / 4);
+}
+
+TEST_CASE("nothing changed: nothing is done") {
+    Session s(cube());
+    s.scene.plantMany(9, 0);
+    s.check();
+    const GrowthStats before = s.growth->stats();
+    const uint64_t revision = s.growth->view().revision;
+    for (int i = 0; i < 3; ++i) s.grow();
+    CHECK(s.growth->stats().expansions == before.expansions);
+    CHECK(s.growth->view().revision == revision);
+    CHECK(s.growth->stats().derived == 0);
+}
+
+TEST_CASE("seeds that come and go touch their own plants only") {
+    Session s(ball());
+    s.scene.plantMany(20, 0, 1);
+    s.scene.plantMany(20, 1, 2);
+    s.check();
+    const uint32_t nodes = s.growth->stats().nodes;
+    s.scene.seeds().erase(s.scene.seeds().begin() + 7);
+    s.check();
+    CHECK(s.growth->stats().derived == 0);
+    s.scene.plantMany(1, 0, 3);
+    s.check();
+    CHECK(s.growth->stats().derived > 0);
+    CHECK(s.growth->stats().derived < nodes / 8);
+    std::swap(s.scene.seeds()[2], s.scene.seeds()[30]);
+    s.check();
+    CHECK(s.growth->stats().derived == 0);
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    for (const BranchRecord& b : records->branches) {
+        if (b.firstChunk == kNoIndex) continue;
+        uint32_t root = b.firstChunk;
+        while (records->chunks[root].parent != kNoIndex) root = records->chunks[root].parent;
+        CHECK(s.scene.seeds()[b.seed].key == records->chunks[root].key);
+    }
+    s.scene.seeds()[3].walk.direction = {0.3f, -0.2f, 0.9f};
+    s.check();
+    s.scene.clearSeeds();
+    s.check();
+    CHECK(s.growth->stats().nodes == 0);
+}
+
+TEST_CASE("a parameter regrows what uses it: rules, terminals, or another grammar's plants not at all") {
+    Session s(ball());
+    s.scene.plantMany(15, 0, 1);
+    s.scene.plantMany(15, 1, 2);
+    s.check();
+    s.set(0, "leafSize", 0.05f);
+    s.check();
+    CHECK(s.growth->stats().derived == 0);
+    CHECK(s.growth->stats().regrowths == 1);
+    s.set(0, "twigs", 0.5f);
+    s.check();
+    s.set(1, "reach", 12);
+    s.check();
+    CHECK(s.growth->stats().derived > 0);
+}
+
+TEST_CASE("random edits in any order end in what a full growth gives") {
+    const Model models[] = {flatSquare(), cube(), ball()};
+    for (uint32_t m = 0; m < 3; ++m) {
+        CAPTURE(m);
+        Session s(models[m], m == 1 ? GrowthRoom{256, 4096, 256, 4096, 64} : GrowthRoom{});
+        s.scene.plantMany(25, 0, 1);
+        s.scene.plantMany(8, 1, 2);
+        s.check();
+        uint64_t key = mix64(77 + m);
+        auto draw = [&](float low, float high) {
+            key = mix64(key);
+            return low + (high - low) * uniformRandom(key, 1);
+        };
+        for (uint32_t i = 0; i < 40; ++i) {
+            CAPTURE(i);
+            const uint32_t edits = uint32_t(draw(1, 4));
+            for (uint32_t k = 0; k < edits; ++k) {
+                const float kind = draw(0, 1);
+                std::vector<Seed>& seeds = s.scene.seeds();
+                if (kind < 0.7f) {
+                    const uint32_t layer = draw(0, 1) < 0.8f ? 0 : 1;
+                    s.dab(layer, {draw(0, 1), draw(0, 1)}, draw(0.005f, 0.08f), draw(0, 1) < 0.6f ? 0.0f : 1.0f);
+                } else if (kind < 0.8f && !seeds.empty()) {
+                    seeds.erase(seeds.begin() + long(draw(0, float(seeds.size()) - 0.01f)));
+                } else if (kind < 0.9f) {
+                    s.scene.plantMany(1, draw(0, 1) < 0.7f ? 0 : 1, 100 + i * 4 + k);
+                } else if (kind < 0.95f) {
+                    s.set(0, draw(0, 1) < 0.5f ? "leafSize" : "twigs", draw(0.02f, 0.6f));
+                } else {
+                    s.set(1, "reach", floorExact(draw(3, 40)));
+                }
+            }
+            s.check();
+        }
+        std::printf("model %u: %u expansions, %u of them regrowths\n", m, s.growth->stats().expansions,
+                    s.growth->stats().regrowths);
+        CHECK(s.growth->stats().regrowths > 20);
+    }
+}
