@@ -338,6 +338,7 @@ Result<GrowthRecords> GpuGrowth::read() {
                       fetch(to.leaves, plants.leaves, view_.leafCount)};
     for (Status& step : steps)
         if (!step) return step.failure();
+    compactRecords(to);
     return to;
 }
 

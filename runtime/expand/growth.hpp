@@ -100,7 +100,7 @@ class Growth {
     virtual Status grow(const GrowthInputs& inputs) = 0;
     virtual GrowthView view() const = 0;
     virtual GrowthStats stats() const = 0;
-    // Waits for the GPU and copies the published growth.
+    // Waits for the GPU and copies the published growth, without gaps: indices differ from those of view().
     virtual Result<GrowthRecords> read() = 0;
 };
 

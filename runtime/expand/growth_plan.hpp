@@ -35,6 +35,9 @@ enum class Verdict { complete, retry, impossible };
 Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
               GrowthCut& cut);
 
+// Takes out what edits have left as gaps and renumbers the rest.
+void compactRecords(GrowthRecords& records);
+
 // Chunks at most.
 uint32_t chunkLimit(const GrowthLimits& limits);
 

@@ -96,11 +96,13 @@ class Session {
         CHECK(s.inserted == w.inserted);
         CHECK(s.deadEnds == w.deadEnds);
         CHECK(s.stopped == w.stopped);
-        if (s.hash != w.hash) {
-            Result<GrowthRecords> records = growth->read();
-            REQUIRE(records);
-            for (const std::string& note : compareGrowth(*whole, *records).notes) std::printf("  %s\n", note.c_str());
-        }
+        Result<GrowthRecords> records = growth->read();
+        REQUIRE(records);
+        CHECK(records->nodes.size() == w.nodes);
+        CHECK(records->leaves.size() == w.leaves);
+        const GrowthDifference difference = compareGrowth(*whole, *records);
+        CHECK(difference.alike == difference.branches);
+        for (const std::string& note : difference.notes) std::printf("  %s\n", note.c_str());
     }
 
     static constexpr uint32_t kSize = 256;
