@@ -26,7 +26,10 @@ void main() {
     float pixels = view.pixelScale / far;
     if (pixels * max(size.x, size.y) < 0.7) return;
     bool shadow = (env.flags & kRoofShadow) != 0u;
-    if (many && (shadow || pixels * max(min(g.step.x, g.step.y), 0.25 * max(g.step.x, g.step.y)) < env.leastCell)) {
+    // Courses seen edge-on would flicker long before they are small.
+    float lying = view.parallel != 0u ? 1.0 : abs(dot(cross(g.axisX, g.axisY), normalize(view.eye - center)));
+    bool thin = (g.cells >> 16u) > 1u && pixels * g.step.y * lying < 1.5;
+    if (many && (shadow || thin || pixels * max(min(g.step.x, g.step.y), 0.25 * max(g.step.x, g.step.y)) < env.leastCell)) {
         // Sparse cells would paint over what lies between them.
         if (g.size.x * g.size.y < 0.6 * g.step.x * g.step.y) return;
         uint first = 0u;

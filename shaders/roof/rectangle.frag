@@ -14,7 +14,7 @@ layout(location = 0) out vec4 color;
 
 void main() {
     vec3 n = normalize(normal);
-    if (dot(n, push.frame.v[0].eye - position) < 0.0) n = -n;
+    if (dot(n, push.frame.v[0].eye - position) < 0.0 && !gl_FrontFacing) n = -n;
     uint view = push.frame.v[0].view;
     if (view != kViewShaded) {
         color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(push.frame, lodColor(5u), n);

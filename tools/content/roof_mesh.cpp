@@ -25,8 +25,8 @@ Mesh slate(int lod) {
     const vec3 down(0, 0, -kThick);
     Mesh m;
     addQuad(m, a, b, c, d);
+    addQuad(m, a + down, b + down, b, a);  // seen from below at a low angle, courses would gape without
     if (lod > 0) return m;
-    addQuad(m, a + down, b + down, b, a);
     addQuad(m, d + down, a + down, a, d);
     addQuad(m, b + down, c + down, c, b);
     return m;
