@@ -95,20 +95,27 @@ class Reader {
     // {"outer": [[x, y], ...], "holes": [...]} with the tags beside them.
     void plan(const json& building, const std::string& id) {
         if (!building.contains("outer")) return say(id, "has no outer ring: left out");
-        json rings = json::array({building["outer"]});
+        std::vector<const json*> rings{&building["outer"]};
         if (building.contains("holes") && building["holes"].is_array())
-            for (const json& hole : building["holes"]) rings.push_back(hole);
+            for (const json& hole : building["holes"]) rings.push_back(&hole);
         polygon(rings, building, id);
     }
 
-    void polygon(const json& rings, const json& tags, const std::string& id) {
+    void polygon(const json& coordinates, const json& tags, const std::string& id) {
+        if (!coordinates.is_array() || coordinates.empty()) return say(id, "has no rings: left out");
+        std::vector<const json*> rings;
+        for (const json& ring : coordinates) rings.push_back(&ring);
+        polygon(rings, tags, id);
+    }
+
+    // Not copied: a copy recurses, however deep a file nests.
+    void polygon(const std::vector<const json*>& rings, const json& tags, const std::string& id) {
         Footprint f;
         f.id = id;
-        if (!rings.is_array() || rings.empty()) return say(id, "has no rings: left out");
         size_t corners = 0;
         for (size_t r = 0; r < rings.size(); r++) {
             Ring ring;
-            if (const char* problem = readRing(rings[r], ring)) {
+            if (const char* problem = readRing(*rings[r], ring)) {
                 if (r == 0) return say(id, std::string("its outline ") + problem + ": left out");
                 say(id, "hole " + std::to_string(r) + " " + problem + ": filled");
                 continue;

@@ -14,10 +14,11 @@ using ClipperLib::IntPoint;
 using ClipperLib::Path;
 using ClipperLib::Paths;
 
-constexpr double kNear = 0.005;       // metres: corners nearer than this are one
-constexpr double kStraight = 0.002;   // metres off the line between its neighbours: no corner
-constexpr double kLeastArea = 0.05;   // square metres
-constexpr double kFarthest = 100000;  // metres from the house's first corner
+constexpr double kNear = 0.005;          // metres: corners nearer than this are one
+constexpr double kStraight = 0.002;      // metres off the line between its neighbours: no corner
+constexpr double kLeastArea = 0.05;      // square metres
+constexpr double kFarthest = 100000;     // metres from the house's first corner
+constexpr size_t kMostCrossings = 1000;  // pairs of edges that cross or touch, of what is mended
 
 double areaOf(const std::vector<glm::dvec2>& ring) {
     double twice = 0;
@@ -92,8 +93,10 @@ bool meet(const Segment& s, const Segment& t) {
     return side(s.a, s.b, t.a) * side(s.a, s.b, t.b) < 0 && side(t.a, t.b, s.a) * side(t.a, t.b, s.b) < 0;
 }
 
-// Simple and disjoint? A sweep over the edges sorted by their left ends.
-bool sound(const std::vector<std::vector<glm::dvec2>>& rings) {
+// How many pairs of edges meet, counted no further than one above `most`. A sweep over the edges sorted by their left
+// ends.
+size_t crossings(const std::vector<std::vector<glm::dvec2>>& rings, size_t most) {
+    size_t count = 0;
     std::vector<Segment> segments;
     for (size_t r = 0; r < rings.size(); r++)
         for (size_t i = 0; i < rings[r].size(); i++)
@@ -107,10 +110,15 @@ bool sound(const std::vector<std::vector<glm::dvec2>>& rings) {
             const Segment& t = segments[j];
             bool neighbours =
                 s.ring == t.ring && (t.index == (s.index + 1) % s.count || s.index == (t.index + 1) % t.count);
-            if (!neighbours && meet(s, t)) return false;
+            if (!neighbours && meet(s, t) && ++count > most) return count;
         }
     }
-    return true;
+    return count;
+}
+
+// Simple and disjoint?
+bool sound(const std::vector<std::vector<glm::dvec2>>& rings) {
+    return crossings(rings, 0) == 0;
 }
 
 bool inside(glm::dvec2 p, const std::vector<glm::dvec2>& ring) {
@@ -241,6 +249,11 @@ std::vector<RepairedOutline> repairOutline(const Footprint& footprint, std::vect
     if (whole && holesInside && sound(rings)) {
         parts.push_back(std::move(rings));
     } else {
+        // What is mended falls into as many parts: a scribble would take minutes and be no building.
+        if (crossings(rings, kMostCrossings) > kMostCrossings)
+            return say("the outline crosses or touches itself more than " + std::to_string(kMostCrossings) +
+                           " times: left out",
+                       false);
         for (Rings& part : clipRings(given, grid))
             if (tidy(part) && sound(part)) parts.push_back(std::move(part));
         if (parts.empty()) return say("the outline has no area that could carry a roof: left out", false);

@@ -162,6 +162,26 @@ TEST_CASE("multipolygons, holes and outlines too large") {
     CHECK(says(round.diagnostics, "gasometer: has 100000 corners, more than 20000"));
 }
 
+TEST_CASE("what only a hostile file holds costs no minutes and no stack") {
+    Town deep =
+        town(R"({"buildings":[{"id":"deep","outer":)" + std::string(200000, '[') + std::string(200000, ']') + "}]}");
+    CHECK(says(deep.diagnostics, "deep: its outline"));
+    // A scribble of 1000 corners crosses itself some 100,000 times.
+    Footprint scribble;
+    scribble.id = "scribble";
+    uint32_t state = 1;
+    auto random = [&] { return double((state = state * 1664525u + 1013904223u) >> 8) / (1 << 24) * 1000; };
+    scribble.rings.resize(1);
+    for (int i = 0; i < 1000; i++) {
+        double x = random(), y = random();
+        scribble.rings[0].push_back({x, y});
+    }
+    RoofStructure out;
+    std::vector<Diagnostic> said;
+    CHECK(!appendRoof(scribble, out, said));
+    CHECK(says(said, "scribble: the outline crosses or touches itself more than 1000 times: left out"));
+}
+
 TEST_CASE("the OSM extracts as GeoJSON") {
     for (auto [name, count] : {std::pair("osm_north_bayreuth_DE", 4267), std::pair("osm_monaco_west", 649),
                                std::pair("osm_campo_grande_BR", 102)}) {
