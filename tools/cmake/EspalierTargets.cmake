@@ -21,6 +21,13 @@ if(ESPALIER_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
+option(ESPALIER_FUZZ "Instrument everything for libFuzzer (clang only; see tools/fuzz)" OFF)
+if(ESPALIER_FUZZ)
+  add_compile_options(-O1 -g1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined)
+  add_compile_definitions(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
 # The kernels' arithmetic is compiled for GPU and CPU; contraction into fused operations would let them differ.
 add_compile_options(-ffp-contract=off)
 

@@ -1,0 +1,27 @@
+#pragma once
+
+// What is fuzzed: functions that take any bytes as the content of a file and must neither crash nor leak, hang, or
+// allocate beyond their stated bound, whatever the bytes are.
+
+#include <cstdint>
+#include <span>
+
+namespace espalier::fuzz {
+
+using Bytes = std::span<const uint8_t>;
+
+void gltf(Bytes bytes);     // the glTF importer: text or container
+void obj(Bytes bytes);      // the OBJ importer
+void ply(Bytes bytes);      // the PLY importer, packed or not
+void surface(Bytes bytes);  // the surface reader; its hashes are not compared in a fuzzing build
+void grammar(Bytes bytes);  // the grammar compiler, and loading what it made
+void roof(Bytes bytes);     // the reader of footprints, and the roofs over them
+
+struct Target {
+    const char* name;
+    void (*run)(Bytes);
+};
+inline constexpr Target kTargets[] = {{"gltf", gltf},       {"obj", obj},         {"ply", ply},
+                                      {"surface", surface}, {"grammar", grammar}, {"roof", roof}};
+
+}  // namespace espalier::fuzz
