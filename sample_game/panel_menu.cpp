@@ -190,6 +190,10 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
         text =
             "Click: plant   drag: plant with a direction   Ctrl+drag: a row   click a seed: choose, drag it: move   "
             "Del: remove";
+    else if (work.tool == Tool::branch)
+        text =
+            "Click a branch: its walk, on the model and over the atlas   white: steps   blue: put in at seams and "
+            "creases   orange: crossings";
     else
         text =
             "Drag: turn around   Shift+drag: sideways   wheel: nearer   right drag: look, with W A S D: fly   "
