@@ -84,6 +84,8 @@ TEST_CASE("--help and --version answer; mistakes end with a message, a code and 
     CHECK(!r.run("cube.glb"));
     CHECK(!r.run("cube.glb -o s.glb --resolution 100 --report r.json"));
     CHECK(r.says("resolution"));
+    CHECK(!r.run("cube.glb -o s.glb --scene 5 --report r.json"));
+    CHECK(r.says("scene 5 does not exist"));
     CHECK(!r.run("missing.glb -o s.glb --report r.json"));
     CHECK(r.says("missing.glb"));
     CHECK(!r.run("cube.glb -o cube.glb"));
