@@ -92,7 +92,9 @@ class RoofLowering {
         c_.rules.resize(c_.rules.size() + symbol.rules.size());
         for (uint32_t i = 0; i < symbol.rules.size(); ++i) {
             const Rule& rule = c_.module.rules[symbol.rules[i]];
-            c_.rules[record.firstRule + i] = lowerSequence(rule.successor, envs[i], rule, symbol.name);
+            // What is nested in a further rule of the symbol has names of its own.
+            const std::string name = i == 0 ? symbol.name : symbol.name + "#" + std::to_string(i) + "r";
+            c_.rules[record.firstRule + i] = lowerSequence(rule.successor, envs[i], rule, name);
         }
     }
     void lowerNested(Nested& nested) {

@@ -127,6 +127,8 @@ constexpr AccessorInfo kRoofAccessors[] = {
     {"houseColour.g", kSlotHouseColour + 1, Where::onRoofs},
     {"houseColour.b", kSlotHouseColour + 2, Where::onRoofs},
     {"houseTinted", kSlotHouseTinted, Where::onRoofs},
+    {"cornerStart", kSlotCorners, Where::onRoofs},
+    {"cornerEnd", kSlotCorners + 1, Where::onRoofs},
     {"index", kSlotIndex, Where::onRoofs},
     {"count", kSlotCount, Where::onRoofs},
 };

@@ -88,7 +88,25 @@ class HouseAtoms {
         atom.style = uint32_t(h_.shape) | (h_.material & 255u) << 8 | ((h_.colour >> 24) != 0 ? 1u << 16 : 0u);
         atom.colour = {fromSrgb(h_.colour & 255), fromSrgb(h_.colour >> 8 & 255), fromSrgb(h_.colour >> 16 & 255)};
         atom.firstPiece = uint32_t(t_.pieces.size());
+        if (tier == 0) atom.corners = cornersOf(edge);
         return atom;
+    }
+    // Overhanging eaves of two edges meet on the line that halves their corner: tan of half the turn.
+    glm::vec2 cornersOf(uint32_t edge) const {
+        for (const auto& ring : h_.rings) {
+            const uint32_t n = uint32_t(ring.size());
+            if (edge >= n) {
+                edge -= n;
+                continue;
+            }
+            auto side = [&](uint32_t i) { return glm::dvec2(ring[(i + 1) % n]) - glm::dvec2(ring[i % n]); };
+            auto half = [](glm::dvec2 a, glm::dvec2 b) {
+                const double turn = std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
+                return float(glm::clamp(std::tan(turn / 2), -2.0, 2.0));
+            };
+            return {half(side(edge + n - 1), side(edge)), half(side(edge), side(edge + 1))};
+        }
+        return {0, 0};
     }
     void setEave(RoofAtom& atom, glm::vec3 from, glm::vec3 along, float length) const {
         atom.tangent = along;

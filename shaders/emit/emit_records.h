@@ -12,8 +12,8 @@ ESPALIER_BEGIN
 using glm::mat4;
 #endif
 
-CONST_UINT(kMaxTerminalKinds, 16u);
-CONST_UINT(kMaxVariants, 32u);
+CONST_UINT(kMaxTerminalKinds, 48u);
+CONST_UINT(kMaxVariants, 48u);
 CONST_UINT(kMaxLods, 6u);
 CONST_UINT(kMaxBuckets, 64u);
 CONST_UINT(kNoBucket, 0xFFu);
@@ -65,12 +65,12 @@ struct BucketRecord {
 STATIC_SIZE(BucketRecord, 24);
 
 struct EmitTable {
-    KindRecord kinds[16];
-    VariantRecord variants[32];
+    KindRecord kinds[48];
+    VariantRecord variants[48];
     BucketRecord buckets[64];
     uint kindCount, variantCount, bucketCount, barkBuckets;
 };
-STATIC_SIZE(EmitTable, 3728);
+STATIC_SIZE(EmitTable, 5200);
 
 // VkDrawIndexedIndirectCommand.
 struct DrawCommand {

@@ -22,6 +22,6 @@ void main() {
         return;
     }
     float variation = float(look.y & 255u) * (1.0 / 255.0);
-    vec3 base = weathered(unpackColour(look.x), variation, surface.w, position);
+    vec3 base = weathered(unpackColour(look.x) * surface.z, variation, surface.w, position);
     color = shade(push.frame, base, n, position, push.roughness);
 }

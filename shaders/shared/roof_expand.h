@@ -70,6 +70,8 @@ FN void giveShape(MACHINE_PARAM RoofEnv env, RoofScope shape) {
     SLOT(kSlotHouseMaterial) = float((atom.style >> 8u) & 255u);
     SLOT(kSlotHouseTinted) = float((atom.style >> 16u) & 1u);
     giveVector(MACHINE kSlotHouseColour, atom.colour);
+    SLOT(kSlotCorners) = atom.corners.x;
+    SLOT(kSlotCorners + 1u) = atom.corners.y;
 }
 
 // What a rule's shapes are handed to: the last one is kept to go on with, those before it are queued.

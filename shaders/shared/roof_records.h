@@ -26,7 +26,7 @@ struct RoofPiece {
 };
 STATIC_SIZE(RoofPiece, 52);
 
-// 120 bytes. Tier 0's shape begins as the segment at the wall's foot.
+// 128 bytes. Tier 0's shape begins as the segment at the wall's foot.
 struct RoofAtom {
     u64 key;
     vec3 foot;          // the wall's foot below the eave's begin, world
@@ -44,8 +44,9 @@ struct RoofAtom {
     uint style;         // bits 7..0 RoofShape, 15..8 material, bit 16: the house has a colour
     float random;       // of the house
     vec3 colour;        // of the house, linear
+    vec2 corners;       // at the eave's begin and end: by how much of its overhang it goes on, below 0 at reflex corners
 };
-STATIC_SIZE(RoofAtom, 120);
+STATIC_SIZE(RoofAtom, 128);
 
 // 72 bytes. A region of a face first, then those that Join makes.
 struct RoofRegion {

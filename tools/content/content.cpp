@@ -143,9 +143,12 @@ Status generate(const Options& options) {
     if (Status s = makeDirectory(options.directory); !s) return s;
     if (!options.previewDirectory.empty())
         if (Status s = makeDirectory(options.previewDirectory); !s) return s;
-    if (Status s = writeRuin(options); !s) return s;
-    if (Status s = writeRoofMeshes(options); !s) return s;
-    return writeTerminals(options);
+    auto wanted = [&](const char* part) { return options.only.empty() || options.only == part; };
+    if (wanted("ruin"))
+        if (Status s = writeRuin(options); !s) return s;
+    if (wanted("roofs"))
+        if (Status s = writeRoofMeshes(options); !s) return s;
+    return wanted("terminals") ? writeTerminals(options) : Status(Done{});
 }
 
 }  // namespace espalier::content

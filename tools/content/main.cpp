@@ -16,6 +16,8 @@ int main(int argc, char** argv) {
     app.add_option("--preview", options.previewDirectory, "folder for pictures of what was made");
     app.add_option("--textures", options.textureSize, "texels a side of the ruin's textures")
         ->check(CLI::IsMember({256, 512, 1024, 2048, 4096}));
+    app.add_option("--only", options.only, "makes one of ruin, roofs, terminals instead of all")
+        ->check(CLI::IsMember({"ruin", "roofs", "terminals"}));
     app.set_version_flag("--version", "espalier-content " ESPALIER_VERSION);
     CLI11_PARSE(app, argc, argv);
     Status status = content::generate(options);

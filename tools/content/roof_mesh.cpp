@@ -1,6 +1,8 @@
 // Slates, ridge caps, panels and boards. In: nothing. Out: meshes of few triangles, since a town has millions of them.
 #include "tools/content/roof_mesh.hpp"
 
+#include "tools/content/roof_solid.hpp"
+
 namespace espalier::content {
 namespace {
 
@@ -12,7 +14,7 @@ void addQuad(Mesh& m, vec3 a, vec3 b, vec3 c, vec3 d) {
     for (vec3 p : {a, b, c, d}) {
         m.positions.push_back(p);
         m.normals.push_back(n);
-        m.uvs.emplace_back(p.x, p.y);
+        m.uvs.emplace_back(1, 0);
         m.weld.push_back(uint32_t(m.weld.size()));
     }
     for (uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) m.indices.push_back(first + i);
@@ -101,6 +103,9 @@ RoofMeshes makeRoofMeshes() {
     out.all.push_back({"board_lod0", board(), 1});
     out.all.push_back({"glass_lod0", panel(), 2});
     out.all.push_back({"frame_lod0", frame(), 1});
+    addCoverings(out);
+    addFittings(out);
+    addOpenings(out);
     return out;
 }
 

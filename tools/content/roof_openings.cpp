@@ -1,0 +1,68 @@
+// Casements, shutters and doors. In: nothing. Out: meshes in the unit box of their shape on a wall: x along, y up, z out.
+#include "tools/content/roof_solid.hpp"
+
+namespace espalier::content {
+namespace {
+
+using glm::vec3;
+
+// Two leaves with a bar each.
+Mesh casement(int lod) {
+    Solid s;
+    constexpr float kRim = 0.07f;
+    s.box({0, 0, 0}, {1, 0.06f, 1}).box({0, 0.95f, 0}, {1, 1, 1});
+    s.box({0, 0.06f, 0}, {kRim, 0.95f, 1}).box({1 - kRim, 0.06f, 0}, {1, 0.95f, 1});
+    s.box({0.46f, 0.06f, 0}, {0.54f, 0.95f, 0.8f});
+    if (lod == 0) s.box({kRim, 0.62f, 0}, {0.46f, 0.65f, 0.6f}).box({0.54f, 0.62f, 0}, {1 - kRim, 0.65f, 0.6f});
+    return s.mesh;
+}
+
+// What surrounds an opening: jambs, a lintel, and a sill that juts out and throws its shade on the reveal.
+Mesh surround() {
+    Solid s;
+    s.box({-0.13f, 0, 0}, {0, 1, 1}).box({1, 0, 0}, {1.13f, 1, 1});
+    s.box({-0.13f, 1, 0}, {1.13f, 1.1f, 1.15f});
+    return s.box({-0.17f, -0.07f, 0}, {1.17f, 0, 2.4f}, 0.95f).mesh;
+}
+
+// A leaf with slats in two fields.
+Mesh shutter(int lod) {
+    Solid s;
+    constexpr float kRim = 0.12f;
+    s.box({0, 0, 0}, {kRim, 1, 1}).box({1 - kRim, 0, 0}, {1, 1, 1});
+    for (float y : {0.0f, 0.47f, 0.94f}) s.box({kRim, y, 0}, {1 - kRim, y + 0.06f, 0.95f});
+    if (lod > 0) return s.quad({kRim, 0, 0.4f}, {1 - kRim, 0, 0.4f}, {1 - kRim, 1, 0.4f}, {kRim, 1, 0.4f}, 0.75f).mesh;
+    for (float field : {0.06f, 0.53f})
+        for (int i = 0; i < 8; ++i) {
+            const float y = field + 0.41f * float(i) / 8, top = y + 0.41f / 8;
+            s.quad({kRim, y, 0.85f}, {1 - kRim, y, 0.85f}, {1 - kRim, top, 0.2f}, {kRim, top, 0.2f}, 0.9f);
+        }
+    return s.mesh;
+}
+
+// A leaf with four sunk panels, and its frame.
+Mesh door(int lod) {
+    Solid s;
+    s.box({-0.09f, 0, 0}, {0, 1.05f, 1}, 1.15f).box({1, 0, 0}, {1.09f, 1.05f, 1}, 1.15f);
+    s.box({0, 1, 0}, {1, 1.05f, 1}, 1.15f);
+    const float face = 0.55f, deep = 0.25f;
+    if (lod > 0) return s.quad({0, 0, face}, {1, 0, face}, {1, 1, face}, {0, 1, face}).mesh;
+    for (float x : {0.0f, 0.44f, 0.88f}) s.box({x, 0, 0}, {x + 0.12f, 1, face});
+    for (float y : {0.0f, 0.46f, 0.92f}) s.box({0.12f, y, 0}, {0.88f, y + 0.08f, face * 0.98f});
+    s.quad({0.1f, 0, deep}, {0.9f, 0, deep}, {0.9f, 1, deep}, {0.1f, 1, deep}, 0.75f);
+    return s.box({0.9f, 0.47f, 0}, {0.94f, 0.53f, 0.9f}, 1.6f).mesh;
+}
+
+}  // namespace
+
+void addOpenings(RoofMeshes& out) {
+    for (int lod : {0, 1}) {
+        const std::string end = "_lod" + std::to_string(lod);
+        out.all.push_back({"casement" + end, casement(lod), 1});
+        out.all.push_back({"shutter" + end, shutter(lod), 1});
+        out.all.push_back({"door" + end, door(lod), 1});
+    }
+    out.all.push_back({"surround_lod0", surround(), 0});
+}
+
+}  // namespace espalier::content
