@@ -93,10 +93,14 @@ class HouseAtoms {
     }
     // Overhanging eaves of two edges meet on the line that halves their corner: tan of half the turn.
     glm::vec2 cornersOf(uint32_t edge) const {
+        // Beside a wall that goes up to the roof there is no eave to meet.
+        auto walled = [&](uint32_t e) { return groups_.count({0, e, uint32_t(FaceKind::gable)}) != 0; };
+        uint32_t first = 0;
         for (const auto& ring : h_.rings) {
             const uint32_t n = uint32_t(ring.size());
             if (edge >= n) {
                 edge -= n;
+                first += n;
                 continue;
             }
             auto side = [&](uint32_t i) { return glm::dvec2(ring[(i + 1) % n]) - glm::dvec2(ring[i % n]); };
@@ -104,7 +108,9 @@ class HouseAtoms {
                 const double turn = std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
                 return float(glm::clamp(std::tan(turn / 2), -2.0, 2.0));
             };
-            return {half(side(edge + n - 1), side(edge)), half(side(edge), side(edge + 1))};
+            const uint32_t before = (edge + n - 1) % n, behind = (edge + 1) % n;
+            return {walled(first + before) ? 0 : half(side(before), side(edge)),
+                    walled(first + behind) ? 0 : half(side(edge), side(behind))};
         }
         return {0, 0};
     }

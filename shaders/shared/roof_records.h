@@ -44,7 +44,7 @@ struct RoofAtom {
     uint style;         // bits 7..0 RoofShape, 15..8 material, bit 16: the house has a colour
     float random;       // of the house
     vec3 colour;        // of the house, linear
-    vec2 corners;       // at the eave's begin and end: by how much of its overhang it goes on, below 0 at reflex corners
+    vec2 corners;       // at the eave's begin and end: by how much of its overhang it goes on; below 0 at reflex corners, 0 at gables
 };
 STATIC_SIZE(RoofAtom, 128);
 

@@ -10,10 +10,10 @@
 namespace espalier::content {
 
 struct Options {
-    std::string directory;         // of ruin.glb, mask.png, terminals.glb; made if missing
+    std::string directory;         // of ruin.glb, mask.png, terminals.glb, roofs.glb; made if missing
     std::string previewDirectory;  // empty: no pictures
-    std::string only;              // "ruin", "roofs" or "terminals"; empty: all
     int textureSize = 2048;        // of the ruin, a power of two
+    std::string only;              // "ruin", "roofs" or "terminals"; empty: all
 };
 
 Status generate(const Options& options);

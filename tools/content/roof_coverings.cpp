@@ -1,5 +1,5 @@
-// Flat tiles, pantiles, barrel tiles and standing seams. In: nothing. Out: meshes of one cell each, whose course lies on
-// the one below: the lower edge stands up, the next course hides the head.
+// Flat tiles, pantiles, barrel tiles and standing seams. In: nothing. Out: meshes of one cell each, whose course lies
+// on the one below: the lower edge stands up, the next course hides the head.
 #include "tools/content/roof_solid.hpp"
 
 namespace espalier::content {
@@ -67,10 +67,12 @@ Mesh barrel(int lod) {
     };
     auto dark = [](float u, float) { return 0.62f + 0.25f * std::abs(2 * u - 1); };
     s.sheet(across, 1, cover);
-    s.sheet(across, 1, [&](float u, float t) { return cover(u, 0) - vec3(0, 0, 0.02f * (1 - t)); },
-            [](float, float) { return 0.7f; });
+    s.sheet(
+        across, 1, [&](float u, float t) { return cover(u, 0) - vec3(0, 0, 0.02f * (1 - t)); },
+        [](float, float) { return 0.7f; });
     s.sheet(across / 2, 1, trough, dark);
-    s.sheet(across / 2, 1, [&](float u, float t) { return trough(u, t) + vec3(1, 0, 0); }, dark);
+    s.sheet(
+        across / 2, 1, [&](float u, float t) { return trough(u, t) + vec3(1, 0, 0); }, dark);
     return s.mesh;
 }
 

@@ -1,5 +1,5 @@
-// Gutters and downpipes, chimneys, dormers, skylights, railings. In: nothing. Out: meshes in the unit box of their shape,
-// x along, y up and z out of a wall; chimneys stand on a ridge with z up; a dormer's z is the roof's run.
+// Gutters and downpipes, chimneys, dormers, skylights, railings. In: nothing. Out: meshes in the unit box of their
+// shape, x along, y up and z out of a wall; chimneys stand on a ridge with z up; a dormer's z is the roof's run.
 #include "tools/content/roof_solid.hpp"
 
 namespace espalier::content {

@@ -1,4 +1,5 @@
-// Casements, shutters and doors. In: nothing. Out: meshes in the unit box of their shape on a wall: x along, y up, z out.
+// Casements, shutters and doors. In: nothing. Out: meshes in the unit box of their shape on a wall: x along, y up, z
+// out.
 #include "tools/content/roof_solid.hpp"
 
 namespace espalier::content {

@@ -32,7 +32,9 @@ class Solid {
     }
     // Without the side at the lowest z, which lies on something.
     Solid& box(glm::vec3 low, glm::vec3 high, float shade = 1) {
-        auto at = [&](int x, int y, int z) { return glm::vec3(x ? high.x : low.x, y ? high.y : low.y, z ? high.z : low.z); };
+        auto at = [&](int x, int y, int z) {
+            return glm::vec3(x ? high.x : low.x, y ? high.y : low.y, z ? high.z : low.z);
+        };
         quad(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1), shade);
         quad(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1), shade);
         quad(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1), shade);
@@ -48,7 +50,8 @@ class Solid {
         for (int j = 0; j <= up; ++j)
             for (int i = 0; i <= across; ++i) {
                 const float s = float(i) / float(across), t = float(j) / float(up);
-                const glm::vec3 ds = point(s + kStep, t) - point(s - kStep, t), dt = point(s, t + kStep) - point(s, t - kStep);
+                const glm::vec3 ds = point(s + kStep, t) - point(s - kStep, t),
+                                dt = point(s, t + kStep) - point(s, t - kStep);
                 add(point(s, t), glm::cross(ds, dt), shade ? shade(s, t) : 1.0f);
             }
         const uint32_t row = uint32_t(across) + 1;

@@ -153,10 +153,10 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     return true;
 }
 
-// A town on its own: roofs of slate, unless a grammar is asked for.
+// A town on its own, by the grammar of all kinds of roofs unless another is asked for.
 bool openTown(EspContext* context, const Request& request, Scene& out, std::string& error) {
     LoadedGrammar grammar;
-    grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/roof_slate.grammar" : request.grammar;
+    grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/town.grammar" : request.grammar;
     std::string text;
     if (!compileFile(context, grammar, error) || !readText(request.file, text, error)) return false;
     out.grammars.push_back(grammar);
