@@ -13,7 +13,7 @@ struct Options {
     std::string directory;         // of ruin.glb, mask.png, terminals.glb, roofs.glb; made if missing
     std::string previewDirectory;  // empty: no pictures
     int textureSize = 2048;        // of the ruin, a power of two
-    std::string only;              // "ruin", "roofs" or "terminals"; empty: all
+    std::string only = "";         // "ruin", "roofs" or "terminals"; empty: all
 };
 
 Status generate(const Options& options);
