@@ -11,6 +11,7 @@
 #include "runtime/core/file.hpp"
 #include "tools/bake/bake.hpp"
 #include "tools/bake/main/folder.hpp"
+#include "tools/bake/main/town.hpp"
 #include "tools/bake/pictures.hpp"
 
 using namespace espalier;
@@ -19,6 +20,7 @@ namespace {
 
 struct Arguments {
     std::string model, output, report, images, shard;
+    TownArguments town;
     ImportOptions importing;
     BakeOptions bake;
     double tolerance = 0;
@@ -116,13 +118,28 @@ int runFolder(const Arguments& arguments, const CLI::App& app) {
     return folder::run(options);
 }
 
+int runTown(Arguments& arguments) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.model, arguments.output, ignored))
+        return fail(Failure(arguments.output, "the town would overwrite its footprints"));
+    arguments.town.footprints = arguments.model;
+    arguments.town.output = arguments.output;
+    arguments.town.quiet = arguments.quiet;
+    if (arguments.town.meshes.empty())
+        arguments.town.meshes =
+            (std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path().parent_path() / "content/roofs.glb")
+                .string();
+    Status baked = bakeTown(arguments.town);
+    return baked ? 0 : fail(baked.failure());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Bakes a model, or all models of a folder, into surfaces that plants can grow on.", "espalier-bake");
+    CLI::App app("Bakes a model, or all models of a folder, into surfaces that plants can grow on; or a town.", "espalier-bake");
     Arguments arguments;
     app.set_version_flag("--version", std::string("espalier-bake ") + ESPALIER_VERSION);
-    app.add_option("MODEL", arguments.model, ".gltf, .glb, .obj or .ply; or a folder of such")->required();
+    app.add_option("MODEL", arguments.model, ".gltf, .glb, .obj or .ply; a folder of such; or footprints: .geojson, or a plan in .json")->required();
     app.add_option("-o,--output", arguments.output,
                    "the surface to write (.glb); or the folder for surfaces and their report")
         ->required();
@@ -146,12 +163,16 @@ int main(int argc, char** argv) {
     app.add_option("--jobs", arguments.jobs, "of a folder: models at once; 0: as many as there are cores");
     app.add_option("--shard", arguments.shard, "of a folder: i/n bakes every nth model from the ith on");
     app.add_flag("--keep-layout", arguments.bake.keepLayout, "never move charts apart");
+    app.add_option("--grammar", arguments.town.grammar,
+                   "of a town: writes all that this grammar of roofs makes, as triangles; else walls and roof planes");
+    app.add_option("--meshes", arguments.town.meshes, "of a town: its terminals (default: roofs.glb of the content)");
     app.add_flag("-q,--quiet", arguments.quiet, "no progress, warnings only");
     CLI11_PARSE(app, argc, argv);
     ::signal(SIGXFSZ, SIG_IGN);  // too large a file is an error like a full disk, with a message
     arguments.bake.nearestTolerance = float(arguments.tolerance);
     try {
         std::error_code ignored;
+        if (isTown(arguments.model)) return runTown(arguments);
         return std::filesystem::is_directory(arguments.model, ignored) ? runFolder(arguments, app)
                                                                        : runModel(arguments);
     } catch (const std::bad_alloc&) {

@@ -1,5 +1,6 @@
-// In: roof structures, or grids of cells. Out: triangles. A cell is cut in its grid's own coordinates by the half-spaces
-// of each part of its region that it meets, so that neighbouring faces' tiles share their cuts (Buron 2013 §3.3).
+// In: roof structures, or grids of cells. Out: triangles. A cell is cut in its grid's own coordinates by the
+// half-spaces of each part of its region that it meets, so that neighbouring faces' tiles share their cuts (Buron 2013
+// §3.3).
 #include "tools/bake/main/town_mesh.hpp"
 
 #include <algorithm>
@@ -113,12 +114,12 @@ class GridWriter {
             Polygon triangle;
             for (uint32_t k = 0; k < 3; ++k) {
                 const TerminalVertex& v = data_.vertices[lod_->firstVertex + data_.indices[lod_->firstIndex + i + k]];
-                const glm::vec3 n = octahedralToUnit(v.normal);
-                triangle.push_back({glm::vec3(corner + glm::vec2(v.position) * glm::vec2(g_.size),
-                                              v.position.z * g_.thickness),
-                                    {n.x / std::max(g_.size.x, 1e-4f), n.y / std::max(g_.size.y, 1e-4f),
-                                     n.z / std::max(g_.thickness, 1e-4f)},
-                                    v.uv.x});
+                const glm::vec3 n = unpackOct(v.normal);
+                triangle.push_back(
+                    {glm::vec3(corner + glm::vec2(v.position) * glm::vec2(g_.size), v.position.z * g_.thickness),
+                     {n.x / std::max(g_.size.x, 1e-4f), n.y / std::max(g_.size.y, 1e-4f),
+                      n.z / std::max(g_.thickness, 1e-4f)},
+                     v.uv.x});
             }
             if (whole || g_.region == kNoIndex)
                 write(std::move(triangle), whole);
@@ -148,8 +149,8 @@ class GridWriter {
             p.x += t * glm::mix(g_.taper.x, g_.taper.y, g_.extent.x > 0 ? p.x / g_.extent.x : 0);
             out_.positions.push_back(glm::vec3(g_.origin) + glm::vec3(g_.axisX) * p.x + glm::vec3(g_.axisY) * p.y +
                                      up_ * p.z);
-            out_.normals.push_back(unitOf(glm::vec3(g_.axisX) * c.normal.x + glm::vec3(g_.axisY) * c.normal.y +
-                                          up_ * c.normal.z));
+            out_.normals.push_back(
+                unitOf(glm::vec3(g_.axisX) * c.normal.x + glm::vec3(g_.axisY) * c.normal.y + up_ * c.normal.z));
             uint32_t colour = 0xFF000000u;
             for (int k = 0; k < 3; ++k)
                 colour |= uint32_t(glm::clamp(colour_[k] * c.shade, 0.0f, 1.0f) * 255 + 0.5f) << (8 * k);
@@ -177,8 +178,9 @@ void appendMassing(const RoofStructure& structure, uint32_t index, TownMesh& out
         for (size_t i = 0; i < ring.size(); ++i) {
             const glm::vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
             auto at = [&](glm::vec2 p, float y) { return placed({p.x, y, -p.y}); };
-            appendPolygon({at(a, house.baseHeight), at(b, house.baseHeight), at(b, house.eaveHeight), at(a, house.eaveHeight)},
-                          kWallColour, out);
+            appendPolygon(
+                {at(a, house.baseHeight), at(b, house.baseHeight), at(b, house.eaveHeight), at(a, house.eaveHeight)},
+                kWallColour, out);
         }
     for (uint32_t f = house.firstFace; f < house.firstFace + house.faceCount; ++f) {
         const RoofFace& face = structure.faces[f];

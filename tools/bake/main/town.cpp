@@ -1,0 +1,193 @@
+// In: footprints. Out: a glTF 2.0 binary of the town's houses (Buron 2013 §5: geometry only where someone asks for it).
+#include "tools/bake/main/town.hpp"
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "runtime/core/file.hpp"
+#include "runtime/roof/shapes.hpp"
+#include "tools/bake/main/town_mesh.hpp"
+
+namespace espalier {
+namespace {
+
+using nlohmann::json;
+constexpr size_t kMostBytes = 3u << 30;  // a glTF binary counts in 32 bits
+
+class GlbWriter {
+  public:
+    // False when the file would grow beyond what its format can count.
+    bool add(const std::string& name, const TownMesh& mesh) {
+        if (mesh.indices.empty()) return true;
+        const size_t bytes = mesh.positions.size() * 28 + mesh.indices.size() * 4;
+        if (binary_.size() + bytes > kMostBytes) return false;
+        glm::vec3 low(1e30f), high(-1e30f);
+        for (glm::vec3 p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+        const json position = accessor(mesh.positions, 34962, 5126, "VEC3");
+        root_["accessors"].back()["min"] = {low.x, low.y, low.z};
+        root_["accessors"].back()["max"] = {high.x, high.y, high.z};
+        const json normal = accessor(mesh.normals, 34962, 5126, "VEC3");
+        const json colour = accessor(mesh.colours, 34962, 5121, "VEC4");
+        root_["accessors"].back()["normalized"] = true;
+        const json indices = accessor(mesh.indices, 34963, 5125, "SCALAR");
+        root_["nodes"].push_back({{"name", name}, {"mesh", root_["nodes"].size()}});
+        root_["meshes"].push_back(
+            {{"name", name},
+             {"primitives",
+              json::array({json{{"attributes", {{"POSITION", position}, {"NORMAL", normal}, {"COLOR_0", colour}}},
+                                {"indices", indices},
+                                {"material", 0}}})}});
+        return true;
+    }
+    Status write(const std::string& path, const std::string& footprints) {
+        json nodes = json::array();
+        for (size_t i = 0; i < root_["nodes"].size(); ++i) nodes.push_back(i);
+        root_["asset"] = {{"version", "2.0"}, {"generator", "espalier-bake " ESPALIER_VERSION}};
+        root_["scene"] = 0;
+        root_["scenes"] = json::array({json{{"nodes", nodes}}});
+        const json surface = {{"metallicFactor", 0}, {"roughnessFactor", 0.9}};
+        root_["materials"] =
+            json::array({json{{"name", "town"}, {"doubleSided", true}, {"pbrMetallicRoughness", surface}}});
+        root_["extensionsUsed"] = json::array({"ESPALIER_town"});
+        root_["extensions"]["ESPALIER_town"] = {{"footprints", footprints}};
+        root_["buffers"] = json::array({json{{"byteLength", binary_.size()}}});
+        std::string text = root_.dump(-1, ' ', false, json::error_handler_t::replace);
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        std::string out;
+        auto word = [&](size_t v) {
+            const uint32_t w = uint32_t(v);
+            out.append(reinterpret_cast<const char*>(&w), 4);
+        };
+        out.reserve(text.size() + binary_.size() + 28);
+        word(0x46546C67), word(2), word(28 + text.size() + binary_.size());
+        word(text.size()), word(0x4E4F534A);
+        out += text;
+        word(binary_.size()), word(0x004E4942);
+        out += binary_;
+        return writeFile(path, out);
+    }
+
+  private:
+    template <class T>
+    size_t accessor(const std::vector<T>& values, int target, int component, const char* type) {
+        const size_t bytes = values.size() * sizeof(T);
+        root_["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}, {"target", target}});
+        binary_.append(reinterpret_cast<const char*>(values.data()), bytes);
+        root_["accessors"].push_back({{"bufferView", root_["bufferViews"].size() - 1},
+                                      {"componentType", component},
+                                      {"count", values.size()},
+                                      {"type", type}});
+        return root_["accessors"].size() - 1;
+    }
+    json root_ = json::object();
+    std::string binary_;
+};
+
+Result<RuleMap> compileFor(const TownArguments& arguments, const TerminalData& meshes) {
+    Result<std::string> text = readTextFile(arguments.grammar);
+    if (!text) return text.failure();
+    const std::filesystem::path file(arguments.grammar);
+    CompileOptions options;
+    options.fileName = file.filename().string();
+    for (const std::string& kind : meshes.kinds) options.roofMeshes.push_back({kind, false});
+    options.readInclude = [&](const std::string& name) -> std::optional<std::string> {
+        Result<std::string> included = readTextFile((file.parent_path() / name).string());
+        return included ? std::optional<std::string>(std::move(*included)) : std::nullopt;
+    };
+    Result<RuleMap> map = compileGrammar(*text, options);
+    if (map && !map->roofs()) return Failure(arguments.grammar, "makes no roofs");
+    return map;
+}
+
+// By kind, as the renderer takes them: of the finest level.
+std::vector<RoofMesh> boundsOf(const TerminalData& data) {
+    std::vector<RoofMesh> all(data.kinds.size(), RoofMesh{{0, 0, 0}, {1, 1, 0}});
+    for (const TerminalVariant& v : data.variants) {
+        RoofMesh b{glm::vec3(1e9f), glm::vec3(-1e9f)};
+        const TerminalLod& lod = v.lods.front();
+        for (uint32_t i = 0; i < lod.vertexCount; ++i) {
+            b.low = glm::min(b.low, data.vertices[lod.firstVertex + i].position);
+            b.high = glm::max(b.high, data.vertices[lod.firstVertex + i].position);
+        }
+        all[v.kind] = b;
+    }
+    return all;
+}
+
+Status addTiles(const TownArguments& arguments, const RoofStructure& structure, GlbWriter& glb, size_t& triangles) {
+    Result<TerminalData> meshes = readTerminals(arguments.meshes, {"bark"});
+    if (!meshes) return meshes.failure();
+    Result<RuleMap> map = compileFor(arguments, *meshes);
+    if (!map) return map.failure();
+    const RoofTables tables = makeAtoms(structure);
+    const std::vector<RoofMesh> bounds = boundsOf(*meshes);
+    RoofInputs inputs;
+    inputs.town = &tables;
+    inputs.grammar = &*map;
+    inputs.meshes = bounds;
+    CpuRoofs roofs = growRoofsOnCpu(inputs, 0);
+    RoofEnv env{};
+    env.grids.v = roofs.records.grids.data();
+    env.runs.v = roofs.records.runs.data();
+    env.regions.v = roofs.records.regions.data();
+    env.parts.v = roofs.records.parts.data();
+    env.planes.v = roofs.records.planes.data();
+    env.meshes.v = const_cast<RoofMesh*>(bounds.data());
+    std::vector<std::vector<uint32_t>> gridsOf(structure.houses.size());
+    for (uint32_t i = 0; i < roofs.records.grids.size(); ++i)
+        gridsOf[roofs.records.grids[i].house & 0xFFFFFFu].push_back(i);
+    for (uint32_t h = 0; h < structure.houses.size(); ++h) {
+        TownMesh mesh;
+        for (uint32_t g : gridsOf[h]) appendGrid(env, roofs.records.grids[g], *meshes, mesh);
+        triangles += mesh.indices.size() / 3;
+        if (!glb.add(structure.houses[h].id, mesh))
+            return Failure(arguments.output,
+                           "more than 3 GiB of triangles: leave the grammar out, or give fewer houses");
+    }
+    return Done{};
+}
+
+}  // namespace
+
+bool isTown(const std::string& path) {
+    const std::filesystem::path file(path);
+    if (file.extension() == ".geojson") return true;
+    if (file.extension() != ".json") return false;
+    Result<std::string> text = readTextFile(path);
+    return text && (text->find("\"buildings\"") != std::string::npos ||
+                    text->find("\"FeatureCollection\"") != std::string::npos);
+}
+
+Status bakeTown(const TownArguments& arguments) {
+    Result<std::string> text = readTextFile(arguments.footprints);
+    if (!text) return text.failure();
+    Result<Town> town = parseFootprints(*text, arguments.footprints);
+    if (!town) return town.failure();
+    std::vector<Diagnostic> diagnostics = std::move(town->diagnostics);
+    const RoofStructure structure = roofsOf(town->footprints, diagnostics);
+    for (const Diagnostic& d : diagnostics) std::fprintf(stderr, "%s\n", toString(d).c_str());
+    if (structure.houses.empty()) return Failure(arguments.footprints, "holds no building whose roof could be made");
+    GlbWriter glb;
+    size_t triangles = 0;
+    if (!arguments.grammar.empty()) {
+        if (Status s = addTiles(arguments, structure, glb, triangles); !s) return s;
+    } else {
+        for (uint32_t h = 0; h < structure.houses.size(); ++h) {
+            TownMesh mesh;
+            appendMassing(structure, h, mesh);
+            triangles += mesh.indices.size() / 3;
+            if (!glb.add(structure.houses[h].id, mesh))
+                return Failure(arguments.output, "more than 3 GiB of triangles");
+        }
+    }
+    if (Status s = glb.write(arguments.output, *text); !s) return s;
+    if (!arguments.quiet)
+        std::fprintf(stderr, "%zu footprints: %zu houses, %zu triangles\n", town->footprints.size(),
+                     structure.houses.size(), triangles);
+    return Done{};
+}
+
+}  // namespace espalier

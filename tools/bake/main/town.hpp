@@ -1,0 +1,25 @@
+#pragma once
+
+// espalier-bake's path for footprints: a town becomes a glTF binary, a node a house.
+
+#include <string>
+
+#include "runtime/core/result.hpp"
+
+namespace espalier {
+
+struct TownArguments {
+    std::string footprints, output;  // GeoJSON or a plan in metres (docs/roofs.md); .glb
+    std::string grammar;             // empty: walls and roof planes only; else all that it makes, as triangles
+    std::string meshes;              // roofs.glb; read with a grammar only
+    bool quiet = false;
+};
+
+// True if the file holds footprints: .geojson, or .json with features or buildings.
+bool isTown(const std::string& path);
+
+// Writes the town, and its footprints in the extension ESPALIER_town, from which tools grow its roofs again. Features
+// that can't be used are named on stderr; the rest of the town stands.
+Status bakeTown(const TownArguments& arguments);
+
+}  // namespace espalier
