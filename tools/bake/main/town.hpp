@@ -18,7 +18,7 @@ struct TownArguments {
 // True if the file holds footprints: .geojson, or .json with features or buildings.
 bool isTown(const std::string& path);
 
-// Writes the town, and its footprints in the extension ESPALIER_town, from which tools grow its roofs again. Features
+// Writes the town, and its footprints in the extension ESPALIER_town. Features
 // that can't be used are named on stderr; the rest of the town stands.
 Status bakeTown(const TownArguments& arguments);
 
