@@ -46,8 +46,8 @@ struct TerminalData {
 std::vector<std::string> standardTerminalKinds();
 
 // Reads a glTF binary. Every size and index in it is checked; a failure names the file and the place. Kinds without
-// a mesh in the file stay without variants and are not drawn. The first kind is bark; with no other, those that the file
-// names are added as they come.
+// a mesh in the file stay without variants and are not drawn. The first kind is bark; with no other, those that the
+// file names are added as they come.
 Result<TerminalData> readTerminals(const std::filesystem::path& path,
                                    std::vector<std::string> kinds = standardTerminalKinds());
 

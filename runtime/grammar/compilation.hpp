@@ -48,7 +48,7 @@ struct Compilation {
     std::vector<ExtrudeRecord> extrudes;
     std::vector<TerminalRecord> terminals;
     std::vector<uint32_t> sites;
-    std::vector<Value> roofValues;  // the numbers of their rules
+    std::vector<Value> roofValues;         // the numbers of their rules
     std::vector<std::string> nestedNames;  // of symbols that stand behind all named ones
     bool roofs = false;
 

@@ -11,11 +11,10 @@ namespace espalier::grammar {
 namespace {
 
 constexpr size_t kMaxTokens = 200'000;
-constexpr std::string_view kArrow = "\xE2\x86\x92", kPiSign = "\xCF\x80",
-                           kTilde = "\xE2\x88\xBC";
+constexpr std::string_view kArrow = "\xE2\x86\x92", kPiSign = "\xCF\x80", kTilde = "\xE2\x88\xBC";
 constexpr std::array<std::string_view, 27> kSymbols = {"->", "<=", ">=", "==", "!=", "&&", "||", "..", "(",
                                                        ")",  "{",  "}",  "[",  "]",  ",",  ";",  ":",  "?",
-                                                       "+",  "-",  "*",  "/",  "%",  "<",  ">",  "=", "~"};
+                                                       "+",  "-",  "*",  "/",  "%",  "<",  ">",  "=",  "~"};
 
 bool isLetter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';

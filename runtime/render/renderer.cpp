@@ -392,7 +392,8 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     FrameRecord frame = makeFrame(inputs, target.width, target.height);
     // A town is larger than a map of shadows can resolve: it covers what is looked at.
     if (roofed_) {
-        const float reach = std::exp2(std::ceil(std::log2(1.6f * glm::length(inputs.camera.target - inputs.camera.eye))));
+        const float reach =
+            std::exp2(std::ceil(std::log2(1.6f * glm::length(inputs.camera.target - inputs.camera.eye))));
         if (reach < radius) {
             radius = std::max(reach, 8.0f);
             center = glm::round(inputs.camera.target / (0.125f * radius)) * (0.125f * radius);
@@ -403,8 +404,8 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     frame.shadowTexel = 1.0f / kShadowSize;
     frame.unit = roofed_ ? 1.0f : lengthUnit(high - low);
     frame.shadowOffset = 1.2f * sun.width / kShadowSize;
-    const ShadowKey key{growth.revision,  models_.revision(), frame.sunDirection,
-                        growth.nodeCount, growth.leafCount,   roofed_ ? inputs.roofs->revision : 0,
+    const ShadowKey key{growth.revision,          models_.revision(), frame.sunDirection,
+                        growth.nodeCount,         growth.leafCount,   roofed_ ? inputs.roofs->revision : 0,
                         glm::vec4(center, radius)};
     if (frame.shadows && (!shadowDrawn_ || key != shadowKey_)) {
         if (Status s = drawShadows(commands, inputs, sun, kShadowLodPixels); !s) return s;

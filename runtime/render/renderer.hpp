@@ -36,9 +36,9 @@ struct Look {
 };
 
 struct DrawInputs {
-    GrowthView growth;    // nodeCount 0: nothing grows
-    SurfaceBuf surfaces;  // device address of the SurfaceRef table; 0: no growth and no chart view
-    LayerBuf layers;      // surfaces * kMaxLayers; 0: no layer view
+    GrowthView growth;                // nodeCount 0: nothing grows
+    SurfaceBuf surfaces;              // device address of the SurfaceRef table; 0: no growth and no chart view
+    LayerBuf layers;                  // surfaces * kMaxLayers; 0: no layer view
     const RoofView* roofs = nullptr;  // none; needs loadRoofMeshes()
     Camera camera;
     Look look;

@@ -26,11 +26,9 @@ void printRow(const std::string& name, uint size, const Drift& ours, const Drift
     std::printf("\n");
 }
 
+// Without contacts: the oracles follow one connected surface.
 Result<Baked> baked(const Model& model, bool keepLayout) {
-    BakeOptions options;
-    options.resolution = 1024;
-    options.keepLayout = keepLayout;
-    return bake(model, options);
+    return bake(model, {.resolution = 1024, .keepLayout = keepLayout, .contacts = false});
 }
 
 // All levels of a shape; the paper's walk on the same shape without mirrored charts, which it has to exclude.

@@ -39,8 +39,8 @@ struct Islands {
     std::vector<uint32_t> island;                  // of each triangle
     std::vector<uint8_t> cut;                      // per half-edge: 1 where no island goes on across it
 };
-// Gives corners the model's UVs, where it has any; in islands that could be mended UVs in metres. resolution: of the finest level.
-// keep: islands serve however stretched or narrow they are.
+// Gives corners the model's UVs, where it has any; in islands that could be mended UVs in metres. resolution: of the
+// finest level. keep: islands serve however stretched or narrow they are.
 Islands judgeUvs(const Model& model, BakeMesh& mesh, uint32_t resolution, bool keep);
 
 // Flat measures of the mesh's triangles, made once.

@@ -199,7 +199,7 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     std::vector<Link> links = findLinks(*mesh, tolerance);
     surface.crossings = makeCrossings(*mesh, links);
     stages.begin(0.35f, "contacts");
-    Contacts contacts(*mesh, links, tolerance, 1.0 / options.resolution);
+    Contacts contacts(*mesh, links, {options.contacts, tolerance, 1.0 / options.resolution});
     for (const Contact& contact : contacts.list()) surface.crossings.push_back(contact.crossing);
 
     auto walkable = makeLevels(*mesh, links, contacts, *allowed, options, stages, surface, report);

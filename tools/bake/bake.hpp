@@ -33,6 +33,7 @@ struct BakeOptions {
     uint32_t levels = 0;         // 0: down to 64 texels
     float nearestTolerance = 0;  // metres; 0: a texel's footprint
     bool keepLayout = false;     // true: charts are never moved, gutters or not (tests of analytic surfaces)
+    bool contacts = true;        // false: pieces that touch are no ground for one plant (tests whose oracle knows none)
     Progress progress;
 };
 
@@ -48,8 +49,7 @@ struct BakeReport {
     std::string source;
     uint32_t triangles = 0, charts = 0;
     uint64_t innerTexels = 0, linkTexels = 0, openTexels = 0, buriedTexels = 0;
-    uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0,
-             danglingContacts = 0;
+    uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0, danglingContacts = 0;
     double walkableArea = 0;
     double stretch50 = 0, stretch95 = 0, stretchMax = 0;
     double roundTrip50 = 0, roundTrip999 = 0;                  // texels

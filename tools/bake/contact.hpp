@@ -10,9 +10,14 @@ namespace espalier::bakery {
 
 class Contacts {
   public:
-    // links: of the mesh's borders; shells that they join are one body. tolerance: metres, what is nearer touches.
-    // texel: the finest level's, in UV. A model of one shell costs next to nothing. Not to be moved.
-    Contacts(const BakeMesh& mesh, const std::vector<Link>& links, double tolerance, double texel);
+    struct Options {
+        bool wanted;       // false: there are none
+        double tolerance;  // metres, what is nearer touches
+        double texel;      // the finest level's, in UV
+    };
+    // links: of the mesh's borders; shells that they join are one body. A model of one shell costs next to nothing.
+    // Not to be moved.
+    Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const Options& options);
     Contacts(const Contacts&) = delete;
 
     const std::vector<Contact>& list() const { return list_; }

@@ -34,8 +34,9 @@ struct Sets {
 
 }  // namespace
 
-Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, double tolerance, double texel)
-    : tolerance_(tolerance) {
+Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const Options& options)
+    : tolerance_(options.tolerance) {
+    if (!options.wanted) return;
     size_t count = mesh.triangles.size();
     Sets shells(count);
     for (uint32_t h = 0; h < mesh.twin.size(); ++h)
@@ -57,12 +58,12 @@ Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, double 
         const Triangle& tri = mesh.triangles[t];
         mesh_.triangles[t] = {tri.point, tri.uv, tri.chart, shell[t], body[t]};
     }
-    setReach(mesh_, tolerance);
+    setReach(mesh_, tolerance_);
     std::vector<float> open(mesh_.twin.size(), 0);
     for (const Link& link : links)
         if (link.to == kNone) open[link.from] += float(link.from1 - link.from0);
     bodies_ = Bodies(mesh_, open);
-    list_ = contactsWithin(mesh_, bodies_.tree(), {tolerance, kBorderShift * texel, glm::dmat4(1)});
+    list_ = contactsWithin(mesh_, bodies_.tree(), {tolerance_, kBorderShift * options.texel, glm::dmat4(1)});
     dropHidden();
 }
 

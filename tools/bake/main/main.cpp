@@ -136,10 +136,13 @@ int runTown(Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Bakes a model, or all models of a folder, into surfaces that plants can grow on; or a town.", "espalier-bake");
+    CLI::App app("Bakes a model, or all models of a folder, into surfaces that plants can grow on; or a town.",
+                 "espalier-bake");
     Arguments arguments;
     app.set_version_flag("--version", std::string("espalier-bake ") + ESPALIER_VERSION);
-    app.add_option("MODEL", arguments.model, ".gltf, .glb, .obj or .ply; a folder of such; or footprints: .geojson, or a plan in .json")->required();
+    app.add_option("MODEL", arguments.model,
+                   ".gltf, .glb, .obj or .ply; a folder of such; or footprints: .geojson, or a plan in .json")
+        ->required();
     app.add_option("-o,--output", arguments.output,
                    "the surface to write (.glb); or the folder for surfaces and their report")
         ->required();
