@@ -1,4 +1,4 @@
-// In: one mesh, or two. Out: the contacts between their shells.
+// In: one mesh. Out: the contacts between its shells.
 //
 // Around a stretch of contact the surfaces stand as half-planes, here called flaps. A walk that comes along a flap
 // goes on along the one that it meets first when it turns from there towards its own outside: so it leaves the floor
@@ -24,28 +24,22 @@ constexpr double kSameAngle = 0.06;  // radians: flaps nearer to each other coin
 constexpr double kReachShare = 0.1;  // of the least altitude of a point's triangles
 constexpr double kOutlineCosine = 0.999;
 
-// One mesh of a search: where its points are in the space of the search, side 0's object space.
+// A mesh as a search sees it.
 struct View {
     const ContactMesh& mesh;
-    glm::dmat4 map{1};
-    bool identity = true;
-    bool flips = false;
 
-    dvec3 at(uint32_t triangle, uint32_t corner) const {
-        dvec3 p = mesh.at(triangle, corner);
-        return identity ? p : dvec3(map * glm::dvec4(p, 1));
-    }
+    dvec3 at(uint32_t triangle, uint32_t corner) const { return mesh.at(triangle, corner); }
     dvec3 normal(uint32_t t) const {
         dvec3 a = at(t, 0), n = glm::cross(at(t, 1) - a, at(t, 2) - a);
         double length = glm::length(n);
-        return length > 0 ? n * ((flips ? -1 : 1) / length) : dvec3(0);
+        return length > 0 ? n / length : dvec3(0);
     }
-    ContactShape shape(uint32_t t, double scale) const {
+    ContactShape shape(uint32_t t) const {
         ContactShape s;
         s.normal = normal(t);
         for (uint32_t k = 0; k < 3; ++k) {
             s.p[k] = at(t, k);
-            s.reach[k] = mesh.reach[mesh.triangles[t].point[k]] * scale;
+            s.reach[k] = mesh.reach[mesh.triangles[t].point[k]];
             uint32_t twin = mesh.twin[t * 3 + k];
             s.outline[k] = twin == kNoIndex || glm::dot(s.normal, normal(twin / 3)) < kOutlineCosine;
         }
@@ -244,7 +238,6 @@ class Assembler {
         }
         a = glm::clamp(a, dvec2(0), dvec2(1)), b = glm::clamp(b, dvec2(0), dvec2(1));
         dvec3 edge = side.b - side.a;
-        if (!view.identity) edge = glm::inverse(glm::dmat3(view.map)) * edge;
         return Half{a, b, packOct(glm::vec3(glm::normalize(edge))), left};
     }
 
@@ -280,9 +273,9 @@ class Assembler {
     std::vector<Flap> flaps_;
 };
 
-void find(const View& a, uint32_t i, const View& b, uint32_t j, double scale, std::vector<Found>& found) {
+void find(const View& a, uint32_t i, const View& b, uint32_t j, std::vector<Found>& found) {
     std::array<ContactSegment, 6> segments;
-    int count = touch(a.shape(i, 1), b.shape(j, scale), segments);
+    int count = touch(a.shape(i), b.shape(j), segments);
     for (int k = 0; k < count; ++k) {
         const ContactSegment& s = segments[size_t(k)];
         found.push_back({{a.keyOf(i, s.side[0].edge), b.keyOf(j, s.side[1].edge)}, {i, j}, s});
@@ -318,26 +311,12 @@ std::vector<Contact> contactsWithin(const ContactMesh& mesh, const BoxTree& tree
         if (mesh.triangles[i].shell == mesh.triangles[j].shell) return;
         if (mesh.triangles[i].shell > mesh.triangles[j].shell)
             std::swap(i, j);  // one order for all pairs of two shells
-        find(view, i, view, j, 1, found);
+        find(view, i, view, j, found);
     });
     merge(found);
     std::vector<Contact> out;
     Assembler assembler(view, view, options);
     for (const Found& f : found) assembler.add(f, {&out, &out});
-    return out;
-}
-
-ContactsBetween contactsBetween(const ContactMesh& a, const BoxTree& treeA, const ContactMesh& b, const BoxTree& treeB,
-                                const ContactOptions& options) {
-    View viewA{a}, viewB{b, options.toA, false, glm::determinant(glm::dmat3(options.toA)) < 0};
-    double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(options.toA))));
-    std::vector<Found> found;
-    treeA.pairs(treeB, options.toA, options.tolerance,
-                [&](uint32_t i, uint32_t j) { find(viewA, i, viewB, j, scale, found); });
-    merge(found);
-    ContactsBetween out;
-    Assembler assembler(viewA, viewB, options);
-    for (const Found& f : found) assembler.add(f, {&out.fromA, &out.fromB});
     return out;
 }
 

@@ -63,7 +63,7 @@ Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const O
     for (const Link& link : links)
         if (link.to == kNone) open[link.from] += float(link.from1 - link.from0);
     bodies_ = Bodies(mesh_, open);
-    list_ = contactsWithin(mesh_, bodies_.tree(), {tolerance_, kBorderShift * options.texel, glm::dmat4(1)});
+    list_ = contactsWithin(mesh_, bodies_.tree(), {tolerance_, kBorderShift * options.texel});
     dropHidden();
 }
 
