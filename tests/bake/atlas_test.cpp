@@ -97,7 +97,7 @@ void checkAtlas(const Model& model, const Baked& baked) {
     CHECK(atlas.claimedTwice == 0);
     CHECK(atlas.stretch95 <= 1.5);
     CHECK(baked.report.overlaps == 0);
-    CHECK(baked.report.danglingCrossings <= 0.002 * (baked.report.seamCrossings + baked.report.nearestCrossings));
+    CHECK(baked.report.danglingCrossings <= 0.001 * (baked.report.seamCrossings + baked.report.nearestCrossings));
 }
 
 double shareOf(const BakeReport& report, const char* cause) {
