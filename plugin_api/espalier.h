@@ -401,8 +401,12 @@ typedef struct EspTownDef {
     const char* text;
     size_t length;
     EspGrammar grammar;      /* may be set later */
+    float position[3];       /* world, metres: where the plan's origin stands */
+    float turn;              /* radians, counterclockwise from above */
+    int ground;              /* 1: level ground is drawn under the lowest wall, out to the horizon */
+    float groundColour[3];   /* linear */
 } EspTownDef;
-ESP_API EspTownDef espDefaultTownDef(void);
+ESP_API EspTownDef espDefaultTownDef(void);   /* where it was modelled, on ground */
 /* Replaces the town that there was. It grows in the next espUpdate. */
 ESP_API EspResult espLoadTown(EspContext* context, const EspTownDef* def);
 ESP_API EspResult espRemoveTown(EspContext* context);

@@ -162,7 +162,10 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     Status tables = context.refreshTables();
     if (!tables) return failGpu(&context, tables.failure());
     inputs.growth = context.growth->view();
-    if (context.town) inputs.roofs = &context.town->view;
+    if (context.town) {
+        inputs.roofs = &context.town->view;
+        inputs.ground = context.town->ground;
+    }
     inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
     inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
     inputs.camera = {vec(def.camera.eye), vec(def.camera.target), vec(def.camera.up),

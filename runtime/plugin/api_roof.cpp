@@ -1,4 +1,5 @@
 // Towns: footprints become structures and atoms when they are loaded or changed, roofs when the host updates.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -34,6 +35,28 @@ void tell(EspContext& context, const std::vector<Diagnostic>& all) {
                     std::to_string(all.size() - kMaxWarnings) + " further messages about footprints");
 }
 
+// The footprint where the def places it: the plan is turned about its origin, then moved.
+void place(Footprint& f, const EspTownDef& def) {
+    const double c = std::cos(double(def.turn)), s = std::sin(double(def.turn));
+    for (auto& ring : f.rings)
+        for (glm::dvec2& p : ring)
+            p = {c * p.x - s * p.y + double(def.position[0]), s * p.x + c * p.y - double(def.position[2])};
+    f.baseHeight += double(def.position[1]);
+    if (f.height) *f.height += double(def.position[1]);
+    if (f.direction) *f.direction -= double(def.turn);  // clockwise from north
+}
+
+// Ground lies a little below the walls' feet, so that a floor that a model brings along lies on it.
+RoofGround groundUnder(const RoofStructure& structure, const EspTownDef& def) {
+    RoofGround ground;
+    ground.drawn = def.ground != 0;
+    ground.height = structure.houses.front().baseHeight;
+    for (const RoofHouse& house : structure.houses) ground.height = std::min(ground.height, house.baseHeight);
+    ground.height -= 0.02f;
+    ground.colour = {def.groundColour[0], def.groundColour[1], def.groundColour[2]};
+    return ground;
+}
+
 Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
     LoadedTown town;
     town.name = def.name ? def.name : "town";
@@ -43,6 +66,7 @@ Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
     std::vector<Diagnostic> diagnostics = std::move(read->diagnostics);
     town.footprints = std::move(read->footprints);
     for (uint32_t i = 0; i < town.footprints.size(); ++i) {
+        place(town.footprints[i], def);
         appendRoof(town.footprints[i], town.structure, diagnostics);
         town.footprintOf.resize(town.structure.houses.size(), i);
     }
@@ -52,6 +76,7 @@ Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
         if (d.file.empty()) d.file = town.name;
     tell(context, diagnostics);
     if (town.structure.houses.empty()) return Failure(town.name, "holds no building whose roof could be made");
+    town.ground = groundUnder(town.structure, def);
     return town;
 }
 
@@ -180,7 +205,12 @@ using namespace espalier;
 extern "C" {
 
 EspTownDef espDefaultTownDef(void) {
-    return EspTownDef{};
+    EspTownDef def{};
+    def.ground = 1;
+    def.groundColour[0] = .085f;
+    def.groundColour[1] = .105f;
+    def.groundColour[2] = .045f;
+    return def;
 }
 
 EspResult espSetTownGrammar(EspContext* context, EspGrammar id) {
@@ -202,6 +232,9 @@ EspResult espLoadTown(EspContext* context, const EspTownDef* def) {
         if (!def || !def->text) return fail(context, ESP_INVALID_ARGUMENT, "espLoadTown: null pointer");
         if (def->length > kMaxTextBytes)
             return fail(context, ESP_INVALID_CONTENT, "espLoadTown: more than 512 MiB of text");
+        for (float v : {def->position[0], def->position[1], def->position[2], def->turn, def->groundColour[0],
+                        def->groundColour[1], def->groundColour[2]})
+            if (!(std::abs(v) < 1e6f)) return fail(context, ESP_INVALID_ARGUMENT, "espLoadTown: not a number");
         if (def->grammar.id) {
             const LoadedGrammar* grammar = context->grammars.find(def->grammar.id);
             if (!grammar || !grammar->map.roofs())

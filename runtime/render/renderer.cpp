@@ -74,7 +74,7 @@ class RendererImpl final : public Renderer {
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels);
     void drawModels(Commands& commands, uint64_t frame, const DrawInputs& inputs);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
-    void drawGrowth(Commands& commands, const PostPush& post);
+    void drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post);
     void drawTerminals(DrawPass& pass, uint64_t frame, bool depthOnly);
     void drawOcclusion(Commands& commands, const PostPush& push);
     Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
@@ -320,7 +320,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     return emit_.cull(commands, {inputs.growth, inputs.surfaces}, view, "emit", true);
 }
 
-void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {
+void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post) {
     commands.transition(targets_.color, ImageState::colorTarget);
     commands.transition(targets_.depth, ImageState::depthTarget);
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
@@ -329,6 +329,9 @@ void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {
     DrawPass pass(commands, "draw scene", targets);
     if (grows_) drawTerminals(pass, reinterpret_cast<uint64_t>(post.frame.v), false);
     if (roofed_) roofs_->draw(pass, reinterpret_cast<uint64_t>(post.frame.v), &shadowMap_, &shadowSampler_);
+    if (roofed_ && inputs.ground.drawn)
+        roofs_->drawGround(pass, reinterpret_cast<uint64_t>(post.frame.v), *inputs.roofs, inputs.ground, shadowMap_,
+                           shadowSampler_);
     pass.draw(sky_, 3, 1, post);
 }
 
@@ -425,7 +428,7 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     drawModels(commands, *address, inputs);
     if (grows_ || roofed_)
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
-    drawGrowth(commands, push);
+    drawGrowth(commands, inputs, push);
     commands.transition(targets_.color, ImageState::sampled);
     drawOcclusion(commands, push);
     return resolve(commands, target, push);

@@ -40,6 +40,7 @@ struct DrawInputs {
     SurfaceBuf surfaces;              // device address of the SurfaceRef table; 0: no growth and no chart view
     LayerBuf layers;                  // surfaces * kMaxLayers; 0: no layer view
     const RoofView* roofs = nullptr;  // none; needs loadRoofMeshes()
+    RoofGround ground;                // under the roofs
     Camera camera;
     Look look;
 };

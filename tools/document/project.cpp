@@ -88,6 +88,7 @@ SceneFile describe(const Document& document) {
         for (const scene::Seed& seed : scene.seeds)
             if (seed.grammar == i) described.seeds.push_back(seed);
     }
+    out.town = scene.town;
     describeLook(scene, out);
     return out;
 }

@@ -153,19 +153,36 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     return true;
 }
 
+// Loads out.town, which grows by the grammar that it names or the first that makes roofs.
+bool loadTown(EspContext* context, Scene& out, std::string& error) {
+    const SceneTown& town = *out.town;
+    std::string text;
+    if (!readText(town.file, text, error)) return false;
+    EspTownDef def = espDefaultTownDef();
+    def.name = town.file.c_str();
+    def.text = text.data();
+    def.length = text.size();
+    std::copy(town.placing.position.begin(), town.placing.position.end(), def.position);
+    def.turn = town.placing.turn;
+    def.ground = town.ground ? 1 : 0;
+    if (town.groundColour) std::copy(town.groundColour->begin(), town.groundColour->end(), def.groundColour);
+    if (!fromContext(context, espLoadTown(context, &def), error)) return false;
+    if (town.grammar >= 0)
+        return fromContext(context, espSetTownGrammar(context, out.grammars[size_t(town.grammar)].id), error);
+    for (const LoadedGrammar& grammar : out.grammars)
+        if (espSetTownGrammar(context, grammar.id) == ESP_OK) return true;
+    error = town.file + ": none of the scene's grammars makes roofs; town.grammar does";
+    return false;
+}
+
 // A town on its own, by the grammar of all kinds of roofs unless another is asked for.
 bool openTown(EspContext* context, const Request& request, Scene& out, std::string& error) {
     LoadedGrammar grammar;
     grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/town.grammar" : request.grammar;
-    std::string text;
-    if (!compileFile(context, grammar, error) || !readText(request.file, text, error)) return false;
+    if (!compileFile(context, grammar, error)) return false;
     out.grammars.push_back(grammar);
-    EspTownDef def = espDefaultTownDef();
-    def.name = request.file.c_str();
-    def.text = text.data();
-    def.length = text.size();
-    def.grammar = grammar.id;
-    if (!fromContext(context, espLoadTown(context, &def), error)) return false;
+    out.town = SceneTown{request.file, -1, {}, true, {}};
+    if (!loadTown(context, out, error)) return false;
     out.camera = espFrameAll(context);
     return true;
 }
@@ -220,6 +237,8 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
             out.seeds.push_back(seed);
         }
     }
+    out.town = file.town;
+    if (out.town && !loadTown(context, out, error)) return false;
     noteLayers(context, out);
     for (const SceneLayer& layer : file.layers) {
         // A scene may paint layers that only some grammar, given in place of its own, doesn't read.

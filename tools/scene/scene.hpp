@@ -35,6 +35,16 @@ struct LoadedSurface {
     EspSurface id{};
 };
 
+// A town of the scene.
+struct SceneTown {
+    std::string file;
+    int grammar = -1;  // index into Scene::grammars; -1: the first that makes roofs
+    Placing placing;   // of scale 1
+    bool ground = true;
+    std::optional<std::array<float, 3>> groundColour;
+    bool operator==(const SceneTown&) const = default;
+};
+
 struct ParamValue {
     std::string name;
     std::array<float, 3> value{};
@@ -67,6 +77,7 @@ struct Scene {
     std::vector<LoadedSurface> surfaces;
     std::vector<LoadedGrammar> grammars;
     std::vector<Seed> seeds;
+    std::optional<SceneTown> town;
     std::vector<std::string> layers;
     EspCamera camera{};
     EspLook ownLook{};      // as the file says

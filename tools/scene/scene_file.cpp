@@ -21,8 +21,9 @@ class Reader {
 
     void readScene(const Json& json) {
         if (!readVersion(json)) return;
-        if (!isObject(json, "a scene",
-                      {"project", "surface", "surfaces", "grammars", "layers", "camera", "sun", "sky", "exposure"}))
+        if (!isObject(
+                json, "a scene",
+                {"project", "surface", "surfaces", "town", "grammars", "layers", "camera", "sun", "sky", "exposure"}))
             return;
         readSurfaces(json);
         if (const Json* grammars = need(json, "grammars")) {
@@ -30,6 +31,7 @@ class Reader {
                 fail(*grammars, "'grammars' must be a list of at least one");
             for (const Json& grammar : grammars->items) readGrammar(grammar);
         }
+        if (const Json* town = json.find("town")) readTown(*town);
         if (const Json* layers = json.find("layers")) {
             if (layers->kind != Json::Kind::object) fail(*layers, "'layers' must be an object");
             for (const auto& [name, picture] : layers->members) readLayer(name, picture);
@@ -74,7 +76,7 @@ class Reader {
         const Json* many = json.find("surfaces");
         if (one && many) fail(*one, "'surface' and 'surfaces' exclude each other");
         if (one) out_.surfaces.push_back({file(*one), {}});
-        if (!one && !many) fail(json, "'surface' is missing");
+        if (!one && !many && !json.find("town")) fail(json, "'surface' is missing");
         if (!many) return;
         if (many->kind != Json::Kind::list || many->items.empty())
             fail(*many, "'surfaces' must be a list of at least one");
@@ -82,13 +84,37 @@ class Reader {
             if (!isObject(surface, "a surface", {"file", "position", "turn", "scale"})) continue;
             SceneSurface& placed = out_.surfaces.emplace_back();
             if (const Json* name = need(surface, "file")) placed.file = file(*name);
-            if (const Json* at = surface.find("position"); at && !threeNumbers(*at, placed.placing.position))
-                fail(*at, "'position' must be three numbers");
-            float degrees = 0;
-            number(surface, "turn", -360, 360, degrees);
-            placed.placing.turn = degrees * kRadians;
+            readPlace(surface, placed.placing);
             number(surface, "scale", 1e-4f, 1e4f, placed.placing.scale);
         }
+    }
+    void readPlace(const Json& json, Placing& placing) {
+        if (const Json* at = json.find("position"); at && !threeNumbers(*at, placing.position))
+            fail(*at, "'position' must be three numbers");
+        float degrees = 0;
+        number(json, "turn", -360, 360, degrees);
+        placing.turn = degrees * kRadians;
+    }
+    void readTown(const Json& json) {
+        if (!isObject(json, "'town'", {"file", "grammar", "position", "turn", "ground"})) return;
+        SceneTown& town = out_.town.emplace();
+        if (const Json* name = need(json, "file")) town.file = file(*name);
+        readPlace(json, town.placing);
+        if (const Json* grammar = json.find("grammar")) {
+            float index = -1;
+            number(json, "grammar", 0, float(out_.grammars.size()) - 1, index);
+            if (index != std::floor(index)) fail(*grammar, "'grammar' must be a place in the list of grammars, from 0");
+            town.grammar = int(index);
+        }
+        const Json* ground = json.find("ground");
+        if (!ground) return;
+        std::array<float, 3> colour{};
+        if (ground->kind == Json::Kind::flag)
+            town.ground = ground->flag;
+        else if (threeNumbers(*ground, colour))
+            town.groundColour = colour;
+        else
+            fail(*ground, "'ground' must be true, false or a colour of three numbers");
     }
     void readLayer(const std::string& name, const Json& json) {
         if (json.kind != Json::Kind::list) return out_.layers.push_back({name, file(json), -1});

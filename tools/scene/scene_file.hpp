@@ -40,6 +40,7 @@ struct SceneFile {
     int project = 0;  // version of a project file; 0: a scene that was written by hand
     std::vector<SceneSurface> surfaces;
     std::vector<SceneGrammar> grammars;
+    std::optional<SceneTown> town;
     std::vector<SceneLayer> layers;
     bool hasCamera = false;
     std::array<float, 3> eye{}, target{};

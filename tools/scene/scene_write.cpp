@@ -21,12 +21,21 @@ ordered_json linesOf(const std::string& text) {
     return lines;
 }
 
-ordered_json surfaceJson(const SceneSurface& surface, const std::string& file) {
+ordered_json placedJson(const std::string& file, const Placing& p) {
     ordered_json json{{"file", file}};
-    const Placing& p = surface.placing;
     if (p.position != std::array<float, 3>{}) json["position"] = shortestList(p.position);
     if (p.turn != 0) json["turn"] = shortest(p.turn * kDegrees);
     if (p.scale != 1) json["scale"] = shortest(p.scale);
+    return json;
+}
+
+ordered_json townJson(const SceneTown& town, const std::string& file) {
+    ordered_json json = placedJson(file, town.placing);
+    if (town.grammar >= 0) json["grammar"] = town.grammar;
+    if (!town.ground)
+        json["ground"] = false;
+    else if (town.groundColour)
+        json["ground"] = shortestList(*town.groundColour);
     return json;
 }
 
@@ -62,7 +71,8 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     ordered_json json;
     if (file.project) json["project"] = file.project;
     for (const SceneSurface& surface : file.surfaces)
-        json["surfaces"].push_back(surfaceJson(surface, beside(surface.file)));
+        json["surfaces"].push_back(placedJson(beside(surface.file), surface.placing));
+    if (file.town) json["town"] = townJson(*file.town, beside(file.town->file));
     json["grammars"] = ordered_json::array();
     for (const SceneGrammar& grammar : file.grammars)
         json["grammars"].push_back(grammarJson(grammar, beside(grammar.file)));

@@ -1,0 +1,30 @@
+// Towns as scenes show them: among plants, turned and moved, on ground.
+#include <doctest/doctest.h>
+
+#include <fstream>
+
+#include "tests/tools/program.hpp"
+
+TEST_CASE("a scene shows ivy and houses, and a town without a surface is a scene too") {
+    const Folder folder;
+    const std::string capture = program("espalier-capture");
+    const Ran village = run(capture + " " + content("village.json") + " --size 64x36 -o " + folder.file("a"));
+    CHECK_MESSAGE(village.code == 0, village.output);
+    CHECK(village.output.find("3 seeds") != std::string::npos);
+    CHECK(village.output.find("13 houses") != std::string::npos);
+
+    std::ofstream(folder.file("bare.json"))
+        << "{\"town\": {\"file\": \"" << content("town.json")
+        << "\", \"turn\": 30, \"ground\": [0.2, 0.2, 0.2]},\n \"grammars\": [{\"file\": \""
+        << content("grammars/town.grammar") << "\"}]}";
+    const Ran bare = run(capture + " " + folder.file("bare.json") + " --size 64x36 -o " + folder.file("b"));
+    CHECK_MESSAGE(bare.code == 0, bare.output);
+    CHECK(bare.output.find("13 houses") != std::string::npos);
+
+    std::ofstream(folder.file("wrong.json"))
+        << "{\"town\": {\"file\": \"town.json\", \"grammar\": 3, \"ground\": 1},\n \"grammars\": [{\"file\": \"a\"}]}";
+    const Ran wrong = run(capture + " " + folder.file("wrong.json") + " -o " + folder.file("c"));
+    CHECK(wrong.code != 0);
+    CHECK(wrong.output.find("wrong.json:1:45: 'grammar' must be a number from 0") != std::string::npos);
+    CHECK(wrong.output.find("'ground' must be true, false or a colour") != std::string::npos);
+}
