@@ -79,12 +79,12 @@ EspResult create(const EspContextDef& def, EspContext** out) {
     if (!meshes) return failCreation(ESP_INVALID_CONTENT, meshes.failure().text());
 
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(*context->device, std::move(*meshes));
-    if (!renderer) return failCreation(ESP_OUT_OF_MEMORY, renderer.failure().text());
+    if (!renderer) return failCreation(gpuCode(*context), renderer.failure().text());
     context->renderer = std::move(*renderer);
     // Room for a well-grown scene, so that only large ones have to grow twice.
     const GrowthRoom room{.chunks = 32768, .nodes = 262144, .branches = 32768, .leaves = 262144, .items = 32768};
     Result<std::unique_ptr<Growth>> growth = Growth::create(*context->device, room);
-    if (!growth) return failCreation(ESP_OUT_OF_MEMORY, growth.failure().text());
+    if (!growth) return failCreation(gpuCode(*context), growth.failure().text());
     context->growth = std::move(*growth);
     *out = context.release();
     return ESP_OK;
@@ -109,12 +109,16 @@ EspResult fail(const EspContext* context, EspResult code, std::string message) {
     return code;
 }
 
+EspResult gpuCode(const EspContext& context) {
+    return context.device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY;
+}
+
 EspResult failContent(const EspContext* context, const Failure& failure) {
     return fail(context, ESP_INVALID_CONTENT, failure.text());
 }
 
 EspResult failGpu(const EspContext* context, const Failure& failure) {
-    return fail(context, context->device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY, failure.text());
+    return fail(context, gpuCode(*context), failure.text());
 }
 
 EspResult checkReadable(const EspContext* context, const char* path) {

@@ -25,7 +25,7 @@ const Plants* readPlants(EspContext& context) {
 
 EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, EspPlantHit* out) {
     const Plants* plants = readPlants(context);
-    if (!plants) return context.device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY;
+    if (!plants) return gpuCode(context);
     direction = glm::normalize(direction);
     // What a surface hides isn't picked; a stem lies on its surface, so a little behind it is not behind.
     const auto wall = pickSurfaces(context, origin, direction);
@@ -46,7 +46,7 @@ EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, 
 
 EspResult branchPath(EspContext& context, uint64_t branch, EspPathSample* samples, uint32_t* count) {
     const Plants* plants = readPlants(context);
-    if (!plants) return context.device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY;
+    if (!plants) return gpuCode(context);
     const auto index = plants->findBranch(branch);
     if (!index) return fail(&context, ESP_INVALID_ARGUMENT, "espBranchPath: no such branch has grown");
     const std::vector<uint32_t> nodes = plants->nodesOf(*index);
@@ -98,7 +98,7 @@ EspResult espPlantNodes(EspContext* context, EspSeed seed, uint32_t* nodes) {
         if (!nodes || !context->seeds.find(seed.id))
             return fail(context, ESP_INVALID_ARGUMENT, "espPlantNodes: no such seed, or null");
         const Plants* plants = readPlants(*context);
-        if (!plants) return context->device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY;
+        if (!plants) return gpuCode(*context);
         *nodes = 0;
         for (uint32_t i = 0; i < context->grownSeeds.size(); ++i)
             if (context->grownSeeds[i] == seed.id) *nodes = plants->nodesOfSeed(i);

@@ -221,6 +221,7 @@ Status knowRoofMeshes(EspContext& context);
 EspResult updateTown(EspContext& context);
 EspResult failContent(const EspContext* context, const Failure& failure);
 // For failures of GPU work: DEVICE_LOST or OUT_OF_MEMORY, as the device says.
+EspResult gpuCode(const EspContext& context);
 EspResult failGpu(const EspContext* context, const Failure& failure);
 // OK, or IO_FAILED with the system's reason, for a file that is to be read.
 EspResult checkReadable(const EspContext* context, const char* path);

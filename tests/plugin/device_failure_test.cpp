@@ -1,0 +1,198 @@
+// What a host meets when the driver fails: every step of a context's life either works or gives an error code and a
+// message, memory that was short for a moment costs nothing that stood before, and what is left can be destroyed.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "tests/plugin/failing_device.hpp"
+
+using namespace espalier;
+using Failure = FailingDevice::Failure;
+
+namespace {
+
+constexpr const char* kIvy =
+    "param reach = 0.3 [0.1 .. 5] \"m\" \"Length of the stems\"\n"
+    "Ivy -> Branch(2) {Stem(reach), Stem(reach * 0.7)}\n"
+    "Stem(l) : arc >= l -> NULL\n"
+    "Stem(l) -> Marching(0.05, rand(-0.3, 0.3), true) {Stem(l), Wood Foliage}\n"
+    "Wood -> S(0.01) Shape(\"bark\", C1)\n"
+    "Foliage -> Repeat(2) {S(0.06) T(rand(), 0.02) R(rand(-1, 1), 0.3) Shape(\"leaf\")}\n";
+
+void silent(void*, EspLogLevel, const char*) {}
+
+// A context whose steps can be told one by one; the first that fails ends the life.
+struct Life {
+    EspContext* context = nullptr;
+    EspSurface surface{};
+    EspGrammar grammar{};
+    EspSeed seed{};
+    std::string failedStep;
+    EspResult result = ESP_OK;
+
+    ~Life() { espDestroy(context); }
+
+    bool step(const char* name, EspResult gave) {
+        result = gave;
+        if (gave != ESP_OK) failedStep = name;
+        return gave == ESP_OK;
+    }
+    bool create(const FailingDevice& device) {
+        const EspHostDevice host = device.host();
+        EspContextDef def = espDefaultContextDef();
+        def.host = &host;
+        def.log = silent;
+        return step("create", espCreate(&def, &context));
+    }
+    bool load() { return step("load", espLoadSurface(context, ESPALIER_SQUARE, nullptr, &surface)); }
+    bool compile() {
+        EspGrammarDef def{"ivy", kIvy, std::char_traits<char>::length(kIvy)};
+        return step("compile", espCompileGrammar(context, &def, &grammar));
+    }
+    bool plant(uint32_t number) {
+        EspSeedDef def = espDefaultSeedDef();
+        def.grammar = grammar;
+        def.position[0] = .1f * float(number);
+        def.direction[1] = 1;
+        def.number = number;
+        return step("plant", espPlant(context, &def, &seed));
+    }
+    bool update() { return step("update", espUpdate(context)); }
+    bool draw() {
+        EspDrawDef def = espDefaultDrawDef();
+        def.width = 64;
+        def.height = 36;
+        def.camera = espFrameAll(context);
+        return step("draw", espDraw(context, &def));
+    }
+    bool read() {
+        uint8_t pixels[64 * 36 * 4];
+        return step("read", espReadPixels(context, pixels, sizeof pixels));
+    }
+    EspStats stats() {
+        EspStats s{};
+        step("stats", espReadStats(context, &s));
+        return s;
+    }
+    bool all(const FailingDevice& device) {
+        return create(device) && load() && compile() && plant(1) && update() && draw() && read();
+    }
+};
+
+// A spread of the calls; all of them with ESPALIER_EVERY_FAILURE=1, which takes minutes.
+uint32_t stride(uint32_t calls, uint32_t samples) {
+    return std::getenv("ESPALIER_EVERY_FAILURE") ? 1 : std::max(1u, calls / samples);
+}
+
+uint32_t callsOfWholeLife(FailingDevice& device, Failure how) {
+    device.failAt(UINT32_MAX, how);
+    Life life;
+    REQUIRE(life.all(device));
+    return device.calls();
+}
+
+}  // namespace
+
+TEST_CASE("A lost device gives a code and a message at every step, and can be destroyed") {
+    FailingDevice device;
+    const uint32_t calls = callsOfWholeLife(device, Failure::Lost);
+    REQUIRE(calls > 10);
+    for (uint32_t at = 0; at < calls; at += stride(calls, 5)) {
+        Life life;
+        device.failAt(at, Failure::Lost);
+        const bool whole = life.all(device);
+        CAPTURE(at);
+        CAPTURE(device.failed());
+        CAPTURE(life.failedStep);
+        // The timers' answer is the one that nobody needs.
+        if (whole) CHECK(device.failed() == "vkGetQueryPoolResults");
+        if (!whole) {
+            CHECK(life.result == ESP_DEVICE_LOST);
+            const std::string message = espLastError(life.context);
+            CAPTURE(message);
+            CHECK(message.find("lost") != std::string::npos);
+        }
+        // It stays lost: no later call may hang, crash or pretend.
+        if (life.context && life.grammar.id) {
+            life.plant(2);
+            CHECK_FALSE((life.update() && life.draw() && life.read()));
+            CHECK(life.result == ESP_DEVICE_LOST);
+        }
+    }
+    device.heal();
+    Life after;
+    CHECK(after.all(device));
+}
+
+TEST_CASE("Memory that runs out once costs the call that needed it, and nothing that stood") {
+    FailingDevice device;
+    const uint32_t calls = callsOfWholeLife(device, Failure::OutOfMemory);
+    REQUIRE(calls > 50);
+    uint64_t hash = 0;
+    {
+        Life life;
+        REQUIRE(life.all(device));
+        hash = life.stats().hash;
+    }
+    for (uint32_t at = 0; at < calls; at += stride(calls, 7)) {
+        Life life;
+        device.failAt(at, Failure::OutOfMemory);
+        const bool whole = life.all(device);
+        CAPTURE(at);
+        CAPTURE(device.failed());
+        CAPTURE(life.failedStep);
+        REQUIRE_FALSE(device.failed().empty());
+        if (!whole) {
+            CHECK(life.result == (life.context || at > 0 ? ESP_OUT_OF_MEMORY : ESP_NO_DEVICE));
+            const std::string message = espLastError(life.context);
+            CAPTURE(message);
+            CHECK(message.find("memory") != std::string::npos);
+        }
+        // The same steps again, from the one that failed, end where a life without failures ends.
+        if (!life.context) CHECK(life.create(device));
+        if (!life.surface.id) CHECK(life.load());
+        if (!life.grammar.id) CHECK(life.compile());
+        if (!life.seed.id) CHECK(life.plant(1));
+        CHECK(life.update());
+        CHECK(life.draw());
+        CHECK(life.read());
+        CHECK(life.stats().hash == hash);
+    }
+}
+
+TEST_CASE("Memory that runs out in a regrowth leaves the last plant standing") {
+    FailingDevice device;
+    Life life;
+    REQUIRE(life.all(device));
+    const EspStats before = life.stats();
+    device.failAt(UINT32_MAX, Failure::OutOfMemory);
+    const float longer = 3, shorter = .3f;
+    REQUIRE(espSetParam(life.context, life.grammar, "reach", &longer, 1) == ESP_OK);
+    REQUIRE(life.update());
+    const uint32_t calls = device.calls();
+    const uint64_t grown = life.stats().hash;
+    REQUIRE(grown != before.hash);
+    REQUIRE(espSetParam(life.context, life.grammar, "reach", &shorter, 1) == ESP_OK);
+    REQUIRE(life.update());
+    REQUIRE(life.stats().hash == before.hash);
+
+    for (uint32_t at = 0; at < calls; at += stride(calls, 4)) {
+        Life fresh;
+        device.heal();
+        REQUIRE(fresh.all(device));
+        REQUIRE(espSetParam(fresh.context, fresh.grammar, "reach", &longer, 1) == ESP_OK);
+        device.failAt(at, Failure::OutOfMemory);
+        const bool updated = fresh.update();
+        CAPTURE(at);
+        CAPTURE(device.failed());
+        if (!updated) {
+            CHECK(fresh.result == ESP_OUT_OF_MEMORY);
+            CHECK(fresh.stats().hash == before.hash);
+            CHECK(fresh.draw());
+            CHECK(fresh.update());  // tried again, since the parameter still waits
+        }
+        CHECK(fresh.stats().hash == grown);
+    }
+}

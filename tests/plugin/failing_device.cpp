@@ -1,0 +1,168 @@
+// A driver between Espalier and the real one. There is one at a time: Vulkan's functions carry no pointer of ours.
+#include "tests/plugin/failing_device.hpp"
+
+#include <doctest/doctest.h>
+#include <vulkan/vulkan.h>
+
+#include <cstring>
+#include <vector>
+
+namespace espalier {
+namespace {
+
+struct Handles {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+} handles;
+
+struct Plan {
+    bool armed = false, lost = false;
+    FailingDevice::Failure how = FailingDevice::Failure::OutOfMemory;
+    uint32_t at = 0, calls = 0;
+    const char* failed = "";
+} plan;
+
+// What this call gives instead of the driver's answer, or VK_SUCCESS.
+VkResult verdict(const char* name, FailingDevice::Failure kind) {
+    if (plan.lost && kind == FailingDevice::Failure::Lost) return VK_ERROR_DEVICE_LOST;
+    if (kind != plan.how) return VK_SUCCESS;
+    if (plan.calls++ != plan.at || !plan.armed) return VK_SUCCESS;
+    plan.failed = name;
+    plan.lost = kind == FailingDevice::Failure::Lost;
+    if (!plan.lost) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    vkDeviceWaitIdle(handles.device);  // a lost device runs nothing any more: what it used may be destroyed
+    return VK_ERROR_DEVICE_LOST;
+}
+
+template <size_t Number, class Function>
+struct Hook;
+template <size_t Number, class... Arguments>
+struct Hook<Number, VkResult(VKAPI_PTR*)(Arguments...)> {
+    static inline VkResult(VKAPI_PTR* real)(Arguments...) = nullptr;
+    static inline const char* name = nullptr;
+    static inline FailingDevice::Failure kind{};
+
+    static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
+        const VkResult failure = verdict(name, kind);
+        return failure == VK_SUCCESS ? real(arguments...) : failure;
+    }
+    static PFN_vkVoidFunction over(PFN_vkVoidFunction driver, const char* functionName, FailingDevice::Failure how) {
+        real = reinterpret_cast<VkResult(VKAPI_PTR*)(Arguments...)>(driver);
+        name = functionName;
+        kind = how;
+        return reinterpret_cast<PFN_vkVoidFunction>(&call);
+    }
+};
+
+#define HOOK(function, kind)           \
+    if (!std::strcmp(name, #function)) \
+        return Hook<__LINE__, PFN_##function>::over(driver, #function, FailingDevice::Failure::kind);
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceFunction(VkDevice device, const char* name) {
+    const PFN_vkVoidFunction driver = vkGetDeviceProcAddr(device, name);
+    if (!driver) return nullptr;
+    HOOK(vkQueueSubmit2, Lost)
+    HOOK(vkWaitSemaphores, Lost)
+    HOOK(vkGetSemaphoreCounterValue, Lost)
+    HOOK(vkDeviceWaitIdle, Lost)
+    HOOK(vkGetQueryPoolResults, Lost)
+    HOOK(vkAllocateMemory, OutOfMemory)
+    HOOK(vkMapMemory, OutOfMemory)
+    HOOK(vkCreateBuffer, OutOfMemory)
+    HOOK(vkBindBufferMemory, OutOfMemory)
+    HOOK(vkCreateBufferView, OutOfMemory)
+    HOOK(vkCreateImage, OutOfMemory)
+    HOOK(vkBindImageMemory, OutOfMemory)
+    HOOK(vkCreateImageView, OutOfMemory)
+    HOOK(vkCreateSampler, OutOfMemory)
+    HOOK(vkCreateShaderModule, OutOfMemory)
+    HOOK(vkCreateDescriptorSetLayout, OutOfMemory)
+    HOOK(vkCreatePipelineLayout, OutOfMemory)
+    HOOK(vkCreateComputePipelines, OutOfMemory)
+    HOOK(vkCreateGraphicsPipelines, OutOfMemory)
+    HOOK(vkCreateSemaphore, OutOfMemory)
+    HOOK(vkCreateCommandPool, OutOfMemory)
+    HOOK(vkAllocateCommandBuffers, OutOfMemory)
+    HOOK(vkBeginCommandBuffer, OutOfMemory)
+    HOOK(vkEndCommandBuffer, OutOfMemory)
+    HOOK(vkCreateQueryPool, OutOfMemory)
+    return driver;
+}
+#undef HOOK
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceFunction(VkInstance instance, const char* name) {
+    if (!std::strcmp(name, "vkGetDeviceProcAddr")) return reinterpret_cast<PFN_vkVoidFunction>(&deviceFunction);
+    return vkGetInstanceProcAddr(instance, name);
+}
+
+}  // namespace
+
+FailingDevice::FailingDevice() {
+    REQUIRE(handles.instance == VK_NULL_HANDLE);
+    plan = {};
+    VkApplicationInfo application{};
+    application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+    application.apiVersion = VK_API_VERSION_1_3;
+    VkInstanceCreateInfo instanceInfo{};
+    instanceInfo.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+    instanceInfo.pApplicationInfo = &application;
+    REQUIRE(vkCreateInstance(&instanceInfo, nullptr, &handles.instance) == VK_SUCCESS);
+    uint32_t count = 1;
+    REQUIRE(vkEnumeratePhysicalDevices(handles.instance, &count, &handles.physical) >= 0);
+    REQUIRE(count == 1);
+
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = espRequiredFeatures();
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.ppEnabledExtensionNames = espRequiredExtensions(&info.enabledExtensionCount);
+    REQUIRE(vkCreateDevice(handles.physical, &info, nullptr, &handles.device) == VK_SUCCESS);
+    vkGetDeviceQueue(handles.device, 0, 0, &handles.queue);
+}
+
+FailingDevice::~FailingDevice() {
+    vkDestroyDevice(handles.device, nullptr);
+    vkDestroyInstance(handles.instance, nullptr);
+    handles = {};
+}
+
+EspHostDevice FailingDevice::host() const {
+    EspHostDevice host{};
+    host.getInstanceProcAddr = reinterpret_cast<void*>(&instanceFunction);
+    host.instance = handles.instance;
+    host.physicalDevice = handles.physical;
+    host.device = handles.device;
+    host.queue = handles.queue;
+    return host;
+}
+
+void FailingDevice::failAt(uint32_t at, Failure how) {
+    plan = {};
+    plan.armed = true;
+    plan.at = at;
+    plan.how = how;
+}
+
+void FailingDevice::heal() {
+    plan.armed = plan.lost = false;
+    plan.calls = 0;
+    plan.failed = "";
+}
+
+uint32_t FailingDevice::calls() const {
+    return plan.calls;
+}
+
+std::string FailingDevice::failed() const {
+    return plan.failed;
+}
+
+}  // namespace espalier

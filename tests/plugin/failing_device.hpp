@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "plugin_api/espalier.h"
+
+namespace espalier {
+
+// A host's device whose driver fails on order: Espalier asks for its functions through the table of EspHostDevice,
+// and gets every function that can fail as one that counts its calls and, at the call asked for, fails.
+class FailingDevice {
+  public:
+    enum class Failure {
+        OutOfMemory,  // one call gives VK_ERROR_OUT_OF_DEVICE_MEMORY and does nothing; later calls are as ever
+        Lost,         // this call and all after it give VK_ERROR_DEVICE_LOST, as after a crash of the GPU
+    };
+
+    FailingDevice();
+    ~FailingDevice();  // after espDestroy
+    FailingDevice(const FailingDevice&) = delete;
+
+    EspHostDevice host() const;
+
+    // Fails the call number `at` from now on (0: the next one). Counts from 0 again.
+    void failAt(uint32_t at, Failure how);
+    // Nothing fails any more.
+    void heal();
+    // Calls since the last failAt or heal that could have failed in the way last asked for.
+    uint32_t calls() const;
+    // The function that failed, or an empty text if none has.
+    std::string failed() const;
+};
+
+}  // namespace espalier
