@@ -296,6 +296,15 @@ typedef struct EspPathSample {
 ESP_API EspResult espBranchPath(EspContext* context, uint64_t branch, EspPathSample* samples, uint32_t* count);
 ESP_API EspResult espPlantNodes(EspContext* context, EspSeed seed, uint32_t* nodes);
 
+/* Cuts a branch away with all that grows from it (pruned 1), or lets it grow again (0): the plant is then the same to
+ * the bit as if it had never been cut. branch: a key as in EspPlantHit; depth 0 is the whole plant but for its seed.
+ * It stays cut through every regrowth, and where no branch has this key (any more), the key waits for one. Takes
+ * effect with the next espUpdate; setting what is set does nothing. */
+ESP_API EspResult espPruneBranch(EspContext* context, uint64_t branch, int pruned);
+/* The keys that are pruned, ascending: what a project keeps of pruning. index: below espPrunedCount. */
+ESP_API uint32_t espPrunedCount(const EspContext* context);
+ESP_API EspResult espPrunedAt(const EspContext* context, uint32_t index, uint64_t* branch);
+
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
 typedef enum EspWalkMode { ESP_WALK_INTRINSIC = 0, ESP_WALK_PAPER = 1 } EspWalkMode;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "runtime/expand/growth_plan.hpp"
+#include "runtime/expand/seed_changes.hpp"
 #include "shaders/shared/expand_fit.h"
 #include "shaders/shared/expand_grow.h"
 #include "shaders/shared/expand_terminals.h"
@@ -75,6 +76,9 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     a.out.branches.resize(room.branches);
     a.out.leaves.resize(room.leaves);
     a.status = freshStatus(inputs.limits, room, cut);
+    std::vector<uint32_t> pruned = keyWords(inputs.pruned);
+    a.status.pruned = {pruned.data()};
+    a.status.prunedCount = uint32_t(inputs.pruned.size());
     a.waves.assign(inputs.limits.maxDepth + 2u, Wave{});
     a.waves[0] = firstWave(uint32_t(inputs.seeds.size()), room);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());

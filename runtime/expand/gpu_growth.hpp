@@ -55,6 +55,8 @@ class GpuGrowth final : public Growth {
     Status makeKernels(const GrowthInputs& inputs);
     Status makeRoom(const GrowthInputs& inputs);
     Status uploadTables(Commands& commands, const GrowthInputs& inputs);
+    // Counters of an attempt, and the pruned branches that they lead to.
+    Status uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status);
     ExpandEnv environment(const GrowthInputs& inputs, const Plants& plants, const Links& links);
     // Waves [first, last) of `march`.
     void recordWaves(Pass& pass, const Program& march, bool fetching, const ExpandEnv& env, uint32_t first,
@@ -106,7 +108,7 @@ class GpuGrowth final : public Growth {
     Plants plants_[2];
     Links links_[2];
     uint32_t frontPlants_ = 0, frontLinks_ = 0;
-    Buffer items_[2], status_, waves_, grammars_, tables_, noTables_, noSurfaces_, density_, readback_;
+    Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, noSurfaces_, density_, readback_;
     Buffer again_, marks_, lists_, edits_, results_, touched_;
     GrowthView view_;
     GrowthStats stats_;
@@ -117,6 +119,7 @@ class GpuGrowth final : public Growth {
     std::vector<RuleMapRef> maps_;
     std::vector<float> widths_;
     std::vector<Seed> seeds_;
+    std::vector<uint64_t> prunedKeys_;
 };
 
 }  // namespace espalier

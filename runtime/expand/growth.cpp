@@ -160,12 +160,23 @@ Status GpuGrowth::uploadTables(Commands& commands, const GrowthInputs& inputs) {
     return Done{};
 }
 
+Status GpuGrowth::uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status) {
+    if (!inputs.pruned.empty()) {
+        Status made = ensure(pruned_, "growth pruned", inputs.pruned.size_bytes());
+        if (made) made = commands.upload(pruned_, keyWords(inputs.pruned));
+        if (!made) return made;
+        status.pruned = addressOf<UintBuf, uint32_t>(pruned_);
+        status.prunedCount = uint32_t(inputs.pruned.size());
+    }
+    return commands.upload(status_, std::vector<GrowStatus>{status});
+}
+
 Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut) {
-    std::vector<GrowStatus> status{freshStatus(inputs.limits, room_, cut)};
     std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
     wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_);
-    Status steps[] = {commands.upload(status_, status), commands.upload(waves_, wave),
-                      commands.upload(items_[0], itemsOfSeeds(inputs.seeds)), uploadTables(commands, inputs)};
+    Status steps[] = {uploadStatus(commands, inputs, freshStatus(inputs.limits, room_, cut)),
+                      commands.upload(waves_, wave), commands.upload(items_[0], itemsOfSeeds(inputs.seeds)),
+                      uploadTables(commands, inputs)};
     for (Status& step : steps)
         if (!step) return step;
     return Done{};
@@ -316,8 +327,8 @@ uint64_t GpuGrowth::reserved() const {
     uint64_t bytes = 0;
     for (const Plants& p : plants_) bytes += p.nodes.size() + p.leaves.size();
     for (const Links& l : links_) bytes += l.chunks.size() + l.branches.size();
-    for (const Buffer* b : {&items_[0], &items_[1], &status_, &waves_, &grammars_, &tables_, &noTables_, &density_,
-                            &again_, &marks_, &lists_, &edits_, &results_, &touched_})
+    for (const Buffer* b : {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_,
+                            &density_, &again_, &marks_, &lists_, &edits_, &results_, &touched_})
         bytes += b->size();
     return bytes;
 }
@@ -346,8 +357,8 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
     if (canRegrow(inputs)) {
-        const std::optional<SeedChanges> seeds =
-            seedChanges(seeds_, inputs.seeds, *inputs.changes, widths_, inputs.widths);
+        std::optional<SeedChanges> seeds = seedChanges(seeds_, inputs.seeds, *inputs.changes, widths_, inputs.widths);
+        if (seeds) seeds->pruned = prunedChanges(prunedKeys_, inputs.pruned);
         Result<bool> done = seeds ? regrow(inputs, *seeds) : Result<bool>(false);
         surfaceView_ = {};  // no view outlives its buffer
         if (!done) return done.failure();
@@ -362,6 +373,7 @@ void GpuGrowth::remember(const GrowthInputs& inputs) {
     maps_.assign(inputs.grammars.begin(), inputs.grammars.end());
     widths_.assign(inputs.widths.begin(), inputs.widths.end());
     seeds_.assign(inputs.seeds.begin(), inputs.seeds.end());
+    prunedKeys_.assign(inputs.pruned.begin(), inputs.pruned.end());
 }
 
 Status GpuGrowth::growAll(const GrowthInputs& inputs) {

@@ -43,6 +43,9 @@ struct GrowthInputs {
     // 0: on the finest.
     std::span<const float> widths;
     std::span<const Seed> seeds;
+    // Keys of branches (their first chunk's) that are cut away with all that would follow from them; ascending, none
+    // twice. One that no branch has does nothing.
+    std::span<const uint64_t> pruned;
     GrowthLimits limits;
     // What is different from the inputs of the last grow() that succeeded. Null: everything.
     const GrowthChanges* changes = nullptr;

@@ -66,6 +66,8 @@ Status checkInputs(const GrowthInputs& inputs) {
     if (!inputs.widths.empty() && inputs.widths.size() != inputs.grammars.size())
         return Failure("growth", std::to_string(inputs.widths.size()) + " widths for " +
                                      std::to_string(inputs.grammars.size()) + " grammars");
+    for (size_t i = 1; i < inputs.pruned.size(); ++i)
+        if (inputs.pruned[i - 1] >= inputs.pruned[i]) return Failure("growth", "keys of pruned branches must ascend");
     for (size_t i = 0; i < inputs.seeds.size(); ++i) {
         const Seed& seed = inputs.seeds[i];
         std::string name = "seed " + std::to_string(i);

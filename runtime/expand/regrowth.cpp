@@ -95,8 +95,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     commands.fill(marks_, 0);
     commands.fill(touched_, 0);
 
-    std::vector<GrowStatus> status{freshStatus(inputs.limits, room_, noCut(inputs.limits))};
-    GrowStatus& s = status[0];
+    GrowStatus s = freshStatus(inputs.limits, room_, noCut(inputs.limits));
     s.chunks = view_.chunkCount;
     s.nodes = view_.nodeCount;
     s.branches = view_.branchCount;
@@ -134,7 +133,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     std::vector<Wave> waves(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
     waves[0].count = waves[0].announced = uint32_t(items.size());
     waves[0].groups[0] = (waves[0].count + kItemsPerGroupAgain - 1) / kItemsPerGroupAgain;
-    Status steps[] = {commands.upload(status_, status), commands.upload(again_, state), commands.upload(edits_, edits),
+    Status steps[] = {uploadStatus(commands, inputs, s), commands.upload(again_, state), commands.upload(edits_, edits),
                       commands.upload(waves_, waves), commands.upload(items_[0], items)};
     for (Status& step : steps)
         if (!step) return step;
@@ -265,14 +264,14 @@ void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome,
 }
 
 Result<bool> GpuGrowth::regrow(const GrowthInputs& inputs, const SeedChanges& seeds) {
-    if (inputs.changes->none() && !seeds.any) {
+    if (inputs.changes->none() && !seeds.any && seeds.pruned.empty()) {
         stats_.derived = 0;
         return true;
     }
     if (Status made = makeKernels(inputs); !made) return made.failure();
     if (Status made = makeAgainKernels(); !made) return made.failure();
     room_.items = std::max(room_.items, uint32_t(seeds.planted.size()));
-    const uint64_t words = kEditHead + seeds.to.size() + inputs.grammars.size() +
+    const uint64_t words = kEditHead + seeds.to.size() + inputs.grammars.size() + 2 * seeds.pruned.size() + 1 +
                            uint64_t(dirtyGrid(kMaxReadLevel + 1)) * inputs.changes->tiles.size();
     if (Status made = makeAgainRoom(inputs, words); !made) return made.failure();
     const ExpandEnv env = environment(inputs, plants_[frontPlants_], links_[1 - frontLinks_]);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <unordered_map>
 
 #include "shaders/shared/expand_again.h"
@@ -60,6 +61,21 @@ std::optional<SeedChanges> seedChanges(std::span<const Seed> before, std::span<c
     return out;
 }
 
+std::vector<uint64_t> prunedChanges(std::span<const uint64_t> before, std::span<const uint64_t> now) {
+    std::vector<uint64_t> changed;
+    std::set_symmetric_difference(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(changed));
+    return changed;
+}
+
+std::vector<uint32_t> keyWords(std::span<const uint64_t> keys) {
+    std::vector<uint32_t> words;
+    for (uint64_t key : keys) {
+        words.push_back(uint32_t(key));
+        words.push_back(uint32_t(key >> 32));
+    }
+    return words;
+}
+
 std::vector<uint32_t> editWords(const GrowthInputs& inputs, const SeedChanges& seeds) {
     std::vector<uint32_t> words(kEditHead);
     if (seeds.any && !seeds.to.empty()) {
@@ -72,6 +88,12 @@ std::vector<uint32_t> editWords(const GrowthInputs& inputs, const SeedChanges& s
         words.resize(words.size() + inputs.grammars.size());
         for (const auto& [grammar, slots] : changes.params)
             if (grammar < inputs.grammars.size()) words[words[kEditParams] + grammar] |= slots;
+    }
+    if (!seeds.pruned.empty()) {
+        words[kEditPruned] = uint32_t(words.size());
+        words.push_back(uint32_t(seeds.pruned.size()));
+        const std::vector<uint32_t> keys = keyWords(seeds.pruned);
+        words.insert(words.end(), keys.begin(), keys.end());
     }
     // One grid an instance for all of its layers.
     for (uint32_t instance = 0; instance < 256; ++instance) {

@@ -75,6 +75,7 @@ EspResult update(EspContext& context) {
     inputs.grammars = maps;
     inputs.widths = widths;
     inputs.seeds = seeds;
+    inputs.pruned = context.pruned;
     inputs.limits.walk = WalkMode(context.grow.walk);
     inputs.limits.tangents = TangentMode(context.grow.tangents);
     inputs.limits.maxNodes = context.grow.maxNodes;

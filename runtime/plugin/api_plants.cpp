@@ -1,4 +1,5 @@
 // Plants that have grown: picking a branch, showing its way over the charts, cutting it away for good.
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/plugin/context.hpp"
@@ -102,6 +103,35 @@ EspResult espPlantNodes(EspContext* context, EspSeed seed, uint32_t* nodes) {
         *nodes = 0;
         for (uint32_t i = 0; i < context->grownSeeds.size(); ++i)
             if (context->grownSeeds[i] == seed.id) *nodes = plants->nodesOfSeed(i);
+        return ESP_OK;
+    });
+}
+
+EspResult espPruneBranch(EspContext* context, uint64_t branch, int pruned) {
+    return guarded(context, [&] {
+        std::vector<uint64_t>& keys = context->pruned;
+        const auto at = std::ranges::lower_bound(keys, branch);
+        const bool known = at != keys.end() && *at == branch;
+        if (known == (pruned != 0)) return ESP_OK;
+        if (known) {
+            keys.erase(at);
+        } else {
+            keys.insert(at, branch);
+        }
+        ++context->revision;
+        return ESP_OK;
+    });
+}
+
+uint32_t espPrunedCount(const EspContext* context) {
+    return context ? uint32_t(context->pruned.size()) : 0;
+}
+
+EspResult espPrunedAt(const EspContext* context, uint32_t index, uint64_t* branch) {
+    return guarded(context, [&] {
+        if (!branch || index >= context->pruned.size())
+            return fail(context, ESP_INVALID_ARGUMENT, "espPrunedAt: null pointer, or beyond the last key");
+        *branch = context->pruned[index];
         return ESP_OK;
     });
 }

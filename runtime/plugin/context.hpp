@@ -177,6 +177,7 @@ struct EspContext {
     std::vector<espalier::SceneLayer> sceneLayers;
     espalier::TwinTable twins;
     std::vector<espalier::GrammarVariant> variants;
+    std::vector<uint64_t> pruned;  // keys of branches, ascending
 
     EspGrowDef grow;
     // Of the inputs, since the last growth. Edits go through touch(), or note here what they changed and raise

@@ -43,11 +43,13 @@ void main() {
     uint layers = edits.v[kEditLayers];
     uint seeds = edits.v[kEditSeeds];
     uint params = edits.v[kEditParams];
+    uint pruned = edits.v[kEditPruned];
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     for (uint c = gl_GlobalInvocationID.x; c < count; c += lanes) {
         uint chunkMarks = env.chunks.v[c].marks;
         if (chunkMarks == 0u) continue;
         bool dirty = ((chunkMarks >> 16u) & layers) != 0u && readsDirty(env, edits, c, chunkMarks);
+        if (pruned != 0u) dirty = dirty || isAmong(edits, pruned + 1u, edits.v[pruned], env.chunks.v[c].key);
         if (params + seeds != 0u) {
             uint branch = env.chunks.v[c].branch;
             bool first = branch != kNoIndex && env.branches.v[branch].firstChunk == c;

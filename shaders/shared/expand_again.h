@@ -64,12 +64,14 @@ STATIC_SIZE(AgainState, 168);
 BUFFER(AgainStateBuf, AgainState)
 
 // AgainState::edits, words: 0 dirty layers (bits), 1 first word of the seeds' new indices (0: seeds are the same;
-// kNoIndex: gone), 2 first word of the masks of changed parameters, one a grammar (0: none), then one word for each of
-// 256 instances: where its dirty tiles begin (0: none). These are bits y * side + x of grids of side 256, 128, … 1,
+// kNoIndex: gone), 2 first word of the masks of changed parameters, one a grammar (0: none), 3 first word of the
+// branches that are cut away or grow again (0: none): their number, then their keys as isAmong() takes them; then one
+// word for each of 256 instances: where its dirty tiles begin (0: none). These are bits y * side + x of grids of side 256, 128, … 1,
 // each beginning with a new word.
 CONST_UINT(kEditLayers, 0u);
 CONST_UINT(kEditSeeds, 1u);
 CONST_UINT(kEditParams, 2u);
+CONST_UINT(kEditPruned, 3u);
 CONST_UINT(kEditInstances, 4u);
 CONST_UINT(kEditHead, 260u);
 // First word of the grid of a level, and (level 9) of all.

@@ -30,11 +30,13 @@ struct GrowStatus {
     uint limitKey;
     uint walkMode, tangentMode;
     float leafDensityCap;    // leaves per m² and seed, 0: none
-    uint spare[2];
+    uint prunedCount;        // branches that are cut away: a branch whose key is among these isn't grown
+    uint spare;
+    UintBuf pruned;          // [2 * i]: low words, high words of their keys, ascending
     u64 again;               // address of a regrowth's AgainState
     uint hash[128];          // [slot * 2]: low words, high words
 };
-STATIC_SIZE(GrowStatus, 632);
+STATIC_SIZE(GrowStatus, 640);
 BUFFER(GrowStatusBuf, GrowStatus)
 
 // One wave of the queue: how many items wait, and the indirect arguments that grow as they are pushed.
@@ -133,6 +135,20 @@ FN uint lowestBit(uint bits) {
 #else
     return uint(findLSB(bits));
 #endif
+}
+
+// Whether `key` is among the `count` ascending keys that begin at word `at`, low words first.
+FN bool isAmong(UintBuf keys, uint at, uint count, u64 key) {
+    uint first = 0u;
+    uint end = count;
+    while (first < end) {
+        uint middle = (first + end) >> 1u;
+        u64 there = (u64(keys.v[at + 2u * middle + 1u]) << 32) | u64(keys.v[at + 2u * middle]);
+        if (there == key) return true;
+        first = there < key ? middle + 1u : first;
+        end = there < key ? end : middle;
+    }
+    return false;
 }
 
 // Two 32-bit hashes side by side: cheaper on every device than one of 64 bits.

@@ -229,13 +229,16 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
     c.site.minStep = 0.25f * texel;
     c.frame = frameOf(env.surfaces, walk.place >> 16u, c.site.inputs);
     bool stands = enterWalk(env, c.site.level, walk, item.parent == kNoIndex, c.g.at) && exists;
+    bool pruned = item.branch == kNoIndex &&
+                  isAmong(env.status.v[0].pruned, 0u, env.status.v[0].prunedCount, item.key);
     c.g.trial = c.g.at;
     resetMachine(MACHINE_ONLY);
     if (!stands) {
         c.g.phase = kPhaseDead;
         atomicAdd(env.status.v[0].lost, 1u);
     }
-    if (stands && item.parent == kNoIndex) {
+    if (pruned) c.g.phase = kPhaseEnded;   // a chunk without nodes stays, so that the branch can come back
+    if (stands && !pruned && item.parent == kNoIndex) {
         stageNode(env, c.g.at, c.g.at.normal, 0u, 0u);   // the seed's foot
         c.g.count = 1u;
     }

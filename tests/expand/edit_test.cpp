@@ -2,6 +2,7 @@
 // the CPU reference, which knows nothing of edits, and by all counts.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "shaders/shared/exact.h"
@@ -113,6 +114,21 @@ class Session {
     std::array<std::vector<float>, 2> layers;
 };
 
+// Cuts a branch away, or lets one that was cut grow again.
+void prune(Session& s, uint64_t draw) {
+    std::vector<uint64_t>& pruned = s.scene.pruned;
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    if (!pruned.empty() && draw % 3 == 0) {
+        pruned.erase(pruned.begin() + long(draw / 3 % pruned.size()));
+    } else if (!records->branches.empty()) {
+        const BranchRecord& b = records->branches[draw / 3 % records->branches.size()];
+        const uint64_t key = records->chunks[b.firstChunk].key;
+        const auto at = std::lower_bound(pruned.begin(), pruned.end(), key);
+        if (at == pruned.end() || *at != key) pruned.insert(at, key);
+    }
+}
+
 }  // namespace
 
 TEST_CASE("a dab regrows what read it and what follows, and nothing else") {
@@ -207,6 +223,53 @@ TEST_CASE("a parameter regrows what uses it: rules, terminals, or another gramma
     CHECK(s.growth->stats().derived > 0);
 }
 
+TEST_CASE("a pruned branch is gone with what follows from it, stays so, and comes back") {
+    Session s(ball());
+    s.scene.plantMany(20, 0, 1);
+    s.scene.plantMany(10, 1, 2);
+    s.check();
+    const GrowthStats before = s.growth->stats();
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    // The branch of a seed that has most nodes follow from its first twig, and that twig.
+    std::vector<uint32_t> following(records->chunks.size());
+    for (const Chunk& c : records->chunks)
+        for (uint32_t at = uint32_t(&c - records->chunks.data()); at != kNoIndex; at = records->chunks[at].parent)
+            following[at] += chunkNodes(c.marks);
+    const BranchRecord* twig = nullptr;
+    for (const BranchRecord& b : records->branches)
+        if ((records->chunks[b.firstChunk].depth & 0xFFFF) == 1 &&
+            (!twig || following[b.firstChunk] > following[twig->firstChunk]))
+            twig = &b;
+    REQUIRE(twig);
+    const uint64_t key = records->chunks[twig->firstChunk].key;
+    REQUIRE(following[twig->firstChunk] > 20);
+
+    s.scene.pruned = {key};
+    s.check();
+    CHECK(s.growth->stats().regrowths == 1);
+    CHECK(s.growth->stats().derived == 0);
+    CHECK(s.growth->stats().nodes == before.nodes - following[twig->firstChunk]);
+    Result<GrowthRecords> after = s.growth->read();
+    REQUIRE(after);
+    for (const BranchRecord& b : after->branches) CHECK(after->chunks[b.firstChunk].key != key);
+    s.dab(0, {0.2f, 0.3f}, 0.2f, 0);  // regrowth and full growth leave it out alike
+    s.check();
+    s.changes.everything = true;
+    s.check();
+    s.dab(0, {0.2f, 0.3f}, 0.2f, 1);
+    s.check();
+    s.scene.pruned.clear();
+    s.check();
+    CHECK(s.growth->stats().hash == before.hash);
+    CHECK(s.growth->stats().derived == following[twig->firstChunk]);
+    s.scene.pruned = {1, 2, 3};  // no branch's
+    s.check();
+    CHECK(s.growth->stats().hash == before.hash);
+    s.scene.pruned = {3, 2};
+    CHECK(!s.scene.growOnCpu());
+}
+
 TEST_CASE("random edits in any order end in what a full growth gives") {
     const Model models[] = {flatSquare(), cube(), ball()};
     for (uint32_t m = 0; m < 3; ++m) {
@@ -231,6 +294,8 @@ TEST_CASE("random edits in any order end in what a full growth gives") {
                     s.dab(layer, {draw(0, 1), draw(0, 1)}, draw(0.005f, 0.08f), draw(0, 1) < 0.6f ? 0.0f : 1.0f);
                 } else if (kind < 0.8f && !seeds.empty()) {
                     seeds.erase(seeds.begin() + long(draw(0, float(seeds.size()) - 0.01f)));
+                } else if (kind < 0.83f) {
+                    prune(s, mix64(key));
                 } else if (kind < 0.9f) {
                     s.scene.plantMany(1, draw(0, 1) < 0.7f ? 0 : 1, 100 + i * 4 + k);
                 } else if (kind < 0.95f) {

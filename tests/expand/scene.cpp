@@ -141,6 +141,7 @@ Result<CpuGrowth> Scene::growOnCpu() {
     in.grammars = refs;
     in.widths = widths;
     in.seeds = seeds_;
+    in.pruned = pruned;
     in.limits = limits;
     return espalier::growOnCpu(in);
 }
@@ -173,6 +174,7 @@ Status Scene::grow(Device& device, Growth& growth) {
     in.grammars = refs;
     in.widths = widths;
     in.seeds = seeds_;
+    in.pruned = pruned;
     in.limits = limits;
     in.changes = changes;
     return growth.grow(in);

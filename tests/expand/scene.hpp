@@ -38,6 +38,7 @@ class Scene {
     void clearSeeds() { seeds_.clear(); }
 
     std::vector<Seed>& seeds() { return seeds_; }
+    std::vector<uint64_t> pruned;  // see GrowthInputs::pruned
     const SurfaceData& surface() const { return surface_; }
     GrowthLimits limits;
     std::vector<float> widths;

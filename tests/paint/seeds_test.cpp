@@ -168,3 +168,33 @@ TEST_CASE("a branch is picked where it grew, its path leads along it") {
     painting.ok(espPlantNodes(painting.context, seed, &nodes));
     CHECK(nodes == whole.nodes);
 }
+
+TEST_CASE("a pruned branch stays cut whatever changes, and grows back as it was") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    painting.plant(grammar, kFoot, kUp);
+    const EspStats whole = painting.grown();
+    EspPlantHit hit{};
+    REQUIRE(pick(painting, {4, -.7f, 0}, {1, -.7f, 0}, &hit) == ESP_OK);
+    painting.ok(espPruneBranch(painting.context, hit.branch, 1));
+    painting.ok(espPruneBranch(painting.context, hit.branch, 1));
+    CHECK(espPrunedCount(painting.context) == 1);
+    uint64_t key = 0;
+    painting.ok(espPrunedAt(painting.context, 0, &key));
+    CHECK(key == hit.branch);
+    CHECK(espPrunedAt(painting.context, 1, &key) == ESP_INVALID_ARGUMENT);
+    const EspStats cut = painting.grown();
+    CHECK(cut.nodes < whole.nodes);
+    uint32_t count = 0;
+    CHECK(espBranchPath(painting.context, hit.branch, nullptr, &count) == ESP_INVALID_ARGUMENT);
+    EspGrammarDef def{"again", kMaskedIvy, std::strlen(kMaskedIvy)};
+    painting.ok(espRecompileGrammar(painting.context, grammar, &def));
+    CHECK(painting.grown().hash == cut.hash);
+    EspGrowDef grow = espDefaultGrowDef();
+    grow.maxDepth = 100;  // all anew
+    painting.ok(espSetGrow(painting.context, &grow));
+    CHECK(painting.grown().hash == cut.hash);
+    painting.ok(espPruneBranch(painting.context, hit.branch, 0));
+    CHECK(espPrunedCount(painting.context) == 0);
+    CHECK(painting.grown().hash == whole.hash);
+}
