@@ -252,6 +252,7 @@ typedef struct EspSeedInfo {
     EspSurface surface;
     float position[3];        /* on the surface, world */
     float normal[3], direction[3];   /* unit, world; the direction is laid into the surface */
+    int frozen;               /* 1: its plant stands as it is, see espFreezePlant */
 } EspSeedInfo;
 
 ESP_API uint32_t espSeedCount(const EspContext* context);
@@ -304,6 +305,18 @@ ESP_API EspResult espPruneBranch(EspContext* context, uint64_t branch, int prune
 /* The keys that are pruned, ascending: what a project keeps of pruning. index: below espPrunedCount. */
 ESP_API uint32_t espPrunedCount(const EspContext* context);
 ESP_API EspResult espPrunedAt(const EspContext* context, uint32_t index, uint64_t* branch);
+
+/* Keeps a seed's plant as the last espUpdate grew it (frozen 1): layers, parameters, grammars, prunings and changes of
+ * the seed itself concern it no more, nor does a limit but maxNodes. It moves with its surface. Thawed (0), it grows
+ * from what is there. It thaws by itself when a surface that it has grown on is destroyed.
+ * ESP_INVALID_ARGUMENT: no such seed, or it hasn't grown yet. Takes effect with the next espUpdate. */
+ESP_API EspResult espFreezePlant(EspContext* context, EspSeed seed, int frozen);
+/* A frozen plant is its records, not what it grew from: so a project keeps these. *size: bytes that `bytes` has room
+ * for, set to how many there are; bytes NULL: only asks. */
+ESP_API EspResult espReadFrozen(EspContext* context, EspSeed seed, void* bytes, size_t* size);
+/* Freezes a seed's plant as espReadFrozen gave it, in this or another context where surfaces have been loaded in the
+ * same order. ESP_INVALID_CONTENT: the bytes are none of a plant, of another version, or of a missing surface. */
+ESP_API EspResult espFreezeAs(EspContext* context, EspSeed seed, const void* bytes, size_t size);
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 

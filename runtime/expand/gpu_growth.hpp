@@ -53,7 +53,7 @@ class GpuGrowth final : public Growth {
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
     Status viewSurfaces(const GrowthInputs& inputs);
     Status makeKernels(const GrowthInputs& inputs);
-    Status makeRoom(const GrowthInputs& inputs);
+    Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen);
     Status uploadTables(Commands& commands, const GrowthInputs& inputs);
     // Counters of an attempt, and the pruned branches that they lead to.
     Status uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status);
@@ -75,11 +75,11 @@ class GpuGrowth final : public Growth {
 
     // All anew: growth.cpp.
     Status growAll(const GrowthInputs& inputs);
-    Result<Outcome> attempt(const GrowthInputs& inputs, const GrowthCut& cut);
-    Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut);
+    Result<Outcome> attempt(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
+    Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
     Status record(Commands& commands, const ExpandEnv& env, uint32_t first, uint32_t last, const GrowthLimits& limits);
     void recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits);
-    void publish(const GrowthInputs& inputs, const Outcome& outcome);
+    void publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome);
 
     // What an edit concerns: regrowth.cpp. Each returns false where a full growth is called for.
     bool canRegrow(const GrowthInputs& inputs) const;
@@ -94,7 +94,7 @@ class GpuGrowth final : public Growth {
     void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state);
 
     Device& device_;
-    GrowthRoom room_;
+    GrowthRoom room_;            // of a full growth, beside frozen plants
     uint32_t likelyWaves_ = 24;  // recorded in the first submission
     // Made when first asked for; [1] reads tables by address, see kUniformTableWords.
     std::array<Program, 4> march_, marchAgain_;  // [2], [3] fetch surfaces as texels
@@ -117,9 +117,7 @@ class GpuGrowth final : public Growth {
     GrowthLimits limits_;
     uint32_t surfaceCount_ = 0;
     std::vector<RuleMapRef> maps_;
-    std::vector<float> widths_;
-    std::vector<Seed> seeds_;
-    std::vector<uint64_t> prunedKeys_;
+    GrownFrom from_;
 };
 
 }  // namespace espalier

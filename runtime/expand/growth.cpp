@@ -13,6 +13,36 @@ namespace {
 
 constexpr uint32_t kMostAttempts = 48;
 
+// What growth begins with, the frozen plants being there already.
+GrowStatus withFrozen(GrowStatus status, const FrozenSum& frozen) {
+    const GrowthRecords& r = frozen.records;
+    status.chunks = uint32_t(r.chunks.size());
+    status.nodes = status.frozenNodes = uint32_t(r.nodes.size());
+    status.branches = status.frozenBranches = uint32_t(r.branches.size());
+    status.leaves = uint32_t(r.leaves.size());
+    status.chunkCapacity += status.chunks;
+    status.nodeCapacity += status.nodes;
+    status.branchCapacity += status.branches;
+    status.leafCapacity += status.leaves;
+    status.nodeGroups[0] = r.nodes.empty() ? 0 : 1;
+    status.branchGroups[0] = r.branches.empty() ? 0 : 1;
+    status.steps = frozen.steps;
+    status.inserted = frozen.inserted;
+    status.stopped = frozen.stopped;
+    status.deadEnds = frozen.deadEnds;
+    status.hash[0] = frozen.hash[0];
+    status.hash[1] = frozen.hash[1];
+    return status;
+}
+// An attempt's counters without them.
+GrowStatus withoutFrozen(GrowStatus status, const GrowthRecords& frozen) {
+    status.chunks -= uint32_t(frozen.chunks.size());
+    status.nodes -= uint32_t(frozen.nodes.size());
+    status.branches -= uint32_t(frozen.branches.size());
+    status.leaves -= uint32_t(frozen.leaves.size());
+    return status;
+}
+
 }  // namespace
 
 Status GpuGrowth::setUp() {
@@ -99,7 +129,7 @@ Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
     return made ? ensure(grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)) : made;
 }
 
-Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
+Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen) {
     Status kernels = makeKernels(inputs);
     if (!kernels) return kernels;
     Plants& plants = plants_[1 - frontPlants_];
@@ -110,15 +140,16 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs) {
         const char* name;
         uint64_t bytes;
     };
-    const Row rows[] = {{&plants.nodes, "growth nodes", uint64_t(room_.nodes) * sizeof(Node)},
-                        {&plants.leaves, "growth leaves", uint64_t(room_.leaves) * sizeof(Leaf)},
-                        {&links.chunks, "growth chunks", uint64_t(room_.chunks) * sizeof(Chunk)},
-                        {&links.branches, "growth branches", uint64_t(room_.branches) * sizeof(BranchRecord)},
-                        {&items_[0], "growth items even", uint64_t(room_.items) * sizeof(WorkItem)},
-                        {&items_[1], "growth items odd", uint64_t(room_.items) * sizeof(WorkItem)},
-                        {&status_, "growth status", sizeof(GrowStatus)},
-                        {&waves_, "growth waves", waves * sizeof(Wave)},
-                        {&density_, "growth density", densityWords(inputs.limits) * 4}};
+    const Row rows[] = {
+        {&plants.nodes, "growth nodes", (room_.nodes + frozen.nodes.size()) * sizeof(Node)},
+        {&plants.leaves, "growth leaves", (room_.leaves + frozen.leaves.size()) * sizeof(Leaf)},
+        {&links.chunks, "growth chunks", (room_.chunks + frozen.chunks.size()) * sizeof(Chunk)},
+        {&links.branches, "growth branches", (room_.branches + frozen.branches.size()) * sizeof(BranchRecord)},
+        {&items_[0], "growth items even", uint64_t(room_.items) * sizeof(WorkItem)},
+        {&items_[1], "growth items odd", uint64_t(room_.items) * sizeof(WorkItem)},
+        {&status_, "growth status", sizeof(GrowStatus)},
+        {&waves_, "growth waves", waves * sizeof(Wave)},
+        {&density_, "growth density", densityWords(inputs.limits) * 4}};
     for (const Row& row : rows) {
         Status ok = ensure(*row.buffer, row.name, row.bytes);
         if (!ok) return ok;
@@ -171,10 +202,18 @@ Status GpuGrowth::uploadStatus(Commands& commands, const GrowthInputs& inputs, G
     return commands.upload(status_, std::vector<GrowStatus>{status});
 }
 
-Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const GrowthCut& cut) {
+Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const FrozenSum& frozen,
+                               const GrowthCut& cut) {
+    const Plants& plants = plants_[1 - frontPlants_];
+    const Links& links = links_[1 - frontLinks_];
+    const GrowthRecords& r = frozen.records;
+    Status kept[] = {commands.upload(plants.nodes, r.nodes), commands.upload(plants.leaves, r.leaves),
+                     commands.upload(links.chunks, r.chunks), commands.upload(links.branches, r.branches)};
+    for (Status& step : kept)
+        if (!step) return step;
     std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
     wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_);
-    Status steps[] = {uploadStatus(commands, inputs, freshStatus(inputs.limits, room_, cut)),
+    Status steps[] = {uploadStatus(commands, inputs, withFrozen(freshStatus(inputs.limits, room_, cut), frozen)),
                       commands.upload(waves_, wave), commands.upload(items_[0], itemsOfSeeds(inputs.seeds)),
                       uploadTables(commands, inputs)};
     for (Status& step : steps)
@@ -249,8 +288,9 @@ void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthL
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 
-Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const GrowthCut& cut) {
-    Status room = makeRoom(inputs);
+Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const FrozenSum& frozen,
+                                              const GrowthCut& cut) {
+    Status room = makeRoom(inputs, frozen.records);
     if (!room) return room.failure();
     ExpandEnv env = environment(inputs, plants_[1 - frontPlants_], links_[1 - frontLinks_]);
     Outcome outcome;
@@ -262,7 +302,7 @@ Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const 
         Result<Commands> commands = Commands::begin(device_, "expand");
         if (!commands) return commands.failure();
         if (first == 0) {
-            Status uploaded = uploadInputs(*commands, inputs, cut);
+            Status uploaded = uploadInputs(*commands, inputs, frozen, cut);
             if (!uploaded) return uploaded.failure();
         }
         env.phase = lastWave(cut);
@@ -277,7 +317,7 @@ Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const 
         Outcome read = readOutcome(last);
         outcome.status = read.status;
         outcome.waves = std::move(read.waves);
-        bool short1 = outcome.status.items > room_.items || outcome.status.chunks > room_.chunks;
+        bool short1 = outcome.status.items > room_.items || outcome.status.chunks > outcome.status.chunkCapacity;
         if (outcome.waves[last].count == 0 || last == most || short1) return outcome;
         first = last;
         batch = batch * 2;
@@ -308,11 +348,12 @@ void GpuGrowth::showLinks(const GrowStatus& status) {
     view_.revision += 1;
 }
 
-void GpuGrowth::publish(const GrowthInputs& inputs, const Outcome& outcome) {
+void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome) {
     frontPlants_ = 1 - frontPlants_;
     showLinks(outcome.status);
-    stats_.seeds = uint32_t(inputs.seeds.size());
+    stats_.seeds = uint32_t(inputs.seeds.size() + inputs.frozen.size());
     takeCounters(outcome.status, stats_);
+    stats_.derived = stats_.nodes - uint32_t(frozen.records.nodes.size());
     auto empty = std::find_if(outcome.waves.begin(), outcome.waves.end(), [](const Wave& w) { return w.count == 0; });
     stats_.waves = uint32_t(empty - outcome.waves.begin());
     likelyWaves_ = stats_.waves + 2;
@@ -357,8 +398,7 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
     if (canRegrow(inputs)) {
-        std::optional<SeedChanges> seeds = seedChanges(seeds_, inputs.seeds, *inputs.changes, widths_, inputs.widths);
-        if (seeds) seeds->pruned = prunedChanges(prunedKeys_, inputs.pruned);
+        const std::optional<SeedChanges> seeds = seedChanges(from_, inputs);
         Result<bool> done = seeds ? regrow(inputs, *seeds) : Result<bool>(false);
         surfaceView_ = {};  // no view outlives its buffer
         if (!done) return done.failure();
@@ -371,28 +411,32 @@ void GpuGrowth::remember(const GrowthInputs& inputs) {
     limits_ = inputs.limits;
     surfaceCount_ = inputs.surfaceCount;
     maps_.assign(inputs.grammars.begin(), inputs.grammars.end());
-    widths_.assign(inputs.widths.begin(), inputs.widths.end());
-    seeds_.assign(inputs.seeds.begin(), inputs.seeds.end());
-    prunedKeys_.assign(inputs.pruned.begin(), inputs.pruned.end());
+    from_.seeds.assign(inputs.seeds.begin(), inputs.seeds.end());
+    from_.frozen.assign(inputs.frozen.begin(), inputs.frozen.end());
+    from_.pruned.assign(inputs.pruned.begin(), inputs.pruned.end());
+    from_.widths.assign(inputs.widths.begin(), inputs.widths.end());
 }
 
 Status GpuGrowth::growAll(const GrowthInputs& inputs) {
     room_.items = std::max(room_.items, uint32_t(inputs.seeds.size()));
+    const FrozenSum frozen = sumOf(inputs.frozen, uint32_t(inputs.seeds.size()));
+    GrowthLimits limits = inputs.limits;  // for the rest
+    const bool fits = frozen.records.nodes.size() < limits.maxNodes || inputs.seeds.empty();
+    limits.maxNodes -= std::min(limits.maxNodes - 1, uint32_t(frozen.records.nodes.size()));
     GrowthCut cut = noCut(inputs.limits);
     uint32_t overflow = 0;
-    for (uint32_t i = 0; i < kMostAttempts; ++i) {
-        Result<Outcome> outcome = attempt(inputs, cut);
+    for (uint32_t i = 0; fits && i < kMostAttempts; ++i) {
+        Result<Outcome> outcome = attempt(inputs, frozen, cut);
         surfaceView_ = {};
         if (!outcome) return outcome.failure();
-        Verdict verdict = judge(outcome->status, outcome->waves, inputs.limits, room_, cut);
+        Verdict verdict = judge(withoutFrozen(outcome->status, frozen.records), outcome->waves, limits, room_, cut);
         if (verdict == Verdict::impossible) break;
         if (verdict == Verdict::complete) {
-            publish(inputs, *outcome);
+            publish(inputs, frozen, *outcome);
             const GrowthCut none = noCut(inputs.limits);
             whole_ = cut.wave == none.wave && cut.key == none.key;
             stats_.overflow = overflow;
             stats_.expansions += 1;
-            stats_.derived = stats_.nodes;
             remember(inputs);
             return Done{};
         }

@@ -9,6 +9,7 @@
 
 #include "runtime/core/result.hpp"
 #include "runtime/expand/changes.hpp"
+#include "runtime/expand/frozen.hpp"
 #include "runtime/gpu/buffer.hpp"
 #include "shaders/shared/growth_records.h"
 #include "shaders/shared/rule_map.h"
@@ -46,6 +47,9 @@ struct GrowthInputs {
     // Keys of branches (their first chunk's) that are cut away with all that would follow from them; ascending, none
     // twice. One that no branch has does nothing.
     std::span<const uint64_t> pruned;
+    // Plants that stand as they are; BranchRecord::seed counts them after the seeds. One that last time's growth grew
+    // stays in its place; it counts against maxNodes, but not against the density cap.
+    std::span<const FrozenPlant> frozen;
     GrowthLimits limits;
     // What is different from the inputs of the last grow() that succeeded. Null: everything.
     const GrowthChanges* changes = nullptr;
@@ -82,14 +86,6 @@ struct GrowthStats {
 // Room to begin with, in records; it grows by need and is kept.
 struct GrowthRoom {
     uint32_t chunks = 8192, nodes = 65536, branches = 8192, leaves = 65536, items = 4096;
-};
-
-// A growth's records on the CPU.
-struct GrowthRecords {
-    std::vector<Node> nodes;
-    std::vector<Chunk> chunks;
-    std::vector<BranchRecord> branches;
-    std::vector<Leaf> leaves;
 };
 
 class Growth {

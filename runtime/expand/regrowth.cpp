@@ -127,6 +127,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     a.liveChunks = stats_.chunks;
     a.mostNodes = inputs.limits.maxNodes;
     a.mostChunks = chunkLimit(inputs.limits);
+    a.firstFrozen = uint32_t(inputs.seeds.size());
 
     std::vector<WorkItem> all = itemsOfSeeds(inputs.seeds), items;
     for (uint32_t index : seeds.planted) items.push_back(all[index]);
@@ -139,9 +140,9 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
         if (!step) return step;
     // Packed tables change with parameters, grammars and where their words lie.
     const bool same = inputs.changes->params.empty() && inputs.changes->grammars.empty() &&
-                      inputs.grammars.size() == maps_.size() && inputs.widths.size() == widths_.size() &&
+                      inputs.grammars.size() == maps_.size() && inputs.widths.size() == from_.widths.size() &&
                       std::memcmp(inputs.grammars.data(), maps_.data(), maps_.size() * sizeof(RuleMapRef)) == 0 &&
-                      std::equal(widths_.begin(), widths_.end(), inputs.widths.begin());
+                      std::equal(from_.widths.begin(), from_.widths.end(), inputs.widths.begin());
     if (!same) return uploadTables(commands, inputs);
     commands.barrier(Use::transfer, Use::compute | Use::indirect);
     return Done{};
@@ -238,7 +239,7 @@ void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome,
     GrowthStats delta;
     takeCounters(s, delta);
     showLinks(s);
-    stats_.seeds = uint32_t(inputs.seeds.size());
+    stats_.seeds = uint32_t(inputs.seeds.size() + inputs.frozen.size());
     stats_.derived = s.nodes - state.nodeCount;
     stats_.nodes += stats_.derived - state.goneNodes;
     stats_.chunks += s.chunks - state.chunkCount - state.goneChunks;

@@ -25,46 +25,55 @@ void addLevels(std::vector<uint32_t>& grid) {
     }
 }
 
-}  // namespace
-
-std::optional<SeedChanges> seedChanges(std::span<const Seed> before, std::span<const Seed> now,
-                                       const GrowthChanges& changes, std::span<const float> widthsBefore,
-                                       std::span<const float> widthsNow) {
-    SeedChanges out;
-    const auto other = [&](uint32_t grammar) {
-        const bool ruled =
-            std::find(changes.grammars.begin(), changes.grammars.end(), grammar) != changes.grammars.end();
-        const float was = grammar < widthsBefore.size() ? widthsBefore[grammar] : 0;
-        return ruled || was != (grammar < widthsNow.size() ? widthsNow[grammar] : 0);
-    };
-    bool anyOther = false;
-    for (uint32_t g = 0; g < std::max(widthsBefore.size(), widthsNow.size()); ++g) anyOther = anyOther || other(g);
-    if (changes.grammars.empty() && !anyOther && before.size() == now.size() &&
-        (now.empty() || std::memcmp(before.data(), now.data(), now.size_bytes()) == 0))
-        return out;
-
-    std::unordered_map<uint64_t, uint32_t> indices;
-    for (uint32_t i = 0; i < now.size(); ++i)
-        if (!indices.emplace(now[i].key, i).second) return std::nullopt;
-    out.any = true;
-    out.to.assign(before.size(), kNoIndex);
-    std::vector<bool> stays(now.size(), false);
-    for (uint32_t i = 0; i < before.size(); ++i) {
-        const auto found = indices.find(before[i].key);
-        if (found == indices.end() || stays[found->second]) continue;
-        if (std::memcmp(&before[i], &now[found->second], sizeof(Seed)) != 0 || other(before[i].grammar)) continue;
-        out.to[i] = found->second;
-        stays[found->second] = true;
-    }
-    for (uint32_t i = 0; i < now.size(); ++i)
-        if (!stays[i]) out.planted.push_back(i);
-    return out;
+bool sameFrozen(std::span<const FrozenPlant> a, std::span<const FrozenPlant> b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const FrozenPlant& x, const FrozenPlant& y) {
+        return x.key == y.key && x.records == y.records;
+    });
 }
 
-std::vector<uint64_t> prunedChanges(std::span<const uint64_t> before, std::span<const uint64_t> now) {
-    std::vector<uint64_t> changed;
-    std::set_symmetric_difference(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(changed));
-    return changed;
+bool sameSeeds(std::span<const Seed> a, std::span<const Seed> b) {
+    return a.size() == b.size() && (b.empty() || std::memcmp(a.data(), b.data(), b.size_bytes()) == 0);
+}
+
+}  // namespace
+
+std::optional<SeedChanges> seedChanges(const GrownFrom& before, const GrowthInputs& now) {
+    SeedChanges out;
+    std::set_symmetric_difference(before.pruned.begin(), before.pruned.end(), now.pruned.begin(), now.pruned.end(),
+                                  std::back_inserter(out.pruned));
+    const auto other = [&](uint32_t grammar) {
+        const std::vector<uint32_t>& ruled = now.changes->grammars;
+        const float was = grammar < before.widths.size() ? before.widths[grammar] : 0;
+        return std::find(ruled.begin(), ruled.end(), grammar) != ruled.end() ||
+               was != (grammar < now.widths.size() ? now.widths[grammar] : 0);
+    };
+    bool anyOther = !now.changes->grammars.empty();
+    for (uint32_t g = 0; g < std::max(before.widths.size(), now.widths.size()); ++g) anyOther = anyOther || other(g);
+    if (!anyOther && sameSeeds(before.seeds, now.seeds) && sameFrozen(before.frozen, now.frozen)) return out;
+
+    std::unordered_map<uint64_t, uint32_t> indices;
+    const uint32_t seeds = uint32_t(now.seeds.size()), all = seeds + uint32_t(now.frozen.size());
+    for (uint32_t i = 0; i < all; ++i)
+        if (!indices.emplace(i < seeds ? now.seeds[i].key : now.frozen[i - seeds].key, i).second) return std::nullopt;
+    out.any = true;
+    std::vector<bool> stays(all, false);
+    // `plant`: null for one that isn't frozen yet.
+    const auto follow = [&](uint64_t key, const Seed* seed, const FrozenPlant* plant) {
+        const auto found = indices.find(key);
+        bool same = found != indices.end() && !stays[found->second];
+        if (same && found->second < seeds)
+            same = seed && std::memcmp(seed, &now.seeds[found->second], sizeof(Seed)) == 0 && !other(seed->grammar);
+        else if (same && plant)
+            same = plant->records == now.frozen[found->second - seeds].records;
+        if (same) stays[found->second] = true;
+        out.to.push_back(same ? found->second : kNoIndex);
+    };
+    for (const Seed& seed : before.seeds) follow(seed.key, &seed, nullptr);
+    for (const FrozenPlant& plant : before.frozen) follow(plant.key, nullptr, &plant);
+    for (uint32_t i = 0; i < seeds; ++i)
+        if (!stays[i]) out.planted.push_back(i);
+    if (std::find(stays.begin() + seeds, stays.end(), false) != stays.end()) return std::nullopt;
+    return out;
 }
 
 std::vector<uint32_t> keyWords(std::span<const uint64_t> keys) {

@@ -12,18 +12,22 @@ namespace espalier {
 
 struct SeedChanges {
     bool any = false;               // else the indices are those of before
-    std::vector<uint32_t> to;       // new index of each old seed; kNoIndex: its plant goes
+    std::vector<uint32_t> to;       // new index of each old seed, then of each frozen plant; kNoIndex: its plant goes
     std::vector<uint32_t> planted;  // indices of new seeds, and of those that changed
     std::vector<uint64_t> pruned;   // keys of branches that are cut away or grow again; ascending
 };
 
-// Compares by key. A seed whose grammar's rules or width changed counts as another. Nothing: keys aren't unique.
-std::optional<SeedChanges> seedChanges(std::span<const Seed> before, std::span<const Seed> now,
-                                       const GrowthChanges& changes, std::span<const float> widthsBefore,
-                                       std::span<const float> widthsNow);
+// What a growth was made from, as far as the next one compares it.
+struct GrownFrom {
+    std::vector<Seed> seeds;
+    std::vector<FrozenPlant> frozen;
+    std::vector<uint64_t> pruned;
+    std::vector<float> widths;
+};
 
-// Keys that are in one of the two lists alone; all ascending.
-std::vector<uint64_t> prunedChanges(std::span<const uint64_t> before, std::span<const uint64_t> now);
+// Compares by key. A seed whose grammar's rules or width changed counts as another. Nothing: keys aren't unique, or a
+// frozen plant has to be put in.
+std::optional<SeedChanges> seedChanges(const GrownFrom& before, const GrowthInputs& now);
 
 // Keys as kernels read them: two words each.
 std::vector<uint32_t> keyWords(std::span<const uint64_t> keys);

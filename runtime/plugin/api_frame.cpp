@@ -49,10 +49,16 @@ EspResult update(EspContext& context) {
     const uint32_t firstVariant = uint32_t(maps.size());
     for (const GrammarVariant& variant : context.variants) addMap(variant.map, variant.words, variant.layerOf);
     std::vector<Seed> seeds;
-    std::vector<uint32_t> seedIds;
+    std::vector<FrozenPlant> frozen;
+    std::vector<uint32_t> seedIds, frozenIds;
     context.seeds.forEach([&](uint32_t seedId, const PlantedSeed& planted) {
         Seed seed{};
         seed.key = seedKey(planted);
+        if (planted.frozen) {
+            frozen.push_back({seed.key, planted.frozen});
+            frozenIds.push_back(seedId);
+            return;
+        }
         seed.walk = planted.walk;
         for (const auto& [id, index] : places)
             if (id == planted.grammar) seed.grammar = index;
@@ -76,6 +82,8 @@ EspResult update(EspContext& context) {
     inputs.widths = widths;
     inputs.seeds = seeds;
     inputs.pruned = context.pruned;
+    inputs.frozen = frozen;
+    seedIds.insert(seedIds.end(), frozenIds.begin(), frozenIds.end());
     inputs.limits.walk = WalkMode(context.grow.walk);
     inputs.limits.tangents = TangentMode(context.grow.tangents);
     inputs.limits.maxNodes = context.grow.maxNodes;

@@ -5,9 +5,7 @@
 #include "runtime/plugin/context.hpp"
 
 namespace espalier {
-namespace {
 
-// The plants as last grown, read back if that is still to do; null on failure.
 const Plants* readPlants(EspContext& context) {
     const uint64_t revision = context.growth->view().revision;
     if (context.plants && context.plantsRevision == revision) return &*context.plants;
@@ -23,6 +21,8 @@ const Plants* readPlants(EspContext& context) {
     context.plantsRevision = revision;
     return &*context.plants;
 }
+
+namespace {
 
 EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, EspPlantHit* out) {
     const Plants* plants = readPlants(context);

@@ -226,6 +226,7 @@ EspResult espSeedInfo(const EspContext* context, EspSeed id, EspSeedInfo* out) {
         put(out->position, seed->position);
         put(out->normal, seed->normal);
         put(out->direction, seed->direction);
+        out->frozen = seed->frozen ? 1 : 0;
         return ESP_OK;
     });
 }

@@ -216,6 +216,7 @@ EspResult espDestroySurface(EspContext* context, EspSurface surface) {
             if (seed.surface == surface.id) gone.push_back(id);
         });
         for (uint32_t id : gone) removeSeed(*context, id);
+        thawPlantsOn(*context, placed->instance);
         std::erase_if(context->layers, [&](const PaintedLayer& layer) { return layer.surface == surface.id; });
         context->renderer->removeSurface(placed->instance);
         context->surfaces.erase(surface.id);

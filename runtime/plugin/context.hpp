@@ -80,6 +80,7 @@ struct PlantedSeed {
     glm::vec3 position{0}, normal{0}, direction{0};  // world
     glm::vec3 givenPosition{0}, givenDirection{0};   // as the host asked
     std::vector<SeedParam> params;                   // by name
+    std::shared_ptr<const PlantRecords> frozen;      // its plant, if it is to stay as it is
     uint32_t variant = kNoIndex;                     // place in EspContext::variants, since the last refreshVariants
 };
 
@@ -259,8 +260,12 @@ struct SurfacePoint {
 std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction);
 std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point);
 
+// Lets frozen plants grow again that have grown on a surface instance.
+void thawPlantsOn(EspContext& context, uint32_t instance);
 // Takes a seed out, and all notes of it.
 void removeSeed(EspContext& context, uint32_t id);
+// The plants as last grown, read back if that is still to do; null on failure, which is noted.
+const Plants* readPlants(EspContext& context);
 // Makes the variants that seeds ask for, and brings up to date those whose grammar has changed.
 Status refreshVariants(EspContext& context);
 

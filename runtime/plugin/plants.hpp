@@ -28,6 +28,7 @@ class Plants {
     // are taken to be that thick, so that a twig can be hit. direction: unit.
     std::optional<PlantHit> pick(glm::vec3 origin, glm::vec3 direction, float limit) const;
 
+    const GrowthRecords& records() const { return records_; }
     // Index of the branch of this key.
     std::optional<uint32_t> findBranch(uint64_t key) const;
     uint64_t keyOf(uint32_t branch) const { return firstChunk(branch).key; }

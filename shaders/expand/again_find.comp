@@ -50,10 +50,11 @@ void main() {
         if (chunkMarks == 0u) continue;
         bool dirty = ((chunkMarks >> 16u) & layers) != 0u && readsDirty(env, edits, c, chunkMarks);
         if (pruned != 0u) dirty = dirty || isAmong(edits, pruned + 1u, edits.v[pruned], env.chunks.v[c].key);
-        if (params + seeds != 0u) {
+        if (params + seeds != 0u || dirty) {
             uint branch = env.chunks.v[c].branch;
             bool first = branch != kNoIndex && env.branches.v[branch].firstChunk == c;
-            uint seed = seeds != 0u ? edits.v[seeds + seedOf(AGAIN.branchesBefore, AGAIN.chunksBefore, c)] : 0u;
+            uint seed = seedOf(AGAIN.branchesBefore, AGAIN.chunksBefore, c);
+            if (seeds != 0u) seed = edits.v[seeds + seed];
             if (seed == kNoIndex) {
                 appendTo(env, kListGone, c);
                 atomicAdd(AGAIN.goneNodes, chunkNodes(chunkMarks));
@@ -66,6 +67,7 @@ void main() {
             }
             if (seeds != 0u && branch == kNoIndex) env.chunks.v[c].firstNode = seed;
             if (seeds != 0u && first) env.branches.v[branch].seed = seed;
+            if (seed >= AGAIN.firstFrozen) continue;
             uint grammar = env.chunks.v[c].symbol >> 16u;
             uint changed = params != 0u ? edits.v[params + grammar] : 0u;
             dirty = dirty || (changed & env.chunks.v[c].paramMask) != 0u;

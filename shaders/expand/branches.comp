@@ -11,7 +11,7 @@ void main() {
     uint count = env.status.v[0].branches;
     bool ready = complete(env);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
-    for (uint i = gl_GlobalInvocationID.x; ready && i < count; i += lanes) {
+    for (uint i = env.status.v[0].frozenBranches + gl_GlobalInvocationID.x; ready && i < count; i += lanes) {
         if (env.phase == kTerminalsJoints) {
             sumJoint(env, i);
         } else {

@@ -13,7 +13,7 @@ void main() {
     bool ready = complete(env);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     uvec2 hash = uvec2(0u);
-    for (uint i = gl_GlobalInvocationID.x; ready && i < count; i += lanes) {
+    for (uint i = env.status.v[0].frozenNodes + gl_GlobalInvocationID.x; ready && i < count; i += lanes) {
         NodeFinish finish = finishNode(env, i, hash);
         if (env.phase == kTerminalsWrite) keepFinish(env.nodes, i, finish);
     }

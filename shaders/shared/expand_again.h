@@ -58,7 +58,7 @@ struct AgainState {
     uint counts[8];          // of the lists
     uint overrun;            // not 0: this is too much for a regrowth
     uint goneNodes, goneChunks, goneBranches, goneLeaves, goneInserted, goneFeet, goneDeadEnds, goneStopped;
-    uint spare;
+    uint firstFrozen;        // seeds from this index on are frozen: what they have grown is never dirty
 };
 STATIC_SIZE(AgainState, 168);
 BUFFER(AgainStateBuf, AgainState)

@@ -25,13 +25,13 @@ struct GrowStatus {
     uint nodeGroups[3];      // VkDispatchIndirectCommand over the nodes
     uint branchGroups[3];    // the same over the branches
     uint items;              // most items that a wave asked for, where that was too many
-    uint steps, inserted, stopped, deadEnds, lost, spans;
+    uint steps, inserted, stopped, deadEnds, lost;
+    uint frozenNodes, frozenBranches;   // the first ones: they stand as they are
     uint limitWave;          // in this wave only items whose key begins below limitKey are grown, in later ones none
     uint limitKey;
     uint walkMode, tangentMode;
     float leafDensityCap;    // leaves per m² and seed, 0: none
     uint prunedCount;        // branches that are cut away: a branch whose key is among these isn't grown
-    uint spare;
     UintBuf pruned;          // [2 * i]: low words, high words of their keys, ascending
     u64 again;               // address of a regrowth's AgainState
     uint hash[128];          // [slot * 2]: low words, high words

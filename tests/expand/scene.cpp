@@ -176,6 +176,7 @@ Status Scene::grow(Device& device, Growth& growth) {
     in.seeds = seeds_;
     in.pruned = pruned;
     in.limits = limits;
+    in.frozen = frozen;
     in.changes = changes;
     return growth.grow(in);
 }

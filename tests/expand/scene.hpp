@@ -38,7 +38,8 @@ class Scene {
     void clearSeeds() { seeds_.clear(); }
 
     std::vector<Seed>& seeds() { return seeds_; }
-    std::vector<uint64_t> pruned;  // see GrowthInputs::pruned
+    std::vector<uint64_t> pruned;     // see GrowthInputs::pruned
+    std::vector<FrozenPlant> frozen;  // see GrowthInputs::frozen; not for growOnCpu
     const SurfaceData& surface() const { return surface_; }
     GrowthLimits limits;
     std::vector<float> widths;

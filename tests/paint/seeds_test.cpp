@@ -198,3 +198,45 @@ TEST_CASE("a pruned branch stays cut whatever changes, and grows back as it was"
     CHECK(espPrunedCount(painting.context) == 0);
     CHECK(painting.grown().hash == whole.hash);
 }
+
+TEST_CASE("a frozen plant outlives edits, and comes back from bytes") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    const EspSeed seed = painting.plant(grammar, kFoot, kUp);
+    CHECK(espFreezePlant(painting.context, seed, 1) == ESP_INVALID_ARGUMENT);  // not grown yet
+    const EspStats whole = painting.grown();
+    CHECK(infoOf(painting, seed).frozen == 0);
+    painting.ok(espFreezePlant(painting.context, seed, 1));
+    CHECK(infoOf(painting, seed).frozen == 1);
+    CHECK(painting.grown().hash == whole.hash);
+    const float shorter = .5f;
+    painting.ok(espSetParam(painting.context, grammar, "reach", &shorter, 1));
+    CHECK(painting.grown().hash == whole.hash);
+    EspGrammarDef def{"again", kMaskedIvy, std::strlen(kMaskedIvy)};
+    painting.ok(espRecompileGrammar(painting.context, grammar, &def));
+    CHECK(painting.grown().hash == whole.hash);
+    EspGrowDef grow = espDefaultGrowDef();
+    grow.maxDepth = 100;  // all anew
+    painting.ok(espSetGrow(painting.context, &grow));
+    CHECK(painting.grown().hash == whole.hash);
+    CHECK(painting.grown().seeds == 1);
+    EspPlantHit hit{};
+    REQUIRE(pick(painting, {4, -.7f, 0}, {1, -.7f, 0}, &hit) == ESP_OK);
+    CHECK(hit.seed.id == seed.id);
+
+    size_t size = 0;
+    painting.ok(espReadFrozen(painting.context, seed, nullptr, &size));
+    std::vector<uint8_t> bytes(size);
+    painting.ok(espReadFrozen(painting.context, seed, bytes.data(), &size));
+    painting.ok(espFreezePlant(painting.context, seed, 0));
+    const EspStats thawed = painting.grown();
+    CHECK(thawed.nodes < whole.nodes);
+    CHECK(espReadFrozen(painting.context, seed, nullptr, &size) == ESP_INVALID_ARGUMENT);
+    painting.ok(espFreezeAs(painting.context, seed, bytes.data(), bytes.size()));
+    CHECK(painting.grown().hash == whole.hash);
+    bytes[bytes.size() / 2] ^= 1;
+    CHECK(espFreezeAs(painting.context, seed, bytes.data(), bytes.size()) == ESP_INVALID_CONTENT);
+    CHECK(painting.grown().hash == whole.hash);
+    painting.ok(espRemoveSeed(painting.context, seed));
+    CHECK(painting.grown().nodes == 0);
+}
