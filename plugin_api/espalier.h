@@ -357,6 +357,8 @@ typedef struct EspLook {
     EspView view;
     const char* viewLayer;       /* for ESP_VIEW_LAYER */
     float windowLodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
+    int ground;                  /* 1: a meadow to the horizon under it all, only to be looked at; default 0 */
+    float groundLevel;           /* its height in the world, metres */
 } EspLook;
 ESP_API EspLook espDefaultLook(void);
 

@@ -175,6 +175,10 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
         inputs.roofs = &context.town->view;
         inputs.ground = context.town->ground;
     }
+    if (def.look.ground) {
+        inputs.ground.drawn = true;
+        inputs.ground.height = def.look.groundLevel;
+    }
     inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
     inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
     inputs.camera = {vec(def.camera.eye), vec(def.camera.target), vec(def.camera.up),
@@ -345,9 +349,9 @@ EspCamera espFrameAll(const EspContext* context) {
     const glm::vec3 centre = (low + high) * .5f;
     const float radius = std::max(glm::length(high - low) * .5f, 1e-4f);
     camera.fovY = .6f;
-    // So far away that every corner of the bounds is within nine tenths of a frame of 4:3.
-    const float tangent = std::tan(camera.fovY * .5f) * .9f;
-    const glm::vec3 towards = glm::normalize(glm::vec3(.55f, .28f, 1));
+    // So far away that every corner of the bounds is nearly within a frame of 4:3.
+    const float tangent = std::tan(camera.fovY * .5f) * .96f;
+    const glm::vec3 towards = glm::normalize(glm::vec3(.55f, .2f, 1));
     const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), towards));
     const glm::vec3 up = glm::cross(towards, right);
     float distance = 0;

@@ -47,8 +47,8 @@ void place(Footprint& f, const EspTownDef& def) {
 }
 
 // Ground lies a little below the walls' feet, so that a floor that a model brings along lies on it.
-RoofGround groundUnder(const RoofStructure& structure, const EspTownDef& def) {
-    RoofGround ground;
+GroundLook groundUnder(const RoofStructure& structure, const EspTownDef& def) {
+    GroundLook ground;
     ground.drawn = def.ground != 0;
     ground.height = structure.houses.front().baseHeight;
     for (const RoofHouse& house : structure.houses) ground.height = std::min(ground.height, house.baseHeight);

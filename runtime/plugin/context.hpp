@@ -136,7 +136,7 @@ struct LoadedTown {
     bool stale = true;              // all of it has to grow
     std::vector<uint32_t> changed;  // houses that have to, if not all
     uint64_t grammarRevision = 0;   // what the roofs were grown from
-    RoofGround ground;
+    GroundLook ground;
     RoofView view;  // of what stands
     double structureMs = 0;
 };

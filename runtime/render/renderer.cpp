@@ -72,9 +72,9 @@ class RendererImpl final : public Renderer {
     // Uploads the record and returns its address.
     Result<uint64_t> upload(Commands& commands, const FrameRecord& frame);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels);
-    void drawModels(Commands& commands, uint64_t frame, const DrawInputs& inputs);
+    void drawModels(Commands& commands, const DrawInputs& inputs, const PostPush& post);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
-    void drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post);
+    void drawGrowth(Commands& commands, const PostPush& post);
     void drawTerminals(DrawPass& pass, uint64_t frame, bool depthOnly);
     void drawOcclusion(Commands& commands, const PostPush& push);
     Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
@@ -84,6 +84,7 @@ class RendererImpl final : public Renderer {
     Emit emit_;
     std::unique_ptr<RoofDraw> roofs_;
     Models models_;
+    Ground ground_;
     Targets targets_;
     Image shadowMap_;
     Sampler shadowSampler_, textureSampler_, plainSampler_, pointSampler_;
@@ -170,6 +171,9 @@ Status RendererImpl::setUp(TerminalData data) {
     Result<Models> models = Models::create(device_);
     if (!models) return models.failure();
     models_ = std::move(*models);
+    Result<Ground> ground = Ground::create(device_, kSceneFormat, kDepthFormat, targets_.samples);
+    if (!ground) return ground.failure();
+    ground_ = std::move(*ground);
     ImageDesc shadow{.name = "shadow map", .format = kDepthFormat, .width = kShadowSize, .height = kShadowSize};
     shadow.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     Result<Image> map = Image::create(device_, shadow);
@@ -283,14 +287,16 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
     return Done{};
 }
 
-void RendererImpl::drawModels(Commands& commands, uint64_t frame, const DrawInputs& inputs) {
+void RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, const PostPush& post) {
     commands.transition(targets_.color, ImageState::colorTarget, true);
     commands.transition(targets_.depth, ImageState::depthTarget, true);
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
     targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
     targets.depth = DepthTarget{.view = targets_.depth.view(), .clear = 0.0f};
     DrawPass pass(commands, "draw scene", targets);
-    models_.draw(pass, model_, frame, shadowMap_, shadowSampler_, inputs.surfaces.v != nullptr);
+    models_.draw(pass, model_, reinterpret_cast<uint64_t>(post.frame.v), shadowMap_, shadowSampler_,
+                 inputs.surfaces.v != nullptr);
+    if (post.ground != 0) ground_.draw(pass, post, shadowMap_, shadowSampler_);
 }
 
 Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {
@@ -320,7 +326,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     return emit_.cull(commands, {inputs.growth, inputs.surfaces}, view, "emit", true);
 }
 
-void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post) {
+void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {
     commands.transition(targets_.color, ImageState::colorTarget);
     commands.transition(targets_.depth, ImageState::depthTarget);
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
@@ -329,10 +335,7 @@ void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, cons
     DrawPass pass(commands, "draw scene", targets);
     if (grows_) drawTerminals(pass, reinterpret_cast<uint64_t>(post.frame.v), false);
     if (roofed_) roofs_->draw(pass, reinterpret_cast<uint64_t>(post.frame.v), &shadowMap_, &shadowSampler_);
-    if (roofed_ && inputs.ground.drawn)
-        roofs_->drawGround(pass, reinterpret_cast<uint64_t>(post.frame.v), *inputs.roofs, inputs.ground, shadowMap_,
-                           shadowSampler_);
-    pass.draw(sky_, 3, 1, post);
+    pass.draw(sky_, 3, 1, post, {{ground_.noise(), ground_.sampler()}});
 }
 
 void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
@@ -423,12 +426,14 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     PostPush push{};
     push.frame.v = reinterpret_cast<FrameRecord*>(*address);
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
+    push.ground = inputs.ground.drawn ? 1 : 0;
+    push.groundColor = inputs.ground.colour;
     // Some devices do a pass' work when the next one needs it: only the whole is a true time.
     Pass whole(commands, "draw");
-    drawModels(commands, *address, inputs);
+    drawModels(commands, inputs, push);
     if (grows_ || roofed_)
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
-    drawGrowth(commands, inputs, push);
+    drawGrowth(commands, push);
     commands.transition(targets_.color, ImageState::sampled);
     drawOcclusion(commands, push);
     return resolve(commands, target, push);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "runtime/emit/emit.hpp"
+#include "runtime/render/ground.hpp"
 #include "runtime/render/roof_draw.hpp"
 #include "runtime/surface/surface.hpp"
 
@@ -40,7 +41,7 @@ struct DrawInputs {
     SurfaceBuf surfaces;              // device address of the SurfaceRef table; 0: no growth and no chart view
     LayerBuf layers;                  // surfaces * kMaxLayers; 0: no layer view
     const RoofView* roofs = nullptr;  // none; needs loadRoofMeshes()
-    RoofGround ground;                // under the roofs
+    GroundLook ground;
     Camera camera;
     Look look;
 };

@@ -13,7 +13,6 @@ namespace {
 constexpr uint32_t kSlots = 8;  // views that recordings in flight may still read
 constexpr uint32_t kMostRows = 1u << 20, kMostTiles = 3u << 20, kMostCuts = 1u << 19, kMostRectangles = 1u << 19;
 constexpr float kLeastCell = 4.5f;   // pixels below which cells are a pattern
-constexpr float kGroundReach = 150;  // metres beyond a town's own size after which ground is haze
 // Meshes are measured in cells, though their heights are metres: errors count for more than they seem.
 constexpr float kErrorScale = 5;
 
@@ -86,7 +85,6 @@ Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, ui
     } rows[] = {{tile_, "roof tile", "roof/tile.vert", "roof/tile.frag"},
                 {cutTile_, "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag"},
                 {rectangle_, "far roof", "roof/rectangle.vert", "roof/rectangle.frag"},
-                {ground_, "ground", "roof/ground.vert", "roof/ground.frag"},
                 {tileDepth_, "roof tile shadow", "roof/tile.vert", ""},
                 {cutTileDepth_, "cut roof tile shadow", "roof/cut_tile.vert", ""},
                 {rectangleDepth_, "far roof shadow", "roof/rectangle.vert", ""}};
@@ -216,17 +214,6 @@ void RoofDraw::draw(DrawPass& pass, uint64_t frame, const Image* shadowMap, cons
                                          {{*shadowMap, *shadowSampler}});
         }
     }
-}
-
-void RoofDraw::drawGround(DrawPass& pass, uint64_t frame, const RoofView& roofs, const RoofGround& ground,
-                          const Image& shadowMap, const Sampler& shadowSampler) {
-    const glm::vec3 middle = (roofs.low + roofs.high) * 0.5f;
-    RoofGroundPush push{};
-    push.frame.v = reinterpret_cast<FrameRecord*>(frame);
-    push.center = {middle.x, ground.height, middle.z};
-    push.reach = kGroundReach + 1.5f * glm::length(roofs.high - roofs.low);
-    push.colour = ground.colour;
-    pass.draw(ground_, 6, 1, push, {{shadowMap, shadowSampler}});
 }
 
 RoofDrawStats RoofDraw::stats() const {

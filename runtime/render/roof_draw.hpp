@@ -14,13 +14,6 @@ struct RoofDrawStats {
     uint32_t overflow = 0;
 };
 
-// Level ground under a town, out to the horizon.
-struct RoofGround {
-    bool drawn = false;
-    float height = 0;  // world
-    glm::vec3 colour{0};
-};
-
 class RoofDraw {
   public:
     // meshes: by the numbers that grids carry; kind 0 is none. targets: how the pictures that it draws into are made.
@@ -35,8 +28,6 @@ class RoofDraw {
                 std::string_view passName);
     // Draws what the last cull left. frame: address of the FrameRecord. Depth only without a shadow map.
     void draw(DrawPass& pass, uint64_t frame, const Image* shadowMap, const Sampler* shadowSampler);
-    void drawGround(DrawPass& pass, uint64_t frame, const RoofView& roofs, const RoofGround& ground,
-                    const Image& shadowMap, const Sampler& shadowSampler);
     // Of the last cull for a picture that has finished.
     RoofDrawStats stats() const;
 
@@ -48,7 +39,7 @@ class RoofDraw {
     Terminals terminals_;
     std::vector<RoofMesh> bounds_;
     Program cullGrids_, cullRows_, scan_, writeRows_;
-    Program tile_, cutTile_, rectangle_, tileDepth_, cutTileDepth_, rectangleDepth_, ground_;
+    Program tile_, cutTile_, rectangle_, tileDepth_, cutTileDepth_, rectangleDepth_;
     Buffer views_, envs_, state_, rows_, tiles_, cuts_, rectangles_, readback_;
     uint64_t env_ = 0;  // of the last cull
     uint32_t slot_ = 0;

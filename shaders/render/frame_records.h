@@ -34,7 +34,7 @@ struct FrameRecord {
     vec3 rayUp;
     float unit;              // what a metre is for models that come in other units: sizes of the look are in it
     vec3 rayForward;
-    uint spare1;
+    float groundLevel;       // height of the ground that is drawn to the horizon
     SurfaceBuf surfaces;
     LayerBuf layers;
 };
@@ -81,10 +81,12 @@ STATIC_SIZE(TerminalPush, 88);
 struct PostPush {
     FrameBuf frame;
     vec2 rcpSize;            // 1 / pixels
-    uint spare;
+    uint ground;             // 1: ground is drawn, and hills at the horizon
     uint encode;             // 1: the target doesn't encode to sRGB itself
+    vec3 groundColor;        // of its grass
+    uint spare;
 };
-STATIC_SIZE(PostPush, 24);
+STATIC_SIZE(PostPush, 40);
 
 struct TilesPush {
     FloatBuf tiles;

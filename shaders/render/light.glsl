@@ -9,7 +9,8 @@ layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
 float sunVisibility(FrameBuf frame, vec3 position, vec3 normal) {
     if (frame.v[0].shadows == 0u) return 1.0;
     vec3 at = (frame.v[0].shadowMatrix * vec4(position + normal * frame.v[0].shadowOffset, 1.0)).xyz;
-    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
+    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return 1.0;
+    at.z = min(at.z, 0.9999);   // behind all that casts shadows
     float d = 0.75 * frame.v[0].shadowTexel;
     float lit = texture(shadowMap, vec3(at.xy + vec2(-d, -0.4 * d), at.z)) +
                 texture(shadowMap, vec3(at.xy + vec2(0.4 * d, -d), at.z)) +

@@ -1,20 +1,36 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-// The sky where nothing else is: horizon to zenith, a haze around the sun.
+// The sky where nothing else is: horizon to zenith, a haze around the sun; over a ground also hills far away.
+#include "shaders/render/sky.glsl"
 #include "shaders/render/tone.glsl"
 
 layout(push_constant, scalar) uniform Data { PostPush push; };
+layout(set = 0, binding = 0) uniform sampler2D noise;
 layout(location = 0) out vec4 color;
 
-vec3 background() {
-    vec2 at = gl_FragCoord.xy * push.rcpSize * 2.0 - 1.0;
-    vec3 ray = normalize(push.frame.v[0].rayForward + push.frame.v[0].rayRight * at.x - push.frame.v[0].rayUp * at.y);
-    float up = ray.y;
-    vec3 sky = mix(push.frame.v[0].horizon, push.frame.v[0].background, sqrt(clamp(up * 1.1, 0.0, 1.0)));
-    vec3 below = mix(push.frame.v[0].horizon, push.frame.v[0].groundColor * 1.2, clamp(-up * 3.0, 0.0, 1.0));
-    float glow = max(dot(ray, push.frame.v[0].sunDirection), 0.0);
-    return (up > 0.0 ? sky : below) + push.frame.v[0].sunColor * 0.05 * pow(glow, 12.0);
+const float kHighestHill = 0.075;   // sine of its height over the horizon
+
+// Three ranges, each farther one paler.
+vec3 hills(vec3 ray, vec3 sky) {
+    vec2 to = normalize(ray.xz);
+    vec3 seen = sky;
+    for (int range = 2; range >= 0; --range) {
+        float far = float(range);
+        vec4 high = textureLod(noise, to * (0.055 + 0.02 * far) + 0.37 * far, 0.0) - 0.5;
+        vec4 trees = textureLod(noise, to * 1.7 + 0.11 * far, 0.0) - 0.5;
+        float crest = 0.010 + 0.012 * far + 0.055 * high.x + (0.004 - 0.0015 * far) * trees.x;
+        seen = mix(seen, farLand(push.frame, ray, far), clamp((crest - ray.y) * 900.0, 0.0, 1.0));
+    }
+    return seen;
 }
 
-void main() { color = stored(toneMapped(background() * push.frame.v[0].exposure), 0.0); }
+void main() {
+    vec2 at = gl_FragCoord.xy * push.rcpSize * 2.0 - 1.0;
+    FrameBuf frame = push.frame;
+    vec3 ray = normalize(frame.v[0].rayForward + frame.v[0].rayRight * at.x - frame.v[0].rayUp * at.y);
+    vec3 seen = skyColor(frame, ray);
+    // A loop of one round: a device that runs all lanes through both sides of an `if` does leave a loop early.
+    for (bool low = push.ground != 0u && ray.y < kHighestHill; low; low = false) seen = hills(ray, seen);
+    color = stored(toneMapped(seen * frame.v[0].exposure), 0.0);
+}

@@ -86,14 +86,5 @@ struct RoofDrawPush {
 };
 STATIC_SIZE(RoofDrawPush, 48);
 
-struct RoofGroundPush {
-    FrameBuf frame;
-    vec3 center;  // of the town, on the ground
-    float reach;  // metres from the eye after which all is haze
-    vec3 colour;  // linear
-    uint spare;
-};
-STATIC_SIZE(RoofGroundPush, 40);
-
 ESPALIER_END
 #endif

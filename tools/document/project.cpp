@@ -35,6 +35,7 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
     out.hour = scene.hour;
     out.exposure = scene.look.exposure;
     out.shadows = scene.look.shadows != 0;
+    if (own.ground) out.groundLevel = own.groundLevel;
     out.hasCamera = true;
     out.eye = three(scene.camera.eye);
     out.target = three(scene.camera.target);

@@ -96,13 +96,21 @@ float largestSide(const EspSurfaceInfo& info) {
     return size;
 }
 
-// Lengths of the default ivy suit a wall of three metres; a statue wants smaller leaves, a palace longer stems.
+constexpr float kSunken = .002f;  // of its size, that a model stands in the ground, so that no gap shows
+
+// Lengths of the default ivy suit a wall of some metres. What is smaller is a model of something large: its leaves are
+// smaller, never larger than life; and stems are to get half-way up whatever it is.
 void fitToModel(EspContext* context, const EspSurfaceInfo& info, const LoadedGrammar& grammar) {
-    const float scale = largestSide(info) / 6;
+    const float scale = std::min(1.f, largestSide(info) / 12);
     for (uint32_t i = 0; i < espParamCount(context, grammar.id); ++i) {
         EspParamInfo param;
-        if (espParamInfo(context, grammar.id, i, &param) == ESP_OK && !std::strcmp(param.name, "scale"))
-            espSetParam(context, grammar.id, "scale", &scale, 1);
+        if (espParamInfo(context, grammar.id, i, &param) != ESP_OK) continue;
+        const float reach = .5f * (info.boundsMax[1] - info.boundsMin[1]) / scale;
+        if (!std::strcmp(param.name, "scale")) espSetParam(context, grammar.id, "scale", &scale, 1);
+        if (!std::strcmp(param.name, "reach") && reach > param.value[0]) {
+            const float most = std::min(reach, param.high);
+            espSetParam(context, grammar.id, "reach", &most, 1);
+        }
     }
 }
 
@@ -132,6 +140,13 @@ bool loadAtLivingSize(EspContext* context, LoadedSurface& surface, EspSurfaceInf
     return true;
 }
 
+// What stands alone gets something to stand on; the eye is not to be below it.
+void layGround(float level, Scene& scene) {
+    scene.ownLook.ground = 1;
+    scene.ownLook.groundLevel = level;
+    scene.camera.eye[1] = std::max(scene.camera.eye[1], level + .02f * std::abs(scene.camera.eye[2]));
+}
+
 bool openSurface(EspContext* context, const Request& request, Scene& out, std::string& error) {
     if (isUnbakedModel(request.file)) {
         error = request.file + ": isn't baked yet: espalier-bake " + request.file +
@@ -150,6 +165,7 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     fitToModel(context, info, grammar);
     plantAround(context, info, request.seed.value_or(1), out);
     out.camera = espFrameAll(context);
+    layGround(info.boundsMin[1] + kSunken * largestSide(info), out);
     return true;
 }
 

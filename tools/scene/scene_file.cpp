@@ -21,9 +21,9 @@ class Reader {
 
     void readScene(const Json& json) {
         if (!readVersion(json)) return;
-        if (!isObject(
-                json, "a scene",
-                {"project", "surface", "surfaces", "town", "grammars", "layers", "camera", "sun", "sky", "exposure"}))
+        if (!isObject(json, "a scene",
+                      {"project", "surface", "surfaces", "town", "grammars", "layers", "camera", "sun", "sky", "ground",
+                       "exposure"}))
             return;
         readSurfaces(json);
         if (const Json* grammars = need(json, "grammars")) {
@@ -52,6 +52,8 @@ class Reader {
             vector(*sky, "background", out_.background);
             vector(*sky, "horizon", out_.horizon);
         }
+        if (const Json* ground = json.find("ground"); ground && isObject(*ground, "'ground'", {"level"}))
+            number(*ground, "level", -1e5f, 1e5f, out_.groundLevel.emplace(0.f));
         number(json, "exposure", -20, 20, out_.exposure);
     }
 
@@ -292,6 +294,8 @@ void SceneFile::applyLook(EspLook& look) const {
     set(look.horizon, horizon, 1);
     look.exposure = exposure;
     look.shadows = shadows;
+    look.ground = groundLevel.has_value();
+    look.groundLevel = groundLevel.value_or(0);
 }
 
 bool readSceneFile(const std::string& path, SceneFile& out, std::string& error) {

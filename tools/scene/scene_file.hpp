@@ -50,6 +50,7 @@ struct SceneFile {
     float sunIntensity = 1, exposure = 0;
     float hour = kOwnSun;
     bool shadows = true;
+    std::optional<float> groundLevel;  // a ground is drawn there, to the horizon
 
     void applyLook(EspLook& look) const;
 };

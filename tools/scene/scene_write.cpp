@@ -100,6 +100,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     vector(sky, "horizon", file.horizon);
     if (!sun.empty()) json["sun"] = sun;
     if (!sky.empty()) json["sky"] = sky;
+    if (file.groundLevel) json["ground"] = {{"level", shortest(*file.groundLevel)}};
     if (file.exposure != 0) json["exposure"] = shortest(file.exposure);
     return json.dump(1) + "\n";
 }

@@ -1,0 +1,86 @@
+// Enters: nothing but the formats. Leaves: a tile of noise that repeats without a seam, and the draw of a plane of it.
+#include "runtime/render/ground.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace espalier {
+namespace {
+
+constexpr uint32_t kSide = 256;
+
+float lattice(uint32_t x, uint32_t y, uint32_t salt) {
+    uint32_t h = x * 0x9E3779B1u ^ y * 0x85EBCA77u ^ salt * 0xC2B2AE3Du;
+    h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
+    h = (h ^ (h >> 13)) * 0x297A2D39u;
+    return float((h ^ (h >> 16)) >> 8) / 8388608.0f - 1;
+}
+
+// Sum of octaves of value noise in [-1, 1] or so; the coarsest has `cells` to the side, each next twice as many.
+float octaves(uint32_t x, uint32_t y, uint32_t cells, int count, uint32_t salt) {
+    float sum = 0, weight = 0.5f;
+    for (int o = 0; o < count; ++o, cells *= 2, weight *= 0.55f) {
+        const float fx = float(x) * float(cells) / kSide, fy = float(y) * float(cells) / kSide;
+        const auto ix = uint32_t(fx), iy = uint32_t(fy);
+        const auto ease = [](float t) { return t * t * (3 - 2 * t); };
+        const float u = ease(fx - float(ix)), v = ease(fy - float(iy));
+        const auto at = [&](uint32_t dx, uint32_t dy) {
+            return lattice((ix + dx) % cells, (iy + dy) % cells, salt + uint32_t(o));
+        };
+        sum += weight * std::lerp(std::lerp(at(0, 0), at(1, 0), u), std::lerp(at(0, 1), at(1, 1), u), v);
+    }
+    return sum;
+}
+
+// r: patches; g: grain; b, a: slopes of a bumpy height, so that they fade with distance as colours do.
+std::vector<uint8_t> noiseTile() {
+    std::vector<uint8_t> rgba(size_t(kSide) * kSide * 4);
+    const auto byte = [](float x) { return uint8_t(std::clamp(x * 0.5f + 0.5f, 0.0f, 1.0f) * 255 + 0.5f); };
+    const auto height = [](uint32_t x, uint32_t y) { return octaves(x % kSide, y % kSide, 16, 4, 31); };
+    for (uint32_t y = 0; y < kSide; ++y)
+        for (uint32_t x = 0; x < kSide; ++x) {
+            uint8_t* texel = &rgba[(size_t(y) * kSide + x) * 4];
+            texel[0] = byte(1.4f * octaves(x, y, 4, 5, 11));
+            texel[1] = byte(1.4f * octaves(x, y, 48, 3, 21));
+            texel[2] = byte(3 * (height(x + 1, y) - height(x, y)));
+            texel[3] = byte(3 * (height(x, y + 1) - height(x, y)));
+        }
+    return rgba;
+}
+
+}  // namespace
+
+Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
+    Ground ground;
+    GraphicsDesc desc;
+    desc.name = "ground";
+    desc.vertex = "render/ground.vert";
+    desc.fragment = "render/ground.frag";
+    desc.colors = {color};
+    desc.depth = depth;
+    desc.samples = samples;
+    desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    Result<Program> program = Program::graphics(device, desc);
+    if (!program) return program.failure();
+    ground.program_ = std::move(*program);
+    ImageDesc tile{.name = "ground noise", .width = kSide, .height = kSide};
+    tile.levels = 0;
+    Result<Image> image = Image::create(device, tile);
+    if (!image) return image.failure();
+    const std::vector<uint8_t> texels = noiseTile();
+    if (Status s = fillImage(device, *image, std::as_bytes(std::span(texels))); !s) return s.failure();
+    ground.noise_ = std::move(*image);
+    Result<Sampler> sampler =
+        Sampler::create(device, {.name = "ground noise", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
+    if (!sampler) return sampler.failure();
+    ground.sampler_ = std::move(*sampler);
+    return ground;
+}
+
+void Ground::draw(DrawPass& pass, const PostPush& push, const Image& shadowMap, const Sampler& shadowSampler) const {
+    pass.draw(program_, 3, 1, push, {{noise_, sampler_}, {shadowMap, shadowSampler}});
+}
+
+}  // namespace espalier
