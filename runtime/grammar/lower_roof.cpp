@@ -39,7 +39,7 @@ class RoofLowering {
             pending_.pop_front();
             lowerNested(next);
         }
-        markGrids();
+        if (!c_.reporter.failed()) markGrids();  // a rule with a mistake lacks its numbers
         const uint32_t house = c_.findSymbol("House");
         if (!c_.symbols.empty()) c_.startSymbol = house != kNoSymbol ? c_.symbols[house].record : 0;
     }
