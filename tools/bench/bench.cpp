@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 
 #include "runtime/core/file.hpp"
 
@@ -13,6 +14,12 @@ double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     size_t half = values.size() / 2;
     return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+double cpuSeconds(const std::function<void()>& work) {
+    const std::clock_t before = std::clock();
+    work();
+    return double(std::clock() - before) / CLOCKS_PER_SEC;
 }
 
 double seconds(const std::function<void()>& work) {

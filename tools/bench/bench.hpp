@@ -50,6 +50,8 @@ struct Pair {
 Pair medianSeconds(int repeats, const std::function<void()>& a, const std::function<void()>& b);
 
 double seconds(const std::function<void()>& work);
+// CPU time of all threads: what a machine that others use measures alike.
+double cpuSeconds(const std::function<void()>& work);
 double median(std::vector<double> values);
 
 void growthCases(Bench& bench);
