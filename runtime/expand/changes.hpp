@@ -3,7 +3,6 @@
 // What changed since the last growth, so that only what depends on it is grown again. Whoever edits an input of
 // growth notes it here; seeds are compared by key and need no note.
 
-#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -12,27 +11,27 @@
 
 namespace espalier {
 
-// Tiles of one layer of one surface instance whose texels changed. They cover its UV, whatever size it has.
-struct DirtyTiles {
-    uint32_t instance = 0, layer = 0;                             // layer: the scene's number, below kMaxLayers
-    std::array<uint64_t, kLayerTiles * kLayerTiles / 64> bits{};  // bit y * kLayerTiles + x
+// Cells of one layer of one surface instance where reads have changed. They cover its UV, whatever size it has.
+struct DirtyCells {
+    uint32_t instance = 0, layer = 0;  // layer: the scene's number, below kMaxLayers
+    std::vector<uint32_t> bits = std::vector<uint32_t>(kLayerCells * kLayerCells / 32);  // bit y * kLayerCells + x
 };
 
 struct GrowthChanges {
     bool everything = true;  // surfaces, limits, what isn't known: all is grown anew
-    std::vector<DirtyTiles> tiles;
+    std::vector<DirtyCells> cells;
     std::vector<std::pair<uint32_t, uint32_t>> params;  // grammar's index, mask of slots (bit 31: any from 31 on)
     std::vector<uint32_t> grammars;                     // indices of those whose rules changed
 
-    // Texels [x0, x1) × [y0, y1) of a layer of `size` texels a side have other values. Marks what a bilinear read of
-    // them touches, too. All texels, when a layer comes, goes or changes its size.
-    void markTiles(uint32_t instance, uint32_t layer, uint32_t size, uint32_t x0, uint32_t y0, uint32_t x1,
-                   uint32_t y1);
+    // Texels [x0, x1) × [y0, y1) of a layer of `size` texels a side have other values. Marks the places whose bilinear
+    // read takes one of them in. All texels, when a layer comes, goes or changes its size.
+    void markTexels(uint32_t instance, uint32_t layer, uint32_t size, uint32_t x0, uint32_t y0, uint32_t x1,
+                    uint32_t y1);
     void markLayer(uint32_t instance, uint32_t layer, uint32_t size) {
-        markTiles(instance, layer, size, 0, 0, size, size);
+        markTexels(instance, layer, size, 0, 0, size, size);
     }
     void markParams(uint32_t grammar, uint32_t mask);
-    bool none() const { return !everything && tiles.empty() && params.empty() && grammars.empty(); }
+    bool none() const { return !everything && cells.empty() && params.empty() && grammars.empty(); }
 };
 
 }  // namespace espalier

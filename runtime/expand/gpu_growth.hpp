@@ -81,17 +81,24 @@ class GpuGrowth final : public Growth {
     void recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits);
     void publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome);
 
-    // What an edit concerns: regrowth.cpp. Each returns false where a full growth is called for.
+    // What an edit concerns: regrowth.cpp.
     bool canRegrow(const GrowthInputs& inputs) const;
-    Result<bool> regrow(const GrowthInputs& inputs, const SeedChanges& seeds);
+    enum class Regrown { done, tooMuch, noRoom };
+    Result<Regrown> regrow(const GrowthInputs& inputs, const SeedChanges& seeds);
     Status makeAgainKernels();
     Status makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords);
     Status uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
                        const std::vector<uint32_t>& edits);
     Result<AgainState> findDirty(const GrowthInputs& inputs, const SeedChanges& seeds, ExpandEnv env);
-    Result<bool> growAgain(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
+    Result<Regrown> growAgain(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
     void recordAgain(Commands& commands, ExpandEnv env);
     void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state);
+    // Groups of a pass whose kernels go through lists by themselves.
+    std::array<uint32_t, 3> spreadGroups() const { return {device_.info().cpu ? 64u : 1024u, 1, 1}; }
+
+    // Gaps that edits have left: compaction.cpp.
+    bool gappy() const;
+    Status compact();
 
     Device& device_;
     GrowthRoom room_;            // of a full growth, beside frozen plants
@@ -101,6 +108,7 @@ class GpuGrowth final : public Growth {
     std::array<Program, 2> marchPaper_, terminals_, terminalsAgain_;
     uint32_t features_ = 0;  // that these are specialised to: all that grammars ever used, so that they settle
     Program packTables_, branchesFit_, fit_;
+    Program compactPlaces_, compactNodes_, compactLeaves_;
     Program find_, start_, settle_, work_, apply_, thickness_, fitAgain_;
     bool byAddress_ = false;
     bool fetches_ = false;
@@ -109,7 +117,8 @@ class GpuGrowth final : public Growth {
     Links links_[2];
     uint32_t frontPlants_ = 0, frontLinks_ = 0;
     Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, noSurfaces_, density_, readback_;
-    Buffer again_, marks_, lists_, edits_, results_, touched_;
+    Buffer again_, marks_, lists_, edits_, results_, touched_, leafRanges_;
+    uint32_t rangedLeaves_ = 0;  // AgainState::rangedLeaves for the next regrowth
     GrowthView view_;
     GrowthStats stats_;
     // What the growth that is shown was made from.

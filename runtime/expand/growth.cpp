@@ -350,6 +350,7 @@ void GpuGrowth::showLinks(const GrowStatus& status) {
 
 void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome) {
     frontPlants_ = 1 - frontPlants_;
+    rangedLeaves_ = 0;
     showLinks(outcome.status);
     stats_.seeds = uint32_t(inputs.seeds.size() + inputs.frozen.size());
     takeCounters(outcome.status, stats_);
@@ -369,7 +370,7 @@ uint64_t GpuGrowth::reserved() const {
     for (const Plants& p : plants_) bytes += p.nodes.size() + p.leaves.size();
     for (const Links& l : links_) bytes += l.chunks.size() + l.branches.size();
     for (const Buffer* b : {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_,
-                            &density_, &again_, &marks_, &lists_, &edits_, &results_, &touched_})
+                            &density_, &again_, &marks_, &lists_, &edits_, &results_, &touched_, &leafRanges_})
         bytes += b->size();
     return bytes;
 }
@@ -399,10 +400,16 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     if (!usable) return usable;
     if (canRegrow(inputs)) {
         const std::optional<SeedChanges> seeds = seedChanges(from_, inputs);
-        Result<bool> done = seeds ? regrow(inputs, *seeds) : Result<bool>(false);
+        if (seeds && gappy())
+            if (Status closed = compact(); !closed) return closed;
+        Result<Regrown> done = seeds ? regrow(inputs, *seeds) : Result<Regrown>(Regrown::tooMuch);
+        if (done && *done == Regrown::noRoom) {
+            if (Status closed = compact(); !closed) return closed;
+            done = regrow(inputs, *seeds);
+        }
         surfaceView_ = {};  // no view outlives its buffer
         if (!done) return done.failure();
-        if (*done) return Done{};
+        if (*done == Regrown::done) return Done{};
     }
     return growAll(inputs);
 }

@@ -1,7 +1,8 @@
 // Growing again what an edit concerns (expand_again.h says how). In: the same inputs as a full growth, notes of what
 // changed. Out: the same growth as a full one would give, by the structure's hash. A first submission finds the chunks
 // that read what has changed; a second one grows them in waves, as a full growth, makes the terminals that depend on
-// them, and publishes, unless limits or room turn out to be exceeded: then all is grown anew.
+// them, and publishes, unless limits or room turn out to be exceeded: then it is done again with more room, or all is
+// grown anew.
 #include <algorithm>
 
 #include "runtime/core/check.hpp"
@@ -10,8 +11,8 @@
 namespace espalier {
 namespace {
 
-// Beyond this share of chunks to be grown, or of gaps among the nodes, all anew is the better way.
-constexpr uint32_t kMostDirtyOf = 2, kMostGapsOf = 3;
+// Beyond this share of chunks to be grown all anew is the better way.
+constexpr uint32_t kMostDirtyOf = 2;
 
 bool sameLimits(const GrowthLimits& a, const GrowthLimits& b) {
     return a.walk == b.walk && a.tangents == b.tangents && a.maxNodes == b.maxNodes && a.maxDepth == b.maxDepth &&
@@ -23,11 +24,6 @@ uint32_t capacityOf(const Buffer& buffer) {
     return uint32_t(std::min<uint64_t>(buffer.size() / sizeof(T), 0x7FFFFFFF));
 }
 
-// Groups of a pass whose kernels go through lists by themselves.
-std::array<uint32_t, 3> spread(const Device& device) {
-    return {device.info().cpu ? 64u : 1024u, 1, 1};
-}
-
 }  // namespace
 
 bool GpuGrowth::canRegrow(const GrowthInputs& inputs) const {
@@ -35,8 +31,6 @@ bool GpuGrowth::canRegrow(const GrowthInputs& inputs) const {
     // Counts of leaves by cell and directions at joints are sums over the whole plant.
     if (inputs.limits.walk == WalkMode::paper || inputs.limits.tangents == TangentMode::paper) return false;
     if (inputs.limits.leafDensityCap > 0 || inputs.surfaceCount != surfaceCount_) return false;
-    if (view_.nodeCount - std::min(view_.nodeCount, stats_.nodes) > view_.nodeCount / kMostGapsOf) return false;
-    if (view_.leafCount - std::min(view_.leafCount, stats_.leaves) > view_.leafCount / kMostGapsOf) return false;
     return inputs.grammars.size() >= maps_.size();
 }
 
@@ -78,6 +72,9 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
                 {&edits_, "regrowth edits", std::max<uint64_t>(editWords * 4, 16384)},
                 {&results_, "regrowth results", chunks / 4 * kChunkNodes * 12},
                 {&touched_, "regrowth touched", plants_[frontPlants_].nodes.size() / sizeof(Node) / 8 + 64}};
+    const uint64_t blocks = plants_[frontPlants_].leaves.size() / sizeof(Leaf) / kLeafBlock + 1;
+    if (!leafRanges_ || leafRanges_.size() < blocks * 8) rangedLeaves_ = 0;
+    if (Status ok = ensure(leafRanges_, "regrowth leaf ranges", blocks * 8); !ok) return ok;
     for (const auto& row : rows)
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
     return ensure(readback_, "growth readback", sizeof(GrowStatus) + waves * sizeof(Wave) + sizeof(AgainState),
@@ -117,6 +114,8 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     a.edits = addressOf<UintBuf, uint32_t>(edits_);
     a.results = addressOf<UintBuf, uint32_t>(results_);
     a.touched = addressOf<UintBuf, uint32_t>(touched_);
+    a.leafRanges = addressOf<UintBuf, uint32_t>(leafRanges_);
+    a.rangedLeaves = rangedLeaves_;
     a.listCapacity = s.chunkCapacity;
     a.resultCapacity = uint32_t(results_.size() / (kChunkNodes * 12));
     a.chunkCount = view_.chunkCount;
@@ -156,9 +155,9 @@ Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedCh
     {
         Pass pass(*commands, "expand find");
         env.items = addressOf<WorkItemBuf, WorkItem>(items_[0]);
-        pass.dispatch(find_, spread(device_), env);
+        pass.dispatch(find_, spreadGroups(), env);
         pass.barrier(Use::compute, Use::compute);
-        pass.dispatch(start_, spread(device_), env);
+        pass.dispatch(start_, spreadGroups(), env);
         pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
     }
     commands->copy(again_, readback_, sizeof(AgainState));
@@ -171,7 +170,7 @@ Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedCh
 
 // Everything after the march; does nothing while waves are left, or where it can't be published.
 void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
-    const auto groups = spread(device_);
+    const auto groups = spreadGroups();
     {
         Pass pass(commands, "expand terminals");
         pass.dispatch(settle_, groups, env);
@@ -191,8 +190,9 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 
-// False: it isn't published.
-Result<bool> GpuGrowth::growAgain(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
+// Publishes, unless there is too little room or too much to grow.
+Result<GpuGrowth::Regrown> GpuGrowth::growAgain(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome,
+                                                AgainState& state) {
     const uint32_t most = inputs.limits.maxDepth + 1;
     const uint64_t stateAt = sizeof(GrowStatus) + (inputs.limits.maxDepth + 2ull) * sizeof(Wave);
     uint32_t first = 0;
@@ -227,11 +227,15 @@ Result<bool> GpuGrowth::growAgain(const GrowthInputs& inputs, ExpandEnv env, Out
     }
     const GrowStatus& s = outcome.status;
     const bool fits = s.chunks <= s.chunkCapacity && s.nodes <= s.nodeCapacity && s.branches <= s.branchCapacity &&
-                      s.leaves <= s.leafCapacity;
+                      s.leaves <= s.leafCapacity && s.items <= room_.items;
+    if (!fits) {
+        room_.items = std::max(room_.items, s.items + s.items / 2);
+        return Regrown::noRoom;
+    }
     const uint64_t nodes = uint64_t(state.liveNodes) + s.nodes - state.nodeCount - state.goneNodes;
     const uint64_t chunks = uint64_t(state.liveChunks) + s.chunks - state.chunkCount - state.goneChunks;
-    return fits && s.items == 0 && outcome.waves.back().count == 0 && state.overrun == 0 && nodes <= state.mostNodes &&
-           chunks <= state.mostChunks;
+    const bool whole = outcome.waves.back().count == 0 && state.overrun == 0;
+    return whole && nodes <= state.mostNodes && chunks <= state.mostChunks ? Regrown::done : Regrown::tooMuch;
 }
 
 void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state) {
@@ -264,42 +268,42 @@ void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome,
     stats_.regrowths += 1;
 }
 
-Result<bool> GpuGrowth::regrow(const GrowthInputs& inputs, const SeedChanges& seeds) {
+Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const SeedChanges& seeds) {
     if (inputs.changes->none() && !seeds.any && seeds.pruned.empty()) {
         stats_.derived = 0;
-        return true;
+        return Regrown::done;
     }
     if (Status made = makeKernels(inputs); !made) return made.failure();
     if (Status made = makeAgainKernels(); !made) return made.failure();
     room_.items = std::max(room_.items, uint32_t(seeds.planted.size()));
     const uint64_t words = kEditHead + seeds.to.size() + inputs.grammars.size() + 2 * seeds.pruned.size() + 1 +
-                           uint64_t(dirtyGrid(kMaxReadLevel + 1)) * inputs.changes->tiles.size();
+                           uint64_t(dirtyGrid(kMaxReadLevel + 1) + kCellWords) * inputs.changes->cells.size();
     if (Status made = makeAgainRoom(inputs, words); !made) return made.failure();
     const ExpandEnv env = environment(inputs, plants_[frontPlants_], links_[1 - frontLinks_]);
     Result<AgainState> found = findDirty(inputs, seeds, env);
     if (!found) return found.failure();
-    if (found->counts[kListDirty] > stats_.chunks / kMostDirtyOf) return false;
+    rangedLeaves_ = view_.leafCount / kLeafBlock * kLeafBlock;
+    if (found->counts[kListDirty] > stats_.chunks / kMostDirtyOf) return Regrown::tooMuch;
     const bool nothing = found->counts[kListDirty] + found->counts[kListBranches] + found->counts[kListGone] == 0;
     if (nothing && !seeds.any) {
         remember(inputs);
         stats_.derived = 0;
-        return true;
+        return Regrown::done;
     }
     Outcome outcome;
     AgainState state{};
-    Result<bool> grown = growAgain(inputs, env, outcome, state);
+    Result<Regrown> grown = growAgain(inputs, env, outcome, state);
     if (!grown) return grown.failure();
-    if (!*grown) {
-        // So that the next edits find room.
+    if (*grown == Regrown::noRoom) {
         room_.nodes = std::max(room_.nodes, stats_.nodes + stats_.nodes / 2);
         room_.leaves = std::max(room_.leaves, stats_.leaves + stats_.leaves / 2);
-        room_.chunks = std::max(room_.chunks, stats_.chunks + stats_.chunks / 2);
-        room_.branches = std::max(room_.branches, stats_.branches + stats_.branches / 2);
-        return false;
+        room_.chunks = std::max(room_.chunks, view_.chunkCount + view_.chunkCount / 2);
+        room_.branches = std::max(room_.branches, view_.branchCount + view_.branchCount / 2);
     }
+    if (*grown != Regrown::done) return grown;
     publishAgain(inputs, outcome, state);
     remember(inputs);
-    return true;
+    return Regrown::done;
 }
 
 }  // namespace espalier

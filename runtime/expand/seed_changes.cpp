@@ -12,17 +12,22 @@
 namespace espalier {
 namespace {
 
-// The coarser grids of a finest one.
-void addLevels(std::vector<uint32_t>& grid) {
-    for (uint32_t level = 0; level < kMaxReadLevel; ++level) {
-        const uint32_t side = kLayerTiles >> level, from = dirtyGrid(level), to = dirtyGrid(level + 1);
+// Grids of tiles, the finest first, and the cells, from these.
+std::vector<uint32_t> gridsOf(const std::vector<uint32_t>& cells) {
+    std::vector<uint32_t> grid(dirtyGrid(kMaxReadLevel + 1));
+    const auto add = [&](const uint32_t* from, uint32_t side, uint32_t shrink, uint32_t* to) {
         for (uint32_t bit = 0; bit < side * side; ++bit) {
-            if (bit % 32 == 0 && grid[from + bit / 32] == 0) bit += 31;
-            if ((grid[from + bit / 32] >> (bit % 32) & 1) == 0) continue;
-            const uint32_t above = bit / side / 2 * (side / 2) + bit % side / 2;
-            grid[to + above / 32] |= 1u << (above % 32);
+            if (bit % 32 == 0 && from[bit / 32] == 0) bit += 31;
+            if ((from[bit / 32] >> (bit % 32) & 1) == 0) continue;
+            const uint32_t above = bit / side / shrink * (side / shrink) + bit % side / shrink;
+            to[above / 32] |= 1u << (above % 32);
         }
-    }
+    };
+    add(cells.data(), kLayerCells, kLayerCells / kLayerTiles, grid.data());
+    for (uint32_t level = 0; level < kMaxReadLevel; ++level)
+        add(&grid[dirtyGrid(level)], kLayerTiles >> level, 2, &grid[dirtyGrid(level + 1)]);
+    grid.insert(grid.end(), cells.begin(), cells.end());
+    return grid;
 }
 
 bool sameFrozen(std::span<const FrozenPlant> a, std::span<const FrozenPlant> b) {
@@ -106,15 +111,15 @@ std::vector<uint32_t> editWords(const GrowthInputs& inputs, const SeedChanges& s
     }
     // One grid an instance for all of its layers.
     for (uint32_t instance = 0; instance < 256; ++instance) {
-        std::vector<uint32_t> grid;
-        for (const DirtyTiles& dirty : changes.tiles) {
+        std::vector<uint32_t> cells;
+        for (const DirtyCells& dirty : changes.cells) {
             if (dirty.instance != instance) continue;
             words[kEditLayers] |= 1u << dirty.layer % kMaxLayers;
-            grid.resize(dirtyGrid(kMaxReadLevel + 1));
-            for (size_t i = 0; i < dirty.bits.size() * 2; ++i) grid[i] |= uint32_t(dirty.bits[i / 2] >> (i % 2 * 32));
+            cells.resize(kCellWords);
+            for (uint32_t i = 0; i < kCellWords; ++i) cells[i] |= dirty.bits[i];
         }
-        if (grid.empty()) continue;
-        addLevels(grid);
+        if (cells.empty()) continue;
+        const std::vector<uint32_t> grid = gridsOf(cells);
         words[kEditInstances + instance] = uint32_t(words.size());
         words.insert(words.end(), grid.begin(), grid.end());
     }

@@ -4,6 +4,7 @@
 // same strongly connected component as the predecessor. Where the component ends (a stem that turns into a twig, a
 // seed's first rule) the first growing successor carries the branch on. All other successors begin branches.
 #include <algorithm>
+#include <unordered_map>
 
 #include "runtime/grammar/compilation.hpp"
 
@@ -158,6 +159,28 @@ class GrowthLowering {
         flows_.push_back({from, call.symbol, kept});
     }
 
+    // Whether the node's value is the same wherever a step leads: made of arguments, draws, the step's number.
+    bool blind(Node n) {
+        const auto [known, fresh] = blind_.try_emplace(n, true);
+        if (!fresh) return known->second;
+        const GraphNode& g = c_.graph[n];
+        bool all = g.leaf != Leaf::slot || (g.op >= kSlotArg && g.op < kSlotArg + kMaxArgs) || g.op == kSlotDepth ||
+                   g.op == kSlotStep;
+        for (uint32_t i = 0; i < g.kidCount; ++i) all = all && blind(g.kids[i]);
+        return blind_[n] = all;
+    }
+    // What of a condition's conjunction is so: where that fails, no other direction helps. kNone: nothing.
+    Node blindPart(Node condition, uint32_t depth = 0) {
+        constexpr uint32_t kMostDepth = 8;
+        if (blind(condition)) return condition;
+        const GraphNode g = c_.graph[condition];
+        const bool both =
+            g.leaf == Leaf::operation && g.op == kOpMin && c_.graph[g.kids[0]].boolean && c_.graph[g.kids[1]].boolean;
+        if (!both || depth == kMostDepth) return Graph::kNone;
+        const Node a = blindPart(g.kids[0], depth + 1), b = blindPart(g.kids[1], depth + 1);
+        return a == Graph::kNone ? b : b == Graph::kNone ? a : c_.graph.both(a, b);
+    }
+
     void march(const Symbol& symbol, const Rule& rule, uint32_t ordinal, Env& env, size_t index) {
         const Element& e = rule.successor[0];
         const BlockInfo& info = *findBlock(e.name);
@@ -190,13 +213,17 @@ class GrowthLowering {
 
         RuleRecord r = {};
         StageReads sites, before, after;
-        Value starts[2], arrives[1 + kMaxArgs];
+        const Node blindNode = blindPart(arrive[0]);
+        if (blindNode != Graph::kNone) arrive.push_back(blindNode);
+        Value starts[2], arrives[2 + kMaxArgs];
         c_.generate(start, sites, before, r.start, starts, e.place, symbol.name);
         c_.generate(arrive, sites, after, r.arrive, {arrives, arrive.size()}, e.place, symbol.name);
         r.kind = kRuleMarch;
         r.distance = starts[0];
         r.angle = starts[1];
         r.condition = arrives[0];
+        const uint32_t blindSlot = blindNode == Graph::kNone ? kSlotImmediate : arrives[arrive.size() - 1].slot;
+        if (blindSlot < kMachineSlots) r.values = blindSlot + 1;
         r.startInputs = before.inputs;
         r.startLayers = before.layers;
         r.arriveInputs = after.inputs;
@@ -207,7 +234,7 @@ class GrowthLowering {
         r.firstSuccessor = static_cast<uint32_t>(c_.successors.size());
         if (!top.empty()) {
             successor.flags = kSuccessorContinues;
-            std::copy(arrives + 1, arrives + arrive.size(), successor.args);
+            std::copy_n(arrives + 1, successor.argCount, successor.args);
             c_.successors.push_back(successor);
             r.successorCount = 1;
         }
@@ -292,6 +319,7 @@ class GrowthLowering {
     Node args_[kMaxArgs];
     std::vector<std::vector<bool>> reach_;
     std::vector<Flow> flows_;
+    std::unordered_map<Node, bool> blind_;
     std::vector<ExtrudedAt> extrudedAt_;
 };
 

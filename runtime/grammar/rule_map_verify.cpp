@@ -93,7 +93,7 @@ class Verifier {
         if (roof)
             roofRule(r);
         else
-            need(r.extrude <= counts_[kSectionExtrudes], "a rule's extrude program");
+            need(r.extrude <= counts_[kSectionExtrudes] && r.values <= kMachineSlots, "a rule's extrude program");
         code(r.start);
         code(r.arrive);
         value(r.distance);

@@ -107,7 +107,7 @@ EspResult update(EspContext& context) {
     context.grownRevision = context.revision;
     context.grownGrammars = std::move(ids);
     context.grownSeeds = std::move(seedIds);
-    context.changes = {.everything = false, .tiles = {}, .params = {}, .grammars = {}};
+    context.changes = {.everything = false, .cells = {}, .params = {}, .grammars = {}};
     return ESP_OK;
 }
 

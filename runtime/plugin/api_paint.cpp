@@ -306,7 +306,7 @@ void layerChanged(EspContext& context, uint32_t surface, const std::string& name
         if (context.sceneLayers[layer].name != name) continue;
         for (uint32_t block : blocks) {
             const uint32_t x = block % side * 8, y = block / side * 8;
-            context.changes.markTiles(placed.instance, layer, size, x, y, x + 8, y + 8);
+            context.changes.markTexels(placed.instance, layer, size, x, y, x + 8, y + 8);
         }
     }
     ++context.revision;

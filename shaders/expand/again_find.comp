@@ -13,11 +13,13 @@ bool dirtyTile(UintBuf edits, uint grid, uint level, uint x, uint y) {
     return ((edits.v[grid + dirtyGrid(level) + (bit >> 5u)] >> (bit & 31u)) & 1u) != 0u;
 }
 bool dirtyPlace(UintBuf edits, uint grid, vec2 uv) {
-    uvec2 tile = uvec2(clamp(uv * 256.0, vec2(0.0), vec2(255.0)));
-    return dirtyTile(edits, grid, 0u, tile.x, tile.y);
+    float side = float(kLayerCells);
+    uvec2 cell = uvec2(clamp(uv * side, vec2(0.0), vec2(side - 1.0)));
+    uint bit = cell.y * kLayerCells + cell.x;
+    return ((edits.v[grid + dirtyGrid(kMaxReadLevel + 1u) + (bit >> 5u)] >> (bit & 31u)) & 1u) != 0u;
 }
 
-// By its read set, and, where all that it read was at its nodes, by these: there are more of them than tiles.
+// By its read set, and, where all that it read was at its nodes, by these: cells are finer than tiles.
 bool readsDirty(ExpandEnv env, UintBuf edits, uint chunk, uint marks) {
     uint head = env.chunks.v[chunk].reads[0];
     uint level = (head >> 8u) & 15u;

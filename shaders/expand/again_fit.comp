@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #define ESPALIER_AGAIN
 // The end of a regrowth: radii, the structure's hash, and leaves: pending ones are shown, those of touched nodes go.
 #include "shaders/shared/extensions.glsl"
@@ -26,23 +27,52 @@ void fitChunks(uint lane) {
     }
 }
 
-uint sweepLeaves() {
+// Whether leaves of nodes in this range may have to go.
+bool touches(uint low, uint high) {
     UintBuf touched = AGAIN.touched;
+    bool any = low <= high && high - low > kWideRange;
+    for (uint word = low >> 5u; word <= high >> 5u && low <= high && !any; ++word) {
+        uint bits = touched.v[word];
+        bits = word == low >> 5u ? bits & (0xFFFFFFFFu << (low & 31u)) : bits;
+        bits = word == high >> 5u ? bits & (0xFFFFFFFFu >> (31u - (high & 31u))) : bits;
+        any = bits != 0u;
+    }
+    return any;
+}
+
+// Lets leaf `i` go if its node is touched; 1 if so.
+uint sweepLeaf(uint i) {
+    uint node = env.leaves.v[i].node;
+    bool goes = node < kLeafPending && ((AGAIN.touched.v[node >> 5u] >> (node & 31u)) & 1u) != 0u;
+    for (uint k = 0u; k < (goes ? 1u : 0u); ++k) {
+        u64 key = AGAIN.chunksBefore.v[env.nodes.v[node].chunk].key;
+        hash -= hashOfLeaf(key, env.nodes.v[node].flags, env.leaves.v[i]);
+        env.leaves.v[i].node = kNoIndex;
+    }
+    return goes ? 1u : 0u;
+}
+
+// A lane looks at a block's range; the blocks that are met are swept by the lanes together.
+uint sweepLeaves() {
+    UintBuf ranges = AGAIN.leafRanges;
     uint gone = 0u;
-    uint count = env.status.v[0].leaves;
+    uint count = AGAIN.leafCount;
+    uint blocks = (count + kLeafBlock - 1u) / kLeafBlock;
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
-    for (uint i = gl_GlobalInvocationID.x; i < count; i += lanes) {
-        uint node = env.leaves.v[i].node;
-        bool pending = node != kNoIndex && (node & kLeafPending) != 0u;
-        bool goes = node < kLeafPending && ((touched.v[node >> 5u] >> (node & 31u)) & 1u) != 0u;
-        if (pending) env.leaves.v[i].node = node & ~kLeafPending;
-        for (uint k = 0u; k < (goes ? 1u : 0u); ++k) {
-            u64 key = AGAIN.chunksBefore.v[env.nodes.v[node].chunk].key;
-            hash -= hashOfLeaf(key, env.nodes.v[node].flags, env.leaves.v[i]);
-            env.leaves.v[i].node = kNoIndex;
-            gone += 1u;
+    uint lane = gl_SubgroupInvocationID;
+    for (uint first = gl_GlobalInvocationID.x - lane; first < blocks; first += lanes) {
+        uint block = min(first + lane, blocks - 1u);
+        bool met = first + lane < blocks && touches(ranges.v[2u * block], ranges.v[2u * block + 1u]);
+        uvec4 ballot = subgroupBallot(met);
+        while (subgroupBallotBitCount(ballot) > 0u) {
+            uint bit = subgroupBallotFindLSB(ballot);
+            ballot[bit >> 5u] &= ~(1u << (bit & 31u));
+            uint from = (first + bit) * kLeafBlock;
+            for (uint i = from + lane; i < min(from + kLeafBlock, count); i += gl_SubgroupSize) gone += sweepLeaf(i);
         }
     }
+    for (uint i = count + gl_GlobalInvocationID.x; i < env.status.v[0].leaves; i += lanes)
+        env.leaves.v[i].node &= ~kLeafPending;
     return gone;
 }
 

@@ -51,30 +51,33 @@ struct AgainState {
     UintBuf edits;           // see below
     UintBuf results;         // 3 words a node of kListWork's chunks: NodeFinish
     UintBuf touched;         // a bit a node: its leaves are to go
+    UintBuf leafRanges;      // [2 * block]: first and last node that a block of kLeafBlock leaves lies on
     uint listCapacity, resultCapacity;   // chunks
     uint chunkCount, nodeCount, branchCount, leafCount;   // before, with the gaps among them
     uint liveNodes, liveChunks;          // before, without
     uint mostNodes, mostChunks;          // limits
+    uint rangedLeaves;                   // whose blocks' ranges are known: a multiple of kLeafBlock
+    uint spare;
     uint counts[8];          // of the lists
     uint overrun;            // not 0: this is too much for a regrowth
     uint goneNodes, goneChunks, goneBranches, goneLeaves, goneInserted, goneFeet, goneDeadEnds, goneStopped;
     uint firstFrozen;        // seeds from this index on are frozen: what they have grown is never dirty
 };
-STATIC_SIZE(AgainState, 168);
+STATIC_SIZE(AgainState, 184);
 BUFFER(AgainStateBuf, AgainState)
 
 // AgainState::edits, words: 0 dirty layers (bits), 1 first word of the seeds' new indices (0: seeds are the same;
 // kNoIndex: gone), 2 first word of the masks of changed parameters, one a grammar (0: none), 3 first word of the
 // branches that are cut away or grow again (0: none): their number, then their keys as isAmong() takes them; then one
-// word for each of 256 instances: where its dirty tiles begin (0: none). These are bits y * side + x of grids of side 256, 128, … 1,
-// each beginning with a new word.
+// word for each of 256 instances: where its dirty tiles begin (0: none). These are bits y * side + x of grids of side
+// 256, 128, … 1, each beginning with a new word, and then of cells, of side kLayerCells.
 CONST_UINT(kEditLayers, 0u);
 CONST_UINT(kEditSeeds, 1u);
 CONST_UINT(kEditParams, 2u);
 CONST_UINT(kEditPruned, 3u);
 CONST_UINT(kEditInstances, 4u);
 CONST_UINT(kEditHead, 260u);
-// First word of the grid of a level, and (level 9) of all.
+// First word of the grid of a level, and (level 9) of the cells.
 FN uint dirtyGrid(uint level) {
     uint at = 0u;
     for (uint i = 0u; i < level; ++i) {
@@ -83,6 +86,10 @@ FN uint dirtyGrid(uint level) {
     }
     return at;
 }
+
+CONST_UINT(kLeafBlock, 32u);
+CONST_UINT(kWideRange, 2048u);   // nodes: what is wider is looked through leaf by leaf
+CONST_UINT(kCellWords, kLayerCells * kLayerCells / 32u);
 
 CONST_UINT(kMostVisited, 16384u);   // chunks that one invocation goes through, see kMaxTrips
 

@@ -181,7 +181,7 @@ FN Grower freshGrower(WorkItem item) {
     g.rule = 0u;
     g.links = 0u;
     g.arriveCode = 0u;
-    g.conditionSlot = 0u;
+    g.conditionSlots = 0u;
     g.conditionValue = 0u;
     g.distance = 0.0f;
     g.angle = 0.0f;

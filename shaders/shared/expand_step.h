@@ -89,7 +89,7 @@ struct Grower {
     uint rule;           // word 0 of its packed record
     uint links;          // word 1
     uint arriveCode;
-    uint conditionSlot, conditionValue;
+    uint conditionSlots, conditionValue;   // slots: of the condition, from bit 8 on of its blind part, plus 1
     float distance, angle, remaining;
     uint attempt;        // 0: the heading as the rule turned it, then detours
     bool fresh;          // the attempt has not left yet
@@ -206,7 +206,7 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
     g.arriveCode = TABLE(at + 3u);
     g.distance = larger(packedValue(MACHINE slots & 127u, TABLE(at + 5u)), site.minStep);
     g.angle = packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 6u));
-    g.conditionSlot = (slots >> 16u) & 127u;
+    g.conditionSlots = slots >> 16u;
     g.conditionValue = TABLE(at + 7u);
     g.reads.params = g.reads.params | TABLE(at + 8u);
     g.attempt = 0u;
@@ -304,9 +304,10 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
 FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, INOUT(Grower) g) {
     g.arrived = false;
     runTable(MACHINE env, map, g.arriveCode);
-    if (!holds(packedValue(MACHINE g.conditionSlot, g.conditionValue))) {
-        // Where the condition asks nothing of the place, no other direction can help.
-        bool blind = (g.rule & kRuleBlind) != 0u;
+    if (!holds(packedValue(MACHINE g.conditionSlots & 127u, g.conditionValue))) {
+        // Where it fails for what isn't asked of the place, no other direction can help.
+        uint part = g.conditionSlots >> 8u;
+        bool blind = (g.rule & kRuleBlind) != 0u || (part != 0u && !holds(SLOT(part - 1u)));
         g.reads.beyond = g.reads.beyond || !blind;
         g.phase = blind ? kPhaseEnded : g.attempt >= kDetours ? kPhaseDead : kPhaseMarch;
         g.attempt = g.attempt + 1u;

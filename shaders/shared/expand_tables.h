@@ -77,7 +77,7 @@ FN void packRule(RuleRecordBuf from, UintBuf to, uint base, uint i) {
     to.v[at + 1u] = packPair(r.firstSuccessor, r.firstSite);
     to.v[at + 2u] = packPair(r.start.first, r.start.count);
     to.v[at + 3u] = packPair(r.arrive.first, r.arrive.count);
-    to.v[at + 4u] = packSlots(r.distance.slot, r.angle.slot, r.condition.slot, 0u);
+    to.v[at + 4u] = packSlots(r.distance.slot, r.angle.slot, r.condition.slot, (r.kind & 3u) == kRuleMarch ? r.values & 127u : 0u);
     to.v[at + 5u] = floatBitsToUint(r.distance.immediate);
     to.v[at + 6u] = floatBitsToUint(r.angle.immediate);
     to.v[at + 7u] = floatBitsToUint(r.condition.immediate);

@@ -13,7 +13,8 @@ ESPALIER_BEGIN
 CONST_UINT(kChunkNodes, 32u);
 CONST_UINT(kMaxArgs, 4u);
 CONST_UINT(kMaxLayers, 16u);
-CONST_UINT(kLayerTiles, 256u);   // a layer's changes are noted by this many tiles along either side
+CONST_UINT(kLayerTiles, 256u);   // what chunks read of layers is noted by this many tiles along either side,
+CONST_UINT(kLayerCells, 1024u);  // what changes in layers by this many cells
 
 // Where a walk stands, 28 bytes. direction: unit tangent of the surface, object space of its instance.
 struct Walk {

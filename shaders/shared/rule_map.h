@@ -177,7 +177,8 @@ struct RuleRecord {
     uint startInputs, startLayers;     // List: of the successors' arguments
     uint arriveInputs, arriveLayers;
     uint params;                 // parameter slots that the rule depends on
-    uint values;                 // of roofs: the first of its numbers
+    uint values;                 // of roofs: the first of its numbers. Of a March: slot + 1 of the part of its
+                                 // condition that is the same in every direction, after `arrive`; 0: none
 };
 STATIC_SIZE(RuleRecord, 88);
 

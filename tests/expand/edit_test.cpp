@@ -66,7 +66,7 @@ class Session {
                 if (glm::length((glm::vec2(x, y) + 0.5f) / float(kSize) - at) < radius)
                     layers[layer][size_t(y) * kSize + size_t(x)] = value;
         upload(layer);
-        changes.markTiles(0, layer, kSize, uint32_t(low.x), uint32_t(low.y), uint32_t(high.x), uint32_t(high.y));
+        changes.markTexels(0, layer, kSize, uint32_t(low.x), uint32_t(low.y), uint32_t(high.x), uint32_t(high.y));
     }
     void set(uint32_t grammar, const char* name, float value) {
         RuleMap& map = scene.grammar(grammar);
@@ -81,7 +81,7 @@ class Session {
         scene.changes = &changes;
         Status grown = scene.grow(gpu.device(), *growth);
         if (!grown) FAIL(grown.failure().text());
-        changes = {.everything = false, .tiles = {}, .params = {}, .grammars = {}};
+        changes = {.everything = false, .cells = {}, .params = {}, .grammars = {}};
     }
     void check() {
         grow();
@@ -163,6 +163,102 @@ TEST_CASE("a dab where nothing is read does nothing, one that paints what is the
     CHECK(s.growth->stats().hash == before.hash);
     CHECK(s.growth->stats().derived > 0);
     CHECK(s.growth->stats().derived < before.nodes / 4);
+}
+
+TEST_CASE("every place whose read takes in a changed texel is marked, and few others") {
+    uint64_t key = 3;
+    for (uint32_t size : {8u, 64u, 200u, 256u, 1024u, 4096u}) {
+        const uint32_t x0 = size / 3, x1 = x0 + 1 + size / 16, y0 = size - size / 8, y1 = size;
+        GrowthChanges changes;
+        changes.markTexels(0, 0, size, x0, y0, x1, y1);
+        REQUIRE(changes.cells.size() == 1);
+        const auto marked = [&](glm::vec2 uv) {
+            const glm::uvec2 cell = glm::min(glm::uvec2(unpackUv(packUv(uv)) * float(kLayerCells)), kLayerCells - 1);
+            const uint32_t bit = cell.y * kLayerCells + cell.x;
+            return (changes.cells[0].bits[bit / 32] >> (bit % 32) & 1) != 0;
+        };
+        uint32_t wrong = 0, spare = 0;
+        for (int i = 0; i < 20000; ++i) {
+            key = mix64(key);
+            const glm::vec2 middle = glm::vec2(x0 + x1, y0 + y1) * 0.5f / float(size);
+            const glm::vec2 uv = glm::clamp(
+                middle + (glm::vec2(uniformRandom(key, 1), uniformRandom(key, 2)) - 0.5f) * 0.2f, 0.0f, 1.0f);
+            // The texels of a bilinear read that is clamped at the edge.
+            const auto met = [&](float at, uint32_t low, uint32_t end) {
+                const float g = std::clamp(at * float(size) - 0.5f, 0.0f, float(size - 1));
+                const uint32_t t = uint32_t(g), next = std::min(t + (g > float(t) ? 1u : 0u), size - 1);
+                return (t >= low && t < end) || (next >= low && next < end);
+            };
+            const bool read = met(uv.x, x0, x1) && met(uv.y, y0, y1);
+            wrong += read && !marked(uv) ? 1 : 0;
+            const float texels = 1.0f + float(size) * 3 / kLayerCells;  // beyond these nothing need be marked
+            const bool far = uv.x * float(size) < float(x0) - texels || uv.x * float(size) > float(x1) + texels ||
+                             uv.y * float(size) < float(y0) - texels;
+            spare += far && marked(uv) ? 1 : 0;
+        }
+        CAPTURE(size);
+        CHECK(wrong == 0);
+        CHECK(spare == 0);
+    }
+}
+
+TEST_CASE("where a condition fails for what isn't asked of the place, no other direction is tried") {
+    const char* text = R"(
+context mask = 1
+Stem(n, k) -> Marching(0.05, rand(-0.3, 0.3), %s) {Fork(n + 1, k), Bark}
+Fork(n, k) -> Branch(2) {Stem(0, k / 2), Stem(n, k)} : 0.3
+Fork(n, k) -> Stem(n, k) : 0.7
+Start -> Stem(0, 12)
+Bark -> S(0.01) Shape("bark", C1)
+)";
+    const auto grown = [&](const char* condition) {
+        Scene scene = Scene::baked(ball());
+        char rules[1024];
+        std::snprintf(rules, sizeof rules, text, condition);
+        scene.addGrammar(rules);
+        scene.plantMany(12);
+        for (Seed& seed : scene.seeds()) seed.symbol = *scene.grammar(0).findSymbol("Start");
+        Result<CpuGrowth> growth = scene.growOnCpu();
+        REQUIRE(growth);
+        return growth->stats;
+    };
+    const GrowthStats plain = grown("n < k");
+    CHECK(plain.deadEnds == 0);
+    REQUIRE(plain.nodes > 200);
+    for (const char* condition :
+         {"mask(texCoord) > 0.5 and n < k", "n < k and mask(texCoord)", "n < 99 and (mask(texCoord) > 0.5 and n < k)",
+          "arc < 100 and n < k and height > -9"}) {
+        CAPTURE(condition);
+        const GrowthStats stats = grown(condition);
+        CHECK(stats.hash == plain.hash);
+        CHECK(stats.deadEnds == 0);
+    }
+    // One that asks the place in either part tries them all.
+    CHECK(grown("n < k or mask(texCoord) < 0.5").deadEnds > 0);
+}
+
+TEST_CASE("gaps are closed in passing: however many edits, none grows everything anew") {
+    Session s(flatSquare(), GrowthRoom{64, 256, 64, 256, 64});
+    s.scene.plantMany(60, 0, 1);
+    s.check();
+    const uint64_t hash = s.growth->stats().hash;
+    uint32_t derived = 0;
+    for (int i = 0; i < 24; ++i) {
+        const glm::vec2 at(0.3f + 0.02f * float(i), 0.5f);
+        s.dab(0, at, 0.1f, 0);
+        s.grow();
+        s.dab(0, at, 0.1f, 1);
+        s.grow();
+        derived += s.growth->stats().derived;
+        CHECK(s.growth->view().nodeCount < 2 * s.growth->stats().nodes);
+        CHECK(s.growth->view().leafCount < 2 * s.growth->stats().leaves);
+    }
+    CHECK(derived > 2 * s.growth->stats().nodes);
+    CHECK(s.growth->stats().regrowths == 48);
+    s.check();
+    CHECK(s.growth->stats().hash == hash);
+    s.changes.everything = true;
+    s.check();
 }
 
 TEST_CASE("nothing changed: nothing is done") {

@@ -174,7 +174,7 @@ class EditBench {
         (void)scene_.paint(0, kTexels, texels_);
         GrowthChanges changes;
         changes.everything = false;
-        changes.markTiles(0, 0, kTexels, uint32_t(low.x), uint32_t(low.y), uint32_t(high.x), uint32_t(high.y));
+        changes.markTexels(0, 0, kTexels, uint32_t(low.x), uint32_t(low.y), uint32_t(high.x), uint32_t(high.y));
         return changes;
     }
 
