@@ -12,34 +12,12 @@ bool SceneImage::check(VkResult result, const char* what) {
 }
 
 bool SceneImage::make(uint32_t width, uint32_t height) {
-    if (size_.width == width && size_.height == height) return true;
+    if (image_.size().width == width && image_.size().height == height) return true;
     host_.waitIdle();
-    drop();
-    const VkDevice device = host_.device();
-    VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = host_.format();
-    info.extent = {width, height, 1};
-    info.mipLevels = info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    if (!check(vkCreateImage(device, &info, nullptr, &image_), "making it")) return false;
-    VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(device, image_, &needs);
-    VkMemoryAllocateInfo memory{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-    memory.allocationSize = needs.size;
-    if (!host_.findMemory(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, memory.memoryTypeIndex))
-        return check(VK_ERROR_OUT_OF_DEVICE_MEMORY, "finding memory");
-    if (!check(vkAllocateMemory(device, &memory, nullptr, &memory_), "allocating") ||
-        !check(vkBindImageMemory(device, image_, memory_, 0), "allocating"))
-        return false;
-    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    view.image = image_;
-    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    view.format = info.format;
-    view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    size_ = {width, height};
-    return check(vkCreateImageView(device, &view, nullptr, &view_), "making its view");
+    drawn_ = window_ = {};
+    return check(image_.make(host_.format(), {width, height},
+                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT),
+                 "making it");
 }
 
 bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, float scale, bool redraw) {
@@ -54,8 +32,8 @@ bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, 
         draw.width = drawn_.width;
         draw.height = drawn_.height;
         draw.commandBuffer = frame.commands;
-        draw.colourImage = reinterpret_cast<void*>(image_);
-        draw.colourView = reinterpret_cast<void*>(view_);
+        draw.colourImage = reinterpret_cast<void*>(image_.image());
+        draw.colourView = reinterpret_cast<void*>(image_.view());
         draw.colourFormat = host_.format();
         draw.frame = frame.number;
         draw.framesDone = frame.finished;
@@ -63,7 +41,7 @@ bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, 
             error_ = espLastError(context);
             return false;
         }
-        imageBarrier(frame.commands, image_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+        imageBarrier(frame.commands, image_.image(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     }
     imageBarrier(frame.commands, frame.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -71,27 +49,16 @@ bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, 
     region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.srcOffsets[1] = {int32_t(drawn_.width), int32_t(drawn_.height), 1};
     region.dstOffsets[1] = {int32_t(frame.extent.width), int32_t(frame.extent.height), 1};
-    vkCmdBlitImage(frame.commands, image_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, frame.image,
+    vkCmdBlitImage(frame.commands, image_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, frame.image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
     imageBarrier(frame.commands, frame.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                  VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     return true;
 }
 
-void SceneImage::drop() {
-    vkDestroyImageView(host_.device(), view_, nullptr);
-    vkDestroyImage(host_.device(), image_, nullptr);
-    vkFreeMemory(host_.device(), memory_, nullptr);
-    view_ = VK_NULL_HANDLE;
-    image_ = VK_NULL_HANDLE;
-    memory_ = VK_NULL_HANDLE;
-    size_ = drawn_ = window_ = {};
-}
-
 SceneImage::~SceneImage() {
     if (!host_.device()) return;
     host_.waitIdle();
-    drop();
 }
 
 }  // namespace sample

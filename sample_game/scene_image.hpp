@@ -3,6 +3,7 @@
 #include <string>
 
 #include "plugin_api/espalier.h"
+#include "sample_game/host_image.hpp"
 #include "sample_game/vulkan_host.hpp"
 
 namespace sample {
@@ -12,7 +13,7 @@ namespace sample {
 // While the camera moves it may be drawn smaller and is enlarged.
 class SceneImage {
   public:
-    explicit SceneImage(const VulkanHost& host) : host_(host) {}
+    explicit SceneImage(const VulkanHost& host) : host_(host), image_(host) {}
     SceneImage(const SceneImage&) = delete;
     ~SceneImage();
 
@@ -26,15 +27,12 @@ class SceneImage {
 
   private:
     bool make(uint32_t width, uint32_t height);
-    void drop();
     bool check(VkResult result, const char* what);
 
     const VulkanHost& host_;
     std::string error_;
-    VkImage image_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
-    VkImageView view_ = VK_NULL_HANDLE;
-    VkExtent2D size_{}, drawn_{}, window_{};
+    HostImage image_;
+    VkExtent2D drawn_{}, window_{};
     bool drew_ = false;
 };
 

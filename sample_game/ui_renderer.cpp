@@ -129,39 +129,14 @@ bool UiRenderer::makePipeline() {
 
 bool UiRenderer::updateFonts() {
     host_.waitIdle();
-    releasePicture();
     unsigned char* rgba = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&rgba, &width, &height);
     ImGui::GetIO().Fonts->SetTexID(ImTextureID(this));
-    return makePicture(uint32_t(width), uint32_t(height)) && uploadPicture(rgba, uint32_t(width), uint32_t(height));
-}
-
-bool UiRenderer::makePicture(uint32_t width, uint32_t height) {
-    const VkDevice device = host_.device();
-    VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = VK_FORMAT_R8G8B8A8_UNORM;
-    info.extent = {width, height, 1};
-    info.mipLevels = info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    if (!check(vkCreateImage(device, &info, nullptr, &picture_), "making the font's picture")) return false;
-    VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(device, picture_, &needs);
-    VkMemoryAllocateInfo memory{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-    memory.allocationSize = needs.size;
-    if (!host_.findMemory(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, memory.memoryTypeIndex))
-        return check(VK_ERROR_OUT_OF_DEVICE_MEMORY, "finding memory");
-    if (!check(vkAllocateMemory(device, &memory, nullptr, &pictureMemory_), "allocating the font's picture") ||
-        !check(vkBindImageMemory(device, picture_, pictureMemory_, 0), "allocating the font's picture"))
-        return false;
-    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    view.image = picture_;
-    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    view.format = info.format;
-    view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    return check(vkCreateImageView(device, &view, nullptr, &pictureView_), "making the font's view");
+    return check(picture_.make(VK_FORMAT_R8G8B8A8_UNORM, {uint32_t(width), uint32_t(height)},
+                               VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT),
+                 "making the font's picture") &&
+           uploadPicture(rgba, uint32_t(width), uint32_t(height));
 }
 
 bool UiRenderer::uploadPicture(const unsigned char* rgba, uint32_t width, uint32_t height) {
@@ -191,7 +166,7 @@ bool UiRenderer::uploadPicture(const unsigned char* rgba, uint32_t width, uint32
         barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
         barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
         barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        barrier.image = picture_;
+        barrier.image = picture_.image();
         barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
         VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
         dependency.imageMemoryBarrierCount = 1;
@@ -200,7 +175,8 @@ bool UiRenderer::uploadPicture(const unsigned char* rgba, uint32_t width, uint32
         VkBufferImageCopy region{};
         region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         region.imageExtent = {width, height, 1};
-        vkCmdCopyBufferToImage(commands, staging.buffer, picture_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+        vkCmdCopyBufferToImage(commands, staging.buffer, picture_.image(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                               &region);
         barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
         barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
         barrier.dstStageMask = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
@@ -287,7 +263,7 @@ void UiRenderer::record(const Frame& frame, const ImDrawData& lists) {
     vkCmdBeginRendering(commands, &rendering);
 
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
-    const VkDescriptorImageInfo picture{sampler_, pictureView_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    const VkDescriptorImageInfo picture{sampler_, picture_.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
@@ -335,21 +311,11 @@ void UiRenderer::release(Memory& memory) {
     memory = Memory{};
 }
 
-void UiRenderer::releasePicture() {
-    vkDestroyImageView(host_.device(), pictureView_, nullptr);
-    vkDestroyImage(host_.device(), picture_, nullptr);
-    vkFreeMemory(host_.device(), pictureMemory_, nullptr);
-    pictureView_ = VK_NULL_HANDLE;
-    picture_ = VK_NULL_HANDLE;
-    pictureMemory_ = VK_NULL_HANDLE;
-}
-
 UiRenderer::~UiRenderer() {
     if (!host_.device()) return;
     host_.waitIdle();
     for (Memory& memory : vertices_) release(memory);
     for (Memory& memory : indices_) release(memory);
-    releasePicture();
     vkDestroyPipeline(host_.device(), pipeline_, nullptr);
     vkDestroyPipelineLayout(host_.device(), layout_, nullptr);
     vkDestroyDescriptorSetLayout(host_.device(), setLayout_, nullptr);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sample_game/host_image.hpp"
 #include "sample_game/vulkan_host.hpp"
 
 struct ImDrawData;
@@ -13,7 +14,7 @@ namespace sample {
 // render pass, and would link against the loader's functions, which volk replaces.)
 class UiRenderer {
   public:
-    explicit UiRenderer(const VulkanHost& host) : host_(host) {}
+    explicit UiRenderer(const VulkanHost& host) : host_(host), picture_(host) {}
     UiRenderer(const UiRenderer&) = delete;
     ~UiRenderer();
 
@@ -34,11 +35,9 @@ class UiRenderer {
     };
     bool check(VkResult result, const char* what);
     bool makePipeline();
-    bool makePicture(uint32_t width, uint32_t height);
     bool uploadPicture(const unsigned char* rgba, uint32_t width, uint32_t height);
     bool reserve(Memory& memory, VkDeviceSize size, VkBufferUsageFlags usage);
     void release(Memory& memory);
-    void releasePicture();
     void record(const Frame& frame, const ImDrawData& lists);
 
     const VulkanHost& host_;
@@ -47,9 +46,7 @@ class UiRenderer {
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
-    VkImage picture_ = VK_NULL_HANDLE;
-    VkDeviceMemory pictureMemory_ = VK_NULL_HANDLE;
-    VkImageView pictureView_ = VK_NULL_HANDLE;
+    HostImage picture_;
     Memory vertices_[kFramesInFlight];
     Memory indices_[kFramesInFlight];
 };

@@ -1,32 +1,16 @@
 // Enters: growth's records, surfaces, camera, look. Leaves: a picture. A frame is: shadow map if something that casts
 // shadows has changed, cull, scene (in four samples, on a CPU in one), ambient occlusion at half size,
 // samples or smoothed edges to pixels.
-#include "runtime/render/renderer.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "runtime/core/check.hpp"
-#include "runtime/render/frame.hpp"
-#include "runtime/render/models.hpp"
-#include "runtime/render/targets.hpp"
+#include "runtime/render/renderer_impl.hpp"
 
 namespace espalier {
 namespace {
 
-constexpr uint32_t kFrameSlots = 8;  // frame records that recordings in flight may still read
 constexpr float kShadowLodPixels = 1.2f;
-
-GraphicsDesc fullscreen(const char* name, const char* fragment, VkFormat format) {
-    GraphicsDesc desc;
-    desc.name = name;
-    desc.vertex = "render/fullscreen.vert";
-    desc.fragment = fragment;
-    desc.colors = {format};
-    desc.depthTest = desc.depthWrite = false;
-    return desc;
-}
 
 DrawTargets onto(VkExtent2D extent, VkImageView view) {
     DrawTargets targets;
@@ -42,170 +26,7 @@ float lengthUnit(glm::vec3 size) {
     return side > 1.0f && side < 200.0f ? 1.0f : std::max(side, 1e-6f) / 6;
 }
 
-class RendererImpl final : public Renderer {
-  public:
-    explicit RendererImpl(Device& device) : device_(device) {}
-
-    Status setUp(TerminalData data);
-    Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld) override {
-        return models_.set(device_, index, data, toWorld);
-    }
-    void removeSurface(uint32_t index) override { models_.remove(index); }
-    Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes) override;
-    Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) override;
-    Result<std::vector<uint8_t>> readPixels() override;
-    RenderStats stats() const override;
-    Result<EmittedTriangles> materialise(const EmitInputs& inputs) override { return emit_.materialise(inputs); }
-
-  private:
-    struct ShadowKey {
-        uint64_t growth = 0, models = 0;
-        glm::vec3 sun{0};
-        uint32_t nodes = 0, leaves = 0;
-        uint64_t roofs = 0;
-        glm::vec4 sphere{0};
-        bool operator==(const ShadowKey&) const = default;
-    };
-
-    Status makePrograms();
-    Result<const Program*> resolveProgram(VkFormat format);
-    // Uploads the record and returns its address.
-    Result<uint64_t> upload(Commands& commands, const FrameRecord& frame);
-    Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels);
-    void drawModels(Commands& commands, const DrawInputs& inputs, const PostPush& post);
-    Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
-    void drawGrowth(Commands& commands, const PostPush& post);
-    void drawTerminals(DrawPass& pass, uint64_t frame, bool depthOnly);
-    void drawOcclusion(Commands& commands, const PostPush& push);
-    Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
-
-    Device& device_;
-    Terminals terminals_;
-    Emit emit_;
-    std::unique_ptr<RoofDraw> roofs_;
-    Models models_;
-    Ground ground_;
-    Targets targets_;
-    Image shadowMap_;
-    Sampler shadowSampler_, textureSampler_, plainSampler_, pointSampler_;
-    Program model_, bark_, leaf_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_, sky_,
-        depthTiles_;
-    std::map<VkFormat, Program> resolves_;
-    Buffer frames_, tiles_;
-    uint32_t frameSlot_ = 0;
-    ShadowKey shadowKey_;
-    bool grows_ = false, roofed_ = false, shadowDrawn_ = false;
-};
-
-Status RendererImpl::makePrograms() {
-    const bool one = targets_.samples == 1;
-    auto graphics = [&](Program& program, const char* name, const char* vertex, const char* fragment,
-                        bool shadow) -> Status {
-        GraphicsDesc desc;
-        desc.name = name;
-        desc.vertex = vertex;
-        desc.fragment = fragment;
-        desc.depth = kDepthFormat;
-        if (shadow) {
-            desc.depthBiasConstant = 2;
-            desc.depthBiasSlope = 1.8f;
-        } else {
-            desc.colors = {kSceneFormat};
-            desc.samples = targets_.samples;
-            desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-        }
-        Result<Program> made = Program::graphics(device_, desc);
-        if (!made) return made.failure();
-        program = std::move(*made);
-        return Done{};
-    };
-    GraphicsDesc skyDesc = fullscreen("sky", "render/sky.frag", kSceneFormat);
-    skyDesc.samples = targets_.samples;
-    skyDesc.depth = kDepthFormat;  // it lies at depth 0, infinitely far
-    skyDesc.depthTest = true;
-    skyDesc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    Result<Program> sky = Program::graphics(device_, skyDesc);
-    if (!sky) return sky.failure();
-    sky_ = std::move(*sky);
-    Result<Program> depthTiles = Program::compute(device_, one ? "render/tiles_single.comp" : "render/tiles.comp");
-    if (!depthTiles) return depthTiles.failure();
-    depthTiles_ = std::move(*depthTiles);
-    auto post = [&](Program& program, const char* name, const char* fragment, VkFormat format) -> Status {
-        Result<Program> made = Program::graphics(device_, fullscreen(name, fragment, format));
-        if (!made) return made.failure();
-        program = std::move(*made);
-        return Done{};
-    };
-    const Status all[] = {
-        graphics(model_, "model", "render/model.vert", "render/model.frag", false),
-        graphics(bark_, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag", false),
-        graphics(leaf_, "leaf", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag", false),
-        graphics(modelDepth_, "model shadow", "render/model.vert", "", true),
-        graphics(barkDepth_, "bark shadow", "render/bark.vert", "", true),
-        graphics(leafDepth_, "leaf shadow", "render/leaf.vert", "", true),
-        graphics(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag", true),
-        post(distance_, "distance", one ? "render/depth_single.frag" : "render/depth.frag", kDistanceFormat),
-        post(occlusion_, "occlusion", "render/occlusion.frag", kOpenFormat)};
-    for (const Status& s : all)
-        if (!s) return s;
-    return Done{};
-}
-
-Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
-    if (auto it = resolves_.find(format); it != resolves_.end()) return &it->second;
-    const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
-    Result<Program> made = Program::graphics(device_, fullscreen("resolve", fragment, format));
-    if (!made) return made.failure();
-    return &(resolves_[format] = std::move(*made));
-}
-
-Status RendererImpl::setUp(TerminalData data) {
-    // Four samples make a frame three times as dear on a CPU; there edges are smoothed when all is drawn.
-    targets_.samples = device_.info().cpu ? 1 : 4;
-    Result<Terminals> terminals = Terminals::create(device_, std::move(data));
-    if (!terminals) return terminals.failure();
-    terminals_ = std::move(*terminals);
-    Result<Emit> emit = Emit::create(device_, terminals_);
-    if (!emit) return emit.failure();
-    emit_ = std::move(*emit);
-    Result<Models> models = Models::create(device_);
-    if (!models) return models.failure();
-    models_ = std::move(*models);
-    Result<Ground> ground = Ground::create(device_, kSceneFormat, kDepthFormat, targets_.samples);
-    if (!ground) return ground.failure();
-    ground_ = std::move(*ground);
-    ImageDesc shadow{.name = "shadow map", .format = kDepthFormat, .width = kShadowSize, .height = kShadowSize};
-    shadow.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
-    Result<Image> map = Image::create(device_, shadow);
-    if (!map) return map.failure();
-    shadowMap_ = std::move(*map);
-    const float anisotropy = device_.info().cpu ? 1.0f : 8.0f;
-    const struct {
-        Sampler& sampler;
-        SamplerDesc desc;
-    } samplers[] = {
-        {shadowSampler_,
-         {.name = "shadow map",
-          .address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-          .mips = false,
-          .shadowCompare = true}},
-        {textureSampler_, {.name = "terminal textures", .anisotropy = anisotropy}},
-        {pointSampler_,
-         {.name = "point",
-          .filter = VK_FILTER_NEAREST,
-          .address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-          .mips = false}},
-        {plainSampler_, {.name = "plain", .address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, .mips = false}}};
-    for (const auto& s : samplers) {
-        Result<Sampler> made = Sampler::create(device_, s.desc);
-        if (!made) return made.failure();
-        s.sampler = std::move(*made);
-    }
-    Result<Buffer> frames = Buffer::create(device_, "frames", kFrameSlots * sizeof(FrameRecord));
-    if (!frames) return frames.failure();
-    frames_ = std::move(*frames);
-    return makePrograms();
-}
+}  // namespace
 
 Result<std::vector<RoofMesh>> RendererImpl::loadRoofMeshes(TerminalData meshes) {
     auto made = RoofDraw::create(device_, std::move(meshes), kSceneFormat, kDepthFormat, targets_.samples);
@@ -222,7 +43,8 @@ Result<uint64_t> RendererImpl::upload(Commands& commands, const FrameRecord& fra
     return frames_.address() + offset;
 }
 
-void RendererImpl::drawTerminals(DrawPass& pass, uint64_t frame, bool depthOnly) {
+void RendererImpl::drawTerminals(DrawPass& pass, uint64_t frame, Terminal how) {
+    const bool depthOnly = how == Terminal::depthOnly;
     const EmitTable& table = terminals_.table();
     pass.setIndices(terminals_.batches());
     for (uint32_t b = 0; b < table.bucketCount; ++b) {
@@ -248,6 +70,8 @@ void RendererImpl::drawTerminals(DrawPass& pass, uint64_t frame, bool depthOnly)
         const bool bark = b < table.barkBuckets;
         if (!depthOnly && bark)
             pass.drawIndexedIndirect(bark_, emit_.state(), offset, 2, push, {color, shadow});
+        else if (how == Terminal::smallLit && small_[b])
+            pass.drawIndexedIndirect(leafSmall_, emit_.state(), offset, 2, push, {color, shadow});
         else if (!depthOnly)
             pass.drawIndexedIndirect(leaf_, emit_.state(), offset, 2, push, {color, normal, shadow});
         else if (bark)
@@ -280,7 +104,7 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
         targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = 1.0f};
         DrawPass pass(commands, "shadow draw", targets);
         models_.drawDepth(pass, modelDepth_, *address);
-        if (grows_) drawTerminals(pass, *address, true);
+        if (grows_) drawTerminals(pass, *address, Terminal::depthOnly);
         if (roofed_) roofs_->draw(pass, *address, nullptr, nullptr);
     }
     commands.transition(shadowMap_, ImageState::sampled);
@@ -333,7 +157,9 @@ void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {
     targets.depth = DepthTarget{};
     targets.depth->view = targets_.depth.view();
     DrawPass pass(commands, "draw scene", targets);
-    if (grows_) drawTerminals(pass, reinterpret_cast<uint64_t>(post.frame.v), false);
+    if (grows_)
+        drawTerminals(pass, reinterpret_cast<uint64_t>(post.frame.v),
+                      explained_ ? Terminal::plain : Terminal::smallLit);
     if (roofed_) roofs_->draw(pass, reinterpret_cast<uint64_t>(post.frame.v), &shadowMap_, &shadowSampler_);
     pass.draw(sky_, 3, 1, post, {{ground_.noise(), ground_.sampler()}});
 }
@@ -384,6 +210,7 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
             "a picture is 1 to 16384 pixels wide and high");
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
     const GrowthView& growth = inputs.growth;
+    explained_ = inputs.look.view != ViewMode::shaded;
     grows_ = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
     roofed_ = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
 
@@ -456,20 +283,6 @@ RenderStats RendererImpl::stats() const {
     stats.drawMs = std::max(0.0, device_.milliseconds("draw") - stats.emitMs);
     stats.shadowMs = device_.milliseconds("shadow emit") + device_.milliseconds("shadow draw");
     return stats;
-}
-
-}  // namespace
-
-Result<std::unique_ptr<Renderer>> Renderer::create(Device& device, TerminalData terminals) {
-    auto renderer = std::make_unique<RendererImpl>(device);
-    if (Status s = renderer->setUp(std::move(terminals)); !s) return s.failure();
-    return std::unique_ptr<Renderer>(std::move(renderer));
-}
-
-Result<std::unique_ptr<Renderer>> Renderer::create(Device& device, const std::filesystem::path& terminals) {
-    Result<TerminalData> data = readTerminals(terminals);
-    if (!data) return data.failure();
-    return create(device, std::move(*data));
 }
 
 }  // namespace espalier

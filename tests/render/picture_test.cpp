@@ -275,3 +275,29 @@ TEST_CASE("thin twigs fade instead of breaking up") {
     const double near = darkness(7), far = darkness(14);
     CHECK(far == doctest::Approx(near).epsilon(0.35));
 }
+
+TEST_CASE("the ground reaches the horizon, lies behind what stands on it and takes its shadow") {
+    Studio studio;
+    studio.inputs.growth = {};
+    studio.inputs.camera = {.eye = {0.8f, 0.9f, 3.6f}, .target = {0, 0.9f, 0}};
+    const std::vector<uint8_t> bare = studio.draw(160, 90);
+    studio.inputs.ground.drawn = true;
+    studio.inputs.ground.height = -0.3f;
+    const std::vector<uint8_t> on = studio.draw(160, 90);
+    auto same = [&](size_t x, size_t y) {
+        const size_t at = (y * 160 + x) * 4;
+        return std::equal(&bare[at], &bare[at] + 3, &on[at]);
+    };
+    CHECK(same(80, 45));  // the wall
+    CHECK(same(3, 3));    // the sky
+    CHECK(!same(3, 48));  // far below the level horizon's line
+    CHECK(!same(3, 52));
+    CHECK(!same(156, 52));
+    // From behind, where the wall's shadow falls.
+    studio.inputs.camera = {.eye = {0, 2.5f, -6}, .target = {0, 0, -1}};
+    const std::vector<uint8_t> shaded = studio.draw(160, 90);
+    studio.inputs.look.shadows = false;
+    const std::vector<uint8_t> lit = studio.draw(160, 90);
+    auto dark = [](int r, int g, int b) { return r + g + b < 200; };
+    CHECK(share(shaded, dark) > share(lit, dark) + 0.03);
+}

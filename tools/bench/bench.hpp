@@ -57,6 +57,7 @@ double median(std::vector<double> values);
 void growthCases(Bench& bench);
 void editCases(Bench& bench);
 void emitCases(Bench& bench);
+void frameCases(Bench& bench);
 void bakeCases(Bench& bench);
 void paintCases(Bench& bench);
 void roofStructureCases(Bench& bench);

@@ -37,6 +37,7 @@ class BenchScene {
     // Median edge of a texel of the finest level, metres.
     float texelMetres() const;
     SurfaceBuf surfaces() const { return {reinterpret_cast<SurfaceRef*>(table_.address())}; }
+    const SurfaceData& surface() const { return surface_; }
     uint32_t seedCount() const { return uint32_t(seeds_.size()); }
 
   private:

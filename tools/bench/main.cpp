@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
     growthCases(bench);
     editCases(bench);
     emitCases(bench);
+    frameCases(bench);
     bakeCases(bench);
     paintCases(bench);
     roofStructureCases(bench);

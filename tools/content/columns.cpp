@@ -1,4 +1,4 @@
-// What stands freely on the ground: columns and fallen stones, as profiles swept round an axis whose section
+// What stands freely on the ground: columns, a statue and fallen stones, as profiles swept round an axis whose section
 // passes between square and circle. In: profiles. Out: charts and footprints.
 
 #include <algorithm>
@@ -30,6 +30,9 @@ struct Pillar {
     uint32_t pieces = 48;                  // round the axis, a multiple of 8
     uint32_t salt = 1;
     bool spiralMask = false;
+    float ringDistance = 0.055f;                         // metres along the profile, at most
+    glm::vec2 (*carve)(glm::vec2 q, float y) = nullptr;  // from the profile's section to the sculpture's
+    float roughness = 0.8f;
 };
 
 glm::vec2 squareAt(float u) {
@@ -55,6 +58,7 @@ glm::vec3 ringPoint(const Pillar& p, const Ring& ring, float u) {
     float w = u >= 1 ? 0 : u;
     glm::vec2 round(std::sin(2 * kPi * w), std::cos(2 * kPi * w));
     glm::vec2 q = glm::mix(round, squareAt(w), ring.square) * ring.r;
+    if (p.carve) q = p.carve(q, ring.y);
     float c = std::cos(p.turn), s = std::sin(p.turn);
     q = {q.x * c + q.y * s, q.y * c - q.x * s};
     float above = ring.y / topOf(p);
@@ -66,11 +70,11 @@ float girth(const Ring& ring) {
     return ring.r * glm::mix(2 * kPi, 8.0f, ring.square);
 }
 
-std::vector<Ring> refine(const std::vector<Ring>& band) {
+std::vector<Ring> refine(const std::vector<Ring>& band, float distance) {
     std::vector<Ring> out{band.front()};
     for (size_t i = 1; i < band.size(); ++i) {
         const Ring &a = band[i - 1], &b = band[i];
-        int pieces = std::max(1, static_cast<int>(std::ceil(std::hypot(b.y - a.y, b.r - a.r) / 0.055f)));
+        int pieces = std::max(1, static_cast<int>(std::ceil(std::hypot(b.y - a.y, b.r - a.r) / distance)));
         for (int k = 1; k <= pieces; ++k) {
             float f = static_cast<float>(k) / static_cast<float>(pieces);
             out.push_back({glm::mix(a.y, b.y, f), glm::mix(a.r, b.r, f), glm::mix(a.square, b.square, f)});
@@ -94,7 +98,7 @@ Detail pillarDetail(const Pillar& p, glm::vec3 block, glm::vec2 st, float y, flo
     look.st = st + glm::vec2(static_cast<float>(p.salt) * 3.7f, 0);
     look.aboveGround = y;
     look.upward = upward;
-    look.roughness = upward > 0.5f ? 1.0f + p.topBulge : 0.8f;
+    look.roughness = upward > 0.5f ? 1.0f + p.topBulge : p.roughness;
     look.belowCrest = topOf(p) - y;
     look.shift = 0.25f;
     Detail d = stoneDetail(place, look);
@@ -102,7 +106,7 @@ Detail pillarDetail(const Pillar& p, glm::vec3 block, glm::vec2 st, float y, flo
 }
 
 void addBand(std::vector<Chart>& charts, const Pillar& p, const std::vector<Ring>& coarse, size_t index) {
-    std::vector<Ring> rings = refine(coarse);
+    std::vector<Ring> rings = refine(coarse, p.ringDistance);
     Chart chart;
     chart.name = p.name + " band " + std::to_string(index);
     float width = 0;
@@ -232,6 +236,65 @@ Pillar brokenColumn() {
     return p;
 }
 
+Pillar lowStump() {
+    Pillar p{"low stump", {2.75f, 4.15f}, 0.1f, baseBands(), 0.4f, 2.5f, {0.24f}, {0.23f}, 48, 57, false};
+    p.bands.push_back({{0.62f, 0.295f, 0}, {0.88f, 0.29f, 0}});
+    return p;
+}
+
+float bump(float x, float width) {
+    return std::exp(-x * x / (width * width));
+}
+
+// A veiled figure, its hands folded: shoulders wider than deep, folds that run out towards the chest, a shaded face.
+// Heights are of the whole statue; the figure begins at kHem.
+constexpr float kHem = 1.02f;
+glm::vec2 veiledFigure(glm::vec2 q, float y) {
+    float up = y - kHem;
+    if (up <= 0) return q;
+    float angle = std::atan2(q.x, q.y);  // 0 in front
+    float front = std::abs(angle);
+    float begins = ramp(0.0f, 0.12f, up);
+    float folds = begins * (0.3f + 0.7f * ramp(1.05f, 0.1f, up)) * ramp(1.36f, 1.15f, up);
+    float grow = 0.12f * std::sin(9 * angle + 2.1f * std::sin(2.3f * up + 0.7f)) +
+                 0.06f * std::sin(15 * angle - 3.0f * up + 1.9f) + 0.03f * std::sin(23 * angle + 5 * up);
+    float r = 1 + folds * grow;
+    r += 0.22f * bump(front - 1.4f, 0.36f) * ramp(0.70f, 0.84f, up) * ramp(1.24f, 1.05f, up);  // upper arms
+    float lower = 0.80f + 0.06f * saturate(1 - front / 1.3f);
+    r += 0.34f * bump(up - lower, 0.075f) * ramp(1.75f, 1.15f, front);  // fore arms, hands folded in front
+    // The face lies deep in the veil.
+    r -= 0.44f * ramp(0.80f, 0.42f, front) * ramp(0.115f, 0.05f, std::abs(up - 1.455f));
+    r += 0.27f * bump(front, 0.32f) * bump(up - 1.455f, 0.075f) + 0.10f * bump(front, 0.09f) * bump(up - 1.455f, 0.03f);
+    r += 0.06f * bump(front - 0.9f, 0.2f) * bump(up - 1.40f, 0.2f);
+    float wide = 1 + 0.30f * bump(up - 1.16f, 0.16f), deep = 1 - 0.22f * bump(up - 1.1f, 0.3f);
+    q = glm::vec2(q.x * wide, q.y * deep) * r;
+    q.y += 0.05f * ramp(1.15f, 1.5f, up) - 0.03f * bump(up - 0.5f, 0.3f);  // the head is bowed, the knees lean back
+    return q;
+}
+
+Pillar statue() {
+    Pillar p{"statue", {-0.75f, 3.55f}, 0.62f,  {},          0, 0, {0.20f, 0.84f}, {0.17f, 0.97f}, 56,
+             63,       false,           0.034f, veiledFigure};
+    p.roughness = 0.42f;
+    p.bands = {{{0, 0.46f, 1}, {0.17f, 0.46f, 1}, {0.20f, 0.42f, 1}, {0.25f, 0.345f, 1}},
+               {{0.25f, 0.345f, 1}, {0.78f, 0.335f, 1}},
+               {{0.78f, 0.335f, 1},
+                {0.83f, 0.36f, 1},
+                {0.88f, 0.41f, 1},
+                {0.97f, 0.415f, 1},
+                {0.985f, 0.32f, 0.8f},
+                {kHem, 0.285f, 0}},
+               {{kHem, 0.285f, 0}, {1.10f, 0.285f, 0}, {1.45f, 0.245f, 0}, {1.70f, 0.235f, 0}},
+               {{1.70f, 0.235f, 0}, {1.86f, 0.20f, 0}, {2.04f, 0.215f, 0}, {2.18f, 0.205f, 0}, {2.28f, 0.165f, 0}},
+               {{2.28f, 0.165f, 0},
+                {2.36f, 0.142f, 0},
+                {2.48f, 0.148f, 0},
+                {2.57f, 0.135f, 0},
+                {2.63f, 0.105f, 0},
+                {2.665f, 0.062f, 0}}};
+    return p;
+}
+
 Pillar fallenStone(const char* name, glm::vec2 foot, float turn, float halfWidth, float height, float tilt,
                    uint32_t salt) {
     return {
@@ -248,6 +311,8 @@ Pillar fallenStone(const char* name, glm::vec2 foot, float turn, float halfWidth
 void addColumns(std::vector<Chart>& charts, std::vector<Loop>& footprints) {
     addPillar(charts, footprints, standingColumn());
     addPillar(charts, footprints, brokenColumn());
+    addPillar(charts, footprints, lowStump());
+    addPillar(charts, footprints, statue());
     addPillar(charts, footprints, fallenStone("fallen stone 0", {3.45f, 1.0f}, 0.5f, 0.24f, 0.30f, 0.25f, 71));
     addPillar(charts, footprints, fallenStone("fallen stone 1", {-2.2f, 2.75f}, -0.35f, 0.27f, 0.26f, -0.20f, 72));
     addPillar(charts, footprints, fallenStone("fallen stone 2", {0.15f, 2.95f}, 0.9f, 0.20f, 0.20f, 0.3f, 73));

@@ -11,7 +11,7 @@ namespace espalier::content {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-constexpr glm::vec2 kMiddle{0.0f, 0.95f}, kReach{4.75f, 2.95f};  // of the ground's outline, (x, z)
+constexpr glm::vec2 kMiddle{0.35f, 1.7f}, kReach{5.35f, 4.1f};  // of the ground's outline, (x, z)
 
 float boxDistance(glm::vec2 p, glm::vec2 low, glm::vec2 high) {
     glm::vec2 d = glm::max(low - p, p - high);
@@ -20,9 +20,11 @@ float boxDistance(glm::vec2 p, glm::vec2 low, glm::vec2 high) {
 
 // Distance to what stands on the ground, roughly.
 float footDistance(glm::vec2 p) {
-    float d = std::min({boxDistance(p, {-3.5f, -0.35f}, {-0.23f, 0.35f}),
-                        boxDistance(p, {1.33f, -0.35f}, {3.4f, 0.35f}), boxDistance(p, {-3.5f, 0.35f}, {-2.8f, 2.7f})});
-    for (glm::vec2 c : {glm::vec2(2.3f, 1.95f), glm::vec2(-1.2f, 1.95f)})
+    float d =
+        std::min({boxDistance(p, {-3.5f, -0.35f}, {-0.23f, 0.35f}), boxDistance(p, {1.33f, -0.35f}, {3.4f, 0.35f}),
+                  boxDistance(p, {-3.5f, 0.35f}, {-2.8f, 2.7f}), boxDistance(p, {3.9f, 1.0f}, {4.6f, 4.2f})});
+    for (glm::vec2 c :
+         {glm::vec2(2.3f, 1.95f), glm::vec2(-1.2f, 1.95f), glm::vec2(2.75f, 4.15f), glm::vec2(-0.75f, 3.55f)})
         d = std::min(d, boxDistance(p, c - 0.44f, c + 0.44f));
     for (glm::vec3 c : {glm::vec3(3.45f, 1.0f, 0.22f), glm::vec3(-2.2f, 2.75f, 0.25f), glm::vec3(0.15f, 2.95f, 0.18f)})
         d = std::min(d, glm::distance(p, glm::vec2(c)) - c.z);
@@ -45,7 +47,8 @@ float outward(glm::vec2 xz) {
 
 // How much of the court's paving is left.
 float paved(glm::vec2 xz) {
-    float way = std::max(1 - std::abs(xz.x - 0.55f) / 1.5f, 0.9f - glm::distance(xz, glm::vec2(0.6f, 1.9f)) / 2.6f);
+    float way = std::max(1 - std::abs(xz.x - 0.55f) / 1.5f, 0.9f - glm::distance(xz, glm::vec2(0.6f, 2.3f)) / 3.2f);
+    way -= 0.9f * ramp(0.72f, 0.95f, outward(xz));  // grass has taken the rim
     return ramp(0.02f, 0.22f, way + 0.55f * fractal(xz * 0.9f, 711, 3) - 0.12f);
 }
 
@@ -75,9 +78,13 @@ Detail groundDetail(glm::vec2 st) {
     earth *= 1 + 0.35f * grit + 0.25f * clods;
     earth =
         glm::mix(earth, glm::vec3(0.165f, 0.148f, 0.122f) * (0.6f + 0.8f * random01(pebble.id, 2)), 0.8f * isPebble);
-    float grass = ramp(0.05f, 0.5f, fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f);
+    float rim = ramp(0.62f, 0.93f, outward(xz) + 0.12f * fractal(xz * 1.3f, 763, 3));  // goes over into the meadow
+    float grass = ramp(0.05f, 0.5f,
+                       fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f + 0.55f * rim);
     float blades = 0.5f + 0.5f * fractal(glm::vec2(xz.x * 60.0f, xz.y * 34.0f), 765, 2);
-    earth = glm::mix(earth, glm::mix(glm::vec3(0.034f, 0.044f, 0.014f), glm::vec3(0.105f, 0.112f, 0.038f), blades),
+    earth = glm::mix(earth,
+                     glm::mix(glm::mix(glm::vec3(0.034f, 0.044f, 0.014f), glm::vec3(0.105f, 0.112f, 0.038f), blades),
+                              glm::vec3(0.112f, 0.118f, 0.048f) * (0.62f + 0.7f * blades), 0.8f * rim),
                      0.85f * grass);
     out.height += 0.010f * grass * blades * (1 - stone);
     glm::vec3 slab =
@@ -103,8 +110,9 @@ float groundHeight(glm::vec2 xz) {
         float r = glm::distance(xz, glm::vec2(m)) / m.z;
         height += m.w * std::exp(-r * r) * (1 + 0.5f * fractal(xz * 5.0f, 787, 2));
     }
-    float rim = std::max(outward(xz) - 0.90f, 0.0f);
-    return height - 9.0f * rim * rim;
+    // The rim goes under the meadow around it.
+    float rim = std::max(outward(xz) - 0.86f, 0.0f);
+    return height - 7.0f * rim * rim - 0.02f * ramp(0.6f, 0.9f, outward(xz));
 }
 
 glm::vec3 settle(glm::vec3 block) {
@@ -125,7 +133,7 @@ void addGround(std::vector<Chart>& charts, const std::vector<Loop>& footprints) 
     Chart chart;
     chart.name = "ground";
     std::vector<std::vector<glm::vec2>> loops(1);
-    constexpr int kPieces = 260;
+    constexpr int kPieces = 330;
     for (int i = 0; i < kPieces; ++i) {
         glm::vec2 xz = outlineAt(2 * kPi * static_cast<float>(i) / kPieces);
         loops[0].push_back({xz.x, -xz.y});
@@ -134,9 +142,9 @@ void addGround(std::vector<Chart>& charts, const std::vector<Loop>& footprints) 
         loops.emplace_back();
         for (glm::vec2 xz : footprint) loops.back().push_back({xz.x, -xz.y});
     }
-    Candidates fine{{}, 0.060f, 0.045f}, coarse{{}, 0.095f, 0.07f};
-    for (float z = -2.4f; z < 4.4f; z += 0.02f)
-        for (float x = -5.2f; x < 5.2f; x += 0.02f) {
+    Candidates fine{{}, 0.088f, 0.055f}, coarse{{}, 0.16f, 0.09f};
+    for (float z = -2.8f; z < 6.2f; z += 0.02f)
+        for (float x = -5.4f; x < 6.1f; x += 0.02f) {
             uint32_t h = hash32(static_cast<uint32_t>(static_cast<int>(x * 1000)),
                                 static_cast<uint32_t>(static_cast<int>(z * 1000)));
             glm::vec2 xz = glm::vec2(x, z) + 0.018f * glm::vec2(random01(h, 1), random01(h, 2));

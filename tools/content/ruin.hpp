@@ -1,6 +1,6 @@
 #pragma once
 
-// The sample model: a corner of a ruined courtyard. One connected surface: ground, walls with an arch, columns,
+// The sample model: a ruined courtyard. One connected surface: ground, walls with an arch, columns, a statue,
 // fallen stones; open only at the rim of the ground.
 
 #include "tools/content/model.hpp"

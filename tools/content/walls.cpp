@@ -1,4 +1,4 @@
-// The ruin's two walls. In: their elevations. Out: a chart for each face, for the crests and for the arch's
+// The ruin's three walls. In: their elevations. Out: a chart for each face, for the crests and for the arch's
 // soffit, meeting in equal vertices, and the footprints that they leave in the ground.
 
 #include <algorithm>
@@ -41,6 +41,14 @@ Elevation returnWall() {
         -kHalf, kReturnEnd,
         {{-kHalf, 14}, {kHalf, 14}, {0.78f, 13}, {1.08f, 11}, {1.42f, 10}, {1.72f, 8}, {2.08f, 5}, {2.42f, 3}}, Arch{},
         4202);
+}
+
+// What is left of the court's other side: low, and open at both ends.
+constexpr float kEastX = 4.25f;  // of its middle
+
+Elevation eastWall() {
+    return Elevation(1.0f, 4.2f, {{1.0f, 2}, {1.32f, 4}, {1.75f, 5}, {2.3f, 4}, {2.7f, 6}, {3.15f, 3}, {3.7f, 1}},
+                     Arch{}, 4303);
 }
 
 float across(uint32_t i) {
@@ -122,13 +130,13 @@ void addFace(std::vector<Chart>& charts, const Elevation& wall, const Face& face
         for (glm::vec2& p : c.points) p = toSt(p);
         candidates.push_back(std::move(c));
     };
-    along(0, 0.055f, 0.02f);
-    along(0.042f, 0.055f, 0.024f);
-    along(0.018f, 0.06f, 0.017f);
-    Candidates fill{{}, 0.075f, 0.05f};
+    along(0, 0.064f, 0.02f);
+    along(0.042f, 0.064f, 0.024f);
+    along(0.018f, 0.07f, 0.017f);
+    Candidates fill{{}, 0.098f, 0.055f};
     int row = 0;
-    for (float y = 0.03f; y < wall.top(wall.begin()); y += 0.068f, ++row)
-        for (float x = face.from + ((row & 1) != 0 ? 0.02f : 0.06f); x < wall.end(); x += 0.078f)
+    for (float y = 0.03f; y < wall.top(wall.begin()); y += 0.086f, ++row)
+        for (float x = face.from + ((row & 1) != 0 ? 0.02f : 0.06f); x < wall.end(); x += 0.1f)
             fill.points.push_back(toSt({x, y}));
     candidates.push_back(std::move(fill));
     triangulate(chart, {loop}, candidates);
@@ -276,6 +284,22 @@ Loop mirroredPair(const std::vector<float>& xs, bool withEnds) {
     return loop;
 }
 
+void addEastWall(std::vector<Chart>& charts, std::vector<Loop>& footprints) {
+    Elevation wall = eastWall();
+    auto block = [](glm::vec2 p, float t) { return glm::vec3(kEastX + t, p.y, p.x); };
+    addFace(charts, wall,
+            {"east inner", wall.begin(), 1, {-1, 0, 0}, 4, true, [=](glm::vec2 p) { return block(p, -kHalf); }});
+    addFace(charts, wall,
+            {"east outer", wall.begin(), -1, {1, 0, 0}, 5, true, [=](glm::vec2 p) { return block(p, kHalf); }});
+    addRim(charts, "east crest", makeRim(wall, wall.crestLine(), false), 3, 2.3f, block);
+    std::vector<glm::vec2> end;
+    for (float y : verticalSamples(wall.top(wall.begin()))) end.push_back({wall.begin(), y});
+    addRim(charts, "east end", makeRim(wall, end, false), 2, 1.5f, block);
+    Loop loop;
+    for (glm::vec2 p : mirroredPair(wall.foot(wall.begin(), wall.end()), true)) loop.push_back({kEastX - p.y, p.x});
+    footprints.push_back(std::move(loop));
+}
+
 }  // namespace
 
 void addWalls(std::vector<Chart>& charts, std::vector<Loop>& footprints) {
@@ -296,6 +320,7 @@ void addWalls(std::vector<Chart>& charts, std::vector<Loop>& footprints) {
     addRim(charts, "return crest", makeRim(ret, crest, false), 3, 2.3f,
            [](glm::vec2 p, float t) { return glm::vec3(kMainBegin + kHalf + t, p.y, p.x); });
 
+    addEastWall(charts, footprints);
     footprints.push_back(mirroredPair(main.foot(arch.centre + arch.halfWidth, kMainEnd), true));
     Loop left;  // from the outer corner along the back to the arch, to the inner corner, round the return wall
     for (float x : main.foot(kMainBegin, arch.centre - arch.halfWidth)) left.push_back({x, -kHalf});

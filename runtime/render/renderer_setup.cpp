@@ -1,0 +1,149 @@
+// Enters: the terminals. Leaves: programs, samplers and buffers of the renderer.
+#include "runtime/render/renderer_impl.hpp"
+
+namespace espalier {
+namespace {
+
+GraphicsDesc fullscreen(const char* name, const char* fragment, VkFormat format) {
+    GraphicsDesc desc;
+    desc.name = name;
+    desc.vertex = "render/fullscreen.vert";
+    desc.fragment = fragment;
+    desc.colors = {format};
+    desc.depthTest = desc.depthWrite = false;
+    return desc;
+}
+
+}  // namespace
+
+Status RendererImpl::makePrograms() {
+    const bool one = targets_.samples == 1;
+    auto graphics = [&](Program& program, const char* name, const char* vertex, const char* fragment,
+                        bool shadow) -> Status {
+        GraphicsDesc desc;
+        desc.name = name;
+        desc.vertex = vertex;
+        desc.fragment = fragment;
+        desc.depth = kDepthFormat;
+        if (shadow) {
+            desc.depthBiasConstant = 2;
+            desc.depthBiasSlope = 1.8f;
+        } else {
+            desc.colors = {kSceneFormat};
+            desc.samples = targets_.samples;
+            desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+        }
+        Result<Program> made = Program::graphics(device_, desc);
+        if (!made) return made.failure();
+        program = std::move(*made);
+        return Done{};
+    };
+    GraphicsDesc skyDesc = fullscreen("sky", "render/sky.frag", kSceneFormat);
+    skyDesc.samples = targets_.samples;
+    skyDesc.depth = kDepthFormat;  // it lies at depth 0, infinitely far
+    skyDesc.depthTest = true;
+    skyDesc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    Result<Program> sky = Program::graphics(device_, skyDesc);
+    if (!sky) return sky.failure();
+    sky_ = std::move(*sky);
+    Result<Program> depthTiles = Program::compute(device_, one ? "render/tiles_single.comp" : "render/tiles.comp");
+    if (!depthTiles) return depthTiles.failure();
+    depthTiles_ = std::move(*depthTiles);
+    auto post = [&](Program& program, const char* name, const char* fragment, VkFormat format) -> Status {
+        Result<Program> made = Program::graphics(device_, fullscreen(name, fragment, format));
+        if (!made) return made.failure();
+        program = std::move(*made);
+        return Done{};
+    };
+    const Status all[] = {
+        graphics(model_, "model", "render/model.vert", "render/model.frag", false),
+        graphics(bark_, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag", false),
+        graphics(leaf_, "leaf", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag", false),
+        graphics(leafSmall_, "small leaf", "render/leaf_small.vert",
+                 one ? "render/leaf_small_single.frag" : "render/leaf_small.frag", false),
+        graphics(modelDepth_, "model shadow", "render/model.vert", "", true),
+        graphics(barkDepth_, "bark shadow", "render/bark.vert", "", true),
+        graphics(leafDepth_, "leaf shadow", "render/leaf.vert", "", true),
+        graphics(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag", true),
+        post(distance_, "distance", one ? "render/depth_single.frag" : "render/depth.frag", kDistanceFormat),
+        post(occlusion_, "occlusion", "render/occlusion.frag", kOpenFormat)};
+    for (const Status& s : all)
+        if (!s) return s;
+    return Done{};
+}
+
+Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
+    if (auto it = resolves_.find(format); it != resolves_.end()) return &it->second;
+    const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
+    Result<Program> made = Program::graphics(device_, fullscreen("resolve", fragment, format));
+    if (!made) return made.failure();
+    return &(resolves_[format] = std::move(*made));
+}
+
+Status RendererImpl::setUp(TerminalData data) {
+    // Four samples make a frame three times as dear on a CPU; there edges are smoothed when all is drawn.
+    targets_.samples = device_.info().cpu ? 1 : 4;
+    Result<Terminals> terminals = Terminals::create(device_, std::move(data));
+    if (!terminals) return terminals.failure();
+    terminals_ = std::move(*terminals);
+    const EmitTable& table = terminals_.table();
+    for (uint32_t v = 0; v < table.variantCount; ++v) {
+        const VariantRecord& variant = table.variants[v];
+        const uint32_t last = variant.firstBucket + variant.lodCount - 1;
+        small_[last] = last >= table.barkBuckets && variant.lodCount > 1;
+    }
+    Result<Emit> emit = Emit::create(device_, terminals_);
+    if (!emit) return emit.failure();
+    emit_ = std::move(*emit);
+    Result<Models> models = Models::create(device_);
+    if (!models) return models.failure();
+    models_ = std::move(*models);
+    Result<Ground> ground = Ground::create(device_, kSceneFormat, kDepthFormat, targets_.samples);
+    if (!ground) return ground.failure();
+    ground_ = std::move(*ground);
+    ImageDesc shadow{.name = "shadow map", .format = kDepthFormat, .width = kShadowSize, .height = kShadowSize};
+    shadow.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    Result<Image> map = Image::create(device_, shadow);
+    if (!map) return map.failure();
+    shadowMap_ = std::move(*map);
+    const float anisotropy = device_.info().cpu ? 1.0f : 8.0f;
+    const struct {
+        Sampler& sampler;
+        SamplerDesc desc;
+    } samplers[] = {
+        {shadowSampler_,
+         {.name = "shadow map",
+          .address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+          .mips = false,
+          .shadowCompare = true}},
+        {textureSampler_, {.name = "terminal textures", .anisotropy = anisotropy}},
+        {pointSampler_,
+         {.name = "point",
+          .filter = VK_FILTER_NEAREST,
+          .address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+          .mips = false}},
+        {plainSampler_, {.name = "plain", .address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, .mips = false}}};
+    for (const auto& s : samplers) {
+        Result<Sampler> made = Sampler::create(device_, s.desc);
+        if (!made) return made.failure();
+        s.sampler = std::move(*made);
+    }
+    Result<Buffer> frames = Buffer::create(device_, "frames", kFrameSlots * sizeof(FrameRecord));
+    if (!frames) return frames.failure();
+    frames_ = std::move(*frames);
+    return makePrograms();
+}
+
+Result<std::unique_ptr<Renderer>> Renderer::create(Device& device, TerminalData terminals) {
+    auto renderer = std::make_unique<RendererImpl>(device);
+    if (Status s = renderer->setUp(std::move(terminals)); !s) return s.failure();
+    return std::unique_ptr<Renderer>(std::move(renderer));
+}
+
+Result<std::unique_ptr<Renderer>> Renderer::create(Device& device, const std::filesystem::path& terminals) {
+    Result<TerminalData> data = readTerminals(terminals);
+    if (!data) return data.failure();
+    return create(device, std::move(*data));
+}
+
+}  // namespace espalier

@@ -1,0 +1,65 @@
+// How a leaf takes the light: two-sided, lit through, waxy above. Near leaves ask at each pixel, small ones at each
+// vertex.
+#ifndef ESPALIER_RENDER_LEAF_LIGHT_GLSL
+#define ESPALIER_RENDER_LEAF_LIGHT_GLSL
+#include "shaders/render/light.glsl"
+
+// Of a texel's colour c: c * own + dot(c, kLeafWeights) * turned is the leaf's.
+struct LeafTint {
+    vec3 own, turned;
+};
+const vec3 kLeafWeights = vec3(0.3, 0.6, 0.1);
+
+// tint: Leaf::tint; hash: of the leaf; patchTone: -1 to 1, whole patches differ as plants do.
+LeafTint leafTint(vec3 baseColor, uint tint, uint hash, float patchTone) {
+    float age = float(tint >> 24u) * (1.0 / 255.0);
+    vec3 root = vec3((tint >> 19u) & 31u, (tint >> 13u) & 63u, (tint >> 8u) & 31u) / vec3(31.0, 63.0, 31.0);
+    vec3 wanted = root * root;
+    float a = float(hash & 255u) * (1.0 / 255.0);
+    float b = float((hash >> 8u) & 255u) * (1.0 / 255.0);
+    // The grammar's colour turns the texture's hue; its brightness stays the texture's.
+    float strong = max(wanted.x, max(wanted.y, wanted.z)) - min(wanted.x, min(wanted.y, wanted.z));
+    float turn = 0.5 * min(1.0, 3.0 * strong);
+    // From old, dark and bluish to young, light and yellow.
+    const vec3 young = vec3(1.20, 1.08, 0.55);
+    const vec3 old = vec3(0.42, 0.56, 0.60);
+    vec3 grown = mix(old, young, clamp(0.10 + 0.45 * age + 0.5 * (a - 0.5) + 0.30 * patchTone, 0.0, 1.0)) * (0.80 + 0.40 * b);
+    LeafTint o;
+    o.own = baseColor * grown * (1.0 - turn);
+    o.turned = grown * turn * wanted / max(dot(wanted, kLeafWeights), 1e-3) * dot(baseColor, kLeafWeights);
+    return o;
+}
+vec3 leafColor(LeafTint tint, vec3 texel) { return texel * tint.own + dot(texel, kLeafWeights) * tint.turned; }
+
+// Light that the leaf's colour scales, and light that its wax mirrors, from the sun and from the sky.
+struct LeafLight {
+    vec3 sun, sunMirror, sky, skyMirror;
+};
+
+// face: the normal of the side that is seen; eye: towards it; open: share of the sky that is seen; visible: of the sun.
+LeafLight leafLight(FrameBuf frame, vec3 face, vec3 eye, float open, float visible, bool leaf, bool back) {
+    vec3 sun = frame.v[0].sunDirection;
+    float side = dot(face, sun);
+    float facing = max(side, 0.0);
+    vec3 falling = frame.v[0].sunColor * visible * (0.30 + 0.70 * open);
+    LeafLight o;
+    o.sun = falling * facing;
+    o.sunMirror = vec3(0.0);
+    vec3 above = skyLight(frame, face);
+    o.sky = above;
+    if (leaf) {
+        // What falls on the other side comes through yellower, of the sun's light and of the sky's.
+        const vec3 through = vec3(1.5, 1.35, 0.45);
+        o.sun += falling * through * (max(-side, 0.0) * 0.65 + 0.10);
+        o.sunMirror = falling * (gloss(face, eye, sun, 0.42) * facing * (back ? 0.3 : 1.0));
+        o.sky += 0.45 * through * skyLight(frame, -face);
+    }
+    // In the shade the sky's mirror image on the wax is what tells leaves apart.
+    float edge = 1.0 - max(dot(face, eye), 0.0);
+    float wax = (0.03 + 0.14 * edge * edge * edge) * (back || !leaf ? 0.3 : 1.0);
+    float reached = open * (0.35 + 0.65 * open);
+    o.sky *= reached;
+    o.skyMirror = skyLight(frame, reflect(-eye, face)) * wax * reached;
+    return o;
+}
+#endif
