@@ -9,6 +9,7 @@ namespace {
 
 // At most so many visible instances; beyond, they are counted as overflow and left out.
 constexpr uint64_t kMaxSpanInstances = 4'000'000, kMaxLeafInstances = 6'000'000;
+static_assert(kMaxSpanInstances <= kLastPlace && kMaxLeafInstances <= kLastPlace);
 constexpr uint32_t kViewSlots = 8;  // views that recordings in flight may still read
 constexpr size_t kCountedBytes = offsetof(EmitState, spare);
 

@@ -20,8 +20,7 @@ uint countInBucket(EmitStateBuf state, EmitTableBuf table, uint bucket, uint ful
     if (groupCounts[lane] != 0u) groupStarts[lane] = atomicAdd(state.v[0].counts[lane], groupCounts[lane]);
     if (lane == 0u && groupTriangles != 0u) atomicAdd(state.v[0].fullTriangles, groupTriangles);
     barrier();
-    if (bucket == kNoBucket) return kNoBucket << 24u;
-    return (bucket << 24u) | ((groupStarts[bucket] + place) & 0xFFFFFFu);
+    return classWord(bucket, bucket == kNoBucket ? 0u : groupStarts[bucket] + place);
 }
 
 bool outside(EmitView view, vec3 center, float radius) {

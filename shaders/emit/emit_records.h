@@ -17,7 +17,14 @@ CONST_UINT(kMaxVariants, 48u);
 CONST_UINT(kMaxLods, 6u);
 CONST_UINT(kMaxBuckets, 64u);
 CONST_UINT(kNoBucket, 0xFFu);
+CONST_UINT(kLastPlace, 0xFFFFFFu);
 CONST_UINT(kFullDetail, 1u);   // EmitView::flags: every instance at LOD 0, nothing is culled, thickened or thinned out
+
+// An item's class: bits 31..24 bucket (kNoBucket: not seen), 23..0 place in it. Places from kLastPlace on are one: no
+// buffer of instances has room for so many, so that all of them are overflow and none is written.
+FN uint classWord(uint bucket, uint place) { return (bucket << 24u) | (place < kLastPlace ? place : kLastPlace); }
+FN uint classBucket(uint word) { return word >> 24u; }
+FN uint classPlace(uint word) { return word & kLastPlace; }
 
 // What a cull is for. A sphere (c, r) is outside if dot(planes[i].xyz, c) + planes[i].w < -r for some i.
 struct EmitView {
@@ -146,7 +153,7 @@ struct EmitPush {
     EmitViewBuf view;
     EmitTableBuf table;
     EmitStateBuf state;
-    UintBuf classes;            // an item each: bits 31..24 bucket (kNoBucket: not seen), 23..0 place in it
+    UintBuf classes;            // an item each: classWord
     NodeBuf nodes;
     ChunkBuf chunks;
     LeafBuf leaves;

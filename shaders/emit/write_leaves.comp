@@ -12,8 +12,8 @@ void main() {
     uint i = itemIndex();
     if (i >= push.leafCount) return;
     uint word = push.classes.v[push.nodeCount + i];
-    uint bucket = word >> 24u;
-    uint place = word & 0xFFFFFFu;
+    uint bucket = classBucket(word);
+    uint place = classPlace(word);
     if (bucket == kNoBucket || place >= push.state.v[0].counts[bucket]) return;
     Leaf record = push.leaves.v[i];
     LeafPose pose = unpackLeaf(record.place, record.pose, record.tint);

@@ -12,8 +12,8 @@ void main() {
     uint i = itemIndex();
     if (i >= push.nodeCount) return;
     uint word = push.classes.v[i];
-    uint bucket = word >> 24u;
-    uint place = word & 0xFFFFFFu;
+    uint bucket = classBucket(word);
+    uint place = classPlace(word);
     if (bucket == kNoBucket || place >= push.state.v[0].counts[bucket]) return;
     LoadedSpan s = loadSpan(push.nodes, push.chunks, push.surfaces, i);
     SpanInstance o;

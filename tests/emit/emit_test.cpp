@@ -129,6 +129,15 @@ TEST_CASE("spans meet without a kink, and children leave along their stem") {
     CHECK(worstRadius <= 1e-6);
 }
 
+TEST_CASE("places beyond what a class word holds stay beyond every buffer") {
+    for (uint32_t place : {0u, 1u, 0xFFFFFEu}) CHECK(classPlace(classWord(5, place)) == place);
+    for (uint32_t place : {0xFFFFFFu, 0x1000000u, 0x1000001u, 0xFFFFFFFFu}) {
+        CHECK(classPlace(classWord(5, place)) == kLastPlace);
+        CHECK(classBucket(classWord(5, place)) == 5);
+        CHECK(classBucket(classWord(kNoBucket, place)) == kNoBucket);
+    }
+}
+
 TEST_CASE("culling keeps what is seen and drops what is far outside") {
     Gpu gpu;
     const test::PlantData data = test::helix(700, 1.0f);
