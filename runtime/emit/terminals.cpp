@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runtime/core/check.hpp"
+#include "runtime/surface/box_tree.hpp"
 #include "shaders/shared/exact.h"
 
 namespace espalier {
@@ -34,16 +35,29 @@ float distanceToTriangle(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
     return std::min({distanceToSegment(p, a, b), distanceToSegment(p, b, c), distanceToSegment(p, c, a)});
 }
 
-float distanceToMesh(const TerminalData& data, const TerminalLod& lod, glm::vec3 p) {
-    float best = 1e30f;
-    for (uint32_t i = 0; i < lod.indexCount; i += 3) {
-        glm::vec3 corner[3];
-        for (uint32_t k = 0; k < 3; ++k)
-            corner[k] = data.vertices[lod.firstVertex + data.indices[lod.firstIndex + i + k]].position;
-        best = std::min(best, distanceToTriangle(p, corner[0], corner[1], corner[2]));
+// A LOD's triangles in a tree of boxes.
+class LodDistance {
+  public:
+    LodDistance(const TerminalData& data, const TerminalLod& lod) {
+        std::vector<Box> boxes;
+        for (uint32_t i = 0; i < lod.indexCount; ++i) {
+            corners_.push_back(data.vertices[lod.firstVertex + data.indices[lod.firstIndex + i]].position);
+            if (i % 3 == 0) boxes.emplace_back();
+            boxes.back().add(corners_.back());
+        }
+        tree_ = BoxTree(std::move(boxes), {});
     }
-    return best;
-}
+    double squareAt(glm::vec3 p) const {
+        return tree_.nearestSquare(p, [&](uint32_t i) {
+            const double d = distanceToTriangle(p, corners_[3 * i], corners_[3 * i + 1], corners_[3 * i + 2]);
+            return d * d;
+        });
+    }
+
+  private:
+    std::vector<glm::vec3> corners_;
+    BoxTree tree_;
+};
 
 // Pieces along z.
 float barkSegments(const TerminalData& data, const TerminalLod& lod) {
@@ -56,25 +70,28 @@ float barkSegments(const TerminalData& data, const TerminalLod& lod) {
 }  // namespace
 
 void measureTerminalErrors(TerminalData& data) {
-    for (TerminalVariant& variant : data.variants)
+    for (TerminalVariant& variant : data.variants) {
+        if (variant.lods.size() < 2) continue;
+        const TerminalLod& full = variant.lods[0];
+        const LodDistance toFull(data, full);
         for (size_t l = 1; l < variant.lods.size(); ++l) {
-            const TerminalLod &full = variant.lods[0], &lod = variant.lods[l];
+            TerminalLod& lod = variant.lods[l];
+            const LodDistance toLod(data, lod);
             // The root of the mean square: one far point, like the end of a stalk, doesn't decide for all.
             double sum = 0;
             uint32_t count = full.vertexCount;
-            auto add = [&](const TerminalLod& to, glm::vec3 p) {
-                const float d = distanceToMesh(data, to, p);
-                sum += double(d) * d;
-            };
-            for (uint32_t i = 0; i < full.vertexCount; ++i) add(lod, data.vertices[full.firstVertex + i].position);
+            for (uint32_t i = 0; i < full.vertexCount; ++i)
+                sum += toLod.squareAt(data.vertices[full.firstVertex + i].position);
             // A cut-out may reach further than the shape: its texture takes that away again.
             if (data.materials[lod.material].alphaCutoff == 0) {
                 count += lod.vertexCount;
-                for (uint32_t i = 0; i < lod.vertexCount; ++i) add(full, data.vertices[lod.firstVertex + i].position);
+                for (uint32_t i = 0; i < lod.vertexCount; ++i)
+                    sum += toFull.squareAt(data.vertices[lod.firstVertex + i].position);
             }
-            const float error = float(std::sqrt(sum / count));
-            variant.lods[l].error = std::max({error, variant.lods[l - 1].error * 1.01f, 1e-4f});
+            const float error = std::min(float(std::sqrt(sum / std::max(count, 1u))), 1e30f);
+            lod.error = std::max({error, variant.lods[l - 1].error * 1.01f, 1e-4f});
         }
+    }
 }
 
 // Far bark is a ribbon that the vertex shader turns to the eye: two triangles a span.

@@ -78,6 +78,20 @@ class BoxTree {
         visit([&](const Box& b) { return b.touches(box); }, fn);
     }
 
+    // The least of square(i), the squares of distances from `point`, asked only of those whose boxes are nearer than
+    // what was found before.
+    template <class Fn>
+    double nearestSquare(glm::dvec3 point, Fn&& square) const {
+        double least = std::numeric_limits<double>::infinity();
+        visit(
+            [&](const Box& b) {
+                const glm::dvec3 d = glm::max(glm::max(b.low - point, point - b.high), glm::dvec3(0));
+                return glm::dot(d, d) < least;
+            },
+            [&](uint32_t i) { least = std::min(least, double(square(i))); });
+        return least;
+    }
+
     // fn(i) for each whose box the ray meets.
     template <class Fn>
     void along(glm::dvec3 origin, glm::dvec3 direction, Fn&& fn) const {
