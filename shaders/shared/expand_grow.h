@@ -6,6 +6,7 @@
 #ifndef ESPALIER_SHARED_EXPAND_GROW_H
 #define ESPALIER_SHARED_EXPAND_GROW_H
 #include "shaders/shared/expand_step.h"
+#include "shaders/shared/triangle_lookup.h"
 
 ESPALIER_BEGIN
 
@@ -58,8 +59,30 @@ FN uint joinSiblings(ExpandEnv env, WorkItem item, uint chunk) {
 }
 #endif
 
+// Puts the staged samples beside creases onto the triangles under them. A loop of its own over those alone: elsewhere
+// it would cost every sample its full price on a software device.
+FN void seatStaged(ExpandEnv env, uint count) {
+    uint left = 0u;
+    for (uint i = 0u; i < count; ++i) left = left | ((STAGED(i * kStagedWords + 8u) >> 31u) << i);
+    while (left != 0u) {
+        uint at = kStagedWords * lowestBit(left);
+        left = left & (left - 1u);
+        vec3 position = vec3(uintBitsToFloat(STAGED(at)), uintBitsToFloat(STAGED(at + 1u)), uintBitsToFloat(STAGED(at + 2u)));
+        vec3 normal = unpackOct(STAGED(at + 3u));
+        seatOnTriangle(env.surfaces, STAGED(at + 6u), unpackUv(STAGED(at + 5u)), position, normal);
+        STAGED(at) = floatBitsToUint(position.x);
+        STAGED(at + 1u) = floatBitsToUint(position.y);
+        STAGED(at + 2u) = floatBitsToUint(position.z);
+        // On a crease the normal is the mean of both sides already.
+        bool inserted = (STAGED(at + 8u) & kNodeInserted) != 0u;
+        STAGED(at + 3u) = inserted ? STAGED(at + 3u) : packOct(normal);
+        STAGED(at + 8u) = STAGED(at + 8u) & ~kStagedCrease;
+    }
+}
+
 // Takes a range of nodes, copies what was staged, and returns the first index.
 FN uint publishNodes(ExpandEnv env, uint chunk, uint count) {
+    seatStaged(env, count);
     uint first = count > 0u ? atomicAdd(env.status.v[0].nodes, count) : 0u;
     bool fits = first + count <= env.status.v[0].nodeCapacity;
     if (count > 0u) {

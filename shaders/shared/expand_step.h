@@ -62,6 +62,7 @@ CONST_UINT(kItemsPerGroup, 64u);           // a group is dispatched for so many 
 
 // A chunk's nodes are staged in an array of words of the invocation's own, since they get their place at its end.
 CONST_UINT(kStagedWords, 9u);   // of a node: what the march knows of it
+CONST_UINT(kStagedCrease, 1u << 31u);   // in its flags: it stands beside a crease
 #ifdef __cplusplus
 #define STAGED(i) env.scratch.v[i]
 #else
@@ -251,7 +252,7 @@ FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, uint flags, uint inde
     STAGED(at + 5u) = packUv(w.walk.uv);
     STAGED(at + 6u) = w.walk.place;
     STAGED(at + 7u) = floatBitsToUint(w.walk.arc);
-    STAGED(at + 8u) = flags | (index << 8u);
+    STAGED(at + 8u) = flags | (index << 8u) | ((w.flags & kWalkFlagCrease) != 0u ? kStagedCrease : 0u);
 }
 
 // The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes

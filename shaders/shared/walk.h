@@ -39,6 +39,8 @@ CONST_FLOAT(kWalkMaxTexels, 16.0f);      // longest stretch walked in one go
 CONST_FLOAT(kWalkCreaseTexels, 2.0f);    // the same among creases, where a stretch should cross no more than one
 CONST_FLOAT(kWalkMaxRadii, 256.0f);      // longest length that may be asked for, in radii of the surface
 CONST_FLOAT(kWalkTurnCosine, 0.94f);     // a stretch over which the normal turns by more than 20 degrees is cut
+CONST_FLOAT(kWalkBulgeTexels, 0.2f);     // or that bulges by more
+CONST_FLOAT(kWalkBentCosine, 0.996f);    // a stretch that turned by 5 degrees ends with a sample
 CONST_FLOAT(kWalkNudgeTexels, 0.004f);   // how far inside the far chart a crossing ends
 CONST_FLOAT(kWalkCornerTexels, 0.01f);   // and how far from the ends of its border segment
 
@@ -398,7 +400,10 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         float toCrease = divExact(dot3(p.normal, p.position - w.position), slope);
         bool meet = creased && absolute(slope) > 1e-3f && toCrease >= 0.0f && toCrease <= s;
         vec2 correction = (rate1 - rate) * (meet ? s - toCrease : 0.5f * s);
-        bool rough = turn < kWalkTurnCosine || dot2(correction, correction) > 0.04f * dot2(delta, delta);
+        // Both ends far under each other's planes: the surface bulges between them.
+        float bulge = smaller(absolute(dot3(n, p.position - w.position)), absolute(slope * toCrease));
+        bool rough = turn < kWalkTurnCosine || dot2(correction, correction) > 0.04f * dot2(delta, delta) ||
+                     bulge * pace > kWalkBulgeTexels * texel;
         // A sharp crease. The nearest texel changes sides up to half a texel before or after the planes do.
         float close = texel * rcpExact(pace);
         float height = slope * toCrease;
@@ -448,7 +453,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             w.limit = turn > 0.985f ? w.limit * 2.0f : w.limit;
             w.limit = smaller(w.limit, 1e30f);
             bool bend = (w.flags & kWalkFlagBend) != 0u;
-            event = !partly ? kWalkDone : bend ? kWalkBend : kWalkRetry;
+            event = !partly ? kWalkDone : bend || turn < kWalkBentCosine ? kWalkBend : kWalkRetry;
             w.flags = w.flags & ~(kWalkFlagLoose | kWalkFlagBend | kWalkFlagOver);
             tries = partly ? 0u : tries;
         }

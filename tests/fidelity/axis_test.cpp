@@ -42,11 +42,9 @@ Model boxOrBall(uint32_t n, bool round) {
     return model;
 }
 
-// Least shares of samples within one radius that are asked for. The target is 0.999 everywhere. Where less is asked
-// for, the bark there is a tenth to a third of a texel thick (the table's r/texel), and
-//   - a node beside a crease stands on its texel's plane, carried on over the crease: up to half a texel off;
-//   - at a sample on a crease the tangent leans off both sides, and so do the handles of the curve;
-//   - steps of the paper's grammar are up to 30 radii long, and only turns of 20 degrees and more are sampled between.
+// Least shares of samples within one radius that are asked for: the target, 0.999, of ivy for game scenes everywhere.
+// The paper's grammar makes steps of up to 30 radii with bark a tenth of a texel thick. There, less is asked for on
+// models whose surface bends within a step more than once: what lies between two reads of the walk is not seen.
 // Within a texel or a radius, the target is met everywhere (withinTexel).
 struct Bounds {
     double free, paper;
@@ -69,6 +67,7 @@ void judge(const std::string& name, const Model& model, Bounds bounds) {
         const AxisFigures f = measureAxis(*baked, mesh, c);
         print(name, c, f);
         CHECK(f.spans > 1000);
+        if (isFree) CHECK(f.nodesWithin >= .9995);
         CHECK(f.within >= (isFree ? bounds.free : bounds.paper));
         CHECK(f.withinTexel >= bounds.withinTexel);
         CHECK(f.worstBreak <= 1.0);
@@ -115,13 +114,13 @@ TEST_CASE("bark on the sample ruin") {
     char folder[] = "/tmp/espalier-fidelity-XXXXXX";
     REQUIRE(mkdtemp(folder));
     const std::string file = ruinFile(folder);
-    judgeFile("ruin", file, {.992, .97});
+    judgeFile("ruin", file, {.999, .994});
     std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("bark on real models") {
     if (auto file = test::dataFile("models/polyhaven_concrete_cat_statue/concrete_cat_statue_1k.gltf"))
-        judgeFile("cat statue", *file, {.998, .995});
-    if (auto file = test::dataFile("models/threedscans/Column03.glb")) judgeFile("column", *file, {.998, .99});
-    if (auto file = test::dataFile("derived/bunny_unwrap.glb")) judgeFile("bunny", *file, {.998, .99});
+        judgeFile("cat statue", *file, {.999, .999});
+    if (auto file = test::dataFile("models/threedscans/Column03.glb")) judgeFile("column", *file, {.999, .9985});
+    if (auto file = test::dataFile("derived/bunny_unwrap.glb")) judgeFile("bunny", *file, {.999, .998});
 }
