@@ -477,7 +477,8 @@ bool App::drawFrame(bool moving, bool last) {
     if (!image_->show(work_.context.get(), *frame, draw, scale, work_.redraw)) return fail(image_->error());
     if (image_->drew()) {
         coarse_ = slow;
-        work_.redraw = false;
+        EspStats stats;
+        work_.redraw = espReadStats(work_.context.get(), &stats) == ESP_OK && stats.modelsFading > 0;
     }
     ImGui::Render();
     if (!ui_->draw(*frame, *ImGui::GetDrawData())) return fail(ui_->error());

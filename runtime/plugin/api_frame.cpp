@@ -236,6 +236,8 @@ EspStats gather(const EspContext& context) {
     for (const PaintedLayer& layer : context.layers) stats.layerBytes += layer.texels.size();
     stats.totalBytes = context.device->memory().bytesUsed();
     stats.hash = growth.hash;
+    stats.modelTriangles = render.modelTriangles;
+    stats.modelsFading = render.modelsFading;
     return stats;
 }
 

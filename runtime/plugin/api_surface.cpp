@@ -59,6 +59,7 @@ void dropUploaded(SurfaceData& data) {
     data.images = {};
     data.materials = {};
     data.ranges = {};
+    data.coarser = {};
     data.crossings = {};
     data.triangles = {};
     data.levels.resize(1);

@@ -19,12 +19,12 @@
 #include "runtime/grammar/grammar.hpp"
 #include "runtime/paint/painter.hpp"
 #include "runtime/plugin/id_table.hpp"
-#include "runtime/plugin/mesh_tree.hpp"
 #include "runtime/plugin/plants.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/roof/footprint.hpp"
 #include "runtime/roof/roof_growth.hpp"
 #include "runtime/surface/gpu_surface.hpp"
+#include "runtime/surface/mesh_tree.hpp"
 #include "runtime/surface/surface.hpp"
 
 namespace espalier {

@@ -1,7 +1,9 @@
-// Enters: decoded meshes with materials. Leaves: their buffers and textures, and draws, one a material range.
+// Enters: decoded meshes with materials. Leaves: their buffers and textures, for each frame the level of detail, and
+// draws, one a material range.
 #include "runtime/render/models.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace espalier {
 namespace {
@@ -49,14 +51,27 @@ Result<Models> Models::create(Device& device) {
     return models;
 }
 
-Status Models::upload(Device& device, const SurfaceData& data, Model& model) {
-    Result<Buffer> vertices = makeBuffer(device, "model vertices", data.vertices);
-    if (!vertices) return vertices.failure();
-    model.vertices = std::move(*vertices);
-    Result<Buffer> indices = makeBuffer(device, "model indices", data.indices);
-    if (!indices) return indices.failure();
-    model.indices = std::move(*indices);
-    model.ranges = data.ranges;
+Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& model) {
+    std::vector<DrawVertex> vertices = data.vertices;
+    std::vector<uint32_t> indices = data.indices;
+    model.meshes.push_back({0, data.ranges, 0});
+    const float scale = glm::length(glm::vec3(model.toWorld[0]));
+    for (const CoarserMesh& mesh : data.coarser) {
+        model.meshes.push_back({vertices.size(), mesh.ranges, mesh.error * scale});
+        for (DrawRange& range : model.meshes.back().ranges) range.firstIndex += uint32_t(indices.size());
+        vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+    Result<Buffer> vertexBuffer = makeBuffer(device, "model vertices", vertices);
+    if (!vertexBuffer) return vertexBuffer.failure();
+    model.vertices = std::move(*vertexBuffer);
+    Result<Buffer> indexBuffer = makeBuffer(device, "model indices", indices);
+    if (!indexBuffer) return indexBuffer.failure();
+    model.indices = std::move(*indexBuffer);
+    return Done{};
+}
+
+Status Models::uploadPictures(Device& device, const SurfaceData& data, Model& model) {
     model.materials = data.materials;
     if (model.materials.empty()) model.materials.emplace_back();
     model.colors.resize(data.images.size());
@@ -84,8 +99,9 @@ Status Models::upload(Device& device, const SurfaceData& data, Model& model) {
 
 Status Models::set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld) {
     Model model;
-    if (Status s = upload(device, data, model); !s) return s;
     model.toWorld = toWorld;
+    if (Status s = uploadMeshes(device, data, model); !s) return s;
+    if (Status s = uploadPictures(device, data, model); !s) return s;
     model.low = glm::vec3(1e30f);
     model.high = glm::vec3(-1e30f);
     for (int corner = 0; corner < 8; ++corner) {
@@ -106,10 +122,36 @@ void Models::remove(uint32_t index) {
     ++revision_;
 }
 
-ModelPush Models::pushOf(const Model& model, const Material& material, uint64_t frame, uint32_t surface) const {
+uint32_t Models::simplest(const Model& model, float error) {
+    uint32_t mesh = 0;
+    while (mesh + 1 < model.meshes.size() && model.meshes[mesh + 1].error <= error) ++mesh;
+    return mesh;
+}
+
+void Models::choose(glm::vec3 eye, float pixelScale, float pixels) {
+    for (auto& [index, model] : models_) {
+        const float distance = glm::length(eye - glm::clamp(eye, model.low, model.high));
+        const uint32_t wanted = simplest(model, pixels * distance / pixelScale);
+        if (model.step == 0) {  // at once, where nothing was seen before
+            model.shown = wanted;
+            model.step = kFadeFrames;
+        } else if (model.step < kFadeFrames && wanted == model.before) {
+            std::swap(model.shown, model.before);
+            model.step = kFadeFrames - model.step + 1;
+        } else if (model.step == kFadeFrames && wanted != model.shown) {
+            model.before = std::exchange(model.shown, wanted);
+            model.step = 1;
+        } else {
+            model.step = std::min(model.step + 1, kFadeFrames);
+        }
+    }
+}
+
+ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& material, uint64_t frame,
+                         uint32_t surface) const {
     ModelPush push{};
     push.frame.v = reinterpret_cast<FrameRecord*>(frame);
-    push.vertices.v = reinterpret_cast<ModelVertex*>(model.vertices.address());
+    push.vertices.v = reinterpret_cast<ModelVertex*>(model.vertices.address()) + model.meshes[mesh].firstVertex;
     for (int r = 0; r < 3; ++r)
         push.toWorld[r] = {model.toWorld[0][r], model.toWorld[1][r], model.toWorld[2][r], model.toWorld[3][r]};
     push.baseColor = shownColor(material);
@@ -117,6 +159,8 @@ ModelPush Models::pushOf(const Model& model, const Material& material, uint64_t 
     push.roughness = material.roughness;
     push.alphaCutoff = material.alphaCutoff;
     push.surface = surface;
+    push.lod = mesh;
+    push.fade = 1;
     return push;
 }
 
@@ -124,32 +168,57 @@ void Models::draw(DrawPass& pass, const Program& program, uint64_t frame, const 
                   const Sampler& shadowSampler, bool walkData) const {
     for (const auto& [index, model] : models_) {
         pass.setIndices(model.indices);
-        for (const DrawRange& range : model.ranges) {
-            const Material& material = model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
-            pass.drawIndexed(program, {range.indexCount, range.firstIndex},
-                             pushOf(model, material, frame, walkData ? index : kNoIndex),
-                             {{pictureOr(model.colors, material.baseColorImage, white_), sampler_},
-                              {pictureOr(model.normals, material.normalImage, flat_), sampler_},
-                              {shadowMap, shadowSampler}});
+        const auto drawMesh = [&](uint32_t mesh, float fade) {
+            for (const DrawRange& range : model.meshes[mesh].ranges) {
+                const Material& material =
+                    model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
+                ModelPush push = pushOf(model, mesh, material, frame, walkData ? index : kNoIndex);
+                push.fade = fade;
+                pass.drawIndexed(program, {range.indexCount, range.firstIndex}, push,
+                                 {{pictureOr(model.colors, material.baseColorImage, white_), sampler_},
+                                  {pictureOr(model.normals, material.normalImage, flat_), sampler_},
+                                  {shadowMap, shadowSampler}});
+            }
+        };
+        if (model.step == kFadeFrames) {
+            drawMesh(model.shown, 1);
+            continue;
         }
+        // Pixels go to the coarser one in one order and come back in the same.
+        const float share = float(model.step) / kFadeFrames, coarser = model.shown > model.before ? share : 1 - share;
+        drawMesh(std::max(model.shown, model.before), coarser);
+        drawMesh(std::min(model.shown, model.before), -coarser);
     }
 }
 
-void Models::drawDepth(DrawPass& pass, const Program& program, uint64_t frame) const {
+void Models::drawDepth(DrawPass& pass, const Program& program, uint64_t frame, float error) const {
     for (const auto& [index, model] : models_) {
         pass.setIndices(model.indices);
-        for (const DrawRange& range : model.ranges) {
+        const uint32_t mesh = simplest(model, error);
+        for (const DrawRange& range : model.meshes[mesh].ranges) {
             const Material& material = model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
-            pass.drawIndexed(program, {range.indexCount, range.firstIndex}, pushOf(model, material, frame, index));
+            pass.drawIndexed(program, {range.indexCount, range.firstIndex},
+                             pushOf(model, mesh, material, frame, index));
         }
     }
 }
 
 uint64_t Models::triangles() const {
     uint64_t sum = 0;
-    for (const auto& [index, model] : models_)
-        for (const DrawRange& range : model.ranges) sum += range.indexCount / 3;
+    const auto add = [&](const Mesh& mesh) {
+        for (const DrawRange& range : mesh.ranges) sum += range.indexCount / 3;
+    };
+    for (const auto& [index, model] : models_) {
+        add(model.meshes[model.shown]);
+        if (model.step < kFadeFrames) add(model.meshes[model.before]);
+    }
     return sum;
+}
+
+uint32_t Models::fading() const {
+    uint32_t count = 0;
+    for (const auto& [index, model] : models_) count += model.step < kFadeFrames ? 1 : 0;
+    return count;
 }
 
 void Models::bounds(glm::vec3& low, glm::vec3& high) const {

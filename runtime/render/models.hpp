@@ -17,28 +17,46 @@ class Models {
     Status set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld);
     void remove(uint32_t index);
 
-    // Draws all of them; `shadowMap` may be without an image for a depth-only program.
+    // Picks for each model the simplest mesh whose error is at most `pixels` where the model is nearest. Once before a
+    // frame's draw: when the pick changes, the one mesh takes over from the other within the next kFadeFrames.
+    void choose(glm::vec3 eye, float pixelScale, float pixels);
+    static constexpr uint32_t kFadeFrames = 8;
+
+    // Draws all of them as chosen; `shadowMap` may be without an image for a depth-only program.
     void draw(DrawPass& pass, const Program& program, uint64_t frame, const Image& shadowMap,
               const Sampler& shadowSampler, bool walkData) const;
-    void drawDepth(DrawPass& pass, const Program& program, uint64_t frame) const;
+    // The simplest meshes with an error of at most `error` metres.
+    void drawDepth(DrawPass& pass, const Program& program, uint64_t frame, float error) const;
 
-    uint64_t triangles() const;
+    uint64_t triangles() const;                      // as chosen
+    uint32_t fading() const;                         // models of which two meshes are drawn
     uint64_t revision() const { return revision_; }  // grows with every change
     bool empty() const { return models_.empty(); }
     // World bounds of all models; a small box around the origin if there are none.
     void bounds(glm::vec3& low, glm::vec3& high) const;
 
   private:
+    // One of a model's meshes; all of them lie in the same buffers.
+    struct Mesh {
+        uint64_t firstVertex = 0;
+        std::vector<DrawRange> ranges;
+        float error = 0;  // metres in the world
+    };
     struct Model {
         Buffer vertices, indices;
-        std::vector<DrawRange> ranges;
+        std::vector<Mesh> meshes;  // of rising error, 0 the model itself
+        uint32_t shown = 0, before = 0;
+        uint32_t step = 0;  // of kFadeFrames from `before` to `shown`; 0: never drawn
         std::vector<Material> materials;
         std::vector<Image> colors, normals;  // one a picture of the file; empty where unused in that role
         glm::mat4 toWorld{1};
         glm::vec3 low{0}, high{0};
     };
-    Status upload(Device& device, const SurfaceData& data, Model& model);
-    ModelPush pushOf(const Model& model, const Material& material, uint64_t frame, uint32_t surface) const;
+    Status uploadMeshes(Device& device, const SurfaceData& data, Model& model);
+    Status uploadPictures(Device& device, const SurfaceData& data, Model& model);
+    ModelPush pushOf(const Model& model, uint32_t mesh, const Material& material, uint64_t frame,
+                     uint32_t surface) const;
+    static uint32_t simplest(const Model& model, float error);
 
     std::map<uint32_t, Model> models_;
     Image white_, flat_;

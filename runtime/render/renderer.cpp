@@ -11,6 +11,8 @@ namespace espalier {
 namespace {
 
 constexpr float kShadowLodPixels = 1.2f;
+constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
+constexpr float kGrownPixels = 0.25f;       // error of models with growth on them: bark that is seen isn't buried
 
 DrawTargets onto(VkExtent2D extent, VkImageView view) {
     DrawTargets targets;
@@ -24,6 +26,12 @@ DrawTargets onto(VkExtent2D extent, VkImageView view) {
 float lengthUnit(glm::vec3 size) {
     const float side = std::max({size.x, size.y, size.z});
     return side > 1.0f && side < 200.0f ? 1.0f : std::max(side, 1e-6f) / 6;
+}
+
+// Pixels. Views of the walk's UV square want the mesh that has it everywhere.
+float allowedModelError(const Look& look, bool grows) {
+    if (look.view == ViewMode::charts || look.view == ViewMode::layer) return 0;
+    return grows ? std::min(look.lodPixels, kGrownPixels) : look.lodPixels;
 }
 
 }  // namespace
@@ -103,7 +111,7 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
         targets.extent = {kShadowSize, kShadowSize};
         targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = 1.0f};
         DrawPass pass(commands, "shadow draw", targets);
-        models_.drawDepth(pass, modelDepth_, *address);
+        models_.drawDepth(pass, modelDepth_, *address, kShadowModelTexels * sun.width / kShadowSize);
         if (grows_) drawTerminals(pass, *address, Terminal::depthOnly);
         if (roofed_) roofs_->draw(pass, *address, nullptr, nullptr);
     }
@@ -257,6 +265,7 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     push.groundColor = inputs.ground.colour;
     // Some devices do a pass' work when the next one needs it: only the whole is a true time.
     Pass whole(commands, "draw");
+    models_.choose(frame.eye, frame.pixelScale, allowedModelError(inputs.look, grows_));
     drawModels(commands, inputs, push);
     if (grows_ || roofed_)
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
@@ -279,6 +288,7 @@ RenderStats RendererImpl::stats() const {
     if (grows_) stats.emit = emit_.stats();
     if (roofed_) stats.roofs = roofs_->stats();
     stats.modelTriangles = models_.triangles();
+    stats.modelsFading = models_.fading();
     stats.emitMs = device_.milliseconds("emit");
     stats.drawMs = std::max(0.0, device_.milliseconds("draw") - stats.emitMs);
     stats.shadowMs = device_.milliseconds("shadow emit") + device_.milliseconds("shadow draw");

@@ -59,6 +59,7 @@ struct RenderStats {
     EmitStats emit;
     RoofDrawStats roofs;
     uint64_t modelTriangles = 0;
+    uint32_t modelsFading = 0;                    // models between two levels of detail
     double emitMs = 0, drawMs = 0, shadowMs = 0;  // GPU time of the last finished frame; shadow: of the last redraw
 };
 

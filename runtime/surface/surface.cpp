@@ -32,17 +32,24 @@ T* address(const std::vector<T>& values) {
 
 }  // namespace
 
-uint64_t walkHash(const SurfaceData& data) {
-    uint64_t hash = hashText("ESPALIER_surface 1");
-    for (const SurfaceLevelData& level : data.levels) {
-        hash = hashArray(level.texels, hash);
-        hash = hashArray(level.aux, hash);
-        hash = hashArray(level.crossingHead, hash);
-        hash = hashArray(level.crossingRefs, hash);
-    }
+uint64_t levelHash(const SurfaceLevelData& level) {
+    uint64_t hash = hashArray(level.texels, level.size);
+    hash = hashArray(level.aux, hash);
+    hash = hashArray(level.crossingHead, hash);
+    return hashArray(level.crossingRefs, hash);
+}
+
+uint64_t sharedHash(const SurfaceData& data) {
+    uint64_t hash = hashText("ESPALIER_surface 2");
     hash = hashArray(data.crossings, hash);
     hash = hashArray(data.charts, hash);
     return hashArray(data.triangles, hash);
+}
+
+uint64_t walkHash(const SurfaceData& data) {
+    std::vector<uint64_t> parts{sharedHash(data)};
+    for (const SurfaceLevelData& level : data.levels) parts.push_back(levelHash(level));
+    return hashValues(std::span<const uint64_t>(parts));
 }
 
 SurfaceRef surfaceRef(const SurfaceData& data, float scale) {

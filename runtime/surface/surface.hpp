@@ -19,6 +19,7 @@ struct SurfaceLevelData {
     std::vector<TexelAux> aux;
     std::vector<uint32_t> crossingHead;  // bits 31..8 first, 7..0 count, into crossingRefs
     std::vector<uint32_t> crossingRefs;  // indices into SurfaceData::crossings
+    float error = 0;                     // metres: the largest distance to the mesh that sampled bilinear reads have
 };
 
 // An 8-bit RGBA picture, rows top to bottom, or empty.
@@ -52,6 +53,14 @@ struct DrawRange {
     uint32_t material = 0;
 };
 
+// A simplified mesh for drawing from afar.
+struct CoarserMesh {
+    std::vector<DrawVertex> vertices;
+    std::vector<uint32_t> indices;
+    std::vector<DrawRange> ranges;
+    float error = 0;  // metres: the largest distance between it and the mesh, either way, that samples found
+};
+
 struct SurfaceData {
     std::string source;                    // name of the model that was baked
     uint64_t hash = 0;                     // of the walk's data; layers and seeds refer to it
@@ -64,6 +73,7 @@ struct SurfaceData {
     std::vector<DrawVertex> vertices;  // the decoded mesh, for drawing
     std::vector<uint32_t> indices;
     std::vector<DrawRange> ranges;
+    std::vector<CoarserMesh> coarser;  // of fewer and fewer triangles, of rising error; none for small models
     std::vector<Material> materials;
     std::vector<Picture> images;
 };
@@ -73,12 +83,27 @@ SurfaceRef surfaceRef(const SurfaceData& data, float scale = 1);
 
 // The hash of what a walk reads of `data`: levels, crossings, charts, triangles.
 uint64_t walkHash(const SurfaceData& data);
+// Its parts: of one level, and of all that levels share.
+uint64_t levelHash(const SurfaceLevelData& level);
+uint64_t sharedHash(const SurfaceData& data);
+
+// Where a triangle's map leads from a place on the walk's UV square; the same bits everywhere.
+inline glm::vec3 placeOn(const TrianglePlane& t, glm::vec2 uv) {
+    return t.position + t.du * (uv.x - t.uv0.x) + t.dv * (uv.y - t.uv0.y);
+}
 
 // Puts tangents on vertices from positions, normals and the materials' UVs; zero where those have no area.
 void addTangents(std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices);
 
+// What of a file is read. With a finestLevel above 0 reading stops after that level, and the rest of the file may be
+// missing still: levels count from that one, the mesh is the finest that stands before it in the file, pictures are
+// empty, and charts that no such level serves are walked on it without their gutters. The hash is the whole surface's.
+struct ReadOptions {
+    uint32_t finestLevel = 0;  // beyond the coarsest: the coarsest
+};
+
 // Reads a baked surface (.glb). Every index and size in it is validated; errors name the file and the place.
-Result<SurfaceData> readSurface(const std::string& path);
+Result<SurfaceData> readSurface(const std::string& path, const ReadOptions& options = {});
 
 // Writes `data` as a valid glTF 2.0 binary with the extension of docs/surface_format.md, atomically: on
 // failure nothing is left at `path`.

@@ -1,7 +1,6 @@
 // In: a baked surface. Out: a .glb that any glTF viewer opens, with the walk's data in our extension.
 #include <draco/compression/decode.h>
 #include <draco/compression/encode.h>
-#include <meshoptimizer.h>
 #include <stb_image_write.h>
 
 #include <cstring>
@@ -9,7 +8,7 @@
 
 #include "runtime/core/file.hpp"
 #include "runtime/core/hash.hpp"
-#include "runtime/core/jobs.hpp"
+#include "runtime/surface/codec.hpp"
 #include "runtime/surface/surface.hpp"
 #include "runtime/surface/surface_file.hpp"
 
@@ -41,10 +40,15 @@ class Writer {
         root_["nodes"] = {{{"mesh", 0}, {"name", "surface"}}};
         root_["bufferViews"] = ordered_json::array();
         root_["accessors"] = ordered_json::array();
-        Status mesh = writeMesh();
-        if (!mesh) return mesh;
+        writeShared();
+        measureMesh();
+        Status done = writeCoarser();
+        if (done && data_.coarser.empty()) done = writeMesh({data_.vertices, data_.indices, data_.ranges}, 0);
+        if (done) done = writeLevels();
+        if (done && !data_.coarser.empty()) done = writeMesh({data_.vertices, data_.indices, data_.ranges}, 0);
+        if (!done) return done;
         writeMaterials();
-        writeWalk();
+        root_["extensions"][kExtension] = std::move(walk_);
         binary_.resize((binary_.size() + 3) / 4 * 4, 0);
         if (binary_.size() > kMaxBinary) return Failure(path_, "the surface is larger than a .glb can be (4 GiB)");
         root_["extensions"][kExtension]["binary_hash"] = hex(hashBytes(std::as_bytes(std::span(binary_))));
@@ -71,12 +75,18 @@ class Writer {
         return id;
     }
 
+    struct Drawn {
+        const std::vector<DrawVertex>& vertices;
+        const std::vector<uint32_t>& indices;
+        const std::vector<DrawRange>& ranges;
+    };
+
     // One range as a Draco mesh of its own vertices.
-    Status writeRange(const DrawRange& range, ordered_json& primitives) {
-        std::vector<uint32_t> local(data_.vertices.size(), kNoIndex), used;
+    Status writeRange(const Drawn& drawn, const DrawRange& range, ordered_json& primitives) {
+        std::vector<uint32_t> local(drawn.vertices.size(), kNoIndex), used;
         draco::Mesh mesh;
         for (uint32_t i = 0; i < range.indexCount; ++i) {
-            uint32_t v = data_.indices[range.firstIndex + i];
+            uint32_t v = drawn.indices[range.firstIndex + i];
             if (local[v] != kNoIndex) continue;
             local[v] = uint32_t(used.size());
             used.push_back(v);
@@ -85,10 +95,10 @@ class Writer {
         mesh.SetNumFaces(range.indexCount / 3);
         for (uint32_t f = 0; f < range.indexCount / 3; ++f) {
             draco::Mesh::Face face;
-            for (uint32_t k = 0; k < 3; ++k) face[k] = local[data_.indices[range.firstIndex + f * 3 + k]];
+            for (uint32_t k = 0; k < 3; ++k) face[k] = local[drawn.indices[range.firstIndex + f * 3 + k]];
             mesh.SetFace(draco::FaceIndex(f), face);
         }
-        auto vertex = [&](uint32_t i) -> const DrawVertex& { return data_.vertices[used[i]]; };
+        auto vertex = [&](uint32_t i) -> const DrawVertex& { return drawn.vertices[used[i]]; };
         using Kind = draco::GeometryAttribute;
         int ids[4] = {addAttribute(mesh, Kind::POSITION, 3, [&](uint32_t i) { return &vertex(i).position.x; }),
                       addAttribute(mesh, Kind::NORMAL, 3, [&](uint32_t i) { return &vertex(i).normal.x; }),
@@ -101,13 +111,15 @@ class Writer {
         return describeRange(range, encoded, unique, primitives);
     }
 
-    static bool encode(const draco::Mesh& mesh, draco::EncoderBuffer& out) {
+    bool encode(const draco::Mesh& mesh, draco::EncoderBuffer& out) const {
         // Edgebreaker gives up on meshes of degenerate triangles only; the sequential method takes all.
         for (int method : {int(draco::MESH_EDGEBREAKER_ENCODING), int(draco::MESH_SEQUENTIAL_ENCODING)}) {
             draco::Encoder encoder;
             encoder.SetSpeedOptions(5, 5);
             encoder.SetEncodingMethod(method);
-            encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, kPositionBits);
+            // One grid for all: what ranges and levels of detail share stays in one place.
+            encoder.SetAttributeExplicitQuantization(draco::GeometryAttribute::POSITION, kPositionBits, 3, &low_.x,
+                                                     extent_);
             encoder.SetAttributeQuantization(draco::GeometryAttribute::NORMAL, kNormalBits);
             encoder.SetAttributeQuantization(draco::GeometryAttribute::TEX_COORD, kUvBits);
             out.Clear();
@@ -157,15 +169,35 @@ class Writer {
         return Done{};
     }
 
-    Status writeMesh() {
+    Status writeMesh(const Drawn& drawn, size_t place) {
         ordered_json primitives = ordered_json::array();
-        for (const DrawRange& range : data_.ranges) {
+        for (const DrawRange& range : drawn.ranges) {
             if (range.indexCount < 3) continue;
-            Status done = writeRange(range, primitives);
+            Status done = writeRange(drawn, range, primitives);
             if (!done) return done;
         }
         if (primitives.empty()) return Failure(path_, "the surface has no mesh to draw");
-        root_["meshes"] = {{{"primitives", primitives}, {"name", "surface"}}};
+        root_["meshes"][place] = {{"primitives", primitives}, {"name", place == 0 ? "surface" : "coarser"}};
+        return Done{};
+    }
+
+    void measureMesh() {
+        glm::vec3 high(-3e38f);
+        low_ = -high;
+        for (const DrawVertex& v : data_.vertices) low_ = glm::min(low_, v.position), high = glm::max(high, v.position);
+        extent_ = std::max({high.x - low_.x, high.y - low_.y, high.z - low_.z, 1e-30f});
+    }
+
+    // The coarsest first in the file.
+    Status writeCoarser() {
+        walk_["coarser"] = ordered_json::array();
+        for (size_t i = data_.coarser.size(); i-- > 0;) {
+            const CoarserMesh& mesh = data_.coarser[i];
+            Status done = writeMesh({mesh.vertices, mesh.indices, mesh.ranges}, i + 1);
+            if (!done) return done;
+        }
+        for (size_t i = 0; i < data_.coarser.size(); ++i)
+            walk_["coarser"].push_back({{"mesh", i + 1}, {"error", data_.coarser[i].error}});
         return Done{};
     }
 
@@ -208,57 +240,43 @@ class Writer {
         }
     }
 
-    // An array of records, compressed without loss.
-    struct Packed {
-        const void* from;
-        size_t count, stride;
-        ordered_json* into;
-        std::vector<uint8_t> bytes;
-    };
+    template <class T>
+    ordered_json writeRecords(const std::vector<T>& records) {
+        ordered_json field = {{"count", records.size()}, {"stride", sizeof(T)}};
+        if (records.empty()) return field;
+        const std::vector<uint8_t> bytes = encodeRecords(records.data(), records.size(), sizeof(T));
+        field["bufferView"] = addView(bytes.data(), bytes.size());
+        return field;
+    }
 
-    void writeWalk() {
-        ordered_json walk = {{"version", kVersion},
-                             {"source", data_.source},
-                             {"hash", hex(data_.hash)},
-                             {"bounds_min", {data_.boundsMin.x, data_.boundsMin.y, data_.boundsMin.z}},
-                             {"bounds_max", {data_.boundsMax.x, data_.boundsMax.y, data_.boundsMax.z}},
-                             {"uv_set", 1}};
-        std::vector<ordered_json> fields(3 + data_.levels.size() * 4);
-        std::vector<Packed> arrays;
-        auto add = [&](const auto& values) {
-            arrays.push_back({values.data(), values.size(), sizeof values[0], &fields[arrays.size()], {}});
-        };
-        add(data_.crossings);
-        add(data_.charts);
-        add(data_.triangles);
-        for (const SurfaceLevelData& level : data_.levels) {
-            add(level.texels);
-            add(level.aux);
-            add(level.crossingHead);
-            add(level.crossingRefs);
+    // What all levels need.
+    void writeShared() {
+        walk_ = {{"version", kVersion},
+                 {"source", data_.source},
+                 {"hash", hex(data_.hash)},
+                 {"bounds_min", {data_.boundsMin.x, data_.boundsMin.y, data_.boundsMin.z}},
+                 {"bounds_max", {data_.boundsMax.x, data_.boundsMax.y, data_.boundsMax.z}},
+                 {"uv_set", 1}};
+        walk_["crossings"] = writeRecords(data_.crossings);
+        walk_["charts"] = writeRecords(data_.charts);
+        walk_["triangles"] = writeRecords(data_.triangles);
+    }
+
+    // Coarse ones first in the file, the finest first in the list.
+    Status writeLevels() {
+        std::vector<ordered_json> levels(data_.levels.size());
+        for (size_t i = levels.size(); i-- > 0;) {
+            const SurfaceLevelData& level = data_.levels[i];
+            const auto bytes = encodeLevel(level, data_.triangles);
+            if (!bytes) return Failure(path_, "level " + std::to_string(i) + " has arrays of unlike lengths");
+            levels[i] = {{"size", level.size},
+                         {"error", level.error},
+                         {"hash", hex(levelHash(level))},
+                         {"refs", level.crossingRefs.size()},
+                         {"bufferView", addView(bytes->data(), bytes->size())}};
         }
-        parallelFor(arrays.size(), 1, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                Packed& a = arrays[i];
-                if (a.count == 0) continue;
-                a.bytes.resize(meshopt_encodeVertexBufferBound(a.count, a.stride));
-                a.bytes.resize(meshopt_encodeVertexBuffer(a.bytes.data(), a.bytes.size(), a.from, a.count, a.stride));
-            }
-        });
-        for (Packed& a : arrays) {
-            *a.into = {{"count", a.count}, {"stride", a.stride}};
-            if (a.count > 0) (*a.into)["bufferView"] = addView(a.bytes.data(), a.bytes.size());
-        }
-        walk["crossings"] = fields[0];
-        walk["charts"] = fields[1];
-        walk["triangles"] = fields[2];
-        for (size_t i = 0; i < data_.levels.size(); ++i)
-            walk["levels"].push_back({{"size", data_.levels[i].size},
-                                      {"texels", fields[3 + i * 4]},
-                                      {"aux", fields[4 + i * 4]},
-                                      {"crossing_head", fields[5 + i * 4]},
-                                      {"crossing_refs", fields[6 + i * 4]}});
-        root_["extensions"][kExtension] = std::move(walk);
+        walk_["levels"] = levels;
+        return Done{};
     }
 
     Status writeContainer() {
@@ -285,7 +303,9 @@ class Writer {
 
     const SurfaceData& data_;
     const std::string& path_;
-    ordered_json root_;
+    glm::vec3 low_{0};  // of the mesh
+    float extent_ = 1;
+    ordered_json root_, walk_;
     std::vector<uint8_t> binary_;
 };
 

@@ -61,8 +61,10 @@ struct ModelPush {
     float roughness;
     float alphaCutoff;
     uint surface;            // instance; kNoIndex: no walk data
+    float fade;              // 1: all pixels; above 0: this share of them; below: those that -fade leaves out
+    uint lod;                // 0: the mesh; then its coarser ones
 };
-STATIC_SIZE(ModelPush, 96);
+STATIC_SIZE(ModelPush, 104);
 
 struct TerminalPush {
     FrameBuf frame;

@@ -22,7 +22,7 @@ uint walkTexel(SurfaceRef surface) {
 vec4 otherView(vec3 n) {
     uint view = push.frame.v[0].view;
     if (view == kViewNormals) return stored(n * 0.5 + 0.5, 0.0);
-    vec3 shown = vec3(0.5);
+    vec3 shown = view == kViewLod ? lodColor(push.lod) : vec3(0.5);
     if (push.surface != kNoIndex && view == kViewCharts) {
         SurfaceRef surface = push.frame.v[0].surfaces.v[push.surface];
         uint bits = surface.levels[0].texels.v[walkTexel(surface)].bits;
@@ -39,7 +39,14 @@ vec4 otherView(vec3 n) {
     return diagnostic(push.frame, shown, n);
 }
 
+// Two meshes share the picture while one takes over: each pixel shows the one or the other.
+bool fadedOut() {
+    float threshold = ditherAt(gl_FragCoord.xy);
+    return push.fade > 0.0 ? threshold >= push.fade : threshold < -push.fade;
+}
+
 void main() {
+    if (push.fade != 1.0 && fadedOut()) discard;
     vec4 base = texture(colorMap, uvs.xy) * push.baseColor;
     if (push.alphaCutoff > 0.0 && base.a < push.alphaCutoff) discard;
     vec3 n = normalize(normal);

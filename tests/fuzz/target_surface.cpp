@@ -8,8 +8,12 @@ void surface(Bytes bytes) {
     MemoryFile file(bytes);
     auto data = readSurface(file.path());
     if (!data) return checkMessage(data.failure());
-    for (uint32_t i : data->indices) require(i < data->vertices.size(), "indices name vertices");
-    for (const auto& range : data->ranges) require(range.material < data->materials.size(), "materials exist");
+    const auto check = [&](const auto& mesh) {
+        for (uint32_t i : mesh.indices) require(i < mesh.vertices.size(), "indices name vertices");
+        for (const auto& range : mesh.ranges) require(range.material < data->materials.size(), "materials exist");
+    };
+    check(*data);
+    for (const CoarserMesh& mesh : data->coarser) check(mesh);
 }
 
 }  // namespace espalier::fuzz

@@ -176,9 +176,8 @@ TEST_CASE("indices out of range are refused even when the hashes fit") {
         SurfaceData s = sample();
         change(s);
         s.hash = walkHash(s);
-        REQUIRE(writeSurface(s, folder.file("wild.glb")));
-        auto read = readSurface(folder.file("wild.glb"));
-        return !read;
+        if (!writeSurface(s, folder.file("wild.glb"))) return true;
+        return !readSurface(folder.file("wild.glb"));
     };
     CHECK(!refuses([](SurfaceData&) {}));
     CHECK(refuses([](SurfaceData& s) { s.crossings[3].target = 0xFFFF0000u | 77u; }));

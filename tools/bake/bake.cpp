@@ -82,7 +82,7 @@ std::vector<std::vector<uint8_t>> makeLevels(const BakeMesh& mesh, const std::ve
                                              BakeReport& report) {
     std::vector<Plane> planes = makePlanes(mesh);
     std::vector<uint32_t> creases = creaseEdges(mesh), borders = borderEdges(mesh);
-    LevelSource source{mesh, planes, links, surface.crossings, creases, surface.charts};
+    LevelSource source{mesh, planes, surface.triangles, links, surface.crossings, creases, surface.charts};
     std::vector<std::vector<uint8_t>> walkable(options.levels);
     surface.levels.resize(options.levels);
     IdImage image;
@@ -208,6 +208,8 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
             return Failure(model.name, "more borders than a level can list: bake at a lower resolution");
     stages.begin(0.9f, "drawing_mesh");
     makeDrawing(model, *mesh, surface);
+    stages.begin(0.91f, "simplify");
+    simplifyDrawing(surface);
     stages.begin(0.93f, "hash");
     surface.hash = walkHash(surface);
     stages.begin(0.95f, "report");

@@ -136,6 +136,7 @@ std::vector<Plane> makePlanes(const BakeMesh& mesh);
 struct LevelSource {
     const BakeMesh& mesh;
     const std::vector<Plane>& planes;
+    const std::vector<TrianglePlane>& records;  // the same maps, as texels' positions are taken from them
     const std::vector<Link>& links;
     const std::vector<Crossing>& crossings;  // one per link, then the contacts
     const std::vector<uint32_t>& creases;
@@ -150,6 +151,10 @@ std::vector<uint32_t> creaseEdges(const BakeMesh& mesh);
 
 // Fills in the mesh as it is drawn: vertices split where charts were moved apart, ranges by material.
 void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface);
+
+// Measures the levels' distances to the drawn mesh, and fills in surface.coarser: each about half the triangles of the
+// one before.
+void simplifyDrawing(SurfaceData& surface);
 
 // Fills the report's figures by walking through the finished surface's records.
 void measure(const BakeMesh& mesh, const std::vector<Link>& links, const std::vector<Contact>& contacts,

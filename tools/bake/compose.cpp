@@ -153,7 +153,7 @@ Sample sampleInner(const LevelSource& source, uint32_t t, glm::dvec2 uv) {
     glm::vec2 d(uv - plane.uv0);
     float w1 = glm::dot(plane.g1, d), w2 = glm::dot(plane.g2, d), w0 = 1 - w1 - w2;
     const auto& k = source.mesh.curvature;
-    return {plane.p0 + plane.e1 * w1 + plane.e2 * w2, n[0] * w0 + n[1] * w1 + n[2] * w2,
+    return {placeOn(source.records[t], glm::vec2(uv)), n[0] * w0 + n[1] * w1 + n[2] * w2,
             k[point[0]] * w0 + k[point[1]] * w1 + k[point[2]] * w2, t, kTexelInner};
 }
 
@@ -169,11 +169,11 @@ Sample sampleGutter(const LevelSource& source, const std::vector<uint8_t>& open,
     // A sliver's map may be wild: what it carries outward is capped.
     float length = glm::length(step),
           most = kMaxStretch * source.charts[mesh.chartOf(h)].metresPerUv * glm::length(away);
-    if (length > most) step *= most / length;
+    const glm::vec3 place = length > most ? onEdge + step * (most / length) : placeOn(source.records[t], glm::vec2(uv));
     const auto& k = mesh.curvature;
     const auto& point = mesh.triangles[t].point;
-    return {onEdge + step, mesh.normals[h] * (1 - s) + mesh.normals[n] * s,
-            k[point[h % 3]] * (1 - s) + k[point[n % 3]] * s, t, open[h] ? kTexelOpen : kTexelLink};
+    return {place, mesh.normals[h] * (1 - s) + mesh.normals[n] * s, k[point[h % 3]] * (1 - s) + k[point[n % 3]] * s, t,
+            open[h] ? kTexelOpen : kTexelLink};
 }
 
 void fillTexels(LevelWork& work) {

@@ -48,7 +48,11 @@ void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface)
         DrawVertex d{};
         d.position = model.positions[v];
         d.normal = model.normals.empty() ? flat[v] : model.normals[v];
-        if (corner != kNone) d.normal = mesh.normals[corner];
+        if (corner != kNone) {
+            d.normal = mesh.normals[corner];
+            // What the weld has joined is to stay closed when it is simplified.
+            d.position = glm::vec3(mesh.points[mesh.triangles[corner / 3].point[corner % 3]]);
+        }
         float length = glm::length(d.normal);
         d.normal = length > 0 ? d.normal / length : glm::vec3(0, 1, 0);
         const auto& uvs = model.materialUvs.empty() ? model.uvs : model.materialUvs;

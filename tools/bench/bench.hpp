@@ -60,6 +60,8 @@ void emitCases(Bench& bench);
 void frameCases(Bench& bench);
 void bakeCases(Bench& bench);
 void paintCases(Bench& bench);
+void surfaceCases(Bench& bench);
+void lodCases(Bench& bench);
 void roofStructureCases(Bench& bench);
 void roofGrowthCases(Bench& bench);
 

@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
     options.contentFolder = ESPALIER_CONTENT;
     CLI::App app("Espalier's benchmark: medians; every row names the other side and the ratio ours / other.");
     app.set_version_flag("--version", ESPALIER_VERSION);
-    app.add_option("--filter", options.filter, "only cases whose name contains this: growth/, edit/, emit/, bake/");
+    app.add_option("--filter", options.filter,
+                   "only cases whose name contains this: growth/, edit/, emit/, bake/, surface/, render/");
     app.add_option("--csv", csv, "also write the rows to this file");
     app.add_option("--data", options.dataFolder, "folder of further models")->capture_default_str();
     app.add_option("--repeats", options.repeats, "measured runs of each")
@@ -32,6 +33,8 @@ int main(int argc, char** argv) {
     frameCases(bench);
     bakeCases(bench);
     paintCases(bench);
+    surfaceCases(bench);
+    lodCases(bench);
     roofStructureCases(bench);
     roofGrowthCases(bench);
     if (csv.empty()) return 0;

@@ -1,7 +1,7 @@
 // A mesh's triangles in -> first hit of a ray, nearest point of a place.
 // Built top down by the middle of the longest axis of the centres; leaves hold up to four triangles. The depth is
 // at most log2(triangles), since each split halves, so that a small fixed stack does for the search.
-#include "runtime/plugin/mesh_tree.hpp"
+#include "runtime/surface/mesh_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "runtime/plugin/mesh_tree.hpp"
+#include "runtime/surface/mesh_tree.hpp"
 
 using namespace espalier;
 

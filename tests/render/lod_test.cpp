@@ -1,0 +1,193 @@
+// Models at every level of detail: closed ones let no background through, and one level takes over from another without
+// a jump. The silhouette comes from rays on the CPU.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "runtime/render/renderer.hpp"
+#include "runtime/surface/mesh_tree.hpp"
+#include "tests/bake/small_models.hpp"
+#include "tests/emit/fixture.hpp"
+#include "tests/support/data.hpp"
+
+using namespace espalier;
+
+namespace {
+
+constexpr uint32_t kWidth = 320, kHeight = 240;
+using Pixels = std::vector<uint8_t>;
+
+class Stage {
+  public:
+    Stage() {
+        DeviceOptions options;
+        options.validation = std::getenv("ESPALIER_NO_VALIDATION") == nullptr;
+        auto device = Device::create(options);
+        REQUIRE(device);
+        device_ = std::move(*device);
+        auto renderer = Renderer::create(*device_, test::simpleTerminals());
+        REQUIRE(renderer);
+        renderer_ = std::move(*renderer);
+        background(4);
+        inputs.look.shadows = false;
+    }
+    ~Stage() { CHECK(device_->validationMessages() == 0); }
+
+    // From the front, at this many radii.
+    void look(const SurfaceData& data, float radii) {
+        const glm::vec3 middle = (data.boundsMin + data.boundsMax) * 0.5f;
+        const float radius = glm::length(data.boundsMax - data.boundsMin) / 2;
+        inputs.camera = {middle + glm::normalize(glm::vec3(0.5f, 0.3f, 1)) * radius * radii, middle, {0, 1, 0}};
+        inputs.camera.nearPlane = radius * 0.01f;
+        const glm::vec3 eye = inputs.camera.eye;
+        metresPerPixel_ = glm::length(eye - glm::clamp(eye, data.boundsMin, data.boundsMax)) * 2 *
+                          std::tan(inputs.camera.fovY / 2) / float(kHeight);
+    }
+    void background(float light) { inputs.look.background = inputs.look.horizon = glm::vec3(light); }
+    // So many metres of error are allowed.
+    void allow(float error) { inputs.look.lodPixels = error / metresPerPixel_; }
+
+    void place(const SurfaceData& data) { REQUIRE(renderer_->setSurface(0, data, glm::mat4(1))); }
+    void clear() { renderer_->removeSurface(0); }
+
+    Pixels frame() {
+        auto commands = Commands::begin(*device_, "frame");
+        REQUIRE(commands);
+        DrawTarget target;
+        target.width = kWidth, target.height = kHeight;
+        REQUIRE(renderer_->draw(*commands, inputs, target));
+        REQUIRE(commands->finish());
+        auto pixels = renderer_->readPixels();
+        REQUIRE(pixels);
+        return std::move(*pixels);
+    }
+    RenderStats stats() const { return renderer_->stats(); }
+
+    // Which pixels lie inside the mesh's silhouette by two pixels or more.
+    std::vector<bool> inside(const MeshTree& mesh) const {
+        const glm::vec3 forward = glm::normalize(inputs.camera.target - inputs.camera.eye);
+        const glm::vec3 right = glm::normalize(glm::cross(forward, inputs.camera.up)), up = glm::cross(right, forward);
+        const float tangent = std::tan(inputs.camera.fovY / 2);
+        std::vector<bool> hit(kWidth * kHeight), all(kWidth * kHeight);
+        for (uint32_t y = 0; y < kHeight; ++y)
+            for (uint32_t x = 0; x < kWidth; ++x) {
+                const float sx = (2 * (float(x) + 0.5f) / kWidth - 1) * tangent * kWidth / kHeight;
+                const float sy = (1 - 2 * (float(y) + 0.5f) / kHeight) * tangent;
+                hit[y * kWidth + x] = mesh.pick(inputs.camera.eye, forward + right * sx + up * sy).has_value();
+            }
+        for (uint32_t y = 2; y + 2 < kHeight; ++y)
+            for (uint32_t x = 2; x + 2 < kWidth; ++x) {
+                bool whole = true;
+                for (uint32_t v = y - 2; v <= y + 2; ++v)
+                    for (uint32_t u = x - 2; u <= x + 2; ++u) whole = whole && hit[v * kWidth + u];
+                all[y * kWidth + x] = whole;
+            }
+        return all;
+    }
+
+    DrawInputs inputs;
+
+  private:
+    std::unique_ptr<Device> device_;
+    std::unique_ptr<Renderer> renderer_;
+    float metresPerPixel_ = 1;
+};
+
+double meanDifference(const Pixels& a, const Pixels& b) {
+    double sum = 0;
+    for (size_t i = 0; i < a.size(); ++i) sum += std::abs(int(a[i]) - int(b[i]));
+    return sum / double(a.size()) * 4 / 3;  // alpha is always 255
+}
+
+MeshTree treeOf(const std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices) {
+    std::vector<glm::vec3> positions;
+    for (const DrawVertex& v : vertices) positions.push_back(v.position);
+    return MeshTree(positions, indices);
+}
+
+// A closed model: Spot, or a bumpy ball where the data aren't there.
+SurfaceData closedModel() {
+    Model model;
+    if (auto file = test::dataFile("scans/spot.obj")) {
+        auto read = importModel(*file);
+        REQUIRE(read);
+        model = std::move(*read);
+    } else {
+        model = test::cube(32);
+        for (glm::vec3& p : model.positions)
+            p = glm::normalize(p) * (1 + 0.1f * std::sin(7 * p.x) * std::sin(6 * p.y + p.z));
+    }
+    BakeOptions options;
+    options.resolution = 256;
+    auto baked = bake(model, options);
+    REQUIRE(baked);
+    return std::move(baked->surface);
+}
+
+}  // namespace
+
+TEST_CASE("a closed model over a bright background shows none of it inside its silhouette, at any level") {
+    const SurfaceData data = closedModel();
+    REQUIRE(data.coarser.size() >= 3);
+    Stage stage;
+    stage.look(data, 2.4f);
+    for (size_t level = 0; level <= data.coarser.size(); ++level) {
+        CAPTURE(level);
+        const auto& vertices = level == 0 ? data.vertices : data.coarser[level - 1].vertices;
+        const auto& indices = level == 0 ? data.indices : data.coarser[level - 1].indices;
+        stage.place(data);
+        stage.allow(level == 0 ? 0 : data.coarser[level - 1].error * 1.00001f);
+        stage.background(4);
+        const Pixels bright = stage.frame();
+        stage.background(0);
+        const Pixels dark = stage.frame();
+        CHECK(stage.stats().modelTriangles == indices.size() / 3);
+        const std::vector<bool> inside = stage.inside(treeOf(vertices, indices));
+        size_t counted = 0, through = 0;
+        for (size_t i = 0; i < inside.size(); ++i) {
+            if (!inside[i]) continue;
+            ++counted;
+            // The smoothing of edges looks along them, out of the silhouette: it changes a pixel by a few steps.
+            through += std::abs(int(bright[i * 4]) - int(dark[i * 4])) > 24;
+        }
+        CHECK(counted > 8000);
+        CHECK(through == 0);
+        stage.clear();
+    }
+}
+
+TEST_CASE("where a level takes over, no frame's mean changes by more than a fiftieth, and it ends") {
+    const SurfaceData data = closedModel();
+    Stage stage;
+    for (size_t level = 0; level < data.coarser.size(); ++level) {
+        CAPTURE(level);
+        const float error = data.coarser[level].error;
+        // Where the coarser one's error is a pixel, as the default asks, but no further than it can be seen.
+        stage.look(data, 2.4f);
+        const float near = error * 0.999f, far = error * 1.001f;
+        stage.allow(1);
+        const float perMetre = stage.inputs.look.lodPixels;
+        stage.look(data, std::clamp(1 + 1.4f * perMetre * error, 2.4f, 60.0f));
+        stage.place(data);
+        stage.allow(near);
+        Pixels before = stage.frame();
+        CHECK(stage.stats().modelsFading == 0);
+        stage.allow(far);
+        for (int i = 1; i <= 9; ++i) {
+            const Pixels now = stage.frame();
+            CHECK(meanDifference(before, now) <= 5);
+            CHECK(stage.stats().modelsFading == (i < 8 ? 1 : 0));
+            before = now;
+        }
+        CHECK(stage.stats().modelTriangles == data.coarser[level].indices.size() / 3);
+        // Back from the middle of a change: the same frames the other way.
+        stage.allow(near);
+        std::vector<Pixels> down;
+        for (int i = 0; i < 3; ++i) down.push_back(stage.frame());
+        stage.allow(far);
+        CHECK(meanDifference(stage.frame(), down[1]) == 0);
+        CHECK(meanDifference(stage.frame(), down[0]) == 0);
+        stage.clear();
+    }
+}
