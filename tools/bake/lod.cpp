@@ -18,7 +18,7 @@ namespace {
 constexpr size_t kFewestTriangles = 48;
 constexpr double kWorthwhile = 0.75;        // of the triangles before: what can't be made simpler ends the chain
 constexpr float kLargestError = 1.0f / 16;  // of the bounding radius: beyond that it is another thing
-constexpr size_t kSamples = 4096;           // each way
+constexpr size_t kSamples = 2048;           // each way
 
 std::vector<glm::vec3> positionsOf(const std::vector<DrawVertex>& vertices) {
     std::vector<glm::vec3> out(vertices.size());
