@@ -93,7 +93,8 @@ class Verifier {
         if (roof)
             roofRule(r);
         else
-            need(r.extrude <= counts_[kSectionExtrudes] && r.values <= kMachineSlots, "a rule's extrude program");
+            need(r.extrude <= counts_[kSectionExtrudes] && (r.kind != kRuleMarch || r.values <= kMachineSlots),
+                 "a rule's extrude program");
         code(r.start);
         code(r.arrive);
         value(r.distance);
