@@ -103,8 +103,12 @@ typedef struct EspSurfaceInfo {
     uint64_t hash;
 } EspSurfaceInfo;
 
-/* Loads what espalier-bake wrote and places it. */
+/* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from
+ * one to the other. */
 ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
+/* Puts a surface elsewhere, with its seeds and layers. In the next espUpdate contacts with other surfaces are found anew
+ * and plants grown again. */
+ESP_API EspResult espMoveSurface(EspContext* context, EspSurface surface, const EspTransform* place);
 ESP_API EspResult espDestroySurface(EspContext* context, EspSurface surface);
 ESP_API EspResult espSurfaceInfo(const EspContext* context, EspSurface surface, EspSurfaceInfo* out);
 
@@ -402,6 +406,8 @@ typedef struct EspStats {
     uint64_t hash;               /* canonical: of positions, radii and all terminals, in no order */
     uint64_t modelTriangles;     /* triangles of the surfaces' meshes in the last frame */
     uint32_t modelsFading;       /* surfaces that change their level of detail: the next frames will look different */
+    uint32_t contacts;           /* crossings from surface to surface */
+    double contactMs;            /* CPU time of finding them when surfaces last came, went or moved */
 } EspStats;
 ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
 

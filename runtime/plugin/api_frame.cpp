@@ -238,6 +238,8 @@ EspStats gather(const EspContext& context) {
     stats.hash = growth.hash;
     stats.modelTriangles = render.modelTriangles;
     stats.modelsFading = render.modelsFading;
+    stats.contacts = context.contactCount;
+    stats.contactMs = context.contactMs;
     return stats;
 }
 

@@ -29,7 +29,7 @@ std::optional<float> evenScale(const glm::mat4& m) {
     return scale;
 }
 
-EspSurfaceInfo describe(const SurfaceData& data, const glm::mat4& toWorld) {
+EspSurfaceInfo describe(const SurfaceData& data, const glm::mat4& toWorld, uint32_t triangles, uint32_t levels) {
     EspSurfaceInfo info{};
     glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
     for (int corner = 0; corner < 8; ++corner) {
@@ -44,9 +44,9 @@ EspSurfaceInfo describe(const SurfaceData& data, const glm::mat4& toWorld) {
         info.boundsMin[i] = low[i];
         info.boundsMax[i] = high[i];
     }
-    info.triangles = uint32_t(data.indices.size() / 3);
+    info.triangles = triangles;
     info.charts = uint32_t(data.charts.size());
-    info.levels = uint32_t(data.levels.size());
+    info.levels = levels;
     info.resolution = data.levels.front().size;
     const double scale = glm::length(glm::vec3(toWorld[0]));
     for (const Chart& chart : data.charts) info.walkableArea += chart.area * scale * scale;
@@ -86,6 +86,11 @@ void prepareSearch(PlacedSurface& surface) {
     surface.tree = MeshTree(positions, data.indices);
 }
 
+void surfacesChanged(EspContext& context) {
+    context.tablesStale = context.contactsStale = true;
+    context.touch();
+}
+
 EspResult load(EspContext& context, const char* path, const EspTransform& place, EspSurface* out) {
     const glm::mat4 toWorld = matrixOf(place);
     const std::optional<float> scale = evenScale(toWorld);
@@ -104,7 +109,8 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     surface.toObject = glm::inverse(toWorld);
     surface.scale = *scale;
     surface.data = std::move(*data);
-    surface.info = describe(surface.data, toWorld);
+    surface.info = describe(surface.data, toWorld, uint32_t(surface.data.indices.size() / 3),
+                            uint32_t(surface.data.levels.size()));
     Result<GpuSurface> gpu = GpuSurface::create(*context.device, surface.data);
     if (!gpu) return failGpu(&context, gpu.failure());
     surface.gpu = std::move(*gpu);
@@ -120,9 +126,37 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     }
     dropUploaded(placed.data);
     prepareSearch(placed);
-    context.tablesStale = true;
-    context.touch();
+    surfacesChanged(context);
     out->id = id;
+    return ESP_OK;
+}
+
+// Its seeds stay where they are on it.
+EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const EspTransform& place) {
+    const glm::mat4 toWorld = matrixOf(place);
+    const std::optional<float> scale = evenScale(toWorld);
+    if (!scale)
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    "espMoveSurface: the transform must move, turn and scale evenly, without mirroring");
+    if (toWorld == surface.toWorld) return ESP_OK;
+    const glm::mat4 shift = toWorld * surface.toObject;
+    surface.place = place;
+    surface.toWorld = toWorld;
+    surface.toObject = glm::inverse(toWorld);
+    surface.scale = *scale;
+    surface.info = describe(surface.data, toWorld, surface.info.triangles, surface.info.levels);
+    context.renderer->placeSurface(surface.instance, toWorld);
+    const auto moved = [&](glm::vec3 p) { return glm::vec3(shift * glm::vec4(p, 1)); };
+    const auto turned = [&](glm::vec3 v) { return glm::mat3(shift) * v; };
+    context.seeds.forEach([&](uint32_t, PlantedSeed& seed) {
+        if (seed.surface != id) return;
+        seed.position = moved(seed.position);
+        seed.normal = glm::normalize(turned(seed.normal));
+        seed.direction = glm::normalize(turned(seed.direction));
+        seed.givenPosition = moved(seed.givenPosition);
+        seed.givenDirection = turned(seed.givenDirection);
+    });
+    surfacesChanged(context);
     return ESP_OK;
 }
 
@@ -155,6 +189,10 @@ uint32_t EspContext::surfaceSlots() const {
 }
 
 Status EspContext::refreshTables() {
+    if (contactsStale) {
+        if (Status found = refreshContacts(*this); !found) return found;
+        contactsStale = false;
+    }
     if (tablesStale) {
         const uint32_t slots = std::max(surfaceSlots(), 1u);
         std::vector<SurfaceRef> refs(slots);
@@ -221,9 +259,16 @@ EspResult espDestroySurface(EspContext* context, EspSurface surface) {
         std::erase_if(context->layers, [&](const PaintedLayer& layer) { return layer.surface == surface.id; });
         context->renderer->removeSurface(placed->instance);
         context->surfaces.erase(surface.id);
-        context->tablesStale = true;
-        context->touch();
+        surfacesChanged(*context);
         return ESP_OK;
+    });
+}
+
+EspResult espMoveSurface(EspContext* context, EspSurface surface, const EspTransform* place) {
+    return guarded(context, [&] {
+        PlacedSurface* placed = context->surfaces.find(surface.id);
+        if (!placed || !place) return fail(context, ESP_INVALID_ARGUMENT, "espMoveSurface: no such surface, or null");
+        return move(*context, surface.id, *placed, *place);
     });
 }
 

@@ -23,6 +23,7 @@
 #include "runtime/render/renderer.hpp"
 #include "runtime/roof/footprint.hpp"
 #include "runtime/roof/roof_growth.hpp"
+#include "runtime/surface/contact_ground.hpp"
 #include "runtime/surface/gpu_surface.hpp"
 #include "runtime/surface/mesh_tree.hpp"
 #include "runtime/surface/surface.hpp"
@@ -41,6 +42,21 @@ struct PlacedSurface {
     GpuSurface gpu;
     MeshTree tree;
     BlockBounds blocks;  // made when it is first painted on
+    // Made when it first comes near another surface; data then holds crossings and all levels again, without aux.
+    std::unique_ptr<ContactGround> ground;
+    std::vector<Crossing> contacts;  // to other surfaces, as its GPU data has them
+};
+
+// The contacts of two surfaces as they stood when these were found; others: surfaces that may have hidden some.
+struct SurfacePair {
+    struct Stand {
+        uint32_t id = 0;
+        glm::mat4 toWorld{1};
+        bool operator==(const Stand&) const = default;
+    };
+    Stand a, b;
+    std::vector<Stand> others;
+    PlacedContacts found;
 };
 
 // One painted layer of one surface. `name` may be one that no grammar reads (yet).
@@ -189,6 +205,10 @@ struct EspContext {
     uint64_t grownRevision = 0;           // what the growth was made from
     uint64_t failedRevision = 0;          // inputs that can't be grown, and why
     std::string failure;
+    bool contactsStale = false;  // surfaces came, went or moved
+    std::vector<espalier::SurfacePair> pairs;
+    uint32_t contactCount = 0;      // crossings between surfaces
+    double contactMs = 0;           // of finding them the last time, CPU
     bool tablesStale = true;        // the two below don't describe surfaces and layers any more
     espalier::Buffer surfaceTable;  // SurfaceRef[surfaceSlots()]
     espalier::Buffer layerTable;    // LayerRef[surfaceSlots() * kMaxLayers]
@@ -262,6 +282,8 @@ std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::ve
 
 // Lets frozen plants grow again that have grown on a surface instance.
 void thawPlantsOn(EspContext& context, uint32_t instance);
+// Finds contacts between surfaces that came, went or moved, and gives them to the surfaces' GPU data.
+Status refreshContacts(EspContext& context);
 // Takes a seed out, and all notes of it.
 void removeSeed(EspContext& context, uint32_t id);
 // The plants as last grown, read back if that is still to do; null on failure, which is noted.

@@ -97,21 +97,26 @@ Status Models::uploadPictures(Device& device, const SurfaceData& data, Model& mo
     return Done{};
 }
 
+void Models::Model::place(const glm::mat4& to) {
+    toWorld = to;
+    low = glm::vec3(1e30f);
+    high = glm::vec3(-1e30f);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at((corner & 1) ? objectHigh.x : objectLow.x, (corner & 2) ? objectHigh.y : objectLow.y,
+                           (corner & 4) ? objectHigh.z : objectLow.z);
+        const glm::vec3 world(toWorld * glm::vec4(at, 1));
+        low = glm::min(low, world);
+        high = glm::max(high, world);
+    }
+}
+
 Status Models::set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld) {
     Model model;
-    model.toWorld = toWorld;
+    model.objectLow = data.boundsMin;
+    model.objectHigh = data.boundsMax;
+    model.place(toWorld);
     if (Status s = uploadMeshes(device, data, model); !s) return s;
     if (Status s = uploadPictures(device, data, model); !s) return s;
-    model.low = glm::vec3(1e30f);
-    model.high = glm::vec3(-1e30f);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 at((corner & 1) ? data.boundsMax.x : data.boundsMin.x,
-                           (corner & 2) ? data.boundsMax.y : data.boundsMin.y,
-                           (corner & 4) ? data.boundsMax.z : data.boundsMin.z);
-        const glm::vec3 world(toWorld * glm::vec4(at, 1));
-        model.low = glm::min(model.low, world);
-        model.high = glm::max(model.high, world);
-    }
     models_.insert_or_assign(index, std::move(model));
     ++revision_;
     return Done{};
@@ -119,6 +124,16 @@ Status Models::set(Device& device, uint32_t index, const SurfaceData& data, cons
 
 void Models::remove(uint32_t index) {
     models_.erase(index);
+    ++revision_;
+}
+
+void Models::place(uint32_t index, const glm::mat4& toWorld) {
+    const auto found = models_.find(index);
+    if (found == models_.end()) return;
+    Model& model = found->second;
+    const float grows = glm::length(glm::vec3(toWorld[0])) / glm::length(glm::vec3(model.toWorld[0]));
+    for (auto& mesh : model.meshes) mesh.error *= grows;
+    model.place(toWorld);
     ++revision_;
 }
 

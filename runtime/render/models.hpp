@@ -16,6 +16,7 @@ class Models {
 
     Status set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld);
     void remove(uint32_t index);
+    void place(uint32_t index, const glm::mat4& toWorld);
 
     // Picks for each model the simplest mesh whose error is at most `pixels` where the model is nearest. Once before a
     // frame's draw: when the pick changes, the one mesh takes over from the other within the next kFadeFrames.
@@ -49,8 +50,10 @@ class Models {
         uint32_t step = 0;  // of kFadeFrames from `before` to `shown`; 0: never drawn
         std::vector<Material> materials;
         std::vector<Image> colors, normals;  // one a picture of the file; empty where unused in that role
+        glm::vec3 objectLow{0}, objectHigh{0};
         glm::mat4 toWorld{1};
-        glm::vec3 low{0}, high{0};
+        glm::vec3 low{0}, high{0};  // world
+        void place(const glm::mat4& to);
     };
     Status uploadMeshes(Device& device, const SurfaceData& data, Model& model);
     Status uploadPictures(Device& device, const SurfaceData& data, Model& model);

@@ -72,6 +72,8 @@ class Renderer {
     // The drawn mesh of surface instance `index`; uploads and waits.
     virtual Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld) = 0;
     virtual void removeSurface(uint32_t index) = 0;
+    // Draws a surface that was set elsewhere.
+    virtual void placeSurface(uint32_t index, const glm::mat4& toWorld) = 0;
 
     // Meshes that roofs are drawn with, kind 0 being none; returns their bounds. Once, before the first roofs.
     virtual Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes) = 0;

@@ -23,6 +23,7 @@ class RendererImpl final : public Renderer {
         return models_.set(device_, index, data, toWorld);
     }
     void removeSurface(uint32_t index) override { models_.remove(index); }
+    void placeSurface(uint32_t index, const glm::mat4& toWorld) override { models_.place(index, toWorld); }
     Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes) override;
     Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) override;
     Result<std::vector<uint8_t>> readPixels() override;

@@ -1,4 +1,4 @@
-// In: one mesh. Out: the contacts between its shells.
+// In: one mesh, or two. Out: the contacts between their shells.
 //
 // Around a stretch of contact the surfaces stand as half-planes, here called flaps. A walk that comes along a flap
 // goes on along the one that it meets first when it turns from there towards its own outside: so it leaves the floor
@@ -16,6 +16,7 @@
 namespace espalier {
 namespace {
 
+using glm::dmat4;
 using glm::dvec2;
 using glm::dvec3;
 
@@ -24,22 +25,32 @@ constexpr double kSameAngle = 0.06;  // radians: flaps nearer to each other coin
 constexpr double kReachShare = 0.1;  // of the least altitude of a point's triangles
 constexpr double kOutlineCosine = 0.999;
 
-// A mesh as a search sees it.
+double cross(dvec2 a, dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+// One mesh of a search: where its points are in the space of the search, side 0's object space.
 struct View {
     const ContactMesh& mesh;
+    dmat4 map{1};
+    bool identity = true;
+    double borderShift = 0;  // UV
 
-    dvec3 at(uint32_t triangle, uint32_t corner) const { return mesh.at(triangle, corner); }
+    dvec3 at(uint32_t triangle, uint32_t corner) const {
+        dvec3 p = mesh.at(triangle, corner);
+        return identity ? p : dvec3(map * glm::dvec4(p, 1));
+    }
     dvec3 normal(uint32_t t) const {
         dvec3 a = at(t, 0), n = glm::cross(at(t, 1) - a, at(t, 2) - a);
         double length = glm::length(n);
         return length > 0 ? n / length : dvec3(0);
     }
-    ContactShape shape(uint32_t t) const {
+    ContactShape shape(uint32_t t, double scale) const {
         ContactShape s;
         s.normal = normal(t);
         for (uint32_t k = 0; k < 3; ++k) {
             s.p[k] = at(t, k);
-            s.reach[k] = mesh.reach[mesh.triangles[t].point[k]];
+            s.reach[k] = mesh.reach[mesh.triangles[t].point[k]] * scale;
             uint32_t twin = mesh.twin[t * 3 + k];
             s.outline[k] = twin == kNoIndex || glm::dot(s.normal, normal(twin / 3)) < kOutlineCosine;
         }
@@ -122,7 +133,7 @@ class Assembler {
             const Flap* g = goesOn(f);
             if (!g || g->side == f.side) continue;
             if (!faces(*g, f) && solid(*g)) continue;
-            if (auto contact = make(f, *g)) out[size_t(f.side)]->push_back(*contact);
+            if (auto contact = make(f, *g)) addWithin(*contact, *g, *out[size_t(f.side)]);
         }
     }
 
@@ -229,16 +240,24 @@ class Assembler {
         double length = glm::length(side.b - side.a);
         dvec2 a = uvAt(view, f.triangle, side.a), b = uvAt(view, f.triangle, side.b);
         dvec2 inward = uvAt(view, f.triangle, side.a + f.away * length) - a, d = b - a;
-        double turn = d.x * inward.y - d.y * inward.x, size = glm::length(d);
+        double turn = cross(d, inward), size = glm::length(d);
         if (!(size > 0) || !std::isfinite(turn) || turn == 0) return std::nullopt;
         bool left = turn > 0;
         if (f.atBorder) {
-            dvec2 shift = dvec2(-d.y, d.x) * ((left ? 1 : -1) * options_.borderShift / size);
+            dvec2 shift = dvec2(-d.y, d.x) * ((left ? 1 : -1) * view.borderShift / size);
             a += shift, b += shift;
         }
         a = glm::clamp(a, dvec2(0), dvec2(1)), b = glm::clamp(b, dvec2(0), dvec2(1));
         dvec3 edge = side.b - side.a;
+        if (!view.identity) edge = glm::inverse(glm::dmat3(view.map)) * edge;
         return Half{a, b, packOct(glm::vec3(glm::normalize(edge))), left};
+    }
+
+    // As crossingJoint tells it.
+    static float jointOf(dvec3 toOutside, dvec3 fromOutside, dvec3 edge) {
+        dvec3 mean = toOutside + fromOutside, across = glm::cross(glm::normalize(edge), toOutside);
+        double c = glm::dot(mean, toOutside), s = glm::dot(mean, across), sum = c + std::abs(s);
+        return sum > 1e-6 ? float(s / sum) : 0.0f;
     }
 
     std::optional<Contact> make(const Flap& f, const Flap& g) const {
@@ -257,6 +276,11 @@ class Assembler {
         c.target = 0xFFFF0000u | target;
         c.flags = kCrossingContact | (from->insideLeft ? kCrossingInsideLeft : 0u) |
                   (expected != to->insideLeft ? kCrossingTurned : 0u) | chart << 16;
+        if (view_[0] != view_[1]) {
+            const auto& side = found_->segment.side[g.side];
+            double over = expected != to->insideLeft ? -1 : 1;
+            c.flags |= packCrossingJoint(jointOf(g.normal * over, f.normal, side.b - side.a));
+        }
         contact.from = f.triangle;
         contact.to = g.triangle;
         contact.a = found_->segment.side[g.side].a;
@@ -266,6 +290,61 @@ class Assembler {
         return contact;
     }
 
+    // Is uv in a triangle that goes on from this one within its chart?
+    static bool nextHolds(const ContactMesh& mesh, uint32_t triangle, dvec2 p) {
+        for (uint32_t h = triangle * 3; h < triangle * 3 + 3; ++h) {
+            if (mesh.chartBorder[h] != 0) continue;
+            const auto& uv = mesh.triangles[mesh.twin[h] / 3].uv;
+            double turn = cross(uv[1] - uv[0], uv[2] - uv[0]);
+            bool within = true;
+            for (size_t k = 0; k < 3; ++k) within = within && cross(uv[(k + 1) % 3] - uv[k], p - uv[k]) * turn >= 0;
+            if (within) return true;
+        }
+        return false;
+    }
+
+    // Adds a contact in up to three parts, so that none leads over a border of the chart that it leads to: what touches
+    // within a tolerance may reach that far beyond its triangle. Beyond, all lead to where the border is met.
+    void addWithin(const Contact& contact, const Flap& g, std::vector<Contact>& out) const {
+        const View& view = *view_[g.side];
+        const auto& uv = view.mesh.triangles[g.triangle].uv;
+        dvec2 a(contact.crossing.ta), b(contact.crossing.tb);
+        double turn = cross(uv[1] - uv[0], uv[2] - uv[0]) > 0 ? 1 : -1, t0 = 0, t1 = 1;
+        // Over an edge within the chart the next triangle goes on, if it reaches so far.
+        bool aHeld = nextHolds(view.mesh, g.triangle, a), bHeld = nextHolds(view.mesh, g.triangle, b);
+        auto overBorders = [&](auto&& visit) {
+            for (uint32_t k = 0; k < 3; ++k) {
+                dvec2 e = glm::normalize(uv[(k + 1) % 3] - uv[k]), inward = dvec2(-e.y, e.x) * turn;
+                double da = glm::dot(a - uv[k], inward), db = glm::dot(b - uv[k], inward);
+                visit(inward, aHeld ? std::max(da, 0.0) : da, bHeld ? std::max(db, 0.0) : db);
+            }
+        };
+        overBorders([&](dvec2 inward, double da, double db) {
+            if (da < 0 && db < 0) a -= inward * da, b -= inward * db;
+        });
+        overBorders([&](dvec2, double da, double db) {
+            if (da < 0 && db > 0) t0 = std::max(t0, da / (da - db));
+            if (db < 0 && da > 0) t1 = std::min(t1, da / (da - db));
+        });
+        if (t0 > t1) t0 = t1 = (t0 + t1) / 2;
+        auto add = [&](double from, double to, double targetFrom, double targetTo) {
+            if (!(to > from)) return;
+            Contact part = contact;
+            Crossing& c = part.crossing;
+            glm::vec2 near = c.a, along = c.b - c.a;
+            c.a = from > 0 ? near + along * float(from) : c.a;
+            c.b = to < 1 ? near + along * float(to) : c.b;
+            c.ta = glm::vec2(a + (b - a) * targetFrom);
+            c.tb = glm::vec2(a + (b - a) * targetTo);
+            part.a = contact.a + (contact.b - contact.a) * targetFrom;
+            part.b = contact.a + (contact.b - contact.a) * targetTo;
+            out.push_back(part);
+        };
+        add(0, t0, t0, t0);
+        add(t0, t1, t0, t1);
+        add(t1, 1, t1, t1);
+    }
+
     std::array<const View*, 2> view_;
     const ContactOptions& options_;
     const Found* found_ = nullptr;
@@ -273,9 +352,9 @@ class Assembler {
     std::vector<Flap> flaps_;
 };
 
-void find(const View& a, uint32_t i, const View& b, uint32_t j, std::vector<Found>& found) {
+void find(const View& a, uint32_t i, const View& b, uint32_t j, double scale, std::vector<Found>& found) {
     std::array<ContactSegment, 6> segments;
-    int count = touch(a.shape(i), b.shape(j), segments);
+    int count = touch(a.shape(i, 1), b.shape(j, scale), segments);
     for (int k = 0; k < count; ++k) {
         const ContactSegment& s = segments[size_t(k)];
         found.push_back({{a.keyOf(i, s.side[0].edge), b.keyOf(j, s.side[1].edge)}, {i, j}, s});
@@ -305,18 +384,32 @@ void setReach(ContactMesh& mesh, double tolerance) {
 }
 
 std::vector<Contact> contactsWithin(const ContactMesh& mesh, const BoxTree& tree, const ContactOptions& options) {
-    View view{mesh};
+    View view{mesh, dmat4(1), true, options.borderShift};
     std::vector<Found> found;
-    tree.pairs(tree, glm::dmat4(1), options.tolerance, [&](uint32_t i, uint32_t j) {
+    tree.pairs(tree, dmat4(1), options.tolerance, [&](uint32_t i, uint32_t j) {
         if (mesh.triangles[i].shell == mesh.triangles[j].shell) return;
         if (mesh.triangles[i].shell > mesh.triangles[j].shell)
             std::swap(i, j);  // one order for all pairs of two shells
-        find(view, i, view, j, found);
+        find(view, i, view, j, 1, found);
     });
     merge(found);
     std::vector<Contact> out;
     Assembler assembler(view, view, options);
     for (const Found& f : found) assembler.add(f, {&out, &out});
+    return out;
+}
+
+ContactsBetween contactsBetween(const ContactMesh& a, const BoxTree& treeA, const ContactMesh& b, const BoxTree& treeB,
+                                const ContactOptions& options) {
+    View viewA{a, dmat4(1), true, options.borderShift}, viewB{b, options.toA, false, options.otherBorderShift};
+    double scale = std::cbrt(glm::determinant(glm::dmat3(options.toA)));
+    std::vector<Found> found;
+    treeA.pairs(treeB, options.toA, options.tolerance,
+                [&](uint32_t i, uint32_t j) { find(viewA, i, viewB, j, scale, found); });
+    merge(found);
+    ContactsBetween out;
+    Assembler assembler(viewA, viewB, options);
+    for (const Found& f : found) assembler.add(f, {&out.fromA, &out.fromB});
     return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// Where pieces of a surface touch or run into each other, so that plants go from one to the other.
+// Where pieces or surfaces touch or run into each other, so that plants go from one to the other. The same code serves
+// the baker, for the pieces of one model, and the runtime, for surfaces that were placed against each other.
 
 #include <array>
 #include <cstdint>
@@ -48,9 +49,19 @@ struct Contact {
 struct ContactOptions {
     double tolerance;    // metres of a's object space; what is nearer touches
     double borderShift;  // UV: contacts along a chart's border are moved so far inside, before the border's own
+    // With another mesh: b's object space to a's, a move, a turn and an even scale; and b's shift.
+    glm::dmat4 toA{1};
+    double otherBorderShift = 0;
 };
 
 // All contacts between the shells of `mesh`, both directions, in an order that depends on the input alone.
 std::vector<Contact> contactsWithin(const ContactMesh& mesh, const BoxTree& tree, const ContactOptions& options);
+
+// The contacts from a to b (fromA) and from b to a.
+struct ContactsBetween {
+    std::vector<Contact> fromA, fromB;
+};
+ContactsBetween contactsBetween(const ContactMesh& a, const BoxTree& treeA, const ContactMesh& b, const BoxTree& treeB,
+                                const ContactOptions& options);
 
 }  // namespace espalier

@@ -1,7 +1,10 @@
 // In: a baked surface in memory. Out: its arrays in device memory and the record of their addresses.
 #include "runtime/surface/gpu_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "runtime/gpu/commands.hpp"
 
 namespace espalier {
 namespace {
@@ -16,6 +19,13 @@ void setAddress(Buf& buffer, uint64_t address) {
 // Arrays begin at multiples of this, so that kernels may read them as texels.
 constexpr size_t kAlignment = 16;
 
+template <class Buf>
+uint64_t addressOf(const Buf& buffer) {
+    uint64_t address;
+    std::memcpy(&address, &buffer, 8);
+    return address;
+}
+
 // No less than what the arrays take together.
 size_t sizeOf(const SurfaceData& data) {
     size_t sum = data.crossings.size() * sizeof(Crossing) + data.charts.size() * sizeof(Chart) +
@@ -24,6 +34,59 @@ size_t sizeOf(const SurfaceData& data) {
         sum += level.texels.size() * sizeof(Texel) + level.aux.size() * sizeof(TexelAux) +
                (level.crossingHead.size() + level.crossingRefs.size()) * 4 + 4 * kAlignment;
     return sum;
+}
+
+// All lists and crossings, those of the file first; sets their addresses in `ref`.
+Result<Buffer> makeLists(Device& device, const SurfaceData& base, const std::vector<LevelPatch>& patches,
+                         std::span<const Crossing> added, SurfaceRef& ref) {
+    std::vector<std::byte> bytes;
+    auto append = [&](const auto& values) {
+        const auto view = std::as_bytes(std::span(values));
+        bytes.insert(bytes.end(), view.begin(), view.end());
+    };
+    std::vector<size_t> begins;
+    for (size_t l = 0; l < patches.size(); ++l) {
+        begins.push_back(bytes.size());
+        append(base.levels[l].crossingRefs);
+        append(patches[l].added);
+        bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment);
+    }
+    begins.push_back(bytes.size());
+    append(base.crossings);
+    append(added);
+    Result<Buffer> buffer = makeBuffer(device, "surface contacts", std::span<const std::byte>(bytes));
+    if (!buffer) return buffer;
+    for (size_t l = 0; l < patches.size(); ++l) setAddress(ref.levels[l].crossingRefs, buffer->address() + begins[l]);
+    setAddress(ref.crossings, buffer->address() + begins.back());
+    ref.crossingCount += uint32_t(added.size());
+    return buffer;
+}
+
+// Writes 8×8 tiles of a level as the patch has them: texels and heads, up to four that follow each other in one go, as
+// many as fit into the recording itself.
+Status writeTiles(Commands& commands, const Buffer& data, const SurfaceLevel& place, const SurfaceLevelData& base,
+                  const LevelPatch& patch, const std::vector<uint32_t>& tiles) {
+    std::vector<Texel> texels;
+    std::vector<uint32_t> heads;
+    size_t next = 0;
+    for (size_t i = 0; i < tiles.size();) {
+        size_t end = i + 1;
+        while (end < tiles.size() && end < i + 4 && tiles[end] == tiles[end - 1] + 1) ++end;
+        const size_t first = size_t(tiles[i]) * 64, count = (end - i) * 64;
+        texels.assign(base.texels.begin() + std::ptrdiff_t(first), base.texels.begin() + std::ptrdiff_t(first + count));
+        heads.assign(base.crossingHead.begin() + std::ptrdiff_t(first),
+                     base.crossingHead.begin() + std::ptrdiff_t(first + count));
+        for (; next < patch.texels.size() && patch.texels[next] < first + count; ++next) {
+            texels[patch.texels[next] - first].bits = patch.bits[next];
+            heads[patch.texels[next] - first] = patch.heads[next];
+        }
+        const uint64_t texelsAt = addressOf(place.texels) - data.address() + first * sizeof(Texel);
+        const uint64_t headsAt = addressOf(place.crossingHead) - data.address() + first * 4;
+        if (Status s = commands.upload(data, texels, texelsAt); !s) return s;
+        if (Status s = commands.upload(data, heads, headsAt); !s) return s;
+        i = end;
+    }
+    return Done{};
 }
 
 }  // namespace
@@ -50,6 +113,7 @@ Result<GpuSurface> GpuSurface::create(Device& device, const SurfaceData& data) {
         add(level.aux, out.ref_.levels[i].aux);
         add(level.crossingHead, out.ref_.levels[i].crossingHead);
         add(level.crossingRefs, out.ref_.levels[i].crossingRefs);
+        out.refCounts_.push_back(uint32_t(level.crossingRefs.size()));
     }
     add(data.crossings, out.ref_.crossings);
     add(data.charts, out.ref_.charts);
@@ -66,9 +130,64 @@ Result<GpuSurface> GpuSurface::create(Device& device, const SurfaceData& data) {
 }
 
 SurfaceRef GpuSurface::ref(const glm::mat4& toWorld) const {
-    SurfaceRef ref = ref_;
+    SurfaceRef ref = lists_ ? listed_ : ref_;
     placeSurface(ref, toWorld);
     return ref;
+}
+
+Status GpuSurface::readBack(Device& device, SurfaceData& out) const {
+    auto read = [&](auto& values, auto buffer, size_t count) -> Status {
+        using T = typename std::decay_t<decltype(values)>::value_type;
+        values.clear();
+        if (count == 0) return Done{};
+        Result<std::vector<std::byte>> bytes =
+            readBuffer(device, data_, addressOf(buffer) - data_.address(), count * sizeof(T));
+        if (!bytes) return bytes.failure();
+        values.resize(count);
+        std::memcpy(static_cast<void*>(values.data()), bytes->data(), bytes->size());
+        return Done{};
+    };
+    out.levels.resize(ref_.levelCount);
+    for (size_t i = 0; i < out.levels.size(); ++i) {
+        const SurfaceLevel& from = ref_.levels[i];
+        SurfaceLevelData& level = out.levels[i];
+        const size_t texels = size_t(from.size) * from.size;
+        level.size = from.size;
+        if (Status s = read(level.texels, from.texels, texels); !s) return s;
+        if (Status s = read(level.crossingHead, from.crossingHead, texels); !s) return s;
+        if (Status s = read(level.crossingRefs, from.crossingRefs, refCounts_[i]); !s) return s;
+    }
+    return read(out.crossings, ref_.crossings, ref_.crossingCount);
+}
+
+Status GpuSurface::addCrossings(Device& device, const SurfaceData& base, std::span<const Crossing> added) {
+    Result<std::vector<LevelPatch>> patches = patchLevels(base, added);
+    if (!patches) return patches.failure();
+    SurfaceRef listed = ref_;
+    Buffer lists;
+    if (!added.empty()) {
+        Result<Buffer> made = makeLists(device, base, *patches, added, listed);
+        if (!made) return made.failure();
+        lists = std::move(*made);
+    }
+    Result<Commands> commands = Commands::begin(device, "contacts");
+    if (!commands) return commands.failure();
+    std::vector<std::vector<uint32_t>> tiles(base.levels.size());
+    for (size_t l = 0; l < tiles.size(); ++l) {
+        const LevelPatch& patch = (*patches)[l];
+        for (uint32_t texel : patch.texels)
+            if (tiles[l].empty() || tiles[l].back() != texel >> 6) tiles[l].push_back(texel >> 6);
+        std::vector<uint32_t> stale = tiles[l];
+        if (l < patched_.size()) stale.insert(stale.end(), patched_[l].begin(), patched_[l].end());
+        std::sort(stale.begin(), stale.end());
+        stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
+        if (Status s = writeTiles(*commands, data_, ref_.levels[l], base.levels[l], patch, stale); !s) return s;
+    }
+    if (Status done = commands->finish(); !done) return done;
+    lists_ = std::move(lists);
+    listed_ = listed;
+    patched_ = std::move(tiles);
+    return Done{};
 }
 
 void placeSurface(SurfaceRef& ref, const glm::mat4& toWorld) {

@@ -3,6 +3,7 @@
 // A baked surface on the GPU: what a walk reads. The mesh to draw and its pictures belong to render.
 
 #include "runtime/gpu/buffer.hpp"
+#include "runtime/surface/added_crossings.hpp"
 #include "runtime/surface/surface.hpp"
 
 namespace espalier {
@@ -19,8 +20,14 @@ class GpuSurface {
     // toWorld must move, turn and scale evenly.
     SurfaceRef ref(const glm::mat4& toWorld = glm::mat4(1)) const;
 
+    // What was uploaded of levels (without aux) and crossings; waits for the GPU.
+    Status readBack(Device& device, SurfaceData& out) const;
+    // Adds crossings to those of the file in place of the ones added before; none: as it was loaded. `base`: what
+    // readBack gave. Records refer to them after the next ref(). On failure all is as before.
+    Status addCrossings(Device& device, const SurfaceData& base, std::span<const Crossing> added);
+
     uint64_t hash() const { return hash_; }
-    uint64_t sizeBytes() const { return data_.size(); }
+    uint64_t sizeBytes() const { return data_.size() + lists_.size(); }
     // All its arrays, each at a multiple of 16 bytes; see GrowthInputs::surfaceData.
     const Buffer& data() const { return data_; }
     explicit operator bool() const { return bool(data_); }
@@ -29,6 +36,10 @@ class GpuSurface {
     SurfaceRef ref_{};
     uint64_t hash_ = 0;
     Buffer data_;
+    Buffer lists_;                                // while crossings are added: lists of all levels and all crossings
+    std::vector<uint32_t> refCounts_;             // per level, as uploaded
+    std::vector<std::vector<uint32_t>> patched_;  // per level: tiles that differ from what was uploaded
+    SurfaceRef listed_{};                         // ref_ with the addresses in lists_
 };
 
 // Puts a placement into a surface's record: rows of the matrix, and its even scale.

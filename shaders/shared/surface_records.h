@@ -47,19 +47,28 @@ CONST_UINT(kCrossingOpen, 3u);      // a border of the model: leads nowhere
 // A directed piece of border, 48 bytes. Walking over segment a-b to the outside of its chart leads to the
 // segment ta-tb of the target chart, by the affine map a -> ta, b -> tb. All UVs are in [0,1]², level-free.
 // Bit 2 of flags tells on which side of a -> b, as seen in the UV plane with v up, the chart's inside lies.
-// A contact runs through the middle of charts: its inside is the side from which a walk may come.
+// A contact runs through the middle of charts: its inside is the side from which a walk may come. One that leads to
+// another instance tells by bits 15..8 of flags how that one's outside is turned there: see crossingJoint.
 struct Crossing {
     vec2 a, b;
     vec2 ta, tb;
     uint edge;         // octahedral 2×16: unit 3D direction a -> b on this side
     uint targetEdge;   // octahedral 2×16: unit 3D direction ta -> tb on the other side (same as edge for seams)
     uint target;       // bits 31..16 surface instance (0xFFFF: this one), 15..0 chart
-    uint flags;        // bits 1..0 kind, 2 kCrossingInsideLeft, 3 kCrossingTurned, 15..8 level it was made for,
+    uint flags;        // bits 1..0 kind, 2 kCrossingInsideLeft, 3 kCrossingTurned, 15..8 joint, in files 0,
                        // 31..16 the chart whose border this is (charts may touch in the atlas)
 };
 STATIC_SIZE(Crossing, 48);
 CONST_UINT(kCrossingInsideLeft, 4u);   // the inside is to the left of a -> b
 CONST_UINT(kCrossingTurned, 8u);       // leads to the back of a sheet: outward there is inward here
+
+// With x this, n the far side's outside and e the direction of targetEdge, the mean of both sides' outsides points
+// along n (1 - |x|) + (e × n) x, in the far instance's object space.
+FN float crossingJoint(uint flags) {
+    int x = int(flags << 16u) >> 24;
+    return float(x) * 0.00787401575f;
+}
+FN uint packCrossingJoint(float x) { return (uint(int(x * 127.0f + (x < 0.0f ? -0.5f : 0.5f))) & 255u) << 8u; }
 
 // 40 bytes. orientation: +1 or -1, so that orientation * cross(P_u, P_v) points outward (mirrored: -1).
 struct Chart {

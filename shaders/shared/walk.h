@@ -307,12 +307,14 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     uint toPlace = w.walk.place;
     float toOrientation = w.orientation;
     uint toLevel = w.level;
+    float toTexel = texel;
     bool open = false;
     uint edgeA = 0u;
     uint edgeB = 0u;
     vec2 e = vec2(0.0f);
     bool insideLeft = false;
     float over1 = 1.0f;   // -1: to the back of a sheet
+    float joint = 0.0f;   // to another instance: crossingJoint
     if (leaves) {
         Crossing c = readCrossing(surfaces.v[instance].crossings, leave.crossing);
         insideLeft = (c.flags & kCrossingInsideLeft) != 0u;
@@ -331,12 +333,10 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         edgeA = c.edge;
         edgeB = c.targetEdge;
         e = open ? c.b - c.a : c.tb - c.ta;
-        // Not quite to a corner, where the next segment's outside begins.
-        float corner = limited(kWalkCornerTexels * texel * rsqrtExact(larger(dot2(e, e), 1e-30f)), 0.0f, 0.5f);
-        to = (open ? c.a : c.ta) + e * limited(leave.along, corner, 1.0f - corner);
         if (!open) {
             uint toInstance = c.target >> 16u;
             toInstance = toInstance == 0xFFFFu ? instance : toInstance;
+            joint = crossingJoint(c.flags);
             uint toChart = c.target & 0xFFFFu;
             toPlace = (toInstance << 16u) | toChart;
             uint coarsest;
@@ -344,8 +344,12 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             toLevel = level < coarsest ? level : coarsest;
             // Seen from outside, the far chart lies on the other side of the edge; mirrored UVs swap sides.
             insideLeft = insideLeft == (toOrientation * w.orientation * over1 < 0.0f);
+            toTexel = rcpExact(float(surfaces.v[toInstance].levels[toLevel].size));
         }
-        to = nudgedInside(to, e, insideLeft, texel);
+        // Not quite to a corner, where the next segment's outside begins.
+        float corner = limited(kWalkCornerTexels * toTexel * rsqrtExact(larger(dot2(e, e), 1e-30f)), 0.0f, 0.5f);
+        to = (open ? c.a : c.ta) + e * limited(leave.along, corner, 1.0f - corner);
+        to = nudgedInside(to, e, insideLeft, toTexel);
     }
     Patch p;
     p.position = w.position;
@@ -374,7 +378,10 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             vec3 eb = edgeIn(edgeB, p.normal);
             t1 = unit3(eb * dot3(t, ea) + cross3(eb, p.normal) * (over1 * dot3(t, cross3(ea, n))));
             t1 = headedInside(p, t1, e, insideLeft);
-            vec3 mean = n + p.normal * over1;
+            // n is of the near side's space; another instance's is turned against it.
+            vec3 outside = p.normal * over1;
+            vec3 turned = outside * (1.0f - absolute(joint)) + cross3(eb, outside) * joint;
+            vec3 mean = toPlace >> 16u == instance ? n + outside : turned;
             float mean2 = dot3(mean, mean);
             jointNormal = mean2 > 1e-4f ? mean * rsqrtExact(mean2) : p.normal;
         } else {
@@ -386,7 +393,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         w.orientation = toOrientation;
         w.level = toLevel;
         w.flags = w.flags & ~(kWalkFlagLoose | kWalkFlagOver);
-        standOn(w, p, rcpExact(float(surfaces.v[toPlace >> 16u].levels[toLevel].size)));
+        standOn(w, p, toTexel);
         w.clear = 0.0f;
         w.slip = vec2(0.0f);
         event = open ? kWalkOpen : kWalkSeam;

@@ -12,7 +12,6 @@ namespace espalier::bakery {
 namespace {
 
 constexpr size_t kBandRows = 64;
-constexpr double kCrossingGrow = 0.51;    // a texel's half side and the hundredth that lists are grown by
 constexpr double kCreaseGrow = 1.5;       // a texel's half side and one texel around
 constexpr double kCreaseAltitude = 1;     // texels: creases between narrower triangles are roundings
 constexpr float kMaxStretch = 4;          // gutters never run faster than this times the chart's mean scale

@@ -1,0 +1,110 @@
+// Placed surfaces -> crossings between those that touch. A pair is looked at again only when one of the two, or a third
+// that reaches between them, has moved.
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+using Stand = SurfacePair::Stand;
+
+Box boxOf(const PlacedSurface& surface) {
+    Box box;
+    const auto& [low, high] = std::tie(surface.info.boundsMin, surface.info.boundsMax);
+    box.add({low[0], low[1], low[2]});
+    box.add({high[0], high[1], high[2]});
+    return box;
+}
+
+// What a search between surfaces needs of one, made when it is first needed.
+Status prepare(EspContext& context, PlacedSurface& surface) {
+    if (surface.ground) return Done{};
+    if (Status read = surface.gpu.readBack(*context.device, surface.data); !read) return read;
+    surface.ground = std::make_unique<ContactGround>(surface.data);
+    return Done{};
+}
+
+bool same(const std::vector<Crossing>& a, const std::vector<Crossing>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Crossing)) == 0);
+}
+
+// The pairs whose boxes meet, each with the further surfaces that reach to where they do.
+std::vector<SurfacePair> pairsOf(const std::vector<Stand>& stands, const std::vector<Box>& boxes) {
+    std::vector<SurfacePair> pairs;
+    for (size_t i = 0; i < stands.size(); ++i)
+        for (size_t j = i + 1; j < stands.size(); ++j) {
+            if (!boxes[i].touches(boxes[j])) continue;
+            Box shared{glm::max(boxes[i].low, boxes[j].low), glm::min(boxes[i].high, boxes[j].high)};
+            SurfacePair pair{stands[i], stands[j], {}, {}};
+            for (size_t k = 0; k < stands.size(); ++k)
+                if (k != i && k != j && boxes[k].touches(shared)) pair.others.push_back(stands[k]);
+            pairs.push_back(std::move(pair));
+        }
+    return pairs;
+}
+
+Status find(EspContext& context, SurfacePair& pair) {
+    const auto placed = [&](const Stand& stand) {
+        return PlacedGround{context.surfaces.find(stand.id)->ground.get(), glm::dmat4(stand.toWorld)};
+    };
+    std::vector<PlacedGround> others;
+    for (const Stand& stand : {pair.a, pair.b})
+        if (Status s = prepare(context, *context.surfaces.find(stand.id)); !s) return s;
+    for (const Stand& stand : pair.others) {
+        if (Status s = prepare(context, *context.surfaces.find(stand.id)); !s) return s;
+        others.push_back(placed(stand));
+    }
+    pair.found = contactsOf(placed(pair.a), placed(pair.b), others);
+    return Done{};
+}
+
+}  // namespace
+
+Status refreshContacts(EspContext& context) {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<Stand> stands;
+    std::vector<Box> boxes;
+    context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
+        stands.push_back({id, surface.toWorld});
+        const Box box = boxOf(surface);
+        boxes.push_back(box.grown(1e-3 * glm::length(box.high - box.low)));
+    });
+    std::vector<SurfacePair> pairs = pairsOf(stands, boxes);
+    for (SurfacePair& pair : pairs) {
+        const auto known = std::ranges::find_if(context.pairs, [&](const SurfacePair& p) {
+            return p.a == pair.a && p.b == pair.b && p.others == pair.others;
+        });
+        if (known != context.pairs.end())
+            pair.found = known->found;
+        else if (Status s = find(context, pair); !s)
+            return s;
+    }
+    context.pairs = std::move(pairs);
+
+    context.contactCount = 0;
+    Status status = Done{};
+    context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
+        std::vector<Crossing> wanted;
+        const auto add = [&](const std::vector<Crossing>& crossings, uint32_t target) {
+            for (Crossing c : crossings) {
+                c.target = instanceOf(target) << 16 | (c.target & 0xFFFFu);
+                wanted.push_back(c);
+            }
+        };
+        for (const SurfacePair& pair : context.pairs) {
+            if (pair.a.id == id) add(pair.found.fromA, pair.b.id);
+            if (pair.b.id == id) add(pair.found.fromB, pair.a.id);
+        }
+        context.contactCount += uint32_t(wanted.size());
+        if (!status || same(wanted, surface.contacts)) return;
+        status = surface.gpu.addCrossings(*context.device, surface.data, wanted);
+        if (status) surface.contacts = std::move(wanted), context.tablesStale = true;
+    });
+    context.contactMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return status;
+}
+
+}  // namespace espalier
