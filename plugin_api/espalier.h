@@ -407,7 +407,7 @@ typedef struct EspStats {
     uint64_t modelTriangles;     /* triangles of the surfaces' meshes in the last frame */
     uint32_t modelsFading;       /* surfaces that change their level of detail: the next frames will look different */
     uint32_t contacts;           /* crossings from surface to surface */
-    double contactMs;            /* CPU time of finding them when surfaces last came, went or moved */
+    double contactMs;            /* on the CPU: finding them when surfaces last came, went or moved */
 } EspStats;
 ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
 

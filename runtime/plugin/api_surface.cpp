@@ -146,6 +146,7 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
     surface.scale = *scale;
     surface.info = describe(surface.data, toWorld, surface.info.triangles, surface.info.levels);
     context.renderer->placeSurface(surface.instance, toWorld);
+    thawPlantsOn(context, surface.instance);
     const auto moved = [&](glm::vec3 p) { return glm::vec3(shift * glm::vec4(p, 1)); };
     const auto turned = [&](glm::vec3 v) { return glm::mat3(shift) * v; };
     context.seeds.forEach([&](uint32_t, PlantedSeed& seed) {

@@ -29,6 +29,16 @@ double cross(dvec2 a, dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
+dvec2 nearestOnOutline(const std::array<dvec2, 3>& triangle, dvec2 p) {
+    dvec2 best = triangle[0];
+    for (size_t k = 0; k < 3; ++k) {
+        dvec2 a = triangle[k], e = triangle[(k + 1) % 3] - a;
+        dvec2 q = a + e * std::clamp(glm::dot(p - a, e) / glm::dot(e, e), 0.0, 1.0);
+        if (glm::length(p - q) < glm::length(p - best)) best = q;
+    }
+    return best;
+}
+
 // One mesh of a search: where its points are in the space of the search, side 0's object space.
 struct View {
     const ContactMesh& mesh;
@@ -310,19 +320,24 @@ class Assembler {
         const auto& uv = view.mesh.triangles[g.triangle].uv;
         dvec2 a(contact.crossing.ta), b(contact.crossing.tb);
         double turn = cross(uv[1] - uv[0], uv[2] - uv[0]) > 0 ? 1 : -1, t0 = 0, t1 = 1;
+        double hair = view.borderShift / 4;  // rounding
         // Over an edge within the chart the next triangle goes on, if it reaches so far.
         bool aHeld = nextHolds(view.mesh, g.triangle, a), bHeld = nextHolds(view.mesh, g.triangle, b);
         auto overBorders = [&](auto&& visit) {
             for (uint32_t k = 0; k < 3; ++k) {
                 dvec2 e = glm::normalize(uv[(k + 1) % 3] - uv[k]), inward = dvec2(-e.y, e.x) * turn;
                 double da = glm::dot(a - uv[k], inward), db = glm::dot(b - uv[k], inward);
-                visit(inward, aHeld ? std::max(da, 0.0) : da, bHeld ? std::max(db, 0.0) : db);
+                auto beyond = [&](double d, bool held) { return held || d > -hair ? std::max(d, 0.0) : d; };
+                visit(beyond(da, aHeld), beyond(db, bHeld));
             }
         };
-        overBorders([&](dvec2 inward, double da, double db) {
-            if (da < 0 && db < 0) a -= inward * da, b -= inward * db;
-        });
-        overBorders([&](dvec2, double da, double db) {
+        bool outside = false;
+        overBorders([&](double da, double db) { outside = outside || (da < 0 && db < 0); });
+        if (outside) {
+            a = aHeld ? a : nearestOnOutline(uv, a);
+            b = bHeld ? b : nearestOnOutline(uv, b);
+        }
+        overBorders([&](double da, double db) {
             if (da < 0 && db > 0) t0 = std::max(t0, da / (da - db));
             if (db < 0 && da > 0) t1 = std::min(t1, da / (da - db));
         });

@@ -261,6 +261,63 @@ static void widthIsFollowed(EspContext* context) {
     CHECK(stats(context).hash == finest.hash);
 }
 
+/* Two ruins, one on top of the other's ground: plants go over, and nothing is left of that when one is moved away. */
+static void surfacesTouch(EspContext* context) {
+    EspSurface ground = {0}, wall = {0};
+    EspGrammar grammar = {0};
+    EspGrammarDef def = ivy();
+    EspTransform place = espIdentity();
+    EspSurfaceInfo info;
+    OK(context, espCompileGrammar(context, &def, &grammar));
+    OK(context, espLoadSurface(context, surfacePath, NULL, &ground));
+    plant(context, grammar, -1.35f, 0.1f, 0.4f, 3);
+    OK(context, espUpdate(context));
+    const uint64_t alone = stats(context).hash;
+    CHECK(stats(context).contacts == 0);
+
+    place.rows[0][3] = 1.5f;
+    place.rows[2][3] = 1.2f;
+    OK(context, espLoadSurface(context, surfacePath, &place, &wall));
+    OK(context, espUpdate(context));
+    const uint64_t joined = stats(context).hash;
+    const uint32_t contacts = stats(context).contacts;
+    CHECK(contacts > 100 && stats(context).contactMs > 0);
+    CHECK(drawn(context) > 500);
+
+    place.rows[0][3] = 40;
+    OK(context, espMoveSurface(context, wall, &place));
+    OK(context, espSurfaceInfo(context, wall, &info));
+    CHECK(info.boundsMin[0] > 20 && info.triangles > 1000);
+    OK(context, espUpdate(context));
+    CHECK(stats(context).contacts == 0);
+    CHECK(stats(context).hash == alone);
+
+    place.rows[0][3] = 1.5f;
+    OK(context, espMoveSurface(context, wall, &place));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).contacts == contacts);
+    CHECK(stats(context).hash == joined);
+
+    /* Its seeds go with a surface. */
+    EspSeed seed = plant(context, grammar, 1.5f - 1.35f, 2.5f, 1.2f + 0.4f, 5);
+    EspSeedInfo before, after;
+    OK(context, espSeedInfo(context, seed, &before));
+    CHECK(before.surface.id == wall.id);
+    place.rows[1][3] = 7;
+    OK(context, espMoveSurface(context, wall, &place));
+    OK(context, espSeedInfo(context, seed, &after));
+    CHECK(fabsf(after.position[1] - before.position[1] - 7) < 1e-4f && after.surface.id == wall.id);
+
+    place.rows[0][0] = 2; /* stretched */
+    CHECK(espMoveSurface(context, wall, &place) == ESP_INVALID_ARGUMENT);
+    CHECK(espMoveSurface(context, (EspSurface){0}, &place) == ESP_INVALID_ARGUMENT);
+    CHECK(espMoveSurface(context, wall, NULL) == ESP_INVALID_ARGUMENT);
+    OK(context, espDestroySurface(context, wall));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == alone);
+    CHECK(stats(context).validationMessages == 0);
+}
+
 static void badArguments(EspContext* context) {
     EspSurface surface = {0}, none = {77};
     EspGrammar grammar = {0}, noGrammar = {12345};
@@ -420,6 +477,10 @@ int main(int argc, char** argv) {
     EspContext* wide = create(NULL, NULL);
     widthIsFollowed(wide);
     espDestroy(wide);
+
+    EspContext* several = create(NULL, NULL);
+    surfacesTouch(several);
+    espDestroy(several);
 
     EspContext* refused = create(NULL, NULL);
     logged = 0;

@@ -59,6 +59,7 @@ void editCases(Bench& bench);
 void emitCases(Bench& bench);
 void frameCases(Bench& bench);
 void bakeCases(Bench& bench);
+void contactCases(Bench& bench);
 void paintCases(Bench& bench);
 void surfaceCases(Bench& bench);
 void lodCases(Bench& bench);

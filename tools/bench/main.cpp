@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
     emitCases(bench);
     frameCases(bench);
     bakeCases(bench);
+    contactCases(bench);
     paintCases(bench);
     surfaceCases(bench);
     lodCases(bench);
