@@ -295,8 +295,9 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     leave.fraction = 2.0f;
     leave.along = 0.0f;
     leave.crossing = 0u;
-    // Where a walk goes to and fro between segments that overlap by a hair, it goes blindly on now and then.
-    bool blind = (w.flags & 7u) == 7u;
+    // Where a walk goes to and fro between segments that overlap by a hair, or about a corner, it goes blindly on now and
+    // then; twice, since to and fro are two tries.
+    bool blind = (w.flags & 7u) >= 6u;
     if (!blind && (loose || pace * s >= w.clear)) {
         leave = findExit(surfaces, instance, w.level, chart, w.walk.uv + w.slip, delta - w.slip, w.clear, loose);
     }
