@@ -1,10 +1,13 @@
 #pragma once
 
-// Growth on the GPU, as growth.cpp (all anew) and regrowth.cpp (only what an edit concerns) share it.
+// Growth on the GPU: growth.cpp grows all anew, regrowth.cpp only what an edit concerns, compaction.cpp closes the gaps
+// that this leaves; growth_set_up.cpp is what they share.
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
+#include <thread>
 
 #include "runtime/expand/growth.hpp"
 #include "runtime/expand/growth_plan.hpp"
@@ -47,12 +50,13 @@ class GpuGrowth final : public Growth {
         double marchMs = 0, terminalsMs = 0, fitMs = 0;
     };
 
-    // Both kinds.
+    // Both kinds: growth_set_up.cpp.
     Status load(Program& program, const char* shader, std::vector<SpecConstant> constants);
     Status loadKernels(WalkMode mode);
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
     Status viewSurfaces(const GrowthInputs& inputs);
     Status makeKernels(const GrowthInputs& inputs);
+    Status makeQueues(const GrowthInputs& inputs);
     Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen);
     Status uploadTables(Commands& commands, const GrowthInputs& inputs);
     // Counters of an attempt, and the pruned branches that they lead to.
@@ -94,7 +98,10 @@ class GpuGrowth final : public Growth {
     void recordAgain(Commands& commands, ExpandEnv env);
     void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state);
     // Groups of a pass whose kernels go through lists by themselves.
-    std::array<uint32_t, 3> spreadGroups() const { return {device_.info().cpu ? 64u : 1024u, 1, 1}; }
+    std::array<uint32_t, 3> spreadGroups() const {
+        const uint32_t threads = std::thread::hardware_concurrency();
+        return {device_.info().cpu ? std::clamp(8 * threads, 16u, 64u) : 1024u, 1, 1};
+    }
 
     // Gaps that edits have left: compaction.cpp.
     bool gappy() const;

@@ -55,7 +55,6 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
     const Links& from = links_[frontLinks_];
     Links& to = links_[1 - frontLinks_];
     const uint64_t chunks = std::max<uint64_t>(room_.chunks, capacityOf<Chunk>(from.chunks));
-    const uint64_t waves = inputs.limits.maxDepth + 2ull;
     const struct {
         Buffer* buffer;
         const char* name;
@@ -63,9 +62,6 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
     } rows[] = {{&to.chunks, "growth chunks", chunks * sizeof(Chunk)},
                 {&to.branches, "growth branches",
                  std::max<uint64_t>(from.branches.size(), room_.branches * sizeof(BranchRecord))},
-                {&items_[0], "growth items even", uint64_t(room_.items) * sizeof(WorkItem)},
-                {&items_[1], "growth items odd", uint64_t(room_.items) * sizeof(WorkItem)},
-                {&waves_, "growth waves", waves * sizeof(Wave)},
                 {&again_, "regrowth", sizeof(AgainState)},
                 {&marks_, "regrowth marks", chunks * sizeof(AgainMark)},
                 {&lists_, "regrowth lists", chunks * kLists * 4},
@@ -77,8 +73,7 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
     if (Status ok = ensure(leafRanges_, "regrowth leaf ranges", blocks * 8); !ok) return ok;
     for (const auto& row : rows)
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
-    return ensure(readback_, "growth readback", sizeof(GrowStatus) + waves * sizeof(Wave) + sizeof(AgainState),
-                  BufferUse::readback);
+    return makeQueues(inputs);
 }
 
 // Copies the links, and uploads counters, edits and the seeds that are planted anew as the first wave.

@@ -26,8 +26,10 @@ bool readsDirty(ExpandEnv env, UintBuf edits, uint chunk, uint marks) {
     uint grid = edits.v[kEditInstances + (head & 255u)];
     if (level > kMaxReadLevel) return true;
     bool dirty = false;
+    uint words[3];
+    for (uint i = 0u; i < (grid != 0u ? 3u : 0u); ++i) words[i] = i == 0u ? head : env.chunks.v[chunk].reads[i];
     for (uint i = 1u; i <= (grid != 0u ? kReadTiles : 0u) && !dirty; ++i) {
-        uint tile = (env.chunks.v[chunk].reads[i >> 1u] >> ((i & 1u) * 16u)) & 0xFFFFu;
+        uint tile = (words[i >> 1u] >> ((i & 1u) * 16u)) & 0xFFFFu;
         if (tile == 0xFFFFu) break;
         dirty = dirtyTile(edits, grid, level, tile & 255u, tile >> 8u);
     }

@@ -29,7 +29,6 @@ struct NodeSite {
     uint extrude;        // program, kNoIndex: none
     bool foot;           // a seed's: no span, but the radius of the first
     bool tip;
-    uint seed;
     u64 chunkKey;
     uint flags;          // of the node
     u64 key;             // of the draws
@@ -185,8 +184,11 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
 
     // Neighbours along the stem.
     bool last = local + 1u >= nodeCount;
-    uint follower = last ? (next != kNoIndex && chunkNodes(env.chunks.v[next].marks) > 0u ? env.chunks.v[next].firstNode : kNoIndex)
-                         : index + 1u;
+    uint follower = last ? kNoIndex : index + 1u;
+    // A loop, since software devices skip only those.
+    for (uint k = 0u; k < (last && next != kNoIndex ? 1u : 0u); ++k) {
+        if (chunkNodes(env.chunks.v[next].marks) > 0u) follower = env.chunks.v[next].firstNode;
+    }
     uint leader = local > 0u ? index - 1u : previous;
     vec3 before = env.nodes.v[leader == kNoIndex ? index : leader].position;
     vec3 after = env.nodes.v[follower == kNoIndex ? index : follower].position;
@@ -196,14 +198,13 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
     site.chunk = chunk;
     site.foot = leader == kNoIndex;
     site.tip = follower == kNoIndex;
-    site.seed = env.branches.v[branch].seed;
     site.chunkKey = brief.key;
     site.flags = node.flags;
     site.hash = uvec2(0u, 0u);
     site.after = node.arc;
     site.before = local > 0u ? env.nodes.v[index - 1u].arc : entryArc;
     uint flags = node.flags;
-    if (site.foot && !site.tip) flags = env.nodes.v[follower].flags;
+    for (uint k = 0u; k < (site.foot && !site.tip ? 1u : 0u); ++k) flags = env.nodes.v[follower].flags;
     uint extrude = flags & 255u;
     site.extrude = extrude - 1u;
     uint step = (brief.step & 0xFFFFFFu) + ((flags >> 26u) & 31u) + 1u;
@@ -244,7 +245,7 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
                    brief.depth & 0xFFFFu, step, node.arc);
         uint cell = 0u;
         if ((kFeatures & kFeatureDensity) != 0u && env.status.v[0].leafDensityCap > 0.0f)
-            cell = densityCell(env, site.seed, node.place, place.uv);
+            cell = densityCell(env, env.branches.v[branch].seed, node.place, place.uv);
         radius = runTerminals(MACHINE env, map, first, first + (range >> 16u), site, cell, barkFlags);
     }
     hash = hash + site.hash;

@@ -1,0 +1,245 @@
+// What full growth and regrowth share on the host: kernels for what a scene's grammars use, buffers, packed tables, and
+// the records that are drawn.
+#include <algorithm>
+
+#include "runtime/core/check.hpp"
+#include "runtime/expand/gpu_growth.hpp"
+
+namespace espalier {
+
+Status GpuGrowth::setUp() {
+    struct Row {
+        Program* program;
+        const char* shader;
+    };
+    const Row rows[] = {
+        {&packTables_, "expand/tables.comp"}, {&branchesFit_, "expand/branches.comp"}, {&fit_, "expand/fit.comp"}};
+    for (const Row& row : rows) {
+        Status made = load(*row.program, row.shader, {});
+        if (!made) return made;
+    }
+    return Done{};
+}
+
+Status GpuGrowth::load(Program& program, const char* shader, std::vector<SpecConstant> constants) {
+    if (program) return Done{};
+    Result<Program> made = Program::compute(device_, shader, {.exact = true, .constants = std::move(constants)});
+    if (!made) return made.failure();
+    requireEqual(made->localSize()[0], kExpandGroup, "local size of an expansion kernel");
+    program = std::move(*made);
+    return Done{};
+}
+
+Status GpuGrowth::loadKernels(WalkMode mode) {
+    const std::vector<SpecConstant> constants = {{0, byAddress_ ? 1u : 0u}, {2, features_}};
+    const std::vector<SpecConstant> walking = {{0, byAddress_ ? 1u : 0u}, {1, fetches_ ? 0u : 1u}, {2, features_}};
+    Status march = mode == WalkMode::paper ? load(marchPaper_[byAddress_], "expand/march_paper.comp", constants)
+                                           : load(march_[marchNumber()], "expand/march.comp", walking);
+    if (!march) return march;
+    return load(terminals_[byAddress_], "expand/terminals.comp", constants);
+}
+
+Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
+    if (buffer && buffer.size() >= bytes) return Done{};
+    buffer = {};
+    Result<Buffer> made = Buffer::create(device_, name, bytes, use);
+    if (!made) return made.failure();
+    buffer = std::move(*made);
+    return Done{};
+}
+
+// Binds all surfaces as texels, where that is possible and of use. The binding needs a view in any case.
+Status GpuGrowth::viewSurfaces(const GrowthInputs& inputs) {
+    const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
+    const Buffer* data = inputs.surfaceData;
+    fetches_ = device_.info().cpu && data && data->size() >= 16 && data->size() <= most;
+    surfaceView_ = {};
+    if (!fetches_) {
+        Status made = ensure(noSurfaces_, "growth no surfaces", 16);
+        if (!made) return made;
+    }
+    Result<TexelView> view = TexelView::create(device_, fetches_ ? *data : noSurfaces_, VK_FORMAT_R32G32B32A32_UINT);
+    if (!view) return view.failure();
+    surfaceView_ = std::move(*view);
+    return Done{};
+}
+
+// Kernels for what these grammars ask of them.
+Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
+    uint64_t words = 0;
+    placeTables(inputs, words);
+    byAddress_ = words > kUniformTableWords;
+    Status viewed = viewSurfaces(inputs);
+    if (!viewed) return viewed;
+    uint32_t features = features_ | kFeatureKnown;
+    for (const RuleMapRef& map : inputs.grammars)
+        features |= map.features == 0 ? kRuleFeatures : map.features & kRuleFeatures;
+    if (inputs.limits.leafDensityCap > 0) features |= kFeatureDensity;
+    if (inputs.limits.tangents == TangentMode::paper) features |= kFeatureJoints;
+    if (features != features_) {
+        for (auto* programs : {&march_, &marchAgain_})
+            for (Program& program : *programs) program = {};
+        for (auto* programs : {&marchPaper_, &terminals_, &terminalsAgain_})
+            for (Program& program : *programs) program = {};
+        features_ = features;
+    }
+    Status kernels = loadKernels(inputs.limits.walk);
+    if (!kernels) return kernels;
+    const uint64_t tableWords = byAddress_ ? words : kUniformTableWords;
+    Status made = ensure(tables_, "growth tables", tableWords * 4);
+    if (made) made = ensure(noTables_, "growth no tables", byAddress_ ? kUniformTableWords * 4 : 0);
+    return made ? ensure(grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)) : made;
+}
+
+Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen) {
+    Status kernels = makeKernels(inputs);
+    if (!kernels) return kernels;
+    Plants& plants = plants_[1 - frontPlants_];
+    Links& links = links_[1 - frontLinks_];
+    struct Row {
+        Buffer* buffer;
+        const char* name;
+        uint64_t bytes;
+    };
+    const Row rows[] = {
+        {&plants.nodes, "growth nodes", (room_.nodes + frozen.nodes.size()) * sizeof(Node)},
+        {&plants.leaves, "growth leaves", (room_.leaves + frozen.leaves.size()) * sizeof(Leaf)},
+        {&links.chunks, "growth chunks", (room_.chunks + frozen.chunks.size()) * sizeof(Chunk)},
+        {&links.branches, "growth branches", (room_.branches + frozen.branches.size()) * sizeof(BranchRecord)},
+        {&density_, "growth density", densityWords(inputs.limits) * 4}};
+    for (const Row& row : rows) {
+        Status ok = ensure(*row.buffer, row.name, row.bytes);
+        if (!ok) return ok;
+    }
+    return makeQueues(inputs);
+}
+
+Status GpuGrowth::makeQueues(const GrowthInputs& inputs) {
+    const uint64_t waves = inputs.limits.maxDepth + 2ull;
+    const uint64_t items = uint64_t(room_.items) * sizeof(WorkItem);
+    Status steps[] = {ensure(items_[0], "growth items even", items), ensure(items_[1], "growth items odd", items),
+                      ensure(status_, "growth status", sizeof(GrowStatus)),
+                      ensure(waves_, "growth waves", waves * sizeof(Wave)),
+                      ensure(readback_, "growth readback",
+                             sizeof(GrowStatus) + waves * sizeof(Wave) + sizeof(AgainState), BufferUse::readback)};
+    for (Status& step : steps)
+        if (!step) return step;
+    return Done{};
+}
+
+ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plants, const Links& links) {
+    ExpandEnv env{};
+    env.surfaces = inputs.surfaces;
+    if (fetches_) env.scratch = addressOf<UintBuf, uint32_t>(*inputs.surfaceData);
+    env.layers = inputs.layers;
+    env.grammars = addressOf<RuleMapBuf, RuleMapRef>(grammars_);
+    env.tables = addressOf<UintBuf, uint32_t>(tables_);
+    env.nodes = addressOf<NodeBuf, Node>(plants.nodes);
+    env.chunks = addressOf<ChunkBuf, Chunk>(links.chunks);
+    env.branches = addressOf<BranchBuf, BranchRecord>(links.branches);
+    env.leaves = addressOf<LeafBuf, Leaf>(plants.leaves);
+    env.itemCapacity = room_.items;
+    env.status = addressOf<GrowStatusBuf, GrowStatus>(status_);
+    env.waves = addressOf<WaveBuf, Wave>(waves_);
+    env.density = addressOf<UintBuf, uint32_t>(density_);
+    return env;
+}
+
+Status GpuGrowth::uploadTables(Commands& commands, const GrowthInputs& inputs) {
+    std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
+    uint64_t words = 0;
+    Status steps[] = {commands.upload(grammars_, grammars), commands.upload(tables_, placeTables(inputs, words))};
+    for (Status& step : steps)
+        if (!step) return step;
+    commands.barrier(Use::transfer, Use::compute | Use::indirect);
+    if (grammars.empty()) return Done{};
+    Pass pass(commands, "expand tables");
+    pass.dispatch(packTables_, {uint32_t(grammars.size()), 1, 1},
+                  environment(inputs, plants_[frontPlants_], links_[frontLinks_]));
+    pass.barrier(Use::compute, Use::compute);
+    return Done{};
+}
+
+Status GpuGrowth::uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status) {
+    if (!inputs.pruned.empty()) {
+        Status made = ensure(pruned_, "growth pruned", inputs.pruned.size_bytes());
+        if (made) made = commands.upload(pruned_, keyWords(inputs.pruned));
+        if (!made) return made;
+        status.pruned = addressOf<UintBuf, uint32_t>(pruned_);
+        status.prunedCount = uint32_t(inputs.pruned.size());
+    }
+    return commands.upload(status_, std::vector<GrowStatus>{status});
+}
+
+GpuGrowth::Outcome GpuGrowth::readOutcome(uint32_t last) {
+    Outcome outcome;
+    std::memcpy(&outcome.status, readback_.mapped(), sizeof(GrowStatus));
+    outcome.waves.resize(last + 1);
+    std::memcpy(outcome.waves.data(), readback_.mapped() + sizeof(GrowStatus), (last + 1) * sizeof(Wave));
+    return outcome;
+}
+
+// The links that were written are those of what is drawn from now on.
+void GpuGrowth::showLinks(const GrowStatus& status) {
+    frontLinks_ = 1 - frontLinks_;
+    const Plants& plants = plants_[frontPlants_];
+    const Links& links = links_[frontLinks_];
+    view_.nodes = addressOf<NodeBuf, Node>(plants.nodes);
+    view_.chunks = addressOf<ChunkBuf, Chunk>(links.chunks);
+    view_.branches = addressOf<BranchBuf, BranchRecord>(links.branches);
+    view_.leaves = addressOf<LeafBuf, Leaf>(plants.leaves);
+    view_.nodeCount = status.nodes;
+    view_.chunkCount = status.chunks;
+    view_.branchCount = status.branches;
+    view_.leafCount = status.leaves;
+    view_.revision += 1;
+}
+
+uint64_t GpuGrowth::reserved() const {
+    uint64_t bytes = 0;
+    for (const Plants& p : plants_) bytes += p.nodes.size() + p.leaves.size();
+    for (const Links& l : links_) bytes += l.chunks.size() + l.branches.size();
+    for (const Buffer* b : {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_,
+                            &density_, &again_, &marks_, &lists_, &edits_, &results_, &touched_, &leafRanges_})
+        bytes += b->size();
+    return bytes;
+}
+
+Result<GrowthRecords> GpuGrowth::read() {
+    Plants& plants = plants_[frontPlants_];
+    Links& links = links_[frontLinks_];
+    GrowthRecords to;
+    auto fetch = [&](auto& values, const Buffer& buffer, uint32_t count) -> Status {
+        if (count == 0) return Done{};
+        auto got = readVector<typename std::decay_t<decltype(values)>::value_type>(device_, buffer, 0, count);
+        if (!got) return got.failure();
+        values = std::move(*got);
+        return Done{};
+    };
+    Status steps[] = {fetch(to.nodes, plants.nodes, view_.nodeCount), fetch(to.chunks, links.chunks, view_.chunkCount),
+                      fetch(to.branches, links.branches, view_.branchCount),
+                      fetch(to.leaves, plants.leaves, view_.leafCount)};
+    for (Status& step : steps)
+        if (!step) return step.failure();
+    compactRecords(to);
+    return to;
+}
+
+void GpuGrowth::remember(const GrowthInputs& inputs) {
+    limits_ = inputs.limits;
+    surfaceCount_ = inputs.surfaceCount;
+    maps_.assign(inputs.grammars.begin(), inputs.grammars.end());
+    from_.seeds.assign(inputs.seeds.begin(), inputs.seeds.end());
+    from_.frozen.assign(inputs.frozen.begin(), inputs.frozen.end());
+    from_.pruned.assign(inputs.pruned.begin(), inputs.pruned.end());
+    from_.widths.assign(inputs.widths.begin(), inputs.widths.end());
+}
+
+Result<std::unique_ptr<Growth>> Growth::create(Device& device, const GrowthRoom& room) {
+    auto growth = std::make_unique<GpuGrowth>(device, room);
+    Status ready = growth->setUp();
+    if (!ready) return ready.failure();
+    return std::unique_ptr<Growth>(std::move(growth));
+}
+
+}  // namespace espalier
