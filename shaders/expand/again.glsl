@@ -4,15 +4,26 @@
 #include "shaders/shared/exact.h"
 #include "shaders/shared/expand_again.h"
 
-#define AGAIN AgainStateBuf(env.status.v[0].again).v[0]
+// Kept at hand from openAgain() on, the first thing that a kernel does: what is read by address costs each time.
+AgainStateBuf againState;
+UintBuf againLists;
+AgainMarkBuf againMarks;
+uint againListCapacity;
+#define AGAIN againState.v[0]
+
+void openAgain(ExpandEnv env) {
+    againState = AgainStateBuf(env.status.v[0].again);
+    againLists = AGAIN.lists;
+    againMarks = AGAIN.marks;
+    againListCapacity = AGAIN.listCapacity;
+}
 
 void appendTo(ExpandEnv env, uint list, uint value) {
     uint at = atomicAdd(AGAIN.counts[list], 1u);
-    uint capacity = AGAIN.listCapacity;
-    if (at < capacity) AGAIN.lists.v[list * capacity + at] = value;
+    if (at < againListCapacity) againLists.v[list * againListCapacity + at] = value;
 }
-uint listed(ExpandEnv env, uint list) { return min(AGAIN.counts[list], AGAIN.listCapacity); }
-uint listEntry(ExpandEnv env, uint list, uint i) { return AGAIN.lists.v[list * AGAIN.listCapacity + i]; }
+uint listed(ExpandEnv env, uint list) { return min(AGAIN.counts[list], againListCapacity); }
+uint listEntry(ExpandEnv env, uint list, uint i) { return againLists.v[list * againListCapacity + i]; }
 
 // Whether what was grown is whole and has room; then it is published.
 bool holds(ExpandEnv env) {
@@ -31,7 +42,7 @@ uint seedOf(BranchBuf branches, ChunkBuf chunks, uint chunk) {
 float bareRadius(ExpandEnv env, uint index) {
     float radius = env.nodes.v[index].radius;
     uint chunk = env.nodes.v[index].chunk;
-    bool fresh = ((AGAIN.marks.v[chunk].nodes >> ((env.nodes.v[index].flags >> 8u) & 31u)) & 1u) != 0u;
+    bool fresh = ((againMarks.v[chunk].nodes >> ((env.nodes.v[index].flags >> 8u) & 31u)) & 1u) != 0u;
     return fresh ? radius : roundRadius(divExact(radius, AGAIN.branchesBefore.v[env.chunks.v[chunk].branch].thickness));
 }
 
@@ -77,7 +88,7 @@ void queueAgain(ExpandEnv env, WorkItemBuf items, uint wave, uint chunk, uint it
 // Lets a dirty chunk wait for `above`, which is grown before it. Its own children need not: they are found dirty.
 void waitFor(ExpandEnv env, uint chunk, uint below) {
     if (below == chunk) return;
-    uint next = atomicExchange(AGAIN.marks.v[below].firstWaiting, chunk + 1u);
-    AGAIN.marks.v[chunk].nextWaiting = next;
+    uint next = atomicExchange(againMarks.v[below].firstWaiting, chunk + 1u);
+    againMarks.v[chunk].nextWaiting = next;
 }
 #endif

@@ -15,18 +15,18 @@ uint inserted = 0u;
 uint feet = 0u;
 
 // Takes a node out of the hash and lets its leaves go.
-void unhash(uint index, u64 key) {
-    hash -= hashOfNode(key, env.nodes.v[index]);
-    atomicOr(AGAIN.touched.v[index >> 5u], 1u << (index & 31u));
+void unhash(uint index, u64 key, Node node, UintBuf touched) {
+    hash -= hashOfNode(key, node);
+    atomicOr(touched.v[index >> 5u], 1u << (index & 31u));
 }
 
-void takeOut(uint chunk, uint lane) {
-    ChunkBuf before = AGAIN.chunksBefore;
+void takeOut(ChunkBuf before, UintBuf touched, uint chunk, uint lane) {
     uint marks = before.v[chunk].marks;
     uint index = before.v[chunk].firstNode + lane;
     for (uint k = 0u; k < (lane < chunkNodes(marks) ? 1u : 0u); ++k) {
-        unhash(index, before.v[chunk].key);
-        uint flags = env.nodes.v[index].flags;
+        Node node = env.nodes.v[index];
+        unhash(index, before.v[chunk].key, node, touched);
+        uint flags = node.flags;
         inserted += (flags & kNodeInserted) != 0u ? 1u : 0u;
         feet += lane == 0u && before.v[chunk].previousNode == kNoIndex ? 1u : 0u;
         env.nodes.v[index].flags = flags & 0x1F00u;
@@ -39,32 +39,36 @@ void takeOut(uint chunk, uint lane) {
 }
 
 void main() {
+    openAgain(env);
     if (!holds(env)) return;
     uint lane = gl_LocalInvocationID.x;
-    AgainMarkBuf marks = AGAIN.marks;
+    ChunkBuf before = AGAIN.chunksBefore;
+    UintBuf touched = AGAIN.touched;
+    UintBuf results = AGAIN.results;
     uint count = listed(env, kListWork);
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint chunk = listEntry(env, kListWork, i);
-        bool wanted = ((marks.v[chunk].nodes >> lane) & 1u) != 0u;
-        bool grown = (marks.v[chunk].bits & kMarkGrown) != 0u;
+        bool wanted = ((againMarks.v[chunk].nodes >> lane) & 1u) != 0u;
+        bool grown = (againMarks.v[chunk].bits & kMarkGrown) != 0u;
         for (uint k = 0u; k < (wanted ? 1u : 0u); ++k) {
             uint index = env.chunks.v[chunk].firstNode + lane;
-            if (!grown) unhash(index, env.chunks.v[chunk].key);
+            for (uint once = 0u; once < (grown ? 0u : 1u); ++once)
+                unhash(index, env.chunks.v[chunk].key, env.nodes.v[index], touched);
             uint at = (i * kChunkNodes + lane) * 3u;
-            env.nodes.v[index].tangent = AGAIN.results.v[at];
-            env.nodes.v[index].flags = AGAIN.results.v[at + 1u];
-            env.nodes.v[index].radius = uintBitsToFloat(AGAIN.results.v[at + 2u]);
+            env.nodes.v[index].tangent = results.v[at];
+            env.nodes.v[index].flags = results.v[at + 1u];
+            env.nodes.v[index].radius = uintBitsToFloat(results.v[at + 2u]);
         }
     }
     count = listed(env, kListGrown);
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint chunk = listEntry(env, kListGrown, i);
-        if ((marks.v[chunk].bits & kMarkAgain) != 0u) takeOut(chunk, lane);
+        if ((againMarks.v[chunk].bits & kMarkAgain) != 0u) takeOut(before, touched, chunk, lane);
     }
     count = listed(env, kListGone);
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint chunk = listEntry(env, kListGone, i);
-        takeOut(chunk, lane);
+        takeOut(before, touched, chunk, lane);
         if (lane == 0u) env.chunks.v[chunk].marks = 0u;
     }
     atomicAdd(AGAIN.goneInserted, inserted);

@@ -14,7 +14,7 @@ uint joinSiblings(ExpandEnv env, WorkItem item, uint chunk) {
 
 // A branch whose first chunk is grown again stays the same.
 uint claimBranch(ExpandEnv env, uint chunk) {
-    if ((AGAIN.marks.v[chunk].bits & kMarkAgain) != 0u) {
+    if ((againMarks.v[chunk].bits & kMarkAgain) != 0u) {
         uint branch = AGAIN.chunksBefore.v[chunk].branch;
         if (branch != kNoIndex && AGAIN.branchesBefore.v[branch].firstChunk == chunk) return branch;
     }
@@ -23,7 +23,7 @@ uint claimBranch(ExpandEnv env, uint chunk) {
 
 // The child that the item's parent had with the item's key before it was grown again.
 uint childBefore(ExpandEnv env, WorkItem item) {
-    if (item.parent == kNoIndex || (AGAIN.marks.v[item.parent].bits & kMarkAgain) == 0u) return kNoIndex;
+    if (item.parent == kNoIndex || (againMarks.v[item.parent].bits & kMarkAgain) == 0u) return kNoIndex;
     ChunkBuf before = AGAIN.chunksBefore;
     uint child = before.v[item.parent].firstChild;
     while (child != kNoIndex && before.v[child].key != item.key) child = before.v[child].nextSibling;
@@ -51,28 +51,26 @@ void moveFoot(ExpandEnv env, uint chunk, uint node) {
 }
 
 void keepChunk(ExpandEnv env, uint chunk, WorkItem item) {
-    AgainMarkBuf marks = AGAIN.marks;
-    marks.v[chunk].bits |= kMarkKept;
+    againMarks.v[chunk].bits |= kMarkKept;
     moveFoot(env, chunk, previousNodeOf(env, item));
     env.chunks.v[chunk].nextSibling = atomicExchange(env.chunks.v[item.parent].firstChild, chunk);
     if (item.branch != kNoIndex) {
         env.chunks.v[item.parent].next = chunk;
         env.branches.v[item.branch].extent = AGAIN.branchesBefore.v[item.branch].extent;
     }
-    uint waiting = marks.v[chunk].firstWaiting;
+    uint waiting = againMarks.v[chunk].firstWaiting;
     while (waiting != 0u) {
         queueAgain(env, env.nextItems, env.wave + 1u, waiting - 1u, kItemsPerGroupAgain);
-        waiting = marks.v[waiting - 1u].nextWaiting;
+        waiting = againMarks.v[waiting - 1u].nextWaiting;
     }
 }
 
 // Those that waited at a chunk that is now grown itself wait further down.
 void waitBelow(ExpandEnv env, uint chunk) {
-    AgainMarkBuf marks = AGAIN.marks;
-    uint waiting = marks.v[chunk].firstWaiting;
+    uint waiting = againMarks.v[chunk].firstWaiting;
     while (waiting != 0u) {
         uint dirty = waiting - 1u;
-        waiting = marks.v[dirty].nextWaiting;
+        waiting = againMarks.v[dirty].nextWaiting;
         uint below = dirty;
         uint above = env.chunks.v[dirty].parent;
         while (above != chunk) {
@@ -88,7 +86,7 @@ bool claimChunk(ExpandEnv env, inout WorkItem item, out uint chunk) {
     bool again = (item.step & kItemAgain) != 0u;
     chunk = again ? item.origin : childBefore(env, item);
     bool old = chunk != kNoIndex;
-    if (old && !again && (AGAIN.marks.v[chunk].bits & kMarkDirty) == 0u &&
+    if (old && !again && (againMarks.v[chunk].bits & kMarkDirty) == 0u &&
         entersAlike(AGAIN.chunksBefore.v[chunk], item)) {
         keepChunk(env, chunk, item);
         return false;
@@ -99,7 +97,7 @@ bool claimChunk(ExpandEnv env, inout WorkItem item, out uint chunk) {
         chunk = atomicAdd(env.status.v[0].chunks, 1u);
     }
     if (chunk >= env.status.v[0].chunkCapacity) return false;
-    AGAIN.marks.v[chunk].bits |= old ? kMarkGrown | kMarkAgain : kMarkGrown;
+    againMarks.v[chunk].bits |= old ? kMarkGrown | kMarkAgain : kMarkGrown;
     appendTo(env, kListGrown, chunk);
     return true;
 }

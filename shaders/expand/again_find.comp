@@ -41,7 +41,7 @@ bool readsDirty(ExpandEnv env, UintBuf edits, uint chunk, uint marks) {
 }
 
 void main() {
-    AgainMarkBuf marks = AGAIN.marks;
+    openAgain(env);
     UintBuf edits = AGAIN.edits;
     uint count = AGAIN.chunkCount;
     uint layers = edits.v[kEditLayers];
@@ -76,12 +76,12 @@ void main() {
             uint changed = params != 0u ? edits.v[params + grammar] : 0u;
             dirty = dirty || (changed & env.chunks.v[c].paramMask) != 0u;
             if (first && (changed & env.tables.v[grammar * kGrammarWords + kTableExtrudeParams]) != 0u) {
-                marks.v[branch].branchBits = kBranchListed | kBranchRedo;
+                againMarks.v[branch].branchBits = kBranchListed | kBranchRedo;
                 appendTo(env, kListBranches, branch);
             }
         }
         if (dirty) {
-            marks.v[c].bits = kMarkDirty;
+            againMarks.v[c].bits = kMarkDirty;
             appendTo(env, kListDirty, c);
         }
     }

@@ -12,24 +12,33 @@ layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 uvec2 hash = uvec2(0u);
 
+// As fitNode, with what the chunk's nodes share at hand.
 void fitChunks(uint lane) {
-    AgainMarkBuf marks = AGAIN.marks;
+    BranchBuf branchesBefore = AGAIN.branchesBefore;
     uint count = listed(env, kListFit);
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint chunk = listEntry(env, kListFit, i);
         bool there = lane < chunkNodes(env.chunks.v[chunk].marks);
-        bool counted = ((marks.v[chunk].nodes >> lane) & 1u) == 0u;   // others were taken out of the hash before
         for (uint k = 0u; k < (there ? 1u : 0u); ++k) {
+            u64 key = env.chunks.v[chunk].key;
+            uint branch = env.chunks.v[chunk].branch;
             uint index = env.chunks.v[chunk].firstNode + lane;
-            if (counted) hash -= hashOfNode(env.chunks.v[chunk].key, env.nodes.v[index]);
-            hash += fitNode(env, index);
+            Node node = env.nodes.v[index];
+            // Others were taken out of the hash before, and have their radius from their terminals.
+            bool fresh = ((againMarks.v[chunk].nodes >> lane) & 1u) != 0u;
+            for (uint old = 0u; old < (fresh ? 0u : 1u); ++old) {
+                hash -= hashOfNode(key, node);
+                node.radius = roundRadius(divExact(node.radius, branchesBefore.v[branch].thickness));
+            }
+            node.radius = node.radius * env.branches.v[branch].thickness;
+            env.nodes.v[index].radius = node.radius;
+            hash += hashOfNode(key, node);
         }
     }
 }
 
 // Whether leaves of nodes in this range may have to go.
-bool touches(uint low, uint high) {
-    UintBuf touched = AGAIN.touched;
+bool touches(UintBuf touched, uint low, uint high) {
     bool any = low <= high && high - low > kWideRange;
     for (uint word = low >> 5u; word <= high >> 5u && low <= high && !any; ++word) {
         uint bits = touched.v[word];
@@ -41,11 +50,11 @@ bool touches(uint low, uint high) {
 }
 
 // Lets leaf `i` go if its node is touched; 1 if so.
-uint sweepLeaf(uint i) {
+uint sweepLeaf(ChunkBuf before, UintBuf touched, uint i) {
     uint node = env.leaves.v[i].node;
-    bool goes = node < kLeafPending && ((AGAIN.touched.v[node >> 5u] >> (node & 31u)) & 1u) != 0u;
+    bool goes = node < kLeafPending && ((touched.v[node >> 5u] >> (node & 31u)) & 1u) != 0u;
     for (uint k = 0u; k < (goes ? 1u : 0u); ++k) {
-        u64 key = AGAIN.chunksBefore.v[env.nodes.v[node].chunk].key;
+        u64 key = before.v[env.nodes.v[node].chunk].key;
         hash -= hashOfLeaf(key, env.nodes.v[node].flags, env.leaves.v[i]);
         env.leaves.v[i].node = kNoIndex;
     }
@@ -55,6 +64,8 @@ uint sweepLeaf(uint i) {
 // A lane looks at a block's range; the blocks that are met are swept by the lanes together.
 uint sweepLeaves() {
     UintBuf ranges = AGAIN.leafRanges;
+    UintBuf touched = AGAIN.touched;
+    ChunkBuf before = AGAIN.chunksBefore;
     uint gone = 0u;
     uint count = AGAIN.leafCount;
     uint blocks = (count + kLeafBlock - 1u) / kLeafBlock;
@@ -62,13 +73,13 @@ uint sweepLeaves() {
     uint lane = gl_SubgroupInvocationID;
     for (uint first = gl_GlobalInvocationID.x - lane; first < blocks; first += lanes) {
         uint block = min(first + lane, blocks - 1u);
-        bool met = first + lane < blocks && touches(ranges.v[2u * block], ranges.v[2u * block + 1u]);
+        bool met = first + lane < blocks && touches(touched, ranges.v[2u * block], ranges.v[2u * block + 1u]);
         uvec4 ballot = subgroupBallot(met);
         while (subgroupBallotBitCount(ballot) > 0u) {
             uint bit = subgroupBallotFindLSB(ballot);
             ballot[bit >> 5u] &= ~(1u << (bit & 31u));
             uint from = (first + bit) * kLeafBlock;
-            for (uint i = from + lane; i < min(from + kLeafBlock, count); i += gl_SubgroupSize) gone += sweepLeaf(i);
+            for (uint i = from + lane; i < min(from + kLeafBlock, count); i += gl_SubgroupSize) gone += sweepLeaf(before, touched, i);
         }
     }
     for (uint i = count + gl_GlobalInvocationID.x; i < env.status.v[0].leaves; i += lanes)
@@ -77,6 +88,7 @@ uint sweepLeaves() {
 }
 
 void main() {
+    openAgain(env);
     if (!holds(env)) return;
     fitChunks(gl_LocalInvocationID.x);
     uint gone = sweepLeaves();

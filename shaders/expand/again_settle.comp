@@ -35,17 +35,17 @@ void letGo(ExpandEnv env, uint root) {
 }
 
 void main() {
+    openAgain(env);
     if (!complete(env)) return;
-    AgainMarkBuf marks = AGAIN.marks;
     ChunkBuf before = AGAIN.chunksBefore;
     uint count = listed(env, kListGrown);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     for (uint i = gl_GlobalInvocationID.x; i < count; i += lanes) {
         uint chunk = listEntry(env, kListGrown, i);
         uint branch = env.chunks.v[chunk].branch;
-        if (branch != kNoIndex && (atomicOr(marks.v[branch].branchBits, kBranchListed) & kBranchListed) == 0u)
+        if (branch != kNoIndex && (atomicOr(againMarks.v[branch].branchBits, kBranchListed) & kBranchListed) == 0u)
             appendTo(env, kListBranches, branch);
-        if ((marks.v[chunk].bits & kMarkAgain) == 0u) continue;
+        if ((againMarks.v[chunk].bits & kMarkAgain) == 0u) continue;
         atomicAdd(AGAIN.goneNodes, chunkNodes(before.v[chunk].marks));
         uint was = before.v[chunk].branch;
         if (branch == kNoIndex && was != kNoIndex) {
@@ -53,6 +53,6 @@ void main() {
             atomicAdd(AGAIN.goneBranches, 1u);
         }
         for (uint child = before.v[chunk].firstChild; child != kNoIndex; child = before.v[child].nextSibling)
-            if ((marks.v[child].bits & (kMarkKept | kMarkAgain)) == 0u) letGo(env, child);
+            if ((againMarks.v[child].bits & (kMarkKept | kMarkAgain)) == 0u) letGo(env, child);
     }
 }

@@ -28,15 +28,15 @@ void findRanges() {
 }
 
 void main() {
+    openAgain(env);
     findRanges();
-    AgainMarkBuf marks = AGAIN.marks;
     uint count = listed(env, kListDirty);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     for (uint i = gl_GlobalInvocationID.x; i < count; i += lanes) {
         uint chunk = listEntry(env, kListDirty, i);
         uint below = chunk;
         uint above = env.chunks.v[chunk].parent;
-        while (above != kNoIndex && (marks.v[above].bits & kMarkDirty) == 0u) {
+        while (above != kNoIndex && (againMarks.v[above].bits & kMarkDirty) == 0u) {
             below = above;
             above = env.chunks.v[above].parent;
         }

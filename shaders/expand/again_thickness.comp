@@ -10,8 +10,8 @@ layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 void main() {
+    openAgain(env);
     if (!holds(env)) return;
-    AgainMarkBuf marks = AGAIN.marks;
     uint count = listed(env, kListKin);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     for (uint i = gl_GlobalInvocationID.x; i < count; i += lanes) {
@@ -19,11 +19,11 @@ void main() {
         float thickness = thicknessOf(env, branch);
         float before = branch < AGAIN.branchCount ? AGAIN.branchesBefore.v[branch].thickness : -1.0;
         bool other = floatBitsToUint(thickness) != floatBitsToUint(before);
-        bool work = (marks.v[branch].branchBits & kBranchListed) != 0u;
+        bool work = (againMarks.v[branch].branchBits & kBranchListed) != 0u;
         env.branches.v[branch].thickness = thickness;
         uint chunk = other || work ? env.branches.v[branch].firstChunk : kNoIndex;
         while (chunk != kNoIndex) {
-            if (other || marks.v[chunk].nodes != 0u) appendTo(env, kListFit, chunk);
+            if (other || againMarks.v[chunk].nodes != 0u) appendTo(env, kListFit, chunk);
             chunk = env.chunks.v[chunk].next;
         }
     }

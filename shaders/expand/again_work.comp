@@ -14,22 +14,21 @@ bool wholeBranch(ExpandEnv env, uint branch, uint first) {
     bool asksLength = (env.tables.v[grammar * kGrammarWords + kTableExtrudeInputs] & kInputBranchLength) != 0u;
     bool longer = floatBitsToUint(env.branches.v[branch].extent) !=
                   floatBitsToUint(branch < AGAIN.branchCount ? AGAIN.branchesBefore.v[branch].extent : -1.0);
-    return (AGAIN.marks.v[branch].branchBits & kBranchRedo) != 0u || (asksLength && longer);
+    return (againMarks.v[branch].branchBits & kBranchRedo) != 0u || (asksLength && longer);
 }
 
 void listWork(ExpandEnv env, uint branch, uint first) {
-    AgainMarkBuf marks = AGAIN.marks;
     bool whole = wholeBranch(env, branch, first);
     for (uint chunk = first; chunk != kNoIndex;) {
         uint next = env.chunks.v[chunk].next;
         uint count = chunkNodes(env.chunks.v[chunk].marks);
-        bool grown = (marks.v[chunk].bits & kMarkGrown) != 0u;
-        bool nextGrown = next != kNoIndex && (marks.v[next].bits & kMarkGrown) != 0u;
+        bool grown = (againMarks.v[chunk].bits & kMarkGrown) != 0u;
+        bool nextGrown = next != kNoIndex && (againMarks.v[next].bits & kMarkGrown) != 0u;
         uint all = count >= 32u ? 0xFFFFFFFFu : (1u << count) - 1u;
         // The last node before a grown chunk has another follower.
         uint nodes = whole || grown ? all : nextGrown ? all & ~(all >> 1u) : 0u;
         if (nodes != 0u) {
-            marks.v[chunk].nodes = nodes;
+            againMarks.v[chunk].nodes = nodes;
             appendTo(env, kListWork, chunk);
         }
         chunk = next;
@@ -37,7 +36,6 @@ void listWork(ExpandEnv env, uint branch, uint first) {
 }
 
 void listKin(ExpandEnv env, uint branch, uint first) {
-    AgainMarkBuf marks = AGAIN.marks;
     appendTo(env, kListKin, branch);
     uint visited = 0u;
     bool prune = false;
@@ -46,7 +44,7 @@ void listKin(ExpandEnv env, uint branch, uint first) {
         uint kin = env.chunks.v[at].branch;
         prune = false;
         if (kin != kNoIndex && env.branches.v[kin].firstChunk == at) {
-            prune = (marks.v[kin].branchBits & kBranchListed) != 0u;   // it comes in its own turn
+            prune = (againMarks.v[kin].branchBits & kBranchListed) != 0u;   // it comes in its own turn
             if (!prune) appendTo(env, kListKin, kin);
         }
         visited += 1u;
@@ -58,6 +56,7 @@ void listKin(ExpandEnv env, uint branch, uint first) {
 }
 
 void main() {
+    openAgain(env);
     if (!complete(env)) return;
     uint count = listed(env, kListBranches);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;

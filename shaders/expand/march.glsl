@@ -6,6 +6,9 @@ layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 void main() {
+#ifdef ESPALIER_AGAIN
+    openAgain(env);
+#endif
 #ifdef ESPALIER_SURFACE_FETCH
     surfaceArena = uint64_t(env.scratch);
 #endif

@@ -11,6 +11,7 @@ layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 void main() {
+    openAgain(env);
     uint count = complete(env) ? listed(env, kListWork) : 0u;
     if (count > AGAIN.resultCapacity) {
         AGAIN.overrun = 1u;
@@ -21,7 +22,7 @@ void main() {
     uvec2 hash = uvec2(0u);
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint chunk = listEntry(env, kListWork, i);
-        bool wanted = ((AGAIN.marks.v[chunk].nodes >> lane) & 1u) != 0u;
+        bool wanted = ((againMarks.v[chunk].nodes >> lane) & 1u) != 0u;
         // A loop, since software devices skip only those.
         for (uint k = 0u; k < (wanted ? 1u : 0u); ++k) {
             NodeFinish finish = finishNode(env, env.chunks.v[chunk].firstNode + lane, hash);
