@@ -76,7 +76,9 @@ void frameCases(Bench& bench) {
     Result<std::unique_ptr<Growth>> growth = Growth::create(**device);
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(**device, content + "/terminals.glb");
     if (!scene || !growth || !renderer) return bench.skip(name, "needs " + content);
-    if (!scene->setGrammar(textOf(content + "/grammars/ivy_free.grammar")) || !growEnough(*scene, **growth))
+    const std::vector<float> grey(64 * 64, 0.5f);  // the mask as the scene has it
+    if (!scene->setGrammar(textOf(content + "/grammars/ivy_free.grammar")) || !scene->paint(0, 64, grey) ||
+        !growEnough(*scene, **growth))
         return bench.skip(name, "the ivy doesn't grow");
     if (Status s = (*renderer)->setSurface(0, scene->surface(), glm::mat4(1)); !s)
         return bench.skip(name, s.failure().text());

@@ -263,8 +263,8 @@ glm::vec2 veiledFigure(glm::vec2 q, float y) {
     float lower = 0.80f + 0.06f * saturate(1 - front / 1.3f);
     r += 0.34f * bump(up - lower, 0.075f) * ramp(1.75f, 1.15f, front);  // fore arms, hands folded in front
     // The face lies deep in the veil.
-    r -= 0.44f * ramp(0.80f, 0.42f, front) * ramp(0.115f, 0.05f, std::abs(up - 1.455f));
-    r += 0.27f * bump(front, 0.32f) * bump(up - 1.455f, 0.075f) + 0.10f * bump(front, 0.09f) * bump(up - 1.455f, 0.03f);
+    r -= 0.33f * ramp(0.92f, 0.40f, front) * ramp(0.115f, 0.05f, std::abs(up - 1.455f));
+    r += 0.20f * bump(front, 0.34f) * bump(up - 1.455f, 0.075f) + 0.10f * bump(front, 0.09f) * bump(up - 1.455f, 0.03f);
     r += 0.06f * bump(front - 0.9f, 0.2f) * bump(up - 1.40f, 0.2f);
     float wide = 1 + 0.30f * bump(up - 1.16f, 0.16f), deep = 1 - 0.22f * bump(up - 1.1f, 0.3f);
     q = glm::vec2(q.x * wide, q.y * deep) * r;
