@@ -446,6 +446,29 @@ ESP_API EspResult espRemoveTown(EspContext* context);
 ESP_API EspResult espSetTownGrammar(EspContext* context, EspGrammar grammar);
 ESP_API EspResult espTownGrammar(const EspContext* context, EspGrammar* out);
 
+/* Layers of a town lie over a square of the plan around its houses, seen from above: rows of texels from north (least z)
+ * to south, each from west (least x) to east. Grammars of roofs read them as name(texCoord) where a shape stands, or
+ * name(house), the mean over a house; Drop(name) takes tiles away by them and Moss(name) covers tiles. Houses that read
+ * what changed grow anew in the next espUpdate; what is dropped or covered costs no growth.
+ * The strokes above paint them too, those that the town's grammar reads, straight down whatever the height, and undo it. */
+typedef struct EspTownInfo {
+    uint32_t houses;
+    float layerLow[2];       /* world x and z of the square's north-western corner */
+    float layerSide;         /* metres */
+    uint32_t layerTexels;    /* a side */
+    float groundHeight;      /* world */
+} EspTownInfo;
+ESP_API EspResult espTownInfo(const EspContext* context, EspTownInfo* out);
+/* Replaces the whole layer, resampled from height rows of width floats in [0,1], 1 to 8192 each. out: an ended stroke to
+ * undo it by, or NULL. ESP_INVALID_ARGUMENT if the town's grammar reads no such layer. */
+ESP_API EspResult espSetTownLayer(EspContext* context, const char* name, const float* texels, uint32_t width,
+                                  uint32_t height, EspStroke* out);
+/* As espReadLayer. */
+ESP_API EspResult espReadTownLayer(EspContext* context, const char* name, float* texels, uint32_t* size);
+/* The layers of the town that were painted or set. */
+ESP_API uint32_t espTownLayerCount(const EspContext* context);
+ESP_API const char* espTownLayerName(const EspContext* context, uint32_t index);
+
 typedef enum EspRoofShape {
     ESP_ROOF_HIP = 0, ESP_ROOF_GABLE = 1, ESP_ROOF_HALF_HIP = 2, ESP_ROOF_PYRAMID = 3, ESP_ROOF_SHED = 4,
     ESP_ROOF_GAMBREL = 5, ESP_ROOF_MANSARD = 6, ESP_ROOF_FLAT = 7
@@ -498,6 +521,7 @@ typedef struct EspRoofStats {
     uint64_t bytes;              /* of what was grown */
     double structureMs, expandMs;   /* from footprints to roofs, on the CPU; the latest expansion, GPU time */
     uint64_t hash;               /* canonical, of the latest growth of the whole town */
+    uint64_t housesGrown;        /* by all expansions together, since creation */
 } EspRoofStats;
 ESP_API EspResult espReadRoofStats(EspContext* context, EspRoofStats* out);
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "shaders/shared/roof_records.h"
+
 namespace espalier::grammar {
 namespace {
 
@@ -289,10 +291,27 @@ Node Expressions::call(const Expr& e, Env& env) {
 
 Node Expressions::layer(const std::string& name, const Expr& e, const Env& env) {
     used_.insert(name);
-    bool here = e.kids.size() == 1 && module_.exprs[e.kids[0]].kind == ExprKind::name &&
-                module_.exprs[e.kids[0]].text == "texCoord";
-    if (!here) return fail(e.place, env, "a layer is read where the shape stands: write " + name + "(texCoord)");
-    return graph_.leaf(Leaf::slot, kSlotLayer + contextByName_.at(name));
+    auto named = [&](const char* word) {
+        return e.kids.size() == 1 && module_.exprs[e.kids[0]].kind == ExprKind::name &&
+               module_.exprs[e.kids[0]].text == word;
+    };
+    const uint32_t index = contextByName_.at(name);
+    if (roofs_ && index >= kRoofLayers) return fail(e.place, env, "a grammar of roofs reads at most 8 layers");
+    if (roofs_ && named("house")) return graph_.leaf(Leaf::slot, kSlotLayer + kRoofLayers + index);
+    if (!named("texCoord"))
+        return fail(e.place, env,
+                    "a layer is read where the shape stands: write " + name + "(texCoord)" +
+                        (roofs_ ? ", or over the whole house: " + name + "(house)" : ""));
+    return graph_.leaf(Leaf::slot, kSlotLayer + index);
+}
+
+Node Expressions::layerNumber(ExprId id, Env& env) {
+    const Expr& e = module_.exprs[id];
+    auto found = e.kind == ExprKind::name ? contextByName_.find(e.text) : contextByName_.end();
+    if (found == contextByName_.end() || found->second >= kRoofLayers)
+        return fail(e.place, env, "the name of one of the first 8 context layers must stand here");
+    used_.insert(e.text);
+    return graph_.constant(float(found->second + 1));
 }
 
 Node Expressions::siteNode(Graph& graph, const Env& env, uint32_t ordinal) {

@@ -40,6 +40,8 @@ class Expressions {
     bool lowerVector(ExprId expr, Env& env, Node (&xyz)[3], int& size);
     // Three nodes of a colour: a colour parameter or three numbers. False: reported.
     bool lowerColour(const std::vector<ExprId>& args, const Place& place, Env& env, Node (&rgb)[3]);
+    // A layer's name, as a constant: its number in the grammar + 1. Of grammars of roofs.
+    Node layerNumber(ExprId id, Env& env);
     bool isVector(ExprId expr, int depth = 0) const;
     Node randomNumber(Env& env);
     static Node siteNode(Graph& graph, const Env& env, uint32_t ordinal);

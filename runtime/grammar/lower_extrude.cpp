@@ -80,6 +80,8 @@ class ExtrudeLowering {
             c_.expressions.lowerColour(e.args, e.place, env, scope.colour);
             return;
         }
+        if (info.kind == Command::drop || info.kind == Command::moss)
+            return error(e.place, env, "'" + e.name + "' belongs to roofs; here layers are read as name(texCoord)");
         Node a[2] = {};
         for (size_t i = 0; i < e.args.size(); ++i) a[i] = c_.expressions.lower(e.args[i], env);
         bool two = e.args.size() == 2;

@@ -215,6 +215,10 @@ class RoofLowering {
             }
             return;
         }
+        if (info.kind == Command::drop || info.kind == Command::moss) {
+            scope.values[info.kind == Command::drop ? 12 : 13] = c_.expressions.layerNumber(e.args[0], env);
+            return;
+        }
         for (size_t i = 0; i < e.args.size(); ++i) {
             Node n = c_.expressions.lower(e.args[i], env);
             switch (info.kind) {

@@ -30,6 +30,8 @@ constexpr CommandInfo kCommands[] = {
     {"Tint", Command::tint, 1, 1, "Tint(0..1)"},
     {"Colour", Command::colour, 1, 3, "Colour(param) or Colour(r, g, b)"},
     {"Color", Command::colour, 1, 3, "Color(param) or Color(r, g, b)"},
+    {"Drop", Command::drop, 1, 1, "Drop(layer), in grammars of roofs"},
+    {"Moss", Command::moss, 1, 1, "Moss(layer), in grammars of roofs"},
     {"Shape", Command::shape, 1, 2, "Shape(\"mesh\") or Shape(\"mesh\", discontinuous|C0|C1)"},
     {"[", Command::push, 0, 0, "["},
     {"]", Command::pop, 0, 0, "]"},

@@ -25,7 +25,7 @@ struct BlockInfo {
 };
 const BlockInfo* findBlock(std::string_view name);
 
-enum class Command : uint8_t { size, translate, rotate, tint, colour, shape, push, pop, null };
+enum class Command : uint8_t { size, translate, rotate, tint, colour, drop, moss, shape, push, pop, null };
 struct CommandInfo {
     std::string_view name;
     Command kind;

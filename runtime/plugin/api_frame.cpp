@@ -174,6 +174,7 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     if (context.town) {
         inputs.roofs = &context.town->view;
         inputs.ground = context.town->ground;
+        context.town->view.shownLayer = shownTownLayer(context, def.look.viewLayer);
     }
     if (def.look.ground) {
         inputs.ground.drawn = true;

@@ -167,6 +167,7 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
                            {dab.normal[0], dab.normal[1], dab.normal[2]},
                            0});
     }
+    paintTown(context, stroke, records);
     Touched touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         std::vector<uint32_t> blocks;
@@ -190,6 +191,7 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
 
 EspResult end(EspContext& context, PaintStroke& stroke) {
     stroke.open = false;
+    closeTown(context, stroke);
     for (PaintStroke::Part& part : stroke.parts) {
         if (!paintedLayer(context, part.surface, stroke.layer)) continue;
         Status closed = context.painter->close(canvasOf(context, part.surface, stroke.layer), part.record);
@@ -201,6 +203,7 @@ EspResult end(EspContext& context, PaintStroke& stroke) {
 
 EspResult swap(EspContext& context, PaintStroke& stroke) {
     if (stroke.open) return fail(&context, ESP_INVALID_ARGUMENT, "espSwapStroke: the stroke has not been ended");
+    swapTown(context, stroke);
     for (PaintStroke::Part& part : stroke.parts) {
         if (!paintedLayer(context, part.surface, stroke.layer)) continue;
         Status swapped = context.painter->swap(canvasOf(context, part.surface, stroke.layer), part.record);
@@ -224,6 +227,7 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     PaintStroke stroke;
     stroke.layer = name;
     const float fill = declaredFill(context, name).value_or(0);
+    fillTown(context, stroke, value);
     Touched touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         if (value == fill && !paintedLayer(context, id, name)) return;
@@ -383,7 +387,7 @@ EspResult espDestroyStroke(EspContext* context, EspStroke id) {
 
 uint64_t espStrokeBytes(const EspContext* context, EspStroke id) {
     const PaintStroke* stroke = context ? context->strokes.find(id.id) : nullptr;
-    uint64_t bytes = 0;
+    uint64_t bytes = stroke ? stroke->plan.bytes() : 0;
     if (stroke)
         for (const PaintStroke::Part& part : stroke->parts) bytes += part.record.bytes();
     return bytes;

@@ -76,6 +76,8 @@ Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
         if (d.file.empty()) d.file = town.name;
     tell(context, diagnostics);
     if (town.structure.houses.empty()) return Failure(town.name, "holds no building whose roof could be made");
+    town.number = ++context.towns;
+    town.layers = PlanLayers(town.structure);
     town.ground = groundUnder(town.structure, def);
     return town;
 }
@@ -181,13 +183,14 @@ EspResult updateTown(EspContext& context) {
     inputs.grammar = &grammar->map;
     inputs.grammarRevision = grammar->revision;
     inputs.meshes = context.roofBounds;
+    const bool painted = bindTownLayers(context, inputs);
     Status grown = Done{};
-    if (town.stale || town.grammarRevision != grammar->revision) {
+    if (town.stale || town.grammarRevision != grammar->revision)
         grown = context.roofs->grow(inputs);
-    } else {
-        for (uint32_t house : town.changed)
-            if (grown) grown = context.roofs->growHouse(inputs, house);
-    }
+    else if (!town.changed.empty())
+        grown = context.roofs->growHouses(inputs, town.changed);
+    else if (painted)
+        grown = context.roofs->showLayers(inputs);
     if (!grown && grown.failure().diagnostics.front().file == "roofs")
         return fail(&context, ESP_INVALID_CONTENT, grown.failure().text());
     if (!grown) return failGpu(&context, grown.failure());
@@ -341,6 +344,7 @@ EspResult espReadRoofStats(EspContext* context, EspRoofStats* out) {
         out->drawnRectangles = drawn.rectangles;
         out->drawnTriangles = drawn.triangles;
         out->stopped = grown.stopped;
+        out->housesGrown = grown.housesGrown;
         out->overflow = drawn.overflow;
         out->bytes = grown.bytes;
         out->structureMs = context->town->structureMs;

@@ -22,6 +22,7 @@
 #include "runtime/plugin/plants.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/roof/footprint.hpp"
+#include "runtime/roof/plan_layers.hpp"
 #include "runtime/roof/roof_growth.hpp"
 #include "runtime/surface/contact_ground.hpp"
 #include "runtime/surface/gpu_surface.hpp"
@@ -139,6 +140,8 @@ struct PaintStroke {
         BlockRecord record;
     };
     std::vector<Part> parts;
+    uint64_t town = 0;  // LoadedTown::number that `plan` is of
+    PlanRecord plan;
 };
 
 // A town and what has been made of it.
@@ -153,7 +156,11 @@ struct LoadedTown {
     std::vector<uint32_t> changed;  // houses that have to, if not all
     uint64_t grammarRevision = 0;   // what the roofs were grown from
     GroundLook ground;
-    RoofView view;  // of what stands
+    uint64_t number = 0;  // unlike any other town's of the context, from 1
+    PlanLayers layers;
+    std::vector<std::pair<std::string, PlanRect>> painted;  // layers that changed since the roofs last grew
+    std::vector<float> means;                               // [house * kRoofLayers + layer of the grammar]
+    RoofView view;                                          // of what stands
     double structureMs = 0;
 };
 
@@ -184,7 +191,7 @@ struct EspContext {
     std::vector<espalier::TerminalMesh> roofMeshNames;
     std::filesystem::path roofMeshFile;
     std::optional<espalier::LoadedTown> town;
-    uint64_t grammarRevisions = 0;
+    uint64_t grammarRevisions = 0, towns = 0;
     espalier::IdTable<espalier::PlacedSurface> surfaces;
     espalier::IdTable<espalier::LoadedGrammar> grammars;
     espalier::IdTable<espalier::PlantedSeed> seeds;
@@ -241,6 +248,16 @@ EspResult fail(const EspContext* context, EspResult code, std::string message);
 Status knowRoofMeshes(EspContext& context);
 // Grows what has changed of the town.
 EspResult updateTown(EspContext& context);
+// What strokes do to layers of the town; those that its grammar doesn't read are left alone.
+void paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs);
+void fillTown(EspContext& context, PaintStroke& stroke, float value);
+void closeTown(EspContext& context, PaintStroke& stroke);
+void swapTown(EspContext& context, PaintStroke& stroke);
+// Gives roofs the town's layers, and adds to LoadedTown::changed the houses that have read what was painted since.
+// True: something was.
+bool bindTownLayers(EspContext& context, RoofInputs& inputs);
+// The number by which the town's grammar knows the layer; kNoIndex.
+uint32_t shownTownLayer(const EspContext& context, const char* name);
 EspResult failContent(const EspContext* context, const Failure& failure);
 // For failures of GPU work: DEVICE_LOST or OUT_OF_MEMORY, as the device says.
 EspResult gpuCode(const EspContext& context);

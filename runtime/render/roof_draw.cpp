@@ -140,6 +140,9 @@ Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView&
     env.roofs.planes = roofs.planes;
     env.roofs.meshes = roofs.meshes;
     env.roofs.generations = roofs.generations;
+    env.roofs.layers = roofs.layers;
+    env.roofs.site = roofs.site;
+    env.shownLayer = roofs.shownLayer;
     env.view = addressOf<EmitViewBuf>(views_, slot * sizeof(EmitView));
     env.table = addressOf<EmitTableBuf>(terminals_.tableBuffer());
     env.state = addressOf<RoofDrawStateBuf>(state_);

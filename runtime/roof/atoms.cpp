@@ -335,7 +335,6 @@ void appendStartShapes(const RoofTables& tables, uint32_t house, uint32_t symbol
         s.atom = i;
         s.symbol = symbol;
         s.marks = kShapeSegment;
-        s.house = atom.house;
         shapes.push_back(s);
     }
 }

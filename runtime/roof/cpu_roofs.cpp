@@ -9,6 +9,12 @@
 
 namespace espalier {
 
+std::vector<float> RoofInputs::filledMeans(size_t houses) const {
+    std::vector<float> all(means.begin(), means.end());
+    for (size_t i = all.size(); i < houses * kRoofLayers; ++i) all.push_back(fill(uint32_t(i % kRoofLayers)));
+    return all;
+}
+
 bool RoofRoom::hold(const RoofStatus& status, uint32_t widestWave) {
     bool good = true;
     auto fit = [&](uint32_t& room, uint32_t wanted) {
@@ -34,6 +40,8 @@ struct CpuRun {
     std::vector<RoofScope> scopes[2];
     std::vector<RoofWave> waves;
     std::vector<uint32_t> generations;
+    std::vector<float> means;
+    RoofLayer layers[kRoofLayers] = {};
     CpuRoofs out;
 
     RoofEnv prepare(const RoofRoom& room) {
@@ -67,6 +75,14 @@ struct CpuRun {
         env.status.v = &out.status;
         env.waves.v = waves.data();
         env.generations.v = generations.data();
+        for (uint32_t i = 0; i < kRoofLayers; ++i)
+            layers[i] = {{const_cast<float*>(in.layers[i].texels)}, in.fill(i), 0};
+        means = in.filledMeans(t.houses.size());
+        out.reads.assign(t.houses.size(), 0);
+        env.layers.v = layers;
+        env.means.v = means.data();
+        env.reads.v = out.reads.data();
+        env.site = in.site;
         env.shapeRoom = room.scopes;
         env.gridRoom = room.grids;
         env.rowRoom = room.rows;

@@ -1,7 +1,7 @@
 // Expansion of roofs on the GPU (Buron 2013 §3). In: atoms and a rule map by address. Out: grids and their rows' runs.
 // Waves are recorded ahead as indirect dispatches, empty ones cost nothing. What ran out of room is grown again with
-// more, into a second set of buffers, so that the last good roofs stand until the new ones are complete. A single house
-// is grown behind the others, whose records stay; its old ones are told by their generation.
+// more, into a second set of buffers, so that the last good roofs stand until the new ones are complete. Single houses
+// are grown behind the others, whose records stay; their old ones are told by their generation.
 #include "runtime/roof/roof_growth.hpp"
 
 #include <algorithm>
@@ -16,6 +16,8 @@ namespace {
 
 constexpr uint32_t kWaves = kMaxRoofDepth + 2;
 constexpr int kMostAttempts = 12;
+// Read back: the status, the waves, what houses have read.
+constexpr uint64_t kReadsAt = sizeof(RoofStatus) + kWaves * sizeof(RoofWave);
 
 struct WavePush {
     RoofEnvBuf environment;
@@ -46,7 +48,9 @@ class GpuRoofs final : public RoofGrowth {
         return Done{};
     }
     Status grow(const RoofInputs& inputs) override;
-    Status growHouse(const RoofInputs& inputs, uint32_t house) override;
+    Status growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses) override;
+    Status showLayers(const RoofInputs& inputs) override;
+    std::span<const uint32_t> reads() const override { return reads_; }
     RoofView view() const override { return view_; }
     RoofStats stats() const override { return stats_; }
     Result<RoofRecords> read() override;
@@ -87,8 +91,11 @@ class GpuRoofs final : public RoofGrowth {
     Status makeRoom(Set& set);
     Status uploadTables(Commands& commands, const RoofTables& t, const Set& set, Counts& sent);
     Status uploadGrammar(Commands& commands, const RoofInputs& inputs);
-    // house: the only one to grow, kNoIndex: all.
-    Result<Outcome> expand(const RoofInputs& inputs, Set& set, uint32_t house, RoofStatus status, Counts& sent);
+    Status uploadLayers(Commands& commands, const RoofInputs& inputs);
+    Status uploadHouses(Commands& commands, const RoofInputs& inputs, std::span<const uint32_t> houses);
+    // houses: those to grow, none: all.
+    Result<Outcome> expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses, RoofStatus status,
+                           Counts& sent);
     void publish(const RoofInputs& inputs, const Outcome& outcome);
 
     Device& device_;
@@ -96,16 +103,19 @@ class GpuRoofs final : public RoofGrowth {
     RoofRoom room_;
     Set sets_[2];
     uint32_t front_ = 0;
-    Buffer atoms_, pieces_, words_, map_, meshes_, scopes_[2], status_, waves_, env_, generations_, readback_;
+    Buffer atoms_, pieces_, words_, map_, meshes_, scopes_[2], status_, waves_, env_, generations_, houseReads_, means_,
+        layerTable_, readback_;
+    Buffer layers_[kRoofLayers];
     uint64_t grammarRevision_ = 0;
     Counts own_, sent_;  // of the town's tables: room, and what the published set holds
-    std::vector<uint32_t> generationOf_;
+    std::vector<uint32_t> generationOf_, reads_;
     RoofStatus last_{};
     RoofView view_;
     RoofStats stats_;
 };
 
 Status GpuRoofs::makeRoom(Set& set) {
+    const uint64_t houses = std::max<uint64_t>(generationOf_.size(), 1);
     const struct {
         Buffer& buffer;
         const char* name;
@@ -115,17 +125,17 @@ Status GpuRoofs::makeRoom(Set& set) {
                 {set.regions, "roof regions", (own_.regions + room_.regions) * sizeof(RoofRegion)},
                 {set.parts, "roof parts", (own_.parts + room_.parts) * sizeof(RoofPart)},
                 {set.planes, "roof planes", (own_.planes + room_.planes) * sizeof(vec4)},
-                {scopes_[0], "roof scopes", room_.scopes * sizeof(RoofScope)},
-                {scopes_[1], "roof scopes", room_.scopes * sizeof(RoofScope)},
                 {status_, "roof status", sizeof(RoofStatus)},
                 {waves_, "roof waves", kWaves * sizeof(RoofWave)},
                 {env_, "roof environment", sizeof(RoofEnv)},
                 {atoms_, "roof atoms", own_.atoms * sizeof(RoofAtom)},
                 {pieces_, "roof pieces", own_.pieces * sizeof(RoofPiece)},
-                {generations_, "roof generations", std::max<uint64_t>(generationOf_.size(), 1) * 4}};
+                {generations_, "roof generations", houses * 4},
+                {houseReads_, "what roofs read", houses * 4},
+                {means_, "roof layers' means", houses * kRoofLayers * 4}};
     for (const auto& r : rows)
         if (Status s = ensure(r.buffer, r.name, r.bytes); !s) return s;
-    return ensure(readback_, "roof readback", sizeof(RoofStatus) + kWaves * sizeof(RoofWave), BufferUse::readback);
+    return ensure(readback_, "roof readback", kReadsAt + houses * 4, BufferUse::readback);
 }
 
 // What the town's tables hold beyond what was sent before.
@@ -159,27 +169,76 @@ Status GpuRoofs::uploadGrammar(Commands& commands, const RoofInputs& inputs) {
     return Done{};
 }
 
-Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, uint32_t house, RoofStatus status,
-                                           Counts& sent) {
+// Layers whose rows have changed, and the table by which kernels find them. Painting may add a layer, never a site.
+Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs) {
+    std::vector<RoofLayer> table(kRoofLayers);
+    const uint64_t row = uint64_t(inputs.site.size) * sizeof(float);
+    for (uint32_t i = 0; i < kRoofLayers; ++i) {
+        const RoofInputs::Layer& layer = inputs.layers[i];
+        table[i].fill = inputs.fill(i);
+        if (!layer.texels) continue;
+        const bool fresh = !layers_[i] || layers_[i].size() < row * inputs.site.size;
+        if (Status s = ensure(layers_[i], "roof layer", row * inputs.site.size); !s) return s;
+        const uint32_t first = fresh ? 0 : std::min(layer.firstRow, inputs.site.size);
+        const uint32_t count = fresh ? inputs.site.size : std::min(layer.rowCount, inputs.site.size - first);
+        const auto texels = std::as_bytes(std::span(layer.texels, size_t(inputs.site.size) * inputs.site.size));
+        if (count > 0)
+            if (Status s = commands.upload(layers_[i], texels.subspan(first * row, count * row), first * row); !s)
+                return s;
+        table[i].texels = addressOf<FloatBuf>(layers_[i]);
+    }
+    if (Status s = ensure(layerTable_, "roof layers", kRoofLayers * sizeof(RoofLayer)); !s) return s;
+    return commands.upload(layerTable_, table);
+}
+
+Status GpuRoofs::showLayers(const RoofInputs& inputs) {
+    Result<Commands> commands = Commands::begin(device_, "roof layers");
+    if (!commands) return commands.failure();
+    commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
+    if (Status s = uploadLayers(*commands, inputs); !s) return s;
+    Result<uint64_t> submitted = commands->submit();
+    if (!submitted) return submitted.failure();
+    view_.layers = addressOf<RoofLayerBuf>(layerTable_);
+    view_.site = inputs.site;
+    return Done{};
+}
+
+// What is kept of each house that grows.
+Status GpuRoofs::uploadHouses(Commands& commands, const RoofInputs& inputs, std::span<const uint32_t> houses) {
+    constexpr uint64_t kMeans = kRoofLayers * sizeof(float);
+    const std::vector<float> values = inputs.filledMeans(generationOf_.size());
+    const auto generations = std::as_bytes(std::span(generationOf_)), means = std::as_bytes(std::span(values));
+    if (houses.empty() && !values.empty()) {
+        commands.fill(houseReads_, 0);
+        if (Status s = commands.upload(generations_, generations); !s) return s;
+        return commands.upload(means_, means);
+    }
+    for (uint32_t house : houses) {
+        commands.fill(houseReads_, 0, house * 4, 4);
+        if (Status s = commands.upload(generations_, generations.subspan(house * 4, 4), house * 4); !s) return s;
+        if (Status s = commands.upload(means_, means.subspan(house * kMeans, kMeans), house * kMeans); !s) return s;
+    }
+    return Done{};
+}
+
+Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
+                                           RoofStatus status, Counts& sent) {
     const RoofTables& t = *inputs.town;
     std::vector<RoofScope> start;
     const uint32_t symbol = inputs.grammar->startSymbol();
-    for (uint32_t h = 0; h < t.houses.size(); ++h)
-        if (house == kNoIndex || h == house) appendStartShapes(t, h, symbol, start);
+    for (uint32_t house : houses) appendStartShapes(t, house, symbol, start);
+    for (uint32_t h = 0; houses.empty() && h < t.houses.size(); ++h) appendStartShapes(t, h, symbol, start);
     room_.scopes = std::max(room_.scopes, uint32_t(start.size()));
-    if (house == kNoIndex)
+    if (houses.empty())
         if (Status s = makeRoom(set); !s) return s.failure();
+    for (Buffer& scopes : scopes_)
+        if (Status s = ensure(scopes, "roof scopes", room_.scopes * sizeof(RoofScope)); !s) return s.failure();
     Result<Commands> commands = Commands::begin(device_, "roofs");
     if (!commands) return commands.failure();
     if (Status s = uploadGrammar(*commands, inputs); !s) return s.failure();
     if (Status s = uploadTables(*commands, t, set, sent); !s) return s.failure();
-    const auto generations = std::as_bytes(std::span(generationOf_));
-    const bool one = house != kNoIndex;
-    if (!generationOf_.empty())
-        if (Status s = commands->upload(generations_, one ? generations.subspan(house * 4, 4) : generations,
-                                        one ? house * 4 : 0);
-            !s)
-            return s.failure();
+    if (Status s = uploadHouses(*commands, inputs, houses); !s) return s.failure();
+    if (Status s = uploadLayers(*commands, inputs); !s) return s.failure();
 
     RoofEnv env{};
     env.map = addressOf<RuleMapBuf>(map_);
@@ -196,6 +255,10 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, u
     env.status = addressOf<RoofStatusBuf>(status_);
     env.waves = addressOf<RoofWaveBuf>(waves_);
     env.generations = addressOf<UintBuf>(generations_);
+    env.layers = addressOf<RoofLayerBuf>(layerTable_);
+    env.means = addressOf<FloatBuf>(means_);
+    env.reads = addressOf<UintBuf>(houseReads_);
+    env.site = inputs.site;
     env.shapeRoom = room_.scopes;
     env.gridRoom = uint32_t(set.grids.size() / sizeof(RoofGrid));
     env.rowRoom = uint32_t(set.runs.size() / sizeof(RoofRun));
@@ -228,6 +291,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, u
     }
     commands->copy(status_, readback_, sizeof(RoofStatus));
     commands->copy(waves_, readback_, kWaves * sizeof(RoofWave), 0, sizeof(RoofStatus));
+    if (!generationOf_.empty()) commands->copy(houseReads_, readback_, generationOf_.size() * 4, 0, kReadsAt);
     commands->barrier(Use::transfer, Use::host);
     if (Status s = commands->finish(); !s) return s.failure();
     device_.collect();
@@ -235,6 +299,8 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, u
     outcome.ms = device_.milliseconds("roof expand");
     std::memcpy(&outcome.status, readback_.mapped(), sizeof(RoofStatus));
     std::memcpy(static_cast<void*>(waves.data()), readback_.mapped() + sizeof(RoofStatus), kWaves * sizeof(RoofWave));
+    reads_.resize(generationOf_.size());
+    std::memcpy(reads_.data(), readback_.mapped() + kReadsAt, reads_.size() * 4);
     for (const RoofWave& w : waves) {
         outcome.waves += w.count > 0 ? 1 : 0;
         outcome.widest = std::max(outcome.widest, w.count);
@@ -252,6 +318,8 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome) {
     view_.planes = addressOf<Vec4Buf>(set.planes);
     view_.meshes = addressOf<RoofMeshBuf>(meshes_);
     view_.generations = addressOf<UintBuf>(generations_);
+    view_.layers = addressOf<RoofLayerBuf>(layerTable_);
+    view_.site = inputs.site;
     view_.gridCount = last_.grids;
     view_.rowCount = last_.rows;
     view_.tileCount = last_.touched;
@@ -302,7 +370,7 @@ Status GpuRoofs::grow(const RoofInputs& inputs) {
         status.parts = own_.parts;
         status.planes = own_.planes;
         Counts sent;
-        Result<Outcome> outcome = expand(inputs, sets_[1 - front_], kNoIndex, status, sent);
+        Result<Outcome> outcome = expand(inputs, sets_[1 - front_], {}, status, sent);
         if (!outcome) return outcome.failure();
         RoofStatus made = outcome->status;
         made.regions -= own_.regions;
@@ -312,6 +380,7 @@ Status GpuRoofs::grow(const RoofInputs& inputs) {
             front_ = 1 - front_;
             sent_ = sent;
             publish(inputs, *outcome);
+            stats_.housesGrown += t.houses.size();
             return Done{};
         }
         stats_.overflow += 1;
@@ -319,17 +388,20 @@ Status GpuRoofs::grow(const RoofInputs& inputs) {
     return Failure("roofs", "the grammar makes more shapes of these houses than memory holds");
 }
 
-Status GpuRoofs::growHouse(const RoofInputs& inputs, uint32_t house) {
+Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses) {
     const RoofTables& t = *inputs.town;
-    require(house < t.houses.size(), "a house of the town");
+    if (houses.empty()) return Done{};
     // A generation has eight bits, and what has gone is swept out by growing all anew when room runs out.
-    const bool possible = view_.revision != 0 && generationOf_.size() == t.houses.size() &&
-                          generationOf_[house] < 255 && own_.holds(Counts::of(t)) &&
-                          grammarRevision_ == inputs.grammarRevision;
+    bool possible = view_.revision != 0 && generationOf_.size() == t.houses.size() && own_.holds(Counts::of(t)) &&
+                    grammarRevision_ == inputs.grammarRevision && houses.size() * 2 < t.houses.size() + 2;
+    for (uint32_t house : houses) {
+        require(house < t.houses.size(), "a house of the town");
+        possible = possible && house < generationOf_.size() && generationOf_[house] < 255;
+    }
     if (!possible) return grow(inputs);
-    generationOf_[house] += 1;
+    for (uint32_t house : houses) generationOf_[house] += 1;
     Set& set = sets_[front_];
-    Result<Outcome> outcome = expand(inputs, set, house, last_, sent_);
+    Result<Outcome> outcome = expand(inputs, set, houses, last_, sent_);
     if (!outcome) return outcome.failure();
     const RoofStatus& s = outcome->status;
     const bool held = s.grids <= set.grids.size() / sizeof(RoofGrid) && s.rows <= set.runs.size() / sizeof(RoofRun) &&
@@ -338,6 +410,7 @@ Status GpuRoofs::growHouse(const RoofInputs& inputs, uint32_t house) {
                       outcome->widest <= room_.scopes;
     if (!held) return grow(inputs);
     publish(inputs, *outcome);
+    stats_.housesGrown += houses.size();
     return Done{};
 }
 

@@ -2,6 +2,7 @@
 
 // Expansion of roofs on the GPU: a town's atoms and a grammar become grids of terminals (Buron 2013 §3).
 
+#include <array>
 #include <memory>
 
 #include "runtime/core/result.hpp"
@@ -17,6 +18,20 @@ struct RoofInputs {
     const RuleMap* grammar = nullptr;
     uint64_t grammarRevision = 1;      // changes with rules and parameters, which are uploaded anew then
     std::span<const RoofMesh> meshes;  // by the numbers that the grammar was compiled with
+    RoofSite site{{0, 0}, 1, 1};       // that layers lie over
+    struct Layer {
+        const float* texels = nullptr;          // site.size² of them; null: nothing is painted
+        uint32_t firstRow = 0, rowCount = ~0u;  // that have changed since they were sent to the GPU
+    };
+    std::array<Layer, kRoofLayers> layers;  // as the grammar counts its contexts
+    std::span<const float> means;           // [house * kRoofLayers + layer]; empty: nothing is painted
+
+    // The value where nothing is painted.
+    float fill(uint32_t layer) const {
+        const auto& contexts = grammar->contexts();
+        return layer < contexts.size() ? contexts[layer].fill : 0;
+    }
+    std::vector<float> filledMeans(size_t houses) const;  // `means`, or what stands for them
 };
 
 // What drawing reads. Buffers belong to RoofGrowth and change only in its calls.
@@ -28,6 +43,9 @@ struct RoofView {
     Vec4Buf planes{};
     RoofMeshBuf meshes{};
     UintBuf generations{};  // [house]: grids of another generation are gone
+    RoofLayerBuf layers{};
+    RoofSite site{};
+    uint32_t shownLayer = kNoIndex;  // by the view of a layer: the grammar's number
     uint32_t gridCount = 0, rowCount = 0;
     uint64_t tileCount = 0, clippedCount = 0;
     uint64_t revision = 0;
@@ -40,7 +58,8 @@ struct RoofStats {
     uint64_t tiles = 0, clipped = 0;    // cells that are drawn; those of them that an outline crosses
     uint32_t waves = 0, stopped = 0;    // of the latest expansion; shapes that a limit ended
     uint32_t expansions = 0, overflow = 0;
-    uint64_t bytes = 0;  // of grids, runs and the regions that Join made
+    uint64_t housesGrown = 0;  // by all expansions together
+    uint64_t bytes = 0;        // of grids, runs and the regions that Join made
     uint64_t reservedBytes = 0;
     uint64_t hash = 0;    // of all grids, independent of their order; of the latest full growth
     double expandMs = 0;  // GPU time of the latest expansion
@@ -61,8 +80,13 @@ class RoofGrowth {
 
     // Grows all roofs anew and publishes them when complete; on failure the last ones stand.
     virtual Status grow(const RoofInputs& inputs) = 0;
-    // Grows one house anew, whose atoms replaceAtoms() has changed; the others stand.
-    virtual Status growHouse(const RoofInputs& inputs, uint32_t house) = 0;
+    // Grows some houses anew, each named once, whose atoms replaceAtoms() has changed or whose layers; the others
+    // stand.
+    virtual Status growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses) = 0;
+    // Sends the rows of layers that have changed, for what is drawn of them; growing does so too.
+    virtual Status showLayers(const RoofInputs& inputs) = 0;
+    // [house]: the layers that it has read when it grew last, as RoofEnv::reads.
+    virtual std::span<const uint32_t> reads() const = 0;
     virtual RoofView view() const = 0;
     virtual RoofStats stats() const = 0;
     // Waits for the GPU and copies what was grown.
@@ -74,6 +98,7 @@ struct CpuRoofs {
     RoofRecords records;
     RoofStatus status{};
     uint32_t waves = 0;
+    std::vector<uint32_t> reads;  // [house], see RoofEnv
 };
 CpuRoofs growRoofsOnCpu(const RoofInputs& inputs, unsigned threads = 1);
 

@@ -31,11 +31,16 @@ void main() {
     uint lod = variant.lodCount - 1u;
     while (lod > 0u && variant.error[lod] * pixels > view.lodPixels) --lod;
     uint bucket = variant.firstBucket + lod;
-    uint whole = runCount(run.whole);
+    bool drops = mayDrop(env.roofs, g);
+    uint whole = drops ? 0u : runCount(run.whole);
     uint cut = 0u;
     for (uint k = 0u; k < runCount(run.touched); ++k) {
         uint column = runFirst(run.touched) + k;
-        if (column - runFirst(run.whole) < runCount(run.whole)) continue;
+        if (drops && cellDropped(env.roofs, g, column, item.row)) continue;
+        if (column - runFirst(run.whole) < runCount(run.whole)) {
+            whole += drops ? 1u : 0u;
+            continue;
+        }
         CellFate fate = cellFate(env, g, mesh, column, item.row);
         if (fate.whole) {
             whole += 1u;

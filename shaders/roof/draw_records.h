@@ -1,6 +1,5 @@
-// Drawing roofs: grids are looked at one by one, of near ones the rows, of rows the cells. Whole cells are instances of
-// a mesh, cells that an outline crosses are instances with planes, far grids are rectangles whose pattern stands for
-// cells.
+// Drawing roofs: grids are looked at one by one, of near ones the rows, of rows the cells. Whole cells are instances of a
+// mesh, cells that an outline crosses are instances with planes, far grids are rectangles whose pattern stands for cells.
 #ifndef ESPALIER_ROOF_DRAW_RECORDS_H
 #define ESPALIER_ROOF_DRAW_RECORDS_H
 #include "shaders/render/frame_records.h"
@@ -12,7 +11,7 @@ ESPALIER_BEGIN
 struct RoofRow {
     uint grid, row;
     uint bucket;
-    uint wholePlace, cutPlace;  // in the bucket
+    uint wholePlace, cutPlace;   // in the bucket
 };
 STATIC_SIZE(RoofRow, 20);
 
@@ -28,7 +27,7 @@ CONST_UINT(kCutRight, 1u << 9u);
 CONST_UINT(kCutUpper, 1u << 10u);
 struct RoofCutTile {
     uint grid, cell;
-    uint part;  // kNoIndex: none
+    uint part;           // kNoIndex: none
     uint planes;
 };
 STATIC_SIZE(RoofCutTile, 16);
@@ -36,11 +35,11 @@ STATIC_SIZE(RoofCutTile, 16);
 struct RoofDrawState {
     uint rows;
     uint rowGroups[3];
-    uint whole[64], cut[64];  // instances a bucket
+    uint whole[64], cut[64];             // instances a bucket
     uint wholeStarts[64], cutStarts[64];
-    DrawCommand draws[256];  // of bucket b: 2b, 2b + 1 whole ones, 128 + 2b, 128 + 2b + 1 cut ones
+    DrawCommand draws[256];              // of bucket b: 2b, 2b + 1 whole ones, 128 + 2b, 128 + 2b + 1 cut ones
     uint rectangles;
-    uint rectangleDraw[4];  // VkDrawIndirectCommand
+    uint rectangleDraw[4];               // VkDrawIndirectCommand
     uint overflow;
     uint triangles;
     uint spare;
@@ -52,23 +51,23 @@ BUFFER(RoofTileBuf, RoofTile)
 BUFFER(RoofCutTileBuf, RoofCutTile)
 BUFFER(RoofDrawStateBuf, RoofDrawState)
 
-CONST_UINT(kRoofShadow, 1u);  // far rectangles only, as coarse as shadows are
+CONST_UINT(kRoofShadow, 1u);   // far rectangles only, as coarse as shadows are
 struct RoofDrawEnv {
-    RoofEnv roofs;  // grids, runs, regions, parts, planes, meshes, generations
+    RoofEnv roofs;                // grids, runs, regions, parts, planes, meshes, generations
     EmitViewBuf view;
     EmitTableBuf table;
     RoofDrawStateBuf state;
     RoofRowBuf rows;
     RoofTileBuf tiles;
     RoofCutTileBuf cuts;
-    RoofTileBuf rectangles;  // grid, part
+    RoofTileBuf rectangles;       // grid, part
     uint gridCount;
     uint rowRoom, tileRoom, cutRoom, rectangleRoom;
-    float leastCell;  // pixels below which cells are a pattern
+    float leastCell;              // pixels below which cells are a pattern
     uint flags;
-    uint spare;
+    uint shownLayer;              // for the view of a layer: the grammar's number; kNoIndex: none
 };
-STATIC_SIZE(RoofDrawEnv, 232);
+STATIC_SIZE(RoofDrawEnv, 272);
 BUFFER(RoofDrawEnvBuf, RoofDrawEnv)
 
 struct RoofCullPush {

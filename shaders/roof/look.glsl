@@ -2,6 +2,8 @@
 #ifndef ESPALIER_ROOF_LOOK_GLSL
 #define ESPALIER_ROOF_LOOK_GLSL
 #include "shaders/render/light.glsl"
+#include "shaders/roof/draw_records.h"
+#include "shaders/shared/roof_layers.h"
 
 vec3 unpackColour(uint c) {
     vec3 root = vec3(c & 255u, (c >> 8u) & 255u, (c >> 16u) & 255u) * (1.0 / 255.0);
@@ -27,6 +29,23 @@ vec3 weathered(vec3 base, float variation, float tint, vec3 position) {
     float patchy = noise3(position * 0.7) * 0.6 + noise3(position * 2.9) * 0.4;
     base *= 1.0 + tint * 0.55 * (variation - 0.5) * 2.0;
     return base * (0.86 + 0.28 * patchy);
+}
+// Moss grows in cushions where its layer is painted, thickest in the joints and on the shaded side of tiles.
+vec3 mossy(RoofDrawEnv env, uint mesh, vec3 base, vec3 position, float joint) {
+    uint layer = (mesh >> kGridMoss) & 15u;
+    if (layer == 0u) return base;
+    float painted = roofLayerAt(env.roofs.layers, env.roofs.site, layer - 1u, position.xz);
+    if (painted <= 0.0) return base;
+    float cushions = noise3(position * 3.1) * 0.45 + noise3(position * 9.7) * 0.35 + noise3(position * 31.0) * 0.2;
+    float share = smoothstep(0.62, 0.38, cushions + 0.55 * (0.75 - painted) - 0.2 * joint);
+    vec3 green = mix(vec3(0.05, 0.075, 0.018), vec3(0.13, 0.15, 0.035), noise3(position * 17.0));
+    return mix(base, green * (1.0 - 0.4 * joint), share * min(1.0, 3.0 * painted));
+}
+// What the view of a layer shows on roofs and ground.
+vec3 layerColour(RoofDrawEnv env, vec3 position) {
+    if (env.shownLayer == kNoIndex) return vec3(0.4);
+    float x = roofLayerAt(env.roofs.layers, env.roofs.site, env.shownLayer, position.xz);
+    return mix(vec3(0.08, 0.09, 0.12), vec3(0.9, 0.35, 0.08), x);
 }
 vec4 shade(FrameBuf frame, vec3 base, vec3 n, vec3 position, float roughness) {
     vec3 eye = normalize(frame.v[0].eye - position);

@@ -2,6 +2,7 @@
 #ifndef ESPALIER_ROOF_PLACE_GLSL
 #define ESPALIER_ROOF_PLACE_GLSL
 #include "shaders/roof/draw_records.h"
+#include "shaders/shared/roof_layers.h"
 
 vec3 gridPoint(RoofGrid g, vec3 p) {
     // Upper corners that Join has moved take their column along.
@@ -22,10 +23,5 @@ float planeDistance(RoofDrawEnv env, RoofGrid g, uint part, uint bit, vec3 p, ve
     return plane.w - dot(plane.xyz, vec3(dot(r.axisA, d), dot(r.axisB, d), dot(r.axisC, d)));
 }
 
-uint cellHash(RoofGrid g, uint column, uint row) {
-    uint h = uint(g.key) ^ (column * 0x9E3779B1u) ^ (row * 0x85EBCA77u);
-    h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
-    h = (h ^ (h >> 12u)) * 0x297A2D39u;
-    return h ^ (h >> 15u);
-}
+uint cellHash(RoofGrid g, uint column, uint row) { return roofCellHash(g.key, column, row); }
 #endif

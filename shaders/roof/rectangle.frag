@@ -17,7 +17,8 @@ void main() {
     if (dot(n, push.frame.v[0].eye - position) < 0.0 && !gl_FrontFacing) n = -n;
     uint view = push.frame.v[0].view;
     if (view != kViewShaded) {
-        color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(push.frame, lodColor(5u), n);
+        vec3 shown = view == kViewLayer ? layerColour(push.env.v[0], position) : lodColor(5u);
+        color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(push.frame, shown, n);
         return;
     }
     vec2 cell = surface.xy;
@@ -26,14 +27,19 @@ void main() {
     float shift = look.z != 0u && (uint(row) & 1u) != 0u ? 0.5 : 0.0;
     float column = floor(cell.x + shift);
     float clear = clamp(1.5 - 1.5 * max(width.x, width.y), 0.0, 1.0);
-    uint h = look.y ^ (uint(column) * 0x9E3779B1u) ^ (uint(row) * 0x85EBCA77u);
-    h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
-    h = (h ^ (h >> 12u)) * 0x297A2D39u;
-    h ^= h >> 15u;
+    uint h = roofCellHash(u64(look.y), uint(column), uint(row));
     float variation = mix(0.5, float(h & 255u) * (1.0 / 255.0), clear);
     vec3 base = weathered(unpackColour(look.x), variation, surface.w, position);
     // Each cell's lower edge shades the one below.
     float edge = 1.0 - smoothstep(0.0, max(0.12, width.y), 1.0 - fract(cell.y));
     base *= 1.0 - 0.35 * mix(0.12, edge, clear);
+    RoofDrawEnv env = push.env.v[0];
+    base = mossy(env, look.w, base, position, edge * clear);
+    uint drop = (look.w >> kGridDrop) & 15u;
+    if (drop != 0u) {
+        float painted = roofLayerAt(env.roofs.layers, env.roofs.site, drop - 1u, position.xz);
+        float gone = painted > cellHold(u64(look.y), uint(column), uint(row)) ? 1.0 : 0.0;
+        base = mix(base, vec3(0.03, 0.025, 0.02), mix(painted, gone, clear) * step(0.001, painted));
+    }
     color = shade(push.frame, base, n, position, push.roughness);
 }

@@ -6,7 +6,7 @@ layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 surface;      // along x and y of the shape in metres, the mesh's shade, tint
-layout(location = 3) flat out uvec4 look;   // colour, hash, bucket, mesh
+layout(location = 3) flat out uvec4 look;   // colour, hash, bucket, RoofGrid::mesh
 #ifdef ESPALIER_CUT
 out float gl_ClipDistance[8];
 #endif
@@ -35,7 +35,7 @@ void main() {
     n = normalize(vec3(n.xy / max(g.size, vec2(1e-4)), n.z / max(g.thickness, 1e-4)));
     normal = g.axisX * n.x + g.axisY * n.y + cross(g.axisX, g.axisY) * n.z;
     surface = vec4(at.xy, mesh.uv.x, float(g.colour >> 24u) * (1.0 / 255.0));
-    look = uvec4(g.colour & 0xFFFFFFu, cellHash(g, column, row), push.bucket, g.mesh & 255u);
+    look = uvec4(g.colour & 0xFFFFFFu, cellHash(g, column, row), push.bucket, g.mesh);
     gl_Position = push.frame.v[0].viewProjection * vec4(position, 1.0);
 #ifdef ESPALIER_CUT
     uint bits = tile.planes;

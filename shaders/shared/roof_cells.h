@@ -2,8 +2,7 @@
 // be told by intervals, part by part for the few cells that an outline crosses.
 #ifndef ESPALIER_SHARED_ROOF_CELLS_H
 #define ESPALIER_SHARED_ROOF_CELLS_H
-#include "shaders/shared/exact.h"
-#include "shaders/shared/roof_records.h"
+#include "shaders/shared/roof_layers.h"
 
 ESPALIER_BEGIN
 
@@ -48,124 +47,130 @@ FN vec2 boxAgainst(CellPlane p, CellBox b) {
     return vec2(l, h);
 }
 
-// The columns [first, last] of a row whose boxes satisfy a condition on x: low end * sign... kept as floats, since they
-// may lie far outside.
-struct Columns {
-    float first, last;
-};
-FN Columns meet(Columns a, Columns b) {
-    Columns c;
-    c.first = larger(a.first, b.first);
-    c.last = smaller(a.last, b.last);
-    return c;
-}
-FN Columns everyColumn() {
-    Columns c;
-    c.first = -1e6f;
-    c.last = 1e6f;
-    return c;
-}
-
-// A row's measures: column k's box reaches from left + k step to right + k step.
-struct RowFrame {
-    float left, right, inverse;
-    vec2 y, z;
-};
-
-// Columns whose boxes lie within the plane (whole) or reach into it.
-FN Columns columnsWithin(CellPlane p, RowFrame f, bool whole) {
-    float a = p.fy * f.y.x;
-    float b = p.fy * f.y.y;
-    float c = p.fz * f.z.x;
-    float d = p.fz * f.z.y;
-    float m = whole ? larger(a, b) + larger(c, d) : smaller(a, b) + smaller(c, d);
-    float room = p.limit - m + (whole ? kCellSlack : -kCellSlack);
-    Columns all = everyColumn();
-    if (absolute(p.fx) < 1e-6f) {
-        if (room < 0.0f) all.last = -2e6f;
-        return all;
-    }
-    float x = divExact(room, p.fx);
-    if (p.fx > 0.0f)
-        all.last = floorExact(limited((x - (whole ? f.right : f.left)) * f.inverse, -1e6f, 1e6f));
-    else
-        all.first = -floorExact(limited(((whole ? f.left : f.right) - x) * f.inverse, -1e6f, 1e6f));
-    return all;
-}
-
-FN uint packRun(Columns c, float cells) {
-    float first = limited(c.first, 0.0f, cells);
-    float last = limited(c.last, -1.0f, cells - 1.0f);
+FN uint packRun(float first, float last, float cells) {
+    first = limited(first, 0.0f, cells);
+    last = limited(last, -1.0f, cells - 1.0f);
     return last < first ? 0u : uint(first) | (uint(last - first + 1.0f) << 16u);
 }
 FN uint runFirst(uint run) { return run & 0xFFFFu; }
 FN uint runCount(uint run) { return run >> 16u; }
 
-FN RoofRun rowRun(RoofEnv env, RoofGrid g, RoofMesh mesh, uint row) {
-    bool odd = (g.mesh & kGridBond) != 0u && (row & 1u) != 0u;
-    float cells = float(g.cells & 0xFFFFu) + (odd ? 1.0f : 0.0f);
-    CellBox first = cellBox(g, mesh, 0u, row);
-    RowFrame f;
-    f.left = first.low.x;
-    f.right = first.high.x;
-    f.inverse = rcpExact(g.step.x);
-    f.y = vec2(first.low.y, first.high.y);
-    f.z = vec2(first.low.z, first.high.z);
-    Columns touched = everyColumn();
-    Columns whole = everyColumn();
-    if (g.region != kNoIndex) {
-        RoofRegion r = env.regions.v[g.region];
-        touched.first = 2e6f;
-        touched.last = -2e6f;
-        whole = touched;
-        for (uint i = 0u; i < r.partCount; ++i) {
-            RoofPart part = env.parts.v[r.firstPart + i];
-            Columns t = everyColumn();
-            Columns w = everyColumn();
-            for (uint k = 0u; k < (part.counts & 255u); ++k) {
-                CellPlane p = cellPlane(g, r, env.planes.v[part.firstPlane + k]);
-                t = meet(t, columnsWithin(p, f, false));
-                w = meet(w, columnsWithin(p, f, true));
-            }
-            if (t.last >= t.first) {
-                touched.first = smaller(touched.first, t.first);
-                touched.last = larger(touched.last, t.last);
-            }
-            if (w.last - w.first > whole.last - whole.first) whole = w;
-        }
-    }
-    if ((g.mesh & kGridRect) != 0u) {
-        CellPlane side;
-        side.fy = 0.0f;
-        side.fz = 0.0f;
-        side.fx = -1.0f;
-        side.limit = 0.0f;
-        touched = meet(touched, columnsWithin(side, f, false));
-        whole = meet(whole, columnsWithin(side, f, true));
-        side.fx = 1.0f;
-        side.limit = g.extent.x;
-        touched = meet(touched, columnsWithin(side, f, false));
-        whole = meet(whole, columnsWithin(side, f, true));
-        if (f.y.y > g.extent.y + kCellSlack) whole.last = -2e6f;
-        if (f.y.x > g.extent.y - kCellSlack) touched.last = -2e6f;
-    }
-    RoofRun run;
-    run.touched = packRun(touched, cells);
-    run.whole = packRun(meet(whole, touched), cells);
+// What a half-space leaves of each row: it bounds the columns whose boxes reach into it (touched) or lie within it
+// (whole), from above or from below, by (room - row * down) * scale + offset.
+struct RowPlane {
+    float touched, whole;   // room in row 0
+    float down, scale;
+    float touchedOffset, wholeOffset;
+    bool upper;
+};
+// first: the box of the first cell of row 0; inverse: 1 / the step along x.
+FN RowPlane rowPlane(CellPlane p, CellBox first, float stepY, float inverse) {
+    float a = p.fy * first.low.y;
+    float b = p.fy * first.high.y;
+    float c = p.fz * first.low.z;
+    float d = p.fz * first.high.z;
+    bool level = absolute(p.fx) < 1e-6f;   // along the rows: all columns or none
+    RowPlane r;
+    r.touched = p.limit - (smaller(a, b) + smaller(c, d)) - kCellSlack;
+    r.whole = p.limit - (larger(a, b) + larger(c, d)) + kCellSlack;
+    r.down = p.fy * stepY;
+    r.upper = level || p.fx > 0.0f;
+    r.scale = level ? 1e9f : rcpExact(p.fx) * inverse;
+    r.touchedOffset = -(r.upper ? first.low.x : first.high.x) * inverse;
+    r.wholeOffset = -(r.upper ? first.high.x : first.low.x) * inverse;
+    return r;
+}
+// No half-space at all.
+FN RowPlane openPlane() {
+    RowPlane r;
+    r.touched = 1.0f;
+    r.whole = 1.0f;
+    r.down = 0.0f;
+    r.scale = 1e9f;
+    r.touchedOffset = 0.0f;
+    r.wholeOffset = 0.0f;
+    r.upper = true;
+    return r;
+}
+
+// Cells that either run has; of whole ones the longer run.
+FN RoofRun joinedRuns(RoofRun a, RoofRun b) {
+    uint first = runFirst(a.touched) < runFirst(b.touched) ? runFirst(a.touched) : runFirst(b.touched);
+    uint endA = runFirst(a.touched) + runCount(a.touched);
+    uint endB = runFirst(b.touched) + runCount(b.touched);
+    RoofRun run = a;
+    if (runCount(a.touched) == 0u) run.touched = b.touched;
+    if (runCount(a.touched) != 0u && runCount(b.touched) != 0u)
+        run.touched = first | (((endA > endB ? endA : endB) - first) << 16u);
+    if (runCount(b.whole) > runCount(a.whole)) run.whole = b.whole;
     return run;
 }
 
-// All rows of a grid. Returns the cells that its region touches, and those of them that are whole.
+// All rows of a grid, part by part of its region, each plane worked out once. Returns the cells that the region touches,
+// and those of them that are whole.
 FN uvec2 gridRuns(RoofEnv env, uint at) {
     RoofGrid g = env.grids.v[at];
     uvec2 sums = uvec2(0u, 0u);
     if (g.firstRow == kNoIndex) return uvec2(1u, 1u);
-    RoofMesh mesh = env.meshes.v[g.mesh & 255u];
+    CellBox first = cellBox(g, env.meshes.v[g.mesh & 255u], 0u, 0u);
+    float inverse = rcpExact(g.step.x);
     uint rows = g.cells >> 16u;
-    for (uint row = 0u; row < rows; ++row) {
-        RoofRun run = rowRun(env, g, mesh, row);
-        env.runs.v[g.firstRow + row] = run;
-        sums = sums + uvec2(runCount(run.touched), runCount(run.whole));
+    bool bond = (g.mesh & kGridBond) != 0u;
+    bool rectangle = (g.mesh & kGridRect) != 0u;
+    // Bounds that the grid's own rectangle gives.
+    float lowTouched = rectangle ? (kCellSlack - first.high.x) * inverse : -1e6f;
+    float highTouched = rectangle ? (g.extent.x - kCellSlack - first.low.x) * inverse : 1e6f;
+    float lowWhole = rectangle ? (-kCellSlack - first.low.x) * inverse : -1e6f;
+    float highWhole = rectangle ? (g.extent.x + kCellSlack - first.high.x) * inverse : 1e6f;
+    RoofRegion r = env.regions.v[g.region != kNoIndex ? g.region : 0u];   // there is room for one in any town
+    uint parts = g.region != kNoIndex ? r.partCount : 1u;
+    for (uint i = 0u; i < parts; ++i) {
+        RowPlane planes[kPartPlanes];
+        uint firstPlane = 0u;
+        uint count = 0u;
+        if (g.region != kNoIndex) {
+            RoofPart part = env.parts.v[r.firstPart + i];
+            firstPlane = part.firstPlane;
+            count = part.counts & 255u;
+        }
+        for (uint k = 0u; k < kPartPlanes; ++k) {
+            planes[k] = openPlane();
+            if (k < count) planes[k] = rowPlane(cellPlane(g, r, env.planes.v[firstPlane + k]), first, g.step.y, inverse);
+        }
+        for (uint row = 0u; row < rows; ++row) {
+            float y = float(row);
+            bool odd = bond && (row & 1u) != 0u;
+            float shift = odd ? 0.5f : 0.0f;   // in cells
+            float cells = float(g.cells & 0xFFFFu) + (odd ? 1.0f : 0.0f);
+            float t0 = lowTouched;
+            float t1 = highTouched;
+            float w0 = lowWhole;
+            float w1 = highWhole;
+            for (uint k = 0u; k < kPartPlanes; ++k) {
+                float fallen = y * planes[k].down;
+                float t = (planes[k].touched - fallen) * planes[k].scale + planes[k].touchedOffset;
+                float w = (planes[k].whole - fallen) * planes[k].scale + planes[k].wholeOffset;
+                bool upper = planes[k].upper;
+                t1 = upper && t < t1 ? t : t1;
+                w1 = upper && w < w1 ? w : w1;
+                t0 = !upper && t > t0 ? t : t0;
+                w0 = !upper && w > w0 ? w : w0;
+            }
+            float low = first.low.y + y * g.step.y;
+            float high = first.high.y + y * g.step.y;
+            if (rectangle && high > g.extent.y + kCellSlack) w1 = -1e6f;
+            if (rectangle && low > g.extent.y - kCellSlack) t1 = -1e6f;
+            t0 = -floorExact(limited(-(t0 + shift), -1e6f, 1e6f));
+            t1 = floorExact(limited(t1 + shift, -1e6f, 1e6f));
+            w0 = larger(t0, -floorExact(limited(-(w0 + shift), -1e6f, 1e6f)));
+            w1 = smaller(t1, floorExact(limited(w1 + shift, -1e6f, 1e6f)));
+            RoofRun run;
+            run.touched = packRun(t0, t1, cells);
+            run.whole = packRun(w0, w1, cells);
+            if (i != 0u) run = joinedRuns(env.runs.v[g.firstRow + row], run);
+            env.runs.v[g.firstRow + row] = run;
+            if (i + 1u == parts) sums = sums + uvec2(runCount(run.touched), runCount(run.whole));
+        }
     }
     return sums;
 }

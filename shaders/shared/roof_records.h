@@ -93,7 +93,7 @@ struct RoofScope {
     uint symbol;
     uint place;         // bits 15..0 index, 31..16 count in its Repeat
     uint marks;
-    uint house;
+    uint layers;        // bits 7..0 layer + 1 that takes cells away, 15..8 layer + 1 that moss grows by
     float args[4];
 };
 STATIC_SIZE(RoofScope, 144);
@@ -101,6 +101,8 @@ STATIC_SIZE(RoofScope, 144);
 // RoofGrid::mesh: bits 7..0 mesh
 CONST_UINT(kGridRect, 1u << 8u);
 CONST_UINT(kGridBond, 1u << 9u);       // odd rows begin half a step earlier and have one cell more
+CONST_UINT(kGridDrop, 16u);            // bits 19..16: the grammar's layer + 1 that takes cells away
+CONST_UINT(kGridMoss, 20u);            // bits 23..20: likewise, that moss grows by
 
 // 120 bytes: what is drawn.
 struct RoofGrid {
@@ -152,6 +154,23 @@ struct RoofWave {
 };
 STATIC_SIZE(RoofWave, 16);
 
+// Painted layers lie over a square of the plan: rows of `size` texels, the first row the northernmost (least z), from the
+// west (least x). A grammar of roofs reads up to eight.
+CONST_UINT(kRoofLayers, 8u);
+struct RoofSite {
+    vec2 low;           // world x and z of the square's corner
+    float perMetre;     // texels
+    uint size;
+};
+STATIC_SIZE(RoofSite, 16);
+struct RoofLayer {
+    FloatBuf texels;    // not given: nothing is painted
+    float fill;
+    uint spare;
+};
+STATIC_SIZE(RoofLayer, 16);
+BUFFER(RoofLayerBuf, RoofLayer)
+
 BUFFER(RoofPieceBuf, RoofPiece)
 BUFFER(RoofAtomBuf, RoofAtom)
 BUFFER(RoofRegionBuf, RoofRegion)
@@ -182,8 +201,12 @@ struct RoofEnv {
     uint wave;
     uint shapeRoom, gridRoom, rowRoom, regionRoom, partRoom, planeRoom;
     uint firstGrid;           // rows are worked out for grids from here on
+    RoofLayerBuf layers;      // [kRoofLayers], as the grammar counts them
+    FloatBuf means;           // [house * kRoofLayers + layer]: the mean over the house
+    UintBuf reads;            // [house]: what it has asked of layers: bits 7..0 at places, 15..8 means
+    RoofSite site;
 };
-STATIC_SIZE(RoofEnv, 144);
+STATIC_SIZE(RoofEnv, 184);
 BUFFER(RoofEnvBuf, RoofEnv)
 
 ESPALIER_END

@@ -161,8 +161,9 @@ CONST_UINT(kRepeatY, 2u);
 CONST_UINT(kRepeatClip, 4u);    // cells keep their size, those on the border are clipped; else they are fitted
 CONST_UINT(kRepeatBond, 8u);    // every second row begins half a cell earlier
 CONST_UINT(kRepeatGrid, 16u);   // context-free: all cells stay one shape
-// S x y z, T x y z, R turn pitch, tint, colour; a size below 0 stays what it is, a tint or colour below 0 likewise.
-CONST_UINT(kScopeValues, 12u);
+// S x y z, T x y z, R turn pitch, tint, colour, layer + 1 of Drop and of Moss; a size, tint, colour or layer below 0 stays
+// what it is.
+CONST_UINT(kScopeValues, 14u);
 
 struct RuleRecord {
     uint kind;

@@ -192,7 +192,7 @@ TEST_CASE("one house grown anew gives what all grown anew give") {
     REQUIRE(growth.grow(r.inputs()));
     all[5].shape = RoofShape::mansard;
     replaceAtoms(r.tables, 5, structureOf({all[5]}));
-    REQUIRE(growth.growHouse(r.inputs(), 5));
+    REQUIRE(growth.growHouses(r.inputs(), std::vector<uint32_t>{5}));
     CHECK(growth.stats().expansions == 2);
     auto living = [&](const RoofRecords& records) {
         std::vector<std::pair<uint64_t, uint32_t>> keys;

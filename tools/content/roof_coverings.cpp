@@ -87,6 +87,16 @@ Mesh seam(int lod) {
     return s.box({0, 0, 0}, {fold, 1, kHigh}).mesh;
 }
 
+// What shows where tiles have gone: a batten over a rafter, the dark of the loft behind. Its front lies just below the
+// cells' plane.
+Mesh batten() {
+    Solid s;
+    constexpr float kDeep = -0.13f, kRafter = -0.035f, kFront = -0.006f;
+    s.quad({0, 0, kDeep}, {1, 0, kDeep}, {1, 1, kDeep}, {0, 1, kDeep}, 0.06f);
+    s.box({0.42f, 0, kDeep}, {0.55f, 1, kRafter}, 0.5f);
+    return s.box({0, 0.1f, kRafter}, {1, 0.3f, kFront}).mesh;
+}
+
 // Over a valley: two sheets that rise by half of Shape's thickness a side, folded up at their edges.
 Mesh valley(int lod) {
     Solid s;
@@ -114,6 +124,7 @@ void addCoverings(RoofMeshes& out) {
         out.all.push_back({"seam" + end, seam(lod), 1});
         out.all.push_back({"valley" + end, valley(lod), 1});
     }
+    out.all.push_back({"batten_lod0", batten(), 1});
 }
 
 }  // namespace espalier::content

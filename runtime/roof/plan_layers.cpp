@@ -1,0 +1,171 @@
+// Enters: dabs, pictures, records. Leaves: texels of layers over a town's site, and the rectangles that have changed.
+#include "runtime/roof/plan_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier {
+namespace {
+
+constexpr float kAround = 4;     // metres of the site beyond its houses
+constexpr float kTexel = 0.25f;  // metres
+constexpr uint32_t kMostTexels = 2048, kLeastTexels = 128;
+constexpr float kSmoothReach = .12f;  // of the radius, to what is averaged
+constexpr uint32_t kBlock = 8;
+
+void boundsOf(const RoofHouse& house, glm::vec2& low, glm::vec2& high) {
+    for (const auto& ring : house.rings)
+        for (glm::vec2 p : ring) {
+            const glm::vec2 world(float(house.origin.x) + p.x, float(-house.origin.y) - p.y);
+            low = glm::min(low, world);
+            high = glm::max(high, world);
+        }
+}
+
+}  // namespace
+
+void PlanRect::add(const PlanRect& r) {
+    x0 = std::min(x0, r.x0);
+    y0 = std::min(y0, r.y0);
+    x1 = std::max(x1, r.x1);
+    y1 = std::max(y1, r.y1);
+}
+
+PlanLayers::PlanLayers(const RoofStructure& structure) {
+    glm::vec2 low(1e9f), high(-1e9f);
+    for (const RoofHouse& house : structure.houses) boundsOf(house, low, high);
+    if (low.x > high.x) low = high = glm::vec2(0);
+    const float side = std::ceil(std::max(high.x - low.x, high.y - low.y) + 2 * kAround);
+    site_.low = (low + high) * 0.5f - 0.5f * side;
+    site_.size = kLeastTexels;
+    while (site_.size < kMostTexels && float(site_.size) * kTexel < side) site_.size *= 2;
+    site_.perMetre = float(site_.size) / side;
+}
+
+PlanLayer* PlanLayers::find(const std::string& name) {
+    for (PlanLayer& layer : layers_)
+        if (layer.name == name) return &layer;
+    return nullptr;
+}
+
+PlanLayer& PlanLayers::make(const std::string& name, float fill) {
+    if (PlanLayer* known = find(name)) return *known;
+    return layers_.emplace_back(PlanLayer{name, std::vector<float>(size_t(site_.size) * site_.size, fill)});
+}
+
+PlanRect PlanLayers::rectOf(glm::vec2 low, glm::vec2 high) const {
+    const auto texel = [&](float at, float add) {
+        return uint32_t(std::clamp(std::floor(at) + add, 0.0f, float(site_.size)));
+    };
+    low = (low - site_.low) * site_.perMetre;
+    high = (high - site_.low) * site_.perMetre;
+    return {texel(low.x, 0), texel(low.y, 0), texel(high.x, 1), texel(high.y, 1)};
+}
+
+PlanRect PlanLayers::under(const RoofHouse& house, float reach) const {
+    glm::vec2 low(1e9f), high(-1e9f);
+    boundsOf(house, low, high);
+    // A bilinear read takes in half a texel more.
+    return rectOf(low - reach - 0.5f / site_.perMetre, high + reach + 0.5f / site_.perMetre);
+}
+
+float PlanLayers::mean(const PlanLayer& layer, const RoofHouse& house) const {
+    const PlanRect r = under(house, 0);
+    double sum = 0;
+    for (uint32_t y = r.y0; y < r.y1; ++y)
+        for (uint32_t x = r.x0; x < r.x1; ++x) sum += layer.texels[size_t(y) * site_.size + x];
+    return r.empty() ? 0 : float(sum / (double(r.x1 - r.x0) * double(r.y1 - r.y0)));
+}
+
+void PlanLayers::keep(const PlanLayer& layer, PlanRecord& kept, const PlanRect& rect) const {
+    const uint32_t side = site_.size / kBlock;
+    for (uint32_t by = rect.y0 / kBlock; by * kBlock < rect.y1; ++by)
+        for (uint32_t bx = rect.x0 / kBlock; bx * kBlock < rect.x1; ++bx) {
+            const uint32_t block = by * side + bx;
+            if (std::ranges::find(kept.blocks, block) != kept.blocks.end()) continue;
+            kept.blocks.push_back(block);
+            for (uint32_t y = by * kBlock; y < (by + 1) * kBlock; ++y) {
+                const float* row = &layer.texels[size_t(y) * site_.size + bx * kBlock];
+                kept.texels.insert(kept.texels.end(), row, row + kBlock);
+            }
+        }
+}
+
+PlanRect PlanLayers::dabs(PlanLayer& layer, BrushRecord brush, bool smooths, std::span<const DabRecord> dabs,
+                          PlanRecord& kept) {
+    brush.flags = 0;
+    const float radius = 1 / brush.perRadius;
+    const int reach = std::max(1, int(kSmoothReach * radius * site_.perMetre + 0.5f)), last = int(site_.size) - 1;
+    PlanRect all;
+    for (const DabRecord& dab : dabs) {
+        const glm::vec2 at(dab.position.x, dab.position.z);
+        const PlanRect r = rectOf(at - radius, at + radius);
+        if (r.empty()) continue;
+        keep(layer, kept, r);
+        all.add(r);
+        const std::vector<float> before = smooths ? layer.texels : std::vector<float>();
+        const auto old = [&](int x, int y) {
+            return before[size_t(std::clamp(y, 0, last)) * site_.size + size_t(std::clamp(x, 0, last))];
+        };
+        for (uint32_t y = r.y0; y < r.y1; ++y)
+            for (uint32_t x = r.x0; x < r.x1; ++x) {
+                const vec3 p(site_.low.x + (float(x) + 0.5f) / site_.perMetre, dab.position.y,
+                             site_.low.y + (float(y) + 0.5f) / site_.perMetre);
+                float& value = layer.texels[size_t(y) * site_.size + x];
+                float target = brush.target;
+                if (smooths) {
+                    const int i = int(x), j = int(y);
+                    target = 0.25f * (old(i - reach, j) + old(i + reach, j) + old(i, j - reach) + old(i, j + reach));
+                }
+                value = towards(value, target, dabWeight(brush, dab, p, vec3(0, 1, 0)));
+            }
+    }
+    return all;
+}
+
+PlanRect PlanLayers::replace(PlanLayer& layer, std::span<const float> texels, PlanRecord& kept) {
+    const PlanRect all{0, 0, site_.size, site_.size};
+    keep(layer, kept, all);
+    std::ranges::copy(texels, layer.texels.begin());
+    return all;
+}
+
+PlanRect PlanLayers::fill(PlanLayer& layer, float value, PlanRecord& kept) {
+    const PlanRect all{0, 0, site_.size, site_.size};
+    keep(layer, kept, all);
+    std::ranges::fill(layer.texels, value);
+    return all;
+}
+
+PlanRect PlanLayers::swap(PlanLayer& layer, PlanRecord& kept) const {
+    const uint32_t side = site_.size / kBlock;
+    PlanRect all;
+    for (size_t i = 0; i < kept.blocks.size(); ++i) {
+        const uint32_t x = kept.blocks[i] % side * kBlock, y = kept.blocks[i] / side * kBlock;
+        for (uint32_t row = 0; row < kBlock; ++row)
+            std::swap_ranges(&kept.texels[(i * kBlock + row) * kBlock],
+                             &kept.texels[(i * kBlock + row) * kBlock] + kBlock,
+                             &layer.texels[size_t(y + row) * site_.size + x]);
+        all.add({x, y, x + kBlock, y + kBlock});
+    }
+    return all;
+}
+
+void PlanLayers::close(const PlanLayer& layer, PlanRecord& kept) const {
+    const uint32_t side = site_.size / kBlock;
+    PlanRecord changed;
+    for (size_t i = 0; i < kept.blocks.size(); ++i) {
+        const uint32_t x = kept.blocks[i] % side * kBlock, y = kept.blocks[i] / side * kBlock;
+        const float* was = &kept.texels[i * kBlock * kBlock];
+        bool same = true;
+        for (uint32_t row = 0; row < kBlock; ++row)
+            same = same && std::equal(was + row * kBlock, was + (row + 1) * kBlock,
+                                      &layer.texels[size_t(y + row) * site_.size + x]);
+        if (same) continue;
+        changed.blocks.push_back(kept.blocks[i]);
+        changed.texels.insert(changed.texels.end(), was, was + kBlock * kBlock);
+    }
+    kept = std::move(changed);
+}
+
+}  // namespace espalier

@@ -1,0 +1,172 @@
+// A shape of a roof grammar: what a rule may ask of it, the commands that change it, shapes that start from it.
+#ifndef ESPALIER_SHARED_ROOF_SHAPE_H
+#define ESPALIER_SHARED_ROOF_SHAPE_H
+#include "shaders/shared/interpreter.h"
+#include "shaders/shared/roof_layers.h"
+
+ESPALIER_BEGIN
+
+#ifdef __cplusplus
+inline uint roofAdd(uint& memory, uint value) { return __atomic_fetch_add(&memory, value, __ATOMIC_RELAXED); }
+inline uint roofOr(uint& memory, uint value) { return __atomic_fetch_or(&memory, value, __ATOMIC_RELAXED); }
+#else
+#define roofAdd atomicAdd
+#define roofOr atomicOr
+#endif
+
+CONST_FLOAT(kLeastSide, 1e-3f);   // metres: what is smaller vanishes
+CONST_FLOAT(kLeastCell, 0.01f);
+
+FN vec3 axisOf(vec3 v) { return unit3(v); }
+FN vec3 upward() { return vec3(0.0f, 1.0f, 0.0f); }
+
+// A point of a region's frame in the world, of a roof whose eave lies at `base`.
+FN vec3 regionPoint(RoofRegion r, vec3 at, float base, float stretch) {
+    vec3 d = r.axisA * at.x + r.axisB * at.y + r.axisC * at.z;
+    return vec3(r.origin.x + d.x, base + d.y * stretch, r.origin.z + d.z);
+}
+
+FN void giveVector(MACHINE_PARAM uint slot, vec3 v) {
+    SLOT(slot) = v.x;
+    SLOT(slot + 1u) = v.y;
+    SLOT(slot + 2u) = v.z;
+}
+
+// Fills the slots of rule_map.h for a shape.
+FN void giveLayers(MACHINE_PARAM RoofEnv env, RoofScope shape, uint layers) {
+    if (layers == 0u) return;
+    uint house = env.atoms.v[shape.atom].house;
+    vec3 p = shape.origin + shape.axisX * (0.5f * shape.size.x) + shape.axisY * (0.5f * shape.size.y);
+    for (uint i = 0u; i < kRoofLayers; ++i) {
+        if ((layers >> i & 1u) != 0u) SLOT(kSlotLayer + i) = roofLayerAt(env.layers, env.site, i, vec2(p.x, p.z));
+        if ((layers >> (i + kRoofLayers) & 1u) != 0u) SLOT(kSlotLayer + kRoofLayers + i) = env.means.v[house * kRoofLayers + i];
+    }
+    roofOr(env.reads.v[house], layers);
+}
+FN void giveShape(MACHINE_PARAM RoofEnv env, RoofScope shape) {
+    RoofAtom atom = env.atoms.v[shape.atom];
+    giveVector(MACHINE kSlotPos0, shape.origin);
+    giveVector(MACHINE kSlotPos1, shape.origin + shape.axisX * shape.size.x);
+    giveVector(MACHINE kSlotLocalNormal, cross3(shape.axisX, shape.axisY));
+    giveVector(MACHINE kSlotLocalTangent, shape.axisX);
+    giveVector(MACHINE kSlotEaveTangent, atom.tangent);
+    vec3 target1 = atom.foot;
+    vec3 target2 = atom.foot;
+    float start = 0.0f;
+    if (atom.region != kNoIndex) {
+        RoofRegion r = env.regions.v[atom.region];
+        target1 = regionPoint(r, atom.target1, shape.base, shape.stretch);
+        target2 = regionPoint(r, atom.target2, shape.base, shape.stretch);
+        start = -r.low.x;
+    }
+    giveVector(MACHINE kSlotRoofPos1, target1);
+    giveVector(MACHINE kSlotRoofPos2, target2);
+    SLOT(kSlotRoofHeight) = atom.height;
+    SLOT(kSlotRoofSlope) = atom.slope;
+    SLOT(kSlotProjectHeight) = shape.projectHeight;
+    SLOT(kSlotSizeX) = shape.size.x;
+    SLOT(kSlotSizeY) = shape.size.y;
+    SLOT(kSlotIndex) = float(shape.place & 0xFFFFu);
+    SLOT(kSlotCount) = float(shape.place >> 16u);
+    SLOT(kSlotEaveStart) = start;
+    SLOT(kSlotEaveLength) = atom.eaveLength;
+    SLOT(kSlotJoint) = float((shape.marks >> kShapeJoint) & 15u);
+    SLOT(kSlotOwner) = (shape.marks & kShapeOwner) != 0u ? 1.0f : 0.0f;
+    SLOT(kSlotFaceKind) = float(atom.kind);
+    SLOT(kSlotTier) = float(atom.tier);
+    SLOT(kSlotWallHeight) = atom.wallHeight;
+    SLOT(kSlotHouseRandom) = atom.random;
+    SLOT(kSlotHouseShape) = float(atom.style & 255u);
+    SLOT(kSlotHouseMaterial) = float((atom.style >> 8u) & 255u);
+    SLOT(kSlotHouseTinted) = float((atom.style >> 16u) & 1u);
+    giveVector(MACHINE kSlotHouseColour, atom.colour);
+    SLOT(kSlotCorners) = atom.corners.x;
+    SLOT(kSlotCorners + 1u) = atom.corners.y;
+}
+
+// A rule's numbers, kept while its successors' code runs.
+struct RoofNumbers {
+    float v[kMaxSplit];
+};
+FN vec3 vectorOf(RoofNumbers n, uint i) { return vec3(n.v[i], n.v[i + 1u], n.v[i + 2u]); }
+
+FN uint packColour(float r, float g, float b) {
+    return uint(sqrtExact(limited(r, 0.0f, 1.0f)) * 255.0f + 0.5f) |
+           (uint(sqrtExact(limited(g, 0.0f, 1.0f)) * 255.0f + 0.5f) << 8u) |
+           (uint(sqrtExact(limited(b, 0.0f, 1.0f)) * 255.0f + 0.5f) << 16u);
+}
+
+// S, T, R, Tint, Colour, Drop and Moss of a rule. What is negative leaves what there is.
+FN RoofScope applyScope(RoofNumbers n, RoofScope shape) {
+    vec3 size = vectorOf(n, 0u);
+    vec3 move = vectorOf(n, 3u);
+    float turn = n.v[6];
+    float pitch = n.v[7];
+    float tint = n.v[8];
+    vec3 colour = vectorOf(n, 9u);
+    vec3 normal = cross3(shape.axisX, shape.axisY);
+    shape.origin = shape.origin + shape.axisX * move.x + shape.axisY * move.y + normal * move.z;
+    if (size.x >= 0.0f) shape.size.x = size.x;
+    if (size.y >= 0.0f) shape.size.y = size.y;
+    if (size.z >= 0.0f) shape.thickness = size.z;
+    float s;
+    float c;
+    if (turn != 0.0f) {
+        sinCosExact(limited(turn, -100.0f, 100.0f), s, c);
+        vec3 x = shape.axisX * c + shape.axisY * s;
+        shape.axisY = axisOf(shape.axisY * c - shape.axisX * s);
+        shape.axisX = axisOf(x);
+    }
+    if (pitch != 0.0f) {
+        sinCosExact(limited(pitch, -100.0f, 100.0f), s, c);
+        shape.axisY = axisOf(shape.axisY * c + cross3(shape.axisX, shape.axisY) * s);
+    }
+    if (tint >= 0.0f) shape.colour = (shape.colour & 0xFFFFFFu) | (uint(limited(tint, 0.0f, 1.0f) * 255.0f + 0.5f) << 24u);
+    if (colour.x >= 0.0f) shape.colour = (shape.colour & 0xFF000000u) | packColour(colour.x, colour.y, colour.z);
+    if (n.v[12] >= 0.0f) shape.layers = (shape.layers & 0xFF00u) | uint(limited(n.v[12], 0.0f, 8.0f));
+    if (n.v[13] >= 0.0f) shape.layers = (shape.layers & 0xFFu) | (uint(limited(n.v[13], 0.0f, 8.0f)) << 8u);
+    return shape;
+}
+
+// The shape that a rectangle or segment of another starts as: no cells, no taper.
+FN RoofScope cleared(RoofScope shape) {
+    shape.taper = vec2(0.0f, 0.0f);
+    shape.cells = 0x10001u;
+    shape.marks &= 0xFFu;
+    return shape;
+}
+FN RoofScope sized(RoofScope shape, vec3 origin, vec3 x, vec3 y, vec2 size) {
+    shape.origin = origin;
+    shape.axisX = x;
+    shape.axisY = y;
+    shape.size = size;
+    shape.step = size;
+    shape.extent = size;
+    return shape;
+}
+FN RoofScope segmentOf(RoofScope shape, vec3 from, vec3 to, vec3 y) {
+    vec3 d = to - from;
+    float l = length3(d);
+    shape = sized(cleared(shape), from, axisOf(d), y, vec2(l, 0.0f));
+    shape.marks |= kShapeSegment;
+    return shape;
+}
+
+// A piece of an atom's outline as a segment that rises or, where it is level, runs with the eave; its normal lies
+// between the two faces.
+FN RoofScope pieceSegment(RoofScope shape, RoofRegion r, RoofPiece piece, bool forward) {
+    vec3 a = regionPoint(r, piece.from, shape.base, shape.stretch);
+    vec3 b = regionPoint(r, piece.to, shape.base, shape.stretch);
+    vec3 from = forward ? a : b;
+    vec3 to = forward ? b : a;
+    vec3 normal = r.axisA * piece.normal.x + r.axisB * piece.normal.y + r.axisC * piece.normal.z;
+    RoofScope s = segmentOf(shape, from, to, upward());
+    s.axisY = axisOf(cross3(normal, s.axisX));
+    s.region = kNoIndex;
+    s.projectHeight = piece.fold;
+    s.marks |= (piece.kind << kShapeJoint) | (piece.owner != 0u ? kShapeOwner : 0u);
+    return s;
+}
+
+ESPALIER_END
+#endif

@@ -1,0 +1,242 @@
+/* A town through the C interface: loading and placing, houses and their edits, layers, strokes and undo, bad arguments.
+ * A failed check prints its line and ends the program with 1. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plugin_api/espalier.h"
+
+#define CHECK(condition)                                                            \
+    do {                                                                            \
+        if (!(condition)) {                                                         \
+            fprintf(stderr, "%s:%d: failed: %s\n", __FILE__, __LINE__, #condition); \
+            exit(1);                                                                \
+        }                                                                           \
+    } while (0)
+#define OK(context, call)                                                                                          \
+    do {                                                                                                           \
+        EspResult result_ = (call);                                                                                \
+        if (result_ != ESP_OK) {                                                                                   \
+            fprintf(stderr, "%s:%d: %s gave %d: %s\n", __FILE__, __LINE__, #call, result_, espLastError(context)); \
+            exit(1);                                                                                               \
+        }                                                                                                          \
+    } while (0)
+#define REFUSED(call) CHECK((call) == ESP_INVALID_ARGUMENT)
+
+enum { kHouses = 8 };
+
+/* Houses of 10 × 8 m, 20 m apart along x, their north walls at z = -8. */
+static const char* town(void) {
+    static char text[4096];
+    size_t at = (size_t)sprintf(text, "{\"buildings\": [");
+    for (int i = 0; i < kHouses; ++i)
+        at += (size_t)sprintf(text + at, "%s{\"id\": \"h%d\", \"outer\": [[%d,0],[%d,0],[%d,8],[%d,8]]}", i ? "," : "", i,
+                              20 * i, 20 * i + 10, 20 * i + 10, 20 * i);
+    sprintf(text + at, "]}");
+    return text;
+}
+
+/* Walls rise by `rise` where the house is painted; tiles go by `decay`, which costs no growth. */
+static const char* kGrammar =
+    "context rise = 0\n"
+    "context decay = 0\n"
+    "House -> Extrude(wallHeight * (1 + rise(house))) {Wall, Top}\n"
+    "Wall -> Shape(\"panel\")\n"
+    "Top -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, Top}\n"
+    "Cover -> Repeat(XY, vec2(0.3, 0.25), bond) {Tile}\n"
+    "Tile -> Drop(decay) Shape(\"slate\")\n";
+
+static EspRoofStats stats(EspContext* context) {
+    EspRoofStats s;
+    OK(context, espReadRoofStats(context, &s));
+    return s;
+}
+
+/* Tiles drawn seen from straight above, near enough for each to be one. */
+static uint32_t drawnTiles(EspContext* context) {
+    EspDrawDef draw = espDefaultDrawDef();
+    draw.width = draw.height = 256;
+    draw.camera.eye[0] = draw.camera.target[0] = 5;
+    draw.camera.eye[1] = 20;
+    draw.camera.target[1] = 0;
+    draw.camera.eye[2] = -4.f;
+    draw.camera.target[2] = -4.1f;
+    draw.look.shadows = 0;
+    OK(context, espDraw(context, &draw));
+    return stats(context).drawnTiles;
+}
+
+static EspStroke dab(EspContext* context, const char* layer, float x, float z, float radius) {
+    EspBrush brush = espDefaultBrush();
+    EspDab at = {{0, 0, 0}, {0, 1, 0}, 1};
+    EspStroke stroke = {0};
+    brush.layer = layer;
+    brush.radius = radius;
+    brush.strength = brush.hardness = 1;
+    at.position[0] = x;
+    at.position[1] = 40; /* height doesn't matter */
+    at.position[2] = z;
+    OK(context, espBeginStroke(context, &brush, &stroke));
+    OK(context, espStrokeDabs(context, stroke, &at, 1));
+    OK(context, espEndStroke(context, stroke));
+    return stroke;
+}
+
+static void houses(EspContext* context) {
+    EspHouseInfo info;
+    EspHouseDef change = {ESP_ROOF_GABLE, 1, 0, NULL, 0, NULL, 0};
+    float corners[8];
+    CHECK(espHouseCount(context) == kHouses);
+    OK(context, espHouseInfo(context, 3, &info));
+    CHECK(!strcmp(info.id, "h3") && info.cornerCount == 4 && info.shape == ESP_ROOF_HIP);
+    OK(context, espHouseShape(context, 3, corners, NULL));
+    CHECK(fabsf(corners[0] - 60) < 1e-3f && fabsf(corners[1]) < 1e-3f);
+
+    const uint64_t before = stats(context).housesGrown;
+    OK(context, espSetHouse(context, 3, &change));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).housesGrown == before + 1);
+    OK(context, espHouseInfo(context, 3, &info));
+    CHECK(info.shape == ESP_ROOF_GABLE && fabsf(info.ridgeHeight - info.eaveHeight - 4) < 1e-3f);
+    EspHouseEdge edge = {1, 0, 2};
+    change.edges = &edge;
+    change.edgeCount = 1;
+    change.corners = corners;
+    change.cornerCount = 4;
+    corners[2] += 2;
+    corners[4] += 2;
+    OK(context, espSetHouse(context, 3, &change));
+    OK(context, espHouseInfo(context, 3, &info));
+    CHECK(info.edgeCount == 1 && fabsf(info.boundsMax[0] - 72) < 1e-3f);
+    change.slope = -1;
+    REFUSED(espSetHouse(context, 3, &change));
+    change.slope = 1;
+    change.cornerCount = 2;
+    REFUSED(espSetHouse(context, 3, &change));
+    REFUSED(espSetHouse(context, kHouses, &change));
+    REFUSED(espHouseInfo(context, kHouses, &info));
+    OK(context, espUpdate(context));
+}
+
+static void layers(EspContext* context) {
+    EspTownInfo info;
+    OK(context, espTownInfo(context, &info));
+    CHECK(info.houses == kHouses && info.layerSide >= 158 && info.layerTexels >= 512);
+    CHECK(info.layerLow[0] < 0 && info.layerLow[0] + info.layerSide > 150);
+
+    /* A layer that houses read: those under the dab grow anew, no others. */
+    const uint64_t hash = stats(context).hash;
+    uint64_t before = stats(context).housesGrown;
+    EspStroke up = dab(context, "rise", 45, -4, 12); /* the third house; 6 m short of its neighbours */
+    OK(context, espUpdate(context));
+    CHECK(stats(context).housesGrown == before + 1);
+    CHECK(espTownLayerCount(context) == 1 && !strcmp(espTownLayerName(context, 0), "rise"));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).housesGrown == before + 1); /* nothing changed since */
+    OK(context, espSwapStroke(context, up));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).housesGrown == before + 2);
+    dab(context, "rise", 15, 60, 3); /* over no house */
+    OK(context, espUpdate(context));
+    CHECK(stats(context).housesGrown == before + 2);
+
+    /* Tiles that are dropped cost no growth, and come back. */
+    const uint32_t whole = drawnTiles(context);
+    before = stats(context).housesGrown;
+    EspStroke gone = dab(context, "decay", 5, -4, 2);
+    CHECK(espStrokeBytes(context, gone) > 0);
+    OK(context, espUpdate(context));
+    const uint32_t fewer = drawnTiles(context);
+    CHECK(whole > 500 && fewer < whole - 50 && fewer > whole / 2);
+    CHECK(stats(context).housesGrown == before);
+    OK(context, espSwapStroke(context, gone));
+    OK(context, espUpdate(context));
+    CHECK(drawnTiles(context) == whole);
+    OK(context, espSwapStroke(context, gone));
+
+    /* Pictures in, texels out. */
+    static float picture[4] = {0, 1, 0, 1}, texels[2048 * 2048];
+    EspStroke set = {0};
+    uint32_t side = 0;
+    OK(context, espReadTownLayer(context, "decay", NULL, &side));
+    CHECK(side == info.layerTexels);
+    OK(context, espSetTownLayer(context, "decay", picture, 2, 2, &set));
+    side = 2048;
+    OK(context, espReadTownLayer(context, "decay", texels, &side));
+    CHECK(texels[0] == 0 && texels[side - 1] == 1 && texels[side * side - 1] == 1);
+    OK(context, espSwapStroke(context, set));
+    OK(context, espUpdate(context));
+    CHECK(drawnTiles(context) == fewer);
+    REFUSED(espSetTownLayer(context, "no such", picture, 2, 2, NULL));
+    REFUSED(espSetTownLayer(context, "decay", NULL, 2, 2, NULL));
+    side = 4;
+    REFUSED(espReadTownLayer(context, "decay", texels, &side));
+
+    EspStroke all = {0};
+    OK(context, espFillLayer(context, "rise", 1, &all));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash != hash);
+    OK(context, espSwapStroke(context, all));
+    OK(context, espUpdate(context));
+}
+
+int main(void) {
+    EspContext* context = NULL;
+    EspContextDef def = espDefaultContextDef();
+    EspGrammar grammar = {0}, ivy = {0};
+    EspGrammarDef text = {"town", kGrammar, strlen(kGrammar)};
+    def.validation = 1;
+    OK(context, espCreate(&def, &context));
+
+    EspTownDef load = espDefaultTownDef();
+    CHECK(load.ground == 1);
+    REFUSED(espLoadTown(context, &load));
+    load.text = "{}";
+    load.length = 2;
+    CHECK(espLoadTown(context, &load) == ESP_INVALID_CONTENT);
+    load.text = town();
+    load.length = strlen(load.text);
+    load.grammar.id = 77;
+    REFUSED(espLoadTown(context, &load));
+    load.grammar.id = 0;
+    EspHouseInfo house;
+    EspTownInfo info;
+    REFUSED(espTownInfo(context, &info));
+    REFUSED(espHouseInfo(context, 0, &house));
+    REFUSED(espSetTownGrammar(context, grammar));
+
+    OK(context, espCompileGrammar(context, &text, &grammar));
+    const char* walks = "A -> Marching(0.1, 0, arc < 1) {A}\n";
+    text.text = walks;
+    text.length = strlen(walks);
+    OK(context, espCompileGrammar(context, &text, &ivy));
+    OK(context, espLoadTown(context, &load));
+    REFUSED(espSetTownGrammar(context, ivy));
+    OK(context, espSetTownGrammar(context, grammar));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).houses == kHouses && stats(context).tiles > 1000 && stats(context).housesGrown == kHouses);
+
+    houses(context);
+    layers(context);
+
+    /* Turned by a right angle and moved: what lay to the east lies to the north. */
+    load.turn = 1.57079633f;
+    load.position[0] = 100;
+    load.position[1] = 5;
+    load.grammar = grammar;
+    OK(context, espLoadTown(context, &load));
+    OK(context, espHouseInfo(context, 7, &house));
+    CHECK(fabsf(house.boundsMin[0] - 92) < 1e-2f && fabsf(house.boundsMin[2] + 150) < 1e-2f && house.baseHeight == 5);
+    OK(context, espUpdate(context));
+    OK(context, espRemoveTown(context));
+    CHECK(espHouseCount(context) == 0);
+    OK(context, espUpdate(context));
+
+    EspStats all;
+    OK(context, espReadStats(context, &all));
+    CHECK(all.validationMessages == 0);
+    espDestroy(context);
+    printf("towns through the C interface: all checks passed\n");
+    return 0;
+}
