@@ -411,7 +411,8 @@ typedef struct EspStats {
 } EspStats;
 ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
 
-/* The growth as triangles, written by the GPU on request: for export, physics, ray tracing.
+/* The growth as triangles, written by the GPU on request: for export, physics, ray tracing. A town's roofs and walls follow
+ * it, every tile cut exactly, on the CPU; ESP_OUT_OF_MEMORY if they are more than 2^31 bytes.
  * vertices: 16 bytes each, 3 floats position (world), octahedral 2×16 snorm normal; indices: 32 bit. The arrays belong
  * to the context and live until the next call that grows or materialises. */
 typedef struct EspTriangles {

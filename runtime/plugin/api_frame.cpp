@@ -390,21 +390,27 @@ EspResult espMaterialise(EspContext* context, EspTriangles* out) {
         EmitInputs inputs;
         inputs.growth = context->growth->view();
         inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context->surfaceTable.address());
-        if (inputs.growth.nodeCount == 0) return ESP_OK;
-        Result<EmittedTriangles> triangles = context->renderer->materialise(inputs);
-        if (!triangles) return failGpu(context, triangles.failure());
-        auto vertices =
-            readBuffer(*context->device, triangles->vertices, 0, triangles->vertexCount * sizeof(TriangleVertex));
-        if (!vertices) return failGpu(context, vertices.failure());
-        auto indices = readBuffer(*context->device, triangles->indices, 0, triangles->indexCount * sizeof(uint32_t));
-        if (!indices) return failGpu(context, indices.failure());
-        context->vertices = std::move(*vertices);
-        context->indices = std::move(*indices);
+        context->vertices.clear();
+        context->indices.clear();
+        if (inputs.growth.nodeCount > 0) {
+            Result<EmittedTriangles> triangles = context->renderer->materialise(inputs);
+            if (!triangles) return failGpu(context, triangles.failure());
+            auto vertices =
+                readBuffer(*context->device, triangles->vertices, 0, triangles->vertexCount * sizeof(TriangleVertex));
+            if (!vertices) return failGpu(context, vertices.failure());
+            auto indices =
+                readBuffer(*context->device, triangles->indices, 0, triangles->indexCount * sizeof(uint32_t));
+            if (!indices) return failGpu(context, indices.failure());
+            context->vertices = std::move(*vertices);
+            context->indices = std::move(*indices);
+            out->ms = triangles->milliseconds;
+        }
+        if (EspResult bad = materialiseTown(*context, context->vertices, context->indices)) return bad;
+        if (context->indices.empty()) return ESP_OK;
         out->vertices = context->vertices.data();
-        out->vertexCount = triangles->vertexCount;
+        out->vertexCount = context->vertices.size() / sizeof(TriangleVertex);
         out->indices = reinterpret_cast<const uint32_t*>(context->indices.data());
-        out->indexCount = triangles->indexCount;
-        out->ms = triangles->milliseconds;
+        out->indexCount = context->indices.size() / sizeof(uint32_t);
         return ESP_OK;
     });
 }

@@ -167,11 +167,10 @@ EspResult updateTown(EspContext& context) {
         town.view = {};
         return ESP_OK;
     }
-    if (context.roofMeshes) {
-        Result<std::vector<RoofMesh>> bounds = context.renderer->loadRoofMeshes(std::move(*context.roofMeshes));
+    if (context.roofBounds.empty()) {
+        Result<std::vector<RoofMesh>> bounds = context.renderer->loadRoofMeshes(TerminalData(*context.roofMeshes));
         if (!bounds) return failGpu(&context, bounds.failure());
         context.roofBounds = std::move(*bounds);
-        context.roofMeshes.reset();
     }
     if (!context.roofs) {
         auto made = RoofGrowth::create(*context.device);

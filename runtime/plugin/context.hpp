@@ -187,7 +187,7 @@ struct EspContext {
     // Made when the first grammar of roofs or town asks for them.
     std::unique_ptr<espalier::RoofGrowth> roofs;
     std::vector<espalier::RoofMesh> roofBounds;
-    std::optional<espalier::TerminalData> roofMeshes;  // until the renderer has them
+    std::optional<espalier::TerminalData> roofMeshes;  // the renderer has a copy
     std::vector<espalier::TerminalMesh> roofMeshNames;
     std::filesystem::path roofMeshFile;
     std::optional<espalier::LoadedTown> town;
@@ -256,6 +256,8 @@ void swapTown(EspContext& context, PaintStroke& stroke);
 // Gives roofs the town's layers, and adds to LoadedTown::changed the houses that have read what was painted since.
 // True: something was.
 bool bindTownLayers(EspContext& context, RoofInputs& inputs);
+// Adds the town's roofs to what espMaterialise gives: TriangleVertex, uint32_t.
+EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices, std::vector<std::byte>& indices);
 // The number by which the town's grammar knows the layer; kNoIndex.
 uint32_t shownTownLayer(const EspContext& context, const char* name);
 EspResult failContent(const EspContext* context, const Failure& failure);

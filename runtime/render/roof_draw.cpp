@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "runtime/core/check.hpp"
+#include "runtime/emit/roof_triangles.hpp"
 
 namespace espalier {
 namespace {
@@ -23,27 +24,13 @@ Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
     return b;
 }
 
-std::vector<RoofMesh> boundsOf(const TerminalData& data) {
-    std::vector<RoofMesh> all(data.kinds.size(), RoofMesh{{0, 0, 0}, {1, 1, 0}});
-    for (const TerminalVariant& v : data.variants) {
-        RoofMesh b{glm::vec3(1e9f), glm::vec3(-1e9f)};
-        const TerminalLod& lod = v.lods.front();
-        for (uint32_t i = 0; i < lod.vertexCount; ++i) {
-            b.low = glm::min(b.low, data.vertices[lod.firstVertex + i].position);
-            b.high = glm::max(b.high, data.vertices[lod.firstVertex + i].position);
-        }
-        all[v.kind] = b;
-    }
-    return all;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData meshes, VkFormat color, VkFormat depth,
                                                    uint32_t samples) {
     auto out = std::make_unique<RoofDraw>();
     out->device_ = &device;
-    out->bounds_ = boundsOf(meshes);
+    out->bounds_ = terminalBounds(meshes);
     for (TerminalVariant& v : meshes.variants)
         for (TerminalLod& lod : v.lods) lod.error *= kErrorScale;
     Result<Terminals> terminals = Terminals::create(device, std::move(meshes));

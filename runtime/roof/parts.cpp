@@ -114,7 +114,9 @@ void cutIntoParts(std::span<const OutlineEdge> edges, std::vector<RoofPart>& par
             const uint32_t below = left ? p.low.front() : p.low.back(), above = left ? p.high.front() : p.high.back();
             const bool meets =
                 std::min(high, heightAt(edges[above], x)) - std::max(low, heightAt(edges[below], x)) > kSame;
-            if ((left || right) && meets && own.size() < kPartPlanes - 2) own.push_back(i);
+            // A side that ends upright has no cut, whose plane it takes.
+            const size_t cuts = (p.cutLeft ? 1 : 0) + (p.cutRight ? 1 : 0);
+            if ((left || right) && meets && own.size() + cuts < kPartPlanes) own.push_back(i);
         }
         for (uint32_t i : own)
             if (!edges[i].open && !edges[i].seam) planes.push_back(edges[i].plane);

@@ -16,12 +16,13 @@ namespace espalier {
 
 namespace {
 
-constexpr double kJoin = 1e-5;         // metres: nodes nearer than this are one
-constexpr double kStorey = 3;          // metres
-constexpr double kSteepest = 20;       // tangent, 87 degrees
-constexpr double kCollinear = 0.0175;  // sine of a degree: such neighbours share a slope
-constexpr double kMansardTop = 0.364;  // tangent of 20 degrees
-constexpr double kGambrelTop = 0.577;  // of 30
+constexpr double kJoin = 1e-5;               // metres: nodes nearer than this are one
+constexpr double kStorey = 3;                // metres
+constexpr uint64_t kMostWork = 150'000'000;  // of a house, see straightSkeleton: about two seconds
+constexpr double kSteepest = 20;             // tangent, 87 degrees
+constexpr double kCollinear = 0.0175;        // sine of a degree: such neighbours share a slope
+constexpr double kMansardTop = 0.364;        // tangent of 20 degrees
+constexpr double kGambrelTop = 0.577;        // of 30
 const double kDefaultSlope[] = {0.7, 0.7, 0.7, 1.0, 0.268, 1.732, 2.747, 0};  // by RoofShape
 
 double defaultSlope(RoofShape shape) {
@@ -81,8 +82,14 @@ class HouseMaker {
             say("its slopes and gables could not be made: a plain hip roof instead");
             return true;
         }
-        diagnostics_.push_back(
-            {{}, 0, 0, footprint_.id, "no roof that passes the check could be made: left out", false});
+        diagnostics_.push_back({{},
+                                0,
+                                0,
+                                footprint_.id,
+                                work_ > 0 ? "no roof that passes the check could be made: left out"
+                                          : "its " + std::to_string(edges_.corner.size()) +
+                                                " corners cut into each other too often for a roof: left out",
+                                false});
         return false;
     }
 
@@ -120,10 +127,11 @@ class HouseMaker {
                                        {Precision::high, 1e-7, 3}, {Precision::high, 1e-6, 4},
                                        {Precision::high, 1e-6, 5}, {Precision::high, 3e-6, 6}};
         for (const Way& way : ways) {
+            if (work_ == 0) break;
             Skeleton skeleton;
             SkeletonInput moved;
             if (way.jitter > 0) moved = jittered(plan.input, way.jitter, way.seed);
-            if (!straightSkeleton(way.jitter > 0 ? moved : plan.input, way.precision, skeleton)) continue;
+            if (!straightSkeleton(way.jitter > 0 ? moved : plan.input, way.precision, skeleton, work_)) continue;
             for (size_t i = 0; i < edges_.corner.size(); i++) skeleton.nodes[i] = glm::dvec3(edges_.corner[i], 0);
             Facets facets;
             if (!facetsOf(skeleton, faceSlopes(plan, skeleton), facets)) continue;
@@ -345,7 +353,7 @@ class HouseMaker {
         const Footprint& f = footprint_;
         double base = f.baseHeight, roof = ridge;
         std::optional<double> eave;
-        if (f.levels) eave = std::max(base, 0.0) + kStorey * std::max(*f.levels, 0.0);
+        if (f.levels) eave = base + kStorey * std::max(*f.levels, 0.0);
         if (ridge > 0 && f.roofHeight)
             roof = *f.roofHeight;
         else if (ridge > 0 && !f.slope && f.height && eave && *f.height - *eave > 0.3)
@@ -367,7 +375,8 @@ class HouseMaker {
     const RepairedOutline& outline_;
     const Edges edges_;
     std::vector<Diagnostic>& diagnostics_;
-    bool plain_ = false;  // slopes and gables of its own don't count
+    mutable uint64_t work_ = kMostWork;  // that is left, for all attempts together
+    bool plain_ = false;                 // slopes and gables of its own don't count
 };
 
 }  // namespace

@@ -13,6 +13,8 @@ namespace espalier {
 
 namespace {
 
+constexpr uint64_t kHighWork = 60;  // times as dear as in doubles
+
 template <class T>
 T absolute(T a) {
     return a < 0 ? -a : a;
@@ -29,8 +31,8 @@ T root(T a) {
 }  // namespace
 
 template <class T>
-Wavefront<T>::Wavefront(const SkeletonInput& input, Tolerance tolerance, Skeleton& out)
-    : input_(input), tolerance_(tolerance), out_(out) {
+Wavefront<T>::Wavefront(const SkeletonInput& input, Tolerance tolerance, Skeleton& out, uint64_t& work)
+    : input_(input), tolerance_(tolerance), out_(out), work_(work) {
     out_.nodes.clear();
     out_.faces.clear();
     out_.arcs.clear();
@@ -235,6 +237,8 @@ void Wavefront<T>::findSplits(int corner, T horizon) {
         until = cut;
     }
     std::sort(found_.begin(), found_.end());
+    const uint64_t done = lines_.size() * (sizeof(T) > sizeof(double) ? kHighWork : 1);
+    work_ -= std::min(work_, done);
     c.searched = until;
     c.candidate = int(pool_.size());
     pool_.insert(pool_.end(), found_.begin(), found_.end());
@@ -366,7 +370,7 @@ bool Wavefront<T>::run() {
     int count = int(corners_.size());
     for (int c = 0; c < count; c++)
         if (!setOff(c)) return false;  // neighbours in one line at different speeds, or a spike
-    for (int c = 0; c < count; c++) scheduleShrink(c);
+    for (int c = 0; c < count && work_ > 0; c++) scheduleShrink(c);
     if (input_.breakHeight < std::numeric_limits<double>::infinity())
         events_.push({T(input_.breakHeight), Kind::stop, std::numeric_limits<int>::max(), 0});
     // Each shrink or split uses up corners and sides; more than this many events is a loop.
@@ -374,7 +378,7 @@ bool Wavefront<T>::run() {
     while (alive_ > 0 && !events_.empty()) {
         Event event = events_.top();
         events_.pop();
-        if (corners_.size() > limit) return false;
+        if (corners_.size() > limit || work_ == 0) return false;
         now_ = std::max(now_, event.time);
         if (event.kind == Kind::shrink) shrink(event.corner, event.other);
         if (event.kind == Kind::split) split(event.corner, event.other);
@@ -383,9 +387,9 @@ bool Wavefront<T>::run() {
     return alive_ == 0;
 }
 
-bool straightSkeleton(const SkeletonInput& input, Precision precision, Skeleton& out) {
-    if (precision == Precision::fast) return Wavefront<double>(input, {1e-9, 1e-8}, out).run();
-    return Wavefront<__float128>(input, {1e-20, 1e-16}, out).run();
+bool straightSkeleton(const SkeletonInput& input, Precision precision, Skeleton& out, uint64_t& work) {
+    if (precision == Precision::fast) return Wavefront<double>(input, {1e-9, 1e-8}, out, work).run();
+    return Wavefront<__float128>(input, {1e-20, 1e-16}, out, work).run();
 }
 
 }  // namespace espalier

@@ -46,7 +46,9 @@ struct Skeleton {
 enum class Precision { fast /* double */, high /* 113 bits */ };
 
 // None: the events contradicted each other (the next precision, or corners moved by a hair, may do).
-// Any thread; about 0.5 us a corner for small polygons, O(corners * reflex corners) for large ones.
-bool straightSkeleton(const SkeletonInput& input, Precision precision, Skeleton& out);
+// Any thread; about 0.5 us a corner for small polygons, O(corners * reflex corners) for large ones. work: edges that
+// reflex corners may look at, a high precision one counting for several; what was used is taken off, and none is made
+// once it is 0.
+bool straightSkeleton(const SkeletonInput& input, Precision precision, Skeleton& out, uint64_t& work);
 
 }  // namespace espalier

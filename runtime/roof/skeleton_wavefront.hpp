@@ -31,7 +31,7 @@ class Wavefront {
         T parallel;  // sine of the angle below which edges count as parallel
     };
 
-    Wavefront(const SkeletonInput& input, Tolerance tolerance, Skeleton& out);
+    Wavefront(const SkeletonInput& input, Tolerance tolerance, Skeleton& out, uint64_t& work);
     bool run();
 
   private:
@@ -96,6 +96,7 @@ class Wavefront {
     std::vector<Meeting> found_;
     T now_ = 0;
     int alive_ = 0;
+    uint64_t& work_;  // that is left
 };
 
 }  // namespace espalier

@@ -3,7 +3,7 @@
 #include "shaders/shared/extensions.glsl"
 // A grid each: is it seen, and as cells or as a pattern? Cells' rows are listed for cull_rows.
 #include "shaders/emit/bucket_count.glsl"
-#include "shaders/roof/draw_records.h"
+#include "shaders/roof/clarity.glsl"
 #include "shaders/shared/dispatch.glsl"
 
 layout(local_size_x = 64) in;
@@ -26,12 +26,12 @@ void main() {
     float pixels = view.pixelScale / far;
     if (pixels * max(size.x, size.y) < 0.7) return;
     bool shadow = (env.flags & kRoofShadow) != 0u;
-    // Courses seen edge-on would flicker long before they are small.
-    float lying = view.parallel != 0u ? 1.0 : abs(dot(cross(g.axisX, g.axisY), normalize(view.eye - center)));
-    bool thin = (g.cells >> 16u) > 1u && pixels * g.step.y * lying < 1.5;
-    if (many && (shadow || thin || pixels * max(min(g.step.x, g.step.y), 0.25 * max(g.step.x, g.step.y)) < env.leastCell)) {
-        // Sparse cells would paint over what lies between them.
-        if (g.size.x * g.size.y < 0.6 * g.step.x * g.step.y) return;
+    bool pattern = many && (shadow || cellClarity(env, view, g, center, far) < 1.0);
+    // Cells go over into their pattern one by one, the furthest first.
+    bool below = many && !pattern && cellClarity(env, view, g, center, far + 2.0 * reach) < kFadeEnd;
+    bool sparse = g.size.x * g.size.y < 0.6 * g.step.x * g.step.y;
+    if (pattern && sparse) return;   // it would paint over what lies between the cells
+    if (pattern || (below && !sparse)) {
         uint first = 0u;
         uint count = 1u;
         if (g.region != kNoIndex) {
@@ -40,8 +40,8 @@ void main() {
         }
         uint at = atomicAdd(env.state.v[0].rectangles, count);
         for (uint p = 0u; p < count && at + p < env.rectangleRoom; ++p)
-            env.rectangles.v[at + p] = RoofTile(i, g.region != kNoIndex ? first + p : kNoIndex);
-        return;
+            env.rectangles.v[at + p] = RoofTile(below ? i | kRectangleBelow : i, g.region != kNoIndex ? first + p : kNoIndex);
+        if (pattern) return;
     }
     uint rows = g.cells >> 16u;
     uint at = atomicAdd(env.state.v[0].rows, rows);

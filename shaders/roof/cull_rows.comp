@@ -31,12 +31,18 @@ void main() {
     uint lod = variant.lodCount - 1u;
     while (lod > 0u && variant.error[lod] * pixels > view.lodPixels) --lod;
     uint bucket = variant.firstBucket + lod;
-    bool drops = mayDrop(env.roofs, g);
+    float share = 1.0;
+    if (g.firstRow != kNoIndex) {
+        float away = view.parallel != 0u ? 1.0 : max(distance(view.eye, center), 0.05);
+        share = clamp((cellClarity(env, view, g, center, away) - 1.0) / (kFadeEnd - 1.0), 0.0, 1.0);
+    }
+    env.rows.v[i].share = share;
+    bool drops = share < 1.0 || mayDrop(env.roofs, g);
     uint whole = drops ? 0u : runCount(run.whole);
     uint cut = 0u;
     for (uint k = 0u; k < runCount(run.touched); ++k) {
         uint column = runFirst(run.touched) + k;
-        if (drops && cellDropped(env.roofs, g, column, item.row)) continue;
+        if (drops && cellHidden(env, g, share, column, item.row)) continue;
         if (column - runFirst(run.whole) < runCount(run.whole)) {
             whole += drops ? 1u : 0u;
             continue;

@@ -12,8 +12,9 @@ struct RoofRow {
     uint grid, row;
     uint bucket;
     uint wholePlace, cutPlace;   // in the bucket
+    float share;                 // of its cells that are drawn; the pattern below stands for the others
 };
-STATIC_SIZE(RoofRow, 20);
+STATIC_SIZE(RoofRow, 24);
 
 // cell: bits 15..0 column, 31..16 row.
 struct RoofTile {
@@ -31,6 +32,8 @@ struct RoofCutTile {
     uint planes;
 };
 STATIC_SIZE(RoofCutTile, 16);
+
+CONST_UINT(kRectangleBelow, 1u << 31u);   // RoofTile::grid of a pattern that lies under cells
 
 struct RoofDrawState {
     uint rows;

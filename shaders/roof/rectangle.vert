@@ -15,7 +15,8 @@ void main() {
     RoofDrawEnv env = push.env.v[0];
     uint vertex = uint(gl_VertexIndex);
     RoofTile item = env.rectangles.v[vertex / 6u];
-    RoofGrid g = env.roofs.grids.v[item.grid];
+    bool below = (item.grid & kRectangleBelow) != 0u;
+    RoofGrid g = env.roofs.grids.v[item.grid & ~kRectangleBelow];
     uint corner = vertex % 6u;
     vec2 share = vec2(corner == 1u || corner == 2u || corner == 4u ? 1.0 : 0.0, corner == 2u || corner == 4u || corner == 5u ? 1.0 : 0.0);
     // Where nothing repeats, what the mesh covers; else all cells.
@@ -23,11 +24,12 @@ void main() {
     uvec2 cells = uvec2(g.cells & 0xFFFFu, g.cells >> 16u);
     vec2 low = vec2(0.0);
     vec2 high = min(g.extent, g.step * vec2(cells));
-    float lift = (env.flags & kRoofShadow) != 0u ? -0.04 : 0.01;   // cells don't shade themselves
+    float lift = (env.flags & kRoofShadow) != 0u ? -0.04 : below ? -0.006 : 0.01;   // cells don't shade themselves
+    lift += 4.0 * min(mesh.high.z, 0.0);   // what lies below tiles stays there
     if (cells.y == 1u) {
         low.y = mesh.low.y * g.size.y;
         high.y = mesh.high.y * g.size.y;
-        lift = mesh.high.z * g.thickness * 0.7;
+        lift = mesh.high.z * g.thickness * (below ? 0.4 : 0.7);
     }
     if (cells.x == 1u) {
         low.x = mesh.low.x * g.size.x;

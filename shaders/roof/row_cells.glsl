@@ -2,7 +2,7 @@
 #ifndef ESPALIER_ROOF_ROW_CELLS_GLSL
 #define ESPALIER_ROOF_ROW_CELLS_GLSL
 #include "shaders/emit/bucket_count.glsl"
-#include "shaders/roof/draw_records.h"
+#include "shaders/roof/clarity.glsl"
 #include "shaders/shared/roof_cells.h"
 
 // A cell outside of its row's run of whole ones. `whole`: nothing cuts it after all. Otherwise rectangleCuts are what the
@@ -37,6 +37,12 @@ CellFate cellFate(RoofDrawEnv env, RoofGrid g, RoofMesh mesh, uint column, uint 
 // The planes that part i takes off a cell; kPartMissed if there is nothing of it.
 uint partPlanes(RoofDrawEnv env, RoofGrid g, RoofRegion r, uint i, CellBox box) {
     return partCuts(env.roofs, g, r, env.roofs.parts.v[r.firstPart + i], box);
+}
+
+// Gone by a layer, or left to the pattern below.
+bool cellHidden(RoofDrawEnv env, RoofGrid g, float share, uint column, uint row) {
+    if (share < 1.0 && float(roofCellHash(g.key, column, row) >> 16u) * (1.0 / 65536.0) >= share) return true;
+    return mayDrop(env.roofs, g) && cellDropped(env.roofs, g, column, row);
 }
 
 RoofRun runOf(RoofDrawEnv env, RoofGrid g, uint row) {

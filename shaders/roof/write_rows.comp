@@ -18,10 +18,10 @@ void main() {
     RoofRun run = runOf(env, g, item.row);
     uint whole = env.state.v[0].wholeStarts[item.bucket] + item.wholePlace;
     uint cut = env.state.v[0].cutStarts[item.bucket] + item.cutPlace;
-    bool drops = mayDrop(env.roofs, g);
+    bool drops = item.share < 1.0 || mayDrop(env.roofs, g);
     for (uint k = 0u; k < runCount(run.touched); ++k) {
         uint column = runFirst(run.touched) + k;
-        if (drops && cellDropped(env.roofs, g, column, item.row)) continue;
+        if (drops && cellHidden(env, g, item.share, column, item.row)) continue;
         uint cell = column | (item.row << 16u);
         CellFate fate;
         fate.whole = column - runFirst(run.whole) < runCount(run.whole);

@@ -181,6 +181,28 @@ static void layers(EspContext* context) {
     OK(context, espUpdate(context));
 }
 
+/* What is upright below the eaves are walls. */
+static void triangles(EspContext* context) {
+    EspTriangles t;
+    OK(context, espMaterialise(context, &t));
+    CHECK(t.vertexCount > 1000 && t.indexCount % 3 == 0 && t.indexCount > 1000);
+    double walls = 0;
+    for (uint64_t i = 0; i < t.indexCount; i += 3) {
+        float p[3][3];
+        for (int k = 0; k < 3; ++k) {
+            CHECK(t.indices[i + k] < t.vertexCount);
+            memcpy(p[k], (const char*)t.vertices + 16 * (size_t)t.indices[i + k], 12);
+        }
+        const double ax = p[1][0] - p[0][0], ay = p[1][1] - p[0][1], az = p[1][2] - p[0][2];
+        const double bx = p[2][0] - p[0][0], by = p[2][1] - p[0][1], bz = p[2][2] - p[0][2];
+        const double nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+        const double area = sqrt(nx * nx + ny * ny + nz * nz) / 2;
+        if (p[0][1] < 6.01f && p[1][1] < 6.01f && p[2][1] < 6.01f && fabs(ny) < 1e-6) walls += area;
+    }
+    /* 6 m high around 10 × 8 m; one house is 12 m long. */
+    CHECK(fabs(walls - 6 * (kHouses * 36.0 + 4)) < 25);
+}
+
 int main(void) {
     EspContext* context = NULL;
     EspContextDef def = espDefaultContextDef();
@@ -219,6 +241,7 @@ int main(void) {
 
     houses(context);
     layers(context);
+    triangles(context);
 
     /* Turned by a right angle and moved: what lay to the east lies to the north. */
     load.turn = 1.57079633f;

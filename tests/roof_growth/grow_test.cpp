@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <set>
 
+#include "runtime/roof/plan_layers.hpp"
+#include "shaders/shared/roof_layers.h"
 #include "tests/roof_growth/grow_support.hpp"
 
 using namespace roof_test;
@@ -213,6 +215,103 @@ TEST_CASE("one house grown anew gives what all grown anew give") {
     CHECK(patched == expected);
 }
 
+TEST_CASE("layers are read at a shape's place and over its house, alike on both devices") {
+    std::vector<Footprint> all;
+    for (int i = 0; i < 4; ++i) {
+        std::vector<glm::dvec2> plan = kRectangle;
+        for (glm::dvec2& p : plan) p.x += 20 * i;
+        all.push_back(footprint(plan));
+    }
+    Roofs r = roofs(all,
+                    "context here = 0\ncontext mean = 0\ncontext unread = 1\n"
+                    "House : mean(house) > 0.1 -> Extrude(1) {Wall(mean(house)), NULL}\n"
+                    "House -> Extrude(1) {Wall(here(texCoord)), NULL}\n"
+                    "Wall(v) -> S(1 + v, 1 + unread(house)) Shape(\"panel\")\n");
+    // 100 m in texels of a metre: `here` rises eastwards by a hundredth a metre, `mean` covers half of house 2.
+    constexpr uint32_t kSide = 100;
+    std::vector<float> here(kSide * kSide), mean(kSide * kSide);
+    for (uint32_t y = 0; y < kSide; ++y)
+        for (uint32_t x = 0; x < kSide; ++x) {
+            here[y * kSide + x] = (float(x) + 0.5f) / 100;
+            mean[y * kSide + x] = x >= 40 && x < 45 ? 1 : 0;
+        }
+    std::vector<float> means(4 * kRoofLayers, 0.0f);
+    for (uint32_t h = 0; h < 4; ++h) means[h * kRoofLayers + 1] = h == 2 ? 0.5f : 0.0f, means[h * kRoofLayers + 2] = 1;
+    RoofInputs inputs = r.inputs();
+    inputs.site = {{-10, -50}, 1, kSide};
+    inputs.layers[0].texels = here.data();
+    inputs.layers[1].texels = mean.data();
+    inputs.means = means;
+    const CpuRoofs cpu = growRoofsOnCpu(inputs);
+    CHECK(cpu.records.grids.size() == 16);
+    for (const RoofGrid& g : cpu.records.grids) {
+        CHECK(g.size.y == doctest::Approx(2));
+        const uint32_t house = g.house & 0xFFFFFFu;
+        // A wall stands on its eave, whose middle is where it is asked.
+        const RoofAtom& atom = r.tables.atoms[g.atom];
+        const float middle = atom.foot.x + atom.tangent.x * atom.eaveLength / 2;
+        CHECK(g.size.x == doctest::Approx(house == 2 ? 1.5f : 1.1f + middle / 100).epsilon(1e-4));
+    }
+    for (uint32_t h = 0; h < 4; ++h) CHECK(cpu.reads[h] == (h == 2 ? 0x600u : 0x601u));
+
+    Result<std::unique_ptr<Device>> device = Device::create({});
+    REQUIRE(device);
+    auto made = RoofGrowth::create(**device);
+    REQUIRE(made);
+    REQUIRE((*made)->grow(inputs));
+    CHECK((*made)->stats().hash == (uint64_t(cpu.status.hash[1]) << 32 | cpu.status.hash[0]));
+    const auto reads = (*made)->reads();
+    CHECK(std::vector<uint32_t>(reads.begin(), reads.end()) == cpu.reads);
+}
+
+TEST_CASE("dabs on a site are undone bit for bit and reach no further than their radius") {
+    const Roofs r = roofs({footprint(kRectangle)}, kSlates);
+    PlanLayers plan(r.structure);
+    PlanLayer& layer = plan.make("moss", 0.25f);
+    const std::vector<float> before = layer.texels;
+    BrushRecord brush{};
+    brush.perRadius = 0.5f;
+    brush.perSoft = 1;
+    brush.target = 1;
+    brush.strength = 0.7f;
+    PlanRecord kept;
+    std::vector<DabRecord> dabs;
+    for (int i = 0; i < 20; ++i) dabs.push_back({{0.3f * float(i), 7, -3}, 1, {0, 1, 0}, 0});
+    const PlanRect rect = plan.dabs(layer, brush, false, dabs, kept);
+    const RoofSite site = plan.site();
+    double painted = 0;
+    for (uint32_t y = 0; y < site.size; ++y)
+        for (uint32_t x = 0; x < site.size; ++x) {
+            const float value = layer.texels[y * site.size + x];
+            const glm::vec2 at = site.low + (glm::vec2(x, y) + 0.5f) / site.perMetre;
+            const float away = glm::length(glm::vec2(std::max({0 - at.x, at.x - 5.7f, 0.0f}), at.y + 3));
+            if (away > 2.0f) CHECK(value == 0.25f);
+            if (away < 0.5f) CHECK(value > 0.9f);
+            if (value != 0.25f) CHECK((x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1));
+            painted += value - 0.25;
+        }
+    CHECK(painted > 0);
+    PlanRecord smooth;
+    plan.dabs(layer, brush, true, dabs, smooth);
+    plan.swap(layer, smooth);
+    plan.close(layer, kept);
+    CHECK(kept.blocks.size() > 3);
+    plan.swap(layer, kept);
+    CHECK(layer.texels == before);
+}
+
+TEST_CASE("cells go where their layer is painted, the more the stronger") {
+    uint32_t gone[5] = {};
+    for (uint32_t i = 0; i < 10000; ++i)
+        for (uint32_t step = 0; step < 5; ++step)
+            gone[step] += cellHold(0x1234567u, i % 100, i / 100) < 0.25f * float(step) ? 1 : 0;
+    CHECK(gone[0] == 0);
+    CHECK(gone[1] > 500);
+    CHECK(gone[2] > gone[1] + 2000);
+    CHECK(gone[3] > gone[2] + 2000);
+    CHECK(gone[4] == 10000);
+}
+
 TEST_CASE("mistakes in grammars of roofs are named") {
     const struct {
         const char* text;
@@ -227,6 +326,8 @@ TEST_CASE("mistakes in grammars of roofs are named") {
         {"A -> Explode() {Shape(\"slat\")}", "there is no mesh \"slat\" (did you mean 'slate'?)"},
         {"A -> Explode() {B, C}\nB -> Marching(1, 0, true) {B}\nC -> NULL", "either marches or makes roofs"},
         {"let a = b\nlet b = a\nA -> Project(a, b) {NULL}", "defined by itself"},
+        {"context m = 0\nA -> Extrude(m(uv)) {NULL}", "or over the whole house: m(house)"},
+        {"param m = 1\nA -> Extrude(1) {Drop(m) Shape(\"slate\")}", "one of the first 8 context layers"},
         {"A -> Repeat(XY, 1, fitted) {Shape(\"slate\")}", "fit, clip or bond"},
     };
     for (const auto& c : cases) {

@@ -44,6 +44,11 @@ bool layLayer(EspContext* context, const Scene& scene, const SceneLayer& layer, 
     }
     GreyPicture picture;
     if (!readGrey(layer.file, picture, error)) return false;
+    if (layer.surface == SceneLayer::kTown)
+        return fromContext(
+            context,
+            espSetTownLayer(context, layer.name.c_str(), picture.texels.data(), picture.width, picture.height, nullptr),
+            error);
     for (size_t i = 0; i < scene.surfaces.size(); ++i) {
         if (layer.surface >= 0 && size_t(layer.surface) != i) continue;
         EspLayerDef def;

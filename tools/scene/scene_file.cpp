@@ -121,9 +121,15 @@ class Reader {
     void readLayer(const std::string& name, const Json& json) {
         if (json.kind != Json::Kind::list) return out_.layers.push_back({name, file(json), -1});
         for (const Json& picture : json.items) {
-            if (!isObject(picture, "a layer's picture", {"surface", "file"})) continue;
+            if (!isObject(picture, "a layer's picture", {"surface", "town", "file"})) continue;
             float index = 0;
-            number(picture, "surface", 0, float(out_.surfaces.size()) - 1, index);
+            bool town = false;
+            flag(picture, "town", town);
+            if (town)
+                index = SceneLayer::kTown;
+            else
+                number(picture, "surface", 0, float(out_.surfaces.size()) - 1, index);
+            if (town && !out_.town) fail(picture, "the scene has no town");
             if (const Json* on = need(picture, "file")) out_.layers.push_back({name, file(*on), int(index)});
         }
     }

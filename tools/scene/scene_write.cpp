@@ -77,7 +77,9 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     for (const SceneGrammar& grammar : file.grammars)
         json["grammars"].push_back(grammarJson(grammar, beside(grammar.file)));
     for (const SceneLayer& layer : file.layers) {
-        if (layer.surface < 0)
+        if (layer.surface == SceneLayer::kTown)
+            json["layers"][layer.name].push_back({{"town", true}, {"file", beside(layer.file)}});
+        else if (layer.surface < 0)
             json["layers"][layer.name] = beside(layer.file);
         else
             json["layers"][layer.name].push_back({{"surface", layer.surface}, {"file", beside(layer.file)}});

@@ -19,7 +19,7 @@ constexpr size_t kMostBytes = 3u << 30;  // a glTF binary counts in 32 bits
 class GlbWriter {
   public:
     // False when the file would grow beyond what its format can count.
-    bool add(const std::string& name, const TownMesh& mesh) {
+    bool add(const std::string& name, const RoofTriangles& mesh) {
         if (mesh.indices.empty()) return true;
         const size_t bytes = mesh.positions.size() * 28 + mesh.indices.size() * 4;
         if (binary_.size() + bytes > kMostBytes) return false;
@@ -102,28 +102,13 @@ Result<RuleMap> compileFor(const TownArguments& arguments, const TerminalData& m
     return map;
 }
 
-// By kind, as the renderer takes them: of the finest level.
-std::vector<RoofMesh> boundsOf(const TerminalData& data) {
-    std::vector<RoofMesh> all(data.kinds.size(), RoofMesh{{0, 0, 0}, {1, 1, 0}});
-    for (const TerminalVariant& v : data.variants) {
-        RoofMesh b{glm::vec3(1e9f), glm::vec3(-1e9f)};
-        const TerminalLod& lod = v.lods.front();
-        for (uint32_t i = 0; i < lod.vertexCount; ++i) {
-            b.low = glm::min(b.low, data.vertices[lod.firstVertex + i].position);
-            b.high = glm::max(b.high, data.vertices[lod.firstVertex + i].position);
-        }
-        all[v.kind] = b;
-    }
-    return all;
-}
-
 Status addTiles(const TownArguments& arguments, const RoofStructure& structure, GlbWriter& glb, size_t& triangles) {
     Result<TerminalData> meshes = readTerminals(arguments.meshes, {"bark"});
     if (!meshes) return meshes.failure();
     Result<RuleMap> map = compileFor(arguments, *meshes);
     if (!map) return map.failure();
     const RoofTables tables = makeAtoms(structure);
-    const std::vector<RoofMesh> bounds = boundsOf(*meshes);
+    const std::vector<RoofMesh> bounds = terminalBounds(*meshes);
     RoofInputs inputs;
     inputs.town = &tables;
     inputs.grammar = &*map;
@@ -136,11 +121,14 @@ Status addTiles(const TownArguments& arguments, const RoofStructure& structure, 
     env.parts.v = roofs.records.parts.data();
     env.planes.v = roofs.records.planes.data();
     env.meshes.v = const_cast<RoofMesh*>(bounds.data());
+    RoofLayer layers[kRoofLayers] = {};  // nothing is painted
+    for (uint32_t i = 0; i < kRoofLayers; ++i) layers[i].fill = inputs.fill(i);
+    env.layers.v = layers;
     std::vector<std::vector<uint32_t>> gridsOf(structure.houses.size());
     for (uint32_t i = 0; i < roofs.records.grids.size(); ++i)
         gridsOf[roofs.records.grids[i].house & 0xFFFFFFu].push_back(i);
     for (uint32_t h = 0; h < structure.houses.size(); ++h) {
-        TownMesh mesh;
+        RoofTriangles mesh;
         for (uint32_t g : gridsOf[h]) appendGrid(env, roofs.records.grids[g], *meshes, mesh);
         triangles += mesh.indices.size() / 3;
         if (!glb.add(structure.houses[h].id, mesh))
@@ -176,7 +164,7 @@ Status bakeTown(const TownArguments& arguments) {
         if (Status s = addTiles(arguments, structure, glb, triangles); !s) return s;
     } else {
         for (uint32_t h = 0; h < structure.houses.size(); ++h) {
-            TownMesh mesh;
+            RoofTriangles mesh;
             appendMassing(structure, h, mesh);
             triangles += mesh.indices.size() / 3;
             if (!glb.add(structure.houses[h].id, mesh))

@@ -1,12 +1,8 @@
-// In: roof structures, or grids of cells. Out: triangles. A cell is cut in its grid's own coordinates by the
-// half-spaces of each part of its region that it meets, so that neighbouring faces' tiles share their cuts (Buron 2013
-// §3.3).
+// In: roof structures. Out: triangles.
 #include "tools/bake/main/town_mesh.hpp"
 
 #include <algorithm>
 #include <array>
-
-#include "shaders/shared/roof_cells.h"
 
 namespace espalier {
 namespace {
@@ -26,7 +22,7 @@ glm::vec3 newell(const std::vector<glm::vec3>& p) {
 }
 
 // Ears of a simple planar polygon.
-void appendPolygon(std::vector<glm::vec3> p, uint32_t colour, TownMesh& out) {
+void appendPolygon(std::vector<glm::vec3> p, uint32_t colour, RoofTriangles& out) {
     const glm::vec3 n = unitOf(newell(p));
     auto convex = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) { return glm::dot(glm::cross(b - a, c - b), n); };
     auto add = [&](std::array<glm::vec3, 3> t) {
@@ -58,120 +54,9 @@ void appendPolygon(std::vector<glm::vec3> p, uint32_t colour, TownMesh& out) {
     if (p.size() == 3) add({p[0], p[1], p[2]});
 }
 
-// A corner of a mesh while it is cut; at: the grid's coordinates.
-struct Corner {
-    glm::vec3 at, normal;
-    float shade;
-};
-Corner between(const Corner& a, const Corner& b, float t) {
-    return {glm::mix(a.at, b.at, t), glm::mix(a.normal, b.normal, t), glm::mix(a.shade, b.shade, t)};
-}
-using Polygon = std::vector<Corner>;
-
-void cut(Polygon& polygon, CellPlane plane) {
-    auto beyond = [&](const Corner& c) {
-        return plane.fx * c.at.x + plane.fy * c.at.y + plane.fz * c.at.z - plane.limit;
-    };
-    Polygon kept;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-        const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        const float da = beyond(a), db = beyond(b);
-        if (da <= 0) kept.push_back(a);
-        if ((da < 0 && db > 0) || (da > 0 && db < 0)) kept.push_back(between(a, b, da / (da - db)));
-    }
-    polygon = std::move(kept);
-}
-
-class GridWriter {
-  public:
-    GridWriter(const RoofEnv& env, const RoofGrid& grid, const TerminalData& data, TownMesh& out)
-        : env_(env), g_(grid), data_(data), out_(out) {
-        const uint32_t kind = grid.mesh & 255u;
-        for (const TerminalVariant& v : data.variants)
-            if (v.kind == kind && !lod_) lod_ = &v.lods.front();
-        up_ = glm::cross(glm::vec3(g_.axisX), glm::vec3(g_.axisY));
-        if (g_.region != kNoIndex) region_ = env.regions.v[g_.region];
-        const glm::vec3 root(float(g_.colour & 255u), float(g_.colour >> 8 & 255u), float(g_.colour >> 16 & 255u));
-        colour_ = root * root / (255.0f * 255.0f);
-    }
-    void run() {
-        if (!lod_) return;
-        if (g_.firstRow == kNoIndex) return cell(0, 0, true);
-        for (uint32_t row = 0; row < g_.cells >> 16; ++row) {
-            const RoofRun run = env_.runs.v[g_.firstRow + row];
-            const uint32_t whole = runFirst(run.whole), wholeEnd = whole + runCount(run.whole);
-            for (uint32_t c = runFirst(run.touched); c < runFirst(run.touched) + runCount(run.touched); ++c)
-                cell(c, row, c >= whole && c < wholeEnd);
-        }
-    }
-
-  private:
-    void cell(uint32_t column, uint32_t row, bool whole) {
-        const bool bond = (g_.mesh & kGridBond) != 0 && (row & 1u) != 0;
-        const glm::vec2 corner((float(column) - (bond ? 0.5f : 0.0f)) * g_.step.x, float(row) * g_.step.y);
-        const RoofMesh bounds = env_.meshes.v[g_.mesh & 255u];
-        for (uint32_t i = 0; i + 2 < lod_->indexCount; i += 3) {
-            Polygon triangle;
-            for (uint32_t k = 0; k < 3; ++k) {
-                const TerminalVertex& v = data_.vertices[lod_->firstVertex + data_.indices[lod_->firstIndex + i + k]];
-                const glm::vec3 n = unpackOct(v.normal);
-                triangle.push_back(
-                    {glm::vec3(corner + glm::vec2(v.position) * glm::vec2(g_.size), v.position.z * g_.thickness),
-                     {n.x / std::max(g_.size.x, 1e-4f), n.y / std::max(g_.size.y, 1e-4f),
-                      n.z / std::max(g_.thickness, 1e-4f)},
-                     v.uv.x});
-            }
-            if (whole || g_.region == kNoIndex)
-                write(std::move(triangle), whole);
-            else
-                for (uint32_t p = 0; p < region_.partCount; ++p) {
-                    const RoofPart part = env_.parts.v[region_.firstPart + p];
-                    const uint32_t cuts = partCuts(env_, g_, region_, part, cellBox(g_, bounds, column, row));
-                    if (cuts == kPartMissed) continue;
-                    Polygon piece = triangle;
-                    for (uint32_t k = 0; k < kPartPlanes; ++k)
-                        if (cuts >> k & 1u) cut(piece, cellPlane(g_, region_, env_.planes.v[part.firstPlane + k]));
-                    write(std::move(piece), false);
-                }
-        }
-    }
-    void write(Polygon polygon, bool whole) {
-        if (!whole && (g_.mesh & kGridRect) != 0) {
-            cut(polygon, {-1, 0, 0, 0});
-            cut(polygon, {1, 0, 0, g_.extent.x});
-            cut(polygon, {0, 1, 0, g_.extent.y});
-        }
-        if (polygon.size() < 3) return;
-        const uint32_t first = uint32_t(out_.positions.size());
-        for (const Corner& c : polygon) {
-            glm::vec3 p = c.at;
-            const float t = g_.extent.y > 0 && g_.extent.y < 1e5f ? p.y / g_.extent.y : 0;
-            p.x += t * glm::mix(g_.taper.x, g_.taper.y, g_.extent.x > 0 ? p.x / g_.extent.x : 0);
-            out_.positions.push_back(glm::vec3(g_.origin) + glm::vec3(g_.axisX) * p.x + glm::vec3(g_.axisY) * p.y +
-                                     up_ * p.z);
-            out_.normals.push_back(
-                unitOf(glm::vec3(g_.axisX) * c.normal.x + glm::vec3(g_.axisY) * c.normal.y + up_ * c.normal.z));
-            uint32_t colour = 0xFF000000u;
-            for (int k = 0; k < 3; ++k)
-                colour |= uint32_t(glm::clamp(colour_[k] * c.shade, 0.0f, 1.0f) * 255 + 0.5f) << (8 * k);
-            out_.colours.push_back(colour);
-        }
-        for (uint32_t i = 1; i + 1 < polygon.size(); ++i)
-            for (uint32_t v : {0u, i, i + 1}) out_.indices.push_back(first + v);
-    }
-
-    const RoofEnv& env_;
-    const RoofGrid g_;
-    const TerminalData& data_;
-    TownMesh& out_;
-    const TerminalLod* lod_ = nullptr;
-    RoofRegion region_{};
-    glm::vec3 up_{}, colour_{};
-};
-
 }  // namespace
 
-void appendMassing(const RoofStructure& structure, uint32_t index, TownMesh& out) {
+void appendMassing(const RoofStructure& structure, uint32_t index, RoofTriangles& out) {
     const RoofHouse& house = structure.houses[index];
     auto placed = [&](glm::vec3 p) { return glm::vec3(house.origin.x + p.x, p.y, p.z - house.origin.y); };
     for (const auto& ring : house.rings)
@@ -193,10 +78,6 @@ void appendMassing(const RoofStructure& structure, uint32_t index, TownMesh& out
         while (outline.size() > 1 && outline.back() == outline.front()) outline.pop_back();
         appendPolygon(std::move(outline), face.kind == FaceKind::gable ? kWallColour : kRoofColour, out);
     }
-}
-
-void appendGrid(const RoofEnv& env, const RoofGrid& grid, const TerminalData& meshes, TownMesh& out) {
-    GridWriter(env, grid, meshes, out).run();
 }
 
 }  // namespace espalier

@@ -1,0 +1,26 @@
+#pragma once
+
+// Roofs as triangles in memory, for those who ask: export, physics, ray tracing.
+
+#include <vector>
+
+#include "runtime/emit/terminals.hpp"
+#include "runtime/roof/roof_growth.hpp"
+
+namespace espalier {
+
+struct RoofTriangles {
+    std::vector<glm::vec3> positions, normals;  // world, metres
+    std::vector<uint32_t> colours;              // 0xAABBGGRR, linear
+    std::vector<uint32_t> indices;              // counterclockwise from outside
+};
+
+// Bounds of meshes by kind, of their finest level.
+std::vector<RoofMesh> terminalBounds(const TerminalData& data);
+
+// All cells of a grid that no layer takes away (Buron 2013 §3.3): those that an outline crosses are cut by exact
+// polygon clipping, part by part. env: of the records, as drawing reads them; meshes by the numbers that the grammar
+// was compiled with, of which the finest level is written.
+void appendGrid(const RoofEnv& env, const RoofGrid& grid, const TerminalData& meshes, RoofTriangles& out);
+
+}  // namespace espalier

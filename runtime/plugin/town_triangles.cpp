@@ -1,0 +1,63 @@
+// In: the town's grids, as they were grown. Out: triangles, cut exactly, behind those of the plants.
+#include <cstring>
+
+#include "runtime/emit/roof_triangles.hpp"
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr size_t kMostBytes = size_t(1) << 31;
+
+template <class T>
+void append(std::vector<std::byte>& bytes, const T& value) {
+    const size_t at = bytes.size();
+    bytes.resize(at + sizeof value);
+    std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+}  // namespace
+
+EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices, std::vector<std::byte>& indices) {
+    if (!context.town || !context.roofs || context.town->view.gridCount == 0) return ESP_OK;
+    Result<RoofRecords> records = context.roofs->read();
+    if (!records) return failGpu(&context, records.failure());
+    RoofInputs inputs;
+    inputs.grammar = &context.grammars.find(context.town->grammar)->map;
+    std::vector<uint32_t> newest(context.town->structure.houses.size());
+    for (const RoofGrid& g : records->grids) newest[g.house & 0xFFFFFFu] = g.house >> 24;  // later grids stand behind
+    RoofLayer layers[kRoofLayers] = {};
+    for (uint32_t i = 0; i < kRoofLayers; ++i) {
+        layers[i].fill = inputs.fill(i);
+        const auto& contexts = inputs.grammar->contexts();
+        const PlanLayer* layer = i < contexts.size() ? context.town->layers.find(contexts[i].name) : nullptr;
+        if (layer) layers[i].texels.v = const_cast<float*>(layer->texels.data());
+    }
+    RoofEnv env{};
+    env.grids.v = records->grids.data();
+    env.runs.v = records->runs.data();
+    env.regions.v = records->regions.data();
+    env.parts.v = records->parts.data();
+    env.planes.v = records->planes.data();
+    env.meshes.v = context.roofBounds.data();
+    env.layers.v = layers;
+    env.site = context.town->layers.site();
+    RoofTriangles part;
+    for (const RoofGrid& grid : records->grids) {
+        if (newest[grid.house & 0xFFFFFFu] != grid.house >> 24) continue;
+        part.positions.clear();
+        part.normals.clear();
+        part.colours.clear();
+        part.indices.clear();
+        appendGrid(env, grid, *context.roofMeshes, part);
+        if (vertices.size() + indices.size() + part.positions.size() * 16 + part.indices.size() * 4 > kMostBytes)
+            return fail(&context, ESP_OUT_OF_MEMORY, "espMaterialise: the town's triangles are more than 2 GiB");
+        const uint32_t first = uint32_t(vertices.size() / sizeof(TriangleVertex));
+        for (size_t i = 0; i < part.positions.size(); ++i)
+            append(vertices, TriangleVertex{part.positions[i], packOct(part.normals[i])});
+        for (uint32_t index : part.indices) append(indices, first + index);
+    }
+    return ESP_OK;
+}
+
+}  // namespace espalier

@@ -1,0 +1,16 @@
+// How clearly cells are seen: below 1 a pattern stands for all of them, from kFadeEnd on each is drawn.
+#ifndef ESPALIER_ROOF_CLARITY_GLSL
+#define ESPALIER_ROOF_CLARITY_GLSL
+#include "shaders/roof/draw_records.h"
+
+const float kFadeEnd = 1.7;
+
+float cellClarity(RoofDrawEnv env, EmitView view, RoofGrid g, vec3 at, float far) {
+    float pixels = view.pixelScale / far;
+    float clarity = pixels * max(min(g.step.x, g.step.y), 0.25 * max(g.step.x, g.step.y)) / env.leastCell;
+    if ((g.cells >> 16u) <= 1u) return clarity;
+    // Courses seen edge-on would flicker long before they are small.
+    float lying = view.parallel != 0u ? 1.0 : abs(dot(cross(g.axisX, g.axisY), normalize(view.eye - at)));
+    return min(clarity, pixels * g.step.y * lying / 1.5);
+}
+#endif
