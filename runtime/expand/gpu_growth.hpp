@@ -97,10 +97,11 @@ class GpuGrowth final : public Growth {
     Result<Regrown> growAgain(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
     void recordAgain(Commands& commands, ExpandEnv env);
     void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state);
-    // Groups of a pass whose kernels go through lists by themselves.
+    // Groups of a pass whose kernels go through chunks or lists of them by themselves: few, since each costs, but none
+    // with more than some 512 chunks to go through, see kMaxTrips.
     std::array<uint32_t, 3> spreadGroups() const {
         const uint32_t threads = std::thread::hardware_concurrency();
-        return {device_.info().cpu ? std::clamp(8 * threads, 16u, 64u) : 1024u, 1, 1};
+        return {device_.info().cpu ? std::max({16u, std::min(8 * threads, 64u), view_.chunkCount / 512}) : 1024u, 1, 1};
     }
 
     // Gaps that edits have left: compaction.cpp.
