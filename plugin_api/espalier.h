@@ -125,6 +125,36 @@ ESP_API EspResult espPick(const EspContext* context, const float origin[3], cons
 /* The nearest point of all surfaces. */
 ESP_API EspResult espNearest(const EspContext* context, const float point[3], EspHit* out);
 
+/* ---- The atlas ---------------------------------------------------------------------------------------------- */
+
+/* What a surface's walk goes over (docs/surface_format.md), for inside views and checks. Both wait for the GPU. */
+typedef enum EspTexelKind {
+    ESP_TEXEL_EMPTY = 0,
+    ESP_TEXEL_INNER = 1,         /* its centre lies in a chart */
+    ESP_TEXEL_LINK = 2,          /* beside a border that goes on somewhere */
+    ESP_TEXEL_OPEN = 3           /* beside a border of the model itself */
+} EspTexelKind;
+/* A level of the surface, 0 the finest: size rows of size words, the first row at v = 0. Bits 15..0: the chart, 17..16:
+ * EspTexelKind, 18: the chart is too small to be walked on this level. *size: as for espReadLayer. */
+ESP_API EspResult espReadAtlas(EspContext* context, EspSurface surface, uint32_t level, uint32_t* texels,
+                               uint32_t* size);
+
+typedef enum EspLinkKind {
+    ESP_LINK_SEAM = 0,           /* the chart goes on where the mesh does */
+    ESP_LINK_NEAREST = 1,        /* found by nearest points */
+    ESP_LINK_CONTACT = 2,        /* where two pieces touch or run into each other */
+    ESP_LINK_OPEN = 3            /* a border of the model: leads nowhere */
+} EspLinkKind;
+/* A piece of a chart's border, a to b, and where walks over it arrive. In walk UVs. */
+typedef struct EspLink {
+    float a[2], b[2], toA[2], toB[2];
+    uint32_t chart, toChart;
+    EspSurface toSurface;
+    EspLinkKind kind;
+} EspLink;
+/* *count: room in links, set to how many there are. links NULL: only asks. */
+ESP_API EspResult espReadLinks(EspContext* context, EspSurface surface, EspLink* links, uint32_t* count);
+
 /* ---- Grammars ----------------------------------------------------------------------------------------------- */
 
 typedef struct EspGrammarDef {
@@ -349,7 +379,9 @@ typedef struct EspCamera {
 } EspCamera;
 
 typedef enum EspView {
-    ESP_VIEW_SHADED = 0, ESP_VIEW_CHARTS = 1, ESP_VIEW_NORMALS = 2, ESP_VIEW_LOD = 3, ESP_VIEW_LAYER = 4
+    ESP_VIEW_SHADED = 0, ESP_VIEW_CHARTS = 1, ESP_VIEW_NORMALS = 2, ESP_VIEW_LOD = 3, ESP_VIEW_LAYER = 4,
+    ESP_VIEW_DEPTH = 5,          /* growth by the branches that lead to it from its seed */
+    ESP_VIEW_OVERDRAW = 6        /* fragments that were shaded for each pixel */
 } EspView;
 
 typedef struct EspLook {
@@ -360,11 +392,16 @@ typedef struct EspLook {
     int shadows;
     EspView view;
     const char* viewLayer;       /* for ESP_VIEW_LAYER */
+    float viewOpacity;           /* 0 to 1: of that layer over the model; default 1 */
+    uint32_t viewLevel;          /* for ESP_VIEW_CHARTS: the level whose charts and links are shown */
     float windowLodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
     int ground;                  /* 1: a meadow to the horizon under it all, only to be looked at; default 0 */
     float groundLevel;           /* its height in the world, metres */
 } EspLook;
 ESP_API EspLook espDefaultLook(void);
+/* For legends: the linear colour by which ESP_VIEW_DEPTH or ESP_VIEW_OVERDRAW shows `amount`, and the amount from which
+ * on nothing changes. */
+ESP_API EspResult espViewColour(EspView view, float amount, float rgb[3], float* most);
 
 /* Where to draw. With commandBuffer NULL Espalier draws into its own image of width × height, submits, waits, and
  * espReadPixels returns it. Otherwise it records into the host's VkCommandBuffer (outside of a render pass), and ends
@@ -490,6 +527,7 @@ typedef struct EspHouseInfo {
     uint32_t cornerCount;    /* of all rings */
     uint32_t edgeCount;      /* edges with something of their own */
     float boundsMin[3], boundsMax[3];            /* world */
+    uint32_t outerCorners;   /* of the outer ring, which comes first */
 } EspHouseInfo;
 
 ESP_API uint32_t espHouseCount(const EspContext* context);
@@ -509,6 +547,8 @@ typedef struct EspHouseDef {
     uint32_t cornerCount;
 } EspHouseDef;
 ESP_API EspResult espSetHouse(EspContext* context, uint32_t house, const EspHouseDef* def);
+/* Back to what the town was loaded with; does nothing where that is what stands. */
+ESP_API EspResult espResetHouse(EspContext* context, uint32_t house);
 
 typedef struct EspRoofStats {
     uint32_t houses, eaves;

@@ -177,8 +177,11 @@ Status Painter::fill(std::span<PaintJob> jobs, float value) {
 Status Painter::smooth(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs) {
     if (!smooth_) {
         Result<Program> made = Program::compute(device_, "paint/smooth.comp", {.exact = true, .constants = {}});
-        if (!made) return made.failure();
+        Result<Program> inside =
+            Program::compute(device_, "paint/smooth_inside.comp", {.exact = true, .constants = {}});
+        if (!made || !inside) return made ? inside.failure() : made.failure();
         smooth_ = std::move(*made);
+        smoothInside_ = std::move(*inside);
     }
     size_t most = 0;
     for (const PaintJob& job : jobs) most = std::max(most, job.blocks.size());
@@ -199,13 +202,27 @@ Status Painter::smooth(std::span<PaintJob> jobs, BrushRecord brush, std::span<co
             commands->barrier(Use::transfer, Use::compute);
             Pass pass(*commands, "paint smooth");
             for (size_t j = 0; j < jobs.size(); ++j) {
-                const uint32_t count = uint32_t(jobs[j].blocks.size());
-                PaintEnv env = environment(jobs[j].canvas, (*placed)[j], count);
-                env.result = at<FloatBuf, float>(result_.address());
-                pass.dispatchItems(smooth_, count * kBlockTexels, env, {stroke_});
+                // Gutters lie beside borders: there are none in blocks that no border is near.
+                const uint32_t inside = jobs[j].inside, all = uint32_t(jobs[j].blocks.size());
+                const uint32_t first = brush.gutters ? inside : 0;
+                const auto smoothBlocks = [&](const Program& program, uint32_t from, uint32_t to) {
+                    if (from == to) return;
+                    PaintEnv env = environment(jobs[j].canvas, (*placed)[j] + from * sizeof(uint32_t), to - from);
+                    env.result = at<FloatBuf, float>(result_.address() + from * kBlockBytes);
+                    pass.dispatchItems(program, (to - from) * kBlockTexels, env, {stroke_});
+                };
+                smoothBlocks(smoothInside_, first, inside);
+                smoothBlocks(smooth_, inside, all);
                 pass.barrier(Use::compute, Use::compute);
-                move(pass,
-                     {wordsOf(*jobs[j].canvas.layer), wordsOf(result_), env.blocks, {}, count, 0, kBlocksTake, 0});
+                if (first < all)
+                    move(pass, {wordsOf(*jobs[j].canvas.layer),
+                                at<UintBuf, uint32_t>(result_.address() + first * kBlockBytes),
+                                at<UintBuf, uint32_t>((*placed)[j] + first * sizeof(uint32_t)),
+                                {},
+                                all - first,
+                                0,
+                                kBlocksTake,
+                                0});
                 pass.barrier(Use::compute, Use::compute | Use::transfer);
             }
         }

@@ -41,6 +41,7 @@ struct PaintJob {
     Canvas canvas;
     BlockRecord* record = nullptr;
     std::vector<uint32_t> blocks;  // that its dabs may reach, each once
+    uint32_t inside = 0;           // so many of them, the first, are smoothed without walking: no border is near
 };
 
 class Painter {
@@ -72,10 +73,11 @@ class Painter {
     void move(Pass& pass, BlocksEnv env);
 
     Device& device_;
-    Program dabs_, blocks_, smooth_;  // the last one made when first asked for
-    Buffer stroke_;                   // BrushRecord and its dabs
-    Buffer words_;                    // numbers of blocks
-    Buffer result_;                   // of smoothing
+    Program dabs_, blocks_;
+    Program smooth_, smoothInside_;  // made when first asked for
+    Buffer stroke_;                  // BrushRecord and its dabs
+    Buffer words_;                   // numbers of blocks
+    Buffer result_;                  // of smoothing
 };
 
 }  // namespace espalier

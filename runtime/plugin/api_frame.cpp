@@ -5,6 +5,7 @@
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/plugin/context.hpp"
+#include "shaders/render/heat.h"
 #include "shaders/shared/random.h"
 
 namespace espalier {
@@ -142,7 +143,9 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     look.shadows = from.shadows != 0;
     look.view = ViewMode(from.view);
     look.lodPixels = from.windowLodPixels;
-    if (from.view < ESP_VIEW_SHADED || from.view > ESP_VIEW_LAYER)
+    look.layerOpacity = from.viewOpacity;
+    look.level = from.viewLevel;
+    if (from.view < ESP_VIEW_SHADED || from.view > ESP_VIEW_OVERDRAW)
         return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no such view");
     if (from.view == ESP_VIEW_LAYER) {
         const std::string name = from.viewLayer ? from.viewLayer : "";
@@ -296,7 +299,16 @@ EspLook espDefaultLook(void) {
     out.exposure = look.exposure;
     out.shadows = look.shadows;
     out.windowLodPixels = look.lodPixels;
+    out.viewOpacity = look.layerOpacity;
     return out;
+}
+
+EspResult espViewColour(EspView view, float amount, float rgb[3], float* most) {
+    if (!rgb || !most || (view != ESP_VIEW_DEPTH && view != ESP_VIEW_OVERDRAW)) return ESP_INVALID_ARGUMENT;
+    *most = view == ESP_VIEW_DEPTH ? kHottestDepth : kHottestOverdraw;
+    const glm::vec3 colour = heatColor(amount / *most);
+    std::memcpy(rgb, &colour, sizeof colour);
+    return ESP_OK;
 }
 
 EspDrawDef espDefaultDrawDef(void) {

@@ -36,7 +36,7 @@ EspResult freezeAs(EspContext& context, PlantedSeed& seed, std::span<const std::
         if (!there[node.place >> 16])
             return fail(&context, ESP_INVALID_CONTENT, "espFreezeAs: a surface that the plant has grown on is missing");
     seed.frozen = std::make_shared<PlantRecords>(std::move(*plant));
-    ++context.revision;
+    context.touch();  // unlike a plant that is frozen as it stands, this one has to be put in
     return ESP_OK;
 }
 

@@ -46,7 +46,7 @@ Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, con
                 if (grammar.map.params()[*index].kind == param.kind)
                     grammar.map.setParam(*index, std::span(param.value, param.kind == ParamKind::colour ? 3 : 1));
     for (const ContextInfo& layer : grammar.map.contexts()) {
-        const std::optional<uint32_t> number = sceneLayer(context, layer.name, layer.fill);
+        const std::optional<uint32_t> number = sceneLayer(context, layer.name, layer.fill, grammar.layerOf);
         if (!number)
             return Failure(grammar.name, "layer '" + layer.name + "': the grammars of this scene read more than " +
                                              std::to_string(kMaxLayers) + " layers");

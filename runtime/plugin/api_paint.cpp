@@ -1,4 +1,4 @@
-// Strokes on layers: which surfaces a brush reaches, what a stroke keeps, and reading layers back.
+// Strokes on layers: which surfaces a brush reaches, what a stroke keeps.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -14,6 +14,8 @@ constexpr uint32_t kMaxDabs = 1u << 16;  // of one call
 constexpr float kSteepest = 1e30f;       // a fade of no width
 constexpr float kSlopeFade = kPi / 4;    // radians at softness 1
 constexpr float kSmoothReach = .12f;     // of the radius, to what is averaged
+constexpr float kMostReach = 16;         // texels: what a texel tells of borders ends a little farther out
+constexpr float kLeastStep = 3;          // texels: for shorter ones a whole texel is too coarse a place
 
 // The numbers by which a kernel applies the brush; `fill` is the layer's.
 BrushRecord recordOf(const EspBrush& brush, float fill) {
@@ -131,29 +133,50 @@ EspResult begin(EspContext& context, const EspBrush& brush, EspStroke* out) {
     return out->id ? ESP_OK : fail(&context, ESP_OUT_OF_MEMORY, "espBeginStroke: no ids left");
 }
 
-// Smoothing walks, so it needs the table of surfaces; and steps of a texel and a half at least.
+// Metres that a texel of the surface covers, in the mean.
+float texelOf(const PlacedSurface& surface) {
+    double metres = 0, area = 0;
+    for (const Chart& chart : surface.data.charts) {
+        metres += double(chart.metresPerUv) * double(chart.area);
+        area += chart.area;
+    }
+    return float(metres / std::max(area, 1e-20)) * surface.scale / float(surface.data.levels.front().size);
+}
+
+// Puts those blocks first in which no texel is nearer to a border than smoothing reaches.
+void sortByBorders(PaintJob& job, const PlacedSurface& surface, float reach) {
+    const SurfaceLevelData& level = surface.data.levels.front();
+    const auto inside = [&](uint32_t block) {
+        for (uint32_t i = block * kBlockTexels; i < (block + 1) * kBlockTexels; ++i) {
+            const uint32_t bits = level.texels[i].bits;
+            if (texelClass(bits) != kTexelInner) return false;
+            const float texel = surface.data.charts[texelChart(bits)].metresPerUv * surface.scale / float(level.size);
+            if (float(texelClearance(bits)) < 1.4f * reach / texel + 2 || reach < kLeastStep * texel) return false;
+        }
+        return true;
+    };
+    const auto rest = std::stable_partition(job.blocks.begin(), job.blocks.end(), inside);
+    job.inside = uint32_t(rest - job.blocks.begin());
+}
+
+// Near borders smoothing walks, so it needs the table of surfaces; and steps of a texel and a half at least.
 Status smooth(EspContext& context, std::vector<PaintJob>& jobs, const PaintStroke& stroke,
               std::span<const DabRecord> dabs) {
     Status tables = context.refreshTables();
     if (!tables) return tables;
+    Status smoothed = Done{};
     for (PaintJob& job : jobs) {
         job.canvas.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
-        float texel = 0;
+        BrushRecord brush = stroke.brush;
         context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
             if (surface.instance != job.canvas.instance) return;
-            double area = 0;
-            for (const Chart& chart : surface.data.charts) {
-                texel += chart.metresPerUv * chart.area;
-                area += chart.area;
-            }
-            texel *= surface.scale / float(std::max(area, 1e-20)) / float(job.canvas.surface.levels[0].size);
+            const float texel = texelOf(surface);
+            brush.reach = std::clamp(kSmoothReach * stroke.radius, 1.5f * texel, kMostReach * texel);
+            sortByBorders(job, surface, brush.reach);
         });
-        BrushRecord brush = stroke.brush;
-        brush.reach = std::max(kSmoothReach * stroke.radius, 1.5f * texel);
-        Status smoothed = context.painter->smooth({&job, 1}, brush, dabs);
-        if (!smoothed) return smoothed;
+        if (smoothed) smoothed = context.painter->smooth({&job, 1}, brush, dabs);
     }
-    return Done{};
+    return smoothed;
 }
 
 EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const EspDab> dabs) {
@@ -258,73 +281,6 @@ EspResult replaceLayer(EspContext& context, uint32_t surface, const std::string&
     return keepEnded(context, std::move(stroke), out);
 }
 
-namespace {
-
-EspResult readLayer(EspContext& context, uint32_t surface, const char* name, float* texels, uint32_t* size) {
-    const PlacedSurface* placed = context.surfaces.find(surface);
-    if (!placed) return fail(&context, ESP_INVALID_ARGUMENT, "espReadLayer: no such surface");
-    const uint32_t side = placed->data.levels.front().size, room = *size;
-    *size = side;
-    if (!texels || room == 0) return ESP_OK;
-    if (room < side)
-        return fail(&context, ESP_INVALID_ARGUMENT,
-                    "espReadLayer: the layer has " + std::to_string(side) + " texels a side, there is room for " +
-                        std::to_string(room));
-    const PaintedLayer* layer = paintedLayer(context, surface, name);
-    if (!layer) {
-        std::fill_n(texels, size_t(side) * side, declaredFill(context, name).value_or(0));
-        return ESP_OK;
-    }
-    Result<std::vector<float>> values = readVector<float>(*context.device, layer->texels, 0, size_t(side) * side);
-    if (!values) return failGpu(&context, values.failure());
-    for (uint32_t y = 0; y < side; ++y)
-        for (uint32_t x = 0; x < side; ++x) texels[size_t(y) * side + x] = (*values)[texelIndex(side, x, y)];
-    return ESP_OK;
-}
-
-// Names of all painted layers, each once, in the order in which they came.
-std::vector<const char*> paintedNames(const EspContext& context) {
-    std::vector<const char*> names;
-    for (const PaintedLayer& layer : context.layers)
-        if (std::ranges::none_of(names, [&](const char* name) { return layer.name == name; }))
-            names.push_back(layer.name.c_str());
-    return names;
-}
-
-}  // namespace
-
-std::optional<float> declaredFill(const EspContext& context, const std::string& name) {
-    std::optional<float> fill;
-    context.grammars.forEach([&](uint32_t, const LoadedGrammar& grammar) {
-        if (fill) return;
-        if (const auto index = grammar.map.findContext(name)) fill = grammar.map.contexts()[*index].fill;
-    });
-    return fill;
-}
-
-void layerChanged(EspContext& context, uint32_t surface, const std::string& name, std::span<const uint32_t> blocks) {
-    if (blocks.empty() || !declaredFill(context, name)) return;
-    const PlacedSurface& placed = *context.surfaces.find(surface);
-    const uint32_t size = placed.data.levels.front().size, side = size / 8;
-    for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer) {
-        if (context.sceneLayers[layer].name != name) continue;
-        for (uint32_t block : blocks) {
-            const uint32_t x = block % side * 8, y = block / side * 8;
-            context.changes.markTexels(placed.instance, layer, size, x, y, x + 8, y + 8);
-        }
-    }
-    ++context.revision;
-}
-
-void wholeLayerChanged(EspContext& context, uint32_t surface, const std::string& name) {
-    if (!declaredFill(context, name)) return;
-    const PlacedSurface& placed = *context.surfaces.find(surface);
-    for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
-        if (context.sceneLayers[layer].name == name)
-            context.changes.markLayer(placed.instance, layer, placed.data.levels.front().size);
-    ++context.revision;
-}
-
 }  // namespace espalier
 
 using namespace espalier;
@@ -398,23 +354,6 @@ EspResult espFillLayer(EspContext* context, const char* layer, float value, EspS
         if (!layer || !*layer || !out || !(value >= 0 && value <= 1))
             return fail(context, ESP_INVALID_ARGUMENT, "espFillLayer: null pointer, no name, or a value beyond 0 to 1");
         return fillLayer(*context, layer, value, out);
-    });
-}
-
-uint32_t espPaintedLayerCount(const EspContext* context) {
-    return context ? uint32_t(paintedNames(*context).size()) : 0;
-}
-
-const char* espPaintedLayerName(const EspContext* context, uint32_t index) {
-    if (!context) return "";
-    const std::vector<const char*> names = paintedNames(*context);
-    return index < names.size() ? names[index] : "";
-}
-
-EspResult espReadLayer(EspContext* context, EspSurface surface, const char* layer, float* texels, uint32_t* size) {
-    return guarded(context, [&] {
-        if (!layer || !size) return fail(context, ESP_INVALID_ARGUMENT, "espReadLayer: null pointer");
-        return readLayer(*context, surface.id, layer, texels, size);
     });
 }
 

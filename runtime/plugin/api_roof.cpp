@@ -124,13 +124,13 @@ Footprint changed(const Footprint& from, const RoofHouse& house, const EspHouseD
     return f;
 }
 
-EspResult setHouse(EspContext& context, uint32_t index, const EspHouseDef& def) {
+// Another footprint for the house, and for what else was made of the same one.
+EspResult rebuild(EspContext& context, uint32_t index, const Footprint& footprint) {
     LoadedTown& town = *context.town;
     const uint32_t number = town.footprintOf[index];
     std::vector<uint32_t> siblings;
     for (uint32_t i = 0; i < town.footprintOf.size(); ++i)
         if (town.footprintOf[i] == number) siblings.push_back(i);
-    const Footprint footprint = changed(town.footprints[number], town.structure.houses[index], def);
     RoofStructure made;
     std::vector<Diagnostic> diagnostics;
     appendRoof(footprint, made, diagnostics);
@@ -139,6 +139,7 @@ EspResult setHouse(EspContext& context, uint32_t index, const EspHouseDef& def) 
         return fail(&context, ESP_INVALID_CONTENT,
                     why.empty() ? "the outline falls into other pieces than before" : why);
     }
+    town.planned.try_emplace(number, town.footprints[number]);
     town.footprints[number] = footprint;
     for (size_t i = 0; i < siblings.size(); ++i) {
         RoofStructure one;
@@ -283,6 +284,7 @@ EspResult espHouseInfo(const EspContext* context, uint32_t index, EspHouseInfo* 
         out->eaveHeight = house->eaveHeight;
         out->ridgeHeight = house->ridgeHeight;
         out->edgeCount = uint32_t(footprint.edges.size());
+        out->outerCorners = uint32_t(house->rings.front().size());
         glm::vec2 low(1e30f), high(-1e30f);
         for (const auto& ring : house->rings)
             for (glm::vec2 p : ring) {
@@ -322,7 +324,16 @@ EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* de
             (def->corners && def->cornerCount < 3) || def->cornerCount > kMostCorners ||
             def->edgeCount > kMostCorners || !finiteDef(*def))
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: a value out of its range");
-        return setHouse(*context, index, *def);
+        const Footprint& now = context->town->footprints[context->town->footprintOf[index]];
+        return rebuild(*context, index, changed(now, *houseOf(context, index), *def));
+    });
+}
+
+EspResult espResetHouse(EspContext* context, uint32_t index) {
+    return guarded(context, [&] {
+        if (!houseOf(context, index)) return fail(context, ESP_INVALID_ARGUMENT, "espResetHouse: no such house");
+        const auto planned = context->town->planned.find(context->town->footprintOf[index]);
+        return planned == context->town->planned.end() ? ESP_OK : rebuild(*context, index, Footprint(planned->second));
     });
 }
 

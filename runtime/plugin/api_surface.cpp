@@ -163,22 +163,6 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
 
 }  // namespace
 
-std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill) {
-    const SceneLayer wanted{name, fill};
-    for (uint32_t i = 0; i < context.sceneLayers.size(); ++i)
-        if (context.sceneLayers[i] == wanted) return i;
-    if (context.sceneLayers.size() >= kMaxLayers) return std::nullopt;
-    context.sceneLayers.push_back(wanted);
-    context.tablesStale = true;
-    return uint32_t(context.sceneLayers.size() - 1);
-}
-
-PaintedLayer* paintedLayer(EspContext& context, uint32_t surface, const std::string& name) {
-    for (PaintedLayer& layer : context.layers)
-        if (layer.surface == surface && layer.name == name) return &layer;
-    return nullptr;
-}
-
 }  // namespace espalier
 
 using namespace espalier;

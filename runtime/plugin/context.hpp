@@ -3,6 +3,7 @@
 #include <array>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -148,7 +149,8 @@ struct PaintStroke {
 struct LoadedTown {
     std::string name;
     std::vector<Footprint> footprints;
-    std::vector<uint32_t> footprintOf;  // [house]
+    std::vector<uint32_t> footprintOf;      // [house]
+    std::map<uint32_t, Footprint> planned;  // footprints as they were loaded, of those that were changed
     RoofStructure structure;
     RoofTables tables;
     uint32_t grammar = 0;           // id; 0: none yet
@@ -310,8 +312,10 @@ const Plants* readPlants(EspContext& context);
 // Makes the variants that seeds ask for, and brings up to date those whose grammar has changed.
 Status refreshVariants(EspContext& context);
 
-// The number of the layer that a grammar's context reads; made if need be. Nothing: there are kMaxLayers already.
-std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill);
+// The number of the layer that a grammar's context reads; made if need be, from one that no grammar reads any more and
+// that isn't among `kept` where there are kMaxLayers already. Nothing: all of those are read.
+std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill,
+                                   std::span<const uint32_t> kept = {});
 PaintedLayer* paintedLayer(EspContext& context, uint32_t surface, const std::string& name);
 // What the first grammar that declares the layer fills it with; nothing if none does.
 std::optional<float> declaredFill(const EspContext& context, const std::string& name);

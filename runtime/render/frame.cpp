@@ -10,7 +10,8 @@ namespace {
 // The shaders' names for what hosts ask for.
 static_assert(uint32_t(ViewMode::shaded) == kViewShaded && uint32_t(ViewMode::charts) == kViewCharts &&
               uint32_t(ViewMode::normals) == kViewNormals && uint32_t(ViewMode::lod) == kViewLod &&
-              uint32_t(ViewMode::layer) == kViewLayer);
+              uint32_t(ViewMode::layer) == kViewLayer && uint32_t(ViewMode::depth) == kViewDepth &&
+              uint32_t(ViewMode::overdraw) == kViewOverdraw);
 
 glm::vec3 unitOr(glm::vec3 v, glm::vec3 other) {
     const float length = glm::length(v);
@@ -62,7 +63,8 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.skyColor = look.skyColor;
     frame.view = uint32_t(look.view);
     frame.groundColor = look.groundColor;
-    frame.layer = std::min(look.layer, kMaxLayers - 1);
+    frame.layer = look.view == ViewMode::charts ? look.level : std::min(look.layer, kMaxLayers - 1);
+    frame.layerOpacity = std::clamp(look.layerOpacity, 0.0f, 1.0f);
     frame.background = look.background;
     frame.shadows = look.shadows ? 1 : 0;
     frame.horizon = look.horizon;

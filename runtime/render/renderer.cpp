@@ -52,7 +52,7 @@ Result<uint64_t> RendererImpl::upload(Commands& commands, const FrameRecord& fra
 }
 
 void RendererImpl::drawTerminals(DrawPass& pass, uint64_t frame, Terminal how) {
-    const bool depthOnly = how == Terminal::depthOnly;
+    const bool depthOnly = how == Terminal::depthOnly, counting = how == Terminal::counting;
     const EmitTable& table = terminals_.table();
     pass.setIndices(terminals_.batches());
     for (uint32_t b = 0; b < table.bucketCount; ++b) {
@@ -77,11 +77,13 @@ void RendererImpl::drawTerminals(DrawPass& pass, uint64_t frame, Terminal how) {
         const Binding shadow{shadowMap_, shadowSampler_};
         const bool bark = b < table.barkBuckets;
         if (!depthOnly && bark)
-            pass.drawIndexedIndirect(bark_, emit_.state(), offset, 2, push, {color, shadow});
+            pass.drawIndexedIndirect(counting ? counting_.bark : bark_, emit_.state(), offset, 2, push,
+                                     {color, shadow});
         else if (how == Terminal::smallLit && small_[b])
             pass.drawIndexedIndirect(leafSmall_, emit_.state(), offset, 2, push, {color, shadow});
         else if (!depthOnly)
-            pass.drawIndexedIndirect(leaf_, emit_.state(), offset, 2, push, {color, normal, shadow});
+            pass.drawIndexedIndirect(counting ? counting_.leaf : leaf_, emit_.state(), offset, 2, push,
+                                     {color, normal, shadow});
         else if (bark)
             pass.drawIndexedIndirect(barkDepth_, emit_.state(), offset, 2, push);
         else if (material.alphaCutoff > 0)
@@ -126,8 +128,8 @@ void RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, cons
     targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
     targets.depth = DepthTarget{.view = targets_.depth.view(), .clear = 0.0f};
     DrawPass pass(commands, "draw scene", targets);
-    models_.draw(pass, model_, reinterpret_cast<uint64_t>(post.frame.v), shadowMap_, shadowSampler_,
-                 inputs.surfaces.v != nullptr);
+    models_.draw(pass, counts_ ? counting_.model : model_, reinterpret_cast<uint64_t>(post.frame.v), shadowMap_,
+                 shadowSampler_, inputs.surfaces.v != nullptr);
     if (post.ground != 0) ground_.draw(pass, post, shadowMap_, shadowSampler_);
 }
 
@@ -152,6 +154,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.tiles = push.tiles;
     view.width = targets_.width;
     view.height = targets_.height;
+    if (inputs.look.view == ViewMode::depth) view.flags |= kShowDepth;
     if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
     if (!grows_) return Done{};
@@ -167,7 +170,9 @@ void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {
     DrawPass pass(commands, "draw scene", targets);
     if (grows_)
         drawTerminals(pass, reinterpret_cast<uint64_t>(post.frame.v),
-                      explained_ ? Terminal::plain : Terminal::smallLit);
+                      counts_      ? Terminal::counting
+                      : explained_ ? Terminal::plain
+                                   : Terminal::smallLit);
     if (roofed_) roofs_->draw(pass, reinterpret_cast<uint64_t>(post.frame.v), &shadowMap_, &shadowSampler_);
     pass.draw(sky_, 3, 1, post, {{ground_.noise(), ground_.sampler()}});
 }
@@ -218,7 +223,10 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
             "a picture is 1 to 16384 pixels wide and high");
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
     const GrowthView& growth = inputs.growth;
-    explained_ = inputs.look.view != ViewMode::shaded;
+    explained_ = inputs.look.view != ViewMode::shaded && inputs.look.view != ViewMode::layer;
+    counts_ = inputs.look.view == ViewMode::overdraw;
+    if (counts_)
+        if (Status s = makeCounting(); !s) return s;
     grows_ = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
     roofed_ = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
 

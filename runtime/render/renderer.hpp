@@ -19,7 +19,7 @@ struct Camera {
     glm::vec2 shift{0};       // moves the picture right and up, in halves of the frame, as a shift lens does
 };
 
-enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, layer = 4 };
+enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, layer = 4, depth = 5, overdraw = 6 };
 
 // Colours are linear.
 struct Look {
@@ -32,7 +32,9 @@ struct Look {
     glm::vec3 horizon{0.66f, 0.77f, 0.88f};
     bool shadows = true;
     ViewMode view = ViewMode::shaded;
-    uint32_t layer = 0;   // for ViewMode::layer: index into DrawInputs::layers' 16 a surface
+    uint32_t layer = 0;  // for ViewMode::layer: index into DrawInputs::layers' 16 a surface
+    float layerOpacity = 1;
+    uint32_t level = 0;   // for ViewMode::charts
     float lodPixels = 1;  // error allowed when choosing LOD, pixels
 };
 

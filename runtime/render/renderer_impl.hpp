@@ -41,6 +41,8 @@ class RendererImpl final : public Renderer {
     };
 
     Status makePrograms();
+    Result<Program> sceneProgram(const char* name, const char* vertex, const char* fragment, Blend blend) const;
+    Status makeCounting();
     Result<const Program*> resolveProgram(VkFormat format);
     // Uploads the record and returns its address.
     Result<uint64_t> upload(Commands& commands, const FrameRecord& frame);
@@ -48,8 +50,8 @@ class RendererImpl final : public Renderer {
     void drawModels(Commands& commands, const DrawInputs& inputs, const PostPush& post);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
     void drawGrowth(Commands& commands, const PostPush& post);
-    enum class Terminal { depthOnly, plain, smallLit };
-    // plain: every leaf is lit at each pixel, as the views that explain want it.
+    enum class Terminal { depthOnly, plain, smallLit, counting };
+    // plain: every leaf is lit at each pixel, as the views that explain want it. counting: fragments are added up.
     void drawTerminals(DrawPass& pass, uint64_t frame, Terminal how);
     void drawOcclusion(Commands& commands, const PostPush& push);
     Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
@@ -65,12 +67,15 @@ class RendererImpl final : public Renderer {
     Sampler shadowSampler_, textureSampler_, plainSampler_, pointSampler_;
     Program model_, bark_, leaf_, leafSmall_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_,
         sky_, depthTiles_;
+    struct {
+        Program model, bark, leaf;
+    } counting_;  // made when first asked for
     std::map<VkFormat, Program> resolves_;
     std::array<bool, kMaxBuckets> small_{};  // buckets of leaves that are lit at their vertices
     Buffer frames_, tiles_;
     uint32_t frameSlot_ = 0;
     ShadowKey shadowKey_;
-    bool grows_ = false, roofed_ = false, explained_ = false, shadowDrawn_ = false;
+    bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;
 };
 
 }  // namespace espalier

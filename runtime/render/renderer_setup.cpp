@@ -18,21 +18,20 @@ GraphicsDesc fullscreen(const char* name, const char* fragment, VkFormat format)
 
 Status RendererImpl::makePrograms() {
     const bool one = targets_.samples == 1;
-    auto graphics = [&](Program& program, const char* name, const char* vertex, const char* fragment,
-                        bool shadow) -> Status {
+    auto scene = [&](Program& program, const char* name, const char* vertex, const char* fragment) -> Status {
+        Result<Program> made = sceneProgram(name, vertex, fragment, Blend::none);
+        if (!made) return made.failure();
+        program = std::move(*made);
+        return Done{};
+    };
+    auto shadow = [&](Program& program, const char* name, const char* vertex, const char* fragment) -> Status {
         GraphicsDesc desc;
         desc.name = name;
         desc.vertex = vertex;
         desc.fragment = fragment;
         desc.depth = kDepthFormat;
-        if (shadow) {
-            desc.depthBiasConstant = 2;
-            desc.depthBiasSlope = 1.8f;
-        } else {
-            desc.colors = {kSceneFormat};
-            desc.samples = targets_.samples;
-            desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-        }
+        desc.depthBiasConstant = 2;
+        desc.depthBiasSlope = 1.8f;
         Result<Program> made = Program::graphics(device_, desc);
         if (!made) return made.failure();
         program = std::move(*made);
@@ -56,19 +55,50 @@ Status RendererImpl::makePrograms() {
         return Done{};
     };
     const Status all[] = {
-        graphics(model_, "model", "render/model.vert", "render/model.frag", false),
-        graphics(bark_, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag", false),
-        graphics(leaf_, "leaf", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag", false),
-        graphics(leafSmall_, "small leaf", "render/leaf_small.vert",
-                 one ? "render/leaf_small_single.frag" : "render/leaf_small.frag", false),
-        graphics(modelDepth_, "model shadow", "render/model.vert", "", true),
-        graphics(barkDepth_, "bark shadow", "render/bark.vert", "", true),
-        graphics(leafDepth_, "leaf shadow", "render/leaf.vert", "", true),
-        graphics(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag", true),
+        scene(model_, "model", "render/model.vert", "render/model.frag"),
+        scene(bark_, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag"),
+        scene(leaf_, "leaf", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag"),
+        scene(leafSmall_, "small leaf", "render/leaf_small.vert",
+              one ? "render/leaf_small_single.frag" : "render/leaf_small.frag"),
+        shadow(modelDepth_, "model shadow", "render/model.vert", ""),
+        shadow(barkDepth_, "bark shadow", "render/bark.vert", ""),
+        shadow(leafDepth_, "leaf shadow", "render/leaf.vert", ""),
+        shadow(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag"),
         post(distance_, "distance", one ? "render/depth_single.frag" : "render/depth.frag", kDistanceFormat),
         post(occlusion_, "occlusion", "render/occlusion.frag", kOpenFormat)};
     for (const Status& s : all)
         if (!s) return s;
+    return Done{};
+}
+
+Result<Program> RendererImpl::sceneProgram(const char* name, const char* vertex, const char* fragment,
+                                           Blend blend) const {
+    GraphicsDesc desc;
+    desc.name = name;
+    desc.vertex = vertex;
+    desc.fragment = fragment;
+    desc.colors = {kSceneFormat};
+    desc.depth = kDepthFormat;
+    desc.samples = targets_.samples;
+    desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    desc.blend = blend;
+    return Program::graphics(device_, desc);
+}
+
+// Programs of the view that counts: the same, but each fragment adds to what is there.
+Status RendererImpl::makeCounting() {
+    if (counting_.model) return Done{};
+    const bool one = targets_.samples == 1;
+    auto model = sceneProgram("model count", "render/model.vert", "render/model.frag", Blend::additive);
+    auto bark = sceneProgram("bark count", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag",
+                             Blend::additive);
+    auto leaf = sceneProgram("leaf count", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag",
+                             Blend::additive);
+    for (const auto* made : {&model, &bark, &leaf})
+        if (!*made) return made->failure();
+    counting_.model = std::move(*model);
+    counting_.bark = std::move(*bark);
+    counting_.leaf = std::move(*leaf);
     return Done{};
 }
 

@@ -19,6 +19,7 @@ CONST_UINT(kMaxBuckets, 64u);
 CONST_UINT(kNoBucket, 0xFFu);
 CONST_UINT(kLastPlace, 0xFFFFFFu);
 CONST_UINT(kFullDetail, 1u);   // EmitView::flags: every instance at LOD 0, nothing is culled, thickened or thinned out
+CONST_UINT(kShowDepth, 2u);    // instances are told how many branches lead to them
 
 // An item's class: bits 31..24 bucket (kNoBucket: not seen), 23..0 place in it. Places from kLastPlace on are one: no
 // buffer of instances has room for so many, so that all of them are overflow and none is written.
@@ -101,7 +102,7 @@ struct EmitState {
 STATIC_SIZE(EmitState, 3104);
 
 // A visible span in the world, 84 bytes.
-//   bits 7..0 LOD, bit 8 rounded tip, bits 31..16 fade (unorm16: how much of a pixel it covers)
+//   bits 2..0 LOD, 7..3 depth (branches from the seed, kShowDepth only), bit 8 rounded tip, bits 31..16 fade (unorm16: how much of a pixel it covers)
 struct SpanInstance {
     vec3 p0, b1, b2, p3;
     uint normal0, normal1;      // octahedral, surface
@@ -114,7 +115,7 @@ struct SpanInstance {
 STATIC_SIZE(SpanInstance, 84);
 
 // A visible loose terminal in the world, 64 bytes. axes: columns times size: mesh x, y, z.
-//   bits 7..0 LOD, 15..8 kind, 31..16 depth below the canopy's outside (unorm16: 1 at the surface)
+//   bits 2..0 LOD, 7..3 depth as above, 15..8 kind, 31..16 depth below the canopy's outside (unorm16: 1 at the surface)
 struct LeafInstance {
     vec3 origin;
     vec3 axisX, axisY, axisZ;

@@ -8,6 +8,8 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Data { EmitPush push; };
 
+#include "shaders/emit/shown_depth.glsl"
+
 void main() {
     uint i = itemIndex();
     if (i >= push.leafCount) return;
@@ -36,6 +38,6 @@ void main() {
     o.tint = record.tint;
     o.hash = hash;
     float height = clamp(leaf.height / max(1.1 * leaf.size, 1e-6), 0.0, 1.0);
-    o.bits = (bucket - push.table.v[0].variants[v].firstBucket) | (pose.mesh << 8u) | (uint(height * 65535.0 + 0.5) << 16u);
+    o.bits = (bucket - push.table.v[0].variants[v].firstBucket) | shownDepth(record.node) | (pose.mesh << 8u) | (uint(height * 65535.0 + 0.5) << 16u);
     push.leafInstances.v[push.state.v[0].starts[bucket] + place] = o;
 }

@@ -8,6 +8,8 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Data { EmitPush push; };
 
+#include "shaders/emit/shown_depth.glsl"
+
 void main() {
     uint i = itemIndex();
     if (i >= push.nodeCount) return;
@@ -41,7 +43,7 @@ void main() {
     }
     uint kind = (push.nodes.v[i].flags >> 18u) & 255u;
     uint lod = bucket - push.table.v[0].variants[push.table.v[0].kinds[kind].firstVariant].firstBucket;
-    o.bits = lod | (s.tip ? 256u : 0u) | (uint(fade * 65535.0 + 0.5) << 16u);
+    o.bits = lod | shownDepth(i) | (s.tip ? 256u : 0u) | (uint(fade * 65535.0 + 0.5) << 16u);
     o.spare = 0u;
     push.spanInstances.v[push.state.v[0].starts[bucket] + place] = o;
 }

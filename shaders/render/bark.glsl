@@ -19,8 +19,13 @@ void main() {
 #endif
     vec3 n = normalize(normal);
     uint view = push.frame.v[0].view;
-    if (view != kViewShaded) {
-        vec3 shown = view == kViewNormals ? n * 0.5 + 0.5 : view == kViewLod ? lodColor(hash & 255u) : vec3(0.30, 0.22, 0.15);
+    if (view == kViewOverdraw) {
+        color = oneFragment();
+        return;
+    }
+    if (view != kViewShaded && view != kViewLayer) {
+        vec3 shown = view == kViewNormals ? n * 0.5 + 0.5 : view == kViewLod ? lodColor(hash & 7u) :
+                     view == kViewDepth ? depthColor((hash >> 3u) & 31u) : vec3(0.30, 0.22, 0.15);
         color = view == kViewNormals ? stored(shown, 0.0) : diagnostic(push.frame, shown, n);
         return;
     }

@@ -10,6 +10,8 @@ CONST_UINT(kViewCharts, 1u);
 CONST_UINT(kViewNormals, 2u);
 CONST_UINT(kViewLod, 3u);
 CONST_UINT(kViewLayer, 4u);
+CONST_UINT(kViewDepth, 5u);
+CONST_UINT(kViewOverdraw, 6u);
 
 // Colours are linear. Clip space: depth reversed, 1 at the near plane, 0 at infinity.
 struct FrameRecord {
@@ -24,7 +26,7 @@ struct FrameRecord {
     vec3 skyColor;
     uint view;
     vec3 groundColor;
-    uint layer;
+    uint layer;              // that is seen; of charts: their level
     vec3 background;
     uint shadows;
     vec3 horizon;
@@ -37,8 +39,10 @@ struct FrameRecord {
     float groundLevel;       // height of the ground that is drawn to the horizon
     SurfaceBuf surfaces;
     LayerBuf layers;
+    float layerOpacity;      // over the model
+    float spare;
 };
-STATIC_SIZE(FrameRecord, 304);
+STATIC_SIZE(FrameRecord, 312);
 BUFFER(FrameBuf, FrameRecord)
 
 // As DrawVertex of runtime/surface.

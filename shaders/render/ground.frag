@@ -33,7 +33,11 @@ void main() {
                 clamp(0.25 + 0.7 * broad.y + 0.5 * near.x, 0.0, 0.7));
     vec3 earth = mix(vec3(0.075, 0.055, 0.036), vec3(0.150, 0.114, 0.076), 0.5 + 0.5 * fine.x + 0.2 * near.y);
     vec3 base = mix(earth, green, grass);
-    if (frame.v[0].view != kViewShaded) {
+    if (frame.v[0].view == kViewOverdraw) {
+        color = oneFragment();
+        return;
+    }
+    if (frame.v[0].view != kViewShaded && frame.v[0].view != kViewLayer) {
         color = frame.v[0].view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(frame, vec3(0.22), n);
         return;
     }

@@ -26,8 +26,13 @@ void main() {
     n = normalize(t * m.x + cross(n, t) * m.y + n * m.z);
     vec3 face = back ? -n : n;
     uint view = push.frame.v[0].view;
-    if (view != kViewShaded) {
-        vec3 shown = view == kViewLod ? lodColor(bits.z & 255u) : vec3(0.16, 0.34, 0.10);
+    if (view == kViewOverdraw) {
+        color = oneFragment();
+        return;
+    }
+    if (view != kViewShaded && view != kViewLayer) {
+        vec3 shown = view == kViewLod ? lodColor(bits.z & 7u) :
+                     view == kViewDepth ? depthColor((bits.z >> 3u) & 31u) : vec3(0.16, 0.34, 0.10);
         color = view == kViewNormals ? stored(face * 0.5 + 0.5, 0.0) : diagnostic(push.frame, shown, face);
         return;
     }

@@ -13,8 +13,7 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 uvs;
 layout(location = 0) out vec4 color;
 
-uint walkTexel(SurfaceRef surface) {
-    uint size = surface.levels[0].size;
+uint walkTexel(uint size) {
     uvec2 at = min(uvec2(clamp(uvs.zw, 0.0, 1.0) * float(size)), uvec2(size - 1u));
     return texelIndex(size, at.x, at.y);
 }
@@ -25,8 +24,13 @@ vec4 otherView(vec3 n) {
     vec3 shown = view == kViewLod ? lodColor(push.lod) : vec3(0.5);
     if (push.surface != kNoIndex && view == kViewCharts) {
         SurfaceRef surface = push.frame.v[0].surfaces.v[push.surface];
-        uint bits = surface.levels[0].texels.v[walkTexel(surface)].bits;
+        SurfaceLevel level = surface.levels[min(push.frame.v[0].layer, surface.levelCount - 1u)];
+        uint at = walkTexel(level.size);
+        uint bits = level.texels.v[at].bits;
         shown = texelClass(bits) == kTexelEmpty ? vec3(0.02) : hashColor(texelChart(bits));
+        // Where links pass; and, on coarse levels, which texel is which.
+        if ((level.crossingHead.v[at] & 255u) != 0u) shown = mix(shown, vec3(1.0), 0.6);
+        if (push.frame.v[0].layer > 0u && ((at ^ (at >> 3u)) & 1u) != 0u) shown *= 0.8;
     } else if (push.surface != kNoIndex && view == kViewLayer) {
         LayerRef layer = push.frame.v[0].layers.v[push.surface * kMaxLayers + push.frame.v[0].layer];
         float x = layer.fill;
@@ -59,7 +63,13 @@ void main() {
         vec3 t = tangent.xyz * inversesqrt(across);
         bumped = normalize(t * (m.x * push.normalScale) + cross(n, t) * (tangent.w * m.y * push.normalScale) + n * m.z);
     }
-    if (push.frame.v[0].view != kViewShaded) {
+    uint view = push.frame.v[0].view;
+    bool under = view == kViewLayer && push.frame.v[0].layerOpacity < 1.0;
+    if (view == kViewOverdraw) {
+        color = oneFragment();
+        return;
+    }
+    if (view != kViewShaded && !under) {
         color = otherView(bumped);
         return;
     }
@@ -69,4 +79,5 @@ void main() {
     vec3 direct = push.frame.v[0].sunColor * visible *
                   (base.rgb * facing + gloss(bumped, eye, sun, max(push.roughness, 0.35)) * facing);
     color = lit(push.frame, direct, base.rgb * skyLight(push.frame, bumped));
+    if (under) color = mix(color, otherView(bumped), push.frame.v[0].layerOpacity);
 }

@@ -6,6 +6,8 @@
 // belongs to the other side.
 #include "shaders/render/frame_records.h"
 #include "shaders/render/encode.glsl"
+#include "shaders/render/heat.h"
+#include "shaders/render/tone.glsl"
 
 layout(push_constant, scalar) uniform Data { PostPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;
@@ -86,5 +88,6 @@ void main() {
     for (bool edge = range >= max(kLeastContrast, kRelativeContrast * most); edge; edge = false)
         shown = smoothed(at, m, n, s, w, e, range);
     float open = textureLod(openMap, gl_FragCoord.xy * push.rcpSize, 0.0).x;
+    if (push.frame.v[0].view == kViewOverdraw) shown = stored(heatColor(shown.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
     color = pictureColor(shown, open, push.encode != 0u, at);
 }

@@ -16,4 +16,7 @@ vec3 toneMapped(vec3 c) {
 // the sky, which ambient occlusion dims later. 8 bits and a curve before samples are averaged: edges between bright
 // and dark come out as smooth as others, and writing four samples stays cheap.
 vec4 stored(vec3 mapped, float skyShare) { return vec4(sqrt(mapped), skyShare); }
+// Counts instead of colours: each fragment adds this to its pixel.
+const float kOverdrawStep = 8.0 / 255.0;
+vec4 oneFragment() { return vec4(vec3(kOverdrawStep), 0.0); }
 #endif

@@ -16,6 +16,10 @@ void main() {
     vec3 n = normalize(normal);
     if (dot(n, push.frame.v[0].eye - position) < 0.0 && !gl_FrontFacing) n = -n;
     uint view = push.frame.v[0].view;
+    if (view == kViewOverdraw) {
+        color = oneFragment();
+        return;
+    }
     if (view != kViewShaded) {
         vec3 shown = view == kViewLod ? lodColor(look.z) : hashColor(look.y);
         if (view == kViewLayer) shown = layerColour(push.env.v[0], position);

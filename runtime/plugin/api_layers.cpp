@@ -1,0 +1,134 @@
+// Layers by name: the numbers by which kernels know them, what changed of them, reading them back.
+#include <algorithm>
+
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+bool isRead(const EspContext& context, uint32_t number) {
+    bool read = false;
+    const auto look = [&](const std::vector<uint32_t>& layerOf) {
+        read = read || std::ranges::find(layerOf, number) != layerOf.end();
+    };
+    context.grammars.forEach([&](uint32_t, const LoadedGrammar& grammar) { look(grammar.layerOf); });
+    for (const GrammarVariant& variant : context.variants) look(variant.layerOf);
+    return read;
+}
+
+EspResult readLayer(EspContext& context, uint32_t surface, const char* name, float* texels, uint32_t* size) {
+    const PlacedSurface* placed = context.surfaces.find(surface);
+    if (!placed) return fail(&context, ESP_INVALID_ARGUMENT, "espReadLayer: no such surface");
+    const uint32_t side = placed->data.levels.front().size, room = *size;
+    *size = side;
+    if (!texels || room == 0) return ESP_OK;
+    if (room < side)
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    "espReadLayer: the layer has " + std::to_string(side) + " texels a side, there is room for " +
+                        std::to_string(room));
+    const PaintedLayer* layer = paintedLayer(context, surface, name);
+    if (!layer) {
+        std::fill_n(texels, size_t(side) * side, declaredFill(context, name).value_or(0));
+        return ESP_OK;
+    }
+    Result<std::vector<float>> values = readVector<float>(*context.device, layer->texels, 0, size_t(side) * side);
+    if (!values) return failGpu(&context, values.failure());
+    for (uint32_t y = 0; y < side; ++y)
+        for (uint32_t x = 0; x < side; ++x) texels[size_t(y) * side + x] = (*values)[texelIndex(side, x, y)];
+    return ESP_OK;
+}
+
+// Names of all painted layers, each once, in the order in which they came.
+std::vector<const char*> paintedNames(const EspContext& context) {
+    std::vector<const char*> names;
+    for (const PaintedLayer& layer : context.layers)
+        if (std::ranges::none_of(names, [&](const char* name) { return layer.name == name; }))
+            names.push_back(layer.name.c_str());
+    return names;
+}
+
+}  // namespace
+
+std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill,
+                                   std::span<const uint32_t> kept) {
+    const SceneLayer wanted{name, fill};
+    std::vector<SceneLayer>& layers = context.sceneLayers;
+    if (const auto found = std::ranges::find(layers, wanted); found != layers.end())
+        return uint32_t(found - layers.begin());
+    uint32_t number = 0;
+    if (layers.size() < kMaxLayers) {
+        number = uint32_t(layers.size());
+        layers.push_back(wanted);
+    } else {
+        // One that grammars have read, or a view has shown, and that nobody reads any more.
+        while (number < kMaxLayers && (isRead(context, number) || std::ranges::find(kept, number) != kept.end()))
+            ++number;
+        if (number == kMaxLayers) return std::nullopt;
+        layers[number] = wanted;
+    }
+    context.tablesStale = true;
+    return number;
+}
+
+PaintedLayer* paintedLayer(EspContext& context, uint32_t surface, const std::string& name) {
+    for (PaintedLayer& layer : context.layers)
+        if (layer.surface == surface && layer.name == name) return &layer;
+    return nullptr;
+}
+
+std::optional<float> declaredFill(const EspContext& context, const std::string& name) {
+    std::optional<float> fill;
+    context.grammars.forEach([&](uint32_t, const LoadedGrammar& grammar) {
+        if (fill) return;
+        if (const auto index = grammar.map.findContext(name)) fill = grammar.map.contexts()[*index].fill;
+    });
+    return fill;
+}
+
+void layerChanged(EspContext& context, uint32_t surface, const std::string& name, std::span<const uint32_t> blocks) {
+    if (blocks.empty() || !declaredFill(context, name)) return;
+    const PlacedSurface& placed = *context.surfaces.find(surface);
+    const uint32_t size = placed.data.levels.front().size, side = size / 8;
+    for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer) {
+        if (context.sceneLayers[layer].name != name) continue;
+        for (uint32_t block : blocks) {
+            const uint32_t x = block % side * 8, y = block / side * 8;
+            context.changes.markTexels(placed.instance, layer, size, x, y, x + 8, y + 8);
+        }
+    }
+    ++context.revision;
+}
+
+void wholeLayerChanged(EspContext& context, uint32_t surface, const std::string& name) {
+    if (!declaredFill(context, name)) return;
+    const PlacedSurface& placed = *context.surfaces.find(surface);
+    for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
+        if (context.sceneLayers[layer].name == name)
+            context.changes.markLayer(placed.instance, layer, placed.data.levels.front().size);
+    ++context.revision;
+}
+
+}  // namespace espalier
+
+using namespace espalier;
+
+extern "C" {
+
+uint32_t espPaintedLayerCount(const EspContext* context) {
+    return context ? uint32_t(paintedNames(*context).size()) : 0;
+}
+
+const char* espPaintedLayerName(const EspContext* context, uint32_t index) {
+    if (!context) return "";
+    const std::vector<const char*> names = paintedNames(*context);
+    return index < names.size() ? names[index] : "";
+}
+
+EspResult espReadLayer(EspContext* context, EspSurface surface, const char* layer, float* texels, uint32_t* size) {
+    return guarded(context, [&] {
+        if (!layer || !size) return fail(context, ESP_INVALID_ARGUMENT, "espReadLayer: null pointer");
+        return readLayer(*context, surface.id, layer, texels, size);
+    });
+}
+
+}  // extern "C"

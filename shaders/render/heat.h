@@ -1,0 +1,24 @@
+// The colours of views that show amounts, for shaders and for legends.
+#ifndef ESPALIER_RENDER_HEAT_H
+#define ESPALIER_RENDER_HEAT_H
+#include "shaders/shared/language.h"
+
+ESPALIER_BEGIN
+
+CONST_FLOAT(kHottestDepth, 8.0f);       // branches from the seed
+CONST_FLOAT(kHottestOverdraw, 16.0f);   // fragments a pixel
+
+// From dark blue over green and yellow to red, as t goes from 0 to 1. Linear colour.
+FN vec3 heatColor(float t) {
+    float x = 4.0f * (t < 0.0f ? 0.0f : (t > 1.0f ? 1.0f : t));
+    vec3 low = vec3(0.02f, 0.03f, 0.12f);
+    vec3 high = vec3(0.03f, 0.25f, 0.60f);
+    if (x > 1.0f) { low = high; high = vec3(0.10f, 0.55f, 0.15f); }
+    if (x > 2.0f) { low = high; high = vec3(0.90f, 0.65f, 0.05f); }
+    if (x > 3.0f) { low = high; high = vec3(0.85f, 0.06f, 0.03f); }
+    float below = x > 3.0f ? 3.0f : (x > 2.0f ? 2.0f : (x > 1.0f ? 1.0f : 0.0f));
+    return low + (high - low) * (x - below);
+}
+
+ESPALIER_END
+#endif

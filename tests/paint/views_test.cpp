@@ -1,0 +1,110 @@
+// Views that show amounts, and layers laid over the model.
+#include <array>
+#include <cmath>
+
+#include "tests/paint/fixture.hpp"
+
+using namespace espalier;
+using namespace espalier::test;
+
+namespace {
+
+constexpr uint32_t kSide = 96;
+using Pixel = std::array<int, 3>;
+
+// The cube from the front, filling about half of the picture.
+std::vector<uint8_t> picture(const Painting& painting, EspLook look) {
+    EspDrawDef def = espDefaultDrawDef();
+    def.width = def.height = kSide;
+    def.camera = {{0, 0, 6}, {0, 0, 0}, {0, 1, 0}, .7f, .05f, {0, 0}};
+    def.look = look;
+    painting.ok(espUpdate(painting.context));
+    painting.ok(espDraw(painting.context, &def));
+    std::vector<uint8_t> rgba(size_t(kSide) * kSide * 4);
+    painting.ok(espReadPixels(painting.context, rgba.data(), rgba.size()));
+    return rgba;
+}
+
+Pixel at(const std::vector<uint8_t>& rgba, uint32_t x, uint32_t y) {
+    const uint8_t* p = &rgba[(size_t(y) * kSide + x) * 4];
+    return {p[0], p[1], p[2]};
+}
+
+Pixel legend(EspView view, float amount) {
+    float rgb[3], most = 0;
+    REQUIRE(espViewColour(view, amount, rgb, &most) == ESP_OK);
+    Pixel pixel;
+    for (size_t i = 0; i < 3; ++i)
+        pixel[i] =
+            int(255 * (rgb[i] <= .0031308f ? 12.92f * rgb[i] : 1.055f * std::pow(rgb[i], 1 / 2.4f) - .055f) + .5f);
+    return pixel;
+}
+
+bool alike(Pixel a, Pixel b) {
+    return std::abs(a[0] - b[0]) <= 6 && std::abs(a[1] - b[1]) <= 6 && std::abs(a[2] - b[2]) <= 6;
+}
+
+}  // namespace
+
+TEST_CASE("overdraw counts nothing where nothing is, and a fragment or two on a cube") {
+    const Painting painting;
+    EspLook look = espDefaultLook();
+    look.view = ESP_VIEW_OVERDRAW;
+    const std::vector<uint8_t> shown = picture(painting, look);
+    CHECK(alike(at(shown, 2, 2), legend(ESP_VIEW_OVERDRAW, 0)));
+    const Pixel middle = at(shown, kSide / 2, kSide / 2);
+    // The cube's back may be shaded before its front hides it.
+    CHECK((alike(middle, legend(ESP_VIEW_OVERDRAW, 1)) || alike(middle, legend(ESP_VIEW_OVERDRAW, 2))));
+    float rgb[3], most = 0;
+    CHECK(espViewColour(ESP_VIEW_SHADED, 1, rgb, &most) == ESP_INVALID_ARGUMENT);
+    CHECK(legend(ESP_VIEW_DEPTH, 8) == legend(ESP_VIEW_DEPTH, 80));
+    CHECK(legend(ESP_VIEW_DEPTH, 0) != legend(ESP_VIEW_DEPTH, 1));
+}
+
+TEST_CASE("depth shows a stem and its branches each by the legend") {
+    const Painting painting;
+    const EspGrammar grammar = painting.grammar(
+        "Ivy -> Stem(0)\n"
+        "Stem(n) : n >= 30 -> NULL\n"
+        "Stem(n) : n % 6 > 4.5 -> Branch(2) {Go(n), Twig(0)}\n"
+        "Stem(n) -> Go(n)\n"
+        "Go(n) -> Marching(0.05, 0) {Stem(n + 1), Wood}\n"
+        "Twig(n) : n >= 8 -> NULL\n"
+        "Twig(n) -> Marching(0.05, 0.25) {Twig(n + 1), Wood}\n"
+        "Wood -> S(0.03) Shape(\"bark\", C1)\n");
+    painting.plant(grammar, {0, -.8f, 1}, {0, 1, 0});
+    EspLook look = espDefaultLook();
+    look.view = ESP_VIEW_DEPTH;
+    const std::vector<uint8_t> shown = picture(painting, look);
+    // Diagnostic views shade what faces away, so hues are compared.
+    const auto hue = [](Pixel p) {
+        return std::array<float, 2>{float(p[1] + 1) / float(p[2] + 1), float(p[0] + 1) / float(p[2] + 1)};
+    };
+    const auto count = [&](float depth) {
+        const auto wanted = hue(legend(ESP_VIEW_DEPTH, depth));
+        int found = 0;
+        for (uint32_t y = 0; y < kSide; ++y)
+            for (uint32_t x = 0; x < kSide; ++x) {
+                const auto here = hue(at(shown, x, y));
+                found += std::abs(here[0] - wanted[0]) < .12f && std::abs(here[1] - wanted[1]) < .12f;
+            }
+        return found;
+    };
+    CHECK(count(0) > 10);
+    CHECK(count(1) > 10);
+    CHECK(count(6) == 0);
+}
+
+TEST_CASE("a layer of no opacity leaves the model as it is, a full one doesn't") {
+    const Painting painting;
+    EspStroke stroke{};
+    painting.ok(espFillLayer(painting.context, "moss", 1, &stroke));
+    EspLook look = espDefaultLook();
+    const std::vector<uint8_t> shaded = picture(painting, look);
+    look.view = ESP_VIEW_LAYER;
+    look.viewLayer = "moss";
+    look.viewOpacity = 0;
+    CHECK(alike(at(picture(painting, look), 48, 48), at(shaded, 48, 48)));
+    look.viewOpacity = 1;
+    CHECK(!alike(at(picture(painting, look), 48, 48), at(shaded, 48, 48)));
+}
