@@ -18,12 +18,16 @@ TEST_CASE("every action comes back from its line") {
         StrokeEnd{},
         FillLayer{"mask", .5f},
         LoadLayer{"mask", "mask.exr", 0},
+        FreezeSeeds{{1, 2}, true},
+        PruneBranch{"00f1020304050607", true},
+        SetHouse{{3, "gable", .7f, 5, {{1, "eave", .5f}}, {{0, 0}, {1, 0}, {1, 1.5f}}}},
+        ResetHouse{3},
         SetCamera{{1, 2, 3}, {4, 5, 6}, .7f},
         SetView{"layer", "mask"},
         Undo{},
         Redo{},
     };
-    CHECK(std::size(actions) == std::variant_size_v<Action> - 1 + 1);  // the inverse aside, one comes twice
+    CHECK(std::size(actions) == std::variant_size_v<Action> - 2 + 1);  // the inverses aside, one comes twice
     for (const Action& action : actions) {
         const std::string line = toJson({12, 3, action});
         CAPTURE(line);

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "tools/document/document.hpp"
+#include "tools/document/layer_files.hpp"
 #include "tools/document/run.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 struct Options {
     Request request;
-    std::vector<std::string> layers;
+    std::vector<std::string> layers, exports;
     uint32_t frames = 1;
     uint32_t width = 1280, height = 720;
     std::string size, folder = "out", stats, view = "shaded", walk = "intrinsic", camera, cache, replay;
@@ -58,7 +59,10 @@ void addOptions(CLI::App& app, Options& options) {
         ->check(CLI::Range(0ll, 4294967295ll));
     app.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
     app.add_option("--layer", options.layers, "NAME=FILE: a picture drawn in the model's UVs");
-    app.add_option("--view", options.view, "shaded, charts, normals, lod or layer:NAME")->capture_default_str();
+    app.add_option("--export", options.exports,
+                   "NAME=FILE: after the last frame writes a layer over the surface's walk UVs (.exr, .png)");
+    app.add_option("--view", options.view, "shaded, charts, normals, lod, depth, overdraw or layer:NAME")
+        ->capture_default_str();
     app.add_option("--camera", options.camera, "EX,EY,EZ,TX,TY,TZ[,FOV]: eye, target, vertical angle in degrees");
     app.add_option("--walk", options.walk, "intrinsic or paper")
         ->capture_default_str()
@@ -213,6 +217,11 @@ int run(Options options) {
     if (!(replays ? filmRun(recorded, options.every, document, film, taken, error)
                   : filmTurn(scene, options.frames, film, error)))
         return fail(replays ? options.replay + ": " + error : error);
+    for (const std::string& asked : options.exports) {
+        const size_t sign = asked.find('=');
+        if (sign == std::string::npos || sign == 0) return fail("--export takes NAME=FILE, not '" + asked + "'");
+        if (!exportLayer(document, asked.substr(0, sign), asked.substr(sign + 1), error)) return fail(error);
+    }
     EspStats stats;
     if (espReadStats(made, &stats) != ESP_OK) return fail(espLastError(made));
     if (!options.stats.empty() && !writeText(options.stats, statsJson(stats), error)) return fail(error);

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "tools/scene/scene.hpp"
+
 namespace espalier::document {
 
 // What can be done to a document, each thing a plain record: the window performs them, undo is made of them, and a
@@ -48,6 +50,7 @@ struct SeedRecord {
     std::array<float, 3> position{}, direction{};
     uint32_t number = 1;
     std::vector<Param> params = {};  // in place of its grammar's
+    scene::FrozenPlant frozen = {};  // kept for undo; no part of a run, which freezes by an action of its own
     template <class V>
     void fields(V&& v) {
         v("key", key), v("grammar", grammar), v("position", position), v("direction", direction), v("number", number);
@@ -79,6 +82,42 @@ struct ChangeSeeds {
     template <class V>
     void fields(V&& v) {
         v("seeds", seeds);
+    }
+};
+// Their plants stand as they are from now on, or grow again.
+struct FreezeSeeds {
+    static constexpr const char* kName = "freeze";
+    std::vector<uint32_t> keys;
+    bool frozen = true;
+    template <class V>
+    void fields(V&& v) {
+        v("keys", keys), v("frozen", frozen);
+    }
+};
+struct PruneBranch {
+    static constexpr const char* kName = "prune";
+    std::string branch;  // its key, 16 hexadecimal digits
+    bool pruned = true;
+    template <class V>
+    void fields(V&& v) {
+        v("branch", branch), v("pruned", pruned);
+    }
+};
+struct SetHouse {
+    static constexpr const char* kName = "house";
+    scene::House house;
+    template <class V>
+    void fields(V&& v) {
+        house.fields(v);
+    }
+};
+// As the town's file says.
+struct ResetHouse {
+    static constexpr const char* kName = "reset_house";
+    uint32_t house = 0;
+    template <class V>
+    void fields(V&& v) {
+        v("house", house);
     }
 };
 struct SetLight {
@@ -154,7 +193,7 @@ struct SetCamera {
 };
 struct SetView {
     static constexpr const char* kName = "view";
-    std::string view;   // shaded, charts, normals, lod or layer
+    std::string view;   // a name that scene::viewNamed knows
     std::string layer;  // of the view "layer"
     template <class V>
     void fields(V&& v) {
@@ -179,8 +218,16 @@ struct SwapStroke {
     template <class V>
     void fields(V&&) {}
 };
+// Likewise: plants as they were frozen, or not.
+struct RestoreFrozen {
+    static constexpr const char* kName = "";
+    std::vector<std::pair<uint32_t, scene::FrozenPlant>> plants;  // by seeds' keys; null: it grows
+    template <class V>
+    void fields(V&&) {}
+};
 using Action = std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, StrokeBegin, StrokeDabs,
-                            StrokeEnd, FillLayer, LoadLayer, SetCamera, SetView, Undo, Redo, SwapStroke>;
+                            StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse, SetCamera,
+                            SetView, Undo, Redo, SwapStroke, RestoreFrozen>;
 
 // One line of a run: {"frame": 3, "gesture": 2, "NAME": {fields}}; see run.hpp.
 struct RunLine {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tools/document/layer_history.hpp"
 #include "tools/scene/daylight.hpp"
@@ -22,6 +23,7 @@ Seed seedOf(const SeedRecord& record) {
     seed.position = record.position;
     seed.direction = record.direction;
     seed.number = record.number;
+    seed.frozen = record.frozen;
     for (const Param& param : record.params) {
         scene::ParamValue& value = seed.params.emplace_back();
         value.name = param.name;
@@ -40,7 +42,14 @@ bool finite(const std::array<float, 3>& v) {
 }
 
 // Within one gesture only the first value counts for undo: what later actions set is overwritten anyway.
+std::optional<uint32_t> houseOf(const Action& action) {
+    if (const auto* set = std::get_if<SetHouse>(&action)) return set->house.index;
+    if (const auto* reset = std::get_if<ResetHouse>(&action)) return reset->house;
+    return {};
+}
+
 bool overwrites(const Action& earlier, const Action& later) {
+    if (const auto house = houseOf(earlier)) return house == houseOf(later);
     if (earlier.index() != later.index()) return false;
     if (const auto* a = std::get_if<SetParam>(&earlier)) {
         const auto& b = std::get<SetParam>(later);
@@ -88,6 +97,7 @@ size_t Document::indexOf(uint32_t key) const {
 SeedRecord Document::recordOf(const Seed& seed) const {
     SeedRecord record{seed.key, seed.grammar, seed.position, seed.direction, seed.number};
     for (const scene::ParamValue& value : seed.params) record.params.push_back(paramOf(value));
+    record.frozen = seed.frozen;
     return record;
 }
 
@@ -283,6 +293,7 @@ bool Document::carryOut(const ChangeSeeds& action, std::vector<Action>& back, st
                     record.params == inverse.seeds.back().params;
         scene_.seeds[i] = seedOf(record);
         scene_.seeds[i].planted = before[i].planted;
+        scene_.seeds[i].frozen = before[i].frozen;  // which only FreezeSeeds changes
     }
     if (!(onlyMoved ? moveSeeds(action) : replant(before, error))) return false;
     back.push_back(std::move(inverse));
@@ -360,6 +371,11 @@ const char* nameOf(const Action& action) {
         const char* operator()(const FillLayer&) const { return "Fill a layer"; }
         const char* operator()(const LoadLayer&) const { return "Import a layer"; }
         const char* operator()(const SwapStroke&) const { return "Paint"; }
+        const char* operator()(const FreezeSeeds& a) const { return a.frozen ? "Freeze" : "Thaw"; }
+        const char* operator()(const RestoreFrozen&) const { return "Freeze"; }
+        const char* operator()(const PruneBranch& a) const { return a.pruned ? "Prune" : "Let a branch grow again"; }
+        const char* operator()(const SetHouse&) const { return "Change a house"; }
+        const char* operator()(const ResetHouse&) const { return "A house as planned"; }
         const char* operator()(const SetCamera&) const { return "Move the camera"; }
         const char* operator()(const SetView&) const { return "Change the view"; }
         const char* operator()(const Undo&) const { return "Undo"; }

@@ -74,6 +74,11 @@ class Document {
     bool carryOut(const FillLayer& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const LoadLayer& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SwapStroke& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const FreezeSeeds& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const RestoreFrozen& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const PruneBranch& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetHouse& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const ResetHouse& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetCamera& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetView& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const Undo&, std::vector<Action>&, std::string& error) { return move(done_, undone_, error); }
@@ -87,6 +92,7 @@ class Document {
     bool moveSeeds(const ChangeSeeds& action);
     bool replant(const std::vector<scene::Seed>& before, std::string& error);
     size_t indexOf(uint32_t key) const;
+    Action houseBack(uint32_t index) const;
 
     EspContext* context_;
     scene::Scene scene_;

@@ -20,6 +20,11 @@ bool modeNamed(const std::string& name, EspBrushMode& mode) {
 size_t keptBytes(const Action& action) {
     if (const auto* swap = std::get_if<SwapStroke>(&action))
         return size_t(espStrokeBytes(swap->stroke->context, swap->stroke->stroke));
+    if (const auto* restore = std::get_if<RestoreFrozen>(&action)) {
+        size_t bytes = 0;
+        for (const auto& [key, plant] : restore->plants) bytes += plant ? plant->size() : 0;
+        return bytes;
+    }
     if (const auto* text = std::get_if<SetText>(&action)) return text->text.size();
     return 0;
 }

@@ -18,6 +18,7 @@ using scene::SceneFile;
 constexpr const char* kProject = "project.json";
 constexpr const char* kAutosave = "autosave.json";
 constexpr const char* kLayers = "layers";
+constexpr const char* kPlants = "plants";
 constexpr float kDegrees = 180 / 3.14159265f;
 
 std::array<float, 3> three(const float* v) {
@@ -42,12 +43,13 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
     out.fov = scene.camera.fovY * kDegrees;
 }
 
-// A name for what the texels are.
-std::string hashOf(const std::vector<float>& texels) {
-    uint64_t hash = 1469598103934665603ull;
-    for (float value : texels) {
-        uint32_t bits;
-        std::memcpy(&bits, &value, sizeof bits);
+// A name for what these bytes are.
+std::string hashOf(const void* data, size_t size) {
+    uint64_t hash = 1469598103934665603ull ^ size;
+    const char* bytes = static_cast<const char*>(data);
+    for (size_t i = 0; i < size; i += sizeof(uint32_t)) {
+        uint32_t bits = 0;
+        std::memcpy(&bits, bytes + i, std::min(size - i, sizeof bits));
         hash = (hash ^ bits) * 1099511628211ull;
         hash ^= hash >> 29;
     }
@@ -56,11 +58,28 @@ std::string hashOf(const std::vector<float>& texels) {
     return text;
 }
 
+// Each frozen plant into a file, likewise.
+bool writePlants(const fs::path& folder, SceneFile& out, std::string& error) {
+    for (scene::SceneGrammar& grammar : out.grammars)
+        for (scene::Seed& seed : grammar.seeds) {
+            seed.frozenFile.clear();
+            if (!seed.frozen) continue;
+            const std::string bytes(reinterpret_cast<const char*>(seed.frozen->data()), seed.frozen->size());
+            const fs::path path = folder / kPlants / (hashOf(bytes.data(), bytes.size()) + ".plant");
+            seed.frozenFile = path.string();
+            std::error_code code;
+            fs::create_directories(path.parent_path(), code);
+            if (!fs::exists(path, code) && !writeTextDurably(path.string(), bytes, error)) return false;
+        }
+    return true;
+}
+
 // Each layer into a file, unless a file holds just that already.
 bool writeLayers(const ProjectData& data, const fs::path& folder, SceneFile& out, std::string& error) {
     for (const ProjectData::Layer& layer : data.layers) {
-        const std::string file =
-            layer.name + "-" + std::to_string(layer.surface) + "-" + hashOf(layer.picture.texels) + ".exr";
+        const std::string file = layer.name + "-" + std::to_string(layer.surface) + "-" +
+                                 hashOf(layer.picture.texels.data(), layer.picture.texels.size() * sizeof(float)) +
+                                 ".exr";
         const fs::path path = folder / kLayers / file;
         std::error_code code;
         fs::create_directories(path.parent_path(), code);
@@ -90,6 +109,8 @@ SceneFile describe(const Document& document) {
             if (seed.grammar == i) described.seeds.push_back(seed);
     }
     out.town = scene.town;
+    out.pruned.resize(espPrunedCount(document.context()));
+    for (uint32_t i = 0; i < out.pruned.size(); ++i) (void)espPrunedAt(document.context(), i, &out.pruned[i]);
     describeLook(scene, out);
     return out;
 }
@@ -107,7 +128,7 @@ void sweep(const fs::path& folder) {
     std::string named, text, error;
     for (const char* file : {kProject, kAutosave})
         if (scene::readText((folder / file).string(), text, error)) named += text;
-    for (const fs::path& place : {folder, folder / kLayers})
+    for (const fs::path& place : {folder, folder / kLayers, folder / kPlants})
         for (const auto& entry : fs::directory_iterator(place, ignored)) {
             const std::string name = entry.path().filename().string();
             const bool unnamed = place != folder && named.find(name) == std::string::npos;
@@ -118,7 +139,7 @@ void sweep(const fs::path& folder) {
 bool write(const ProjectData& data, const std::string& folder, const char* name, std::string& error) {
     const std::string path = (fs::path(folder) / name).string();
     SceneFile file = data.file;
-    return makeFolder(folder, error) && writeLayers(data, folder, file, error) &&
+    return makeFolder(folder, error) && writeLayers(data, folder, file, error) && writePlants(folder, file, error) &&
            writeTextDurably(path, writeSceneText(path, file), error);
 }
 

@@ -188,6 +188,11 @@ bool loadTown(EspContext* context, Scene& out, std::string& error) {
     def.ground = town.ground ? 1 : 0;
     if (town.groundColour) std::copy(town.groundColour->begin(), town.groundColour->end(), def.groundColour);
     if (!fromContext(context, espLoadTown(context, &def), error)) return false;
+    for (const House& house : town.houses)
+        if (!setHouse(context, house, error)) {
+            error = town.file + ": house " + std::to_string(house.index) + " of the scene: " + error;
+            return false;
+        }
     if (town.grammar >= 0)
         return fromContext(context, espSetTownGrammar(context, out.grammars[size_t(town.grammar)].id), error);
     for (const LoadedGrammar& grammar : out.grammars)
@@ -231,6 +236,14 @@ bool loadGrammar(EspContext* context, const SceneGrammar& described, LoadedGramm
     return true;
 }
 
+bool readFrozen(Seed& seed, std::string& error) {
+    std::string bytes;
+    if (!readText(seed.frozenFile, bytes, error)) return false;
+    const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
+    seed.frozen = std::make_shared<std::vector<std::byte>>(first, first + bytes.size());
+    return true;
+}
+
 bool openDescription(EspContext* context, const Request& request, Scene& out, std::string& error) {
     SceneFile file;
     if (!readSceneFile(request.file, file, error)) return false;
@@ -255,9 +268,12 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         for (Seed seed : described.seeds) {
             seed.grammar = uint32_t(i);
             if (request.seed) seed.number = number++;
+            if (!seed.frozenFile.empty() && !readFrozen(seed, error)) return false;
             out.seeds.push_back(seed);
         }
     }
+    for (uint64_t branch : file.pruned)
+        if (!fromContext(context, espPruneBranch(context, branch, 1), error)) return false;
     out.town = file.town;
     if (out.town && !loadTown(context, out, error)) return false;
     noteLayers(context, out);
@@ -350,6 +366,10 @@ bool plantAll(EspContext* context, Scene& scene, std::string& error) {
                              espSetSeedParam(context, seed.planted, own.name.c_str(), own.value.data(), own.count),
                              error))
                 return false;
+        if (seed.frozen && espFreezeAs(context, seed.planted, seed.frozen->data(), seed.frozen->size()) != ESP_OK) {
+            scene.notes.push_back("a frozen plant grows again: " + std::string(espLastError(context)));
+            seed.frozen = nullptr;
+        }
     }
     return true;
 }
@@ -376,7 +396,7 @@ std::vector<ParamValue> changedParams(const EspContext* context, EspGrammar gram
 }
 
 namespace {
-constexpr const char* kViews[] = {"shaded", "charts", "normals", "lod", "layer"};
+constexpr const char* kViews[] = {"shaded", "charts", "normals", "lod", "layer", "depth", "overdraw"};
 }
 
 bool viewNamed(const std::string& name, EspView& out) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +11,7 @@
 
 #include "plugin_api/espalier.h"
 #include "tools/scene/picture.hpp"
+#include "tools/scene/town.hpp"
 
 namespace espalier::scene {
 
@@ -42,6 +45,7 @@ struct SceneTown {
     Placing placing;   // of scale 1
     bool ground = true;
     std::optional<std::array<float, 3>> groundColour;
+    std::vector<House> houses = {};  // that aren't as the file says, by index
     bool operator==(const SceneTown&) const = default;
 };
 
@@ -60,12 +64,17 @@ struct LoadedGrammar {
     EspGrammar id{};
 };
 
+// A plant that stands as it is, as espReadFrozen gave it.
+using FrozenPlant = std::shared_ptr<const std::vector<std::byte>>;
+
 struct Seed {
     uint32_t key = 0;      // tells the seeds of an opened scene apart, from 1
     uint32_t grammar = 0;  // index into Scene::grammars
     std::array<float, 3> position{}, direction{0, 1, 0};
     uint32_t number = 1;
     std::vector<ParamValue> params;  // in place of its grammar's
+    FrozenPlant frozen = {};         // null: it grows
+    std::string frozenFile;          // where a scene file keeps that
     EspSeed planted{};
 };
 
@@ -79,6 +88,7 @@ struct Scene {
     std::vector<Seed> seeds;
     std::optional<SceneTown> town;
     std::vector<std::string> layers;
+    std::vector<std::string> notes;  // what of the file couldn't be kept, a line each
     EspCamera camera{};
     EspLook ownLook{};      // as the file says
     EspLook look{};         // that, with the light of the hour

@@ -3,6 +3,7 @@
 #include "tools/scene/scene_file.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
 
@@ -22,8 +23,8 @@ class Reader {
     void readScene(const Json& json) {
         if (!readVersion(json)) return;
         if (!isObject(json, "a scene",
-                      {"project", "surface", "surfaces", "town", "grammars", "layers", "camera", "sun", "sky", "ground",
-                       "exposure"}))
+                      {"project", "surface", "surfaces", "town", "pruned", "grammars", "layers", "camera", "sun", "sky",
+                       "ground", "exposure"}))
             return;
         readSurfaces(json);
         if (const Json* grammars = need(json, "grammars")) {
@@ -32,6 +33,7 @@ class Reader {
             for (const Json& grammar : grammars->items) readGrammar(grammar);
         }
         if (const Json* town = json.find("town")) readTown(*town);
+        if (const Json* pruned = json.find("pruned")) readPruned(*pruned);
         if (const Json* layers = json.find("layers")) {
             if (layers->kind != Json::Kind::object) fail(*layers, "'layers' must be an object");
             for (const auto& [name, picture] : layers->members) readLayer(name, picture);
@@ -98,7 +100,7 @@ class Reader {
         placing.turn = degrees * kRadians;
     }
     void readTown(const Json& json) {
-        if (!isObject(json, "'town'", {"file", "grammar", "position", "turn", "ground"})) return;
+        if (!isObject(json, "'town'", {"file", "grammar", "position", "turn", "ground", "houses"})) return;
         SceneTown& town = out_.town.emplace();
         if (const Json* name = need(json, "file")) town.file = file(*name);
         readPlace(json, town.placing);
@@ -107,6 +109,10 @@ class Reader {
             number(json, "grammar", 0, float(out_.grammars.size()) - 1, index);
             if (index != std::floor(index)) fail(*grammar, "'grammar' must be a place in the list of grammars, from 0");
             town.grammar = int(index);
+        }
+        if (const Json* houses = json.find("houses")) {
+            if (houses->kind != Json::Kind::list) fail(*houses, "'houses' must be a list");
+            for (const Json& house : houses->items) readHouse(house, town.houses.emplace_back());
         }
         const Json* ground = json.find("ground");
         if (!ground) return;
@@ -117,6 +123,54 @@ class Reader {
             town.groundColour = colour;
         else
             fail(*ground, "'ground' must be true, false or a colour of three numbers");
+    }
+    void whole(const Json& json, const char* name, uint32_t& out) {
+        float value = 0;
+        number(json, name, 0, 1e6f, value);
+        if (value != std::floor(value)) fail(json, std::string("'") + name + "' must be a whole number");
+        out = uint32_t(value);
+    }
+    void word(const Json& json, const char* name, std::string& out) {
+        const Json* found = need(json, name);
+        if (found && found->kind != Json::Kind::text) fail(*found, std::string("'") + name + "' must be a word");
+        if (found) out = found->text;
+    }
+    void readHouse(const Json& json, House& house) {
+        if (!isObject(json, "a house", {"house", "shape", "slope", "eave_height", "edges", "corners"})) return;
+        EspRoofShape known;
+        if (need(json, "house")) whole(json, "house", house.index);
+        word(json, "shape", house.shape);
+        if (!shapeNamed(house.shape, known)) fail(json, "there is no roof of the kind '" + house.shape + "'");
+        number(json, "slope", 0, 100, house.slope);
+        number(json, "eave_height", 0, 1000, house.eaveHeight);
+        if (const Json* edges = json.find("edges"))
+            for (const Json& edge : edges->items) {
+                if (!isObject(edge, "an edge", {"edge", "end", "slope"})) continue;
+                House::Edge& own = house.edges.emplace_back();
+                whole(edge, "edge", own.edge);
+                word(edge, "end", own.end);
+                number(edge, "slope", 0, 100, own.slope);
+            }
+        if (const Json* corners = json.find("corners"))
+            for (const Json& corner : corners->items) {
+                const bool pair = corner.kind == Json::Kind::list && corner.items.size() == 2 &&
+                                  corner.items[0].kind == Json::Kind::number &&
+                                  corner.items[1].kind == Json::Kind::number;
+                if (!pair) return fail(corner, "a corner must be two numbers");
+                house.corners.push_back({float(corner.items[0].number), float(corner.items[1].number)});
+            }
+    }
+    // Keys have 64 bits, more than a number of JSON holds.
+    void readPruned(const Json& json) {
+        if (json.kind != Json::Kind::list) fail(json, "'pruned' must be a list of keys");
+        for (const Json& key : json.items) {
+            char* end = nullptr;
+            const uint64_t value = std::strtoull(key.text.c_str(), &end, 16);
+            if (key.kind != Json::Kind::text || key.text.size() != 16 || *end)
+                fail(key, "a branch's key must be 16 hexadecimal digits");
+            else
+                out_.pruned.push_back(value);
+        }
     }
     void readLayer(const std::string& name, const Json& json) {
         if (json.kind != Json::Kind::list) return out_.layers.push_back({name, file(json), -1});
@@ -244,7 +298,7 @@ class Reader {
         return value.kind == Json::Kind::number || value.kind == Json::Kind::flag || param.value.count == 3;
     }
     void readSeed(SceneGrammar& grammar, const Json& json) {
-        if (!isObject(json, "a seed", {"position", "direction", "seed", "params"})) return;
+        if (!isObject(json, "a seed", {"position", "direction", "seed", "params", "frozen"})) return;
         Seed seed;
         seed.number = uint32_t(grammar.seeds.size() + 1);
         if (const Json* position = need(json, "position"); position && !threeNumbers(*position, seed.position))
@@ -258,6 +312,7 @@ class Reader {
             else
                 seed.number = uint32_t(n->number);
         }
+        if (const Json* frozen = json.find("frozen")) seed.frozenFile = file(*frozen);
         if (const Json* params = json.find("params"))
             for (const auto& [name, value] : params->members) {
                 SceneParam param;

@@ -42,6 +42,7 @@ struct SceneFile {
     std::vector<SceneSurface> surfaces;
     std::vector<SceneGrammar> grammars;
     std::optional<SceneTown> town;
+    std::vector<uint64_t> pruned;  // keys of branches, ascending
     std::vector<SceneLayer> layers;
     bool hasCamera = false;
     std::array<float, 3> eye{}, target{};

@@ -1,5 +1,7 @@
 // SceneFile -> JSON, the inverse of scene_file.cpp.
+#include <cstdio>
 #include <filesystem>
+#include <functional>
 
 #include "tools/scene/json_out.hpp"
 #include "tools/scene/scene_file.hpp"
@@ -32,6 +34,15 @@ ordered_json placedJson(const std::string& file, const Placing& p) {
 ordered_json townJson(const SceneTown& town, const std::string& file) {
     ordered_json json = placedJson(file, town.placing);
     if (town.grammar >= 0) json["grammar"] = town.grammar;
+    for (const House& house : town.houses) {
+        ordered_json& out = json["houses"].emplace_back(ordered_json{{"house", house.index},
+                                                                     {"shape", house.shape},
+                                                                     {"slope", shortest(house.slope)},
+                                                                     {"eave_height", shortest(house.eaveHeight)}});
+        for (const House::Edge& edge : house.edges)
+            out["edges"].push_back({{"edge", edge.edge}, {"end", edge.end}, {"slope", shortest(edge.slope)}});
+        for (const auto& corner : house.corners) out["corners"].push_back(shortestList(corner));
+    }
     if (!town.ground)
         json["ground"] = false;
     else if (town.groundColour)
@@ -43,8 +54,10 @@ ordered_json valueJson(const ParamValue& value) {
     return value.count == 3 ? shortestList(value.value) : shortest(value.value[0]);
 }
 
-ordered_json grammarJson(const SceneGrammar& grammar, const std::string& file) {
-    ordered_json json{{"file", file}};
+using Beside = std::function<std::string(const std::string&)>;
+
+ordered_json grammarJson(const SceneGrammar& grammar, const Beside& beside) {
+    ordered_json json{{"file", beside(grammar.file)}};
     if (grammar.text) json["text"] = linesOf(*grammar.text);
     if (grammar.grows) json["grows"] = linesOf(*grammar.grows);
     ordered_json& params = json["params"] = ordered_json::object();
@@ -54,6 +67,7 @@ ordered_json grammarJson(const SceneGrammar& grammar, const std::string& file) {
         ordered_json& out = seeds.emplace_back(ordered_json{{"position", shortestList(seed.position)},
                                                             {"direction", shortestList(seed.direction)},
                                                             {"seed", seed.number}});
+        if (!seed.frozenFile.empty()) out["frozen"] = beside(seed.frozenFile);
         for (const ParamValue& own : seed.params) out["params"][own.name] = valueJson(own);
     }
     return json;
@@ -73,9 +87,13 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     for (const SceneSurface& surface : file.surfaces)
         json["surfaces"].push_back(placedJson(beside(surface.file), surface.placing));
     if (file.town) json["town"] = townJson(*file.town, beside(file.town->file));
+    for (uint64_t branch : file.pruned) {
+        char key[20];
+        std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(branch));
+        json["pruned"].push_back(key);
+    }
     json["grammars"] = ordered_json::array();
-    for (const SceneGrammar& grammar : file.grammars)
-        json["grammars"].push_back(grammarJson(grammar, beside(grammar.file)));
+    for (const SceneGrammar& grammar : file.grammars) json["grammars"].push_back(grammarJson(grammar, beside));
     for (const SceneLayer& layer : file.layers) {
         if (layer.surface == SceneLayer::kTown)
             json["layers"][layer.name].push_back({{"town", true}, {"file", beside(layer.file)}});

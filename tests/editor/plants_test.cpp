@@ -1,0 +1,96 @@
+// Branches that are pruned, plants that are frozen: through undo, and through a project.
+#include "tests/editor/editing.hpp"
+#include "tools/document/project.hpp"
+
+using namespace espalier::document;
+
+namespace {
+
+// A side branch of the first plant that a ray from the camera meets.
+std::string someBranch(Editing& editing) {
+    const EspCamera& camera = editing.document->scene().camera;
+    const auto& foot = editing.document->scene().seeds[0].position;
+    for (float up = .05f; up < 1.2f; up += .01f)
+        for (float aside = -.4f; aside < .4f; aside += .02f) {
+            const float to[3] = {foot[0] + aside - camera.eye[0], foot[1] + up - camera.eye[1],
+                                 foot[2] - camera.eye[2]};
+            EspPlantHit hit;
+            if (espPickPlant(editing.context.get(), camera.eye, to, &hit) != ESP_OK || hit.depth == 0) continue;
+            char key[20];
+            std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(hit.branch));
+            return key;
+        }
+    return {};
+}
+
+uint32_t nodesOf(Editing& editing, size_t seed) {
+    REQUIRE_MESSAGE(espUpdate(editing.context.get()) == ESP_OK, espLastError(editing.context.get()));
+    uint32_t nodes = 0;
+    REQUIRE(espPlantNodes(editing.context.get(), editing.document->scene().seeds[seed].planted, &nodes) == ESP_OK);
+    return nodes;
+}
+
+}  // namespace
+
+TEST_CASE("a pruned branch stays away, through undo, redo and a project") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const uint64_t whole = editing.hash();
+    const std::string branch = someBranch(editing);
+    REQUIRE(branch.size() == 16);
+    REQUIRE_MESSAGE(editing.perform(PruneBranch{branch, true}), editing.error);
+    const uint64_t pruned = editing.hash();
+    CHECK(pruned != whole);
+    REQUIRE(editing.perform(PruneBranch{branch, true}));
+    CHECK(editing.document->undoSteps() == 1);  // what is so already is no step
+    CHECK(!editing.perform(PruneBranch{"somewhere", true}));
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(editing.hash() == whole);
+    REQUIRE(editing.perform(Redo{}));
+    CHECK(editing.hash() == pruned);
+    std::string error;
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("project"), error), error);
+    Editing opened(folder.file("project"));
+    CHECK(opened.hash() == pruned);
+    REQUIRE(opened.perform(PruneBranch{branch, false}));
+    CHECK(opened.hash() == whole);
+}
+
+TEST_CASE("a frozen plant stands while others change, through undo, replanting and a project") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const uint64_t before = editing.hash();
+    const uint32_t first = nodesOf(editing, 0), second = nodesOf(editing, 1);
+    const uint32_t key = editing.document->scene().seeds[0].key;
+    REQUIRE_MESSAGE(editing.perform(FreezeSeeds{{key}, true}), editing.error);
+    CHECK(editing.hash() == before);
+    REQUIRE(editing.perform(SetParam{0, {"reach", {.4f}}}));
+    CHECK(nodesOf(editing, 0) == first);
+    CHECK(nodesOf(editing, 1) < second);
+    // Another seed comes: all are planted anew, and the frozen one still stands.
+    REQUIRE(editing.perform(AddSeeds{{{editing.document->freshKey(), 0, {0, 2, .4f}, {0, 1, 0}, 5}}, {2}}));
+    CHECK(nodesOf(editing, 0) == first);
+    const uint64_t mixed = editing.hash();
+
+    std::string error;
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("project"), error), error);
+    {
+        Editing opened(folder.file("project"));
+        CHECK(opened.document->scene().notes.empty());
+        CHECK(opened.hash() == mixed);
+        CHECK(nodesOf(opened, 0) == first);
+        REQUIRE(opened.perform(FreezeSeeds{{opened.document->scene().seeds[0].key}, false}));
+        CHECK(nodesOf(opened, 0) < first);
+    }
+    REQUIRE(editing.perform(FreezeSeeds{{key}, false}));
+    CHECK(nodesOf(editing, 0) < first);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(nodesOf(editing, 0) == first);
+    CHECK(editing.hash() == mixed);
+    REQUIRE(editing.perform(RemoveSeeds{{key}}));
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(editing.hash() == mixed);
+    for (int i = 0; i < 3; ++i) REQUIRE(editing.perform(Undo{}));
+    CHECK(editing.hash() == before);
+    CHECK(!editing.perform(FreezeSeeds{{99}, true}));
+}

@@ -1,0 +1,73 @@
+// Plants that stand as they are, and branches that are cut away for good.
+#include <cstdlib>
+
+#include "tools/document/document.hpp"
+
+namespace espalier::document {
+namespace {
+
+scene::FrozenPlant recordsOf(EspContext* context, EspSeed seed) {
+    size_t size = 0;
+    if (espReadFrozen(context, seed, nullptr, &size) != ESP_OK) return nullptr;
+    auto bytes = std::make_shared<std::vector<std::byte>>(size);
+    if (espReadFrozen(context, seed, bytes->data(), &size) != ESP_OK) return nullptr;
+    return bytes;
+}
+
+bool isPruned(const EspContext* context, uint64_t branch) {
+    for (uint32_t i = 0; i < espPrunedCount(context); ++i) {
+        uint64_t key = 0;
+        if (espPrunedAt(context, i, &key) == ESP_OK && key == branch) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+bool Document::carryOut(const FreezeSeeds& action, std::vector<Action>& back, std::string& error) {
+    RestoreFrozen before;
+    for (uint32_t key : action.keys) {
+        const size_t i = indexOf(key);
+        std::vector<Action> ignored;
+        std::string none;
+        if (i == scene_.seeds.size() ||
+            failed(espFreezePlant(context_, scene_.seeds[i].planted, action.frozen), error)) {
+            if (i == scene_.seeds.size()) error = "there is no seed " + std::to_string(key);
+            carryOut(before, ignored, none);
+            return false;
+        }
+        before.plants.push_back({key, scene_.seeds[i].frozen});
+        scene_.seeds[i].frozen = action.frozen ? recordsOf(context_, scene_.seeds[i].planted) : nullptr;
+    }
+    back.push_back(std::move(before));
+    return true;
+}
+
+bool Document::carryOut(const RestoreFrozen& action, std::vector<Action>& back, std::string& error) {
+    RestoreFrozen before;
+    for (const auto& [key, plant] : action.plants) {
+        scene::Seed& seed = scene_.seeds[indexOf(key)];
+        if (failed(plant ? espFreezeAs(context_, seed.planted, plant->data(), plant->size())
+                         : espFreezePlant(context_, seed.planted, 0),
+                   error))
+            return false;
+        before.plants.push_back({key, std::exchange(seed.frozen, plant)});
+    }
+    back.push_back(std::move(before));
+    return true;
+}
+
+bool Document::carryOut(const PruneBranch& action, std::vector<Action>& back, std::string& error) {
+    char* end = nullptr;
+    const uint64_t branch = std::strtoull(action.branch.c_str(), &end, 16);
+    if (action.branch.size() != 16 || *end) {
+        error = "a branch's key is 16 hexadecimal digits, not '" + action.branch + "'";
+        return false;
+    }
+    if (isPruned(context_, branch) == action.pruned) return true;
+    if (failed(espPruneBranch(context_, branch, action.pruned), error)) return false;
+    back.push_back(PruneBranch{action.branch, !action.pruned});
+    return true;
+}
+
+}  // namespace espalier::document

@@ -1,0 +1,68 @@
+// Houses as records, in and out of the plugin.
+#include "tools/scene/town.hpp"
+
+#include <algorithm>
+
+namespace espalier::scene {
+namespace {
+
+constexpr const char* kShapes[] = {"hip", "gable", "half-hip", "pyramid", "shed", "gambrel", "mansard", "flat"};
+
+}  // namespace
+
+bool shapeNamed(const std::string& name, EspRoofShape& out) {
+    const auto found = std::find(std::begin(kShapes), std::end(kShapes), name);
+    if (found == std::end(kShapes)) return false;
+    out = EspRoofShape(found - std::begin(kShapes));
+    return true;
+}
+
+const char* nameOf(EspRoofShape shape) {
+    return kShapes[shape];
+}
+
+House houseNow(const EspContext* context, uint32_t index) {
+    House house;
+    house.index = index;
+    EspHouseInfo info;
+    if (espHouseInfo(context, index, &info) != ESP_OK) return house;
+    house.shape = nameOf(info.shape);
+    house.slope = info.slope;
+    house.eaveHeight = info.eaveHeight - info.baseHeight;
+    std::vector<std::array<float, 2>> corners(info.cornerCount);
+    std::vector<EspHouseEdge> edges(info.edgeCount);
+    if (espHouseShape(context, index, corners.empty() ? nullptr : corners[0].data(), edges.data()) != ESP_OK)
+        return house;
+    corners.resize(info.outerCorners);
+    house.corners = std::move(corners);
+    for (const EspHouseEdge& edge : edges)
+        house.edges.push_back({edge.edge, edge.gable < 0 ? "" : edge.gable ? "gable" : "eave", edge.slope});
+    return house;
+}
+
+bool setHouse(EspContext* context, const House& house, std::string& error) {
+    EspHouseDef def{};
+    if (!shapeNamed(house.shape, def.shape)) {
+        error = "there is no roof of the kind '" + house.shape + "'";
+        return false;
+    }
+    std::vector<EspHouseEdge> edges;
+    for (const House::Edge& edge : house.edges) {
+        if (edge.end != "" && edge.end != "gable" && edge.end != "eave") {
+            error = "an edge carries a 'gable' or an 'eave', not '" + edge.end + "'";
+            return false;
+        }
+        edges.push_back({edge.edge, edge.end.empty() ? -1 : edge.end == "gable", edge.slope});
+    }
+    def.slope = house.slope;
+    def.eaveHeight = house.eaveHeight;
+    def.edges = edges.data();
+    def.edgeCount = uint32_t(edges.size());
+    def.corners = house.corners.empty() ? nullptr : house.corners[0].data();
+    def.cornerCount = uint32_t(house.corners.size());
+    if (espSetHouse(context, house.index, &def) == ESP_OK) return true;
+    error = espLastError(context);
+    return false;
+}
+
+}  // namespace espalier::scene

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "plugin_api/espalier.h"
+
+namespace espalier::scene {
+
+// A house of a town as a designer wants it, whatever the town's file says.
+struct House {
+    uint32_t index = 0;         // in the town
+    std::string shape = "hip";  // as of nameOf(EspRoofShape)
+    float slope = 0;            // tangent of the pitch; 0: the shape's own
+    float eaveHeight = 0;       // metres above the house's base; 0: as it is
+    struct Edge {
+        uint32_t edge = 0;     // from this corner to the next
+        std::string end = {};  // "gable", "eave", or as the shape says
+        float slope = 0;       // 0: as the shape says
+        template <class V>
+        void fields(V&& v) {
+            v("edge", edge), v("end", end), v("slope", slope);
+        }
+        bool operator==(const Edge&) const = default;
+    };
+    std::vector<Edge> edges = {};                    // that have something of their own
+    std::vector<std::array<float, 2>> corners = {};  // of the outer ring, world x and z; none: as they are
+    template <class V>
+    void fields(V&& v) {
+        v("house", index), v("shape", shape), v("slope", slope), v("eave_height", eaveHeight), v("edges", edges);
+        v("corners", corners);
+    }
+    bool operator==(const House&) const = default;
+};
+
+// As it stands; without edges and corners if there is no such house.
+House houseNow(const EspContext* context, uint32_t index);
+// False: `error` tells why, and the house stands as it did.
+bool setHouse(EspContext* context, const House& house, std::string& error);
+
+bool shapeNamed(const std::string& name, EspRoofShape& out);
+const char* nameOf(EspRoofShape shape);
+
+}  // namespace espalier::scene
