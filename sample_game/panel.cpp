@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <span>
 
 #include "sample_game/panels.hpp"
 
@@ -15,24 +16,29 @@ using espalier::scene::Seed;
 
 void toolButtons(Workspace& work) {
     struct Entry {
-        const char* label;
+        const char *label, *key;
         Tool tool;
         const char* tip;
     };
-    const Entry entries[] = {{"Look Q", Tool::look, "Turn around the scene by dragging"},
-                             {"Paint B", Tool::paint, "Paint a layer, such as where ivy grows"},
-                             {"Seeds S", Tool::seeds, "Plant, choose, move and turn seeds"},
-                             {"Walk P", Tool::branch, "Pick a branch and see how it walked over the atlas"}};
+    const Entry entries[] = {{"Look", "Q", Tool::look, "Turn around the scene by dragging"},
+                             {"Paint", "B", Tool::paint, "Paint a layer, such as where ivy grows"},
+                             {"Seeds", "S", Tool::seeds, "Plant, choose, move and turn seeds"},
+                             {"Walk", "P", Tool::branch, "Pick a branch: see how it walked, prune it"},
+                             {"Roofs", "H", Tool::houses, "Choose a house: its roof, its outline"}};
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * work.scale, ImGui::GetStyle().FramePadding.y});
     const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const float width = (ImGui::GetContentRegionAvail().x - gap * float(std::size(entries) - 1)) / std::size(entries);
-    for (const Entry& entry : entries) {
+    // Only scenes with a town have roofs.
+    const size_t count = std::size(entries) - (espHouseCount(work.context.get()) ? 0 : 1);
+    const float width = (ImGui::GetContentRegionAvail().x - gap * float(count - 1)) / float(count);
+    for (const Entry& entry : std::span(entries, count)) {
         const bool on = work.tool == entry.tool;
         if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        if (ImGui::Button(entry.label, {width, 0})) work.choose(entry.tool);
+        const std::string full = std::string(entry.label) + " " + entry.key;
+        const bool fits = ImGui::CalcTextSize(full.c_str()).x + 4 * work.scale < width;
+        if (ImGui::Button(fits ? full.c_str() : entry.label, {width, 0})) work.choose(entry.tool);
         if (on) ImGui::PopStyleColor();
-        toolTip(entry.tip);
-        if (&entry != std::end(entries) - 1) ImGui::SameLine();
+        toolTip((std::string(entry.tip) + "  (" + entry.key + ")").c_str());
+        if (&entry != entries + count - 1) ImGui::SameLine();
     }
     ImGui::PopStyleVar();
 }
@@ -143,6 +149,16 @@ void chosenSeeds(Workspace& work) {
     }
     if (changed) work.perform(ChangeSeeds{chosen}, widgetGesture(work));
     ownValues(work, chosen);
+    std::vector<uint32_t> growing, frozen;
+    for (const SeedRecord& seed : chosen) (seed.frozen ? frozen : growing).push_back(seed.key);
+    if (!growing.empty()) {
+        if (ImGui::Button("Freeze", {-1, 0})) work.freeze(growing, true);
+        toolTip("The plant stands as it is: neither paint nor sliders change it any more");
+    }
+    if (!frozen.empty()) {
+        if (ImGui::Button("Thaw", {-1, 0})) work.freeze(frozen, false);
+        toolTip("The plant grows again from what is there");
+    }
     if (ImGui::Button("Remove  Del", {-1, 0})) {
         RemoveSeeds remove;
         for (const SeedRecord& seed : chosen) remove.keys.push_back(seed.key);
@@ -152,6 +168,26 @@ void chosenSeeds(Workspace& work) {
 }
 
 }  // namespace
+
+const char* viewTitle(EspView view) {
+    switch (view) {
+        case ESP_VIEW_SHADED:
+            return "Shaded";
+        case ESP_VIEW_CHARTS:
+            return "Charts and links";
+        case ESP_VIEW_NORMALS:
+            return "Normals";
+        case ESP_VIEW_LOD:
+            return "Levels of detail";
+        case ESP_VIEW_DEPTH:
+            return "Branches from the seed";
+        case ESP_VIEW_OVERDRAW:
+            return "Overdraw";
+        case ESP_VIEW_LAYER:
+            break;
+    }
+    return "Layer";
+}
 
 void toolTip(const char* text) {
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetTooltip("%s", text);
@@ -276,20 +312,20 @@ void lightPanel(Workspace& work) {
     exposed |= ImGui::Checkbox("Shadows", &light.shadows);
     if (changed || exposed) work.perform(light, changed ? gesture : second);
 
-    const char* names[] = {"Shaded", "Charts", "Normals", "Levels of detail"};
     ImGui::TextUnformatted("View");
     ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
     ImGui::SetNextItemWidth(-1);
     const bool layer = scene.look.view == ESP_VIEW_LAYER;
-    if (ImGui::BeginCombo("##view", layer ? scene.viewLayer.c_str() : names[scene.look.view])) {
-        for (int i = 0; i < 4; ++i)
-            if (ImGui::Selectable(names[i], scene.look.view == EspView(i)))
-                work.perform(SetView{espalier::scene::nameOf(EspView(i)), ""});
+    if (ImGui::BeginCombo("##view", layer ? scene.viewLayer.c_str() : viewTitle(scene.look.view))) {
+        for (const EspView view : kViews)
+            if (ImGui::Selectable(viewTitle(view), scene.look.view == view))
+                work.perform(SetView{espalier::scene::nameOf(view), ""});
         for (const std::string& name : scene.layers)
             if (ImGui::Selectable(("Layer: " + name).c_str(), layer && scene.viewLayer == name))
                 work.perform(SetView{"layer", name});
         ImGui::EndCombo();
     }
+    if (layer && slider("Opacity", &work.layout.layerOpacity, .05f, 1, "%.2f")) work.redraw = true;
     bool paper = work.grow.walk == ESP_WALK_PAPER;
     if (ImGui::Checkbox("The paper's walk, to compare", &paper)) {
         work.grow.walk = paper ? ESP_WALK_PAPER : ESP_WALK_INTRINSIC;
@@ -314,6 +350,7 @@ void showPanel(Workspace& work) {
         }
         if (work.tool == Tool::seeds) seedsPanel(work);
         if (work.tool == Tool::branch) branchPanel(work);
+        if (work.tool == Tool::houses) housesPanel(work);
         ImGui::Spacing();
         grammarsPanel(work);
         if (work.tool != Tool::paint && ImGui::CollapsingHeader("Layers")) layersPanel(work);

@@ -98,4 +98,36 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
     ImGui::End();
 }
 
+void showLegend(const Workspace& work) {
+    const EspView view = work.scene().look.view;
+    float rgb[3], most = 0;
+    if (espViewColour(view, 0, rgb, &most) != ESP_OK) return;
+    const float s = work.scale;
+    ImGui::SetNextWindowPos({work.panelUnits() + 12 * s, work.window.y - ImGui::GetFrameHeight() - 16 * s},
+                            ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowBgAlpha(.72f);
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize;
+    if (ImGui::Begin("legend", nullptr, flags)) {
+        ImGui::TextUnformatted(view == ESP_VIEW_DEPTH ? "Branches between a stem and its seed"
+                                                      : "Fragments shaded for a pixel");
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float width = 260 * s, height = ImGui::GetFontSize(), steps = 64;
+        for (float i = 0; i < steps; ++i) {
+            (void)espViewColour(view, most * (i + .5f) / steps, rgb, &most);
+            for (float& c : rgb) c = c <= .0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - .055f;
+            ImGui::GetWindowDrawList()->AddRectFilled({at.x + width * i / steps, at.y},
+                                                      {at.x + width * (i + 1) / steps, at.y + height},
+                                                      ImColor(rgb[0], rgb[1], rgb[2]));
+        }
+        ImGui::Dummy({width, height});
+        ImGui::TextDisabled("0");
+        const std::string last = std::to_string(int(most)) + " and more";
+        ImGui::SameLine(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(last.c_str()).x);
+        ImGui::TextDisabled("%s", last.c_str());
+    }
+    ImGui::End();
+}
+
 }  // namespace sample

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "sample_game/panels.hpp"
+#include "tools/document/layer_files.hpp"
 
 namespace sample {
 namespace {
@@ -58,24 +59,6 @@ void fileMenu(Workspace& work, Session& session) {
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) session.quit = true;
 }
 
-// Of several surfaces each has a picture of its own: mask.png, mask-1.png ...
-std::string pictureOf(const Workspace& work, const std::filesystem::path& path, size_t surface) {
-    if (surface == 0 || work.scene().surfaces.size() < 2) return path.string();
-    return (path.parent_path() / (path.stem().string() + "-" + std::to_string(surface) + path.extension().string()))
-        .string();
-}
-
-void exportLayer(Workspace& work, const std::string& layer, const std::string& path) {
-    work.error.clear();
-    for (size_t i = 0; i < work.scene().surfaces.size(); ++i) {
-        espalier::scene::GreyPicture picture;
-        if (!work.document->readLayer(i, layer, picture, work.error) ||
-            !writeGrey(pictureOf(work, path, i), picture, work.error))
-            return;
-    }
-    work.message = "Written: " + path;
-}
-
 void showDialogues(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
     if (d.open) {
@@ -94,10 +77,13 @@ void showDialogues(Workspace& work, Session& session) {
     if (askPath("Import a layer", "Picture in the surface's walk UVs, as the editor exports it:", "Import", d.picture,
                 sizeof d.picture))
         for (uint32_t i = 0; i < work.scene().surfaces.size(); ++i)
-            work.perform(LoadLayer{d.layer, pictureOf(work, d.picture, i), i});
+            work.perform(LoadLayer{d.layer, pictureOf(*work.document, d.picture, i), i});
     if (askPath("Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture,
-                sizeof d.picture))
-        exportLayer(work, d.layer, d.picture);
+                sizeof d.picture)) {
+        work.error.clear();
+        if (exportLayer(*work.document, d.layer, d.picture, work.error))
+            work.message = std::string("Written: ") + d.picture;
+    }
     if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");
     if (ImGui::BeginPopupModal("Unsaved work", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::TextUnformatted("The last session ended without saving. What it had changed was kept.");
@@ -154,6 +140,7 @@ void showMenu(Workspace& work, Session& session) {
             ImGui::MenuItem("Panel", "F2", &work.layout.panel);
             ImGui::MenuItem("Figures", "F3", &work.layout.figures);
             ImGui::MenuItem("Grammar", "F4", &work.layout.grammar);
+            ImGui::MenuItem("Atlas", "F5", &work.layout.atlas);
             ImGui::MenuItem("Coarser while moving", nullptr, &work.layout.halfWhileMoving);
             toolTip("While the camera moves on a slow device, the picture has half the pixels a side");
             ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
@@ -190,10 +177,15 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
         text =
             "Click: plant   drag: plant with a direction   Ctrl+drag: a row   click a seed: choose, drag it: move   "
             "Del: remove";
+    else if (work.tool == Tool::houses)
+        text =
+            "Click a house, or an edge of the chosen one   drag a corner: the roof follows   Ctrl+drag an edge: a new "
+            "corner   Del: the edge's corner goes";
     else if (work.tool == Tool::branch)
         text =
-            "Click a branch: its walk, on the model and over the atlas   white: steps   blue: put in at seams and "
-            "creases   orange: crossings";
+            "Click a branch: its walk, on the model and over the atlas   Del: prune it   white: steps   blue: put in "
+            "at "
+            "seams and creases   green: over a seam";
     else
         text =
             "Drag: turn around   Shift+drag: sideways   wheel: nearer   right drag: look, with W A S D: fly   "
@@ -245,11 +237,12 @@ void showHelp(Workspace& work) {
                          {"Click, Shift+click", "choose seeds; drag moves them"},
                          {"A, Del", "choose all, remove"},
                          {"R", "other random numbers for all"},
-                         {"P, then click", "the walk of a branch"}};
+                         {"P, then click", "the walk of a branch; Del prunes it"},
+                         {"H, then click", "a house; drag its corners, choose its edges"}};
     const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z", "undo, redo: of everything"},
-                       {"Ctrl+S, Ctrl+O", "save, open"},
-                       {"1 2 3 4", "shaded, charts, normals, levels of detail"},
-                       {"F2 F3 F4", "panel, figures, grammar"},
+                       {"Ctrl+S, Ctrl+O, Ctrl+E", "save, open, export the layer"},
+                       {"1 2 3 4 5 6", "shaded, charts, normals, levels of detail, depth, overdraw"},
+                       {"F2 F3 F4 F5", "panel, figures, grammar, atlas"},
                        {"F12", "write a screenshot"},
                        {"Esc", "puts the tool away"}};
     ImGui::SetNextWindowPos({work.window.x / 2, work.window.y / 2}, ImGuiCond_Always, {.5f, .5f});

@@ -1,9 +1,8 @@
-// The walk of a picked branch as in Buron 2015, Figure 4: its samples on the model and in the atlas, an arrow wherever
-// it goes over a crossing to another place of the atlas.
+// The walk of a picked branch on the model: its samples, and where it went over a crossing. AtlasView shows the same in
+// the atlas.
 #include <imgui.h>
 
-#include <algorithm>
-#include <cmath>
+#include <cstdio>
 
 #include "sample_game/panels.hpp"
 
@@ -11,59 +10,54 @@ namespace sample {
 namespace {
 
 constexpr ImU32 kSample = IM_COL32(255, 255, 255, 255), kInserted = IM_COL32(120, 200, 255, 255),
-                kJump = IM_COL32(255, 170, 50, 255);
+                kJump = IM_COL32(110, 230, 90, 255);
 
 bool jumps(const EspPathSample& a, const EspPathSample& b) {
     return a.chart != b.chart || a.surface.id != b.surface.id;
 }
 
-ImU32 chartColour(uint32_t chart) {
-    const ImVec4 colour = ImColor::HSV(float(chart * 2654435761u >> 8) / 16777216.f, .45f, .75f);
-    return ImGui::ColorConvertFloat4ToU32(colour);
+// What has been pruned, to take it back.
+void prunedPanel(Workspace& work) {
+    const uint32_t count = espPrunedCount(work.context.get());
+    if (count == 0) return;
+    ImGui::Text("%u pruned", count);
+    ImGui::SameLine();
+    if (!ImGui::Button("Let all grow again")) return;
+    std::vector<uint64_t> keys(count);
+    for (uint32_t i = 0; i < count; ++i) (void)espPrunedAt(work.context.get(), i, &keys[i]);
+    const uint32_t gesture = work.newGesture();
+    for (uint64_t key : keys) {
+        char text[20];
+        std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(key));
+        work.perform(espalier::document::PruneBranch{text, false}, gesture);
+    }
 }
 
-void arrow(ImDrawList& list, ImVec2 a, ImVec2 b, float scale) {
-    list.AddLine(a, b, kJump, 1.5f * scale);
-    const float x = b.x - a.x, y = b.y - a.y, length = std::sqrt(x * x + y * y);
-    if (length < 2) return;
-    const float s = 6 * scale / length;
-    list.AddTriangleFilled(b, {b.x - s * x - .5f * s * y, b.y - s * y + .5f * s * x},
-                           {b.x - s * x + .5f * s * y, b.y - s * y - .5f * s * x}, kJump);
-}
-
-// v runs upward.
-void atlas(const Workspace& work) {
-    const float side = std::max(64.f, std::min(ImGui::GetContentRegionAvail().x, ImGui::GetContentRegionAvail().y));
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const auto place = [&](const EspPathSample& s) {
-        return ImVec2(at.x + side * s.uv[0], at.y + side * (1 - s.uv[1]));
-    };
-    list.AddRectFilled(at, {at.x + side, at.y + side}, IM_COL32(24, 25, 28, 255));
-    for (int i = 0; i <= 8; ++i) {
-        const float t = side * float(i) / 8;
-        list.AddLine({at.x + t, at.y}, {at.x + t, at.y + side}, IM_COL32(60, 62, 66, 255));
-        list.AddLine({at.x, at.y + t}, {at.x + side, at.y + t}, IM_COL32(60, 62, 66, 255));
+void plantButtons(Workspace& work) {
+    const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    if (ImGui::Button("Prune  Del", {half, 0})) return work.prune();
+    toolTip("Cuts the branch away with all that grows from it, for good");
+    ImGui::SameLine();
+    for (const auto& seed : work.scene().seeds) {
+        if (seed.planted.id != work.branch->seed.id) continue;
+        if (ImGui::Button(seed.frozen ? "Thaw the plant" : "Freeze the plant", {half, 0}))
+            work.freeze({seed.key}, !seed.frozen);
+        toolTip("A frozen plant stands as it is: neither paint nor sliders change it");
+        return;
     }
-    for (size_t i = 0; i + 1 < work.path.size(); ++i) {
-        const EspPathSample &a = work.path[i], &b = work.path[i + 1];
-        if (jumps(a, b))
-            arrow(list, place(a), place(b), work.scale);
-        else
-            list.AddLine(place(a), place(b), chartColour(a.chart), 2 * work.scale);
-    }
-    for (const EspPathSample& s : work.path)
-        list.AddCircleFilled(place(s), (s.inserted ? 1.5f : 2) * work.scale, s.inserted ? kInserted : kSample);
-    ImGui::Dummy({side, side});
+    ImGui::NewLine();
 }
 
 }  // namespace
 
-void branchPanel(const Workspace& work) {
+void branchPanel(Workspace& work) {
+    prunedPanel(work);
     if (!work.branch || work.path.empty()) {
         ImGui::TextDisabled("Click a branch");
         return;
     }
+    plantButtons(work);
+    if (!work.branch) return;
     size_t crossings = 0;
     for (size_t i = 0; i + 1 < work.path.size(); ++i) crossings += jumps(work.path[i], work.path[i + 1]);
     ImGui::Text("Depth %u, %zu samples, %zu crossings", work.branch->depth, work.path.size(), crossings);
@@ -82,10 +76,6 @@ void showWalk(const Workspace& work) {
     for (const EspPathSample& sample : work.path)
         if (const auto at = work.place(vec(sample.position)))
             list.AddCircleFilled({at->x, at->y}, 2.5f * s, sample.inserted ? kInserted : kSample);
-    ImGui::SetNextWindowPos({work.window.x - 380 * s, work.window.y - 430 * s}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({360 * s, 390 * s}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Atlas")) atlas(work);
-    ImGui::End();
 }
 
 }  // namespace sample

@@ -10,10 +10,11 @@ void showMenu(Workspace& work, Session& session);  // the bar at the top, and it
 void showPanel(Workspace& work);                   // at the left: the tool, layers, seeds, grammars, light
 void showGrammarWindow(Workspace& work);           // the text, with mistakes at their lines
 void showFigures(const Workspace& work, uint32_t validationMessages, bool validation);
+void showLegend(const Workspace& work);                            // of a view that shows amounts
 void showStatus(const Workspace& work, bool caught, bool flying);  // at the bottom: what keys and buttons do now
-void showWalk(const Workspace& work);     // of the picked branch, on the model and in the atlas
-void showHelp(Workspace& work);           // over all: F1
-void showGrowing(const Workspace& work);  // while growth takes longer than a blink
+void showWalk(const Workspace& work);                              // of the picked branch, on the model
+void showHelp(Workspace& work);                                    // over all: F1
+void showGrowing(const Workspace& work);                           // while growth takes longer than a blink
 
 // Ctrl+S and Ctrl+O: at once, or by a dialogue of showMenu().
 void askToSave(Workspace& work, Session& session);
@@ -25,13 +26,18 @@ void brushPanel(Workspace& work);
 void layersPanel(Workspace& work);
 void seedsPanel(Workspace& work);
 void grammarsPanel(Workspace& work);
-void branchPanel(const Workspace& work);
+void branchPanel(Workspace& work);
+void housesPanel(Workspace& work);
 void lightPanel(Workspace& work);
 
 // A grammar's file, told apart from others of the same file by its place.
 std::string grammarName(const espalier::scene::Scene& scene, size_t index);
 // The number that belongs to the widget that is being dragged or typed into: what it does is one step of undo.
 uint32_t widgetGesture(Workspace& work);
+// Views that need no layer, in the order of their keys 1, 2 ...
+constexpr EspView kViews[] = {ESP_VIEW_SHADED, ESP_VIEW_CHARTS, ESP_VIEW_NORMALS,
+                              ESP_VIEW_LOD,    ESP_VIEW_DEPTH,  ESP_VIEW_OVERDRAW};
+const char* viewTitle(EspView view);
 // Shown when the mouse rests on the last widget.
 void toolTip(const char* text);
 

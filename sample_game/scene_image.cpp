@@ -5,26 +5,15 @@
 
 namespace sample {
 
-bool SceneImage::check(VkResult result, const char* what) {
-    if (result == VK_SUCCESS) return true;
-    error_ = std::string("the scene's image: ") + what + " failed (VkResult " + std::to_string(int(result)) + ")";
-    return false;
-}
-
-bool SceneImage::make(uint32_t width, uint32_t height) {
-    if (image_.size().width == width && image_.size().height == height) return true;
-    host_.waitIdle();
-    drawn_ = window_ = {};
-    return check(image_.make(host_.format(), {width, height},
-                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT),
-                 "making it");
-}
-
 bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, float scale, bool redraw) {
     const bool sameWindow = window_.width == frame.extent.width && window_.height == frame.extent.height;
     drew_ = redraw || !sameWindow || drawn_.width == 0;
     if (drew_) {
-        if (!make(frame.extent.width, frame.extent.height)) return false;
+        if (!image_.make(host_.format(), frame.extent.width, frame.extent.height,
+                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT)) {
+            error_ = "the scene's image: " + image_.error();
+            return false;
+        }
         window_ = frame.extent;
         // A smaller picture takes the image's corner.
         drawn_.width = std::max(1u, uint32_t(float(frame.extent.width) * scale + .5f));
@@ -54,11 +43,6 @@ bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, 
     imageBarrier(frame.commands, frame.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                  VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     return true;
-}
-
-SceneImage::~SceneImage() {
-    if (!host_.device()) return;
-    host_.waitIdle();
 }
 
 }  // namespace sample

@@ -4,7 +4,6 @@
 
 #include "plugin_api/espalier.h"
 #include "sample_game/host_image.hpp"
-#include "sample_game/vulkan_host.hpp"
 
 namespace sample {
 
@@ -14,8 +13,6 @@ namespace sample {
 class SceneImage {
   public:
     explicit SceneImage(const VulkanHost& host) : host_(host), image_(host) {}
-    SceneImage(const SceneImage&) = delete;
-    ~SceneImage();
 
     // Records into the frame. draw: what to look at; its size, image and frame are filled in. redraw: false shows
     // what was drawn last, if that had this size. scale: of the sides, above 0, up to 1. Leaves the window's image in
@@ -26,9 +23,6 @@ class SceneImage {
     bool drew() const { return drew_; }
 
   private:
-    bool make(uint32_t width, uint32_t height);
-    bool check(VkResult result, const char* what);
-
     const VulkanHost& host_;
     std::string error_;
     HostImage image_;

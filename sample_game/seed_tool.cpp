@@ -147,6 +147,7 @@ void SeedTool::draw(const Workspace& work) const {
         if (chosen && glm::length(direction) > 0) arrow(point, glm::normalize(direction), colour, 2 * s);
         list.AddCircleFilled({at->x, at->y}, 5.5f * s, IM_COL32(0, 0, 0, 0) | (alpha / 2 & 0xFF000000));
         list.AddCircleFilled({at->x, at->y}, 4 * s, colour);
+        if (seed.frozen) list.AddCircle({at->x, at->y}, 7 * s, IM_COL32(120, 200, 255, 0) | alpha, 0, 2 * s);
     }
     if (drag_ == Drag::direction)
         arrow(vec(pending_.position), vec(pending_.direction), IM_COL32(255, 190, 60, 255), 2.5f * s);

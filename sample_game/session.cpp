@@ -25,6 +25,20 @@ fs::file_time_type newestGrammar(const fs::path& file) {
     return newest;
 }
 
+// Of surfaces and town. A file that isn't there at the moment counts as it was: `before`.
+std::vector<fs::file_time_type> modelTimes(const Workspace& work, const std::vector<fs::file_time_type>& before) {
+    std::vector<std::string> files;
+    for (const auto& surface : work.scene().surfaces) files.push_back(surface.file);
+    if (work.scene().town) files.push_back(work.scene().town->file);
+    std::vector<fs::file_time_type> times;
+    for (size_t i = 0; i < files.size(); ++i) {
+        std::error_code missing;
+        times.push_back(fs::last_write_time(files[i], missing));
+        if (missing) times.back() = i < before.size() ? before[i] : fs::file_time_type::min();
+    }
+    return times;
+}
+
 }  // namespace
 
 void Session::begin(Workspace& work, const std::string& file) {
@@ -39,6 +53,8 @@ void Session::begin(Workspace& work, const std::string& file) {
     recovery_ = recovered ? "" : recoverable(autosaveFolder());
     grammarTimes_.clear();
     for (const auto& grammar : work.scene().grammars) grammarTimes_.push_back(newestGrammar(grammar.file));
+    modelTimes_ = modelTimes(work, {});
+    reload = false;
     work.document->listen([this](const Action& action, uint32_t gesture) { recorder_.note(action, gesture); });
 }
 
@@ -60,7 +76,21 @@ bool Session::step(Workspace& work, double now) {
     }
     if (now < nextLook_) return false;
     nextLook_ = now + kLookEvery;
-    return watchGrammars(work);
+    const bool models = watchModels(work), grammars = watchGrammars(work);
+    return models || grammars;
+}
+
+bool Session::watchModels(const Workspace& work) {
+    std::vector<fs::file_time_type> times = modelTimes(work, modelTimes_);
+    if (times == modelTimes_) return false;
+    modelTimes_ = std::move(times);
+    return reload = true;
+}
+
+void Session::setOrigin(const Workspace& work, const Origin& origin) {
+    file_ = origin.file;
+    folder_ = origin.folder;
+    savedRevision_ = origin.modified ? ~0ull : work.document->revision();
 }
 
 bool Session::watchGrammars(Workspace& work) {

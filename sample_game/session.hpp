@@ -30,6 +30,16 @@ class Session {
 
     // What to open next; the application does it.
     std::string openNext;
+    // A surface's or the town's file has changed: what is open is to be opened again over it.
+    bool reload = false;
+
+    // Where the document belongs, over a reload of what it is in now.
+    struct Origin {
+        std::string file, folder;
+        bool modified = false;
+    };
+    Origin origin(const Workspace& work) const { return {file_, folder_, modified(work)}; }
+    void setOrigin(const Workspace& work, const Origin& origin);
     bool quit = false;
 
     bool recording() const { return recorder_.on(); }
@@ -41,11 +51,12 @@ class Session {
   private:
     std::string autosaveFolder() const;
     bool watchGrammars(Workspace& work);
+    bool watchModels(const Workspace& work);
 
     std::string file_, folder_, recovery_, recordingTo_;
     uint64_t savedRevision_ = 0, autosavedRevision_ = 0;
     double nextAutosave_ = 0, nextLook_ = 0;
-    std::vector<std::filesystem::file_time_type> grammarTimes_;
+    std::vector<std::filesystem::file_time_type> grammarTimes_, modelTimes_;
     espalier::document::Recorder recorder_;
 };
 

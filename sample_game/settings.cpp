@@ -27,6 +27,7 @@ struct LayoutRecord {
     template <class V>
     void fields(V&& v) {
         v("panel", layout.panel), v("figures", layout.figures), v("grammar", layout.grammar);
+        v("atlas", layout.atlas), v("layer_opacity", layout.layerOpacity);
         v("panel_width", layout.panelWidth), v("size", layout.sizeOfAll),
             v("half_while_moving", layout.halfWhileMoving);
         v("radius", brush.radius), v("strength", brush.strength), v("hardness", brush.hardness);
@@ -84,6 +85,7 @@ void readLayout(Layout& layout, Brush& brush) {
     if (configFolder().empty() || !read(configFolder() + "/layout.json", record, ignored)) return;
     layout = record.layout;
     layout.panelWidth = std::clamp(layout.panelWidth, 200.f, 800.f);
+    layout.layerOpacity = std::clamp(layout.layerOpacity, .05f, 1.f);
     layout.sizeOfAll = std::clamp(layout.sizeOfAll, .5f, 3.f);
     brush.radius = std::clamp(record.brush.radius, .005f, 20.f);
     brush.strength = std::clamp(record.brush.strength, .01f, 1.f);

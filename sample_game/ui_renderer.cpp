@@ -1,12 +1,11 @@
 // ImDrawData in, draw calls into a frame out. Vertices and indices go to mapped buffers, one pair a frame in flight;
-// the only picture is the font atlas. Colours stay in sRGB, as the window's UNORM format wants them.
+// pictures are the font atlas and what panels show. Colours stay in sRGB, as the window's UNORM format wants them.
 #include "sample_game/ui_renderer.hpp"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 
 namespace sample {
 namespace {
@@ -33,10 +32,13 @@ VkShaderModule makeModule(VkDevice device, const uint32_t* code, size_t sizeByte
 
 }  // namespace
 
-bool UiRenderer::check(VkResult result, const char* what) {
-    if (result == VK_SUCCESS) return true;
-    error_ = std::string("the panel: ") + what + " failed (VkResult " + std::to_string(int(result)) + ")";
+bool UiRenderer::fail(const std::string& message) {
+    error_ = "the panel: " + message;
     return false;
+}
+
+bool UiRenderer::check(VkResult result, const char* what) {
+    return result == VK_SUCCESS || fail(std::string(what) + " failed (VkResult " + std::to_string(int(result)) + ")");
 }
 
 bool UiRenderer::create() {
@@ -128,109 +130,23 @@ bool UiRenderer::makePipeline() {
 }
 
 bool UiRenderer::updateFonts() {
-    host_.waitIdle();
     unsigned char* rgba = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&rgba, &width, &height);
-    ImGui::GetIO().Fonts->SetTexID(ImTextureID(this));
-    return check(picture_.make(VK_FORMAT_R8G8B8A8_UNORM, {uint32_t(width), uint32_t(height)},
-                               VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT),
-                 "making the font's picture") &&
-           uploadPicture(rgba, uint32_t(width), uint32_t(height));
-}
-
-bool UiRenderer::uploadPicture(const unsigned char* rgba, uint32_t width, uint32_t height) {
-    const VkDevice device = host_.device();
-    Memory staging;
-    const VkDeviceSize size = VkDeviceSize(width) * height * 4;
-    if (!reserve(staging, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT)) return false;
-    std::memcpy(staging.bytes, rgba, size);
-    VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-    poolInfo.queueFamilyIndex = host_.queueFamily();
-    VkCommandPool pool = VK_NULL_HANDLE;
-    if (!check(vkCreateCommandPool(device, &poolInfo, nullptr, &pool), "uploading the font")) {
-        release(staging);
-        return false;
-    }
-    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    allocate.commandPool = pool;
-    allocate.commandBufferCount = 1;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    bool good = check(vkAllocateCommandBuffers(device, &allocate, &commands), "uploading the font");
-    if (good) {
-        VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-        begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        vkBeginCommandBuffer(commands, &begin);
-        VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-        barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        barrier.image = picture_.image();
-        barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        dependency.imageMemoryBarrierCount = 1;
-        dependency.pImageMemoryBarriers = &barrier;
-        vkCmdPipelineBarrier2(commands, &dependency);
-        VkBufferImageCopy region{};
-        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-        region.imageExtent = {width, height, 1};
-        vkCmdCopyBufferToImage(commands, staging.buffer, picture_.image(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                               &region);
-        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-        barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_SHADER_READ_BIT;
-        barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-        barrier.newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-        vkCmdPipelineBarrier2(commands, &dependency);
-        vkEndCommandBuffer(commands);
-        VkCommandBufferSubmitInfo one{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
-        one.commandBuffer = commands;
-        VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-        submit.commandBufferInfoCount = 1;
-        submit.pCommandBufferInfos = &one;
-        good = check(vkQueueSubmit2(host_.queue(), 1, &submit, VK_NULL_HANDLE), "uploading the font");
-        host_.waitIdle();
-    }
-    vkDestroyCommandPool(device, pool, nullptr);
-    release(staging);
-    return good;
-}
-
-bool UiRenderer::reserve(Memory& memory, VkDeviceSize size, VkBufferUsageFlags usage) {
-    if (memory.size >= size) return true;
-    release(memory);
-    VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-    info.size = size + size / 2;  // so that a growing panel doesn't allocate each frame
-    info.usage = usage;
-    const VkDevice device = host_.device();
-    if (!check(vkCreateBuffer(device, &info, nullptr, &memory.buffer), "making a buffer")) return false;
-    VkMemoryRequirements needs;
-    vkGetBufferMemoryRequirements(device, memory.buffer, &needs);
-    VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-    allocate.allocationSize = needs.size;
-    if (!host_.findMemory(needs.memoryTypeBits,
-                          VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                          allocate.memoryTypeIndex))
-        return check(VK_ERROR_OUT_OF_HOST_MEMORY, "finding memory");
-    if (!check(vkAllocateMemory(device, &allocate, nullptr, &memory.memory), "allocating a buffer") ||
-        !check(vkBindBufferMemory(device, memory.buffer, memory.memory, 0), "allocating a buffer") ||
-        !check(vkMapMemory(device, memory.memory, 0, VK_WHOLE_SIZE, 0, &memory.bytes), "mapping a buffer"))
-        return false;
-    memory.size = info.size;
-    return true;
+    ImGui::GetIO().Fonts->SetTexID(&fonts_);
+    return fonts_.show(rgba, uint32_t(width), uint32_t(height)) || fail(fonts_.error());
 }
 
 bool UiRenderer::draw(const Frame& frame, const ImDrawData& lists) {
     if (lists.TotalVtxCount == 0 || lists.DisplaySize.x <= 0 || lists.DisplaySize.y <= 0) return true;
-    Memory& vertices = vertices_[frame.slot];
-    Memory& indices = indices_[frame.slot];
-    if (!reserve(vertices, VkDeviceSize(lists.TotalVtxCount) * sizeof(ImDrawVert), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT) ||
-        !reserve(indices, VkDeviceSize(lists.TotalIdxCount) * sizeof(ImDrawIdx), VK_BUFFER_USAGE_INDEX_BUFFER_BIT))
-        return false;
-    auto* vertex = static_cast<ImDrawVert*>(vertices.bytes);
-    auto* index = static_cast<ImDrawIdx*>(indices.bytes);
+    MappedBuffer& vertices = vertices_[frame.slot];
+    MappedBuffer& indices = indices_[frame.slot];
+    if (!vertices.reserve(VkDeviceSize(lists.TotalVtxCount) * sizeof(ImDrawVert), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT))
+        return check(vertices.result(), "making room for vertices");
+    if (!indices.reserve(VkDeviceSize(lists.TotalIdxCount) * sizeof(ImDrawIdx), VK_BUFFER_USAGE_INDEX_BUFFER_BIT))
+        return check(indices.result(), "making room for indices");
+    auto* vertex = static_cast<ImDrawVert*>(vertices.bytes());
+    auto* index = static_cast<ImDrawIdx*>(indices.bytes());
     for (int i = 0; i < lists.CmdListsCount; ++i) {
         const ImDrawList& list = *lists.CmdLists[i];
         vertex = std::copy(list.VtxBuffer.begin(), list.VtxBuffer.end(), vertex);
@@ -263,15 +179,10 @@ void UiRenderer::record(const Frame& frame, const ImDrawData& lists) {
     vkCmdBeginRendering(commands, &rendering);
 
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
-    const VkDescriptorImageInfo picture{sampler_, picture_.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    write.pImageInfo = &picture;
-    vkCmdPushDescriptorSetKHR(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &write);
     const VkDeviceSize zero = 0;
-    vkCmdBindVertexBuffers(commands, 0, 1, &vertices_[frame.slot].buffer, &zero);
-    vkCmdBindIndexBuffer(commands, indices_[frame.slot].buffer, 0,
+    const VkBuffer vertices = vertices_[frame.slot].buffer();
+    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
+    vkCmdBindIndexBuffer(commands, indices_[frame.slot].buffer(), 0,
                          sizeof(ImDrawIdx) == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
     const VkViewport viewport{0, 0, float(frame.extent.width), float(frame.extent.height), 0, 1};
     vkCmdSetViewport(commands, 0, 1, &viewport);
@@ -285,6 +196,7 @@ void UiRenderer::record(const Frame& frame, const ImDrawData& lists) {
     int firstVertex = 0;
     uint32_t firstIndex = 0;
     const float toX = lists.FramebufferScale.x, toY = lists.FramebufferScale.y;
+    ImTextureID bound = nullptr;
     for (int i = 0; i < lists.CmdListsCount; ++i) {
         const ImDrawList& list = *lists.CmdLists[i];
         for (const ImDrawCmd& draw : list.CmdBuffer) {
@@ -294,6 +206,7 @@ void UiRenderer::record(const Frame& frame, const ImDrawData& lists) {
             const float x1 = std::min(float(frame.extent.width), (draw.ClipRect.z - lists.DisplayPos.x) * toX);
             const float y1 = std::min(float(frame.extent.height), (draw.ClipRect.w - lists.DisplayPos.y) * toY);
             if (x1 <= x0 || y1 <= y0) continue;
+            if (draw.TextureId != bound) bind(commands, *static_cast<const HostImage*>(bound = draw.TextureId));
             const VkRect2D scissor{{int32_t(x0), int32_t(y0)}, {uint32_t(x1 - x0), uint32_t(y1 - y0)}};
             vkCmdSetScissor(commands, 0, 1, &scissor);
             vkCmdDrawIndexed(commands, draw.ElemCount, 1, firstIndex + draw.IdxOffset,
@@ -305,17 +218,18 @@ void UiRenderer::record(const Frame& frame, const ImDrawData& lists) {
     vkCmdEndRendering(commands);
 }
 
-void UiRenderer::release(Memory& memory) {
-    vkDestroyBuffer(host_.device(), memory.buffer, nullptr);
-    vkFreeMemory(host_.device(), memory.memory, nullptr);
-    memory = Memory{};
+void UiRenderer::bind(VkCommandBuffer commands, const HostImage& picture) {
+    const VkDescriptorImageInfo image{sampler_, picture.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    write.pImageInfo = &image;
+    vkCmdPushDescriptorSetKHR(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &write);
 }
 
 UiRenderer::~UiRenderer() {
     if (!host_.device()) return;
     host_.waitIdle();
-    for (Memory& memory : vertices_) release(memory);
-    for (Memory& memory : indices_) release(memory);
     vkDestroyPipeline(host_.device(), pipeline_, nullptr);
     vkDestroyPipelineLayout(host_.device(), layout_, nullptr);
     vkDestroyDescriptorSetLayout(host_.device(), setLayout_, nullptr);

@@ -4,17 +4,22 @@
 #include <vector>
 
 #include "sample_game/host_image.hpp"
-#include "sample_game/vulkan_host.hpp"
+#include "sample_game/mapped_buffer.hpp"
 
 struct ImDrawData;
 
 namespace sample {
 
 // Draws Dear ImGui's lists with dynamic rendering over what a frame shows. (The packaged Vulkan backend of 1.86 wants a
-// render pass, and would link against the loader's functions, which volk replaces.)
+// render pass, and would link against the loader's functions, which volk replaces.) An ImTextureID is a HostImage*,
+// which is kept as long as a frame in flight may show it.
 class UiRenderer {
   public:
-    explicit UiRenderer(const VulkanHost& host) : host_(host), picture_(host) {}
+    explicit UiRenderer(const VulkanHost& host)
+        : host_(host),
+          fonts_(host),
+          vertices_{MappedBuffer(host), MappedBuffer(host)},
+          indices_{MappedBuffer(host), MappedBuffer(host)} {}
     UiRenderer(const UiRenderer&) = delete;
     ~UiRenderer();
 
@@ -27,17 +32,10 @@ class UiRenderer {
     const std::string& error() const { return error_; }
 
   private:
-    struct Memory {
-        VkBuffer buffer = VK_NULL_HANDLE;
-        VkDeviceMemory memory = VK_NULL_HANDLE;
-        void* bytes = nullptr;
-        VkDeviceSize size = 0;
-    };
+    bool fail(const std::string& message);
     bool check(VkResult result, const char* what);
     bool makePipeline();
-    bool uploadPicture(const unsigned char* rgba, uint32_t width, uint32_t height);
-    bool reserve(Memory& memory, VkDeviceSize size, VkBufferUsageFlags usage);
-    void release(Memory& memory);
+    void bind(VkCommandBuffer commands, const HostImage& picture);
     void record(const Frame& frame, const ImDrawData& lists);
 
     const VulkanHost& host_;
@@ -46,9 +44,8 @@ class UiRenderer {
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
-    HostImage picture_;
-    Memory vertices_[kFramesInFlight];
-    Memory indices_[kFramesInFlight];
+    HostImage fonts_;
+    MappedBuffer vertices_[kFramesInFlight], indices_[kFramesInFlight];
 };
 
 }  // namespace sample

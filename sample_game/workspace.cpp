@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace sample {
 
@@ -30,6 +31,24 @@ float Workspace::shift() const {
     return panelUnits() / std::max(1.f, window.x);
 }
 
+float Workspace::reach() const {
+    float low[3] = {1e30f, 1e30f, 1e30f}, high[3] = {-1e30f, -1e30f, -1e30f};
+    for (const auto& surface : scene().surfaces) {
+        EspSurfaceInfo info;
+        if (espSurfaceInfo(context.get(), surface.id, &info) != ESP_OK) continue;
+        for (int i = 0; i < 3; ++i) {
+            low[i] = std::min(low[i], info.boundsMin[i]);
+            high[i] = std::max(high[i], info.boundsMax[i]);
+        }
+    }
+    return low[0] > high[0] ? 1 : glm::distance(vec(low), vec(high));
+}
+
+void Workspace::lookFrom(const EspCamera& from) {
+    camera.set(from, reach());
+    redraw = true;
+}
+
 bool Workspace::perform(const espalier::document::Action& action, uint32_t gesture) {
     error.clear();
     redraw = true;
@@ -42,6 +61,7 @@ void Workspace::choose(Tool chosen) {
     if (chosen == Tool::paint && tool != Tool::paint && scene().look.view == ESP_VIEW_SHADED && !brush.layer.empty())
         perform(SetView{"layer", brush.layer});
     if (chosen != Tool::paint && tool == Tool::paint && layer) perform(SetView{"shaded", ""});
+    if (chosen == Tool::branch && tool != Tool::branch) layout.atlas = true;
     tool = chosen;
 }
 
@@ -58,6 +78,21 @@ void Workspace::pickBranch(glm::vec2 at) {
     branch.reset();
     if (espPickPlant(context.get(), &ray.origin.x, &ray.direction.x, &found) == ESP_OK) branch = found;
     readPath();
+}
+
+void Workspace::prune() {
+    if (!branch) return;
+    char key[20];
+    std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(branch->branch));
+    if (!perform(espalier::document::PruneBranch{key, true})) return;
+    branch.reset();
+    path.clear();
+}
+
+void Workspace::freeze(const std::vector<uint32_t>& keys, bool frozen) {
+    // As it is now: edits that haven't grown yet are part of it.
+    if (frozen && espUpdate(context.get()) != ESP_OK) error = espLastError(context.get());
+    perform(espalier::document::FreezeSeeds{keys, frozen});
 }
 
 void Workspace::readPath() {

@@ -12,7 +12,7 @@
 
 namespace sample {
 
-enum class Tool { look, paint, seeds, branch };
+enum class Tool { look, paint, seeds, branch, houses };
 
 // What the brush paints with, but for what the keys say while it does.
 struct Brush {
@@ -30,8 +30,9 @@ struct Brush {
 // What is remembered from one run to the next, besides the places of movable windows.
 struct Layout {
     bool panel = true, figures = true, grammar = false, atlas = false, help = false;
-    float panelWidth = 320;  // at 96 dpi
-    float sizeOfAll = 1;     // of letters and panels, besides the display's own scale
+    float panelWidth = 320;     // at 96 dpi
+    float sizeOfAll = 1;        // of letters and panels, besides the display's own scale
+    float layerOpacity = .75f;  // of the layer that is seen on the model
     bool halfWhileMoving = true;
 };
 
@@ -51,7 +52,10 @@ struct Workspace {
     std::set<uint32_t> selected;        // keys of seeds
     std::optional<EspPlantHit> branch;  // that was picked
     std::vector<EspPathSample> path;    // its walk; what grows anew may have lost it
+    std::optional<uint32_t> house;      // of the town, that was chosen
+    std::optional<uint32_t> houseEdge;  // of its outer ring
     uint32_t plantGrammar = 0;
+    uint32_t viewLevel = 0;    // whose charts are seen on the model
     uint32_t openGrammar = 0;  // in the grammar's window
     Layout layout;
     EspGrowDef grow = espDefaultGrowDef();
@@ -63,10 +67,13 @@ struct Workspace {
 
     // What the mouse points at in the scene, if it points at anything and isn't over a panel.
     std::optional<EspHit> hit;
-    bool redraw = true;  // the scene's picture is out of date
+    bool redraw = true;       // the scene's picture is out of date
+    bool screenshot = false;  // the next frame is to be written as a picture
 
     const espalier::scene::Scene& scene() const { return document->scene(); }
     float shift() const;
+    float reach() const;  // how large the scene is, metres
+    void lookFrom(const EspCamera& from);
     float panelUnits() const;  // what the panel takes at the left, in ImGui's units
     // A message appears where it fails.
     bool perform(const espalier::document::Action& action, uint32_t gesture = 0);
@@ -78,6 +85,11 @@ struct Workspace {
 
     std::optional<EspHit> pick(glm::vec2 at) const;
     void pickBranch(glm::vec2 at);
+    std::optional<uint32_t> pickHouse(glm::vec2 at) const;
+    // Cuts the picked branch away.
+    void prune();
+    // Lets the chosen seeds' plants stand as they are, or grow again.
+    void freeze(const std::vector<uint32_t>& keys, bool frozen);
     void readPath();  // of the branch, from the last growth
     // Where a point of the scene is in the window; nothing: behind the camera.
     std::optional<glm::vec2> place(glm::vec3 point) const;

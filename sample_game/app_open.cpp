@@ -1,0 +1,208 @@
+// From a command line to a window with a document in it, and on to the next document.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "sample_game/app_state.hpp"
+#include "sample_game/settings.hpp"
+#include "sample_game/theme.hpp"
+#include "tools/document/project.hpp"
+
+namespace sample {
+
+namespace fs = std::filesystem;
+using espalier::document::Document;
+using espalier::document::saveProject;
+
+void WindowCloser::operator()(GLFWwindow* window) const {
+    glfwDestroyWindow(window);
+}
+
+bool App::fail(const std::string& message) {
+    std::fprintf(stderr, "espalier-sample: %s\n", message.c_str());
+    return false;
+}
+
+App::~App() {
+    atlas_.reset();
+    ui_.reset();
+    image_.reset();
+    work_.document.reset();
+    work_.context.reset();
+    host_.reset();
+    if (imgui_) {
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+    window_.reset();
+    if (glfw_) glfwTerminate();
+}
+
+bool App::openWindow() {
+    glfwSetErrorCallback([](int, const char* text) { std::fprintf(stderr, "espalier-sample: window: %s\n", text); });
+    if (!glfwInit()) return fail("there is no display to open a window on; tools/run writes frames to out/ then");
+    glfw_ = true;
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    window_.reset(glfwCreateWindow(options_.width, options_.height, "Espalier", nullptr, nullptr));
+    if (!window_) return fail("the window can't be opened");
+    glfwSetWindowSizeLimits(window_.get(), 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    host_ = std::make_unique<VulkanHost>();
+    uint32_t count = 0;
+    const char* const* extensions = espRequiredExtensions(&count);
+    if (!host_->create(window_.get(), options_.validation, espRequiredFeatures(), extensions, count))
+        return fail(host_->error());
+    return true;
+}
+
+void App::openUi() {
+    ImGui::CreateContext();
+    imgui_ = true;
+    // Tests and scripts leave nothing behind.
+    layoutFile_ = options_.frames || configFolder().empty() ? "" : configFolder() + "/windows.ini";
+    if (!layoutFile_.empty()) {
+        std::error_code ignored;
+        fs::create_directories(configFolder(), ignored);
+        readLayout(work_.layout, work_.brush);
+    }
+    ImGui::GetIO().IniFilename = layoutFile_.empty() ? nullptr : layoutFile_.c_str();
+    input_ = std::make_unique<Input>(window_.get());
+    controls_ = std::make_unique<Controls>(work_, session_, window_.get());
+    ImGui_ImplGlfw_InitForVulkan(window_.get(), true);
+    rescale();
+}
+
+bool App::openDocument(const espalier::scene::Request& request, std::string& error) {
+    EspHostDevice device{};
+    device.getInstanceProcAddr = reinterpret_cast<void*>(vkGetInstanceProcAddr);
+    device.instance = host_->instance();
+    device.physicalDevice = host_->physicalDevice();
+    device.device = host_->device();
+    device.queue = host_->queue();
+    device.queueFamily = host_->queueFamily();
+    device.debugUtils = host_->validation();
+    EspContextDef def = espDefaultContextDef();
+    def.host = &device;
+    const std::string cache = cacheFolder();
+    if (!cache.empty()) def.cacheFolder = cache.c_str();
+    def.log = [](void*, EspLogLevel level, const char* message) {
+        if (level == ESP_LOG_WARNING) std::fprintf(stderr, "espalier-sample: warning: %s\n", message);
+    };
+    // The old document stays until the new one is there.
+    EspContext* made = nullptr;
+    if (espCreate(&def, &made) != ESP_OK) {
+        error = espLastError(nullptr);
+        return false;
+    }
+    std::unique_ptr<EspContext, void (*)(EspContext*)> context(made, espDestroy);
+    auto document = std::make_unique<Document>(made);
+    if (!document->open(request, error)) return false;
+    host_->waitIdle();
+    if (work_.document) session_.end(work_);
+    work_.document = std::move(document);
+    work_.context = std::move(context);
+    work_.selected.clear();
+    work_.branch.reset();
+    work_.path.clear();
+    work_.house.reset();
+    work_.houseEdge.reset();
+    atlas_->forget();
+    work_.plantGrammar = work_.openGrammar = 0;
+    work_.brush.layer = work_.scene().layers.empty() ? "" : work_.scene().layers.front();
+    work_.stats = {};
+    work_.redraw = true;
+    grownRevision_ = ~0ull;
+    espSetGrow(made, &work_.grow);
+    for (const std::string& note : work_.scene().notes) work_.message += (work_.message.empty() ? "" : "\n") + note;
+    session_.begin(work_, request.file);
+    if (options_.frames) session_.forgetRecovery(false);
+    work_.lookFrom(work_.scene().camera);
+    glfwSetWindowTitle(window_.get(), ("Espalier \u2014 " + work_.scene().name).c_str());
+    return true;
+}
+
+bool App::open() {
+    if (!openWindow()) return false;
+    openUi();
+    ui_ = std::make_unique<UiRenderer>(*host_);
+    image_ = std::make_unique<SceneImage>(*host_);
+    atlas_ = std::make_unique<AtlasView>(*host_);
+    if (!ui_->create()) return fail(ui_->error());
+    std::string error;
+    if (!showOpening(options_.request.file)) return false;
+    if (!openDocument(options_.request, error)) return fail(error);
+    work_.editing = options_.editor;
+    if (!options_.record.empty() &&
+        !session_.startRecording(work_, options_.record, uint32_t(options_.width), uint32_t(options_.height)))
+        return fail(work_.error);
+    return true;
+}
+
+// The display's scale, or the size of letters, has changed.
+bool App::rescale() {
+    float scale = 1, y = 1;
+    glfwGetWindowContentScale(window_.get(), &scale, &y);
+    scale = std::max(scale, .5f) * work_.layout.sizeOfAll;
+    if (scale == themeScale_ || (themeScale_ > 0 && ImGui::IsMouseDown(0))) return true;
+    themeScale_ = work_.scale = scale;
+    applyTheme(scale);
+    wake();
+    return !ui_ || ui_->updateFonts() || fail(ui_->error());
+}
+
+bool App::showOpening(const std::string& file) {
+    glfwPollEvents();
+    const std::optional<Frame> frame = host_->begin();
+    if (!frame) return host_->error().empty() || fail(host_->error());
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    const std::string text = "Opening " + fs::path(file).filename().string() + " ...";
+    const ImVec2 size = ImGui::GetIO().DisplaySize, extent = ImGui::CalcTextSize(text.c_str());
+    ImGui::GetForegroundDrawList()->AddText({(size.x - extent.x) / 2, size.y / 2}, IM_COL32(220, 225, 215, 255),
+                                            text.c_str());
+    ImGui::Render();
+    imageBarrier(frame->commands, frame->image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const VkClearColorValue dark{{.1f, .1f, .1f, 1}};
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdClearColorImage(frame->commands, frame->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &dark, 1, &all);
+    imageBarrier(frame->commands, frame->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    return (ui_->draw(*frame, *ImGui::GetDrawData()) || fail(ui_->error())) &&
+           (host_->end(*frame) || fail(host_->error()));
+}
+
+// By way of a project, so that everything that was done stands; only undo doesn't reach behind it.
+bool App::reload() {
+    if (work_.document->stroking()) return true;
+    session_.reload = false;
+    const Session::Origin origin = session_.origin(work_);
+    const fs::path folder = fs::temp_directory_path() / ("espalier-reload-" + std::to_string(getpid()));
+    const fs::path kept = folder / work_.scene().name;
+    work_.error.clear();
+    if (!saveProject(*work_.document, kept.string(), work_.error)) return true;
+    if (!showOpening(origin.file)) return false;
+    if (openDocument({kept.string(), {}, {}, {}}, work_.error)) {
+        session_.setOrigin(work_, origin);
+        work_.message = "Its model has changed on disk: " + fs::path(origin.file).filename().string() + " was reloaded";
+    }
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    return true;
+}
+
+// Asked for by a dialogue or dropped onto the window: what can't be opened leaves the old document.
+bool App::openNext() {
+    const std::string file = std::exchange(session_.openNext, {});
+    if (!showOpening(file)) return false;
+    work_.error.clear();
+    openDocument({file, {}, {}, {}}, work_.error);
+    return true;
+}
+
+}  // namespace sample

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sample_game/app.hpp"
+#include "sample_game/atlas_view.hpp"
+#include "sample_game/controls.hpp"
+#include "sample_game/scene_image.hpp"
+#include "sample_game/ui_renderer.hpp"
+
+namespace sample {
+
+struct WindowCloser {
+    void operator()(GLFWwindow* window) const;
+};
+
+// The window, its device, what is open in it, and the loop over frames.
+class App {
+  public:
+    explicit App(const AppOptions& options) : options_(options) {}
+    ~App();
+    bool open();
+    bool loop();
+
+  private:
+    bool fail(const std::string& message);  // false
+    bool openWindow();
+    void openUi();
+    bool openDocument(const espalier::scene::Request& request, std::string& error);
+
+    bool rescale();
+    void showUi();
+    bool update();
+    bool showOpening(const std::string& file);
+    bool drawFrame(bool moving, bool last);
+    void screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height);
+    bool openNext();
+    bool reload();
+    bool frame(float seconds);
+    void noteTimes(bool grew);
+    void wake() { awake_ = kFramesAfterChange; }
+
+    AppOptions options_;
+    bool glfw_ = false, imgui_ = false;
+    std::unique_ptr<GLFWwindow, WindowCloser> window_;
+    std::unique_ptr<VulkanHost> host_;
+    std::unique_ptr<SceneImage> image_;
+    std::unique_ptr<UiRenderer> ui_;
+    std::unique_ptr<AtlasView> atlas_;
+    std::unique_ptr<Input> input_;
+    std::string layoutFile_;  // of ImGui's windows
+
+    Workspace work_;
+    Session session_;
+    std::unique_ptr<Controls> controls_;
+
+    static constexpr int kFramesAfterChange = 3;  // ImGui settles within two
+    int awake_ = kFramesAfterChange;
+    uint64_t frames_ = 0, grownRevision_ = 0;
+    bool coarse_ = false, growing_ = false;
+    float themeScale_ = 0;
+};
+
+}  // namespace sample

@@ -1,0 +1,315 @@
+// Texels, links and a layer, as the plugin gives them back -> a picture; then what is drawn over it.
+#include "sample_game/atlas_view.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sample_game/panels.hpp"
+
+namespace sample {
+namespace {
+
+constexpr uint32_t kLeastSide = 512;  // pixels of the picture: texels of coarse levels are drawn as squares
+constexpr float kLinkReach = 7;       // pixels from the mouse to a link
+constexpr ImU32 kEmpty = IM_COL32(20, 21, 24, 255), kPlain = IM_COL32(62, 65, 70, 255);
+// Seams, nearest points, contacts, the model's borders.
+constexpr ImU32 kLinks[] = {IM_COL32(150, 170, 190, 255), IM_COL32(90, 210, 210, 255), IM_COL32(240, 200, 60, 255),
+                            IM_COL32(225, 80, 70, 255)};
+constexpr const char* kLinkNames[] = {"Seams", "Nearest points", "Contacts", "Open borders"};
+constexpr ImU32 kSample = IM_COL32(255, 255, 255, 255), kInserted = IM_COL32(120, 200, 255, 255),
+                kJump = IM_COL32(110, 230, 90, 255), kPointed = IM_COL32(255, 240, 150, 255);
+
+ImU32 chartColour(uint32_t chart) {
+    const ImVec4 colour = ImColor::HSV(float(chart * 2654435761u >> 8) / 16777216.f, .42f, .58f);
+    return ImGui::ColorConvertFloat4ToU32(colour);
+}
+
+ImU32 mixed(ImU32 a, ImU32 b, float share) {
+    const auto channel = [&](int shift) {
+        const float x = float(a >> shift & 255), y = float(b >> shift & 255);
+        return ImU32(x + (y - x) * share + .5f) << shift;
+    };
+    return channel(IM_COL32_R_SHIFT) | channel(IM_COL32_G_SHIFT) | channel(IM_COL32_B_SHIFT) | IM_COL32_A_MASK;
+}
+
+// As the view of a layer on the model.
+ImU32 layerColour(float value) {
+    return mixed(IM_COL32(80, 85, 97, 255), IM_COL32(243, 160, 79, 255), std::clamp(value, 0.f, 1.f));
+}
+
+void arrow(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float scale) {
+    list.AddLine(a, b, colour, 1.5f * scale);
+    const float x = b.x - a.x, y = b.y - a.y, length = std::sqrt(x * x + y * y);
+    if (length < 2) return;
+    const float s = 7 * scale / length;
+    list.AddTriangleFilled(b, {b.x - s * x - .45f * s * y, b.y - s * y + .45f * s * x},
+                           {b.x - s * x + .45f * s * y, b.y - s * y - .45f * s * x}, colour);
+}
+
+}  // namespace
+
+struct AtlasView::View {
+    ImVec2 corner;
+    float side;               // of the window onto the picture, in ImGui's units
+    float left, top, extent;  // the part of the UV square in it; top is the greater v
+    float scale;
+    ImVec2 place(const float uv[2]) const {
+        return {corner.x + side * (uv[0] - left) / extent, corner.y + side * (top - uv[1]) / extent};
+    }
+    std::pair<float, float> uvAt(ImVec2 at) const {
+        return {left + (at.x - corner.x) / side * extent, top - (at.y - corner.y) / side * extent};
+    }
+};
+
+void AtlasView::forget() {
+    shown_ = {};
+    wanted_.surface = ~0u;
+    texels_.clear();
+    links_.clear();
+    layer_.clear();
+    zoom_ = 1;
+}
+
+// ---- The picture
+
+bool AtlasView::read(Workspace& work, const Shown& wanted) {
+    EspContext* context = work.context.get();
+    const EspSurface surface = work.scene().surfaces[wanted.surface].id;
+    const bool sameSurface = wanted.surface == shown_.surface;
+    if (!sameSurface || wanted.level != shown_.level) {
+        if (espReadAtlas(context, surface, wanted.level, nullptr, &size_) != ESP_OK) return false;
+        texels_.resize(size_t(size_) * size_);
+        if (espReadAtlas(context, surface, wanted.level, texels_.data(), &size_) != ESP_OK) return false;
+    }
+    if (!sameSurface) {
+        uint32_t count = 0;
+        if (espReadLinks(context, surface, nullptr, &count) != ESP_OK) return false;
+        links_.resize(count);
+        if (espReadLinks(context, surface, links_.data(), &count) != ESP_OK) return false;
+    }
+    if (wanted.layer.empty() || (sameSurface && wanted.layer == shown_.layer && wanted.revision == shown_.revision))
+        return true;
+    espalier::scene::GreyPicture layer;
+    if (!work.document->readLayer(wanted.surface, wanted.layer, layer, work.error)) return false;
+    layerSize_ = layer.width;
+    layer_ = std::move(layer.texels);
+    return true;
+}
+
+uint32_t AtlasView::colourOf(uint32_t x, uint32_t y) const {
+    const uint32_t texel = texels_[size_t(y) * size_ + x], kind = texel >> 16 & 3u;
+    if (kind == ESP_TEXEL_EMPTY) return kEmpty;
+    ImU32 colour = shown_.charts ? chartColour(texel & 0xFFFFu) : kPlain;
+    if (texel >> 18 & 1u) colour = mixed(colour, kEmpty, .75f);
+    if (kind != ESP_TEXEL_INNER) return mixed(colour, kEmpty, .6f);
+    if (shown_.layer.empty()) return colour;
+    const size_t u = size_t(x) * layerSize_ / size_, v = size_t(y) * layerSize_ / size_;
+    return mixed(colour, layerColour(layer_[v * layerSize_ + u]), shown_.opacity);
+}
+
+void AtlasView::drawLinks(std::vector<uint32_t>& pixels, uint32_t side) const {
+    for (const EspLink& link : links_) {
+        const float dx = (link.b[0] - link.a[0]) * float(side), dy = (link.b[1] - link.a[1]) * float(side);
+        const int steps = std::min(int(std::max(std::abs(dx), std::abs(dy))) + 1, 16384);
+        for (int i = 0; i <= steps; ++i) {
+            const float t = float(i) / float(steps);
+            const int x = int(link.a[0] * float(side) + dx * t), y = int(link.a[1] * float(side) + dy * t);
+            if (x < 0 || y < 0 || x >= int(side) || y >= int(side)) continue;
+            pixels[size_t(int(side) - 1 - y) * side + size_t(x)] = kLinks[link.kind];
+        }
+    }
+}
+
+// v runs upward, rows downward.
+bool AtlasView::compose() {
+    const uint32_t factor = std::max(1u, kLeastSide / size_), side = size_ * factor;
+    std::vector<uint32_t> pixels(size_t(side) * side);
+    std::vector<uint32_t> row(size_);
+    for (uint32_t y = 0; y < size_; ++y) {
+        for (uint32_t x = 0; x < size_; ++x) row[x] = colourOf(x, y);
+        for (uint32_t k = 0; k < factor; ++k)
+            for (uint32_t x = 0; x < side; ++x) pixels[size_t(side - 1 - y * factor - k) * side + x] = row[x / factor];
+    }
+    if (shown_.links) drawLinks(pixels, side);
+    return picture_.show(reinterpret_cast<const unsigned char*>(pixels.data()), side, side);
+}
+
+// ---- The window
+
+void AtlasView::controls(Workspace& work) {
+    const auto& scene = work.scene();
+    const float room = ImGui::GetFontSize();
+    if (scene.surfaces.size() > 1) {
+        int surface = int(wanted_.surface);
+        ImGui::SetNextItemWidth(room * 7);
+        if (ImGui::SliderInt("##surface", &surface, 0, int(scene.surfaces.size()) - 1, "Surface %d",
+                             ImGuiSliderFlags_AlwaysClamp))
+            wanted_.surface = uint32_t(surface);
+        toolTip("Which of the scene's surfaces");
+        ImGui::SameLine();
+    }
+    EspSurfaceInfo info{};
+    (void)espSurfaceInfo(work.context.get(), scene.surfaces[wanted_.surface].id, &info);
+    wanted_.level = std::min(wanted_.level, std::max(info.levels, 1u) - 1);
+    int level = int(wanted_.level);
+    ImGui::SetNextItemWidth(room * 7);
+    if (ImGui::SliderInt("##level", &level, 0, int(info.levels) - 1, "Level %d", ImGuiSliderFlags_AlwaysClamp))
+        wanted_.level = uint32_t(level);
+    toolTip("0 is the finest; dark charts are too small to be walked on a coarse one");
+    ImGui::SameLine();
+    ImGui::Checkbox("Charts", &wanted_.charts);
+    ImGui::SameLine();
+    ImGui::Checkbox("Links", &wanted_.links);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(room * 6);
+    if (ImGui::BeginCombo("##layer", wanted_.layer.empty() ? "No layer" : wanted_.layer.c_str())) {
+        if (ImGui::Selectable("No layer", wanted_.layer.empty())) wanted_.layer.clear();
+        for (const std::string& layer : scene.layers)
+            if (ImGui::Selectable(layer.c_str(), layer == wanted_.layer)) wanted_.layer = layer;
+        ImGui::EndCombo();
+    }
+    if (!wanted_.layer.empty()) {
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(room * 5);
+        ImGui::SliderFloat("##opacity", &wanted_.opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+        toolTip("Opacity of the layer");
+    }
+    if (wanted_.links)
+        for (int kind = 0; kind < 4; ++kind) {
+            const bool any =
+                std::any_of(links_.begin(), links_.end(), [&](const EspLink& l) { return l.kind == kind; });
+            if (!any) continue;
+            ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kLinks[kind]), "%s", kLinkNames[kind]);
+            ImGui::SameLine();
+        }
+    ImGui::TextDisabled("%u x %u, %u charts", size_, size_, info.charts);
+}
+
+void AtlasView::moveView(const View& view) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
+        const auto [u, v] = view.uvAt(io.MousePos);
+        const float before = zoom_;
+        zoom_ = std::clamp(zoom_ * std::pow(1.25f, io.MouseWheel), 1.f, 64.f);
+        // What lies under the mouse stays there.
+        centre_[0] = u + (centre_[0] - u) * before / zoom_;
+        centre_[1] = v + (centre_[1] - v) * before / zoom_;
+    }
+    if (ImGui::IsItemActive()) {
+        centre_[0] -= io.MouseDelta.x / view.side * view.extent;
+        centre_[1] += io.MouseDelta.y / view.side * view.extent;
+    }
+    const float half = .5f / zoom_;
+    for (float& c : centre_) c = std::clamp(c, half, 1 - half);
+}
+
+void AtlasView::drawWalk(const Workspace& work, const View& view) const {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const uint32_t surface = work.scene().surfaces[wanted_.surface].id.id;
+    const auto here = [&](const EspPathSample& s) { return s.surface.id == surface; };
+    for (size_t i = 0; i + 1 < work.path.size(); ++i) {
+        const EspPathSample &a = work.path[i], &b = work.path[i + 1];
+        if (!here(a) || !here(b)) continue;
+        if (a.chart == b.chart)
+            list.AddLine(view.place(a.uv), view.place(b.uv), IM_COL32(255, 255, 255, 150), view.scale);
+        else
+            arrow(list, view.place(a.uv), view.place(b.uv), kJump, view.scale);
+    }
+    for (const EspPathSample& s : work.path)
+        if (here(s))
+            list.AddCircleFilled(view.place(s.uv), (s.inserted ? 1.8f : 2.4f) * view.scale,
+                                 s.inserted ? kInserted : kSample);
+    if (work.hit && work.hit->surface.id == surface) {
+        const ImVec2 at = view.place(work.hit->uv);
+        list.AddCircle(at, 6 * view.scale, kPointed, 0, 1.5f * view.scale);
+    }
+}
+
+const EspLink* AtlasView::linkAt(const View& view, ImVec2 at) const {
+    const EspLink* best = nullptr;
+    float nearest = kLinkReach * view.scale;
+    for (const EspLink& link : links_) {
+        const ImVec2 a = view.place(link.a), b = view.place(link.b);
+        const float dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
+        const float t = length2 > 0 ? std::clamp(((at.x - a.x) * dx + (at.y - a.y) * dy) / length2, 0.f, 1.f) : 0;
+        const float d = std::hypot(a.x + t * dx - at.x, a.y + t * dy - at.y);
+        if (d < nearest) nearest = d, best = &link;
+    }
+    return best;
+}
+
+void AtlasView::tellAt(const View& view) const {
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    const auto [u, v] = view.uvAt(at);
+    const int x = int(u * float(size_)), y = int(v * float(size_));
+    if (x < 0 || y < 0 || x >= int(size_) || y >= int(size_)) return;
+    const uint32_t texel = texels_[size_t(y) * size_ + size_t(x)], kind = texel >> 16 & 3u;
+    char text[160] = "";
+    int used = std::snprintf(text, sizeof text, "Texel %d, %d", x, y);
+    if (kind != ESP_TEXEL_EMPTY)
+        used += std::snprintf(text + used, sizeof text - size_t(used), "   chart %u%s", texel & 0xFFFFu,
+                              kind == ESP_TEXEL_INNER ? "" : " (gutter)");
+    if (!shown_.layer.empty() && kind != ESP_TEXEL_EMPTY) {
+        const size_t i = size_t(v * float(layerSize_)) * layerSize_ + size_t(u * float(layerSize_));
+        std::snprintf(text + used, sizeof text - size_t(used), "   %.30s %.2f", shown_.layer.c_str(), layer_[i]);
+    }
+    const EspLink* link = shown_.links ? linkAt(view, at) : nullptr;
+    if (link && link->kind != ESP_LINK_OPEN) {
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        const ImVec2 a = view.place(link->a), b = view.place(link->b), toA = view.place(link->toA),
+                     toB = view.place(link->toB);
+        list.AddLine(a, b, kPointed, 3 * view.scale);
+        list.AddLine(toA, toB, kPointed, 3 * view.scale);
+        arrow(list, {(a.x + b.x) / 2, (a.y + b.y) / 2}, {(toA.x + toB.x) / 2, (toA.y + toB.y) / 2}, kPointed,
+              view.scale);
+        ImGui::SetTooltip("%s\nleads from chart %u to %u", text, link->chart, link->toChart);
+    } else {
+        ImGui::SetTooltip("%s%s", text, link ? "\na border of the model" : "");
+    }
+}
+
+void AtlasView::show(Workspace& work) {
+    if (!work.layout.atlas || work.scene().surfaces.empty()) return;
+    const float s = work.scale;
+    ImGui::SetNextWindowPos({work.window.x - 500 * s, work.window.y - 590 * s}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({480 * s, 540 * s}, ImGuiCond_FirstUseEver);
+    if (!ImGui::Begin("Atlas", &work.layout.atlas, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
+        return ImGui::End();
+    if (wanted_.surface >= work.scene().surfaces.size()) wanted_.surface = 0;
+    controls(work);
+    wanted_.revision = wanted_.layer.empty() ? 0 : work.document->revision();
+    if (wanted_ != shown_) {
+        if (!read(work, wanted_)) {
+            if (work.error.empty()) work.error = espLastError(work.context.get());
+            return ImGui::End();
+        }
+        if (wanted_.level != work.viewLevel) work.redraw = true;
+        work.viewLevel = wanted_.level;
+        shown_ = wanted_;
+        if (!compose()) work.error = picture_.error();
+    }
+    View view;
+    view.corner = ImGui::GetCursorScreenPos();
+    view.side = std::max(64.f, std::min(ImGui::GetContentRegionAvail().x, ImGui::GetContentRegionAvail().y));
+    view.extent = 1 / zoom_;
+    view.left = centre_[0] - .5f * view.extent;
+    view.top = centre_[1] + .5f * view.extent;
+    view.scale = s;
+    const ImVec2 end(view.corner.x + view.side, view.corner.y + view.side);
+    ImGui::InvisibleButton("picture", {view.side, view.side},
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
+    const bool over = ImGui::IsItemHovered() && !ImGui::IsItemActive();
+    ImGui::GetWindowDrawList()->AddImage(&picture_, view.corner, end, {view.left, 1 - view.top},
+                                         {view.left + view.extent, 1 - view.top + view.extent});
+    ImGui::PushClipRect(view.corner, end, true);
+    drawWalk(work, view);
+    if (over) tellAt(view);
+    ImGui::PopClipRect();
+    moveView(view);
+    ImGui::End();
+}
+
+}  // namespace sample

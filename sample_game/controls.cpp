@@ -1,0 +1,196 @@
+// Keys and mouse on their way to panels, camera and tools.
+#include "sample_game/controls.hpp"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+
+#include "sample_game/panels.hpp"
+
+namespace sample {
+namespace {
+
+using namespace espalier::document;
+
+// As of the last frame: whether a press there is the panels' own. ImGui knows only what lies under the mouse at the
+// beginning of a frame, which with slow frames isn't where it was pressed.
+bool overPanel(float x, float y) {
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    if (!gui.OpenPopupStack.empty()) return true;
+    for (const ImGuiWindow* window : gui.Windows)
+        if (window->WasActive && !window->Hidden && !(window->Flags & ImGuiWindowFlags_NoMouseInputs) &&
+            window->OuterRectClipped.Contains({x, y}))
+            return true;
+    return false;
+}
+
+}  // namespace
+
+void Controls::catchMouse(bool caught) {
+    navigation_.caught = caught;
+    glfwSetInputMode(window_, GLFW_CURSOR, caught ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    ImGuiIO& io = ImGui::GetIO();
+    io.ConfigFlags = caught ? io.ConfigFlags | ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange
+                            : io.ConfigFlags & ~(ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange);
+}
+
+void Controls::setEditing(bool editing) {
+    brush_.cancel(work_);
+    catchMouse(false);
+    work_.editing = editing;
+    work_.redraw = true;
+}
+
+void Controls::chooseTool(Tool tool) {
+    brush_.cancel(work_);
+    work_.choose(tool);
+}
+
+void Controls::takeKey(const KeyEvent& event) {
+    const int key = event.key;
+    const bool control = event.mods & GLFW_MOD_CONTROL, shift = event.mods & GLFW_MOD_SHIFT;
+    if (key == GLFW_KEY_F1) work_.layout.help = !work_.layout.help;
+    if (key == GLFW_KEY_F2) work_.layout.panel = !work_.layout.panel, work_.redraw = true;
+    if (key == GLFW_KEY_F3) work_.layout.figures = !work_.layout.figures;
+    if (key == GLFW_KEY_F4) work_.layout.grammar = !work_.layout.grammar;
+    if (key == GLFW_KEY_F5) work_.layout.atlas = !work_.layout.atlas;
+    if (key == GLFW_KEY_F12) work_.screenshot = true;
+    if (control) {
+        if (key == GLFW_KEY_Q) session_.quit = true;
+        if (key == GLFW_KEY_S) askToSave(work_, session_);
+        if (key == GLFW_KEY_O) askToOpen();
+        if (key == GLFW_KEY_E && !work_.brush.layer.empty()) askForLayer(work_.brush.layer, false);
+        if (brush_.painting()) return;
+        if (key == GLFW_KEY_Z && !shift && work_.document->undoName()) work_.perform(Undo{});
+        if (((key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y) && work_.document->redoName()) work_.perform(Redo{});
+        return;
+    }
+    if (key == GLFW_KEY_TAB) return setEditing(!work_.editing);
+    if (key == GLFW_KEY_ESCAPE) {
+        // Never quits: frees the mouse, closes the help, puts the tool away.
+        if (navigation_.caught)
+            catchMouse(false);
+        else if (work_.layout.help)
+            work_.layout.help = false;
+        else if (brush_.sizing())
+            brush_.cancel(work_);
+        else
+            chooseTool(Tool::look);
+    }
+    if (key == GLFW_KEY_HOME) work_.lookFrom(espFrameAll(work_.context.get()));
+    if (!work_.editing) {
+        if (key == GLFW_KEY_G) navigation_.toggleFlying();
+        if (key == GLFW_KEY_SPACE) navigation_.jump();
+        return;
+    }
+    if (!navigation_.dragging()) takeToolKey(event);  // letters fly
+}
+
+void Controls::takeToolKey(const KeyEvent& event) {
+    const int key = event.key;
+    if (key == GLFW_KEY_Q) chooseTool(Tool::look);
+    if (key == GLFW_KEY_B) chooseTool(Tool::paint);
+    if (key == GLFW_KEY_S) chooseTool(Tool::seeds);
+    if (key == GLFW_KEY_P) chooseTool(Tool::branch);
+    if (key == GLFW_KEY_H) chooseTool(Tool::houses);
+    if (work_.tool == Tool::paint) {
+        float& radius = work_.brush.radius;
+        if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, .005f);
+        if (key == GLFW_KEY_RIGHT_BRACKET) radius = std::min(radius * 1.15f, 20.f);
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        if (key == GLFW_KEY_F) brush_.startSizing(work_, {mouse.x, mouse.y}, event.mods & GLFW_MOD_SHIFT);
+    } else if (key == GLFW_KEY_F) {
+        work_.lookFrom(espFrameAll(work_.context.get()));
+    }
+    const bool removes = key == GLFW_KEY_DELETE || key == GLFW_KEY_X;
+    if (work_.tool == Tool::branch && removes) work_.prune();
+    if (work_.tool == Tool::houses && removes) houses_.removeCorner(work_);
+    if (work_.tool == Tool::seeds) {
+        if (removes) seeds_.remove(work_);
+        if (key == GLFW_KEY_A) seeds_.selectAll(work_);
+    }
+    if (key == GLFW_KEY_R) {
+        ChangeSeeds change;
+        for (const auto& seed : work_.scene().seeds) {
+            change.seeds.push_back(work_.document->recordOf(seed));
+            change.seeds.back().number = seed.number * 747796405u + 2891336453u;
+        }
+        work_.perform(change);
+    }
+    if (key == GLFW_KEY_V && !work_.brush.layer.empty()) {
+        const bool seen = work_.scene().look.view == ESP_VIEW_LAYER;
+        work_.perform(SetView{seen ? "shaded" : "layer", seen ? "" : work_.brush.layer});
+    }
+    for (size_t i = 0; i < std::size(kViews); ++i)
+        if (key == GLFW_KEY_1 + int(i)) work_.perform(SetView{espalier::scene::nameOf(kViews[i]), ""});
+}
+
+bool Controls::toolBusy() const {
+    return brush_.painting() || brush_.sizing() || seeds_.dragging() || houses_.dragging();
+}
+
+bool Controls::panelTakes(const PointerEvent& event) {
+    if (navigation_.caught || navigation_.dragging() || toolBusy()) return false;
+    if (event.kind == PointerEvent::Kind::press && (panelButtons_ > 0 || overPanel(event.x, event.y))) {
+        ++panelButtons_;
+        return true;
+    }
+    if (event.kind == PointerEvent::Kind::release && panelButtons_ > 0) {
+        --panelButtons_;
+        return true;
+    }
+    return false;
+}
+
+void Controls::takePointer(const PointerEvent& event) {
+    if (panelTakes(event)) return;
+    const bool pressed = event.kind == PointerEvent::Kind::press && event.button == GLFW_MOUSE_BUTTON_LEFT;
+    if (!work_.editing && pressed && !navigation_.caught) return catchMouse(true);
+    const bool toolFirst = toolBusy();
+    if (!toolFirst && navigation_.take(work_, event)) return;
+    if (!work_.editing || panelButtons_ > 0) return;
+    if (work_.tool == Tool::paint) brush_.take(work_, event);
+    if (work_.tool == Tool::seeds) seeds_.take(work_, event);
+    if (work_.tool == Tool::houses) houses_.take(work_, event);
+    if (work_.tool == Tool::branch && pressed) work_.pickBranch({event.x, event.y});
+    if (toolFirst) navigation_.follow({event.x, event.y});
+}
+
+void Controls::take(const std::vector<PointerEvent>& pointer, const std::vector<KeyEvent>& keys, float wheel) {
+    for (const KeyEvent& key : keys) {
+        const bool functionKey = key.key >= GLFW_KEY_F1 && key.key <= GLFW_KEY_F12;
+        const bool control = key.mods & GLFW_MOD_CONTROL;
+        const bool file = control && (key.key == GLFW_KEY_S || key.key == GLFW_KEY_O || key.key == GLFW_KEY_Q);
+        if (!ImGui::GetCurrentContext()->OpenPopupStack.empty() && !functionKey) continue;
+        if (ImGui::GetIO().WantTextInput && !functionKey && !file) continue;
+        takeKey(key);
+    }
+    for (const PointerEvent& event : pointer) takePointer(event);
+    brush_.flush(work_);
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (!overPanel(mouse.x, mouse.y)) navigation_.wheel(work_, wheel);
+}
+
+bool Controls::step(const Input& input, float seconds) {
+    return navigation_.step(work_, input, seconds, ImGui::GetIO().WantTextInput);
+}
+
+void Controls::hover() {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    work_.hit.reset();
+    if (!work_.editing || work_.tool != Tool::paint || !ImGui::IsMousePosValid(&mouse)) return;
+    if (!brush_.painting() && overPanel(mouse.x, mouse.y)) return;
+    work_.hit = work_.pick({mouse.x, mouse.y});
+}
+
+void Controls::showTool(int mods) {
+    hover();
+    if (work_.tool == Tool::paint) brush_.draw(work_, mods);
+    if (work_.tool == Tool::seeds) seeds_.draw(work_);
+    if (work_.tool == Tool::houses) houses_.draw(work_);
+    if (work_.tool == Tool::branch) showWalk(work_);
+}
+
+}  // namespace sample

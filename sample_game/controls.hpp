@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "sample_game/brush_tool.hpp"
+#include "sample_game/house_tool.hpp"
+#include "sample_game/navigation.hpp"
+#include "sample_game/seed_tool.hpp"
+#include "sample_game/session.hpp"
+
+struct GLFWwindow;
+
+namespace sample {
+
+// Whose a key or a click is: the panels', the camera's or the chosen tool's. Between ImGui::NewFrame and Render.
+class Controls {
+  public:
+    Controls(Workspace& work, Session& session, GLFWwindow* window) : work_(work), session_(session), window_(window) {}
+
+    void take(const std::vector<PointerEvent>& pointer, const std::vector<KeyEvent>& keys, float wheel);
+    // Keys that are held move the camera. True: it moved.
+    bool step(const Input& input, float seconds);
+    // What the mouse points at, and the tool's own marks over the picture.
+    void showTool(int mods);
+
+    void setEditing(bool editing);
+    bool caught() const { return navigation_.caught; }
+    bool flying() const { return navigation_.flying(); }
+    bool painting() const { return brush_.painting(); }
+    bool turning() const { return navigation_.dragging(); }
+
+  private:
+    void takeKey(const KeyEvent& key);
+    void takeToolKey(const KeyEvent& key);
+    void takePointer(const PointerEvent& event);
+    bool toolBusy() const;
+    bool panelTakes(const PointerEvent& event);
+    void catchMouse(bool caught);
+    void chooseTool(Tool tool);
+    void hover();
+
+    Workspace& work_;
+    Session& session_;
+    GLFWwindow* window_;
+    Navigation navigation_;
+    BrushTool brush_;
+    SeedTool seeds_;
+    HouseTool houses_;
+    int panelButtons_ = 0;  // that were pressed over a panel and are down
+};
+
+}  // namespace sample

@@ -1,0 +1,140 @@
+// Places in the window to houses, edges and corners of a town; outlines are handled at the height of their eaves.
+#include "sample_game/house_tool.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sample {
+namespace {
+
+using namespace espalier::document;
+using espalier::scene::House;
+using espalier::scene::houseNow;
+
+constexpr float kCornerReach = 11, kEdgeReach = 8;  // pixels at 96 dpi
+constexpr ImU32 kOutline = IM_COL32(255, 255, 255, 230), kChosen = IM_COL32(255, 170, 50, 255),
+                kGable = IM_COL32(250, 220, 90, 255), kEave = IM_COL32(110, 210, 255, 255);
+
+// The outline of the chosen house at its eaves, in the window; empty where a corner is behind the camera.
+std::vector<glm::vec2> outline(const Workspace& work, const House& house) {
+    std::vector<glm::vec2> points;
+    EspHouseInfo info;
+    if (espHouseInfo(work.context.get(), house.index, &info) != ESP_OK) return points;
+    for (const auto& corner : house.corners) {
+        const auto at = work.place({corner[0], info.eaveHeight, corner[1]});
+        if (!at) return {};
+        points.push_back(*at);
+    }
+    return points;
+}
+
+// The share of a-b that lies nearest to p, and how near.
+std::pair<float, float> nearest(glm::vec2 a, glm::vec2 b, glm::vec2 p) {
+    const glm::vec2 ab = b - a;
+    const float t = std::clamp(glm::dot(p - a, ab) / std::max(glm::dot(ab, ab), 1e-6f), 0.f, 1.f);
+    return {t, glm::distance(p, a + t * ab)};
+}
+
+// Edges from `first` on have another number now.
+void renumber(House& house, uint32_t first, int by) {
+    for (auto& edge : house.edges)
+        if (edge.edge >= first) edge.edge = uint32_t(int(edge.edge) + by);
+}
+
+}  // namespace
+
+void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
+    if (work.house) {
+        House house = houseNow(work.context.get(), *work.house);
+        const std::vector<glm::vec2> points = outline(work, house);
+        for (size_t i = 0; i < points.size() && !insert; ++i)
+            if (glm::distance(points[i], at) < kCornerReach * work.scale) {
+                corner_ = i;
+                work.houseEdge = uint32_t(i);
+                gesture_ = work.newGesture();
+                return;
+            }
+        for (size_t i = 0; i < points.size(); ++i) {
+            const size_t next = (i + 1) % points.size();
+            const auto [share, distance] = nearest(points[i], points[next], at);
+            if (distance > kEdgeReach * work.scale) continue;
+            work.houseEdge = uint32_t(i);
+            if (!insert) return;
+            const auto &a = house.corners[i], &b = house.corners[next];
+            house.corners.insert(house.corners.begin() + std::ptrdiff_t(i) + 1,
+                                 {a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share});
+            renumber(house, uint32_t(i) + 1, 1);
+            gesture_ = work.newGesture();
+            if (work.perform(SetHouse{house}, gesture_)) corner_ = i + 1;
+            return;
+        }
+    }
+    work.house = work.pickHouse(at);
+    work.houseEdge.reset();
+}
+
+void HouseTool::dragTo(Workspace& work, glm::vec2 at) {
+    House house = houseNow(work.context.get(), *work.house);
+    EspHouseInfo info;
+    if (*corner_ >= house.corners.size() || espHouseInfo(work.context.get(), house.index, &info) != ESP_OK) return;
+    const Ray ray = work.camera.ray(at / work.window, work.window.x / work.window.y, work.shift());
+    const float along = (info.eaveHeight - ray.origin.y) / ray.direction.y;
+    if (!(along > 0 && along < 1e4f)) return;  // towards the horizon
+    const glm::vec3 to = ray.origin + along * ray.direction;
+    house.corners[*corner_] = {to.x, to.z};
+    work.perform(SetHouse{house}, gesture_);
+}
+
+bool HouseTool::take(Workspace& work, const PointerEvent& event) {
+    using Kind = PointerEvent::Kind;
+    const glm::vec2 at(event.x, event.y);
+    if (corner_ && event.kind == Kind::move) {
+        dragTo(work, at);
+        return true;
+    }
+    if (event.kind == Kind::move || event.button != GLFW_MOUSE_BUTTON_LEFT) return corner_.has_value();
+    if (event.kind == Kind::press)
+        press(work, at, event.mods & GLFW_MOD_CONTROL);
+    else
+        corner_.reset();
+    return true;
+}
+
+void HouseTool::removeCorner(Workspace& work) {
+    if (!work.house || !work.houseEdge) return;
+    House house = houseNow(work.context.get(), *work.house);
+    const uint32_t corner = *work.houseEdge;
+    if (corner >= house.corners.size() || house.corners.size() < 4) return;
+    house.corners.erase(house.corners.begin() + corner);
+    std::erase_if(house.edges, [&](const House::Edge& edge) { return edge.edge == corner; });
+    renumber(house, corner + 1, -1);
+    if (work.perform(SetHouse{house})) work.houseEdge.reset();
+}
+
+void HouseTool::draw(const Workspace& work) const {
+    if (!work.house) return;
+    const House house = houseNow(work.context.get(), *work.house);
+    const std::vector<glm::vec2> points = outline(work, house);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float s = work.scale;
+    for (size_t i = 0; i < points.size(); ++i) {
+        const glm::vec2 a = points[i], b = points[(i + 1) % points.size()];
+        const auto own = std::find_if(house.edges.begin(), house.edges.end(),
+                                      [&](const House::Edge& edge) { return edge.edge == i; });
+        ImU32 colour = kOutline;
+        if (own != house.edges.end() && own->end == "gable") colour = kGable;
+        if (own != house.edges.end() && own->end == "eave") colour = kEave;
+        list.AddLine({a.x, a.y}, {b.x, b.y}, IM_COL32(0, 0, 0, 140), 4 * s);
+        list.AddLine({a.x, a.y}, {b.x, b.y}, work.houseEdge == uint32_t(i) ? kChosen : colour, 2 * s);
+    }
+    for (size_t i = 0; i < points.size(); ++i) {
+        list.AddCircleFilled({points[i].x, points[i].y}, 6 * s, IM_COL32(0, 0, 0, 160));
+        list.AddCircleFilled({points[i].x, points[i].y}, 4.5f * s, corner_ == i ? kChosen : kOutline);
+    }
+}
+
+}  // namespace sample

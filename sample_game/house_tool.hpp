@@ -1,0 +1,25 @@
+#pragma once
+
+#include "sample_game/input.hpp"
+#include "sample_game/workspace.hpp"
+
+namespace sample {
+
+// Roofs: a click chooses a house, or an edge of the chosen one; a drag of one of its corners moves the outline, and the
+// roof follows. Ctrl and a drag put a new corner into an edge.
+class HouseTool {
+  public:
+    bool take(Workspace& work, const PointerEvent& event);
+    void removeCorner(Workspace& work);  // where the chosen edge begins
+    bool dragging() const { return corner_.has_value(); }
+    void draw(const Workspace& work) const;
+
+  private:
+    void press(Workspace& work, glm::vec2 at, bool insert);
+    void dragTo(Workspace& work, glm::vec2 at);
+
+    std::optional<size_t> corner_;  // of the outer ring, being dragged
+    uint32_t gesture_ = 0;
+};
+
+}  // namespace sample

@@ -1,0 +1,122 @@
+// The chosen house: kind of roof, pitch, height, and what its chosen edge has of its own.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sample_game/panels.hpp"
+
+namespace sample {
+namespace {
+
+using namespace espalier::document;
+using espalier::scene::House;
+using espalier::scene::houseNow;
+
+constexpr float kDegrees = 180 / 3.14159265f;
+constexpr float kUsualPitch = 40;  // degrees, where a pitch of its own begins
+constexpr const char* kTitles[] = {"Hip",  "Gable",   "Half-hip", "Pyramid",
+                                   "Shed", "Gambrel", "Mansard",  "Flat"};  // by EspRoofShape
+
+struct Edit {
+    bool changed = false;
+    uint32_t gesture = 0;
+    void note(Workspace& work, bool now) {
+        if (!now) return;
+        changed = true;
+        gesture = widgetGesture(work);
+    }
+};
+
+void row(const char* label) {
+    ImGui::TextUnformatted(label);
+    ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
+    ImGui::SetNextItemWidth(-1);
+}
+
+// A pitch as the designer thinks of it, in degrees; slope 0: none of its own.
+void pitch(Workspace& work, Edit& edit, const char* label, float& slope) {
+    ImGui::PushID(label);
+    bool own = slope > 0;
+    const bool switched = ImGui::Checkbox(label, &own);
+    toolTip("A pitch of its own; without it the kind of roof decides");
+    edit.note(work, switched);
+    if (switched) slope = own ? std::tan(kUsualPitch / kDegrees) : 0;
+    if (own) {
+        float degrees = std::atan(slope) * kDegrees;
+        ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
+        ImGui::SetNextItemWidth(-1);
+        const bool moved = ImGui::SliderFloat("##degrees", &degrees, 5, 80, "%.0f\u00b0", ImGuiSliderFlags_AlwaysClamp);
+        edit.note(work, moved);
+        if (moved) slope = std::tan(degrees / kDegrees);
+    }
+    ImGui::PopID();
+}
+
+void edgePanel(Workspace& work, Edit& edit, House& house) {
+    const uint32_t number = *work.houseEdge;
+    auto own = std::find_if(house.edges.begin(), house.edges.end(),
+                            [&](const House::Edge& edge) { return edge.edge == number; });
+    House::Edge edge = own == house.edges.end() ? House::Edge{number, "", 0} : *own;
+    ImGui::Text("Edge %u of %zu", number + 1, house.corners.size());
+    constexpr const char* kEnds[] = {"", "gable", "eave"};
+    constexpr const char* kEndTitles[] = {"As the kind says", "Gable", "Eave"};
+    row("Carries");
+    const auto now = size_t(std::find(std::begin(kEnds), std::end(kEnds), edge.end) - std::begin(kEnds));
+    if (ImGui::BeginCombo("##end", kEndTitles[std::min(now, size_t(2))])) {
+        for (size_t i = 0; i < std::size(kEnds); ++i)
+            if (ImGui::Selectable(kEndTitles[i], i == now)) {
+                edge.end = kEnds[i];
+                edit.note(work, true);
+            }
+        ImGui::EndCombo();
+    }
+    pitch(work, edit, "Pitch##edge", edge.slope);
+    if (!edit.changed) return;
+    if (own == house.edges.end())
+        house.edges.push_back(edge);
+    else
+        *own = edge;
+    std::erase_if(house.edges, [](const House::Edge& e) { return e.end.empty() && e.slope == 0; });
+}
+
+}  // namespace
+
+void housesPanel(Workspace& work) {
+    EspHouseInfo info;
+    if (!work.house || espHouseInfo(work.context.get(), *work.house, &info) != ESP_OK) {
+        ImGui::TextDisabled("%s", espHouseCount(work.context.get()) ? "Click a house" : "This scene has no town");
+        return;
+    }
+    House house = houseNow(work.context.get(), *work.house);
+    ImGui::Text("%s", info.id);
+    ImGui::SameLine();
+    ImGui::TextDisabled("ridge %.1f m", info.ridgeHeight - info.baseHeight);
+    Edit edit;
+    row("Roof");
+    if (ImGui::BeginCombo("##kind", kTitles[info.shape])) {
+        for (int i = 0; i < int(std::size(kTitles)); ++i)
+            if (ImGui::Selectable(kTitles[i], i == int(info.shape))) {
+                house.shape = espalier::scene::nameOf(EspRoofShape(i));
+                edit.note(work, true);
+            }
+        ImGui::EndCombo();
+    }
+    row("Walls");
+    edit.note(work, ImGui::SliderFloat("##walls", &house.eaveHeight, 2, 20, "%.1f m", ImGuiSliderFlags_AlwaysClamp));
+    toolTip("Height of the eaves above the house's foot");
+    pitch(work, edit, "Pitch", house.slope);
+    if (work.houseEdge && *work.houseEdge < house.corners.size()) {
+        ImGui::Separator();
+        edgePanel(work, edit, house);
+    } else {
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        ImGui::TextWrapped("Click an edge of the outline for a gable or a pitch of its own");
+        ImGui::PopStyleColor();
+    }
+    if (edit.changed) work.perform(SetHouse{house}, edit.gesture);
+    if (ImGui::Button("As it was planned", {-1, 0})) work.perform(ResetHouse{*work.house});
+    toolTip("Back to what the town's file says");
+}
+
+}  // namespace sample
