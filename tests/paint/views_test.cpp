@@ -68,9 +68,9 @@ TEST_CASE("depth shows a stem and its branches each by the legend") {
         "Stem(n) : n >= 30 -> NULL\n"
         "Stem(n) : n % 6 > 4.5 -> Branch(2) {Go(n), Twig(0)}\n"
         "Stem(n) -> Go(n)\n"
-        "Go(n) -> Marching(0.05, 0) {Stem(n + 1), Wood}\n"
+        "Go(n) -> Marching(0.05, 0, 1) {Stem(n + 1), Wood}\n"
         "Twig(n) : n >= 8 -> NULL\n"
-        "Twig(n) -> Marching(0.05, 0.25) {Twig(n + 1), Wood}\n"
+        "Twig(n) -> Marching(0.05, 0.25, 1) {Twig(n + 1), Wood}\n"
         "Wood -> S(0.03) Shape(\"bark\", C1)\n");
     painting.plant(grammar, {0, -.8f, 1}, {0, 1, 0});
     EspLook look = espDefaultLook();
