@@ -71,14 +71,16 @@ TEST_CASE("depth shows a stem and its branches each by the legend") {
         "Go(n) -> Marching(0.05, 0, 1) {Stem(n + 1), Wood}\n"
         "Twig(n) : n >= 8 -> NULL\n"
         "Twig(n) -> Marching(0.05, 0.25, 1) {Twig(n + 1), Wood}\n"
-        "Wood -> S(0.03) Shape(\"bark\", C1)\n");
+        "Wood -> S(0.1) Shape(\"bark\", C1)\n");
     painting.plant(grammar, {0, -.8f, 1}, {0, 1, 0});
     EspLook look = espDefaultLook();
     look.view = ESP_VIEW_DEPTH;
     const std::vector<uint8_t> shown = picture(painting, look);
-    // Diagnostic views shade what faces away, so hues are compared.
-    const auto hue = [](Pixel p) {
-        return std::array<float, 2>{float(p[1] + 1) / float(p[2] + 1), float(p[0] + 1) / float(p[2] + 1)};
+    // Diagnostic views dim what faces away, so the shares of linear red and green are compared.
+    const auto linear = [](int c) { return std::pow(float(c) / 255, 2.2f); };
+    const auto hue = [&](Pixel p) {
+        const float sum = linear(p[0]) + linear(p[1]) + linear(p[2]) + 1e-4f;
+        return std::array<float, 2>{linear(p[0]) / sum, linear(p[1]) / sum};
     };
     const auto count = [&](float depth) {
         const auto wanted = hue(legend(ESP_VIEW_DEPTH, depth));
@@ -86,7 +88,7 @@ TEST_CASE("depth shows a stem and its branches each by the legend") {
         for (uint32_t y = 0; y < kSide; ++y)
             for (uint32_t x = 0; x < kSide; ++x) {
                 const auto here = hue(at(shown, x, y));
-                found += std::abs(here[0] - wanted[0]) < .12f && std::abs(here[1] - wanted[1]) < .12f;
+                found += std::abs(here[0] - wanted[0]) < .05f && std::abs(here[1] - wanted[1]) < .05f;
             }
         return found;
     };
