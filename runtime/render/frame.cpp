@@ -36,6 +36,12 @@ glm::mat4 viewMatrix(glm::vec3 eye, glm::vec3 forward, glm::vec3 up, glm::vec3& 
 
 }  // namespace
 
+ViewMode shownView(const DrawInputs& inputs) {
+    const ViewMode view = inputs.look.view;
+    const bool layer = view == ViewMode::layer, surface = layer || view == ViewMode::charts;
+    return (surface && !inputs.surfaces.v) || (layer && !inputs.layers.v) ? ViewMode::normals : view;
+}
+
 FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height) {
     const Camera& camera = inputs.camera;
     const Look& look = inputs.look;
@@ -61,7 +67,7 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.sunColor = look.sunColor;
     frame.exposure = std::exp2(std::clamp(look.exposure, -20.0f, 20.0f));
     frame.skyColor = look.skyColor;
-    frame.view = uint32_t(look.view);
+    frame.view = uint32_t(shownView(inputs));
     frame.groundColor = look.groundColor;
     frame.layer = look.view == ViewMode::charts ? look.level : std::min(look.layer, kMaxLayers - 1);
     frame.layerOpacity = std::clamp(look.layerOpacity, 0.0f, 1.0f);
@@ -76,9 +82,6 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.unit = 1;
     frame.surfaces = inputs.surfaces;
     frame.layers = inputs.layers;
-    if (!inputs.surfaces.v && (look.view == ViewMode::charts || look.view == ViewMode::layer))
-        frame.view = kViewNormals;
-    if (!inputs.layers.v && look.view == ViewMode::layer) frame.view = kViewNormals;
     return frame;
 }
 

@@ -223,8 +223,9 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
             "a picture is 1 to 16384 pixels wide and high");
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
     const GrowthView& growth = inputs.growth;
-    explained_ = inputs.look.view != ViewMode::shaded && inputs.look.view != ViewMode::layer;
-    counts_ = inputs.look.view == ViewMode::overdraw;
+    const ViewMode shown = shownView(inputs);
+    explained_ = shown != ViewMode::shaded && shown != ViewMode::layer;
+    counts_ = shown == ViewMode::overdraw;
     if (counts_)
         if (Status s = makeCounting(); !s) return s;
     grows_ = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kSlots = 8;  // views that recordings in flight may still read
 constexpr uint32_t kMostRows = 1u << 20, kMostTiles = 3u << 20, kMostCuts = 1u << 19, kMostRectangles = 1u << 19;
-constexpr float kLeastCell = 4.5f;   // pixels below which cells are a pattern
+constexpr float kLeastCell = 4.5f;  // pixels below which cells are a pattern
 // Meshes are measured in cells, though their heights are metres: errors count for more than they seem.
 constexpr float kErrorScale = 5;
 

@@ -31,8 +31,8 @@ static const char* town(void) {
     static char text[4096];
     size_t at = (size_t)sprintf(text, "{\"buildings\": [");
     for (int i = 0; i < kHouses; ++i)
-        at += (size_t)sprintf(text + at, "%s{\"id\": \"h%d\", \"outer\": [[%d,0],[%d,0],[%d,8],[%d,8]]}", i ? "," : "", i,
-                              20 * i, 20 * i + 10, 20 * i + 10, 20 * i);
+        at += (size_t)sprintf(text + at, "%s{\"id\": \"h%d\", \"outer\": [[%d,0],[%d,0],[%d,8],[%d,8]]}", i ? "," : "",
+                              i, 20 * i, 20 * i + 10, 20 * i + 10, 20 * i);
     sprintf(text + at, "]}");
     return text;
 }

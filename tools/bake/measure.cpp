@@ -92,8 +92,9 @@ void measureCrossings(const std::vector<Link>& links, const std::vector<Contact>
             double texel = std::sqrt(glm::length(glm::cross(glm::dvec3(here.du), glm::dvec3(here.dv)))) / size;
             gaps.push_back(glm::length(onTriangle(here, p) - onTriangle(there, q)) / texel);
         }
-        // From the back of a sheet no way leads back: there walks are on its outside.
-        if (dangling && (c.flags & kCrossingTurned) == 0)
+        // From the back of a sheet no way leads back: there walks are on its outside. The end of a contact that leads
+        // to one point of a border is judged with its middle.
+        if (dangling && (c.flags & kCrossingTurned) == 0 && c.ta != c.tb)
             ++(kind == kCrossingContact ? report.danglingContacts : report.danglingCrossings);
     }
     report.roundTrip50 = percentile(trips, 0.5);
