@@ -32,6 +32,7 @@ void App::showUi() {
     const auto& layers = work_.scene().layers;
     if (std::find(layers.begin(), layers.end(), work_.brush.layer) == layers.end())
         work_.brush.layer = layers.empty() ? "" : layers.front();
+    if (!work_.editing) closeDialogues();
     if (work_.editing) {
         controls_->showTool(input_->mods());
         showMenu(work_, session_);

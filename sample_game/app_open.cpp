@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "sample_game/app_state.hpp"
+#include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
 #include "sample_game/theme.hpp"
 #include "tools/document/project.hpp"
@@ -162,6 +163,7 @@ bool App::showOpening(const std::string& file) {
     if (!frame) return host_->error().empty() || fail(host_->error());
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
+    closeDialogues();
     const std::string text = "Opening " + fs::path(file).filename().string() + " ...";
     const ImVec2 size = ImGui::GetIO().DisplaySize, extent = ImGui::CalcTextSize(text.c_str());
     ImGui::GetForegroundDrawList()->AddText({(size.x - extent.x) / 2, size.y / 2}, IM_COL32(220, 225, 215, 255),

@@ -276,7 +276,8 @@ void AtlasView::show(Workspace& work) {
     const float s = work.scale;
     ImGui::SetNextWindowPos({work.window.x - 500 * s, work.window.y - 590 * s}, ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSize({480 * s, 540 * s}, ImGuiCond_FirstUseEver);
-    if (!ImGui::Begin("Atlas", &work.layout.atlas, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
+    if (!ImGui::Begin("Atlas", &work.layout.atlas,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | kQuiet))
         return ImGui::End();
     if (wanted_.surface >= work.scene().surfaces.size()) wanted_.surface = 0;
     controls(work);

@@ -340,7 +340,7 @@ void showPanel(Workspace& work) {
     ImGui::SetNextWindowPos({0, top});
     ImGui::SetNextWindowSize({work.panelUnits(), work.window.y - top - bottom});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | kQuiet;
     if (ImGui::Begin("Espalier", nullptr, flags)) {
         toolButtons(work);
         if (work.tool == Tool::paint) {

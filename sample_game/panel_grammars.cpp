@@ -236,7 +236,7 @@ void showGrammarWindow(Workspace& work) {
     ImGui::SetNextWindowPos({work.window.x - 600 * s, 60 * s}, ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSize({580 * s, 520 * s}, ImGuiCond_FirstUseEver);
     const std::string title = grammarName(work.scene(), work.openGrammar) + "###grammar";
-    if (ImGui::Begin(title.c_str(), &work.layout.grammar)) {
+    if (ImGui::Begin(title.c_str(), &work.layout.grammar, kQuiet)) {
         const auto wrong = mistakes(grammar);
         const bool another = state.grammar != work.openGrammar;
         const bool active = ImGui::GetActiveID() && state.gesture && ImGui::GetTime() - state.changedAt < 1;

@@ -1,5 +1,6 @@
 // The bar at the top with its dialogues, the line at the bottom, the help.
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -116,6 +117,11 @@ void askForLayer(const std::string& layer, bool import) {
     if (d.layer != layer) put(d.picture, sizeof d.picture, layer + ".exr");
     d.layer = layer;
     d.open = import ? "Import a layer" : "Export a layer";
+}
+
+void closeDialogues() {
+    dialogues().open = nullptr;
+    if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) ImGui::ClosePopupToLevel(0, false);
 }
 
 void askToOpen() {
@@ -248,7 +254,7 @@ void showHelp(Workspace& work) {
     ImGui::SetNextWindowPos({work.window.x / 2, work.window.y / 2}, ImGuiCond_Always, {.5f, .5f});
     ImGui::SetNextWindowSize({680 * work.scale, 0});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize | kQuiet;
     if (ImGui::Begin("Keys and mouse", &work.layout.help, flags)) {
         ImGui::TextWrapped(
             "A path of ivy up a wall: B, Clear the mask, drag up the wall; then S and a "
@@ -279,7 +285,7 @@ void showGrowing(const Workspace& work) {
     ImGui::SetNextWindowPos({(work.window.x + work.panelUnits()) / 2, work.window.y - 90 * work.scale},
                             ImGuiCond_Always, {.5f, .5f});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize | kQuiet;
     if (ImGui::Begin("growing", nullptr, flags)) ImGui::TextUnformatted("Growing ...");
     ImGui::End();
 }

@@ -19,6 +19,8 @@ void showGrowing(const Workspace& work);                           // while grow
 // Ctrl+S and Ctrl+O: at once, or by a dialogue of showMenu().
 void askToSave(Workspace& work, Session& session);
 void askToOpen();
+// In frames without showMenu(): ImGui can't do with a dialogue that is open and isn't laid out.
+void closeDialogues();
 void askForLayer(const std::string& layer, bool import);
 
 // The parts of showPanel().
@@ -34,6 +36,9 @@ void lightPanel(Workspace& work);
 std::string grammarName(const espalier::scene::Scene& scene, size_t index);
 // The number that belongs to the widget that is being dragged or typed into: what it does is one step of undo.
 uint32_t widgetGesture(Workspace& work);
+// Of every window that may appear while a dialogue is open: taking the focus from it then ends ImGui 1.86 in an
+// assertion.
+constexpr int kQuiet = 1 << 12;  // ImGuiWindowFlags_NoFocusOnAppearing
 // Views that need no layer, in the order of their keys 1, 2 ...
 constexpr EspView kViews[] = {ESP_VIEW_SHADED, ESP_VIEW_CHARTS, ESP_VIEW_NORMALS,
                               ESP_VIEW_LOD,    ESP_VIEW_DEPTH,  ESP_VIEW_OVERDRAW};
