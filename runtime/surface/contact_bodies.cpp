@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "runtime/core/disjoint_sets.hpp"
 
 namespace espalier {
 namespace {
@@ -41,26 +42,22 @@ Bodies::Bodies(ContactMesh& mesh, std::span<const float> open) : mesh_(&mesh), t
         add({mesh.at(t, 0), mesh.at(t, 1), mesh.at(t, 2), mesh.triangles[t].body}, false);
 
     // Each hole is closed by a fan around its middle; holes that share a point count as one.
-    std::vector<uint32_t> parent(mesh.points.size()), rim;
-    std::iota(parent.begin(), parent.end(), 0u);
-    auto hole = [&](uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
+    DisjointSets holes(mesh.points.size());
+    std::vector<uint32_t> rim;
     auto start = [&](uint32_t h) { return mesh.triangles[h / 3].point[h % 3]; };
     auto end = [&](uint32_t h) { return mesh.triangles[h / 3].point[(h + 1) % 3]; };
     for (uint32_t h = 0; h < open.size(); ++h)
         if (open[h] > 0.5f) {
             rim.push_back(h);
-            parent[hole(end(h))] = hole(start(h));
+            holes.join(start(h), end(h));
         }
     std::vector<glm::dvec4> middle(rim.empty() ? 0 : mesh.points.size(), glm::dvec4(0));
     for (uint32_t h : rim) {
         glm::dvec3 a = mesh.points[start(h)], b = mesh.points[end(h)];
-        middle[hole(start(h))] += glm::dvec4((a + b) / 2.0, 1) * glm::length(b - a);
+        middle[holes.find(start(h))] += glm::dvec4((a + b) / 2.0, 1) * glm::length(b - a);
     }
     for (uint32_t h : rim) {
-        glm::dvec4 m = middle[hole(start(h))];
+        glm::dvec4 m = middle[holes.find(start(h))];
         add({mesh.points[end(h)], mesh.points[start(h)], glm::dvec3(m) / m.w, mesh.triangles[h / 3].body}, true);
     }
     mesh.solid.resize(bodies);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 #include <unordered_map>
 
+#include "runtime/core/disjoint_sets.hpp"
 #include "runtime/core/jobs.hpp"
 
 namespace espalier {
@@ -20,25 +20,6 @@ constexpr double kBorderShift = 0.02;  // texels, as in what was baked
 constexpr size_t kMostParts = 8;       // that a contact is judged in
 constexpr double kPart = 4;            // tolerances
 constexpr double kAside = 0.3;         // tolerances: beside a contact that far, what is hidden is asked
-
-struct Sets {
-    std::vector<uint32_t> parent;
-    explicit Sets(size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
-    uint32_t find(uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    }
-    void join(uint32_t a, uint32_t b) {
-        a = find(a), b = find(b);
-        parent[std::max(a, b)] = std::min(a, b);
-    }
-    std::vector<uint32_t> numbers() {
-        std::vector<uint32_t> out(parent.size());
-        uint32_t count = 0;
-        for (uint32_t i = 0; i < out.size(); ++i) out[i] = find(i) == i ? count++ : out[find(i)];
-        return out;
-    }
-};
 
 struct PointHash {
     size_t operator()(const std::array<uint32_t, 3>& p) const {
@@ -132,14 +113,14 @@ ContactGround::ContactGround(const SurfaceData& data) {
                                mesh_.triangles[g / 3].uv[(g + 1) % 3] != mesh_.triangles[h / 3].uv[h % 3];
     }
     // Charts that seams join are a shell, shells that near borders join are a body.
-    Sets shells(data.charts.size());
+    DisjointSets together(data.charts.size());
     for (const Crossing& c : data.crossings)
-        if ((c.flags & 3u) == kCrossingSeam) shells.join(c.flags >> 16, c.target & 0xFFFFu);
-    const std::vector<uint32_t> shell = shells.numbers();
-    Sets together = std::move(shells);
+        if ((c.flags & 3u) == kCrossingSeam) together.join(c.flags >> 16, c.target & 0xFFFFu);
+    std::vector<uint32_t> shell, body;
+    together.number(shell);
     for (const Crossing& c : data.crossings)
         if ((c.flags & 3u) == kCrossingNearest) together.join(c.flags >> 16, c.target & 0xFFFFu);
-    const std::vector<uint32_t> body = together.numbers();
+    together.number(body);
     for (ContactMesh::Triangle& t : mesh_.triangles) t.shell = shell[t.chart], t.body = body[t.chart];
     setReach(mesh_, texel_);
     std::vector<float> open(mesh_.twin.size());

@@ -6,25 +6,10 @@
 
 #include <span>
 
+#include "runtime/core/disjoint_sets.hpp"
 #include "tools/bake/bake_mesh.hpp"
 
 namespace espalier::bakery {
-
-struct UnionFind {
-    std::vector<uint32_t> parent;
-    explicit UnionFind(size_t n) : parent(n) {
-        for (size_t i = 0; i < n; ++i) parent[i] = uint32_t(i);
-    }
-    uint32_t find(uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    }
-    // The smaller number stays.
-    void join(uint32_t a, uint32_t b) {
-        a = find(a), b = find(b);
-        if (a != b) parent[std::max(a, b)] = std::min(a, b);
-    }
-};
 
 // Why triangles don't keep the UVs that the model has.
 enum class UvFault : uint8_t { none, missing, collapsed, folded, overlapping, stretched, narrow };

@@ -113,7 +113,7 @@ Islands judgeUvs(const Model& model, BakeMesh& mesh, uint32_t resolution, bool k
     size_t count = mesh.triangles.size();
     Islands out;
     std::vector<UvFault> fault = readUvs(model, mesh);
-    UnionFind sets(count);
+    DisjointSets sets(count);
     out.cut.assign(count * 3, 1);
     std::vector<uint32_t> folds;  // half-edges across which UVs agree but the orientation turns
     for (uint32_t h = 0; h < count * 3; ++h) {

@@ -106,7 +106,7 @@ Patch makePatch(const BakeMesh& mesh, std::span<const uint32_t> triangles, const
     size_t count = triangles.size();
     for (uint32_t i = 0; i < count; ++i) local[triangles[i]] = i;
     patch.twin.assign(count * 3, kNone);
-    UnionFind corners(count * 3);
+    DisjointSets corners(count * 3);
     for (uint32_t h = 0; h < count * 3; ++h) {
         uint32_t own = triangles[h / 3] * 3 + h % 3, twin = mesh.twin[own];
         if (twin == kNone || cut[own]) continue;
@@ -169,7 +169,7 @@ std::vector<std::vector<uint32_t>> divide(const BakeMesh& mesh, const Facets& fa
     size_t count = patch.triangles.size();
     std::vector<uint8_t> side = cutOut(patch, verdict);
     if (side.empty()) side = halve(mesh, facets, patch);
-    UnionFind sets(count);
+    DisjointSets sets(count);
     for (uint32_t h = 0; h < patch.twin.size(); ++h)
         if (uint32_t twin = patch.twin[h]; twin != kNone && side[h / 3] == side[twin / 3]) sets.join(h / 3, twin / 3);
     std::vector<std::vector<uint32_t>> parts;

@@ -99,7 +99,7 @@ class Merger {
     }
 
     void merge(uint32_t a, uint32_t b) {
-        if (a > b) std::swap(a, b);  // as UnionFind does
+        if (a > b) std::swap(a, b);  // as DisjointSets does
         sets_.join(a, b);
         Cluster &x = clusters_[a], &y = clusters_[b];
         x.normal += y.normal;
@@ -121,7 +121,7 @@ class Merger {
         for (const Neighbour& n : x.neighbours) propose(a, n);
     }
 
-    UnionFind sets_;
+    DisjointSets sets_;
     std::vector<Cluster> clusters_;
     std::priority_queue<Merge> queue_;
 };
@@ -184,7 +184,7 @@ void straighten(const BakeMesh& mesh, const Facets& facets, std::vector<uint32_t
 
 // Numbers connected pieces of equal label.
 uint32_t renumber(const BakeMesh& mesh, std::vector<uint32_t>& label) {
-    UnionFind sets(label.size());
+    DisjointSets sets(label.size());
     for (uint32_t h = 0; h < mesh.twin.size(); ++h)
         if (uint32_t twin = mesh.twin[h]; twin != kNone && label[h / 3] != kNone && label[h / 3] == label[twin / 3])
             sets.join(h / 3, twin / 3);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/disjoint_sets.hpp"
 #include "runtime/core/jobs.hpp"
 #include "tools/bake/contact.hpp"
 
@@ -85,15 +86,10 @@ bool contactAt(const std::vector<Crossing>& crossings, const SurfaceLevelData& l
 // stands for all that it is joined with. members, first: the regions' texels.
 std::vector<uint32_t> joinRegions(const std::vector<Crossing>& crossings, const SurfaceLevelData& level,
                                   const std::vector<uint32_t>& members, const std::vector<uint32_t>& first) {
-    std::vector<uint32_t> regionOf(level.texels.size(), kNone), parent(first.size() - 1);
-    for (uint32_t r = 0; r < parent.size(); ++r) {
-        parent[r] = r;
+    std::vector<uint32_t> regionOf(level.texels.size(), kNone), joined(first.size() - 1);
+    DisjointSets regions(joined.size());
+    for (uint32_t r = 0; r < joined.size(); ++r)
         for (uint32_t i = first[r]; i < first[r + 1]; ++i) regionOf[members[i]] = r;
-    }
-    auto find = [&](uint32_t r) {
-        while (parent[r] != r) r = parent[r] = parent[parent[r]];
-        return r;
-    };
     float texel = 1.0f / float(level.size);
     // Where texels are too large to tell sides apart there is nothing to join: regions of one texel judge themselves.
     auto regionAt = [&](glm::vec2 at, glm::vec2 edge, bool left, uint32_t chart) {
@@ -124,11 +120,11 @@ std::vector<uint32_t> joinRegions(const std::vector<Crossing>& crossings, const 
             // The far side's handedness isn't known here; whichever side holds the chart will do.
             uint32_t q = regionAt(there, c.tb - c.ta, !left, other);
             if (q == kNone) q = regionAt(there, c.tb - c.ta, left, other);
-            if (r != kNone && q != kNone) parent[std::max(find(r), find(q))] = std::min(find(r), find(q));
+            if (r != kNone && q != kNone) regions.join(r, q);
         }
     }
-    for (uint32_t r = 0; r < parent.size(); ++r) parent[r] = find(r);
-    return parent;
+    for (uint32_t r = 0; r < joined.size(); ++r) joined[r] = regions.find(r);
+    return joined;
 }
 
 }  // namespace

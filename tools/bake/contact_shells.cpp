@@ -1,7 +1,5 @@
 // In: the mesh and how its borders are linked. Out: shells, bodies and the contacts between shells.
-#include <algorithm>
-#include <numeric>
-
+#include "runtime/core/disjoint_sets.hpp"
 #include "tools/bake/contact.hpp"
 
 namespace espalier::bakery {
@@ -9,42 +7,19 @@ namespace {
 
 constexpr double kBorderShift = 0.02;  // texels
 
-struct Sets {
-    std::vector<uint32_t> parent;
-    explicit Sets(size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
-    uint32_t find(uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    }
-    void join(uint32_t a, uint32_t b) {
-        a = find(a), b = find(b);
-        parent[std::max(a, b)] = std::min(a, b);
-    }
-    // Numbers the sets by their first member.
-    uint32_t number(std::vector<uint32_t>& out) {
-        uint32_t count = 0;
-        out.assign(parent.size(), kNone);
-        for (uint32_t i = 0; i < parent.size(); ++i) {
-            uint32_t root = find(i);
-            out[i] = root == i ? count++ : out[root];
-        }
-        return count;
-    }
-};
-
 }  // namespace
 
 Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const Options& options)
     : tolerance_(options.tolerance) {
     if (!options.wanted) return;
     size_t count = mesh.triangles.size();
-    Sets shells(count);
+    DisjointSets shells(count);
     for (uint32_t h = 0; h < mesh.twin.size(); ++h)
         if (mesh.twin[h] != kNone && mesh.twin[h] > h) shells.join(h / 3, mesh.twin[h] / 3);
     std::vector<uint32_t> shell, body;
     shells_ = shells.number(shell);
     if (shells_ < 2) return;
-    Sets bodies = shells;
+    DisjointSets bodies = shells;
     for (const Link& link : links)
         if (link.to != kNone) bodies.join(link.from / 3, link.to / 3);
     bodies.number(body);
