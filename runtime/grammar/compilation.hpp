@@ -69,6 +69,9 @@ struct Compilation {
     // Which of a symbol's rules applies: the first whose condition holds; among rules of equal condition by
     // probability. envs: one a rule, in order. Constant -1 where none is left.
     Node chooseRule(const Symbol& symbol, std::vector<Env>& envs);
+    // Fills the symbol's record with the code of that choice and room for its rules behind all that are there. args:
+    // its arguments' nodes. Returns the environments of its rules.
+    std::vector<Env> lowerChoice(const Symbol& symbol, std::span<const Node> args);
 };
 
 // True for a grammar whose rules make roofs, false for one that walks.

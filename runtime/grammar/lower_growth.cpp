@@ -113,32 +113,15 @@ class GrowthLowering {
     }
 
     void lowerSymbol(Symbol& symbol) {
-        std::vector<Env> envs;
-        for (uint32_t i = 0; i < symbol.rules.size(); ++i)
-            envs.push_back(c_.environment(c_.module.rules[symbol.rules[i]], i, args_));
-        Node chosen = c_.chooseRule(symbol, envs);
-        const Rule& first = c_.module.rules[symbol.rules[0]];
-
-        SymbolRecord record = c_.symbolRecords[symbol.record];
-        StageReads reads;
-        c_.generate({&chosen, 1}, reads, reads, record.select, {&record.selected, 1}, first.place, symbol.name);
-        record.firstSite = c_.storeSites(reads);
-        record.siteCount = static_cast<uint32_t>(reads.sites.size());
-        record.inputs = reads.inputs;
-        record.layers = reads.layers;
-        record.params = reads.params;
-        record.firstRule = static_cast<uint32_t>(c_.rules.size());
-        record.ruleCount = static_cast<uint32_t>(symbol.rules.size());
-        c_.symbolRecords[symbol.record] = record;
+        std::vector<Env> envs = c_.lowerChoice(symbol, args_);
+        const size_t firstRule = c_.symbolRecords[symbol.record].firstRule;
         for (uint32_t i = 0; i < symbol.rules.size(); ++i) {
             const Rule& rule = c_.module.rules[symbol.rules[i]];
             const BlockInfo* block = rule.successor.size() == 1 ? findBlock(rule.successor[0].name) : nullptr;
-            c_.rules.push_back({});
-            size_t index = c_.rules.size() - 1;
             if (block != nullptr && block->kind == Block::marching)
-                march(symbol, rule, i, envs[i], index);
+                march(symbol, rule, i, envs[i], firstRule + i);
             else
-                list(symbol, rule, envs[i], index);
+                list(symbol, rule, envs[i], firstRule + i);
         }
     }
 

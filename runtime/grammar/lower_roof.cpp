@@ -73,28 +73,13 @@ class RoofLowering {
     }
 
     void lowerSymbol(const Symbol& symbol) {
-        std::vector<Env> envs;
-        for (uint32_t i = 0; i < symbol.rules.size(); ++i)
-            envs.push_back(c_.environment(c_.module.rules[symbol.rules[i]], i, args_));
-        Node chosen = c_.chooseRule(symbol, envs);
-        SymbolRecord record = c_.symbolRecords[symbol.record];
-        const Rule& first = c_.module.rules[symbol.rules[0]];
-        StageReads reads;
-        c_.generate({&chosen, 1}, reads, reads, record.select, {&record.selected, 1}, first.place, symbol.name);
-        record.firstSite = c_.storeSites(reads);
-        record.siteCount = static_cast<uint32_t>(reads.sites.size());
-        record.inputs = reads.inputs;
-        record.layers = reads.layers;
-        record.params = reads.params;
-        record.firstRule = static_cast<uint32_t>(c_.rules.size());
-        record.ruleCount = static_cast<uint32_t>(symbol.rules.size());
-        c_.symbolRecords[symbol.record] = record;
-        c_.rules.resize(c_.rules.size() + symbol.rules.size());
+        std::vector<Env> envs = c_.lowerChoice(symbol, args_);
+        const uint32_t firstRule = c_.symbolRecords[symbol.record].firstRule;
         for (uint32_t i = 0; i < symbol.rules.size(); ++i) {
             const Rule& rule = c_.module.rules[symbol.rules[i]];
             // What is nested in a further rule of the symbol has names of its own.
             const std::string name = i == 0 ? symbol.name : symbol.name + "#" + std::to_string(i) + "r";
-            c_.rules[record.firstRule + i] = lowerSequence(rule.successor, envs[i], rule, name);
+            c_.rules[firstRule + i] = lowerSequence(rule.successor, envs[i], rule, name);
         }
     }
     void lowerNested(Nested& nested) {

@@ -305,4 +305,25 @@ Node Compilation::chooseRule(const Symbol& symbol, std::vector<Env>& envs) {
     return result;
 }
 
+std::vector<Env> Compilation::lowerChoice(const Symbol& symbol, std::span<const Node> args) {
+    std::vector<Env> envs;
+    for (uint32_t i = 0; i < symbol.rules.size(); ++i)
+        envs.push_back(environment(module.rules[symbol.rules[i]], i, args));
+    Node chosen = chooseRule(symbol, envs);
+    SymbolRecord record = symbolRecords[symbol.record];
+    StageReads reads;
+    const Rule& first = module.rules[symbol.rules[0]];
+    generate({&chosen, 1}, reads, reads, record.select, {&record.selected, 1}, first.place, symbol.name);
+    record.firstSite = storeSites(reads);
+    record.siteCount = static_cast<uint32_t>(reads.sites.size());
+    record.inputs = reads.inputs;
+    record.layers = reads.layers;
+    record.params = reads.params;
+    record.firstRule = static_cast<uint32_t>(rules.size());
+    record.ruleCount = static_cast<uint32_t>(symbol.rules.size());
+    symbolRecords[symbol.record] = record;
+    rules.resize(rules.size() + symbol.rules.size());
+    return envs;
+}
+
 }  // namespace espalier::grammar
