@@ -10,6 +10,7 @@
 #include "runtime/grammar/grammar.hpp"
 #include "shaders/shared/random.h"
 #include "tests/determinism/variant/grow_on_cpu.hpp"
+#include "tests/support/cube_model.hpp"
 #include "tools/bake/bake.hpp"
 
 using namespace espalier;
@@ -19,30 +20,11 @@ namespace {
 
 // A ball of radius 1 m that is drawn out to one side and dented: curved both ways, six charts, seams that crease.
 Model pear() {
-    Model model;
-    model.name = "pear";
-    constexpr uint32_t n = 20;
-    for (uint32_t face = 0; face < 6; ++face) {
-        glm::vec3 normal(0), u(0);
-        normal[int(face / 2)] = face % 2 ? -1.f : 1.f;
-        u[int((face / 2 + 1) % 3)] = 1;
-        const glm::vec3 v = glm::cross(normal, u);
-        const glm::vec2 cell(float(face % 3) / 3, float(face / 3) / 2);
-        const uint32_t first = uint32_t(model.positions.size());
-        for (uint32_t i = 0; i < (n + 1) * (n + 1); ++i) {
-            const float a = float(i % (n + 1)) / n, b = float(i / (n + 1)) / n;
-            glm::vec3 p = normal + u * (2 * a - 1) + v * (2 * b - 1);
-            p *= .5f / std::max(.5f, .35f * glm::length(p));
-            p.y *= p.y > 0 ? 1.6f : 1 - .3f * std::abs(p.x);
-            model.positions.push_back(p);
-            model.uvs.push_back(cell + glm::vec2(.03f + .27f * a, .05f + .4f * b));
-        }
-        for (uint32_t i = 0; i < n * n; ++i) {
-            const uint32_t a = first + i / n * (n + 1) + i % n, c = a + n + 1;
-            for (uint32_t k : {a, a + 1, c + 1, a, c + 1, c}) model.indices.push_back(k);
-        }
-    }
-    return model;
+    return test::formedCube("pear", 20, [](glm::vec3 p) {
+        p *= .5f / std::max(.5f, .35f * glm::length(p));
+        p.y *= p.y > 0 ? 1.6f : 1 - .3f * std::abs(p.x);
+        return p;
+    });
 }
 
 void addSeeds(FixedInputs& in, uint32_t grammar, uint32_t symbol, uint32_t count, uint64_t number) {

@@ -8,34 +8,6 @@
 #include "shaders/shared/random.h"
 
 namespace espalier::growthtest {
-namespace {
-
-// n × n quads of a face of the cube; the face's chart is a cell of a 3 × 2 atlas.
-void addFace(Model& model, uint32_t face, uint32_t n, bool round) {
-    glm::vec3 normal(0);
-    normal[face / 2] = face % 2 ? -1.0f : 1.0f;
-    glm::vec3 u(0);
-    u[(face / 2 + 1) % 3] = 1;
-    glm::vec3 v = glm::cross(normal, u);
-    uint32_t first = uint32_t(model.positions.size());
-    glm::vec2 cell(float(face % 3) / 3, float(face / 3) / 2);
-    for (uint32_t j = 0; j <= n; ++j)
-        for (uint32_t i = 0; i <= n; ++i) {
-            float a = float(i) / float(n), b = float(j) / float(n);
-            glm::vec3 p = normal + u * (2 * a - 1) + v * (2 * b - 1);
-            if (round) p = glm::normalize(p);
-            model.positions.push_back(p);
-            model.normals.push_back(round ? p : normal);
-            model.uvs.push_back(cell + glm::vec2(0.03f + 0.27f * a, 0.05f + 0.4f * b));
-        }
-    for (uint32_t j = 0; j < n; ++j)
-        for (uint32_t i = 0; i < n; ++i) {
-            uint32_t a = first + j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-            for (uint32_t k : {a, b, d, a, d, c}) model.indices.push_back(k);
-        }
-}
-
-}  // namespace
 
 Model flatSquare() {
     Model model;
@@ -44,18 +16,6 @@ Model flatSquare() {
     model.normals.assign(4, {0, 1, 0});
     model.uvs = {{0.1f, 0.1f}, {0.9f, 0.1f}, {0.9f, 0.9f}, {0.1f, 0.9f}};
     model.indices = {0, 2, 1, 0, 3, 2};
-    return model;
-}
-Model cube() {
-    Model model;
-    model.name = "cube";
-    for (uint32_t face = 0; face < 6; ++face) addFace(model, face, 1, false);
-    return model;
-}
-Model ball(uint32_t n) {
-    Model model;
-    model.name = "ball";
-    for (uint32_t face = 0; face < 6; ++face) addFace(model, face, n, true);
     return model;
 }
 

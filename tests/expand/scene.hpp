@@ -11,16 +11,15 @@
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/grammar/grammar.hpp"
 #include "runtime/surface/gpu_surface.hpp"
+#include "tests/support/cube_model.hpp"
 #include "tools/bake/bake.hpp"
 
 namespace espalier::growthtest {
 
 // A square of 2 m in the xz plane, one chart, facing up.
 Model flatSquare();
-// A cube of edge 2 m around the origin, a chart a face.
-Model cube();
-// The same, its vertices pushed onto a sphere of radius 1 m; n × n quads a face.
-Model ball(uint32_t n = 24);
+using test::ball;
+using test::cube;
 
 class Scene {
   public:

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/fidelity/axis.hpp"
+#include "tests/support/cube_model.hpp"
 #include "tests/support/data.hpp"
 #include "tools/content/content.hpp"
 
@@ -15,32 +16,6 @@ using namespace espalier;
 using namespace espalier::fidelitytest;
 
 namespace {
-
-// A cube of edge 2 m with a chart a face, n × n quads each, or the same pushed onto a sphere of radius 1 m.
-Model boxOrBall(uint32_t n, bool round) {
-    Model model;
-    model.name = round ? "sphere" : "cube";
-    for (uint32_t face = 0; face < 6; ++face) {
-        glm::vec3 normal(0), u(0);
-        normal[int(face / 2)] = face % 2 ? -1.f : 1.f;
-        u[int((face / 2 + 1) % 3)] = 1;
-        const glm::vec3 v = glm::cross(normal, u);
-        const glm::vec2 cell(float(face % 3) / 3, float(face / 3) / 2);
-        const uint32_t first = uint32_t(model.positions.size());
-        for (uint32_t i = 0; i < (n + 1) * (n + 1); ++i) {
-            const float a = float(i % (n + 1)) / float(n), b = float(i / (n + 1)) / float(n);
-            const glm::vec3 p = normal + u * (2 * a - 1) + v * (2 * b - 1);
-            model.positions.push_back(round ? glm::normalize(p) : p);
-            model.normals.push_back(round ? glm::normalize(p) : normal);
-            model.uvs.push_back(cell + glm::vec2(.03f + .27f * a, .05f + .4f * b));
-        }
-        for (uint32_t i = 0; i < n * n; ++i) {
-            const uint32_t a = first + i / n * (n + 1) + i % n, c = a + n + 1;
-            for (uint32_t k : {a, a + 1, c + 1, a, c + 1, c}) model.indices.push_back(k);
-        }
-    }
-    return model;
-}
 
 // Least shares of samples within one radius that are asked for: the target, 0.999, of ivy for game scenes but on the
 // ruin. The paper's grammar makes steps of up to 30 radii with bark a tenth of a texel thick. There, less is asked for
@@ -94,7 +69,7 @@ std::string ruinFile(const std::string& folder) {
 }  // namespace
 
 TEST_CASE("the oracle's distances are those of a sphere and a cube") {
-    const Model ball = boxOrBall(64, true), box = boxOrBall(1, false);
+    const Model ball = test::ball(64), box = test::cube();
     const SignedDistance sphere(ball.positions, ball.indices), cube(box.positions, box.indices);
     for (glm::dvec3 p : {glm::dvec3(1.5, .2, -.3), glm::dvec3(.1, -.7, .4), glm::dvec3(.6, .6, .6)})
         CHECK(sphere.at(p) == doctest::Approx(glm::length(p) - 1).epsilon(2e-3));
@@ -107,8 +82,8 @@ TEST_CASE("the oracle's distances are those of a sphere and a cube") {
 
 TEST_CASE("bark on our own shapes") {
     printHeading();
-    judge("cube", boxOrBall(1, false), {.999, .999});
-    judge("sphere", boxOrBall(48, true), {.999, .999});
+    judge("cube", test::cube(), {.999, .999});
+    judge("sphere", test::ball(48), {.999, .999});
 }
 
 TEST_CASE("bark on the sample ruin") {
