@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/core/file.hpp"
+#include "runtime/core/glb.hpp"
 #include "runtime/emit/terminals.hpp"
 #include "runtime/surface/picture.hpp"
-#include "runtime/surface/surface_file.hpp"
 #include "shaders/shared/exact.h"
 
 namespace espalier {
@@ -47,18 +47,16 @@ class Reader {
     }
 
     void openChunks() {
-        check(bytes_.size() >= 20 && wordAt(bytes_, 0) == surface_file::kGlbMagic && wordAt(bytes_, 4) == 2,
-              "not a glTF 2.0 binary");
+        check(bytes_.size() >= 20 && wordAt(bytes_, 0) == kGlbMagic && wordAt(bytes_, 4) == 2, "not a glTF 2.0 binary");
         const size_t jsonSize = wordAt(bytes_, 12);
-        check(wordAt(bytes_, 16) == surface_file::kJsonChunk && jsonSize <= bytes_.size() - 20, "truncated JSON chunk");
+        check(wordAt(bytes_, 16) == kGlbJson && jsonSize <= bytes_.size() - 20, "truncated JSON chunk");
         const char* text = reinterpret_cast<const char*>(bytes_.data()) + 20;
         root_ = json::parse(text, text + jsonSize, nullptr, false);
         check(root_.is_object(), "the JSON chunk does not parse");
         size_t at = 20 + jsonSize;
         if (bytes_.size() - at < 8) return;
         const size_t size = wordAt(bytes_, at);
-        check(wordAt(bytes_, at + 4) == surface_file::kBinChunk && size <= bytes_.size() - at - 8,
-              "truncated binary chunk");
+        check(wordAt(bytes_, at + 4) == kGlbBinary && size <= bytes_.size() - at - 8, "truncated binary chunk");
         binary_ = bytes_.subspan(at + 8, size);
     }
 

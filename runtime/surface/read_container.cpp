@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "runtime/core/glb.hpp"
 #include "runtime/surface/surface_file.hpp"
 #include "runtime/surface/surface_reader.hpp"
 
@@ -61,13 +62,13 @@ Container::Container(std::vector<std::byte> file, bool partial) : file_(std::mov
         fail("header",
              "truncated or damaged: states " + std::to_string(word(8)) + " bytes, has " + std::to_string(file_.size()));
     size_t text = word(12);
-    if (word(16) != kJsonChunk || text > file_.size() - 28) fail("JSON chunk", "reaches past the end of the file");
+    if (word(16) != kGlbJson || text > file_.size() - 28) fail("JSON chunk", "reaches past the end of the file");
     root_ = json::parse(reinterpret_cast<const char*>(file_.data()) + 20,
                         reinterpret_cast<const char*>(file_.data()) + 20 + text, nullptr, false);
     if (root_.is_discarded() || !root_.is_object()) fail("JSON chunk", "does not parse");
     size_t binary = word(20 + text);
     const size_t there = file_.size() - 28 - text;
-    if (word(24 + text) != kBinChunk || (!partial && binary > there))
+    if (word(24 + text) != kGlbBinary || (!partial && binary > there))
         fail("binary chunk", "reaches past the end of the file");
     binary_ = std::span(file_).subspan(28 + text, std::min(binary, there));
 }

@@ -9,7 +9,6 @@ namespace espalier::surface_file {
 inline constexpr const char* kExtension = "ESPALIER_surface";
 inline constexpr const char* kDraco = "KHR_draco_mesh_compression";
 inline constexpr uint32_t kVersion = 2;
-inline constexpr uint32_t kGlbMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 inline constexpr uint32_t kMaxCoarser = 32;  // coarser meshes in a file
 
 }  // namespace espalier::surface_file

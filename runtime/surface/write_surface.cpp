@@ -6,7 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "runtime/core/file.hpp"
+#include "runtime/core/glb.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/surface/codec.hpp"
 #include "runtime/surface/surface.hpp"
@@ -280,25 +280,8 @@ class Writer {
     }
 
     Status writeContainer() {
-        std::string text = root_.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-        text.resize((text.size() + 3) / 4 * 4, ' ');
-        std::vector<std::byte> file;
-        uint64_t total = 12 + 8 + uint64_t(text.size()) + 8 + binary_.size();
-        if (total > 0xFFFFFFFFu) return Failure(path_, "the surface is larger than a .glb can be (4 GiB)");
-        file.reserve(total);
-        auto words = [&](std::initializer_list<uint32_t> list) {
-            for (uint32_t w : list) {
-                auto bytes = std::as_bytes(std::span(&w, 1));
-                file.insert(file.end(), bytes.begin(), bytes.end());
-            }
-        };
-        words({kGlbMagic, 2, uint32_t(total), uint32_t(text.size()), kJsonChunk});
-        auto t = std::as_bytes(std::span(text.data(), text.size()));
-        file.insert(file.end(), t.begin(), t.end());
-        words({uint32_t(binary_.size()), kBinChunk});
-        auto b = std::as_bytes(std::span(binary_));
-        file.insert(file.end(), b.begin(), b.end());
-        return writeFile(path_, file);
+        return writeGlb(path_, root_.dump(-1, ' ', false, ordered_json::error_handler_t::replace),
+                        std::as_bytes(std::span(binary_)));
     }
 
     const SurfaceData& data_;

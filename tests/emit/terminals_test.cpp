@@ -1,10 +1,13 @@
 // The reader of terminal meshes against whole, truncated and damaged files.
 #include <doctest/doctest.h>
+
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <random>
 
+#include "runtime/core/glb.hpp"
 #include "runtime/emit/terminals.hpp"
 
 using namespace espalier;
@@ -12,7 +15,7 @@ using namespace espalier;
 namespace {
 
 // bark_lod0 and leaf_lod0, both one triangle.
-std::vector<char> smallFile() {
+std::vector<std::byte> smallFile() {
     const float vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
     const uint16_t indices[] = {0, 1, 2, 0};
     std::string text = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":80}],"bufferViews":[
@@ -22,26 +25,16 @@ std::vector<char> smallFile() {
         {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],"meshes":[
         {"name":"bark_lod0","primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2}]},
         {"name":"leaf_lod0","primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2}]}]})";
-    while (text.size() % 4) text += ' ';
-    std::vector<char> file(12 + 8 + text.size() + 8 + 80);
-    auto put = [&](size_t at, uint32_t word) { std::memcpy(&file[at], &word, 4); };
-    put(0, 0x46546C67);
-    put(4, 2);
-    put(8, uint32_t(file.size()));
-    put(12, uint32_t(text.size()));
-    put(16, 0x4E4F534A);
-    std::memcpy(&file[20], text.data(), text.size());
-    const size_t binary = 20 + text.size();
-    put(binary, 80);
-    put(binary + 4, 0x004E4942);
-    std::memcpy(&file[binary + 8], vertices, 72);
-    std::memcpy(&file[binary + 80], indices, 8);
-    return file;
+    std::array<std::byte, 80> binary{};
+    std::memcpy(binary.data(), vertices, 72);
+    std::memcpy(binary.data() + 72, indices, 8);
+    return glbContainer(text, binary);
 }
 
-Result<TerminalData> readBytes(const std::vector<char>& bytes) {
+Result<TerminalData> readBytes(const std::vector<std::byte>& bytes) {
     const std::filesystem::path path = std::filesystem::temp_directory_path() / "espalier_terminals_test.glb";
-    std::ofstream(path, std::ios::binary).write(bytes.data(), std::streamsize(bytes.size()));
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
     Result<TerminalData> data = readTerminals(path);
     std::filesystem::remove(path);
     return data;
@@ -101,16 +94,16 @@ TEST_CASE("a missing file is named") {
 }
 
 TEST_CASE("damaged files are refused or read, never followed out of bounds") {
-    const std::vector<char> whole = smallFile();
+    const std::vector<std::byte> whole = smallFile();
     for (size_t keep = 0; keep < whole.size(); keep += 13) {
         CAPTURE(keep);
         CHECK(!readBytes({whole.begin(), whole.begin() + long(keep)}));
     }
     std::mt19937 random(3);
     for (int round = 0; round < 400; ++round) {
-        std::vector<char> bytes = whole;
+        std::vector<std::byte> bytes = whole;
         for (int flips = 1 + int(random() % 4); flips > 0; --flips)
-            bytes[random() % bytes.size()] ^= char(1 << random() % 8);
+            bytes[random() % bytes.size()] ^= std::byte(1 << random() % 8);
         Result<TerminalData> data = readBytes(bytes);
         if (!data) continue;
         for (const TerminalVariant& variant : data->variants)
@@ -123,16 +116,7 @@ TEST_CASE("damaged files are refused or read, never followed out of bounds") {
 TEST_CASE("a tree without end is refused, not copied until the stack ends") {
     std::string text =
         R"({"asset":{"version":"2.0"},"materials":)" + std::string(400000, '[') + std::string(400000, ']') + "}";
-    while (text.size() % 4) text += ' ';
-    std::vector<char> file(20 + text.size());
-    auto put = [&](size_t at, uint32_t word) { std::memcpy(&file[at], &word, 4); };
-    put(0, 0x46546C67);
-    put(4, 2);
-    put(8, uint32_t(file.size()));
-    put(12, uint32_t(text.size()));
-    put(16, 0x4E4F534A);
-    std::memcpy(&file[20], text.data(), text.size());
-    Result<TerminalData> data = readBytes(file);
+    Result<TerminalData> data = readBytes(glbContainer(text, {}));
     REQUIRE(!data);
     CHECK(data.failure().text().find("materials holds something else") != std::string::npos);
 }

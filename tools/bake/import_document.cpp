@@ -13,7 +13,7 @@
 #include <filesystem>
 
 #include "runtime/core/file.hpp"
-#include "runtime/surface/surface_file.hpp"
+#include "runtime/core/glb.hpp"
 
 namespace espalier::import {
 namespace {
@@ -41,9 +41,8 @@ Status splitBinary(const std::string& path, Bytes file, std::string& text, std::
         uint32_t type = word(file, at + 4);
         at += 8;
         if (length > end - at) return Failure(path, "truncated: a chunk reaches past the end of the file");
-        if (type == surface_file::kJsonChunk && text.empty())
-            text.assign(file.begin() + long(at), file.begin() + long(at + length));
-        if (type == surface_file::kBinChunk && binary.empty())
+        if (type == kGlbJson && text.empty()) text.assign(file.begin() + long(at), file.begin() + long(at + length));
+        if (type == kGlbBinary && binary.empty())
             binary.assign(file.begin() + long(at), file.begin() + long(at + length));
         at += length;
     }
@@ -310,7 +309,7 @@ Result<Document> openDocument(const std::string& path, Bytes file, Intake& intak
     document.intake = &intake;
     std::string text;
     std::vector<uint8_t> binary;
-    if (file.size() >= 4 && word(file, 0) == surface_file::kGlbMagic) {
+    if (file.size() >= 4 && word(file, 0) == kGlbMagic) {
         Status split = splitBinary(path, file, text, binary);
         if (!split) return std::move(split.failure());
     } else {

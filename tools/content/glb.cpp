@@ -7,6 +7,7 @@
 #include <span>
 
 #include "runtime/core/file.hpp"
+#include "runtime/core/glb.hpp"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
@@ -95,10 +96,6 @@ Json materialJson(const GlbMaterial& m) {
     return out;
 }
 
-void appendUint(std::vector<uint8_t>& out, uint32_t v) {
-    for (int k = 0; k < 4; ++k) out.push_back(static_cast<uint8_t>(v >> (8 * k)));
-}
-
 }  // namespace
 
 std::vector<uint8_t> encodePng(const Picture& picture, int channels) {
@@ -139,19 +136,7 @@ Status writeGlb(const std::string& path, const Glb& glb) {
         w.json["samplers"].push_back({{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", wrap}, {"wrapT", wrap}});
     while (w.blob.size() % 4 != 0) w.blob.push_back(0);
     w.json["buffers"].push_back({{"byteLength", w.blob.size()}});
-    std::string text = w.json.dump();
-    while (text.size() % 4 != 0) text.push_back(' ');
-    std::vector<uint8_t> out;
-    appendUint(out, 0x46546C67u);
-    appendUint(out, 2);
-    appendUint(out, static_cast<uint32_t>(12 + 8 + text.size() + 8 + w.blob.size()));
-    appendUint(out, static_cast<uint32_t>(text.size()));
-    appendUint(out, 0x4E4F534Au);
-    out.insert(out.end(), text.begin(), text.end());
-    appendUint(out, static_cast<uint32_t>(w.blob.size()));
-    appendUint(out, 0x004E4942u);
-    out.insert(out.end(), w.blob.begin(), w.blob.end());
-    return writeBytes(path, out);
+    return espalier::writeGlb(path, w.json.dump(), std::as_bytes(std::span(w.blob)));
 }
 
 }  // namespace espalier::content

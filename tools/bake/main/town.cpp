@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/core/file.hpp"
+#include "runtime/core/glb.hpp"
 #include "runtime/roof/shapes.hpp"
 #include "tools/bake/main/town_mesh.hpp"
 
@@ -53,20 +54,8 @@ class GlbWriter {
         root_["extensionsUsed"] = json::array({"ESPALIER_town"});
         root_["extensions"]["ESPALIER_town"] = {{"footprints", footprints}};
         root_["buffers"] = json::array({json{{"byteLength", binary_.size()}}});
-        std::string text = root_.dump(-1, ' ', false, json::error_handler_t::replace);
-        text.resize((text.size() + 3) / 4 * 4, ' ');
-        std::string out;
-        auto word = [&](size_t v) {
-            const uint32_t w = uint32_t(v);
-            out.append(reinterpret_cast<const char*>(&w), 4);
-        };
-        out.reserve(text.size() + binary_.size() + 28);
-        word(0x46546C67), word(2), word(28 + text.size() + binary_.size());
-        word(text.size()), word(0x4E4F534A);
-        out += text;
-        word(binary_.size()), word(0x004E4942);
-        out += binary_;
-        return writeFile(path, out);
+        return writeGlb(path, root_.dump(-1, ' ', false, json::error_handler_t::replace),
+                        std::as_bytes(std::span(binary_)));
     }
 
   private:
