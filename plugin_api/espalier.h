@@ -185,6 +185,7 @@ ESP_API EspResult espParamInfo(const EspContext* context, EspGrammar grammar, ui
 ESP_API EspResult espSetParam(EspContext* context, EspGrammar grammar, const char* name, const float* value, uint32_t count);
 ESP_API uint32_t espLayerCount(const EspContext* context, EspGrammar grammar);
 ESP_API const char* espLayerName(const EspContext* context, EspGrammar grammar, uint32_t index);
+ESP_API float espLayerFill(const EspContext* context, EspGrammar grammar, uint32_t index);   /* where nothing is painted */
 
 /* ---- Layers ------------------------------------------------------------------------------------------------- */
 

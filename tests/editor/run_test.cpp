@@ -22,6 +22,7 @@ TEST_CASE("every action comes back from its line") {
         PruneBranch{"00f1020304050607", true},
         SetHouse{{3, "gable", .7f, 5, {{1, "eave", .5f}}, {{0, 0}, {1, 0}, {1, 1.5f}}}},
         ResetHouse{3},
+        LoadTownLayer{"moss", "moss.png"},
         SetCamera{{1, 2, 3}, {4, 5, 6}, .7f},
         SetView{"layer", "mask"},
         Undo{},

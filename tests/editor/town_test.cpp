@@ -80,3 +80,88 @@ TEST_CASE("a house is changed, undone to what its town says, done again and save
     REQUIRE(opened.perform(ResetHouse{0}));
     CHECK(roofs(opened) == planned);
 }
+
+namespace {
+
+std::vector<float> texels(Editing& editing, const char* layer) {
+    espalier::scene::GreyPicture picture;
+    REQUIRE_MESSAGE(editing.document->readTownLayer(layer, picture, editing.error), editing.error);
+    return picture.texels;
+}
+
+// Over the house, as a designer's brush goes: straight down.
+void paint(Editing& editing, const char* layer, uint32_t house, float value) {
+    StrokeBegin begin;
+    begin.layer = layer;
+    begin.radius = 3;
+    begin.value = value;
+    begin.strength = .7f;
+    EspHouseInfo info;
+    REQUIRE(espHouseInfo(editing.context.get(), house, &info) == ESP_OK);
+    const float x = (info.boundsMin[0] + info.boundsMax[0]) / 2, z = (info.boundsMin[2] + info.boundsMax[2]) / 2;
+    REQUIRE_MESSAGE(editing.perform(begin), editing.error);
+    REQUIRE_MESSAGE(editing.perform(StrokeDabs{{{x, info.ridgeHeight, z, 0, 1, 0, 1}, {x + 1, 0, z, 0, 1, 0, .3f}}}),
+                    editing.error);
+    REQUIRE_MESSAGE(editing.perform(StrokeEnd{}), editing.error);
+}
+
+}  // namespace
+
+TEST_CASE("layers painted over a town are saved to the bit, reopened, undone") {
+    const Folder folder;
+    Editing editing(content("town.json"));
+    const uint64_t planned = roofs(editing);
+    const std::vector<float> clean = texels(editing, "moss");
+
+    paint(editing, "moss", 0, .8f);
+    paint(editing, "rise", 1, 1);
+    REQUIRE_MESSAGE(editing.perform(FillLayer{"soot", .25f}), editing.error);
+    espalier::scene::GreyPicture picture{5, 3, std::vector<float>(15)};
+    for (size_t i = 0; i < 15; ++i) picture.texels[i] = float(i) / 17;
+    REQUIRE(writeGrey(folder.file("decay.exr"), picture, editing.error));
+    REQUIRE_MESSAGE(editing.perform(LoadTownLayer{"decay", folder.file("decay.exr")}), editing.error);
+    CHECK(editing.document->undoSteps() == 4);
+    const uint64_t painted = roofs(editing);
+    CHECK(painted != planned);  // `rise` lifts a roof
+    // A house that changes leaves the layers where they are.
+    House house = houseOf(editing, 2);
+    house.corners[0][0] -= 5;
+    REQUIRE_MESSAGE(editing.perform(SetHouse{house}), editing.error);
+
+    std::string error;
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("project"), error), error);
+    {
+        Editing opened(folder.file("project"));
+        for (const char* name : {"moss", "rise", "soot", "decay"}) {
+            CAPTURE(name);
+            CHECK(texels(opened, name) == texels(editing, name));
+        }
+        CHECK(roofs(opened) == roofs(editing));
+        uint32_t count = 0;
+        for (const auto& layer : espalier::scene::townLayers(opened.context.get())) {
+            count += layer.painted;
+            if (layer.name == "rise" || layer.name == "steep") CHECK(layer.fill == .5f);
+        }
+        CHECK(count == 4);
+        // Saved again it is the same project.
+        REQUIRE_MESSAGE(saveProject(*opened.document, folder.file("again"), error), error);
+        std::string once, twice;
+        REQUIRE(espalier::scene::readText(folder.file("project/project.json"), once, error));
+        REQUIRE(espalier::scene::readText(folder.file("again/project.json"), twice, error));
+        CHECK(once == twice);
+    }
+
+    REQUIRE(editing.perform(Undo{}));  // the house
+    const std::vector<float> decayed = texels(editing, "decay");
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(texels(editing, "decay") != decayed);
+    REQUIRE(editing.perform(Redo{}));
+    CHECK(texels(editing, "decay") == decayed);
+    for (int i = 0; i < 4; ++i) REQUIRE(editing.perform(Undo{}));
+    CHECK(texels(editing, "moss") == clean);
+    CHECK(roofs(editing) == planned);
+
+    CHECK(!editing.perform(LoadTownLayer{"no such", folder.file("decay.exr")}));
+    CHECK(contains(editing.error, "no such"));
+    CHECK(!editing.perform(LoadTownLayer{"moss", folder.file("missing.png")}));
+}

@@ -180,6 +180,15 @@ struct LoadLayer {
         v("layer", layer), v("file", file), v("surface", surface);
     }
 };
+// From a picture of the town's site, seen from above, north up.
+struct LoadTownLayer {
+    static constexpr const char* kName = "load_town_layer";
+    std::string layer, file;
+    template <class V>
+    void fields(V&& v) {
+        v("layer", layer), v("file", file);
+    }
+};
 
 // Not undone, but part of a run:
 struct SetCamera {
@@ -226,8 +235,8 @@ struct RestoreFrozen {
     void fields(V&&) {}
 };
 using Action = std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, StrokeBegin, StrokeDabs,
-                            StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse, SetCamera,
-                            SetView, Undo, Redo, SwapStroke, RestoreFrozen>;
+                            StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse,
+                            LoadTownLayer, SetCamera, SetView, Undo, Redo, SwapStroke, RestoreFrozen>;
 
 // One line of a run: {"frame": 3, "gesture": 2, "NAME": {fields}}; see run.hpp.
 struct RunLine {

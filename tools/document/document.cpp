@@ -370,6 +370,7 @@ const char* nameOf(const Action& action) {
         const char* operator()(const StrokeEnd&) const { return "Paint"; }
         const char* operator()(const FillLayer&) const { return "Fill a layer"; }
         const char* operator()(const LoadLayer&) const { return "Import a layer"; }
+        const char* operator()(const LoadTownLayer&) const { return "Import a layer"; }
         const char* operator()(const SwapStroke&) const { return "Paint"; }
         const char* operator()(const FreezeSeeds& a) const { return a.frozen ? "Freeze" : "Thaw"; }
         const char* operator()(const RestoreFrozen&) const { return "Freeze"; }

@@ -48,6 +48,8 @@ class Document {
     bool stroking() const { return stroke_.id != 0; }
     // One surface's layer over its walk UVs, the first row at v = 0.
     bool readLayer(size_t surface, const std::string& layer, scene::GreyPicture& out, std::string& error) const;
+    // A layer over the town's site, the first row in the north.
+    bool readTownLayer(const std::string& layer, scene::GreyPicture& out, std::string& error) const;
     // A key that no seed of this document has or had.
     uint32_t freshKey() { return ++lastKey_; }
     SeedRecord recordOf(const scene::Seed& seed) const;
@@ -73,6 +75,7 @@ class Document {
     bool carryOut(const StrokeEnd& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const FillLayer& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const LoadLayer& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const LoadTownLayer& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SwapStroke& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const FreezeSeeds& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const RestoreFrozen& action, std::vector<Action>& back, std::string& error);

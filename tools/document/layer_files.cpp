@@ -23,4 +23,9 @@ bool exportLayer(const Document& document, const std::string& layer, const std::
     return true;
 }
 
+bool exportTownLayer(const Document& document, const std::string& layer, const std::string& path, std::string& error) {
+    scene::GreyPicture picture;
+    return document.readTownLayer(layer, picture, error) && writeGrey(path, picture, error);
+}
+
 }  // namespace espalier::document

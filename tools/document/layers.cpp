@@ -38,6 +38,14 @@ bool Document::readLayer(size_t surface, const std::string& layer, scene::GreyPi
     return !failed(espReadLayer(context_, id, layer.c_str(), out.texels.data(), &side), error);
 }
 
+bool Document::readTownLayer(const std::string& layer, scene::GreyPicture& out, std::string& error) const {
+    uint32_t side = 0;
+    if (failed(espReadTownLayer(context_, layer.c_str(), nullptr, &side), error)) return false;
+    out.width = out.height = side;
+    out.texels.resize(size_t(side) * side);
+    return !failed(espReadTownLayer(context_, layer.c_str(), out.texels.data(), &side), error);
+}
+
 bool Document::carryOut(const StrokeBegin& action, std::vector<Action>&, std::string& error) {
     EspBrush brush = espDefaultBrush();
     brush.layer = action.layer.c_str();
@@ -105,6 +113,18 @@ bool Document::carryOut(const LoadLayer& action, std::vector<Action>& back, std:
     EspStroke stroke{};
     if (failed(scene::walkLayer(context_, scene_.surfaces[action.surface].id, action.layer, picture, def), error) ||
         failed(espImportLayer(context_, &def, &stroke), error))
+        return false;
+    back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, stroke)});
+    return true;
+}
+
+bool Document::carryOut(const LoadTownLayer& action, std::vector<Action>& back, std::string& error) {
+    scene::GreyPicture picture;
+    EspStroke stroke{};
+    if (!readGrey(action.file, picture, error) ||
+        failed(espSetTownLayer(context_, action.layer.c_str(), picture.texels.data(), picture.width, picture.height,
+                               &stroke),
+               error))
         return false;
     back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, stroke)});
     return true;

@@ -77,7 +77,8 @@ bool writePlants(const fs::path& folder, SceneFile& out, std::string& error) {
 // Each layer into a file, unless a file holds just that already.
 bool writeLayers(const ProjectData& data, const fs::path& folder, SceneFile& out, std::string& error) {
     for (const ProjectData::Layer& layer : data.layers) {
-        const std::string file = layer.name + "-" + std::to_string(layer.surface) + "-" +
+        const bool town = layer.surface == scene::SceneLayer::kTown;
+        const std::string file = layer.name + "-" + (town ? "town" : std::to_string(layer.surface)) + "-" +
                                  hashOf(layer.picture.texels.data(), layer.picture.texels.size() * sizeof(float)) +
                                  ".exr";
         const fs::path path = folder / kLayers / file;
@@ -156,6 +157,13 @@ bool gather(const Document& document, ProjectData& out, std::string& error) {
             layer.surface = int(surface);
             if (!document.readLayer(surface, name, layer.picture, error)) return false;
         }
+    }
+    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) {
+        const std::string name = espTownLayerName(context, i);
+        ProjectData::Layer& layer = out.layers.emplace_back();
+        layer.name = name;
+        layer.surface = scene::SceneLayer::kTown;
+        if (!document.readTownLayer(name, layer.picture, error)) return false;
     }
     return true;
 }

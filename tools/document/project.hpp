@@ -17,7 +17,7 @@ namespace espalier::document {
 struct ProjectData {
     struct Layer {
         std::string name;
-        int surface = 0;  // index into SceneFile::surfaces
+        int surface = 0;  // index into SceneFile::surfaces, or SceneLayer::kTown
         scene::GreyPicture picture;
     };
     scene::SceneFile file;

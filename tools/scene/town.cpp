@@ -65,4 +65,21 @@ bool setHouse(EspContext* context, const House& house, std::string& error) {
     return false;
 }
 
+std::vector<TownLayer> townLayers(const EspContext* context) {
+    std::vector<TownLayer> layers;
+    EspGrammar grammar{};
+    if (espHouseCount(context) == 0 || espTownGrammar(context, &grammar) != ESP_OK) return layers;
+    for (uint32_t i = 0; i < espLayerCount(context, grammar); ++i)
+        layers.push_back({espLayerName(context, grammar, i), espLayerFill(context, grammar, i)});
+    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) {
+        const std::string name = espTownLayerName(context, i);
+        const auto known = std::ranges::find(layers, name, &TownLayer::name);
+        if (known != layers.end())
+            known->painted = true;
+        else
+            layers.push_back({name, 0, true});
+    }
+    return layers;
+}
+
 }  // namespace espalier::scene

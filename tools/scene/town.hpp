@@ -40,6 +40,15 @@ House houseNow(const EspContext* context, uint32_t index);
 // False: `error` tells why, and the house stands as it did.
 bool setHouse(EspContext* context, const House& house, std::string& error);
 
+// A layer that can be painted over the town: its grammar reads it, or it was painted before.
+struct TownLayer {
+    std::string name;
+    float fill = 0;  // where nothing is painted
+    bool painted = false;
+};
+// In the grammar's order; empty without a town.
+std::vector<TownLayer> townLayers(const EspContext* context);
+
 bool shapeNamed(const std::string& name, EspRoofShape& out);
 const char* nameOf(EspRoofShape shape);
 
