@@ -18,12 +18,13 @@ Status GpuGrowth::compact() {
     Links& links = links_[1 - frontLinks_];
     const Plants& plantsNow = plants_[frontPlants_];
     const Links& linksNow = links_[frontLinks_];
+    dropViews();
     const auto roomy = [](uint32_t live, uint32_t room) { return std::max<uint64_t>(live + live / 2ull, room); };
     Status steps[] = {
         load(compactPlaces_, "expand/compact_places.comp", {}),
         load(compactNodes_, "expand/compact_nodes.comp", {}),
         load(compactLeaves_, "expand/compact_leaves.comp", {}),
-        ensure(plants.nodes, "growth nodes", roomy(stats_.nodes, room_.nodes) * sizeof(Node)),
+        ensure(plants.nodes, "growth nodes", wholeTexels(roomy(stats_.nodes, room_.nodes) * sizeof(Node))),
         ensure(plants.leaves, "growth leaves", roomy(stats_.leaves, room_.leaves) * sizeof(Leaf)),
         ensure(links.chunks, "growth chunks",
                std::max<uint64_t>(linksNow.chunks.size(), room_.chunks * uint64_t(sizeof(Chunk)))),

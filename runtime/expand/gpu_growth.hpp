@@ -25,6 +25,11 @@ Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
     return Buf{reinterpret_cast<T*>(buffer.address() + offset)};
 }
 
+// Bytes of a buffer that is read as texels to its end.
+inline uint64_t wholeTexels(uint64_t bytes) {
+    return (bytes + 15) / 16 * 16;
+}
+
 class GpuGrowth final : public Growth {
   public:
     GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), room_(room) {}
@@ -55,6 +60,8 @@ class GpuGrowth final : public Growth {
     Status loadKernels(WalkMode mode);
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
     Status viewSurfaces(const GrowthInputs& inputs);
+    Status viewRecords(const Plants& plants, const Links& links);
+    void dropViews();  // no view outlives its buffer
     Status makeKernels(const GrowthInputs& inputs);
     Status makeQueues(const GrowthInputs& inputs);
     Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen);
@@ -74,6 +81,7 @@ class GpuGrowth final : public Growth {
         return limits.leafDensityCap > 0 ? kDensityCells : 1;
     }
     uint32_t marchNumber() const { return (fetches_ ? 2 : 0) + (byAddress_ ? 1 : 0); }
+    uint32_t terminalsNumber() const { return (fetchesRecords_ ? 2 : 0) + (byAddress_ ? 1 : 0); }
     // The packed tables for kernels' uniform binding: something of its size when they are read by address.
     const Buffer& uniformTables() const { return byAddress_ ? noTables_ : tables_; }
 
@@ -112,19 +120,21 @@ class GpuGrowth final : public Growth {
     GrowthRoom room_;            // of a full growth, beside frozen plants
     uint32_t likelyWaves_ = 24;  // recorded in the first submission
     // Made when first asked for; [1] reads tables by address, see kUniformTableWords.
-    std::array<Program, 4> march_, marchAgain_;  // [2], [3] fetch surfaces as texels
-    std::array<Program, 2> marchPaper_, terminals_, terminalsAgain_;
+    std::array<Program, 4> march_, marchAgain_;          // [2], [3] fetch surfaces as texels
+    std::array<Program, 4> terminals_, terminalsAgain_;  // [2], [3] fetch records as texels
+    std::array<Program, 2> marchPaper_;
     uint32_t features_ = 0;  // that these are specialised to: all that grammars ever used, so that they settle
-    Program packTables_, branchesFit_, fit_;
+    Program packTables_, branchesFit_;
+    std::array<Program, 2> fit_;  // [1] fetches records as texels
     Program compactPlaces_, compactNodes_, compactLeaves_;
     Program find_, start_, settle_, work_, apply_, thickness_, fitAgain_;
     bool byAddress_ = false;
-    bool fetches_ = false;
-    TexelView surfaceView_;
+    bool fetches_ = false, fetchesRecords_ = false;
+    TexelView surfaceView_, nodeView_, chunkView_, branchView_;
     Plants plants_[2];
     Links links_[2];
     uint32_t frontPlants_ = 0, frontLinks_ = 0;
-    Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, noSurfaces_, density_, readback_;
+    Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, noTexels_, density_, readback_;
     Buffer again_, marks_, lists_, edits_, results_, touched_, leafRanges_;
     uint32_t rangedLeaves_ = 0;  // AgainState::rangedLeaves for the next regrowth
     GrowthView view_;

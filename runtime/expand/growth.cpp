@@ -100,7 +100,7 @@ Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t fir
 }
 
 void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits) {
-    const Program& terminals = terminals_[byAddress_];
+    const Program& terminals = terminals_[terminalsNumber()];
     env.phase = kTerminalsWrite;
     constexpr uint64_t kNodes = offsetof(GrowStatus, nodeGroups), kBranches = offsetof(GrowStatus, branchGroups);
     bool capped = limits.leafDensityCap > 0, joined = limits.tangents == TangentMode::paper;
@@ -117,17 +117,18 @@ void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthL
         }
         if (capped) {
             env.phase = kTerminalsCount;
-            pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables()});
+            pass.dispatchIndirect(terminals, status_, kNodes, env,
+                                  {uniformTables(), nodeView_, chunkView_, branchView_});
             pass.barrier(Use::compute, Use::compute);
         }
         env.phase = kTerminalsWrite;
-        pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables()});
+        pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables(), nodeView_, chunkView_, branchView_});
         pass.barrier(Use::compute, Use::compute);
     }
     Pass pass(commands, "expand fit");
     pass.dispatchIndirect(branchesFit_, status_, kBranches, env);
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchIndirect(fit_, status_, kNodes, env);
+    pass.dispatchIndirect(fit_[fetchesRecords_], status_, kNodes, env, {nodeView_, chunkView_, branchView_});
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 
@@ -196,7 +197,7 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
             if (Status closed = compact(); !closed) return closed;
             done = regrow(inputs, *seeds);
         }
-        surfaceView_ = {};  // no view outlives its buffer
+        dropViews();
         if (!done) return done.failure();
         if (*done == Regrown::done) return Done{};
     }
@@ -213,7 +214,7 @@ Status GpuGrowth::growAll(const GrowthInputs& inputs) {
     uint32_t overflow = 0;
     for (uint32_t i = 0; fits && i < kMostAttempts; ++i) {
         Result<Outcome> outcome = attempt(inputs, frozen, cut);
-        surfaceView_ = {};
+        dropViews();
         if (!outcome) return outcome.failure();
         Verdict verdict = judge(withoutFrozen(outcome->status, frozen.records), outcome->waves, limits, room_, cut);
         if (verdict == Verdict::impossible) break;

@@ -12,8 +12,7 @@ Status GpuGrowth::setUp() {
         Program* program;
         const char* shader;
     };
-    const Row rows[] = {
-        {&packTables_, "expand/tables.comp"}, {&branchesFit_, "expand/branches.comp"}, {&fit_, "expand/fit.comp"}};
+    const Row rows[] = {{&packTables_, "expand/tables.comp"}, {&branchesFit_, "expand/branches.comp"}};
     for (const Row& row : rows) {
         Status made = load(*row.program, row.shader, {});
         if (!made) return made;
@@ -32,11 +31,15 @@ Status GpuGrowth::load(Program& program, const char* shader, std::vector<SpecCon
 
 Status GpuGrowth::loadKernels(WalkMode mode) {
     const std::vector<SpecConstant> constants = {{0, byAddress_ ? 1u : 0u}, {2, features_}};
+    const std::vector<SpecConstant> finishing = {
+        {0, byAddress_ ? 1u : 0u}, {2, features_}, {3, fetchesRecords_ ? 0u : 1u}};
     const std::vector<SpecConstant> walking = {{0, byAddress_ ? 1u : 0u}, {1, fetches_ ? 0u : 1u}, {2, features_}};
     Status march = mode == WalkMode::paper ? load(marchPaper_[byAddress_], "expand/march_paper.comp", constants)
                                            : load(march_[marchNumber()], "expand/march.comp", walking);
     if (!march) return march;
-    return load(terminals_[byAddress_], "expand/terminals.comp", constants);
+    Status terminals = load(terminals_[terminalsNumber()], "expand/terminals.comp", finishing);
+    if (!terminals) return terminals;
+    return load(fit_[fetchesRecords_], "expand/fit.comp", {{3, fetchesRecords_ ? 0u : 1u}});
 }
 
 Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
@@ -54,14 +57,35 @@ Status GpuGrowth::viewSurfaces(const GrowthInputs& inputs) {
     const Buffer* data = inputs.surfaceData;
     fetches_ = device_.info().cpu && data && data->size() >= 16 && data->size() <= most;
     surfaceView_ = {};
-    if (!fetches_) {
-        Status made = ensure(noSurfaces_, "growth no surfaces", 16);
-        if (!made) return made;
-    }
-    Result<TexelView> view = TexelView::create(device_, fetches_ ? *data : noSurfaces_, VK_FORMAT_R32G32B32A32_UINT);
+    if (Status made = ensure(noTexels_, "growth no texels", 16); !made) return made;
+    Result<TexelView> view = TexelView::create(device_, fetches_ ? *data : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
     if (!view) return view.failure();
     surfaceView_ = std::move(*view);
     return Done{};
+}
+
+// The same of the records that the passes after the march read.
+Status GpuGrowth::viewRecords(const Plants& plants, const Links& links) {
+    const struct {
+        TexelView* view;
+        const Buffer* buffer;
+    } rows[] = {{&nodeView_, &plants.nodes}, {&chunkView_, &links.chunks}, {&branchView_, &links.branches}};
+    const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
+    fetchesRecords_ = device_.info().cpu;
+    for (const auto& row : rows)
+        fetchesRecords_ = fetchesRecords_ && row.buffer->size() >= 16 && row.buffer->size() <= most;
+    if (Status made = ensure(noTexels_, "growth no texels", 16); !made) return made;
+    for (const auto& [view, buffer] : rows) {
+        *view = {};
+        auto made = TexelView::create(device_, fetchesRecords_ ? *buffer : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
+        if (!made) return made.failure();
+        *view = std::move(*made);
+    }
+    return Done{};
+}
+
+void GpuGrowth::dropViews() {
+    for (TexelView* view : {&surfaceView_, &nodeView_, &chunkView_, &branchView_}) *view = {};
 }
 
 // Kernels for what these grammars ask of them.
@@ -77,10 +101,9 @@ Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
     if (inputs.limits.leafDensityCap > 0) features |= kFeatureDensity;
     if (inputs.limits.tangents == TangentMode::paper) features |= kFeatureJoints;
     if (features != features_) {
-        for (auto* programs : {&march_, &marchAgain_})
+        for (auto* programs : {&march_, &marchAgain_, &terminals_, &terminalsAgain_})
             for (Program& program : *programs) program = {};
-        for (auto* programs : {&marchPaper_, &terminals_, &terminalsAgain_})
-            for (Program& program : *programs) program = {};
+        for (Program& program : marchPaper_) program = {};
         features_ = features;
     }
     Status kernels = loadKernels(inputs.limits.walk);
@@ -92,8 +115,6 @@ Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
 }
 
 Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen) {
-    Status kernels = makeKernels(inputs);
-    if (!kernels) return kernels;
     Plants& plants = plants_[1 - frontPlants_];
     Links& links = links_[1 - frontLinks_];
     struct Row {
@@ -102,7 +123,7 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
         uint64_t bytes;
     };
     const Row rows[] = {
-        {&plants.nodes, "growth nodes", (room_.nodes + frozen.nodes.size()) * sizeof(Node)},
+        {&plants.nodes, "growth nodes", wholeTexels((room_.nodes + frozen.nodes.size()) * sizeof(Node))},
         {&plants.leaves, "growth leaves", (room_.leaves + frozen.leaves.size()) * sizeof(Leaf)},
         {&links.chunks, "growth chunks", (room_.chunks + frozen.chunks.size()) * sizeof(Chunk)},
         {&links.branches, "growth branches", (room_.branches + frozen.branches.size()) * sizeof(BranchRecord)},
@@ -111,6 +132,8 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
         Status ok = ensure(*row.buffer, row.name, row.bytes);
         if (!ok) return ok;
     }
+    if (Status viewed = viewRecords(plants, links); !viewed) return viewed;
+    if (Status kernels = makeKernels(inputs); !kernels) return kernels;
     return makeQueues(inputs);
 }
 

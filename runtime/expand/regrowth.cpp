@@ -48,7 +48,8 @@ Status GpuGrowth::makeAgainKernels() {
     Status march = load(marchAgain_[marchNumber()], "expand/march_again.comp",
                         {{0, address}, {1, fetches_ ? 0u : 1u}, {2, features_}});
     if (!march) return march;
-    return load(terminalsAgain_[byAddress_], "expand/terminals_again.comp", {{0, address}, {2, features_}});
+    return load(terminalsAgain_[terminalsNumber()], "expand/terminals_again.comp",
+                {{0, address}, {2, features_}, {3, fetchesRecords_ ? 0u : 1u}});
 }
 
 Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) {
@@ -73,6 +74,7 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
     if (Status ok = ensure(leafRanges_, "regrowth leaf ranges", blocks * 8); !ok) return ok;
     for (const auto& row : rows)
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
+    if (Status viewed = viewRecords(plants_[frontPlants_], to); !viewed) return viewed;
     return makeQueues(inputs);
 }
 
@@ -173,7 +175,8 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
         pass.dispatch(work_, groups, env);
         pass.barrier(Use::compute, Use::compute);
         env.phase = kTerminalsAgain;
-        pass.dispatch(terminalsAgain_[byAddress_], groups, env, {uniformTables()});
+        pass.dispatch(terminalsAgain_[terminalsNumber()], groups, env,
+                      {uniformTables(), nodeView_, chunkView_, branchView_});
         pass.barrier(Use::compute, Use::compute);
     }
     Pass pass(commands, "expand fit");
@@ -268,12 +271,12 @@ Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const S
         stats_.derived = 0;
         return Regrown::done;
     }
-    if (Status made = makeKernels(inputs); !made) return made.failure();
-    if (Status made = makeAgainKernels(); !made) return made.failure();
     room_.items = std::max(room_.items, uint32_t(seeds.planted.size()));
     const uint64_t words = kEditHead + seeds.to.size() + inputs.grammars.size() + 2 * seeds.pruned.size() + 1 +
                            uint64_t(dirtyGrid(kMaxReadLevel + 1) + kCellWords) * inputs.changes->cells.size();
     if (Status made = makeAgainRoom(inputs, words); !made) return made.failure();
+    if (Status made = makeKernels(inputs); !made) return made.failure();
+    if (Status made = makeAgainKernels(); !made) return made.failure();
     const ExpandEnv env = environment(inputs, plants_[frontPlants_], links_[1 - frontLinks_]);
     Result<AgainState> found = findDirty(inputs, seeds, env);
     if (!found) return found.failure();

@@ -10,7 +10,7 @@ void main() {
     openAgain(env);
 #endif
 #ifdef ESPALIER_SURFACE_FETCH
-    surfaceArena = uint64_t(env.scratch);
+    openSurface(env.surfaces, uint64_t(env.scratch));
 #endif
     uint wanted = env.waves.v[env.wave].count;
     uint count = min(wanted, env.itemCapacity);

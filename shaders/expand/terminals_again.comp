@@ -3,6 +3,7 @@
 // Terminals of a regrowth's nodes, a group a chunk: leaves as pending ones, the rest aside, since it may yet prove too
 // much.
 #define ESPALIER_TABLES
+#define ESPALIER_RECORD_FETCH
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/again.glsl"
 #include "shaders/shared/expand_terminals.h"
@@ -25,7 +26,7 @@ void main() {
         bool wanted = ((againMarks.v[chunk].nodes >> lane) & 1u) != 0u;
         // A loop, since software devices skip only those.
         for (uint k = 0u; k < (wanted ? 1u : 0u); ++k) {
-            NodeFinish finish = finishNode(env, env.chunks.v[chunk].firstNode + lane, hash);
+            NodeFinish finish = finishNode(env, readFirstNode(env, chunk) + lane, hash);
             uint at = (i * kChunkNodes + lane) * 3u;
             results.v[at] = finish.tangent;
             results.v[at + 1u] = finish.flags;

@@ -7,6 +7,7 @@
 ESPALIER_BEGIN
 
 CONST_UINT(kExpandGroup, 32u);      // invocations of a group in every kernel of expansion
+CONST_UINT(kNodesPerGroup, 128u);   // of the passes over nodes: what a group does once is shared by these
 CONST_UINT(kHashSlots, 64u);        // sums of hashes are spread over these, so that threads don't queue for one
 CONST_UINT(kDensityCells, 1u << 18u);
 
@@ -176,25 +177,11 @@ FN uvec2 hashOfLeaf(u64 key, uint flags, Leaf leaf) {
     return hashWord(h, 0x1EAF0000u | (flags & 0x1F00u));
 }
 
-// What the pass over nodes needs of a chunk.
-struct ChunkBrief {
-    u64 key;
-    float entryArc;
-    uint symbol;
-    vec4 args;
-    uint previousNode, next, branch, firstNode, depth, step, marks;
-};
-
 // Whole records at once, in pieces of eight bytes: software devices loop over lanes for every piece.
 #ifdef __cplusplus
 inline WorkItem readItem(WorkItemBuf items, uint at) { return items.v[at]; }
 inline void writeItem(WorkItemBuf items, uint at, const WorkItem& item) { items.v[at] = item; }
 inline void writeChunk(ChunkBuf chunks, uint at, const Chunk& chunk) { chunks.v[at] = chunk; }
-inline ChunkBrief readBrief(ChunkBuf chunks, uint at) {
-    const Chunk& c = chunks.v[at];
-    return {c.key, c.entry.arc, c.symbol, vec4(c.args[0], c.args[1], c.args[2], c.args[3]),
-            c.previousNode, c.next, c.branch, c.firstNode, c.depth, c.step, c.marks};
-}
 #else
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PairBuf { uint64_t v[]; };
 
@@ -242,26 +229,6 @@ void writeItem(WorkItemBuf items, uint at, WorkItem item) {
     to.v[7] = pairOf(item.parent, item.origin);
     to.v[8] = pairOf(item.branch, item.seed);
     to.v[9] = pairOf(item.depth, item.step);
-}
-ChunkBrief readBrief(ChunkBuf chunks, uint at) {
-    PairBuf from = PairBuf(uint64_t(chunks) + uint64_t(at) * 112u);
-    ChunkBrief c;
-    c.key = from.v[0];
-    uvec2 p = unpackUint2x32(from.v[4]);
-    c.entryArc = uintBitsToFloat(p.x);
-    c.symbol = p.y;
-    c.args = vec4(uintBitsToFloat(unpackUint2x32(from.v[5])), uintBitsToFloat(unpackUint2x32(from.v[6])));
-    c.previousNode = unpackUint2x32(from.v[7]).y;
-    p = unpackUint2x32(from.v[8]);
-    c.next = p.x;
-    c.branch = p.y;
-    p = unpackUint2x32(from.v[9]);
-    c.firstNode = p.x;
-    c.depth = p.y;
-    p = unpackUint2x32(from.v[10]);
-    c.step = p.x;
-    c.marks = p.y;
-    return c;
 }
 void writeChunk(ChunkBuf chunks, uint at, Chunk c) {
     PairBuf to = PairBuf(uint64_t(chunks) + uint64_t(at) * 112u);

@@ -3,7 +3,7 @@
 #ifndef ESPALIER_SHARED_EXPAND_FIT_H
 #define ESPALIER_SHARED_EXPAND_FIT_H
 #include "shaders/shared/bezier.h"
-#include "shaders/shared/expand_env.h"
+#include "shaders/shared/record_lookup.h"
 
 ESPALIER_BEGIN
 
@@ -49,10 +49,10 @@ FN void sumJoint(ExpandEnv env, uint branch) {
 
 // Fits the node's radius to its branch and returns its hash.
 FN uvec2 fitNode(ExpandEnv env, uint index) {
-    Node node = env.nodes.v[index];
-    node.radius = bareRadius(env, index) * env.branches.v[env.chunks.v[node.chunk].branch].thickness;
+    Node node = readNode(env, index);
+    node.radius = node.radius * readBranch(env, readBranchOf(env, node.chunk)).thickness;
     env.nodes.v[index].radius = node.radius;
-    return hashOfNode(env.chunks.v[node.chunk].key, node);
+    return hashOfNode(readKey(env, node.chunk), node);
 }
 
 ESPALIER_END

@@ -15,8 +15,8 @@ FN uint levelFor(ExpandEnv env, uint place, float width, OUT(float) texel) {
     uint instance = place >> 16u;
     uint chart = place & 0xFFFFu;
     uint last = env.surfaces.v[instance].levelCount - 1u;
-    uint size = env.surfaces.v[instance].levels[0].size;
-    texel = env.surfaces.v[instance].charts.v[chart].metresPerUv * env.surfaces.v[instance].scale *
+    uint size = levelSize(env.surfaces, instance, 0u);
+    texel = env.surfaces.v[instance].charts.v[chart].metresPerUv * surfaceScale(env.surfaces, instance) *
             rcpExact(float(size));
     uint level = 0u;
     for (uint i = 0u; i < kMaxLevels; ++i) {
@@ -87,7 +87,7 @@ FN uint publishNodes(ExpandEnv env, uint chunk, uint count) {
     bool fits = first + count <= env.status.v[0].nodeCapacity;
     if (count > 0u) {
         atomicAdd(env.waves.v[env.wave].nodes, count);
-        uint added = groupsAdded(first, count, kExpandGroup);
+        uint added = groupsAdded(first, count, kNodesPerGroup);
         if (fits && added > 0u) atomicAdd(env.status.v[0].nodeGroups[0], added);
     }
     for (uint i = 0u; i < (fits ? count : 0u); ++i) {

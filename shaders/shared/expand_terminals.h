@@ -5,6 +5,7 @@
 #include "shaders/shared/bezier.h"
 #include "shaders/shared/expand_scope.h"
 #include "shaders/shared/leaf_pose.h"
+#include "shaders/shared/record_lookup.h"
 
 ESPALIER_BEGIN
 
@@ -66,7 +67,7 @@ FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, uint colour, float siz
     leaf.pose = packLeafPose(turn, pitch, lift, size);
     leaf.tint = packLeafTint(tint, vec3(0.0f), uint(key)) | colour;
     uint at = atomicAdd(env.status.v[0].leaves, 1u);
-    if (at < env.status.v[0].leafCapacity) env.leaves.v[at] = leaf;
+    if (at < env.status.v[0].leafCapacity) writeLeaf(env.leaves, at, leaf);
     hash = hash + hashOfLeaf(site.chunkKey, site.flags, leaf);
 }
 
@@ -139,8 +140,9 @@ FN void findStep(ExpandEnv env, uint firstNode, uint index, float arc, float ent
         more = j > 0u;
         if (more) {
             j = j - 1u;
-            start = env.nodes.v[firstNode + j].arc;
-            more = (env.nodes.v[firstNode + j].flags & kNodeInserted) != 0u;
+            NodeArc there = readArc(env, firstNode + j);
+            start = there.arc;
+            more = (there.flags & kNodeInserted) != 0u;
             start = more && j == 0u ? entryArc : start;
         }
     }
@@ -150,8 +152,9 @@ FN void findStep(ExpandEnv env, uint firstNode, uint index, float arc, float ent
     uint k = firstNode + index;
     for (bool inserted = (flags & kNodeInserted) != 0u; inserted;) {
         k = k + 1u;
-        s.stepEnd = env.nodes.v[k].arc;
-        inserted = (env.nodes.v[k].flags & kNodeInserted) != 0u;
+        NodeArc there = readArc(env, k);
+        s.stepEnd = there.arc;
+        inserted = (there.flags & kNodeInserted) != 0u;
     }
 }
 
@@ -170,9 +173,9 @@ FN void keepFinish(NodeBuf nodes, uint index, NodeFinish f) {
 // The node's radius, bark and tangent, and its leaves. hash: the sum of its leaves' hashes is added. It may run again
 // on a node that was finished before.
 FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
-    Node node = env.nodes.v[index];
+    Node node = readNode(env, index);
     uint chunk = node.chunk;
-    ChunkBrief brief = readBrief(env.chunks, chunk);
+    ChunkBrief brief = readBrief(env, chunk);
     uint firstNode = brief.firstNode;
     uint nodeCount = chunkNodes(brief.marks);
     uint previous = brief.previousNode;
@@ -187,11 +190,11 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
     uint follower = last ? kNoIndex : index + 1u;
     // A loop, since software devices skip only those.
     for (uint k = 0u; k < (last && next != kNoIndex ? 1u : 0u); ++k) {
-        if (chunkNodes(env.chunks.v[next].marks) > 0u) follower = env.chunks.v[next].firstNode;
+        if (chunkNodes(readMarks(env, next)) > 0u) follower = readFirstNode(env, next);
     }
     uint leader = local > 0u ? index - 1u : previous;
-    vec3 before = env.nodes.v[leader == kNoIndex ? index : leader].position;
-    vec3 after = env.nodes.v[follower == kNoIndex ? index : follower].position;
+    vec3 before = readPosition(env, leader == kNoIndex ? index : leader);
+    vec3 after = readPosition(env, follower == kNoIndex ? index : follower);
 
     NodeSite site;
     site.index = index;
@@ -202,9 +205,9 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
     site.flags = node.flags;
     site.hash = uvec2(0u, 0u);
     site.after = node.arc;
-    site.before = local > 0u ? env.nodes.v[index - 1u].arc : entryArc;
+    site.before = local > 0u ? readArc(env, index - 1u).arc : entryArc;
     uint flags = node.flags;
-    for (uint k = 0u; k < (site.foot && !site.tip ? 1u : 0u); ++k) flags = env.nodes.v[follower].flags;
+    for (uint k = 0u; k < (site.foot && !site.tip ? 1u : 0u); ++k) flags = readArc(env, follower).flags;
     uint extrude = flags & 255u;
     site.extrude = extrude - 1u;
     uint step = (brief.step & 0xFFFFFFu) + ((flags >> 26u) & 31u) + 1u;
@@ -220,8 +223,9 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
         uint inputs = TABLE(program + 2u);
         uint layers = TABLE(program + 3u);
         uint first = range & 0xFFFFu;
-        float length = env.branches.v[branch].extent;
-        u64 branchKey = env.chunks.v[env.branches.v[branch].firstChunk].key;
+        BranchRecord stem = readBranch(env, branch);
+        float length = stem.extent;
+        u64 branchKey = readKey(env, stem.firstChunk);
         site.key = childKey(branchKey, nameHash, step);
         Place place;
         place.position = node.position;
@@ -245,7 +249,7 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
                    brief.depth & 0xFFFFu, step, node.arc);
         uint cell = 0u;
         if ((kFeatures & kFeatureDensity) != 0u && env.status.v[0].leafDensityCap > 0.0f)
-            cell = densityCell(env, env.branches.v[branch].seed, node.place, place.uv);
+            cell = densityCell(env, stem.seed, node.place, place.uv);
         radius = runTerminals(MACHINE env, map, first, first + (range >> 16u), site, cell, barkFlags);
     }
     hash = hash + site.hash;

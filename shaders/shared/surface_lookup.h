@@ -15,71 +15,117 @@ struct Patch {
     uint bits;       // Texel::bits of the nearest texel of the chart
 };
 
-// Reads of a surface's arrays. Kernels that define ESPALIER_SURFACE_FETCH set surfaceArena and read them as texels of
-// one buffer that holds them all: on software devices a read by address is a loop over lanes for each word, a texel
-// comes in one piece. Arrays begin at multiples of 16 bytes. Specialised to kSurfaceByAddress they read as others do.
+// Reads of a surface's record and arrays. Kernels that define ESPALIER_SURFACE_FETCH call openSurface() first and have
+// the record of the only surface at hand, and its arrays as texels of the one buffer that holds them all: on software
+// devices a read by address is a loop over lanes for each word, a texel comes in one piece. Arrays begin at multiples of
+// 16 bytes. Specialised to kSurfaceByAddress they read as others do.
 #if !defined(__cplusplus) && defined(ESPALIER_SURFACE_FETCH)
 layout(constant_id = 1) const uint kSurfaceByAddress = 1u;
 layout(binding = 1) uniform usamplerBuffer surfaceTexels;
-uint64_t surfaceArena;   // address of its first byte
+float scaleAtHand, radiusAtHand;
+uint levelSizes[kMaxLevels];
+// Texels of the buffer where arrays begin.
+uint texelsAt[kMaxLevels], auxAt[kMaxLevels], headsAt[kMaxLevels], refsAt[kMaxLevels];
+uint crossingsAt, chartsAt, trianglesAt;
 
-uvec4 fetchSurface(uint64_t address, uint texel) {
-    return texelFetch(surfaceTexels, int(uint((address - surfaceArena) >> 4) + texel));
+// arena: address of the buffer's first byte.
+void openSurface(SurfaceBuf surfaces, uint64_t arena) {
+    if (kSurfaceByAddress != 0u) return;
+    for (uint i = 0u; i < kMaxLevels; ++i) {
+        SurfaceLevel level = surfaces.v[0].levels[i];
+        levelSizes[i] = level.size;
+        texelsAt[i] = uint((uint64_t(level.texels) - arena) >> 4);
+        auxAt[i] = uint((uint64_t(level.aux) - arena) >> 4);
+        headsAt[i] = uint((uint64_t(level.crossingHead) - arena) >> 4);
+        refsAt[i] = uint((uint64_t(level.crossingRefs) - arena) >> 4);
+    }
+    crossingsAt = uint((uint64_t(surfaces.v[0].crossings) - arena) >> 4);
+    chartsAt = uint((uint64_t(surfaces.v[0].charts) - arena) >> 4);
+    trianglesAt = uint((uint64_t(surfaces.v[0].triangles) - arena) >> 4);
+    scaleAtHand = surfaces.v[0].scale;
+    radiusAtHand = surfaces.v[0].radius;
 }
+
+uvec4 fetchSurface(uint texel) { return texelFetch(surfaceTexels, int(texel)); }
 uint wordOf(uvec4 t, uint i) {
     uint low = (i & 1u) != 0u ? t.y : t.x;
     uint high = (i & 1u) != 0u ? t.w : t.z;
     return (i & 2u) != 0u ? high : low;
 }
-Texel readTexel(TexelBuf texels, uint i) {
-    if (kSurfaceByAddress != 0u) return texels.v[i];
-    uvec4 t = fetchSurface(uint64_t(texels), i);
+float surfaceScale(SurfaceBuf surfaces, uint instance) {
+    return kSurfaceByAddress != 0u ? surfaces.v[instance].scale : scaleAtHand;
+}
+float surfaceRadius(SurfaceBuf surfaces, uint instance) {
+    return kSurfaceByAddress != 0u ? surfaces.v[instance].radius : radiusAtHand;
+}
+uint levelSize(SurfaceBuf surfaces, uint instance, uint level) {
+    return kSurfaceByAddress != 0u ? surfaces.v[instance].levels[level].size : levelSizes[level];
+}
+Texel readTexel(SurfaceBuf surfaces, uint instance, uint level, uint i) {
+    if (kSurfaceByAddress != 0u) return surfaces.v[instance].levels[level].texels.v[i];
+    uvec4 t = fetchSurface(texelsAt[level] + i);
     return Texel(uintBitsToFloat(t.xyz), t.w);
 }
-uint readTriangle(TexelAuxBuf aux, uint i) {
-    if (kSurfaceByAddress != 0u) return aux.v[i].triangle;
-    uvec4 t = fetchSurface(uint64_t(aux), i >> 1u);
+uint readTriangle(SurfaceBuf surfaces, uint instance, uint level, uint i) {
+    if (kSurfaceByAddress != 0u) return surfaces.v[instance].levels[level].aux.v[i].triangle;
+    uvec4 t = fetchSurface(auxAt[level] + (i >> 1u));
     return (i & 1u) != 0u ? t.w : t.y;
 }
-uint readWord(UintBuf words, uint i) {
-    if (kSurfaceByAddress != 0u) return words.v[i];
-    return wordOf(fetchSurface(uint64_t(words), i >> 2u), i & 3u);
+uint readHead(SurfaceBuf surfaces, uint instance, uint level, uint i) {
+    if (kSurfaceByAddress != 0u) return surfaces.v[instance].levels[level].crossingHead.v[i];
+    return wordOf(fetchSurface(headsAt[level] + (i >> 2u)), i & 3u);
 }
-Crossing readCrossing(CrossingBuf crossings, uint i) {
-    if (kSurfaceByAddress != 0u) return crossings.v[i];
-    vec4 a = uintBitsToFloat(fetchSurface(uint64_t(crossings), 3u * i));
-    vec4 b = uintBitsToFloat(fetchSurface(uint64_t(crossings), 3u * i + 1u));
-    uvec4 c = fetchSurface(uint64_t(crossings), 3u * i + 2u);
+uint readRef(SurfaceBuf surfaces, uint instance, uint level, uint i) {
+    if (kSurfaceByAddress != 0u) return surfaces.v[instance].levels[level].crossingRefs.v[i];
+    return wordOf(fetchSurface(refsAt[level] + (i >> 2u)), i & 3u);
+}
+Crossing readCrossing(SurfaceBuf surfaces, uint instance, uint i) {
+    if (kSurfaceByAddress != 0u) return surfaces.v[instance].crossings.v[i];
+    vec4 a = uintBitsToFloat(fetchSurface(crossingsAt + 3u * i));
+    vec4 b = uintBitsToFloat(fetchSurface(crossingsAt + 3u * i + 1u));
+    uvec4 c = fetchSurface(crossingsAt + 3u * i + 2u);
     return Crossing(a.xy, a.zw, b.xy, b.zw, c.x, c.y, c.z, c.w);
 }
-TrianglePlane readPlane(TrianglePlaneBuf triangles, uint i) {
-    if (kSurfaceByAddress != 0u) return triangles.v[i];
-    vec4 a = uintBitsToFloat(fetchSurface(uint64_t(triangles), 3u * i));
-    vec4 b = uintBitsToFloat(fetchSurface(uint64_t(triangles), 3u * i + 1u));
-    uvec4 c = fetchSurface(uint64_t(triangles), 3u * i + 2u);
+TrianglePlane readPlane(SurfaceBuf surfaces, uint instance, uint i) {
+    if (kSurfaceByAddress != 0u) return surfaces.v[instance].triangles.v[i];
+    vec4 a = uintBitsToFloat(fetchSurface(trianglesAt + 3u * i));
+    vec4 b = uintBitsToFloat(fetchSurface(trianglesAt + 3u * i + 1u));
+    uvec4 c = fetchSurface(trianglesAt + 3u * i + 2u);
     return TrianglePlane(a.xyz, vec3(a.w, b.xy), vec3(b.zw, uintBitsToFloat(c.x)), uintBitsToFloat(c.yz), c.w);
 }
 // A chart's orientation and coarsest level: words 4 and 5 of its 10.
-void readChart(ChartBuf charts, uint i, out float orientation, out uint coarsest) {
+void readChart(SurfaceBuf surfaces, uint instance, uint i, out float orientation, out uint coarsest) {
     if (kSurfaceByAddress != 0u) {
-        orientation = charts.v[i].orientation;
-        coarsest = charts.v[i].coarsestLevel;
+        orientation = surfaces.v[instance].charts.v[i].orientation;
+        coarsest = surfaces.v[instance].charts.v[i].coarsestLevel;
     } else {
         uint word = 10u * i + 4u;
-        uvec4 t = fetchSurface(uint64_t(charts), word >> 2u);
+        uvec4 t = fetchSurface(chartsAt + (word >> 2u));
         orientation = uintBitsToFloat((word & 2u) != 0u ? t.z : t.x);
         coarsest = (word & 2u) != 0u ? t.w : t.y;
     }
 }
 #else
-FN Texel readTexel(TexelBuf texels, uint i) { return texels.v[i]; }
-FN uint readTriangle(TexelAuxBuf aux, uint i) { return aux.v[i].triangle; }
-FN uint readWord(UintBuf words, uint i) { return words.v[i]; }
-FN Crossing readCrossing(CrossingBuf crossings, uint i) { return crossings.v[i]; }
-FN TrianglePlane readPlane(TrianglePlaneBuf triangles, uint i) { return triangles.v[i]; }
-FN void readChart(ChartBuf charts, uint i, OUT(float) orientation, OUT(uint) coarsest) {
-    orientation = charts.v[i].orientation;
-    coarsest = charts.v[i].coarsestLevel;
+FN float surfaceScale(SurfaceBuf surfaces, uint instance) { return surfaces.v[instance].scale; }
+FN float surfaceRadius(SurfaceBuf surfaces, uint instance) { return surfaces.v[instance].radius; }
+FN uint levelSize(SurfaceBuf surfaces, uint instance, uint level) { return surfaces.v[instance].levels[level].size; }
+FN Texel readTexel(SurfaceBuf surfaces, uint instance, uint level, uint i) {
+    return surfaces.v[instance].levels[level].texels.v[i];
+}
+FN uint readTriangle(SurfaceBuf surfaces, uint instance, uint level, uint i) {
+    return surfaces.v[instance].levels[level].aux.v[i].triangle;
+}
+FN uint readHead(SurfaceBuf surfaces, uint instance, uint level, uint i) {
+    return surfaces.v[instance].levels[level].crossingHead.v[i];
+}
+FN uint readRef(SurfaceBuf surfaces, uint instance, uint level, uint i) {
+    return surfaces.v[instance].levels[level].crossingRefs.v[i];
+}
+FN Crossing readCrossing(SurfaceBuf surfaces, uint instance, uint i) { return surfaces.v[instance].crossings.v[i]; }
+FN TrianglePlane readPlane(SurfaceBuf surfaces, uint instance, uint i) { return surfaces.v[instance].triangles.v[i]; }
+FN void readChart(SurfaceBuf surfaces, uint instance, uint i, OUT(float) orientation, OUT(uint) coarsest) {
+    orientation = surfaces.v[instance].charts.v[i].orientation;
+    coarsest = surfaces.v[instance].charts.v[i].coarsestLevel;
 }
 #endif
 
@@ -108,7 +154,7 @@ FN uint texelAt(uint size, vec2 uv) {
 // triangle under the nearest texel of the chart. False: no texel of the chart within reach, p is unchanged
 // but for values that nobody may use. Reads 4 texels, and a triangle in creased cells.
 FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, float orientation, vec2 uv, OUT(Patch) p) {
-    uint size = surfaces.v[instance].levels[level].size;
+    uint size = levelSize(surfaces, instance, level);
     float fsize = float(size);
     float gx = uv.x * fsize - 0.5f;
     float gy = uv.y * fsize - 0.5f;
@@ -120,11 +166,10 @@ FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, floa
     uint c1 = texelColumn(x + 1u);
     uint r0 = texelRow(size, y);
     uint r1 = texelRow(size, y + 1u);
-    TexelBuf texels = surfaces.v[instance].levels[level].texels;
-    Texel t00 = readTexel(texels, r0 + c0);
-    Texel t10 = readTexel(texels, r0 + c1);
-    Texel t01 = readTexel(texels, r1 + c0);
-    Texel t11 = readTexel(texels, r1 + c1);
+    Texel t00 = readTexel(surfaces, instance, level, r0 + c0);
+    Texel t10 = readTexel(surfaces, instance, level, r0 + c1);
+    Texel t01 = readTexel(surfaces, instance, level, r1 + c0);
+    Texel t11 = readTexel(surfaces, instance, level, r1 + c1);
 
     float ex = 1.0f - fx;
     float ey = 1.0f - fy;
@@ -149,10 +194,10 @@ FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, floa
     bool creased = texelCrease(t00.bits | t10.bits | t01.bits | t11.bits);
     bool valid = nearest != kNoIndex && absolute(uv.x - 0.5f) <= 0.5f && absolute(uv.y - 0.5f) <= 0.5f;
     if (valid && (creased || !own)) {
-        uint triangle = readTriangle(surfaces.v[instance].levels[level].aux, nearest);
+        uint triangle = readTriangle(surfaces, instance, level, nearest);
         valid = triangle != kNoIndex || own;
         if (triangle != kNoIndex) {
-            TrianglePlane plane = readPlane(surfaces.v[instance].triangles, triangle);
+            TrianglePlane plane = readPlane(surfaces, instance, triangle);
             vec2 offset = uv - plane.uv0;
             du = plane.du;
             dv = plane.dv;
@@ -189,9 +234,9 @@ FN vec3 normalAt(SurfaceBuf surfaces, uint instance, uint level, vec2 uv) {
 
 // Curvature (1/m of object space, positive on bulges) at the texel nearest to uv.
 FN float curvatureAt(SurfaceBuf surfaces, uint instance, uint level, vec2 uv) {
-    uint size = surfaces.v[instance].levels[level].size;
-    uint bits = readTexel(surfaces.v[instance].levels[level].texels, texelAt(size, uv)).bits;
-    return decodeCurvature(bits, rcpExact(surfaces.v[instance].radius));
+    uint size = levelSize(surfaces, instance, level);
+    uint bits = readTexel(surfaces, instance, level, texelAt(size, uv)).bits;
+    return decodeCurvature(bits, rcpExact(surfaceRadius(surfaces, instance)));
 }
 
 ESPALIER_END

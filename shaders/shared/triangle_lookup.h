@@ -14,7 +14,7 @@ ESPALIER_BEGIN
 FN void seatOnTriangle(SurfaceBuf surfaces, uint place, vec2 uv, INOUT(vec3) position, INOUT(vec3) normal) {
     uint instance = place >> 16u;
     uint chart = place & 0xFFFFu;
-    uint size = surfaces.v[instance].levels[0].size;
+    uint size = levelSize(surfaces, instance, 0u);
     float texel = rcpExact(float(size));
     float gx = uv.x * float(size) - 0.5f;
     float gy = uv.y * float(size) - 0.5f;
@@ -31,9 +31,9 @@ FN void seatOnTriangle(SurfaceBuf surfaces, uint place, vec2 uv, INOUT(vec3) pos
         uint cx = x + ((nearest ^ k) & 1u);
         uint cy = y + ((nearest ^ k) >> 1u);
         uint at = texelRow(size, cy) + texelColumn(cx);
-        uint triangle = readTriangle(surfaces.v[instance].levels[0].aux, at);
-        bool serves = texelOwned(readTexel(surfaces.v[instance].levels[0].texels, at).bits, chart) && triangle != kNoIndex;
-        TrianglePlane plane = readPlane(surfaces.v[instance].triangles, serves ? triangle : 0u);
+        uint triangle = readTriangle(surfaces, instance, 0u, at);
+        bool serves = texelOwned(readTexel(surfaces, instance, 0u, at).bits, chart) && triangle != kNoIndex;
+        TrianglePlane plane = readPlane(surfaces, instance, serves ? triangle : 0u);
         vec2 offset = uv - plane.uv0;
         vec3 here = plane.position + plane.du * offset.x + plane.dv * offset.y;
         vec2 center = vec2((float(cx) + 0.5f) * texel, (float(cy) + 0.5f) * texel) - uv;

@@ -105,14 +105,14 @@ FN bool resumeWalk(SurfaceBuf surfaces, uint level, Walk walk, OUT(WalkState) w)
     w.walk = walk;
     w.walk.uv = vec2(inRange(walk.uv.x, 1.0f), inRange(walk.uv.y, 1.0f));
     uint coarsest;
-    readChart(surfaces.v[instance].charts, chart, w.orientation, coarsest);
+    readChart(surfaces, instance, chart, w.orientation, coarsest);
     w.level = level < coarsest ? level : coarsest;
     w.limit = 1e30f;
     w.slip = vec2(0.0f);
     w.flags = 0u;
     Patch p;
     bool found = patchAt(surfaces, instance, w.level, chart, w.orientation, w.walk.uv, p);
-    standOn(w, p, rcpExact(float(surfaces.v[instance].levels[w.level].size)));
+    standOn(w, p, rcpExact(float(levelSize(surfaces, instance, w.level))));
     vec3 across = walk.direction - p.normal * dot3(p.normal, walk.direction);
     float across2 = dot3(across, across);
     bool steep = !(across2 > 1e-8f);   // along the normal, or NaN: any tangent will do
@@ -159,11 +159,8 @@ struct Exit {
 // passes. `clear`: nothing within this distance of uv. Loosely: looks two texels back and forgives gaps.
 FN Exit findExit(SurfaceBuf surfaces, uint instance, uint level, uint chart, vec2 uv, vec2 delta, float clear,
                  bool loose) {
-    uint size = surfaces.v[instance].levels[level].size;
+    uint size = levelSize(surfaces, instance, level);
     float fsize = float(size);
-    UintBuf heads = surfaces.v[instance].levels[level].crossingHead;
-    UintBuf refs = surfaces.v[instance].levels[level].crossingRefs;
-    CrossingBuf crossings = surfaces.v[instance].crossings;
     float texel = rcpExact(fsize);
     float gap = loose ? 1.0f * texel : 0.002f * texel;      // along a segment, beyond its ends
     // Outside the border already; less than the nudge, or both sides of a slit would catch.
@@ -196,7 +193,7 @@ FN Exit findExit(SurfaceBuf surfaces, uint instance, uint level, uint chart, vec
             live = enter <= smaller(best.fraction, 1.0f);
             bool inside = x >= 0 && y >= 0 && x < int(size) && y < int(size);
             if (live && inside) {
-                uint head = readWord(heads, texelRow(size, uint(y)) + texelColumn(uint(x)));
+                uint head = readHead(surfaces, instance, level, texelRow(size, uint(y)) + texelColumn(uint(x)));
                 left = head & 0xFFu;
                 ref = head >> 8u;
             }
@@ -210,8 +207,8 @@ FN Exit findExit(SurfaceBuf surfaces, uint instance, uint level, uint chart, vec
             }
         }
         if (left > 0u) {
-            uint index = readWord(refs, ref);
-            Crossing c = readCrossing(crossings, index);
+            uint index = readRef(surfaces, instance, level, ref);
+            Crossing c = readCrossing(surfaces, instance, index);
             vec2 a = c.a;
             vec2 e = c.b - a;
             uint flags = c.flags;
@@ -273,15 +270,15 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
                     OUT(vec3) jointNormal) {
     uint instance = w.walk.place >> 16u;
     uint chart = w.walk.place & 0xFFFFu;
-    float scale = surfaces.v[instance].scale;
-    float texel = rcpExact(float(surfaces.v[instance].levels[w.level].size));
+    float scale = surfaceScale(surfaces, instance);
+    float texel = rcpExact(float(levelSize(surfaces, instance, w.level)));
     bool loose = (w.flags & kWalkFlagLoose) != 0u;
     vec3 n = w.normal;
     vec3 t = w.walk.direction;
     jointNormal = n;
 
     // The stretch: what remains, unless the surface turns or it is very many texels.
-    remaining = inRange(remaining, kWalkMaxRadii * surfaces.v[instance].radius * scale);
+    remaining = inRange(remaining, kWalkMaxRadii * surfaceRadius(surfaces, instance) * scale);
     float wanted = remaining * rcpExact(scale);
     vec2 rate = tangentRate(w.du, w.dv, t);
     float pace = length2(rate);
@@ -317,7 +314,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     float over1 = 1.0f;   // -1: to the back of a sheet
     float joint = 0.0f;   // to another instance: crossingJoint
     if (leaves) {
-        Crossing c = readCrossing(surfaces.v[instance].crossings, leave.crossing);
+        Crossing c = readCrossing(surfaces, instance, leave.crossing);
         insideLeft = (c.flags & kCrossingInsideLeft) != 0u;
         over1 = (c.flags & kCrossingTurned) != 0u ? -1.0f : 1.0f;
         // The search began where the last stretch ended before its correction; the walk itself meets the same
@@ -341,11 +338,11 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             uint toChart = c.target & 0xFFFFu;
             toPlace = (toInstance << 16u) | toChart;
             uint coarsest;
-            readChart(surfaces.v[toInstance].charts, toChart, toOrientation, coarsest);
+            readChart(surfaces, toInstance, toChart, toOrientation, coarsest);
             toLevel = level < coarsest ? level : coarsest;
             // Seen from outside, the far chart lies on the other side of the edge; mirrored UVs swap sides.
             insideLeft = insideLeft == (toOrientation * w.orientation * over1 < 0.0f);
-            toTexel = rcpExact(float(surfaces.v[toInstance].levels[toLevel].size));
+            toTexel = rcpExact(float(levelSize(surfaces, toInstance, toLevel)));
         }
         // Not quite to a corner, where the next segment's outside begins.
         float corner = limited(kWalkCornerTexels * toTexel * rsqrtExact(larger(dot2(e, e), 1e-30f)), 0.0f, 0.5f);
