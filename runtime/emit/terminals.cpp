@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runtime/core/check.hpp"
+#include "runtime/gpu/color_texture.hpp"
 #include "runtime/surface/box_tree.hpp"
 #include "shaders/shared/exact.h"
 
@@ -180,15 +181,21 @@ Status Terminals::makePictures(Device& device) {
         return fillImage(device, image, std::as_bytes(rgba));
     };
     const uint8_t white[4] = {255, 255, 255, 255}, flat[4] = {128, 128, 255, 255};
-    if (Status s = make(white_, "white", VK_FORMAT_R8G8B8A8_SRGB, 1, 1, white); !s) return s;
+    auto makeColor = [&](Image& image, const char* name, uint32_t width, uint32_t height,
+                         std::span<const uint8_t> rgba) -> Status {
+        Result<Image> made = makeColorTexture(device, name, width, height, rgba);
+        if (!made) return made.failure();
+        image = std::move(*made);
+        return Done{};
+    };
+    if (Status s = makeColor(white_, "white", 1, 1, white); !s) return s;
     if (Status s = make(flat_, "flat normal", VK_FORMAT_R8G8B8A8_UNORM, 1, 1, flat); !s) return s;
     colors_.resize(data_.pictures.size());
     normals_.resize(data_.pictures.size());
     for (const TerminalMaterial& material : data_.materials) {
         if (const int i = material.baseColorPicture; i >= 0 && !colors_[i]) {
             const TerminalPicture& p = data_.pictures[i];
-            if (Status s = make(colors_[i], "terminal colour", VK_FORMAT_R8G8B8A8_SRGB, p.width, p.height, p.rgba); !s)
-                return s;
+            if (Status s = makeColor(colors_[i], "terminal colour", p.width, p.height, p.rgba); !s) return s;
         }
         if (const int i = material.normalPicture; i >= 0 && !normals_[i]) {
             const TerminalPicture& p = data_.pictures[i];

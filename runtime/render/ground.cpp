@@ -62,9 +62,12 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
     desc.depth = depth;
     desc.samples = samples;
     desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    Result<Program> program = Program::graphics(device, desc);
-    if (!program) return program.failure();
-    ground.program_ = std::move(*program);
+    for (uint32_t explains : {0u, 1u}) {
+        desc.options.constants = {{kExplains, explains}};
+        Result<Program> program = Program::graphics(device, desc);
+        if (!program) return program.failure();
+        ground.programs_[explains] = std::move(*program);
+    }
     ImageDesc tile{.name = "ground noise", .width = kSide, .height = kSide};
     tile.levels = 0;
     Result<Image> image = Image::create(device, tile);
@@ -79,8 +82,9 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
     return ground;
 }
 
-void Ground::draw(DrawPass& pass, const PostPush& push, const Image& shadowMap, const Sampler& shadowSampler) const {
-    pass.draw(program_, 3, 1, push, {{noise_, sampler_}, {shadowMap, shadowSampler}});
+void Ground::draw(DrawPass& pass, const PostPush& push, const Buffer& frame, const Image& shadowMap,
+                  const Sampler& shadowSampler, bool explains) const {
+    pass.draw(programs_[explains], 3, 1, push, {{noise_, sampler_}, {shadowMap, shadowSampler}, frame});
 }
 
 }  // namespace espalier

@@ -21,14 +21,15 @@ class Ground {
     static Result<Ground> create(Device& device, VkFormat color, VkFormat depth, uint32_t samples);
 
     // In FrameRecord::groundLevel; what is nearer hides it.
-    void draw(DrawPass& pass, const PostPush& push, const Image& shadowMap, const Sampler& shadowSampler) const;
+    void draw(DrawPass& pass, const PostPush& push, const Buffer& frame, const Image& shadowMap,
+              const Sampler& shadowSampler, bool explains) const;
 
     // Four octave sums of noise that repeat at the border: see ground.frag.
     const Image& noise() const { return noise_; }
     const Sampler& sampler() const { return sampler_; }
 
   private:
-    Program program_;
+    Program programs_[2];  // of the shaded view, of others
     Image noise_;
     Sampler sampler_;
 };

@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/gpu/color_texture.hpp"
+
 namespace espalier {
 namespace {
 
 static_assert(sizeof(DrawVertex) == sizeof(ModelVertex));
 
-Result<Image> makeTexture(Device& device, std::string_view name, VkFormat format, uint32_t width, uint32_t height,
+Result<Image> makeNormals(Device& device, std::string_view name, uint32_t width, uint32_t height,
                           std::span<const uint8_t> rgba) {
-    ImageDesc desc{.name = name, .format = format, .width = width, .height = height};
+    ImageDesc desc{.name = name, .width = width, .height = height};
     desc.levels = 0;
     Result<Image> image = Image::create(device, desc);
     if (!image) return image;
@@ -38,10 +40,10 @@ glm::vec4 shownColor(const Material& material) {
 Result<Models> Models::create(Device& device) {
     Models models;
     const uint8_t white[4] = {255, 255, 255, 255}, flat[4] = {128, 128, 255, 255};
-    Result<Image> whiteImage = makeTexture(device, "white", VK_FORMAT_R8G8B8A8_SRGB, 1, 1, white);
+    Result<Image> whiteImage = makeColorTexture(device, "white", 1, 1, white);
     if (!whiteImage) return whiteImage.failure();
     models.white_ = std::move(*whiteImage);
-    Result<Image> flatImage = makeTexture(device, "flat normal", VK_FORMAT_R8G8B8A8_UNORM, 1, 1, flat);
+    Result<Image> flatImage = makeNormals(device, "flat normal", 1, 1, flat);
     if (!flatImage) return flatImage.failure();
     models.flat_ = std::move(*flatImage);
     Result<Sampler> sampler =
@@ -80,16 +82,15 @@ Status Models::uploadPictures(Device& device, const SurfaceData& data, Model& mo
         const struct {
             int index;
             std::vector<Image>& images;
-            VkFormat format;
+            Result<Image> (*make)(Device&, std::string_view, uint32_t, uint32_t, std::span<const uint8_t>);
             const char* name;
-        } uses[] = {{material.baseColorImage, model.colors, VK_FORMAT_R8G8B8A8_SRGB, "model colour"},
-                    {material.normalImage, model.normals, VK_FORMAT_R8G8B8A8_UNORM, "model normals"}};
+        } uses[] = {{material.baseColorImage, model.colors, makeColorTexture, "model colour"},
+                    {material.normalImage, model.normals, makeNormals, "model normals"}};
         for (const auto& use : uses) {
             if (use.index < 0 || size_t(use.index) >= data.images.size() || use.images[size_t(use.index)]) continue;
             const Picture& picture = data.images[size_t(use.index)];
             if (picture.width == 0 || picture.rgba.size() != size_t(picture.width) * picture.height * 4) continue;
-            Result<Image> image =
-                makeTexture(device, use.name, use.format, picture.width, picture.height, picture.rgba);
+            Result<Image> image = use.make(device, use.name, picture.width, picture.height, picture.rgba);
             if (!image) return image.failure();
             use.images[size_t(use.index)] = std::move(*image);
         }
@@ -162,10 +163,8 @@ void Models::choose(glm::vec3 eye, float pixelScale, float pixels) {
     }
 }
 
-ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& material, uint64_t frame,
-                         uint32_t surface) const {
+ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& material, uint32_t surface) const {
     ModelPush push{};
-    push.frame.v = reinterpret_cast<FrameRecord*>(frame);
     push.vertices.v = reinterpret_cast<ModelVertex*>(model.vertices.address()) + model.meshes[mesh].firstVertex;
     for (int r = 0; r < 3; ++r)
         push.toWorld[r] = {model.toWorld[0][r], model.toWorld[1][r], model.toWorld[2][r], model.toWorld[3][r]};
@@ -179,7 +178,7 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
     return push;
 }
 
-void Models::draw(DrawPass& pass, const Program& program, uint64_t frame, const Image& shadowMap,
+void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, const Image& shadowMap,
                   const Sampler& shadowSampler, bool walkData) const {
     for (const auto& [index, model] : models_) {
         pass.setIndices(model.indices);
@@ -187,12 +186,13 @@ void Models::draw(DrawPass& pass, const Program& program, uint64_t frame, const 
             for (const DrawRange& range : model.meshes[mesh].ranges) {
                 const Material& material =
                     model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
-                ModelPush push = pushOf(model, mesh, material, frame, walkData ? index : kNoIndex);
+                ModelPush push = pushOf(model, mesh, material, walkData ? index : kNoIndex);
                 push.fade = fade;
                 pass.drawIndexed(program, {range.indexCount, range.firstIndex}, push,
                                  {{pictureOr(model.colors, material.baseColorImage, white_), sampler_},
                                   {pictureOr(model.normals, material.normalImage, flat_), sampler_},
-                                  {shadowMap, shadowSampler}});
+                                  {shadowMap, shadowSampler},
+                                  frame});
             }
         };
         if (model.step == kFadeFrames) {
@@ -206,14 +206,14 @@ void Models::draw(DrawPass& pass, const Program& program, uint64_t frame, const 
     }
 }
 
-void Models::drawDepth(DrawPass& pass, const Program& program, uint64_t frame, float error) const {
+void Models::drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const {
     for (const auto& [index, model] : models_) {
         pass.setIndices(model.indices);
         const uint32_t mesh = simplest(model, error);
         for (const DrawRange& range : model.meshes[mesh].ranges) {
             const Material& material = model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
-            pass.drawIndexed(program, {range.indexCount, range.firstIndex},
-                             pushOf(model, mesh, material, frame, index));
+            pass.drawIndexed(program, {range.indexCount, range.firstIndex}, pushOf(model, mesh, material, index),
+                             {frame});
         }
     }
 }

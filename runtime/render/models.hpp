@@ -24,10 +24,10 @@ class Models {
     static constexpr uint32_t kFadeFrames = 8;
 
     // Draws all of them as chosen; `shadowMap` may be without an image for a depth-only program.
-    void draw(DrawPass& pass, const Program& program, uint64_t frame, const Image& shadowMap,
+    void draw(DrawPass& pass, const Program& program, const Buffer& frame, const Image& shadowMap,
               const Sampler& shadowSampler, bool walkData) const;
     // The simplest meshes with an error of at most `error` metres.
-    void drawDepth(DrawPass& pass, const Program& program, uint64_t frame, float error) const;
+    void drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const;
 
     uint64_t triangles() const;                      // as chosen
     uint32_t fading() const;                         // models of which two meshes are drawn
@@ -57,8 +57,7 @@ class Models {
     };
     Status uploadMeshes(Device& device, const SurfaceData& data, Model& model);
     Status uploadPictures(Device& device, const SurfaceData& data, Model& model);
-    ModelPush pushOf(const Model& model, uint32_t mesh, const Material& material, uint64_t frame,
-                     uint32_t surface) const;
+    ModelPush pushOf(const Model& model, uint32_t mesh, const Material& material, uint32_t surface) const;
     static uint32_t simplest(const Model& model, float error);
 
     std::map<uint32_t, Model> models_;

@@ -43,23 +43,21 @@ Result<std::vector<RoofMesh>> RendererImpl::loadRoofMeshes(TerminalData meshes) 
     return roofs_->bounds();
 }
 
-Result<uint64_t> RendererImpl::upload(Commands& commands, const FrameRecord& frame) {
-    const uint64_t offset = frameSlot_++ % kFrameSlots * sizeof(FrameRecord);
+Status RendererImpl::upload(Commands& commands, const FrameRecord& frame) {
+    frame_ = &frames_[frameSlot_++ % kFrameSlots];
     commands.barrier(Use::vertex | Use::fragment, Use::transfer);
-    if (Status s = commands.upload(frames_, std::as_bytes(std::span(&frame, 1)), offset); !s) return s.failure();
+    if (Status s = commands.upload(*frame_, std::as_bytes(std::span(&frame, 1))); !s) return s;
     commands.barrier(Use::transfer, Use::vertex | Use::fragment);
-    return frames_.address() + offset;
+    return Done{};
 }
 
-void RendererImpl::drawTerminals(DrawPass& pass, uint64_t frame, Terminal how) {
-    const bool depthOnly = how == Terminal::depthOnly, counting = how == Terminal::counting;
+void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
     const EmitTable& table = terminals_.table();
     pass.setIndices(terminals_.batches());
     for (uint32_t b = 0; b < table.bucketCount; ++b) {
         const BucketRecord& bucket = table.buckets[b];
         const TerminalMaterial& material = terminals_.data().materials[bucket.material];
         TerminalPush push{};
-        push.frame.v = reinterpret_cast<FrameRecord*>(frame);
         push.state.v = reinterpret_cast<EmitState*>(emit_.state().address());
         push.spans.v = reinterpret_cast<SpanInstance*>(emit_.spanInstances().address());
         push.leaves.v = reinterpret_cast<LeafInstance*>(emit_.leafInstances().address());
@@ -77,27 +75,24 @@ void RendererImpl::drawTerminals(DrawPass& pass, uint64_t frame, Terminal how) {
         const Binding shadow{shadowMap_, shadowSampler_};
         const bool bark = b < table.barkBuckets;
         if (!depthOnly && bark)
-            pass.drawIndexedIndirect(counting ? counting_.bark : bark_, emit_.state(), offset, 2, push,
-                                     {color, shadow});
-        else if (how == Terminal::smallLit && small_[b])
-            pass.drawIndexedIndirect(leafSmall_, emit_.state(), offset, 2, push, {color, shadow});
+            pass.drawIndexedIndirect(scene_->bark, emit_.state(), offset, 2, push, {color, shadow, *frame_});
+        else if (!depthOnly && !explained_ && small_[b])
+            pass.drawIndexedIndirect(scene_->leafSmall, emit_.state(), offset, 2, push, {color, shadow, *frame_});
         else if (!depthOnly)
-            pass.drawIndexedIndirect(counting ? counting_.leaf : leaf_, emit_.state(), offset, 2, push,
-                                     {color, normal, shadow});
+            pass.drawIndexedIndirect(scene_->leaf, emit_.state(), offset, 2, push, {color, normal, shadow, *frame_});
         else if (bark)
-            pass.drawIndexedIndirect(barkDepth_, emit_.state(), offset, 2, push);
+            pass.drawIndexedIndirect(barkDepth_, emit_.state(), offset, 2, push, {*frame_});
         else if (material.alphaCutoff > 0)
-            pass.drawIndexedIndirect(leafCutDepth_, emit_.state(), offset, 2, push, {color});
+            pass.drawIndexedIndirect(leafCutDepth_, emit_.state(), offset, 2, push, {color, *frame_});
         else
-            pass.drawIndexedIndirect(leafDepth_, emit_.state(), offset, 2, push);
+            pass.drawIndexedIndirect(leafDepth_, emit_.state(), offset, 2, push, {*frame_});
     }
 }
 
 Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels) {
     FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
     frame.viewProjection = sun.toClip;
-    Result<uint64_t> address = upload(commands, frame);
-    if (!address) return address.failure();
+    if (Status s = upload(commands, frame); !s) return s;
     if (grows_) {
         EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, lodPixels);
         view.leastPixels = 0.35f;
@@ -113,9 +108,9 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
         targets.extent = {kShadowSize, kShadowSize};
         targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = 1.0f};
         DrawPass pass(commands, "shadow draw", targets);
-        models_.drawDepth(pass, modelDepth_, *address, kShadowModelTexels * sun.width / kShadowSize);
-        if (grows_) drawTerminals(pass, *address, Terminal::depthOnly);
-        if (roofed_) roofs_->draw(pass, *address, nullptr, nullptr);
+        models_.drawDepth(pass, modelDepth_, *frame_, kShadowModelTexels * sun.width / kShadowSize);
+        if (grows_) drawTerminals(pass, true);
+        if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr, false);
     }
     commands.transition(shadowMap_, ImageState::sampled);
     return Done{};
@@ -128,9 +123,8 @@ void RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, cons
     targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
     targets.depth = DepthTarget{.view = targets_.depth.view(), .clear = 0.0f};
     DrawPass pass(commands, "draw scene", targets);
-    models_.draw(pass, counts_ ? counting_.model : model_, reinterpret_cast<uint64_t>(post.frame.v), shadowMap_,
-                 shadowSampler_, inputs.surfaces.v != nullptr);
-    if (post.ground != 0) ground_.draw(pass, post, shadowMap_, shadowSampler_);
+    models_.draw(pass, scene_->model, *frame_, shadowMap_, shadowSampler_, inputs.surfaces.v != nullptr);
+    if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, explained_);
 }
 
 Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {
@@ -168,13 +162,9 @@ void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {
     targets.depth = DepthTarget{};
     targets.depth->view = targets_.depth.view();
     DrawPass pass(commands, "draw scene", targets);
-    if (grows_)
-        drawTerminals(pass, reinterpret_cast<uint64_t>(post.frame.v),
-                      counts_      ? Terminal::counting
-                      : explained_ ? Terminal::plain
-                                   : Terminal::smallLit);
-    if (roofed_) roofs_->draw(pass, reinterpret_cast<uint64_t>(post.frame.v), &shadowMap_, &shadowSampler_);
-    pass.draw(sky_, 3, 1, post, {{ground_.noise(), ground_.sampler()}});
+    if (grows_) drawTerminals(pass, false);
+    if (roofed_) roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, explained_);
+    pass.draw(sky_, 3, 1, post, {{ground_.noise(), ground_.sampler()}, *frame_});
 }
 
 void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
@@ -183,13 +173,13 @@ void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
     commands.transition(targets_.distance, ImageState::colorTarget, true);
     {
         DrawPass pass(commands, "draw occlusion", onto(extent, targets_.distance.view()));
-        pass.draw(distance_, 3, 1, push, {{targets_.depth, pointSampler_}});
+        pass.draw(distance_, 3, 1, push, {{targets_.depth, pointSampler_}, *frame_});
     }
     commands.transition(targets_.distance, ImageState::sampled);
     commands.transition(targets_.open, ImageState::colorTarget, true);
     {
         DrawPass pass(commands, "draw occlusion", onto(extent, targets_.open.view()));
-        pass.draw(occlusion_, 3, 1, push, {{targets_.distance, pointSampler_}});
+        pass.draw(occlusion_, 3, 1, push, {{targets_.distance, pointSampler_}, *frame_});
     }
     commands.transition(targets_.open, ImageState::sampled);
 }
@@ -214,7 +204,7 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     }
     commands.transition(target.image ? host : targets_.own, ImageState::colorTarget, true);
     DrawPass pass(commands, "draw resolve", onto({target.width, target.height}, view));
-    pass.draw(**program, 3, 1, push, {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}});
+    pass.draw(**program, 3, 1, push, {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}, *frame_});
     return Done{};
 }
 
@@ -223,11 +213,7 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
             "a picture is 1 to 16384 pixels wide and high");
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
     const GrowthView& growth = inputs.growth;
-    const ViewMode shown = shownView(inputs);
-    explained_ = shown != ViewMode::shaded && shown != ViewMode::layer;
-    counts_ = shown == ViewMode::overdraw;
-    if (counts_)
-        if (Status s = makeCounting(); !s) return s;
+    if (Status s = pickScene(shownView(inputs)); !s) return s;
     grows_ = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
     roofed_ = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
 
@@ -253,6 +239,7 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     frame.shadowMatrix = sun.toTexture;
     frame.shadowTexel = 1.0f / kShadowSize;
     frame.unit = roofed_ ? 1.0f : lengthUnit(high - low);
+    frame.shadowNear = frame.pixelScale * sun.width / kShadowSize;
     frame.shadowOffset = 1.2f * sun.width / kShadowSize;
     const ShadowKey key{growth.revision,          models_.revision(), frame.sunDirection,
                         growth.nodeCount,         growth.leafCount,   roofed_ ? inputs.roofs->revision : 0,
@@ -265,10 +252,8 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
         commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
     }
 
-    Result<uint64_t> address = upload(commands, frame);
-    if (!address) return address.failure();
+    if (Status s = upload(commands, frame); !s) return s;
     PostPush push{};
-    push.frame.v = reinterpret_cast<FrameRecord*>(*address);
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
     push.ground = inputs.ground.drawn ? 1 : 0;
     push.groundColor = inputs.ground.colour;

@@ -41,18 +41,21 @@ class RendererImpl final : public Renderer {
     };
 
     Status makePrograms();
-    Result<Program> sceneProgram(const char* name, const char* vertex, const char* fragment, Blend blend) const;
-    Status makeCounting();
+    // The programs that draw what is lit: for the shaded view, for views that explain, for the one that counts
+    // fragments.
+    struct ScenePrograms {
+        Program model, bark, leaf, leafSmall;
+    };
+    Status makeScene(ScenePrograms& programs, bool explains, Blend blend) const;
+    Status pickScene(ViewMode shown);
     Result<const Program*> resolveProgram(VkFormat format);
-    // Uploads the record and returns its address.
-    Result<uint64_t> upload(Commands& commands, const FrameRecord& frame);
+    // Uploads the record to frame_.
+    Status upload(Commands& commands, const FrameRecord& frame);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels);
     void drawModels(Commands& commands, const DrawInputs& inputs, const PostPush& post);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
     void drawGrowth(Commands& commands, const PostPush& post);
-    enum class Terminal { depthOnly, plain, smallLit, counting };
-    // plain: every leaf is lit at each pixel, as the views that explain want it. counting: fragments are added up.
-    void drawTerminals(DrawPass& pass, uint64_t frame, Terminal how);
+    void drawTerminals(DrawPass& pass, bool depthOnly);
     void drawOcclusion(Commands& commands, const PostPush& push);
     Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
 
@@ -65,14 +68,14 @@ class RendererImpl final : public Renderer {
     Targets targets_;
     Image shadowMap_;
     Sampler shadowSampler_, textureSampler_, plainSampler_, pointSampler_;
-    Program model_, bark_, leaf_, leafSmall_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_,
-        sky_, depthTiles_;
-    struct {
-        Program model, bark, leaf;
-    } counting_;  // made when first asked for
-    std::map<VkFormat, Program> resolves_;
-    std::array<bool, kMaxBuckets> small_{};  // buckets of leaves that are lit at their vertices
-    Buffer frames_, tiles_;
+    ScenePrograms shaded_, explaining_, counting_;  // each made when first asked for
+    const ScenePrograms* scene_ = &shaded_;         // of this recording
+    Program modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_, sky_, depthTiles_;
+    std::map<std::pair<VkFormat, bool>, Program> resolves_;  // by format and whether the view counts
+    std::array<bool, kMaxBuckets> small_{};                  // buckets of leaves that are lit at their vertices
+    std::array<Buffer, kFrameSlots> frames_;
+    const Buffer* frame_ = nullptr;  // the one of this recording
+    Buffer tiles_;
     uint32_t frameSlot_ = 0;
     ShadowKey shadowKey_;
     bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;

@@ -1,4 +1,5 @@
 // Enters: the terminals. Leaves: programs, samplers and buffers of the renderer.
+#include "runtime/gpu/color_texture.hpp"
 #include "runtime/render/renderer_impl.hpp"
 
 namespace espalier {
@@ -18,12 +19,6 @@ GraphicsDesc fullscreen(const char* name, const char* fragment, VkFormat format)
 
 Status RendererImpl::makePrograms() {
     const bool one = targets_.samples == 1;
-    auto scene = [&](Program& program, const char* name, const char* vertex, const char* fragment) -> Status {
-        Result<Program> made = sceneProgram(name, vertex, fragment, Blend::none);
-        if (!made) return made.failure();
-        program = std::move(*made);
-        return Done{};
-    };
     auto shadow = [&](Program& program, const char* name, const char* vertex, const char* fragment) -> Status {
         GraphicsDesc desc;
         desc.name = name;
@@ -55,11 +50,6 @@ Status RendererImpl::makePrograms() {
         return Done{};
     };
     const Status all[] = {
-        scene(model_, "model", "render/model.vert", "render/model.frag"),
-        scene(bark_, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag"),
-        scene(leaf_, "leaf", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag"),
-        scene(leafSmall_, "small leaf", "render/leaf_small.vert",
-              one ? "render/leaf_small_single.frag" : "render/leaf_small.frag"),
         shadow(modelDepth_, "model shadow", "render/model.vert", ""),
         shadow(barkDepth_, "bark shadow", "render/bark.vert", ""),
         shadow(leafDepth_, "leaf shadow", "render/leaf.vert", ""),
@@ -71,43 +61,53 @@ Status RendererImpl::makePrograms() {
     return Done{};
 }
 
-Result<Program> RendererImpl::sceneProgram(const char* name, const char* vertex, const char* fragment,
-                                           Blend blend) const {
-    GraphicsDesc desc;
-    desc.name = name;
-    desc.vertex = vertex;
-    desc.fragment = fragment;
-    desc.colors = {kSceneFormat};
-    desc.depth = kDepthFormat;
-    desc.samples = targets_.samples;
-    desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    desc.blend = blend;
-    return Program::graphics(device_, desc);
-}
-
-// Programs of the view that counts: the same, but each fragment adds to what is there.
-Status RendererImpl::makeCounting() {
-    if (counting_.model) return Done{};
+Status RendererImpl::makeScene(ScenePrograms& programs, bool explains, Blend blend) const {
+    if (programs.model) return Done{};
     const bool one = targets_.samples == 1;
-    auto model = sceneProgram("model count", "render/model.vert", "render/model.frag", Blend::additive);
-    auto bark = sceneProgram("bark count", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag",
-                             Blend::additive);
-    auto leaf = sceneProgram("leaf count", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag",
-                             Blend::additive);
-    for (const auto* made : {&model, &bark, &leaf})
-        if (!*made) return made->failure();
-    counting_.model = std::move(*model);
-    counting_.bark = std::move(*bark);
-    counting_.leaf = std::move(*leaf);
+    const struct {
+        Program& program;
+        const char* name;
+        const char* vertex;
+        const char* fragment;
+    } rows[] = {{programs.bark, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag"},
+                {programs.leaf, "leaf", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag"},
+                {programs.leafSmall, "small leaf", "render/leaf_small.vert",
+                 one ? "render/leaf_small_single.frag" : "render/leaf_small.frag"},
+                {programs.model, "model", "render/model.vert", "render/model.frag"}};
+    for (const auto& row : rows) {
+        GraphicsDesc desc;
+        desc.name = row.name;
+        desc.vertex = row.vertex;
+        desc.fragment = row.fragment;
+        desc.colors = {kSceneFormat};
+        desc.depth = kDepthFormat;
+        desc.samples = targets_.samples;
+        desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+        desc.blend = blend;
+        desc.options.constants = {{kExplains, explains ? 1u : 0u}, {kRooted, holdsRoots(device_) ? 1u : 0u}};
+        Result<Program> made = Program::graphics(device_, desc);
+        if (!made) return made.failure();
+        row.program = std::move(*made);
+    }
     return Done{};
 }
 
+Status RendererImpl::pickScene(ViewMode shown) {
+    explained_ = shown != ViewMode::shaded;
+    counts_ = shown == ViewMode::overdraw;
+    ScenePrograms& wanted = counts_ ? counting_ : explained_ ? explaining_ : shaded_;
+    scene_ = &wanted;
+    return makeScene(wanted, explained_, counts_ ? Blend::additive : Blend::none);
+}
+
 Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
-    if (auto it = resolves_.find(format); it != resolves_.end()) return &it->second;
+    if (auto it = resolves_.find({format, counts_}); it != resolves_.end()) return &it->second;
     const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
-    Result<Program> made = Program::graphics(device_, fullscreen("resolve", fragment, format));
+    GraphicsDesc desc = fullscreen("resolve", fragment, format);
+    desc.options.constants = {{kExplains, counts_ ? 1u : 0u}};
+    Result<Program> made = Program::graphics(device_, desc);
     if (!made) return made.failure();
-    return &(resolves_[format] = std::move(*made));
+    return &(resolves_[{format, counts_}] = std::move(*made));
 }
 
 Status RendererImpl::setUp(TerminalData data) {
@@ -158,9 +158,11 @@ Status RendererImpl::setUp(TerminalData data) {
         if (!made) return made.failure();
         s.sampler = std::move(*made);
     }
-    Result<Buffer> frames = Buffer::create(device_, "frames", kFrameSlots * sizeof(FrameRecord));
-    if (!frames) return frames.failure();
-    frames_ = std::move(*frames);
+    for (Buffer& frame : frames_) {
+        Result<Buffer> made = Buffer::create(device_, "frame", sizeof(FrameRecord));
+        if (!made) return made.failure();
+        frame = std::move(*made);
+    }
     return makePrograms();
 }
 

@@ -69,9 +69,13 @@ Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, ui
         const char* name;
         const char* vertex;
         const char* fragment;
-    } rows[] = {{tile_, "roof tile", "roof/tile.vert", "roof/tile.frag"},
-                {cutTile_, "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag"},
-                {rectangle_, "far roof", "roof/rectangle.vert", "roof/rectangle.frag"},
+        bool explains = false;
+    } rows[] = {{tile_[0], "roof tile", "roof/tile.vert", "roof/tile.frag"},
+                {tile_[1], "roof tile", "roof/tile.vert", "roof/tile.frag", true},
+                {cutTile_[0], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag"},
+                {cutTile_[1], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag", true},
+                {rectangle_[0], "far roof", "roof/rectangle.vert", "roof/rectangle.frag"},
+                {rectangle_[1], "far roof", "roof/rectangle.vert", "roof/rectangle.frag", true},
                 {tileDepth_, "roof tile shadow", "roof/tile.vert", ""},
                 {cutTileDepth_, "cut roof tile shadow", "roof/cut_tile.vert", ""},
                 {rectangleDepth_, "far roof shadow", "roof/rectangle.vert", ""}};
@@ -81,6 +85,7 @@ Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, ui
         desc.vertex = r.vertex;
         desc.fragment = r.fragment;
         desc.depth = depth;
+        desc.options.constants = {{kExplains, r.explains ? 1u : 0u}};
         if (*r.fragment) {
             desc.colors = {color};
             desc.samples = samples;
@@ -174,19 +179,19 @@ Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView&
     return Done{};
 }
 
-void RoofDraw::draw(DrawPass& pass, uint64_t frame, const Image* shadowMap, const Sampler* shadowSampler) {
+void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap, const Sampler* shadowSampler,
+                    bool explains) {
     const EmitTable& table = terminals_.table();
     const bool depthOnly = shadowMap == nullptr;
     RoofDrawPush push{};
-    push.frame.v = reinterpret_cast<FrameRecord*>(frame);
     push.env.v = reinterpret_cast<RoofDrawEnv*>(env_);
     push.vertices = addressOf<TerminalVertexBuf>(terminals_.vertices());
     push.roughness = 0.9f;
     const uint64_t rectangles = offsetof(RoofDrawState, rectangleDraw);
     if (depthOnly)
-        pass.drawIndirect(rectangleDepth_, state_, rectangles, 1, push);
+        pass.drawIndirect(rectangleDepth_, state_, rectangles, 1, push, {frame});
     else
-        pass.drawIndirect(rectangle_, state_, rectangles, 1, push, {{*shadowMap, *shadowSampler}});
+        pass.drawIndirect(rectangle_[explains], state_, rectangles, 1, push, {{*shadowMap, *shadowSampler}, frame});
     pass.setIndices(terminals_.batches());
     for (uint32_t b = 0; b < table.bucketCount; ++b) {
         const BucketRecord& bucket = table.buckets[b];
@@ -198,10 +203,10 @@ void RoofDraw::draw(DrawPass& pass, uint64_t frame, const Image* shadowMap, cons
         for (uint32_t cut : {0u, 1u}) {
             const uint64_t offset = offsetof(RoofDrawState, draws) + (128ull * cut + 2 * b) * sizeof(DrawCommand);
             if (depthOnly)
-                pass.drawIndexedIndirect(cut ? cutTileDepth_ : tileDepth_, state_, offset, 2, push);
+                pass.drawIndexedIndirect(cut ? cutTileDepth_ : tileDepth_, state_, offset, 2, push, {frame});
             else
-                pass.drawIndexedIndirect(cut ? cutTile_ : tile_, state_, offset, 2, push,
-                                         {{*shadowMap, *shadowSampler}});
+                pass.drawIndexedIndirect(cut ? cutTile_[explains] : tile_[explains], state_, offset, 2, push,
+                                         {{*shadowMap, *shadowSampler}, frame});
         }
     }
 }

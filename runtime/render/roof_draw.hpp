@@ -26,8 +26,8 @@ class RoofDraw {
     // Records the culling for a view; what an earlier one left is lost. shadow: patterns instead of cells.
     Status cull(Commands& commands, const RoofView& roofs, const EmitView& view, bool shadow,
                 std::string_view passName);
-    // Draws what the last cull left. frame: address of the FrameRecord. Depth only without a shadow map.
-    void draw(DrawPass& pass, uint64_t frame, const Image* shadowMap, const Sampler* shadowSampler);
+    // Draws what the last cull left. frame: a FrameRecord. Depth only without a shadow map.
+    void draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap, const Sampler* shadowSampler, bool explains);
     // Of the last cull for a picture that has finished.
     RoofDrawStats stats() const;
 
@@ -39,7 +39,8 @@ class RoofDraw {
     Terminals terminals_;
     std::vector<RoofMesh> bounds_;
     Program cullGrids_, cullRows_, scan_, writeRows_;
-    Program tile_, cutTile_, rectangle_, tileDepth_, cutTileDepth_, rectangleDepth_;
+    Program tile_[2], cutTile_[2], rectangle_[2];  // of the shaded view, of others
+    Program tileDepth_, cutTileDepth_, rectangleDepth_;
     Buffer views_, envs_, state_, rows_, tiles_, cuts_, rectangles_, readback_;
     uint64_t env_ = 0;  // of the last cull
     uint32_t slot_ = 0;

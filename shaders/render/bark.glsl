@@ -18,30 +18,30 @@ void main() {
     gl_SampleMask[0] = coverage(along.w, hash >> 8u);
 #endif
     vec3 n = normalize(normal);
-    uint view = push.frame.v[0].view;
-    if (view == kViewOverdraw) {
+    uint view = frame.view;
+    if (explains && view == kViewOverdraw) {
         color = oneFragment();
         return;
     }
-    if (view != kViewShaded && view != kViewLayer) {
+    if (explains && view != kViewLayer) {
         vec3 shown = view == kViewNormals ? n * 0.5 + 0.5 : view == kViewLod ? lodColor(hash & 7u) :
                      view == kViewDepth ? depthColor((hash >> 3u) & 31u) : vec3(0.30, 0.22, 0.15);
-        color = view == kViewNormals ? stored(shown, 0.0) : diagnostic(push.frame, shown, n);
+        color = view == kViewNormals ? stored(shown, 0.0) : diagnostic(shown, n);
         return;
     }
     // One turn around is 2 pi r; the nearest lower and upper powers of two of that.
     float octave = floor(along.z);
     float blend = along.z - octave;
     float scale = exp2(-octave) * (1.0 / 6.2831853);
-    vec3 base = mix(texture(colorMap, vec2(along.x, along.y * scale)).rgb,
-                    texture(colorMap, vec2(along.x, along.y * scale * 0.5)).rgb, blend) * push.baseColor.rgb;
+    vec3 base = texelColor(mix(texture(colorMap, vec2(along.x, along.y * scale)).rgb,
+                               texture(colorMap, vec2(along.x, along.y * scale * 0.5)).rgb, blend)) * push.baseColor.rgb;
     // Young wood is smooth and greenish, old wood grey-brown.
-    float young = clamp((log2(push.frame.v[0].unit) - along.z - 7.6) * 0.5, 0.0, 1.0);
+    float young = clamp((log2(frame.unit) - along.z - 7.6) * 0.5, 0.0, 1.0);
     base = mix(base, vec3(0.16, 0.17, 0.06), 0.55 * young);
-    vec3 eye = normalize(push.frame.v[0].eye - position);
-    vec3 sun = push.frame.v[0].sunDirection;
+    vec3 eye = normalize(frame.eye - position);
+    vec3 sun = frame.sunDirection;
     float facing = max(dot(n, sun), 0.0);
-    float visible = facing > 0.0 ? sunVisibility(push.frame, position, n) : 0.0;
-    vec3 direct = push.frame.v[0].sunColor * visible * facing * (base + gloss(n, eye, sun, max(push.roughness, 0.5)));
-    color = lit(push.frame, direct, base * skyLight(push.frame, n) * 0.8);
+    float visible = facingSunVisibility(facing, position, n);
+    vec3 direct = frame.sunColor * visible * facing * (base + gloss(n, eye, sun, max(push.roughness, 0.5)));
+    color = lit(direct, base * skyLight(n) * 0.8);
 }

@@ -4,7 +4,7 @@
 // Bends a terminal mesh along its span (Buron 2015 §6): x and y in radii across, z along.
 #include "shaders/emit/span_load.h"
 #include "shaders/emit/triangle_vertex.glsl"
-#include "shaders/render/frame_records.h"
+#include "shaders/render/frame.glsl"
 
 layout(push_constant, scalar) uniform Data { TerminalPush push; };
 layout(location = 0) out vec3 position;
@@ -30,7 +30,7 @@ void main() {
     up *= inversesqrt(max(dot(up, up), 1e-30));
     if (push.vertexCount == 4u) {
         // A ribbon: across the view, its normal towards the eye.
-        vec3 toEye = push.frame.v[0].eye - center;
+        vec3 toEye = frame.eye - center;
         side = cross(toEye, tangent);
         side *= inversesqrt(max(dot(side, side), 1e-30));
         vec3 facing = cross(tangent, side);
@@ -45,5 +45,5 @@ void main() {
     along = vec4(mesh.uv.x, o.arc0 + o.metres * u, log2(max(radius, 1e-9)), float(o.bits >> 16u) * (1.0 / 65535.0));
     hash = (o.normal0 ^ floatBitsToUint(o.p0.x)) * 0x9E3779B1u | (o.bits & 255u);
     hash = (hash & ~255u) | (o.bits & 255u);
-    gl_Position = push.frame.v[0].viewProjection * vec4(position, 1.0);
+    gl_Position = frame.viewProjection * vec4(position, 1.0);
 }

@@ -13,6 +13,10 @@ CONST_UINT(kViewLayer, 4u);
 CONST_UINT(kViewDepth, 5u);
 CONST_UINT(kViewOverdraw, 6u);
 
+// Constants of programs: do they draw another view than the shaded one? Do textures hold square roots of colours?
+CONST_UINT(kExplains, 0u);
+CONST_UINT(kRooted, 1u);
+
 // Colours are linear. Clip space: depth reversed, 1 at the near plane, 0 at infinity.
 struct FrameRecord {
     mat4 viewProjection;
@@ -40,10 +44,9 @@ struct FrameRecord {
     SurfaceBuf surfaces;
     LayerBuf layers;
     float layerOpacity;      // over the model
-    float spare;
+    float shadowNear;        // metres along the view, up to which a pixel is narrower than a texel of the shadow map
 };
 STATIC_SIZE(FrameRecord, 312);
-BUFFER(FrameBuf, FrameRecord)
 
 // As DrawVertex of runtime/surface.
 struct ModelVertex {
@@ -57,7 +60,6 @@ STATIC_SIZE(ModelVertex, 56);
 BUFFER(ModelVertexBuf, ModelVertex)
 
 struct ModelPush {
-    FrameBuf frame;
     ModelVertexBuf vertices;
     vec4 toWorld[3];         // rows
     vec4 baseColor;
@@ -68,10 +70,9 @@ struct ModelPush {
     float fade;              // 1: all pixels; above 0: this share of them; below: those that -fade leaves out
     uint lod;                // 0: the mesh; then its coarser ones
 };
-STATIC_SIZE(ModelPush, 104);
+STATIC_SIZE(ModelPush, 96);
 
 struct TerminalPush {
-    FrameBuf frame;
     EmitStateBuf state;
     SpanInstanceBuf spans;
     LeafInstanceBuf leaves;
@@ -82,17 +83,16 @@ struct TerminalPush {
     float alphaCutoff;
     uint spare[2];
 };
-STATIC_SIZE(TerminalPush, 88);
+STATIC_SIZE(TerminalPush, 80);
 
 struct PostPush {
-    FrameBuf frame;
     vec2 rcpSize;            // 1 / pixels
     uint ground;             // 1: ground is drawn, and hills at the horizon
     uint encode;             // 1: the target doesn't encode to sRGB itself
     vec3 groundColor;        // of its grass
     uint spare;
 };
-STATIC_SIZE(PostPush, 40);
+STATIC_SIZE(PostPush, 32);
 
 struct TilesPush {
     FloatBuf tiles;

@@ -19,26 +19,27 @@ void main() {
     bool back = !gl_FrontFacing;
     vec2 uv = uvOpen.xy + vec2(0.0, leaf && back ? 0.5 : 0.0);
     vec4 texel = texture(colorMap, uv);
+    texel.rgb = texelColor(texel.rgb);
     CUT_OUT(texel.a, push.alphaCutoff, bits.y >> 16u)
     vec3 n = normalize(normal);
     vec3 m = texture(normalMap, uv).xyz * 2.0 - 1.0;
     vec3 t = normalize(tangent - n * dot(n, tangent));
     n = normalize(t * m.x + cross(n, t) * m.y + n * m.z);
     vec3 face = back ? -n : n;
-    uint view = push.frame.v[0].view;
-    if (view == kViewOverdraw) {
+    uint view = frame.view;
+    if (explains && view == kViewOverdraw) {
         color = oneFragment();
         return;
     }
-    if (view != kViewShaded && view != kViewLayer) {
+    if (explains && view != kViewLayer) {
         vec3 shown = view == kViewLod ? lodColor(bits.z & 7u) :
                      view == kViewDepth ? depthColor((bits.z >> 3u) & 31u) : vec3(0.16, 0.34, 0.10);
-        color = view == kViewNormals ? stored(face * 0.5 + 0.5, 0.0) : diagnostic(push.frame, shown, face);
+        color = view == kViewNormals ? stored(face * 0.5 + 0.5, 0.0) : diagnostic(shown, face);
         return;
     }
     vec3 base = leafColor(leafTint(push.baseColor.rgb, bits.x, bits.y, uvOpen.w), texel.rgb);
-    float visible = sunVisibility(push.frame, position, dot(face, push.frame.v[0].sunDirection) > 0.0 ? face : -face);
-    vec3 eye = normalize(push.frame.v[0].eye - position);
-    LeafLight light = leafLight(push.frame, face, eye, uvOpen.z, visible, leaf, back);
-    color = lit(push.frame, base * light.sun + light.sunMirror, base * light.sky + light.skyMirror);
+    float visible = sunVisibility(position, dot(face, frame.sunDirection) > 0.0 ? face : -face);
+    vec3 eye = normalize(frame.eye - position);
+    LeafLight light = leafLight(face, eye, uvOpen.z, visible, leaf, back);
+    color = lit(base * light.sun + light.sunMirror, base * light.sky + light.skyMirror);
 }

@@ -18,5 +18,5 @@ void main() {
     tangent = v.tangent;
     uvOpen = vec4(v.uv, v.open, v.patchTone);
     bits = uvec3(v.instance.tint, v.instance.hash, v.instance.bits & 0xFFFFu);
-    gl_Position = push.frame.v[0].viewProjection * vec4(position, 1.0);
+    gl_Position = frame.viewProjection * vec4(position, 1.0);
 }

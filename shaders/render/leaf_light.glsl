@@ -37,29 +37,29 @@ struct LeafLight {
 };
 
 // face: the normal of the side that is seen; eye: towards it; open: share of the sky that is seen; visible: of the sun.
-LeafLight leafLight(FrameBuf frame, vec3 face, vec3 eye, float open, float visible, bool leaf, bool back) {
-    vec3 sun = frame.v[0].sunDirection;
+LeafLight leafLight(vec3 face, vec3 eye, float open, float visible, bool leaf, bool back) {
+    vec3 sun = frame.sunDirection;
     float side = dot(face, sun);
     float facing = max(side, 0.0);
-    vec3 falling = frame.v[0].sunColor * visible * (0.30 + 0.70 * open);
+    vec3 falling = frame.sunColor * visible * (0.30 + 0.70 * open);
     LeafLight o;
     o.sun = falling * facing;
     o.sunMirror = vec3(0.0);
-    vec3 above = skyLight(frame, face);
+    vec3 above = skyLight(face);
     o.sky = above;
     if (leaf) {
         // What falls on the other side comes through yellower, of the sun's light and of the sky's.
         const vec3 through = vec3(1.5, 1.35, 0.45);
         o.sun += falling * through * (max(-side, 0.0) * 0.65 + 0.10);
         o.sunMirror = falling * (gloss(face, eye, sun, 0.42) * facing * (back ? 0.3 : 1.0));
-        o.sky += 0.45 * through * skyLight(frame, -face);
+        o.sky += 0.45 * through * skyLight(-face);
     }
     // In the shade the sky's mirror image on the wax is what tells leaves apart.
     float edge = 1.0 - max(dot(face, eye), 0.0);
     float wax = (0.03 + 0.14 * edge * edge * edge) * (back || !leaf ? 0.3 : 1.0);
     float reached = open * (0.35 + 0.65 * open);
     o.sky *= reached;
-    o.skyMirror = skyLight(frame, reflect(-eye, face)) * wax * reached;
+    o.skyMirror = skyLight(reflect(-eye, face)) * wax * reached;
     return o;
 }
 #endif

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // Cut-out leaves in the shadow map.
-#include "shaders/render/frame_records.h"
+#include "shaders/render/frame.glsl"
 
 layout(push_constant, scalar) uniform Data { TerminalPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;

@@ -14,6 +14,7 @@ layout(location = 0) out vec4 color;
 
 void main() {
     vec4 texel = texture(colorMap, uvShare.xy);
+    texel.rgb = texelColor(texel.rgb);
     CUT_OUT(texel.a, push.alphaCutoff, hash >> 16u)
     color = stored(toneMapped(texel.rgb * own + dot(texel.rgb, kLeafWeights) * turned + mirrored), uvShare.z);
 }

@@ -14,21 +14,20 @@ layout(location = 4) flat out uint hash;
 
 void main() {
     LeafVertex v = leafVertex(push, uint(gl_VertexIndex), uint(gl_InstanceIndex));
-    FrameBuf frame = push.frame;
     bool leaf = ((v.instance.bits >> 8u) & 255u) == 1u;
-    vec3 eye = normalize(frame.v[0].eye - v.position);
+    vec3 eye = normalize(frame.eye - v.position);
     bool back = dot(v.normal, eye) < 0.0;
     vec3 face = back ? -v.normal : v.normal;
-    float visible = sunVisibility(frame, v.position, dot(face, frame.v[0].sunDirection) > 0.0 ? face : -face);
-    LeafLight light = leafLight(frame, face, eye, v.open, visible, leaf, back);
+    float visible = sunVisibility(v.position, dot(face, frame.sunDirection) > 0.0 ? face : -face);
+    LeafLight light = leafLight(face, eye, v.open, visible, leaf, back);
     LeafTint tint = leafTint(push.baseColor.rgb, v.instance.tint, v.instance.hash, v.patchTone);
-    vec3 all = (light.sun + light.sky) * frame.v[0].exposure;
+    vec3 all = (light.sun + light.sky) * frame.exposure;
     own = tint.own * all;
     turned = tint.turned * all;
-    mirrored = (light.sunMirror + light.skyMirror) * frame.v[0].exposure;
+    mirrored = (light.sunMirror + light.skyMirror) * frame.exposure;
     // The atlas holds the upper sides in its upper half, their paler backs below.
     float share = dot(light.sky, kLeafWeights) / max(dot(light.sun + light.sky, kLeafWeights), 1e-5);
     uvShare = vec3(v.uv + vec2(0.0, leaf && back ? 0.5 : 0.0), share);
     hash = v.instance.hash;
-    gl_Position = frame.v[0].viewProjection * vec4(v.position, 1.0);
+    gl_Position = frame.viewProjection * vec4(v.position, 1.0);
 }

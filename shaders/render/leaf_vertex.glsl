@@ -2,7 +2,7 @@
 #ifndef ESPALIER_RENDER_LEAF_VERTEX_GLSL
 #define ESPALIER_RENDER_LEAF_VERTEX_GLSL
 #include "shaders/emit/triangle_vertex.glsl"
-#include "shaders/render/frame_records.h"
+#include "shaders/render/frame.glsl"
 
 struct LeafVertex {
     LeafInstance instance;
@@ -31,7 +31,7 @@ LeafVertex leafVertex(TerminalPush push, uint vertex, uint drawn) {
     vec3 ground = octahedralToUnit(o.normal);
     float height = float(o.bits >> 16u) * (1.0 / 65535.0) * 1.1 + dot(arm, ground) / size;
     v.open = clamp(0.26 + 1.0 * height, 0.18, 1.0);
-    vec3 q = o.origin * (2.3 / push.frame.v[0].unit);
+    vec3 q = o.origin * (2.3 / frame.unit);
     v.patchTone = sin(q.x + 1.7 * sin(q.y * 0.8)) * sin(1.3 * q.y + 1.1 * q.z + 2.0 * sin(0.6 * q.x));
     return v;
 }

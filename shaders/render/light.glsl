@@ -6,24 +6,38 @@
 
 layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
 
-// 1: lit. Four bilinear comparisons in a ring of one and a half texels.
-float sunVisibility(FrameBuf frame, vec3 position, vec3 normal) {
-    if (frame.v[0].shadows == 0u) return 1.0;
-    vec3 at = (frame.v[0].shadowMatrix * vec4(position + normal * frame.v[0].shadowOffset, 1.0)).xyz;
-    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return 1.0;
+// 1: lit. One bilinear comparison where a pixel is wider than a texel of the map; nearer, the mean of four in a ring of
+// one and a half texels. Loops of one round: a device that runs all lanes through both sides of an `if` does leave a
+// loop early.
+float sunVisibility(vec3 position, vec3 normal) {
+    vec4 at = frame.shadowMatrix * vec4(position + normal * frame.shadowOffset, 1.0);
+    bool covered = frame.shadows != 0u && all(greaterThan(at.xy, vec2(0.0))) && all(lessThan(at.xy, vec2(1.0)));
     at.z = min(at.z, 0.9999);   // behind all that casts shadows
-    float d = 0.75 * frame.v[0].shadowTexel;
-    float lit = texture(shadowMap, vec3(at.xy + vec2(-d, -0.4 * d), at.z)) +
-                texture(shadowMap, vec3(at.xy + vec2(0.4 * d, -d), at.z)) +
-                texture(shadowMap, vec3(at.xy + vec2(d, 0.4 * d), at.z)) +
-                texture(shadowMap, vec3(at.xy + vec2(-0.4 * d, d), at.z));
-    return lit * 0.25;
+    float visible = 1.0;
+    for (bool taken = covered; taken; taken = false) visible = textureLod(shadowMap, at.xyz, 0.0);
+    bool near = covered && dot(position - frame.eye, frame.rayForward) < frame.shadowNear;
+    for (bool taken = near; taken; taken = false) {
+        float d = 0.75 * frame.shadowTexel;
+        visible = 0.25 * (textureLod(shadowMap, vec3(at.xy + vec2(-d, -0.4 * d), at.z), 0.0) +
+                          textureLod(shadowMap, vec3(at.xy + vec2(0.4 * d, -d), at.z), 0.0) +
+                          textureLod(shadowMap, vec3(at.xy + vec2(d, 0.4 * d), at.z), 0.0) +
+                          textureLod(shadowMap, vec3(at.xy + vec2(-0.4 * d, d), at.z), 0.0));
+    }
+    return visible;
+}
+
+// 0 where the sun is behind. A loop of one round: a device that runs all lanes through both sides of an `if` does leave
+// a loop early.
+float facingSunVisibility(float facing, vec3 position, vec3 normal) {
+    float visible = 0.0;
+    for (bool faces = facing > 0.0; faces; faces = false) visible = sunVisibility(position, normal);
+    return visible;
 }
 
 // Light from the sky above and, bounced, from the ground below.
-vec3 skyLight(FrameBuf frame, vec3 normal) {
+vec3 skyLight(vec3 normal) {
     float up = normal.y * 0.5 + 0.5;
-    return mix(frame.v[0].groundColor, frame.v[0].skyColor, up * up * (3.0 - 2.0 * up));
+    return mix(frame.groundColor, frame.skyColor, up * up * (3.0 - 2.0 * up));
 }
 
 // Sheen of a rough dielectric: Blinn's lobe, Schlick's edge.
@@ -36,10 +50,10 @@ float gloss(vec3 normal, vec3 view, vec3 light, float roughness) {
     return edge * (power + 8.0) * 0.04 * pow(max(dot(normal, h), 0.0), power);
 }
 
-vec4 lit(FrameBuf frame, vec3 direct, vec3 ambient) {
+vec4 lit(vec3 direct, vec3 ambient) {
     const vec3 weights = vec3(0.3, 0.6, 0.1);
     float share = dot(ambient, weights) / max(dot(direct + ambient, weights), 1e-5);
-    return stored(toneMapped((direct + ambient) * frame.v[0].exposure), clamp(share, 0.0, 1.0));
+    return stored(toneMapped((direct + ambient) * frame.exposure), clamp(share, 0.0, 1.0));
 }
 
 vec3 hashColor(uint x) {
@@ -55,8 +69,8 @@ vec3 lodColor(uint lod) {
                                    vec3(0.15, 0.7, 0.25), vec3(0.1, 0.5, 0.85), vec3(0.45, 0.25, 0.8));
     return colors[min(lod, 5u)];
 }
-vec4 diagnostic(FrameBuf frame, vec3 color, vec3 normal) {
-    return stored(color * (0.55 + 0.45 * max(dot(normal, frame.v[0].sunDirection), 0.0)), 0.6);
+vec4 diagnostic(vec3 color, vec3 normal) {
+    return stored(color * (0.55 + 0.45 * max(dot(normal, frame.sunDirection), 0.0)), 0.6);
 }
 
 vec3 depthColor(uint depth) { return heatColor(float(depth) * (1.0 / kHottestDepth)); }

@@ -19,20 +19,20 @@ uint walkTexel(uint size) {
 }
 
 vec4 otherView(vec3 n) {
-    uint view = push.frame.v[0].view;
+    uint view = frame.view;
     if (view == kViewNormals) return stored(n * 0.5 + 0.5, 0.0);
     vec3 shown = view == kViewLod ? lodColor(push.lod) : vec3(0.5);
     if (push.surface != kNoIndex && view == kViewCharts) {
-        SurfaceRef surface = push.frame.v[0].surfaces.v[push.surface];
-        SurfaceLevel level = surface.levels[min(push.frame.v[0].layer, surface.levelCount - 1u)];
+        SurfaceRef surface = frame.surfaces.v[push.surface];
+        SurfaceLevel level = surface.levels[min(frame.layer, surface.levelCount - 1u)];
         uint at = walkTexel(level.size);
         uint bits = level.texels.v[at].bits;
         shown = texelClass(bits) == kTexelEmpty ? vec3(0.02) : hashColor(texelChart(bits));
         // Where links pass; and, on coarse levels, which texel is which.
         if ((level.crossingHead.v[at] & 255u) != 0u) shown = mix(shown, vec3(1.0), 0.6);
-        if (push.frame.v[0].layer > 0u && ((at ^ (at >> 3u)) & 1u) != 0u) shown *= 0.8;
+        if (frame.layer > 0u && ((at ^ (at >> 3u)) & 1u) != 0u) shown *= 0.8;
     } else if (push.surface != kNoIndex && view == kViewLayer) {
-        LayerRef layer = push.frame.v[0].layers.v[push.surface * kMaxLayers + push.frame.v[0].layer];
+        LayerRef layer = frame.layers.v[push.surface * kMaxLayers + frame.layer];
         float x = layer.fill;
         if (u64(layer.texels) != 0ul) {
             uvec2 at = min(uvec2(clamp(uvs.zw, 0.0, 1.0) * float(layer.size)), uvec2(layer.size - 1u));
@@ -40,7 +40,7 @@ vec4 otherView(vec3 n) {
         }
         shown = mix(vec3(0.08, 0.09, 0.12), vec3(0.9, 0.35, 0.08), x);
     }
-    return diagnostic(push.frame, shown, n);
+    return diagnostic(shown, n);
 }
 
 // Two meshes share the picture while one takes over: each pixel shows the one or the other.
@@ -51,10 +51,11 @@ bool fadedOut() {
 
 void main() {
     if (push.fade != 1.0 && fadedOut()) discard;
-    vec4 base = texture(colorMap, uvs.xy) * push.baseColor;
+    vec4 base = texture(colorMap, uvs.xy);
+    base = vec4(texelColor(base.rgb), base.a) * push.baseColor;
     if (push.alphaCutoff > 0.0 && base.a < push.alphaCutoff) discard;
     vec3 n = normalize(normal);
-    vec3 eye = normalize(push.frame.v[0].eye - position);
+    vec3 eye = normalize(frame.eye - position);
     if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;
     vec3 bumped = n;
     float across = dot(tangent.xyz, tangent.xyz);
@@ -63,21 +64,21 @@ void main() {
         vec3 t = tangent.xyz * inversesqrt(across);
         bumped = normalize(t * (m.x * push.normalScale) + cross(n, t) * (tangent.w * m.y * push.normalScale) + n * m.z);
     }
-    uint view = push.frame.v[0].view;
-    bool under = view == kViewLayer && push.frame.v[0].layerOpacity < 1.0;
-    if (view == kViewOverdraw) {
+    uint view = frame.view;
+    bool under = explains && view == kViewLayer && frame.layerOpacity < 1.0;
+    if (explains && view == kViewOverdraw) {
         color = oneFragment();
         return;
     }
-    if (view != kViewShaded && !under) {
+    if (explains && !under) {
         color = otherView(bumped);
         return;
     }
-    vec3 sun = push.frame.v[0].sunDirection;
+    vec3 sun = frame.sunDirection;
     float facing = max(dot(bumped, sun), 0.0) * step(0.0, dot(n, sun));
-    float visible = facing > 0.0 ? sunVisibility(push.frame, position, n) : 0.0;
-    vec3 direct = push.frame.v[0].sunColor * visible *
+    float visible = facingSunVisibility(facing, position, n);
+    vec3 direct = frame.sunColor * visible *
                   (base.rgb * facing + gloss(bumped, eye, sun, max(push.roughness, 0.35)) * facing);
-    color = lit(push.frame, direct, base.rgb * skyLight(push.frame, bumped));
-    if (under) color = mix(color, otherView(bumped), push.frame.v[0].layerOpacity);
+    color = lit(direct, base.rgb * skyLight(bumped));
+    if (under) color = mix(color, otherView(bumped), frame.layerOpacity);
 }

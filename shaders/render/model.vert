@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // The surface's own mesh.
-#include "shaders/render/frame_records.h"
+#include "shaders/render/frame.glsl"
 
 layout(push_constant, scalar) uniform Data { ModelPush push; };
 layout(location = 0) out vec3 position;
@@ -18,5 +18,5 @@ void main() {
     tangent = vec4(dot(push.toWorld[0].xyz, v.tangent.xyz), dot(push.toWorld[1].xyz, v.tangent.xyz),
                    dot(push.toWorld[2].xyz, v.tangent.xyz), v.tangent.w);
     uvs = vec4(v.uv, v.walkUv);
-    gl_Position = push.frame.v[0].viewProjection * vec4(position, 1.0);
+    gl_Position = frame.viewProjection * vec4(position, 1.0);
 }

@@ -3,7 +3,7 @@
 #include "shaders/shared/extensions.glsl"
 // Ambient occlusion from distances alone: of two opposite neighbours, how much nearer is their mean than the middle?
 // Slopes cancel out, creases and what lies behind leaves darken.
-#include "shaders/render/frame_records.h"
+#include "shaders/render/frame.glsl"
 
 layout(push_constant, scalar) uniform Data { PostPush push; };
 layout(set = 0, binding = 0) uniform sampler2D distanceMap;
@@ -22,9 +22,9 @@ void main() {
         open = 1.0;
         return;
     }
-    float reach = 0.16 * push.frame.v[0].unit;
-    float pixels = clamp(reach * push.frame.v[0].pixelScale * 0.5 / z, 2.0, 48.0);
-    float metres = pixels * z / (push.frame.v[0].pixelScale * 0.5);
+    float reach = 0.16 * frame.unit;
+    float pixels = clamp(reach * frame.pixelScale * 0.5 / z, 2.0, 48.0);
+    float metres = pixels * z / (frame.pixelScale * 0.5);
     float sum = 0.0;
     for (int i = 0; i < 6; ++i) {
         ivec2 d = ivec2(kTaps[i] * pixels);

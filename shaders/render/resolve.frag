@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // Samples -> pixels, with ambient occlusion.
-#include "shaders/render/frame_records.h"
+#include "shaders/render/frame.glsl"
 #include "shaders/render/encode.glsl"
 #include "shaders/render/heat.h"
 #include "shaders/render/tone.glsl"
@@ -17,6 +17,6 @@ void main() {
     vec4 c = (texelFetch(colorMap, at, 0) + texelFetch(colorMap, at, 1) + texelFetch(colorMap, at, 2) +
               texelFetch(colorMap, at, 3)) * 0.25;
     float open = texture(openMap, gl_FragCoord.xy * push.rcpSize).x;
-    if (push.frame.v[0].view == kViewOverdraw) c = stored(heatColor(c.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
+    if (explains && frame.view == kViewOverdraw) c = stored(heatColor(c.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
     color = pictureColor(c, open, push.encode != 0u, at);
 }

@@ -4,7 +4,7 @@
 // Pixels of one sample -> smooth edges, with ambient occlusion. Where brightness breaks, the edge is followed both
 // ways to its ends (the idea of FXAA, Lottes 2009); from where between them the pixel lies follows how much of it
 // belongs to the other side.
-#include "shaders/render/frame_records.h"
+#include "shaders/render/frame.glsl"
 #include "shaders/render/encode.glsl"
 #include "shaders/render/heat.h"
 #include "shaders/render/tone.glsl"
@@ -88,6 +88,6 @@ void main() {
     for (bool edge = range >= max(kLeastContrast, kRelativeContrast * most); edge; edge = false)
         shown = smoothed(at, m, n, s, w, e, range);
     float open = textureLod(openMap, gl_FragCoord.xy * push.rcpSize, 0.0).x;
-    if (push.frame.v[0].view == kViewOverdraw) shown = stored(heatColor(shown.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
+    if (explains && frame.view == kViewOverdraw) shown = stored(heatColor(shown.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
     color = pictureColor(shown, open, push.encode != 0u, at);
 }

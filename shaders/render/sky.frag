@@ -20,18 +20,17 @@ vec3 hills(vec3 ray, vec3 sky) {
         vec4 high = textureLod(noise, to * (0.055 + 0.02 * far) + 0.37 * far, 0.0) - 0.5;
         vec4 trees = textureLod(noise, to * 1.7 + 0.11 * far, 0.0) - 0.5;
         float crest = 0.010 + 0.012 * far + 0.055 * high.x + (0.004 - 0.0015 * far) * trees.x;
-        seen = mix(seen, farLand(push.frame, ray, far), clamp((crest - ray.y) * 900.0, 0.0, 1.0));
+        seen = mix(seen, farLand(ray, far), clamp((crest - ray.y) * 900.0, 0.0, 1.0));
     }
     return seen;
 }
 
 void main() {
     vec2 at = gl_FragCoord.xy * push.rcpSize * 2.0 - 1.0;
-    FrameBuf frame = push.frame;
-    vec3 ray = normalize(frame.v[0].rayForward + frame.v[0].rayRight * at.x - frame.v[0].rayUp * at.y);
-    vec3 seen = skyColor(frame, ray);
+    vec3 ray = normalize(frame.rayForward + frame.rayRight * at.x - frame.rayUp * at.y);
+    vec3 seen = skyColor(ray);
     // A loop of one round: a device that runs all lanes through both sides of an `if` does leave a loop early.
     for (bool low = push.ground != 0u && ray.y < kHighestHill; low; low = false) seen = hills(ray, seen);
-    color = stored(toneMapped(seen * frame.v[0].exposure), 0.0);
-    if (frame.v[0].view == kViewOverdraw) color = vec4(0.0);
+    color = stored(toneMapped(seen * frame.exposure), 0.0);
+    if (explains && frame.view == kViewOverdraw) color = vec4(0.0);
 }

@@ -1,7 +1,7 @@
 // The tone curve and what the scene's image holds.
 #ifndef ESPALIER_RENDER_TONE_GLSL
 #define ESPALIER_RENDER_TONE_GLSL
-#include "shaders/render/frame_records.h"
+#include "shaders/render/frame.glsl"
 
 // A filmic curve: linear in the shadows, a soft shoulder, and bright colours lose their saturation instead of
 // breaking off at one channel.

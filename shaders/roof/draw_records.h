@@ -79,14 +79,13 @@ struct RoofCullPush {
 STATIC_SIZE(RoofCullPush, 8);
 
 struct RoofDrawPush {
-    FrameBuf frame;
     RoofDrawEnvBuf env;
     TerminalVertexBuf vertices;
     uint bucket, firstVertex, vertexCount, batch;
     float roughness;
     uint spare;
 };
-STATIC_SIZE(RoofDrawPush, 48);
+STATIC_SIZE(RoofDrawPush, 40);
 
 ESPALIER_END
 #endif

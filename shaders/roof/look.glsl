@@ -47,12 +47,12 @@ vec3 layerColour(RoofDrawEnv env, vec3 position) {
     float x = roofLayerAt(env.roofs.layers, env.roofs.site, env.shownLayer, position.xz);
     return mix(vec3(0.08, 0.09, 0.12), vec3(0.9, 0.35, 0.08), x);
 }
-vec4 shade(FrameBuf frame, vec3 base, vec3 n, vec3 position, float roughness) {
-    vec3 eye = normalize(frame.v[0].eye - position);
-    vec3 sun = frame.v[0].sunDirection;
+vec4 shade(vec3 base, vec3 n, vec3 position, float roughness) {
+    vec3 eye = normalize(frame.eye - position);
+    vec3 sun = frame.sunDirection;
     float facing = max(dot(n, sun), 0.0);
-    float visible = facing > 0.0 ? sunVisibility(frame, position, n) : 0.0;
-    vec3 direct = frame.v[0].sunColor * visible * facing * (base + gloss(n, eye, sun, max(roughness, 0.35)));
-    return lit(frame, direct, base * skyLight(frame, n));
+    float visible = facingSunVisibility(facing, position, n);
+    vec3 direct = frame.sunColor * visible * facing * (base + gloss(n, eye, sun, max(roughness, 0.35)));
+    return lit(direct, base * skyLight(n));
 }
 #endif

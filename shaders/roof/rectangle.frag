@@ -14,15 +14,15 @@ layout(location = 0) out vec4 color;
 
 void main() {
     vec3 n = normalize(normal);
-    if (dot(n, push.frame.v[0].eye - position) < 0.0 && !gl_FrontFacing) n = -n;
-    uint view = push.frame.v[0].view;
-    if (view == kViewOverdraw) {
+    if (dot(n, frame.eye - position) < 0.0 && !gl_FrontFacing) n = -n;
+    uint view = frame.view;
+    if (explains && view == kViewOverdraw) {
         color = oneFragment();
         return;
     }
-    if (view != kViewShaded) {
+    if (explains) {
         vec3 shown = view == kViewLayer ? layerColour(push.env.v[0], position) : lodColor(5u);
-        color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(push.frame, shown, n);
+        color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(shown, n);
         return;
     }
     vec2 cell = surface.xy;
@@ -45,5 +45,5 @@ void main() {
         float gone = painted > cellHold(u64(look.y), uint(column), uint(row)) ? 1.0 : 0.0;
         base = mix(base, vec3(0.03, 0.025, 0.02), mix(painted, gone, clear) * step(0.001, painted));
     }
-    color = shade(push.frame, base, n, position, push.roughness);
+    color = shade(base, n, position, push.roughness);
 }

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // A far grid as one rectangle a part of its region.
+#include "shaders/render/frame.glsl"
 #include "shaders/roof/place.glsl"
 
 layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
@@ -40,7 +41,7 @@ void main() {
     normal = cross(g.axisX, g.axisY);
     surface = vec4(at.xy / max(g.step, vec2(1e-3)), 0.0, float(g.colour >> 24u) * (1.0 / 255.0));
     look = uvec4(g.colour & 0xFFFFFFu, uint(g.key), (g.mesh & kGridBond) != 0u ? 1u : 0u, g.mesh);
-    gl_Position = push.frame.v[0].viewProjection * vec4(position, 1.0);
+    gl_Position = frame.viewProjection * vec4(position, 1.0);
     uint count = item.cell == kNoIndex ? 0u : env.roofs.parts.v[item.cell].counts & 255u;
     for (uint i = 0u; i < 8u; ++i)
         gl_ClipDistance[i] = i < count ? planeDistance(env, g, item.cell, i, position, at) : 1.0;

@@ -14,20 +14,20 @@ layout(location = 0) out vec4 color;
 
 void main() {
     vec3 n = normalize(normal);
-    if (dot(n, push.frame.v[0].eye - position) < 0.0 && !gl_FrontFacing) n = -n;
-    uint view = push.frame.v[0].view;
-    if (view == kViewOverdraw) {
+    if (dot(n, frame.eye - position) < 0.0 && !gl_FrontFacing) n = -n;
+    uint view = frame.view;
+    if (explains && view == kViewOverdraw) {
         color = oneFragment();
         return;
     }
-    if (view != kViewShaded) {
+    if (explains) {
         vec3 shown = view == kViewLod ? lodColor(look.z) : hashColor(look.y);
         if (view == kViewLayer) shown = layerColour(push.env.v[0], position);
-        color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(push.frame, shown, n);
+        color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(shown, n);
         return;
     }
     float variation = float(look.y & 255u) * (1.0 / 255.0);
     vec3 base = weathered(unpackColour(look.x) * surface.z, variation, surface.w, position);
     base = mossy(push.env.v[0], look.w, base, position, clamp(1.0 - surface.z, 0.0, 1.0));
-    color = shade(push.frame, base, n, position, push.roughness);
+    color = shade(base, n, position, push.roughness);
 }

@@ -1,5 +1,6 @@
 // Cells as meshes. ESPALIER_CUT: those that planes cut, by clip distances.
 #include "shaders/emit/triangle_vertex.glsl"
+#include "shaders/render/frame.glsl"
 #include "shaders/roof/place.glsl"
 
 layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
@@ -36,7 +37,7 @@ void main() {
     normal = g.axisX * n.x + g.axisY * n.y + cross(g.axisX, g.axisY) * n.z;
     surface = vec4(at.xy, mesh.uv.x, float(g.colour >> 24u) * (1.0 / 255.0));
     look = uvec4(g.colour & 0xFFFFFFu, cellHash(g, column, row), push.bucket, g.mesh);
-    gl_Position = push.frame.v[0].viewProjection * vec4(position, 1.0);
+    gl_Position = frame.viewProjection * vec4(position, 1.0);
 #ifdef ESPALIER_CUT
     uint bits = tile.planes;
     for (uint i = 0u; i < 8u; ++i) {

@@ -1,0 +1,14 @@
+// The frame that is drawn. A uniform block: software devices read it once for all lanes, by address lane by lane.
+#ifndef ESPALIER_RENDER_FRAME_GLSL
+#define ESPALIER_RENDER_FRAME_GLSL
+#include "shaders/render/frame_records.h"
+
+layout(set = 0, binding = 8, scalar) uniform FrameBlock { FrameRecord frame; };
+
+// Any view but the shaded one. A constant: some devices run both sides of an `if`.
+layout(constant_id = 0) const bool explains = false;
+
+// Textures hold the square roots of linear colours, instead of sRGB: what software devices filter fastest.
+layout(constant_id = 1) const bool rooted = false;
+vec3 texelColor(vec3 texel) { return rooted ? texel * texel : texel; }
+#endif
