@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "runtime/core/disjoint_sets.hpp"
 
@@ -11,6 +12,7 @@ namespace espalier {
 namespace {
 
 constexpr double kMostCap = 0.4;      // of a body's area: what is more open is a sheet
+constexpr double kClosed = 0.95;      // of the rims of a body's holes: so much must lie against others to close them
 constexpr double kFacing = 0.95;      // cosine: faces that cover one another
 constexpr double kLevelShare = 0.02;  // of the tolerance: faces nearer to each other lie at one height
 const glm::dvec3 kRays[3] = {{0.5377, 0.7483, 0.3883}, {-0.6157, 0.4621, -0.6382}, {0.2113, -0.8341, 0.5094}};
@@ -26,17 +28,30 @@ int passage(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 origin, glm::dv
     return det < 0 ? 1 : -1;
 }
 
+double toTriangle(glm::dvec3 p, const std::array<glm::dvec3, 3>& corner) {
+    const glm::dvec3 n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    bool within = true;
+    double least = 1e300;
+    for (size_t k = 0; k < 3; ++k) {
+        const glm::dvec3 e = corner[(k + 1) % 3] - corner[k], r = p - corner[k];
+        within = within && glm::dot(glm::cross(n, e), r) >= 0;
+        least = std::min(least, glm::length(r - e * std::clamp(glm::dot(r, e) / glm::dot(e, e), 0.0, 1.0)));
+    }
+    return within ? std::abs(glm::dot(n, p - corner[0])) / glm::length(n) : least;
+}
+
 }  // namespace
 
 Bodies::Bodies(ContactMesh& mesh, std::span<const float> open) : mesh_(&mesh), tree_(mesh.tree()) {
     uint32_t bodies = 0;
     for (const auto& t : mesh.triangles) bodies = std::max(bodies, t.body + 1);
     std::vector<double> area(bodies, 0), capArea(bodies, 0), volume(bodies, 0);
+    std::vector<Wall> walls;
     auto add = [&](const Wall& w, bool cap) {
         glm::dvec3 n = glm::cross(w.b - w.a, w.c - w.a);
         (cap ? capArea : area)[w.body] += glm::length(n) / 2;
         volume[w.body] += glm::dot(w.a - mesh.points[0], n) / 6;
-        walls_.push_back(w);
+        walls.push_back(w);
     };
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
         add({mesh.at(t, 0), mesh.at(t, 1), mesh.at(t, 2), mesh.triangles[t].body}, false);
@@ -62,11 +77,45 @@ Bodies::Bodies(ContactMesh& mesh, std::span<const float> open) : mesh_(&mesh), t
     }
     mesh.solid.resize(bodies);
     for (size_t b = 0; b < bodies; ++b) mesh.solid[b] = volume[b] > 0 && capArea[b] < kMostCap * area[b];
-    std::erase_if(walls_, [&](const Wall& w) { return !mesh.solid[w.body]; });
+    buildWalls(walls);
+
+    // What is flatter than the tolerance is a sheet that lies on another.
+    const double tolerance = mesh.reach.empty() ? 0 : *std::max_element(mesh.reach.begin(), mesh.reach.end());
+    std::vector<double> length(bodies, 0), closed(bodies, 0);
+    for (uint32_t h : rim) {
+        const uint32_t body = mesh.triangles[h / 3].body;
+        if (mesh.solid[body] || volume[body] <= tolerance * capArea[body]) continue;
+        const glm::dvec3 a = mesh.points[start(h)], b = mesh.points[end(h)];
+        for (double t : {0.1, 0.5, 0.9}) {
+            length[body] += glm::length(b - a);
+            if (touched(a + (b - a) * t, body, tolerance)) closed[body] += glm::length(b - a);
+        }
+    }
+    bool more = false;
+    for (size_t b = 0; b < bodies; ++b)
+        if (length[b] > 0 && closed[b] >= kClosed * length[b]) mesh.solid[b] = 1, more = true;
+    if (more) buildWalls(walls);
+}
+
+void Bodies::buildWalls(const std::vector<Wall>& all) {
+    walls_.clear();
+    std::copy_if(all.begin(), all.end(), std::back_inserter(walls_),
+                 [&](const Wall& w) { return mesh_->solid[w.body] != 0; });
     std::vector<Box> boxes(walls_.size());
     for (size_t i = 0; i < boxes.size(); ++i)
         boxes[i].add(walls_[i].a), boxes[i].add(walls_[i].b), boxes[i].add(walls_[i].c);
     wallTree_ = BoxTree(std::move(boxes), {});
+}
+
+bool Bodies::touched(glm::dvec3 p, uint32_t body, double tolerance) const {
+    Box around;
+    around.add(p);
+    bool found = false;
+    tree_.near(around.grown(tolerance), [&](uint32_t t) {
+        if (!found && mesh_->triangles[t].body != body)
+            found = toTriangle(p, {mesh_->at(t, 0), mesh_->at(t, 1), mesh_->at(t, 2)}) <= tolerance;
+    });
+    return found || (!wallTree_.empty() && inside({p, glm::dvec3(0), body}, 0));
 }
 
 bool Bodies::inside(glm::dvec3 p, glm::dvec3 direction, const HiddenQuery& q) const {

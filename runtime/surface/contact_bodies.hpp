@@ -21,7 +21,8 @@ class Bodies {
   public:
     Bodies() = default;
     // Sets mesh.solid. A body is solid when it encloses room, its holes closed by fans: kits leave out what stands on
-    // the ground. open: per half-edge the share of it that leads nowhere. The mesh must outlive this, unchanged.
+    // the ground. Holes must be small, or lie against other bodies all around, as the backs of stones that stand out of
+    // a wall. open: per half-edge the share of it that leads nowhere. The mesh must outlive this, unchanged.
     Bodies(ContactMesh& mesh, std::span<const float> open);
 
     // Inside of a solid body other than its own, or covered by a face nearer than the tolerance (metres).
@@ -34,6 +35,9 @@ class Bodies {
         glm::dvec3 a, b, c;
         uint32_t body;
     };
+    // Is p on or in another body?
+    bool touched(glm::dvec3 p, uint32_t body, double tolerance) const;
+    void buildWalls(const std::vector<Wall>& all);
     bool inside(const HiddenQuery& query, double above) const;
     bool inside(glm::dvec3 p, glm::dvec3 direction, const HiddenQuery& query) const;
     bool covered(const HiddenQuery& query, double tolerance) const;

@@ -12,6 +12,7 @@ namespace {
 using glm::dvec3;
 
 constexpr double kParallel = 0.995;  // cosine: planes that meet at less than 6° may count as one
+constexpr double kHair = 1e-7;       // of an edge's length: rounding
 
 // What a triangle shares with a plane.
 struct Trace {
@@ -68,17 +69,22 @@ int edgeAlong(const ContactShape& t, dvec3 a, dvec3 b) {
     return -1;
 }
 
-// Outlines of s as far as they lie in t, whose plane is the same. `first`: s is side 0.
+// Outlines of s as far as they lie in t, whose plane is the same. `first`: s is side 0. Over an edge across which t's
+// surface goes on flat, the next triangle has the rest; around others what is near touches too, and what runs along
+// one, inside or outside, is put onto it, so that both ways lead over the same line.
 void clipOutlines(const ContactShape& s, const ContactShape& t, bool first, std::array<ContactSegment, 6>& out,
                   int& count) {
-    double slack = std::max(reachOf(s), reachOf(t));
+    const double slack = std::max(reachOf(s), reachOf(t));
+    std::array<dvec3, 3> inward;
+    for (size_t e = 0; e < 3; ++e) inward[e] = glm::normalize(glm::cross(t.normal, t.p[(e + 1) % 3] - t.p[e]));
     for (size_t k = 0; k < 3; ++k) {
         if (!s.outline[k]) continue;
-        dvec3 a = s.p[k], d = s.p[(k + 1) % 3] - a;
-        double t0 = 0, t1 = 1, length = glm::length(d);
+        const dvec3 a = s.p[k], d = s.p[(k + 1) % 3] - a;
+        const double length = glm::length(d);
+        double t0 = 0, t1 = 1;
         for (size_t e = 0; e < 3; ++e) {
-            dvec3 inward = glm::normalize(glm::cross(t.normal, t.p[(e + 1) % 3] - t.p[e]));
-            double at = glm::dot(inward, a - t.p[e]) + slack, rate = glm::dot(inward, d);
+            const double room = t.outline[e] ? slack : kHair * length;
+            const double at = glm::dot(inward[e], a - t.p[e]) + room, rate = glm::dot(inward[e], d);
             if (std::abs(rate) < 1e-12 * length) {
                 if (at < 0) t1 = -1;
             } else if (rate > 0) {
@@ -88,11 +94,18 @@ void clipOutlines(const ContactShape& s, const ContactShape& t, bool first, std:
             }
         }
         if ((t1 - t0) * length <= 2 * slack) continue;
-        dvec3 p = a + d * t0, q = a + d * t1;
+        const dvec3 p = a + d * t0, q = a + d * t1;
         auto onto = [&](dvec3 x) { return x - t.normal * glm::dot(t.normal, x - t.p[0]); };
+        ContactSegment::Side other{onto(p), onto(q), edgeAlong(t, onto(p), onto(q))};
+        for (size_t e = 0; e < 3 && other.edge < 0; ++e)
+            if (std::max(glm::dot(inward[e], p - t.p[e]), glm::dot(inward[e], q - t.p[e])) < 0) other.edge = int(e);
+        if (other.edge >= 0) {
+            const dvec3 n = inward[size_t(other.edge)], on = t.p[size_t(other.edge)];
+            for (dvec3* x : {&other.a, &other.b}) *x -= n * glm::dot(n, *x - on);
+        }
         ContactSegment& segment = out[size_t(count++)];
         segment.side[first ? 0 : 1] = {p, q, int(k)};
-        segment.side[first ? 1 : 0] = {onto(p), onto(q), edgeAlong(t, onto(p), onto(q))};
+        segment.side[first ? 1 : 0] = other;
     }
 }
 

@@ -29,16 +29,6 @@ double cross(dvec2 a, dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
-dvec2 nearestOnOutline(const std::array<dvec2, 3>& triangle, dvec2 p) {
-    dvec2 best = triangle[0];
-    for (size_t k = 0; k < 3; ++k) {
-        dvec2 a = triangle[k], e = triangle[(k + 1) % 3] - a;
-        dvec2 q = a + e * std::clamp(glm::dot(p - a, e) / glm::dot(e, e), 0.0, 1.0);
-        if (glm::length(p - q) < glm::length(p - best)) best = q;
-    }
-    return best;
-}
-
 // One mesh of a search: where its points are in the space of the search, side 0's object space.
 struct View {
     const ContactMesh& mesh;
@@ -300,19 +290,6 @@ class Assembler {
         return contact;
     }
 
-    // Is uv in a triangle that goes on from this one within its chart?
-    static bool nextHolds(const ContactMesh& mesh, uint32_t triangle, dvec2 p) {
-        for (uint32_t h = triangle * 3; h < triangle * 3 + 3; ++h) {
-            if (mesh.chartBorder[h] != 0) continue;
-            const auto& uv = mesh.triangles[mesh.twin[h] / 3].uv;
-            double turn = cross(uv[1] - uv[0], uv[2] - uv[0]);
-            bool within = true;
-            for (size_t k = 0; k < 3; ++k) within = within && cross(uv[(k + 1) % 3] - uv[k], p - uv[k]) * turn >= 0;
-            if (within) return true;
-        }
-        return false;
-    }
-
     // Adds a contact in up to three parts, so that none leads over a border of the chart that it leads to: what touches
     // within a tolerance may reach that far beyond its triangle. Beyond, all lead to where the border is met.
     void addWithin(const Contact& contact, const Flap& g, std::vector<Contact>& out) const {
@@ -320,27 +297,18 @@ class Assembler {
         const auto& uv = view.mesh.triangles[g.triangle].uv;
         dvec2 a(contact.crossing.ta), b(contact.crossing.tb);
         double turn = cross(uv[1] - uv[0], uv[2] - uv[0]) > 0 ? 1 : -1, t0 = 0, t1 = 1;
-        double hair = view.borderShift / 4;  // rounding
-        // Over an edge within the chart the next triangle goes on, if it reaches so far.
-        bool aHeld = nextHolds(view.mesh, g.triangle, a), bHeld = nextHolds(view.mesh, g.triangle, b);
-        auto overBorders = [&](auto&& visit) {
-            for (uint32_t k = 0; k < 3; ++k) {
-                dvec2 e = glm::normalize(uv[(k + 1) % 3] - uv[k]), inward = dvec2(-e.y, e.x) * turn;
-                double da = glm::dot(a - uv[k], inward), db = glm::dot(b - uv[k], inward);
-                auto beyond = [&](double d, bool held) { return held || d > -hair ? std::max(d, 0.0) : d; };
-                visit(beyond(da, aHeld), beyond(db, bHeld));
-            }
-        };
-        bool outside = false;
-        overBorders([&](double da, double db) { outside = outside || (da < 0 && db < 0); });
-        if (outside) {
-            a = aHeld ? a : nearestOnOutline(uv, a);
-            b = bHeld ? b : nearestOnOutline(uv, b);
+        const double hair = view.borderShift / 4;  // rounding
+        for (uint32_t k = 0; k < 3; ++k) {
+            dvec2 e = glm::normalize(uv[(k + 1) % 3] - uv[k]), inward = dvec2(-e.y, e.x) * turn;
+            auto within = [&](dvec2 p) {
+                const double d = glm::dot(p - uv[k], inward);
+                return d < 0 && d > -hair ? 0.0 : d;
+            };
+            const double da = within(a), db = within(b);
+            if (da < 0 && db < 0) return;  // off a corner
+            if (da < 0) t0 = std::max(t0, da / (da - db));
+            if (db < 0) t1 = std::min(t1, da / (da - db));
         }
-        overBorders([&](double da, double db) {
-            if (da < 0 && db > 0) t0 = std::max(t0, da / (da - db));
-            if (db < 0 && da > 0) t1 = std::min(t1, da / (da - db));
-        });
         if (t0 > t1) t0 = t1 = (t0 + t1) / 2;
         auto add = [&](double from, double to, double targetFrom, double targetTo) {
             if (!(to > from)) return;
