@@ -44,6 +44,12 @@ struct UvFate {
     double area = 0;      // share of the model's
 };
 
+// A connected piece of the model: what borders, near borders and contacts join.
+struct PieceReach {
+    double area = 0;       // m² of its ground on the finest level
+    double reachable = 0;  // m² of it in the part within which plants get from everywhere to everywhere
+};
+
 // The figures of a bake; see docs/surface_format.md for the meaning of each.
 struct BakeReport {
     std::string source;
@@ -56,11 +62,14 @@ struct BakeReport {
     double gap999 = 0;                                         // local texels
     std::vector<std::pair<uint32_t, double>> walkableByLevel;  // size, area share of charts walkable on it
     std::vector<UvFate> uvs;
-    uint32_t madeCharts = 0;  // of `charts`: not the model's own
-    uint64_t overlaps = 0;    // texels of the finest level that two triangles claim
-    bool layoutKept = false;  // charts lie where the model has them
+    std::vector<PieceReach> pieces;  // the largest first
+    uint32_t madeCharts = 0;         // of `charts`: not the model's own
+    uint64_t overlaps = 0;           // texels of the finest level that two triangles claim
+    bool layoutKept = false;         // charts lie where the model has them
     std::vector<std::pair<std::string, double>> seconds;
     std::vector<Diagnostic> warnings;
+    double reachableShare() const;  // of all pieces' ground; 1 where there is none
+    double leastReachable() const;  // the least share of a piece that holds a thousandth of the ground or more
     std::string json() const;
 };
 

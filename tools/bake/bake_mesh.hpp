@@ -161,4 +161,8 @@ void simplifyDrawing(SurfaceData& surface);
 void measure(const BakeMesh& mesh, const std::vector<Link>& links, const std::vector<Contact>& contacts,
              const SurfaceData& surface, BakeReport& report);
 
+// The model's connected pieces, contacts included, the largest first, and how far plants get about on each.
+std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Link>& links,
+                                     const std::vector<Contact>& contacts, const SurfaceData& surface);
+
 }  // namespace espalier::bakery

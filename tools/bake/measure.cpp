@@ -147,6 +147,7 @@ void measure(const BakeMesh& mesh, const std::vector<Link>& links, const std::ve
     for (const Chart& c : surface.charts) report.walkableArea += c.area;
     measureStretch(mesh, surface, report);
     measureCrossings(links, contacts, surface, report);
+    report.pieces = measureReach(mesh, links, contacts, surface);
 }
 
 }  // namespace espalier::bakery

@@ -1,9 +1,37 @@
 // In: a bake's figures. Out: the JSON report.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tools/bake/bake.hpp"
 
 namespace espalier {
+namespace {
+
+constexpr double kWorthTelling = 1e-3;  // of the ground: of smaller pieces the report doesn't tell
+constexpr size_t kMostPieces = 16;      // that it lists
+
+double groundOf(const std::vector<PieceReach>& pieces) {
+    double sum = 0;
+    for (const PieceReach& p : pieces) sum += p.area;
+    return sum;
+}
+
+}  // namespace
+
+double BakeReport::reachableShare() const {
+    double reachable = 0;
+    for (const PieceReach& p : pieces) reachable += p.reachable;
+    const double all = groundOf(pieces);
+    return all > 0 ? reachable / all : 1;
+}
+
+double BakeReport::leastReachable() const {
+    double least = 1;
+    const double worth = kWorthTelling * groundOf(pieces);
+    for (const PieceReach& p : pieces)
+        if (p.area >= worth && p.area > 0) least = std::min(least, p.reachable / p.area);
+    return least;
+}
 
 std::string BakeReport::json() const {
     using nlohmann::ordered_json;
@@ -22,6 +50,9 @@ std::string BakeReport::json() const {
                       {"contact", contactCrossings},
                       {"dangling", danglingCrossings},
                       {"dangling_contacts", danglingContacts}};
+    j["reachable"] = {{"share", reachableShare()}, {"least", leastReachable()}, {"pieces", ordered_json::array()}};
+    for (size_t i = 0; i < std::min(pieces.size(), kMostPieces); ++i)
+        j["reachable"]["pieces"].push_back({{"area", pieces[i].area}, {"share", pieces[i].reachable / pieces[i].area}});
     j["walkable_area"] = walkableArea;
     j["stretch"] = {{"p50", stretch50}, {"p95", stretch95}, {"max", stretchMax}};
     j["round_trip_texels"] = {{"p50", roundTrip50}, {"p999", roundTrip999}};

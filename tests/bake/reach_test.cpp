@@ -1,0 +1,57 @@
+// How far plants get about on pieces, whose ground is known by construction.
+#include <doctest/doctest.h>
+
+#include "tests/bake/kits.hpp"
+
+using namespace espalier;
+using namespace espalier::test;
+using glm::dvec3;
+
+namespace {
+
+double groundOf(const BakeReport& report) {
+    double sum = 0;
+    for (const PieceReach& p : report.pieces) sum += p.area;
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("pieces that touch are one, all of whose ground is reached; those apart are pieces of their own") {
+    for (double lift : {0.0, 0.5}) {
+        CAPTURE(lift);
+        Kit kit;
+        kit.box({0, 0, 0}, {2, 0.5, 2});
+        kit.box({0, 0.9 + lift, 0}, dvec3(0.5));
+        kit.box({1.5, 1 + lift, 1.5}, {0.2, 0.6, 0.2});
+        const BakeReport report = kit.bake().report;
+        REQUIRE(report.pieces.size() == (lift > 0 ? 3 : 1));
+        CHECK(report.leastReachable() > 0.995);
+        // Less what stands on the slab, and what is sunk into it.
+        const double free = 2 * (4 * 4 + 4 * 1 * 2) + 6 + 4 * 0.4 * 1.2 + 2 * 0.16;
+        const double expected = lift > 0 ? free : free - 2 * 1 - 4 * 0.1 - 2 * 0.16 - 4 * 0.4 * 0.1;
+        CHECK(groundOf(report) == doctest::Approx(expected).epsilon(0.02));
+        CHECK(report.json().find("\"reachable\"") != std::string::npos);
+    }
+}
+
+TEST_CASE("a stone without a back hides the wall that it stands on; an awning without one does not") {
+    for (bool stone : {true, false}) {
+        CAPTURE(stone);
+        Kit kit;
+        kit.box({0, 0, 0}, {1, 1, 0.2});
+        const dvec3 a(-0.5, -0.4, 0.2), side(1, 0, 0), up(0, 0.8, 0), out(0, 0, 0.15);
+        kit.panel(a + out, side, up);
+        kit.panel(a + out + up, side, -out);
+        if (stone) {
+            kit.panel(a, side, out);
+            kit.panel(a, out, up);
+            kit.panel(a + side + out, -out, up);
+        }
+        const BakeReport report = kit.bake().report;
+        const double wall = 2 * (4 + 2 * 0.8), hidden = stone ? 0.8 : 0;
+        const double added = 0.8 + 0.15 + (stone ? 0.15 + 2 * 0.12 : 0);
+        CHECK(groundOf(report) == doctest::Approx(wall - hidden + added).epsilon(0.02));
+        CHECK(report.leastReachable() > 0.99);
+    }
+}

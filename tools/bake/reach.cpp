@@ -1,0 +1,227 @@
+// In: the finished surface. Out: per connected piece of the model how much of its ground plants can get to from the
+// largest part of it, by short walks over every crossing, there and back.
+//
+// Ground is inner texels that nothing buries. Texels whose centres see each other past all contacts are one region; a
+// walk over a crossing leads from a region to a region.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "runtime/core/disjoint_sets.hpp"
+#include "runtime/core/jobs.hpp"
+#include "shaders/shared/walk.h"
+#include "tools/bake/bake_mesh.hpp"
+
+namespace espalier::bakery {
+namespace {
+
+constexpr double kEvery = 8;     // texels of a crossing that one walk stands for
+constexpr float kInside = 0.1f;  // texels: where a walk starts, beside its crossing
+constexpr float kStride = 0.7f;  // texels of a walk between two looks for ground
+constexpr int kStrides = 5;
+constexpr int kAround = 2;  // texels: how far from a place its region's centres are looked for
+
+class Ground {
+  public:
+    explicit Ground(const SurfaceData& surface)
+        : surface_(surface), level_(surface.levels[0]), size_(level_.size), cells_(level_.texels.size()) {
+        for (uint32_t y = 0; y < size_; ++y)
+            for (uint32_t x = 0; x < size_; ++x) {
+                if (x + 1 < size_) joinNeighbours(x, y, x + 1, y);
+                if (y + 1 < size_) joinNeighbours(x, y, x, y + 1);
+            }
+    }
+
+    uint32_t size() const { return size_; }
+    bool isGround(uint32_t cell) const { return texelClass(level_.texels[cell].bits) == kTexelInner; }
+    uint32_t triangle(uint32_t cell) const { return level_.aux[cell].triangle; }
+    uint32_t region(uint32_t cell) { return cells_.find(cell); }
+
+    // A cell of the chart whose centre can be gone to straight from uv; kNone: none is near.
+    uint32_t cellAt(glm::vec2 uv, uint32_t chart) const {
+        const int cx = int(uv.x * float(size_)), cy = int(uv.y * float(size_));
+        uint32_t best = kNone;
+        float least = 1e30f;
+        for (int y = std::max(0, cy - kAround); y <= std::min(int(size_) - 1, cy + kAround); ++y)
+            for (int x = std::max(0, cx - kAround); x <= std::min(int(size_) - 1, cx + kAround); ++x) {
+                const uint32_t cell = texelIndex(size_, uint32_t(x), uint32_t(y));
+                const glm::vec2 centre = centreOf(uint32_t(x), uint32_t(y));
+                const float far = glm::length(centre - uv);
+                if (!isGround(cell) || texelChart(level_.texels[cell].bits) != chart || far >= least) continue;
+                if (parted(chart, uv, centre, std::min(x, cx), std::min(y, cy), std::max(x, cx), std::max(y, cy)))
+                    continue;
+                best = cell, least = far;
+            }
+        return best;
+    }
+
+  private:
+    glm::vec2 centreOf(uint32_t x, uint32_t y) const {
+        return glm::vec2(float(x) + 0.5f, float(y) + 0.5f) / float(size_);
+    }
+    uint32_t listed(uint32_t cell) const { return level_.crossingHead[cell] & 255u; }
+
+    void joinNeighbours(uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1) {
+        const uint32_t a = texelIndex(size_, x0, y0), b = texelIndex(size_, x1, y1);
+        const uint32_t chart = texelChart(level_.texels[a].bits);
+        if (!isGround(a) || !isGround(b) || texelChart(level_.texels[b].bits) != chart) return;
+        const bool clear = listed(a) == 0 && listed(b) == 0;
+        if (clear || !parted(chart, centreOf(x0, y0), centreOf(x1, y1), int(x0), int(y0), int(x1), int(y1)))
+            cells_.join(a, b);
+    }
+
+    // Does a border of the chart or a contact lie between p and q, by the lists of the texels given?
+    bool parted(uint32_t chart, glm::dvec2 p, glm::dvec2 q, int x0, int y0, int x1, int y1) const {
+        for (int y = y0; y <= y1; ++y)
+            for (int x = x0; x <= x1; ++x) {
+                const uint32_t head = level_.crossingHead[texelIndex(size_, uint32_t(x), uint32_t(y))];
+                for (uint32_t i = head >> 8; i < (head >> 8) + (head & 255u); ++i) {
+                    const Crossing& c = surface_.crossings[level_.crossingRefs[i]];
+                    if (c.flags >> 16 != chart) continue;
+                    const glm::dvec2 a(c.a), d = glm::dvec2(c.b) - a, e = q - p;
+                    const double s = cross(d, p - a), t = cross(d, q - a), u = cross(e, a - p), v = cross(e, a + d - p);
+                    if ((s > 0) != (t > 0) && (u > 0) != (v > 0)) return true;
+                }
+            }
+        return false;
+    }
+
+    const SurfaceData& surface_;
+    const SurfaceLevelData& level_;
+    uint32_t size_;
+    DisjointSets cells_;
+};
+
+struct Way {
+    uint32_t from, to;  // cells; kNone: none
+};
+
+// A walk over a crossing, a share t along it, until it stands where ground is near.
+Way walkOver(const Ground& ground, SurfaceBuf surfaces, const SurfaceData& surface, const Crossing& c, float t) {
+    const float texel = 1.0f / float(ground.size());
+    const uint32_t chart = c.flags >> 16;
+    const glm::vec2 d = c.b - c.a;
+    const glm::vec2 inward =
+        glm::vec2(-d.y, d.x) * (((c.flags & kCrossingInsideLeft) != 0 ? 1.0f : -1.0f) / glm::length(d));
+    const glm::vec2 start = c.a + d * t + inward * (kInside * texel);
+    Way way{ground.cellAt(start, chart), kNone};
+    WalkState w{};
+    if (way.from == kNone || !startWalk(surfaces, 0, chart, start, glm::vec3(0), w)) return way;
+    w.walk.direction = glm::normalize(w.du * -inward.x + w.dv * -inward.y);
+    const float stride = kStride * texel * surface.charts[chart].metresPerUv;
+    for (int i = 0; i < kStrides && way.to == kNone; ++i) {
+        if (walkStep(surfaces, 0, w, stride) != kWalkDone) break;
+        way.to = ground.cellAt(w.walk.uv, w.walk.place & 0xFFFFu);
+    }
+    return way;
+}
+
+std::vector<Way> walkOverAll(const Ground& ground, const SurfaceData& surface) {
+    const SurfaceRef ref = surfaceRef(surface);
+    std::vector<std::vector<Way>> ways(surface.crossings.size());
+    parallelFor(ways.size(), 256, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const Crossing& c = surface.crossings[i];
+            const float length = glm::length(c.b - c.a);
+            if ((c.flags & 3u) == kCrossingOpen || !(length > 0)) continue;
+            const int parts = 1 + int(double(length) * ground.size() / kEvery);
+            for (int k = 0; k < parts; ++k) {
+                const SurfaceBuf surfaces{const_cast<SurfaceRef*>(&ref)};
+                const Way way = walkOver(ground, surfaces, surface, c, (float(k) + 0.5f) / float(parts));
+                if (way.from != kNone && way.to != kNone) ways[i].push_back(way);
+            }
+        }
+    });
+    std::vector<Way> all;
+    for (const auto& some : ways) all.insert(all.end(), some.begin(), some.end());
+    return all;
+}
+
+// Per region the ground's area, the piece that it belongs to, and the ways from it and to it.
+struct Map {
+    std::vector<double> area;
+    std::vector<uint32_t> piece;
+    std::vector<std::vector<uint32_t>> onward, back;
+};
+
+Map mapOut(Ground& ground, const std::vector<Way>& ways, const SurfaceData& surface,
+           const std::vector<uint32_t>& pieceOf) {
+    Map map;
+    const uint32_t cells = ground.size() * ground.size();
+    std::vector<uint32_t> number(cells, kNone);
+    for (uint32_t cell = 0; cell < cells; ++cell) {
+        if (!ground.isGround(cell)) continue;
+        const TrianglePlane& plane = surface.triangles[ground.triangle(cell)];
+        uint32_t& n = number[ground.region(cell)];
+        if (n == kNone) {
+            n = uint32_t(map.area.size());
+            map.area.push_back(0);
+            map.piece.push_back(pieceOf[ground.triangle(cell)]);
+        }
+        map.area[n] += double(glm::length(glm::cross(plane.du, plane.dv))) / cells;
+    }
+    map.onward.resize(map.area.size());
+    map.back.resize(map.area.size());
+    for (const Way& way : ways) {
+        const uint32_t from = number[ground.region(way.from)], to = number[ground.region(way.to)];
+        if (from == to) continue;
+        map.onward[from].push_back(to);
+        map.back[to].push_back(from);
+    }
+    return map;
+}
+
+// Marks what can be got to from the seeds.
+std::vector<uint8_t> spread(const std::vector<std::vector<uint32_t>>& ways, std::vector<uint32_t> open) {
+    std::vector<uint8_t> seen(ways.size(), 0);
+    for (uint32_t r : open) seen[r] = 1;
+    while (!open.empty()) {
+        const uint32_t r = open.back();
+        open.pop_back();
+        for (uint32_t next : ways[r])
+            if (!seen[next]) seen[next] = 1, open.push_back(next);
+    }
+    return seen;
+}
+
+// Which piece of the model each triangle belongs to: what twins, links or contacts join, one way or both.
+std::vector<uint32_t> findPieces(const BakeMesh& mesh, const std::vector<Link>& links,
+                                 const std::vector<Contact>& contacts, uint32_t& count) {
+    DisjointSets sets(mesh.triangles.size());
+    for (uint32_t h = 0; h < mesh.twin.size(); ++h)
+        if (mesh.twin[h] != kNone) sets.join(h / 3, mesh.twin[h] / 3);
+    for (const Link& link : links)
+        if (link.to != kNone) sets.join(link.from / 3, link.to / 3);
+    for (const Contact& contact : contacts) sets.join(contact.from, contact.to);
+    std::vector<uint32_t> piece;
+    count = sets.number(piece);
+    return piece;
+}
+
+}  // namespace
+
+std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Link>& links,
+                                     const std::vector<Contact>& contacts, const SurfaceData& surface) {
+    uint32_t count = 0;
+    const std::vector<uint32_t> pieceOf = findPieces(mesh, links, contacts, count);
+    Ground ground(surface);
+    const Map map = mapOut(ground, walkOverAll(ground, surface), surface, pieceOf);
+    std::vector<uint32_t> largest(count, kNone);
+    for (uint32_t r = 0; r < map.area.size(); ++r) {
+        uint32_t& best = largest[map.piece[r]];
+        if (best == kNone || map.area[r] > map.area[best]) best = r;
+    }
+    std::erase(largest, kNone);
+    const std::vector<uint8_t> onward = spread(map.onward, largest), back = spread(map.back, largest);
+    std::vector<PieceReach> pieces(count);
+    for (uint32_t r = 0; r < map.area.size(); ++r) {
+        pieces[map.piece[r]].area += map.area[r];
+        if (onward[r] && back[r]) pieces[map.piece[r]].reachable += map.area[r];
+    }
+    std::erase_if(pieces, [](const PieceReach& p) { return p.area <= 0; });
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [](const PieceReach& a, const PieceReach& b) { return a.area > b.area; });
+    return pieces;
+}
+
+}  // namespace espalier::bakery
