@@ -35,13 +35,15 @@ void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const Growt
         env.nextItems = {queue[(w + 1) & 1].data()};
         uint32_t count = std::min(a.waves[w].count, room.items);
         if (a.waves[w].count > count) atomicMax(a.status.items, a.waves[w].count);
+        GrowthTally tally = emptyTally();
         for (uint32_t i = 0; i < count; ++i) {
             Machine machine;
             ChunkGrowth c;
             if (!beginChunk(machine, env, queue[w & 1][i], c)) continue;
             while (growing(c.g)) growOn(machine, env, c);
-            endChunk(env, c);
+            endChunk(env, c, tally);
         }
+        addTally(env, tally);
     }
     a.waves.resize(w + 1);
 }

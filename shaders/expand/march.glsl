@@ -20,6 +20,7 @@ void main() {
     bool live = false;
     bool more = true;
     uint taken = 0u;
+    GrowthTally tally = emptyTally();
     while (subgroupAny(live || more)) {
         if (!live && more) {
             uint i = atomicAdd(env.waves.v[env.wave].taken, 1u);
@@ -35,8 +36,9 @@ void main() {
             busy = subgroupBallotBitCount(subgroupBallot(live && growing(c.g)));
         }
         if (live && !growing(c.g)) {
-            endChunk(env, c);
+            endChunk(env, c, tally);
             live = false;
         }
     }
+    addTally(env, tally);
 }

@@ -181,6 +181,7 @@ FN uvec2 hashOfLeaf(u64 key, uint flags, Leaf leaf) {
 #ifdef __cplusplus
 inline WorkItem readItem(WorkItemBuf items, uint at) { return items.v[at]; }
 inline void writeItem(WorkItemBuf items, uint at, const WorkItem& item) { items.v[at] = item; }
+inline void writeNode(NodeBuf nodes, uint at, const Node& node) { nodes.v[at] = node; }
 inline void writeChunk(ChunkBuf chunks, uint at, const Chunk& chunk) { chunks.v[at] = chunk; }
 #else
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PairBuf { uint64_t v[]; };
@@ -229,6 +230,22 @@ void writeItem(WorkItemBuf items, uint at, WorkItem item) {
     to.v[7] = pairOf(item.parent, item.origin);
     to.v[8] = pairOf(item.branch, item.seed);
     to.v[9] = pairOf(item.depth, item.step);
+}
+// A node is eleven words: one and five pairs at even places, five pairs and one at odd ones.
+void writeNode(NodeBuf nodes, uint at, Node n) {
+    bool odd = (at & 1u) != 0u;
+    uint64_t address = uint64_t(nodes) + uint64_t(at) * 44u;
+    PairBuf to = PairBuf(address + (odd ? 4ul : 0ul));
+    uvec3 p = floatBitsToUint(n.position);
+    uint radius = floatBitsToUint(n.radius);
+    uint arc = floatBitsToUint(n.arc);
+    to.v[0] = packUint2x32(odd ? p.yz : p.xy);
+    to.v[1] = packUint2x32(odd ? uvec2(n.normal, n.tangent) : uvec2(p.z, n.normal));
+    to.v[2] = packUint2x32(odd ? uvec2(n.uv, n.place) : uvec2(n.tangent, n.uv));
+    to.v[3] = packUint2x32(odd ? uvec2(radius, arc) : uvec2(n.place, radius));
+    to.v[4] = packUint2x32(odd ? uvec2(n.chunk, n.flags) : uvec2(arc, n.chunk));
+    UintBuf rest = UintBuf(address + (odd ? 0ul : 40ul));
+    rest.v[0] = odd ? p.x : n.flags;
 }
 void writeChunk(ChunkBuf chunks, uint at, Chunk c) {
     PairBuf to = PairBuf(uint64_t(chunks) + uint64_t(at) * 112u);

@@ -61,10 +61,8 @@ FN uint joinSiblings(ExpandEnv env, WorkItem item, uint chunk) {
 
 // Puts the staged samples beside creases onto the triangles under them. A loop of its own over those alone: elsewhere
 // it would cost every sample its full price on a software device.
-FN void seatStaged(ExpandEnv env, uint count) {
-    uint left = 0u;
-    for (uint i = 0u; i < count; ++i) left = left | ((STAGED(i * kStagedWords + 8u) >> 31u) << i);
-    while (left != 0u) {
+FN void seatStaged(ExpandEnv env, uint creased) {
+    for (uint left = creased; left != 0u;) {
         uint at = kStagedWords * lowestBit(left);
         left = left & (left - 1u);
         vec3 position = vec3(uintBitsToFloat(STAGED(at)), uintBitsToFloat(STAGED(at + 1u)), uintBitsToFloat(STAGED(at + 2u)));
@@ -76,17 +74,15 @@ FN void seatStaged(ExpandEnv env, uint count) {
         // On a crease the normal is the mean of both sides already.
         bool inserted = (STAGED(at + 8u) & kNodeInserted) != 0u;
         STAGED(at + 3u) = inserted ? STAGED(at + 3u) : packOct(normal);
-        STAGED(at + 8u) = STAGED(at + 8u) & ~kStagedCrease;
     }
 }
 
 // Takes a range of nodes, copies what was staged, and returns the first index.
-FN uint publishNodes(ExpandEnv env, uint chunk, uint count) {
-    seatStaged(env, count);
+FN uint publishNodes(ExpandEnv env, uint chunk, uint count, uint creased) {
+    seatStaged(env, count < 32u ? creased & ((1u << count) - 1u) : creased);
     uint first = count > 0u ? atomicAdd(env.status.v[0].nodes, count) : 0u;
     bool fits = first + count <= env.status.v[0].nodeCapacity;
     if (count > 0u) {
-        atomicAdd(env.waves.v[env.wave].nodes, count);
         uint added = groupsAdded(first, count, kNodesPerGroup);
         if (fits && added > 0u) atomicAdd(env.status.v[0].nodeGroups[0], added);
     }
@@ -102,7 +98,7 @@ FN uint publishNodes(ExpandEnv env, uint chunk, uint count) {
         node.arc = uintBitsToFloat(STAGED(at + 7u));
         node.chunk = chunk;
         node.flags = STAGED(at + 8u);
-        env.nodes.v[first + i] = node;
+        writeNode(env.nodes, first + i, node);
     }
     return first;
 }
@@ -131,7 +127,7 @@ FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, float lengt
 FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower) g, uint previousNode, bool goesOn) {
     float length = g.at.walk.arc;
     uint branch = item.branch;
-    uint first = publishNodes(env, site.chunk, g.count);
+    uint first = publishNodes(env, site.chunk, g.count, g.creased);
     if (g.count > 0u || branch != kNoIndex) branch = publishBranch(env, item, site, length);
 
     Chunk c;
@@ -169,18 +165,41 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     pushItem(env, rest, goesOn, g);
 }
 
-FN void countChunk(ExpandEnv env, Grower g) {
-    atomicAdd(env.waves.v[env.wave].chunks, 1u);
-    if (g.steps > 0u) atomicAdd(env.status.v[0].steps, g.steps);
-    if (g.inserted > 0u) atomicAdd(env.status.v[0].inserted, g.inserted);
-    uint stopped = g.refused + (g.phase == kPhaseStopped ? 1u : 0u);
-    if (stopped > 0u) atomicAdd(env.status.v[0].stopped, stopped);
+// What an invocation has grown, to be added to the counters at its end: each atomic costs.
+struct GrowthTally {
+    uint chunks, nodes, steps, inserted, stopped, deadEnds;
+};
+FN GrowthTally emptyTally() {
+    GrowthTally t;
+    t.chunks = 0u;
+    t.nodes = 0u;
+    t.steps = 0u;
+    t.inserted = 0u;
+    t.stopped = 0u;
+    t.deadEnds = 0u;
+    return t;
+}
+FN void addTally(ExpandEnv env, GrowthTally t) {
+    atomicAdd(env.waves.v[env.wave].chunks, t.chunks);
+    atomicAdd(env.waves.v[env.wave].nodes, t.nodes);
+    atomicAdd(env.status.v[0].steps, t.steps);
+    atomicAdd(env.status.v[0].inserted, t.inserted);
+    atomicAdd(env.status.v[0].stopped, t.stopped);
+    atomicAdd(env.status.v[0].deadEnds, t.deadEnds);
+}
+
+FN void countChunk(ExpandEnv env, Grower g, INOUT(GrowthTally) t) {
+    t.chunks = t.chunks + 1u;
+    t.nodes = t.nodes + g.count;
+    t.steps = t.steps + g.steps;
+    t.inserted = t.inserted + g.inserted;
+    t.stopped = t.stopped + g.refused + (g.phase == kPhaseStopped ? 1u : 0u);
+    t.deadEnds = t.deadEnds + (g.phase == kPhaseDead ? 1u : 0u);
     if (g.pushed > 0u) {
         uint before = atomicAdd(env.waves.v[env.wave + 1u].announced, g.pushed);
         uint added = groupsAdded(before, g.pushed, kItemsPerGroup);
         if (added > 0u) atomicAdd(env.waves.v[env.wave + 1u].groups[0], added);
     }
-    if (g.phase == kPhaseDead) atomicAdd(env.status.v[0].deadEnds, 1u);
 }
 
 // A chunk in flight.
@@ -218,6 +237,7 @@ FN Grower freshGrower(WorkItem item) {
     g.count = 0u;
     g.steps = 0u;
     g.inserted = 0u;
+    g.creased = 0u;
     g.trips = 0u;
     g.pushed = 0u;
     g.refused = 0u;
@@ -262,7 +282,7 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
     }
     if (pruned) c.g.phase = kPhaseEnded;   // a chunk without nodes stays, so that the branch can come back
     if (stands && !pruned && item.parent == kNoIndex) {
-        stageNode(env, c.g.at, c.g.at.normal, 0u, 0u);   // the seed's foot
+        stageNode(env, c.g.at, c.g.at.normal, 0u, 0u, c.g.creased);   // the seed's foot
         c.g.count = 1u;
     }
     return true;
@@ -289,14 +309,14 @@ FN void growOn(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
     if (growing(c.g) && c.g.trips >= kMaxTrips) c.g.phase = c.g.count > 0u ? kPhaseFull : kPhaseStopped;
 }
 
-FN void endChunk(ExpandEnv env, INOUT(ChunkGrowth) c) {
+FN void endChunk(ExpandEnv env, INOUT(ChunkGrowth) c, INOUT(GrowthTally) t) {
     bool goesOn = c.g.phase == kPhaseFull;
     if (goesOn && refused(env, (c.item.depth >> 16u) + 1u, c.g.key)) {
         goesOn = false;
         c.g.phase = kPhaseStopped;
     }
     publishChunk(env, c.item, c.site, c.g, previousNodeOf(env, c.item), goesOn);
-    countChunk(env, c.g);
+    countChunk(env, c.g, t);
 }
 
 ESPALIER_END

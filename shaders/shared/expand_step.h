@@ -62,7 +62,6 @@ CONST_UINT(kItemsPerGroup, 64u);           // a group is dispatched for so many 
 
 // A chunk's nodes are staged in an array of words of the invocation's own, since they get their place at its end.
 CONST_UINT(kStagedWords, 9u);   // of a node: what the march knows of it
-CONST_UINT(kStagedCrease, 1u << 31u);   // in its flags: it stands beside a crease
 #ifdef __cplusplus
 #define STAGED(i) env.scratch.v[i]
 #else
@@ -102,6 +101,7 @@ struct Grower {
     uint count;          // nodes
     uint steps;
     uint inserted;
+    uint creased;        // bit i: the sample staged at i stands beside a crease
     uint trips;
     uint pushed, refused;   // items
     ReadSet reads;
@@ -242,7 +242,7 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
 }
 
 // Writes a sample into the stage.
-FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, uint flags, uint index) {
+FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, uint flags, uint index, INOUT(uint) creased) {
     uint at = index * kStagedWords;
     STAGED(at) = floatBitsToUint(w.position.x);
     STAGED(at + 1u) = floatBitsToUint(w.position.y);
@@ -252,7 +252,9 @@ FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, uint flags, uint inde
     STAGED(at + 5u) = packUv(w.walk.uv);
     STAGED(at + 6u) = w.walk.place;
     STAGED(at + 7u) = floatBitsToUint(w.walk.arc);
-    STAGED(at + 8u) = flags | (index << 8u) | ((w.flags & kWalkFlagCrease) != 0u ? kStagedCrease : 0u);
+    STAGED(at + 8u) = flags | (index << 8u);
+    uint bit = 1u << index;
+    creased = (w.flags & kWalkFlagCrease) != 0u ? creased | bit : creased & ~bit;
 }
 
 // The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes
@@ -289,7 +291,7 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
     g.phase = full ? kPhaseFull : g.phase;   // the whole step moves to the next chunk
     if (recorded && room) {
         uint flags = ((g.rule >> 8u) & 255u) | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
-        stageNode(env, g.trial, normal, flags, index);
+        stageNode(env, g.trial, normal, flags, index, g.creased);
         g.pending = g.pending + 1u;
         g.lastArc = g.trial.walk.arc;
     }
