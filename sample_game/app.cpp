@@ -125,13 +125,14 @@ bool App::frame(float seconds) {
     if (!session_.openNext.empty() && !openNext()) return false;
     if (session_.reload && !reload()) return false;
     if (!rescale()) return false;
+    std::vector<KeyEvent> keys;
     ImGui_ImplGlfw_NewFrame();
+    input_->gui.feed(keys);
     ImGui::NewFrame();
     work_.window = {ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};
     std::vector<PointerEvent> pointer;
-    std::vector<KeyEvent> keys;
     float wheel = 0;
-    input_->take(pointer, keys, wheel);
+    input_->take(pointer, wheel);
     controls_->take(pointer, keys, wheel);
     const bool moved = controls_->step(*input_, seconds);
     if (moved || frames_ == 0) {
@@ -146,7 +147,8 @@ bool App::frame(float seconds) {
     session_.nextFrame();
     work_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     noteTimes(grew);
-    const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || controls_->turning();
+    const bool held =
+        ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || controls_->turning() || input_->gui.waiting();
     if (moved || held || wheel != 0 || !pointer.empty() || !keys.empty() || grew)
         wake();
     else if (awake_ > 0)

@@ -75,7 +75,7 @@ void App::openUi() {
     ImGui::GetIO().IniFilename = layoutFile_.empty() ? nullptr : layoutFile_.c_str();
     input_ = std::make_unique<Input>(window_.get());
     controls_ = std::make_unique<Controls>(work_, session_, window_.get());
-    ImGui_ImplGlfw_InitForVulkan(window_.get(), true);
+    ImGui_ImplGlfw_InitForVulkan(window_.get(), false);
     rescale();
 }
 

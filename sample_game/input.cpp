@@ -3,6 +3,7 @@
 #include "sample_game/input.hpp"
 
 #include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
 
 #include <utility>
 
@@ -18,27 +19,34 @@ Input::Input(GLFWwindow* window) : window_(window) {
     glfwGetCursorPos(window, &startX, &startY);
     x_ = float(startX);
     y_ = float(startY);
-    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
-        if (action != GLFW_RELEASE) of(w).keys_.push_back({key, mods});
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+        of(w).gui.key(w, key, scancode, action, mods);
     });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned code) { of(w).gui.letter(w, code); });
+    glfwSetWindowFocusCallback(window, ImGui_ImplGlfw_WindowFocusCallback);
+    glfwSetCursorEnterCallback(window, ImGui_ImplGlfw_CursorEnterCallback);
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
         Input& in = of(w);
         in.x_ = float(x);
         in.y_ = float(y);
+        in.gui.move(in.x_, in.y_);
         in.pointer_.push_back({PointerEvent::Kind::move, 0, in.mods(), in.x_, in.y_});
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
         Input& in = of(w);
+        in.gui.button(button, action == GLFW_PRESS);
         // Where the last move ended: what GLFW could tell now is where the mouse is by now, which may be elsewhere.
         const auto kind = action == GLFW_PRESS ? PointerEvent::Kind::press : PointerEvent::Kind::release;
         in.pointer_.push_back({kind, button, mods, in.x_, in.y_});
     });
-    glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { of(w).wheel_ += float(y); });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+        ImGui_ImplGlfw_ScrollCallback(w, x, y);
+        of(w).wheel_ += float(y);
+    });
 }
 
-void Input::take(std::vector<PointerEvent>& pointer, std::vector<KeyEvent>& keys, float& wheel) {
+void Input::take(std::vector<PointerEvent>& pointer, float& wheel) {
     pointer = std::exchange(pointer_, {});
-    keys = std::exchange(keys_, {});
     wheel = std::exchange(wheel_, 0.f);
 }
 

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "sample_game/gui_events.hpp"
+
 struct GLFWwindow;
 
 namespace sample {
@@ -15,26 +17,24 @@ struct PointerEvent {
     int mods = 0;    // GLFW_MOD_... as they were then
     float x = 0, y = 0;
 };
-struct KeyEvent {
-    int key = 0, mods = 0;
-};
 
 class Input {
   public:
-    // Takes over the window's callbacks; ImGui's backend, which is to be made afterwards, calls on to them.
+    // Takes over the window's callbacks; ImGui's backend is made without its own.
     explicit Input(GLFWwindow* window);
     Input(const Input&) = delete;
 
     // What came since the last call.
-    void take(std::vector<PointerEvent>& pointer, std::vector<KeyEvent>& keys, float& wheel);
+    void take(std::vector<PointerEvent>& pointer, float& wheel);
     bool down(int key) const;
     int mods() const;
+    // Keys, and the mouse once more on its way to ImGui.
+    GuiEvents gui;
 
   private:
     static Input& of(GLFWwindow* window);
     GLFWwindow* window_;
     std::vector<PointerEvent> pointer_;
-    std::vector<KeyEvent> keys_;
     float wheel_ = 0;
     float x_ = 0, y_ = 0;
 };

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace sample {
+
+struct KeyEvent {
+    int key = 0, mods = 0;
+};
+
+// Keys, letters and clicks on their way to ImGui, which sees only how things stand once a frame. With frames that take
+// long, a key that went down and up in between would be lost to it, and a click would land where the mouse is by now:
+// so it gets no more at a time than it can tell apart, and the rest with the next frames. What is typed after the key
+// that asks for a dialogue waits for the dialogue.
+class GuiEvents {
+  public:
+    void key(GLFWwindow* window, int key, int scancode, int action, int mods);
+    void letter(GLFWwindow* window, unsigned code);
+    void move(float x, float y);
+    void button(int button, bool down);
+
+    // Between the backend's NewFrame and ImGui's. `pressed` gets the keys that ImGui has been told of, for the tools.
+    void feed(std::vector<KeyEvent>& pressed);
+    // There is more for the next frame.
+    bool waiting() const { return !events_.empty(); }
+
+  private:
+    struct Event {
+        enum class Kind { key, letter, move, button } kind;
+        GLFWwindow* window = nullptr;
+        int code = 0, scancode = 0, action = 0, mods = 0;
+        float x = 0, y = 0;
+    };
+    std::deque<Event> events_;
+    float x_ = 0, y_ = 0;
+    bool buttons_[5] = {}, placed_ = false;
+};
+
+}  // namespace sample
