@@ -185,6 +185,8 @@ ESP_API EspResult espParamInfo(const EspContext* context, EspGrammar grammar, ui
 ESP_API EspResult espSetParam(EspContext* context, EspGrammar grammar, const char* name, const float* value, uint32_t count);
 ESP_API uint32_t espLayerCount(const EspContext* context, EspGrammar grammar);
 ESP_API const char* espLayerName(const EspContext* context, EspGrammar grammar, uint32_t index);
+/* What the grammar says that it is for; may be empty. */
+ESP_API const char* espLayerLabel(const EspContext* context, EspGrammar grammar, uint32_t index);
 ESP_API float espLayerFill(const EspContext* context, EspGrammar grammar, uint32_t index);   /* where nothing is painted */
 
 /* ---- Layers ------------------------------------------------------------------------------------------------- */
@@ -400,8 +402,8 @@ typedef struct EspLook {
     float groundLevel;           /* its height in the world, metres */
 } EspLook;
 ESP_API EspLook espDefaultLook(void);
-/* For legends: the linear colour by which ESP_VIEW_DEPTH or ESP_VIEW_OVERDRAW shows `amount`, and the amount from which
- * on nothing changes. */
+/* For legends: the linear colour by which ESP_VIEW_DEPTH, ESP_VIEW_OVERDRAW or ESP_VIEW_LAYER shows `amount`, and the
+ * amount from which on nothing changes. */
 ESP_API EspResult espViewColour(EspView view, float amount, float rgb[3], float* most);
 
 /* Where to draw. With commandBuffer NULL Espalier draws into its own image of width × height, submits, waits, and

@@ -166,7 +166,7 @@ bool App::loop() {
         } else {
             const double asleep = glfwGetTime();
             glfwWaitEventsTimeout(kLookEvery);
-            if (glfwGetTime() - asleep < .9 * kLookEvery) wake();
+            if (input_->pending() || glfwGetTime() - asleep < .9 * kLookEvery) wake();
         }
         const double now = glfwGetTime();
         const float seconds = float(std::min(now - before, .5));

@@ -78,7 +78,7 @@ void BrushTool::moveTo(Workspace& work, glm::vec2 at) {
     const float length = glm::distance(at, last_);
     const int steps = std::clamp(int(length / kPixelsBetweenPicks), 1, 400);
     for (int i = 1; i <= steps; ++i)
-        if (const auto hit = work.pick(glm::mix(last_, at, float(i) / float(steps)))) layDab(work, *hit);
+        if (const auto hit = work.aim(glm::mix(last_, at, float(i) / float(steps)))) layDab(work, *hit);
     last_ = at;
 }
 
@@ -103,7 +103,7 @@ bool BrushTool::take(Workspace& work, const PointerEvent& event) {
     if (event.kind == Kind::press && event.button == GLFW_MOUSE_BUTTON_LEFT) {
         begin(work, event.mods);
         last_ = at;
-        if (const auto hit = work.pick(at); painting_ && hit) layDab(work, *hit);
+        if (const auto hit = work.aim(at); painting_ && hit) layDab(work, *hit);
         return true;
     }
     if (!painting_) return false;

@@ -119,7 +119,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
         }
         work_.perform(change);
     }
-    if (key == GLFW_KEY_V && !work_.brush.layer.empty()) {
+    if (key == GLFW_KEY_V && !work_.brush.layer.empty() && !work_.townLayer(work_.brush.layer)) {
         const bool seen = work_.scene().look.view == ESP_VIEW_LAYER;
         work_.perform(SetView{seen ? "shaded" : "layer", seen ? "" : work_.brush.layer});
     }
@@ -182,7 +182,7 @@ void Controls::hover() {
     work_.hit.reset();
     if (!work_.editing || work_.tool != Tool::paint || !ImGui::IsMousePosValid(&mouse)) return;
     if (!brush_.painting() && overPanel(mouse.x, mouse.y)) return;
-    work_.hit = work_.pick({mouse.x, mouse.y});
+    work_.hit = work_.aim({mouse.x, mouse.y});
 }
 
 void Controls::showTool(int mods) {

@@ -1,4 +1,5 @@
-// Which house a ray meets: its walls up to the eaves, and the level of the eaves for what lies above.
+// Which house a ray meets: its walls, and above them a roof that rises from the whole outline, or, where that is
+// missed, all that lies below the ridge.
 #include <algorithm>
 #include <cmath>
 
@@ -11,63 +12,98 @@ using espalier::scene::House;
 using espalier::scene::houseNow;
 
 constexpr float kMissed = 1e30f;
+constexpr int kSteps = 96;  // through a house's box
+constexpr float kUsualSlope = 1;
 
-// Where along the ray the box begins; a ray that starts inside meets it at 0.
-float enterBox(const Ray& ray, const float low[3], const float high[3]) {
-    float first = 0, last = kMissed;
+// Where along the ray the box begins and ends; a ray that starts inside meets it at 0.
+bool crossBox(const Ray& ray, const float low[3], const float high[3], float& first, float& last) {
+    first = 0;
+    last = kMissed;
     for (int i = 0; i < 3; ++i) {
         const float inverse = 1 / (ray.direction[i] != 0 ? ray.direction[i] : 1e-20f);
         const float a = (low[i] - ray.origin[i]) * inverse, b = (high[i] - ray.origin[i]) * inverse;
         first = std::max(first, std::min(a, b));
         last = std::min(last, std::max(a, b));
     }
-    return first <= last ? first : kMissed;
+    return first <= last;
 }
 
-bool inside(const std::vector<std::array<float, 2>>& ring, float x, float z) {
+// How far inside the outline the point lies; negative: outside.
+float depth(const std::vector<std::array<float, 2>>& ring, glm::vec2 p) {
     bool in = false;
-    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-        if ((ring[i][1] > z) != (ring[j][1] > z) &&
-            x < (ring[j][0] - ring[i][0]) * (z - ring[i][1]) / (ring[j][1] - ring[i][1]) + ring[i][0])
-            in = !in;
-    return in;
+    float nearest = kMissed;
+    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+        const glm::vec2 a(ring[j][0], ring[j][1]), b(ring[i][0], ring[i][1]), ab = b - a;
+        if ((b.y > p.y) != (a.y > p.y) && p.x < (a.x - b.x) * (p.y - b.y) / (a.y - b.y) + b.x) in = !in;
+        const float t = std::clamp(glm::dot(p - a, ab) / std::max(glm::dot(ab, ab), 1e-9f), 0.f, 1.f);
+        nearest = std::min(nearest, glm::distance(p, a + t * ab));
+    }
+    return in ? nearest : -1;
 }
 
-float meet(const Ray& ray, const House& house, const EspHouseInfo& info) {
-    const glm::vec3 &o = ray.origin, &d = ray.direction;
-    float best = kMissed;
-    const float level = (info.eaveHeight - o.y) / (d.y != 0 ? d.y : 1e-20f);
-    if (level > 0 && inside(house.corners, o.x + level * d.x, o.z + level * d.z)) best = level;
-    for (size_t i = 0; i < house.corners.size(); ++i) {
-        const auto &a = house.corners[i], &b = house.corners[(i + 1) % house.corners.size()];
-        const glm::vec2 ab(b[0] - a[0], b[1] - a[1]), oa(a[0] - o.x, a[1] - o.z);
-        const float across = d.x * ab.y - d.z * ab.x;
-        if (std::abs(across) < 1e-9f) continue;
-        const float along = (oa.x * ab.y - oa.y * ab.x) / across, share = (oa.x * d.z - oa.y * d.x) / across;
-        const float y = o.y + along * d.y;
-        if (along > 0 && along < best && share >= 0 && share <= 1 && y >= info.baseHeight && y <= info.eaveHeight)
-            best = along;
+float meet(const Ray& ray, const House& house, const EspHouseInfo& info, bool sloped) {
+    float first = 0, last = 0;
+    if (!crossBox(ray, info.boundsMin, info.boundsMax, first, last)) return kMissed;
+    const float slope = info.slope > 0 ? info.slope : kUsualSlope;
+    const auto within = [&](float along) {
+        const glm::vec3 p = ray.origin + along * ray.direction;
+        const float in = depth(house.corners, {p.x, p.z});
+        if (in < 0 || p.y < info.boundsMin[1]) return false;
+        const float roof = info.boundsMax[1] - info.ridgeHeight + info.eaveHeight + slope * in;
+        return p.y <= (sloped ? std::min(roof, info.boundsMax[1]) : info.boundsMax[1]);
+    };
+    const float step = (last - first) / kSteps;
+    for (int i = 0; i <= kSteps; ++i) {
+        float at = first + step * float(i);
+        if (!within(at)) continue;
+        for (float back = step; i > 0 && back > .01f; back /= 2)
+            if (within(at - back / 2)) at -= back / 2;
+        return at;
     }
-    return best;
+    return kMissed;
 }
 
 }  // namespace
 
-std::optional<uint32_t> Workspace::pickHouse(glm::vec2 at) const {
-    const Ray ray = camera.ray(at / window, window.x / window.y, shift());
-    float best = kMissed;
-    if (const auto before = pick(at)) best = before->distance;
-    std::optional<uint32_t> found;
-    for (uint32_t i = 0; i < espHouseCount(context.get()); ++i) {
-        EspHouseInfo info;
-        if (espHouseInfo(context.get(), i, &info) != ESP_OK || enterBox(ray, info.boundsMin, info.boundsMax) > best)
-            continue;
-        const float along = meet(ray, houseNow(context.get(), i), info);
-        if (along >= best) continue;
-        best = along;
-        found = i;
+std::optional<HouseHit> Workspace::meetHouse(const Ray& ray, float before) const {
+    for (const bool sloped : {true, false}) {
+        HouseHit best{0, before};
+        for (uint32_t i = 0; i < espHouseCount(context.get()); ++i) {
+            EspHouseInfo info;
+            float first = 0, last = 0;
+            if (espHouseInfo(context.get(), i, &info) != ESP_OK ||
+                !crossBox(ray, info.boundsMin, info.boundsMax, first, last) || first > best.distance)
+                continue;
+            const float along = meet(ray, houseNow(context.get(), i), info, sloped);
+            if (along < best.distance) best = {i, along};
+        }
+        if (best.distance < before) return best;
     }
-    return found;
+    return {};
+}
+
+std::optional<uint32_t> Workspace::pickHouse(glm::vec2 at) const {
+    const auto before = pick(at);
+    const auto found = meetHouse(rayThrough(at), before ? before->distance : kMissed);
+    return found ? std::optional(found->house) : std::nullopt;
+}
+
+std::optional<EspHit> Workspace::aim(glm::vec2 at) const {
+    std::optional<EspHit> surface = pick(at);
+    EspTownInfo town;
+    if (!townLayer(brush.layer) || espTownInfo(context.get(), &town) != ESP_OK) return surface;
+    const Ray ray = rayThrough(at);
+    float nearest = surface ? surface->distance : kMissed;
+    const float ground = (town.groundHeight - ray.origin.y) / (ray.direction.y != 0 ? ray.direction.y : 1e-20f);
+    float met = ground > 0 && ground < 1e4f ? ground : kMissed;
+    if (const auto wall = meetHouse(ray, std::min(nearest, met))) met = wall->distance;
+    if (met >= nearest) return surface;
+    EspHit over{};
+    const glm::vec3 point = ray.origin + met * ray.direction;
+    std::copy(&point.x, &point.x + 3, over.position);
+    over.normal[1] = 1;
+    over.distance = met;
+    return over;
 }
 
 }  // namespace sample

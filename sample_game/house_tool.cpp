@@ -81,7 +81,7 @@ void HouseTool::dragTo(Workspace& work, glm::vec2 at) {
     House house = houseNow(work.context.get(), *work.house);
     EspHouseInfo info;
     if (*corner_ >= house.corners.size() || espHouseInfo(work.context.get(), house.index, &info) != ESP_OK) return;
-    const Ray ray = work.camera.ray(at / work.window, work.window.x / work.window.y, work.shift());
+    const Ray ray = work.rayThrough(at);
     const float along = (info.eaveHeight - ray.origin.y) / ray.direction.y;
     if (!(along > 0 && along < 1e4f)) return;  // towards the horizon
     const glm::vec3 to = ray.origin + along * ray.direction;

@@ -26,6 +26,8 @@ class Input {
 
     // What came since the last call.
     void take(std::vector<PointerEvent>& pointer, float& wheel);
+    // Something came that the frames haven't seen yet.
+    bool pending() const { return !pointer_.empty() || wheel_ != 0 || gui.waiting(); }
     bool down(int key) const;
     int mods() const;
     // Keys, and the mouse once more on its way to ImGui.

@@ -44,9 +44,7 @@ void toolButtons(Workspace& work) {
 }
 
 bool slider(const char* label, float* value, float low, float high, const char* format, bool byRatio = false) {
-    ImGui::TextUnformatted(label);
-    ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
-    ImGui::SetNextItemWidth(-1);
+    rowLabel(label);
     ImGui::PushID(label);
     const bool changed =
         ImGui::SliderFloat("##value", value, low, high, format,
@@ -59,15 +57,11 @@ void limits(Brush& brush) {
     ImGui::Checkbox("Only some slopes and heights", &brush.limited);
     toolTip("Paint fades out where the surface is steeper or flatter, higher or lower");
     if (!brush.limited) return;
-    ImGui::TextUnformatted("Slope");
-    ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
-    ImGui::SetNextItemWidth(-1);
+    rowLabel("Slope");
     ImGui::DragFloatRange2("##slope", &brush.slope[0], &brush.slope[1], 1, 0, 180, "%.0f\u00b0", "%.0f\u00b0");
     toolTip("0\u00b0: floors, 90\u00b0: walls, 180\u00b0: ceilings");
     float shown[2] = {std::max(brush.height[0], -100.f), std::min(brush.height[1], 100.f)};
-    ImGui::TextUnformatted("Height");
-    ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
-    ImGui::SetNextItemWidth(-1);
+    rowLabel("Height");
     if (ImGui::DragFloatRange2("##height", &shown[0], &shown[1], .02f, -100, 100, "%.1f m", "%.1f m")) {
         brush.height[0] = shown[0] <= -100 ? -1e6f : shown[0];
         brush.height[1] = shown[1] >= 100 ? 1e6f : shown[1];
@@ -119,12 +113,11 @@ void chosenSeeds(Workspace& work) {
     else
         ImGui::Text("%zu seeds chosen", chosen.size());
     bool changed = false;
-    int number = int(chosen[0].number);
-    ImGui::TextUnformatted("Number");
-    ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
+    uint32_t number = chosen[0].number;
+    rowLabel("Number");
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
-    if (ImGui::InputInt("##number", &number, 1)) {
-        for (SeedRecord& seed : chosen) seed.number = uint32_t(number++);
+    if (ImGui::InputScalar("##number", ImGuiDataType_U32, &number)) {
+        for (SeedRecord& seed : chosen) seed.number = number++;
         changed = true;
     }
     toolTip("Its random number: another one grows another plant");
@@ -135,9 +128,7 @@ void chosenSeeds(Workspace& work) {
     }
     if (work.scene().grammars.size() > 1) {
         const uint32_t now = chosen[0].grammar;
-        ImGui::TextUnformatted("Grammar");
-        ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
-        ImGui::SetNextItemWidth(-1);
+        rowLabel("Grammar");
         if (ImGui::BeginCombo("##grammar", grammarName(work.scene(), now).c_str())) {
             for (uint32_t i = 0; i < work.scene().grammars.size(); ++i)
                 if (ImGui::Selectable(grammarName(work.scene(), i).c_str(), i == now)) {
@@ -193,6 +184,13 @@ void toolTip(const char* text) {
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetTooltip("%s", text);
 }
 
+void rowLabel(const char* text) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(text);
+    ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
+    ImGui::SetNextItemWidth(-1);
+}
+
 uint32_t widgetGesture(Workspace& work) {
     static_assert(sizeof(ImGuiID) == sizeof(uint32_t));
     // A new one each time that a widget is taken up; kept while it is held.
@@ -224,49 +222,10 @@ void brushPanel(Workspace& work) {
     toolTip("A brush on a thin wall leaves its back alone");
 }
 
-void layersPanel(Workspace& work) {
-    const auto& scene = work.scene();
-    if (scene.layers.empty()) {
-        ImGui::TextWrapped("No grammar here reads a layer. One that says\n  context mask = 1\ncan be painted.");
-        return;
-    }
-    for (const std::string& layer : scene.layers) {
-        ImGui::PushID(layer.c_str());
-        if (ImGui::RadioButton(layer.c_str(), work.brush.layer == layer)) {
-            work.brush.layer = layer;
-            if (scene.look.view == ESP_VIEW_LAYER) work.perform(SetView{"layer", layer});
-        }
-        toolTip("What the brush paints");
-        bool seen = scene.look.view == ESP_VIEW_LAYER && scene.viewLayer == layer;
-        const float button = ImGui::CalcTextSize("Import").x + ImGui::GetStyle().FramePadding.x;
-        ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
-        if (seen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        if (ImGui::Button("Show", {button, 0})) work.perform(SetView{seen ? "shaded" : "layer", seen ? "" : layer});
-        if (seen) ImGui::PopStyleColor();
-        toolTip("Shows what is painted on the model (V)");
-        const float gap = ImGui::GetStyle().ItemSpacing.x;
-        const float quarter = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
-        if (ImGui::Button("Clear", {quarter, 0})) work.perform(FillLayer{layer, 0});
-        toolTip("Fills the whole layer with 0: with a mask, nothing grows until something is painted");
-        ImGui::SameLine();
-        if (ImGui::Button("Fill", {quarter, 0})) work.perform(FillLayer{layer, work.brush.value});
-        toolTip("Fills the whole layer with the brush's value");
-        ImGui::SameLine();
-        if (ImGui::Button("Import", {quarter, 0})) askForLayer(layer, true);
-        toolTip("A picture (.png, .exr) in the surface's walk UVs, as Export writes it");
-        ImGui::SameLine();
-        if (ImGui::Button("Export", {quarter, 0})) askForLayer(layer, false);
-        toolTip("Writes the layer over the surface's walk UVs");
-        ImGui::PopID();
-    }
-}
-
 void seedsPanel(Workspace& work) {
     const auto& scene = work.scene();
     if (scene.grammars.size() > 1) {
-        ImGui::TextUnformatted("Plant");
-        ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
-        ImGui::SetNextItemWidth(-1);
+        rowLabel("Plant");
         if (ImGui::BeginCombo("##plant", grammarName(scene, work.plantGrammar).c_str())) {
             for (uint32_t i = 0; i < scene.grammars.size(); ++i)
                 if (ImGui::Selectable(grammarName(scene, i).c_str(), i == work.plantGrammar)) work.plantGrammar = i;
@@ -312,9 +271,7 @@ void lightPanel(Workspace& work) {
     exposed |= ImGui::Checkbox("Shadows", &light.shadows);
     if (changed || exposed) work.perform(light, changed ? gesture : second);
 
-    ImGui::TextUnformatted("View");
-    ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
-    ImGui::SetNextItemWidth(-1);
+    rowLabel("View");
     const bool layer = scene.look.view == ESP_VIEW_LAYER;
     if (ImGui::BeginCombo("##view", layer ? scene.viewLayer.c_str() : viewTitle(scene.look.view))) {
         for (const EspView view : kViews)

@@ -110,10 +110,12 @@ void showLegend(const Workspace& work) {
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize;
     if (ImGui::Begin("legend", nullptr, flags)) {
-        ImGui::TextUnformatted(view == ESP_VIEW_DEPTH ? "Branches between a stem and its seed"
-                                                      : "Fragments shaded for a pixel");
+        const bool layer = view == ESP_VIEW_LAYER;
+        ImGui::TextUnformatted(layer                    ? work.scene().viewLayer.c_str()
+                               : view == ESP_VIEW_DEPTH ? "Branches between a stem and its seed"
+                                                        : "Fragments shaded for a pixel");
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float width = 260 * s, height = ImGui::GetFontSize(), steps = 64;
+        const float width = (layer ? 120 : 260) * s, height = ImGui::GetFontSize(), steps = 64;
         for (float i = 0; i < steps; ++i) {
             (void)espViewColour(view, most * (i + .5f) / steps, rgb, &most);
             for (float& c : rgb) c = c <= .0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - .055f;
@@ -123,7 +125,7 @@ void showLegend(const Workspace& work) {
         }
         ImGui::Dummy({width, height});
         ImGui::TextDisabled("0");
-        const std::string last = std::to_string(int(most)) + " and more";
+        const std::string last = std::to_string(int(most)) + (layer ? "" : " and more");
         ImGui::SameLine(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(last.c_str()).x);
         ImGui::TextDisabled("%s", last.c_str());
     }

@@ -28,12 +28,6 @@ struct Edit {
     }
 };
 
-void row(const char* label) {
-    ImGui::TextUnformatted(label);
-    ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
-    ImGui::SetNextItemWidth(-1);
-}
-
 // A pitch as the designer thinks of it, in degrees; slope 0: none of its own.
 void pitch(Workspace& work, Edit& edit, const char* label, float& slope) {
     ImGui::PushID(label);
@@ -61,7 +55,7 @@ void edgePanel(Workspace& work, Edit& edit, House& house) {
     ImGui::Text("Edge %u of %zu", number + 1, house.corners.size());
     constexpr const char* kEnds[] = {"", "gable", "eave"};
     constexpr const char* kEndTitles[] = {"As the kind says", "Gable", "Eave"};
-    row("Carries");
+    rowLabel("Carries");
     const auto now = size_t(std::find(std::begin(kEnds), std::end(kEnds), edge.end) - std::begin(kEnds));
     if (ImGui::BeginCombo("##end", kEndTitles[std::min(now, size_t(2))])) {
         for (size_t i = 0; i < std::size(kEnds); ++i)
@@ -93,7 +87,7 @@ void housesPanel(Workspace& work) {
     ImGui::SameLine();
     ImGui::TextDisabled("ridge %.1f m", info.ridgeHeight - info.baseHeight);
     Edit edit;
-    row("Roof");
+    rowLabel("Roof");
     if (ImGui::BeginCombo("##kind", kTitles[info.shape])) {
         for (int i = 0; i < int(std::size(kTitles)); ++i)
             if (ImGui::Selectable(kTitles[i], i == int(info.shape))) {
@@ -102,7 +96,7 @@ void housesPanel(Workspace& work) {
             }
         ImGui::EndCombo();
     }
-    row("Walls");
+    rowLabel("Walls");
     edit.note(work, ImGui::SliderFloat("##walls", &house.eaveHeight, 2, 20, "%.1f m", ImGuiSliderFlags_AlwaysClamp));
     toolTip("Height of the eaves above the house's foot");
     pitch(work, edit, "Pitch", house.slope);

@@ -14,10 +14,17 @@ namespace {
 
 using namespace espalier::document;
 
+// Windows that appear for the first time would lie over it.
+bool beginDialogue(const char* title) {
+    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return false;
+    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+    return true;
+}
+
 // A dialogue that asks for a path. True: it was confirmed.
 bool askPath(const char* title, const char* label, const char* button, char* path, size_t size) {
     bool confirmed = false;
-    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return false;
+    if (!beginDialogue(title)) return false;
     ImGui::TextUnformatted(label);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 32);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
@@ -75,18 +82,22 @@ void showDialogues(Workspace& work, Session& session) {
         session.openNext = d.file;
     if (askPath("Record a run", "File for what is done from now on:", "Record", d.run, sizeof d.run))
         session.startRecording(work, d.run, uint32_t(work.window.x), uint32_t(work.window.y));
-    if (askPath("Import a layer", "Picture in the surface's walk UVs, as the editor exports it:", "Import", d.picture,
-                sizeof d.picture))
+    const bool town = work.townLayer(d.layer);
+    const char* asked = town ? "Picture of the town from above, north up:"
+                             : "Picture in the surface's walk UVs, as the editor exports it:";
+    const bool imported = askPath("Import a layer", asked, "Import", d.picture, sizeof d.picture);
+    if (imported && town) work.perform(LoadTownLayer{d.layer, d.picture});
+    if (imported && !town)
         for (uint32_t i = 0; i < work.scene().surfaces.size(); ++i)
             work.perform(LoadLayer{d.layer, pictureOf(*work.document, d.picture, i), i});
     if (askPath("Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture,
                 sizeof d.picture)) {
         work.error.clear();
-        if (exportLayer(*work.document, d.layer, d.picture, work.error))
+        if ((town ? exportTownLayer : exportLayer)(*work.document, d.layer, d.picture, work.error))
             work.message = std::string("Written: ") + d.picture;
     }
     if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");
-    if (ImGui::BeginPopupModal("Unsaved work", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+    if (beginDialogue("Unsaved work")) {
         ImGui::TextUnformatted("The last session ended without saving. What it had changed was kept.");
         if (session.recovery().empty()) ImGui::CloseCurrentPopup();
         if (ImGui::Button("Open it")) {
@@ -162,7 +173,7 @@ void showMenu(Workspace& work, Session& session) {
             session.folder().empty() ? work.scene().name : std::filesystem::path(session.folder()).filename().string();
         if (session.modified(work)) name += " *";
         if (session.recording()) name += "   REC";
-        ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(name.c_str()).x - 12 * work.scale);
+        ImGui::SetCursorPosX(ImGui::GetWindowWidth() - ImGui::CalcTextSize(name.c_str()).x - 12 * work.scale);
         ImGui::TextDisabled("%s", name.c_str());
         ImGui::EndMainMenuBar();
     }

@@ -43,6 +43,8 @@ constexpr int kQuiet = 1 << 12;  // ImGuiWindowFlags_NoFocusOnAppearing
 constexpr EspView kViews[] = {ESP_VIEW_SHADED, ESP_VIEW_CHARTS, ESP_VIEW_NORMALS,
                               ESP_VIEW_LOD,    ESP_VIEW_DEPTH,  ESP_VIEW_OVERDRAW};
 const char* viewTitle(EspView view);
+// The words before a widget, which takes the rest of the row.
+void rowLabel(const char* text);
 // Shown when the mouse rests on the last widget.
 void toolTip(const char* text);
 

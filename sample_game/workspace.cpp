@@ -58,22 +58,50 @@ bool Workspace::perform(const espalier::document::Action& action, uint32_t gestu
 void Workspace::choose(Tool chosen) {
     using espalier::document::SetView;
     const bool layer = scene().look.view == ESP_VIEW_LAYER;
-    if (chosen == Tool::paint && tool != Tool::paint && scene().look.view == ESP_VIEW_SHADED && !brush.layer.empty())
+    if (chosen == Tool::paint && tool != Tool::paint && scene().look.view == ESP_VIEW_SHADED && !brush.layer.empty() &&
+        !townLayer(brush.layer))
         perform(SetView{"layer", brush.layer});
     if (chosen != Tool::paint && tool == Tool::paint && layer) perform(SetView{"shaded", ""});
     if (chosen == Tool::branch && tool != Tool::branch) layout.atlas = true;
     tool = chosen;
 }
 
+bool Workspace::townLayer(const std::string& name) const {
+    EspGrammar town{};
+    if (espHouseCount(context.get()) == 0 || espTownGrammar(context.get(), &town) != ESP_OK) return false;
+    bool reads = false;
+    for (const auto& grammar : scene().grammars)
+        for (uint32_t i = 0; i < espLayerCount(context.get(), grammar.id); ++i) {
+            if (name != espLayerName(context.get(), grammar.id, i)) continue;
+            if (grammar.id.id != town.id) return false;
+            reads = true;
+        }
+    return reads;
+}
+
+// What is painted is seen on surfaces by its view, on roofs by what it does to them.
+void Workspace::chooseLayer(const std::string& name) {
+    using espalier::document::SetView;
+    brush.layer = name;
+    if (townLayer(name) && scene().look.view == ESP_VIEW_LAYER)
+        perform(SetView{"shaded", ""});
+    else if (!townLayer(name) && (tool == Tool::paint || scene().look.view == ESP_VIEW_LAYER))
+        perform(SetView{"layer", name});
+}
+
+Ray Workspace::rayThrough(glm::vec2 at) const {
+    return camera.ray(at / window, window.x / window.y, shift());
+}
+
 std::optional<EspHit> Workspace::pick(glm::vec2 at) const {
-    const Ray ray = camera.ray(at / window, window.x / window.y, shift());
+    const Ray ray = rayThrough(at);
     EspHit found;
     if (espPick(context.get(), &ray.origin.x, &ray.direction.x, &found) != ESP_OK) return {};
     return found;
 }
 
 void Workspace::pickBranch(glm::vec2 at) {
-    const Ray ray = camera.ray(at / window, window.x / window.y, shift());
+    const Ray ray = rayThrough(at);
     EspPlantHit found;
     branch.reset();
     if (espPickPlant(context.get(), &ray.origin.x, &ray.direction.x, &found) == ESP_OK) branch = found;

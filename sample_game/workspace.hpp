@@ -36,6 +36,11 @@ struct Layout {
     bool halfWhileMoving = true;
 };
 
+struct HouseHit {
+    uint32_t house = 0;
+    float distance = 0;  // along the ray
+};
+
 // What the tools and the panels of the editor share: the document, how it is looked at, what is chosen.
 struct Workspace {
     std::unique_ptr<EspContext, void (*)(EspContext*)> context{nullptr, espDestroy};
@@ -83,8 +88,16 @@ struct Workspace {
     uint32_t newGesture() { return ++gesture_; }
     uint32_t gesture() const { return gesture_; }
 
-    std::optional<EspHit> pick(glm::vec2 at) const;
+    // A layer that lies over the town, seen from above, and over no surface.
+    bool townLayer(const std::string& name) const;
+    void chooseLayer(const std::string& name);  // for the brush
+
+    Ray rayThrough(glm::vec2 at) const;
+    std::optional<EspHit> pick(glm::vec2 at) const;  // a surface
+    // What the brush goes over: surfaces; with a layer of the town also houses and ground.
+    std::optional<EspHit> aim(glm::vec2 at) const;
     void pickBranch(glm::vec2 at);
+    std::optional<HouseHit> meetHouse(const Ray& ray, float before) const;
     std::optional<uint32_t> pickHouse(glm::vec2 at) const;
     // Cuts the picked branch away.
     void prune();

@@ -304,9 +304,11 @@ EspLook espDefaultLook(void) {
 }
 
 EspResult espViewColour(EspView view, float amount, float rgb[3], float* most) {
-    if (!rgb || !most || (view != ESP_VIEW_DEPTH && view != ESP_VIEW_OVERDRAW)) return ESP_INVALID_ARGUMENT;
-    *most = view == ESP_VIEW_DEPTH ? kHottestDepth : kHottestOverdraw;
-    const glm::vec3 colour = heatColor(amount / *most);
+    if (!rgb || !most || (view != ESP_VIEW_DEPTH && view != ESP_VIEW_OVERDRAW && view != ESP_VIEW_LAYER))
+        return ESP_INVALID_ARGUMENT;
+    const bool layer = view == ESP_VIEW_LAYER;
+    *most = layer ? 1 : view == ESP_VIEW_DEPTH ? kHottestDepth : kHottestOverdraw;
+    const glm::vec3 colour = layer ? layerColor(amount) : heatColor(amount / *most);
     std::memcpy(rgb, &colour, sizeof colour);
     return ESP_OK;
 }

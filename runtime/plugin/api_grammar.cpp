@@ -212,6 +212,11 @@ const char* espLayerName(const EspContext* context, EspGrammar id, uint32_t inde
     return grammar && index < grammar->map.contexts().size() ? grammar->map.contexts()[index].name.c_str() : "";
 }
 
+const char* espLayerLabel(const EspContext* context, EspGrammar id, uint32_t index) {
+    const LoadedGrammar* grammar = find(context, id);
+    return grammar && index < grammar->map.contexts().size() ? grammar->map.contexts()[index].label.c_str() : "";
+}
+
 float espLayerFill(const EspContext* context, EspGrammar id, uint32_t index) {
     const LoadedGrammar* grammar = find(context, id);
     return grammar && index < grammar->map.contexts().size() ? grammar->map.contexts()[index].fill : 0;

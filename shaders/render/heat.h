@@ -20,5 +20,12 @@ FN vec3 heatColor(float t) {
     return low + (high - low) * (x - below);
 }
 
+// A painted layer, from grey to orange.
+FN vec3 layerColor(float t) {
+    vec3 none = vec3(0.08f, 0.09f, 0.12f);
+    vec3 all = vec3(0.9f, 0.35f, 0.08f);
+    return none + (all - none) * (t < 0.0f ? 0.0f : (t > 1.0f ? 1.0f : t));
+}
+
 ESPALIER_END
 #endif

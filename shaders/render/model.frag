@@ -38,7 +38,7 @@ vec4 otherView(vec3 n) {
             uvec2 at = min(uvec2(clamp(uvs.zw, 0.0, 1.0) * float(layer.size)), uvec2(layer.size - 1u));
             x = layer.texels.v[texelIndex(layer.size, at.x, at.y)];
         }
-        shown = mix(vec3(0.08, 0.09, 0.12), vec3(0.9, 0.35, 0.08), x);
+        shown = layerColor(x);
     }
     return diagnostic(shown, n);
 }

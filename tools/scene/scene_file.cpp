@@ -235,7 +235,8 @@ class Reader {
             fail(json, "a file's name must stand here");
             return {};
         }
-        return (std::filesystem::path(path_).parent_path() / json.text).string();
+        // A project that was moved, or lay in a folder that is gone by now, must not matter to what it names.
+        return (std::filesystem::path(path_).parent_path() / json.text).lexically_normal().string();
     }
     void number(const Json& json, const char* name, float low, float high, float& out) {
         const Json* found = json.find(name);

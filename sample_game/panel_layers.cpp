@@ -1,0 +1,117 @@
+// The layers that grammars read: one is chosen for the brush, and what is done with it as a whole.
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "sample_game/panels.hpp"
+
+namespace sample {
+namespace {
+
+using namespace espalier::document;
+
+const ImVec4 kHint{1, .8f, .45f, 1};
+
+struct Layer {
+    std::string name, label, readers;
+    float fill = 0;
+    bool town = false, painted = false;
+};
+
+bool painted(const Workspace& work, const std::string& name) {
+    for (uint32_t i = 0; i < espPaintedLayerCount(work.context.get()); ++i)
+        if (name == espPaintedLayerName(work.context.get(), i)) return true;
+    return false;
+}
+
+// Over surfaces first, then over the town.
+std::vector<Layer> layersOf(const Workspace& work) {
+    std::vector<Layer> layers;
+    const EspContext* context = work.context.get();
+    for (const std::string& name : work.scene().layers) {
+        Layer layer{name, "", "", 0, work.townLayer(name), painted(work, name)};
+        for (uint32_t g = 0; g < work.scene().grammars.size(); ++g) {
+            const EspGrammar grammar = work.scene().grammars[g].id;
+            for (uint32_t i = 0; i < espLayerCount(context, grammar); ++i) {
+                if (name != espLayerName(context, grammar, i)) continue;
+                if (layer.readers.empty()) layer.fill = espLayerFill(context, grammar, i);
+                if (layer.label.empty()) layer.label = espLayerLabel(context, grammar, i);
+                layer.readers += (layer.readers.empty() ? "" : ", ") + grammarName(work.scene(), g);
+            }
+        }
+        layers.push_back(layer);
+    }
+    for (const auto& known : espalier::scene::townLayers(context))
+        for (Layer& layer : layers) layer.painted |= layer.town && layer.name == known.name && known.painted;
+    std::ranges::stable_partition(layers, [](const Layer& layer) { return !layer.town; });
+    return layers;
+}
+
+void chosenLayer(Workspace& work, const Layer& layer) {
+    const auto& scene = work.scene();
+    const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
+    const int count = layer.town ? 4 : 5;
+    const float width = (ImGui::GetContentRegionAvail().x - gap * float(count - 1)) / float(count);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * work.scale, ImGui::GetStyle().FramePadding.y});
+    const auto button = [&](const char* label, const char* tip) {
+        const bool pressed = ImGui::Button(label, {width, 0});
+        toolTip(tip);
+        ImGui::SameLine(0, gap);
+        return pressed;
+    };
+    if (button("Clear", "Fills the whole layer with 0")) work.perform(FillLayer{layer.name, 0});
+    if (button("Fill", "Fills the whole layer with the brush's value"))
+        work.perform(FillLayer{layer.name, work.brush.value});
+    if (button("Import", layer.town ? "A picture (.png, .exr) of the town from above, north up, as Export writes it"
+                                    : "A picture (.png, .exr) in the surface's walk UVs, as Export writes it"))
+        askForLayer(layer.name, true);
+    if (button("Export", layer.town ? "Writes the layer as it is seen from above, north up"
+                                    : "Writes the layer over the surface's walk UVs"))
+        askForLayer(layer.name, false);
+    if (!layer.town) {
+        const bool seen = scene.look.view == ESP_VIEW_LAYER && scene.viewLayer == layer.name;
+        if (seen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+        if (button("Show", "Shows what is painted on the model (V)"))
+            work.perform(SetView{seen ? "shaded" : "layer", seen ? "" : layer.name});
+        if (seen) ImGui::PopStyleColor();
+    }
+    ImGui::PopStyleVar();
+    ImGui::NewLine();
+    ImGui::PushTextWrapPos(0);
+    if (!layer.painted && work.brush.value == layer.fill)
+        ImGui::TextColored(kHint,
+                           "All of %s is %.2g, and the brush paints %.2g: a stroke changes nothing. Clear it first.",
+                           layer.name.c_str(), layer.fill, work.brush.value);
+    else if (!layer.painted)
+        ImGui::TextDisabled("Not painted yet: all of it is %.2g.", layer.fill);
+    else if (layer.town)
+        ImGui::TextDisabled("Drag over the roofs: paint falls straight down.");
+    ImGui::PopTextWrapPos();
+}
+
+}  // namespace
+
+void layersPanel(Workspace& work) {
+    const std::vector<Layer> layers = layersOf(work);
+    if (layers.empty()) {
+        ImGui::TextWrapped("No grammar here reads a layer. One that says\n  context mask = 1\ncan be painted.");
+        return;
+    }
+    for (const Layer& layer : layers) {
+        if (layer.town && (&layer == &layers.front() || !(&layer)[-1].town)) ImGui::TextDisabled("Over the roofs:");
+        ImGui::PushID(layer.name.c_str());
+        const bool chosen = work.brush.layer == layer.name;
+        if (ImGui::RadioButton(layer.name.c_str(), chosen)) work.chooseLayer(layer.name);
+        const std::string tip = (layer.label.empty() ? "" : layer.label + "\n") + "Read by " + layer.readers;
+        toolTip(tip.c_str());
+        ImGui::SameLine(ImGui::GetFontSize() * 7);
+        const char* end = layer.label.data() + std::min(layer.label.find(':'), layer.label.size());
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        ImGui::TextUnformatted(layer.label.data(), end);
+        ImGui::PopStyleColor();
+        if (chosen) chosenLayer(work, layer);
+        ImGui::PopID();
+    }
+}
+
+}  // namespace sample
