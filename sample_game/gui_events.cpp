@@ -27,55 +27,65 @@ bool asks(int key, int mods) {
 }  // namespace
 
 void GuiEvents::key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-    events_.push_back({Event::Kind::key, window, key, scancode, action, mods});
+    keys_.push_back({window, false, key, scancode, action, mods});
 }
 
 void GuiEvents::letter(GLFWwindow* window, unsigned code) {
-    events_.push_back({Event::Kind::letter, window, int(code)});
+    keys_.push_back({window, true, int(code), 0, 0, 0});
 }
 
 void GuiEvents::move(float x, float y) {
-    if (!events_.empty() && events_.back().kind == Event::Kind::move) events_.pop_back();
-    events_.push_back({.kind = Event::Kind::move, .x = x, .y = y});
+    if (!mouse_.empty() && mouse_.back().button < 0) mouse_.pop_back();
+    mouse_.push_back({-1, false, x, y});
 }
 
 void GuiEvents::button(int button, bool down) {
-    if (button >= 0 && button < int(std::size(buttons_)))
-        events_.push_back({.kind = Event::Kind::button, .code = button, .action = down});
+    if (button >= 0 && button < int(std::size(buttons_))) mouse_.push_back({button, down, 0, 0});
 }
 
-void GuiEvents::feed(std::vector<KeyEvent>& keys) {
-    ImGuiIO& io = ImGui::GetIO();
-    const bool typing = io.WantTextInput || !ImGui::GetCurrentContext()->OpenPopupStack.empty();
-    bool keyed = false, wrote = false, pressed = false;
-    for (bool asked = false; !events_.empty() && !asked; events_.pop_front()) {
-        const Event& e = events_.front();
-        if (e.kind == Event::Kind::move) {
-            if (pressed) break;
-            x_ = e.x;
-            y_ = e.y;
-            placed_ = true;
-        } else if (e.kind == Event::Kind::button) {
-            if (pressed || keyed || wrote) break;
-            buttons_[e.code] = e.action;
-            pressed = true;
-        } else if (e.kind == Event::Kind::letter) {
-            if (keyed || pressed) break;
+// True: a button changed.
+bool GuiEvents::feedMouse() {
+    bool changed = false;
+    for (; !mouse_.empty() && !changed; mouse_.pop_front()) {
+        const Mouse& e = mouse_.front();
+        changed = e.button >= 0;
+        if (changed)
+            buttons_[e.button] = e.down;
+        else
+            x_ = e.x, y_ = e.y, placed_ = true;
+    }
+    return changed;
+}
+
+void GuiEvents::feedKeys(bool typing, std::vector<KeyEvent>& pressed) {
+    bool keyed = false, wrote = false;
+    for (bool asked = false; !keys_.empty() && !asked; keys_.pop_front()) {
+        const Key& e = keys_.front();
+        if (e.letter) {
+            if (keyed) break;
             ImGui_ImplGlfw_CharCallback(e.window, unsigned(e.code));
             wrote = true;
-        } else {
-            const bool shifts = e.code >= GLFW_KEY_LEFT_SHIFT && e.code <= GLFW_KEY_RIGHT_SUPER;
-            const bool told = typing && !writes(e.code, e.mods) && !(shifts && e.action == GLFW_PRESS);
-            if (told && (keyed || wrote || pressed)) break;
-            ImGui_ImplGlfw_KeyCallback(e.window, e.code, e.scancode, e.action, e.mods);
-            keyed = keyed || told;
-            if (e.action == GLFW_RELEASE) continue;
-            keys.push_back({e.code, e.mods});
-            asked = asks(e.code, e.mods);
+            continue;
         }
+        const bool shifts = e.code >= GLFW_KEY_LEFT_SHIFT && e.code <= GLFW_KEY_RIGHT_SUPER;
+        const bool told = typing && !writes(e.code, e.mods) && !(shifts && e.action == GLFW_PRESS);
+        if (told && (keyed || wrote)) break;
+        ImGui_ImplGlfw_KeyCallback(e.window, e.code, e.scancode, e.action, e.mods);
+        keyed = keyed || told;
+        if (e.action == GLFW_RELEASE) continue;
+        pressed.push_back({e.code, e.mods});
+        asked = asks(e.code, e.mods);
     }
+}
+
+void GuiEvents::feed(std::vector<KeyEvent>& pressed) {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool typing = io.WantTextInput || !ImGui::GetCurrentContext()->OpenPopupStack.empty();
+    const bool changed = feedMouse();
+    // A click may end the typing, or begin it elsewhere.
+    if (!changed || !typing) feedKeys(typing, pressed);
     // The backend has put in how things are by now, which is later than what ImGui is told.
-    if (placed_ && (pressed || waiting()) && ImGui::IsMousePosValid()) io.MousePos = {x_, y_};
+    if (placed_ && (changed || !mouse_.empty()) && ImGui::IsMousePosValid()) io.MousePos = {x_, y_};
     std::copy(std::begin(buttons_), std::end(buttons_), io.MouseDown);
 }
 

@@ -25,16 +25,23 @@ class GuiEvents {
     // Between the backend's NewFrame and ImGui's. `pressed` gets the keys that ImGui has been told of, for the tools.
     void feed(std::vector<KeyEvent>& pressed);
     // There is more for the next frame.
-    bool waiting() const { return !events_.empty(); }
+    bool waiting() const { return !keys_.empty() || !mouse_.empty(); }
 
   private:
-    struct Event {
-        enum class Kind { key, letter, move, button } kind;
-        GLFWwindow* window = nullptr;
-        int code = 0, scancode = 0, action = 0, mods = 0;
-        float x = 0, y = 0;
+    struct Key {
+        GLFWwindow* window;
+        bool letter;
+        int code, scancode, action, mods;
     };
-    std::deque<Event> events_;
+    struct Mouse {
+        int button;  // that changed; -1: it moved
+        bool down;
+        float x, y;
+    };
+    bool feedMouse();
+    void feedKeys(bool typing, std::vector<KeyEvent>& pressed);
+    std::deque<Key> keys_;
+    std::deque<Mouse> mouse_;
     float x_ = 0, y_ = 0;
     bool buttons_[5] = {}, placed_ = false;
 };
