@@ -47,7 +47,8 @@ struct UvFate {
 // A connected piece of the model: what borders, near borders and contacts join.
 struct PieceReach {
     double area = 0;       // m² of its ground on the finest level
-    double reachable = 0;  // m² of it in the part within which plants get from everywhere to everywhere
+    double enclosed = 0;   // m² more that can't be got to and that no ray from outside meets
+    double reachable = 0;  // m² of `area` in the part within which plants get from everywhere to everywhere
 };
 
 // The figures of a bake; see docs/surface_format.md for the meaning of each.

@@ -1,14 +1,15 @@
 // In: the finished surface. Out: per connected piece of the model how much of its ground plants can get to from the
 // largest part of it, by short walks over every crossing, there and back.
 //
-// Ground is inner texels that nothing buries. Texels whose centres see each other past all contacts are one region; a
-// walk over a crossing leads from a region to a region.
+// Parts that nothing outside sees don't count. Ground is inner texels that nothing buries. Texels whose centres see
+// each other past all contacts are one region; a walk over a crossing leads from a region to a region.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "runtime/core/disjoint_sets.hpp"
 #include "runtime/core/jobs.hpp"
+#include "runtime/surface/mesh_tree.hpp"
 #include "shaders/shared/walk.h"
 #include "tools/bake/bake_mesh.hpp"
 
@@ -19,7 +20,10 @@ constexpr double kEvery = 8;     // texels of a crossing that one walk stands fo
 constexpr float kInside = 0.1f;  // texels: where a walk starts, beside its crossing
 constexpr float kStride = 0.7f;  // texels of a walk between two looks for ground
 constexpr int kStrides = 5;
-constexpr int kAround = 2;  // texels: how far from a place its region's centres are looked for
+constexpr size_t kProbes = 12;  // of a region, asked whether they are seen
+constexpr int kRays = 96;       // from each
+constexpr float kOff = 0.1f;    // texels off the surface that rays begin
+constexpr int kAround = 2;      // texels: how far from a place its region's centres are looked for
 
 class Ground {
   public:
@@ -142,13 +146,15 @@ struct Map {
     std::vector<double> area;
     std::vector<uint32_t> piece;
     std::vector<std::vector<uint32_t>> onward, back;
+    std::vector<uint32_t> number;  // of regions, by the cell that stands for each
 };
 
 Map mapOut(Ground& ground, const std::vector<Way>& ways, const SurfaceData& surface,
            const std::vector<uint32_t>& pieceOf) {
     Map map;
     const uint32_t cells = ground.size() * ground.size();
-    std::vector<uint32_t> number(cells, kNone);
+    std::vector<uint32_t>& number = map.number;
+    number.assign(cells, kNone);
     for (uint32_t cell = 0; cell < cells; ++cell) {
         if (!ground.isGround(cell)) continue;
         const TrianglePlane& plane = surface.triangles[ground.triangle(cell)];
@@ -198,6 +204,50 @@ std::vector<uint32_t> findPieces(const BakeMesh& mesh, const std::vector<Link>& 
     return piece;
 }
 
+// Evenly spread over the sphere.
+std::array<glm::dvec3, kRays> rays() {
+    std::array<glm::dvec3, kRays> out;
+    for (int i = 0; i < kRays; ++i) {
+        const double z = 1 - (2 * i + 1.0) / kRays, r = std::sqrt(1 - z * z), turn = 2.399963229728653 * i;
+        out[size_t(i)] = {r * std::cos(turn), r * std::sin(turn), z};
+    }
+    return out;
+}
+
+// Marks those of the regions that no ray from outside meets, at some of their texels: the insides of attics and of
+// boxes that others close.
+std::vector<uint8_t> findEnclosed(Ground& ground, const Map& map, const std::vector<uint8_t>& asked,
+                                  const BakeMesh& mesh, const SurfaceData& surface) {
+    std::vector<std::vector<uint32_t>> cells(asked.size());
+    for (uint32_t cell = 0; cell < map.number.size(); ++cell)
+        if (ground.isGround(cell) && asked[map.number[ground.region(cell)]])
+            cells[map.number[ground.region(cell)]].push_back(cell);
+    std::vector<glm::vec3> points(mesh.points.begin(), mesh.points.end());
+    std::vector<uint32_t> corners;
+    for (const Triangle& t : mesh.triangles) corners.insert(corners.end(), t.point.begin(), t.point.end());
+    const MeshTree tree(points, corners);
+    const std::array<glm::dvec3, kRays> sphere = rays();
+    std::vector<uint8_t> enclosed(asked.size(), 0);
+    parallelFor(cells.size(), 16, [&](size_t begin, size_t end) {
+        for (size_t r = begin; r < end; ++r) {
+            const size_t count = std::min(cells[r].size(), kProbes);
+            bool seen = count == 0;
+            for (size_t k = 0; k < count && !seen; ++k) {
+                const uint32_t cell = cells[r][(2 * k + 1) * cells[r].size() / (2 * count)];
+                const TrianglePlane& plane = surface.triangles[ground.triangle(cell)];
+                const glm::vec3 n =
+                    glm::normalize(glm::cross(plane.du, plane.dv)) * surface.charts[plane.chart].orientation;
+                const float texel = surface.charts[plane.chart].metresPerUv / float(ground.size());
+                const glm::vec3 from = surface.levels[0].texels[cell].position + n * (kOff * texel);
+                for (const glm::dvec3& ray : sphere)
+                    seen = seen || (glm::dot(glm::vec3(ray), n) > 0.05f && !tree.pick(from, glm::vec3(ray)));
+            }
+            enclosed[r] = !seen;
+        }
+    });
+    return enclosed;
+}
+
 }  // namespace
 
 std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Link>& links,
@@ -213,10 +263,14 @@ std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Lin
     }
     std::erase(largest, kNone);
     const std::vector<uint8_t> onward = spread(map.onward, largest), back = spread(map.back, largest);
+    std::vector<uint8_t> unreached(map.area.size());
+    for (size_t r = 0; r < unreached.size(); ++r) unreached[r] = !onward[r] || !back[r];
+    const std::vector<uint8_t> enclosed = findEnclosed(ground, map, unreached, mesh, surface);
     std::vector<PieceReach> pieces(count);
     for (uint32_t r = 0; r < map.area.size(); ++r) {
-        pieces[map.piece[r]].area += map.area[r];
-        if (onward[r] && back[r]) pieces[map.piece[r]].reachable += map.area[r];
+        PieceReach& piece = pieces[map.piece[r]];
+        (enclosed[r] ? piece.enclosed : piece.area) += map.area[r];
+        if (!unreached[r]) piece.reachable += map.area[r];
     }
     std::erase_if(pieces, [](const PieceReach& p) { return p.area <= 0; });
     std::stable_sort(pieces.begin(), pieces.end(),

@@ -52,7 +52,9 @@ std::string BakeReport::json() const {
                       {"dangling_contacts", danglingContacts}};
     j["reachable"] = {{"share", reachableShare()}, {"least", leastReachable()}, {"pieces", ordered_json::array()}};
     for (size_t i = 0; i < std::min(pieces.size(), kMostPieces); ++i)
-        j["reachable"]["pieces"].push_back({{"area", pieces[i].area}, {"share", pieces[i].reachable / pieces[i].area}});
+        j["reachable"]["pieces"].push_back({{"area", pieces[i].area},
+                                            {"share", pieces[i].reachable / pieces[i].area},
+                                            {"enclosed", pieces[i].enclosed}});
     j["walkable_area"] = walkableArea;
     j["stretch"] = {{"p50", stretch50}, {"p95", stretch95}, {"max", stretchMax}};
     j["round_trip_texels"] = {{"p50", roundTrip50}, {"p999", roundTrip999}};
