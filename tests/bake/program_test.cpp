@@ -74,6 +74,20 @@ TEST_CASE("espalier-bake writes surface, report and pictures") {
     CHECK(r.says("100 %"));
 }
 
+TEST_CASE("layers painted over an earlier surface are carried to the new one, and what is lost is told") {
+    Runner r;
+    CAPTURE(r.output);
+    REQUIRE(r.run("cube.glb -o old/s.glb --resolution 64 --images old"));  // any picture will do as a layer
+    CHECK(r.run("cube.glb -o new/s.glb --resolution 128 --from old/s.glb --layer old/charts.png --report new/r.json"));
+    CHECK(r.says("old/charts.png: warning: carried: 0 m² of new ground"));
+    CHECK(r.has("new/charts.png"));
+    CHECK(!r.run("cube.glb -o old/t.glb --from old/s.glb --layer old/charts.png"));
+    CHECK(r.says("would overwrite"));
+    CHECK(!r.run("cube.glb -o new/t.glb --from cube.glb --layer log.txt"));
+    CHECK(r.says("log.txt: "));
+    CHECK(!r.has("new/t.glb"));
+}
+
 TEST_CASE("--help and --version answer; mistakes end with a message, a code and no files") {
     Runner r;
     CHECK(r.run("--help"));

@@ -10,6 +10,7 @@
 
 #include "runtime/core/file.hpp"
 #include "tools/bake/bake.hpp"
+#include "tools/bake/main/carry_layers.hpp"
 #include "tools/bake/main/folder.hpp"
 #include "tools/bake/main/town.hpp"
 #include "tools/bake/pictures.hpp"
@@ -21,6 +22,7 @@ namespace {
 struct Arguments {
     std::string model, output, report, images, shard;
     TownArguments town;
+    CarryArguments carry;
     ImportOptions importing;
     BakeOptions bake;
     double tolerance = 0;
@@ -73,8 +75,15 @@ int runModel(Arguments& arguments) {
         Status drawn = writePictures(baked->surface, arguments.images);
         if (!drawn) return fail(drawn.failure());
     }
+    if (!arguments.quiet && !arguments.carry.from.empty()) showProgress(0.84f, "layers");
+    auto layers = carryLayers(arguments.carry, baked->surface, arguments.output, baked->report.warnings);
+    if (!layers) return fail(layers.failure());
     if (!arguments.quiet) showProgress(0.85f, "write");
     Uninterrupted writing;
+    for (const CarriedFile& layer : *layers) {
+        Status written = writeFile(layer.path, layer.bytes);
+        if (!written) return fail(written.failure());
+    }
     // The report first: a surface that exists is one that is complete.
     if (!arguments.report.empty()) {
         Status written = writeFile(arguments.report, baked->report.json());
@@ -100,6 +109,8 @@ int runFolder(const Arguments& arguments, const CLI::App& app) {
     options.quiet = arguments.quiet;
     if (!arguments.report.empty() || !arguments.images.empty())
         return fail(Failure(arguments.model, "is a folder: --report and --images are for one model"));
+    if (!arguments.carry.from.empty())
+        return fail(Failure(arguments.model, "is a folder: --from and --layer are for one model"));
     if (!arguments.shard.empty()) {
         char rest = 0;
         if (std::sscanf(arguments.shard.c_str(), "%u/%u%c", &options.shard, &options.shards, &rest) != 2 ||
@@ -155,6 +166,12 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0, 8));
     app.add_option("--report", arguments.report, "write the report (JSON) here");
     app.add_option("--images", arguments.images, "write charts, links, contacts and stretch as .png into this folder");
+    auto* from = app.add_option("--from", arguments.carry.from,
+                                "the model's surface before its change (.glb), from which layers are carried over");
+    from->needs(
+        app.add_option("--layer", arguments.carry.layers,
+                       "a layer that was painted over that surface's walk UVs (.png); written beside the new surface")
+            ->needs(from));
     app.add_option("--tolerance", arguments.tolerance,
                    "metres within which borders without a twin are linked; 0: one texel's footprint")
         ->check(CLI::NonNegativeNumber);

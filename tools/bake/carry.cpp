@@ -1,0 +1,138 @@
+// In: two surfaces and a layer over the first. Out: the layer over the second, texel by texel from the nearest place of
+// the first's mesh, and how much found no place.
+#include "tools/bake/carry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/core/jobs.hpp"
+#include "runtime/surface/box_tree.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr double kFacing = 0.5;  // cosine between the outsides of what is one place
+constexpr double kRadiusShare = 0.01;
+constexpr double kTexels = 2;
+
+double texelOf(const SurfaceData& surface) {
+    double area = 0, uv = 0;
+    for (const Chart& c : surface.charts) area += c.area, uv += c.area / (double(c.metresPerUv) * c.metresPerUv);
+    return uv > 0 ? std::sqrt(area / uv) / surface.levels[0].size : 0;
+}
+
+// The mesh of a surface to look up nearest places on.
+class Target {
+  public:
+    explicit Target(const SurfaceData& surface) : surface_(surface) {
+        std::vector<Box> boxes(surface.indices.size() / 3);
+        for (uint32_t t = 0; t < boxes.size(); ++t)
+            for (uint32_t k = 0; k < 3; ++k) boxes[t].add(glm::dvec3(vertex(t, k).position));
+        tree_ = BoxTree(std::move(boxes), {});
+    }
+
+    glm::vec2 nearest(glm::dvec3 p, glm::dvec3 normal, double within) const {
+        glm::vec2 uv(-1);
+        if (tree_.empty()) return uv;
+        double best = within * within;
+        tree_.nearestSquare(p, [&](uint32_t t) {
+            const DrawVertex &a = vertex(t, 0), &b = vertex(t, 1), &c = vertex(t, 2);
+            const glm::dvec3 outside(a.normal + b.normal + c.normal);
+            if (!(glm::dot(outside, normal) > kFacing * glm::length(outside))) return 1e300;
+            const glm::dvec3 w = weights(p, glm::dvec3(a.position), glm::dvec3(b.position), glm::dvec3(c.position));
+            const glm::dvec3 gap =
+                glm::dvec3(a.position) * w.x + glm::dvec3(b.position) * w.y + glm::dvec3(c.position) * w.z - p;
+            const double far = glm::dot(gap, gap);
+            if (far < best) best = far, uv = a.walkUv * float(w.x) + b.walkUv * float(w.y) + c.walkUv * float(w.z);
+            return far;
+        });
+        return uv;
+    }
+
+  private:
+    const DrawVertex& vertex(uint32_t t, uint32_t k) const { return surface_.vertices[surface_.indices[t * 3 + k]]; }
+
+    // Of the corners, at the point of the triangle that is nearest to p.
+    static glm::dvec3 weights(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+        const glm::dvec3 corner[3] = {a, b, c}, n = glm::cross(b - a, c - a);
+        const double area2 = glm::dot(n, n);
+        glm::dvec3 w(glm::dot(glm::cross(c - b, p - b), n), glm::dot(glm::cross(a - c, p - c), n), 0);
+        w.z = area2 - w.x - w.y;
+        if (area2 > 0 && w.x >= 0 && w.y >= 0 && w.z >= 0) return w / area2;
+        glm::dvec3 best(1, 0, 0);
+        double least = 1e300;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 from = corner[k], e = corner[(k + 1) % 3] - from;
+            const double t = std::clamp(glm::dot(p - from, e) / std::max(glm::dot(e, e), 1e-300), 0.0, 1.0);
+            const double far = glm::length(from + e * t - p);
+            if (far >= least) continue;
+            least = far;
+            best = glm::dvec3(0);
+            best[k] = 1 - t, best[(k + 1) % 3] = t;
+        }
+        return best;
+    }
+
+    const SurfaceData& surface_;
+    BoxTree tree_;
+};
+
+float sample(const PaintedLayer& layer, glm::vec2 uv) {
+    const glm::vec2 last(float(layer.width - 1), float(layer.height - 1));
+    const glm::vec2 p = glm::clamp(uv * (last + 1.0f) - 0.5f, glm::vec2(0), last);
+    const glm::uvec2 low(p), high = glm::min(low + 1u, glm::uvec2(last));
+    const glm::vec2 f = p - glm::vec2(low);
+    auto at = [&](uint32_t x, uint32_t y) { return layer.texels[size_t(y) * layer.width + x]; };
+    return (at(low.x, low.y) * (1 - f.x) + at(high.x, low.y) * f.x) * (1 - f.y) +
+           (at(low.x, high.y) * (1 - f.x) + at(high.x, high.y) * f.x) * f.y;
+}
+
+}  // namespace
+
+std::vector<SurfaceMatch::Ground> SurfaceMatch::match(const SurfaceData& here, const SurfaceData& there,
+                                                      double within) {
+    const SurfaceLevelData& level = here.levels[0];
+    std::vector<Ground> ground;
+    for (uint32_t y = 0; y < level.size; ++y)
+        for (uint32_t x = 0; x < level.size; ++x)
+            if (texelClass(level.texels[texelIndex(level.size, x, y)].bits) == kTexelInner)
+                ground.push_back({x, y, 0, glm::vec2(-1)});
+    const Target target(there);
+    parallelFor(ground.size(), 4096, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            Ground& g = ground[i];
+            const uint32_t at = texelIndex(level.size, g.x, g.y);
+            const TrianglePlane& plane = here.triangles[level.aux[at].triangle];
+            const glm::dvec3 across = glm::cross(glm::dvec3(plane.du), glm::dvec3(plane.dv));
+            g.area = float(glm::length(across) / (double(level.size) * level.size));
+            const glm::dvec3 outside = glm::normalize(across) * double(here.charts[plane.chart].orientation);
+            g.other = target.nearest(glm::dvec3(level.texels[at].position), outside, within);
+        }
+    });
+    return ground;
+}
+
+SurfaceMatch::SurfaceMatch(const SurfaceData& from, const SurfaceData& to, double within)
+    : size_(to.levels[0].size), oldSize_(from.levels[0].size) {
+    if (!(within > 0))
+        within = std::max(kRadiusShare * double(glm::length(to.boundsMax - to.boundsMin)) / 2,
+                          kTexels * std::max(texelOf(from), texelOf(to)));
+    new_ = match(to, from, within);
+    old_ = match(from, to, within);
+}
+
+CarriedLayer SurfaceMatch::carry(const PaintedLayer& layer) const {
+    CarriedLayer out;
+    out.layer = {size_, size_, std::vector<float>(size_t(size_) * size_, 0.0f)};
+    for (const Ground& g : new_) {
+        if (g.other.x < 0)
+            out.fresh += g.area;
+        else
+            out.layer.texels[size_t(g.y) * size_ + g.x] = sample(layer, g.other);
+    }
+    for (const Ground& g : old_)
+        if (g.other.x < 0 && sample(layer, (glm::vec2(g.x, g.y) + 0.5f) / float(oldSize_)) > 0) out.lost += g.area;
+    return out;
+}
+
+}  // namespace espalier

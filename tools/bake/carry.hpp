@@ -1,0 +1,45 @@
+#pragma once
+
+// What was painted over a surface, carried to another that was baked from the model after a change: charts lie
+// elsewhere then, places in space don't.
+
+#include <span>
+#include <vector>
+
+#include "runtime/surface/surface.hpp"
+
+namespace espalier {
+
+// One channel over the walk's UV square; rows from v = 0 on, width * height values.
+struct PaintedLayer {
+    uint32_t width = 0, height = 0;
+    std::vector<float> texels;
+};
+
+struct CarriedLayer {
+    PaintedLayer layer;  // of the new surface's finest level; 0 outside of its charts
+    double fresh = 0;    // m² of new ground with no old one near: 0 there
+    double lost = 0;     // m² of old ground, painted above 0, that no new one is near
+};
+
+// Which place of one surface lies where on the other: the nearest one whose outside points the same way within 60°, not
+// farther than `within` metres; 0: a hundredth of the new surface's radius, at least two texels.
+class SurfaceMatch {
+  public:
+    SurfaceMatch(const SurfaceData& from, const SurfaceData& to, double within = 0);
+    CarriedLayer carry(const PaintedLayer& layer) const;
+
+  private:
+    struct Ground {
+        uint32_t x, y;
+        float area;       // m²
+        glm::vec2 other;  // place on the other surface's UV square; x < 0: none
+    };
+    static std::vector<Ground> match(const SurfaceData& here, const SurfaceData& there, double within);
+
+    uint32_t size_;
+    std::vector<Ground> new_, old_;
+    uint32_t oldSize_;
+};
+
+}  // namespace espalier

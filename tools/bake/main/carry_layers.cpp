@@ -1,0 +1,113 @@
+// In: PNG files painted over an earlier surface, and the new one. Out: PNG files for the new one.
+#include "tools/bake/main/carry_layers.hpp"
+
+#include <stb_image.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "runtime/core/file.hpp"
+#include "tools/bake/carry.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr int kMostSide = 8192;
+
+Result<PaintedLayer> readLayer(const std::string& path) {
+    auto bytes = readFile(path);
+    if (!bytes) return std::move(bytes.failure());
+    const auto* data = reinterpret_cast<const stbi_uc*>(bytes->data());
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_info_from_memory(data, int(bytes->size()), &width, &height, &channels))
+        return Failure(path, std::string("is no picture that can be carried (PNG can): ") + stbi_failure_reason());
+    if (width > kMostSide || height > kMostSide)
+        return Failure(path, "has " + std::to_string(width) + " × " + std::to_string(height) + " texels; " +
+                                 std::to_string(kMostSide) + " a side is the limit");
+    const std::unique_ptr<stbi_us, void (*)(void*)> grey(
+        stbi_load_16_from_memory(data, int(bytes->size()), &width, &height, &channels, 1), stbi_image_free);
+    if (!grey) return Failure(path, std::string("cannot be read: ") + stbi_failure_reason());
+    PaintedLayer layer{uint32_t(width), uint32_t(height), {}};
+    layer.texels.assign(grey.get(), grey.get() + size_t(width) * size_t(height));
+    for (float& value : layer.texels) value /= 65535.0f;
+    return layer;
+}
+
+void append32(std::vector<std::byte>& out, uint32_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8) out.push_back(std::byte(value >> shift & 255u));
+}
+
+void appendChunk(std::vector<std::byte>& out, const char (&name)[5], const std::vector<std::byte>& data) {
+    append32(out, uint32_t(data.size()));
+    const size_t first = out.size();
+    for (int i = 0; i < 4; ++i) out.push_back(std::byte(name[i]));
+    out.insert(out.end(), data.begin(), data.end());
+    append32(out, uint32_t(crc32(0, reinterpret_cast<const Bytef*>(out.data() + first), uInt(out.size() - first))));
+}
+
+// 16-bit grey, unfiltered.
+std::vector<std::byte> encodePng(const PaintedLayer& layer) {
+    std::vector<std::byte> rows;
+    rows.reserve(size_t(layer.height) * (2 * layer.width + 1));
+    for (uint32_t y = 0; y < layer.height; ++y) {
+        rows.push_back(std::byte(0));
+        for (uint32_t x = 0; x < layer.width; ++x) {
+            const float value = std::clamp(layer.texels[size_t(y) * layer.width + x], 0.0f, 1.0f);
+            const auto bits = uint32_t(std::lround(value * 65535.0f));
+            rows.push_back(std::byte(bits >> 8));
+            rows.push_back(std::byte(bits & 255u));
+        }
+    }
+    uLongf size = compressBound(uLong(rows.size()));
+    std::vector<std::byte> packed(size);
+    compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(rows.data()),
+              uLong(rows.size()), 6);
+    packed.resize(size);
+    std::vector<std::byte> out, header;
+    for (int c : std::array<int, 8>{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}) out.push_back(std::byte(c));
+    append32(header, layer.width);
+    append32(header, layer.height);
+    for (int c : {16, 0, 0, 0, 0}) header.push_back(std::byte(c));  // bits, grey, and no choice in the rest
+    appendChunk(out, "IHDR", header);
+    appendChunk(out, "IDAT", packed);
+    appendChunk(out, "IEND", {});
+    return out;
+}
+
+}  // namespace
+
+Result<std::vector<CarriedFile>> carryLayers(const CarryArguments& arguments, const SurfaceData& to,
+                                             const std::string& output, std::vector<Diagnostic>& notes) {
+    std::vector<CarriedFile> files;
+    if (arguments.from.empty()) return files;
+    auto from = readSurface(arguments.from);
+    if (!from) return std::move(from.failure());
+    const SurfaceMatch match(*from, to);
+    for (const std::string& path : arguments.layers) {
+        const std::filesystem::path target =
+            std::filesystem::path(output).parent_path() / std::filesystem::path(path).filename();
+        std::error_code ignored;
+        if (std::filesystem::equivalent(path, target, ignored))
+            return Failure(target.string(),
+                           "the carried layer would overwrite the one that it comes from: bake into "
+                           "another folder");
+        auto layer = readLayer(path);
+        if (!layer) return std::move(layer.failure());
+        const CarriedLayer carried = match.carry(*layer);
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "carried: %.3g m² of new ground have no value yet, %.3g m² of what was "
+                      "painted are gone",
+                      carried.fresh, carried.lost);
+        notes.push_back({path, 0, 0, {}, text, true});
+        files.push_back({target.string(), encodePng(carried.layer)});
+    }
+    return files;
+}
+
+}  // namespace espalier
