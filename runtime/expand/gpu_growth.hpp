@@ -60,7 +60,7 @@ class GpuGrowth final : public Growth {
     Status loadKernels(WalkMode mode);
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
     Status viewSurfaces(const GrowthInputs& inputs);
-    Status viewRecords(const Plants& plants, const Links& links);
+    Status viewRecords(const Plants& plants, const Links& links, const Links& before);
     void dropViews();  // no view outlives its buffer
     Status makeKernels(const GrowthInputs& inputs);
     Status makeQueues(const GrowthInputs& inputs);
@@ -127,10 +127,11 @@ class GpuGrowth final : public Growth {
     Program packTables_, branchesFit_;
     std::array<Program, 2> fit_;  // [1] fetches records as texels
     Program compactPlaces_, compactNodes_, compactLeaves_;
-    Program find_, start_, settle_, work_, apply_, thickness_, fitAgain_;
+    Program find_, start_, settle_, work_, thickness_;
+    std::array<Program, 2> apply_, fitAgain_;  // as fit_
     bool byAddress_ = false;
     bool fetches_ = false, fetchesRecords_ = false;
-    TexelView surfaceView_, nodeView_, chunkView_, branchView_;
+    TexelView surfaceView_, nodeView_, chunkView_, branchView_, leafView_, chunkViewBefore_;
     Plants plants_[2];
     Links links_[2];
     uint32_t frontPlants_ = 0, frontLinks_ = 0;

@@ -65,11 +65,15 @@ Status GpuGrowth::viewSurfaces(const GrowthInputs& inputs) {
 }
 
 // The same of the records that the passes after the march read.
-Status GpuGrowth::viewRecords(const Plants& plants, const Links& links) {
+Status GpuGrowth::viewRecords(const Plants& plants, const Links& links, const Links& before) {
     const struct {
         TexelView* view;
         const Buffer* buffer;
-    } rows[] = {{&nodeView_, &plants.nodes}, {&chunkView_, &links.chunks}, {&branchView_, &links.branches}};
+    } rows[] = {{&nodeView_, &plants.nodes},
+                {&chunkView_, &links.chunks},
+                {&branchView_, &links.branches},
+                {&leafView_, &plants.leaves},
+                {&chunkViewBefore_, &before.chunks}};
     const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
     fetchesRecords_ = device_.info().cpu;
     for (const auto& row : rows)
@@ -85,7 +89,8 @@ Status GpuGrowth::viewRecords(const Plants& plants, const Links& links) {
 }
 
 void GpuGrowth::dropViews() {
-    for (TexelView* view : {&surfaceView_, &nodeView_, &chunkView_, &branchView_}) *view = {};
+    for (TexelView* view : {&surfaceView_, &nodeView_, &chunkView_, &branchView_, &leafView_, &chunkViewBefore_})
+        *view = {};
 }
 
 // Kernels for what these grammars ask of them.
@@ -132,7 +137,7 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
         Status ok = ensure(*row.buffer, row.name, row.bytes);
         if (!ok) return ok;
     }
-    if (Status viewed = viewRecords(plants, links); !viewed) return viewed;
+    if (Status viewed = viewRecords(plants, links, links); !viewed) return viewed;
     if (Status kernels = makeKernels(inputs); !kernels) return kernels;
     return makeQueues(inputs);
 }

@@ -38,13 +38,18 @@ Status GpuGrowth::makeAgainKernels() {
     const struct {
         Program* program;
         const char* shader;
-    } rows[] = {{&find_, "expand/again_find.comp"},     {&start_, "expand/again_start.comp"},
-                {&settle_, "expand/again_settle.comp"}, {&work_, "expand/again_work.comp"},
-                {&apply_, "expand/again_apply.comp"},   {&thickness_, "expand/again_thickness.comp"},
-                {&fitAgain_, "expand/again_fit.comp"}};
+    } rows[] = {{&find_, "expand/again_find.comp"},
+                {&start_, "expand/again_start.comp"},
+                {&settle_, "expand/again_settle.comp"},
+                {&work_, "expand/again_work.comp"},
+                {&thickness_, "expand/again_thickness.comp"}};
     for (const auto& row : rows)
         if (Status made = load(*row.program, row.shader, {}); !made) return made;
     const uint32_t address = byAddress_ ? 1 : 0;
+    const std::vector<SpecConstant> reading = {{3, fetchesRecords_ ? 0u : 1u}};
+    Status published = load(apply_[fetchesRecords_], "expand/again_apply.comp", reading);
+    if (published) published = load(fitAgain_[fetchesRecords_], "expand/again_fit.comp", reading);
+    if (!published) return published;
     Status march = load(marchAgain_[marchNumber()], "expand/march_again.comp",
                         {{0, address}, {1, fetches_ ? 0u : 1u}, {2, features_}});
     if (!march) return march;
@@ -74,7 +79,7 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
     if (Status ok = ensure(leafRanges_, "regrowth leaf ranges", blocks * 8); !ok) return ok;
     for (const auto& row : rows)
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
-    if (Status viewed = viewRecords(plants_[frontPlants_], to); !viewed) return viewed;
+    if (Status viewed = viewRecords(plants_[frontPlants_], to, from); !viewed) return viewed;
     return makeQueues(inputs);
 }
 
@@ -180,11 +185,13 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
         pass.barrier(Use::compute, Use::compute);
     }
     Pass pass(commands, "expand fit");
-    pass.dispatch(apply_, groups, env);
+    const auto records = {Binding(nodeView_), Binding(chunkView_), Binding(branchView_), Binding(leafView_),
+                          Binding(chunkViewBefore_)};
+    pass.dispatch(apply_[fetchesRecords_], groups, env, records);
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(thickness_, groups, env);
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(fitAgain_, groups, env);
+    pass.dispatch(fitAgain_[fetchesRecords_], groups, env, records);
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 

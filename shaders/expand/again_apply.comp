@@ -1,10 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define ESPALIER_AGAIN
+#define ESPALIER_RECORD_FETCH
 // A regrowth that holds is published: terminals' results come to their nodes, nodes that are gone are taken out.
 // A group a chunk; what was counted in the structure's hash is taken out of it.
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/again.glsl"
+#include "shaders/expand/again_lookup.glsl"
 #include "shaders/shared/expand_fit.h"
 
 layout(local_size_x = 32) in;
@@ -13,6 +15,8 @@ layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 uvec2 hash = uvec2(0u);
 uint inserted = 0u;
 uint feet = 0u;
+uint deadEnds = 0u;
+uint stopped = 0u;
 
 // Takes a node out of the hash and lets its leaves go.
 void unhash(uint index, u64 key, Node node, UintBuf touched) {
@@ -21,20 +25,20 @@ void unhash(uint index, u64 key, Node node, UintBuf touched) {
 }
 
 void takeOut(ChunkBuf before, UintBuf touched, uint chunk, uint lane) {
-    uint marks = before.v[chunk].marks;
-    uint index = before.v[chunk].firstNode + lane;
-    for (uint k = 0u; k < (lane < chunkNodes(marks) ? 1u : 0u); ++k) {
-        Node node = env.nodes.v[index];
-        unhash(index, before.v[chunk].key, node, touched);
+    ChunkBefore was = readBefore(before, chunk);
+    uint index = was.firstNode + lane;
+    for (uint k = 0u; k < (lane < chunkNodes(was.marks) ? 1u : 0u); ++k) {
+        Node node = readNode(env, index);
+        unhash(index, was.key, node, touched);
         uint flags = node.flags;
         inserted += (flags & kNodeInserted) != 0u ? 1u : 0u;
-        feet += lane == 0u && before.v[chunk].previousNode == kNoIndex ? 1u : 0u;
+        feet += lane == 0u && was.previousNode == kNoIndex ? 1u : 0u;
         env.nodes.v[index].flags = flags & 0x1F00u;
         env.nodes.v[index].radius = -1.0;
     }
     if (lane == 0u) {
-        if ((marks & kChunkDeadEnd) != 0u) atomicAdd(AGAIN.goneDeadEnds, 1u);
-        atomicAdd(AGAIN.goneStopped, (before.v[chunk].step >> 24u) + ((marks & kChunkStopped) != 0u ? 1u : 0u));
+        deadEnds += (was.marks & kChunkDeadEnd) != 0u ? 1u : 0u;
+        stopped += (was.step >> 24u) + ((was.marks & kChunkStopped) != 0u ? 1u : 0u);
     }
 }
 
@@ -51,9 +55,9 @@ void main() {
         bool wanted = ((againMarks.v[chunk].nodes >> lane) & 1u) != 0u;
         bool grown = (againMarks.v[chunk].bits & kMarkGrown) != 0u;
         for (uint k = 0u; k < (wanted ? 1u : 0u); ++k) {
-            uint index = env.chunks.v[chunk].firstNode + lane;
+            uint index = readFirstNode(env, chunk) + lane;
             for (uint once = 0u; once < (grown ? 0u : 1u); ++once)
-                unhash(index, env.chunks.v[chunk].key, env.nodes.v[index], touched);
+                unhash(index, readKey(env, chunk), readNode(env, index), touched);
             uint at = (i * kChunkNodes + lane) * 3u;
             env.nodes.v[index].tangent = results.v[at];
             env.nodes.v[index].flags = results.v[at + 1u];
@@ -73,6 +77,8 @@ void main() {
     }
     atomicAdd(AGAIN.goneInserted, inserted);
     atomicAdd(AGAIN.goneFeet, feet);
+    atomicAdd(AGAIN.goneDeadEnds, deadEnds);
+    atomicAdd(AGAIN.goneStopped, stopped);
     uint slot = (gl_WorkGroupID.x & (kHashSlots - 1u)) * 2u;
     atomicAdd(env.status.v[0].hash[slot], hash.x);
     atomicAdd(env.status.v[0].hash[slot + 1u], hash.y);

@@ -2,9 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #define ESPALIER_AGAIN
+#define ESPALIER_RECORD_FETCH
 // The end of a regrowth: radii, the structure's hash, and leaves: pending ones are shown, those of touched nodes go.
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/again.glsl"
+#include "shaders/expand/again_lookup.glsl"
 #include "shaders/shared/expand_fit.h"
 
 layout(local_size_x = 32) in;
@@ -18,19 +20,20 @@ void fitChunks(uint lane) {
     uint count = listed(env, kListFit);
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint chunk = listEntry(env, kListFit, i);
-        bool there = lane < chunkNodes(env.chunks.v[chunk].marks);
+        ChunkBrief brief = readBrief(env, chunk);
+        bool there = lane < chunkNodes(brief.marks);
         for (uint k = 0u; k < (there ? 1u : 0u); ++k) {
-            u64 key = env.chunks.v[chunk].key;
-            uint branch = env.chunks.v[chunk].branch;
-            uint index = env.chunks.v[chunk].firstNode + lane;
-            Node node = env.nodes.v[index];
+            u64 key = brief.key;
+            uint branch = brief.branch;
+            uint index = brief.firstNode + lane;
+            Node node = readNode(env, index);
             // Others were taken out of the hash before, and have their radius from their terminals.
             bool fresh = ((againMarks.v[chunk].nodes >> lane) & 1u) != 0u;
             for (uint old = 0u; old < (fresh ? 0u : 1u); ++old) {
                 hash -= hashOfNode(key, node);
                 node.radius = roundRadius(divExact(node.radius, branchesBefore.v[branch].thickness));
             }
-            node.radius = node.radius * env.branches.v[branch].thickness;
+            node.radius = node.radius * readBranch(env, branch).thickness;
             env.nodes.v[index].radius = node.radius;
             hash += hashOfNode(key, node);
         }
@@ -51,11 +54,12 @@ bool touches(UintBuf touched, uint low, uint high) {
 
 // Lets leaf `i` go if its node is touched; 1 if so.
 uint sweepLeaf(ChunkBuf before, UintBuf touched, uint i) {
-    uint node = env.leaves.v[i].node;
+    Leaf leaf = readLeaf(env, i);
+    uint node = leaf.node;
     bool goes = node < kLeafPending && ((touched.v[node >> 5u] >> (node & 31u)) & 1u) != 0u;
     for (uint k = 0u; k < (goes ? 1u : 0u); ++k) {
-        u64 key = before.v[env.nodes.v[node].chunk].key;
-        hash -= hashOfLeaf(key, env.nodes.v[node].flags, env.leaves.v[i]);
+        NodeArc was = readArc(env, node);
+        hash -= hashOfLeaf(readKeyBefore(before, was.chunk), was.flags, leaf);
         env.leaves.v[i].node = kNoIndex;
     }
     return goes ? 1u : 0u;
@@ -83,7 +87,7 @@ uint sweepLeaves() {
         }
     }
     for (uint i = count + gl_GlobalInvocationID.x; i < env.status.v[0].leaves; i += lanes)
-        env.leaves.v[i].node &= ~kLeafPending;
+        env.leaves.v[i].node = readLeaf(env, i).node & ~kLeafPending;
     return gone;
 }
 

@@ -6,19 +6,19 @@ layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 void main() {
+    uint wanted = env.waves.v[env.wave].count;
+    uint count = min(wanted, env.itemCapacity);
+    if (wanted > count) atomicMax(env.status.v[0].items, wanted);
+    bool more = env.waves.v[env.wave].taken < count;   // groups come late to what others have taken
 #ifdef ESPALIER_AGAIN
     openAgain(env);
 #endif
 #ifdef ESPALIER_SURFACE_FETCH
-    openSurface(env.surfaces, uint64_t(env.scratch));
+    openSurface(env.surfaces, uint64_t(env.scratch), more);
 #endif
-    uint wanted = env.waves.v[env.wave].count;
-    uint count = min(wanted, env.itemCapacity);
-    if (wanted > count) atomicMax(env.status.v[0].items, wanted);
     ChunkGrowth c;
     c.g.phase = kPhaseEnded;
     bool live = false;
-    bool more = true;
     uint taken = 0u;
     GrowthTally tally = emptyTally();
     while (subgroupAny(live || more)) {

@@ -9,12 +9,21 @@
 layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
+uint nodeOfTrip(uint k) {
+    const uint each = kNodesPerGroup / kExpandGroup;
+    uint block = (k / each) * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    return block * kNodesPerGroup + (k % each) * kExpandGroup + gl_LocalInvocationID.x;
+}
+
 void main() {
     uint count = env.status.v[0].nodes;
     bool ready = complete(env);
-    uint lanes = gl_NumWorkGroups.x * kExpandGroup;
+    uint first = env.status.v[0].frozenNodes;
     uvec2 hash = uvec2(0u);
-    for (uint i = env.status.v[0].frozenNodes + gl_GlobalInvocationID.x; ready && i < count; i += lanes) {
+    // A group's nodes follow each other, so that leaves near each other lie on nodes near each other: see AgainState.
+    for (uint k = 0u; ready; ++k) {
+        uint i = first + nodeOfTrip(k);
+        if (i >= count) break;
         NodeFinish finish = finishNode(env, i, hash);
         if (env.phase == kTerminalsWrite) keepFinish(env.nodes, i, finish);
     }

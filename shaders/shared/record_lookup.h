@@ -17,16 +17,18 @@ struct ChunkBrief {
     uint previousNode, next, branch, firstNode, depth, step, marks;
 };
 
-// Where a node's neighbour lies in its branch.
+// Where a node lies in its branch.
 struct NodeArc {
     float arc;
-    uint flags;
+    uint chunk, flags;
 };
 
 #ifdef __cplusplus
 inline Node readNode(ExpandEnv env, uint at) { return env.nodes.v[at]; }
 inline vec3 readPosition(ExpandEnv env, uint at) { return env.nodes.v[at].position; }
-inline NodeArc readArc(ExpandEnv env, uint at) { return {env.nodes.v[at].arc, env.nodes.v[at].flags}; }
+inline NodeArc readArc(ExpandEnv env, uint at) {
+    return {env.nodes.v[at].arc, env.nodes.v[at].chunk, env.nodes.v[at].flags};
+}
 inline ChunkBrief readBrief(ExpandEnv env, uint at) {
     const Chunk& c = env.chunks.v[at];
     return {c.key, c.entry.arc, c.symbol, vec4(c.args[0], c.args[1], c.args[2], c.args[3]),
@@ -90,9 +92,9 @@ vec3 readPosition(ExpandEnv env, uint at) {
     return uintBitsToFloat(nodeWords(at, 0u));
 }
 NodeArc readArc(ExpandEnv env, uint at) {
-    if (kRecordsByAddress != 0u) return NodeArc(env.nodes.v[at].arc, env.nodes.v[at].flags);
+    if (kRecordsByAddress != 0u) return NodeArc(env.nodes.v[at].arc, env.nodes.v[at].chunk, env.nodes.v[at].flags);
     uvec3 words = nodeWords(at, 2u);
-    return NodeArc(uintBitsToFloat(words.x), words.z);
+    return NodeArc(uintBitsToFloat(words.x), words.y, words.z);
 }
 
 ChunkBrief readBrief(ExpandEnv env, uint at) {

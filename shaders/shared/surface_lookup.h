@@ -28,10 +28,11 @@ uint levelSizes[kMaxLevels];
 uint texelsAt[kMaxLevels], auxAt[kMaxLevels], headsAt[kMaxLevels], refsAt[kMaxLevels];
 uint crossingsAt, chartsAt, trianglesAt;
 
-// arena: address of the buffer's first byte.
-void openSurface(SurfaceBuf surfaces, uint64_t arena) {
-    if (kSurfaceByAddress != 0u) return;
-    for (uint i = 0u; i < kMaxLevels; ++i) {
+// arena: address of the buffer's first byte. wanted: false where the invocation has nothing to do with it.
+void openSurface(SurfaceBuf surfaces, uint64_t arena, bool wanted) {
+    if (kSurfaceByAddress != 0u || !wanted) return;
+    uint count = surfaces.v[0].levelCount;
+    for (uint i = 0u; i < kMaxLevels && i < count; ++i) {
         SurfaceLevel level = surfaces.v[0].levels[i];
         levelSizes[i] = level.size;
         texelsAt[i] = uint((uint64_t(level.texels) - arena) >> 4);
