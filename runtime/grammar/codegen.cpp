@@ -11,6 +11,7 @@ namespace {
 constexpr size_t kMaxCode = 60'000, kMaxUniforms = 4'000;
 
 uint32_t inputBit(uint32_t slot) {
+    if (slot == kSlotEaveStart) return kInputEaveStart;
     if (slot > kSlotOne && slot < kMachineSlots) return kInputOfRoofs;
     if (slot >= kSlotAngle && slot < kSlotAngle + kMaxDirections) return kInputAngle << (slot - kSlotAngle);
     if (slot >= kSlotTexCoord && slot < kSlotNormal) return kInputTexCoord;

@@ -10,6 +10,7 @@
 #include "runtime/core/check.hpp"
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/program.hpp"
+#include "shaders/shared/roof_tables.h"
 
 namespace espalier {
 namespace {
@@ -18,14 +19,6 @@ constexpr uint32_t kWaves = kMaxRoofDepth + 2;
 constexpr int kMostAttempts = 12;
 // Read back: the status, the waves, what houses have read.
 constexpr uint64_t kReadsAt = sizeof(RoofStatus) + kWaves * sizeof(RoofWave);
-
-struct WavePush {
-    RoofEnvBuf environment;
-    uint32_t wave;
-};
-struct RunsPush {
-    RoofEnvBuf environment;
-};
 
 template <class Buf>
 Buf addressOf(const Buffer& buffer) {
@@ -39,13 +32,8 @@ class GpuRoofs final : public RoofGrowth {
     explicit GpuRoofs(Device& device) : device_(device) {}
 
     Status setUp() {
-        for (auto [program, shader] : {std::pair{&derive_, "roof/derive.comp"}, std::pair{&runs_, "roof/runs.comp"}}) {
-            Result<Program> made = Program::compute(device_, shader, {.exact = true, .constants = {}});
-            if (!made) return made.failure();
-            requireEqual(made->localSize()[0], kRoofGroup, "local size of a roof kernel");
-            *program = std::move(*made);
-        }
-        return Done{};
+        if (Status s = ensure(noWords_, "no roof grammar", kUniformMapWords * 4); !s) return s;
+        return make(runs_, "roof/runs.comp", false);
     }
     Status grow(const RoofInputs& inputs) override;
     Status growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses) override;
@@ -64,10 +52,36 @@ class GpuRoofs final : public RoofGrowth {
         uint32_t waves = 0, widest = 0;
         double ms = 0;
     };
+    Status make(Program& program, const char* shader, bool byAddress) {
+        Result<Program> made =
+            Program::compute(device_, shader, {.exact = true, .constants = {{0, byAddress}, {1, uses_}}});
+        if (!made) return made.failure();
+        requireEqual(made->localSize()[0], kRoofGroup, "local size of a roof kernel");
+        program = std::move(*made);
+        return Done{};
+    }
+    // The kernel for what the grammar uses.
+    Status makeDerive(const RuleMap& grammar, bool byAddress) {
+        const RuleMapRef map = grammar.ref();
+        uint32_t uses = uses_;
+        for (uint32_t i = 0; i < map.ruleCount; ++i) {
+            uses |= 1u << roofKind(map.rules.v[i]);
+            if (map.rules.v[i].startLayers) uses |= kRoofUsesLayers;
+        }
+        for (uint32_t i = 0; i < map.symbolCount; ++i)
+            if (map.symbols.v[i].layers) uses |= kRoofUsesLayers;
+        if (derive_ && uses == uses_ && byAddress == derivesByAddress_) return Done{};
+        uses_ = uses;
+        derivesByAddress_ = byAddress;
+        derive_ = {};
+        return make(derive_, "roof/derive.comp", byAddress);
+    }
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device) {
         if (buffer && buffer.size() >= bytes) return Done{};
         buffer = {};
-        Result<Buffer> made = Buffer::create(device_, name, bytes + bytes / 8, use);
+        // What may be bound as a uniform buffer stays as small as that.
+        const uint64_t spare = bytes > kUniformMapWords * 4 ? bytes / 8 : 0;
+        Result<Buffer> made = Buffer::create(device_, name, bytes + spare, use);
         if (!made) return made.failure();
         buffer = std::move(*made);
         return Done{};
@@ -100,11 +114,13 @@ class GpuRoofs final : public RoofGrowth {
 
     Device& device_;
     Program derive_, runs_;
+    uint32_t uses_ = 0;  // what derive_ is specialised to: it only grows, so that edits seldom make a kernel
+    bool derivesByAddress_ = false;
     RoofRoom room_;
     Set sets_[2];
     uint32_t front_ = 0;
-    Buffer atoms_, pieces_, words_, map_, meshes_, scopes_[2], status_, waves_, env_, generations_, houseReads_, means_,
-        layerTable_, readback_;
+    Buffer atoms_, pieces_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, generations_,
+        houseReads_, means_, layerTable_, readback_;
     Buffer layers_[kRoofLayers];
     uint64_t grammarRevision_ = 0;
     Counts own_, sent_;  // of the town's tables: room, and what the published set holds
@@ -156,12 +172,12 @@ Status GpuRoofs::uploadTables(Commands& commands, const RoofTables& t, const Set
 
 Status GpuRoofs::uploadGrammar(Commands& commands, const RoofInputs& inputs) {
     if (grammarRevision_ == inputs.grammarRevision) return Done{};
-    auto send = [&](Buffer& buffer, const char* name, auto span) -> Status {
+    auto send = [&](Buffer& buffer, const char* name, auto span, uint64_t least = 16) -> Status {
         auto bytes = std::as_bytes(span);
-        if (Status s = ensure(buffer, name, std::max<uint64_t>(bytes.size(), 16)); !s) return s;
+        if (Status s = ensure(buffer, name, std::max<uint64_t>(bytes.size(), least)); !s) return s;
         return bytes.empty() ? Status(Done{}) : commands.upload(buffer, bytes);
     };
-    if (Status s = send(words_, "roof grammar", inputs.grammar->words()); !s) return s;
+    if (Status s = send(words_, "roof grammar", inputs.grammar->words(), kUniformMapWords * 4); !s) return s;
     const RuleMapRef ref = inputs.grammar->refAt(words_.address());
     if (Status s = send(map_, "roof rule map", std::span(&ref, 1)); !s) return s;
     if (Status s = send(meshes_, "roof mesh bounds", inputs.meshes); !s) return s;
@@ -259,6 +275,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, s
     env.means = addressOf<FloatBuf>(means_);
     env.reads = addressOf<UintBuf>(houseReads_);
     env.site = inputs.site;
+    env.words = words_.address();
     env.shapeRoom = room_.scopes;
     env.gridRoom = uint32_t(set.grids.size() / sizeof(RoofGrid));
     env.rowRoom = uint32_t(set.runs.size() / sizeof(RoofRun));
@@ -279,14 +296,19 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, s
     for (Status& s : steps)
         if (!s) return s.failure();
     commands->barrier(Use::transfer, Use::compute | Use::indirect);
+    const bool byAddress = words_.size() > kUniformMapWords * 4;
+    if (Status s = makeDerive(*inputs.grammar, byAddress); !s) return s.failure();
     {
         Pass pass(*commands, "roof expand");
         for (uint32_t w = 0; w + 1 < kWaves; ++w) {
-            const WavePush push{addressOf<RoofEnvBuf>(env_), w};
-            pass.dispatchIndirect(derive_, waves_, w * sizeof(RoofWave) + offsetof(RoofWave, groups), push);
+            pass.dispatchIndirect(derive_, waves_, w * sizeof(RoofWave) + offsetof(RoofWave, groups), w,
+                                  {env_, map_, byAddress ? noWords_ : words_});
             pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
         }
-        pass.dispatchIndirect(runs_, status_, offsetof(RoofStatus, gridGroups), RunsPush{addressOf<RoofEnvBuf>(env_)});
+    }
+    {
+        Pass pass(*commands, "roof rows");
+        pass.dispatchIndirect(runs_, status_, offsetof(RoofStatus, gridGroups), {}, {env_});
         pass.barrier(Use::compute, Use::transfer | Use::compute | Use::vertex);
     }
     commands->copy(status_, readback_, sizeof(RoofStatus));
@@ -296,7 +318,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, s
     if (Status s = commands->finish(); !s) return s.failure();
     device_.collect();
     Outcome outcome;
-    outcome.ms = device_.milliseconds("roof expand");
+    outcome.ms = device_.milliseconds("roof expand") + device_.milliseconds("roof rows");
     std::memcpy(&outcome.status, readback_.mapped(), sizeof(RoofStatus));
     std::memcpy(static_cast<void*>(waves.data()), readback_.mapped() + sizeof(RoofStatus), kWaves * sizeof(RoofWave));
     reads_.resize(generationOf_.size());

@@ -5,15 +5,14 @@
 #include "shaders/shared/roof_expand.h"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { RoofEnvBuf environment; uint wave; };
+layout(push_constant, scalar) uniform Push { uint wave; };
 
 void main() {
-    RoofEnv env = environment.v[0];
+    RoofEnv env = roofEnv;
     env.wave = wave;
     if ((wave & 1u) != 0u) {
-        RoofScopeBuf shapes = env.shapes;
-        env.shapes = env.next;
-        env.next = shapes;
+        env.shapes = roofEnv.next;
+        env.next = roofEnv.shapes;
     }
     uint i = gl_GlobalInvocationID.x;
     if (i < min(env.waves.v[wave].count, env.shapeRoom)) deriveShape(env, i);

@@ -5,12 +5,12 @@
 #include "shaders/shared/roof_cells.h"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { RoofEnvBuf environment; };
+layout(binding = 0, scalar) uniform Environment { RoofEnv environment; };
 
 shared uint sums[2];
 
 void main() {
-    RoofEnv env = environment.v[0];
+    RoofEnv env = environment;
     if (gl_LocalInvocationID.x == 0u) {
         sums[0] = 0u;
         sums[1] = 0u;

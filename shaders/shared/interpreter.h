@@ -129,10 +129,11 @@ FN void runWord(MACHINE_PARAM uint bits, float immediate) {
 }
 
 FN void runCode(MACHINE_PARAM CodeBuf code, CodeRange range) {
-    for (uint i = 0u; i < range.count; ++i) {
-        CodeWord word = code.v[range.first + i];
-        runWord(MACHINE word.bits, word.immediate);
-    }
+    uint i = 0u;
+    if (range.count != 0u) do {   // software devices go through a body once more where the test comes first
+            CodeWord word = code.v[range.first + i];
+            runWord(MACHINE word.bits, word.immediate);
+        } while (++i < range.count);
 }
 
 FN float valueOf(MACHINE_PARAM Value value) {
@@ -150,9 +151,9 @@ FN float drawSite(uint site, u64 key, u64 instanceKey) {
     return uniformRandom((site & kSiteOfInstance) != 0u ? instanceKey : key, site & 0x7FFFFFFFu);
 }
 FN void drawSites(MACHINE_PARAM UintBuf sites, uint firstSite, uint siteCount, u64 key, u64 instanceKey) {
-    for (uint j = 0u; j < siteCount; ++j) {
-        SLOT(kSlotDraw + j) = drawSite(sites.v[firstSite + j], key, instanceKey);
-    }
+    uint j = 0u;
+    if (siteCount != 0u) do SLOT(kSlotDraw + j) = drawSite(sites.v[firstSite + j], key, instanceKey);
+        while (++j < siteCount);
 }
 
 // Where a shape stands, in the world. lowest: height of the lowest point of its surface instance.

@@ -4,6 +4,7 @@
 #ifndef ESPALIER_SHARED_ROOF_EXPAND_H
 #define ESPALIER_SHARED_ROOF_EXPAND_H
 #include "shaders/shared/roof_rules.h"
+#include "shaders/shared/roof_tables.h"
 
 ESPALIER_BEGIN
 
@@ -21,26 +22,21 @@ FN void queueShape(RoofEnv env, RoofScope shape) {
     }
 }
 
-// Gives `shape` to all successors of the rule's part. number: tells apart shapes of one part.
-FN void handOn(MACHINE_PARAM RoofEnv env, RuleRecord rule, uint part, u64 parent, RoofScope shape, uint number,
-               INOUT(RoofHand) hand) {
-    for (uint i = 0u; i < rule.successorCount; ++i) {
-        SuccessorRecord s = env.map.v[0].successors.v[rule.firstSuccessor + i];
-        if (s.part != part) continue;
-        if ((shape.marks & 255u) >= kMaxRoofDepth) {
-            roofAdd(env.status.v[0].stopped, 1u);
-            continue;
-        }
-        runCode(MACHINE env.map.v[0].code, s.code);
-        if (hand.has != 0u) queueShape(env, hand.kept);
-        hand.kept = shape;
-        hand.kept.symbol = s.symbol;
-        hand.kept.marks += 1u;
-        hand.kept.key = childKey(parent, s.nameHash, s.ordinal);
-        if (number != 0u) hand.kept.key = mix64(hand.kept.key + u64(number));
-        for (uint a = 0u; a < kMaxArgs; ++a) hand.kept.args[a] = valueOf(MACHINE s.args[a]);
-        hand.has = 1u;
+// Gives `shape` to a successor. number: tells apart shapes of one part.
+FN void handOn(MACHINE_PARAM RoofEnv env, SuccessorRecord s, u64 parent, RoofScope shape, uint number, INOUT(RoofHand) hand) {
+    if ((shape.marks & 255u) >= kMaxRoofDepth) {
+        roofAdd(env.status.v[0].stopped, 1u);
+        return;
     }
+    runRoofCode(MACHINE env, s.code);
+    if (hand.has != 0u) queueShape(env, hand.kept);
+    hand.kept = shape;
+    hand.kept.symbol = s.symbol;
+    hand.kept.marks += 1u;
+    hand.kept.key = childKey(parent, s.nameHash, s.ordinal);
+    if (number != 0u) hand.kept.key = mix64(hand.kept.key + u64(number));
+    for (uint a = 0u; a < kMaxArgs; ++a) hand.kept.args[a] = valueOf(MACHINE s.args[a]);
+    hand.has = 1u;
 }
 
 FN uint quantised(float x) { return uint(int(floorExact(limited(x * 128.0f, -2e9f, 2e9f)))); }
@@ -106,30 +102,111 @@ FN uint childCount(RoofEnv env, RuleRecord rule, RoofCells cells, RoofScope shap
     }
 }
 
+// The parts that a rule's successors take, four bits each.
+struct RoofParts {
+    uint count, low, high;
+};
+FN RoofParts partsOf(RoofEnv env, RuleRecord rule) {
+    RoofParts p;
+    p.count = rule.successorCount;
+    p.low = 0u;
+    p.high = 0u;
+    uint i = 0u;
+    if (p.count != 0u) do {
+            uint part = roofPartOf(env, rule.firstSuccessor + i) & 15u;
+            if (i < 8u)
+                p.low |= part << (4u * i);
+            else
+                p.high |= part << (4u * i - 32u);
+        } while (++i < p.count);
+    return p;
+}
+FN uint partAt(RoofParts p, uint i) { return (i < 8u ? p.low >> (4u * i) : p.high >> (4u * i - 32u)) & 15u; }
+
+// Whether child k of a rule may be there for successors of `part`: told without making it.
+FN bool mayTake(RoofEnv env, RuleRecord rule, RoofScope shape, uint k, uint part) {
+    bool outline = (shape.marks & kShapeOutline) != 0u;
+    switch (rule.kind) {
+        case kRuleExtrude: return part == ((shape.marks & kShapeSegment) != 0u ? k : k >> 2u);
+        case kRuleJoin: {
+            if (rule.extrude == 0u || k < 2u) return part == k;
+            if (part != 2u) return false;
+            uint piece = env.atoms.v[shape.atom].firstPiece + k - 2u;
+            return env.pieces.v[piece].kind == 3u || env.pieces.v[piece].upper != kNoIndex;
+        }
+        case kRuleExplode: return outline && k >= 2u ? part >= 2u : part == k;
+        case kRuleSplit: return part == k;
+        default: return part == 0u;
+    }
+}
+
+// Pairs of a child and a successor that takes it, in order; (count, 0) is behind the last.
+struct RoofPair {
+    uint child, successor;
+};
+FN RoofPair firstPair(RoofEnv env, RuleRecord rule, RoofParts parts, RoofScope shape, uint count, RoofPair p) {
+    bool found = false;
+    if (p.child < count) do {
+            found = mayTake(env, rule, shape, p.child, partAt(parts, p.successor));
+            if (!found) {
+                p.successor += 1u;
+                if (p.successor >= parts.count) {
+                    p.successor = 0u;
+                    p.child += 1u;
+                }
+            }
+        } while (!found && p.child < count);
+    return p;
+}
+
 // Applies one rule. True: `shape` is now the successor to go on with.
 FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
-    SymbolRecord symbol = env.map.v[0].symbols.v[shape.symbol];
+    SymbolRecord symbol = roofSymbol(env, shape.symbol);
     for (uint a = 0u; a < kMaxArgs; ++a) SLOT(kSlotArg + a) = shape.args[a];
-    bool given = symbol.inputs != 0u;
-    if (given) giveShape(MACHINE env, shape);
-    giveLayers(MACHINE env, shape, symbol.layers);
-    drawSites(MACHINE env.map.v[0].sites, symbol.firstSite, symbol.siteCount, shape.key, shape.key);
-    runCode(MACHINE env.map.v[0].code, symbol.select);
-    int chosen = symbol.ruleCount == 0u ? -1 : selectedRule(MACHINE symbol);
-    if (chosen < 0) return false;
-    RuleRecord rule = env.map.v[0].rules.v[symbol.firstRule + uint(chosen)];
-    if (!given && rule.startInputs != 0u) giveShape(MACHINE env, shape);
-    giveLayers(MACHINE env, shape, rule.startLayers & ~symbol.layers);
-    drawSites(MACHINE env.map.v[0].sites, rule.firstSite, rule.siteCount, shape.key, shape.key);
-    runCode(MACHINE env.map.v[0].code, rule.start);
+    // Twice the same: what the symbol's choice asks for, then what the chosen rule does.
+    uint given = 0u;
+    uint inputs = symbol.inputs;
+    uint layers = symbol.layers;
+    uint firstSite = symbol.firstSite;
+    uint siteCount = symbol.siteCount;
+    CodeRange code = symbol.select;
+    uint chosen = kNoIndex;
+    uint stage = 0u;
+    RuleRecord rule;
+    do {
+        if ((inputs & ~given) != 0u) giveShape(MACHINE env, shape, inputs);
+        given |= inputs;
+        if ((kRoofUses & kRoofUsesLayers) != 0u) giveLayers(MACHINE env, shape, layers);
+        drawRoofSites(MACHINE env, firstSite, siteCount, shape.key);
+        runRoofCode(MACHINE env, code);
+        if (stage == 0u) {
+            int selected = symbol.ruleCount == 0u ? -1 : selectedRule(MACHINE symbol);
+            if (selected >= 0) {
+                chosen = symbol.firstRule + uint(selected);
+                rule = roofRule(env, chosen);
+                inputs = rule.startInputs;
+                layers = rule.startLayers & ~symbol.layers;
+                firstSite = rule.firstSite;
+                siteCount = rule.siteCount;
+                code = rule.start;
+            }
+        }
+        stage += 1u;
+    } while (stage < 2u && chosen != kNoIndex);
+    if (chosen == kNoIndex) return false;
     RoofNumbers n;
     uint numbers = rule.kind == kRuleSplit ? kMaxSplit : rule.kind >= kRuleScope ? kScopeValues
                    : rule.kind == kRuleJoin ? 7u : rule.kind == kRuleProject ? 6u : rule.kind == kRuleRepeat ? 2u
                    : rule.kind == kRuleExtrude ? 1u : 0u;
     for (uint i = 0u; i < kMaxSplit; ++i) n.v[i] = 0.0f;
-    for (uint i = 0u; i < numbers; ++i) n.v[i] = valueOf(MACHINE env.map.v[0].values.v[rule.values + i]);
-    if (rule.kind == kRuleShape) {
-        writeGrid(env, applyScope(n, shape), rule.extrude);
+    uint at = 0u;
+    if (numbers != 0u) do n.v[at] = valueOf(MACHINE roofValue(env, rule.values + at));
+        while (++at < numbers);
+    uint kind = roofKind(rule);
+    RoofScope changed = shape;
+    if (ROOF_USES(kRuleShape) || ROOF_USES(kRuleScope)) changed = applyScope(n, shape);
+    if (kind == kRuleShape) {
+        if (ROOF_USES(kRuleShape)) writeGrid(env, changed, rule.extrude);
         return false;
     }
     RoofCells cells;
@@ -144,38 +221,47 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
     RoofHand hand;
     hand.kept = shape;
     hand.has = 0u;
-    for (uint k = 0u; k < count; ++k) {
-        RoofChild c = childFor(shape, 0u);
-        switch (rule.kind) {
-            case kRuleExtrude: c = extruded(n, shape, k); break;
-            case kRuleJoin:
-                if (rule.extrude != 0u)
-                    c = joinedRoof(env, n, shape, k);
-                else
-                    c = joined(env, n, shape, k);
-                break;
-            case kRuleProject: c = projected(n, shape); break;
-            case kRuleExplode: c = exploded(env, shape, k); break;
-            case kRuleSplit: c = splitPart(rule, n, shape, k); break;
-            case kRuleRepeat: c = repeated(rule, cells, shape, k); break;
-            case kRuleScope: c.shape = applyScope(n, shape); break;
-            default: break;
-        }
-        if (c.made) handOn(MACHINE env, rule, c.part, shape.key, c.shape, c.number, hand);
-    }
+    RoofParts parts = partsOf(env, rule);
+    if (parts.count == 0u) count = 0u;
+    RoofPair pair;
+    pair.child = 0u;
+    pair.successor = 0u;
+    pair = firstPair(env, rule, parts, shape, count, pair);
+    if (pair.child < count) do {
+            uint k = pair.child;
+            RoofChild c = childFor(shape, 0u);
+            if (ROOF_USES(kRuleExtrude) && kind == kRuleExtrude) c = extruded(n, shape, k);
+            if (ROOF_USES(kRuleJoinRoof) && kind == kRuleJoinRoof) c = joinedRoof(env, n, shape, k);
+            if (ROOF_USES(kRuleJoin) && kind == kRuleJoin) c = joined(env, n, shape, k);
+            if (ROOF_USES(kRuleProject) && kind == kRuleProject) c = projected(n, shape);
+            if (ROOF_USES(kRuleExplode) && kind == kRuleExplode) c = exploded(env, shape, k);
+            if (ROOF_USES(kRuleSplit) && kind == kRuleSplit) c = splitPart(rule, n, shape, k);
+            if (ROOF_USES(kRuleRepeat) && kind == kRuleRepeat) c = repeated(rule, cells, shape, k);
+            if (ROOF_USES(kRuleScope) && kind == kRuleScope) c.shape = changed;
+            SuccessorRecord s = roofSuccessor(env, rule.firstSuccessor + pair.successor);
+            if (c.made && c.part == s.part) handOn(MACHINE env, s, shape.key, c.shape, c.number, hand);
+            pair.successor += 1u;
+            if (pair.successor >= parts.count) {
+                pair.successor = 0u;
+                pair.child += 1u;
+            }
+            pair = firstPair(env, rule, parts, shape, count, pair);
+        } while (pair.child < count);
     shape = hand.kept;
     return hand.has != 0u;
 }
 
-// Derives a shape of this wave until only queued ones are left.
+// Derives a shape of this wave until only queued ones are left. (Software devices go through a loop's body once more where
+// the test comes first, and every rule's code for every shape: so tests come last, and what no successor takes isn't made.)
 FN void deriveShape(RoofEnv env, uint at) {
 #ifdef __cplusplus
     Machine machine;
 #endif
     resetMachine(MACHINE_ONLY);
     RoofScope shape = env.shapes.v[at];
-    bool goes = true;
-    while (goes) goes = replaceShape(MACHINE env, shape);
+    bool goes;
+    do goes = replaceShape(MACHINE env, shape);
+    while (goes);
 }
 
 ESPALIER_END

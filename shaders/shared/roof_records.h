@@ -154,6 +154,13 @@ struct RoofWave {
 };
 STATIC_SIZE(RoofWave, 16);
 
+// What rules of a grammar do, as bits 1 << kRule... of their kinds and these. The kernel is specialised to what grammars
+// use, since a software device runs code for what none uses all the same.
+CONST_UINT(kRuleJoinRoof, 11u);    // kRuleJoin to the roof's own targets: here a kind of its own
+CONST_UINT(kRoofUsesLayers, 1u << 16u);
+CONST_UINT(kRoofUsesAll, 0x1FFFFu);
+FN uint roofKind(RuleRecord rule) { return rule.kind == kRuleJoin && rule.extrude != 0u ? kRuleJoinRoof : rule.kind; }
+
 // Painted layers lie over a square of the plan: rows of `size` texels, the first row the northernmost (least z), from the
 // west (least x). A grammar of roofs reads up to eight.
 CONST_UINT(kRoofLayers, 8u);
@@ -205,9 +212,9 @@ struct RoofEnv {
     FloatBuf means;           // [house * kRoofLayers + layer]: the mean over the house
     UintBuf reads;            // [house]: what it has asked of layers: bits 7..0 at places, 15..8 means
     RoofSite site;
+    u64 words;                // address of the map's words
 };
-STATIC_SIZE(RoofEnv, 184);
-BUFFER(RoofEnvBuf, RoofEnv)
+STATIC_SIZE(RoofEnv, 192);
 
 ESPALIER_END
 #endif

@@ -37,13 +37,16 @@ FN void giveLayers(MACHINE_PARAM RoofEnv env, RoofScope shape, uint layers) {
     if (layers == 0u) return;
     uint house = env.atoms.v[shape.atom].house;
     vec3 p = shape.origin + shape.axisX * (0.5f * shape.size.x) + shape.axisY * (0.5f * shape.size.y);
-    for (uint i = 0u; i < kRoofLayers; ++i) {
+    uint i = 0u;
+    do {
         if ((layers >> i & 1u) != 0u) SLOT(kSlotLayer + i) = roofLayerAt(env.layers, env.site, i, vec2(p.x, p.z));
         if ((layers >> (i + kRoofLayers) & 1u) != 0u) SLOT(kSlotLayer + kRoofLayers + i) = env.means.v[house * kRoofLayers + i];
-    }
+        i += 1u;
+    } while (((layers | layers >> kRoofLayers) & 255u) >> i != 0u);
     roofOr(env.reads.v[house], layers);
 }
-FN void giveShape(MACHINE_PARAM RoofEnv env, RoofScope shape) {
+// inputs: as the compiler notes them for these slots, by their places among a plant's.
+FN void giveShape(MACHINE_PARAM RoofEnv env, RoofScope shape, uint inputs) {
     RoofAtom atom = env.atoms.v[shape.atom];
     giveVector(MACHINE kSlotPos0, shape.origin);
     giveVector(MACHINE kSlotPos1, shape.origin + shape.axisX * shape.size.x);
@@ -53,7 +56,7 @@ FN void giveShape(MACHINE_PARAM RoofEnv env, RoofScope shape) {
     vec3 target1 = atom.foot;
     vec3 target2 = atom.foot;
     float start = 0.0f;
-    if (atom.region != kNoIndex) {
+    if ((inputs & kInputsOfTargets) != 0u && atom.region != kNoIndex) {
         RoofRegion r = env.regions.v[atom.region];
         target1 = regionPoint(r, atom.target1, shape.base, shape.stretch);
         target2 = regionPoint(r, atom.target2, shape.base, shape.stretch);

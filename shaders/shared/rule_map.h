@@ -104,7 +104,10 @@ CONST_UINT(kInputArc, 1u << 13u);
 CONST_UINT(kInputBranchLength, 1u << 14u);   // or toTip
 CONST_UINT(kInputSpanLength, 1u << 15u);
 CONST_UINT(kInputRadius, 1u << 16u);
-CONST_UINT(kInputOfRoofs, 1u << 17u);        // roofs fill all their slots or, where nothing is asked, none
+CONST_UINT(kInputOfRoofs, 1u << 17u);        // roofs fill all their slots or, where nothing is asked, none; but for
+// roofPos1, roofPos2 (which lie where a plant's slots have these bits) and eaveStart:
+CONST_UINT(kInputEaveStart, 1u << 18u);
+CONST_UINT(kInputsOfTargets, kInputEaveStart | kInputCurvature | kInputSlope | kInputHeight | kInputDepth | kInputStep | kInputArc);
 
 // A word of code: bits 4..0 operation, 8..5 destination register, 15..9 slot x, 22..16 slot y, 29..23 slot z.
 struct CodeWord {

@@ -3,6 +3,7 @@
 
 #include "runtime/roof/plan_layers.hpp"
 #include "shaders/shared/roof_layers.h"
+#include "shaders/shared/roof_tables.h"
 #include "tests/roof_growth/grow_support.hpp"
 
 using namespace roof_test;
@@ -42,6 +43,42 @@ TEST_CASE("the GPU grows what the CPU grows") {
     CHECK(stats.grids == cpu.status.grids);
     CHECK(stats.tiles == cpu.status.touched);
     CHECK(stats.tiles - stats.clipped == cpu.status.whole);
+}
+
+TEST_CASE("a grammar that a uniform buffer can't hold grows the same") {
+    Result<std::unique_ptr<Device>> device = Device::create({});
+    REQUIRE(device);
+    auto growth = RoofGrowth::create(**device);
+    REQUIRE(growth);
+    // A hundred kilobytes of rules: each tile of a 16 by 16 board has its own.
+    std::string board =
+        "House -> Extrude(wallHeight) {NULL, TopWall}\n"
+        "TopWall -> Join(roofHeight, roofPos1, roofPos2) {Face, NULL, TopWall}\nFace ->";
+    std::string rules;
+    for (int i = 0; i < 16; ++i) {
+        const std::string row = "Row" + std::to_string(i);
+        board += " " + row;
+        rules += row + " ->";
+        for (int k = 0; k < 16; ++k) rules += " " + row + "Cell" + std::to_string(k);
+        rules += "\n";
+        for (int k = 0; k < 16; ++k)
+            rules += row + "Cell" + std::to_string(k) + " -> T(sizeX * " + std::to_string(i / 16.) + ", sizeY * " +
+                     std::to_string(k / 16.) + ") S(sizeX / 16, sizeY / 16) Tint(rand()) Shape(\"slate\")\n";
+    }
+    Roofs r = roofs({footprint(kRectangle)}, board + "\n" + rules);
+    REQUIRE(r.map.words().size() > kUniformMapWords);
+    CpuRoofs cpu = growRoofsOnCpu(r.inputs());
+    REQUIRE((*growth)->grow(r.inputs()));
+    const RoofStats stats = (*growth)->stats();
+    CHECK(stats.grids == 4 * 256);
+    CHECK(stats.hash == (uint64_t(cpu.status.hash[1]) << 32 | cpu.status.hash[0]));
+    // Back to a small one, which is of other kinds: the kernel follows.
+    Roofs small = roofs({footprint(kEll, RoofShape::gable)}, kSlates);
+    RoofInputs next = small.inputs();
+    next.grammarRevision = 2;
+    REQUIRE((*growth)->grow(next));
+    cpu = growRoofsOnCpu(next);
+    CHECK((*growth)->stats().hash == (uint64_t(cpu.status.hash[1]) << 32 | cpu.status.hash[0]));
 }
 
 // Buron 2013 §4 as printed, but for ASCII, behind the prelude that it leaves open.
