@@ -382,7 +382,7 @@ EspCamera espFrameAll(const EspContext* context) {
     const glm::vec3 eye = centre + towards * std::max(distance, radius);
     std::memcpy(camera.eye, &eye, sizeof camera.eye);
     std::memcpy(camera.target, &centre, sizeof camera.target);
-    camera.nearPlane = radius * .005f;
+    camera.nearPlane = std::min(radius * .005f, .1f);  // within a town one stands on its streets
     return camera;
 }
 

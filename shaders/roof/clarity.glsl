@@ -5,14 +5,17 @@
 
 const float kFadeEnd = 1.7;
 
-float cellClarity(RoofDrawEnv env, EmitView view, RoofGrid g, vec3 at, float far) {
-    float pixels = view.pixelScale / far;
+// pixels: of a metre there. lying: how little its plane is seen edge-on.
+float cellClarity(RoofDrawEnv env, RoofGrid g, float pixels, float lying) {
     // Along an axis without neighbours a cell is as long as its mesh: caps stand on a segment, whose step is 0 across.
     vec2 cell = vec2((g.cells & 0xFFFFu) > 1u ? g.step.x : g.size.x, (g.cells >> 16u) > 1u ? g.step.y : g.size.y);
     float clarity = pixels * max(min(cell.x, cell.y), 0.25 * max(cell.x, cell.y)) / env.leastCell;
     if ((g.cells >> 16u) <= 1u) return clarity;
     // Courses seen edge-on would flicker long before they are small.
-    float lying = view.parallel != 0u ? 1.0 : abs(dot(cross(g.axisX, g.axisY), normalize(view.eye - at)));
     return min(clarity, pixels * g.step.y * lying / 1.5);
+}
+float cellClarity(RoofDrawEnv env, EmitView view, RoofGrid g, vec3 at, float far) {
+    float lying = view.parallel != 0u ? 1.0 : abs(dot(cross(g.axisX, g.axisY), normalize(view.eye - at)));
+    return cellClarity(env, g, view.pixelScale / far, lying);
 }
 #endif
