@@ -369,6 +369,8 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         w.flags = w.flags | kWalkFlagLoose;
     } else if (leaves) {
         walked = larger(s * leave.fraction, 0.0f);
+        // Narrow charts one after the other are no to and fro.
+        tries = walked * pace > 0.05f * texel ? 0u : tries;
         vec3 t1 = carriedTangent(t, n, p.normal);
         if (!open) {
             // The hinge: the components along the edge and across it pass over unchanged.
