@@ -44,6 +44,8 @@ TEST_CASE("real models bake within the promised figures") {
         CHECK(r.gap999 <= 0.1);
         CHECK(double(r.danglingCrossings) <= 0.001 * double(linked));
         CHECK(double(r.danglingContacts) <= 0.005 * double(r.contactCrossings));
+        CHECK(r.reachableShare() >= 0.95);
+        CHECK(r.leastReachable() >= 0.95);
         CHECK(r.innerTexels + r.buriedTexels > 300000);
         CHECK(r.walkableByLevel[0].second > 0.999);
     }

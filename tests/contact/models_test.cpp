@@ -122,8 +122,11 @@ TEST_CASE("where pieces of real models run into each other, walks cross") {
         if (!baked) FAIL(baked.failure().text());
         Verdict v = judge(*model, *baked);
         MESSAGE(file << ": " << v.lines << " lines, " << v.contactLength << " m, crossed " << v.crossed * 100 << " %; "
-                     << v.walks << " walks, " << v.ended << " end where the model goes on, " << v.lost << " lost");
+                     << v.walks << " walks, " << v.ended << " end where the model goes on, " << v.lost << " lost; "
+                     << baked->report.reachableShare() * 100 << " % of the ground can be got to");
+        CHECK(baked->report.reachableShare() >= 0.95);
         CHECK(v.crossed >= 0.95);
         CHECK(v.ended <= v.walks * 0.005);
+        CHECK(v.lost <= v.walks * 0.005);
     }
 }
