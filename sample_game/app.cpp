@@ -44,6 +44,7 @@ void App::showUi() {
     }
     showStatus(work_, controls_->caught(), controls_->flying());
     showHelp(work_);
+    if (work_.editing) showDialogues(work_, session_);
 }
 
 // Growth that takes longer than a blink is announced one frame before.

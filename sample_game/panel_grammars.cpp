@@ -185,7 +185,9 @@ void lineNumbers(int lines, const std::vector<std::pair<int, std::string>>& wron
         const ImVec2 place{at.x + width - ImGui::CalcTextSize(text.c_str()).x - 6, at.y + pad + line * float(i - 1)};
         if (found != wrong.end()) {
             list.AddRectFilled({at.x, place.y}, {at.x + width - 2, place.y + line}, IM_COL32(150, 40, 30, 255), 2);
-            if (ImGui::IsMouseHoveringRect({at.x, place.y}, {at.x + width + 600, place.y + line}))
+            if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows |
+                                       ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
+                ImGui::IsMouseHoveringRect({at.x, place.y}, {at.x + width + 600, place.y + line}))
                 ImGui::SetTooltip("%s", found->second.c_str());
         }
         list.AddText(place, ImGui::GetColorU32(found != wrong.end() ? ImGuiCol_Text : ImGuiCol_TextDisabled),

@@ -67,6 +67,31 @@ void fileMenu(Workspace& work, Session& session) {
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) session.quit = true;
 }
 
+}  // namespace
+
+void askToSave(Workspace& work, Session& session) {
+    if (!session.folder().empty())
+        session.save(work, session.folder());
+    else
+        dialogues().open = "Save the project";
+}
+
+void askForLayer(const std::string& layer, bool import) {
+    Dialogues& d = dialogues();
+    if (d.layer != layer) put(d.picture, sizeof d.picture, layer + ".exr");
+    d.layer = layer;
+    d.open = import ? "Import a layer" : "Export a layer";
+}
+
+void closeDialogues() {
+    dialogues().open = nullptr;
+    if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) ImGui::ClosePopupToLevel(0, false);
+}
+
+void askToOpen() {
+    dialogues().open = "Open";
+}
+
 void showDialogues(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
     if (d.open) {
@@ -114,31 +139,6 @@ void showDialogues(Workspace& work, Session& session) {
     }
 }
 
-}  // namespace
-
-void askToSave(Workspace& work, Session& session) {
-    if (!session.folder().empty())
-        session.save(work, session.folder());
-    else
-        dialogues().open = "Save the project";
-}
-
-void askForLayer(const std::string& layer, bool import) {
-    Dialogues& d = dialogues();
-    if (d.layer != layer) put(d.picture, sizeof d.picture, layer + ".exr");
-    d.layer = layer;
-    d.open = import ? "Import a layer" : "Export a layer";
-}
-
-void closeDialogues() {
-    dialogues().open = nullptr;
-    if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) ImGui::ClosePopupToLevel(0, false);
-}
-
-void askToOpen() {
-    dialogues().open = "Open";
-}
-
 void showMenu(Workspace& work, Session& session) {
     if (ImGui::BeginMainMenuBar()) {
         if (ImGui::BeginMenu("File")) {
@@ -177,7 +177,6 @@ void showMenu(Workspace& work, Session& session) {
         ImGui::TextDisabled("%s", name.c_str());
         ImGui::EndMainMenuBar();
     }
-    showDialogues(work, session);
 }
 
 void showStatus(const Workspace& work, bool caught, bool flying) {

@@ -6,9 +6,12 @@
 namespace sample {
 
 // Each is laid out between ImGui::NewFrame and Render, shows the workspace and performs what the user does with it.
-void showMenu(Workspace& work, Session& session);  // the bar at the top, and its dialogues
-void showPanel(Workspace& work);                   // at the left: the tool, layers, seeds, grammars, light
-void showGrammarWindow(Workspace& work);           // the text, with mistakes at their lines
+void showMenu(Workspace& work, Session& session);  // the bar at the top
+// What menus and keys have asked for. After everything else: a window or tool tip that appears in the same frame would
+// end ImGui 1.86 in an assertion.
+void showDialogues(Workspace& work, Session& session);
+void showPanel(Workspace& work);          // at the left: the tool, layers, seeds, grammars, light
+void showGrammarWindow(Workspace& work);  // the text, with mistakes at their lines
 void showFigures(const Workspace& work, uint32_t validationMessages, bool validation);
 void showLegend(const Workspace& work);                            // of a view that shows amounts
 void showStatus(const Workspace& work, bool caught, bool flying);  // at the bottom: what keys and buttons do now
@@ -16,10 +19,10 @@ void showWalk(const Workspace& work);                              // of the pic
 void showHelp(Workspace& work);                                    // over all: F1
 void showGrowing(const Workspace& work);                           // while growth takes longer than a blink
 
-// Ctrl+S and Ctrl+O: at once, or by a dialogue of showMenu().
+// Ctrl+S and Ctrl+O: at once, or by a dialogue.
 void askToSave(Workspace& work, Session& session);
 void askToOpen();
-// In frames without showMenu(): ImGui can't do with a dialogue that is open and isn't laid out.
+// In frames without showDialogues(): ImGui can't do with a dialogue that is open and isn't laid out.
 void closeDialogues();
 void askForLayer(const std::string& layer, bool import);
 
