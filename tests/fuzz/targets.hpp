@@ -16,12 +16,13 @@ void ply(Bytes bytes);      // the PLY importer, packed or not
 void surface(Bytes bytes);  // the surface reader; its hashes are not compared in a fuzzing build
 void grammar(Bytes bytes);  // the grammar compiler, and loading what it made
 void roof(Bytes bytes);     // the reader of footprints, and the roofs over them
+void plant(Bytes bytes);    // the reader of frozen plants
 
 struct Target {
     const char* name;
     void (*run)(Bytes);
 };
-inline constexpr Target kTargets[] = {{"gltf", gltf},       {"obj", obj},         {"ply", ply},
-                                      {"surface", surface}, {"grammar", grammar}, {"roof", roof}};
+inline constexpr Target kTargets[] = {{"gltf", gltf},       {"obj", obj},   {"ply", ply},    {"surface", surface},
+                                      {"grammar", grammar}, {"roof", roof}, {"plant", plant}};
 
 }  // namespace espalier::fuzz
