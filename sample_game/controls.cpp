@@ -10,23 +10,8 @@
 #include "sample_game/panels.hpp"
 
 namespace sample {
-namespace {
 
 using namespace espalier::document;
-
-// As of the last frame: whether a press there is the panels' own. ImGui knows only what lies under the mouse at the
-// beginning of a frame, which with slow frames isn't where it was pressed.
-bool overPanel(float x, float y) {
-    const ImGuiContext& gui = *ImGui::GetCurrentContext();
-    if (!gui.OpenPopupStack.empty()) return true;
-    for (const ImGuiWindow* window : gui.Windows)
-        if (window->WasActive && !window->Hidden && !(window->Flags & ImGuiWindowFlags_NoMouseInputs) &&
-            window->OuterRectClipped.Contains({x, y}))
-            return true;
-    return false;
-}
-
-}  // namespace
 
 void Controls::catchMouse(bool caught) {
     navigation_.caught = caught;

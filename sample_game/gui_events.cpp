@@ -26,6 +26,16 @@ bool asks(int key, int mods) {
 
 }  // namespace
 
+bool overPanel(float x, float y) {
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    if (!gui.OpenPopupStack.empty()) return true;
+    for (const ImGuiWindow* window : gui.Windows)
+        if (window->WasActive && !window->Hidden && !(window->Flags & ImGuiWindowFlags_NoMouseInputs) &&
+            window->OuterRectClipped.Contains({x, y}))
+            return true;
+    return false;
+}
+
 void GuiEvents::key(GLFWwindow* window, int key, int scancode, int action, int mods) {
     keys_.push_back({window, false, key, scancode, action, mods});
 }
@@ -43,16 +53,20 @@ void GuiEvents::button(int button, bool down) {
     if (button >= 0 && button < int(std::size(buttons_))) mouse_.push_back({button, down, 0, 0});
 }
 
-// True: a button changed.
+// True: a button changed that a panel is to see. Clicks beside them needn't be told apart, so that none of them waits.
 bool GuiEvents::feedMouse() {
     bool changed = false;
     for (; !mouse_.empty() && !changed; mouse_.pop_front()) {
         const Mouse& e = mouse_.front();
-        changed = e.button >= 0;
-        if (changed)
-            buttons_[e.button] = e.down;
-        else
-            x_ = e.x, y_ = e.y, placed_ = true;
+        if (e.button < 0) {
+            x_ = e.x;
+            y_ = e.y;
+            placed_ = true;
+            continue;
+        }
+        buttons_[e.button] = e.down;
+        if (e.down) ofPanel_[e.button] = overPanel(x_, y_);
+        changed = ofPanel_[e.button];
     }
     return changed;
 }

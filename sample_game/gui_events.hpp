@@ -11,6 +11,10 @@ struct KeyEvent {
     int key = 0, mods = 0;
 };
 
+// As of the last frame: whether a press there is the panels' own. ImGui knows only what lies under the mouse at the
+// beginning of a frame, which with slow frames isn't where it was pressed.
+bool overPanel(float x, float y);
+
 // Keys, letters and clicks on their way to ImGui, which sees only how things stand once a frame. With frames that take
 // long, a key that went down and up in between would be lost to it, and a click would land where the mouse is by now:
 // so it gets no more at a time than it can tell apart, and the rest with the next frames. What is typed after the key
@@ -43,7 +47,7 @@ class GuiEvents {
     std::deque<Key> keys_;
     std::deque<Mouse> mouse_;
     float x_ = 0, y_ = 0;
-    bool buttons_[5] = {}, placed_ = false;
+    bool buttons_[5] = {}, ofPanel_[5] = {}, placed_ = false;
 };
 
 }  // namespace sample

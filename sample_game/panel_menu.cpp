@@ -27,7 +27,7 @@ bool askPath(const char* title, const char* label, const char* button, char* pat
     if (!beginDialogue(title)) return false;
     ImGui::TextUnformatted(label);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 32);
-    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // it is all that one can type into
     confirmed = ImGui::InputText("##path", path, size, ImGuiInputTextFlags_EnterReturnsTrue);
     confirmed |= ImGui::Button(button);
     ImGui::SameLine();
