@@ -10,8 +10,6 @@ namespace {
 // At most so many visible instances; beyond, they are counted as overflow and left out.
 constexpr uint64_t kMaxSpanInstances = 4'000'000, kMaxLeafInstances = 6'000'000;
 static_assert(kMaxSpanInstances <= kLastPlace && kMaxLeafInstances <= kLastPlace);
-constexpr uint32_t kViewSlots = 8;  // views that recordings in flight may still read
-constexpr size_t kCountedBytes = offsetof(EmitState, spare);
 
 // A buffer of at least `bytes`, with room for growth to come when it has to be made anew.
 Status atLeast(Device& device, Buffer& buffer, std::string_view name, uint64_t bytes, uint64_t most) {
@@ -49,13 +47,17 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
         const char* name;
         uint64_t bytes;
         BufferUse use;
-    } buffers[] = {{emit.views_, "emit views", kViewSlots * sizeof(EmitView), BufferUse::device},
-                   {emit.state_, "emit state", sizeof(EmitState), BufferUse::device},
+    } buffers[] = {{emit.state_, "emit state", sizeof(EmitState), BufferUse::device},
                    {emit.readback_, "emit counts", sizeof(EmitState), BufferUse::readback}};
     for (const auto& b : buffers) {
         Result<Buffer> made = Buffer::create(device, b.name, b.bytes, b.use);
         if (!made) return made.failure();
         b.buffer = std::move(*made);
+    }
+    for (Buffer& view : emit.views_) {
+        Result<Buffer> made = Buffer::create(device, "emit view", sizeof(EmitView));
+        if (!made) return made.failure();
+        view = std::move(*made);
     }
     std::fill(emit.readback_.mappedAs<uint32_t>().begin(), emit.readback_.mappedAs<uint32_t>().end(), 0u);
     return emit;
@@ -64,32 +66,43 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
 Status Emit::reserve(Device& device, const GrowthView& growth) {
     const uint64_t nodes = std::min<uint64_t>(growth.nodeCount, kMaxSpanInstances);
     const uint64_t leaves = std::min<uint64_t>(growth.leafCount, kMaxLeafInstances);
-    if (Status s =
-            atLeast(device, classes_, "emit classes", 4ull * (uint64_t(growth.nodeCount) + growth.leafCount), ~0ull);
+    if (Status s = atLeast(device, kept_, "emit notes",
+                           sizeof(KeptItem) * (uint64_t(growth.nodeCount) + growth.leafCount), ~0ull);
         !s)
         return s;
-    if (Status s = atLeast(device, spans_, "span instances", nodes * sizeof(SpanInstance),
-                           kMaxSpanInstances * sizeof(SpanInstance));
-        !s)
-        return s;
-    return atLeast(device, leaves_, "leaf instances", leaves * sizeof(LeafInstance),
-                   kMaxLeafInstances * sizeof(LeafInstance));
+    const struct {
+        Buffer& buffer;
+        TexelView& texels;
+        const char* name;
+        uint64_t bytes, most;
+    } rows[] = {
+        {spans_, spanTexels_, "span instances", nodes * sizeof(SpanInstance), kMaxSpanInstances * sizeof(SpanInstance)},
+        {leaves_, leafTexels_, "leaf instances", leaves * sizeof(LeafInstance),
+         kMaxLeafInstances * sizeof(LeafInstance)}};
+    for (const auto& row : rows) {
+        if (row.buffer && row.buffer.size() >= row.bytes) continue;
+        row.texels = {};
+        if (Status s = atLeast(device, row.buffer, row.name, row.bytes, row.most); !s) return s;
+        Result<TexelView> made = TexelView::create(device, row.buffer, VK_FORMAT_R32G32B32A32_UINT);
+        if (!made) return made.failure();
+        row.texels = std::move(*made);
+    }
+    return Done{};
 }
 
 Status Emit::record(Commands& commands, const EmitInputs& inputs, const EmitView& view, Pass& pass) {
     const GrowthView& growth = inputs.growth;
     if (Status s = reserve(*device_, growth); !s) return s;
-    const uint64_t viewOffset = viewSlot_++ % kViewSlots * sizeof(EmitView);
+    const Buffer& shown = views_[viewSlot_++ % views_.size()];
+    const Buffer& table = terminals_->tableBuffer();
     commands.barrier(Use::compute | Use::vertex | Use::indirect | Use::transfer, Use::transfer | Use::compute);
-    if (Status s = commands.upload(views_, std::as_bytes(std::span(&view, 1)), viewOffset); !s) return s;
+    if (Status s = commands.upload(shown, std::as_bytes(std::span(&view, 1))); !s) return s;
     commands.fill(state_, 0);
     commands.barrier(Use::transfer, Use::compute);
 
     EmitPush push{};
-    push.view.v = reinterpret_cast<EmitView*>(views_.address() + viewOffset);
-    push.table.v = reinterpret_cast<EmitTable*>(terminals_->tableBuffer().address());
     push.state.v = reinterpret_cast<EmitState*>(state_.address());
-    push.classes.v = reinterpret_cast<uint32_t*>(classes_.address());
+    push.kept.v = reinterpret_cast<KeptItem*>(kept_.address());
     push.nodes = growth.nodes;
     push.chunks = growth.chunks;
     push.leaves = growth.leaves;
@@ -101,13 +114,14 @@ Status Emit::record(Commands& commands, const EmitInputs& inputs, const EmitView
     push.spanCapacity = uint32_t(spans_.size() / sizeof(SpanInstance));
     push.leafCapacity = uint32_t(leaves_.size() / sizeof(LeafInstance));
 
-    pass.dispatchItems(classifySpans_, growth.nodeCount, push);
-    pass.dispatchItems(classifyLeaves_, growth.leafCount, push);
+    pass.dispatchItems(classifySpans_, growth.nodeCount, push, {table, shown});
+    pass.dispatchItems(classifyLeaves_, growth.leafCount, push, {table, shown});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(scan_, {1, 1, 1}, push);
-    pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(writeSpans_, growth.nodeCount, push);
-    pass.dispatchItems(writeLeaves_, growth.leafCount, push);
+    pass.dispatch(scan_, {1, 1, 1}, push, {table});
+    pass.barrier(Use::compute, Use::compute | Use::indirect);
+    const uint64_t groups = offsetof(EmitState, writeGroups);
+    pass.dispatchIndirect(writeSpans_, state_, groups, push, {table, shown});
+    pass.dispatchIndirect(writeLeaves_, state_, groups + 12, push, {table, shown});
     return Done{};
 }
 

@@ -2,6 +2,8 @@
 
 // Emission: growth's records -> what is to be drawn from one point of view, or triangles on request.
 
+#include <array>
+
 #include "runtime/emit/terminals.hpp"
 #include "runtime/expand/growth.hpp"
 #include "runtime/gpu/commands.hpp"
@@ -44,6 +46,9 @@ class Emit {
     const Buffer& state() const { return state_; }
     const Buffer& spanInstances() const { return spans_; }
     const Buffer& leafInstances() const { return leaves_; }
+    // The same as texels of four words, for vertex shaders.
+    const TexelView& spanTexels() const { return spanTexels_; }
+    const TexelView& leafTexels() const { return leafTexels_; }
 
     // Of the last counted cull that has finished. Call after waiting for it, or read an older one.
     EmitStats stats() const;
@@ -59,7 +64,9 @@ class Emit {
     const Terminals* terminals_ = nullptr;
     Program classifySpans_, classifyLeaves_, scan_, writeSpans_, writeLeaves_;
     Program barkVertices_, barkIndices_, looseTriangles_;
-    Buffer views_, state_, classes_, spans_, leaves_, readback_;
+    std::array<Buffer, 8> views_;  // that recordings in flight may still read
+    Buffer state_, kept_, spans_, leaves_, readback_;
+    TexelView spanTexels_, leafTexels_;  // of these; after them
     uint32_t viewSlot_ = 0;
 };
 

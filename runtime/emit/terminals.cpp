@@ -166,6 +166,11 @@ Status Terminals::makeTable(Device& device) {
     };
     if (Status s = make(tableBuffer_, "terminal table", std::vector<EmitTable>{table_}); !s) return s;
     if (Status s = make(vertices_, "terminal vertices", data_.vertices); !s) return s;
+    if (!data_.vertices.empty()) {
+        Result<TexelView> texels = TexelView::create(device, vertices_, VK_FORMAT_R32G32_UINT);
+        if (!texels) return texels.failure();
+        vertexTexels_ = std::move(*texels);
+    }
     if (Status s = make(indices_, "terminal indices", data_.indices); !s) return s;
     return make(batches_, "terminal batches", batches);
 }

@@ -63,8 +63,9 @@ class Terminals {
     const EmitTable& table() const { return table_; }
     const Buffer& tableBuffer() const { return tableBuffer_; }
     const Buffer& vertices() const { return vertices_; }
-    const Buffer& indices() const { return indices_; }  // of single instances, for materialising
-    const Buffer& batches() const { return batches_; }  // repeated patterns, for drawing
+    const TexelView& vertexTexels() const { return vertexTexels_; }  // of two words
+    const Buffer& indices() const { return indices_; }               // of single instances, for materialising
+    const Buffer& batches() const { return batches_; }               // repeated patterns, for drawing
     const TerminalLod& lodOfBucket(uint32_t bucket) const;
     // Textures of a material; white, or flat, where it has none.
     const Image& baseColor(uint32_t material) const;
@@ -77,6 +78,7 @@ class Terminals {
     TerminalData data_;
     EmitTable table_{};
     Buffer tableBuffer_, vertices_, indices_, batches_;
+    TexelView vertexTexels_;
     std::vector<Image> colors_, normals_;  // one a picture; those unused in a role stay empty
     Image white_, flat_;
 };

@@ -58,10 +58,6 @@ void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
         const BucketRecord& bucket = table.buckets[b];
         const TerminalMaterial& material = terminals_.data().materials[bucket.material];
         TerminalPush push{};
-        push.state.v = reinterpret_cast<EmitState*>(emit_.state().address());
-        push.spans.v = reinterpret_cast<SpanInstance*>(emit_.spanInstances().address());
-        push.leaves.v = reinterpret_cast<LeafInstance*>(emit_.leafInstances().address());
-        push.vertices.v = reinterpret_cast<TerminalVertex*>(terminals_.vertices().address());
         push.bucket = b;
         push.firstVertex = bucket.firstVertex;
         push.vertexCount = bucket.vertexCount;
@@ -74,18 +70,25 @@ void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
         const Binding normal{terminals_.normalMap(bucket.material), textureSampler_};
         const Binding shadow{shadowMap_, shadowSampler_};
         const bool bark = b < table.barkBuckets;
+        const Binding drawn(bark ? emit_.spanTexels() : emit_.leafTexels()), meshes(terminals_.vertexTexels());
         if (!depthOnly && bark)
-            pass.drawIndexedIndirect(scene_->bark, emit_.state(), offset, 2, push, {color, shadow, *frame_});
+            pass.drawIndexedIndirect(scene_->bark, emit_.state(), offset, 2, push,
+                                     {color, shadow, *frame_, emit_.state(), drawn, meshes});
         else if (!depthOnly && !explained_ && small_[b])
-            pass.drawIndexedIndirect(scene_->leafSmall, emit_.state(), offset, 2, push, {color, shadow, *frame_});
+            pass.drawIndexedIndirect(scene_->leafSmall, emit_.state(), offset, 2, push,
+                                     {color, shadow, *frame_, emit_.state(), drawn, meshes});
         else if (!depthOnly)
-            pass.drawIndexedIndirect(scene_->leaf, emit_.state(), offset, 2, push, {color, normal, shadow, *frame_});
+            pass.drawIndexedIndirect(scene_->leaf, emit_.state(), offset, 2, push,
+                                     {color, normal, shadow, *frame_, emit_.state(), drawn, meshes});
         else if (bark)
-            pass.drawIndexedIndirect(barkDepth_, emit_.state(), offset, 2, push, {*frame_});
+            pass.drawIndexedIndirect(barkDepth_, emit_.state(), offset, 2, push,
+                                     {*frame_, emit_.state(), drawn, meshes});
         else if (material.alphaCutoff > 0)
-            pass.drawIndexedIndirect(leafCutDepth_, emit_.state(), offset, 2, push, {color, *frame_});
+            pass.drawIndexedIndirect(leafCutDepth_, emit_.state(), offset, 2, push,
+                                     {color, *frame_, emit_.state(), drawn, meshes});
         else
-            pass.drawIndexedIndirect(leafDepth_, emit_.state(), offset, 2, push, {*frame_});
+            pass.drawIndexedIndirect(leafDepth_, emit_.state(), offset, 2, push,
+                                     {*frame_, emit_.state(), drawn, meshes});
     }
 }
 

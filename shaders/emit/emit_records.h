@@ -97,11 +97,19 @@ struct EmitState {
     uint overflow;              // instances for which there was no room
     uint drawnTriangles;
     uint fullTriangles;         // of all bark and leaves at full detail, seen or not
-    uint spare[3];
+    uint kept[2];               // spans and leaves that culling has left, in EmitPush::kept
+    uint writeGroups[6];        // VkDispatchIndirectCommand of writing either
 };
-STATIC_SIZE(EmitState, 3104);
+STATIC_SIZE(EmitState, 3124);
 
-// A visible span in the world, 84 bytes.
+// An item that culling has left: its number and its classWord.
+struct KeptItem {
+    uint item, word;
+};
+STATIC_SIZE(KeptItem, 8);
+BUFFER(KeptItemBuf, KeptItem)
+
+// A visible span in the world, 96 bytes: vertex shaders read it as six texels.
 //   bits 2..0 LOD, 7..3 depth (branches from the seed, kShowDepth only), bit 8 rounded tip, bits 31..16 fade (unorm16: how much of a pixel it covers)
 struct SpanInstance {
     vec3 p0, b1, b2, p3;
@@ -110,11 +118,11 @@ struct SpanInstance {
     float arc0, metres;         // along the branch where it starts; of the span
     float rise;                 // the bark's axis lies this many radii above the curve
     uint bits;
-    uint spare;
+    uint spare[4];
 };
-STATIC_SIZE(SpanInstance, 84);
+STATIC_SIZE(SpanInstance, 96);
 
-// A visible loose terminal in the world, 64 bytes. axes: columns times size: mesh x, y, z.
+// A visible loose terminal in the world, 64 bytes: four texels. axes: columns times size: mesh x, y, z.
 //   bits 2..0 LOD, 7..3 depth as above, 15..8 kind, 31..16 depth below the canopy's outside (unorm16: 1 at the surface)
 struct LeafInstance {
     vec3 origin;
@@ -149,12 +157,10 @@ BUFFER(LeafInstanceBuf, LeafInstance)
 BUFFER(TerminalVertexBuf, TerminalVertex)
 BUFFER(TriangleVertexBuf, TriangleVertex)
 
-// Push data of the culling kernels.
+// Push data of the culling kernels. View and table come as uniform blocks: software devices read these once for all lanes.
 struct EmitPush {
-    EmitViewBuf view;
-    EmitTableBuf table;
     EmitStateBuf state;
-    UintBuf classes;            // an item each: classWord
+    KeptItemBuf kept;           // spans, and from nodeCount on leaves
     NodeBuf nodes;
     ChunkBuf chunks;
     LeafBuf leaves;
@@ -164,7 +170,7 @@ struct EmitPush {
     uint nodeCount, leafCount;
     uint spanCapacity, leafCapacity;
 };
-STATIC_SIZE(EmitPush, 96);
+STATIC_SIZE(EmitPush, 80);
 
 // Bark at full detail as triangles: 12 sides and 10 rings, the paper's 216 polygons.
 CONST_UINT(kBarkSides, 12u);

@@ -52,9 +52,15 @@ FN LoadedSpan loadSpan(NodeBuf nodes, ChunkBuf chunks, SurfaceBuf surfaces, uint
     vec4 a0 = surfaces.v[ia].toWorld[0];
     vec4 a1 = surfaces.v[ia].toWorld[1];
     vec4 a2 = surfaces.v[ia].toWorld[2];
-    vec4 b0 = surfaces.v[ib].toWorld[0];
-    vec4 b1 = surfaces.v[ib].toWorld[1];
-    vec4 b2 = surfaces.v[ib].toWorld[2];
+    vec4 b0 = a0;
+    vec4 b1 = a1;
+    vec4 b2 = a2;
+    // A loop of one round, which lanes that need none leave.
+    for (bool other = ia != ib; other; other = false) {
+        b0 = surfaces.v[ib].toWorld[0];
+        b1 = surfaces.v[ib].toWorld[1];
+        b2 = surfaces.v[ib].toWorld[2];
+    }
     vec3 p0 = placePoint(a0, a1, a2, a.position);
     vec3 p3 = placePoint(b0, b1, b2, b.position);
     vec3 t0 = placeDirection(a0, a1, a2, unpackOct(a.tangent));

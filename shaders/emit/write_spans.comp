@@ -2,21 +2,21 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // Writes the seen spans as instances, each bucket's together.
-#include "shaders/emit/span_load.h"
+#include "shaders/emit/emit_inputs.glsl"
+#include "shaders/emit/span_thinning.glsl"
 #include "shaders/shared/dispatch.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Data { EmitPush push; };
 
 #include "shaders/emit/shown_depth.glsl"
 
 void main() {
-    uint i = itemIndex();
-    if (i >= push.nodeCount) return;
-    uint word = push.classes.v[i];
-    uint bucket = classBucket(word);
-    uint place = classPlace(word);
-    if (bucket == kNoBucket || place >= push.state.v[0].counts[bucket]) return;
+    uint k = itemIndex();
+    if (k >= push.state.v[0].kept[0]) return;
+    uint i = push.kept.v[k].item;
+    uint bucket = classBucket(push.kept.v[k].word);
+    uint place = classPlace(push.kept.v[k].word);
+    if (place >= push.state.v[0].counts[bucket]) return;
     LoadedSpan s = loadSpan(push.nodes, push.chunks, push.surfaces, i);
     SpanInstance o;
     o.p0 = s.span.p0;
@@ -31,7 +31,6 @@ void main() {
     o.metres = spanLength(s.span);
     o.rise = kBarkRise;
     float fade = 1.0;
-    EmitView view = push.view.v[0];
     if ((view.flags & kFullDetail) == 0u) {
         // Thinner than it can be drawn: drawn at that width, but fainter.
         vec3 center = (s.span.p0 + s.span.p3) * 0.5;
@@ -39,11 +38,10 @@ void main() {
         float thin = min(max(s.radius0, s.radius1) * pixels / view.leastPixels, 1.0);
         o.radius0 = max(s.radius0, view.leastPixels / pixels * min(s.radius0 / max(s.radius1, 1e-9), 1.0));
         o.radius1 = max(s.radius1, view.leastPixels / pixels * min(s.radius1 / max(s.radius0, 1e-9), 1.0));
-        fade = thin;
+        fade = spanFade(thin, push.chunks.v[push.nodes.v[i].chunk].key);
     }
     uint kind = (push.nodes.v[i].flags >> 18u) & 255u;
-    uint lod = bucket - push.table.v[0].variants[push.table.v[0].kinds[kind].firstVariant].firstBucket;
+    uint lod = bucket - table.variants[table.kinds[kind].firstVariant].firstBucket;
     o.bits = lod | shownDepth(i) | (s.tip ? 256u : 0u) | (uint(fade * 65535.0 + 0.5) << 16u);
-    o.spare = 0u;
     push.spanInstances.v[push.state.v[0].starts[bucket] + place] = o;
 }

@@ -4,6 +4,7 @@
 // Bends a terminal mesh along its span (Buron 2015 §6): x and y in radii across, z along.
 #include "shaders/emit/span_load.h"
 #include "shaders/emit/triangle_vertex.glsl"
+#include "shaders/render/drawn.glsl"
 #include "shaders/render/frame.glsl"
 
 layout(push_constant, scalar) uniform Data { TerminalPush push; };
@@ -17,8 +18,8 @@ void main() {
     uint instance = vertex / push.vertexCount;
     uint local = vertex - instance * push.vertexCount;
     instance += uint(gl_InstanceIndex) * push.batch;
-    SpanInstance o = push.spans.v[push.state.v[0].starts[push.bucket] + instance];
-    TerminalVertex mesh = push.vertices.v[push.firstVertex + local];
+    SpanInstance o = drawnSpan(state.starts[push.bucket] + instance);
+    TerminalVertex mesh = drawnVertex(push.firstVertex + local);
     float u = clamp(mesh.position.z, 0.0, 1.0);
     float v = 1.0 - u;
     vec3 center = o.p0 * (v * v * v) + o.b1 * (3.0 * v * v * u) + o.b2 * (3.0 * v * u * u) + o.p3 * (u * u * u);

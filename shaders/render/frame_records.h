@@ -73,17 +73,13 @@ struct ModelPush {
 STATIC_SIZE(ModelPush, 96);
 
 struct TerminalPush {
-    EmitStateBuf state;
-    SpanInstanceBuf spans;
-    LeafInstanceBuf leaves;
-    TerminalVertexBuf vertices;
     uint bucket, firstVertex, vertexCount, batch;
     vec4 baseColor;
     float roughness;
     float alphaCutoff;
     uint spare[2];
 };
-STATIC_SIZE(TerminalPush, 80);
+STATIC_SIZE(TerminalPush, 48);
 
 struct PostPush {
     vec2 rcpSize;            // 1 / pixels

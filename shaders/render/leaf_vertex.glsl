@@ -2,6 +2,7 @@
 #ifndef ESPALIER_RENDER_LEAF_VERTEX_GLSL
 #define ESPALIER_RENDER_LEAF_VERTEX_GLSL
 #include "shaders/emit/triangle_vertex.glsl"
+#include "shaders/render/drawn.glsl"
 #include "shaders/render/frame.glsl"
 
 struct LeafVertex {
@@ -17,8 +18,8 @@ LeafVertex leafVertex(TerminalPush push, uint vertex, uint drawn) {
     uint local = vertex - instance * push.vertexCount;
     instance += drawn * push.batch;
     LeafVertex v;
-    LeafInstance o = push.leaves.v[push.state.v[0].starts[push.bucket] + instance];
-    TerminalVertex mesh = push.vertices.v[push.firstVertex + local];
+    LeafInstance o = drawnLeaf(state.starts[push.bucket] + instance);
+    TerminalVertex mesh = drawnVertex(push.firstVertex + local);
     vec3 arm = o.axisX * mesh.position.x + o.axisY * mesh.position.y + o.axisZ * mesh.position.z;
     float size = length(o.axisX);
     vec3 n = octahedralToUnit(mesh.normal);

@@ -17,7 +17,7 @@ layout(location = 0) out vec4 color;
 const float kLeastContrast = 0.035;      // of the stored square roots
 const float kRelativeContrast = 0.12;
 const float kSpeckShare = 0.3;          // how far a lone pixel is drawn to its neighbours' mean
-const float kSteps[6] = float[6](1.0, 2.0, 3.0, 4.5, 6.5, 9.0);
+const float kSteps[4] = float[4](1.0, 2.0, 4.0, 8.0);
 
 float brightness(vec3 c) { return dot(c, vec3(0.3, 0.6, 0.1)); }
 float brightnessAt(vec2 uv) { return brightness(textureLod(colorMap, uv, 0.0).rgb); }
@@ -29,8 +29,8 @@ float fetch(ivec2 at) {
 // to the middle's other side?
 float edgeEnd(vec2 uv, vec2 along, float edge, float least, bool darkHere, out bool over) {
     float difference = 0.0;
-    float far = kSteps[5];
-    for (int i = 0; i < 6; ++i) {
+    float far = kSteps[3];
+    for (int i = 0; i < 4; ++i) {
         difference = brightnessAt(uv + along * kSteps[i]) - edge;
         if (abs(difference) >= least) {
             far = kSteps[i];

@@ -10,6 +10,7 @@
 
 #include "runtime/emit/emit.hpp"
 #include "shaders/emit/leaf_place.h"
+#include "shaders/shared/random.h"
 
 namespace espalier::test {
 
@@ -42,6 +43,7 @@ struct PlantData {
         for (size_t i = 0; i < points.size(); ++i) {
             if (i % kChunkNodes == 0) {
                 Chunk chunk{};
+                chunk.key = mix64(chunks.size() + 1);
                 chunk.branch = branch;
                 chunk.previousNode = i == 0 ? from : first + uint32_t(i) - 1;
                 chunk.firstNode = first + uint32_t(i);

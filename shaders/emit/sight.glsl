@@ -1,27 +1,7 @@
-// Gives every item of a workgroup its place in its bucket with one atomic a bucket and group.
-#ifndef ESPALIER_EMIT_BUCKET_COUNT_GLSL
-#define ESPALIER_EMIT_BUCKET_COUNT_GLSL
+// Is a sphere in sight, and how large?
+#ifndef ESPALIER_EMIT_SIGHT_GLSL
+#define ESPALIER_EMIT_SIGHT_GLSL
 #include "shaders/emit/emit_records.h"
-
-shared uint groupCounts[64];
-shared uint groupStarts[64];
-shared uint groupTriangles;
-
-// All invocations of the group call it. Returns the class word of the item.
-uint countInBucket(EmitStateBuf state, EmitTableBuf table, uint bucket, uint fullTriangles) {
-    uint lane = gl_LocalInvocationID.x;
-    groupCounts[lane] = 0u;
-    if (lane == 0u) groupTriangles = 0u;
-    barrier();
-    uint place = 0u;
-    if (bucket != kNoBucket) place = atomicAdd(groupCounts[bucket], 1u);
-    if (fullTriangles != 0u) atomicAdd(groupTriangles, fullTriangles);
-    barrier();
-    if (groupCounts[lane] != 0u) groupStarts[lane] = atomicAdd(state.v[0].counts[lane], groupCounts[lane]);
-    if (lane == 0u && groupTriangles != 0u) atomicAdd(state.v[0].fullTriangles, groupTriangles);
-    barrier();
-    return classWord(bucket, bucket == kNoBucket ? 0u : groupStarts[bucket] + place);
-}
 
 bool outside(EmitView view, vec3 center, float radius) {
     for (uint i = 0u; i < 6u; ++i)
