@@ -99,7 +99,7 @@ Status BenchScene::grow(Growth& growth) {
     GrowthInputs in;
     in.surfaces = surfaces();
     in.surfaceCount = 1;
-    in.surfaceData = &gpuSurface_.data();
+    in.surfaceData = fetchSurfaces ? &gpuSurface_.data() : nullptr;
     in.layers = {reinterpret_cast<LayerRef*>(layers_.address())};
     in.grammars = {&map, 1};
     in.seeds = seeds_;
