@@ -147,9 +147,12 @@ void Controls::take(const std::vector<PointerEvent>& pointer, const std::vector<
     for (const KeyEvent& key : keys) {
         const bool functionKey = key.key >= GLFW_KEY_F1 && key.key <= GLFW_KEY_F12;
         const bool control = key.mods & GLFW_MOD_CONTROL;
-        const bool file = control && (key.key == GLFW_KEY_S || key.key == GLFW_KEY_O || key.key == GLFW_KEY_Q);
+        const bool file = control && (key.key == GLFW_KEY_S || key.key == GLFW_KEY_O || key.key == GLFW_KEY_E ||
+                                      key.key == GLFW_KEY_Q);
+        // What WantTextInput says is a frame late: nothing is active any more once a dialogue has closed.
+        const bool typing = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
         if (!ImGui::GetCurrentContext()->OpenPopupStack.empty() && !functionKey) continue;
-        if (ImGui::GetIO().WantTextInput && !functionKey && !file) continue;
+        if (typing && !functionKey && !file) continue;
         takeKey(key);
     }
     for (const PointerEvent& event : pointer) takePointer(event);
