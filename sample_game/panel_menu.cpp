@@ -125,7 +125,7 @@ void showDialogues(Workspace& work, Session& session) {
     if (beginDialogue("Unsaved work")) {
         ImGui::TextUnformatted("The last session ended without saving. What it had changed was kept.");
         if (session.recovery().empty()) ImGui::CloseCurrentPopup();
-        if (ImGui::Button("Open it")) {
+        if (ImGui::Button("Open it") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) {
             session.openNext = session.recovery();
             session.forgetRecovery(false);
             ImGui::CloseCurrentPopup();
