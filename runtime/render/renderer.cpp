@@ -242,7 +242,6 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     frame.shadowMatrix = sun.toTexture;
     frame.shadowTexel = 1.0f / kShadowSize;
     frame.unit = roofed_ ? 1.0f : lengthUnit(high - low);
-    frame.shadowNear = frame.pixelScale * sun.width / kShadowSize;
     frame.shadowOffset = 1.2f * sun.width / kShadowSize;
     const ShadowKey key{growth.revision,          models_.revision(), frame.sunDirection,
                         growth.nodeCount,         growth.leafCount,   roofed_ ? inputs.roofs->revision : 0,

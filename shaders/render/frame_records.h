@@ -44,7 +44,7 @@ struct FrameRecord {
     SurfaceBuf surfaces;
     LayerBuf layers;
     float layerOpacity;      // over the model
-    float shadowNear;        // metres along the view, up to which a pixel is narrower than a texel of the shadow map
+    float spare;
 };
 STATIC_SIZE(FrameRecord, 312);
 

@@ -6,17 +6,14 @@
 
 layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
 
-// 1: lit. One bilinear comparison where a pixel is wider than a texel of the map; nearer, the mean of four in a ring of
-// one and a half texels. Loops of one round: a device that runs all lanes through both sides of an `if` does leave a
-// loop early.
+// 1: lit. Four bilinear comparisons in a ring of one and a half texels. A loop of one round: a device that runs all lanes
+// through both sides of an `if` does leave a loop early.
 float sunVisibility(vec3 position, vec3 normal) {
     vec4 at = frame.shadowMatrix * vec4(position + normal * frame.shadowOffset, 1.0);
     bool covered = frame.shadows != 0u && all(greaterThan(at.xy, vec2(0.0))) && all(lessThan(at.xy, vec2(1.0)));
     at.z = min(at.z, 0.9999);   // behind all that casts shadows
     float visible = 1.0;
-    for (bool taken = covered; taken; taken = false) visible = textureLod(shadowMap, at.xyz, 0.0);
-    bool near = covered && dot(position - frame.eye, frame.rayForward) < frame.shadowNear;
-    for (bool taken = near; taken; taken = false) {
+    for (bool taken = covered; taken; taken = false) {
         float d = 0.75 * frame.shadowTexel;
         visible = 0.25 * (textureLod(shadowMap, vec3(at.xy + vec2(-d, -0.4 * d), at.z), 0.0) +
                           textureLod(shadowMap, vec3(at.xy + vec2(0.4 * d, -d), at.z), 0.0) +
