@@ -10,7 +10,7 @@ namespace espalier {
 // Disjoint sets of 0 to n - 1, which are joined and found by path halving. A set's root is its least member, whatever
 // the order of joins.
 class DisjointSets {
-public:
+  public:
     explicit DisjointSets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
     uint32_t find(uint32_t i) {
@@ -32,7 +32,7 @@ public:
         return count;
     }
 
-private:
+  private:
     std::vector<uint32_t> parent_;
 };
 

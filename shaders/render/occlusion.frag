@@ -30,11 +30,12 @@ void main() {
         ivec2 d = ivec2(kTaps[i] * pixels);
         float a = texelFetch(distanceMap, clamp(at + d, ivec2(0), last), 0).x;
         float b = texelFetch(distanceMap, clamp(at - d, ivec2(0), last), 0).x;
-        // Something much nearer is another thing, not a neighbour that shades.
-        float da = z - a;
-        float db = z - b;
-        da = da > 3.0 * metres ? 0.25 * metres : max(da, -metres);
-        db = db > 3.0 * metres ? 0.25 * metres : max(db, -metres);
+        // How much nearer, told by reciprocals, which are linear over a plane's picture. Something much nearer is another
+        // thing, not a neighbour that shades.
+        float da = z * z / a - z;
+        float db = z * z / b - z;
+        da = da > 3.0 * metres ? 0.25 * metres : max(da, -3.0 * metres);
+        db = db > 3.0 * metres ? 0.25 * metres : max(db, -3.0 * metres);
         float r = length(kTaps[i]) * metres;
         sum += clamp((da + db) * 0.5 / r - 0.06, 0.0, 1.0);
     }

@@ -32,5 +32,5 @@ void main() {
     // A loop of one round: a device that runs all lanes through both sides of an `if` does leave a loop early.
     for (bool low = push.ground != 0u && ray.y < kHighestHill; low; low = false) seen = hills(ray, seen);
     color = stored(toneMapped(seen * frame.exposure), 0.0);
-    if (explains && frame.view == kViewOverdraw) color = vec4(0.0);
+    if (frame.view == kViewOverdraw) color = vec4(0.0);
 }
