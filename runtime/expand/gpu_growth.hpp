@@ -60,7 +60,7 @@ class GpuGrowth final : public Growth {
     Status loadKernels(WalkMode mode);
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
     Status viewSurfaces(const GrowthInputs& inputs);
-    Status viewRecords(const Plants& plants, const Links& links, const Links& before);
+    Status viewRecords(const GrowthInputs& inputs, const Plants& plants, const Links& links, const Links& before);
     void dropViews();  // no view outlives its buffer
     Status makeKernels(const GrowthInputs& inputs);
     Status makeQueues(const GrowthInputs& inputs);

@@ -38,6 +38,8 @@ struct GrowthInputs {
     // The one buffer that all arrays of all surfaces lie in, where there is one (GpuSurface::data): software devices
     // then read it as texels, which is faster. Null: by address.
     const Buffer* surfaceData = nullptr;
+    // False: a software device too reads surfaces and records by address only, as all other devices do.
+    bool fetch = true;
     LayerBuf layers{};  // surfaceCount * kMaxLayers
     std::span<const RuleMapRef> grammars;
     // One a grammar, metres, or empty: shapes of this width grow on the coarsest level whose texels are no wider.

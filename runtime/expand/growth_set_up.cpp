@@ -55,7 +55,7 @@ Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, Buffe
 Status GpuGrowth::viewSurfaces(const GrowthInputs& inputs) {
     const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
     const Buffer* data = inputs.surfaceData;
-    fetches_ = device_.info().cpu && data && data->size() >= 16 && data->size() <= most;
+    fetches_ = inputs.fetch && device_.info().cpu && data && data->size() >= 16 && data->size() <= most;
     surfaceView_ = {};
     if (Status made = ensure(noTexels_, "growth no texels", 16); !made) return made;
     Result<TexelView> view = TexelView::create(device_, fetches_ ? *data : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
@@ -65,7 +65,8 @@ Status GpuGrowth::viewSurfaces(const GrowthInputs& inputs) {
 }
 
 // The same of the records that the passes after the march read.
-Status GpuGrowth::viewRecords(const Plants& plants, const Links& links, const Links& before) {
+Status GpuGrowth::viewRecords(const GrowthInputs& inputs, const Plants& plants, const Links& links,
+                              const Links& before) {
     const struct {
         TexelView* view;
         const Buffer* buffer;
@@ -75,7 +76,7 @@ Status GpuGrowth::viewRecords(const Plants& plants, const Links& links, const Li
                 {&leafView_, &plants.leaves},
                 {&chunkViewBefore_, &before.chunks}};
     const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
-    fetchesRecords_ = device_.info().cpu;
+    fetchesRecords_ = inputs.fetch && device_.info().cpu;
     for (const auto& row : rows)
         fetchesRecords_ = fetchesRecords_ && row.buffer->size() >= 16 && row.buffer->size() <= most;
     if (Status made = ensure(noTexels_, "growth no texels", 16); !made) return made;
@@ -137,7 +138,7 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
         Status ok = ensure(*row.buffer, row.name, row.bytes);
         if (!ok) return ok;
     }
-    if (Status viewed = viewRecords(plants, links, links); !viewed) return viewed;
+    if (Status viewed = viewRecords(inputs, plants, links, links); !viewed) return viewed;
     if (Status kernels = makeKernels(inputs); !kernels) return kernels;
     return makeQueues(inputs);
 }

@@ -79,7 +79,7 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
     if (Status ok = ensure(leafRanges_, "regrowth leaf ranges", blocks * 8); !ok) return ok;
     for (const auto& row : rows)
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
-    if (Status viewed = viewRecords(plants_[frontPlants_], to, from); !viewed) return viewed;
+    if (Status viewed = viewRecords(inputs, plants_[frontPlants_], to, from); !viewed) return viewed;
     return makeQueues(inputs);
 }
 

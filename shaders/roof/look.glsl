@@ -45,7 +45,7 @@ vec3 mossy(RoofDrawEnv env, uint mesh, vec3 base, vec3 position, float joint) {
 vec3 layerColour(RoofDrawEnv env, vec3 position) {
     if (env.shownLayer == kNoIndex) return vec3(0.4);
     float x = roofLayerAt(env.roofs.layers, env.roofs.site, env.shownLayer, position.xz);
-    return mix(vec3(0.08, 0.09, 0.12), vec3(0.9, 0.35, 0.08), x);
+    return layerColor(x);
 }
 vec4 shade(vec3 base, vec3 n, vec3 position, float roughness) {
     vec3 eye = normalize(frame.eye - position);

@@ -492,6 +492,7 @@ TEST_CASE("random edits in any order end in what a full growth gives") {
     for (uint32_t m = 0; m < 3; ++m) {
         CAPTURE(m);
         Session s(models[m], m == 1 ? GrowthRoom{256, 4096, 256, 4096, 64} : GrowthRoom{});
+        s.scene.fetch = m != 1;
         s.scene.plantMany(25, 0, 1);
         s.scene.plantMany(8, 1, 2);
         s.check();

@@ -178,7 +178,7 @@ TEST_CASE("several grammars grow in one scene, each seed by its own") {
     CHECK(grammars.size() == 2);
 }
 
-TEST_CASE("tables and surfaces read by address grow what those read as uniforms and texels do") {
+TEST_CASE("tables, surfaces and records read by address grow what those read as uniforms and texels do") {
     TestDevice gpu;
     auto growth = gpu.growth();
     uint64_t first = 0;
@@ -196,7 +196,7 @@ TEST_CASE("tables and surfaces read by address grow what those read as uniforms 
         scene.plantMany(7);
         for (bool fetch : {true, false}) {
             CAPTURE(fetch);
-            scene.fetchSurfaces = fetch;
+            scene.fetch = fetch;
             mustGrow(scene, gpu, *growth);
             checkAlike(scene, *growth);
             if (first == 0) first = growth->stats().hash;

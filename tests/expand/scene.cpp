@@ -129,7 +129,8 @@ Status Scene::grow(Device& device, Growth& growth) {
     GrowthInputs in;
     in.surfaces = {reinterpret_cast<SurfaceRef*>(upload(std::vector<SurfaceRef>{gpuSurface_.ref()}, "surfaces"))};
     in.surfaceCount = 1;
-    in.surfaceData = fetchSurfaces ? &gpuSurface_.data() : nullptr;
+    in.surfaceData = &gpuSurface_.data();
+    in.fetch = fetch;
     in.layers = {reinterpret_cast<LayerRef*>(upload(layers, "layers"))};
     in.grammars = refs;
     in.widths = widths;

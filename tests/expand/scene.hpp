@@ -43,7 +43,7 @@ class Scene {
     GrowthLimits limits;
     std::vector<float> widths;
     const GrowthChanges* changes = nullptr;  // see GrowthInputs::changes
-    bool fetchSurfaces = true;               // see GrowthInputs::surfaceData
+    bool fetch = true;                       // see GrowthInputs
 
     Result<CpuGrowth> growOnCpu();
     // Uploads and grows; the buffers live as long as the scene.

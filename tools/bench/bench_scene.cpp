@@ -99,7 +99,8 @@ Status BenchScene::grow(Growth& growth) {
     GrowthInputs in;
     in.surfaces = surfaces();
     in.surfaceCount = 1;
-    in.surfaceData = fetchSurfaces ? &gpuSurface_.data() : nullptr;
+    in.surfaceData = &gpuSurface_.data();
+    in.fetch = fetch;
     in.layers = {reinterpret_cast<LayerRef*>(layers_.address())};
     in.grammars = {&map, 1};
     in.seeds = seeds_;

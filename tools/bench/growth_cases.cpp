@@ -69,11 +69,11 @@ void growthCases(Bench& bench) {
         bench.add({row + "/core", "growth with terminals, a second of CPU time", "nodes/s", m.coreNodesPerSecond,
                    "the CPU reference", m.cpuNodesPerSecond});
         if (seeds != 42) continue;
-        scene->fetchSurfaces = false;
+        scene->fetch = false;
         const Measured addressed = measure(bench, *scene, **growth);
-        scene->fetchSurfaces = true;
-        bench.add({row + "/texels", "surface as texels, a second of CPU time", "nodes/s", m.coreNodesPerSecond,
-                   "surface by address", addressed.coreNodesPerSecond});
+        scene->fetch = true;
+        bench.add({row + "/texels", "reading texels, a second of CPU time", "nodes/s", m.coreNodesPerSecond,
+                   "all by address", addressed.coreNodesPerSecond});
         const GrowthStats& s = m.stats;
         bench.add({row + "/nodes", "nodes grown", "nodes", stepsOf(s), "asked for", 500000});
         bench.add({row + "/gpu", "GPU time of expansion", "ms", s.expandMs, "of it marching", s.marchMs});
