@@ -7,19 +7,12 @@
 #include <algorithm>
 #include <deque>
 
-#include "runtime/grammar/compilation.hpp"
+#include "runtime/grammar/lower_roof.hpp"
 
 namespace espalier::grammar {
 namespace {
 
 constexpr size_t kMaxSymbols = 4000;
-constexpr float kUnchanged = -1;
-
-// What commands have changed so far; kScopeValues nodes.
-struct Scope {
-    Node values[kScopeValues];
-    bool plain = true;
-};
 
 class RoofLowering {
   public:
@@ -39,7 +32,7 @@ class RoofLowering {
             pending_.pop_front();
             lowerNested(next);
         }
-        if (!c_.reporter.failed()) markGrids();  // a rule with a mistake lacks its numbers
+        if (!c_.reporter.failed()) markGrids(c_);  // a rule with a mistake lacks its numbers
         const uint32_t house = c_.findSymbol("House");
         if (!c_.symbols.empty()) c_.startSymbol = house != kNoSymbol ? c_.symbols[house].record : 0;
     }
@@ -148,14 +141,14 @@ class RoofLowering {
     }
 
     RuleRecord single(const Sequence& sequence, Env& env, const Rule& rule, const std::string& name) {
-        Scope scope = plainScope();
+        RoofScope scope = plainScope(g_);
         const Element* made = nullptr;
         for (const Element& e : sequence) {
             const CommandInfo* command = findCommand(e.name);
             if (command == nullptr || command->kind == Command::shape)
                 made = &e;
             else if (made == nullptr)
-                apply(*command, e, env, scope);
+                applyCommand(c_, *command, e, env, scope);
             else if (command->kind != Command::pop && command->kind != Command::null)
                 error(e.place, env, "'" + e.name + "' stands behind what it should change; put it in front");
         }
@@ -176,57 +169,7 @@ class RoofLowering {
         return finish(r, sites, reads);
     }
 
-    Scope plainScope() {
-        Scope s;
-        for (uint32_t i = 0; i < kScopeValues; ++i) s.values[i] = i >= 3 && i < 8 ? g_.zero() : g_.constant(kUnchanged);
-        return s;
-    }
-    void apply(const CommandInfo& info, const Element& e, Env& env, Scope& scope) {
-        const bool metres = info.kind == Command::size || info.kind == Command::translate;
-        if (info.kind == Command::push || info.kind == Command::pop || info.kind == Command::null) return;
-        if (e.hasItems || e.args.size() < info.minArgs || e.args.size() > (metres ? 3 : info.maxArgs))
-            return error(e.place, env,
-                         metres ? "write " + e.name + "(x), " + e.name + "(x, y) or " + e.name + "(x, y, z)"
-                                : "write " + std::string(info.usage));
-        scope.plain = false;
-        if (info.kind == Command::colour) {
-            Node rgb[3];
-            if (houseColour(e)) {
-                for (uint32_t i = 0; i < 3; ++i) scope.values[9 + i] = g_.leaf(Leaf::slot, kSlotHouseColour + i);
-            } else if (e.args.size() == 3) {
-                for (uint32_t i = 0; i < 3; ++i) scope.values[9 + i] = c_.expressions.lower(e.args[i], env);
-            } else if (c_.expressions.lowerColour(e.args, e.place, env, rgb)) {
-                std::copy(rgb, rgb + 3, scope.values + 9);
-            }
-            return;
-        }
-        if (info.kind == Command::drop || info.kind == Command::moss) {
-            scope.values[info.kind == Command::drop ? 12 : 13] = c_.expressions.layerNumber(e.args[0], env);
-            return;
-        }
-        for (size_t i = 0; i < e.args.size(); ++i) {
-            Node n = c_.expressions.lower(e.args[i], env);
-            switch (info.kind) {
-                case Command::size:
-                    scope.values[i] = n;
-                    break;
-                case Command::translate:
-                    scope.values[3 + i] = g_.add(scope.values[3 + i], n);
-                    break;
-                case Command::rotate:
-                    scope.values[6 + i] = g_.add(scope.values[6 + i], n);
-                    break;
-                default:
-                    scope.values[8] = n;
-                    break;
-            }
-        }
-    }
-    bool houseColour(const Element& e) const {
-        return e.args.size() == 1 && c_.module.exprs[e.args[0]].text == "houseColour";
-    }
-
-    RuleRecord terminal(const Element& e, Env& env, const Scope& scope) {
+    RuleRecord terminal(const Element& e, Env& env, const RoofScope& scope) {
         RuleRecord r = emptyRule(kRuleShape);
         const Expr& text = c_.module.exprs[e.args.empty() ? 0 : e.args[0]];
         if (e.args.size() != 1 || text.kind != ExprKind::string || e.hasItems)
@@ -247,44 +190,9 @@ class RoofLowering {
 
     RuleRecord block(const BlockInfo& info, const Element& e, Env& env, const Rule& rule, const std::string& name) {
         RuleRecord r = emptyRule(kRuleNull);
-        const bool repeat = info.kind == Block::repeat;
-        const size_t least = repeat ? 2 : info.minArgs, most = repeat ? 4 : info.maxArgs;
-        if (info.kind == Block::marching || info.kind == Block::branch)
-            return error(e.place, env, "'" + e.name + "' walks over a surface; a grammar either walks or makes roofs"),
-                   r;
-        if (!e.hasItems || e.args.size() < least || e.args.size() > most || e.items.size() < info.minItems ||
-            e.items.size() > info.maxItems)
-            return error(e.place, env,
-                         "write " + (repeat ? std::string("Repeat(X, Y or XY, size, fit or clip or bond) {successor}")
-                                            : std::string(info.usage))),
-                   r;
-        StageReads sites, reads;
         std::vector<Node> roots;
-        switch (info.kind) {
-            case Block::extrude:
-                r.kind = kRuleExtrude;
-                roots = {c_.expressions.lower(e.args[0], env)};
-                break;
-            case Block::join:
-                r.kind = kRuleJoin;
-                join(e, env, r, roots);
-                break;
-            case Block::project:
-                r.kind = kRuleProject;
-                for (ExprId arg : e.args) addVector(arg, env, roots);
-                break;
-            case Block::explode:
-                r.kind = kRuleExplode;
-                break;
-            case Block::split:
-                r.kind = kRuleSplit;
-                split(e, env, r, roots);
-                break;
-            default:
-                r.kind = kRuleRepeat;
-                repeatOf(e, env, r, roots);
-                break;
-        }
+        if (!lowerBlock(c_, info, e, env, r, roots)) return r;
+        StageReads sites, reads;
         addValues(r, roots, sites, reads, e.place, env);
         std::vector<std::vector<Target>> parts;
         for (uint32_t i = 0; i < e.items.size(); ++i) parts.push_back(targets(e.items[i], env, rule, name, i));
@@ -305,65 +213,6 @@ class RoofLowering {
             if (findCommand(e.name) == nullptr && callee(e, env) != kNoSymbol)
                 all.push_back({c_.symbols[callee(e, env)].record, &e});
         return all;
-    }
-
-    void addVector(ExprId arg, Env& env, std::vector<Node>& roots) {
-        Node v[3];
-        int size = 3;
-        c_.expressions.lowerVector(arg, env, v, size);
-        if (size == 2) std::swap(v[1], v[2]);  // a place in the plan
-        roots.insert(roots.end(), v, v + 3);
-    }
-    // Join(h, roofPos1, roofPos2) makes the atom's own face, whose chain the structure gives.
-    void join(const Element& e, Env& env, RuleRecord& r, std::vector<Node>& roots) {
-        roots = {c_.expressions.lower(e.args[0], env)};
-        auto named = [&](ExprId arg, const char* name) { return c_.module.exprs[arg].text == name; };
-        if (named(e.args[1], "roofPos1") && named(e.args[2], "roofPos2")) r.extrude = 1;
-        addVector(e.args[1], env, roots);
-        addVector(e.args[2], env, roots);
-    }
-    void split(const Element& e, Env& env, RuleRecord& r, std::vector<Node>& roots) {
-        const std::string& axis = c_.module.exprs[e.args[0]].text;
-        if (axis != "X" && axis != "Y") return error(e.place, env, "Split goes along X or Y");
-        if (e.args.size() != e.items.size() + 1)
-            return error(e.place, env,
-                         "Split has " + std::to_string(e.args.size() - 1) + " sizes and " +
-                             std::to_string(e.items.size()) + " parts");
-        r.extrude = axis == "Y" ? 1 : 0;
-        for (uint32_t i = 0; i < kMaxSplit; ++i) {
-            uint32_t mode = 3;
-            if (i + 1 < e.args.size()) {
-                const Expr& size = c_.module.exprs[e.args[i + 1]];
-                const bool share = size.kind == ExprKind::call && size.text == "~";
-                const bool relative = size.kind == ExprKind::call && size.text == "rel" && size.kids.size() == 1;
-                mode = share ? kSplitRest : relative ? kSplitRelative : kSplitAbsolute;
-                roots.push_back(c_.expressions.lower(share || relative ? size.kids[0] : e.args[i + 1], env));
-            } else {
-                roots.push_back(g_.zero());
-            }
-            r.extrude |= mode << (1 + 2 * i);
-        }
-    }
-    void repeatOf(const Element& e, Env& env, RuleRecord& r, std::vector<Node>& roots) {
-        const std::string& axis = c_.module.exprs[e.args[0]].text;
-        r.extrude = axis == "X" ? kRepeatX : axis == "Y" ? kRepeatY : axis == "XY" ? kRepeatX | kRepeatY : 0u;
-        if (r.extrude == 0) error(e.place, env, "Repeat goes along X, Y or XY");
-        for (size_t i = 2; i < e.args.size(); ++i) {
-            const Expr& word = c_.module.exprs[e.args[i]];
-            if (word.text == "clip" || word.text == "bond")
-                r.extrude |= word.text == "clip" ? kRepeatClip : kRepeatBond | kRepeatClip;
-            else if (word.text != "fit")
-                error(word.place, env, "cells are repeated fit, clip or bond");
-        }
-        if (c_.expressions.isVector(e.args[1])) {
-            Node v[3];
-            int size = 2;
-            c_.expressions.lowerVector(e.args[1], env, v, size);
-            roots = {v[0], v[1]};
-        } else {
-            Node n = c_.expressions.lower(e.args[1], env);
-            roots = {n, n};
-        }
     }
 
     uint32_t callee(const Element& e, const Env& env) {
@@ -414,59 +263,6 @@ class RoofLowering {
         r.firstSite = c_.storeSites(sites);
         r.siteCount = static_cast<uint32_t>(sites.sites.size());
         return r;
-    }
-
-    // A Repeat whose successors are terminals that ask for nothing but parameters and arguments stays one shape with
-    // many cells (Buron 2013 §4's Repeat(XY) of tiles): the expander hands its cells on to grids.
-    void markGrids() {
-        for (RuleRecord& r : c_.rules) {
-            if (r.kind != kRuleRepeat) continue;
-            bool grid = true;
-            for (uint32_t i = 0; i < r.successorCount; ++i)
-                grid = grid && contextFree(c_.successors[r.firstSuccessor + i].symbol, 0);
-            if (grid) r.extrude |= kRepeatGrid;
-        }
-    }
-    bool contextFree(uint32_t symbol, uint32_t depth) {
-        if (depth > 16) return false;
-        const SymbolRecord& s = c_.symbolRecords[symbol];
-        if (s.ruleCount != 1 || s.select.count != 0 || s.selected.slot != kSlotImmediate) return false;
-        const RuleRecord& r = c_.rules[s.firstRule];
-        if (r.kind != kRuleList && r.kind != kRuleScope && r.kind != kRuleShape) return false;
-        if (r.siteCount != 0 || r.startLayers != 0 || !placeFree(r)) return false;
-        for (uint32_t i = 0; i < r.successorCount; ++i)
-            if (!contextFree(c_.successors[r.firstSuccessor + i].symbol, depth + 1)) return false;
-        return true;
-    }
-    // True if no code of the rule reads where the shape stands or which it is; turning needs a cell's own origin.
-    bool placeFree(const RuleRecord& r) const {
-        auto fixed = [](uint32_t slot) {
-            const bool place = slot >= kSlotPos0 && slot < kSlotLocalNormal;
-            const bool drawn = slot >= kSlotDraw && slot < kSlotPos0;  // layers too
-            return !place && !drawn && slot != kSlotIndex && slot != kSlotCount;
-        };
-        auto codeFixed = [&](const CodeRange& range) {
-            for (uint32_t i = 0; i < range.count; ++i) {
-                const uint32_t bits = c_.code.code[range.first + i].bits;
-                for (uint32_t shift : {9u, 16u, 23u})
-                    if (!fixed((bits >> shift) & 127u)) return false;
-            }
-            return true;
-        };
-        if (!codeFixed(r.start)) return false;
-        if (r.kind != kRuleList)
-            for (uint32_t i = 0; i < kScopeValues; ++i) {
-                const Value& v = c_.roofValues[r.values + i];
-                if (!fixed(v.slot)) return false;
-                if ((i == 6 || i == 7) && (v.slot != kSlotImmediate || v.immediate != 0)) return false;
-            }
-        for (uint32_t i = 0; i < r.successorCount; ++i) {
-            const SuccessorRecord& s = c_.successors[r.firstSuccessor + i];
-            if (!codeFixed(s.code)) return false;
-            for (const Value& v : s.args)
-                if (!fixed(v.slot)) return false;
-        }
-        return true;
     }
 
     Compilation& c_;
