@@ -1,5 +1,4 @@
-// After any edits, growing only what they concern gives what growing everything anew gives: by the structure's hash of
-// the CPU reference, which knows nothing of edits, and by all counts.
+// After any edits, growing only what they concern gives what growing everything anew gives.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,129 +7,10 @@
 
 #include "shaders/shared/exact.h"
 #include "shaders/shared/random.h"
-#include "tests/expand/scene.hpp"
+#include "tests/expand/session.hpp"
 
 using namespace espalier;
 using namespace espalier::growthtest;
-
-namespace {
-
-// Stems that a mask leads, twigs of twigs; bark thins towards tips and so depends on where a branch ends; leaves read
-// another layer than the rules do.
-const char* kGuided = R"(
-context mask = 1
-context cover = 1
-param reach = 40 [0 .. 1000] "steps" "Steps"
-param stride = 0.04 [0.01 .. 1] "m" "Step"
-param leafSize = 0.04 [0.01 .. 1] "m" "Leaves"
-param twigs = 0.3 [0 .. 1] "" "Twigs"
-Stem(n) -> Marching(stride, rand(-0.3, 0.3), mask(texCoord) > 0.5 and n < reach) {Fork(n + 1), Cover}
-Fork(n) -> Branch(2) {Twig(0, rand(0, 12)), Stem(n)} : 0.3
-Fork(n) -> Stem(n) : 0.7
-Twig(n, k) -> Marching(stride * 0.7, rand(-0.6, 0.6), mask(texCoord) > 0.5 and n < k) {Bud(n + 1, k), Cover}
-Bud(n, k) : rand() < twigs -> Branch(2) {Tip(0), Twig(n, k)}
-Bud(n, k) -> Twig(n, k)
-Tip(n) -> Marching(0.02, rand(-1, 1), n < 3) {Tip(n + 1), Cover}
-Cover -> Bark Leaves
-Bark -> S(0.002 + 0.01 * clamp(toTip / 0.5, 0, 1)) Shape("bark", C1)
-Leaves -> Repeat(floor(rand(0, 3) * cover(texCoord))) { T(rand(), 0.01) R(rand(-1, 1), 0.4) S(leafSize * rand(0.6, 1)) Shape("leaf") }
-)";
-
-const char* kPlain = R"(
-param reach = 25 [0 .. 1000] "steps" "Steps"
-Stem(n) -> Marching(0.05, rand(-0.2, 0.2), n < reach) {Fork(n + 1), Bark}
-Fork(n) -> Branch(2) {Twig(0), Stem(n)} : 0.2
-Fork(n) -> Stem(n) : 0.8
-Twig(n) -> Marching(0.03, rand(-0.5, 0.5), n < 6) {Twig(n + 1), Bark}
-Bark -> S(0.01) Shape("bark", C1)
-)";
-
-// A scene that is edited, its growth, and notes of the edits since.
-class Session {
-  public:
-    explicit Session(const Model& model, const GrowthRoom& room = {})
-        : scene(Scene::baked(model)), growth(gpu.growth(room)) {
-        changes.everything = false;
-        scene.addGrammar(kGuided);
-        scene.addGrammar(kPlain);
-        for (auto& layer : layers) layer.assign(kSize * kSize, 1.0f);
-    }
-    ~Session() { growth.reset(); }
-
-    // A round dab that is `value` inside; the texels that it touches are noted.
-    void dab(uint32_t layer, glm::vec2 at, float radius, float value) {
-        glm::ivec2 low = glm::max(glm::ivec2((at - radius) * float(kSize)), 0);
-        glm::ivec2 high = glm::min(glm::ivec2((at + radius) * float(kSize)) + 1, int(kSize));
-        for (int y = low.y; y < high.y; ++y)
-            for (int x = low.x; x < high.x; ++x)
-                if (glm::length((glm::vec2(x, y) + 0.5f) / float(kSize) - at) < radius)
-                    layers[layer][size_t(y) * kSize + size_t(x)] = value;
-        upload(layer);
-        changes.markTexels(0, layer, kSize, uint32_t(low.x), uint32_t(low.y), uint32_t(high.x), uint32_t(high.y));
-    }
-    void set(uint32_t grammar, const char* name, float value) {
-        RuleMap& map = scene.grammar(grammar);
-        changes.markParams(grammar, map.setParam(*map.findParam(name), {&value, 1}));
-    }
-    void upload(uint32_t layer) {
-        scene.paint(layer, kSize, [&](glm::vec2 uv) {
-            return layers[layer][size_t(uv.y * float(kSize)) * kSize + size_t(uv.x * float(kSize))];
-        });
-    }
-    void grow() {
-        scene.changes = &changes;
-        Status grown = scene.grow(gpu.device(), *growth);
-        if (!grown) FAIL(grown.failure().text());
-        changes = {.everything = false, .cells = {}, .params = {}, .grammars = {}};
-    }
-    void check() {
-        grow();
-        Result<CpuGrowth> whole = scene.growOnCpu();
-        REQUIRE(whole);
-        const GrowthStats s = growth->stats();
-        const GrowthStats& w = whole->stats;
-        CHECK(s.hash == w.hash);
-        CHECK(s.nodes == w.nodes);
-        CHECK(s.chunks == w.chunks);
-        CHECK(s.branches == w.branches);
-        CHECK(s.leaves == w.leaves);
-        CHECK(s.steps == w.steps);
-        CHECK(s.inserted == w.inserted);
-        CHECK(s.deadEnds == w.deadEnds);
-        CHECK(s.stopped == w.stopped);
-        Result<GrowthRecords> records = growth->read();
-        REQUIRE(records);
-        CHECK(records->nodes.size() == w.nodes);
-        CHECK(records->leaves.size() == w.leaves);
-        const GrowthDifference difference = compareGrowth(*whole, *records);
-        CHECK(difference.alike == difference.branches);
-        for (const std::string& note : difference.notes) std::printf("  %s\n", note.c_str());
-    }
-
-    static constexpr uint32_t kSize = 256;
-    TestDevice gpu;
-    Scene scene;
-    std::unique_ptr<Growth> growth;
-    GrowthChanges changes;
-    std::array<std::vector<float>, 2> layers;
-};
-
-// Cuts a branch away, or lets one that was cut grow again.
-void prune(Session& s, uint64_t draw) {
-    std::vector<uint64_t>& pruned = s.scene.pruned;
-    Result<GrowthRecords> records = s.growth->read();
-    REQUIRE(records);
-    if (!pruned.empty() && draw % 3 == 0) {
-        pruned.erase(pruned.begin() + long(draw / 3 % pruned.size()));
-    } else if (!records->branches.empty()) {
-        const BranchRecord& b = records->branches[draw / 3 % records->branches.size()];
-        const uint64_t key = records->chunks[b.firstChunk].key;
-        const auto at = std::lower_bound(pruned.begin(), pruned.end(), key);
-        if (at == pruned.end() || *at != key) pruned.insert(at, key);
-    }
-}
-
-}  // namespace
 
 TEST_CASE("a dab regrows what read it and what follows, and nothing else") {
     Session s(flatSquare());
@@ -320,172 +200,24 @@ TEST_CASE("a parameter regrows what uses it: rules, terminals, or another gramma
     CHECK(s.growth->stats().derived > 0);
 }
 
-TEST_CASE("a pruned branch is gone with what follows from it, stays so, and comes back") {
-    Session s(ball());
-    s.scene.plantMany(20, 0, 1);
-    s.scene.plantMany(10, 1, 2);
-    s.check();
-    const GrowthStats before = s.growth->stats();
+namespace {
+
+// Cuts a branch away, or lets one that was cut grow again.
+void prune(Session& s, uint64_t draw) {
+    std::vector<uint64_t>& pruned = s.scene.pruned;
     Result<GrowthRecords> records = s.growth->read();
     REQUIRE(records);
-    // The branch of a seed that has most nodes follow from its first twig, and that twig.
-    std::vector<uint32_t> following(records->chunks.size());
-    for (const Chunk& c : records->chunks)
-        for (uint32_t at = uint32_t(&c - records->chunks.data()); at != kNoIndex; at = records->chunks[at].parent)
-            following[at] += chunkNodes(c.marks);
-    const BranchRecord* twig = nullptr;
-    for (const BranchRecord& b : records->branches)
-        if ((records->chunks[b.firstChunk].depth & 0xFFFF) == 1 &&
-            (!twig || following[b.firstChunk] > following[twig->firstChunk]))
-            twig = &b;
-    REQUIRE(twig);
-    const uint64_t key = records->chunks[twig->firstChunk].key;
-    REQUIRE(following[twig->firstChunk] > 20);
-
-    s.scene.pruned = {key};
-    s.check();
-    CHECK(s.growth->stats().regrowths == 1);
-    CHECK(s.growth->stats().derived == 0);
-    CHECK(s.growth->stats().nodes == before.nodes - following[twig->firstChunk]);
-    Result<GrowthRecords> after = s.growth->read();
-    REQUIRE(after);
-    for (const BranchRecord& b : after->branches) CHECK(after->chunks[b.firstChunk].key != key);
-    s.dab(0, {0.2f, 0.3f}, 0.2f, 0);  // regrowth and full growth leave it out alike
-    s.check();
-    s.changes.everything = true;
-    s.check();
-    s.dab(0, {0.2f, 0.3f}, 0.2f, 1);
-    s.check();
-    s.scene.pruned.clear();
-    s.check();
-    CHECK(s.growth->stats().hash == before.hash);
-    CHECK(s.growth->stats().derived == following[twig->firstChunk]);
-    s.scene.pruned = {1, 2, 3};  // no branch's
-    s.check();
-    CHECK(s.growth->stats().hash == before.hash);
-    s.scene.pruned = {3, 2};
-    CHECK(!s.scene.growOnCpu());
-}
-
-TEST_CASE("a frozen plant stands as it was through every edit, and grows from what is there when it thaws") {
-    Session s(ball());
-    s.scene.plantMany(12, 0, 1);
-    s.scene.plantMany(6, 1, 2);
-    s.check();
-    const GrowthStats before = s.growth->stats();
-    Result<GrowthRecords> records = s.growth->read();
-    REQUIRE(records);
-    // What grows from the seed alone, by the CPU: plants know nothing of each other, so it is the frozen plant's share.
-    std::vector<Seed>& seeds = s.scene.seeds();
-    const std::vector<Seed> all = seeds;
-    const Seed seed = seeds[3];
-    seeds = {seed};
-    Result<CpuGrowth> alone = s.scene.growOnCpu();
-    REQUIRE(alone);
-    REQUIRE(alone->stats.leaves > 10);
-    seeds = all;
-    seeds.erase(seeds.begin() + 3);
-    s.scene.frozen = {{seed.key, std::make_shared<PlantRecords>(plantOf(*records, 3))}};
-    const auto check = [&] {
-        s.grow();
-        Result<CpuGrowth> rest = s.scene.growOnCpu();
-        REQUIRE(rest);
-        const GrowthStats now = s.growth->stats(), &a = alone->stats, &b = rest->stats;
-        const uint64_t low = uint32_t(a.hash) + uint32_t(b.hash), high = (a.hash >> 32) + (b.hash >> 32);
-        CHECK(now.hash == ((high << 32) | uint32_t(low)));
-        CHECK(now.seeds == a.seeds + b.seeds);
-        CHECK(now.nodes == a.nodes + b.nodes);
-        CHECK(now.chunks == a.chunks + b.chunks);
-        CHECK(now.branches == a.branches + b.branches);
-        CHECK(now.leaves == a.leaves + b.leaves);
-        CHECK(now.steps == a.steps + b.steps);
-        CHECK(now.inserted == a.inserted + b.inserted);
-        CHECK(now.deadEnds == a.deadEnds + b.deadEnds);
-        CHECK(now.stopped == a.stopped + b.stopped);
-    };
-    check();
-    CHECK(s.growth->stats().hash == before.hash);
-    CHECK(s.growth->stats().derived == 0);
-    s.dab(0, seed.walk.uv, 0.2f, 0);
-    check();
-    CHECK(s.growth->stats().regrowths == 2);
-    s.set(0, "leafSize", 0.05f);
-    s.set(0, "twigs", 0.5f);
-    check();
-    s.changes.grammars = {0};
-    check();
-    s.scene.pruned = {seed.key};
-    check();
-    s.scene.plantMany(2, 0, 9);
-    check();
-    const uint32_t regrowths = s.growth->stats().regrowths;
-    s.changes.everything = true;
-    check();
-    CHECK(s.growth->stats().regrowths == regrowths);
-    CHECK(s.growth->stats().derived == s.growth->stats().nodes - alone->stats.nodes);
-    s.dab(0, {0.5f, 0.5f}, 0.2f, 0);
-    check();
-    s.scene.limits.maxNodes = s.growth->stats().nodes;
-    check();
-
-    // As bytes and back, into a growth that has never seen it.
-    const std::vector<std::byte> bytes = packPlant(*s.scene.frozen[0].records);
-    Result<PlantRecords> again = unpackPlant(bytes, 1);
-    REQUIRE(again);
-    s.scene.frozen[0].records = std::make_shared<PlantRecords>(std::move(*again));
-    check();
-    s.growth = s.gpu.growth({64, 64, 64, 64, 64});
-    check();
-    s.scene.frozen.push_back(s.scene.frozen[0]);
-    seeds.clear();
-    s.scene.frozen[1].key += 1;
-    s.grow();
-    CHECK(s.growth->stats().nodes == 2 * alone->stats.nodes);
-
-    // It thaws into the present inputs; the pruning of its root holds until it is taken back.
-    s.scene.limits.maxNodes = before.nodes * 2;
-    s.scene.frozen.clear();
-    seeds = all;
-    s.check();
-    CHECK(s.growth->stats().regrowths == 0);
-    s.scene.pruned.clear();
-    s.check();
-    CHECK(s.growth->stats().regrowths == 1);
-}
-
-TEST_CASE("bytes that aren't a plant are refused") {
-    Session s(flatSquare());
-    s.scene.plantMany(4, 0, 1);
-    s.check();
-    Result<GrowthRecords> records = s.growth->read();
-    REQUIRE(records);
-    const PlantRecords plant = plantOf(*records, 0);
-    const std::vector<std::byte> bytes = packPlant(plant);
-    CHECK(unpackPlant(bytes, 1));
-    CHECK(!unpackPlant(bytes, 0));
-    for (size_t size : {size_t(0), size_t(7), size_t(31), bytes.size() - 1})
-        CHECK(!unpackPlant(std::span(bytes).first(size), 1));
-    for (size_t at = 0; at < bytes.size(); at += 13) {
-        std::vector<std::byte> other = bytes;
-        other[at] ^= std::byte(64);
-        CHECK(!unpackPlant(other, 1));
+    if (!pruned.empty() && draw % 3 == 0) {
+        pruned.erase(pruned.begin() + long(draw / 3 % pruned.size()));
+    } else if (!records->branches.empty()) {
+        const BranchRecord& b = records->branches[draw / 3 % records->branches.size()];
+        const uint64_t key = records->chunks[b.firstChunk].key;
+        const auto at = std::lower_bound(pruned.begin(), pruned.end(), key);
+        if (at == pruned.end() || *at != key) pruned.insert(at, key);
     }
-    // Well packed, and yet no plant.
-    const auto refused = [&](auto&& spoil) {
-        PlantRecords spoilt = plant;
-        spoil(spoilt);
-        CHECK(!unpackPlant(packPlant(spoilt), 1));
-    };
-    refused([](PlantRecords& p) { p.nodes[0].chunk = 9999; });
-    refused([](PlantRecords& p) { p.nodes[0].position.x = NAN; });
-    refused([](PlantRecords& p) { p.nodes[0].radius = -1; });
-    refused([](PlantRecords& p) { p.chunks[0].next = 0; });
-    refused([](PlantRecords& p) { p.chunks[0].firstNode = 9999; });
-    refused([](PlantRecords& p) { p.chunks[0].firstChild = 0; });
-    refused([](PlantRecords& p) { p.chunks.back().nextSibling = uint32_t(p.chunks.size() - 1); });
-    refused([](PlantRecords& p) { p.branches[0].firstChunk = kNoIndex; });
-    refused([](PlantRecords& p) { p.leaves[0].node = uint32_t(p.nodes.size()); });
 }
+
+}  // namespace
 
 TEST_CASE("random edits in any order end in what a full growth gives") {
     const Model models[] = {flatSquare(), cube(), ball()};

@@ -1,0 +1,179 @@
+// What a designer keeps from growing, or as it is: pruned branches and frozen plants, and the bytes of the latter.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shaders/shared/exact.h"
+#include "shaders/shared/random.h"
+#include "tests/expand/session.hpp"
+
+using namespace espalier;
+using namespace espalier::growthtest;
+
+TEST_CASE("a pruned branch is gone with what follows from it, stays so, and comes back") {
+    Session s(ball());
+    s.scene.plantMany(20, 0, 1);
+    s.scene.plantMany(10, 1, 2);
+    s.check();
+    const GrowthStats before = s.growth->stats();
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    // The branch of a seed that has most nodes follow from its first twig, and that twig.
+    std::vector<uint32_t> following(records->chunks.size());
+    for (const Chunk& c : records->chunks)
+        for (uint32_t at = uint32_t(&c - records->chunks.data()); at != kNoIndex; at = records->chunks[at].parent)
+            following[at] += chunkNodes(c.marks);
+    const BranchRecord* twig = nullptr;
+    for (const BranchRecord& b : records->branches)
+        if ((records->chunks[b.firstChunk].depth & 0xFFFF) == 1 &&
+            (!twig || following[b.firstChunk] > following[twig->firstChunk]))
+            twig = &b;
+    REQUIRE(twig);
+    const uint64_t key = records->chunks[twig->firstChunk].key;
+    REQUIRE(following[twig->firstChunk] > 20);
+
+    s.scene.pruned = {key};
+    s.check();
+    CHECK(s.growth->stats().regrowths == 1);
+    CHECK(s.growth->stats().derived == 0);
+    CHECK(s.growth->stats().nodes == before.nodes - following[twig->firstChunk]);
+    Result<GrowthRecords> after = s.growth->read();
+    REQUIRE(after);
+    for (const BranchRecord& b : after->branches) CHECK(after->chunks[b.firstChunk].key != key);
+    s.dab(0, {0.2f, 0.3f}, 0.2f, 0);  // regrowth and full growth leave it out alike
+    s.check();
+    s.changes.everything = true;
+    s.check();
+    s.dab(0, {0.2f, 0.3f}, 0.2f, 1);
+    s.check();
+    s.scene.pruned.clear();
+    s.check();
+    CHECK(s.growth->stats().hash == before.hash);
+    CHECK(s.growth->stats().derived == following[twig->firstChunk]);
+    s.scene.pruned = {1, 2, 3};  // no branch's
+    s.check();
+    CHECK(s.growth->stats().hash == before.hash);
+    s.scene.pruned = {3, 2};
+    CHECK(!s.scene.growOnCpu());
+}
+
+TEST_CASE("a frozen plant stands as it was through every edit, and grows from what is there when it thaws") {
+    Session s(ball());
+    s.scene.plantMany(12, 0, 1);
+    s.scene.plantMany(6, 1, 2);
+    s.check();
+    const GrowthStats before = s.growth->stats();
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    // What grows from the seed alone, by the CPU: plants know nothing of each other, so it is the frozen plant's share.
+    std::vector<Seed>& seeds = s.scene.seeds();
+    const std::vector<Seed> all = seeds;
+    const Seed seed = seeds[3];
+    seeds = {seed};
+    Result<CpuGrowth> alone = s.scene.growOnCpu();
+    REQUIRE(alone);
+    REQUIRE(alone->stats.leaves > 10);
+    seeds = all;
+    seeds.erase(seeds.begin() + 3);
+    s.scene.frozen = {{seed.key, std::make_shared<PlantRecords>(plantOf(*records, 3))}};
+    const auto check = [&] {
+        s.grow();
+        Result<CpuGrowth> rest = s.scene.growOnCpu();
+        REQUIRE(rest);
+        const GrowthStats now = s.growth->stats(), &a = alone->stats, &b = rest->stats;
+        const uint64_t low = uint32_t(a.hash) + uint32_t(b.hash), high = (a.hash >> 32) + (b.hash >> 32);
+        CHECK(now.hash == ((high << 32) | uint32_t(low)));
+        CHECK(now.seeds == a.seeds + b.seeds);
+        CHECK(now.nodes == a.nodes + b.nodes);
+        CHECK(now.chunks == a.chunks + b.chunks);
+        CHECK(now.branches == a.branches + b.branches);
+        CHECK(now.leaves == a.leaves + b.leaves);
+        CHECK(now.steps == a.steps + b.steps);
+        CHECK(now.inserted == a.inserted + b.inserted);
+        CHECK(now.deadEnds == a.deadEnds + b.deadEnds);
+        CHECK(now.stopped == a.stopped + b.stopped);
+    };
+    check();
+    CHECK(s.growth->stats().hash == before.hash);
+    CHECK(s.growth->stats().derived == 0);
+    s.dab(0, seed.walk.uv, 0.2f, 0);
+    check();
+    CHECK(s.growth->stats().regrowths == 2);
+    s.set(0, "leafSize", 0.05f);
+    s.set(0, "twigs", 0.5f);
+    check();
+    s.changes.grammars = {0};
+    check();
+    s.scene.pruned = {seed.key};
+    check();
+    s.scene.plantMany(2, 0, 9);
+    check();
+    const uint32_t regrowths = s.growth->stats().regrowths;
+    s.changes.everything = true;
+    check();
+    CHECK(s.growth->stats().regrowths == regrowths);
+    CHECK(s.growth->stats().derived == s.growth->stats().nodes - alone->stats.nodes);
+    s.dab(0, {0.5f, 0.5f}, 0.2f, 0);
+    check();
+    s.scene.limits.maxNodes = s.growth->stats().nodes;
+    check();
+
+    // As bytes and back, into a growth that has never seen it.
+    const std::vector<std::byte> bytes = packPlant(*s.scene.frozen[0].records);
+    Result<PlantRecords> again = unpackPlant(bytes, 1);
+    REQUIRE(again);
+    s.scene.frozen[0].records = std::make_shared<PlantRecords>(std::move(*again));
+    check();
+    s.growth = s.gpu.growth({64, 64, 64, 64, 64});
+    check();
+    s.scene.frozen.push_back(s.scene.frozen[0]);
+    seeds.clear();
+    s.scene.frozen[1].key += 1;
+    s.grow();
+    CHECK(s.growth->stats().nodes == 2 * alone->stats.nodes);
+
+    // It thaws into the present inputs; the pruning of its root holds until it is taken back.
+    s.scene.limits.maxNodes = before.nodes * 2;
+    s.scene.frozen.clear();
+    seeds = all;
+    s.check();
+    CHECK(s.growth->stats().regrowths == 0);
+    s.scene.pruned.clear();
+    s.check();
+    CHECK(s.growth->stats().regrowths == 1);
+}
+
+TEST_CASE("bytes that aren't a plant are refused") {
+    Session s(flatSquare());
+    s.scene.plantMany(4, 0, 1);
+    s.check();
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    const PlantRecords plant = plantOf(*records, 0);
+    const std::vector<std::byte> bytes = packPlant(plant);
+    CHECK(unpackPlant(bytes, 1));
+    CHECK(!unpackPlant(bytes, 0));
+    for (size_t size : {size_t(0), size_t(7), size_t(31), bytes.size() - 1})
+        CHECK(!unpackPlant(std::span(bytes).first(size), 1));
+    for (size_t at = 0; at < bytes.size(); at += 13) {
+        std::vector<std::byte> other = bytes;
+        other[at] ^= std::byte(64);
+        CHECK(!unpackPlant(other, 1));
+    }
+    // Well packed, and yet no plant.
+    const auto refused = [&](auto&& spoil) {
+        PlantRecords spoilt = plant;
+        spoil(spoilt);
+        CHECK(!unpackPlant(packPlant(spoilt), 1));
+    };
+    refused([](PlantRecords& p) { p.nodes[0].chunk = 9999; });
+    refused([](PlantRecords& p) { p.nodes[0].position.x = NAN; });
+    refused([](PlantRecords& p) { p.nodes[0].radius = -1; });
+    refused([](PlantRecords& p) { p.chunks[0].next = 0; });
+    refused([](PlantRecords& p) { p.chunks[0].firstNode = 9999; });
+    refused([](PlantRecords& p) { p.chunks[0].firstChild = 0; });
+    refused([](PlantRecords& p) { p.chunks.back().nextSibling = uint32_t(p.chunks.size() - 1); });
+    refused([](PlantRecords& p) { p.branches[0].firstChunk = kNoIndex; });
+    refused([](PlantRecords& p) { p.leaves[0].node = uint32_t(p.nodes.size()); });
+}
