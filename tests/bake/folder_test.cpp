@@ -14,7 +14,7 @@
 
 #include "runtime/core/file.hpp"
 #include "runtime/surface/surface.hpp"
-#include "tests/bake/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 using namespace espalier;
 using namespace espalier::test;

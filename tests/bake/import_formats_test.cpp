@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "runtime/core/file.hpp"
-#include "tests/bake/scratch_folder.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/bake/bake.hpp"
 
 using namespace espalier;

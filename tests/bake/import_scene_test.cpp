@@ -4,7 +4,7 @@
 #include <span>
 
 #include "runtime/core/file.hpp"
-#include "tests/bake/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/bake/import_model.hpp"
 
 using namespace espalier;

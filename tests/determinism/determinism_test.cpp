@@ -11,6 +11,7 @@
 #include "shaders/shared/random.h"
 #include "tests/determinism/variant/grow_on_cpu.hpp"
 #include "tests/support/cube_model.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/bake/bake.hpp"
 
 using namespace espalier;
@@ -73,19 +74,9 @@ FixedInputs fixedInputs(uint64_t number) {
 
 // A file of inputs, gone at the end.
 struct InputsFile {
-    std::filesystem::path folder;
-    explicit InputsFile(FixedInputs& in) {
-        char name[] = "/tmp/espalier-determinism-XXXXXX";
-        REQUIRE(mkdtemp(name));
-        folder = name;
-        REQUIRE(writeInputs(in, path()));
-    }
-    InputsFile(const InputsFile&) = delete;
-    ~InputsFile() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder, ignored);
-    }
-    std::string path() const { return (folder / "inputs").string(); }
+    test::ScratchFolder folder;
+    explicit InputsFile(FixedInputs& in) { REQUIRE(writeInputs(in, path())); }
+    std::string path() const { return folder.file("inputs"); }
 };
 
 // Runs a command; its output without the last line's end. exit: its exit code, -1 when a signal ended it.

@@ -10,6 +10,7 @@
 #include "tests/fidelity/axis.hpp"
 #include "tests/support/cube_model.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/content/content.hpp"
 
 using namespace espalier;
@@ -87,11 +88,8 @@ TEST_CASE("bark on our own shapes") {
 }
 
 TEST_CASE("bark on the sample ruin") {
-    char folder[] = "/tmp/espalier-fidelity-XXXXXX";
-    REQUIRE(mkdtemp(folder));
-    const std::string file = ruinFile(folder);
-    judgeFile("ruin", file, {.998, .993, .999});
-    std::filesystem::remove_all(folder);
+    const test::ScratchFolder folder;
+    judgeFile("ruin", ruinFile(folder.path.string()), {.998, .993, .999});
 }
 
 TEST_CASE("bark on real models") {

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/scratch_folder.hpp"
+
 // Running the built programs as a user does, through the shell.
 
 struct Ran {
@@ -42,19 +44,7 @@ inline bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-// A fresh empty folder, removed at the end.
-struct Folder {
-    std::filesystem::path path;
-    Folder() {
-        char name[] = "/tmp/espalier-test-XXXXXX";
-        path = mkdtemp(name);
-    }
-    Folder(const Folder&) = delete;
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    std::string file(const char* name) const { return (path / name).string(); }
+struct Folder : espalier::test::ScratchFolder {
     std::string write(const char* name, const std::string& text) const {
         std::ofstream(path / name, std::ios::binary) << text;
         return file(name);

@@ -11,7 +11,7 @@ namespace espalier::test {
 struct ScratchFolder {
     std::filesystem::path path;
     ScratchFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "espalier-bake-XXXXXX").string();
+        std::string name = (std::filesystem::temp_directory_path() / "espalier-test-XXXXXX").string();
         if (const char* made = mkdtemp(name.data())) path = made;
     }
     ~ScratchFolder() {
