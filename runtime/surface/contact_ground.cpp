@@ -149,14 +149,14 @@ struct Search {
         const dvec3 world(aToWorld * glm::dvec4(p, 1));
         auto hides = [&](const PlacedGround& by, uint32_t ownBody, uint32_t exceptBody, bool yields) {
             const dmat4 back = glm::inverse(by.toWorld);
-            const double scale = glm::length(dvec3(back[0])) * glm::length(dvec3(aToWorld[0]));
+            const double scale = glm::length(dvec3(back[0])) * glm::length(dvec3(own.toWorld[0]));
             const HiddenQuery query{dvec3(back * glm::dvec4(world, 1)),
                                     glm::normalize(glm::dmat3(back) * normal),
                                     ownBody,
                                     exceptBody,
                                     mesh.solid[body] != 0,
                                     yields};
-            return by.ground->bodies().hide(query, tolerance * scale);
+            return by.ground->bodies().hide(query, mesh.reachOf(triangle) * scale);
         };
         if (own.ground->bodyCount() > 1 && hides(own, body, kNoIndex, false)) return true;
         if (other.ground->bodyCount() > 1 && hides(other, kNoIndex, except, ofA)) return true;

@@ -356,6 +356,11 @@ BoxTree ContactMesh::tree() const {
     return {std::move(boxes), group};
 }
 
+double ContactMesh::reachOf(uint32_t triangle) const {
+    const auto& p = triangles[triangle].point;
+    return std::max({reach[p[0]], reach[p[1]], reach[p[2]]});
+}
+
 void setReach(ContactMesh& mesh, double tolerance) {
     mesh.reach.assign(mesh.points.size(), tolerance);
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {

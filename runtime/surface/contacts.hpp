@@ -32,6 +32,7 @@ struct ContactMesh {
 
     BoxTree tree() const;  // over the triangles, grouped by shell
     glm::dvec3 at(uint32_t triangle, uint32_t corner) const { return points[triangles[triangle].point[corner]]; }
+    double reachOf(uint32_t triangle) const;  // its corners' largest
 };
 
 // Sets `reach` to `tolerance`, less at points of triangles that are not much larger than that.

@@ -122,6 +122,33 @@ TEST_CASE("a sheet that stands on a floor is climbed from both sides") {
     }
 }
 
+TEST_CASE("a groove between boards, narrower than a texel, is gone through or over, never along only") {
+    const double depth = 0.08, texel = 4 / (0.88 / 5 * 1024);
+    // Boards nearer to each other than a tenth of their thickness count as touching.
+    for (double width : {0.7 * texel, 0.003}) {
+        CAPTURE(width);
+        Kit kit;
+        kit.box({0, 0, 0}, {2, 1, 0.2});
+        int board[2];
+        for (int k = 0; k < 2; ++k) {
+            const double middle = (k == 0 ? -1 : 1) * (0.25 + width / 2);
+            board[k] = kit.box({0, middle, 0.2 + depth / 2 - 0.01}, {1.5, 0.25, depth / 2 + 0.01});
+        }
+        Baked baked = kit.bake(1024);
+        Stroll walk(baked.surface);
+        const bool filled = width < 0.1 * depth;
+        for (int k : {0, 1})
+            for (double s : {0.2, 0.5, 0.71}) {
+                REQUIRE(walk.start(kit, board[k] + 4, s, 0.5, {0, k == 0 ? 1 : -1, 0}));
+                CHECK(walk.go(0.5 + width + (filled ? 0 : 2 * depth)) == kWalkDone);
+                const dvec3 start = kit[board[k] + 4].at(s, 0.5);
+                CHECK_MESSAGE(near(walk.w.position, {start.x, -start.y, 0.2 + depth}, 0.01), walk.w.position.x, " ",
+                              walk.w.position.y, " ", walk.w.position.z);
+            }
+        CHECK(baked.report.reachableShare() > 0.995);
+    }
+}
+
 TEST_CASE("boxes stacked, side by side and through each other: walks stay on the outside and go everywhere") {
     std::vector<std::pair<dvec3, glm::dmat3>> boxes;
     auto axes = [](dvec3 half, double turn) {

@@ -20,7 +20,8 @@ constexpr size_t kMostParts = 32;      // that a contact is judged in
 bool Contacts::hidden(glm::dvec3 p, uint32_t t, uint32_t exceptBody) const {
     glm::dvec3 a = mesh_.at(t, 0), n = glm::cross(mesh_.at(t, 1) - a, mesh_.at(t, 2) - a);
     uint32_t body = mesh_.triangles[t].body;
-    return bodies_.hide({p, n / glm::length(n), body, exceptBody, mesh_.solid[body] != 0}, tolerance_);
+    // What isn't near enough to be joined hides nothing either: the sides of a groove between boards are ground.
+    return bodies_.hide({p, n / glm::length(n), body, exceptBody, mesh_.solid[body] != 0}, mesh_.reachOf(t));
 }
 
 // Where three pieces meet, a contact of two may lead from what is seen to what the third one hides, and back; another

@@ -1,5 +1,5 @@
-// In: the finished surface. Out: per connected piece of the model how much of its ground plants can get to from the
-// largest part of it, by short walks over every crossing, there and back.
+// In: the finished surface. Out: per connected piece of the model the share of its ground that the largest part holds,
+// between whose places plants can get about, there and back, by short walks over every crossing.
 //
 // Parts that nothing outside sees don't count. Ground is inner texels that nothing buries. Texels whose centres see
 // each other past all contacts are one region; a walk over a crossing leads from a region to a region.
@@ -177,17 +177,39 @@ Map mapOut(Ground& ground, const std::vector<Way>& ways, const SurfaceData& surf
     return map;
 }
 
-// Marks what can be got to from the seeds.
-std::vector<uint8_t> spread(const std::vector<std::vector<uint32_t>>& ways, std::vector<uint32_t> open) {
-    std::vector<uint8_t> seen(ways.size(), 0);
-    for (uint32_t r : open) seen[r] = 1;
-    while (!open.empty()) {
-        const uint32_t r = open.back();
-        open.pop_back();
-        for (uint32_t next : ways[r])
-            if (!seen[next]) seen[next] = 1, open.push_back(next);
+// Numbers regions so that two have one number if there are ways from each to the other (Kosaraju): a region's number is
+// that of the first one of its part that is found.
+std::vector<uint32_t> findParts(const Map& map) {
+    const uint32_t count = uint32_t(map.area.size());
+    std::vector<uint32_t> order, open, part(count, kNone), next(count, 0);
+    std::vector<uint8_t> seen(count, 0);
+    for (uint32_t start = 0; start < count; ++start) {
+        if (seen[start]) continue;
+        seen[start] = 1;
+        open.push_back(start);
+        while (!open.empty()) {
+            const uint32_t r = open.back();
+            if (next[r] == map.onward[r].size()) {
+                order.push_back(r);
+                open.pop_back();
+            } else if (const uint32_t to = map.onward[r][next[r]++]; !seen[to]) {
+                seen[to] = 1;
+                open.push_back(to);
+            }
+        }
     }
-    return seen;
+    for (size_t i = order.size(); i-- > 0;) {
+        if (part[order[i]] != kNone) continue;
+        part[order[i]] = order[i];
+        open.push_back(order[i]);
+        while (!open.empty()) {
+            const uint32_t r = open.back();
+            open.pop_back();
+            for (uint32_t from : map.back[r])
+                if (part[from] == kNone) part[from] = order[i], open.push_back(from);
+        }
+    }
+    return part;
 }
 
 // Which piece of the model each triangle belongs to: what twins, links or contacts join, one way or both.
@@ -256,15 +278,16 @@ std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Lin
     const std::vector<uint32_t> pieceOf = findPieces(mesh, links, contacts, count);
     Ground ground(surface);
     const Map map = mapOut(ground, walkOverAll(ground, surface), surface, pieceOf);
+    const std::vector<uint32_t> part = findParts(map);
+    std::vector<double> partArea(part.size(), 0);
+    for (uint32_t r = 0; r < part.size(); ++r) partArea[part[r]] += map.area[r];
     std::vector<uint32_t> largest(count, kNone);
-    for (uint32_t r = 0; r < map.area.size(); ++r) {
+    for (uint32_t r = 0; r < part.size(); ++r) {
         uint32_t& best = largest[map.piece[r]];
-        if (best == kNone || map.area[r] > map.area[best]) best = r;
+        if (best == kNone || partArea[part[r]] > partArea[best]) best = part[r];
     }
-    std::erase(largest, kNone);
-    const std::vector<uint8_t> onward = spread(map.onward, largest), back = spread(map.back, largest);
-    std::vector<uint8_t> unreached(map.area.size());
-    for (size_t r = 0; r < unreached.size(); ++r) unreached[r] = !onward[r] || !back[r];
+    std::vector<uint8_t> unreached(part.size());
+    for (size_t r = 0; r < unreached.size(); ++r) unreached[r] = part[r] != largest[map.piece[r]];
     const std::vector<uint8_t> enclosed = findEnclosed(ground, map, unreached, mesh, surface);
     std::vector<PieceReach> pieces(count);
     for (uint32_t r = 0; r < map.area.size(); ++r) {
