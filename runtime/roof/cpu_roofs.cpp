@@ -10,9 +10,22 @@
 namespace espalier {
 
 std::vector<float> RoofInputs::filledMeans(size_t houses) const {
-    std::vector<float> all(means.begin(), means.end());
-    for (size_t i = all.size(); i < houses * kRoofLayers; ++i) all.push_back(fill(uint32_t(i % kRoofLayers)));
+    std::vector<float> all;
+    all.reserve(houses * kRoofLayers);
+    for (size_t h = 0; h < houses; ++h) {
+        const Means values = meansOf(h);
+        all.insert(all.end(), values.begin(), values.end());
+    }
     return all;
+}
+
+RoofInputs::Means RoofInputs::meansOf(size_t house) const {
+    Means values;
+    for (uint32_t i = 0; i < kRoofLayers; ++i) {
+        const size_t at = house * kRoofLayers + i;
+        values[i] = at < means.size() ? means[at] : fill(i);
+    }
+    return values;
 }
 
 bool RoofRoom::hold(const RoofStatus& status, uint32_t widestWave) {

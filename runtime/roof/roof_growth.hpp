@@ -31,7 +31,11 @@ struct RoofInputs {
         const auto& contexts = grammar->contexts();
         return layer < contexts.size() ? contexts[layer].fill : 0;
     }
-    std::vector<float> filledMeans(size_t houses) const;  // `means`, or what stands for them
+    // `means`, or what stands for them.
+    using Means = std::array<float, kRoofLayers>;
+    Means meansOf(size_t house) const;
+    std::vector<float> filledMeans(size_t houses) const;
+    bool fetch = true;  // software devices read records as texels; false: by address, as others do
 };
 
 // What drawing reads. Buffers belong to RoofGrowth and change only in its calls.

@@ -2,6 +2,17 @@
 #extension GL_GOOGLE_include_directive : require
 // Shapes of one wave -> shapes of the next, grids of terminals; see roof_expand.h.
 #include "shaders/shared/extensions.glsl"
+
+#define ESPALIER_ROOF_FETCH
+layout(constant_id = 2) const uint kRecordsByAddress = 1u;
+layout(binding = 3) uniform usamplerBuffer atomTexels;
+layout(binding = 4) uniform usamplerBuffer regionTexels;
+layout(binding = 5) uniform usamplerBuffer pieceTexels;
+layout(binding = 6) uniform usamplerBuffer shapeTexels;
+#define ATOM_TEXEL(i) texelFetch(atomTexels, int(i))
+#define REGION_TEXEL(i) texelFetch(regionTexels, int(i))
+#define PIECE_TEXEL(i) texelFetch(pieceTexels, int(i))
+#define SHAPE_TEXEL(i) texelFetch(shapeTexels, int(i))
 #include "shaders/shared/roof_expand.h"
 
 layout(local_size_x = 64) in;

@@ -2,6 +2,17 @@
 #extension GL_GOOGLE_include_directive : require
 // The cells of each row that a grid's region touches; see roof_cells.h.
 #include "shaders/shared/extensions.glsl"
+
+#define ESPALIER_ROOF_FETCH
+layout(constant_id = 2) const uint kRecordsByAddress = 1u;
+layout(binding = 1) uniform usamplerBuffer gridTexels;
+layout(binding = 2) uniform usamplerBuffer regionTexels;
+layout(binding = 3) uniform usamplerBuffer partTexels;
+layout(binding = 4) uniform usamplerBuffer planeTexels;
+#define GRID_TEXEL(i) texelFetch(gridTexels, int(i))
+#define REGION_TEXEL(i) texelFetch(regionTexels, int(i))
+#define PART_TEXEL(i) texelFetch(partTexels, int(i))
+#define PLANE_TEXEL(i) texelFetch(planeTexels, int(i))
 #include "shaders/shared/roof_cells.h"
 
 layout(local_size_x = 64) in;

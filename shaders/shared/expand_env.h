@@ -2,6 +2,7 @@
 #ifndef ESPALIER_SHARED_EXPAND_ENV_H
 #define ESPALIER_SHARED_EXPAND_ENV_H
 #include "shaders/shared/growth_records.h"
+#include "shaders/shared/pairs.h"
 #include "shaders/shared/rule_map.h"
 
 ESPALIER_BEGIN
@@ -184,10 +185,6 @@ inline void writeItem(WorkItemBuf items, uint at, const WorkItem& item) { items.
 inline void writeNode(NodeBuf nodes, uint at, const Node& node) { nodes.v[at] = node; }
 inline void writeChunk(ChunkBuf chunks, uint at, const Chunk& chunk) { chunks.v[at] = chunk; }
 #else
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PairBuf { uint64_t v[]; };
-
-uint64_t pairOf(uint low, uint high) { return packUint2x32(uvec2(low, high)); }
-uint64_t pairOf(float low, float high) { return packUint2x32(uvec2(floatBitsToUint(low), floatBitsToUint(high))); }
 WorkItem readItem(WorkItemBuf items, uint at) {
     PairBuf from = PairBuf(uint64_t(items) + uint64_t(at) * 80u);
     WorkItem item;

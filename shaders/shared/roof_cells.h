@@ -3,6 +3,7 @@
 #ifndef ESPALIER_SHARED_ROOF_CELLS_H
 #define ESPALIER_SHARED_ROOF_CELLS_H
 #include "shaders/shared/roof_layers.h"
+#include "shaders/shared/roof_lookup.h"
 
 ESPALIER_BEGIN
 
@@ -109,7 +110,7 @@ FN RoofRun joinedRuns(RoofRun a, RoofRun b) {
 // All rows of a grid, part by part of its region, each plane worked out once. Returns the cells that the region touches,
 // and those of them that are whole.
 FN uvec2 gridRuns(RoofEnv env, uint at) {
-    RoofGrid g = env.grids.v[at];
+    RoofGrid g = readGrid(env, at);
     uvec2 sums = uvec2(0u, 0u);
     if (g.firstRow == kNoIndex) return uvec2(1u, 1u);
     CellBox first = cellBox(g, env.meshes.v[g.mesh & 255u], 0u, 0u);
@@ -122,20 +123,20 @@ FN uvec2 gridRuns(RoofEnv env, uint at) {
     float highTouched = rectangle ? (g.extent.x - kCellSlack - first.low.x) * inverse : 1e6f;
     float lowWhole = rectangle ? (-kCellSlack - first.low.x) * inverse : -1e6f;
     float highWhole = rectangle ? (g.extent.x + kCellSlack - first.high.x) * inverse : 1e6f;
-    RoofRegion r = env.regions.v[g.region != kNoIndex ? g.region : 0u];   // there is room for one in any town
+    RoofRegion r = readRegion(env, g.region != kNoIndex ? g.region : 0u);   // there is room for one in any town
     uint parts = g.region != kNoIndex ? r.partCount : 1u;
     for (uint i = 0u; i < parts; ++i) {
         RowPlane planes[kPartPlanes];
         uint firstPlane = 0u;
         uint count = 0u;
         if (g.region != kNoIndex) {
-            RoofPart part = env.parts.v[r.firstPart + i];
+            RoofPart part = readPart(env, r.firstPart + i);
             firstPlane = part.firstPlane;
             count = part.counts & 255u;
         }
         for (uint k = 0u; k < kPartPlanes; ++k) {
             planes[k] = openPlane();
-            if (k < count) planes[k] = rowPlane(cellPlane(g, r, env.planes.v[firstPlane + k]), first, g.step.y, inverse);
+            if (k < count) planes[k] = rowPlane(cellPlane(g, r, readPlane(env, firstPlane + k)), first, g.step.y, inverse);
         }
         for (uint row = 0u; row < rows; ++row) {
             float y = float(row);
@@ -168,7 +169,7 @@ FN uvec2 gridRuns(RoofEnv env, uint at) {
             run.touched = packRun(t0, t1, cells);
             run.whole = packRun(w0, w1, cells);
             if (i != 0u) run = joinedRuns(env.runs.v[g.firstRow + row], run);
-            env.runs.v[g.firstRow + row] = run;
+            writeRun(env, g.firstRow + row, run);
             if (i + 1u == parts) sums = sums + uvec2(runCount(run.touched), runCount(run.whole));
         }
     }

@@ -17,7 +17,7 @@ struct RoofHand {
 FN void queueShape(RoofEnv env, RoofScope shape) {
     uint at = roofAdd(env.waves.v[env.wave + 1u].count, 1u);
     if (at < env.shapeRoom) {
-        env.next.v[at] = shape;
+        writeScope(env, at, shape);
         if ((at & (kRoofGroup - 1u)) == 0u) roofAdd(env.waves.v[env.wave + 1u].groups[0], 1u);
     }
 }
@@ -42,7 +42,7 @@ FN void handOn(MACHINE_PARAM RoofEnv env, SuccessorRecord s, u64 parent, RoofSco
 FN uint quantised(float x) { return uint(int(floorExact(limited(x * 128.0f, -2e9f, 2e9f)))); }
 
 // The shape becomes a grid record: one cell, or those that a Repeat has left together.
-FN void writeGrid(RoofEnv env, RoofScope shape, uint mesh) {
+FN void writeGrid(RoofEnv env, RoofScope shape, uint house, uint mesh) {
     if (shape.size.x < kLeastSide || shape.size.y < kLeastSide) return;
     uint rows = shape.cells >> 16u;
     bool many = shape.cells != 0x10001u;
@@ -69,10 +69,9 @@ FN void writeGrid(RoofEnv env, RoofScope shape, uint mesh) {
     g.shrink = rcpExact(shape.stretch);
     g.region = shape.region;
     g.atom = shape.atom;
-    uint house = env.atoms.v[shape.atom].house;
     g.house = house | (env.generations.v[house] << 24u);
     g.firstRow = firstRow;
-    env.grids.v[at] = g;
+    writeGridRecord(env, at, g);
     u64 hash = mix64(shape.key + mix64((u64(shape.cells) << 32) | u64(g.mesh)));
     hash = mix64(hash + ((u64(quantised(g.origin.x)) << 32) | u64(quantised(g.origin.z))));
     hash = mix64(hash + ((u64(quantised(g.origin.y)) << 32) | u64(quantised(g.size.x * 16.0f))));
@@ -80,21 +79,15 @@ FN void writeGrid(RoofEnv env, RoofScope shape, uint mesh) {
     roofAdd(env.status.v[0].hash[1], uint(hash >> 32));
 }
 
-FN uint childCount(RoofEnv env, RuleRecord rule, RoofCells cells, RoofScope shape) {
+FN uint childCount(RuleRecord rule, RoofCells cells, RoofScope shape, RoofAtom atom) {
     bool segment = (shape.marks & kShapeSegment) != 0u;
     bool outline = (shape.marks & kShapeOutline) != 0u;
-    uint pieces = 0u;
-    uint region = kNoIndex;
-    if (rule.kind == kRuleJoin || outline) {
-        pieces = env.atoms.v[shape.atom].pieceCount;
-        region = env.atoms.v[shape.atom].region;
-    }
     switch (rule.kind) {
         case kRuleExtrude: return segment ? 2u : 5u;
         case kRuleJoin:
             if (rule.extrude == 0u) return 3u;
-            return region == kNoIndex || (shape.marks & kShapeTop) != 0u ? 0u : 2u + pieces;
-        case kRuleExplode: return outline ? 2u + pieces : 5u;
+            return atom.region == kNoIndex || (shape.marks & kShapeTop) != 0u ? 0u : 2u + atom.pieceCount;
+        case kRuleExplode: return outline ? 2u + atom.pieceCount : 5u;
         case kRuleSplit: return kMaxSplit;
         case kRuleRepeat: return (rule.extrude & kRepeatGrid) != 0u ? 1u : cells.x * cells.y;
         case kRuleNull: return 0u;
@@ -124,15 +117,15 @@ FN RoofParts partsOf(RoofEnv env, RuleRecord rule) {
 FN uint partAt(RoofParts p, uint i) { return (i < 8u ? p.low >> (4u * i) : p.high >> (4u * i - 32u)) & 15u; }
 
 // Whether child k of a rule may be there for successors of `part`: told without making it.
-FN bool mayTake(RoofEnv env, RuleRecord rule, RoofScope shape, uint k, uint part) {
+FN bool mayTake(RoofEnv env, RuleRecord rule, RoofScope shape, uint firstPiece, uint k, uint part) {
     bool outline = (shape.marks & kShapeOutline) != 0u;
     switch (rule.kind) {
         case kRuleExtrude: return part == ((shape.marks & kShapeSegment) != 0u ? k : k >> 2u);
         case kRuleJoin: {
             if (rule.extrude == 0u || k < 2u) return part == k;
             if (part != 2u) return false;
-            uint piece = env.atoms.v[shape.atom].firstPiece + k - 2u;
-            return env.pieces.v[piece].kind == 3u || env.pieces.v[piece].upper != kNoIndex;
+            PieceBrief piece = readPieceBrief(env, firstPiece + k - 2u);
+            return piece.kind == 3u || piece.upper != kNoIndex;
         }
         case kRuleExplode: return outline && k >= 2u ? part >= 2u : part == k;
         case kRuleSplit: return part == k;
@@ -144,10 +137,10 @@ FN bool mayTake(RoofEnv env, RuleRecord rule, RoofScope shape, uint k, uint part
 struct RoofPair {
     uint child, successor;
 };
-FN RoofPair firstPair(RoofEnv env, RuleRecord rule, RoofParts parts, RoofScope shape, uint count, RoofPair p) {
+FN RoofPair firstPair(RoofEnv env, RuleRecord rule, RoofParts parts, RoofScope shape, uint firstPiece, uint count, RoofPair p) {
     bool found = false;
     if (p.child < count) do {
-            found = mayTake(env, rule, shape, p.child, partAt(parts, p.successor));
+            found = mayTake(env, rule, shape, firstPiece, p.child, partAt(parts, p.successor));
             if (!found) {
                 p.successor += 1u;
                 if (p.successor >= parts.count) {
@@ -162,6 +155,7 @@ FN RoofPair firstPair(RoofEnv env, RuleRecord rule, RoofParts parts, RoofScope s
 // Applies one rule. True: `shape` is now the successor to go on with.
 FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
     SymbolRecord symbol = roofSymbol(env, shape.symbol);
+    RoofAtom atom = readAtom(env, shape.atom);
     for (uint a = 0u; a < kMaxArgs; ++a) SLOT(kSlotArg + a) = shape.args[a];
     // Twice the same: what the symbol's choice asks for, then what the chosen rule does.
     uint given = 0u;
@@ -174,9 +168,9 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
     uint stage = 0u;
     RuleRecord rule;
     do {
-        if ((inputs & ~given) != 0u) giveShape(MACHINE env, shape, inputs);
+        if ((inputs & ~given) != 0u) giveShape(MACHINE env, shape, atom, inputs);
         given |= inputs;
-        if ((kRoofUses & kRoofUsesLayers) != 0u) giveLayers(MACHINE env, shape, layers);
+        if ((kRoofUses & kRoofUsesLayers) != 0u) giveLayers(MACHINE env, shape, atom.house, layers);
         drawRoofSites(MACHINE env, firstSite, siteCount, shape.key);
         runRoofCode(MACHINE env, code);
         if (stage == 0u) {
@@ -206,14 +200,14 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
     RoofScope changed = shape;
     if (ROOF_USES(kRuleShape) || ROOF_USES(kRuleScope)) changed = applyScope(n, shape);
     if (kind == kRuleShape) {
-        if (ROOF_USES(kRuleShape)) writeGrid(env, changed, rule.extrude);
+        if (ROOF_USES(kRuleShape)) writeGrid(env, changed, atom.house, rule.extrude);
         return false;
     }
     RoofCells cells;
     cells.x = 1u;
     cells.y = 1u;
     if (rule.kind == kRuleRepeat) cells = cellsOf(rule, n, shape);
-    uint count = childCount(env, rule, cells, shape);
+    uint count = childCount(rule, cells, shape, atom);
     if (count > kMaxRoofCells) {
         roofAdd(env.status.v[0].stopped, 1u);
         count = kMaxRoofCells;
@@ -226,15 +220,15 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
     RoofPair pair;
     pair.child = 0u;
     pair.successor = 0u;
-    pair = firstPair(env, rule, parts, shape, count, pair);
+    pair = firstPair(env, rule, parts, shape, atom.firstPiece, count, pair);
     if (pair.child < count) do {
             uint k = pair.child;
             RoofChild c = childFor(shape, 0u);
             if (ROOF_USES(kRuleExtrude) && kind == kRuleExtrude) c = extruded(n, shape, k);
-            if (ROOF_USES(kRuleJoinRoof) && kind == kRuleJoinRoof) c = joinedRoof(env, n, shape, k);
+            if (ROOF_USES(kRuleJoinRoof) && kind == kRuleJoinRoof) c = joinedRoof(env, n, shape, atom, k);
             if (ROOF_USES(kRuleJoin) && kind == kRuleJoin) c = joined(env, n, shape, k);
             if (ROOF_USES(kRuleProject) && kind == kRuleProject) c = projected(n, shape);
-            if (ROOF_USES(kRuleExplode) && kind == kRuleExplode) c = exploded(env, shape, k);
+            if (ROOF_USES(kRuleExplode) && kind == kRuleExplode) c = exploded(env, shape, atom, k);
             if (ROOF_USES(kRuleSplit) && kind == kRuleSplit) c = splitPart(rule, n, shape, k);
             if (ROOF_USES(kRuleRepeat) && kind == kRuleRepeat) c = repeated(rule, cells, shape, k);
             if (ROOF_USES(kRuleScope) && kind == kRuleScope) c.shape = changed;
@@ -245,7 +239,7 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
                 pair.successor = 0u;
                 pair.child += 1u;
             }
-            pair = firstPair(env, rule, parts, shape, count, pair);
+            pair = firstPair(env, rule, parts, shape, atom.firstPiece, count, pair);
         } while (pair.child < count);
     shape = hand.kept;
     return hand.has != 0u;
@@ -258,7 +252,7 @@ FN void deriveShape(RoofEnv env, uint at) {
     Machine machine;
 #endif
     resetMachine(MACHINE_ONLY);
-    RoofScope shape = env.shapes.v[at];
+    RoofScope shape = readScope(env, at);
     bool goes;
     do goes = replaceShape(MACHINE env, shape);
     while (goes);

@@ -15,7 +15,7 @@ CONST_UINT(kPartPlanes, 8u);      // of one part at most: what gl_ClipDistance o
 CONST_UINT(kMaxRoofDepth, 64u);   // rules one after another, at most
 CONST_UINT(kMaxRoofCells, 4096u); // of a Repeat along one axis
 
-// A piece of an atom's outline above the eave, in the region's frame, from eave[1] round to eave[0]. 52 bytes.
+// A piece of an atom's outline above the eave, in the region's frame, from eave[1] round to eave[0]. 64 bytes.
 struct RoofPiece {
     vec3 from, to;
     vec3 normal;        // of the caps that cover it: between the two faces' normals, in the frame
@@ -23,8 +23,9 @@ struct RoofPiece {
     uint upper;         // atom that grows on from here above a break; kNoIndex
     uint owner;         // 1: of the two faces this one draws what covers the joint
     float fold;         // tangent of the angle by which either face leans away from what lies between them
+    uint spare[3];      // records fill texels of 16 bytes
 };
-STATIC_SIZE(RoofPiece, 52);
+STATIC_SIZE(RoofPiece, 64);
 
 // 128 bytes. Tier 0's shape begins as the segment at the wall's foot.
 struct RoofAtom {
@@ -48,14 +49,15 @@ struct RoofAtom {
 };
 STATIC_SIZE(RoofAtom, 128);
 
-// 72 bytes. A region of a face first, then those that Join makes.
+// 80 bytes. A region of a face first, then those that Join makes.
 struct RoofRegion {
     vec3 origin;
     vec3 axisA, axisB, axisC;
     vec2 low, high;     // bounds in a and b
     uint firstPart, partCount;
+    uint spare[2];
 };
-STATIC_SIZE(RoofRegion, 72);
+STATIC_SIZE(RoofRegion, 80);
 
 // Convex; between a0 and a1. Its planes (a, b, c, d) hold where a x + b y + c z <= d. The last of them are upright cuts
 // between this part and its neighbours, which only a terminal meets that is clipped anyway.
@@ -104,7 +106,7 @@ CONST_UINT(kGridBond, 1u << 9u);       // odd rows begin half a step earlier and
 CONST_UINT(kGridDrop, 16u);            // bits 19..16: the grammar's layer + 1 that takes cells away
 CONST_UINT(kGridMoss, 20u);            // bits 23..20: likewise, that moss grows by
 
-// 120 bytes: what is drawn.
+// 128 bytes: what is drawn.
 struct RoofGrid {
     u64 key;
     vec3 origin, axisX, axisY;
@@ -119,8 +121,9 @@ struct RoofGrid {
     uint atom;
     uint house;         // bits 31..24 the house's generation, 23..0 its number
     uint firstRow;      // of its runs; kNoIndex: all cells are whole
+    uint spare[3];
 };
-STATIC_SIZE(RoofGrid, 120);
+STATIC_SIZE(RoofGrid, 128);
 
 // Cells of one row of a grid: those that its region touches, and among them a run of whole ones. 8 bytes.
 struct RoofRun {

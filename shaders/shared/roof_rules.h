@@ -51,15 +51,14 @@ FN RoofChild extruded(RoofNumbers n, RoofScope shape, uint k) {
 
 // Join to the roof's own targets: the rectangle around the atom's outline, in the plane of the face; then what lies on
 // top of it, piece by piece.
-FN RoofChild joinedRoof(RoofEnv env, RoofNumbers n, RoofScope shape, uint k) {
-    RoofAtom atom = env.atoms.v[shape.atom];
+FN RoofChild joinedRoof(RoofEnv env, RoofNumbers n, RoofScope shape, RoofAtom atom, uint k) {
     float wanted = n.v[0];
-    RoofRegion r = env.regions.v[atom.region];
+    RoofRegion r = readRegion(env, atom.region);
     shape.region = atom.region;
     shape.base = shape.origin.y;
     shape.stretch = atom.height > kLeastSide && wanted > kLeastSide ? divExact(wanted, atom.height) : 1.0f;
     if (k >= 2u) {
-        RoofPiece piece = env.pieces.v[atom.firstPiece + k - 2u];
+        RoofPiece piece = readPiece(env, atom.firstPiece + k - 2u);
         RoofChild top = childFor(pieceSegment(shape, r, piece, false), 2u);
         top.number = k;
         top.made = piece.kind == 3u || piece.upper != kNoIndex;   // ridges, and what goes on
@@ -103,6 +102,8 @@ FN uint makeRegion(RoofEnv env, vec3 origin, vec3 x, vec3 y, vec2 low, vec2 high
     r.high = high;
     r.firstPart = part;
     r.partCount = 1u;
+    r.spare[0] = 0u;
+    r.spare[1] = 0u;
     env.regions.v[at] = r;
     return at;
 }
@@ -173,11 +174,10 @@ FN RoofChild projected(RoofNumbers n, RoofScope shape) {
 }
 
 // The rectangle and its four sides; of a face's own outline the eave, what rises, what is level, what falls.
-FN RoofChild exploded(RoofEnv env, RoofScope shape, uint k) {
+FN RoofChild exploded(RoofEnv env, RoofScope shape, RoofAtom atom, uint k) {
     if (k == 0u) return childFor(cleared(shape), 0u);
-    RoofAtom atom = env.atoms.v[shape.atom];
     if ((shape.marks & kShapeOutline) != 0u) {
-        RoofRegion r = env.regions.v[atom.region];
+        RoofRegion r = readRegion(env, atom.region);
         if (k == 1u) {
             vec3 from = regionPoint(r, vec3(0.0f, 0.0f, 0.0f), shape.base, shape.stretch);
             RoofScope eave = segmentOf(shape, from, from + r.axisA * atom.eaveLength, shape.axisY);
@@ -185,7 +185,7 @@ FN RoofChild exploded(RoofEnv env, RoofScope shape, uint k) {
             eave.marks |= kShapeOwner;
             return childFor(eave, 1u);
         }
-        RoofPiece piece = env.pieces.v[atom.firstPiece + k - 2u];
+        RoofPiece piece = readPiece(env, atom.firstPiece + k - 2u);
         vec3 d = r.axisA * (piece.to.x - piece.from.x) + r.axisB * (piece.to.y - piece.from.y) + r.axisC * (piece.to.z - piece.from.z);
         uint part = d.y > 1e-3f ? 2u : d.y < -1e-3f ? 4u : 3u;
         RoofChild c = childFor(pieceSegment(shape, r, piece, part == 2u), part);

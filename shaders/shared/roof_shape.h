@@ -3,6 +3,7 @@
 #define ESPALIER_SHARED_ROOF_SHAPE_H
 #include "shaders/shared/interpreter.h"
 #include "shaders/shared/roof_layers.h"
+#include "shaders/shared/roof_lookup.h"
 
 ESPALIER_BEGIN
 
@@ -33,9 +34,8 @@ FN void giveVector(MACHINE_PARAM uint slot, vec3 v) {
 }
 
 // Fills the slots of rule_map.h for a shape.
-FN void giveLayers(MACHINE_PARAM RoofEnv env, RoofScope shape, uint layers) {
+FN void giveLayers(MACHINE_PARAM RoofEnv env, RoofScope shape, uint house, uint layers) {
     if (layers == 0u) return;
-    uint house = env.atoms.v[shape.atom].house;
     vec3 p = shape.origin + shape.axisX * (0.5f * shape.size.x) + shape.axisY * (0.5f * shape.size.y);
     uint i = 0u;
     do {
@@ -46,8 +46,8 @@ FN void giveLayers(MACHINE_PARAM RoofEnv env, RoofScope shape, uint layers) {
     roofOr(env.reads.v[house], layers);
 }
 // inputs: as the compiler notes them for these slots, by their places among a plant's.
-FN void giveShape(MACHINE_PARAM RoofEnv env, RoofScope shape, uint inputs) {
-    RoofAtom atom = env.atoms.v[shape.atom];
+// atom: the shape's.
+FN void giveShape(MACHINE_PARAM RoofEnv env, RoofScope shape, RoofAtom atom, uint inputs) {
     giveVector(MACHINE kSlotPos0, shape.origin);
     giveVector(MACHINE kSlotPos1, shape.origin + shape.axisX * shape.size.x);
     giveVector(MACHINE kSlotLocalNormal, cross3(shape.axisX, shape.axisY));
@@ -57,7 +57,7 @@ FN void giveShape(MACHINE_PARAM RoofEnv env, RoofScope shape, uint inputs) {
     vec3 target2 = atom.foot;
     float start = 0.0f;
     if ((inputs & kInputsOfTargets) != 0u && atom.region != kNoIndex) {
-        RoofRegion r = env.regions.v[atom.region];
+        RoofRegion r = readRegion(env, atom.region);
         target1 = regionPoint(r, atom.target1, shape.base, shape.stretch);
         target2 = regionPoint(r, atom.target2, shape.base, shape.stretch);
         start = -r.low.x;

@@ -37,12 +37,39 @@ TEST_CASE("the GPU grows what the CPU grows") {
     }
     Roofs r = roofs(all, kSlates);
     CpuRoofs cpu = growRoofsOnCpu(r.inputs(), 2);
-    REQUIRE((*growth)->grow(r.inputs()));
-    const RoofStats stats = (*growth)->stats();
-    CHECK(stats.hash == (uint64_t(cpu.status.hash[1]) << 32 | cpu.status.hash[0]));
-    CHECK(stats.grids == cpu.status.grids);
-    CHECK(stats.tiles == cpu.status.touched);
-    CHECK(stats.tiles - stats.clipped == cpu.status.whole);
+    // As texels, where the device is one of software, and by address, as on others.
+    for (bool fetch : {true, false, true}) {
+        RoofInputs inputs = r.inputs();
+        inputs.fetch = fetch;
+        REQUIRE((*growth)->grow(inputs));
+        const RoofStats stats = (*growth)->stats();
+        CHECK(stats.hash == (uint64_t(cpu.status.hash[1]) << 32 | cpu.status.hash[0]));
+        CHECK(stats.grids == cpu.status.grids);
+        CHECK(stats.tiles == cpu.status.touched);
+        CHECK(stats.tiles - stats.clipped == cpu.status.whole);
+    }
+}
+
+TEST_CASE("more waves than the last expansion took are gone through") {
+    Result<std::unique_ptr<Device>> device = Device::create({});
+    REQUIRE(device);
+    auto growth = RoofGrowth::create(**device);
+    REQUIRE(growth);
+    const char* stairs =
+        "House -> Extrude(wallHeight) {Step(20), NULL}\n"
+        "Step(n) : n > 0 -> Step(n - 1) Tile\n"
+        "Step(n) -> NULL\n"
+        "Tile -> Shape(\"slate\")\n";
+    Roofs flat = roofs({footprint(kRectangle)}, kSlates), deep = roofs({footprint(kRectangle)}, stairs);
+    REQUIRE((*growth)->grow(flat.inputs()));
+    CHECK((*growth)->stats().waves <= 2);
+    RoofInputs inputs = deep.inputs();
+    inputs.grammarRevision = 2;
+    REQUIRE((*growth)->grow(inputs));
+    CpuRoofs cpu = growRoofsOnCpu(inputs);
+    CHECK((*growth)->stats().waves == 21);
+    CHECK((*growth)->stats().grids == 80);
+    CHECK((*growth)->stats().hash == (uint64_t(cpu.status.hash[1]) << 32 | cpu.status.hash[0]));
 }
 
 TEST_CASE("a grammar that a uniform buffer can't hold grows the same") {

@@ -1,0 +1,115 @@
+#pragma once
+
+// RoofGrowth on the GPU: its buffers and kernels. roof_growth.cpp expands, roof_upload.cpp sends what that reads.
+
+#include "runtime/gpu/commands.hpp"
+#include "runtime/gpu/program.hpp"
+#include "runtime/roof/roof_growth.hpp"
+
+namespace espalier {
+
+constexpr uint32_t kRoofWaves = kMaxRoofDepth + 2;
+
+template <class Buf>
+Buf addressOf(const Buffer& buffer) {
+    Buf b{};
+    b.v = reinterpret_cast<decltype(b.v)>(buffer.address());
+    return b;
+}
+
+class GpuRoofs final : public RoofGrowth {
+  public:
+    explicit GpuRoofs(Device& device) : device_(device) {}
+
+    Status setUp();
+    Status grow(const RoofInputs& inputs) override;
+    Status growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses) override;
+    Status showLayers(const RoofInputs& inputs) override;
+    std::span<const uint32_t> reads() const override { return reads_; }
+    RoofView view() const override { return view_; }
+    RoofStats stats() const override { return stats_; }
+    Result<RoofRecords> read() override;
+
+  private:
+    struct Set {
+        Buffer grids, runs, regions, parts, planes;
+    };
+    struct Outcome {
+        RoofStatus status;
+        uint32_t waves = 0, widest = 0;
+        bool complete = false;  // no shape waits for a wave that wasn't recorded
+        double ms = 0;
+    };
+    // Records as the kernels of one expansion fetch them.
+    struct Texels {
+        TexelView atoms, regions, pieces, shapes[2], grids, parts, planes;
+    };
+    // Records of the town's tables, with room for houses that change.
+    struct Counts {
+        uint32_t atoms = 0, pieces = 0, regions = 0, parts = 0, planes = 0;
+        static Counts of(const RoofTables& t) {
+            return {uint32_t(t.atoms.size()), uint32_t(t.pieces.size()), uint32_t(t.regions.size()),
+                    uint32_t(t.parts.size()), uint32_t(t.planes.size())};
+        }
+        Counts withSlack() const {
+            auto more = [](uint32_t n) { return n + n / 8 + 512; };
+            return {more(atoms), more(pieces), more(regions), more(parts), more(planes)};
+        }
+        bool holds(const Counts& c) const {
+            return c.atoms <= atoms && c.pieces <= pieces && c.regions <= regions && c.parts <= parts &&
+                   c.planes <= planes;
+        }
+    };
+    // What kernels are specialised to. `uses` only grows, so that edits seldom make a kernel.
+    struct Kind {
+        bool mapByAddress = false, recordsByAddress = false;
+        uint32_t uses = 0;
+        bool operator==(const Kind&) const = default;
+    };
+    struct Box {
+        glm::vec3 low{1e9f}, high{-1e9f};
+    };
+
+    Status makeKernels(const RuleMap& grammar, bool fetches);
+    Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
+    Status makeRoom(Set& set);
+    Result<Texels> viewRecords(const Set& set, bool fetches) const;
+    bool mayFetch(const RoofInputs& inputs, const Set& set) const;
+    Status uploadTables(Commands& commands, const RoofTables& t, const Set& set, Counts& sent);
+    Status uploadGrammar(Commands& commands, const RoofInputs& inputs);
+    Status uploadLayers(Commands& commands, const RoofInputs& inputs);
+    Status uploadHouses(Commands& commands, const RoofInputs& inputs, std::span<const uint32_t> houses);
+    RoofEnv environment(const RoofInputs& inputs, const Set& set, uint32_t firstGrid) const;
+
+    // houses: those to grow, none: all. Goes through at most `waves` waves.
+    Result<Outcome> expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses, RoofStatus status,
+                           Counts& sent, uint32_t waves);
+    // With as many waves as the last expansion took, or with all if that was too few.
+    Result<Outcome> expandWhole(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses, RoofStatus status,
+                                Counts& sent);
+    void record(Commands& commands, const Texels& texels, uint32_t waves);
+    Outcome readBack();
+    // houses: that have grown, none: all.
+    void publish(const RoofInputs& inputs, const Outcome& outcome, std::span<const uint32_t> houses);
+    void measure(const RoofTables& t, uint32_t house);
+
+    Device& device_;
+    Program derive_, runs_;
+    Kind kind_;
+    RoofRoom room_;
+    Set sets_[2];
+    uint32_t front_ = 0;
+    Buffer atoms_, pieces_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, generations_,
+        houseReads_, means_, layerTable_, readback_;
+    Buffer layers_[kRoofLayers];
+    uint64_t grammarRevision_ = 0;
+    uint32_t wavesAhead_ = 4;
+    Counts own_, sent_;  // of the town's tables: room, and what the published set holds
+    std::vector<uint32_t> generationOf_, reads_;
+    std::vector<Box> boxes_;  // [house]
+    RoofStatus last_{};
+    RoofView view_;
+    RoofStats stats_;
+};
+
+}  // namespace espalier

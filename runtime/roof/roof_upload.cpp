@@ -1,0 +1,153 @@
+// What expansion of roofs reads is sent to the GPU: room for records, the town's tables and the grammar when they have
+// changed, painted layers by their rows, what is kept of each house.
+#include <algorithm>
+
+#include "runtime/roof/gpu_roofs.hpp"
+#include "shaders/shared/roof_tables.h"
+
+namespace espalier {
+
+Status GpuRoofs::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
+    if (buffer && buffer.size() >= bytes) return Done{};
+    buffer = {};
+    // What may be bound as a uniform buffer stays as small as that.
+    const uint64_t spare = bytes > kUniformMapWords * 4 ? bytes / 8 : 0;
+    Result<Buffer> made = Buffer::create(device_, name, bytes + spare, use);
+    if (!made) return made.failure();
+    buffer = std::move(*made);
+    return Done{};
+}
+
+Status GpuRoofs::makeRoom(Set& set) {
+    const uint64_t houses = std::max<uint64_t>(generationOf_.size(), 1);
+    const struct {
+        Buffer& buffer;
+        const char* name;
+        uint64_t bytes;
+    } rows[] = {{set.grids, "roof grids", room_.grids * sizeof(RoofGrid)},
+                {set.runs, "roof runs", room_.rows * sizeof(RoofRun)},
+                {set.regions, "roof regions", (own_.regions + room_.regions) * sizeof(RoofRegion)},
+                {set.parts, "roof parts", (own_.parts + room_.parts) * sizeof(RoofPart)},
+                {set.planes, "roof planes", (own_.planes + room_.planes) * sizeof(vec4)},
+                {status_, "roof status", sizeof(RoofStatus)},
+                {waves_, "roof waves", kRoofWaves * sizeof(RoofWave)},
+                {env_, "roof environment", sizeof(RoofEnv)},
+                {atoms_, "roof atoms", own_.atoms * sizeof(RoofAtom)},
+                {pieces_, "roof pieces", own_.pieces * sizeof(RoofPiece)},
+                {generations_, "roof generations", houses * 4},
+                {houseReads_, "what roofs read", houses * 4},
+                {means_, "roof layers' means", houses * kRoofLayers * 4}};
+    for (const auto& r : rows)
+        if (Status s = ensure(r.buffer, r.name, r.bytes); !s) return s;
+    const uint64_t back = sizeof(RoofStatus) + kRoofWaves * sizeof(RoofWave) + houses * 4;
+    return ensure(readback_, "roof readback", back, BufferUse::readback);
+}
+
+// What the town's tables hold beyond what was sent before.
+Status GpuRoofs::uploadTables(Commands& commands, const RoofTables& t, const Set& set, Counts& sent) {
+    auto send = [&](const Buffer& buffer, const auto& all, uint32_t& from) -> Status {
+        const uint32_t begin = from;
+        from = uint32_t(all.size());
+        if (begin >= all.size()) return Done{};
+        return commands.upload(buffer, std::as_bytes(std::span(all).subspan(begin)), begin * sizeof(all[0]));
+    };
+    Status steps[] = {send(atoms_, t.atoms, sent.atoms), send(pieces_, t.pieces, sent.pieces),
+                      send(set.regions, t.regions, sent.regions), send(set.parts, t.parts, sent.parts),
+                      send(set.planes, t.planes, sent.planes)};
+    for (Status& s : steps)
+        if (!s) return s;
+    return Done{};
+}
+
+Status GpuRoofs::uploadGrammar(Commands& commands, const RoofInputs& inputs) {
+    if (grammarRevision_ == inputs.grammarRevision) return Done{};
+    auto send = [&](Buffer& buffer, const char* name, auto span, uint64_t least = 16) -> Status {
+        auto bytes = std::as_bytes(span);
+        if (Status s = ensure(buffer, name, std::max<uint64_t>(bytes.size(), least)); !s) return s;
+        return bytes.empty() ? Status(Done{}) : commands.upload(buffer, bytes);
+    };
+    if (Status s = send(words_, "roof grammar", inputs.grammar->words(), kUniformMapWords * 4); !s) return s;
+    const RuleMapRef ref = inputs.grammar->refAt(words_.address());
+    if (Status s = send(map_, "roof rule map", std::span(&ref, 1)); !s) return s;
+    if (Status s = send(meshes_, "roof mesh bounds", inputs.meshes); !s) return s;
+    grammarRevision_ = inputs.grammarRevision;
+    return Done{};
+}
+
+// Layers whose rows have changed, and the table by which kernels find them. Painting may add a layer, never a site.
+Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs) {
+    std::vector<RoofLayer> table(kRoofLayers);
+    const uint64_t row = uint64_t(inputs.site.size) * sizeof(float);
+    for (uint32_t i = 0; i < kRoofLayers; ++i) {
+        const RoofInputs::Layer& layer = inputs.layers[i];
+        table[i].fill = inputs.fill(i);
+        if (!layer.texels) continue;
+        const bool fresh = !layers_[i] || layers_[i].size() < row * inputs.site.size;
+        if (Status s = ensure(layers_[i], "roof layer", row * inputs.site.size); !s) return s;
+        const uint32_t first = fresh ? 0 : std::min(layer.firstRow, inputs.site.size);
+        const uint32_t count = fresh ? inputs.site.size : std::min(layer.rowCount, inputs.site.size - first);
+        const auto texels = std::as_bytes(std::span(layer.texels, size_t(inputs.site.size) * inputs.site.size));
+        if (count > 0)
+            if (Status s = commands.upload(layers_[i], texels.subspan(first * row, count * row), first * row); !s)
+                return s;
+        table[i].texels = addressOf<FloatBuf>(layers_[i]);
+    }
+    if (Status s = ensure(layerTable_, "roof layers", kRoofLayers * sizeof(RoofLayer)); !s) return s;
+    return commands.upload(layerTable_, table);
+}
+
+Status GpuRoofs::showLayers(const RoofInputs& inputs) {
+    Result<Commands> commands = Commands::begin(device_, "roof layers");
+    if (!commands) return commands.failure();
+    commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
+    if (Status s = uploadLayers(*commands, inputs); !s) return s;
+    Result<uint64_t> submitted = commands->submit();
+    if (!submitted) return submitted.failure();
+    view_.layers = addressOf<RoofLayerBuf>(layerTable_);
+    view_.site = inputs.site;
+    return Done{};
+}
+
+// What is kept of each house that grows.
+Status GpuRoofs::uploadHouses(Commands& commands, const RoofInputs& inputs, std::span<const uint32_t> houses) {
+    const auto generations = std::as_bytes(std::span(generationOf_));
+    if (houses.empty() && !generationOf_.empty()) {
+        commands.fill(houseReads_, 0);
+        if (Status s = commands.upload(generations_, generations); !s) return s;
+        return commands.upload(means_, inputs.filledMeans(generationOf_.size()));
+    }
+    for (uint32_t house : houses) {
+        const RoofInputs::Means means = inputs.meansOf(house);
+        commands.fill(houseReads_, 0, house * 4, 4);
+        if (Status s = commands.upload(generations_, generations.subspan(house * 4, 4), house * 4); !s) return s;
+        if (Status s = commands.upload(means_, std::as_bytes(std::span(means)), house * sizeof(means)); !s) return s;
+    }
+    return Done{};
+}
+
+bool GpuRoofs::mayFetch(const RoofInputs& inputs, const Set& set) const {
+    const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
+    bool may = inputs.fetch && device_.info().cpu;
+    for (const Buffer* b :
+         {&atoms_, &pieces_, &scopes_[0], &scopes_[1], &set.regions, &set.grids, &set.parts, &set.planes})
+        may = may && b->size() >= 16 && b->size() <= most;
+    return may;
+}
+
+// Kernels that read by address need a view in any case.
+Result<GpuRoofs::Texels> GpuRoofs::viewRecords(const Set& set, bool fetches) const {
+    Texels t;
+    const struct {
+        TexelView& view;
+        const Buffer& buffer;
+    } rows[] = {{t.atoms, atoms_},         {t.regions, set.regions}, {t.pieces, pieces_},  {t.shapes[0], scopes_[0]},
+                {t.shapes[1], scopes_[1]}, {t.grids, set.grids},     {t.parts, set.parts}, {t.planes, set.planes}};
+    for (const auto& [view, buffer] : rows) {
+        Result<TexelView> made = TexelView::create(device_, fetches ? buffer : noWords_, VK_FORMAT_R32G32B32A32_UINT);
+        if (!made) return made.failure();
+        view = std::move(*made);
+    }
+    return t;
+}
+
+}  // namespace espalier
