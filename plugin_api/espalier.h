@@ -406,10 +406,24 @@ ESP_API EspLook espDefaultLook(void);
  * amount from which on nothing changes. */
 ESP_API EspResult espViewColour(EspView view, float amount, float rgb[3], float* most);
 
+/* A picture that the host has begun: its opaque objects are in colourImage and in a depth buffer. Growth and roofs are
+ * drawn into it, hidden by what lies nearer, and their depth is added, so that what the host draws next is hidden by
+ * them. Pixels that they don't reach (or, where edges are smoothed, don't touch) stay as they are to the bit.
+ * The host draws with the camera of EspDrawDef; fovY is vertical, pixels are square. Look's sky, ground and ESP_VIEW_OVERDRAW
+ * are the host's business. Both images: one sample a pixel, usage SAMPLED besides that of an attachment. */
+typedef struct EspHostScene {
+    void* depthImage;            /* VkImage, in VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, left so */
+    uint32_t depthFormat;        /* VkFormat: any of depth; a stencil is left alone */
+    float depthAtInfinity;       /* the buffer holds depthAtInfinity + depthPerNearness / distance, the distance in metres */
+    float depthPerNearness;      /*   along the view. Reversed, infinitely far: 0, near; from 0 at near to 1 at far: */
+                                 /*   far / (far - near), -near * far / (far - near) */
+    int surfaces;                /* 1: draw the surfaces too; 0: the host has, they only cast shadows on growth */
+} EspHostScene;
+
 /* Where to draw. With commandBuffer NULL Espalier draws into its own image of width × height, submits, waits, and
  * espReadPixels returns it. Otherwise it records into the host's VkCommandBuffer (outside of a render pass), and ends
- * with colourView's image in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, what it held before is lost; the image must
- * be 8-bit RGBA or BGRA, UNORM. What was recorded has to be submitted to EspHostDevice::queue before the next call
+ * with colourView's image in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL. What it held before is lost, unless there is a
+ * `scene`: then it must come in that layout. It must be 8-bit RGBA or BGRA, UNORM or SRGB, colours in it sRGB. What was recorded has to be submitted to EspHostDevice::queue before the next call
  * that changes the context (espUpdate, espLoadSurface ...): `frame` and `framesDone` tell Espalier how long it must
  * keep what that frame reads. */
 typedef struct EspDrawDef {
@@ -422,6 +436,7 @@ typedef struct EspDrawDef {
     uint32_t colourFormat;       /* VkFormat */
     uint64_t frame;              /* with commandBuffer: the host's number of this frame, from 1, rising */
     uint64_t framesDone;         /* the GPU has finished all of the host's frames up to this one */
+    const EspHostScene* scene;   /* with commandBuffer: what growth is drawn into; NULL: the whole picture is ours */
 } EspDrawDef;
 ESP_API EspDrawDef espDefaultDrawDef(void);
 ESP_API EspResult espDraw(EspContext* context, const EspDrawDef* def);

@@ -32,7 +32,12 @@ Result<Owned<VkImageView>> makeView(Device& device, const ImageDesc& desc, VkIma
 }  // namespace
 
 bool isDepthFormat(VkFormat format) {
-    return format == VK_FORMAT_D16_UNORM || format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_X8_D24_UNORM_PACK32;
+    return format == VK_FORMAT_D16_UNORM || format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_X8_D24_UNORM_PACK32 ||
+           hasStencil(format);
+}
+
+bool hasStencil(VkFormat format) {
+    return format == VK_FORMAT_D24_UNORM_S8_UINT || format == VK_FORMAT_D32_SFLOAT_S8_UINT;
 }
 
 uint32_t texelBytes(VkFormat format) {

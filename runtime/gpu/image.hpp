@@ -62,6 +62,7 @@ class Image {
 };
 
 bool isDepthFormat(VkFormat format);
+bool hasStencil(VkFormat format);  // views of ours show such an image's depth
 // Bytes of one texel of the uncompressed formats that we copy; asserts for others.
 uint32_t texelBytes(VkFormat format);
 

@@ -39,7 +39,7 @@ void beginRendering(const DeviceFunctions& vk, VkCommandBuffer commands, const D
     info.pColorAttachments = colors.data();
     VkRenderingAttachmentInfo depth{};
     if (targets.depth) {
-        depth = attachment(targets.depth->view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+        depth = attachment(targets.depth->view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
                            targets.depth->clear.has_value(), targets.depth->store);
         depth.clearValue.depthStencil.depth = targets.depth->clear.value_or(0);
         info.pDepthAttachment = &depth;

@@ -129,6 +129,14 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
     if (def.commandBuffer && (!def.colourImage || !def.colourView || !def.frame))
         return fail(context, ESP_INVALID_ARGUMENT,
                     "espDraw: with a command buffer, colourImage, colourView and frame are needed");
+    if (def.scene &&
+        (!def.commandBuffer || !def.scene->depthImage || !isDepthFormat(VkFormat(def.scene->depthFormat)) ||
+         !std::isfinite(def.scene->depthAtInfinity) || !std::isfinite(def.scene->depthPerNearness) ||
+         def.scene->depthPerNearness == 0 || def.look.view == ESP_VIEW_OVERDRAW))
+        return fail(
+            context, ESP_INVALID_ARGUMENT,
+            "espDraw: a scene needs a command buffer, a depth image of a format with depth, a way from distance "
+            "to depth, and no view of overdraw");
     return ESP_OK;
 }
 
@@ -207,6 +215,9 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     target.image = reinterpret_cast<VkImage>(def.colourImage);
     target.view = reinterpret_cast<VkImageView>(def.colourView);
     target.format = VkFormat(def.colourFormat);
+    if (def.scene)
+        target.host = {reinterpret_cast<VkImage>(def.scene->depthImage), VkFormat(def.scene->depthFormat),
+                       def.scene->depthAtInfinity, def.scene->depthPerNearness, def.scene->surfaces != 0};
     Commands commands =
         Commands::into(*context.device, reinterpret_cast<VkCommandBuffer>(def.commandBuffer), def.frame);
     Status drawn = context.renderer->draw(commands, inputs, target);

@@ -57,7 +57,7 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     projection[2][3] = -1;
     projection[2][0] = -camera.shift.x;
     projection[2][1] = camera.shift.y;
-    projection[3][2] = std::max(camera.nearPlane, 1e-4f);
+    projection[3][2] = std::max(camera.nearPlane, kLeastNearPlane);
 
     FrameRecord frame{};
     frame.viewProjection = projection * view;

@@ -8,6 +8,8 @@ namespace espalier {
 // What can be shown: views of surfaces or layers that aren't there fall back to normals.
 ViewMode shownView(const DrawInputs& inputs);
 
+constexpr float kLeastNearPlane = 1e-4f;  // metres
+
 // A camera and a look as the shaders want them. Sizes in pixels.
 FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height);
 

@@ -119,15 +119,24 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
     return Done{};
 }
 
-void RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, const PostPush& post) {
-    commands.transition(targets_.color, ImageState::colorTarget, true);
-    commands.transition(targets_.depth, ImageState::depthTarget, true);
+Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target,
+                                const PostPush& post) {
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
-    targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
-    targets.depth = DepthTarget{.view = targets_.depth.view(), .clear = 0.0f};
+    targets.depth = DepthTarget{.view = targets_.depth.view(), .clear = {}};
+    if (hosted_) {
+        const float nearPlane = std::max(inputs.camera.nearPlane, kLeastNearPlane);
+        if (Status s = merge_->begin(commands, target, targets_, *frame_, nearPlane); !s) return s;
+    } else {
+        targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
+        targets.depth->clear = 0.0f;
+    }
+    commands.transition(targets_.color, ImageState::colorTarget, !hosted_);
+    commands.transition(targets_.depth, ImageState::depthTarget, !hosted_);
     DrawPass pass(commands, "draw scene", targets);
-    models_.draw(pass, scene_->model, *frame_, shadowMap_, shadowSampler_, inputs.surfaces.v != nullptr);
+    if (!hosted_ || target.host.models)
+        models_.draw(pass, scene_->model, *frame_, shadowMap_, shadowSampler_, inputs.surfaces.v != nullptr);
     if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, explained_);
+    return Done{};
 }
 
 Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {
@@ -167,7 +176,7 @@ void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {
     DrawPass pass(commands, "draw scene", targets);
     if (grows_) drawTerminals(pass, false);
     if (roofed_) roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, explained_);
-    pass.draw(sky_, 3, 1, post, {{ground_.noise(), ground_.sampler()}, *frame_});
+    if (!hosted_) pass.draw(sky_, 3, 1, post, {{ground_.noise(), ground_.sampler()}, *frame_});
 }
 
 void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
@@ -188,13 +197,14 @@ void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
 }
 
 Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostPush push) {
-    const VkFormat format = target.image ? target.format : kOwnFormat;
+    const bool intoOwn = !target.image || hosted_;
+    const VkFormat format = intoOwn ? kOwnFormat : target.format;
     push.encode = format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB ? 0 : 1;
     Result<const Program*> program = resolveProgram(format);
     if (!program) return program.failure();
     Image host;
     VkImageView view = target.view;
-    if (target.image) {
+    if (!intoOwn) {
         ImageDesc desc{.name = "host picture", .format = format, .width = target.width, .height = target.height};
         desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
         Result<Image> wrapped = Image::wrap(device_, desc, target.image);
@@ -205,10 +215,12 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
         if (Status s = targets_.makeOwn(device_); !s) return s;
         view = targets_.own.view();
     }
-    commands.transition(target.image ? host : targets_.own, ImageState::colorTarget, true);
-    DrawPass pass(commands, "draw resolve", onto({target.width, target.height}, view));
-    pass.draw(**program, 3, 1, push, {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}, *frame_});
-    return Done{};
+    commands.transition(intoOwn ? targets_.own : host, ImageState::colorTarget, true);
+    {
+        DrawPass pass(commands, "draw resolve", onto({target.width, target.height}, view));
+        pass.draw(**program, 3, 1, push, {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}, *frame_});
+    }
+    return hosted_ ? merge_->end(commands, targets_) : Status(Done{});
 }
 
 Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
@@ -219,6 +231,12 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     if (Status s = pickScene(shownView(inputs)); !s) return s;
     grows_ = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
     roofed_ = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
+    hosted_ = target.image && target.host.depth;
+    if (hosted_ && !merge_) {
+        auto made = HostMerge::create(device_, targets_.samples);
+        if (!made) return made.failure();
+        merge_ = std::move(*made);
+    }
 
     glm::vec3 low, high;
     models_.bounds(low, high);
@@ -257,12 +275,12 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     if (Status s = upload(commands, frame); !s) return s;
     PostPush push{};
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
-    push.ground = inputs.ground.drawn ? 1 : 0;
+    push.ground = inputs.ground.drawn && !hosted_ ? 1 : 0;
     push.groundColor = inputs.ground.colour;
     // Some devices do a pass' work when the next one needs it: only the whole is a true time.
     Pass whole(commands, "draw");
     models_.choose(frame.eye, frame.pixelScale, allowedModelError(inputs.look, grows_));
-    drawModels(commands, inputs, push);
+    if (Status s = drawModels(commands, inputs, target, push); !s) return s;
     if (grows_ || roofed_)
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
     drawGrowth(commands, push);

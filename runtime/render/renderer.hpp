@@ -48,13 +48,25 @@ struct DrawInputs {
     Look look;
 };
 
+// What a host has drawn already: growth is drawn into it, hidden by what lies nearer. The depth buffer holds
+// atInfinity + perNearness / distance along the view; it and the picture can be sampled and have one sample a pixel.
+// Both are in colorTarget and depthTarget, and stay there.
+struct HostScene {
+    VkImage depth = VK_NULL_HANDLE;  // null: there is none, the whole picture is ours
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+    float atInfinity = 0, perNearness = 0;
+    bool models = false;  // draw the surfaces too
+};
+
 // Where to draw. image null: into the renderer's own image. Otherwise the image may be in any layout, its contents
-// are lost, and it is left in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; format: an 8-bit RGBA or BGRA, UNORM or SRGB.
+// are lost but with a host's scene, and it is left in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; format: an 8-bit RGBA
+// or BGRA, UNORM or SRGB.
 struct DrawTarget {
     uint32_t width = 1280, height = 720;  // 1 to 16384
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
+    HostScene host;  // only with an image; not with ViewMode::overdraw
 };
 
 struct RenderStats {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "runtime/render/frame.hpp"
+#include "runtime/render/host_merge.hpp"
 #include "runtime/render/models.hpp"
 #include "runtime/render/renderer.hpp"
 #include "runtime/render/targets.hpp"
@@ -52,7 +53,7 @@ class RendererImpl final : public Renderer {
     // Uploads the record to frame_.
     Status upload(Commands& commands, const FrameRecord& frame);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels);
-    void drawModels(Commands& commands, const DrawInputs& inputs, const PostPush& post);
+    Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
     void drawGrowth(Commands& commands, const PostPush& post);
     void drawTerminals(DrawPass& pass, bool depthOnly);
@@ -63,6 +64,7 @@ class RendererImpl final : public Renderer {
     Terminals terminals_;
     Emit emit_;
     std::unique_ptr<RoofDraw> roofs_;
+    std::unique_ptr<HostMerge> merge_;  // made when a host first has a scene
     Models models_;
     Ground ground_;
     Targets targets_;
@@ -79,6 +81,7 @@ class RendererImpl final : public Renderer {
     uint32_t frameSlot_ = 0;
     ShadowKey shadowKey_;
     bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;
+    bool hosted_ = false;  // this recording goes into a host's scene
 };
 
 }  // namespace espalier

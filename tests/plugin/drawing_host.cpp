@@ -1,0 +1,199 @@
+#include "tests/plugin/drawing_host.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace espalier {
+namespace {
+
+struct BoxPush {
+    glm::mat4 viewProjection;
+    glm::vec3 low, high, tint;
+};
+
+template <class T>
+T must(Result<T> made) {
+    REQUIRE_MESSAGE(made, (made ? "" : made.failure().text()));
+    return std::move(*made);
+}
+
+glm::vec3 vec(const float v[3]) {
+    return {v[0], v[1], v[2]};
+}
+
+glm::mat4 viewProjection(const EspCamera& camera, bool reversed) {
+    const float aspect = float(DrawingHost::kWidth) / DrawingHost::kHeight;
+    glm::mat4 projection = glm::perspectiveRH_ZO(camera.fovY, aspect, DrawingHost::kNear, DrawingHost::kFar);
+    if (reversed) {
+        projection[2][2] = 0;
+        projection[3][2] = DrawingHost::kNear;
+    }
+    projection[1][1] *= -1;  // Vulkan's y goes down
+    return projection * glm::lookAtRH(vec(camera.eye), vec(camera.target), vec(camera.up));
+}
+
+}  // namespace
+
+bool DrawingHost::Picture::sameColour(const Picture& other, size_t pixel) const {
+    return std::memcmp(&rgba[4 * pixel], &other.rgba[4 * pixel], 4) == 0;
+}
+
+DrawingHost::DrawingHost() {
+    DeviceOptions options;
+    options.validation = true;
+    device_ = must(Device::create(options));
+    use(colour_, depth_);
+}
+
+DrawingHost::~DrawingHost() {
+    for (const std::string& text : device_->validationTexts()) MESSAGE(text);
+    CHECK(device_->validationMessages() == 0);
+}
+
+EspHostDevice DrawingHost::device() const {
+    EspHostDevice host{};
+    host.getInstanceProcAddr = reinterpret_cast<void*>(device_->getInstanceProcAddr());
+    host.instance = device_->instance();
+    host.physicalDevice = device_->physicalDevice();
+    host.device = device_->handle();
+    host.queue = device_->queue();
+    host.queueFamily = device_->info().queueFamily;
+    return host;
+}
+
+bool DrawingHost::has(VkFormat format) const {
+    VkFormatProperties properties{};
+    const auto ask = reinterpret_cast<PFN_vkGetPhysicalDeviceFormatProperties>(
+        device_->getInstanceProcAddr()(device_->instance(), "vkGetPhysicalDeviceFormatProperties"));
+    ask(device_->physicalDevice(), format, &properties);
+    const VkFormatFeatureFlags wanted =
+        VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+    return (properties.optimalTilingFeatures & wanted) == wanted;
+}
+
+void DrawingHost::use(VkFormat colour, const Depth& depth) {
+    colour_ = colour;
+    depth_ = depth;
+    makeImages();
+    GraphicsDesc desc;
+    desc.name = "host's box";
+    desc.vertex = "tests/box.vert";
+    desc.fragment = "tests/triangle.frag";
+    desc.colors = {colour};
+    desc.depth = depth.format;
+    desc.depthCompare = depth.reversed ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS;
+    box_ = must(Program::graphics(*device_, desc));
+}
+
+void DrawingHost::makeImages() {
+    ImageDesc desc{.name = "host's picture", .format = colour_, .width = kWidth, .height = kHeight};
+    desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    picture_ = must(Image::create(*device_, desc));
+    desc.name = "host's depth buffer";
+    desc.format = depth_.format;
+    desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    nearest_ = must(Image::create(*device_, desc));
+}
+
+EspHostScene DrawingHost::scene() const {
+    EspHostScene scene{};
+    scene.depthImage = nearest_.handle();
+    scene.depthFormat = depth_.format;
+    scene.depthAtInfinity = depth_.reversed ? 0 : kFar / (kFar - kNear);
+    scene.depthPerNearness = depth_.reversed ? kNear : -kNear * kFar / (kFar - kNear);
+    return scene;
+}
+
+double DrawingHost::distance(float depth) const {
+    return depth_.reversed ? double(kNear) / depth : double(kNear) * kFar / (kFar - double(depth) * (kFar - kNear));
+}
+
+EspDrawDef DrawingHost::def(const EspCamera& camera, const Commands& commands) const {
+    EspDrawDef def = espDefaultDrawDef();
+    def.width = kWidth;
+    def.height = kHeight;
+    def.camera = camera;
+    def.commandBuffer = commands.handle();
+    def.colourImage = picture_.handle();
+    def.colourView = picture_.view();
+    def.colourFormat = colour_;
+    def.frame = frame_;
+    def.framesDone = frame_ - 1;
+    return def;
+}
+
+DrawingHost::Picture DrawingHost::draw(const EspCamera& camera, const std::vector<Box>& boxes, EspContext* context,
+                                       bool surfaces) {
+    Commands commands = must(Commands::begin(*device_, "host's frame"));
+    commands.transition(picture_, ImageState::colorTarget, true);
+    commands.transition(nearest_, ImageState::depthTarget, true);
+    {
+        DrawTargets targets;
+        targets.extent = {kWidth, kHeight};
+        targets.colors.push_back({.view = picture_.view(), .clear = std::array<float, 4>{.2f, .3f, .5f, 1}});
+        targets.depth = DepthTarget{.view = nearest_.view(), .clear = depth_.reversed ? 0.0f : 1.0f};
+        DrawPass pass(commands, "host", targets);
+        for (const Box& box : boxes)
+            pass.draw(box_, 36, 1, BoxPush{viewProjection(camera, depth_.reversed), box.low, box.high, box.tint});
+    }
+    if (context) {
+        ++frame_;
+        EspHostScene own = scene();
+        own.surfaces = surfaces;
+        EspDrawDef drawn = def(camera, commands);
+        drawn.scene = &own;
+        const EspResult result = espDraw(context, &drawn);
+        REQUIRE_MESSAGE(result == ESP_OK, espLastError(context));
+    }
+    REQUIRE(commands.finish());
+    return read();
+}
+
+std::vector<DrawingHost::Picture> DrawingHost::drawAtOnce(const std::vector<EspCamera>& cameras, EspContext* context) {
+    std::vector<Image> images;
+    std::vector<Commands> recorded;
+    const uint64_t before = frame_;
+    for (const EspCamera& camera : cameras) {
+        makeImages();
+        recorded.push_back(must(Commands::begin(*device_, "host's frame")));
+        ++frame_;
+        EspDrawDef drawn = def(camera, recorded.back());
+        drawn.framesDone = before;
+        const EspResult result = espDraw(context, &drawn);
+        REQUIRE_MESSAGE(result == ESP_OK, espLastError(context));
+        images.push_back(std::move(picture_));
+    }
+    for (Commands& commands : recorded) REQUIRE(commands.submit());
+    std::vector<Picture> pictures;
+    for (Image& image : images) {
+        picture_ = std::move(image);
+        pictures.push_back(read());
+    }
+    return pictures;
+}
+
+DrawingHost::Picture DrawingHost::read() {
+    picture_.state = ImageState::colorTarget;
+    Picture picture;
+    const std::vector<std::byte> bytes = must(readImage(*device_, picture_));
+    picture.rgba.resize(bytes.size());
+    std::memcpy(picture.rgba.data(), bytes.data(), bytes.size());
+    const bool legible = depth_.format == VK_FORMAT_D32_SFLOAT || depth_.format == VK_FORMAT_D16_UNORM;
+    if (!legible || nearest_.state != ImageState::depthTarget) return picture;
+    const std::vector<std::byte> depths = must(readImage(*device_, nearest_));
+    picture.depth.resize(size_t(kWidth) * kHeight);
+    for (size_t i = 0; i < picture.depth.size(); ++i)
+        if (depth_.format == VK_FORMAT_D16_UNORM) {
+            uint16_t depth;
+            std::memcpy(&depth, &depths[2 * i], 2);
+            picture.depth[i] = float(depth) / 65535;
+        } else {
+            std::memcpy(&picture.depth[i], &depths[4 * i], 4);
+        }
+    return picture;
+}
+
+}  // namespace espalier

@@ -1,0 +1,234 @@
+// Growth drawn into a picture and depth buffer that a host has begun.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "tests/plugin/drawing_host.hpp"
+
+using namespace espalier;
+
+namespace {
+
+using Picture = DrawingHost::Picture;
+constexpr uint32_t kWidth = DrawingHost::kWidth, kHeight = DrawingHost::kHeight;
+constexpr size_t kPixels = size_t(kWidth) * kHeight;
+
+constexpr const char* kIvy =
+    "Ivy -> Branch(5) {Stem(1.2), Stem(1.1), Stem(1), Stem(.9), Stem(.8)}\n"
+    "Stem(l) : arc >= l -> NULL\n"
+    "Stem(l) -> Marching(0.04, rand(-0.35, 0.35), true) {Stem(l), Wood Foliage}\n"
+    "Wood -> S(0.02) Shape(\"bark\", C1)\n"
+    "Foliage -> Repeat(3) {S(0.11) T(rand(), 0.04) R(rand(-1, 1), 0.3) Shape(\"leaf\")}\n";
+
+void silent(void*, EspLogLevel, const char*) {}
+
+// Ivy on the square from (0,0,0) to (1,1,0).
+struct Grown {
+    EspContext* context = nullptr;
+
+    explicit Grown(const DrawingHost& host) {
+        const EspHostDevice device = host.device();
+        EspContextDef def = espDefaultContextDef();
+        def.host = &device;
+        def.log = silent;
+        REQUIRE_MESSAGE(espCreate(&def, &context) == ESP_OK, espLastError(nullptr));
+        EspSurface wall{};
+        REQUIRE(espLoadSurface(context, ESPALIER_SQUARE, nullptr, &wall) == ESP_OK);
+        const EspGrammarDef text{"ivy", kIvy, std::char_traits<char>::length(kIvy)};
+        EspSeedDef seed = espDefaultSeedDef();
+        REQUIRE_MESSAGE(espCompileGrammar(context, &text, &seed.grammar) == ESP_OK, espLastError(context));
+        for (int i = 0; i < 3; ++i) {
+            seed.position[0] = .2f + .3f * float(i);
+            seed.position[1] = .05f;
+            seed.direction[1] = 1;
+            seed.number = uint32_t(i);
+            EspSeed planted{};
+            REQUIRE(espPlant(context, &seed, &planted) == ESP_OK);
+        }
+        REQUIRE_MESSAGE(espUpdate(context) == ESP_OK, espLastError(context));
+    }
+    ~Grown() { espDestroy(context); }
+};
+
+EspCamera cameraAt(float x, float y, float z) {
+    EspCamera camera = espDefaultDrawDef().camera;
+    const float eye[3] = {x, y, z}, target[3] = {.5f, .5f, 0};
+    std::copy(eye, eye + 3, camera.eye);
+    std::copy(target, target + 3, camera.target);
+    camera.nearPlane = .02f;  // need not be the host's
+    return camera;
+}
+
+// A wall under the square, a box in front of the growth and one that runs through it.
+const std::vector<DrawingHost::Box> kBoxes = {{{0, 0, -.2f}, {1, 1, -.004f}, {.5f, .45f, .4f}},
+                                              {{.55f, .1f, .2f}, {.8f, .5f, .4f}, {.7f, .2f, .1f}},
+                                              {{.15f, .45f, -.1f}, {.4f, .7f, .06f}, {.2f, .3f, .7f}}};
+
+void save(const std::string& name, const Picture& picture) {
+    const char* folder = std::getenv("ESPALIER_PICTURES");
+    if (!folder) return;
+    std::FILE* file = std::fopen((std::string(folder) + "/" + name + ".ppm").c_str(), "wb");
+    if (!file) return;
+    std::fprintf(file, "P6 %u %u 255\n", kWidth, kHeight);
+    for (size_t i = 0; i < kPixels; ++i) std::fwrite(&picture.rgba[4 * i], 1, 3, file);
+    std::fclose(file);
+}
+
+// Whether a pixel or one beside it is among those marked.
+bool near(const std::vector<bool>& marked, size_t pixel) {
+    const int x = int(pixel % kWidth), y = int(pixel / kWidth);
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, int(kHeight) - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, int(kWidth) - 1); ++u)
+            if (marked[size_t(v) * kWidth + size_t(u)]) return true;
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("growth and a host's boxes hide each other as their depths say") {
+    DrawingHost host;
+    Grown grown(host);
+    const struct {
+        const char* name;
+        DrawingHost::Depth depth;
+        double tolerance;  // of distances at some metres, in metres
+    } cases[] = {{"reversed", {VK_FORMAT_D32_SFLOAT, true}, 1e-5},
+                 {"forward", {VK_FORMAT_D32_SFLOAT, false}, 1e-4},
+                 {"forward16", {VK_FORMAT_D16_UNORM, false}, 3e-3}};
+    for (const auto& c : cases) {
+        CAPTURE(c.name);
+        host.use(VK_FORMAT_R8G8B8A8_UNORM, c.depth);
+        const EspCamera camera = cameraAt(1.3f, .9f, 1.9f);
+        const Picture boxes = host.draw(camera, kBoxes, nullptr);
+        const Picture growth = host.draw(camera, {}, grown.context);
+        const Picture both = host.draw(camera, kBoxes, grown.context);
+        save(std::string("host-") + c.name, both);
+
+        std::vector<bool> shown(kPixels);  // pixels in which growth is to be seen
+        size_t front = 0, behind = 0;
+        for (size_t i = 0; i < kPixels; ++i) {
+            const double hostAt = host.distance(boxes.depth[i]), growthAt = host.distance(growth.depth[i]);
+            const bool grows = growth.depth[i] != (c.depth.reversed ? 0.0f : 1.0f);
+            const bool unclear = grows && std::abs(growthAt - hostAt) < c.tolerance;
+            shown[i] = grows && (unclear || growthAt < hostAt);
+            if (unclear) continue;
+            front += grows && growthAt < hostAt;
+            behind += grows && growthAt > hostAt;
+            if (shown[i])
+                CHECK(host.distance(both.depth[i]) == doctest::Approx(growthAt).epsilon(1e-6 + c.tolerance));
+            else
+                CHECK(both.depth[i] == boxes.depth[i]);
+        }
+        size_t changed = 0, touched = 0;
+        for (size_t i = 0; i < kPixels; ++i) {
+            if (!near(shown, i)) touched += !both.sameColour(boxes, i);
+            if (shown[i]) changed += !both.sameColour(boxes, i);
+        }
+        CHECK(touched == 0);
+        CHECK(front > 1500);
+        CHECK(behind > 800);
+        CHECK(changed > front * 9 / 10);
+    }
+}
+
+TEST_CASE("depths that the host reads are where a ray meets the surface") {
+    DrawingHost host;
+    Grown grown(host);
+    for (const bool reversed : {true, false}) {
+        host.use(VK_FORMAT_R8G8B8A8_UNORM, {VK_FORMAT_D32_SFLOAT, reversed});
+        const EspCamera camera = cameraAt(1.3f, .9f, 1.9f);
+        const Picture growth = host.draw(camera, {}, grown.context), all = host.draw(camera, {}, grown.context, true);
+        const glm::vec3 eye(1.3f, .9f, 1.9f), forward = glm::normalize(glm::vec3(.5f, .5f, 0) - eye);
+        const glm::vec3 right = glm::normalize(glm::cross(forward, glm::vec3(0, 1, 0))),
+                        up = glm::cross(right, forward);
+        const float tangent = std::tan(camera.fovY / 2);
+        size_t judged = 0;
+        for (uint32_t y = 3; y < kHeight; y += 5)
+            for (uint32_t x = 3; x < kWidth; x += 5) {
+                const size_t pixel = size_t(y) * kWidth + x;
+                if (growth.depth[pixel] != (reversed ? 0.0f : 1.0f)) continue;  // something grows there
+                const glm::vec2 at((float(x) + .5f) / kWidth * 2 - 1, (float(y) + .5f) / kHeight * 2 - 1);
+                const glm::vec3 ray = forward + right * (at.x * tangent * kWidth / kHeight) - up * (at.y * tangent);
+                EspHit hit{};
+                if (espPick(grown.context, &eye.x, &ray.x, &hit) != ESP_OK) continue;
+                const float along =
+                    glm::dot(glm::vec3(hit.position[0], hit.position[1], hit.position[2]) - eye, forward);
+                CHECK(host.distance(all.depth[pixel]) == doctest::Approx(along).epsilon(1e-4));
+                ++judged;
+            }
+        CHECK(judged > 100);
+    }
+}
+
+TEST_CASE("any picture and depth buffer with a stencil will do") {
+    DrawingHost host;
+    Grown grown(host);
+    const EspCamera camera = cameraAt(1.3f, .9f, 1.9f);
+    const Picture bare = host.draw(camera, kBoxes, nullptr), plain = host.draw(camera, kBoxes, grown.context);
+    std::vector<bool> other(kPixels);  // in which no growth is
+    for (size_t i = 0; i < kPixels; ++i) other[i] = plain.depth[i] == bare.depth[i];
+    const struct {
+        VkFormat depth, colour;
+    } cases[] = {{VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_R8G8B8A8_UNORM},
+                 {VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_R8G8B8A8_SRGB},
+                 {VK_FORMAT_X8_D24_UNORM_PACK32, VK_FORMAT_R8G8B8A8_SRGB}};
+    for (const auto& c : cases) {
+        if (!host.has(c.depth)) continue;
+        CAPTURE(int(c.depth));
+        host.use(c.colour, {c.depth, true});
+        const Picture drawn = host.draw(camera, kBoxes, grown.context);
+        size_t inside = 0, unlike = 0;
+        for (size_t i = 0; i < kPixels; ++i) {
+            if (near(other, i))
+                continue;  // edges hold some of the box behind them, which isn't the same in both formats
+            ++inside;
+            for (size_t channel = 0; channel < 3; ++channel)
+                if (std::abs(int(drawn.rgba[4 * i + channel]) - int(plain.rgba[4 * i + channel])) > 2) {
+                    ++unlike;
+                    break;
+                }
+        }
+        CHECK(inside > 4000);
+        CHECK(unlike < inside / 1000);
+    }
+}
+
+TEST_CASE("six frames may be recorded before the first is submitted") {
+    DrawingHost host;
+    Grown grown(host);
+    std::vector<EspCamera> cameras;
+    for (int i = 0; i < 6; ++i) cameras.push_back(cameraAt(.2f + .3f * float(i), .6f, 1.6f));
+    std::vector<Picture> single;
+    for (const EspCamera& camera : cameras) single.push_back(host.drawAtOnce({camera}, grown.context).front());
+    const std::vector<Picture> together = host.drawAtOnce(cameras, grown.context);
+    for (size_t i = 0; i < cameras.size(); ++i) CHECK(together[i].rgba == single[i].rgba);
+    CHECK(single[0].rgba != single[1].rgba);
+}
+
+TEST_CASE("a host's scene that can't be used is refused") {
+    DrawingHost host;
+    Grown grown(host);
+    const auto refused = [&](auto&& spoil) {
+        EspHostScene scene = host.scene();
+        EspDrawDef def = espDefaultDrawDef();
+        int recording = 0, image = 0;  // refused before anything is done with them
+        def.commandBuffer = &recording;
+        def.colourImage = def.colourView = &image;
+        def.colourFormat = VK_FORMAT_R8G8B8A8_UNORM;
+        def.frame = 1;
+        def.scene = &scene;
+        spoil(def, scene);
+        return espDraw(grown.context, &def) == ESP_INVALID_ARGUMENT &&
+               std::string(espLastError(grown.context)).find("scene") != std::string::npos;
+    };
+    CHECK(refused([](EspDrawDef& def, EspHostScene&) { def.commandBuffer = nullptr; }));
+    CHECK(refused([](EspDrawDef&, EspHostScene& scene) { scene.depthImage = nullptr; }));
+    CHECK(refused([](EspDrawDef&, EspHostScene& scene) { scene.depthFormat = VK_FORMAT_R32_SFLOAT; }));
+    CHECK(refused([](EspDrawDef&, EspHostScene& scene) { scene.depthPerNearness = 0; }));
+    CHECK(refused([](EspDrawDef&, EspHostScene& scene) { scene.depthAtInfinity = NAN; }));
+    CHECK(refused([](EspDrawDef& def, EspHostScene&) { def.look.view = ESP_VIEW_OVERDRAW; }));
+}
