@@ -32,7 +32,9 @@ Status writeRuin(const Options& options) {
     glb.materials.push_back({"masonry", 0, 1, 0.92f, 0, false, false});
     glb.meshes.push_back({"ruin", &ruin.assembly.mesh, 0});
     if (Status s = writeGlb(options.directory + "/ruin.glb", glb); !s) return s;
-    if (Status s = writeBytes(options.directory + "/mask.png", encodePng(ruin.painted.mask, 1)); !s) return s;
+    for (auto& [name, picture] : {std::pair("/mask.png", &ruin.painted.mask), std::pair("/ivy.png", &ruin.painted.ivy),
+                                  std::pair("/turf.png", &ruin.painted.turf)})
+        if (Status s = writeBytes(options.directory + name, encodePng(*picture, 1)); !s) return s;
     if (options.previewDirectory.empty()) return Done{};
     struct Shot {
         const char* name;
@@ -45,9 +47,10 @@ Status writeRuin(const Options& options) {
     PreviewView column{{3.6f, 1.9f, 4.6f}, {2.2f, 1.5f, 1.9f}, 48, 720, 960, {0.6f, 0.6f, 0.5f}, true};
     PreviewView back{{-5.5f, 3.6f, -5.5f}, {-0.5f, 1.3f, 0.3f}, 42, 1280, 720, {-0.5f, 0.7f, -0.6f}, true};
     PreviewView stump{{-0.2f, 1.9f, 4.2f}, {-1.4f, 0.6f, 2.0f}, 42, 1280, 720, {0.6f, 0.6f, 0.5f}, true};
+    PreviewView vase{{0.9f, 2.0f, 6.0f}, {-0.75f, 1.25f, 3.55f}, 48, 720, 960, {0.6f, 0.6f, 0.5f}, true};
     PreviewView above{{0.3f, 9.5f, 5.0f}, {0, 0.8f, 0.6f}, 45, 1280, 720, {0.5f, 0.8f, 0.3f}, true};
     for (const Shot& shot : {Shot{"wide", wide}, Shot{"arch", arch}, Shot{"column", column}, Shot{"back", back},
-                             Shot{"stump", stump}, Shot{"above", above}})
+                             Shot{"stump", stump}, Shot{"urn", vase}, Shot{"above", above}})
         if (Status s = writeBytes(options.previewDirectory + "/ruin_" + shot.name + ".png",
                                   encodePng(preview(items, shot.view), 3));
             !s)

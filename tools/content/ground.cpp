@@ -24,7 +24,7 @@ float footDistance(glm::vec2 p) {
         std::min({boxDistance(p, {-3.5f, -0.35f}, {-0.23f, 0.35f}), boxDistance(p, {1.33f, -0.35f}, {3.4f, 0.35f}),
                   boxDistance(p, {-3.5f, 0.35f}, {-2.8f, 2.7f}), boxDistance(p, {3.9f, 1.0f}, {4.6f, 4.2f})});
     for (glm::vec2 c :
-         {glm::vec2(2.3f, 1.95f), glm::vec2(-1.2f, 1.95f), glm::vec2(2.75f, 4.15f), glm::vec2(-0.75f, 3.55f)})
+         {glm::vec2(2.3f, 1.95f), glm::vec2(-1.2f, 1.95f), glm::vec2(3.2f, 3.3f), glm::vec2(-0.75f, 3.55f)})
         d = std::min(d, boxDistance(p, c - 0.44f, c + 0.44f));
     for (glm::vec3 c : {glm::vec3(3.45f, 1.0f, 0.22f), glm::vec3(-2.2f, 2.75f, 0.25f), glm::vec3(0.15f, 2.95f, 0.18f)})
         d = std::min(d, glm::distance(p, glm::vec2(c)) - c.z);
@@ -52,14 +52,28 @@ float paved(glm::vec2 xz) {
     return ramp(0.02f, 0.22f, way + 0.55f * fractal(xz * 0.9f, 711, 3) - 0.12f);
 }
 
+// What the ground is made of. stone: of a flag, 0 in its joints; rim: how far it has gone over into the meadow.
+struct Cover {
+    Cells flag;
+    float joint, stone, rim, grass;
+};
+Cover coverAt(glm::vec2 xz) {
+    Cover c;
+    glm::vec2 bent = xz + 0.05f * glm::vec2(fractal(xz * 2.2f, 721, 2), fractal(xz * 2.2f, 723, 2));
+    c.flag = cells(bent / 0.62f, 725);
+    c.joint = (c.flag.second - c.flag.nearest) * 0.31f;
+    c.stone = paved(xz + 0.25f * (glm::vec2(random01(c.flag.id, 5), random01(c.flag.id, 6)) - 0.5f));
+    c.stone *= random01(c.flag.id, 7) < 0.86f ? 1.0f : 0.0f;
+    c.stone *= ramp(0.012f, 0.045f, c.joint) * ramp(0.02f, 0.12f, footDistance(xz));
+    c.rim = ramp(0.62f, 0.93f, outward(xz) + 0.12f * fractal(xz * 1.3f, 763, 3));
+    c.grass = ramp(0.05f, 0.5f,
+                   fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f + 0.55f * c.rim);
+    return c;
+}
+
 Detail groundDetail(glm::vec2 st) {
     glm::vec2 xz(st.x, -st.y);
-    glm::vec2 bent = xz + 0.05f * glm::vec2(fractal(xz * 2.2f, 721, 2), fractal(xz * 2.2f, 723, 2));
-    Cells flag = cells(bent / 0.62f, 725);
-    float joint = (flag.second - flag.nearest) * 0.31f;
-    float stone = paved(xz + 0.25f * (glm::vec2(random01(flag.id, 5), random01(flag.id, 6)) - 0.5f));
-    stone *= random01(flag.id, 7) < 0.86f ? 1.0f : 0.0f;
-    stone *= ramp(0.012f, 0.045f, joint) * ramp(0.02f, 0.12f, footDistance(xz));
+    auto [flag, joint, stone, rim, grass] = coverAt(xz);
     float clods = fractal(xz * 4.5f, 731, 4), grit = fractal(xz * 26.0f, 735, 3);
     Cells pebble = cells(xz * 15.0f + 0.35f * glm::vec2(grit, clods), 741);
     float size = 0.10f + 0.22f * random01(pebble.id, 3) * random01(pebble.id, 4);
@@ -78,9 +92,6 @@ Detail groundDetail(glm::vec2 st) {
     earth *= 1 + 0.35f * grit + 0.25f * clods;
     earth =
         glm::mix(earth, glm::vec3(0.165f, 0.148f, 0.122f) * (0.6f + 0.8f * random01(pebble.id, 2)), 0.8f * isPebble);
-    float rim = ramp(0.62f, 0.93f, outward(xz) + 0.12f * fractal(xz * 1.3f, 763, 3));  // goes over into the meadow
-    float grass = ramp(0.05f, 0.5f,
-                       fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f + 0.55f * rim);
     float blades = 0.5f + 0.5f * fractal(glm::vec2(xz.x * 60.0f, xz.y * 34.0f), 765, 2);
     earth = glm::mix(earth,
                      glm::mix(glm::mix(glm::vec3(0.034f, 0.044f, 0.014f), glm::vec3(0.105f, 0.112f, 0.038f), blades),
@@ -110,9 +121,9 @@ float groundHeight(glm::vec2 xz) {
         float r = glm::distance(xz, glm::vec2(m)) / m.z;
         height += m.w * std::exp(-r * r) * (1 + 0.5f * fractal(xz * 5.0f, 787, 2));
     }
-    // The rim goes under the meadow around it.
-    float rim = std::max(outward(xz) - 0.86f, 0.0f);
-    return height - 7.0f * rim * rim - 0.02f * ramp(0.6f, 0.9f, outward(xz));
+    // The rim goes under the meadow around it, gently.
+    float rim = std::max(outward(xz) - 0.70f, 0.0f);
+    return height * ramp(1.05f, 0.75f, outward(xz)) - 1.9f * rim * rim;
 }
 
 glm::vec3 settle(glm::vec3 block) {
@@ -164,6 +175,10 @@ void addGround(std::vector<Chart>& charts, const std::vector<Loop>& footprints) 
             std::min(boxDistance(xz, {-1.5f, 0.3f}, {-1.15f, 0.9f}), boxDistance(xz, {1.85f, 0.3f}, {2.1f, 0.8f}));
         d = std::min(d, glm::distance(xz, glm::vec2(2.3f, 1.95f)) - 0.62f);
         return ramp(0.12f, 0.06f, d);
+    };
+    chart.turf = [](glm::vec2 st) {
+        const Cover c = coverAt({st.x, -st.y});
+        return c.grass * (1 - ramp(0.0f, 0.3f, c.stone));
     };
     charts.push_back(std::move(chart));
 }

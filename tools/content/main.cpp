@@ -1,5 +1,5 @@
 // espalier-content OUT_DIR: generates Espalier's own sample content. In: nothing but options. Out: ruin.glb,
-// mask.png, terminals.glb; with --preview DIR, pictures of them.
+// mask.png, ivy.png, turf.png, terminals.glb, roofs.glb; with --preview DIR, pictures of them.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -9,9 +9,10 @@
 
 int main(int argc, char** argv) {
     using namespace espalier;
-    CLI::App app{"Generates Espalier's sample content: a ruin, its mask, leaves, bark and pebbles."};
+    CLI::App app{"Generates Espalier's sample content: a ruin, its layers, leaves, bark and pebbles."};
     content::Options options;
-    app.add_option("OUT_DIR", options.directory, "folder for ruin.glb, mask.png and terminals.glb; made if missing")
+    app.add_option("OUT_DIR", options.directory,
+                   "folder for ruin.glb, its layers, terminals.glb and roofs.glb; made if missing")
         ->required();
     app.add_option("--preview", options.previewDirectory, "folder for pictures of what was made");
     app.add_option("--textures", options.textureSize, "texels a side of the ruin's textures")

@@ -28,6 +28,11 @@ struct StoneLook {
 };
 Detail stoneDetail(const StonePlace& place, const StoneLook& look);
 
+// A tondo let into the wall: a dressed disc with a moulded rim and a wreath round a rosette. It takes the place of
+// `wall` within its reach of the middle; local: metres from there.
+inline constexpr float kTondoRadius = 0.46f;
+Detail tondoDetail(glm::vec2 local, const StoneLook& look, const Detail& wall);
+
 // An arched opening that stands on the ground.
 struct Arch {
     float centre = 0, halfWidth = 0, spring = 0, ring = 0;  // metres; ring: depth of the voussoirs

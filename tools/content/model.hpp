@@ -26,10 +26,12 @@ struct Picture {
 };
 
 // What a surface is like at one point of a chart. height: metres along the chart's normal, what the mesh is
-// displaced by and, as far as the mesh is too coarse for it, the normal map. albedo: linear.
+// displaced by and, as far as the mesh is too coarse for it, the normal map. bump: metres more for the normal map
+// alone. albedo: linear.
 struct Detail {
     float height = 0;
     glm::vec3 albedo{0.5f};
+    float bump = 0;
 };
 using DetailAt = std::function<Detail(glm::vec2 st)>;
 
@@ -42,7 +44,10 @@ struct Chart {
     std::vector<glm::vec3> normal;  // of the block-out there, unit
     std::vector<std::array<uint32_t, 3>> triangles;
     DetailAt detail;
-    std::function<float(glm::vec2 st)> mask;  // the guided grammar's mask, [0, 1]; empty: 0
+    // Painted layers, [0, 1]; empty: as the comment says everywhere.
+    std::function<float(glm::vec2 st)> mask;  // the guided grammar's path; 0
+    std::function<float(glm::vec2 st)> ivy;   // how much ivy the sample wants; 0.5
+    std::function<float(glm::vec2 st)> turf;  // where grass grows; 0
 };
 
 // Where a chart lies in the atlas: uv = offset + scale * (s, height - t), turned by a quarter where `turned`.
@@ -77,12 +82,12 @@ struct Assembly {
 // gutter: room between charts and at the border, as a fraction of the atlas' side.
 Assembly assemble(const std::vector<Chart>& charts, const std::function<glm::vec3(glm::vec3)>& warp, float gutter);
 
-// Base colour (sRGB), tangent-space normals (+Y up) and the mask over an assembly's atlas, `size` texels a side,
+// Base colour (sRGB), tangent-space normals (+Y up) and the layers over an assembly's atlas, `size` texels a side,
 // carried on into the gutters.
 struct Painted {
-    Picture color, normal, mask;
+    Picture color, normal, mask, ivy, turf;
 };
-Painted paint(const std::vector<Chart>& charts, const Assembly& assembly, int size, int maskSize);
+Painted paint(const std::vector<Chart>& charts, const Assembly& assembly, int size, int layerSize);
 
 // Fills texels whose `filled` is 0 from their neighbours, `rounds` texels wide; alpha is left as it is.
 void dilate(Picture& picture, std::vector<uint8_t> filled, int rounds);

@@ -1,5 +1,5 @@
 // Paints an atlas. In: charts with their detail functions, the assembly. Out: colour, the part of the relief that
-// the mesh leaves out as normals, and the mask, all carried on into the gutters.
+// the mesh leaves out as normals, and the layers, all carried on into the gutters.
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +52,10 @@ uint8_t toByte(float x) {
     return static_cast<uint8_t>(saturate(x) * 255.0f + 0.5f);
 }
 
+glm::vec2 uvOf(int x, int y, int side) {
+    return (glm::vec2(x, y) + 0.5f) / static_cast<float>(side);
+}
+
 }  // namespace
 
 float toSrgb(float x) {
@@ -86,12 +90,31 @@ void dilate(Picture& picture, std::vector<uint8_t> filled, int rounds) {
     }
 }
 
-Painted paint(const std::vector<Chart>& charts, const Assembly& assembly, int size, int maskSize) {
+Picture paintLayer(const std::vector<Chart>& charts, const Assembly& assembly, const Coverage& cover, int size,
+                   std::function<float(glm::vec2)> Chart::*layer, float otherwise) {
+    Picture out(size, size);
+    std::vector<uint8_t> filled(cover.chart.size(), 0);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            size_t at = static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x);
+            uint8_t* texel = out.at(x, y);
+            texel[0] = texel[1] = texel[2] = toByte(otherwise);
+            texel[3] = 255;
+            if (cover.chart[at] < 0) continue;
+            filled[at] = 1;
+            size_t c = static_cast<size_t>(cover.chart[at]);
+            if (auto& value = charts[c].*layer)
+                texel[0] = texel[1] = texel[2] = toByte(value(assembly.toSt(c, uvOf(x, y, size))));
+        }
+    dilate(out, filled, 4);
+    return out;
+}
+
+Painted paint(const std::vector<Chart>& charts, const Assembly& assembly, int size, int layerSize) {
     Coverage cover = rasterise(charts, assembly, size);
-    Painted out{Picture(size, size), Picture(size, size), Picture(maskSize, maskSize)};
+    Painted out{Picture(size, size), Picture(size, size), {}, {}, {}};
     std::vector<float> relief(cover.chart.size(), 0);
     std::vector<uint8_t> filled(cover.chart.size(), 0);
-    auto uvOf = [](int x, int y, int side) { return (glm::vec2(x, y) + 0.5f) / static_cast<float>(side); };
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             size_t at = static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x);
@@ -101,7 +124,7 @@ Painted paint(const std::vector<Chart>& charts, const Assembly& assembly, int si
             size_t c = static_cast<size_t>(cover.chart[at]);
             Detail d = charts[c].detail(assembly.toSt(c, uvOf(x, y, size)));
             for (int k = 0; k < 3; ++k) color[k] = toByte(toSrgb(saturate(d.albedo[k])));
-            relief[at] = d.height - cover.meshHeight[at];
+            relief[at] = d.height + d.bump - cover.meshHeight[at];
             filled[at] = 1;
         }
     float texel = assembly.atlasMetres / static_cast<float>(size);
@@ -127,22 +150,12 @@ Painted paint(const std::vector<Chart>& charts, const Assembly& assembly, int si
             for (int k = 0; k < 3; ++k) texelOut[k] = toByte(n[k] * 0.5f + 0.5f);
             texelOut[3] = 255;
         }
-    Coverage maskCover = rasterise(charts, assembly, maskSize);
-    std::vector<uint8_t> maskFilled(maskCover.chart.size(), 0);
-    for (int y = 0; y < maskSize; ++y)
-        for (int x = 0; x < maskSize; ++x) {
-            size_t at = static_cast<size_t>(y) * static_cast<size_t>(maskSize) + static_cast<size_t>(x);
-            uint8_t* m = out.mask.at(x, y);
-            m[3] = 255;
-            if (maskCover.chart[at] < 0) continue;
-            maskFilled[at] = 1;
-            size_t c = static_cast<size_t>(maskCover.chart[at]);
-            float value = charts[c].mask ? charts[c].mask(assembly.toSt(c, uvOf(x, y, maskSize))) : 0.0f;
-            m[0] = m[1] = m[2] = toByte(value);
-        }
     dilate(out.color, filled, size / 100);
     dilate(out.normal, filled, size / 100);
-    dilate(out.mask, maskFilled, 4);
+    const Coverage layerCover = rasterise(charts, assembly, layerSize);
+    out.mask = paintLayer(charts, assembly, layerCover, layerSize, &Chart::mask, 0);
+    out.ivy = paintLayer(charts, assembly, layerCover, layerSize, &Chart::ivy, 0.5f);
+    out.turf = paintLayer(charts, assembly, layerCover, layerSize, &Chart::turf, 0);
     return out;
 }
 

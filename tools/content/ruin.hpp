@@ -13,7 +13,7 @@ struct Ruin {
     Painted painted;
 };
 
-// textureSize: of colour and normals, a power of two; the mask has half of it.
+// textureSize: of colour and normals, a power of two; the layers have half of it.
 Ruin makeRuin(int textureSize);
 
 // Height of the ground at (x, z) of the block-out, metres, without its relief.

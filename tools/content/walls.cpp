@@ -80,6 +80,26 @@ float mainMask(glm::vec2 p, const Elevation& wall) {
     return ramp(0.26f, 0.20f, d + 0.05f * fractal(p * 4.0f, 481, 2));
 }
 
+// Where the sample wants ivy on the front: none round the tondo, plenty over the arch.
+constexpr glm::vec2 kTondo{-1.62f, 2.05f};
+float frontIvy(glm::vec2 p, const Elevation& wall) {
+    const Arch& arch = wall.arch();
+    float r = glm::distance(p, glm::vec2(arch.centre, arch.spring));
+    float over = ramp(0.34f, 0.18f, std::abs(r - arch.halfWidth - 0.25f)) * ramp(-0.1f, 0.3f, p.y - arch.spring);
+    float bare =
+        ramp(kTondoRadius + 0.02f, kTondoRadius + 0.10f, glm::distance(p, kTondo) + 0.03f * fractal(p * 5.0f, 487, 2));
+    return bare * glm::mix(0.5f, 0.85f, over);
+}
+
+// On the back it keeps to paths: one that winds up to the crest, one by the corner, and what is beside the arch.
+float backIvy(glm::vec2 p) {
+    float d = strokeDistance(
+        p, {{-1.6f, -0.2f}, {-1.45f, 0.7f}, {-1.85f, 1.5f}, {-1.65f, 2.3f}, {-2.05f, 3.0f}, {-2.1f, 3.7f}});
+    d = std::min(d, strokeDistance(p, {{-3.1f, -0.2f}, {-3.25f, 1.9f}}) + 0.05f);
+    d = std::min(d, strokeDistance(p, {{2.3f, -0.2f}, {2.1f, 1.0f}, {1.75f, 2.2f}, {1.1f, 2.75f}}) - 0.1f);
+    return 0.62f * ramp(0.38f, 0.30f, d + 0.04f * fractal(p * 4.0f, 489, 2));
+}
+
 // A face of a wall lies in a vertical plane: a point (along, y) of the elevation is at block(along, y).
 struct Face {
     const char* name;
@@ -153,10 +173,12 @@ void addFace(std::vector<Chart>& charts, const Elevation& wall, const Face& face
         look.st = st;
         look.aboveGround = p.y;
         look.belowCrest = wall.belowCrest(p);
-        return stoneDetail(place, look);
+        Detail stone = stoneDetail(place, look);
+        return face.side == 0 ? tondoDetail(p - kTondo, look, stone) : stone;
     };
-    if (wall.arch().present() && face.side == 0)
-        chart.mask = [wall, face](glm::vec2 st) { return mainMask({face.sign * st.x, st.y}, wall); };
+    if (face.side == 0) chart.ivy = [wall](glm::vec2 st) { return frontIvy(st, wall); };
+    if (face.side == 1) chart.ivy = [face](glm::vec2 st) { return backIvy({face.sign * st.x, st.y}); };
+    if (face.side == 0) chart.mask = [wall, face](glm::vec2 st) { return mainMask({face.sign * st.x, st.y}, wall); };
     charts.push_back(std::move(chart));
 }
 
