@@ -95,6 +95,16 @@ FN uint childCount(RuleRecord rule, RoofCells cells, RoofScope shape, RoofAtom a
     }
 }
 
+// What lies on top of a face and leads to none above has no face to join: successors that do nothing else there take only
+// pieces that go on.
+CONST_UINT(kPartGoesOn, 15u);
+FN bool joinsRoofOnly(RoofEnv env, uint successor) {
+    SymbolRecord symbol = roofSymbol(env, roofSuccessor(env, successor).symbol);
+    if (symbol.ruleCount != 1u) return false;
+    RuleRecord rule = roofRule(env, symbol.firstRule);
+    return rule.kind == kRuleJoin && rule.extrude != 0u;
+}
+
 // The parts that a rule's successors take, four bits each.
 struct RoofParts {
     uint count, low, high;
@@ -107,6 +117,7 @@ FN RoofParts partsOf(RoofEnv env, RuleRecord rule) {
     uint i = 0u;
     if (p.count != 0u) do {
             uint part = roofPartOf(env, rule.firstSuccessor + i) & 15u;
+            if (part == 2u && rule.kind == kRuleJoin && joinsRoofOnly(env, rule.firstSuccessor + i)) part = kPartGoesOn;
             if (i < 8u)
                 p.low |= part << (4u * i);
             else
@@ -123,9 +134,9 @@ FN bool mayTake(RoofEnv env, RuleRecord rule, RoofScope shape, uint firstPiece, 
         case kRuleExtrude: return part == ((shape.marks & kShapeSegment) != 0u ? k : k >> 2u);
         case kRuleJoin: {
             if (rule.extrude == 0u || k < 2u) return part == k;
-            if (part != 2u) return false;
+            if (part != 2u && part != kPartGoesOn) return false;
             PieceBrief piece = readPieceBrief(env, firstPiece + k - 2u);
-            return piece.kind == 3u || piece.upper != kNoIndex;
+            return piece.upper != kNoIndex || (piece.kind == 3u && part == 2u);
         }
         case kRuleExplode: return outline && k >= 2u ? part >= 2u : part == k;
         case kRuleSplit: return part == k;
