@@ -104,7 +104,8 @@ class GpuRoofs final : public RoofGrowth {
     Buffer layers_[kRoofLayers];
     uint64_t grammarRevision_ = 0;
     uint32_t wavesAhead_ = 4;
-    Counts own_, sent_;  // of the town's tables: room, and what the published set holds
+    Counts own_, sent_;             // of the town's tables: room, and what the published set holds
+    std::vector<RoofScope> start_;  // the first wave; kept, since fresh memory costs more than filling it
     std::vector<uint32_t> generationOf_, reads_;
     std::vector<Box> boxes_;  // [house]
     RoofStatus last_{};

@@ -83,6 +83,7 @@ RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set, uint32_t
 
 void GpuRoofs::record(Commands& commands, const Texels& texels, uint32_t waves) {
     {
+        // One pass: on software devices each time stamp wakes all threads, which one house would feel.
         Pass pass(commands, "roof expand");
         for (uint32_t w = 0; w < waves; ++w) {
             pass.dispatchIndirect(derive_, waves_, w * sizeof(RoofWave) + offsetof(RoofWave, groups), w,
@@ -90,9 +91,6 @@ void GpuRoofs::record(Commands& commands, const Texels& texels, uint32_t waves) 
                                    texels.pieces, texels.shapes[w & 1]});
             pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
         }
-    }
-    {
-        Pass pass(commands, "roof rows");
         pass.dispatchIndirect(runs_, status_, offsetof(RoofStatus, gridGroups), {},
                               {env_, texels.grids, texels.regions, texels.parts, texels.planes});
         pass.barrier(Use::compute, Use::transfer | Use::compute | Use::vertex);
@@ -105,7 +103,7 @@ void GpuRoofs::record(Commands& commands, const Texels& texels, uint32_t waves) 
 
 GpuRoofs::Outcome GpuRoofs::readBack() {
     Outcome outcome;
-    outcome.ms = device_.milliseconds("roof expand") + device_.milliseconds("roof rows");
+    outcome.ms = device_.milliseconds("roof expand");
     std::memcpy(&outcome.status, readback_.mapped(), sizeof(RoofStatus));
     std::array<RoofWave, kRoofWaves> waves;
     std::memcpy(static_cast<void*>(waves.data()), readback_.mapped() + sizeof(RoofStatus), sizeof(waves));
@@ -121,7 +119,8 @@ GpuRoofs::Outcome GpuRoofs::readBack() {
 Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
                                            RoofStatus status, Counts& sent, uint32_t waves) {
     const RoofTables& t = *inputs.town;
-    std::vector<RoofScope> start;
+    std::vector<RoofScope>& start = start_;
+    start.clear();
     const uint32_t symbol = inputs.grammar->startSymbol();
     for (uint32_t house : houses) appendStartShapes(t, house, symbol, start);
     for (uint32_t h = 0; houses.empty() && h < t.houses.size(); ++h) appendStartShapes(t, h, symbol, start);
@@ -166,7 +165,8 @@ Result<GpuRoofs::Outcome> GpuRoofs::expandWhole(const RoofInputs& inputs, Set& s
                                                 RoofStatus status, Counts& sent) {
     Result<Outcome> outcome = expand(inputs, set, houses, status, sent, wavesAhead_);
     if (outcome && !outcome->complete) outcome = expand(inputs, set, houses, status, sent, kRoofWaves - 1);
-    if (outcome) wavesAhead_ = std::min(std::max(wavesAhead_, outcome->waves), kRoofWaves - 1);
+    if (outcome)
+        wavesAhead_ = std::min(houses.empty() ? outcome->waves : std::max(wavesAhead_, outcome->waves), kRoofWaves - 1);
     return outcome;
 }
 
