@@ -43,6 +43,7 @@ struct Footprint {
     std::vector<std::vector<glm::dvec2>> rings;  // plan metres, not closed; outer ring first, any orientation
     std::vector<EdgeRoof> edges;
     RoofShape shape = RoofShape::hip;
+    bool part = false;                 // building:part: stands for its share of an outline
     std::optional<double> roofHeight;  // metres from eave to ridge; else slope counts
     std::optional<double> slope;       // tangent of the pitch; else the shape's own
     std::optional<double> direction;   // radians clockwise from north, where the roof falls to: sheds

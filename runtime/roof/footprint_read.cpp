@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/core/file.hpp"
-#include "runtime/roof/footprint.hpp"
+#include "runtime/roof/footprint_parts.hpp"
 #include "runtime/roof/footprint_tags.hpp"
 
 namespace espalier {
@@ -193,6 +193,7 @@ Result<Town> parseFootprints(const std::string& text, const std::string& file) {
         return Failure(file, "is neither GeoJSON with features nor a plan with buildings");
     }
     reader.place();
+    leaveOutlinesToParts(reader.town);
     return std::move(reader.town);
 }
 

@@ -80,6 +80,8 @@ class Tags {
 
     void apply() {
         shape();
+        const json* part = find("building:part");
+        f_.part = part && *part != "no";
         number("height", 0.1, 1000, f_.height);
         number("building:levels", 0, 300, f_.levels);
         number("roof:levels", 0, 50, f_.roofLevels);

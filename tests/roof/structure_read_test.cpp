@@ -125,6 +125,28 @@ TEST_CASE("one bad feature leaves the rest of the town standing") {
     }
 }
 
+TEST_CASE("parts of a building stand for its outline") {
+    auto box = [](const char* id, double x0, double x1, const char* tags) {
+        const std::string a = std::to_string(x0), b = std::to_string(x1);
+        return "{\"id\":\"" + std::string(id) + "\",\"outer\":[[" + a + ",0],[" + b + ",0],[" + b + ",8],[" + a +
+               ",8]]" + tags + "}";
+    };
+    const char* part = ",\"building:part\":\"yes\",\"height\":12";
+    auto ids = [&](std::string buildings) {
+        Result<Town> t = parseFootprints("{\"buildings\":[" + buildings + "]}", "plan");
+        REQUIRE(t);
+        std::string all;
+        for (const Footprint& f : t->footprints) all += f.id + " ";
+        return all;
+    };
+    CHECK(ids(box("whole", 0, 20, "") + "," + box("left", 0, 9, part) + "," + box("right", 9, 20, part)) ==
+          "left right ");
+    // A tower on half of a house leaves the house standing; so do parts of the house beside it.
+    CHECK(ids(box("whole", 0, 20, "") + "," + box("tower", 0, 9, part)) == "whole tower ");
+    CHECK(ids(box("whole", 0, 20, "") + "," + box("beside", 21, 42, part)) == "whole beside ");
+    CHECK(ids(box("whole", 0, 20, "") + "," + box("not", 0, 20, ",\"building:part\":\"no\"")) == "whole not ");
+}
+
 TEST_CASE("files that are no towns") {
     for (auto [text, cause] :
          {std::pair("", "is not JSON"), std::pair("{\"type\":\n \"FeatureCollection\", ]", ":2:23: is not JSON"),
