@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 
 #include "runtime/core/jobs.hpp"
 #include "runtime/roof/check.hpp"
@@ -28,6 +29,23 @@ const double kDefaultSlope[] = {0.7, 0.7, 0.7, 1.0, 0.268, 1.732, 2.747, 0};  //
 double defaultSlope(RoofShape shape) {
     return kDefaultSlope[size_t(shape)];
 }
+
+// A way to make a skeleton. Corners moved by less than kJoin take ties apart; the nodes so made fall into one again.
+struct Way {
+    Precision precision;
+    double jitter;
+    uint32_t seed;
+};
+// Each surer and slower than the one before.
+constexpr Way kWays[] = {{Precision::fast, 0, 0},    {Precision::high, 0, 0},    {Precision::fast, 1e-7, 1},
+                         {Precision::high, 1e-8, 2}, {Precision::high, 1e-7, 3}, {Precision::high, 1e-6, 4},
+                         {Precision::high, 1e-6, 5}, {Precision::high, 3e-6, 6}};
+// Of outlines with many corners: there ties come by the hundred, in stars say, and taking them apart is cheaper.
+constexpr size_t kMany = 200;
+constexpr Way kWaysOfMany[] = {{Precision::fast, 0, 0},    {Precision::fast, 1e-7, 1}, {Precision::fast, 1e-6, 2},
+                               {Precision::fast, 3e-6, 3}, {Precision::high, 0, 0},    {Precision::high, 1e-7, 4},
+                               {Precision::high, 1e-6, 5}, {Precision::high, 3e-6, 6}};
+constexpr uint64_t kLeastWayWork = 1'000'000;
 
 // A skeleton to make, and what becomes of it.
 struct Plan {
@@ -116,22 +134,19 @@ class HouseMaker {
 
     // Tries ways to make the skeleton, each surer and slower than the one before, until `use` is content with one.
     bool attempt(const Plan& plan, const std::function<bool(Facets&)>& use) const {
-        struct Way {
-            Precision precision;
-            double jitter;
-            uint32_t seed;
-        };
-        // Corners moved by less than kJoin take ties apart; the nodes so made fall into one again.
-        static constexpr Way ways[] = {{Precision::fast, 0, 0},    {Precision::high, 0, 0},
-                                       {Precision::fast, 1e-7, 1}, {Precision::high, 1e-8, 2},
-                                       {Precision::high, 1e-7, 3}, {Precision::high, 1e-6, 4},
-                                       {Precision::high, 1e-6, 5}, {Precision::high, 3e-6, 6}};
-        for (const Way& way : ways) {
+        // Where many corners meet at once, doubles and rounding make a tangle: a way may cost no more than some times
+        // what looking at each pair of edges does.
+        const uint64_t most = kLeastWayWork + 2 * uint64_t(edges_.corner.size()) * edges_.corner.size();
+        for (const Way& way : edges_.corner.size() > kMany ? std::span<const Way>(kWaysOfMany) : kWays) {
             if (work_ == 0) break;
+            uint64_t work = std::min(work_, most * (way.precision == Precision::high ? 8 : 1));
+            work_ -= work;
             Skeleton skeleton;
             SkeletonInput moved;
             if (way.jitter > 0) moved = jittered(plan.input, way.jitter, way.seed);
-            if (!straightSkeleton(way.jitter > 0 ? moved : plan.input, way.precision, skeleton, work_)) continue;
+            const bool made = straightSkeleton(way.jitter > 0 ? moved : plan.input, way.precision, skeleton, work);
+            work_ += work;
+            if (!made) continue;
             for (size_t i = 0; i < edges_.corner.size(); i++) skeleton.nodes[i] = glm::dvec3(edges_.corner[i], 0);
             Facets facets;
             if (!facetsOf(skeleton, faceSlopes(plan, skeleton), facets)) continue;

@@ -43,7 +43,7 @@ Wavefront<T>::Wavefront(const SkeletonInput& input, Tolerance tolerance, Skeleto
             glm::dvec2 a = ring[i], b = ring[(i + 1) % count];
             out_.nodes.push_back({a.x, a.y, 0});
             out_.faces.push_back({edge, 0, edge, first + (i + 1) % count});
-            lines_.push_back(lineThrough({a.x, a.y}, {b.x, b.y}, input.speeds[edge]));
+            addLine(lineThrough({a.x, a.y}, {b.x, b.y}, input.speeds[edge]));
         }
     }
     sides_.resize(lines_.size());
@@ -65,6 +65,13 @@ typename Wavefront<T>::Line Wavefront<T>::lineThrough(Vec<T> a, Vec<T> b, T spee
     T length = root(dot(d, d));
     Vec<T> along{d.x / length, d.y / length}, normal{-along.y, along.x};
     return {along, normal, dot(normal, a), speed};
+}
+
+template <class T>
+void Wavefront<T>::addLine(const Line& line) {
+    lines_.push_back(line);
+    if constexpr (kHigh)
+        nearLines_.push_back({{double(line.normal.x), double(line.normal.y)}, double(line.offset), double(line.speed)});
 }
 
 template <class T>
@@ -210,6 +217,30 @@ void Wavefront<T>::scheduleSplit(int corner) {
     events_.push({std::max(next.time, now_), Kind::split, corner, next.face});
 }
 
+template <class T>
+typename Wavefront<T>::Reach Wavefront<T>::reachOf(const Corner& c, T until) const {
+    const double born = double(c.born);
+    return {{double(c.start.x), double(c.start.y)},
+            {double(c.velocity.x), double(c.velocity.y)},
+            born,
+            double(c.searched) - born,
+            double(until) - born};
+}
+
+// In doubles: does the corner surely not meet this line in the time looked at? Most don't, and the number type may be
+// dear. The slack is some thousand times what rounding does to metres of a town.
+template <class T>
+bool Wavefront<T>::beyond(const Reach& r, int face) const {
+    if constexpr (!kHigh) return false;
+    const Vec<double> normal = nearLines_[size_t(face)].normal;
+    const double closing = nearLines_[size_t(face)].speed - dot(normal, r.velocity),
+                 slack = 1e-6 * (1 + std::min(r.longest, 1e6));
+    if (closing < -1e-6) return true;
+    const double distance =
+        dot(normal, r.start) - nearLines_[size_t(face)].offset - nearLines_[size_t(face)].speed * r.born;
+    return distance < -slack || distance > r.longest * closing + slack || distance < r.least * closing - slack;
+}
+
 // Puts the next meetings with lines after `searched` into the pool, all up to the horizon or as many as are worth
 // sorting.
 template <class T>
@@ -218,9 +249,12 @@ void Wavefront<T>::findSplits(int corner, T horizon) {
     Corner& c = corners_[corner];
     found_.clear();
     T until = horizon + tolerance_.length;
+    const Reach reach = reachOf(c, until);
+    size_t looked = 0;
     for (int f = 0; f < int(lines_.size()); f++) {
-        if (f == c.left || f == c.right) continue;
+        if (f == c.left || f == c.right || beyond(reach, f)) continue;
         const Line& line = lines_[f];
+        looked++;
         T closing = line.speed - dot(line.normal, c.velocity);
         if (!(closing > 0)) continue;
         T distance = dot(line.normal, c.start) - line.offset - line.speed * c.born;
@@ -237,7 +271,7 @@ void Wavefront<T>::findSplits(int corner, T horizon) {
         until = cut;
     }
     std::sort(found_.begin(), found_.end());
-    const uint64_t done = lines_.size() * (sizeof(T) > sizeof(double) ? kHighWork : 1);
+    const uint64_t done = lines_.size() + (kHigh ? kHighWork * looked : 0);
     work_ -= std::min(work_, done);
     c.searched = until;
     c.candidate = int(pool_.size());
@@ -334,7 +368,7 @@ void Wavefront<T>::breakAll() {
         line.offset = line.offset + (line.speed - speed) * now_;
         line.speed = speed;
         faceAbove[c] = int(lines_.size());
-        lines_.push_back(line);
+        addLine(line);
         sides_.emplace_back();
         out_.faces.push_back({edge, 1, 0, 0});
     }

@@ -65,6 +65,20 @@ class Wavefront {
     };
 
     Vec<T> at(const Corner& c, T time) const { return c.start + (time - c.born) * c.velocity; }
+    // A line, and where a corner moves in the time looked at, in doubles.
+    struct NearLine {
+        Vec<double> normal;
+        double offset, speed;
+    };
+    struct Reach {
+        Vec<double> start, velocity;
+        double born, least, longest;  // from its birth
+    };
+    static constexpr bool kHigh = sizeof(T) > sizeof(double);
+
+    void addLine(const Line& line);
+    Reach reachOf(const Corner& c, T until) const;
+    bool beyond(const Reach& reach, int face) const;
     Line lineThrough(Vec<T> a, Vec<T> b, T speed) const;
     uint32_t addNode(Vec<T> p, T time);
     void addArc(uint32_t from, uint32_t to, int left, int right);
@@ -89,6 +103,7 @@ class Wavefront {
     const Tolerance tolerance_;
     Skeleton& out_;
     std::vector<Line> lines_;              // a face each
+    std::vector<NearLine> nearLines_;      // likewise, where T is dear
     std::vector<std::vector<int>> sides_;  // a face each: the corners at which its sides begin or began
     std::vector<Corner> corners_;
     std::priority_queue<Event> events_;

@@ -141,6 +141,28 @@ TEST_CASE("slopes and gables an edge") {
     MESSAGE(fixtures << " fixtures");
 }
 
+TEST_CASE("stars of many spikes stand under every kind of break") {
+    // Regular: all spikes' roofs meet at one moment, in the middle.
+    for (bool regular : {true, false})
+        for (RoofShape shape : {RoofShape::hip, RoofShape::mansard, RoofShape::gambrel}) {
+            constexpr int kCorners = 1500;
+            Ring ring;
+            for (int i = 0; i < kCorners; i++) {
+                const double wide = regular ? 0 : 4 * std::sin(2.3 * i), turn = regular ? 0 : 0.2 * std::sin(5.1 * i);
+                const double angle = 2 * 3.14159265358979 * (i + turn) / kCorners;
+                ring.push_back((i % 2 ? 20 : 40 + wide) * glm::dvec2(std::cos(angle), std::sin(angle)));
+            }
+            Footprint f = outline(regular ? "star" : "ragged star", {ring});
+            f.shape = shape;
+            std::vector<Diagnostic> said;
+            const RoofStructure roof = roofOf(f, said);
+            INFO(f.id << " as shape " << uint32_t(shape) << ": " << toString(said));
+            REQUIRE(roof.houses.size() == 1);
+            CHECK(roof.houses[0].shape == shape);
+            CHECK(judge(roof, 0).problem == "");
+        }
+}
+
 TEST_CASE("hairline outlines") {
     // Ties missed by a hair of every size, from a grid line to a centimetre.
     for (double hair : {1e-6, 1e-5, 1e-4, 1e-3, 4e-3, 6e-3, 1e-2})
