@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "runtime/core/disjoint_sets.hpp"
 
@@ -77,7 +76,7 @@ Bodies::Bodies(ContactMesh& mesh, std::span<const float> open) : mesh_(&mesh), t
     }
     mesh.solid.resize(bodies);
     for (size_t b = 0; b < bodies; ++b) mesh.solid[b] = volume[b] > 0 && capArea[b] < kMostCap * area[b];
-    buildWalls(walls);
+    buildSolids(walls);
 
     // What is flatter than the tolerance is a sheet that lies on another.
     const double tolerance = mesh.reach.empty() ? 0 : *std::max_element(mesh.reach.begin(), mesh.reach.end());
@@ -94,17 +93,29 @@ Bodies::Bodies(ContactMesh& mesh, std::span<const float> open) : mesh_(&mesh), t
     bool more = false;
     for (size_t b = 0; b < bodies; ++b)
         if (length[b] > 0 && closed[b] >= kClosed * length[b]) mesh.solid[b] = 1, more = true;
-    if (more) buildWalls(walls);
+    if (more) buildSolids(walls);
 }
 
-void Bodies::buildWalls(const std::vector<Wall>& all) {
-    walls_.clear();
-    std::copy_if(all.begin(), all.end(), std::back_inserter(walls_),
-                 [&](const Wall& w) { return mesh_->solid[w.body] != 0; });
-    std::vector<Box> boxes(walls_.size());
-    for (size_t i = 0; i < boxes.size(); ++i)
-        boxes[i].add(walls_[i].a), boxes[i].add(walls_[i].b), boxes[i].add(walls_[i].c);
-    wallTree_ = BoxTree(std::move(boxes), {});
+void Bodies::buildSolids(const std::vector<Wall>& all) {
+    solids_.clear();
+    std::vector<uint32_t> place(mesh_->solid.size(), kNoIndex);
+    for (const Wall& w : all) {
+        if (!mesh_->solid[w.body]) continue;
+        if (place[w.body] == kNoIndex) {
+            place[w.body] = uint32_t(solids_.size());
+            solids_.push_back({w.body, {}, {}});
+        }
+        solids_[place[w.body]].walls.push_back(w);
+    }
+    std::vector<Box> bounds;
+    for (Solid& solid : solids_) {
+        std::vector<Box> boxes(solid.walls.size());
+        for (size_t i = 0; i < boxes.size(); ++i)
+            boxes[i].add(solid.walls[i].a), boxes[i].add(solid.walls[i].b), boxes[i].add(solid.walls[i].c);
+        solid.tree = BoxTree(std::move(boxes), {});
+        bounds.push_back(solid.tree.bounds());
+    }
+    solidTree_ = BoxTree(std::move(bounds), {});
 }
 
 bool Bodies::touched(glm::dvec3 p, uint32_t body, double tolerance) const {
@@ -115,36 +126,31 @@ bool Bodies::touched(glm::dvec3 p, uint32_t body, double tolerance) const {
         if (!found && mesh_->triangles[t].body != body)
             found = toTriangle(p, {mesh_->at(t, 0), mesh_->at(t, 1), mesh_->at(t, 2)}) <= tolerance;
     });
-    return found || (!wallTree_.empty() && inside({p, glm::dvec3(0), body}, 0));
+    return found || inside({p, glm::dvec3(0), body}, 0);
 }
 
-bool Bodies::inside(glm::dvec3 p, glm::dvec3 direction, const HiddenQuery& q) const {
-    struct Count {
-        uint32_t body;
-        int count;
-    };
-    thread_local std::vector<Count> counts;
-    counts.clear();
-    wallTree_.along(p, direction, [&](uint32_t i) {
-        const Wall& w = walls_[i];
-        if (w.body == q.body || w.body == q.except) return;
-        int passed = passage(w.a, w.b, w.c, p, direction);
-        if (passed == 0) return;
-        for (Count& c : counts)
-            if (c.body == w.body) {
-                c.count += passed;
-                return;
-            }
-        counts.push_back({w.body, passed});
-    });
-    return std::any_of(counts.begin(), counts.end(), [](const Count& c) { return c.count > 0; });
+bool Bodies::Solid::encloses(glm::dvec3 p, glm::dvec3 ray) const {
+    int count = 0;
+    tree.along(p, ray, [&](uint32_t i) { count += passage(walls[i].a, walls[i].b, walls[i].c, p, ray); });
+    return count > 0;
 }
 
 // Two rays that agree decide; a ray along an edge may err.
+bool Bodies::Solid::encloses(glm::dvec3 p) const {
+    const bool first = encloses(p, kRays[0]);
+    return encloses(p, kRays[1]) == first ? first : encloses(p, kRays[2]);
+}
+
 bool Bodies::inside(const HiddenQuery& q, double above) const {
-    glm::dvec3 p = q.position + q.normal * above;
-    bool first = inside(p, kRays[0], q);
-    return inside(p, kRays[1], q) == first ? first : inside(p, kRays[2], q);
+    const glm::dvec3 p = q.position + q.normal * above;
+    Box place;
+    place.add(p);
+    bool found = false;
+    solidTree_.near(place, [&](uint32_t i) {
+        const Solid& s = solids_[i];
+        found = found || (s.body != q.body && s.body != q.except && s.encloses(p));
+    });
+    return found;
 }
 
 bool Bodies::covered(const HiddenQuery& q, double tolerance) const {

@@ -35,17 +35,24 @@ class Bodies {
         glm::dvec3 a, b, c;
         uint32_t body;
     };
+    // A solid body: its triangles and what closes its holes.
+    struct Solid {
+        uint32_t body;
+        std::vector<Wall> walls;
+        BoxTree tree;
+        bool encloses(glm::dvec3 p) const;
+        bool encloses(glm::dvec3 p, glm::dvec3 ray) const;
+    };
     // Is p on or in another body?
     bool touched(glm::dvec3 p, uint32_t body, double tolerance) const;
-    void buildWalls(const std::vector<Wall>& all);
+    void buildSolids(const std::vector<Wall>& all);
     bool inside(const HiddenQuery& query, double above) const;
-    bool inside(glm::dvec3 p, glm::dvec3 direction, const HiddenQuery& query) const;
     bool covered(const HiddenQuery& query, double tolerance) const;
 
     const ContactMesh* mesh_ = nullptr;
     BoxTree tree_;
-    std::vector<Wall> walls_;  // triangles of solid bodies and what closes their holes
-    BoxTree wallTree_;
+    std::vector<Solid> solids_;
+    BoxTree solidTree_;
 };
 
 }  // namespace espalier

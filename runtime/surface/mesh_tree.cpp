@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace espalier {
 namespace {
@@ -61,11 +61,14 @@ glm::vec2 nearestWeights(glm::vec3 ab, glm::vec3 ac, glm::vec3 p) {
 MeshTree::MeshTree(std::span<const glm::vec3> positions, std::span<const uint32_t> indices) {
     const uint32_t count = uint32_t(indices.size() / 3);
     if (count == 0) return;
-    std::vector<glm::vec3> centres(count);
+    struct Item {
+        glm::vec3 centre;
+        uint32_t triangle;
+    };
+    std::vector<Item> order(count);
     for (uint32_t i = 0; i < count; ++i)
-        centres[i] = (positions[indices[3 * i]] + positions[indices[3 * i + 1]] + positions[indices[3 * i + 2]]) / 3.f;
-    std::vector<uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0u);
+        order[i] = {(positions[indices[3 * i]] + positions[indices[3 * i + 1]] + positions[indices[3 * i + 2]]) / 3.f,
+                    i};
 
     nodes_.reserve(count);
     nodes_.push_back({});
@@ -76,35 +79,46 @@ MeshTree::MeshTree(std::span<const glm::vec3> positions, std::span<const uint32_
     while (!open.empty()) {
         const Piece piece = open.back();
         open.pop_back();
-        glm::vec3 low(kInfinity), high(-kInfinity), lowCentre(kInfinity), highCentre(-kInfinity);
+        Node& node = nodes_[piece.node];
+        node = {glm::vec3(kInfinity), glm::vec3(-kInfinity), piece.begin, piece.end - piece.begin};
+        if (node.count <= kLeafTriangles) {
+            for (uint32_t i = piece.begin; i < piece.end; ++i)
+                for (uint32_t k = 0; k < 3; ++k) {
+                    const glm::vec3 p = positions[indices[3 * order[i].triangle + k]];
+                    node.low = glm::min(node.low, p);
+                    node.high = glm::max(node.high, p);
+                }
+            continue;
+        }
+        glm::vec3 low(kInfinity), high(-kInfinity);
         for (uint32_t i = piece.begin; i < piece.end; ++i) {
-            for (int k = 0; k < 3; ++k) {
-                const glm::vec3 p = positions[indices[3 * order[i] + k]];
-                low = glm::min(low, p);
-                high = glm::max(high, p);
-            }
-            lowCentre = glm::min(lowCentre, centres[order[i]]);
-            highCentre = glm::max(highCentre, centres[order[i]]);
+            low = glm::min(low, order[i].centre);
+            high = glm::max(high, order[i].centre);
         }
-        Node node{low, high, piece.begin, piece.end - piece.begin};
-        if (node.count > kLeafTriangles) {
-            const glm::vec3 size = highCentre - lowCentre;
-            const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-            const uint32_t middle = (piece.begin + piece.end) / 2;
-            std::nth_element(order.begin() + piece.begin, order.begin() + middle, order.begin() + piece.end,
-                             [&](uint32_t a, uint32_t b) { return centres[a][axis] < centres[b][axis]; });
-            node.first = uint32_t(nodes_.size());
-            node.count = 0;
-            nodes_.push_back({});
-            nodes_.push_back({});
-            open.push_back({node.first, piece.begin, middle});
-            open.push_back({node.first + 1, middle, piece.end});
-        }
-        nodes_[piece.node] = node;
+        const glm::vec3 size = high - low;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const uint32_t middle = (piece.begin + piece.end) / 2;
+        std::nth_element(order.begin() + piece.begin, order.begin() + middle, order.begin() + piece.end,
+                         [&](const Item& a, const Item& b) { return a.centre[axis] < b.centre[axis]; });
+        const uint32_t first = uint32_t(nodes_.size());
+        node.first = first;
+        node.count = 0;
+        nodes_.resize(nodes_.size() + 2);
+        open.push_back({first, piece.begin, middle});
+        open.push_back({first + 1, middle, piece.end});
+    }
+    // Children come after their parents.
+    for (size_t i = nodes_.size(); i-- > 0;) {
+        Node& node = nodes_[i];
+        if (node.count > 0) continue;
+        const Node &a = nodes_[node.first], &b = nodes_[node.first + 1];
+        node.low = glm::min(a.low, b.low);
+        node.high = glm::max(a.high, b.high);
     }
 
     triangles_.reserve(count);
-    for (uint32_t i : order) {
+    for (const Item& item : order) {
+        const uint32_t i = item.triangle;
         const glm::vec3 a = positions[indices[3 * i]];
         triangles_.push_back({a, positions[indices[3 * i + 1]] - a, positions[indices[3 * i + 2]] - a, i});
     }

@@ -2,6 +2,7 @@
 // face clustering), then borders straightened triangle by triangle, as creases, length and fit ask for.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 #include "tools/bake/atlas.hpp"
@@ -15,35 +16,38 @@ constexpr double kPlainCost = 0.004;  // of a flat region's area: small ones are
 constexpr double kCreaseCost = 6;     // how much dearer it is to merge over creases
 constexpr double kCrease = 0.8;       // cosine, 37°: edges that are sharper are creases
 constexpr int kSweeps = 12;           // of straightening
+constexpr float kNever = std::numeric_limits<float>::infinity();
 
 struct Neighbour {
     uint32_t cluster;
     float length, crease;  // of the shared border, and how much of it is creases
+    float cost;            // of merging the two; infinite: they aren't merged
+    bool asked;            // by this cluster, of the two the one that changed last
 };
 
 struct Cluster {
     glm::dvec3 normal{0};  // sum of area times normal
     double area = 0, border = 0;
-    uint32_t stamp = 0;  // counts merges: tells which entries of the queue are out of date
     std::vector<Neighbour> neighbours;
 };
 
+// Equal costs are settled by who asked whom.
 struct Merge {
-    float cost;
-    uint32_t a, b, stampA, stampB;
-    bool operator<(const Merge& o) const {
-        return std::tie(o.cost, o.a, o.b) < std::tie(cost, a, b);  // the cheapest on top
-    }
+    float cost = kNever;
+    uint32_t a = kNone, b = kNone;
+    bool operator<(const Merge& o) const { return std::tie(cost, a, b) < std::tie(o.cost, o.a, o.b); }
+    bool operator==(const Merge&) const = default;
 };
 
 double edgeLength(const BakeMesh& mesh, uint32_t h) {
     return glm::length(mesh.pointAt(BakeMesh::next(h)) - mesh.pointAt(h));
 }
 
+// Each cluster knows its cheapest merge; a queue holds those, and earlier ones that are passed over.
 class Merger {
   public:
     Merger(const BakeMesh& mesh, const Facets& facets, const std::vector<uint8_t>& wanted)
-        : sets_(wanted.size()), clusters_(wanted.size()) {
+        : sets_(wanted.size()), clusters_(wanted.size()), cheapest_(wanted.size()) {
         for (uint32_t t = 0; t < wanted.size(); ++t) {
             if (!wanted[t]) continue;
             Cluster& c = clusters_[t];
@@ -55,25 +59,36 @@ class Merger {
                 uint32_t twin = mesh.twin[h];
                 if (twin == kNone || !wanted[twin / 3] || twin / 3 == t) continue;
                 bool crease = glm::dot(facets.normal[t], facets.normal[twin / 3]) < kCrease;
-                addNeighbour(c, {twin / 3, float(length), crease ? float(length) : 0.0f});
+                addNeighbour(c, {twin / 3, float(length), crease ? float(length) : 0.0f, kNever, t < twin / 3});
             }
         }
-        for (uint32_t t = 0; t < wanted.size(); ++t)
-            for (const Neighbour& n : clusters_[t].neighbours)
-                if (t < n.cluster) propose(t, n);
+        std::vector<Entry> all;
+        for (uint32_t t = 0; t < wanted.size(); ++t) {
+            for (Neighbour& n : clusters_[t].neighbours) n.cost = costOf(t, n);
+            cheapest_[t] = cheapestOf(t);
+            if (cheapest_[t].cost < kNever) all.push_back({cheapest_[t], t});
+        }
+        queue_ = Queue({}, std::move(all));
     }
 
     void run() {
         while (!queue_.empty()) {
-            Merge m = queue_.top();
+            const Entry e = queue_.top();
             queue_.pop();
-            if (clusters_[m.a].stamp == m.stampA && clusters_[m.b].stamp == m.stampB) merge(m.a, m.b);
+            if (cheapest_[e.cluster] == e.merge) merge(e.merge.a, e.merge.b);
         }
     }
     uint32_t clusterOf(uint32_t triangle) { return sets_.find(triangle); }
 
   private:
-    static void addNeighbour(Cluster& c, Neighbour n) {
+    struct Entry {
+        Merge merge;
+        uint32_t cluster;                                                 // whose cheapest it was
+        bool operator<(const Entry& o) const { return o.merge < merge; }  // the cheapest on top
+    };
+    using Queue = std::priority_queue<Entry>;
+
+    static void addNeighbour(Cluster& c, const Neighbour& n) {
         for (Neighbour& have : c.neighbours)
             if (have.cluster == n.cluster) {
                 have.length += n.length, have.crease += n.crease;
@@ -82,7 +97,7 @@ class Merger {
         c.neighbours.push_back(n);
     }
 
-    void propose(uint32_t a, const Neighbour& n) {
+    float costOf(uint32_t a, const Neighbour& n) const {
         const Cluster &x = clusters_[a], &y = clusters_[n.cluster];
         double area = x.area + y.area;
         glm::dvec3 sum = x.normal + y.normal;
@@ -90,12 +105,24 @@ class Merger {
         double meet = glm::dot(x.normal, y.normal);
         if (bent > kBent || meet < 0 ||
             meet * meet < kMeet * kMeet * glm::dot(x.normal, x.normal) * glm::dot(y.normal, y.normal))
-            return;
+            return kNever;
         double border = std::max(0.0, x.border + y.border - 2 * double(n.length));
         double round = std::min(border * border / (4 * 3.14159265 * area), 12.0);
         double crease = n.length > 0 ? n.crease / n.length : 0;
-        double cost = area * (bent + kPlainCost) * (1 + round) * (1 + kCreaseCost * crease);
-        queue_.push({float(cost), a, n.cluster, x.stamp, y.stamp});
+        return float(area * (bent + kPlainCost) * (1 + round) * (1 + kCreaseCost * crease));
+    }
+
+    static Merge mergeOf(uint32_t c, const Neighbour& n) {
+        return n.asked ? Merge{n.cost, c, n.cluster} : Merge{n.cost, n.cluster, c};
+    }
+    Merge cheapestOf(uint32_t c) const {
+        Merge best;
+        for (const Neighbour& n : clusters_[c].neighbours) best = std::min(best, mergeOf(c, n));
+        return best;
+    }
+    void propose(uint32_t c, const Merge& merge) {
+        cheapest_[c] = merge;
+        if (merge.cost < kNever) queue_.push({merge, c});
     }
 
     void merge(uint32_t a, uint32_t b) {
@@ -114,16 +141,29 @@ class Merger {
             addNeighbour(x, n);
             auto& back = clusters_[n.cluster].neighbours;
             std::erase_if(back, [&](const Neighbour& m) { return m.cluster == b; });
-            addNeighbour(clusters_[n.cluster], {a, n.length, n.crease});
+            addNeighbour(clusters_[n.cluster], {a, n.length, n.crease, kNever, false});
         }
         y.neighbours = {};
-        ++x.stamp, ++y.stamp;
-        for (const Neighbour& n : x.neighbours) propose(a, n);
+        cheapest_[b] = {};
+        for (Neighbour& n : x.neighbours) {
+            n.cost = costOf(a, n);
+            n.asked = true;
+            for (Neighbour& m : clusters_[n.cluster].neighbours)
+                if (m.cluster == a) m.cost = n.cost, m.asked = false;
+            const Merge &had = cheapest_[n.cluster], now = mergeOf(a, n);
+            const bool gone = had.a == a || had.a == b || had.b == a || had.b == b;
+            if (gone)
+                propose(n.cluster, cheapestOf(n.cluster));
+            else if (now < had)
+                propose(n.cluster, now);
+        }
+        propose(a, cheapestOf(a));
     }
 
     DisjointSets sets_;
     std::vector<Cluster> clusters_;
-    std::priority_queue<Merge> queue_;
+    std::vector<Merge> cheapest_;  // per cluster
+    Queue queue_;
 };
 
 // Moves triangles at borders to the neighbouring region where that shortens the border or fits better. Creases are
@@ -145,20 +185,22 @@ void straighten(const BakeMesh& mesh, const Facets& facets, std::vector<uint32_t
         for (uint32_t t = 0; t < label.size(); ++t) {
             uint32_t own = label[t];
             if (own == kNone || members[own] < 2) continue;
-            uint32_t other[3] = {kNone, kNone, kNone};
-            double weight[3], all = 0;
+            uint32_t other[3];
             bool border = false;
             for (uint32_t k = 0; k < 3; ++k) {
                 uint32_t twin = mesh.twin[t * 3 + k];
-                weight[k] = 0;
-                if (twin == kNone || label[twin / 3] == kNone) continue;
-                other[k] = label[twin / 3];
-                double dot = glm::dot(facets.normal[t], facets.normal[twin / 3]);
-                weight[k] = edgeLength(mesh, t * 3 + k) * (0.05 + 0.95 * std::max(0.0, (dot - 0.5) * 2));
-                all += weight[k];
-                border = border || other[k] != own;
+                other[k] = twin == kNone ? kNone : label[twin / 3];
+                border = border || (other[k] != kNone && other[k] != own);
             }
             if (!border) continue;
+            double weight[3], all = 0;
+            for (uint32_t k = 0; k < 3; ++k) {
+                weight[k] = 0;
+                if (other[k] == kNone) continue;
+                double dot = glm::dot(facets.normal[t], facets.normal[mesh.twin[t * 3 + k] / 3]);
+                weight[k] = edgeLength(mesh, t * 3 + k) * (0.05 + 0.95 * std::max(0.0, (dot - 0.5) * 2));
+                all += weight[k];
+            }
             auto cost = [&](uint32_t l) {
                 double same = 0;
                 for (int k = 0; k < 3; ++k)

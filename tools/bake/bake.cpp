@@ -5,6 +5,8 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <system_error>
+#include <thread>
 
 #include "runtime/core/jobs.hpp"
 #include "tools/bake/bake_mesh.hpp"
@@ -39,6 +41,18 @@ class Stages {
     const char* name_ = nullptr;
     Clock::time_point start_;
 };
+
+// Does both at once: the second one on this thread, which tells of progress.
+template <class First, class Second>
+void beside(First&& first, Second&& second) {
+    std::jthread other;
+    try {
+        other = std::jthread(first);
+    } catch (const std::system_error&) {  // no thread is left to give
+        first();
+    }
+    second();
+}
 
 std::vector<Chart> makeCharts(const BakeMesh& mesh) {
     std::vector<Chart> charts(mesh.chartCount());
@@ -202,14 +216,17 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     Contacts contacts(*mesh, links, {options.contacts, tolerance, 1.0 / options.resolution});
     for (const Contact& contact : contacts.list()) surface.crossings.push_back(contact.crossing);
 
-    auto walkable = makeLevels(*mesh, links, contacts, *allowed, options, stages, surface, report);
+    stages.begin(0.37f, "drawing_mesh");
+    makeDrawing(model, *mesh, surface);
+    const MeshTree drawn = drawnTree(surface);
+    std::vector<std::vector<uint8_t>> walkable;
+    beside([&] { simplifyDrawing(drawn, surface); },
+           [&] { walkable = makeLevels(*mesh, links, contacts, *allowed, options, stages, surface, report); });
     for (const SurfaceLevelData& level : surface.levels)
         if (level.crossingRefs.size() >= (size_t(1) << 24))
             return Failure(model.name, "more borders than a level can list: bake at a lower resolution");
-    stages.begin(0.9f, "drawing_mesh");
-    makeDrawing(model, *mesh, surface);
-    stages.begin(0.91f, "simplify");
-    simplifyDrawing(surface);
+    stages.begin(0.91f, "level_errors");
+    measureLevelErrors(drawn, surface);
     stages.begin(0.93f, "hash");
     surface.hash = walkHash(surface);
     stages.begin(0.95f, "report");

@@ -12,6 +12,7 @@
 
 #include "runtime/surface/contacts.hpp"
 #include "runtime/surface/grid_segment.hpp"
+#include "runtime/surface/mesh_tree.hpp"
 #include "tools/bake/bake.hpp"
 
 namespace espalier::bakery {
@@ -153,9 +154,13 @@ std::vector<uint32_t> creaseEdges(const BakeMesh& mesh);
 // Fills in the mesh as it is drawn: vertices split where charts were moved apart, ranges by material.
 void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface);
 
-// Measures the levels' distances to the drawn mesh, and fills in surface.coarser: each about half the triangles of the
-// one before.
-void simplifyDrawing(SurfaceData& surface);
+// The drawn mesh, to ask distances of.
+MeshTree drawnTree(const SurfaceData& surface);
+// Fills in surface.coarser: each about half the triangles of the one before. drawn: the drawn mesh. Touches nothing
+// else.
+void simplifyDrawing(const MeshTree& drawn, SurfaceData& surface);
+// Measures the levels' distances to the drawn mesh.
+void measureLevelErrors(const MeshTree& drawn, SurfaceData& surface);
 
 // Fills the report's figures by walking through the finished surface's records.
 void measure(const BakeMesh& mesh, const std::vector<Link>& links, const std::vector<Contact>& contacts,

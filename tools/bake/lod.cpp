@@ -151,10 +151,16 @@ void splitByMaterial(const SurfaceData& surface, CoarserMesh& mesh, std::vector<
 
 }  // namespace
 
-void simplifyDrawing(SurfaceData& surface) {
+MeshTree drawnTree(const SurfaceData& surface) {
+    return {positionsOf(surface.vertices), surface.indices};
+}
+
+void measureLevelErrors(const MeshTree& drawn, SurfaceData& surface) {
+    for (SurfaceLevelData& level : surface.levels) level.error = levelError(level, drawn);
+}
+
+void simplifyDrawing(const MeshTree& drawn, SurfaceData& surface) {
     const float radius = glm::length(surface.boundsMax - surface.boundsMin) / 2;
-    const MeshTree whole(positionsOf(surface.vertices), surface.indices);
-    for (SurfaceLevelData& level : surface.levels) level.error = levelError(level, whole);
     std::vector<uint32_t> materials;
     CoarserMesh from;
     splitByMaterial(surface, from, materials);
@@ -170,7 +176,7 @@ void simplifyDrawing(SurfaceData& surface) {
         from = compact(from.vertices, std::vector<uint32_t>(materials), indices, materials);
         const MeshTree simple(positionsOf(from.vertices), from.indices);
         from.error = std::max({distanceTo(simple, surface.vertices, surface.indices),
-                               distanceTo(whole, from.vertices, from.indices),
+                               distanceTo(drawn, from.vertices, from.indices),
                                surface.coarser.empty() ? 0.0f : surface.coarser.back().error});
         if (from.error > kLargestError * radius) return;
         surface.coarser.push_back(from);

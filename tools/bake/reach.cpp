@@ -244,12 +244,13 @@ std::vector<uint8_t> findEnclosed(Ground& ground, const Map& map, const std::vec
     for (uint32_t cell = 0; cell < map.number.size(); ++cell)
         if (ground.isGround(cell) && asked[map.number[ground.region(cell)]])
             cells[map.number[ground.region(cell)]].push_back(cell);
+    std::vector<uint8_t> enclosed(asked.size(), 0);
+    if (std::find(asked.begin(), asked.end(), 1) == asked.end()) return enclosed;
     std::vector<glm::vec3> points(mesh.points.begin(), mesh.points.end());
     std::vector<uint32_t> corners;
     for (const Triangle& t : mesh.triangles) corners.insert(corners.end(), t.point.begin(), t.point.end());
     const MeshTree tree(points, corners);
     const std::array<glm::dvec3, kRays> sphere = rays();
-    std::vector<uint8_t> enclosed(asked.size(), 0);
     parallelFor(cells.size(), 16, [&](size_t begin, size_t end) {
         for (size_t r = begin; r < end; ++r) {
             const size_t count = std::min(cells[r].size(), kProbes);
