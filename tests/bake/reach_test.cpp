@@ -55,3 +55,26 @@ TEST_CASE("a stone without a back hides the wall that it stands on; an awning wi
         CHECK(report.leastReachable() > 0.99);
     }
 }
+
+TEST_CASE("of a plate's two sides the larger counts where no rim joins them, though a rod goes through both") {
+    for (bool rim : {false, true}) {
+        CAPTURE(rim);
+        Kit kit;
+        const double half = 1, thick = 0.1;
+        kit.panel({-half, -half, thick}, {2 * half, 0, 0}, {0, 2 * half, 0});
+        kit.panel({half, -half, -thick}, {-2 * half, 0, 0}, {0, 2 * half, 0});
+        if (rim) {
+            kit.panel({half, -half, thick}, {0, 0, -2 * thick}, {0, 2 * half, 0});
+            kit.panel({-half, -half, -thick}, {0, 0, 2 * thick}, {0, 2 * half, 0});
+            kit.panel({-half, half, thick}, {2 * half, 0, 0}, {0, 0, -2 * thick});
+            kit.panel({-half, -half, -thick}, {2 * half, 0, 0}, {0, 0, 2 * thick});
+        }
+        kit.box({0.3, 0.2, 0.1}, {0.2, 0.2, 0.6});
+        const BakeReport report = kit.bake().report;
+        REQUIRE(report.pieces.size() == 1);
+        // The plate less the rod's section; the rod as far as it stands out, longer before the plate than behind it.
+        const double side = 4 - 0.16, front = side + 0.16 + 1.6 * 0.6, back = side + 0.16 + 1.6 * 0.4;
+        const double expected = rim ? 1 : front / (front + back);
+        CHECK(report.reachableShare() == doctest::Approx(expected).epsilon(0.02));
+    }
+}
