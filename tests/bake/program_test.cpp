@@ -88,6 +88,45 @@ TEST_CASE("layers painted over an earlier surface are carried to the new one, an
     CHECK(!r.has("new/t.glb"));
 }
 
+TEST_CASE("seeds whose ground a change takes away are listed, by scenes of one surface and of several") {
+    Runner r;
+    CAPTURE(r.output);
+    Model higher = cube(2);
+    for (glm::vec3& p : higher.positions) p.y += p.y > 0.5f ? 1.0f : 0.0f;  // the top goes from 1 to 2
+    BakeOptions options;
+    options.resolution = 64;
+    auto baked = bake(higher, options);
+    REQUIRE(baked);
+    REQUIRE(writeSurface(baked->surface, r.file("higher.glb")));
+    auto write = [&](const char* name, const std::string& text) { REQUIRE(writeFile(r.file(name), text)); };
+    const std::string seeds = R"({"file": "ivy.grammar", "seeds": [{"position": )";
+    write("one.json",
+          R"({"surface": "cube.glb", "grammars": [)" + seeds + R"([1.02, 0, 0]}, {"position": [0, 1, 0]}]}]})");
+    REQUIRE(r.run("higher.glb -o new/cube.glb --resolution 64 --from cube.glb --seeds one.json"));
+    CHECK(r.says("grammars[0].seeds[1] at 0, 1, 0 has lost its ground"));
+    CHECK(!r.says("seeds[0]"));
+    CHECK(r.says("1 of 2 seeds"));
+    // Turned by 90° and twice as large, the side towards +x looks to -z; the third seed is of the other surface.
+    write("two.json",
+          R"({"surfaces": [{"file": "other.glb"}, {"file": "cube.glb", "position": [9, 0, 0], "turn": 90, "scale": 2}],
+                          "grammars": [)" +
+              seeds + R"([9, 2, 0]}, {"position": [9.5, 0.5, -2]}, {"position": [0, 1, 0]}]}]})");
+    REQUIRE(r.run("higher.glb -o new/cube.glb --resolution 64 --from cube.glb --seeds two.json"));
+    CHECK(r.says("grammars[0].seeds[0] at 9, 2, 0 has lost its ground"));
+    CHECK(r.says("1 of 2 seeds"));
+    for (const char* wrong : {"[]", "{",
+                              R"({"surface": "cube.glb", "grammars": [)"
+                              R"({"seeds": [{"position": [1, 2]}]}]})",
+                              R"({"surfaces": [{"file": "cube.glb", "scale": 0}]})", R"({"surfaces": [7, 7]})"}) {
+        write("wrong.json", wrong);
+        CHECK(!r.run("higher.glb -o bad/cube.glb --from cube.glb --seeds wrong.json"));
+        CHECK(r.says("wrong.json"));
+        CHECK(!r.has("bad/cube.glb"));
+    }
+    CHECK(!r.run("higher.glb -o bad/cube.glb --from cube.glb"));
+    CHECK(r.says("--seeds"));
+}
+
 TEST_CASE("--help and --version answer; mistakes end with a message, a code and no files") {
     Runner r;
     CHECK(r.run("--help"));

@@ -1,5 +1,5 @@
-// In: two surfaces and a layer over the first. Out: the layer over the second, texel by texel from the nearest place of
-// the first's mesh, and how much found no place.
+// In: two surfaces, and layers over the first or places on it. Out: the layers over the second, texel by texel from the
+// nearest place of the first's mesh, and what found no place.
 #include "tools/bake/carry.hpp"
 
 #include <algorithm>
@@ -21,6 +21,11 @@ double texelOf(const SurfaceData& surface) {
     return uv > 0 ? std::sqrt(area / uv) / surface.levels[0].size : 0;
 }
 
+double usualReach(const SurfaceData& from, const SurfaceData& to) {
+    return std::max(kRadiusShare * double(glm::length(to.boundsMax - to.boundsMin)) / 2,
+                    kTexels * std::max(texelOf(from), texelOf(to)));
+}
+
 // The mesh of a surface to look up nearest places on.
 class Target {
   public:
@@ -31,22 +36,31 @@ class Target {
         tree_ = BoxTree(std::move(boxes), {});
     }
 
-    glm::vec2 nearest(glm::dvec3 p, glm::dvec3 normal, double within) const {
-        glm::vec2 uv(-1);
-        if (tree_.empty()) return uv;
+    struct Place {
+        glm::vec2 uv{-1};  // x < 0: none is near
+        glm::dvec3 position{0}, outside{0};
+    };
+    // The nearest place whose outside points the way of `normal`; a normal of 0: any.
+    Place nearest(glm::dvec3 p, glm::dvec3 normal, double within) const {
+        Place found;
+        if (tree_.empty()) return found;
         double best = within * within;
         tree_.nearestSquare(p, [&](uint32_t t) {
             const DrawVertex &a = vertex(t, 0), &b = vertex(t, 1), &c = vertex(t, 2);
             const glm::dvec3 outside(a.normal + b.normal + c.normal);
-            if (!(glm::dot(outside, normal) > kFacing * glm::length(outside))) return 1e300;
+            const bool faces = glm::dot(outside, normal) > kFacing * glm::length(outside);
+            if (!faces && normal != glm::dvec3(0)) return 1e300;
             const glm::dvec3 w = weights(p, glm::dvec3(a.position), glm::dvec3(b.position), glm::dvec3(c.position));
-            const glm::dvec3 gap =
-                glm::dvec3(a.position) * w.x + glm::dvec3(b.position) * w.y + glm::dvec3(c.position) * w.z - p;
-            const double far = glm::dot(gap, gap);
-            if (far < best) best = far, uv = a.walkUv * float(w.x) + b.walkUv * float(w.y) + c.walkUv * float(w.z);
+            const glm::dvec3 at =
+                glm::dvec3(a.position) * w.x + glm::dvec3(b.position) * w.y + glm::dvec3(c.position) * w.z;
+            const double far = glm::dot(at - p, at - p);
+            if (far >= best) return far;
+            best = far;
+            found = {a.walkUv * float(w.x) + b.walkUv * float(w.y) + c.walkUv * float(w.z), at,
+                     outside / std::max(glm::length(outside), 1e-30)};
             return far;
         });
-        return uv;
+        return found;
     }
 
   private:
@@ -106,7 +120,7 @@ std::vector<SurfaceMatch::Ground> SurfaceMatch::match(const SurfaceData& here, c
             const glm::dvec3 across = glm::cross(glm::dvec3(plane.du), glm::dvec3(plane.dv));
             g.area = float(glm::length(across) / (double(level.size) * level.size));
             const glm::dvec3 outside = glm::normalize(across) * double(here.charts[plane.chart].orientation);
-            g.other = target.nearest(glm::dvec3(level.texels[at].position), outside, within);
+            g.other = target.nearest(glm::dvec3(level.texels[at].position), outside, within).uv;
         }
     });
     return ground;
@@ -114,9 +128,7 @@ std::vector<SurfaceMatch::Ground> SurfaceMatch::match(const SurfaceData& here, c
 
 SurfaceMatch::SurfaceMatch(const SurfaceData& from, const SurfaceData& to, double within)
     : size_(to.levels[0].size), oldSize_(from.levels[0].size) {
-    if (!(within > 0))
-        within = std::max(kRadiusShare * double(glm::length(to.boundsMax - to.boundsMin)) / 2,
-                          kTexels * std::max(texelOf(from), texelOf(to)));
+    if (!(within > 0)) within = usualReach(from, to);
     new_ = match(to, from, within);
     old_ = match(from, to, within);
 }
@@ -132,6 +144,19 @@ CarriedLayer SurfaceMatch::carry(const PaintedLayer& layer) const {
     }
     for (const Ground& g : old_)
         if (g.other.x < 0 && sample(layer, (glm::vec2(g.x, g.y) + 0.5f) / float(oldSize_)) > 0) out.lost += g.area;
+    return out;
+}
+
+std::vector<CarriedPlace> carryPlaces(const SurfaceData& from, const SurfaceData& to, std::span<const glm::vec3> places,
+                                      double within) {
+    if (!(within > 0)) within = usualReach(from, to);
+    const Target before(from), after(to);
+    std::vector<CarriedPlace> out;
+    for (const glm::vec3& place : places) {
+        const Target::Place stood = before.nearest(glm::dvec3(place), glm::dvec3(0), 1e30);
+        const bool lost = stood.uv.x < 0 || after.nearest(stood.position, stood.outside, within).uv.x < 0;
+        out.push_back({float(glm::length(stood.position - glm::dvec3(place))), lost});
+    }
     return out;
 }
 

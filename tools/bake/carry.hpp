@@ -42,4 +42,13 @@ class SurfaceMatch {
     uint32_t oldSize_;
 };
 
+// What became of the ground that places on or beside the earlier surface stand on: the nearest there is. lost: nothing
+// of the new surface is as near to it as a SurfaceMatch of the same `within` asks.
+struct CarriedPlace {
+    float height = 0;  // metres from the place to the earlier surface
+    bool lost = false;
+};
+std::vector<CarriedPlace> carryPlaces(const SurfaceData& from, const SurfaceData& to, std::span<const glm::vec3> places,
+                                      double within = 0);
+
 }  // namespace espalier

@@ -13,6 +13,7 @@
 
 #include "runtime/core/file.hpp"
 #include "tools/bake/carry.hpp"
+#include "tools/bake/main/carry_seeds.hpp"
 
 namespace espalier {
 namespace {
@@ -87,6 +88,10 @@ Result<std::vector<CarriedFile>> carryLayers(const CarryArguments& arguments, co
     if (arguments.from.empty()) return files;
     auto from = readSurface(arguments.from);
     if (!from) return std::move(from.failure());
+    if (!arguments.seeds.empty())
+        if (Status told = findLostSeeds({arguments.seeds, arguments.from, output}, *from, to, notes); !told)
+            return std::move(told.failure());
+    if (arguments.layers.empty()) return files;
     const SurfaceMatch match(*from, to);
     for (const std::string& path : arguments.layers) {
         const std::filesystem::path target =

@@ -12,10 +12,12 @@ namespace espalier {
 struct CarryArguments {
     std::string from;                 // a surface; empty: nothing is carried
     std::vector<std::string> layers;  // PNG files over its walk UVs
+    std::string seeds;                // a scene or project whose seeds are looked after; empty: none
 };
 
 // Each layer's picture as it has to lie over `to`, as 16-bit PNG in `files`, to be written beside `output` under the
-// layer's own name. What is lost or has no layer yet is told in `notes`. Refuses to write over what it reads.
+// layer's own name. What is lost or has no layer yet, and each seed without ground, is told in `notes`. Refuses to
+// write over what it reads.
 struct CarriedFile {
     std::string path;
     std::vector<std::byte> bytes;

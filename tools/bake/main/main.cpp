@@ -109,8 +109,7 @@ int runFolder(const Arguments& arguments, const CLI::App& app) {
     options.quiet = arguments.quiet;
     if (!arguments.report.empty() || !arguments.images.empty())
         return fail(Failure(arguments.model, "is a folder: --report and --images are for one model"));
-    if (!arguments.carry.from.empty())
-        return fail(Failure(arguments.model, "is a folder: --from and --layer are for one model"));
+    if (!arguments.carry.from.empty()) return fail(Failure(arguments.model, "is a folder: --from is for one model"));
     if (!arguments.shard.empty()) {
         char rest = 0;
         if (std::sscanf(arguments.shard.c_str(), "%u/%u%c", &options.shard, &options.shards, &rest) != 2 ||
@@ -167,11 +166,14 @@ int main(int argc, char** argv) {
     app.add_option("--report", arguments.report, "write the report (JSON) here");
     app.add_option("--images", arguments.images, "write charts, links, contacts and stretch as .png into this folder");
     auto* from = app.add_option("--from", arguments.carry.from,
-                                "the model's surface before its change (.glb), from which layers are carried over");
-    from->needs(
-        app.add_option("--layer", arguments.carry.layers,
-                       "a layer that was painted over that surface's walk UVs (.png); written beside the new surface")
-            ->needs(from));
+                                "the model's surface before its change (.glb): with --layer or --seeds");
+    auto* layer = app.add_option("--layer", arguments.carry.layers,
+                                 "a layer that was painted over that surface's walk UVs (.png); written beside the new "
+                                 "surface")
+                      ->needs(from);
+    auto* seeds = app.add_option("--seeds", arguments.carry.seeds,
+                                 "a scene (.json) or a project's folder: lists its seeds that lose their ground")
+                      ->needs(from);
     app.add_option("--tolerance", arguments.tolerance,
                    "metres within which borders without a twin are linked; 0: one texel's footprint")
         ->check(CLI::NonNegativeNumber);
@@ -188,6 +190,8 @@ int main(int argc, char** argv) {
     app.add_option("--meshes", arguments.town.meshes, "of a town: its terminals (default: roofs.glb of the content)");
     app.add_flag("-q,--quiet", arguments.quiet, "no progress, warnings only");
     CLI11_PARSE(app, argc, argv);
+    if (from->count() > 0 && layer->count() + seeds->count() == 0)
+        return fail(Failure("--from", "needs --layer or --seeds: what is to be carried"));
     ::signal(SIGXFSZ, SIG_IGN);  // too large a file is an error like a full disk, with a message
     arguments.bake.nearestTolerance = float(arguments.tolerance);
     try {
