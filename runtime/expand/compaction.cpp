@@ -68,7 +68,7 @@ Status GpuGrowth::compact() {
     status.chunks = view_.chunkCount;
     status.branches = view_.branchCount;
     frontPlants_ = 1 - frontPlants_;
-    rangedLeaves_ = 0;
+    chained_ = false;
     showLinks(status);
     stats_.reservedBytes = reserved();
     return Done{};

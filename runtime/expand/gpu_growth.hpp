@@ -30,6 +30,11 @@ inline uint64_t wholeTexels(uint64_t bytes) {
     return (bytes + 15) / 16 * 16;
 }
 
+template <class T>
+uint32_t capacityOf(const Buffer& buffer) {
+    return uint32_t(std::min<uint64_t>(buffer.size() / sizeof(T), 0x7FFFFFFF));
+}
+
 class GpuGrowth final : public Growth {
   public:
     GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), room_(room) {}
@@ -58,6 +63,7 @@ class GpuGrowth final : public Growth {
     // Both kinds: growth_set_up.cpp.
     Status load(Program& program, const char* shader, std::vector<SpecConstant> constants);
     Status loadKernels(WalkMode mode);
+    Status ensureChains(const Plants& plants);
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
     Status viewSurfaces(const GrowthInputs& inputs);
     Status viewRecords(const GrowthInputs& inputs, const Plants& plants, const Links& links, const Links& before);
@@ -104,6 +110,7 @@ class GpuGrowth final : public Growth {
     Result<AgainState> findDirty(const GrowthInputs& inputs, const SeedChanges& seeds, ExpandEnv env);
     Result<Regrown> growAgain(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
     void recordAgain(Commands& commands, ExpandEnv env);
+    void recordAgainProf(ExpandEnv env);
     void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state);
     // Groups of a pass whose kernels go through chunks or lists of them by themselves: few, since each costs, but none
     // with more than some 512 chunks to go through, see kMaxTrips.
@@ -127,8 +134,8 @@ class GpuGrowth final : public Growth {
     Program packTables_, branchesFit_;
     std::array<Program, 2> fit_;  // [1] fetches records as texels
     Program compactPlaces_, compactNodes_, compactLeaves_;
-    Program find_, start_, settle_, work_, thickness_;
-    std::array<Program, 2> apply_, fitAgain_;  // as fit_
+    Program start_, settle_, work_, thickness_;
+    std::array<Program, 2> find_, apply_, fitAgain_;  // as fit_
     bool byAddress_ = false;
     bool fetches_ = false, fetchesRecords_ = false;
     TexelView surfaceView_, nodeView_, chunkView_, branchView_, leafView_, chunkViewBefore_;
@@ -136,8 +143,8 @@ class GpuGrowth final : public Growth {
     Links links_[2];
     uint32_t frontPlants_ = 0, frontLinks_ = 0;
     Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, noTexels_, density_, readback_;
-    Buffer again_, marks_, lists_, edits_, results_, touched_, leafRanges_;
-    uint32_t rangedLeaves_ = 0;  // AgainState::rangedLeaves for the next regrowth
+    Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_;
+    bool chained_ = false;  // leaves on the nodes that are drawn are chained
     GrowthView view_;
     GrowthStats stats_;
     // What the growth that is shown was made from.

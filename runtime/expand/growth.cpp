@@ -170,7 +170,7 @@ Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const 
 
 void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome) {
     frontPlants_ = 1 - frontPlants_;
-    rangedLeaves_ = 0;
+    chained_ = frozen.records.nodes.empty();
     showLinks(outcome.status);
     stats_.seeds = uint32_t(inputs.seeds.size() + inputs.frozen.size());
     takeCounters(outcome.status, stats_);

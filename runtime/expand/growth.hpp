@@ -78,7 +78,8 @@ struct GrowthStats {
     uint32_t overflow = 0;    // times that buffers were too small or a limit cut growth, in the latest grow()
     uint32_t stopped = 0;     // shapes that a limit ended
     uint32_t deadEnds = 0;    // branches that found no direction that their condition allows
-    uint64_t nodeBytes = 0, leafBytes = 0, chunkBytes = 0;  // of records; chunkBytes counts branches too
+    uint64_t nodeBytes = 0, leafBytes = 0,
+             chunkBytes = 0;     // of records; chunkBytes counts branches too, leafBytes the links from nodes
     uint64_t reservedBytes = 0;  // of all buffers held: both sets of records, queues, scratch
     uint64_t hash = 0;           // canonical: positions, radii and all terminals, independent of order
     double expandMs = 0;         // GPU time of the attempt that succeeded

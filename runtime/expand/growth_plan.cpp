@@ -188,7 +188,9 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
 void countBytes(GrowthStats& stats) {
     stats.spans = stats.nodes - std::min(stats.seeds, stats.nodes);
     stats.nodeBytes = uint64_t(stats.nodes) * sizeof(Node);
-    stats.leafBytes = uint64_t(stats.leaves) * sizeof(Leaf);
+    // With the links to leaves, GrowStatus::firstLeaves and nextLeaves.
+    constexpr uint64_t kLink = sizeof(uint32_t);
+    stats.leafBytes = stats.leaves * (sizeof(Leaf) + kLink) + (stats.leaves > 0 ? stats.nodes * kLink : 0);
     stats.chunkBytes = uint64_t(stats.chunks) * sizeof(Chunk) + uint64_t(stats.branches) * sizeof(BranchRecord);
 }
 

@@ -51,6 +51,14 @@ Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, Buffe
     return Done{};
 }
 
+// Room for the chains of leaves on nodes. What gets new room has to be chained anew.
+Status GpuGrowth::ensureChains(const Plants& plants) {
+    const uint64_t nodes = capacityOf<Node>(plants.nodes) * 4ull, leaves = capacityOf<Leaf>(plants.leaves) * 4ull;
+    if (!firstLeaves_ || firstLeaves_.size() < nodes || !nextLeaves_ || nextLeaves_.size() < leaves) chained_ = false;
+    if (Status ok = ensure(firstLeaves_, "growth first leaves", nodes); !ok) return ok;
+    return ensure(nextLeaves_, "growth next leaves", leaves);
+}
+
 // Binds all surfaces as texels, where that is possible and of use. The binding needs a view in any case.
 Status GpuGrowth::viewSurfaces(const GrowthInputs& inputs) {
     const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
@@ -138,6 +146,8 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
         Status ok = ensure(*row.buffer, row.name, row.bytes);
         if (!ok) return ok;
     }
+    chained_ = false;  // the attempt writes its own
+    if (Status ok = ensureChains(plants); !ok) return ok;
     if (Status viewed = viewRecords(inputs, plants, links, links); !viewed) return viewed;
     if (Status kernels = makeKernels(inputs); !kernels) return kernels;
     return makeQueues(inputs);
@@ -197,6 +207,8 @@ Status GpuGrowth::uploadStatus(Commands& commands, const GrowthInputs& inputs, G
         status.pruned = addressOf<UintBuf, uint32_t>(pruned_);
         status.prunedCount = uint32_t(inputs.pruned.size());
     }
+    status.firstLeaves = addressOf<UintBuf, uint32_t>(firstLeaves_);
+    status.nextLeaves = addressOf<UintBuf, uint32_t>(nextLeaves_);
     return commands.upload(status_, std::vector<GrowStatus>{status});
 }
 
@@ -229,7 +241,7 @@ uint64_t GpuGrowth::reserved() const {
     for (const Plants& p : plants_) bytes += p.nodes.size() + p.leaves.size();
     for (const Links& l : links_) bytes += l.chunks.size() + l.branches.size();
     for (const Buffer* b : {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_,
-                            &density_, &again_, &marks_, &lists_, &edits_, &results_, &touched_, &leafRanges_})
+                            &density_, &again_, &marks_, &lists_, &edits_, &results_, &firstLeaves_, &nextLeaves_})
         bytes += b->size();
     return bytes;
 }

@@ -19,11 +19,6 @@ bool sameLimits(const GrowthLimits& a, const GrowthLimits& b) {
            a.leafDensityCap == b.leafDensityCap;
 }
 
-template <class T>
-uint32_t capacityOf(const Buffer& buffer) {
-    return uint32_t(std::min<uint64_t>(buffer.size() / sizeof(T), 0x7FFFFFFF));
-}
-
 }  // namespace
 
 bool GpuGrowth::canRegrow(const GrowthInputs& inputs) const {
@@ -38,8 +33,7 @@ Status GpuGrowth::makeAgainKernels() {
     const struct {
         Program* program;
         const char* shader;
-    } rows[] = {{&find_, "expand/again_find.comp"},
-                {&start_, "expand/again_start.comp"},
+    } rows[] = {{&start_, "expand/again_start.comp"},
                 {&settle_, "expand/again_settle.comp"},
                 {&work_, "expand/again_work.comp"},
                 {&thickness_, "expand/again_thickness.comp"}};
@@ -47,7 +41,8 @@ Status GpuGrowth::makeAgainKernels() {
         if (Status made = load(*row.program, row.shader, {}); !made) return made;
     const uint32_t address = byAddress_ ? 1 : 0;
     const std::vector<SpecConstant> reading = {{3, fetchesRecords_ ? 0u : 1u}};
-    Status published = load(apply_[fetchesRecords_], "expand/again_apply.comp", reading);
+    Status published = load(find_[fetchesRecords_], "expand/again_find.comp", reading);
+    if (published) published = load(apply_[fetchesRecords_], "expand/again_apply.comp", reading);
     if (published) published = load(fitAgain_[fetchesRecords_], "expand/again_fit.comp", reading);
     if (!published) return published;
     Status march = load(marchAgain_[marchNumber()], "expand/march_again.comp",
@@ -72,11 +67,8 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
                 {&marks_, "regrowth marks", chunks * sizeof(AgainMark)},
                 {&lists_, "regrowth lists", chunks * kLists * 4},
                 {&edits_, "regrowth edits", std::max<uint64_t>(editWords * 4, 16384)},
-                {&results_, "regrowth results", chunks / 4 * kChunkNodes * 12},
-                {&touched_, "regrowth touched", plants_[frontPlants_].nodes.size() / sizeof(Node) / 8 + 64}};
-    const uint64_t blocks = plants_[frontPlants_].leaves.size() / sizeof(Leaf) / kLeafBlock + 1;
-    if (!leafRanges_ || leafRanges_.size() < blocks * 8) rangedLeaves_ = 0;
-    if (Status ok = ensure(leafRanges_, "regrowth leaf ranges", blocks * 8); !ok) return ok;
+                {&results_, "regrowth results", chunks / 4 * kChunkNodes * kResultWords * 4}};
+    if (Status ok = ensureChains(plants_[frontPlants_]); !ok) return ok;
     for (const auto& row : rows)
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
     if (Status viewed = viewRecords(inputs, plants_[frontPlants_], to, from); !viewed) return viewed;
@@ -92,7 +84,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     commands.copy(from.chunks, to.chunks, view_.chunkCount * sizeof(Chunk));
     commands.copy(from.branches, to.branches, view_.branchCount * sizeof(BranchRecord));
     commands.fill(marks_, 0);
-    commands.fill(touched_, 0);
+    if (!chained_) commands.fill(firstLeaves_, kNoIndex);
 
     GrowStatus s = freshStatus(inputs.limits, room_, noCut(inputs.limits));
     s.chunks = view_.chunkCount;
@@ -101,9 +93,9 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     s.leaves = view_.leafCount;
     s.chunkCapacity =
         std::min({capacityOf<Chunk>(to.chunks), capacityOf<AgainMark>(marks_), uint32_t(lists_.size() / 4 / kLists)});
-    s.nodeCapacity = std::min(capacityOf<Node>(plants.nodes), uint32_t(touched_.size() * 8));
+    s.nodeCapacity = std::min(capacityOf<Node>(plants.nodes), uint32_t(firstLeaves_.size() / 4));
     s.branchCapacity = capacityOf<BranchRecord>(to.branches);
-    s.leafCapacity = capacityOf<Leaf>(plants.leaves);
+    s.leafCapacity = std::min(capacityOf<Leaf>(plants.leaves), uint32_t(nextLeaves_.size() / 4));
     s.again = again_.address();
 
     std::vector<AgainState> state(1);
@@ -115,11 +107,9 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     a.lists = addressOf<UintBuf, uint32_t>(lists_);
     a.edits = addressOf<UintBuf, uint32_t>(edits_);
     a.results = addressOf<UintBuf, uint32_t>(results_);
-    a.touched = addressOf<UintBuf, uint32_t>(touched_);
-    a.leafRanges = addressOf<UintBuf, uint32_t>(leafRanges_);
-    a.rangedLeaves = rangedLeaves_;
+    a.chainedLeaves = chained_ ? view_.leafCount : 0;
     a.listCapacity = s.chunkCapacity;
-    a.resultCapacity = uint32_t(results_.size() / (kChunkNodes * 12));
+    a.resultCapacity = uint32_t(results_.size() / (kResultWords * 4));
     a.chunkCount = view_.chunkCount;
     a.nodeCount = view_.nodeCount;
     a.branchCount = view_.branchCount;
@@ -157,7 +147,7 @@ Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedCh
     {
         Pass pass(*commands, "expand find");
         env.items = addressOf<WorkItemBuf, WorkItem>(items_[0]);
-        pass.dispatch(find_, spreadGroups(), env);
+        pass.dispatch(find_[fetchesRecords_], spreadGroups(), env, {nodeView_, chunkView_, branchView_});
         pass.barrier(Use::compute, Use::compute);
         pass.dispatch(start_, spreadGroups(), env);
         pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
@@ -191,7 +181,7 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(thickness_, groups, env);
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(fitAgain_[fetchesRecords_], groups, env, records);
+    pass.dispatch(fitAgain_[fetchesRecords_], groups, env, {nodeView_, chunkView_, branchView_});
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 
@@ -280,14 +270,14 @@ Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const S
     }
     room_.items = std::max(room_.items, uint32_t(seeds.planted.size()));
     const uint64_t words = kEditHead + seeds.to.size() + inputs.grammars.size() + 2 * seeds.pruned.size() + 1 +
-                           uint64_t(dirtyGrid(kMaxReadLevel + 1) + kCellWords) * inputs.changes->cells.size();
+                           uint64_t(dirtyGrid(kMaxReadLevel + 1) + kCellWords + 1) * inputs.changes->cells.size();
     if (Status made = makeAgainRoom(inputs, words); !made) return made.failure();
     if (Status made = makeKernels(inputs); !made) return made.failure();
     if (Status made = makeAgainKernels(); !made) return made.failure();
     const ExpandEnv env = environment(inputs, plants_[frontPlants_], links_[1 - frontLinks_]);
     Result<AgainState> found = findDirty(inputs, seeds, env);
     if (!found) return found.failure();
-    rangedLeaves_ = view_.leafCount / kLeafBlock * kLeafBlock;
+    chained_ = true;
     if (found->counts[kListDirty] > stats_.chunks / kMostDirtyOf) return Regrown::tooMuch;
     const bool nothing = found->counts[kListDirty] + found->counts[kListBranches] + found->counts[kListGone] == 0;
     if (nothing && !seeds.any) {

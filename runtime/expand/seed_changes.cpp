@@ -30,6 +30,18 @@ std::vector<uint32_t> gridsOf(const std::vector<uint32_t>& cells) {
     return grid;
 }
 
+// The box around the finest grid's tiles, as find reads it.
+uint32_t boxOf(const std::vector<uint32_t>& grid) {
+    uint32_t x0 = kLayerTiles - 1, y0 = x0, x1 = 0, y1 = 0;
+    for (uint32_t bit = 0; bit < kLayerTiles * kLayerTiles; ++bit) {
+        if (bit % 32 == 0 && grid[bit / 32] == 0) bit += 31;
+        if ((grid[bit / 32] >> (bit % 32) & 1) == 0) continue;
+        x0 = std::min(x0, bit % kLayerTiles), x1 = std::max(x1, bit % kLayerTiles);
+        y0 = std::min(y0, bit / kLayerTiles), y1 = bit / kLayerTiles;
+    }
+    return x0 | y0 << 8 | x1 << 16 | y1 << 24;
+}
+
 bool sameFrozen(std::span<const FrozenPlant> a, std::span<const FrozenPlant> b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const FrozenPlant& x, const FrozenPlant& y) {
         return x.key == y.key && x.records == y.records;
@@ -120,6 +132,7 @@ std::vector<uint32_t> editWords(const GrowthInputs& inputs, const SeedChanges& s
         }
         if (cells.empty()) continue;
         const std::vector<uint32_t> grid = gridsOf(cells);
+        words.push_back(boxOf(grid));
         words[kEditInstances + instance] = uint32_t(words.size());
         words.insert(words.end(), grid.begin(), grid.end());
     }

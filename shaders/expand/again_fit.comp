@@ -1,12 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_ballot : require
 #define ESPALIER_AGAIN
 #define ESPALIER_RECORD_FETCH
-// The end of a regrowth: radii, the structure's hash, and leaves: pending ones are shown, those of touched nodes go.
+// The end of a regrowth: radii, the structure's hash, and pending leaves are shown.
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/again.glsl"
-#include "shaders/expand/again_lookup.glsl"
 #include "shaders/shared/expand_fit.h"
 
 layout(local_size_x = 32) in;
@@ -40,63 +38,19 @@ void fitChunks(uint lane) {
     }
 }
 
-// Whether leaves of nodes in this range may have to go.
-bool touches(UintBuf touched, uint low, uint high) {
-    bool any = low <= high && high - low > kWideRange;
-    for (uint word = low >> 5u; word <= high >> 5u && low <= high && !any; ++word) {
-        uint bits = touched.v[word];
-        bits = word == low >> 5u ? bits & (0xFFFFFFFFu << (low & 31u)) : bits;
-        bits = word == high >> 5u ? bits & (0xFFFFFFFFu >> (31u - (high & 31u))) : bits;
-        any = bits != 0u;
-    }
-    return any;
-}
-
-// Lets leaf `i` go if its node is touched; 1 if so.
-uint sweepLeaf(ChunkBuf before, UintBuf touched, uint i) {
-    Leaf leaf = readLeaf(env, i);
-    uint node = leaf.node;
-    bool goes = node < kLeafPending && ((touched.v[node >> 5u] >> (node & 31u)) & 1u) != 0u;
-    for (uint k = 0u; k < (goes ? 1u : 0u); ++k) {
-        NodeArc was = readArc(env, node);
-        hash -= hashOfLeaf(readKeyBefore(before, was.chunk), was.flags, leaf);
-        env.leaves.v[i].node = kNoIndex;
-    }
-    return goes ? 1u : 0u;
-}
-
-// A lane looks at a block's range; the blocks that are met are swept by the lanes together.
-uint sweepLeaves() {
-    UintBuf ranges = AGAIN.leafRanges;
-    UintBuf touched = AGAIN.touched;
-    ChunkBuf before = AGAIN.chunksBefore;
-    uint gone = 0u;
-    uint count = AGAIN.leafCount;
-    uint blocks = (count + kLeafBlock - 1u) / kLeafBlock;
+// Pending leaves are drawn from now on.
+void showLeaves() {
+    uint end = env.status.v[0].leaves;
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
-    uint lane = gl_SubgroupInvocationID;
-    for (uint first = gl_GlobalInvocationID.x - lane; first < blocks; first += lanes) {
-        uint block = min(first + lane, blocks - 1u);
-        bool met = first + lane < blocks && touches(touched, ranges.v[2u * block], ranges.v[2u * block + 1u]);
-        uvec4 ballot = subgroupBallot(met);
-        while (subgroupBallotBitCount(ballot) > 0u) {
-            uint bit = subgroupBallotFindLSB(ballot);
-            ballot[bit >> 5u] &= ~(1u << (bit & 31u));
-            uint from = (first + bit) * kLeafBlock;
-            for (uint i = from + lane; i < min(from + kLeafBlock, count); i += gl_SubgroupSize) gone += sweepLeaf(before, touched, i);
-        }
-    }
-    for (uint i = count + gl_GlobalInvocationID.x; i < env.status.v[0].leaves; i += lanes)
-        env.leaves.v[i].node = readLeaf(env, i).node & ~kLeafPending;
-    return gone;
+    for (uint i = AGAIN.leafCount + gl_GlobalInvocationID.x; i < end; i += lanes)
+        env.leaves.v[i].node = env.leaves.v[i].node & ~kLeafPending;
 }
 
 void main() {
     openAgain(env);
     if (!holds(env)) return;
     fitChunks(gl_LocalInvocationID.x);
-    uint gone = sweepLeaves();
-    if (gone > 0u) atomicAdd(AGAIN.goneLeaves, gone);
+    showLeaves();
     uint slot = (gl_WorkGroupID.x & (kHashSlots - 1u)) * 2u;
     atomicAdd(env.status.v[0].hash[slot], hash.x);
     atomicAdd(env.status.v[0].hash[slot + 1u], hash.y);

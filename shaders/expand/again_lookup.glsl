@@ -30,10 +30,6 @@ ChunkBefore readBefore(ChunkBuf before, uint at) {
     }
     return c;
 }
-uint64_t readKeyBefore(ChunkBuf before, uint at) {
-    if (kRecordsByAddress != 0u) return before.v[at].key;
-    return packUint2x32(texelFetch(chunkTexelsBefore, int(7u * at)).xy);
-}
 Leaf readLeaf(ExpandEnv env, uint at) {
     if (kRecordsByAddress != 0u) return env.leaves.v[at];
     uvec4 t = texelFetch(leafTexels, int(at));

@@ -1,35 +1,29 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define ESPALIER_AGAIN
-// Dirty chunks with no dirty chunk before them are the first wave; the others wait for these. And the ranges of nodes
-// that new blocks of leaves lie on.
+// Dirty chunks with no dirty chunk before them are the first wave; the others wait for these. And leaves are chained to
+// their nodes, where they aren't yet.
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/again.glsl"
 
 layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
-void findRanges() {
-    uint blocks = (AGAIN.leafCount + kLeafBlock - 1u) / kLeafBlock;
+// Chains leaves that others than the terminal pass have put there.
+void chainLeaves() {
+    UintBuf firstLeaves = env.status.v[0].firstLeaves;
+    UintBuf nextLeaves = env.status.v[0].nextLeaves;
+    uint end = AGAIN.leafCount;
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
-    UintBuf ranges = AGAIN.leafRanges;
-    for (uint b = AGAIN.rangedLeaves / kLeafBlock + gl_GlobalInvocationID.x; b < blocks; b += lanes) {
-        uint low = kNoIndex;
-        uint high = 0u;
-        uint end = min((b + 1u) * kLeafBlock, AGAIN.leafCount);
-        for (uint i = b * kLeafBlock; i < end; ++i) {
-            uint node = env.leaves.v[i].node;
-            low = min(low, node);
-            high = max(high, node == kNoIndex ? 0u : node);
-        }
-        ranges.v[2u * b] = low;
-        ranges.v[2u * b + 1u] = high;
+    for (uint i = AGAIN.chainedLeaves + gl_GlobalInvocationID.x; i < end; i += lanes) {
+        uint node = env.leaves.v[i].node;
+        if (node != kNoIndex) nextLeaves.v[i] = atomicExchange(firstLeaves.v[node], i);
     }
 }
 
 void main() {
     openAgain(env);
-    findRanges();
+    chainLeaves();
     uint count = listed(env, kListDirty);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     for (uint i = gl_GlobalInvocationID.x; i < count; i += lanes) {

@@ -19,6 +19,8 @@ bool wholeBranch(ExpandEnv env, uint branch, uint first) {
 
 void listWork(ExpandEnv env, uint branch, uint first) {
     bool whole = wholeBranch(env, branch, first);
+    UintBuf results = AGAIN.results;
+    uint capacity = AGAIN.resultCapacity;
     for (uint chunk = first; chunk != kNoIndex;) {
         uint next = env.chunks.v[chunk].next;
         uint count = chunkNodes(env.chunks.v[chunk].marks);
@@ -29,7 +31,12 @@ void listWork(ExpandEnv env, uint branch, uint first) {
         uint nodes = whole || grown ? all : nextGrown ? all & ~(all >> 1u) : 0u;
         if (nodes != 0u) {
             againMarks.v[chunk].nodes = nodes;
-            appendTo(env, kListWork, chunk);
+            uint firstNode = env.chunks.v[chunk].firstNode;
+            uint at = atomicAdd(AGAIN.counts[kListWork], bitCount(nodes));
+            for (uint left = nodes; left != 0u && at < capacity; left = left & (left - 1u)) {
+                results.v[kResultWords * at] = firstNode + lowestBit(left);
+                at = at + 1u;
+            }
         }
         chunk = next;
     }

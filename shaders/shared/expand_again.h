@@ -18,7 +18,7 @@ CONST_UINT(kListGrown, 1u);      // chunks that were grown, in an old place or a
 CONST_UINT(kListGone, 2u);       // chunks that are no more
 CONST_UINT(kListBranches, 3u);   // branches with grown chunks, or whose terminals depend on what has changed
 CONST_UINT(kListKin, 4u);        // these and all branches that leave them, and so on: their thickness may change
-CONST_UINT(kListWork, 5u);       // chunks that have nodes whose terminals are to be made (AgainMark::nodes)
+CONST_UINT(kListWork, 5u);       // nodes whose terminals are to be made: counted here, their indices are in AgainState::results
 CONST_UINT(kListFit, 6u);        // chunks whose nodes get their radius
 CONST_UINT(kLists, 7u);
 
@@ -49,28 +49,27 @@ struct AgainState {
     AgainMarkBuf marks;
     UintBuf lists;           // [list * listCapacity + i]
     UintBuf edits;           // see below
-    UintBuf results;         // 3 words a node of kListWork's chunks: NodeFinish
-    UintBuf touched;         // a bit a node: its leaves are to go
-    UintBuf leafRanges;      // [2 * block]: first and last node that a block of kLeafBlock leaves lies on
-    uint listCapacity, resultCapacity;   // chunks
+    UintBuf results;         // kResultWords a node of kListWork: its index, NodeFinish
+    uint listCapacity, resultCapacity;   // chunks, nodes
     uint chunkCount, nodeCount, branchCount, leafCount;   // before, with the gaps among them
     uint liveNodes, liveChunks;          // before, without
     uint mostNodes, mostChunks;          // limits
-    uint rangedLeaves;                   // whose blocks' ranges are known: a multiple of kLeafBlock
+    uint chainedLeaves;                  // leaves from this one on aren't among their nodes' yet
     uint spare;
     uint counts[8];          // of the lists
     uint overrun;            // not 0: this is too much for a regrowth
     uint goneNodes, goneChunks, goneBranches, goneLeaves, goneInserted, goneFeet, goneDeadEnds, goneStopped;
     uint firstFrozen;        // seeds from this index on are frozen: what they have grown is never dirty
 };
-STATIC_SIZE(AgainState, 184);
+STATIC_SIZE(AgainState, 168);
 BUFFER(AgainStateBuf, AgainState)
 
 // AgainState::edits, words: 0 dirty layers (bits), 1 first word of the seeds' new indices (0: seeds are the same;
 // kNoIndex: gone), 2 first word of the masks of changed parameters, one a grammar (0: none), 3 first word of the
 // branches that are cut away or grow again (0: none): their number, then their keys as isAmong() takes them; then one
 // word for each of 256 instances: where its dirty tiles begin (0: none). These are bits y * side + x of grids of side
-// 256, 128, … 1, each beginning with a new word, and then of cells, of side kLayerCells.
+// 256, 128, … 1, each beginning with a new word, and then of cells, of side kLayerCells. The word before them is the box
+// around the dirty ones of side 256: bits 7..0 least x, 15..8 least y, 23..16 most x, 31..24 most y.
 CONST_UINT(kEditLayers, 0u);
 CONST_UINT(kEditSeeds, 1u);
 CONST_UINT(kEditParams, 2u);
@@ -87,10 +86,9 @@ FN uint dirtyGrid(uint level) {
     return at;
 }
 
-CONST_UINT(kLeafBlock, 32u);
-CONST_UINT(kWideRange, 2048u);   // nodes: what is wider is looked through leaf by leaf
 CONST_UINT(kCellWords, kLayerCells * kLayerCells / 32u);
 
+CONST_UINT(kResultWords, 5u);
 CONST_UINT(kMostVisited, 16384u);   // chunks that one invocation goes through, see kMaxTrips
 
 ESPALIER_END

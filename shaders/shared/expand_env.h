@@ -36,9 +36,11 @@ struct GrowStatus {
     uint prunedCount;        // branches that are cut away: a branch whose key is among these isn't grown
     UintBuf pruned;          // [2 * i]: low words, high words of their keys, ascending
     u64 again;               // address of a regrowth's AgainState
+    UintBuf firstLeaves;     // of a node, kNoIndex: none; and
+    UintBuf nextLeaves;      // of a leaf the next one on its node: kernels alone write these, for regrowths
     uint hash[128];          // [slot * 2]: low words, high words
 };
-STATIC_SIZE(GrowStatus, 640);
+STATIC_SIZE(GrowStatus, 656);
 BUFFER(GrowStatusBuf, GrowStatus)
 
 // One wave of the queue: how many items wait, and the indirect arguments that grow as they are pushed.

@@ -36,7 +36,19 @@ struct NodeSite {
     float before, after; // arcs of the nodes at both ends of its span
     float stepStart, stepEnd;
     uvec2 hash;          // sum over its leaves
+    uint lastLeaf;       // kNoIndex: none yet
 };
+
+// Chains a node's leaves, so that a regrowth finds them.
+#ifdef __cplusplus
+inline void chainLeaf(uint, uint&) {}
+#else
+UintBuf nextLeavesAtHand;   // GrowStatus::nextLeaves, to be set by the kernel
+void chainLeaf(uint at, inout uint last) {
+    nextLeavesAtHand.v[at] = last;
+    last = at;
+}
+#endif
 
 // How many instances a terminal makes here. The first bark counts; a foot takes the radius of its plant's first span
 // and nothing else.
@@ -46,7 +58,7 @@ FN uint instanceCount(float wanted, bool bark, bool barked, bool foot) {
 }
 
 FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, uint colour, float size, float t, float lift, float turn,
-                 float pitch, float tint, u64 key, uint cell, INOUT(uvec2) hash) {
+                 float pitch, float tint, u64 key, uint cell, INOUT(uvec2) hash, INOUT(uint) lastLeaf) {
     // t runs along the step; inserted samples cut a step into spans, one of which holds the instance.
     float arc = site.stepStart + limited(t, 0.0f, 1.0f) * (site.stepEnd - site.stepStart);
     bool last = site.after >= site.stepEnd;
@@ -67,7 +79,10 @@ FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, uint colour, float siz
     leaf.pose = packLeafPose(turn, pitch, lift, size);
     leaf.tint = packLeafTint(tint, vec3(0.0f), uint(key)) | colour;
     uint at = atomicAdd(env.status.v[0].leaves, 1u);
-    if (at < env.status.v[0].leafCapacity) writeLeaf(env.leaves, at, leaf);
+    if (at < env.status.v[0].leafCapacity) {
+        writeLeaf(env.leaves, at, leaf);
+        chainLeaf(at, lastLeaf);
+    }
     hash = hash + hashOfLeaf(site.chunkKey, site.flags, leaf);
 }
 
@@ -120,7 +135,7 @@ FN float runTerminals(MACHINE_PARAM ExpandEnv env, TableBases map, uint first, u
             float pitch = packedValue(MACHINE (more >> 8u) & 127u, TABLE(at + 12u));
             float tint = packedValue(MACHINE (more >> 16u) & 127u, TABLE(at + 13u));
             emitLeaf(env, site, head & 255u, TABLE(at + 14u), size, along, lift, turn, pitch, tint, key, cell,
-                     site.hash);
+                     site.hash, site.lastLeaf);
         }
         made = makes ? made + 1u : made;
         bool done = made >= count;
@@ -163,6 +178,7 @@ struct NodeFinish {
     uint tangent;
     uint flags;
     float radius;   // before the fit
+    uint firstLeaf;
 };
 FN void keepFinish(NodeBuf nodes, uint index, NodeFinish f) {
     nodes.v[index].tangent = f.tangent;
@@ -204,6 +220,7 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
     site.chunkKey = brief.key;
     site.flags = node.flags;
     site.hash = uvec2(0u, 0u);
+    site.lastLeaf = kNoIndex;
     site.after = node.arc;
     site.before = local > 0u ? readArc(env, index - 1u).arc : entryArc;
     uint flags = node.flags;
@@ -266,6 +283,7 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
     finish.tangent = tangentWithHeading(packOct(tangentFromSum(sum, normal, heading)), headingOfNode(node));
     finish.flags = (node.flags & 0x7C003FFFu) | barkFlags | (site.tip ? kNodeTip : 0u);
     finish.radius = roundRadius(radius);
+    finish.firstLeaf = site.lastLeaf;
     return finish;
 }
 
