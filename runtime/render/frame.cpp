@@ -74,7 +74,8 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.background = look.background;
     frame.shadows = look.shadows ? 1 : 0;
     frame.horizon = look.horizon;
-    frame.groundLevel = inputs.ground.height;
+    frame.groundLevel = inputs.ground.drawn ? inputs.ground.height : -1e30f;
+    frame.grassColor = inputs.ground.colour;
     frame.rayRight = right * (tangent * aspect);
     frame.rayUp = up * tangent;
     frame.rayForward = forward - camera.shift.x * frame.rayRight - camera.shift.y * frame.rayUp;

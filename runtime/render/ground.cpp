@@ -9,7 +9,7 @@
 namespace espalier {
 namespace {
 
-constexpr uint32_t kSide = 256;
+constexpr uint32_t kSide = 512;
 
 float lattice(uint32_t x, uint32_t y, uint32_t salt) {
     uint32_t h = x * 0x9E3779B1u ^ y * 0x85EBCA77u ^ salt * 0xC2B2AE3Du;
@@ -34,18 +34,45 @@ float octaves(uint32_t x, uint32_t y, uint32_t cells, int count, uint32_t salt) 
     return sum;
 }
 
-// r: patches; g: grain; b, a: slopes of a bumpy height, so that they fade with distance as colours do.
+// Blades of grass over each other, each lighter from its root to its tip; of mean 0, so that they fade with distance.
+std::vector<float> bladeTile() {
+    std::vector<float> tile(size_t(kSide) * kSide, -0.9f);
+    constexpr uint32_t kBlades = 6500;
+    for (uint32_t i = 0; i < kBlades; ++i) {
+        const auto random = [&](uint32_t which) { return lattice(i, which, 41); };
+        float x = kSide * (0.5f + 0.5f * random(0)), y = kSide * (0.5f + 0.5f * random(1));
+        float angle = 3.14159265f * random(2);
+        const float length = 34 + 16 * random(3), bend = 0.022f * random(4), shade = 0.45f * random(5);
+        for (float along = 0; along < length; along += 0.7f) {
+            const float t = along / length, half = 1.9f * (1 - t * t);
+            for (float across = -half; across <= half; across += 0.7f) {
+                const auto wrapped = [](float v) { return uint32_t(int(std::floor(v)) + 4 * int(kSide)) % kSide; };
+                const uint32_t column = wrapped(x - across * std::sin(angle)), row = wrapped(y + across * std::cos(angle));
+                tile[size_t(row) * kSide + column] = shade - 0.5f + 0.9f * t + 0.15f * across / 1.9f;
+            }
+            x += 0.7f * std::cos(angle), y += 0.7f * std::sin(angle);
+            angle += 0.7f * bend;
+        }
+    }
+    double sum = 0;
+    for (float v : tile) sum += v;
+    for (float& v : tile) v -= float(sum / double(tile.size()));
+    return tile;
+}
+
+// r: patches; g: blades; b, a: slopes of a bumpy height. Of mean 0, so that they fade with distance as colours do.
 std::vector<uint8_t> noiseTile() {
     std::vector<uint8_t> rgba(size_t(kSide) * kSide * 4);
+    const std::vector<float> blades = bladeTile();
     const auto byte = [](float x) { return uint8_t(std::clamp(x * 0.5f + 0.5f, 0.0f, 1.0f) * 255 + 0.5f); };
     const auto height = [](uint32_t x, uint32_t y) { return octaves(x % kSide, y % kSide, 16, 4, 31); };
     for (uint32_t y = 0; y < kSide; ++y)
         for (uint32_t x = 0; x < kSide; ++x) {
             uint8_t* texel = &rgba[(size_t(y) * kSide + x) * 4];
             texel[0] = byte(1.4f * octaves(x, y, 4, 5, 11));
-            texel[1] = byte(1.4f * octaves(x, y, 48, 3, 21));
-            texel[2] = byte(3 * (height(x + 1, y) - height(x, y)));
-            texel[3] = byte(3 * (height(x, y + 1) - height(x, y)));
+            texel[1] = byte(blades[size_t(y) * kSide + x]);
+            texel[2] = byte(6 * (height(x + 1, y) - height(x, y)));
+            texel[3] = byte(6 * (height(x, y + 1) - height(x, y)));
         }
     return rgba;
 }

@@ -178,8 +178,8 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
     return push;
 }
 
-void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, const Image& shadowMap,
-                  const Sampler& shadowSampler, bool walkData) const {
+void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow,
+                  const Binding& noise, bool walkData) const {
     for (const auto& [index, model] : models_) {
         pass.setIndices(model.indices);
         const auto drawMesh = [&](uint32_t mesh, float fade) {
@@ -191,7 +191,8 @@ void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, c
                 pass.drawIndexed(program, {range.indexCount, range.firstIndex}, push,
                                  {{pictureOr(model.colors, material.baseColorImage, white_), sampler_},
                                   {pictureOr(model.normals, material.normalImage, flat_), sampler_},
-                                  {shadowMap, shadowSampler},
+                                  shadow,
+                                  noise,
                                   frame});
             }
         };

@@ -23,9 +23,9 @@ class Models {
     void choose(glm::vec3 eye, float pixelScale, float pixels);
     static constexpr uint32_t kFadeFrames = 8;
 
-    // Draws all of them as chosen; `shadowMap` may be without an image for a depth-only program.
-    void draw(DrawPass& pass, const Program& program, const Buffer& frame, const Image& shadowMap,
-              const Sampler& shadowSampler, bool walkData) const;
+    // Draws all of them as chosen. noise: Ground::noise(), of which the meadow at their feet is made, and their grain.
+    void draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow, const Binding& noise,
+              bool walkData) const;
     // The simplest meshes with an error of at most `error` metres.
     void drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const;
 

@@ -134,7 +134,8 @@ Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, co
     commands.transition(targets_.depth, ImageState::depthTarget, !hosted_);
     DrawPass pass(commands, "draw scene", targets);
     if (!hosted_ || target.host.models)
-        models_.draw(pass, scene_->model, *frame_, shadowMap_, shadowSampler_, inputs.surfaces.v != nullptr);
+        models_.draw(pass, scene_->model, *frame_, {shadowMap_, shadowSampler_}, {ground_.noise(), ground_.sampler()},
+                     inputs.surfaces.v != nullptr);
     if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, explained_);
     return Done{};
 }
@@ -276,7 +277,6 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     PostPush push{};
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
     push.ground = inputs.ground.drawn && !hosted_ ? 1 : 0;
-    push.groundColor = inputs.ground.colour;
     // Some devices do a pass' work when the next one needs it: only the whole is a true time.
     Pass whole(commands, "draw");
     models_.choose(frame.eye, frame.pixelScale, allowedModelError(inputs.look, grows_));

@@ -40,13 +40,13 @@ struct FrameRecord {
     vec3 rayUp;
     float unit;              // what a metre is for models that come in other units: sizes of the look are in it
     vec3 rayForward;
-    float groundLevel;       // height of the ground that is drawn to the horizon
+    float groundLevel;       // height of the ground that is drawn to the horizon; none is drawn: far below
     SurfaceBuf surfaces;
     LayerBuf layers;
     float layerOpacity;      // over the model
-    float spare;
+    vec3 grassColor;         // of the ground that is drawn
 };
-STATIC_SIZE(FrameRecord, 312);
+STATIC_SIZE(FrameRecord, 320);
 
 // As DrawVertex of runtime/surface.
 struct ModelVertex {
@@ -85,10 +85,8 @@ struct PostPush {
     vec2 rcpSize;            // 1 / pixels
     uint ground;             // 1: ground is drawn, and hills at the horizon
     uint encode;             // 1: the target doesn't encode to sRGB itself
-    vec3 groundColor;        // of its grass
-    uint spare;
 };
-STATIC_SIZE(PostPush, 32);
+STATIC_SIZE(PostPush, 16);
 
 struct TilesPush {
     FloatBuf tiles;

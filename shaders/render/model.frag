@@ -3,10 +3,12 @@
 #include "shaders/shared/extensions.glsl"
 // glTF base colour and normal map under sun and sky; or what the other views ask for.
 #include "shaders/render/light.glsl"
+#include "shaders/render/meadow.glsl"
 
 layout(push_constant, scalar) uniform Data { ModelPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;
 layout(set = 0, binding = 1) uniform sampler2D normalMap;
+layout(set = 0, binding = 3) uniform sampler2D noise;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
@@ -49,6 +51,40 @@ bool fadedOut() {
     return push.fade > 0.0 ? threshold >= push.fade : threshold < -push.fade;
 }
 
+// Where a texture has fewer texels than there are pixels, rough material goes on in a grain of its own.
+// plane: the face's normal; footX, footY: how uvs.xy change from pixel to pixel, in texels.
+void addGrain(vec3 plane, vec2 footX, vec2 footY, inout vec3 base, inout vec3 bumped) {
+    float share = clamp(1.15 - 1.6 * max(dot(footX, footX), dot(footY, footY)), 0.0, 1.0) *
+                  clamp(push.roughness * 4.0 - 2.2, 0.0, 1.0);
+    vec3 at = position * (1.0 / 0.37) / frame.unit, atX = dFdx(at), atY = dFdy(at);
+    vec3 a = abs(plane);
+    bool side = a.x > a.y && a.x > a.z, top = !side && a.y > a.z;
+    for (bool grained = share > 0.0; grained; grained = false) {
+        vec2 p = side ? at.zy : top ? at.xz : at.xy;
+        vec2 px = side ? atX.zy : top ? atX.xz : atX.xy, py = side ? atY.zy : top ? atY.xz : atY.xy;
+        vec4 coarse = textureGrad(noise, p, px, py) * 2.0 - 1.0;
+        vec4 fine = textureGrad(noise, p.yx * 3.1, px.yx * 3.1, py.yx * 3.1) * 2.0 - 1.0;
+        base *= 1.0 + share * (0.16 * coarse.x + 0.30 * fine.x);
+        vec2 slope = share * (0.40 * coarse.zw + 0.45 * fine.wz);
+        bumped = normalize(bumped - (side ? vec3(0.0, slope.y, slope.x) : top ? vec3(slope.x, 0.0, slope.y) : vec3(slope, 0.0)));
+    }
+}
+
+// What lies almost as low as the meadow is overgrown by it.
+void addMeadow(vec3 plane, float metres, inout vec3 base, inout vec3 bumped) {
+    float above = (position.y - frame.groundLevel) / frame.unit;
+    float share = clamp(1.25 - above * 14.0, 0.0, 1.0) * clamp(plane.y * 4.0 - 2.6, 0.0, 1.0);
+    vec2 place = position.xz / frame.unit, placeX = dFdx(place), placeY = dFdy(place);
+    for (bool overgrown = share > 0.0; overgrown; overgrown = false) {
+        Meadow meadow = meadowAt(noise, place, placeX, placeY, metres);
+        // Blades first: the lighter ones reach out farther.
+        float lush = dot(meadow.base, vec3(0.3, 0.6, 0.1)) / dot(frame.grassColor, vec3(0.3, 0.6, 0.1));
+        share = smoothstep(0.25, 0.75, share * 1.2 + 1.6 * (lush - 1.0) * share * (1.0 - share));
+        base = mix(base, meadow.base, share);
+        bumped = normalize(mix(bumped, meadow.normal, share));
+    }
+}
+
 void main() {
     if (push.fade != 1.0 && fadedOut()) discard;
     vec4 base = texture(colorMap, uvs.xy);
@@ -74,6 +110,10 @@ void main() {
         color = otherView(bumped);
         return;
     }
+    vec2 texels = vec2(textureSize(colorMap, 0));
+    vec2 footX = dFdx(uvs.xy) * texels, footY = dFdy(uvs.xy) * texels;
+    if (texels.x > 4.0) addGrain(n, footX, footY, base.rgb, bumped);
+    addMeadow(n, length(frame.eye - position) / frame.unit, base.rgb, bumped);
     vec3 sun = frame.sunDirection;
     float facing = max(dot(bumped, sun), 0.0) * step(0.0, dot(n, sun));
     float visible = facingSunVisibility(facing, position, n);

@@ -17,12 +17,23 @@ vec3 hills(vec3 ray, vec3 sky) {
     vec3 seen = sky;
     for (int range = 2; range >= 0; --range) {
         float far = float(range);
-        vec4 high = textureLod(noise, to * (0.055 + 0.02 * far) + 0.37 * far, 0.0) - 0.5;
-        vec4 trees = textureLod(noise, to * 1.7 + 0.11 * far, 0.0) - 0.5;
-        float crest = 0.010 + 0.012 * far + 0.055 * high.x + (0.004 - 0.0015 * far) * trees.x;
-        seen = mix(seen, farLand(ray, far), clamp((crest - ray.y) * 900.0, 0.0, 1.0));
+        vec4 high = textureLod(noise, to * (0.24 - 0.07 * far) + 0.37 * far, 0.0) - 0.5;
+        vec4 trees = textureLod(noise, to * 2.1 + 0.11 * far, 0.0) - 0.5;
+        float crest = 0.011 + 0.012 * far + 0.040 * high.x + (0.011 - 0.0045 * far) * trees.x;
+        vec3 wood = farLand(ray, far) * (1.0 + (0.5 - 0.2 * far) * trees.x * clamp(ray.y * 120.0, 0.0, 1.0));
+        seen = mix(seen, wood, clamp((crest - ray.y) * 700.0, 0.0, 1.0));
     }
     return seen;
+}
+
+// Thin fair-weather clouds on a plane high above, their rims lit by the sun.
+vec3 clouds(vec3 ray, vec3 sky) {
+    vec2 at = ray.xz / (ray.y + 0.16) * 0.115;
+    float wide = textureLod(noise, at * vec2(0.55, 1.0) + 0.31, 0.0).x, small = textureLod(noise, at * 2.7 + 0.13, 0.0).x;
+    float thick = clamp((wide + 0.38 * small - 0.72) * 3.2, 0.0, 1.0) * clamp(ray.y * 9.0 - 0.15, 0.0, 1.0);
+    float glow = 0.5 + 0.5 * dot(ray, frame.sunDirection);
+    vec3 white = frame.horizon * (1.02 + 0.10 * glow) + frame.sunColor * (0.05 * glow * glow) * (1.0 - 0.4 * thick);
+    return mix(sky, white, 0.78 * thick);
 }
 
 void main() {
@@ -30,6 +41,7 @@ void main() {
     vec3 ray = normalize(frame.rayForward + frame.rayRight * at.x - frame.rayUp * at.y);
     vec3 seen = skyColor(ray);
     // A loop of one round: a device that runs all lanes through both sides of an `if` does leave a loop early.
+    for (bool high = ray.y > 0.02; high; high = false) seen = clouds(ray, seen);
     for (bool low = push.ground != 0u && ray.y < kHighestHill; low; low = false) seen = hills(ray, seen);
     color = stored(toneMapped(seen * frame.exposure), 0.0);
     if (frame.view == kViewOverdraw) color = vec4(0.0);

@@ -14,6 +14,6 @@ vec3 skyColor(vec3 ray) {
 // Wooded land so far away that it is mostly haze, in ranges 0, 1, 2 ... behind each other.
 vec3 farLand(vec3 ray, float range) {
     vec3 haze = skyColor(normalize(vec3(ray.x, 0.0, ray.z)));
-    return mix(frame.skyColor * vec3(0.11, 0.14, 0.07), haze, 0.52 + 0.15 * range);
+    return mix(frame.skyColor * vec3(0.11, 0.14, 0.07), haze, 0.20 + 0.22 * range);
 }
 #endif

@@ -1,0 +1,38 @@
+// A meadow's colour and bumps: grass in patches of hue, worn earth here and there, blades near by. What stands on the ground
+// goes over into it.
+#ifndef ESPALIER_RENDER_MEADOW_GLSL
+#define ESPALIER_RENDER_MEADOW_GLSL
+#include "shaders/render/frame.glsl"
+
+struct Meadow {
+    vec3 base, normal;
+};
+
+// noise: Ground::noise(). place: on the ground, metres; dx, dy: its change from pixel to pixel; metres: from the eye.
+Meadow meadowAt(sampler2D noise, vec2 place, vec2 dx, vec2 dy, float metres) {
+    const mat2 turned = mat2(0.8, 0.6, -0.6, 0.8) * (1.0 / 5.3);
+    const mat2 mown = mat2(0.6, -0.8, 0.8, 0.6) * (1.0 / 1.3);
+    vec4 broad = textureGrad(noise, place * (1.0 / 61.0), dx * (1.0 / 61.0), dy * (1.0 / 61.0)) * 2.0 - 1.0;
+    vec4 near = textureGrad(noise, turned * place, turned * dx, turned * dy) * 2.0 - 1.0;
+    // Blades are told apart near by only. A loop of one round: a device that runs all lanes through both sides of an `if`
+    // does leave a loop early.
+    vec4 fine = vec4(0.0);
+    float share = clamp(1.5 - metres * 0.03, 0.0, 1.0);
+    for (bool close = share > 0.0; close; close = false)
+        fine = (textureGrad(noise, mown * place, mown * dx, mown * dy) * 2.0 - 1.0) * share;
+
+    // Patches that lie flat to the eye run together into streaks: far away the meadow is one green, its hue changing slowly.
+    float calm = clamp(metres * 0.03 - 0.2, 0.0, 1.0);
+    float grass = smoothstep(-0.30, 0.25, 0.30 + 0.5 * calm + (0.7 * broad.x + 0.8 * near.x) * (1.0 - 0.7 * calm) + 0.3 * fine.y);
+    float blades = clamp(0.5 + 0.75 * fine.y + 0.2 * near.x * (1.0 - calm), 0.0, 1.0);
+    vec3 green = frame.grassColor * (0.35 + blades);
+    float dry = clamp(0.28 + (0.5 * broad.x + 0.45 * near.z) * (1.0 - 0.35 * calm) + 0.25 * fine.y, 0.0, 0.75);
+    green = mix(green, frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.55 + 0.75 * blades), dry);
+    vec3 earth = mix(vec3(0.075, 0.055, 0.036), vec3(0.150, 0.114, 0.076), 0.5 + 0.4 * fine.x + 0.2 * near.z);
+    Meadow m;
+    m.base = mix(earth, green, grass);
+    vec2 slope = near.zw * 0.35 * (1.0 - calm) + fine.zw * 0.55;
+    m.normal = normalize(vec3(-slope.x, 1.0, -slope.y));
+    return m;
+}
+#endif
