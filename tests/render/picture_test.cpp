@@ -247,7 +247,7 @@ TEST_CASE("into a host's image") {
     REQUIRE(image);
     Result<Commands> commands = Commands::begin(*studio.device, "host frame");
     REQUIRE(commands);
-    DrawTarget target{200, 120, image->handle(), image->view(), VK_FORMAT_R8G8B8A8_UNORM};
+    DrawTarget target{200, 120, image->handle(), image->view(), VK_FORMAT_R8G8B8A8_UNORM, {}};
     REQUIRE(studio.renderer->draw(*commands, studio.inputs, target));
     REQUIRE(commands->finish());
     image->state = ImageState::colorTarget;
