@@ -1,5 +1,6 @@
-// Enters: growth's records and a view. Leaves: instances sorted by bucket with their indirect draws (two kernels
-// give each item its bucket and place, one scans, two write).
+// Enters: bound growth (emit_bind.cpp) and a view. Leaves: what of it is drawn, sorted by bucket, with indirect draws.
+// One kernel looks at cells, one lists blocks of what they keep, two give each item of a block its bucket, one scans,
+// one writes.
 #include "runtime/emit/emit.hpp"
 
 #include <algorithm>
@@ -7,18 +8,8 @@
 namespace espalier {
 namespace {
 
-// At most so many visible instances; beyond, they are counted as overflow and left out.
-constexpr uint64_t kMaxSpanInstances = 4'000'000, kMaxLeafInstances = 6'000'000;
-static_assert(kMaxSpanInstances <= kLastPlace && kMaxLeafInstances <= kLastPlace);
-
-// A buffer of at least `bytes`, with room for growth to come when it has to be made anew.
-Status atLeast(Device& device, Buffer& buffer, std::string_view name, uint64_t bytes, uint64_t most) {
-    if (buffer && buffer.size() >= bytes) return Done{};
-    Result<Buffer> made = Buffer::create(device, name, std::min(std::max<uint64_t>(bytes + bytes / 2, 65536), most));
-    if (!made) return made.failure();
-    buffer = std::move(*made);
-    return Done{};
-}
+// Far canopies are drawn with fewer, larger leaves: each goes on its own, by its hash, so that nothing pops at once.
+constexpr float kWholePixels = 8, kLeastShare = 0.12f;
 
 }  // namespace
 
@@ -29,25 +20,39 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
     const struct {
         Program& program;
         const char* shader;
-    } programs[] = {{emit.classifySpans_, "emit/classify_spans.comp"},
-                    {emit.classifyLeaves_, "emit/classify_leaves.comp"},
-                    {emit.scan_, "emit/scan.comp"},
-                    {emit.writeSpans_, "emit/write_spans.comp"},
-                    {emit.writeLeaves_, "emit/write_leaves.comp"},
-                    {emit.barkVertices_, "emit/bark_vertices.comp"},
-                    {emit.barkIndices_, "emit/bark_indices.comp"},
-                    {emit.looseTriangles_, "emit/loose_triangles.comp"}};
+        std::vector<SpecConstant> constants;
+    } programs[] = {{emit.bindSpans_[0], "emit/bind_spans.comp", {{3, 1}}},
+                    {emit.bindSpans_[1], "emit/bind_spans.comp", {{3, 0}}},
+                    {emit.bindLeaves_[0], "emit/bind_leaves.comp", {{3, 1}}},
+                    {emit.bindLeaves_[1], "emit/bind_leaves.comp", {{3, 0}}},
+                    {emit.bindCells_, "emit/bind_cells.comp", {}},
+                    {emit.bindOrder_, "emit/bind_order.comp", {}},
+                    {emit.bindSort_, "emit/bind_sort.comp", {}},
+                    {emit.cullCells_, "emit/cull_cells.comp", {}},
+                    {emit.listBlocks_, "emit/list_blocks.comp", {}},
+                    {emit.classifySpans_, "emit/classify_spans.comp", {}},
+                    {emit.classifyLeaves_, "emit/classify_leaves.comp", {}},
+                    {emit.scan_, "emit/scan.comp", {}},
+                    {emit.writeDrawn_, "emit/write_drawn.comp", {}},
+                    {emit.barkVertices_, "emit/bark_vertices.comp", {}},
+                    {emit.barkIndices_, "emit/bark_indices.comp", {}},
+                    {emit.looseTriangles_, "emit/loose_triangles.comp", {}}};
     for (const auto& p : programs) {
-        Result<Program> made = Program::compute(device, p.shader);
+        Result<Program> made = Program::compute(device, p.shader, {.exact = false, .constants = p.constants});
         if (!made) return made.failure();
         p.program = std::move(*made);
     }
+    constexpr uint64_t kCells = 2 * kMaxCells;
     const struct {
         Buffer& buffer;
         const char* name;
         uint64_t bytes;
-        BufferUse use;
-    } buffers[] = {{emit.state_, "emit state", sizeof(EmitState), BufferUse::device},
+        BufferUse use = BufferUse::device;
+    } buffers[] = {{emit.state_, "emit state", sizeof(EmitState)},
+                   {emit.cells_, "emit cells", (kCells + 1) * sizeof(EmitCell)},
+                   {emit.bins_, "emit bins", kCells * kCellBins * 4},
+                   {emit.seen_, "emit seen cells", kCells * 4},
+                   {emit.noTexels_, "emit no texels", 16},
                    {emit.readback_, "emit counts", sizeof(EmitState), BufferUse::readback}};
     for (const auto& b : buffers) {
         Result<Buffer> made = Buffer::create(device, b.name, b.bytes, b.use);
@@ -63,72 +68,45 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
     return emit;
 }
 
-Status Emit::reserve(Device& device, const GrowthView& growth) {
-    const uint64_t nodes = std::min<uint64_t>(growth.nodeCount, kMaxSpanInstances);
-    const uint64_t leaves = std::min<uint64_t>(growth.leafCount, kMaxLeafInstances);
-    if (Status s = atLeast(device, kept_, "emit notes",
-                           sizeof(KeptItem) * (uint64_t(growth.nodeCount) + growth.leafCount), ~0ull);
-        !s)
-        return s;
-    const struct {
-        Buffer& buffer;
-        TexelView& texels;
-        const char* name;
-        uint64_t bytes, most;
-    } rows[] = {
-        {spans_, spanTexels_, "span instances", nodes * sizeof(SpanInstance), kMaxSpanInstances * sizeof(SpanInstance)},
-        {leaves_, leafTexels_, "leaf instances", leaves * sizeof(LeafInstance),
-         kMaxLeafInstances * sizeof(LeafInstance)}};
-    for (const auto& row : rows) {
-        if (row.buffer && row.buffer.size() >= row.bytes) continue;
-        row.texels = {};
-        if (Status s = atLeast(device, row.buffer, row.name, row.bytes, row.most); !s) return s;
-        Result<TexelView> made = TexelView::create(device, row.buffer, VK_FORMAT_R32G32B32A32_UINT);
-        if (!made) return made.failure();
-        row.texels = std::move(*made);
-    }
-    return Done{};
-}
-
-Status Emit::record(Commands& commands, const EmitInputs& inputs, const EmitView& view, Pass& pass) {
-    const GrowthView& growth = inputs.growth;
-    if (Status s = reserve(*device_, growth); !s) return s;
+Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
     const Buffer& shown = views_[viewSlot_++ % views_.size()];
     const Buffer& table = terminals_->tableBuffer();
     commands.barrier(Use::compute | Use::vertex | Use::indirect | Use::transfer, Use::transfer | Use::compute);
     if (Status s = commands.upload(shown, std::as_bytes(std::span(&view, 1))); !s) return s;
-    commands.fill(state_, 0);
     commands.barrier(Use::transfer, Use::compute);
 
     EmitPush push{};
     push.state.v = reinterpret_cast<EmitState*>(state_.address());
-    push.kept.v = reinterpret_cast<KeptItem*>(kept_.address());
-    push.nodes = growth.nodes;
-    push.chunks = growth.chunks;
-    push.leaves = growth.leaves;
-    push.surfaces = inputs.surfaces;
-    push.spanInstances.v = reinterpret_cast<SpanInstance*>(spans_.address());
-    push.leafInstances.v = reinterpret_cast<LeafInstance*>(leaves_.address());
-    push.nodeCount = growth.nodeCount;
-    push.leafCount = growth.leafCount;
-    push.spanCapacity = uint32_t(spans_.size() / sizeof(SpanInstance));
-    push.leafCapacity = uint32_t(leaves_.size() / sizeof(LeafInstance));
+    push.cells.v = reinterpret_cast<EmitCell*>(cells_.address());
+    push.bins.v = reinterpret_cast<uint32_t*>(bins_.address());
+    push.order.v = reinterpret_cast<uint32_t*>(order_.address());
+    push.seen.v = reinterpret_cast<uint32_t*>(seen_.address());
+    push.blocks.v = reinterpret_cast<EmitBlock*>(blocks_.address());
+    push.rows.v = reinterpret_cast<uint32_t*>(rows_.address());
+    push.notes.v = reinterpret_cast<DrawnItem*>(notes_.address());
+    push.drawn.v = reinterpret_cast<DrawnItem*>(drawn_.address());
+    push.grid = grid_;
+    push.nodeCount = bound_.nodeCount;
 
-    pass.dispatchItems(classifySpans_, growth.nodeCount, push, {table, shown});
-    pass.dispatchItems(classifyLeaves_, growth.leafCount, push, {table, shown});
+    pass.dispatchItems(cullCells_, 2 * kMaxCells, push, {table, shown});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(scan_, {1, 1, 1}, push, {table});
+    pass.dispatch(listBlocks_, {1, 1, 1}, push);
     pass.barrier(Use::compute, Use::compute | Use::indirect);
-    const uint64_t groups = offsetof(EmitState, writeGroups);
-    pass.dispatchIndirect(writeSpans_, state_, groups, push, {table, shown});
-    pass.dispatchIndirect(writeLeaves_, state_, groups + 12, push, {table, shown});
+    const uint64_t groups = offsetof(EmitState, groups);
+    pass.dispatchIndirect(classifySpans_, state_, groups, push, {table, shown, spanTexels_});
+    pass.dispatchIndirect(classifyLeaves_, state_, groups + 12, push, {table, shown, leafTexels_});
+    pass.barrier(Use::compute, Use::compute);
+    pass.dispatch(scan_, {1, 1, 1}, push, {table, shown});
+    pass.barrier(Use::compute, Use::compute);
+    pass.dispatchIndirect(writeDrawn_, state_, groups + 24, push, {noteTexels_});
     return Done{};
 }
 
 Status Emit::cull(Commands& commands, const EmitInputs& inputs, const EmitView& view, std::string_view passName,
                   bool counted) {
+    if (Status s = bind(commands, inputs); !s) return s;
     Pass pass(commands, passName);
-    if (Status s = record(commands, inputs, view, pass); !s) return s;
+    if (Status s = record(commands, view, pass); !s) return s;
     pass.barrier(Use::compute, Use::indirect | Use::vertex | Use::transfer);
     if (counted) {
         commands.copy(state_, readback_, sizeof(EmitState));
@@ -144,7 +122,7 @@ EmitStats Emit::stats() const {
     stats.fullTriangles = state.fullTriangles;
     stats.spans = state.spanCount;
     stats.leaves = state.leafCount;
-    stats.overflow = state.overflow;
+    stats.overflow = overflow_;
     stats.buckets.assign(state.counts, state.counts + kMaxBuckets);
     return stats;
 }
@@ -170,6 +148,8 @@ EmitView parallelView(const glm::mat4& m, float pixelsPerMetre, float lodPixels)
     view.lodPixels = std::max(lodPixels, 1e-3f);
     view.parallel = 1;
     view.leastPixels = 0.5f;
+    view.wholePixels = kWholePixels;
+    view.leastShare = kLeastShare;
     return view;
 }
 

@@ -13,6 +13,8 @@ namespace espalier {
 struct EmitInputs {
     GrowthView growth;
     SurfaceBuf surfaces;  // indexed by surface instance
+    // Where things grow, more or less: space is divided there. What lies elsewhere costs more, no more than that.
+    glm::vec3 low{-4}, high{4};
 };
 
 // Triangles in GPU memory: TriangleVertex and 32-bit indices, in the world.
@@ -26,27 +28,32 @@ struct EmitStats {
     uint64_t drawnTriangles = 0;     // of the last cull whose results have come back
     uint64_t fullTriangles = 0;      // the same growth at full detail
     uint32_t spans = 0, leaves = 0;  // instances seen
-    uint32_t overflow = 0;           // instances left out for want of room
+    uint32_t overflow = 0;           // leaves left out for want of room
     std::vector<uint32_t> buckets;   // instances of each
 };
 
-// Culls and picks LODs in compute; no loop over instances runs on the CPU. One Emit serves several views in one
-// recording, one after another: cull, draw, cull, draw. Its buffers grow as growth does.
+// When growth has changed, binds it: every span and leaf becomes an instance in the world, in a cell of space. Culls
+// and picks LODs in compute, by cells first, so that a view costs what is seen in it; no loop over instances runs on
+// the CPU. One Emit serves several views in one recording, one after another: cull, draw, cull, draw. What is drawn is
+// in the same order in every run. Its buffers grow as growth does.
 class Emit {
   public:
     // `terminals` must outlive it.
     static Result<Emit> create(Device& device, const Terminals& terminals);
 
-    // Records the culling of `inputs` for `view`; what an earlier cull left is lost. Timed as `passName`.
-    // With `counted` the figures come back in stats() once the work is done.
+    // Records the culling of `inputs` for `view`; what an earlier cull left is lost. Timed as `passName`, binding as
+    // "bind". With `counted` the figures come back in stats() once the work is done.
     Status cull(Commands& commands, const EmitInputs& inputs, const EmitView& view, std::string_view passName,
                 bool counted);
 
     // Where the draws of the last cull lie; bucket b has the commands 2b and 2b + 1.
     const Buffer& state() const { return state_; }
-    const Buffer& spanInstances() const { return spans_; }
-    const Buffer& leafInstances() const { return leaves_; }
+    // Which instances are drawn, as DrawnItem: bucket b's from EmitState::starts[b] on.
+    const Buffer& drawn() const { return drawn_; }
+    const Buffer& spanInstances() const { return spans_; }   // [node]
+    const Buffer& leafInstances() const { return leaves_; }  // [leaf]
     // The same as texels of four words, for vertex shaders.
+    const TexelView& drawnTexels() const { return drawnTexels_; }
     const TexelView& spanTexels() const { return spanTexels_; }
     const TexelView& leafTexels() const { return leafTexels_; }
 
@@ -57,16 +64,37 @@ class Emit {
     Result<EmittedTriangles> materialise(const EmitInputs& inputs);
 
   private:
-    Status reserve(Device& device, const GrowthView& growth);
-    Status record(Commands& commands, const EmitInputs& inputs, const EmitView& view, Pass& pass);
+    // What the instances were made from.
+    struct Bound {
+        uint64_t nodes = 0, leaves = 0, surfaces = 0, revision = 0;
+        uint32_t nodeCount = 0, leafCount = 0;
+        glm::vec3 low{0}, high{0};
+        bool operator==(const Bound&) const = default;
+    };
+
+    // emit_bind.cpp
+    Status reserve(uint32_t nodes, uint32_t leaves);
+    Status viewRecords(const GrowthView& growth);
+    Status bind(Commands& commands, const EmitInputs& inputs);
+
+    Status record(Commands& commands, const EmitView& view, Pass& pass);
 
     Device* device_ = nullptr;
     const Terminals* terminals_ = nullptr;
-    Program classifySpans_, classifyLeaves_, scan_, writeSpans_, writeLeaves_;
+    std::array<Program, 2> bindSpans_, bindLeaves_;  // [1] fetches records as texels
+    Program bindCells_, bindOrder_, bindSort_;
+    Program cullCells_, listBlocks_, classifySpans_, classifyLeaves_, scan_, writeDrawn_;
     Program barkVertices_, barkIndices_, looseTriangles_;
-    std::array<Buffer, 8> views_;  // that recordings in flight may still read
-    Buffer state_, kept_, spans_, leaves_, readback_;
-    TexelView spanTexels_, leafTexels_;  // of these; after them
+    std::array<Buffer, 8> views_;                                     // that recordings in flight may still read
+    Buffer spans_, leaves_, cells_, bins_, keys_, order_;             // bound growth
+    Buffer state_, seen_, blocks_, rows_, notes_, drawn_, readback_;  // of a view
+    TexelView spanTexels_, leafTexels_, noteTexels_, drawnTexels_;    // of these; after them
+    Buffer noTexels_;
+    TexelView nodeRecords_, chunkRecords_, leafRecords_;
+    EmitGrid grid_{};
+    Bound bound_;
+    bool fetches_ = false;
+    uint32_t overflow_ = 0;
     uint32_t viewSlot_ = 0;
 };
 

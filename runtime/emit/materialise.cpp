@@ -42,7 +42,7 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
     EmittedTriangles out;
     const EmitTable& table = terminals_->table();
     const std::vector<Block> blocks = layOut(state, table, out.vertexCount, out.indexCount);
-    if (state.overflow > 0 || out.vertexCount > 0x7FFFFFFFu || out.indexCount > 0xFFFFFFFFu)
+    if (overflow_ > 0 || out.vertexCount > 0x7FFFFFFFu || out.indexCount > 0xFFFFFFFFu)
         return Failure("growth", "it has too many triangles to be written at once");
     Result<Buffer> vertices = Buffer::create(*device_, "growth vertices", out.vertexCount * sizeof(TriangleVertex));
     if (!vertices) return vertices.failure();
@@ -56,14 +56,14 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
     {
         Pass pass(*commands, "materialise");
         TrianglesPush push{};
-        push.spans.v = reinterpret_cast<SpanInstance*>(spans_.address());
+        push.drawn.v = reinterpret_cast<DrawnItem*>(drawn_.address());
         push.leaves.v = reinterpret_cast<LeafInstance*>(leaves_.address());
         push.meshVertices.v = reinterpret_cast<TerminalVertex*>(terminals_->vertices().address());
         push.meshIndices.v = reinterpret_cast<uint32_t*>(terminals_->indices().address());
         push.vertices.v = reinterpret_cast<uint64_t*>(out.vertices.address());
         push.indices.v = reinterpret_cast<uint64_t*>(out.indices.address());
         push.count = state.spanCount;
-        pass.dispatchItems(barkVertices_, state.spanCount * kBarkRings, push);
+        pass.dispatchItems(barkVertices_, state.spanCount * kBarkRings, push, {spanTexels_, drawnTexels_});
         pass.dispatchItems(barkIndices_, state.spanCount * (kBarkRings - 1), push);
         for (const Block& block : blocks) {
             const BucketRecord& bucket = table.buckets[block.bucket];

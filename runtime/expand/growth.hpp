@@ -65,6 +65,9 @@ struct GrowthView {
     BranchBuf branches{};
     LeafBuf leaves{};
     uint32_t nodeCount = 0, chunkCount = 0, branchCount = 0, leafCount = 0;
+    // The whole buffers that these lie in, from their beginnings on, where they can be read as texels; null: they
+    // can't.
+    const Buffer *nodeBuffer = nullptr, *chunkBuffer = nullptr, *leafBuffer = nullptr;
     uint64_t revision = 0;  // grows with every grow() that changed anything
 };
 

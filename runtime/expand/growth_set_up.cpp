@@ -229,6 +229,9 @@ void GpuGrowth::showLinks(const GrowStatus& status) {
     view_.chunks = addressOf<ChunkBuf, Chunk>(links.chunks);
     view_.branches = addressOf<BranchBuf, BranchRecord>(links.branches);
     view_.leaves = addressOf<LeafBuf, Leaf>(plants.leaves);
+    view_.nodeBuffer = &plants.nodes;
+    view_.chunkBuffer = &links.chunks;
+    view_.leafBuffer = &plants.leaves;
     view_.nodeCount = status.nodes;
     view_.chunkCount = status.chunks;
     view_.branchCount = status.branches;

@@ -70,25 +70,26 @@ void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
         const Binding normal{terminals_.normalMap(bucket.material), textureSampler_};
         const Binding shadow{shadowMap_, shadowSampler_};
         const bool bark = b < table.barkBuckets;
-        const Binding drawn(bark ? emit_.spanTexels() : emit_.leafTexels()), meshes(terminals_.vertexTexels());
+        const Binding instances(bark ? emit_.spanTexels() : emit_.leafTexels()), meshes(terminals_.vertexTexels()),
+            drawn(emit_.drawnTexels());
         if (!depthOnly && bark)
             pass.drawIndexedIndirect(scene_->bark, emit_.state(), offset, 2, push,
-                                     {color, shadow, *frame_, emit_.state(), drawn, meshes});
+                                     {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
         else if (!depthOnly && !explained_ && small_[b])
             pass.drawIndexedIndirect(scene_->leafSmall, emit_.state(), offset, 2, push,
-                                     {color, shadow, *frame_, emit_.state(), drawn, meshes});
+                                     {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
         else if (!depthOnly)
             pass.drawIndexedIndirect(scene_->leaf, emit_.state(), offset, 2, push,
-                                     {color, normal, shadow, *frame_, emit_.state(), drawn, meshes});
+                                     {color, normal, shadow, *frame_, emit_.state(), instances, meshes, drawn});
         else if (bark)
             pass.drawIndexedIndirect(barkDepth_, emit_.state(), offset, 2, push,
-                                     {*frame_, emit_.state(), drawn, meshes});
+                                     {*frame_, emit_.state(), instances, meshes, drawn});
         else if (material.alphaCutoff > 0)
             pass.drawIndexedIndirect(leafCutDepth_, emit_.state(), offset, 2, push,
-                                     {color, *frame_, emit_.state(), drawn, meshes});
+                                     {color, *frame_, emit_.state(), instances, meshes, drawn});
         else
             pass.drawIndexedIndirect(leafDepth_, emit_.state(), offset, 2, push,
-                                     {*frame_, emit_.state(), drawn, meshes});
+                                     {*frame_, emit_.state(), instances, meshes, drawn});
     }
 }
 
@@ -99,7 +100,7 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
     if (grows_) {
         EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, lodPixels);
         view.leastPixels = 0.35f;
-        if (Status s = emit_.cull(commands, {inputs.growth, inputs.surfaces}, view, "shadow emit", false); !s) return s;
+        if (Status s = emit_.cull(commands, emitInputs(inputs), view, "shadow emit", false); !s) return s;
     }
     if (roofed_) {
         const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, lodPixels);
@@ -140,6 +141,12 @@ Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, co
     return Done{};
 }
 
+EmitInputs RendererImpl::emitInputs(const DrawInputs& inputs) const {
+    EmitInputs given{inputs.growth, inputs.surfaces};
+    if (!models_.empty()) models_.bounds(given.low, given.high);
+    return given;
+}
+
 Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {
     const uint32_t tiles =
         ((targets_.width + kDepthTile - 1) / kDepthTile) * ((targets_.height + kDepthTile - 1) / kDepthTile);
@@ -161,11 +168,10 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.tiles = push.tiles;
     view.width = targets_.width;
     view.height = targets_.height;
-    if (inputs.look.view == ViewMode::depth) view.flags |= kShowDepth;
     if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
     if (!grows_) return Done{};
-    return emit_.cull(commands, {inputs.growth, inputs.surfaces}, view, "emit", true);
+    return emit_.cull(commands, emitInputs(inputs), view, "emit", true);
 }
 
 void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {

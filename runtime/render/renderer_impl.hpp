@@ -54,6 +54,7 @@ class RendererImpl final : public Renderer {
     Status upload(Commands& commands, const FrameRecord& frame);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
+    EmitInputs emitInputs(const DrawInputs& inputs) const;
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
     void drawGrowth(Commands& commands, const PostPush& post);
     void drawTerminals(DrawPass& pass, bool depthOnly);

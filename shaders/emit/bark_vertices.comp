@@ -2,12 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // A ring of bark each: its frame once, then its twelve vertices in one run of memory.
+#include "shaders/emit/instance_texels.glsl"
 #include "shaders/emit/span_load.h"
 #include "shaders/emit/triangle_vertex.glsl"
 #include "shaders/shared/dispatch.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Data { TrianglesPush push; };
+layout(set = 0, binding = 0) uniform usamplerBuffer spanTexels;
+layout(set = 0, binding = 1) uniform usamplerBuffer drawn;
 
 // Snorm bits of both numbers, rounded; the bias that makes them positive falls away.
 uint snormBits(vec2 p) {
@@ -32,7 +35,7 @@ void main() {
     uint spanIndex = i / kBarkRings;
     uint ring = i - spanIndex * kBarkRings;
     if (spanIndex >= push.count) return;
-    SpanInstance o = push.spans.v[push.firstInstance + spanIndex];
+    SpanInstance o = SPAN_INSTANCE(spanTexels, TEXEL(drawn, push.firstInstance + spanIndex).x);
     float u = float(ring) * (1.0 / 9.0);
     float v = 1.0 - u;
     vec3 center = o.p0 * (v * v * v) + o.b1 * (3.0 * v * v * u) + o.b2 * (3.0 * v * u * u) + o.p3 * (u * u * u);
@@ -43,8 +46,8 @@ void main() {
     vec3 up = cross(along, side);
     up *= inversesqrt(max(dot(up, up), 1e-30));
     float radius = o.radius0 * v + o.radius1 * u;
-    center += up * (o.rise * radius);
-    if ((o.bits & 256u) != 0u) radius = max(barkRadius(o.radius0, o.radius1, o.metres, true, u), 1e-7);
+    center += up * (kBarkRise * radius);
+    if ((o.bits & 64u) != 0u) radius = max(barkRadius(o.radius0, o.radius1, o.metres, true, u), 1e-7);
 
     const float h = 0.8660254;
     U64Buf out0 = vertexAddress(push.vertices, push.firstVertex + spanIndex * kBarkVertices + ring * kBarkSides);

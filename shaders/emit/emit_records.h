@@ -1,4 +1,5 @@
-// What culling reads and leaves: the view, the table of terminal meshes, instances sorted by bucket, draws.
+// What binding and culling read and leave: instances of all that has grown, in cells of space; the view, the table of
+// terminal meshes, what is drawn sorted by bucket, draws.
 //
 // A terminal kind (TerminalRecord::mesh: bark, leaf, pebble) has variants (leaf shapes), a variant has LODs. Each
 // (variant, LOD) is a bucket: one mesh, drawn by two indirect commands. Buckets of bark come first.
@@ -17,15 +18,7 @@ CONST_UINT(kMaxVariants, 48u);
 CONST_UINT(kMaxLods, 6u);
 CONST_UINT(kMaxBuckets, 64u);
 CONST_UINT(kNoBucket, 0xFFu);
-CONST_UINT(kLastPlace, 0xFFFFFFu);
 CONST_UINT(kFullDetail, 1u);   // EmitView::flags: every instance at LOD 0, nothing is culled, thickened or thinned out
-CONST_UINT(kShowDepth, 2u);    // instances are told how many branches lead to them
-
-// An item's class: bits 31..24 bucket (kNoBucket: not seen), 23..0 place in it. Places from kLastPlace on are one: no
-// buffer of instances has room for so many, so that all of them are overflow and none is written.
-FN uint classWord(uint bucket, uint place) { return (bucket << 24u) | (place < kLastPlace ? place : kLastPlace); }
-FN uint classBucket(uint word) { return word >> 24u; }
-FN uint classPlace(uint word) { return word & kLastPlace; }
 
 // What a cull is for. A sphere (c, r) is outside if dot(planes[i].xyz, c) + planes[i].w < -r for some i.
 struct EmitView {
@@ -41,8 +34,10 @@ struct EmitView {
     mat4 viewProjection;
     FloatBuf tiles;
     uint width, height;   // of the picture, pixels
+    float wholePixels;    // leaves of at least this many pixels are all drawn, of smaller ones fewer and larger,
+    float leastShare;     // but at least this share of them
 };
-STATIC_SIZE(EmitView, 208);
+STATIC_SIZE(EmitView, 216);
 CONST_UINT(kDepthTile, 8u);
 
 struct KindRecord {
@@ -88,42 +83,70 @@ struct DrawCommand {
 };
 STATIC_SIZE(DrawCommand, 20);
 
-// Counters of one cull. starts: of bark buckets in the spans, of the others in the leaves.
+// Space is divided into cells of a grid; each holds its spans and its leaves in bins by their order of going when they
+// are thinned out, so that what stays is a run of them.
+CONST_UINT(kMaxCells, 4096u);
+CONST_UINT(kCellBins, 64u);
+CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
+
+// A cell's spans, or its leaves. reach: of any of them from the cell's middle, metres; largest: thickest radius, or
+// size. Both as bits, which order as the numbers do.
+struct EmitCell {
+    uint first, count;          // in the order of items
+    uint reach, largest;
+};
+STATIC_SIZE(EmitCell, 16);
+BUFFER(EmitCellBuf, EmitCell)
+
+// A run of a cell's items, of one kind (0 spans, 1 leaves).
+struct EmitBlock {
+    uint first, count, kind, spare;
+};
+STATIC_SIZE(EmitBlock, 16);
+BUFFER(EmitBlockBuf, EmitBlock)
+
+// An instance as it is drawn. bits: of a span 2..0 LOD, 31..16 fade (unorm16: how much of a pixel it covers); of a leaf
+// 2..0 LOD. value: of a span the least radius that it is drawn with, of a leaf the factor of its size.
+// bucket: kNoBucket if it isn't seen; rank: in its bucket and block. Both of notes only.
+struct DrawnItem {
+    uint item, bits;
+    float value;
+    uint place;                 // bits 31..24 bucket, 23..0 rank
+};
+STATIC_SIZE(DrawnItem, 16);
+BUFFER(DrawnBuf, DrawnItem)
+
+// Counters of one cull. starts: of a bucket in what is drawn, spans first.
 struct EmitState {
     uint counts[64];
     uint starts[64];
     DrawCommand draws[128];     // two a bucket
-    uint spanCount, leafCount;  // visible instances written
-    uint overflow;              // instances for which there was no room
-    uint drawnTriangles;
+    uint spanCount, leafCount;  // visible instances
     uint fullTriangles;         // of all bark and leaves at full detail, seen or not
-    uint kept[2];               // spans and leaves that culling has left, in EmitPush::kept
-    uint writeGroups[6];        // VkDispatchIndirectCommand of writing either
+    uint drawnTriangles;
+    uint blocks[2];             // of spans, of leaves
+    uint groups[9];             // VkDispatchIndirectCommand for the blocks of spans, of leaves, of both
 };
-STATIC_SIZE(EmitState, 3124);
+STATIC_SIZE(EmitState, 3132);
 
-// An item that culling has left: its number and its classWord.
-struct KeptItem {
-    uint item, word;
-};
-STATIC_SIZE(KeptItem, 8);
-BUFFER(KeptItemBuf, KeptItem)
-
-// A visible span in the world, 96 bytes: vertex shaders read it as six texels.
-//   bits 2..0 LOD, 7..3 depth (branches from the seed, kShowDepth only), bit 8 rounded tip, bits 31..16 fade (unorm16: how much of a pixel it covers)
+// The span that ends at a node, in the world, 96 bytes: read as six texels.
+//   bits 5..0 kind (63: no bark), bit 6 rounded tip, 11..7 branches from the seed, 31..16 its order of going (unorm16)
 struct SpanInstance {
     vec3 p0, b1, b2, p3;
     uint normal0, normal1;      // octahedral, surface
     float radius0, radius1;
     float arc0, metres;         // along the branch where it starts; of the span
-    float rise;                 // the bark's axis lies this many radii above the curve
+    float bend;                 // how far the curve swings away from its chord, metres
     uint bits;
-    uint spare[4];
+    vec3 center;
+    float reach;                // of the curve from there
 };
 STATIC_SIZE(SpanInstance, 96);
+CONST_UINT(kNoBark, 63u);
 
-// A visible loose terminal in the world, 64 bytes: four texels. axes: columns times size: mesh x, y, z.
-//   bits 2..0 LOD, 7..3 depth as above, 15..8 kind, 31..16 depth below the canopy's outside (unorm16: 1 at the surface)
+// A loose terminal in the world, 64 bytes: four texels. axes: columns times size: mesh x, y, z.
+//   bits 7..0 size as of LeafPose, 15..8 kind, 20..16 branches from the seed, 31..21 depth below the canopy's outside
+//   (unorm11: 1 at the surface)
 struct LeafInstance {
     vec3 origin;
     vec3 axisX, axisY, axisZ;
@@ -157,20 +180,48 @@ BUFFER(LeafInstanceBuf, LeafInstance)
 BUFFER(TerminalVertexBuf, TerminalVertex)
 BUFFER(TriangleVertexBuf, TriangleVertex)
 
-// Push data of the culling kernels. View and table come as uniform blocks: software devices read these once for all lanes.
-struct EmitPush {
-    EmitStateBuf state;
-    KeptItemBuf kept;           // spans, and from nodeCount on leaves
+// The grid: cell (x, y, z) of size[0] * size[1] * size[2] is the cube of 1 / rcpCell metres at low + (x, y, z) / rcpCell.
+// Those at the border hold what lies beyond, too.
+struct EmitGrid {
+    vec3 low;
+    float rcpCell;
+    uint size[3];
+};
+
+// Push data of the kernels that bind growth. Arrays of both kinds: spans first; items are node indices, or nodeCount +
+// leaf indices.
+struct BindPush {
     NodeBuf nodes;
     ChunkBuf chunks;
     LeafBuf leaves;
     SurfaceBuf surfaces;
-    SpanInstanceBuf spanInstances;
+    SpanInstanceBuf spans;      // [node]
     LeafInstanceBuf leafInstances;
+    EmitCellBuf cells;          // [kind * kMaxCells + cell]
+    UintBuf bins;               // [(kind * kMaxCells + cell) * kCellBins + bin]: counts, then starts, then ends in the cell
+    UintBuf keys;               // [item]: its bin, kNoIndex: none
+    UintBuf order;              // items of cells, one cell after another
+    EmitGrid grid;
     uint nodeCount, leafCount;
-    uint spanCapacity, leafCapacity;
+    uint spare;
 };
-STATIC_SIZE(EmitPush, 80);
+STATIC_SIZE(BindPush, 120);
+
+// Push data of the culling kernels. View and table come as uniform blocks: software devices read these once for all lanes.
+struct EmitPush {
+    EmitStateBuf state;
+    EmitCellBuf cells;
+    UintBuf bins;
+    UintBuf order;
+    UintBuf seen;               // [kind * kMaxCells + cell]: items to look at
+    EmitBlockBuf blocks;
+    UintBuf rows;               // [block * kMaxBuckets + bucket]: counts, then where they begin in their bucket
+    DrawnBuf notes;             // [block * kBlockItems + lane]
+    DrawnBuf drawn;
+    EmitGrid grid;
+    uint nodeCount;
+};
+STATIC_SIZE(EmitPush, 104);
 
 // Bark at full detail as triangles: 12 sides and 10 rings, the paper's 216 polygons.
 CONST_UINT(kBarkSides, 12u);
@@ -186,7 +237,7 @@ struct U64Buf { u64* v; };
 
 // Push data of the kernels that write triangles. Vertices and indices as 64-bit words: half as many stores.
 struct TrianglesPush {
-    SpanInstanceBuf spans;
+    DrawnBuf drawn;
     LeafInstanceBuf leaves;
     TerminalVertexBuf meshVertices;
     UintBuf meshIndices;

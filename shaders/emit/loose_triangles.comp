@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Data { TrianglesPush push; };
 void main() {
     uint i = itemIndex();
     if (i >= push.count) return;
-    LeafInstance o = push.leaves.v[push.firstInstance + i];
+    LeafInstance o = push.leaves.v[push.drawn.v[push.firstInstance + i].item];
     float rcpSize = inversesqrt(max(dot(o.axisX, o.axisX), 1e-30));
     uint firstVertex = push.firstVertex + i * push.meshVertexCount;
     U64Buf vertices = vertexAddress(push.vertices, firstVertex);

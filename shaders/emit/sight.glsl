@@ -9,8 +9,8 @@ bool outside(EmitView view, vec3 center, float radius) {
     return false;
 }
 
-// Is the sphere behind the models? Tests up to 25 tiles of the picture; larger spheres pass.
-bool hidden(EmitView view, vec3 center, float radius) {
+// Is the sphere behind the models? Tests up to (most + 1)² tiles of the picture; larger spheres pass.
+bool hidden(EmitView view, vec3 center, float radius, int most) {
     if (u64(view.tiles) == 0ul) return false;
     vec4 clip = view.viewProjection * vec4(center, 1.0);
     float nearest = clip.w - radius;
@@ -20,13 +20,15 @@ bool hidden(EmitView view, vec3 center, float radius) {
     ivec2 last = ivec2((uvec2(view.width, view.height) + kDepthTile - 1u) / kDepthTile) - 1;
     ivec2 low = clamp(ivec2(floor((at - reach) / float(kDepthTile))), ivec2(0), last);
     ivec2 high = clamp(ivec2(floor((at + reach) / float(kDepthTile))), ivec2(0), last);
-    if (any(greaterThan(high - low, ivec2(4)))) return false;
+    if (any(greaterThan(high - low, ivec2(most)))) return false;
     float depth = clip.z / nearest;   // clip.z is the near plane's distance everywhere
     for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x)
             if (view.tiles.v[y * (last.x + 1) + x] <= depth) return false;
     return true;
 }
+
+bool hidden(EmitView view, vec3 center, float radius) { return hidden(view, center, radius, 4); }
 
 // Pixels that a metre covers at `center`.
 float pixelsPerMetre(EmitView view, vec3 center) {

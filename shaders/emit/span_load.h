@@ -40,27 +40,10 @@ FN uint previousNode(ChunkBuf chunks, Node node, uint i) {
     return ((node.flags >> 8u) & 31u) > 0u ? i - 1u : chunks.v[node.chunk].previousNode;
 }
 
-FN LoadedSpan loadSpan(NodeBuf nodes, ChunkBuf chunks, SurfaceBuf surfaces, uint i) {
+// The span from node `a` to node `b` of the surface instances with these rows. foot: it begins at a seed.
+FN LoadedSpan spanBetween(Node a, Node b, bool sameBranch, bool foot, vec4 a0, vec4 a1, vec4 a2, vec4 b0, vec4 b1,
+                          vec4 b2) {
     LoadedSpan s;
-    s.valid = false;
-    Node b = nodes.v[i];
-    uint before = previousNode(chunks, b, i);
-    if (before == kNoIndex) return s;
-    Node a = nodes.v[before];
-    uint ia = a.place >> 16u;
-    uint ib = b.place >> 16u;
-    vec4 a0 = surfaces.v[ia].toWorld[0];
-    vec4 a1 = surfaces.v[ia].toWorld[1];
-    vec4 a2 = surfaces.v[ia].toWorld[2];
-    vec4 b0 = a0;
-    vec4 b1 = a1;
-    vec4 b2 = a2;
-    // A loop of one round, which lanes that need none leave.
-    for (bool other = ia != ib; other; other = false) {
-        b0 = surfaces.v[ib].toWorld[0];
-        b1 = surfaces.v[ib].toWorld[1];
-        b2 = surfaces.v[ib].toWorld[2];
-    }
     vec3 p0 = placePoint(a0, a1, a2, a.position);
     vec3 p3 = placePoint(b0, b1, b2, b.position);
     vec3 t0 = placeDirection(a0, a1, a2, unpackOct(a.tangent));
@@ -68,7 +51,6 @@ FN LoadedSpan loadSpan(NodeBuf nodes, ChunkBuf chunks, SurfaceBuf surfaces, uint
     s.normal0 = placeDirection(a0, a1, a2, unpackOct(a.normal));
     s.normal1 = placeDirection(b0, b1, b2, unpackOct(b.normal));
 
-    bool sameBranch = a.chunk == b.chunk || chunks.v[a.chunk].branch == chunks.v[b.chunk].branch;
     s.radius1 = b.radius;
     s.radius0 = sameBranch && a.radius > 0.0f ? a.radius : b.radius * kChildFlare;
     if (!sameBranch && a.radius > 0.0f) s.radius0 = smaller(s.radius0, a.radius);
@@ -93,11 +75,26 @@ FN LoadedSpan loadSpan(NodeBuf nodes, ChunkBuf chunks, SurfaceBuf surfaces, uint
         s.span = straightSpan(p0, p3);
     }
     // A seed's first span starts below the ground, so that no open end shows.
-    bool foot = sameBranch && ((a.flags >> 8u) & 31u) == 0u && chunks.v[a.chunk].previousNode == kNoIndex;
     if (foot) s.span.p0 = p0 - t0 * (1.5f * s.radius0);
     s.tip = (b.flags & kNodeTip) != 0u;
     s.valid = true;
     return s;
+}
+
+FN LoadedSpan loadSpan(NodeBuf nodes, ChunkBuf chunks, SurfaceBuf surfaces, uint i) {
+    LoadedSpan none;
+    none.valid = false;
+    Node b = nodes.v[i];
+    uint before = previousNode(chunks, b, i);
+    if (before == kNoIndex) return none;
+    Node a = nodes.v[before];
+    bool sameBranch = a.chunk == b.chunk || chunks.v[a.chunk].branch == chunks.v[b.chunk].branch;
+    bool foot = sameBranch && ((a.flags >> 8u) & 31u) == 0u && chunks.v[a.chunk].previousNode == kNoIndex;
+    uint ia = a.place >> 16u;
+    uint ib = b.place >> 16u;
+    return spanBetween(a, b, sameBranch, foot, surfaces.v[ia].toWorld[0], surfaces.v[ia].toWorld[1],
+                       surfaces.v[ia].toWorld[2], surfaces.v[ib].toWorld[0], surfaces.v[ib].toWorld[1],
+                       surfaces.v[ib].toWorld[2]);
 }
 
 // Radius at u: between the nodes', drawn in to a half sphere at a branch's end. length: of the span.

@@ -38,7 +38,7 @@ void main() {
         up = normalize(up + facing * inversesqrt(max(dot(facing, facing), 1e-30)));
     }
     float radius = o.radius0 * v + o.radius1 * u;
-    center += up * (o.rise * radius);
+    center += up * (kBarkRise * radius);
     if ((o.bits & 256u) != 0u) radius = barkRadius(o.radius0, o.radius1, o.metres, true, u);
     position = center + (side * mesh.position.x + up * mesh.position.y) * radius;
     vec3 n = octahedralToUnit(mesh.normal);

@@ -1,12 +1,14 @@
-// What the last cull left, for vertex shaders: where each bucket's instances begin, and instances and meshes as texels,
-// which software devices read in one piece each.
+// What the last cull left, for vertex shaders: where each bucket's instances begin, which they are, all instances and
+// meshes, as texels, which software devices read in one piece each.
 #ifndef ESPALIER_RENDER_DRAWN_GLSL
 #define ESPALIER_RENDER_DRAWN_GLSL
 #include "shaders/emit/emit_records.h"
+#include "shaders/emit/instance_texels.glsl"
 
 layout(set = 0, binding = 9, scalar) uniform StateBlock { EmitState state; };
 layout(set = 0, binding = 10) uniform usamplerBuffer instances;   // four words a texel
 layout(set = 0, binding = 11) uniform usamplerBuffer meshes;      // two words a texel
+layout(set = 0, binding = 12) uniform usamplerBuffer drawn;       // a DrawnItem a texel
 
 TerminalVertex drawnVertex(uint i) {
     uvec2 a = texelFetch(meshes, int(3u * i)).xy;
@@ -15,42 +17,30 @@ TerminalVertex drawnVertex(uint i) {
     return TerminalVertex(vec3(uintBitsToFloat(a), uintBitsToFloat(b.x)), b.y, uintBitsToFloat(c));
 }
 
+// Instance `i` of what is drawn, as this view wants it. bits: 2..0 LOD, 7..3 branches from the seed, 15..8 kind,
+// 31..16 depth below the canopy's outside (unorm16: 1 at the surface).
 LeafInstance drawnLeaf(uint i) {
-    uvec4 a = texelFetch(instances, int(4u * i));
-    uvec4 b = texelFetch(instances, int(4u * i + 1u));
-    uvec4 c = texelFetch(instances, int(4u * i + 2u));
-    uvec4 d = texelFetch(instances, int(4u * i + 3u));
-    LeafInstance o;
-    o.origin = uintBitsToFloat(a.xyz);
-    o.axisX = uintBitsToFloat(uvec3(a.w, b.xy));
-    o.axisY = uintBitsToFloat(uvec3(b.zw, c.x));
-    o.axisZ = uintBitsToFloat(c.yzw);
-    o.normal = d.x;
-    o.tint = d.y;
-    o.hash = d.z;
-    o.bits = d.w;
+    uvec4 item = texelFetch(drawn, int(i));
+    LeafInstance o = LEAF_INSTANCE(instances, item.x);
+    float factor = uintBitsToFloat(item.z);
+    o.axisX *= factor;
+    o.axisY *= factor;
+    o.axisZ *= factor;
+    uint height = uint(float(o.bits >> 21u) * (65535.0 / 2047.0) / factor);   // in sizes
+    o.bits = (item.y & 7u) | ((o.bits >> 13u) & 0xF8u) | (o.bits & 0xFF00u) | (height << 16u);
     return o;
 }
 
+// bits: 2..0 LOD, 7..3 branches from the seed, bit 8 rounded tip, bits 31..16 fade (unorm16).
 SpanInstance drawnSpan(uint i) {
-    uvec4 a = texelFetch(instances, int(6u * i));
-    uvec4 b = texelFetch(instances, int(6u * i + 1u));
-    uvec4 c = texelFetch(instances, int(6u * i + 2u));
-    uvec4 d = texelFetch(instances, int(6u * i + 3u));
-    uvec4 e = texelFetch(instances, int(6u * i + 4u));
-    SpanInstance o;
-    o.p0 = uintBitsToFloat(a.xyz);
-    o.b1 = uintBitsToFloat(uvec3(a.w, b.xy));
-    o.b2 = uintBitsToFloat(uvec3(b.zw, c.x));
-    o.p3 = uintBitsToFloat(c.yzw);
-    o.normal0 = d.x;
-    o.normal1 = d.y;
-    o.radius0 = uintBitsToFloat(d.z);
-    o.radius1 = uintBitsToFloat(d.w);
-    o.arc0 = uintBitsToFloat(e.x);
-    o.metres = uintBitsToFloat(e.y);
-    o.rise = uintBitsToFloat(e.z);
-    o.bits = e.w;
+    uvec4 item = texelFetch(drawn, int(i));
+    SpanInstance o = SPAN_INSTANCE(instances, item.x);
+    // Thinner than it can be drawn: drawn at that width, but fainter.
+    float least = uintBitsToFloat(item.z);
+    float radius0 = o.radius0;
+    o.radius0 = max(o.radius0, least * min(o.radius0 / max(o.radius1, 1e-9), 1.0));
+    o.radius1 = max(o.radius1, least * min(o.radius1 / max(radius0, 1e-9), 1.0));
+    o.bits = (item.y & 0xFFFF0007u) | ((o.bits >> 4u) & 0xF8u) | ((o.bits & 64u) << 2u);
     return o;
 }
 #endif

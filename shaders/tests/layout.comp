@@ -15,11 +15,15 @@ struct EmitRecords {
     BucketRecord bucket;
     EmitTable table;
     DrawCommand draw;
+    EmitCell cell;
+    EmitBlock block;
+    DrawnItem drawn;
     EmitState state;
     SpanInstance span;
     LeafInstance leaf;
     TerminalVertex vertex;
     TriangleVertex triangle;
+    BindPush bind;
     EmitPush push;
     TrianglesPush triangles;
 };

@@ -1,0 +1,96 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define ESPALIER_RECORD_FETCH
+#include "shaders/shared/extensions.glsl"
+// A node each: the span that ends there, as an instance in the world, put into its cell.
+#include "shaders/emit/bind.glsl"
+#include "shaders/emit/span_load.h"
+#include "shaders/emit/span_thinning.glsl"
+#include "shaders/shared/record_lookup.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform TableBlock { EmitTable table; };
+
+void writeSpan(uint i, SpanInstance o) {
+    PairBuf to = PairBuf(uint64_t(push.spans) + uint64_t(i) * 96u);
+    to.v[0] = pairOf(o.p0.x, o.p0.y);
+    to.v[1] = pairOf(o.p0.z, o.b1.x);
+    to.v[2] = pairOf(o.b1.y, o.b1.z);
+    to.v[3] = pairOf(o.b2.x, o.b2.y);
+    to.v[4] = pairOf(o.b2.z, o.p3.x);
+    to.v[5] = pairOf(o.p3.y, o.p3.z);
+    to.v[6] = pairOf(o.normal0, o.normal1);
+    to.v[7] = pairOf(o.radius0, o.radius1);
+    to.v[8] = pairOf(o.arc0, o.metres);
+    to.v[9] = pairOf(floatBitsToUint(o.bend), o.bits);
+    to.v[10] = pairOf(o.center.x, o.center.y);
+    to.v[11] = pairOf(o.center.z, o.reach);
+}
+
+SpanInstance instanceOf(LoadedSpan s, Node node, ChunkBrief chunk, uint kind) {
+    SpanInstance o;
+    o.p0 = s.span.p0;
+    o.b1 = s.span.b1;
+    o.b2 = s.span.b2;
+    o.p3 = s.span.p3;
+    o.normal0 = packOct(s.normal0);
+    o.normal1 = packOct(s.normal1);
+    o.radius0 = s.radius0;
+    o.radius1 = s.radius1;
+    o.arc0 = s.arc0;
+    o.metres = spanLength(s.span);
+    vec3 chord = o.p3 - o.p0;
+    o.bend = 0.75 * max(length(o.b1 - o.p0 - chord / 3.0), length(o.b2 - o.p3 + chord / 3.0));
+    uint order = uint(twigOrder(chunk.key) * 65535.0);
+    o.bits = kind | (s.tip ? 64u : 0u) | (min(chunk.depth & 0xFFFFu, 31u) << 7u) | (order << 16u);
+    o.center = (o.p0 + o.p3) * 0.5;
+    o.reach = max(max(distance(o.center, o.b1), distance(o.center, o.b2)), distance(o.center, o.p0));
+    return o;
+}
+
+void main() {
+    ExpandEnv env;
+    env.nodes = push.nodes;
+    env.chunks = push.chunks;
+    uint i = itemIndex();
+    for (bool given = i < push.nodeCount; given; given = false) {
+        push.keys.v[i] = kNoIndex;
+        push.spans.v[i].reach = -1.0;
+        Node node = readNode(env, i);
+        bool there = node.flags != 0u || node.radius >= 0.0;
+        ChunkBrief chunk = readBrief(env, there ? node.chunk : 0u);
+        uint before = ((node.flags >> 8u) & 31u) > 0u ? i - 1u : chunk.previousNode;
+        for (bool spans = there && before != kNoIndex; spans; spans = false) {
+            Node start = readNode(env, before);
+            ChunkBrief from = chunk;
+            for (bool other = start.chunk != node.chunk; other; other = false) from = readBrief(env, start.chunk);
+            bool sameBranch = from.branch == chunk.branch;
+            bool foot = sameBranch && ((start.flags >> 8u) & 31u) == 0u && from.previousNode == kNoIndex;
+            uint ia = start.place >> 16u;
+            uint ib = node.place >> 16u;
+            vec4 a0 = push.surfaces.v[ia].toWorld[0];
+            vec4 a1 = push.surfaces.v[ia].toWorld[1];
+            vec4 a2 = push.surfaces.v[ia].toWorld[2];
+            vec4 b0 = a0;
+            vec4 b1 = a1;
+            vec4 b2 = a2;
+            for (bool other = ia != ib; other; other = false) {
+                b0 = push.surfaces.v[ib].toWorld[0];
+                b1 = push.surfaces.v[ib].toWorld[1];
+                b2 = push.surfaces.v[ib].toWorld[2];
+            }
+            uint kind = (node.flags >> 18u) & 255u;
+            bool bark = (node.flags & kNodeBark) != 0u && node.radius > 0.0 && kind < table.kindCount &&
+                        table.kinds[kind].variantCount > 0u && table.kinds[kind].bark != 0u;
+            LoadedSpan s = spanBetween(start, node, sameBranch, foot, a0, a1, a2, b0, b1, b2);
+            SpanInstance o = instanceOf(s, node, chunk, bark ? kind : kNoBark);
+            writeSpan(i, o);
+            for (bool drawn = bark; drawn; drawn = false) {
+                float thick = max(o.radius0, o.radius1);
+                putIntoCell(i, 0u, o.center, o.reach + 2.0 * thick, thick, twigOrder(chunk.key));
+                uint bucket = table.variants[table.kinds[kind].firstVariant].firstBucket;
+                atomicAdd(push.cells.v[2u * kMaxCells].first, table.buckets[bucket].indexCount / 3u);
+            }
+        }
+    }
+}

@@ -1,0 +1,29 @@
+// A group takes a block of items, a lane an item of it. Each item that is seen gets its rank in its bucket and block:
+// with the blocks' order that makes the order of drawing, the same in every run.
+#ifndef ESPALIER_EMIT_BLOCK_GLSL
+#define ESPALIER_EMIT_BLOCK_GLSL
+#include "shaders/emit/emit_inputs.glsl"
+
+shared uint laneBuckets[64];
+shared uint laneRanks[64];
+shared uint bucketCounts[64];
+
+#define groupIndex() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)
+
+// All invocations of the group call it. Leaves the note of what this lane has found, and the block's counts.
+void noteItem(uint block, DrawnItem found, uint bucket) {
+    uint lane = gl_LocalInvocationID.x;
+    laneBuckets[lane] = bucket;
+    bucketCounts[lane] = 0u;
+    barrier();
+    // The first lane alone, one item after another.
+    for (uint i = 0u; i < (lane == 0u ? kBlockItems : 0u); ++i) {
+        uint b = laneBuckets[i];
+        if (b != kNoBucket) laneRanks[i] = bucketCounts[b]++;
+    }
+    barrier();
+    found.place = (bucket << 24u) | laneRanks[lane];
+    push.notes.v[block * kBlockItems + lane] = found;
+    push.rows.v[block * kMaxBuckets + lane] = bucketCounts[lane];
+}
+#endif

@@ -1,0 +1,19 @@
+// Cells of the grid that space is divided into.
+#ifndef ESPALIER_EMIT_CELLS_GLSL
+#define ESPALIER_EMIT_CELLS_GLSL
+#include "shaders/emit/emit_records.h"
+
+uint cellOf(EmitGrid grid, vec3 p) {
+    vec3 last = vec3(grid.size[0], grid.size[1], grid.size[2]) - 1.0;
+    uvec3 c = uvec3(clamp(floor((p - grid.low) * grid.rcpCell), vec3(0.0), last));
+    return (c.z * grid.size[1] + c.y) * grid.size[0] + c.x;
+}
+
+vec3 cellMiddle(EmitGrid grid, uint cell) {
+    uint row = cell / grid.size[0];
+    uint z = row / grid.size[1];
+    vec3 c = vec3(cell - row * grid.size[0], row - z * grid.size[1], z);
+    return grid.low + (c + 0.5) / grid.rcpCell;
+}
+uint cellCount(EmitGrid grid) { return grid.size[0] * grid.size[1] * grid.size[2]; }
+#endif

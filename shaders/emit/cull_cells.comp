@@ -1,0 +1,38 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// A cell of spans or of leaves each: is any of it seen, and how many of its items, by their order of going, can be kept
+// at its distance?
+#include "shaders/emit/cells.glsl"
+#include "shaders/emit/emit_inputs.glsl"
+#include "shaders/emit/leaf_thinning.glsl"
+#include "shaders/emit/sight.glsl"
+#include "shaders/emit/span_thinning.glsl"
+#include "shaders/shared/dispatch.glsl"
+
+layout(local_size_x = 64) in;
+
+const int kCellTiles = 9;   // more tiles than these, less one, along a side: not asked whether it is hidden
+
+void main() {
+    uint i = itemIndex();
+    if (i >= 2u * kMaxCells) return;
+    EmitCell cell = push.cells.v[i];
+    uint kept = cell.count;
+    for (bool looked = kept > 0u && (view.flags & kFullDetail) == 0u; looked; looked = false) {
+        bool leaves = i >= kMaxCells;
+        vec3 middle = cellMiddle(push.grid, leaves ? i - kMaxCells : i);
+        float reach = uintBitsToFloat(cell.reach);
+        float largest = uintBitsToFloat(cell.largest);
+        float pixels = view.pixelScale;
+        if (view.parallel == 0u) pixels /= max(distance(view.eye, middle) - reach, 1e-6);
+        // Share of the items that stay; leaves grow as others go, twigs are drawn at the least thickness.
+        float share = leaves ? leafShare(view, largest * pixels) : largest * pixels / (view.leastPixels * kFaintest);
+        float most = leaves ? reach + 1.3 * largest * inversesqrt(view.leastShare) : reach + view.leastPixels / pixels;
+        bool none = !leaves && share * kFaintest < kThinnest || outside(view, middle, most);
+        for (bool asked = !none && u64(view.tiles) != 0ul; asked; asked = false) none = hidden(view, middle, most, kCellTiles);
+        uint bins = uint(min(share * float(kCellBins) + 1.0, float(kCellBins)));
+        kept = none ? 0u : push.bins.v[i * kCellBins + bins - 1u];
+    }
+    push.seen.v[i] = kept;
+}

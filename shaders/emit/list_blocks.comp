@@ -1,0 +1,50 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// What is kept of cells -> blocks, in the order of cells, and the dispatches that go through them. One group: a lane
+// takes cells that follow each other.
+#include "shaders/emit/emit_push.glsl"
+
+layout(local_size_x = 64) in;
+
+const uint kLaneCells = 2u * kMaxCells / 64u;
+shared uint laneBlocks[64];
+
+uint blocksOf(uint cell) { return (push.seen.v[cell] + kBlockItems - 1u) / kBlockItems; }
+
+// Groups over y beyond 65,535 (shaders/shared/dispatch.glsl).
+void writeGroups(uint at, uint groups) {
+    push.state.v[0].groups[at] = min(groups, 65535u);
+    push.state.v[0].groups[at + 1u] = (groups + 65534u) / 65535u;
+    push.state.v[0].groups[at + 2u] = 1u;
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x;
+    uint first = lane * kLaneCells;
+    uint count = 0u;
+    for (uint c = first; c < first + kLaneCells; ++c) count += blocksOf(c);
+    laneBlocks[lane] = count;
+    barrier();
+    uint at = 0u;
+    for (uint l = 0u; l < lane; ++l) at += laneBlocks[l];
+    // Cells of spans are those of the first half of lanes.
+    if (lane == 32u) {
+        push.state.v[0].blocks[0] = at;
+        writeGroups(0u, at);
+    }
+    if (lane == 63u) {
+        uint spans = 0u;
+        for (uint l = 0u; l < 32u; ++l) spans += laneBlocks[l];
+        push.state.v[0].blocks[1] = at + count - spans;
+        writeGroups(3u, at + count - spans);
+        writeGroups(6u, at + count);
+        push.state.v[0].fullTriangles = push.cells.v[2u * kMaxCells].first;
+    }
+    for (uint c = first; c < first + kLaneCells; ++c) {
+        uint kept = push.seen.v[c];
+        uint item = kept > 0u ? push.cells.v[c].first : 0u;
+        for (uint done = 0u; done < kept; done += kBlockItems)
+            push.blocks.v[at++] = EmitBlock(item + done, min(kept - done, kBlockItems), c / kMaxCells, 0u);
+    }
+}
