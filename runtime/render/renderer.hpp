@@ -66,7 +66,7 @@ struct DrawTarget {
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
-    HostScene host;  // only with an image; not with ViewMode::overdraw
+    HostScene host{};  // only with an image; not with ViewMode::overdraw
 };
 
 struct RenderStats {
