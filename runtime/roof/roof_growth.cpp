@@ -14,6 +14,11 @@ namespace espalier {
 namespace {
 
 constexpr int kMostAttempts = 12;
+// A kernel takes a software device seconds to make, so kinds of rules come together: those that any roof has, and the
+// rest.
+constexpr uint32_t kCommonRules = 1u << kRuleNull | 1u << kRuleExtrude | 1u << kRuleJoinRoof | 1u << kRuleRepeat |
+                                  1u << kRuleScope | 1u << kRuleShape;
+constexpr uint32_t kRareRules = 1u << kRuleJoin | 1u << kRuleProject | 1u << kRuleExplode | 1u << kRuleSplit;
 // Read back: the status, the waves, what houses have read.
 constexpr uint64_t kReadsAt = sizeof(RoofStatus) + kRoofWaves * sizeof(RoofWave);
 
@@ -41,6 +46,7 @@ Status GpuRoofs::makeKernels(const RuleMap& grammar, bool fetches) {
     }
     for (uint32_t i = 0; i < map.symbolCount; ++i)
         if (map.symbols.v[i].layers) kind.uses |= kRoofUsesLayers;
+    kind.uses |= kCommonRules | (kind.uses & kRareRules ? kRareRules : 0);
     if (!runs_ || kind.recordsByAddress != kind_.recordsByAddress)
         if (Status s = makeKernel(device_, runs_, "roof/runs.comp", {{2, kind.recordsByAddress}}); !s) return s;
     if (derive_ && kind == kind_) return Done{};
