@@ -106,8 +106,8 @@ typedef struct EspSurfaceInfo {
 /* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from
  * one to the other. */
 ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
-/* Puts a surface elsewhere, with its seeds and layers. In the next espUpdate contacts with other surfaces are found anew
- * and plants grown again. */
+/* Puts a surface elsewhere, with its seeds and layers. In the next espUpdate contacts with other surfaces are found anew,
+ * and plants grow again that can get to it from where they stand; others are left alone. */
 ESP_API EspResult espMoveSurface(EspContext* context, EspSurface surface, const EspTransform* place);
 ESP_API EspResult espDestroySurface(EspContext* context, EspSurface surface);
 ESP_API EspResult espSurfaceInfo(const EspContext* context, EspSurface surface, EspSurfaceInfo* out);
@@ -345,7 +345,8 @@ ESP_API EspResult espPrunedAt(const EspContext* context, uint32_t index, uint64_
 
 /* Keeps a seed's plant as the last espUpdate grew it (frozen 1): layers, parameters, grammars, prunings and changes of
  * the seed itself concern it no more, nor does a limit but maxNodes. It moves with its surface. Thawed (0), it grows
- * from what is there. It thaws by itself when a surface that it has grown on is destroyed.
+ * from what is there. It thaws by itself when a surface that it has grown on is destroyed, scaled, or moved against another
+ * one that it stands on.
  * ESP_INVALID_ARGUMENT: no such seed, or it hasn't grown yet. Takes effect with the next espUpdate. */
 ESP_API EspResult espFreezePlant(EspContext* context, EspSeed seed, int frozen);
 /* A frozen plant is its records, not what it grew from: so a project keeps these. *size: bytes that `bytes` has room
@@ -463,6 +464,7 @@ typedef struct EspStats {
     uint32_t modelsFading;       /* surfaces that change their level of detail: the next frames will look different */
     uint32_t contacts;           /* crossings from surface to surface */
     double contactMs;            /* on the CPU: finding them when surfaces last came, went or moved */
+    uint64_t derivedNodes;       /* that the latest growth derived; the others stood as they were */
 } EspStats;
 ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
 
@@ -479,112 +481,9 @@ typedef struct EspTriangles {
 } EspTriangles;
 ESP_API EspResult espMaterialise(EspContext* context, EspTriangles* out);
 
-/* ---- Roofs -------------------------------------------------------------------------------------------------- */
-
-/* A town: buildings from footprints, on which a grammar of roofs (docs/roof_grammar.md) grows walls and roofs. One a
- * context. text: GeoJSON with OpenStreetMap's tags, or a plan in metres (docs/roofs.md); features that can't be used are
- * named in warnings, the rest of the town stands. */
-typedef struct EspTownDef {
-    const char* name;        /* for messages, usually the file's path */
-    const char* text;
-    size_t length;
-    EspGrammar grammar;      /* may be set later */
-    float position[3];       /* world, metres: where the plan's origin stands */
-    float turn;              /* radians, counterclockwise from above */
-    int ground;              /* 1: level ground is drawn under the lowest wall, out to the horizon */
-    float groundColour[3];   /* linear */
-} EspTownDef;
-ESP_API EspTownDef espDefaultTownDef(void);   /* where it was modelled, on ground */
-/* Replaces the town that there was. It grows in the next espUpdate. */
-ESP_API EspResult espLoadTown(EspContext* context, const EspTownDef* def);
-ESP_API EspResult espRemoveTown(EspContext* context);
-/* The grammar that the town grows by; its parameters and recompiling are those of any grammar. */
-ESP_API EspResult espSetTownGrammar(EspContext* context, EspGrammar grammar);
-ESP_API EspResult espTownGrammar(const EspContext* context, EspGrammar* out);
-
-/* Layers of a town lie over a square of the plan around its houses, seen from above: rows of texels from north (least z)
- * to south, each from west (least x) to east. Grammars of roofs read them as name(texCoord) where a shape stands, or
- * name(house), the mean over a house; Drop(name) takes tiles away by them and Moss(name) covers tiles. Houses that read
- * what changed grow anew in the next espUpdate; what is dropped or covered costs no growth.
- * The strokes above paint them too, those that the town's grammar reads, straight down whatever the height, and undo it. */
-typedef struct EspTownInfo {
-    uint32_t houses;
-    float layerLow[2];       /* world x and z of the square's north-western corner */
-    float layerSide;         /* metres */
-    uint32_t layerTexels;    /* a side */
-    float groundHeight;      /* world */
-} EspTownInfo;
-ESP_API EspResult espTownInfo(const EspContext* context, EspTownInfo* out);
-/* Replaces the whole layer, resampled from height rows of width floats in [0,1], 1 to 8192 each. out: an ended stroke to
- * undo it by, or NULL. ESP_INVALID_ARGUMENT if the town's grammar reads no such layer. */
-ESP_API EspResult espSetTownLayer(EspContext* context, const char* name, const float* texels, uint32_t width,
-                                  uint32_t height, EspStroke* out);
-/* As espReadLayer. */
-ESP_API EspResult espReadTownLayer(EspContext* context, const char* name, float* texels, uint32_t* size);
-/* The layers of the town that were painted or set. */
-ESP_API uint32_t espTownLayerCount(const EspContext* context);
-ESP_API const char* espTownLayerName(const EspContext* context, uint32_t index);
-
-typedef enum EspRoofShape {
-    ESP_ROOF_HIP = 0, ESP_ROOF_GABLE = 1, ESP_ROOF_HALF_HIP = 2, ESP_ROOF_PYRAMID = 3, ESP_ROOF_SHED = 4,
-    ESP_ROOF_GAMBREL = 5, ESP_ROOF_MANSARD = 6, ESP_ROOF_FLAT = 7
-} EspRoofShape;
-
-/* What one edge of a house has of its own. Edge i leads from corner i to the next of its ring, counted over all rings. */
-typedef struct EspHouseEdge {
-    uint32_t edge;
-    int gable;               /* 1: a gable stands on it, 0: an eave, -1: as the shape says */
-    float slope;             /* tangent of the pitch; 0: as the shape says */
-} EspHouseEdge;
-
-typedef struct EspHouseInfo {
-    const char* id;          /* the feature's; lives as long as the town */
-    EspRoofShape shape;
-    float slope;             /* tangent of the pitch; 0: the shape's own */
-    float baseHeight, eaveHeight, ridgeHeight;   /* metres above the ground */
-    uint32_t cornerCount;    /* of all rings */
-    uint32_t edgeCount;      /* edges with something of their own */
-    float boundsMin[3], boundsMax[3];            /* world */
-    uint32_t outerCorners;   /* of the outer ring, which comes first */
-} EspHouseInfo;
-
-ESP_API uint32_t espHouseCount(const EspContext* context);
-ESP_API EspResult espHouseInfo(const EspContext* context, uint32_t house, EspHouseInfo* out);
-/* Corners in the plan, two floats each: world x and z. Room for EspHouseInfo::cornerCount pairs, edgeCount edges; either
- * may be NULL. */
-ESP_API EspResult espHouseShape(const EspContext* context, uint32_t house, float* corners, EspHouseEdge* edges);
-
-/* Changes one house; it alone grows anew in the next espUpdate. */
-typedef struct EspHouseDef {
-    EspRoofShape shape;
-    float slope;             /* 0: the shape's own */
-    float eaveHeight;        /* metres above the house's base; 0: as it is */
-    const EspHouseEdge* edges;
-    uint32_t edgeCount;
-    const float* corners;    /* of the outer ring, as espHouseShape gives them; NULL: as they are */
-    uint32_t cornerCount;
-} EspHouseDef;
-ESP_API EspResult espSetHouse(EspContext* context, uint32_t house, const EspHouseDef* def);
-/* Back to what the town was loaded with; does nothing where that is what stands. */
-ESP_API EspResult espResetHouse(EspContext* context, uint32_t house);
-
-typedef struct EspRoofStats {
-    uint32_t houses, eaves;
-    uint64_t tiles;              /* cells of all grids */
-    uint64_t clippedTiles;       /* those of them that an outline crosses */
-    uint32_t grids;              /* records that they are kept in */
-    uint32_t drawnTiles, drawnRectangles;   /* instances in the last frame; rectangles stand for far cells */
-    uint64_t drawnTriangles;
-    uint32_t stopped;            /* shapes that a limit ended */
-    uint32_t overflow;           /* instances left out of the last frame for want of room */
-    uint64_t bytes;              /* of what was grown */
-    double structureMs, expandMs;   /* from footprints to roofs, on the CPU; the latest expansion, GPU time */
-    uint64_t hash;               /* canonical, of the latest growth of the whole town */
-    uint64_t housesGrown;        /* by all expansions together, since creation */
-} EspRoofStats;
-ESP_API EspResult espReadRoofStats(EspContext* context, EspRoofStats* out);
-
 #ifdef __cplusplus
 }
 #endif
+
+#include "espalier_roofs.h"
 #endif

@@ -27,29 +27,21 @@ void moveIndex(uint32_t& index, size_t by) {
     if (index != kNoIndex) index += uint32_t(by);
 }
 
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+}
+
 // Appends a plant whose seed is to have the index `seed`.
-void append(GrowthRecords& to, const PlantRecords& plant, uint32_t seed) {
-    const size_t nodes = to.nodes.size(), chunks = to.chunks.size(), branches = to.branches.size();
-    for (Node n : plant.nodes) {
-        moveIndex(n.chunk, chunks);
-        to.nodes.push_back(n);
-    }
-    for (Chunk c : plant.chunks) {
-        for (uint32_t* link : {&c.parent, &c.next, &c.firstChild, &c.nextSibling}) moveIndex(*link, chunks);
-        moveIndex(c.previousNode, nodes);
-        c.firstNode = c.branch == kNoIndex ? seed : c.firstNode + uint32_t(nodes);
-        moveIndex(c.branch, branches);
-        to.chunks.push_back(c);
-    }
-    for (BranchRecord b : plant.branches) {
-        moveIndex(b.firstChunk, chunks);
-        b.seed = seed;
-        to.branches.push_back(b);
-    }
-    for (Leaf l : plant.leaves) {
-        moveIndex(l.node, nodes);
-        to.leaves.push_back(l);
-    }
+void append(GrowthRecords& to, PlantRecords plant, uint32_t seed) {
+    shiftRecords(plant, uint32_t(to.nodes.size()), uint32_t(to.chunks.size()), uint32_t(to.branches.size()));
+    for (Chunk& c : plant.chunks)
+        if (c.branch == kNoIndex) c.firstNode = seed;
+    for (BranchRecord& b : plant.branches) b.seed = seed;
+    append(to.nodes, plant.nodes);
+    append(to.chunks, plant.chunks);
+    append(to.branches, plant.branches);
+    append(to.leaves, plant.leaves);
 }
 
 template <class T>
@@ -121,6 +113,18 @@ PlantRecords plantOf(const GrowthRecords& growth, uint32_t seed) {
         if (c.parent == kNoIndex) c.nextSibling = kNoIndex;
     }
     return plant;
+}
+
+void shiftRecords(GrowthRecords& records, uint32_t nodes, uint32_t chunks, uint32_t branches) {
+    for (Node& n : records.nodes) moveIndex(n.chunk, chunks);
+    for (Chunk& c : records.chunks) {
+        for (uint32_t* link : {&c.parent, &c.next, &c.firstChild, &c.nextSibling}) moveIndex(*link, chunks);
+        moveIndex(c.previousNode, nodes);
+        if (c.branch != kNoIndex) c.firstNode += nodes;  // else it is the seed's index
+        moveIndex(c.branch, branches);
+    }
+    for (BranchRecord& b : records.branches) moveIndex(b.firstChunk, chunks);
+    for (Leaf& l : records.leaves) moveIndex(l.node, nodes);
 }
 
 FrozenSum sumOf(std::span<const FrozenPlant> plants, uint32_t firstSeed) {

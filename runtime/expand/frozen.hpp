@@ -34,6 +34,9 @@ struct FrozenPlant {
 // The plant of seed `seed` out of a growth's records (as Growth::read() gives them).
 PlantRecords plantOf(const GrowthRecords& growth, uint32_t seed);
 
+// Indices as they are behind that many other records; those of seeds stay.
+void shiftRecords(GrowthRecords& records, uint32_t nodes, uint32_t chunks, uint32_t branches);
+
 // What frozen plants are together, to begin a growth with. Seeds have the indices from firstSeed on.
 struct FrozenSum {
     GrowthRecords records;

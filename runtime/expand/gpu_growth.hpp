@@ -119,6 +119,10 @@ class GpuGrowth final : public Growth {
         return {device_.info().cpu ? std::max({16u, std::min(8 * threads, 64u), view_.chunkCount / 512}) : 1024u, 1, 1};
     }
 
+    // Frozen plants that GrowthChanges::frozen names, among what is drawn as if they had been there before: put_in.cpp.
+    // False: there is no room.
+    Result<bool> putIn(const GrowthInputs& inputs);
+
     // Gaps that edits have left: compaction.cpp.
     bool gappy() const;
     Status compact();

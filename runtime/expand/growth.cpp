@@ -188,7 +188,9 @@ void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, con
 Status GpuGrowth::grow(const GrowthInputs& inputs) {
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
-    if (canRegrow(inputs)) {
+    Result<bool> put = canRegrow(inputs) ? putIn(inputs) : Result<bool>(false);
+    if (!put) return put.failure();
+    if (*put) {
         const std::optional<SeedChanges> seeds = seedChanges(from_, inputs);
         if (seeds && gappy())
             if (Status closed = compact(); !closed) return closed;

@@ -66,7 +66,12 @@ std::optional<SeedChanges> seedChanges(const GrownFrom& before, const GrowthInpu
     };
     bool anyOther = !now.changes->grammars.empty();
     for (uint32_t g = 0; g < std::max(before.widths.size(), now.widths.size()); ++g) anyOther = anyOther || other(g);
-    if (!anyOther && sameSeeds(before.seeds, now.seeds) && sameFrozen(before.frozen, now.frozen)) return out;
+    const auto among = [](const std::vector<uint64_t>& keys, uint64_t key) {
+        return std::find(keys.begin(), keys.end(), key) != keys.end();
+    };
+    const std::vector<uint64_t>&anew = now.changes->seeds, &putIn = now.changes->frozen;
+    if (!anyOther && anew.empty() && sameSeeds(before.seeds, now.seeds) && sameFrozen(before.frozen, now.frozen))
+        return out;
 
     std::unordered_map<uint64_t, uint32_t> indices;
     const uint32_t seeds = uint32_t(now.seeds.size()), all = seeds + uint32_t(now.frozen.size());
@@ -79,9 +84,12 @@ std::optional<SeedChanges> seedChanges(const GrownFrom& before, const GrowthInpu
         const auto found = indices.find(key);
         bool same = found != indices.end() && !stays[found->second];
         if (same && found->second < seeds)
-            same = seed && std::memcmp(seed, &now.seeds[found->second], sizeof(Seed)) == 0 && !other(seed->grammar);
+            same = seed && !among(anew, key) && std::memcmp(seed, &now.seeds[found->second], sizeof(Seed)) == 0 &&
+                   !other(seed->grammar);
         else if (same && plant)
             same = plant->records == now.frozen[found->second - seeds].records;
+        else if (same)
+            same = !among(putIn, key);
         if (same) stays[found->second] = true;
         out.to.push_back(same ? found->second : kNoIndex);
     };

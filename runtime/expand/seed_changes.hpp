@@ -26,7 +26,7 @@ struct GrownFrom {
 };
 
 // Compares by key. A seed whose grammar's rules or width changed counts as another. Nothing: keys aren't unique, or a
-// frozen plant has to be put in.
+// frozen plant has to be put in that putIn() hasn't.
 std::optional<SeedChanges> seedChanges(const GrownFrom& before, const GrowthInputs& now);
 
 // Keys as kernels read them: two words each.

@@ -1,4 +1,4 @@
-// Growing, drawing, reading back: what a host calls each frame.
+// Drawing and reading back: what a host calls each frame after espUpdate.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -6,111 +6,11 @@
 #include "runtime/gpu/commands.hpp"
 #include "runtime/plugin/context.hpp"
 #include "shaders/render/heat.h"
-#include "shaders/shared/random.h"
 
 namespace espalier {
 namespace {
 
 constexpr uint32_t kMaxSide = 16384;
-
-// The root of a seed's derivation path. Doesn't depend on other seeds or grammars.
-uint64_t seedKey(const PlantedSeed& seed) {
-    return combineKeys(mix64(seed.number), seed.twin - 1);
-}
-
-EspResult update(EspContext& context) {
-    if (context.grownRevision == context.revision) return ESP_OK;
-    // What failed fails again; trying it anew in each frame would only cost.
-    if (context.failedRevision == context.revision && !context.device->lost()) {
-        context.error = context.failure;
-        return ESP_INVALID_CONTENT;
-    }
-    Status tables = context.refreshTables();
-    if (!tables) return failGpu(&context, tables.failure());
-    Status variants = refreshVariants(context);
-    if (!variants) return failGpu(&context, variants.failure());
-
-    std::vector<RuleMapRef> maps;
-    std::vector<float> widths;
-    std::vector<std::pair<uint32_t, uint32_t>> places;  // grammar id -> index in maps
-    const auto addMap = [&](const RuleMap& map, const Buffer& words, const std::vector<uint32_t>& layerOf) {
-        RuleMapRef ref = map.refAt(words.address());
-        if (map.roofs()) {  // keeps its number, but growth has nothing to do with it
-            ref = RuleMapRef{};
-            ref.features = kFeatureKnown;
-        }
-        for (size_t i = 0; i < layerOf.size() && i < kMaxLayers; ++i) ref.layerOf[i] = layerOf[i];
-        maps.push_back(ref);
-        widths.push_back(map.width());
-    };
-    context.grammars.forEach([&](uint32_t id, const LoadedGrammar& grammar) {
-        places.push_back({id, uint32_t(maps.size())});
-        addMap(grammar.map, grammar.words, grammar.layerOf);
-    });
-    const uint32_t firstVariant = uint32_t(maps.size());
-    for (const GrammarVariant& variant : context.variants) addMap(variant.map, variant.words, variant.layerOf);
-    std::vector<Seed> seeds;
-    std::vector<FrozenPlant> frozen;
-    std::vector<uint32_t> seedIds, frozenIds;
-    context.seeds.forEach([&](uint32_t seedId, const PlantedSeed& planted) {
-        Seed seed{};
-        seed.key = seedKey(planted);
-        if (planted.frozen) {
-            frozen.push_back({seed.key, planted.frozen});
-            frozenIds.push_back(seedId);
-            return;
-        }
-        seed.walk = planted.walk;
-        for (const auto& [id, index] : places)
-            if (id == planted.grammar) seed.grammar = index;
-        if (planted.variant != kNoIndex) seed.grammar = firstVariant + planted.variant;
-        const RuleMap& map = context.grammars.find(planted.grammar)->map;
-        seed.symbol = planted.symbol.empty() ? map.startSymbol() : *map.findSymbol(planted.symbol);
-        seeds.push_back(seed);
-        seedIds.push_back(seedId);
-    });
-
-    GrowthInputs inputs;
-    inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
-    inputs.surfaceCount = std::max(context.surfaceSlots(), 1u);
-    uint32_t placedSurfaces = 0;
-    context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
-        placedSurfaces += 1;
-        inputs.surfaceData = placedSurfaces == 1 ? &surface.gpu.data() : nullptr;
-    });
-    inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
-    inputs.grammars = maps;
-    inputs.widths = widths;
-    inputs.seeds = seeds;
-    inputs.pruned = context.pruned;
-    inputs.frozen = frozen;
-    seedIds.insert(seedIds.end(), frozenIds.begin(), frozenIds.end());
-    inputs.limits.walk = WalkMode(context.grow.walk);
-    inputs.limits.tangents = TangentMode(context.grow.tangents);
-    inputs.limits.maxNodes = context.grow.maxNodes;
-    inputs.limits.maxDepth = context.grow.maxDepth;
-    inputs.limits.leafDensityCap = context.grow.leafDensityCap;
-    std::vector<uint32_t> ids;
-    for (const auto& [id, index] : places) ids.push_back(id);
-    for (uint32_t i = 0; i < context.variants.size(); ++i) ids.push_back(i);  // no grammar's id is so small
-    // Indices of grammars stay what they were only as long as none goes.
-    const std::vector<uint32_t>& known = context.grownGrammars;
-    if (known.size() > ids.size() || !std::equal(known.begin(), known.end(), ids.begin()))
-        context.changes.everything = true;
-    inputs.changes = &context.changes;
-    Status grown = context.growth->grow(inputs);
-    if (!grown && grown.failure().diagnostics.front().file == "growth") {
-        context.failedRevision = context.revision;
-        context.failure = grown.failure().text();
-        return fail(&context, ESP_INVALID_CONTENT, context.failure);
-    }
-    if (!grown) return failGpu(&context, grown.failure());
-    context.grownRevision = context.revision;
-    context.grownGrammars = std::move(ids);
-    context.grownSeeds = std::move(seedIds);
-    context.changes = {.everything = false, .cells = {}, .params = {}, .grammars = {}};
-    return ESP_OK;
-}
 
 glm::vec3 vec(const float v[3]) {
     return {v[0], v[1], v[2]};
@@ -255,6 +155,7 @@ EspStats gather(const EspContext& context) {
     stats.modelsFading = render.modelsFading;
     stats.contacts = context.contactCount;
     stats.contactMs = context.contactMs;
+    stats.derivedNodes = growth.derived;
     return stats;
 }
 
@@ -264,38 +165,6 @@ EspStats gather(const EspContext& context) {
 using namespace espalier;
 
 extern "C" {
-
-EspGrowDef espDefaultGrowDef(void) {
-    const GrowthLimits limits;
-    EspGrowDef def{};
-    def.maxNodes = limits.maxNodes;
-    def.maxDepth = limits.maxDepth;
-    def.leafDensityCap = limits.leafDensityCap;
-    return def;
-}
-
-EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
-    return guarded(context, [&] {
-        if (!def || def->walk < ESP_WALK_INTRINSIC || def->walk > ESP_WALK_PAPER || def->tangents < ESP_TANGENT_STEM ||
-            def->tangents > ESP_TANGENT_PAPER || def->maxNodes < 1 || def->maxDepth < 1 || def->maxDepth > 65534 ||
-            !std::isfinite(def->leafDensityCap) || def->leafDensityCap < 0)
-            return fail(context, ESP_INVALID_ARGUMENT, "espSetGrow: null pointer, or a value out of its range");
-        const EspGrowDef& now = context->grow;
-        if (now.walk == def->walk && now.tangents == def->tangents && now.maxNodes == def->maxNodes &&
-            now.maxDepth == def->maxDepth && now.leafDensityCap == def->leafDensityCap)
-            return ESP_OK;
-        context->grow = *def;
-        context->touch();
-        return ESP_OK;
-    });
-}
-
-EspResult espUpdate(EspContext* context) {
-    return guarded(context, [&] {
-        if (EspResult bad = updateTown(*context)) return bad;
-        return update(*context);
-    });
-}
 
 EspLook espDefaultLook(void) {
     const Look look;

@@ -36,16 +36,18 @@ EspResult freezeAs(EspContext& context, PlantedSeed& seed, std::span<const std::
         if (!there[node.place >> 16])
             return fail(&context, ESP_INVALID_CONTENT, "espFreezeAs: a surface that the plant has grown on is missing");
     seed.frozen = std::make_shared<PlantRecords>(std::move(*plant));
-    context.touch();  // unlike a plant that is frozen as it stands, this one has to be put in
+    context.changes.frozen.push_back(seedKey(seed));  // unlike a plant that is frozen as it stands
+    ++context.revision;
     return ESP_OK;
 }
 
 }  // namespace
 
-void thawPlantsOn(EspContext& context, uint32_t instance) {
+void thawPlantsOn(EspContext& context, uint32_t instance, bool across) {
     context.seeds.forEach([&](uint32_t, PlantedSeed& seed) {
         const auto on = [&](const Node& node) { return node.place >> 16 == instance; };
-        if (seed.frozen && std::ranges::any_of(seed.frozen->nodes, on)) seed.frozen = nullptr;
+        if (!seed.frozen || std::ranges::none_of(seed.frozen->nodes, on)) return;
+        if (!across || !std::ranges::all_of(seed.frozen->nodes, on)) seed.frozen = nullptr;
     });
 }
 

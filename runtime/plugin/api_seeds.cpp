@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/plugin/context.hpp"
+#include "shaders/shared/random.h"
 
 namespace espalier {
 namespace {
@@ -128,6 +129,10 @@ EspResult setParam(EspContext& context, PlantedSeed& seed, const char* name, con
 }
 
 }  // namespace
+
+uint64_t seedKey(const PlantedSeed& seed) {
+    return combineKeys(mix64(seed.number), seed.twin - 1);
+}
 
 bool TwinTable::take(uint32_t number, uint32_t wanted, uint32_t& twin) {
     Uses& uses = numbers_[number];

@@ -139,6 +139,8 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
         return fail(&context, ESP_INVALID_ARGUMENT,
                     "espMoveSurface: the transform must move, turn and scale evenly, without mirroring");
     if (toWorld == surface.toWorld) return ESP_OK;
+    // A frozen plant stands in its surface's own space, but for its thickness.
+    thawPlantsOn(context, surface.instance, *scale == surface.scale);
     const glm::mat4 shift = toWorld * surface.toObject;
     surface.place = place;
     surface.toWorld = toWorld;
@@ -146,7 +148,6 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
     surface.scale = *scale;
     surface.info = describe(surface.data, toWorld, surface.info.triangles, surface.info.levels);
     context.renderer->placeSurface(surface.instance, toWorld);
-    thawPlantsOn(context, surface.instance);
     const auto moved = [&](glm::vec3 p) { return glm::vec3(shift * glm::vec4(p, 1)); };
     const auto turned = [&](glm::vec3 v) { return glm::mat3(shift) * v; };
     context.seeds.forEach([&](uint32_t, PlantedSeed& seed) {
@@ -157,7 +158,12 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
         seed.givenPosition = moved(seed.givenPosition);
         seed.givenDirection = turned(seed.givenDirection);
     });
-    surfacesChanged(context);
+    // What it touches from now on is known when contacts have been found anew.
+    context.moved.resize(context.surfaceSlots());
+    context.moved[surface.instance] = true;
+    addReached(context, context.moved);
+    context.tablesStale = context.contactsStale = true;
+    ++context.revision;
     return ESP_OK;
 }
 
@@ -240,7 +246,7 @@ EspResult espDestroySurface(EspContext* context, EspSurface surface) {
             if (seed.surface == surface.id) gone.push_back(id);
         });
         for (uint32_t id : gone) removeSeed(*context, id);
-        thawPlantsOn(*context, placed->instance);
+        thawPlantsOn(*context, placed->instance, false);
         std::erase_if(context->layers, [&](const PaintedLayer& layer) { return layer.surface == surface.id; });
         context->renderer->removeSurface(placed->instance);
         context->surfaces.erase(surface.id);

@@ -215,6 +215,7 @@ struct EspContext {
     uint64_t failedRevision = 0;          // inputs that can't be grown, and why
     std::string failure;
     bool contactsStale = false;  // surfaces came, went or moved
+    std::vector<bool> moved;     // [instance]: plants on it may stand on what has moved since the last growth
     std::vector<espalier::SurfacePair> pairs;
     uint32_t contactCount = 0;      // crossings between surfaces
     double contactMs = 0;           // of finding them the last time, CPU
@@ -301,8 +302,13 @@ struct SurfacePoint {
 std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction);
 std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point);
 
-// Lets frozen plants grow again that have grown on a surface instance.
-void thawPlantsOn(EspContext& context, uint32_t instance);
+// The root of a seed's derivation path. Doesn't depend on other seeds or grammars.
+uint64_t seedKey(const PlantedSeed& seed);
+// Lets frozen plants grow again that have grown on a surface instance; with `across` only those that stand on others
+// too.
+void thawPlantsOn(EspContext& context, uint32_t instance, bool across);
+// Adds the surfaces that plants on these may get to, over any number of contacts: [instance].
+void addReached(const EspContext& context, std::vector<bool>& instances);
 // Finds contacts between surfaces that came, went or moved, and gives them to the surfaces' GPU data.
 Status refreshContacts(EspContext& context);
 // Takes a seed out, and all notes of it.

@@ -63,6 +63,18 @@ Status find(EspContext& context, SurfacePair& pair) {
 
 }  // namespace
 
+void addReached(const EspContext& context, std::vector<bool>& instances) {
+    instances.resize(context.surfaceSlots());
+    for (bool more = true; more;) {
+        more = false;
+        context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
+            for (const Crossing& c : surface.contacts)
+                if (instances[surface.instance] != instances[c.target >> 16])
+                    more = instances[surface.instance] = instances[c.target >> 16] = true;
+        });
+    }
+}
+
 Status refreshContacts(EspContext& context) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<Stand> stands;

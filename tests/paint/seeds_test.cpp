@@ -232,11 +232,73 @@ TEST_CASE("a frozen plant outlives edits, and comes back from bytes") {
     const EspStats thawed = painting.grown();
     CHECK(thawed.nodes < whole.nodes);
     CHECK(espReadFrozen(painting.context, seed, nullptr, &size) == ESP_INVALID_ARGUMENT);
+    const EspSeed other = painting.plant(grammar, {.7f, -.7f, 1}, kUp);
+    const EspStats two = painting.grown();
     painting.ok(espFreezeAs(painting.context, seed, bytes.data(), bytes.size()));
+    const EspStats put = painting.grown();
+    CHECK(put.derivedNodes == 0);  // the other plant stood as it was
+    CHECK(put.nodes == two.nodes - thawed.nodes + whole.nodes);
+    const auto half = [](uint64_t hash, int which) { return uint32_t(hash >> (32 * which)); };  // each is a sum
+    for (int i = 0; i < 2; ++i)
+        CHECK(half(put.hash, i) == half(two.hash, i) - half(thawed.hash, i) + half(whole.hash, i));
+    painting.ok(espRemoveSeed(painting.context, other));
     CHECK(painting.grown().hash == whole.hash);
     bytes[bytes.size() / 2] ^= 1;
     CHECK(espFreezeAs(painting.context, seed, bytes.data(), bytes.size()) == ESP_INVALID_CONTENT);
     CHECK(painting.grown().hash == whole.hash);
     painting.ok(espRemoveSeed(painting.context, seed));
     CHECK(painting.grown().nodes == 0);
+}
+
+TEST_CASE("a surface that moves takes its plants along and leaves the others alone") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    EspTransform away = espIdentity();
+    away.rows[0][3] = 10;
+    EspSurface second{};
+    painting.ok(espLoadSurface(painting.context, painting.path.c_str(), &away, &second));
+    painting.plant(grammar, kFoot, kUp);
+    const EspStats one = painting.grown();
+    const EspSeed moved = painting.plant(grammar, {10, -.7f, 1}, kUp);
+    const EspStats two = painting.grown();
+    REQUIRE(two.nodes > one.nodes);
+
+    EspTransform beside = espIdentity();
+    beside.rows[0][3] = -7;
+    painting.ok(espMoveSurface(painting.context, second, &beside));
+    const EspStats after = painting.grown();
+    CHECK(after.derivedNodes > 0);
+    CHECK(after.derivedNodes <= two.nodes - one.nodes);
+    EspGrowDef grow = espDefaultGrowDef();
+    grow.maxDepth = 100;  // all anew
+    painting.ok(espSetGrow(painting.context, &grow));
+    const EspStats anew = painting.grown();
+    CHECK(anew.derivedNodes == anew.nodes);
+    CHECK(after.hash == anew.hash);
+    CHECK(after.nodes == anew.nodes);
+
+    // Against the other one: plants of both may cross over now.
+    beside.rows[0][3] = 2;
+    painting.ok(espMoveSurface(painting.context, second, &beside));
+    const EspStats touching = painting.grown();
+    CHECK(touching.contacts > 0);
+    CHECK(touching.derivedNodes == touching.nodes);
+    painting.ok(espMoveSurface(painting.context, second, &away));
+    const EspStats back = painting.grown();
+    CHECK(back.contacts == 0);
+    CHECK(back.derivedNodes == back.nodes);  // and from what they had crossed to
+    CHECK(back.hash == two.hash);
+
+    // Frozen, a plant moves along as it is.
+    painting.ok(espFreezePlant(painting.context, moved, 1));
+    CHECK(painting.grown().hash == two.hash);
+    away.rows[1][3] = 3;
+    painting.ok(espMoveSurface(painting.context, second, &away));
+    const EspStats along = painting.grown();
+    CHECK(along.derivedNodes == 0);
+    CHECK(along.hash == two.hash);
+    CHECK(infoOf(painting, moved).frozen == 1);
+    away.rows[0][0] = away.rows[1][1] = away.rows[2][2] = 2;
+    painting.ok(espMoveSurface(painting.context, second, &away));
+    CHECK(infoOf(painting, moved).frozen == 0);
 }

@@ -1,0 +1,59 @@
+// Frozen plants that come from elsewhere. In: their records, what is drawn. Out: both together. The regrowth that
+// follows takes them for plants that have always been there, and away what their seeds had grown instead.
+#include <algorithm>
+
+#include "runtime/expand/gpu_growth.hpp"
+
+namespace espalier {
+
+Result<bool> GpuGrowth::putIn(const GrowthInputs& inputs) {
+    const std::vector<uint64_t>& keys = inputs.changes->frozen;
+    std::vector<FrozenPlant> fresh;
+    for (const FrozenPlant& plant : inputs.frozen) {
+        const auto same = [&](const FrozenPlant& p) { return p.key == plant.key && p.records == plant.records; };
+        if (std::ranges::find(keys, plant.key) != keys.end() && std::ranges::none_of(from_.frozen, same))
+            fresh.push_back(plant);
+    }
+    if (fresh.empty()) return true;
+    FrozenSum sum = sumOf(fresh, uint32_t(from_.seeds.size() + from_.frozen.size()));
+    GrowthRecords& r = sum.records;
+    shiftRecords(r, view_.nodeCount, view_.chunkCount, view_.branchCount);
+
+    const Plants& plants = plants_[frontPlants_];
+    const Links& links = links_[frontLinks_];
+    Result<Commands> commands = Commands::begin(device_, "put plants in");
+    if (!commands) return commands.failure();
+    bool fits = true;
+    const auto add = [&](const Buffer& buffer, const auto& records, uint32_t before) -> Status {
+        const uint64_t size = sizeof(records[0]), at = before * size;
+        if (records.size() * size > buffer.size() - std::min(buffer.size(), at)) fits = false;
+        return fits ? commands->upload(buffer, records, at) : Status(Done{});
+    };
+    Status added[] = {add(plants.nodes, r.nodes, view_.nodeCount), add(plants.leaves, r.leaves, view_.leafCount),
+                      add(links.chunks, r.chunks, view_.chunkCount),
+                      add(links.branches, r.branches, view_.branchCount)};
+    for (Status& step : added)
+        if (!step) return step.failure();
+    if (!fits) return false;
+    if (Status finished = commands->finish(); !finished) return finished.failure();
+
+    from_.frozen.insert(from_.frozen.end(), fresh.begin(), fresh.end());
+    view_.nodeCount += uint32_t(r.nodes.size());
+    view_.leafCount += uint32_t(r.leaves.size());
+    view_.chunkCount += uint32_t(r.chunks.size());
+    view_.branchCount += uint32_t(r.branches.size());
+    view_.revision += 1;
+    stats_.nodes += uint32_t(r.nodes.size());
+    stats_.leaves += uint32_t(r.leaves.size());
+    stats_.chunks += uint32_t(r.chunks.size());
+    stats_.branches += uint32_t(r.branches.size());
+    stats_.steps += sum.steps;
+    stats_.inserted += sum.inserted;
+    stats_.stopped += sum.stopped;
+    stats_.deadEnds += sum.deadEnds;
+    const uvec2 hash = uvec2(uint32_t(stats_.hash), uint32_t(stats_.hash >> 32)) + uvec2(sum.hash[0], sum.hash[1]);
+    stats_.hash = uint64_t(hash.y) << 32 | hash.x;
+    return true;
+}
+
+}  // namespace espalier
