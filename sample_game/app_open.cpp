@@ -205,7 +205,7 @@ bool App::openNext() {
     const std::string file = std::exchange(session_.openNext, {});
     if (!showOpening(file)) return false;
     work_.error.clear();
-    openDocument({file, {}, {}, {}}, work_.error);
+    if (!openDocument({file, {}, {}, {}}, work_.error)) askToOpen(file);
     return true;
 }
 

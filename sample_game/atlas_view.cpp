@@ -185,7 +185,10 @@ void AtlasView::controls(Workspace& work) {
             ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kLinks[kind]), "%s", kLinkNames[kind]);
             ImGui::SameLine();
         }
-    ImGui::TextDisabled("%u x %u, %u charts", size_, size_, info.charts);
+    if (size_)
+        ImGui::TextDisabled("%u x %u, %u charts", size_, size_, info.charts);
+    else
+        ImGui::TextDisabled("Reading ...");
 }
 
 void AtlasView::moveView(const View& view) {

@@ -151,6 +151,7 @@ void Controls::take(const std::vector<PointerEvent>& pointer, const std::vector<
                                       key.key == GLFW_KEY_Q);
         // What WantTextInput says is a frame late: nothing is active any more once a dialogue has closed.
         const bool typing = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
+        if (key.key == GLFW_KEY_ESCAPE && closeMenus()) continue;
         if (!ImGui::GetCurrentContext()->OpenPopupStack.empty() && !functionKey) continue;
         if (typing && !functionKey && !file) continue;
         takeKey(key);

@@ -128,14 +128,19 @@ void presets(Workspace& work, uint32_t index) {
             if (readPreset(grammarName(work.scene(), index), preset, params, work.error)) apply(params);
         }
     ImGui::Separator();
-    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 4);
-    ImGui::InputTextWithHint("##name", "name", name, sizeof name);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
+    bool keeps = ImGui::InputTextWithHint("##name", "name for these values", name, sizeof name,
+                                          ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
-    if (ImGui::Button("Keep", {-1, 0}) && name[0]) {
-        writePreset(grammarName(work.scene(), index), name, values(work, grammar.id), work.error);
+    ImGui::BeginDisabled(!name[0]);
+    keeps |= ImGui::Button("Keep");
+    ImGui::EndDisabled();
+    toolTip("Keeps the values as they are now under this name, for this grammar in any scene");
+    if (keeps && name[0] && writePreset(grammarName(work.scene(), index), name, values(work, grammar.id), work.error)) {
+        work.message = std::string("Kept: ") + name;
         name[0] = 0;
+        ImGui::CloseCurrentPopup();
     }
-    toolTip("Keeps the values as they are now under this name");
     ImGui::EndCombo();
 }
 

@@ -14,31 +14,11 @@ namespace {
 
 using namespace espalier::document;
 
-// Windows that appear for the first time would lie over it.
-bool beginDialogue(const char* title) {
-    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return false;
-    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
-    return true;
-}
-
-// A dialogue that asks for a path. True: it was confirmed.
-bool askPath(const char* title, const char* label, const char* button, char* path, size_t size) {
-    bool confirmed = false;
-    if (!beginDialogue(title)) return false;
-    ImGui::TextUnformatted(label);
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 32);
-    if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // it is all that one can type into
-    confirmed = ImGui::InputText("##path", path, size, ImGuiInputTextFlags_EnterReturnsTrue);
-    confirmed |= ImGui::Button(button);
-    ImGui::SameLine();
-    const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    if (confirmed || cancelled) ImGui::CloseCurrentPopup();
-    ImGui::EndPopup();
-    return confirmed && path[0];
-}
+const ImVec4 kBad{1, .55f, .45f, 1}, kGood{.62f, .85f, .5f, 1};
 
 struct Dialogues {
     const char* open = nullptr;
+    bool failed = false;  // the open one's last try
     char project[512] = "", file[512] = "", run[512] = "", picture[512] = "";
     std::string layer;  // of the picture
 };
@@ -48,20 +28,57 @@ Dialogues& dialogues() {
     return state;
 }
 
+// Windows that appear for the first time would lie over it.
+bool beginDialogue(const char* title) {
+    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return false;
+    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+    return true;
+}
+
+// A dialogue that asks for a path, and stays with what went wrong until `act`, which is given the path, returns true.
+template <class Act>
+void askPath(Workspace& work, const char* title, const char* label, const char* button, char* path, size_t size,
+             Act&& act) {
+    bool confirmed = false;
+    if (!beginDialogue(title)) return;
+    ImGui::TextUnformatted(label);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 32);
+    if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // it is all that one can type into
+    confirmed = ImGui::InputText("##path", path, size, ImGuiInputTextFlags_EnterReturnsTrue);
+    confirmed |= ImGui::Button(button);
+    ImGui::SameLine();
+    const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if (confirmed && path[0]) {
+        work.error.clear();
+        dialogues().failed = !act(path);
+    }
+    if (dialogues().failed) {
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 32);
+        ImGui::TextColored(kBad, "%s", work.error.c_str());
+        ImGui::PopTextWrapPos();
+    }
+    if (cancelled || (confirmed && !dialogues().failed)) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+void ask(const char* title) {
+    dialogues().open = title;
+    dialogues().failed = false;
+}
+
 void put(char* to, size_t size, const std::string& text) {
     std::snprintf(to, size, "%s", text.c_str());
 }
 
 void fileMenu(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
-    if (ImGui::MenuItem("Open ...", "Ctrl+O")) d.open = "Open";
+    if (ImGui::MenuItem("Open ...", "Ctrl+O")) askToOpen();
     if (ImGui::MenuItem("Save", "Ctrl+S")) askToSave(work, session);
     if (ImGui::MenuItem("Save as ...")) {
         put(d.project, sizeof d.project, session.folder());
-        d.open = "Save the project";
+        ask("Save the project");
     }
     ImGui::Separator();
-    if (ImGui::MenuItem("Record a run ...", nullptr, false, !session.recording())) d.open = "Record a run";
+    if (ImGui::MenuItem("Record a run ...", nullptr, false, !session.recording())) ask("Record a run");
     if (ImGui::MenuItem("End the recording", nullptr, false, session.recording())) session.stopRecording(work);
     ImGui::Separator();
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) session.quit = true;
@@ -73,14 +90,14 @@ void askToSave(Workspace& work, Session& session) {
     if (!session.folder().empty())
         session.save(work, session.folder());
     else
-        dialogues().open = "Save the project";
+        ask("Save the project");
 }
 
 void askForLayer(const std::string& layer, bool import) {
     Dialogues& d = dialogues();
     if (d.layer != layer) put(d.picture, sizeof d.picture, layer + ".exr");
     d.layer = layer;
-    d.open = import ? "Import a layer" : "Export a layer";
+    ask(import ? "Import a layer" : "Export a layer");
 }
 
 void closeDialogues() {
@@ -88,8 +105,20 @@ void closeDialogues() {
     if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) ImGui::ClosePopupToLevel(0, false);
 }
 
-void askToOpen() {
-    dialogues().open = "Open";
+bool closeMenus() {
+    const auto& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    int level = open.Size;
+    while (level > 0 && open[level - 1].Window && !(open[level - 1].Window->Flags & ImGuiWindowFlags_Modal)) --level;
+    if (level == open.Size) return false;
+    ImGui::ClosePopupToLevel(level, true);
+    return true;
+}
+
+void askToOpen(const std::string& refused) {
+    Dialogues& d = dialogues();
+    d.open = "Open";
+    d.failed = !refused.empty();
+    if (d.failed) put(d.file, sizeof d.file, refused);
 }
 
 void showDialogues(Workspace& work, Session& session) {
@@ -100,27 +129,38 @@ void showDialogues(Workspace& work, Session& session) {
         ImGui::OpenPopup(d.open);
         d.open = nullptr;
     }
-    if (askPath("Save the project", "Folder of the project:", "Save", d.project, sizeof d.project))
-        session.save(work, d.project);
-    if (askPath("Open", "A project's folder, a scene (.json) or a baked surface (.glb):", "Open", d.file,
-                sizeof d.file))
-        session.openNext = d.file;
-    if (askPath("Record a run", "File for what is done from now on:", "Record", d.run, sizeof d.run))
-        session.startRecording(work, d.run, uint32_t(work.window.x), uint32_t(work.window.y));
+    askPath(work, "Save the project", "Folder of the project:", "Save", d.project, sizeof d.project,
+            [&](const char* folder) {
+                session.save(work, folder);
+                return work.error.empty();
+            });
+    // What can't be opened asks again, see askToOpen.
+    askPath(work, "Open", "A project's folder, a scene (.json) or a baked surface (.glb):", "Open", d.file,
+            sizeof d.file, [&](const char* file) {
+                session.openNext = file;
+                return true;
+            });
+    askPath(work, "Record a run", "File for what is done from now on:", "Record", d.run, sizeof d.run,
+            [&](const char* file) {
+                return session.startRecording(work, file, uint32_t(work.window.x), uint32_t(work.window.y));
+            });
     const bool town = work.townLayer(d.layer);
-    const char* asked = town ? "Picture of the town from above, north up:"
-                             : "Picture in the surface's walk UVs, as the editor exports it:";
-    const bool imported = askPath("Import a layer", asked, "Import", d.picture, sizeof d.picture);
-    if (imported && town) work.perform(LoadTownLayer{d.layer, d.picture});
-    if (imported && !town)
+    const char* asked = town ? "Picture of the town from above, north up (.png, .exr):"
+                             : "Picture in the surface's walk UVs, as Export writes it (.png, .exr):";
+    askPath(work, "Import a layer", asked, "Import", d.picture, sizeof d.picture, [&](const char* file) {
+        if (town) return work.perform(LoadTownLayer{d.layer, file});
+        const uint32_t gesture = work.newGesture();
         for (uint32_t i = 0; i < work.scene().surfaces.size(); ++i)
-            work.perform(LoadLayer{d.layer, pictureOf(*work.document, d.picture, i), i});
-    if (askPath("Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture,
-                sizeof d.picture)) {
-        work.error.clear();
-        if ((town ? exportTownLayer : exportLayer)(*work.document, d.layer, d.picture, work.error))
-            work.message = std::string("Written: ") + d.picture;
-    }
+            if (!work.perform(LoadLayer{d.layer, pictureOf(*work.document, file, i), i}, gesture)) return false;
+        work.message = std::string("Read: ") + file;
+        return true;
+    });
+    askPath(work, "Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture,
+            sizeof d.picture, [&](const char* file) {
+                if (!(town ? exportTownLayer : exportLayer)(*work.document, d.layer, file, work.error)) return false;
+                work.message = std::string("Written: ") + file;
+                return true;
+            });
     if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");
     if (beginDialogue("Unsaved work")) {
         ImGui::TextUnformatted("The last session ended without saving. What it had changed was kept.");
@@ -217,14 +257,19 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                    ImGuiWindowFlags_NoNav;
     if (ImGui::Begin("status", nullptr, flags)) {
-        ImGui::TextUnformatted(text.c_str());
+        // News is short-lived: it takes the hint's place where there isn't room for both.
         const std::string& news = bad ? work.error : work.message;
         const std::string line = news.substr(0, news.find('\n'));
         const float width = ImGui::CalcTextSize(line.c_str()).x;
+        const bool fits = ImGui::CalcTextSize(text.c_str()).x + width + 52 * work.scale < work.window.x;
+        // In a narrow window the last hints give way, each as a whole.
+        while (ImGui::CalcTextSize(text.c_str()).x + 24 * work.scale > work.window.x &&
+               text.rfind("   ") != std::string::npos)
+            text.resize(text.rfind("   "));
+        if (line.empty() || fits) ImGui::TextUnformatted(text.c_str());
         if (!line.empty()) {
-            ImGui::SameLine(std::max(ImGui::CalcTextSize(text.c_str()).x + 40 * work.scale,
-                                     work.window.x - width - 12 * work.scale));
-            ImGui::TextColored(bad ? ImVec4(1, .55f, .45f, 1) : ImVec4(.62f, .85f, .5f, 1), "%s", line.c_str());
+            if (fits) ImGui::SameLine(work.window.x - width - 12 * work.scale);
+            ImGui::TextColored(bad ? kBad : kGood, "%s", line.c_str());
             if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", news.c_str());
         }
     }

@@ -17,51 +17,59 @@ bool jumps(const EspPathSample& a, const EspPathSample& b) {
 }
 
 // What has been pruned, to take it back.
-void prunedPanel(Workspace& work) {
+void prunedRow(Workspace& work) {
     const uint32_t count = espPrunedCount(work.context.get());
-    if (count == 0) return;
-    ImGui::Text("%u pruned", count);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%u pruned", count);
     ImGui::SameLine();
-    if (!ImGui::Button("Let all grow again")) return;
-    std::vector<uint64_t> keys(count);
-    for (uint32_t i = 0; i < count; ++i) (void)espPrunedAt(work.context.get(), i, &keys[i]);
-    const uint32_t gesture = work.newGesture();
-    for (uint64_t key : keys) {
-        char text[20];
-        std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(key));
-        work.perform(espalier::document::PruneBranch{text, false}, gesture);
+    ImGui::BeginDisabled(count == 0);
+    if (ImGui::Button("Let all grow again", {-1, 0})) {
+        std::vector<uint64_t> keys(count);
+        for (uint32_t i = 0; i < count; ++i) (void)espPrunedAt(work.context.get(), i, &keys[i]);
+        const uint32_t gesture = work.newGesture();
+        for (uint64_t key : keys) {
+            char text[20];
+            std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(key));
+            work.perform(espalier::document::PruneBranch{text, false}, gesture);
+        }
     }
+    ImGui::EndDisabled();
 }
 
-void plantButtons(Workspace& work) {
+// seed: of the picked branch; null: none is picked.
+void plantButtons(Workspace& work, const espalier::scene::Seed* seed) {
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    if (ImGui::Button("Prune  Del", {half, 0})) return work.prune();
+    ImGui::BeginDisabled(!seed);
+    const bool prunes = ImGui::Button("Prune  Del", {half, 0});
     toolTip("Cuts the branch away with all that grows from it, for good");
     ImGui::SameLine();
-    for (const auto& seed : work.scene().seeds) {
-        if (seed.planted.id != work.branch->seed.id) continue;
-        if (ImGui::Button(seed.frozen ? "Thaw the plant" : "Freeze the plant", {half, 0}))
-            work.freeze({seed.key}, !seed.frozen);
-        toolTip("A frozen plant stands as it is: neither paint nor sliders change it");
-        return;
-    }
-    ImGui::NewLine();
+    const bool frozen = seed && seed->frozen;
+    const bool freezes = ImGui::Button(frozen ? "Thaw the plant" : "Freeze the plant", {-1, 0});
+    toolTip("A frozen plant stands as it is: neither paint nor sliders change it");
+    ImGui::EndDisabled();
+    if (prunes) work.prune();
+    if (freezes) work.freeze({seed->key}, !frozen);
 }
 
 }  // namespace
 
+// All rows are always there, so that nothing moves away from under the mouse.
 void branchPanel(Workspace& work) {
-    prunedPanel(work);
-    if (!work.branch || work.path.empty()) {
-        ImGui::TextDisabled("Click a branch");
-        return;
+    const bool picked = work.branch && !work.path.empty();
+    const espalier::scene::Seed* seed = nullptr;
+    for (const auto& planted : work.scene().seeds)
+        if (picked && planted.planted.id == work.branch->seed.id) seed = &planted;
+    if (picked) {
+        size_t crossings = 0;
+        for (size_t i = 0; i + 1 < work.path.size(); ++i) crossings += jumps(work.path[i], work.path[i + 1]);
+        ImGui::Text("Depth %u, %zu samples, %zu crossings", work.branch->depth, work.path.size(), crossings);
+        ImGui::TextDisabled("Key %016llx", static_cast<unsigned long long>(work.branch->branch));
+    } else {
+        ImGui::TextUnformatted("Click a branch");
+        ImGui::TextDisabled("to see how it walked, to prune or freeze it");
     }
-    plantButtons(work);
-    if (!work.branch) return;
-    size_t crossings = 0;
-    for (size_t i = 0; i + 1 < work.path.size(); ++i) crossings += jumps(work.path[i], work.path[i + 1]);
-    ImGui::Text("Depth %u, %zu samples, %zu crossings", work.branch->depth, work.path.size(), crossings);
-    ImGui::TextDisabled("Key %016llx", static_cast<unsigned long long>(work.branch->branch));
+    plantButtons(work, seed);
+    prunedRow(work);
 }
 
 void showWalk(const Workspace& work) {

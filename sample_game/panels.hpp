@@ -21,7 +21,8 @@ void showGrowing(const Workspace& work);                           // while grow
 
 // Ctrl+S and Ctrl+O: at once, or by a dialogue.
 void askToSave(Workspace& work, Session& session);
-void askToOpen();
+void askToOpen(const std::string& refused = {});  // refused: what couldn't be opened; Workspace::error says why
+bool closeMenus();                                // those that are open, not dialogues; false: there are none
 // In frames without showDialogues(): ImGui can't do with a dialogue that is open and isn't laid out.
 void closeDialogues();
 void askForLayer(const std::string& layer, bool import);

@@ -61,6 +61,7 @@ void applyTheme(float scale) {
     c[ImGuiCol_SliderGrab] = green;
     c[ImGuiCol_SliderGrabActive] = greenBright;
     c[ImGuiCol_CheckMark] = greenBright;
+    c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, .45f};
     c[ImGuiCol_Separator] = grey(.24f);
     c[ImGuiCol_ScrollbarBg] = grey(.10f, 0);
     c[ImGuiCol_ScrollbarGrab] = grey(.28f);

@@ -51,6 +51,7 @@ void Workspace::lookFrom(const EspCamera& from) {
 
 bool Workspace::perform(const espalier::document::Action& action, uint32_t gesture) {
     error.clear();
+    if (!std::holds_alternative<espalier::document::SetCamera>(action)) message.clear();
     redraw = true;
     return document->perform(action, error, gesture);
 }

@@ -12,4 +12,9 @@ vec4 pictureColor(vec4 c, float open, bool encode, ivec2 at) {
     h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
     return vec4(x + (float(h >> 24u) * (1.0 / 255.0) - 0.5) * (1.0 / 255.0), 1.0);
 }
+
+// sRGB -> linear.
+vec3 decodedColor(vec3 c) {
+    return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
+}
 #endif

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // A host's picture and depth are what growth is drawn upon.
+#include "shaders/render/encode.glsl"
 #include "shaders/render/host_records.h"
 #include "shaders/render/tone.glsl"
 
@@ -13,8 +14,7 @@ layout(location = 0) out vec4 color;
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec3 c = texelFetch(hostColor, at, 0).rgb;
-    if (push.encoded != 0u)
-        c = mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
+    if (push.encoded != 0u) c = decodedColor(c);
     color = stored(c, 0.0);
     gl_FragDepth = texelFetch(hostNear, at, 0).x;
 }

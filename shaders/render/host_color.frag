@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // Growth, and edges that were smoothed with it, into a host's picture; all its other pixels stay as they are.
+#include "shaders/render/encode.glsl"
 #include "shaders/render/host_records.h"
 
 layout(push_constant, scalar) uniform Data { HostPush push; };
@@ -18,7 +19,6 @@ void main() {
             nearest = max(nearest, texelFetch(grown, clamp(at + ivec2(x, y), ivec2(0), last), 0).x);
     if (nearest == 0.0) discard;
     vec3 c = texelFetch(picture, at, 0).rgb;
-    if (push.encoded == 0u)
-        c = mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
+    if (push.encoded == 0u) c = decodedColor(c);
     color = vec4(c, 1.0);
 }
