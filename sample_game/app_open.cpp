@@ -122,6 +122,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.redraw = true;
     grownRevision_ = ~0ull;
     espSetGrow(made, &work_.grow);
+    work_.message.clear();
     for (const std::string& note : work_.scene().notes) work_.message += (work_.message.empty() ? "" : "\n") + note;
     session_.begin(work_, request.file);
     if (options_.frames) session_.forgetRecovery(false);
