@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/bake/kits.hpp"
 #include "tests/bake/small_models.hpp"
 #include "tests/support/data.hpp"
 #include "tools/bake/bake.hpp"
@@ -235,4 +236,39 @@ TEST_CASE("real models without usable UVs get an atlas within the promised figur
         checkAtlas(*model, baked);
         CHECK(baked.report.charts <= c.mostCharts);
     }
+}
+
+TEST_CASE("painted weights give charts their share of texels a metre, and nothing overlaps") {
+    Kit kit;
+    kit.box({0, 0, 0}, {1, 1, 1});
+    BakeOptions options;
+    options.resolution = 256;
+    options.weights = {64, 64, std::vector<float>(64 * 64, 0.25f)};
+    // The panel towards +x is white, that towards -x black.
+    const glm::dvec2 low[2] = {kit.uv(0, 0, 0), kit.uv(1, 0, 0)}, high[2] = {kit.uv(0, 1, 1), kit.uv(1, 1, 1)};
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            for (int k = 0; k < 2; ++k) {
+                const glm::dvec2 p((x + 0.5) / 64, (y + 0.5) / 64);
+                if (glm::all(glm::greaterThan(p, low[k] - 0.03)) && glm::all(glm::lessThan(p, high[k] + 0.03)))
+                    options.weights.texels[size_t(y) * 64 + size_t(x)] = k == 0 ? 1.0f : 0.0f;
+            }
+    Model model = kit.model();
+    auto baked = bake(model, options);
+    if (!baked) FAIL(baked.failure().text());
+    CHECK(baked->report.overlaps == 0);
+    CHECK(baked->report.stretch95 < 1.01);
+    REQUIRE(baked->surface.charts.size() == 6);
+    double side[3] = {0, 0, 0};  // metres per UV: +x, -x, one of the others
+    for (const TrianglePlane& t : baked->surface.triangles) {
+        const glm::vec3 n = glm::normalize(glm::cross(t.du, t.dv)) * baked->surface.charts[t.chart].orientation;
+        side[n.x > 0.9f ? 0 : n.x < -0.9f ? 1 : 2] = baked->surface.charts[t.chart].metresPerUv;
+    }
+    CHECK(side[2] / side[0] == doctest::Approx(4).epsilon(0.02));
+    CHECK(side[1] / side[0] == doctest::Approx(8).epsilon(0.02));
+    options.keepLayout = true;
+    CHECK(!bake(model, options));
+    options.keepLayout = false;
+    model.uvs.clear();
+    CHECK(!bake(model, options));
 }

@@ -154,6 +154,8 @@ Status checkOptions(const std::string& name, BakeOptions& options) {
     uint32_t most = uint32_t(std::countr_zero(options.resolution)) - 2;  // down to 8 texels
     if (options.levels == 0) options.levels = std::max(1u, uint32_t(std::countr_zero(options.resolution)) - 5);
     options.levels = std::min(options.levels, kMaxLevels);
+    if (!options.weights.empty() && options.keepLayout)
+        return Failure(name, "weights move charts: they can't be had with a layout that is kept");
     if (options.levels > most)
         return Failure(name, std::to_string(options.levels) + " levels: a level of " +
                                  std::to_string(options.resolution) + " texels has at most " + std::to_string(most) +
@@ -177,6 +179,8 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     BakeOptions options = given;
     Status valid = checkOptions(asGiven.name, options);
     if (!valid) return std::move(valid.failure());
+    if (!options.weights.empty() && asGiven.uvs.empty())
+        return Failure(asGiven.name, "has no UVs in which weights could be drawn");
     Baked out;
     BakeReport& report = out.report;
     SurfaceData& surface = out.surface;
@@ -202,7 +206,9 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     if (!cut) return std::move(cut.failure());
     addNormalsAndCurvature(model, *mesh);
     stages.begin(0.1f, "layout");
-    auto allowed = layOut(*mesh, model.name, {options.resolution, options.levels, options.keepLayout}, report);
+    LayoutOptions layout{options.resolution, options.levels, options.keepLayout, {}};
+    if (!options.weights.empty()) layout.density = chartDensities(model, *mesh, options.weights);
+    auto allowed = layOut(*mesh, model.name, layout, report);
     if (!allowed) return std::move(allowed.failure());
     stages.begin(0.3f, "links");
     surface.boundsMin = glm::vec3(mesh->boundsMin);

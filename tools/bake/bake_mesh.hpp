@@ -79,14 +79,19 @@ Status makeAtlas(const Model& model, BakeMesh& mesh, uint32_t resolution, bool k
 void addNormalsAndCurvature(const Model& model, BakeMesh& mesh);
 
 // Keeps the charts where they are, moved into [0,1]² as a whole, if none lies over another and their gutters are wide
-// enough; else places each anew, at one density. Refuses models whose charts don't fit.
+// enough, and densities are even; else places each anew. Refuses models whose charts don't fit.
 // coarsest[chart]: the coarsest level that its place allows for; later rasterising may lower it.
 struct LayoutOptions {
     uint32_t resolution, levels;
     bool keep;
+    std::vector<double> density;  // per chart, to the densest; empty: even
 };
 Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, const LayoutOptions& options,
                                      BakeReport& report);
+
+// What is painted on each chart, as a share of the densest chart's: LayoutOptions::density. weights: in the model's
+// UVs.
+std::vector<double> chartDensities(const Model& model, const BakeMesh& mesh, const PaintedLayer& weights);
 
 // Places charts as masks on a grid so that their bands don't meet. levelOf(scale) is decided within.
 // Returns per chart the offset, and the one scale: uv' = uv * scale + offset; scale 0: nothing fits.

@@ -91,16 +91,6 @@ class Target {
     BoxTree tree_;
 };
 
-float sample(const PaintedLayer& layer, glm::vec2 uv) {
-    const glm::vec2 last(float(layer.width - 1), float(layer.height - 1));
-    const glm::vec2 p = glm::clamp(uv * (last + 1.0f) - 0.5f, glm::vec2(0), last);
-    const glm::uvec2 low(p), high = glm::min(low + 1u, glm::uvec2(last));
-    const glm::vec2 f = p - glm::vec2(low);
-    auto at = [&](uint32_t x, uint32_t y) { return layer.texels[size_t(y) * layer.width + x]; };
-    return (at(low.x, low.y) * (1 - f.x) + at(high.x, low.y) * f.x) * (1 - f.y) +
-           (at(low.x, high.y) * (1 - f.x) + at(high.x, high.y) * f.x) * f.y;
-}
-
 }  // namespace
 
 std::vector<SurfaceMatch::Ground> SurfaceMatch::match(const SurfaceData& here, const SurfaceData& there,
@@ -140,10 +130,10 @@ CarriedLayer SurfaceMatch::carry(const PaintedLayer& layer) const {
         if (g.other.x < 0)
             out.fresh += g.area;
         else
-            out.layer.texels[size_t(g.y) * size_ + g.x] = sample(layer, g.other);
+            out.layer.texels[size_t(g.y) * size_ + g.x] = layer.at(g.other);
     }
     for (const Ground& g : old_)
-        if (g.other.x < 0 && sample(layer, (glm::vec2(g.x, g.y) + 0.5f) / float(oldSize_)) > 0) out.lost += g.area;
+        if (g.other.x < 0 && layer.at((glm::vec2(g.x, g.y) + 0.5f) / float(oldSize_)) > 0) out.lost += g.area;
     return out;
 }
 

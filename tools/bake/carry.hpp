@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "runtime/surface/surface.hpp"
+#include "tools/bake/painted_layer.hpp"
 
 namespace espalier {
 
-// One channel over the walk's UV square; rows from v = 0 on, width * height values.
-struct PaintedLayer {
-    uint32_t width = 0, height = 0;
-    std::vector<float> texels;
-};
-
 struct CarriedLayer {
-    PaintedLayer layer;  // of the new surface's finest level; 0 outside of its charts
+    PaintedLayer layer;  // over the walk's UV square, of the new surface's finest level; 0 outside of its charts
     double fresh = 0;    // m² of new ground with no old one near: 0 there
     double lost = 0;     // m² of old ground, painted above 0, that no new one is near
 };

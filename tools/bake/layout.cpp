@@ -9,9 +9,10 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr double kGuessedFill = 0.6;    // of the square: what charts may cover when there were no bands
-constexpr int kTurns = 24;              // angles tried to lay a chart into the smallest box
-constexpr double kWalkableShare = 0.9;  // of the area: kept layouts let so much be walked at the coarsest level
+constexpr double kGuessedFill = 0.6;     // of the square: what charts may cover when there were no bands
+constexpr double kLeastDensity = 0.125;  // of the densest chart: what is painted darker gets so many texels a metre
+constexpr int kTurns = 24;               // angles tried to lay a chart into the smallest box
+constexpr double kWalkableShare = 0.9;   // of the area: kept layouts let so much be walked at the coarsest level
 
 void transform(BakeMesh& mesh, double scale, glm::dvec2 offset) {
     for (Triangle& t : mesh.triangles)
@@ -83,6 +84,7 @@ glm::dvec2 smallestBox(const std::vector<std::pair<glm::dvec2, glm::dvec2>>& bor
     return best;
 }
 
+// Scales the chart to `scale` UV a metre.
 void turnIntoBox(BakeMesh& mesh, uint32_t chart, double scale) {
     double area = 0, flat = 0;
     std::vector<std::pair<glm::dvec2, glm::dvec2>> border;
@@ -102,26 +104,48 @@ void turnIntoBox(BakeMesh& mesh, uint32_t chart, double scale) {
         for (glm::dvec2& uv : mesh.triangles[t].uv) uv = place(uv) - low;
 }
 
-// Gives every chart the same density, turns it into its smallest box, lower left corner at the origin; all together
-// as large as would just about fill the square.
-void makeMetric(BakeMesh& mesh) {
+// Gives every chart its density, turns it into its smallest box, lower left corner at the origin; all together as large
+// as would just about fill the square.
+void makeMetric(BakeMesh& mesh, const std::vector<double>& density) {
+    auto of = [&](size_t chart) { return density.empty() ? 1.0 : density[chart]; };
     double total = 0;
-    for (const Triangle& t : mesh.triangles) total += area3(mesh, t);
+    for (const Triangle& t : mesh.triangles) total += area3(mesh, t) * of(t.chart) * of(t.chart);
     double all = std::sqrt(kGuessedFill / total);
     parallelFor(mesh.chartCount(), 4, [&](size_t begin, size_t end) {
-        for (size_t c = begin; c < end; ++c) turnIntoBox(mesh, uint32_t(c), all);
+        for (size_t c = begin; c < end; ++c) turnIntoBox(mesh, uint32_t(c), all * of(c));
     });
     mesh.metric = true;
 }
 
 }  // namespace
 
+std::vector<double> chartDensities(const Model& model, const BakeMesh& mesh, const PaintedLayer& weights) {
+    std::vector<double> sum(mesh.chartCount(), 0), area(mesh.chartCount(), 0);
+    for (const Triangle& t : mesh.triangles) {
+        glm::vec2 corner[3], middle(0);
+        for (size_t k = 0; k < 3; ++k) {
+            const glm::vec2 uv = model.uvs[vertexAt(model, t, k)];
+            corner[k] = glm::length(uv) < 1e6f ? uv : glm::vec2(0);
+            middle += corner[k] / 3.0f;
+        }
+        // Tiled UVs mean the same place of the picture; the middle's tile is taken for all.
+        const glm::vec2 tile = glm::floor(middle);
+        double mean = 0;
+        for (glm::vec2 c : corner) mean += weights.at((c + middle) / 2.0f - tile) / 3;
+        sum[t.chart] += area3(mesh, t) * mean, area[t.chart] += area3(mesh, t);
+    }
+    double most = 0;
+    for (size_t c = 0; c < sum.size(); ++c) most = std::max(most, sum[c] /= area[c]);
+    for (double& d : sum) d = most > 0 ? std::max(d / most, kLeastDensity) : 1;
+    return sum;
+}
+
 Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, const LayoutOptions& options,
                                      BakeReport& report) {
     std::vector<uint32_t> coarsest(mesh.chartCount(), options.levels - 1);
     IdImage image;
     uint64_t covered = 0;
-    if (!mesh.metric) {
+    if (!mesh.metric && options.density.empty()) {
         if (enclose(mesh))
             report.warnings.push_back(
                 {name, 0, 0, {}, "UVs outside of [0,1]²: the walk's charts were moved into it", true});
@@ -136,7 +160,7 @@ Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, co
             return coarsest;
         }
     }
-    makeMetric(mesh);
+    makeMetric(mesh, options.density);
     Placement placed = packCharts(mesh, options.resolution, options.levels);
     if (placed.scale <= 0)
         return Failure(name, std::to_string(mesh.chartCount()) + " charts don't fit into " +

@@ -20,25 +20,6 @@ namespace {
 
 constexpr int kMostSide = 8192;
 
-Result<PaintedLayer> readLayer(const std::string& path) {
-    auto bytes = readFile(path);
-    if (!bytes) return std::move(bytes.failure());
-    const auto* data = reinterpret_cast<const stbi_uc*>(bytes->data());
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(data, int(bytes->size()), &width, &height, &channels))
-        return Failure(path, std::string("is no picture that can be carried (PNG can): ") + stbi_failure_reason());
-    if (width > kMostSide || height > kMostSide)
-        return Failure(path, "has " + std::to_string(width) + " × " + std::to_string(height) + " texels; " +
-                                 std::to_string(kMostSide) + " a side is the limit");
-    const std::unique_ptr<stbi_us, void (*)(void*)> grey(
-        stbi_load_16_from_memory(data, int(bytes->size()), &width, &height, &channels, 1), stbi_image_free);
-    if (!grey) return Failure(path, std::string("cannot be read: ") + stbi_failure_reason());
-    PaintedLayer layer{uint32_t(width), uint32_t(height), {}};
-    layer.texels.assign(grey.get(), grey.get() + size_t(width) * size_t(height));
-    for (float& value : layer.texels) value /= 65535.0f;
-    return layer;
-}
-
 void append32(std::vector<std::byte>& out, uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8) out.push_back(std::byte(value >> shift & 255u));
 }
@@ -81,6 +62,25 @@ std::vector<std::byte> encodePng(const PaintedLayer& layer) {
 }
 
 }  // namespace
+
+Result<PaintedLayer> readLayer(const std::string& path) {
+    auto bytes = readFile(path);
+    if (!bytes) return std::move(bytes.failure());
+    const auto* data = reinterpret_cast<const stbi_uc*>(bytes->data());
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_info_from_memory(data, int(bytes->size()), &width, &height, &channels))
+        return Failure(path, std::string("is no picture that can be read (PNG can): ") + stbi_failure_reason());
+    if (width > kMostSide || height > kMostSide)
+        return Failure(path, "has " + std::to_string(width) + " × " + std::to_string(height) + " texels; " +
+                                 std::to_string(kMostSide) + " a side is the limit");
+    const std::unique_ptr<stbi_us, void (*)(void*)> grey(
+        stbi_load_16_from_memory(data, int(bytes->size()), &width, &height, &channels, 1), stbi_image_free);
+    if (!grey) return Failure(path, std::string("cannot be read: ") + stbi_failure_reason());
+    PaintedLayer layer{uint32_t(width), uint32_t(height), {}};
+    layer.texels.assign(grey.get(), grey.get() + size_t(width) * size_t(height));
+    for (float& value : layer.texels) value /= 65535.0f;
+    return layer;
+}
 
 Result<std::vector<CarriedFile>> carryLayers(const CarryArguments& arguments, const SurfaceData& to,
                                              const std::string& output, std::vector<Diagnostic>& notes) {

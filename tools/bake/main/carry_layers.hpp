@@ -6,8 +6,12 @@
 #include <vector>
 
 #include "runtime/surface/surface.hpp"
+#include "tools/bake/painted_layer.hpp"
 
 namespace espalier {
+
+// A picture's grey, at most 8192 texels a side.
+Result<PaintedLayer> readLayer(const std::string& path);
 
 struct CarryArguments {
     std::string from;                 // a surface; empty: nothing is carried

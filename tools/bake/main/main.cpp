@@ -20,7 +20,7 @@ using namespace espalier;
 namespace {
 
 struct Arguments {
-    std::string model, output, report, images, shard;
+    std::string model, output, report, images, shard, weights;
     TownArguments town;
     CarryArguments carry;
     ImportOptions importing;
@@ -68,6 +68,11 @@ int runModel(Arguments& arguments) {
     if (!model) return fail(model.failure());
     if (!arguments.quiet)
         arguments.bake.progress = [](float done, const char* stage) { showProgress(0.1f + done * 0.7f, stage); };
+    if (!arguments.weights.empty()) {
+        auto weights = readLayer(arguments.weights);
+        if (!weights) return fail(weights.failure());
+        arguments.bake.weights = std::move(*weights);
+    }
     auto baked = bake(*model, arguments.bake);
     if (!baked) return fail(baked.failure());
     if (!arguments.images.empty()) {
@@ -109,7 +114,8 @@ int runFolder(const Arguments& arguments, const CLI::App& app) {
     options.quiet = arguments.quiet;
     if (!arguments.report.empty() || !arguments.images.empty())
         return fail(Failure(arguments.model, "is a folder: --report and --images are for one model"));
-    if (!arguments.carry.from.empty()) return fail(Failure(arguments.model, "is a folder: --from is for one model"));
+    if (!arguments.carry.from.empty() || !arguments.weights.empty())
+        return fail(Failure(arguments.model, "is a folder: --from and --weights are for one model"));
     if (!arguments.shard.empty()) {
         char rest = 0;
         if (std::sscanf(arguments.shard.c_str(), "%u/%u%c", &options.shard, &options.shards, &rest) != 2 ||
@@ -174,6 +180,10 @@ int main(int argc, char** argv) {
     auto* seeds = app.add_option("--seeds", arguments.carry.seeds,
                                  "a scene (.json) or a project's folder: lists its seeds that lose their ground")
                       ->needs(from);
+    app.add_option(
+        "--weights", arguments.weights,
+        "a picture drawn in the model's UVs: white charts get the most texels a metre, grey ones that share, at "
+        "least an eighth");
     app.add_option("--tolerance", arguments.tolerance,
                    "metres within which borders without a twin are linked; 0: one texel's footprint")
         ->check(CLI::NonNegativeNumber);
