@@ -36,6 +36,18 @@ Edges directedEdges(const Mesh& mesh, const std::vector<uint32_t>& ids) {
     return edges;
 }
 
+// A layer's value, 0 to 255, at a point of a chart.
+int layerAt(const Picture& layer, const std::string& chart, glm::vec2 st) {
+    const Ruin& r = ruin();
+    for (size_t c = 0; c < r.charts.size(); ++c)
+        if (r.charts[c].name == chart) {
+            glm::vec2 uv = r.assembly.toUv(c, st) * static_cast<float>(layer.width);
+            return static_cast<int>(layer.at(static_cast<int>(uv.x), static_cast<int>(uv.y))[0]);
+        }
+    FAIL("no such chart");
+    return 0;
+}
+
 }  // namespace
 
 TEST_CASE("the ruin is one oriented manifold whose only border is the rim of the ground") {
@@ -182,18 +194,20 @@ TEST_CASE("equal vertices have equal normals of unit length, and faces agree wit
 
 TEST_CASE("the mask leads from the ground up the wall") {
     const Ruin& r = ruin();
-    auto maskAt = [&](const std::string& chart, glm::vec2 st) {
-        for (size_t c = 0; c < r.charts.size(); ++c)
-            if (r.charts[c].name == chart) {
-                glm::vec2 uv = r.assembly.toUv(c, st) * static_cast<float>(r.painted.mask.width);
-                return static_cast<int>(r.painted.mask.at(static_cast<int>(uv.x), static_cast<int>(uv.y))[0]);
-            }
-        FAIL("no such chart");
-        return 0;
-    };
+    auto maskAt = [&](const std::string& chart, glm::vec2 st) { return layerAt(r.painted.mask, chart, st); };
     CHECK(maskAt("main front", {-1.3f, 0.3f}) > 128);
     CHECK(maskAt("main front", {0.55f, 2.66f}) > 128);
     CHECK(maskAt("main front", {-2.5f, 1.5f}) < 128);
     CHECK(maskAt("main back", {0.5f, 1.0f}) < 128);
     CHECK(maskAt("ground", {-1.35f, -0.5f}) > 128);
+}
+
+TEST_CASE("the sample's ivy keeps off the tondo, is lush over the arch and climbs the back by paths") {
+    auto ivyAt = [](const std::string& chart, glm::vec2 st) { return layerAt(ruin().painted.ivy, chart, st); };
+    CHECK(ivyAt("main front", {-1.62f, 2.05f}) == 0);
+    CHECK(ivyAt("main front", {0.55f, 2.70f}) > 180);
+    CHECK(ivyAt("main front", {-2.5f, 0.8f}) == 128);
+    CHECK(ivyAt("main back", {1.85f, 1.5f}) > 140);  // s runs against x there
+    CHECK(ivyAt("main back", {0.2f, 1.5f}) == 0);
+    CHECK(ivyAt("ground", {0.5f, -2.0f}) == 128);
 }

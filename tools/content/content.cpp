@@ -32,9 +32,8 @@ Status writeRuin(const Options& options) {
     glb.materials.push_back({"masonry", 0, 1, 0.92f, 0, false, false});
     glb.meshes.push_back({"ruin", &ruin.assembly.mesh, 0});
     if (Status s = writeGlb(options.directory + "/ruin.glb", glb); !s) return s;
-    for (auto& [name, picture] : {std::pair("/mask.png", &ruin.painted.mask), std::pair("/ivy.png", &ruin.painted.ivy),
-                                  std::pair("/turf.png", &ruin.painted.turf)})
-        if (Status s = writeBytes(options.directory + name, encodePng(*picture, 1)); !s) return s;
+    if (Status s = writeBytes(options.directory + "/mask.png", encodePng(ruin.painted.mask, 1)); !s) return s;
+    if (Status s = writeBytes(options.directory + "/ivy.png", encodePng(ruin.painted.ivy, 1)); !s) return s;
     if (options.previewDirectory.empty()) return Done{};
     struct Shot {
         const char* name;

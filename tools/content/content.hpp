@@ -10,7 +10,7 @@
 namespace espalier::content {
 
 struct Options {
-    std::string directory;  // of ruin.glb, its layers (mask, ivy, turf .png), terminals.glb, roofs.glb; made if missing
+    std::string directory;  // of ruin.glb, its layers (mask.png, ivy.png), terminals.glb, roofs.glb; made if missing
     std::string previewDirectory;  // empty: no pictures
     int textureSize = 2048;        // of the ruin, a power of two
     std::string only = "";         // "ruin", "roofs" or "terminals"; empty: all

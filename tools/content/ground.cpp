@@ -52,28 +52,14 @@ float paved(glm::vec2 xz) {
     return ramp(0.02f, 0.22f, way + 0.55f * fractal(xz * 0.9f, 711, 3) - 0.12f);
 }
 
-// What the ground is made of. stone: of a flag, 0 in its joints; rim: how far it has gone over into the meadow.
-struct Cover {
-    Cells flag;
-    float joint, stone, rim, grass;
-};
-Cover coverAt(glm::vec2 xz) {
-    Cover c;
-    glm::vec2 bent = xz + 0.05f * glm::vec2(fractal(xz * 2.2f, 721, 2), fractal(xz * 2.2f, 723, 2));
-    c.flag = cells(bent / 0.62f, 725);
-    c.joint = (c.flag.second - c.flag.nearest) * 0.31f;
-    c.stone = paved(xz + 0.25f * (glm::vec2(random01(c.flag.id, 5), random01(c.flag.id, 6)) - 0.5f));
-    c.stone *= random01(c.flag.id, 7) < 0.86f ? 1.0f : 0.0f;
-    c.stone *= ramp(0.012f, 0.045f, c.joint) * ramp(0.02f, 0.12f, footDistance(xz));
-    c.rim = ramp(0.62f, 0.93f, outward(xz) + 0.12f * fractal(xz * 1.3f, 763, 3));
-    c.grass = ramp(0.05f, 0.5f,
-                   fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f + 0.55f * c.rim);
-    return c;
-}
-
 Detail groundDetail(glm::vec2 st) {
     glm::vec2 xz(st.x, -st.y);
-    auto [flag, joint, stone, rim, grass] = coverAt(xz);
+    glm::vec2 bent = xz + 0.05f * glm::vec2(fractal(xz * 2.2f, 721, 2), fractal(xz * 2.2f, 723, 2));
+    Cells flag = cells(bent / 0.62f, 725);
+    float joint = (flag.second - flag.nearest) * 0.31f;
+    float stone = paved(xz + 0.25f * (glm::vec2(random01(flag.id, 5), random01(flag.id, 6)) - 0.5f));
+    stone *= random01(flag.id, 7) < 0.86f ? 1.0f : 0.0f;
+    stone *= ramp(0.012f, 0.045f, joint) * ramp(0.02f, 0.12f, footDistance(xz));
     float clods = fractal(xz * 4.5f, 731, 4), grit = fractal(xz * 26.0f, 735, 3);
     Cells pebble = cells(xz * 15.0f + 0.35f * glm::vec2(grit, clods), 741);
     float size = 0.10f + 0.22f * random01(pebble.id, 3) * random01(pebble.id, 4);
@@ -92,10 +78,13 @@ Detail groundDetail(glm::vec2 st) {
     earth *= 1 + 0.35f * grit + 0.25f * clods;
     earth =
         glm::mix(earth, glm::vec3(0.165f, 0.148f, 0.122f) * (0.6f + 0.8f * random01(pebble.id, 2)), 0.8f * isPebble);
+    float rim = ramp(0.62f, 0.93f, outward(xz) + 0.12f * fractal(xz * 1.3f, 763, 3));  // goes over into the meadow
+    float grass = ramp(0.05f, 0.5f,
+                       fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f + 0.55f * rim);
     float blades = 0.5f + 0.5f * fractal(glm::vec2(xz.x * 60.0f, xz.y * 34.0f), 765, 2);
     earth = glm::mix(earth,
-                     glm::mix(glm::mix(glm::vec3(0.034f, 0.044f, 0.014f), glm::vec3(0.105f, 0.112f, 0.038f), blades),
-                              glm::vec3(0.112f, 0.118f, 0.048f) * (0.62f + 0.7f * blades), 0.8f * rim),
+                     glm::mix(glm::mix(glm::vec3(0.034f, 0.044f, 0.014f), glm::vec3(0.092f, 0.106f, 0.036f), blades),
+                              glm::vec3(0.088f, 0.102f, 0.038f) * (0.50f + 0.7f * blades), 0.8f * rim),
                      0.85f * grass);
     out.height += 0.010f * grass * blades * (1 - stone);
     glm::vec3 slab =
@@ -175,10 +164,6 @@ void addGround(std::vector<Chart>& charts, const std::vector<Loop>& footprints) 
             std::min(boxDistance(xz, {-1.5f, 0.3f}, {-1.15f, 0.9f}), boxDistance(xz, {1.85f, 0.3f}, {2.1f, 0.8f}));
         d = std::min(d, glm::distance(xz, glm::vec2(2.3f, 1.95f)) - 0.62f);
         return ramp(0.12f, 0.06f, d);
-    };
-    chart.turf = [](glm::vec2 st) {
-        const Cover c = coverAt({st.x, -st.y});
-        return c.grass * (1 - ramp(0.0f, 0.3f, c.stone));
     };
     charts.push_back(std::move(chart));
 }

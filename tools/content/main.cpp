@@ -1,5 +1,5 @@
 // espalier-content OUT_DIR: generates Espalier's own sample content. In: nothing but options. Out: ruin.glb,
-// mask.png, ivy.png, turf.png, terminals.glb, roofs.glb; with --preview DIR, pictures of them.
+// mask.png, ivy.png, terminals.glb, roofs.glb; with --preview DIR, pictures of them.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -47,7 +47,6 @@ struct Chart {
     // Painted layers, [0, 1]; empty: as the comment says everywhere.
     std::function<float(glm::vec2 st)> mask;  // the guided grammar's path; 0
     std::function<float(glm::vec2 st)> ivy;   // how much ivy the sample wants; 0.5
-    std::function<float(glm::vec2 st)> turf;  // where grass grows; 0
 };
 
 // Where a chart lies in the atlas: uv = offset + scale * (s, height - t), turned by a quarter where `turned`.
@@ -85,7 +84,7 @@ Assembly assemble(const std::vector<Chart>& charts, const std::function<glm::vec
 // Base colour (sRGB), tangent-space normals (+Y up) and the layers over an assembly's atlas, `size` texels a side,
 // carried on into the gutters.
 struct Painted {
-    Picture color, normal, mask, ivy, turf;
+    Picture color, normal, mask, ivy;
 };
 Painted paint(const std::vector<Chart>& charts, const Assembly& assembly, int size, int layerSize);
 

@@ -112,7 +112,7 @@ Picture paintLayer(const std::vector<Chart>& charts, const Assembly& assembly, c
 
 Painted paint(const std::vector<Chart>& charts, const Assembly& assembly, int size, int layerSize) {
     Coverage cover = rasterise(charts, assembly, size);
-    Painted out{Picture(size, size), Picture(size, size), {}, {}, {}};
+    Painted out{Picture(size, size), Picture(size, size), {}, {}};
     std::vector<float> relief(cover.chart.size(), 0);
     std::vector<uint8_t> filled(cover.chart.size(), 0);
     for (int y = 0; y < size; ++y)
@@ -155,7 +155,6 @@ Painted paint(const std::vector<Chart>& charts, const Assembly& assembly, int si
     const Coverage layerCover = rasterise(charts, assembly, layerSize);
     out.mask = paintLayer(charts, assembly, layerCover, layerSize, &Chart::mask, 0);
     out.ivy = paintLayer(charts, assembly, layerCover, layerSize, &Chart::ivy, 0.5f);
-    out.turf = paintLayer(charts, assembly, layerCover, layerSize, &Chart::turf, 0);
     return out;
 }
 
