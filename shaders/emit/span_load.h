@@ -8,6 +8,7 @@ ESPALIER_BEGIN
 
 CONST_FLOAT(kBarkRise, 0.45f);     // the bark's axis lies this many radii above the surface: its back is buried
 CONST_FLOAT(kChildFlare, 1.12f);   // a child's radius where it leaves its parent
+CONST_FLOAT(kBendCosine, 0.906f);  // a span that turns by more, 25 degrees, has a crease right beside an end
 
 struct LoadedSpan {
     Span span;
@@ -60,9 +61,10 @@ FN LoadedSpan spanBetween(Node a, Node b, bool sameBranch, bool foot, vec4 a0, v
     if (smoothness == kSmoothC1) {
         s.span = smoothSpan(p0, t0, p3, t3);
         float least = smaller(s.radius0, s.radius1);
-        if ((a.flags & kNodeInserted) != 0u)
+        bool bends = dot3(s.normal0, s.normal1) < kBendCosine;
+        if (bends || (a.flags & kNodeInserted) != 0u)
             s.span.b1 = p0 + t0 * levelHandle(length3(s.span.b1 - p0), t0, s.normal1, least);
-        if ((b.flags & kNodeInserted) != 0u)
+        if (bends || (b.flags & kNodeInserted) != 0u)
             s.span.b2 = p3 - t3 * levelHandle(length3(p3 - s.span.b2), t3, s.normal0, least);
     } else if (smoothness == kSmoothC0) {
         // Handles just long enough to turn the rings at the joints into the mitre; the rest is straight.

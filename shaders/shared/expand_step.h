@@ -254,7 +254,7 @@ FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, uint flags, uint inde
     STAGED(at + 7u) = floatBitsToUint(w.walk.arc);
     STAGED(at + 8u) = flags | (index << 8u);
     uint bit = 1u << index;
-    creased = (w.flags & kWalkFlagCrease) != 0u ? creased | bit : creased & ~bit;
+    creased = (w.flags & (kWalkFlagCrease | kWalkFlagBeside)) != 0u ? creased | bit : creased & ~bit;
 }
 
 // The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes

@@ -13,6 +13,7 @@ struct Patch {
     vec3 du, dv;     // dP/du, dP/dv: metres per unit of UV
     vec3 normal;     // unit, outward
     uint bits;       // Texel::bits of the nearest texel of the chart
+    bool beside;     // it isn't creased, but another of the four around is
 };
 
 // Reads of a surface's record and arrays. Kernels that define ESPALIER_SURFACE_FETCH call openSurface() first and have
@@ -212,6 +213,7 @@ FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, floa
     p.dv = dv;
     p.normal = across * (orientation * rsqrtExact(area2));
     p.bits = bits;
+    p.beside = creased && !texelCrease(bits);
     return valid && area2 > 1e-36f;
 }
 

@@ -56,7 +56,7 @@ struct WalkState {
     float limit;         // longest stretch for now, object metres
     vec2 slip;           // uv + slip is surely inside the chart: the last stretch's end before it was corrected
     uint flags;          // bits 7..0 tries, 8: last read was creased, 9: search crossings loosely, 10: step moved,
-                         // 11: a cut for the turning is under way, 12: kWalkFlagOver, 31..16: pieces walked
+                         // 11: a cut for the turning is under way, 12: kWalkFlagOver, 13: kWalkFlagBeside, 31..16: pieces walked
 };
 
 CONST_UINT(kWalkFlagCrease, 1u << 8u);
@@ -64,6 +64,7 @@ CONST_UINT(kWalkFlagLoose, 1u << 9u);
 CONST_UINT(kWalkFlagMoved, 1u << 10u);
 CONST_UINT(kWalkFlagBend, 1u << 11u);
 CONST_UINT(kWalkFlagOver, 1u << 12u);   // came over a crease, and the nearest texels may still be the near side's
+CONST_UINT(kWalkFlagBeside, 1u << 13u); // last read was Patch::beside a crease
 
 FN bool walkGoesOn(uint event) { return event >= kWalkSeam && event <= kWalkRetry; }
 FN bool walkHasSample(uint event) { return event != kWalkRetry && event != kWalkLost; }
@@ -95,7 +96,8 @@ FN void standOn(INOUT(WalkState) w, Patch p, float texel) {
     w.dv = p.dv;
     w.normal = p.normal;
     w.clear = float(texelClearance(p.bits)) * texel;
-    w.flags = (w.flags & ~kWalkFlagCrease) | (texelCrease(p.bits) ? kWalkFlagCrease : 0u);
+    w.flags = (w.flags & ~(kWalkFlagCrease | kWalkFlagBeside)) | (texelCrease(p.bits) ? kWalkFlagCrease : 0u) |
+              (p.beside ? kWalkFlagBeside : 0u);
 }
 
 // The state of a stored walk; a function of `walk` and the surface alone. False: no surface there.
@@ -355,6 +357,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     p.dv = w.dv;
     p.normal = n;
     p.bits = 0u;
+    p.beside = false;
     bool found = patchAt(surfaces, toPlace >> 16u, toLevel, toPlace & 0xFFFFu, toOrientation, to, p);
 
     // A gutter texel with room around it lies wholly outside: a gap between crossings let the walk through.

@@ -18,8 +18,8 @@ using namespace espalier::fidelitytest;
 
 namespace {
 
-// Least shares of samples within one radius that are asked for: the target, 0.999, of ivy for game scenes but on the
-// ruin. The paper's grammar makes steps of up to 30 radii with bark a tenth of a texel thick. There, less is asked for
+// Least shares of samples within one radius that are asked for: the target, 0.999, of ivy for game scenes. The paper's
+// grammar makes steps of up to 30 radii with bark a tenth of a texel thick. There, less is asked for
 // on models whose surface bends within a step more than once: what lies between two reads of the walk is not seen.
 // Within a texel or a radius, the target is met everywhere (withinTexel).
 struct Bounds {
@@ -89,7 +89,7 @@ TEST_CASE("bark on our own shapes") {
 
 TEST_CASE("bark on the sample ruin") {
     const test::ScratchFolder folder;
-    judgeFile("ruin", ruinFile(folder.path.string()), {.998, .993, .999});
+    judgeFile("ruin", ruinFile(folder.path.string()), {.999, .995});
 }
 
 TEST_CASE("bark on real models") {
