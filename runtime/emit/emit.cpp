@@ -4,6 +4,7 @@
 #include "runtime/emit/emit.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace espalier {
 namespace {
@@ -105,6 +106,11 @@ Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
 Status Emit::cull(Commands& commands, const EmitInputs& inputs, const EmitView& view, std::string_view passName,
                   bool counted) {
     if (Status s = bind(commands, inputs); !s) return s;
+    const bool known = bound_ == culled_ && std::memcmp(&view, &view_, sizeof view) == 0 && (counted_ || !counted);
+    if (known) return Done{};
+    culled_ = bound_;
+    view_ = view;
+    counted_ = counted;
     Pass pass(commands, passName);
     if (Status s = record(commands, view, pass); !s) return s;
     pass.barrier(Use::compute, Use::indirect | Use::vertex | Use::transfer);

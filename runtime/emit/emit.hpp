@@ -42,9 +42,13 @@ class Emit {
     static Result<Emit> create(Device& device, const Terminals& terminals);
 
     // Records the culling of `inputs` for `view`; what an earlier cull left is lost. Timed as `passName`, binding as
-    // "bind". With `counted` the figures come back in stats() once the work is done.
+    // "bind". With `counted` the figures come back in stats() once the work is done. A view that is the last one's over
+    // the same growth costs nothing.
     Status cull(Commands& commands, const EmitInputs& inputs, const EmitView& view, std::string_view passName,
                 bool counted);
+
+    // The last recording won't be submitted: nothing of it can be built on.
+    void forget() { bound_ = {}; }
 
     // Where the draws of the last cull lie; bucket b has the commands 2b and 2b + 1.
     const Buffer& state() const { return state_; }
@@ -92,7 +96,9 @@ class Emit {
     Buffer noTexels_;
     TexelView nodeRecords_, chunkRecords_, leafRecords_;
     EmitGrid grid_{};
-    Bound bound_;
+    Bound bound_, culled_;  // and what the last view was of
+    EmitView view_{};
+    bool counted_ = false;
     bool fetches_ = false;
     uint32_t overflow_ = 0;
     uint32_t viewSlot_ = 0;

@@ -96,6 +96,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
                        inputs.low,
                        inputs.high};
     if (wanted == bound_) return Done{};
+    bound_ = culled_ = {};
     if (Status s = viewRecords(growth); !s) return s;
     grid_ = gridOver(inputs.low, inputs.high);
     overflow_ = growth.leafCount - leaves;

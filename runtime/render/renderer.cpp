@@ -11,6 +11,7 @@ namespace espalier {
 namespace {
 
 constexpr float kShadowLodPixels = 1.2f;
+constexpr uint32_t kShadowPeriod = 8;       // frames, while growth changes in each
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
 constexpr float kGrownPixels = 0.25f;       // error of models with growth on them: bark that is seen isn't buried
 
@@ -168,6 +169,10 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.tiles = push.tiles;
     view.width = targets_.width;
     view.height = targets_.height;
+    view.wholePixels = std::max(inputs.look.leafPixels, 1e-3f);
+    // A host's scene or a level that fades hides something else in each frame.
+    ++sceneNumber_;
+    view.scene = hosted_ || models_.fading() > 0 ? sceneNumber_ << 32 : models_.revision();
     if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
     if (!grows_) return Done{};
@@ -230,7 +235,25 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     return hosted_ ? merge_->end(commands, targets_) : Status(Done{});
 }
 
+bool RendererImpl::shadowsWait(const ShadowKey& key) {
+    changes_ = key.growth == growthBefore_ ? 0 : changes_ + 1;
+    growthBefore_ = key.growth;
+    ShadowKey grown = shadowKey_;
+    grown.growth = key.growth;
+    grown.nodes = key.nodes;
+    grown.leaves = key.leaves;
+    return shadowDrawn_ && grown == key && changes_ > 2 && changes_ % kShadowPeriod != 0;
+}
+
 Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
+    Status drawn = drawFrame(commands, inputs, target);
+    if (drawn) return drawn;
+    emit_.forget();
+    shadowDrawn_ = false;
+    return drawn;
+}
+
+Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
     require(target.width > 0 && target.height > 0 && target.width <= 16384 && target.height <= 16384,
             "a picture is 1 to 16384 pixels wide and high");
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
@@ -271,7 +294,8 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     const ShadowKey key{growth.revision,          models_.revision(), frame.sunDirection,
                         growth.nodeCount,         growth.leafCount,   roofed_ ? inputs.roofs->revision : 0,
                         glm::vec4(center, radius)};
-    if (frame.shadows && (!shadowDrawn_ || key != shadowKey_)) {
+    const bool wait = shadowsWait(key);
+    if (frame.shadows && !wait && (!shadowDrawn_ || key != shadowKey_)) {
         if (Status s = drawShadows(commands, inputs, sun, kShadowLodPixels); !s) return s;
         shadowKey_ = key;
         shadowDrawn_ = true;

@@ -34,8 +34,9 @@ struct Look {
     ViewMode view = ViewMode::shaded;
     uint32_t layer = 0;  // for ViewMode::layer: index into DrawInputs::layers' 16 a surface
     float layerOpacity = 1;
-    uint32_t level = 0;   // for ViewMode::charts
-    float lodPixels = 1;  // error allowed when choosing LOD, pixels
+    uint32_t level = 0;    // for ViewMode::charts
+    float lodPixels = 1;   // error allowed when choosing LOD, pixels
+    float leafPixels = 8;  // leaves of at least so many are all drawn, of smaller ones fewer and larger
 };
 
 struct DrawInputs {
@@ -92,7 +93,8 @@ class Renderer {
     // Meshes that roofs are drawn with, kind 0 being none; returns their bounds. Once, before the first roofs.
     virtual Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes) = 0;
 
-    // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed.
+    // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed; from
+    // the third frame in a row on in which growth alone has, in every eighth and when it has come to rest.
     virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;
 
     // The last frame drawn into the renderer's own image: RGBA, sRGB, rows top to bottom. Waits for it.

@@ -42,6 +42,9 @@ class RendererImpl final : public Renderer {
     };
 
     Status makePrograms();
+    Status drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
+    // Whether shadows can stay behind for this frame.
+    bool shadowsWait(const ShadowKey& key);
     // The programs that draw what is lit: for the shaded view, for views that explain, for the one that counts
     // fragments.
     struct ScenePrograms {
@@ -81,6 +84,8 @@ class RendererImpl final : public Renderer {
     Buffer tiles_;
     uint32_t frameSlot_ = 0;
     ShadowKey shadowKey_;
+    uint64_t growthBefore_ = 0, sceneNumber_ = 0;
+    uint32_t changes_ = 0;  // frames in a row in which growth has changed
     bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;
     bool hosted_ = false;  // this recording goes into a host's scene
 };

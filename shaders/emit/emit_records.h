@@ -36,8 +36,9 @@ struct EmitView {
     uint width, height;   // of the picture, pixels
     float wholePixels;    // leaves of at least this many pixels are all drawn, of smaller ones fewer and larger,
     float leastShare;     // but at least this share of them
+    u64 scene;            // differs when what `tiles` says may differ; no kernel reads it
 };
-STATIC_SIZE(EmitView, 216);
+STATIC_SIZE(EmitView, 224);
 CONST_UINT(kDepthTile, 8u);
 
 struct KindRecord {

@@ -175,6 +175,34 @@ TEST_CASE("culling keeps what is seen and drops what is far outside") {
     CHECK(gpu.cull(plant, away).drawnTriangles == 0);
 }
 
+TEST_CASE("a view that hasn't changed isn't culled again, one of other growth is") {
+    Gpu gpu;
+    const test::Plant plant = test::upload(*gpu.device, test::helix(300)),
+                      other = test::upload(*gpu.device, test::helix(200));
+    const auto ran = [&](const test::Plant& of, const EmitView& view, const char* name) {
+        Result<Commands> commands = Commands::begin(*gpu.device, name);
+        REQUIRE(commands);
+        REQUIRE(gpu.emit.cull(*commands, of.inputs(), view, name, true));
+        REQUIRE(commands->finish());
+        gpu.device->collect();
+        return gpu.device->milliseconds(name) > 0;
+    };
+    const glm::vec3 eye(0, 1, 4);
+    EmitView view = perspectiveView(lookAt(eye, {0, 1, 0}, 0.9f, 1.6f), eye, 500, 1);
+    CHECK(ran(plant, view, "first"));
+    const EmitStats before = gpu.emit.stats();
+    CHECK(!ran(plant, view, "the same"));
+    CHECK(gpu.emit.stats().spans == before.spans);
+    CHECK(ran(other, view, "other growth"));
+    CHECK(gpu.emit.stats().spans < before.spans);
+    CHECK(ran(plant, view, "back"));
+    CHECK(gpu.emit.stats().spans == before.spans);
+    view.lodPixels = 2;
+    CHECK(ran(plant, view, "another view"));
+    gpu.emit.forget();
+    CHECK(ran(plant, view, "after a recording that wasn't submitted"));
+}
+
 TEST_CASE("levels of detail fall with distance, and far canopies keep their area") {
     Gpu gpu;
     const test::PlantData data = test::wallIvy(8, 2, 1.5f);

@@ -176,6 +176,23 @@ TEST_CASE("a picture is the same on every run, whatever the order of instances")
     }
 }
 
+TEST_CASE("shadows follow growth at once, stay behind in a long stroke, and catch up when it rests") {
+    Studio fresh, studio;
+    auto grown = [](Studio& in, uint32_t leaves) {
+        in.inputs.growth.leafCount = leaves;
+        ++in.inputs.growth.revision;
+        return in.draw(160, 90);
+    };
+    const uint32_t all = studio.inputs.growth.leafCount;
+    const std::vector<uint8_t> wanted = grown(fresh, all / 8);
+    studio.draw(160, 90);
+    CHECK(grown(studio, all / 8) == wanted);
+    studio.draw(160, 90);
+    for (uint32_t frame = 0; frame < 4; ++frame) grown(studio, all - frame);
+    CHECK(grown(studio, all / 8) != wanted);
+    CHECK(studio.draw(160, 90) == wanted);
+}
+
 TEST_CASE("leaves are green, the wall casts shadows, the sky is above") {
     Studio studio;
     const std::vector<uint8_t> grown = studio.draw(320, 180);
