@@ -399,6 +399,8 @@ typedef struct EspLook {
     float viewOpacity;           /* 0 to 1: of that layer over the model; default 1 */
     uint32_t viewLevel;          /* for ESP_VIEW_CHARTS: the level whose charts and links are shown */
     float windowLodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
+    float leafPixels;            /* leaves of at least so many pixels are all drawn, of smaller ones fewer and larger;
+                                    default 8 */
     int ground;                  /* 1: a meadow to the horizon under it all, only to be looked at; default 0 */
     float groundLevel;           /* its height in the world, metres */
 } EspLook;
@@ -424,9 +426,9 @@ typedef struct EspHostScene {
 /* Where to draw. With commandBuffer NULL Espalier draws into its own image of width × height, submits, waits, and
  * espReadPixels returns it. Otherwise it records into the host's VkCommandBuffer (outside of a render pass), and ends
  * with colourView's image in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL. What it held before is lost, unless there is a
- * `scene`: then it must come in that layout. It must be 8-bit RGBA or BGRA, UNORM or SRGB, colours in it sRGB. What was recorded has to be submitted to EspHostDevice::queue before the next call
- * that changes the context (espUpdate, espLoadSurface ...): `frame` and `framesDone` tell Espalier how long it must
- * keep what that frame reads. */
+ * `scene`: then it must come in that layout. It must be 8-bit RGBA or BGRA, UNORM or SRGB, colours in it sRGB.
+ * What was recorded has to be submitted to EspHostDevice::queue before the next call that changes the context
+ * (espUpdate, espLoadSurface ...): `frame` and `framesDone` tell Espalier how long it must keep what that frame reads. */
 typedef struct EspDrawDef {
     uint32_t width, height;      /* 1 to 16384 */
     EspCamera camera;

@@ -89,7 +89,10 @@ bool App::drawFrame(bool moving, bool last) {
     draw.look.viewLevel = work_.viewLevel;
     // While the camera moves on a slow device, less detail: what counts then is that it follows the hand.
     const bool slow = moving && !last && work_.stats.drawMs > kSlowDrawMs;
-    if (slow) draw.look.windowLodPixels *= 4;
+    if (slow) {
+        draw.look.windowLodPixels *= 4;
+        draw.look.leafPixels *= 1.5f;
+    }
     const float scale = slow && work_.layout.halfWhileMoving ? .5f : 1;
     if (!image_->show(work_.context.get(), *frame, draw, scale, work_.redraw)) return fail(image_->error());
     if (image_->drew()) {

@@ -12,7 +12,8 @@ namespace espalier {
 
 struct EmitInputs {
     GrowthView growth;
-    SurfaceBuf surfaces;  // indexed by surface instance
+    SurfaceBuf surfaces;            // indexed by surface instance
+    uint64_t surfacesRevision = 0;  // another one when a surface stands elsewhere
     // Where things grow, more or less: space is divided there. What lies elsewhere costs more, no more than that.
     glm::vec3 low{-4}, high{4};
 };
@@ -70,7 +71,7 @@ class Emit {
   private:
     // What the instances were made from.
     struct Bound {
-        uint64_t nodes = 0, leaves = 0, surfaces = 0, revision = 0;
+        uint64_t nodes = 0, leaves = 0, surfaces = 0, surfacesRevision = 0, revision = 0;
         uint32_t nodeCount = 0, leafCount = 0;
         glm::vec3 low{0}, high{0};
         bool operator==(const Bound&) const = default;

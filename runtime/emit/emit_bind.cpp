@@ -90,6 +90,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     const Bound wanted{uint64_t(growth.nodes.v),
                        uint64_t(growth.leaves.v),
                        uint64_t(inputs.surfaces.v),
+                       inputs.surfacesRevision,
                        growth.revision,
                        nodes,
                        leaves,

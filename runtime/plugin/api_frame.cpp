@@ -51,6 +51,7 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     look.shadows = from.shadows != 0;
     look.view = ViewMode(from.view);
     look.lodPixels = from.windowLodPixels;
+    look.leafPixels = from.leafPixels;
     look.layerOpacity = from.viewOpacity;
     look.level = from.viewLevel;
     if (from.view < ESP_VIEW_SHADED || from.view > ESP_VIEW_OVERDRAW)
@@ -92,6 +93,7 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
         inputs.ground.height = def.look.groundLevel;
     }
     inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
+    inputs.surfacesRevision = context.tablesRevision;
     inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
     inputs.camera = {vec(def.camera.eye), vec(def.camera.target), vec(def.camera.up),
                      def.camera.fovY,     def.camera.nearPlane,   {def.camera.shift[0], def.camera.shift[1]}};
@@ -179,6 +181,7 @@ EspLook espDefaultLook(void) {
     out.exposure = look.exposure;
     out.shadows = look.shadows;
     out.windowLodPixels = look.lodPixels;
+    out.leafPixels = look.leafPixels;
     out.viewOpacity = look.layerOpacity;
     return out;
 }
@@ -284,6 +287,7 @@ EspResult espMaterialise(EspContext* context, EspTriangles* out) {
         EmitInputs inputs;
         inputs.growth = context->growth->view();
         inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context->surfaceTable.address());
+        inputs.surfacesRevision = context->tablesRevision;
         context->vertices.clear();
         context->indices.clear();
         if (inputs.growth.nodeCount > 0) {

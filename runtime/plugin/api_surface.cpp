@@ -205,6 +205,7 @@ Status EspContext::refreshTables() {
         Result<Buffer> newLayers = makeBuffer(*device, "layer table", layerRefs);
         if (!newLayers) return newLayers.failure();
         surfaceTable = std::move(*newSurfaces);
+        ++tablesRevision;
         layerTable = std::move(*newLayers);
         tablesStale = false;
     }

@@ -221,6 +221,7 @@ struct EspContext {
     double contactMs = 0;           // of finding them the last time, CPU
     bool tablesStale = true;        // the two below don't describe surfaces and layers any more
     espalier::Buffer surfaceTable;  // SurfaceRef[surfaceSlots()]
+    uint64_t tablesRevision = 0;    // grows when they are made anew
     espalier::Buffer layerTable;    // LayerRef[surfaceSlots() * kMaxLayers]
     double compileMs = 0;
 

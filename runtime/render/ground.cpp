@@ -47,7 +47,8 @@ std::vector<float> bladeTile() {
             const float t = along / length, half = 1.9f * (1 - t * t);
             for (float across = -half; across <= half; across += 0.7f) {
                 const auto wrapped = [](float v) { return uint32_t(int(std::floor(v)) + 4 * int(kSide)) % kSide; };
-                const uint32_t column = wrapped(x - across * std::sin(angle)), row = wrapped(y + across * std::cos(angle));
+                const uint32_t column = wrapped(x - across * std::sin(angle)),
+                               row = wrapped(y + across * std::cos(angle));
                 tile[size_t(row) * kSide + column] = shade - 0.5f + 0.9f * t + 0.15f * across / 1.9f;
             }
             x += 0.7f * std::cos(angle), y += 0.7f * std::sin(angle);

@@ -143,7 +143,7 @@ Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, co
 }
 
 EmitInputs RendererImpl::emitInputs(const DrawInputs& inputs) const {
-    EmitInputs given{inputs.growth, inputs.surfaces};
+    EmitInputs given{inputs.growth, inputs.surfaces, inputs.surfacesRevision};
     if (!models_.empty()) models_.bounds(given.low, given.high);
     return given;
 }

@@ -1,4 +1,5 @@
 // Seeds that move, have settings of their own and lose branches; plants that are picked.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -31,6 +32,20 @@ std::vector<EspPathSample> pathOf(const Painting& painting, uint64_t branch) {
 EspResult pick(const Painting& painting, glm::vec3 from, glm::vec3 towards, EspPlantHit* hit) {
     const glm::vec3 way = towards - from;
     return espPickPlant(painting.context, &from.x, &way.x, hit);
+}
+
+// Of what is drawn, metres.
+float topOfGrowth(const Painting& painting) {
+    EspTriangles triangles{};
+    painting.ok(espMaterialise(painting.context, &triangles));
+    REQUIRE(triangles.vertexCount > 0);
+    float top = -1e9f;
+    for (uint64_t i = 0; i < triangles.vertexCount; ++i) {
+        float y = 0;
+        std::memcpy(&y, static_cast<const char*>(triangles.vertices) + 16 * i + 4, sizeof y);
+        top = std::max(top, y);
+    }
+    return top;
 }
 
 }  // namespace
@@ -289,15 +304,17 @@ TEST_CASE("a surface that moves takes its plants along and leaves the others alo
     CHECK(back.derivedNodes == back.nodes);  // and from what they had crossed to
     CHECK(back.hash == two.hash);
 
-    // Frozen, a plant moves along as it is.
+    // Frozen, a plant moves along as it is, and is written where its surface stands.
     painting.ok(espFreezePlant(painting.context, moved, 1));
     CHECK(painting.grown().hash == two.hash);
+    const float before = topOfGrowth(painting);
     away.rows[1][3] = 3;
     painting.ok(espMoveSurface(painting.context, second, &away));
     const EspStats along = painting.grown();
     CHECK(along.derivedNodes == 0);
     CHECK(along.hash == two.hash);
     CHECK(infoOf(painting, moved).frozen == 1);
+    CHECK(topOfGrowth(painting) > before + 1);
     away.rows[0][0] = away.rows[1][1] = away.rows[2][2] = 2;
     painting.ok(espMoveSurface(painting.context, second, &away));
     CHECK(infoOf(painting, moved).frozen == 0);

@@ -29,7 +29,6 @@ TEST_CASE("the sample scene is drawn as the golden shows, in every run, whatever
     REQUIRE_MESSAGE(second.code == 0, second.output);
     const Ran third = run(capture + " -o " + folder.file("c"));
     REQUIRE_MESSAGE(third.code == 0, third.output);
-    // In this view no two leaves lie at one depth; where they do, the pixel is that of the one which comes by last.
     CHECK(readAll(frame(folder, "a")) == readAll(frame(folder, "b")));
     CHECK(readAll(frame(folder, "a")) == readAll(frame(folder, "c")));
 
@@ -56,6 +55,14 @@ TEST_CASE("the sample scene is drawn as the golden shows, in every run, whatever
     const Ran alike = run(program("espalier-compare") + " " + golden + " " + frame(folder, "a") +
                           " --diff out/golden_difference.png");
     CHECK_MESSAGE(alike.code == 0, alike.output, " see out/golden_difference.png");
+}
+
+TEST_CASE("a large picture, in which leaves lie at one depth, is the same in every run, whatever the threads") {
+    const Folder folder;
+    const std::string capture = program("espalier-capture") + " " + content("sample.json") + " --size 1280x720 -o ";
+    REQUIRE(run("env LP_NUM_THREADS=1 " + capture + folder.file("a")).code == 0);
+    REQUIRE(run(capture + folder.file("b")).code == 0);
+    CHECK(readAll(frame(folder, "a")) == readAll(frame(folder, "b")));
 }
 
 TEST_CASE("another seed grows another plant, and a mask that is black grows none") {
