@@ -196,4 +196,5 @@ TEST_CASE("Rotterdam's roofs") {
     CHECK(byParts[8] <= 0.01);
     CHECK(byParts[14] <= 0.5);
     CHECK(whole[8] > byParts[8]);
+    CHECK(whole[8] <= 1.85);
 }
