@@ -1,6 +1,6 @@
 #pragma once
 
-// The sample model: a ruined courtyard. One connected surface: ground, walls with an arch, columns, a statue,
+// The sample model: a ruined courtyard. One connected surface: ground, walls with an arch, columns, an urn,
 // fallen stones; open only at the rim of the ground.
 
 #include "tools/content/model.hpp"
