@@ -10,39 +10,43 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr int kMostRings = 2;         // around what is tangled
-constexpr double kMostStretch = 1.5;  // 95th percentile of a chart's area: more is cut again
+constexpr int kMostRings = 2;       // around what is tangled
+constexpr size_t kFewestKept = 64;  // triangles: smaller parts are flattened anew, which costs little
 
-// Flattens one region; where it can't be a chart as a whole, its halves, and theirs.
-std::vector<Patch> makeCharts(const BakeMesh& mesh, const Facets& facets, std::vector<uint32_t> region,
-                              const std::vector<uint8_t>& cut, std::vector<uint32_t>& local) {
-    std::vector<Patch> done;
-    std::vector<std::vector<uint32_t>> open;
+// Flattens a patch; where that leaves it tangled, tries to smooth it.
+PatchVerdict flattenWell(Patch& patch) {
+    PatchVerdict verdict = flatten(patch);
+    if (verdict.tangled.empty()) return verdict;
+    Patch spread = patch;
+    PatchVerdict after = verdict;
+    for (int rings = 1; rings <= kMostRings && !after.tangled.empty(); ++rings) {
+        untangle(spread, after.tangled, rings);
+        after = judgePatch(spread);
+    }
+    if (!after.serves()) return verdict;
+    patch = std::move(spread);
+    return after;
+}
+
+// Flattens one region; where it can't be a chart as a whole, its parts, and theirs. A part that can be one as it lies
+// in the whole stays like that.
+std::vector<Patch> makeCharts(const BakeMesh& mesh, const Facets& facets, Patch region) {
+    std::vector<Patch> done, open;
     open.push_back(std::move(region));
     while (!open.empty()) {
-        std::vector<uint32_t> triangles = std::move(open.back());
+        Patch patch = std::move(open.back());
         open.pop_back();
-        Patch patch = makePatch(mesh, triangles, cut, local);
         PatchVerdict verdict;
         if (canFlatten(patch)) {
-            flatten(patch);
-            verdict = judgePatch(patch);
-            Patch spread = patch;
-            PatchVerdict after = verdict;
-            for (int rings = 1; rings <= kMostRings && !after.tangled.empty(); ++rings) {
-                untangle(spread, after.tangled, rings);
-                after = judgePatch(spread);
-            }
-            if (!verdict.good() && after.good() && after.stretch95 <= kMostStretch) {
-                patch = std::move(spread);
-                verdict = std::move(after);
-            }
-            if (triangles.size() == 1 || (verdict.good() && verdict.stretch95 <= kMostStretch)) {
+            const bool keep = !patch.uv.empty() && patch.triangles.size() >= kFewestKept;
+            if (keep) verdict = judgePatch(patch);
+            if (!keep || !verdict.serves()) verdict = flattenWell(patch);
+            if (patch.triangles.size() == 1 || verdict.serves()) {
                 done.push_back(std::move(patch));
                 continue;
             }
         }
-        for (std::vector<uint32_t>& part : divide(mesh, facets, patch, verdict)) open.push_back(std::move(part));
+        for (Patch& part : divide(mesh, facets, patch, verdict)) open.push_back(std::move(part));
     }
     return done;
 }
@@ -61,7 +65,8 @@ std::vector<Patch> flattenRegions(const BakeMesh& mesh, const Facets& facets, co
     std::vector<uint8_t> cut(label.size() * 3, 0);
     parallelFor(count, 1, [&](size_t begin, size_t) {
         uint32_t r = order[begin];
-        made[r] = makeCharts(mesh, facets, std::move(regions[r]), cut, local);
+        made[r] = makeCharts(mesh, facets, makePatch(mesh, regions[r], cut, local));
+        regions[r] = {};
     });
     std::vector<Patch> all;
     for (auto& list : made)

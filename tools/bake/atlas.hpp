@@ -47,7 +47,7 @@ struct Patch {
     std::vector<std::array<uint32_t, 3>> corner;  // per triangle: vertices
     std::vector<uint32_t> twin;                   // per local half-edge: the local one that it is glued to, or kNone
     std::vector<glm::dvec3> point;                // per vertex
-    std::vector<glm::dvec2> uv;                   // per vertex, metres; empty until flattened
+    std::vector<glm::dvec2> uv;                   // per vertex, metres; empty until flattened; a part has the whole's
 };
 
 // Glues the triangles along the edges that two of them share, but for those with cut[half-edge of the mesh]. local:
@@ -60,8 +60,8 @@ std::vector<std::vector<uint32_t>> borderLoops(const Patch& patch);
 // Whether it is a disk, with or without holes.
 bool canFlatten(const Patch& patch);
 
-// Gives the patch UVs in metres, with as little stretch as it can. The result may be bad: see judgePatch.
-void flatten(Patch& patch);
+// 95th percentile of a chart's area: what is stretched more can't serve.
+constexpr double kMostStretch = 1.5;
 
 // What a flattening is worth.
 struct PatchVerdict {
@@ -70,17 +70,21 @@ struct PatchVerdict {
     bool overlapping = false;       // it does so from afar, or runs the wrong way round
     double stretch95 = 0;           // of its area
     bool good() const { return tangled.empty() && crossed.empty() && !overlapping; }
+    bool serves() const { return good() && stretch95 <= kMostStretch; }
 };
 PatchVerdict judgePatch(const Patch& patch);
+
+// Gives the patch UVs in metres, with little stretch; more work goes into patches that can't serve yet. The result may
+// be bad all the same.
+PatchVerdict flatten(Patch& patch);
 
 // Spreads vertices out evenly around those named, within some rings of triangles: what is tangled there mostly isn't
 // afterwards. The outer border stays.
 void untangle(Patch& patch, const std::vector<uint32_t>& tangled, int rings);
 
 // Divides a patch that can't be a chart: cuts out what is tangled or crossed where that is little, else halves it along
-// creases. Connected parts, at least two, as triangles of the mesh. At least two triangles.
-std::vector<std::vector<uint32_t>> divide(const BakeMesh& mesh, const Facets& facets, const Patch& patch,
-                                          const PatchVerdict& verdict);
+// creases. Connected parts, at least two, with the UVs that they have in the whole. At least two triangles.
+std::vector<Patch> divide(const BakeMesh& mesh, const Facets& facets, const Patch& patch, const PatchVerdict& verdict);
 
 // Joins small charts, numbered from `first` on, to others as one unfolds a box; UVs are in metres. Returns how many
 // charts there are then.

@@ -10,12 +10,14 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr int kRounds = 24;
-constexpr double kSettled = 1e-4;      // of the patch's size: a round that moves less is the last
+constexpr int kRounds = 16;
+constexpr int kTrialRounds = 5;    // after so many it mostly can be a chart: then it is left at that
+constexpr double kStride = 1.8;    // how much farther than to its solution a round goes: below 2 it always converges
+constexpr double kSettled = 1e-4;  // of the patch's size: a round that moves less is the last
 constexpr double kLeastHeight = 0.01;  // of a triangle over its longest edge: slivers are treated as if they had it
 
 struct Shape {
-    glm::dvec2 p[3];      // in the triangle's own plane
+    glm::dvec2 edge[3];   // from corner k to the next, in the triangle's own plane
     double cotangent[3];  // of the corner that faces edge k
 };
 
@@ -32,11 +34,11 @@ std::vector<Shape> measureShapes(const Patch& patch) {
         glm::dvec3 origin = patch.point[c[base]], e1 = patch.point[c[(base + 1) % 3]] - origin,
                    e2 = patch.point[c[(base + 2) % 3]] - origin;
         double up = std::max(glm::length(glm::cross(e1, e2)) / edge[base], kLeastHeight * edge[base]);
+        glm::dvec2 top(glm::dot(e1, e2) / edge[base], up);
         Shape& s = shapes[t];
-        s.p[base] = {0, 0}, s.p[(base + 1) % 3] = {edge[base], 0};
-        s.p[(base + 2) % 3] = {glm::dot(e1, e2) / edge[base], up};
+        s.edge[base] = {edge[base], 0}, s.edge[(base + 1) % 3] = top - s.edge[base], s.edge[(base + 2) % 3] = -top;
         for (int k = 0; k < 3; ++k) {
-            glm::dvec2 a = s.p[k] - s.p[(k + 2) % 3], b = s.p[(k + 1) % 3] - s.p[(k + 2) % 3];
+            glm::dvec2 a = s.edge[(k + 2) % 3], b = -s.edge[(k + 1) % 3];
             s.cotangent[k] = glm::dot(a, b) / cross(a, b);
         }
     }
@@ -57,11 +59,8 @@ std::vector<glm::dvec2> unfold(const Patch& patch, const std::vector<Shape>& sha
         for (uint32_t k = 0; k < 3; ++k) {
             uint32_t twin = patch.twin[t * 3 + k];
             if (twin == kNone || rotation[twin / 3] != glm::dvec2(0)) continue;
-            const Shape& other = shapes[twin / 3];
-            uint32_t m = twin % 3;
             // The edge as this triangle has it, turned, and as the other has it: the quotient is its rotation.
-            glm::dvec2 here = turned(rotation[t], shapes[t].p[(k + 1) % 3] - shapes[t].p[k]);
-            glm::dvec2 there = other.p[m] - other.p[(m + 1) % 3];
+            glm::dvec2 here = turned(rotation[t], shapes[t].edge[k]), there = -shapes[twin / 3].edge[twin % 3];
             glm::dvec2 r(glm::dot(here, there), cross(there, here));
             rotation[twin / 3] = r / glm::length(r);
             queue.push_back(twin / 3);
@@ -70,12 +69,14 @@ std::vector<glm::dvec2> unfold(const Patch& patch, const std::vector<Shape>& sha
     return rotation;
 }
 
-// One sparse system for both coordinates, solved for many right-hand sides.
+// One sparse system for both coordinates, solved for many right-hand sides. Vertices are kept in the order in which
+// they are eliminated.
 class Stitcher {
   public:
-    Stitcher(const Patch& patch, const std::vector<Shape>& shapes) : patch_(patch), shapes_(shapes) {
+    Stitcher(const Patch& patch, const std::vector<Shape>& shapes)
+        : shapes_(shapes), rotation_(unfold(patch, shapes)), corner_(patch.corner), at_(patch.point.size()) {
         std::vector<Eigen::Triplet<double>> entries;
-        entries.reserve(shapes.size() * 12);
+        entries.reserve(shapes.size() * 9 + 1);
         for (size_t t = 0; t < shapes.size(); ++t)
             for (size_t k = 0; k < 3; ++k) {
                 int a = int(patch.corner[t][k]), b = int(patch.corner[t][(k + 1) % 3]);
@@ -85,71 +86,118 @@ class Stitcher {
             }
         // One vertex is held; the rest of the plane's motions are fixed by the rotations.
         entries.emplace_back(0, 0, 1.0);
-        Eigen::SparseMatrix<double> matrix(long(patch.point.size()), long(patch.point.size()));
+        Eigen::SparseMatrix<double> matrix(long(at_.size()), long(at_.size()));
         matrix.setFromTriplets(entries.begin(), entries.end());
         solver_.compute(matrix);
-        right_.resize(long(patch.point.size()), 2);
+        if (!good()) return;
+        const auto& place = solver_.permutationP().indices();
+        for (auto& c : corner_)
+            for (uint32_t& v : c) v = uint32_t(place(v));
+        inverse_ = solver_.vectorD().cwiseInverse();
     }
     bool good() const { return solver_.info() == Eigen::Success; }
 
-    void solve(const std::vector<glm::dvec2>& rotation, std::vector<glm::dvec2>& uv) {
-        right_.setZero();
-        for (size_t t = 0; t < shapes_.size(); ++t)
+    // Lays the triangles out as they are turned.
+    void start() {
+        right_.assign(at_.size(), glm::dvec2(0));
+        for (size_t t = 0; t < shapes_.size(); ++t) pull(t);
+        solve();
+        at_ = right_;
+    }
+
+    // Turns each triangle as it lies by now, solves, and goes `stride` times as far as the solution. Returns the
+    // longest way of a vertex to its solution.
+    double round(double stride) {
+        right_.assign(at_.size(), glm::dvec2(0));
+        for (size_t t = 0; t < shapes_.size(); ++t) {
+            const Shape& s = shapes_[t];
+            const auto& c = corner_[t];
+            glm::dvec2 sum(0);
             for (size_t k = 0; k < 3; ++k) {
-                glm::dvec2 d =
-                    turned(rotation[t], shapes_[t].p[(k + 1) % 3] - shapes_[t].p[k]) * shapes_[t].cotangent[k];
-                long a = long(patch_.corner[t][k]), b = long(patch_.corner[t][(k + 1) % 3]);
-                right_(a, 0) -= d.x, right_(a, 1) -= d.y;
-                right_(b, 0) += d.x, right_(b, 1) += d.y;
+                glm::dvec2 to = at_[c[(k + 1) % 3]] - at_[c[k]];
+                sum += glm::dvec2(glm::dot(s.edge[k], to), cross(s.edge[k], to)) * s.cotangent[k];
             }
-        Eigen::MatrixX2d x = solver_.solve(right_);
-        uv.resize(patch_.point.size());
-        for (long i = 0; i < x.rows(); ++i) uv[size_t(i)] = {x(i, 0), x(i, 1)};
+            double length = glm::length(sum);
+            if (length > 0) rotation_[t] = sum / length;
+            pull(t);
+        }
+        solve();
+        double most = 0;
+        for (size_t i = 0; i < at_.size(); ++i) {
+            glm::dvec2 way = right_[i] - at_[i];
+            most = std::max(most, glm::dot(way, way));
+            at_[i] = stride == 1 ? right_[i] : at_[i] + way * stride;
+        }
+        return std::sqrt(most);
+    }
+    // Back to the last solution.
+    void settle() { at_ = right_; }
+
+    void take(std::vector<glm::dvec2>& uv) const {
+        uv.resize(at_.size());
+        const auto& place = solver_.permutationP().indices();
+        for (size_t v = 0; v < uv.size(); ++v) uv[v] = at_[size_t(place(long(v)))];
     }
 
   private:
-    const Patch& patch_;
-    const std::vector<Shape>& shapes_;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
-    Eigen::MatrixX2d right_;
-};
-
-// The rotation nearest to each triangle's map from its own plane into UV.
-void fitRotations(const Patch& patch, const std::vector<Shape>& shapes, std::vector<glm::dvec2>& rotation) {
-    for (size_t t = 0; t < shapes.size(); ++t) {
-        glm::dvec2 sum(0);
+    // Adds what a triangle asks of its corners.
+    void pull(size_t t) {
         for (size_t k = 0; k < 3; ++k) {
-            glm::dvec2 from = shapes[t].p[(k + 1) % 3] - shapes[t].p[k];
-            glm::dvec2 to = patch.uv[patch.corner[t][(k + 1) % 3]] - patch.uv[patch.corner[t][k]];
-            sum += glm::dvec2(glm::dot(from, to), cross(from, to)) * shapes[t].cotangent[k];
+            glm::dvec2 d = turned(rotation_[t], shapes_[t].edge[k]) * shapes_[t].cotangent[k];
+            right_[corner_[t][k]] -= d;
+            right_[corner_[t][(k + 1) % 3]] += d;
         }
-        double length = glm::length(sum);
-        if (length > 0) rotation[t] = sum / length;
     }
-}
+
+    // L D Lᵀ x = right, in place, both coordinates at once.
+    void solve() {
+        const auto& lower = solver_.matrixL().nestedExpression();
+        const int *first = lower.outerIndexPtr(), *row = lower.innerIndexPtr();
+        const double* value = lower.valuePtr();
+        const long n = long(at_.size());
+        glm::dvec2* x = right_.data();
+        for (long i = 0; i < n; ++i)
+            for (int j = first[i]; j < first[i + 1]; ++j) x[row[j]] -= x[i] * value[j];
+        for (long i = 0; i < n; ++i) x[i] *= inverse_[i];
+        for (long i = n - 1; i >= 0; --i) {
+            glm::dvec2 own = x[i];
+            for (int j = first[i]; j < first[i + 1]; ++j) own -= x[row[j]] * value[j];
+            x[i] = own;
+        }
+    }
+
+    const std::vector<Shape>& shapes_;
+    std::vector<glm::dvec2> rotation_;             // per triangle
+    std::vector<std::array<uint32_t, 3>> corner_;  // per triangle
+    std::vector<glm::dvec2> at_, right_;           // per vertex
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+    Eigen::VectorXd inverse_;  // of D
+};
 
 }  // namespace
 
-void flatten(Patch& patch) {
+PatchVerdict flatten(Patch& patch) {
     std::vector<Shape> shapes = measureShapes(patch);
-    std::vector<glm::dvec2> rotation = unfold(patch, shapes);
     Stitcher stitcher(patch, shapes);
     if (!stitcher.good()) {
         patch.uv.assign(patch.point.size(), glm::dvec2(0));
-        return;
+        return judgePatch(patch);
     }
-    stitcher.solve(rotation, patch.uv);
     double area = 0;
-    for (const Shape& s : shapes) area += cross(s.p[1] - s.p[0], s.p[2] - s.p[0]) / 2;
-    std::vector<glm::dvec2> before;
-    for (int round = 0; round < kRounds; ++round) {
-        before = patch.uv;
-        fitRotations(patch, shapes, rotation);
-        stitcher.solve(rotation, patch.uv);
-        double moved = 0;
-        for (size_t i = 0; i < before.size(); ++i) moved = std::max(moved, glm::length(patch.uv[i] - before[i]));
-        if (moved < kSettled * std::sqrt(area)) break;
+    for (const Shape& s : shapes) area += cross(s.edge[2], s.edge[0]) / 2;
+    stitcher.start();
+    for (int round = 1; round <= kRounds; ++round) {
+        const bool trial = round == kTrialRounds;
+        if (stitcher.round(trial || round == kRounds ? 1.0 : kStride) < kSettled * std::sqrt(area)) {
+            stitcher.settle();
+            break;
+        }
+        if (!trial) continue;
+        stitcher.take(patch.uv);
+        if (PatchVerdict verdict = judgePatch(patch); verdict.good()) return verdict;
     }
+    stitcher.take(patch.uv);
+    return judgePatch(patch);
 }
 
 }  // namespace espalier::bakery

@@ -134,37 +134,61 @@ class Folder {
                pieces_[f.a].area + pieces_[f.b].area >= kLeastFill * size.x * size.y;
     }
 
+    // A border as it lies, and middles that must not lie within another: of triangles, and of border edges that aren't
+    // joined by the fold. reach: how far inside they have to lie to count.
     struct Line {
         glm::dvec2 a, b;
     };
-    std::vector<Line> borderOf(const Piece& piece, const Motion& m) const {
-        std::vector<Line> out;
-        for (uint32_t t : piece.triangles)
-            for (uint32_t h = t * 3; h < t * 3 + 3; ++h)
-                if (!mesh_.joined[h]) out.push_back({m(mesh_.uvAt(h)), m(mesh_.uvAt(BakeMesh::next(h)))});
-        return out;
-    }
-    // Whether some triangle's middle lies inside a border.
-    bool anyInside(const Piece& piece, const Motion& m, const std::vector<Line>& border) const {
+    struct Middle {
+        glm::dvec2 at;
+        double reach;
+    };
+    struct Outline {
+        std::vector<Line> lines;
+        std::vector<Middle> middles;
+        glm::dvec2 low{1e300}, high{-1e300};
+    };
+    Outline outlineOf(const Piece& piece, const Motion& m, const std::vector<uint32_t>& joining) const {
+        Outline out;
         for (uint32_t t : piece.triangles) {
             const auto& uv = mesh_.triangles[t].uv;
-            glm::dvec2 p = m((uv[0] + uv[1] + uv[2]) / 3.0);
+            out.middles.push_back({m((uv[0] + uv[1] + uv[2]) / 3.0), 0});
+            for (uint32_t h = t * 3; h < t * 3 + 3; ++h) {
+                if (mesh_.joined[h]) continue;
+                Line line{m(mesh_.uvAt(h)), m(mesh_.uvAt(BakeMesh::next(h)))};
+                out.low = glm::min(out.low, line.a), out.high = glm::max(out.high, line.a);
+                out.lines.push_back(line);
+                auto names = [&](uint32_t edge) { return edge == h || mesh_.twin[edge] == h; };
+                if (std::none_of(joining.begin(), joining.end(), names))
+                    out.middles.push_back({(line.a + line.b) / 2.0, kFits * glm::length(line.b - line.a)});
+            }
+        }
+        return out;
+    }
+    static bool anyInside(const Outline& what, const Outline& of) {
+        for (const auto& [p, reach] : what.middles) {
+            if (p.x < of.low.x || p.y < of.low.y || p.x > of.high.x || p.y > of.high.y) continue;
             bool inside = false;
-            for (const Line& l : border)
+            for (const Line& l : of.lines)
                 if ((l.a.y > p.y) != (l.b.y > p.y) && p.x < l.a.x + (l.b.x - l.a.x) * (p.y - l.a.y) / (l.b.y - l.a.y))
                     inside = !inside;
-            if (inside) return true;
+            if (inside && std::none_of(of.lines.begin(), of.lines.end(), [&, at = p, far = reach](const Line& l) {
+                    glm::dvec2 d = l.b - l.a, c = at - l.a;
+                    return glm::length(c - d * std::clamp(glm::dot(c, d) / glm::dot(d, d), 0.0, 1.0)) <= far;
+                }))
+                return true;
         }
         return false;
     }
 
     // Whether the folded chart lies beside the other, nowhere over it. Borders may touch.
     bool isFree(const Fold& f) const {
-        const Piece &a = pieces_[f.a], &b = pieces_[f.b];
-        std::vector<Line> here = borderOf(a, {}), there = borderOf(b, f.motion);
+        const Outline here = outlineOf(pieces_[f.a], {}, f.edges), there = outlineOf(pieces_[f.b], f.motion, f.edges);
         double slack = 1e-9 * std::sqrt(total_);
-        for (const Line& s : here)
-            for (const Line& t : there) {
+        for (const Line& s : here.lines) {
+            glm::dvec2 low = glm::min(s.a, s.b), high = glm::max(s.a, s.b);
+            if (low.x > there.high.x || low.y > there.high.y || high.x < there.low.x || high.y < there.low.y) continue;
+            for (const Line& t : there.lines) {
                 glm::dvec2 d = s.b - s.a, e = t.b - t.a;
                 double ld = glm::length(d) * slack, le = glm::length(e) * slack;
                 double p = cross(d, t.a - s.a), q = cross(d, t.b - s.a), u = cross(e, s.a - t.a),
@@ -172,7 +196,8 @@ class Folder {
                 if (((p > ld && q < -ld) || (p < -ld && q > ld)) && ((u > le && v < -le) || (u < -le && v > le)))
                     return false;
             }
-        return !anyInside(b, f.motion, here) && !anyInside(a, {}, there);
+        }
+        return !anyInside(there, here) && !anyInside(here, there);
     }
 
     void apply(const Fold& f) {

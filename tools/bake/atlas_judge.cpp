@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kUvTolerance = 1e-6;  // within which two corners' UVs agree
 constexpr double kMinUvArea = 1e-13;   // of a triangle; below, its map has no inverse worth the name
-constexpr double kKeptStretch = 1.5;   // 95th percentile of a chart's stretch: more is remade
 constexpr double kNarrowTexels = 3;    // charts narrower than that on the finest level are remade with their neighbours
 constexpr double kWorthMending = 0.003;  // of the area: charts above that keep their outline if they can
 constexpr double kAtlasFill = 0.5;       // the share of the square that charts will cover, as a guess
@@ -69,7 +68,7 @@ UvFault judgeIsland(const BakeMesh& mesh, Patch& patch, double texel) {
     takeUvs(mesh, patch);
     PatchVerdict verdict = judgePatch(patch);
     if (!verdict.good()) return UvFault::overlapping;
-    if (verdict.stretch95 > kKeptStretch) return UvFault::stretched;
+    if (!verdict.serves()) return UvFault::stretched;
     bool hasNeighbours = false;
     for (size_t h = 0; h < patch.twin.size() && !hasNeighbours; ++h)
         hasNeighbours = patch.twin[h] == kNone && mesh.twin[patch.triangles[h / 3] * 3 + h % 3] != kNone;
@@ -79,9 +78,7 @@ UvFault judgeIsland(const BakeMesh& mesh, Patch& patch, double texel) {
 // Flattens an island that overlaps itself or is stretched, within its own outline: seams stay where an artist put them.
 bool mend(BakeMesh& mesh, Patch& patch, double texel) {
     if (!canFlatten(patch)) return false;
-    flatten(patch);
-    PatchVerdict verdict = judgePatch(patch);
-    if (!verdict.good() || verdict.stretch95 > kKeptStretch || isNarrow(patch, texel)) return false;
+    if (!flatten(patch).serves() || isNarrow(patch, texel)) return false;
     for (size_t t = 0; t < patch.triangles.size(); ++t)
         for (size_t k = 0; k < 3; ++k) mesh.triangles[patch.triangles[t]].uv[k] = patch.uv[patch.corner[t][k]];
     return true;

@@ -85,6 +85,47 @@ std::vector<uint8_t> cutOut(const Patch& patch, const PatchVerdict& verdict) {
     return side;
 }
 
+// Numbers the corners that twins bring together; add(corner) is called for the first of each.
+template <class Add>
+void glue(Patch& patch, Add&& add) {
+    const uint32_t count = uint32_t(patch.twin.size());
+    DisjointSets corners(count);
+    for (uint32_t h = 0; h < count; ++h)
+        if (uint32_t other = patch.twin[h]; other != kNone) {
+            corners.join(h, nextOf(other));
+            corners.join(nextOf(h), other);
+        }
+    patch.corner.resize(patch.triangles.size());
+    std::vector<uint32_t> vertex(count, kNone);
+    uint32_t vertices = 0;
+    for (uint32_t h = 0; h < count; ++h) {
+        uint32_t& v = vertex[corners.find(h)];
+        if (v == kNone) v = vertices++, add(h);
+        patch.corner[h / 3][h % 3] = v;
+    }
+}
+
+// Those triangles of a patch. local: where each triangle of the patch comes to lie in its part.
+Patch partOf(const Patch& patch, const std::vector<uint32_t>& triangles, const std::vector<uint32_t>& local,
+             const std::vector<uint32_t>& partOfTriangle) {
+    Patch part;
+    part.twin.assign(triangles.size() * 3, kNone);
+    for (uint32_t i = 0; i < triangles.size(); ++i) {
+        part.triangles.push_back(patch.triangles[triangles[i]]);
+        for (uint32_t k = 0; k < 3; ++k) {
+            uint32_t twin = patch.twin[triangles[i] * 3 + k];
+            if (twin != kNone && partOfTriangle[twin / 3] == partOfTriangle[triangles[i]])
+                part.twin[i * 3 + k] = local[twin / 3] * 3 + twin % 3;
+        }
+    }
+    glue(part, [&](uint32_t h) {
+        uint32_t v = patch.corner[triangles[h / 3]][h % 3];
+        part.point.push_back(patch.point[v]);
+        if (!patch.uv.empty()) part.uv.push_back(patch.uv[v]);
+    });
+    return part;
+}
+
 // 0 or 1 for each triangle: what is nearer to one or the other end of the patch.
 std::vector<uint8_t> halve(const BakeMesh& mesh, const Facets& facets, const Patch& patch) {
     Ways ways(mesh, facets, patch);
@@ -106,27 +147,13 @@ Patch makePatch(const BakeMesh& mesh, std::span<const uint32_t> triangles, const
     size_t count = triangles.size();
     for (uint32_t i = 0; i < count; ++i) local[triangles[i]] = i;
     patch.twin.assign(count * 3, kNone);
-    DisjointSets corners(count * 3);
     for (uint32_t h = 0; h < count * 3; ++h) {
         uint32_t own = triangles[h / 3] * 3 + h % 3, twin = mesh.twin[own];
         if (twin == kNone || cut[own]) continue;
         uint32_t i = local[twin / 3];
-        if (i >= count || triangles[i] != twin / 3 || i == h / 3) continue;
-        uint32_t other = i * 3 + twin % 3;
-        patch.twin[h] = other;
-        corners.join(h, nextOf(other));
-        corners.join(nextOf(h), other);
+        if (i < count && triangles[i] == twin / 3 && i != h / 3) patch.twin[h] = i * 3 + twin % 3;
     }
-    patch.corner.resize(count);
-    std::vector<uint32_t> vertex(count * 3, kNone);
-    for (uint32_t h = 0; h < count * 3; ++h) {
-        uint32_t& v = vertex[corners.find(h)];
-        if (v == kNone) {
-            v = uint32_t(patch.point.size());
-            patch.point.push_back(mesh.pointAt(triangles[h / 3] * 3 + h % 3));
-        }
-        patch.corner[h / 3][h % 3] = v;
-    }
+    glue(patch, [&](uint32_t h) { patch.point.push_back(mesh.pointAt(triangles[h / 3] * 3 + h % 3)); });
     return patch;
 }
 
@@ -164,21 +191,23 @@ bool canFlatten(const Patch& patch) {
     return loops > 0 && int(patch.point.size()) - edges + int(patch.triangles.size()) == 2 - loops;
 }
 
-std::vector<std::vector<uint32_t>> divide(const BakeMesh& mesh, const Facets& facets, const Patch& patch,
-                                          const PatchVerdict& verdict) {
+std::vector<Patch> divide(const BakeMesh& mesh, const Facets& facets, const Patch& patch, const PatchVerdict& verdict) {
     size_t count = patch.triangles.size();
     std::vector<uint8_t> side = cutOut(patch, verdict);
     if (side.empty()) side = halve(mesh, facets, patch);
     DisjointSets sets(count);
     for (uint32_t h = 0; h < patch.twin.size(); ++h)
         if (uint32_t twin = patch.twin[h]; twin != kNone && side[h / 3] == side[twin / 3]) sets.join(h / 3, twin / 3);
-    std::vector<std::vector<uint32_t>> parts;
-    std::vector<uint32_t> number(count, kNone);
+    std::vector<std::vector<uint32_t>> members;
+    std::vector<uint32_t> number(count, kNone), part(count), local(count);
     for (uint32_t t = 0; t < count; ++t) {
         uint32_t& n = number[sets.find(t)];
-        if (n == kNone) n = uint32_t(parts.size()), parts.emplace_back();
-        parts[n].push_back(patch.triangles[t]);
+        if (n == kNone) n = uint32_t(members.size()), members.emplace_back();
+        part[t] = n, local[t] = uint32_t(members[n].size());
+        members[n].push_back(t);
     }
+    std::vector<Patch> parts;
+    for (const auto& triangles : members) parts.push_back(partOf(patch, triangles, local, part));
     return parts;
 }
 

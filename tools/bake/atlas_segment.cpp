@@ -1,10 +1,11 @@
 // In: triangles that need charts. Out: regions: clusters of triangles merged pairwise, the cheapest first (hierarchical
 // face clustering), then borders straightened triangle by triangle, as creases, length and fit ask for.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <queue>
 
+#include "runtime/core/jobs.hpp"
 #include "tools/bake/atlas.hpp"
 
 namespace espalier::bakery {
@@ -16,6 +17,7 @@ constexpr double kPlainCost = 0.004;  // of a flat region's area: small ones are
 constexpr double kCreaseCost = 6;     // how much dearer it is to merge over creases
 constexpr double kCrease = 0.8;       // cosine, 37°: edges that are sharper are creases
 constexpr int kSweeps = 12;           // of straightening
+constexpr size_t kGrain = 4096;       // triangles that a thread takes at once
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
 struct Neighbour {
@@ -36,65 +38,105 @@ struct Merge {
     float cost = kNever;
     uint32_t a = kNone, b = kNone;
     bool operator<(const Merge& o) const { return std::tie(cost, a, b) < std::tie(o.cost, o.a, o.b); }
-    bool operator==(const Merge&) const = default;
 };
 
 double edgeLength(const BakeMesh& mesh, uint32_t h) {
     return glm::length(mesh.pointAt(BakeMesh::next(h)) - mesh.pointAt(h));
 }
 
-// Each cluster knows its cheapest merge; a queue holds those, and earlier ones that are passed over.
+// Who of many has the cheapest merge: a knockout tournament. A change is played up only as far as it matters.
+class Tournament {
+  public:
+    explicit Tournament(const std::vector<Merge>& offers)
+        : offers_(offers), size_(std::bit_ceil(std::max<size_t>(offers.size(), 2))), players_(size_ * 2) {
+        for (uint32_t i = 0; i < offers.size(); ++i) players_[size_ + i] = {offers[i].cost, i};
+        for (size_t n = size_ - 1; n > 0; --n) players_[n] = better(n * 2);
+    }
+    const Merge& best() const { return offers_[players_[1].who]; }
+    bool over() const { return players_[1].cost == kNever; }
+    void changed(uint32_t who) {
+        players_[size_ + who].cost = offers_[who].cost;
+        for (size_t n = (size_ + who) / 2; n > 0; n /= 2) {
+            const Player now = better(n * 2);
+            if (now.who == players_[n].who && now.who != who) break;
+            players_[n] = now;
+        }
+    }
+
+  private:
+    struct Player {
+        float cost = kNever;
+        uint32_t who = 0;
+    };
+    Player better(size_t first) const {
+        const Player &a = players_[first], &b = players_[first + 1];
+        if (a.cost != b.cost) return a.cost < b.cost ? a : b;
+        return offers_[b.who] < offers_[a.who] ? b : a;
+    }
+
+    const std::vector<Merge>& offers_;
+    size_t size_;
+    std::vector<Player> players_;  // the winner, its two last opponents, and so on down to all
+};
+
+// Each cluster knows its cheapest merge.
 class Merger {
   public:
     Merger(const BakeMesh& mesh, const Facets& facets, const std::vector<uint8_t>& wanted)
         : sets_(wanted.size()), clusters_(wanted.size()), cheapest_(wanted.size()) {
-        for (uint32_t t = 0; t < wanted.size(); ++t) {
-            if (!wanted[t]) continue;
-            Cluster& c = clusters_[t];
-            c.normal = facets.normal[t] * facets.area[t];
-            c.area = facets.area[t];
-            for (uint32_t h = t * 3; h < t * 3 + 3; ++h) {
-                double length = edgeLength(mesh, h);
-                c.border += length;
-                uint32_t twin = mesh.twin[h];
-                if (twin == kNone || !wanted[twin / 3] || twin / 3 == t) continue;
-                bool crease = glm::dot(facets.normal[t], facets.normal[twin / 3]) < kCrease;
-                addNeighbour(c, {twin / 3, float(length), crease ? float(length) : 0.0f, kNever, t < twin / 3});
+        parallelFor(wanted.size(), kGrain, [&](size_t begin, size_t end) {
+            for (uint32_t t = uint32_t(begin); t < end; ++t)
+                if (wanted[t]) clusters_[t] = clusterOf(mesh, facets, wanted, t);
+        });
+        parallelFor(wanted.size(), kGrain, [&](size_t begin, size_t end) {
+            for (uint32_t t = uint32_t(begin); t < end; ++t) {
+                for (Neighbour& n : clusters_[t].neighbours) n.cost = costOf(t, n);
+                cheapest_[t] = cheapestOf(t);
             }
-        }
-        std::vector<Entry> all;
-        for (uint32_t t = 0; t < wanted.size(); ++t) {
-            for (Neighbour& n : clusters_[t].neighbours) n.cost = costOf(t, n);
-            cheapest_[t] = cheapestOf(t);
-            if (cheapest_[t].cost < kNever) all.push_back({cheapest_[t], t});
-        }
-        queue_ = Queue({}, std::move(all));
+        });
     }
 
     void run() {
-        while (!queue_.empty()) {
-            const Entry e = queue_.top();
-            queue_.pop();
-            if (cheapest_[e.cluster] == e.merge) merge(e.merge.a, e.merge.b);
+        Tournament tournament(cheapest_);
+        while (!tournament.over()) {
+            const Merge next = tournament.best();
+            merge(next.a, next.b, tournament);
         }
     }
     uint32_t clusterOf(uint32_t triangle) { return sets_.find(triangle); }
 
   private:
-    struct Entry {
-        Merge merge;
-        uint32_t cluster;                                                 // whose cheapest it was
-        bool operator<(const Entry& o) const { return o.merge < merge; }  // the cheapest on top
-    };
-    using Queue = std::priority_queue<Entry>;
+    static Cluster clusterOf(const BakeMesh& mesh, const Facets& facets, const std::vector<uint8_t>& wanted,
+                             uint32_t t) {
+        Cluster c;
+        c.normal = facets.normal[t] * facets.area[t];
+        c.area = facets.area[t];
+        c.neighbours.reserve(4);
+        for (uint32_t h = t * 3; h < t * 3 + 3; ++h) {
+            double length = edgeLength(mesh, h);
+            c.border += length;
+            uint32_t twin = mesh.twin[h];
+            if (twin == kNone || !wanted[twin / 3] || twin / 3 == t) continue;
+            bool crease = glm::dot(facets.normal[t], facets.normal[twin / 3]) < kCrease;
+            addNeighbour(c, {twin / 3, float(length), crease ? float(length) : 0.0f, kNever, t < twin / 3});
+        }
+        return c;
+    }
 
+    static Neighbour* find(Cluster& c, uint32_t cluster) {
+        for (Neighbour& n : c.neighbours)
+            if (n.cluster == cluster) return &n;
+        return nullptr;
+    }
     static void addNeighbour(Cluster& c, const Neighbour& n) {
-        for (Neighbour& have : c.neighbours)
-            if (have.cluster == n.cluster) {
-                have.length += n.length, have.crease += n.crease;
-                return;
-            }
-        c.neighbours.push_back(n);
+        if (Neighbour* have = find(c, n.cluster))
+            have->length += n.length, have->crease += n.crease;
+        else
+            c.neighbours.push_back(n);
+    }
+    static void forget(Cluster& c, Neighbour* n) {
+        *n = c.neighbours.back();
+        c.neighbours.pop_back();
     }
 
     float costOf(uint32_t a, const Neighbour& n) const {
@@ -117,53 +159,55 @@ class Merger {
     }
     Merge cheapestOf(uint32_t c) const {
         Merge best;
-        for (const Neighbour& n : clusters_[c].neighbours) best = std::min(best, mergeOf(c, n));
+        for (const Neighbour& n : clusters_[c].neighbours)
+            if (n.cost <= best.cost) best = std::min(best, mergeOf(c, n));
         return best;
     }
-    void propose(uint32_t c, const Merge& merge) {
-        cheapest_[c] = merge;
-        if (merge.cost < kNever) queue_.push({merge, c});
-    }
 
-    void merge(uint32_t a, uint32_t b) {
+    void merge(uint32_t a, uint32_t b, Tournament& tournament) {
         if (a > b) std::swap(a, b);  // as DisjointSets does
         sets_.join(a, b);
         Cluster &x = clusters_[a], &y = clusters_[b];
         x.normal += y.normal;
         x.area += y.area;
         x.border += y.border;
-        std::erase_if(x.neighbours, [&](const Neighbour& n) {
-            if (n.cluster == b) x.border -= 2 * double(n.length);
-            return n.cluster == b;
-        });
+        Neighbour* shared = find(x, b);
+        x.border -= 2 * double(shared->length);
+        forget(x, shared);
         for (const Neighbour& n : y.neighbours) {
             if (n.cluster == a) continue;
             addNeighbour(x, n);
-            auto& back = clusters_[n.cluster].neighbours;
-            std::erase_if(back, [&](const Neighbour& m) { return m.cluster == b; });
-            addNeighbour(clusters_[n.cluster], {a, n.length, n.crease, kNever, false});
+            Cluster& other = clusters_[n.cluster];
+            Neighbour* back = find(other, b);
+            if (Neighbour* had = find(other, a)) {
+                had->length += n.length, had->crease += n.crease;
+                forget(other, back);
+            } else {
+                *back = {a, n.length, n.crease, kNever, false};
+            }
         }
         y.neighbours = {};
         cheapest_[b] = {};
+        tournament.changed(b);
         for (Neighbour& n : x.neighbours) {
             n.cost = costOf(a, n);
             n.asked = true;
-            for (Neighbour& m : clusters_[n.cluster].neighbours)
-                if (m.cluster == a) m.cost = n.cost, m.asked = false;
-            const Merge &had = cheapest_[n.cluster], now = mergeOf(a, n);
+            Neighbour* back = find(clusters_[n.cluster], a);
+            back->cost = n.cost, back->asked = false;
+            Merge& had = cheapest_[n.cluster];
+            const Merge now = mergeOf(a, n);
             const bool gone = had.a == a || had.a == b || had.b == a || had.b == b;
-            if (gone)
-                propose(n.cluster, cheapestOf(n.cluster));
-            else if (now < had)
-                propose(n.cluster, now);
+            if (!gone && !(now < had)) continue;
+            had = gone ? cheapestOf(n.cluster) : now;
+            tournament.changed(n.cluster);
         }
-        propose(a, cheapestOf(a));
+        cheapest_[a] = cheapestOf(a);
+        tournament.changed(a);
     }
 
     DisjointSets sets_;
     std::vector<Cluster> clusters_;
     std::vector<Merge> cheapest_;  // per cluster
-    Queue queue_;
 };
 
 // Moves triangles at borders to the neighbouring region where that shortens the border or fits better. Creases are
@@ -180,9 +224,14 @@ void straighten(const BakeMesh& mesh, const Facets& facets, std::vector<uint32_t
         if (length <= 0) return 2.0;
         return 1 - glm::dot(facets.normal[t], sum[l]) / length;
     };
+    // Triangles that may lie at a border.
+    std::vector<uint8_t> open(label.size(), 0);
+    for (uint32_t h = 0; h < mesh.twin.size(); ++h)
+        if (uint32_t twin = mesh.twin[h]; twin != kNone && label[twin / 3] != label[h / 3]) open[h / 3] = 1;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         size_t moved = 0;
         for (uint32_t t = 0; t < label.size(); ++t) {
+            if (!open[t]) continue;
             uint32_t own = label[t];
             if (own == kNone || members[own] < 2) continue;
             uint32_t other[3];
@@ -192,6 +241,7 @@ void straighten(const BakeMesh& mesh, const Facets& facets, std::vector<uint32_t
                 other[k] = twin == kNone ? kNone : label[twin / 3];
                 border = border || (other[k] != kNone && other[k] != own);
             }
+            open[t] = border;
             if (!border) continue;
             double weight[3], all = 0;
             for (uint32_t k = 0; k < 3; ++k) {
@@ -218,6 +268,8 @@ void straighten(const BakeMesh& mesh, const Facets& facets, std::vector<uint32_t
             area[own] -= facets.area[t], area[best] += facets.area[t];
             --members[own], ++members[best];
             label[t] = best;
+            for (uint32_t h = t * 3; h < t * 3 + 3; ++h)
+                if (mesh.twin[h] != kNone) open[mesh.twin[h] / 3] = 1;
             ++moved;
         }
         if (moved == 0) break;

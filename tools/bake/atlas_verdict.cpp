@@ -89,6 +89,26 @@ void findMeetings(const Patch& patch, const std::vector<std::vector<uint32_t>>& 
     if (signedArea(patch, loops[0]) < 0) out.overlapping = true;
 }
 
+struct Weighted {
+    double most, least, area;
+};
+
+// The least value `most` of some entry that entries of so much area don't exceed; the largest where there is less.
+double percentile(std::vector<Weighted>& all, double area) {
+    auto low = all.begin(), high = all.end() - 1;
+    while (low < high) {
+        auto middle = low + (high - low) / 2;
+        std::nth_element(low, middle, high + 1, [](const Weighted& a, const Weighted& b) { return a.most < b.most; });
+        double below = 0;
+        for (auto w = low; w <= middle; ++w) below += w->area;
+        if (below >= area)
+            high = middle;
+        else
+            area -= below, low = middle + 1;
+    }
+    return low->most;
+}
+
 // Vertices around which triangles go more than once: they pass the ray along +u more than once.
 void findWinding(const Patch& patch, PatchVerdict& out) {
     std::vector<uint8_t> passed(patch.point.size(), 0);
@@ -104,9 +124,6 @@ void findWinding(const Patch& patch, PatchVerdict& out) {
 
 PatchVerdict judgePatch(const Patch& patch) {
     PatchVerdict out;
-    struct Weighted {
-        double most, least, area;
-    };
     std::vector<Weighted> all;
     all.reserve(patch.triangles.size());
     double area = 0, uvArea = 0;
@@ -128,14 +145,8 @@ PatchVerdict judgePatch(const Patch& patch) {
     }
     if (all.empty()) return out;
     double scale = std::sqrt(area / uvArea);
-    auto stretch = [&](const Weighted& w) { return std::max(w.most / scale, scale / std::max(w.least, 1e-12)); };
-    std::sort(all.begin(), all.end(), [&](const Weighted& a, const Weighted& b) { return stretch(a) < stretch(b); });
-    double sum = 0;
-    for (const Weighted& w : all) {
-        out.stretch95 = stretch(w);
-        sum += w.area;
-        if (sum >= 0.95 * area) break;
-    }
+    for (Weighted& w : all) w.most = std::max(w.most / scale, scale / std::max(w.least, 1e-12));
+    out.stretch95 = percentile(all, 0.95 * area);
     if (out.tangled.empty()) findWinding(patch, out);
     if (out.tangled.empty()) findMeetings(patch, borderLoops(patch), out);
     return out;
