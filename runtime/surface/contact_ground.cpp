@@ -170,9 +170,10 @@ struct Search {
         const uint32_t fromBody = from.triangles[c.from].body, toBody = to.triangles[c.to].body;
         const size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / (kPart * tolerance)), size_t(1), kMostParts);
         auto leads = [&](size_t k) {
-            const dvec3 p = c.a + (c.b - c.a) * ((double(k) + 0.5) / double(parts));
-            return hidden(!fromA, p + c.onward * (kAside * tolerance), c.to, fromBody) ==
-                   hidden(fromA, p + c.back * (kAside * tolerance), c.from, toBody);
+            const double t = (double(k) + 0.5) / double(parts);
+            const dvec3 there = c.a + (c.b - c.a) * t, here = c.fromA + (c.fromB - c.fromA) * t;
+            return hidden(!fromA, there + c.onward * (kAside * tolerance), c.to, fromBody) ==
+                   hidden(fromA, here + c.back * (kAside * tolerance), c.from, toBody);
         };
         std::vector<Crossing> out;
         for (size_t k = 0; k < parts; ++k) {

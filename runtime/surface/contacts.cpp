@@ -24,6 +24,7 @@ constexpr double kTurn = 6.283185307179586;
 constexpr double kSameAngle = 0.06;  // radians: flaps nearer to each other coincide
 constexpr double kReachShare = 0.1;  // of the least altitude of a point's triangles
 constexpr double kOutlineCosine = 0.999;
+constexpr double kLeastShifts = 0.05;  // a shorter contact, in shifts of borders, is rounding
 
 double cross(dvec2 a, dvec2 b) {
     return a.x * b.y - a.y * b.x;
@@ -241,7 +242,7 @@ class Assembler {
         dvec2 a = uvAt(view, f.triangle, side.a), b = uvAt(view, f.triangle, side.b);
         dvec2 inward = uvAt(view, f.triangle, side.a + f.away * length) - a, d = b - a;
         double turn = cross(d, inward), size = glm::length(d);
-        if (!(size > 0) || !std::isfinite(turn) || turn == 0) return std::nullopt;
+        if (!(size > kLeastShifts * view.borderShift) || !std::isfinite(turn) || turn == 0) return std::nullopt;
         bool left = turn > 0;
         if (f.atBorder) {
             dvec2 shift = dvec2(-d.y, d.x) * ((left ? 1 : -1) * view.borderShift / size);
@@ -286,6 +287,8 @@ class Assembler {
         contact.a = found_->segment.side[g.side].a;
         contact.b = found_->segment.side[g.side].b;
         contact.onward = g.away;
+        contact.fromA = found_->segment.side[f.side].a;
+        contact.fromB = found_->segment.side[f.side].b;
         contact.back = f.away;
         return contact;
     }
@@ -321,6 +324,8 @@ class Assembler {
             c.tb = glm::vec2(a + (b - a) * targetTo);
             part.a = contact.a + (contact.b - contact.a) * targetFrom;
             part.b = contact.a + (contact.b - contact.a) * targetTo;
+            part.fromA = contact.fromA + (contact.fromB - contact.fromA) * from;
+            part.fromB = contact.fromA + (contact.fromB - contact.fromA) * to;
             out.push_back(part);
         };
         add(0, t0, t0, t0);

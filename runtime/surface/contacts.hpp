@@ -42,9 +42,10 @@ void setReach(ContactMesh& mesh, double tolerance);
 struct Contact {
     Crossing crossing;  // complete but for the instance in `target`
     uint32_t from, to;  // triangles
-    // The stretch in space on the side that it leads to, and unit directions from there into the surface on that side
-    // and back into the one that it comes from.
-    glm::dvec3 a, b, onward, back;
+    // The stretch in space on the side that it leads to and on the one that it comes from, which are up to a reach
+    // apart, and unit directions from there into either surface.
+    glm::dvec3 a, b, onward;
+    glm::dvec3 fromA, fromB, back;
 };
 
 struct ContactOptions {

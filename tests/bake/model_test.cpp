@@ -27,7 +27,9 @@ TEST_CASE("real models bake within the promised figures") {
                                {"derived/bunny_unwrap.glb", 0},
                                {"models/quaternius/1Story_GableRoof_Mat.glb", 0},
                                {"models/quaternius/4Story_Mat.glb", 0},
-                               {"models/quaternius/2Story_Stairs_Mat.glb", 0}};
+                               {"models/quaternius/2Story_Stairs_Mat.glb", 0},
+                               {"models/quaternius/Well.glb", 0},
+                               {"models/kaykit_city/building_H_withoutBase.gltf", 0}};
     for (const Expected& expected : models) {
         auto path = dataFile(expected.file);
         if (!path) continue;

@@ -78,3 +78,23 @@ TEST_CASE("of a plate's two sides the larger counts where no rim joins them, tho
         CHECK(report.reachableShare() == doctest::Approx(expected).epsilon(0.02));
     }
 }
+
+TEST_CASE("the inside of a hall without a floor doesn't count, unless a wall is missing too") {
+    for (bool wall : {true, false}) {
+        CAPTURE(wall);
+        Kit kit;
+        const double half = 2, height = 0.4;
+        kit.panel({-half, height, half}, {2 * half, 0, 0}, {0, 0, -2 * half});
+        kit.panel({-half, 0, half}, {2 * half, 0, 0}, {0, height, 0});
+        kit.panel({half, 0, -half}, {-2 * half, 0, 0}, {0, height, 0});
+        kit.panel({-half, 0, -half}, {0, 0, 2 * half}, {0, height, 0});
+        if (wall) kit.panel({half, 0, half}, {0, 0, -2 * half}, {0, height, 0});
+        // A ceiling that touches the walls' backs.
+        kit.panel({-half, 0.3, -half}, {2 * half, 0, 0}, {0, 0, 2 * half});
+        const BakeReport report = kit.bake().report;
+        REQUIRE(report.pieces.size() == 1);
+        const double outside = 16 + (wall ? 4 : 3) * 4 * height, ceiling = 16;
+        CHECK(report.pieces[0].enclosed == doctest::Approx(wall ? ceiling : 0).epsilon(0.02));
+        CHECK(report.reachableShare() == doctest::Approx(wall ? 1 : outside / (outside + ceiling)).epsilon(0.02));
+    }
+}

@@ -66,7 +66,7 @@ TEST_CASE("a model's normals say which side is out, as of a room seen from insid
     CHECK(outwardShare(outward->surface) == 1);
 }
 
-TEST_CASE("a Moebius strip is baked, and named") {
+TEST_CASE("a Moebius strip is baked, and named; where its sides meet a walk goes over to the back") {
     Model strip;
     strip.name = "strip";
     addPatch(
@@ -84,6 +84,17 @@ TEST_CASE("a Moebius strip is baked, and named") {
     auto baked = bake(strip, options);
     REQUIRE(baked);
     CHECK(warningsOf(*baked).find("Möbius") != std::string::npos);
+    const SurfaceRef ref = surfaceRef(baked->surface);
+    const SurfaceBuf surfaces{const_cast<SurfaceRef*>(&ref)};
+    // There the strip lies flat, and walks go straight.
+    for (float sign : {1.0f, -1.0f}) {
+        WalkState w{};
+        const float u = sign * -0.2f, s = u > 0 ? u : 6.2831853f + u;
+        const glm::vec3 start(std::cos(u), std::sin(u), 0), along = glm::vec3(-std::sin(u), std::cos(u), 0) * sign;
+        REQUIRE(startWalk(surfaces, 0, 0, {0.05f + s / 6.2831853f * 0.9f, 0.3f}, along, w));
+        CHECK(walkStep(surfaces, 0, w, 0.5f) == kWalkDone);
+        CHECK(glm::length(w.position - (start + along * 0.5f)) < 0.03f);
+    }
 }
 
 TEST_CASE("at an edge of four faces walks go on along the outside") {

@@ -106,7 +106,7 @@ Placement packCharts(const BakeMesh& mesh, uint32_t resolution, uint32_t levels)
 struct Link {
     uint32_t from, to;    // half-edges; to = kNone: open
     double from0, from1;  // parameters along `from`, from0 < from1
-    double to0, to1;      // along `to`, of the same points: to0 > to1
+    double to0, to1;      // along `to`, of the same points: to0 > to1; to0 < to1: it leads to the back
     uint32_t kind;        // kCrossingSeam...
 };
 std::vector<Link> findLinks(const BakeMesh& mesh, double tolerance);

@@ -34,9 +34,10 @@ void Contacts::dropHidden() {
             uint32_t fromBody = mesh_.triangles[c.from].body, toBody = mesh_.triangles[c.to].body;
             size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / tolerance_), size_t(1), kMostParts);
             auto leads = [&](size_t k) {
-                glm::dvec3 p = c.a + (c.b - c.a) * ((double(k) + 0.5) / double(parts));
-                return hidden(p + c.onward * (0.3 * tolerance_), c.to, fromBody) ==
-                       hidden(p + c.back * (0.3 * tolerance_), c.from, toBody);
+                const double t = (double(k) + 0.5) / double(parts);
+                const glm::dvec3 there = c.a + (c.b - c.a) * t, here = c.fromA + (c.fromB - c.fromA) * t;
+                return hidden(there + c.onward * (0.3 * tolerance_), c.to, fromBody) ==
+                       hidden(here + c.back * (0.3 * tolerance_), c.from, toBody);
             };
             for (size_t k = 0; k < parts;) {
                 if (!leads(k)) {

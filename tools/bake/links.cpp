@@ -1,7 +1,9 @@
 // In: the mesh's borders. Out: where each piece of border leads: to its twin by topology; for borders without one
-// to the nearest border that runs along it the other way (T-junctions, cracks), else nowhere (Buron 2015 §4).
+// to the nearest border that runs along it the other way (T-junctions, cracks), or the same way where two share an
+// edge, else nowhere (Buron 2015 §4).
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "runtime/surface/box_tree.hpp"
@@ -110,6 +112,25 @@ void linkNearest(std::vector<Border>& borders, double tolerance, std::vector<Lin
     }
 }
 
+// Joins borders of one edge that run along it the same way: the only two there, whose outsides can't agree, as on a
+// Möbius strip. Walks go on upon the other's back.
+void linkBacks(const BakeMesh& mesh, std::vector<Border>& borders, std::vector<Link>& links) {
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> edges;
+    auto start = [&](uint32_t half) { return mesh.triangles[half / 3].point[half % 3]; };
+    for (uint32_t i = 0; i < borders.size(); ++i) {
+        const uint32_t a = start(borders[i].half), b = start(BakeMesh::next(borders[i].half));
+        edges[std::minmax(a, b)].push_back(i);
+    }
+    for (const auto& [points, on] : edges) {
+        if (on.size() != 2) continue;
+        Border &e = borders[on[0]], &f = borders[on[1]];
+        if (start(e.half) != start(f.half)) continue;
+        links.push_back({e.half, f.half, 0, 1, 0, 1, kCrossingNearest});
+        links.push_back({f.half, e.half, 0, 1, 0, 1, kCrossingNearest});
+        e.open.clear(), f.open.clear();
+    }
+}
+
 }  // namespace
 
 std::vector<Link> findLinks(const BakeMesh& mesh, double tolerance) {
@@ -122,6 +143,7 @@ std::vector<Link> findLinks(const BakeMesh& mesh, double tolerance) {
         else
             borders.push_back({h, mesh.pointAt(h), mesh.pointAt(BakeMesh::next(h)), {{0, 1}}});
     }
+    linkBacks(mesh, borders, links);
     if (borders.size() > 1 && tolerance > 0) linkNearest(borders, tolerance, links);
     for (const Border& b : borders)
         for (const Interval& i : b.open) links.push_back({b.half, kNone, i.low, i.high, 0, 0, kCrossingOpen});
@@ -150,10 +172,14 @@ std::vector<Crossing> makeCrossings(const BakeMesh& mesh, const std::vector<Link
             c.ta = glm::vec2(ta + td * link.to0);
             c.tb = glm::vec2(ta + td * link.to1);
             c.target = 0xFFFF0000u | mesh.chartOf(th);
-            if (link.kind != kCrossingSeam)
+            if (link.to1 > link.to0) {
+                c.targetEdge = packOct(glm::vec3(glm::normalize(mesh.pointAt(tn) - mesh.pointAt(th))));
+                c.flags = kCrossingTurned;
+            } else if (link.kind != kCrossingSeam) {
                 c.targetEdge = packOct(glm::vec3(glm::normalize(mesh.pointAt(th) - mesh.pointAt(tn))));
+            }
         }
-        c.flags = link.kind | (mesh.orientation[mesh.chartOf(h)] > 0 ? 4u : 0u) | mesh.chartOf(h) << 16;
+        c.flags |= link.kind | (mesh.orientation[mesh.chartOf(h)] > 0 ? 4u : 0u) | mesh.chartOf(h) << 16;
         out.push_back(c);
     }
     return out;

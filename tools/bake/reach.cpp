@@ -1,8 +1,9 @@
 // In: the finished surface. Out: per connected piece of the model the share of its ground that the largest part holds,
 // between whose places plants can get about, there and back, by short walks over every crossing.
 //
-// Parts that nothing outside sees don't count. Ground is inner texels that nothing buries. Texels whose centres see
-// each other past all contacts are one region; a walk over a crossing leads from a region to a region.
+// Parts that nothing outside sees don't count; models stand on ground, so looks from below the foot are none. Ground is
+// inner texels that nothing buries. Texels whose centres see each other past all contacts are one region; a walk over
+// a crossing leads from a region to a region.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -236,8 +237,15 @@ std::array<glm::dvec3, kRays> rays() {
     return out;
 }
 
-// Marks those of the regions that no ray from outside meets, at some of their texels: the insides of attics and of
-// boxes that others close.
+// Does a ray that the model doesn't stop meet the ground below its foot?
+bool endsBelow(const BakeMesh& mesh, glm::dvec3 from, glm::dvec3 ray) {
+    if (ray.y >= 0) return false;
+    const glm::dvec3 end = from + ray * ((mesh.boundsMin.y - from.y) / ray.y);
+    return end.x > mesh.boundsMin.x && end.x < mesh.boundsMax.x && end.z > mesh.boundsMin.z && end.z < mesh.boundsMax.z;
+}
+
+// Marks those of the regions that no ray from outside meets, at some of their texels: the insides of attics, of boxes
+// that others close, and of houses without a floor.
 std::vector<uint8_t> findEnclosed(Ground& ground, const Map& map, const std::vector<uint8_t>& asked,
                                   const BakeMesh& mesh, const SurfaceData& surface) {
     std::vector<std::vector<uint32_t>> cells(asked.size());
@@ -263,7 +271,8 @@ std::vector<uint8_t> findEnclosed(Ground& ground, const Map& map, const std::vec
                 const float texel = surface.charts[plane.chart].metresPerUv / float(ground.size());
                 const glm::vec3 from = surface.levels[0].texels[cell].position + n * (kOff * texel);
                 for (const glm::dvec3& ray : sphere)
-                    seen = seen || (glm::dot(glm::vec3(ray), n) > 0.05f && !tree.pick(from, glm::vec3(ray)));
+                    seen = seen || (glm::dot(glm::vec3(ray), n) > 0.05f && !endsBelow(mesh, from, ray) &&
+                                    !tree.pick(from, glm::vec3(ray)));
             }
             enclosed[r] = !seen;
         }
