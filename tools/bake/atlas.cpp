@@ -10,8 +10,9 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr int kMostRings = 2;       // around what is tangled
-constexpr size_t kFewestKept = 64;  // triangles: smaller parts are flattened anew, which costs little
+constexpr int kMostRings = 2;        // around what is tangled
+constexpr double kMostSmeared = 10;  // stretch of a triangle by smoothing: more had better be cut out
+constexpr size_t kFewestKept = 64;   // triangles: smaller parts are flattened anew, which costs little
 
 // Flattens a patch; where that leaves it tangled, tries to smooth it.
 PatchVerdict flattenWell(Patch& patch) {
@@ -23,7 +24,7 @@ PatchVerdict flattenWell(Patch& patch) {
         untangle(spread, after.tangled, rings);
         after = judgePatch(spread);
     }
-    if (!after.serves()) return verdict;
+    if (!after.serves() || after.stretchMax > kMostSmeared) return verdict;
     patch = std::move(spread);
     return after;
 }
@@ -40,7 +41,7 @@ std::vector<Patch> makeCharts(const BakeMesh& mesh, const Facets& facets, Patch 
         if (canFlatten(patch)) {
             const bool keep = !patch.uv.empty() && patch.triangles.size() >= kFewestKept;
             if (keep) verdict = judgePatch(patch);
-            if (!keep || !verdict.serves()) verdict = flattenWell(patch);
+            if (!keep || !verdict.excels()) verdict = flattenWell(patch);
             if (patch.triangles.size() == 1 || verdict.serves()) {
                 done.push_back(std::move(patch));
                 continue;

@@ -69,8 +69,10 @@ struct PatchVerdict {
     std::vector<uint32_t> crossed;  // vertices where the outer border meets itself within a few edges
     bool overlapping = false;       // it does so from afar, or runs the wrong way round
     double stretch95 = 0;           // of its area
+    double stretchMax = 0;
     bool good() const { return tangled.empty() && crossed.empty() && !overlapping; }
     bool serves() const { return good() && stretch95 <= kMostStretch; }
+    bool excels() const { return serves() && stretchMax <= kMostStretch * 2; }  // not worth more work
 };
 PatchVerdict judgePatch(const Patch& patch);
 

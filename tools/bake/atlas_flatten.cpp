@@ -10,7 +10,7 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr int kRounds = 16;
+constexpr int kRounds = 24;
 constexpr int kTrialRounds = 5;    // after so many it mostly can be a chart: then it is left at that
 constexpr double kStride = 1.8;    // how much farther than to its solution a round goes: below 2 it always converges
 constexpr double kSettled = 1e-4;  // of the patch's size: a round that moves less is the last
@@ -194,7 +194,7 @@ PatchVerdict flatten(Patch& patch) {
         }
         if (!trial) continue;
         stitcher.take(patch.uv);
-        if (PatchVerdict verdict = judgePatch(patch); verdict.good()) return verdict;
+        if (PatchVerdict verdict = judgePatch(patch); verdict.excels()) return verdict;
     }
     stitcher.take(patch.uv);
     return judgePatch(patch);

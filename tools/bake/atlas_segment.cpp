@@ -17,7 +17,8 @@ constexpr double kPlainCost = 0.004;  // of a flat region's area: small ones are
 constexpr double kCreaseCost = 6;     // how much dearer it is to merge over creases
 constexpr double kCrease = 0.8;       // cosine, 37°: edges that are sharper are creases
 constexpr int kSweeps = 12;           // of straightening
-constexpr size_t kGrain = 4096;       // triangles that a thread takes at once
+constexpr size_t kBlock = 4096;       // triangles that a thread merges by themselves
+constexpr double kBlockShare = 0.85;  // of a block's merges that are made so
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
 struct Neighbour {
@@ -44,19 +45,41 @@ double edgeLength(const BakeMesh& mesh, uint32_t h) {
     return glm::length(mesh.pointAt(BakeMesh::next(h)) - mesh.pointAt(h));
 }
 
-// Who of many has the cheapest merge: a knockout tournament. A change is played up only as far as it matters.
+// Triangles that are wanted, those that lie near each other together: along a Z-order curve; few as they come.
+std::vector<uint32_t> orderByPlace(const BakeMesh& mesh, const std::vector<uint8_t>& wanted) {
+    std::vector<uint64_t> keys;
+    const glm::dvec3 cell = glm::max(mesh.boundsMax - mesh.boundsMin, glm::dvec3(1e-300)) / 1023.0;
+    for (uint32_t t = 0; t < wanted.size(); ++t) {
+        if (!wanted[t]) continue;
+        const glm::uvec3 at((mesh.pointAt(t * 3) - mesh.boundsMin) / cell);
+        uint64_t key = 0;
+        for (uint32_t bit = 0; bit < 10; ++bit)
+            for (uint32_t k = 0; k < 3; ++k) key |= uint64_t(at[int(k)] >> bit & 1) << (bit * 3 + k);
+        keys.push_back(key << 32 | t);
+    }
+    if (keys.size() > kBlock) std::sort(keys.begin(), keys.end());
+    return {keys.begin(), keys.end()};
+}
+
+// Who of a range of clusters has the cheapest merge: a knockout tournament. A change is played up only as far as it
+// matters. barred: per cluster: no merge with it counts; or empty.
 class Tournament {
   public:
-    explicit Tournament(const std::vector<Merge>& offers)
-        : offers_(offers), size_(std::bit_ceil(std::max<size_t>(offers.size(), 2))), players_(size_ * 2) {
-        for (uint32_t i = 0; i < offers.size(); ++i) players_[size_ + i] = {offers[i].cost, i};
+    Tournament(const std::vector<Merge>& offers, size_t begin, size_t end, const std::vector<uint8_t>& barred)
+        : offers_(offers),
+          barred_(barred),
+          begin_(begin),
+          size_(std::bit_ceil(std::max<size_t>(end - begin, 2))),
+          players_(size_ * 2) {
+        for (uint32_t i = uint32_t(begin); i < end; ++i) players_[size_ + i - begin] = {costOf(i), i};
         for (size_t n = size_ - 1; n > 0; --n) players_[n] = better(n * 2);
     }
     const Merge& best() const { return offers_[players_[1].who]; }
     bool over() const { return players_[1].cost == kNever; }
     void changed(uint32_t who) {
-        players_[size_ + who].cost = offers_[who].cost;
-        for (size_t n = (size_ + who) / 2; n > 0; n /= 2) {
+        size_t n = size_ + who - begin_;
+        players_[n].cost = costOf(who);
+        for (n /= 2; n > 0; n /= 2) {
             const Player now = better(n * 2);
             if (now.who == players_[n].who && now.who != who) break;
             players_[n] = now;
@@ -68,46 +91,67 @@ class Tournament {
         float cost = kNever;
         uint32_t who = 0;
     };
+    float costOf(uint32_t who) const {
+        const Merge& m = offers_[who];
+        return m.cost == kNever || (!barred_.empty() && (barred_[m.a] || barred_[m.b])) ? kNever : m.cost;
+    }
     Player better(size_t first) const {
         const Player &a = players_[first], &b = players_[first + 1];
         if (a.cost != b.cost) return a.cost < b.cost ? a : b;
-        return offers_[b.who] < offers_[a.who] ? b : a;
+        return a.cost != kNever && offers_[b.who] < offers_[a.who] ? b : a;
     }
 
     const std::vector<Merge>& offers_;
-    size_t size_;
+    const std::vector<uint8_t>& barred_;
+    size_t begin_, size_;
     std::vector<Player> players_;  // the winner, its two last opponents, and so on down to all
 };
 
-// Each cluster knows its cheapest merge.
+// Each cluster knows its cheapest merge. Clusters begin as single triangles, those of one place together.
 class Merger {
   public:
     Merger(const BakeMesh& mesh, const Facets& facets, const std::vector<uint8_t>& wanted)
-        : sets_(wanted.size()), clusters_(wanted.size()), cheapest_(wanted.size()) {
-        parallelFor(wanted.size(), kGrain, [&](size_t begin, size_t end) {
-            for (uint32_t t = uint32_t(begin); t < end; ++t)
-                if (wanted[t]) clusters_[t] = clusterOf(mesh, facets, wanted, t);
+        : order_(orderByPlace(mesh, wanted)),
+          place_(wanted.size(), kNone),
+          sets_(order_.size()),
+          clusters_(order_.size()),
+          cheapest_(order_.size()) {
+        for (uint32_t c = 0; c < order_.size(); ++c) place_[order_[c]] = c;
+        parallelFor(order_.size(), kBlock, [&](size_t begin, size_t end) {
+            for (size_t c = begin; c < end; ++c) clusters_[c] = clusterOf(mesh, facets, order_[c]);
         });
-        parallelFor(wanted.size(), kGrain, [&](size_t begin, size_t end) {
-            for (uint32_t t = uint32_t(begin); t < end; ++t) {
-                for (Neighbour& n : clusters_[t].neighbours) n.cost = costOf(t, n);
-                cheapest_[t] = cheapestOf(t);
+        parallelFor(order_.size(), kBlock, [&](size_t begin, size_t end) {
+            for (uint32_t c = uint32_t(begin); c < end; ++c) {
+                for (Neighbour& n : clusters_[c].neighbours) n.cost = costOf(c, n);
+                cheapest_[c] = cheapestOf(c);
             }
         });
     }
 
+    // First most of what lies within blocks, each by itself, clusters at its border left out; then all.
     void run() {
-        Tournament tournament(cheapest_);
-        while (!tournament.over()) {
+        std::vector<uint8_t> barred(order_.size(), 0);
+        parallelFor(order_.size(), kBlock, [&](size_t begin, size_t end) {
+            for (size_t c = begin; c < end; ++c)
+                for (const Neighbour& n : clusters_[c].neighbours)
+                    barred[c] = barred[c] || n.cluster < begin || n.cluster >= end;
+            mergeCheapest(begin, end, barred, size_t(double(end - begin) * kBlockShare));
+        });
+        mergeCheapest(0, order_.size(), {}, order_.size());
+    }
+    // A number that the triangles of a cluster share.
+    uint32_t clusterOf(uint32_t triangle) { return sets_.find(place_[triangle]); }
+
+  private:
+    void mergeCheapest(size_t begin, size_t end, const std::vector<uint8_t>& barred, size_t most) {
+        Tournament tournament(cheapest_, begin, end, barred);
+        for (size_t i = 0; i < most && !tournament.over(); ++i) {
             const Merge next = tournament.best();
             merge(next.a, next.b, tournament);
         }
     }
-    uint32_t clusterOf(uint32_t triangle) { return sets_.find(triangle); }
 
-  private:
-    static Cluster clusterOf(const BakeMesh& mesh, const Facets& facets, const std::vector<uint8_t>& wanted,
-                             uint32_t t) {
+    Cluster clusterOf(const BakeMesh& mesh, const Facets& facets, uint32_t t) const {
         Cluster c;
         c.normal = facets.normal[t] * facets.area[t];
         c.area = facets.area[t];
@@ -116,9 +160,10 @@ class Merger {
             double length = edgeLength(mesh, h);
             c.border += length;
             uint32_t twin = mesh.twin[h];
-            if (twin == kNone || !wanted[twin / 3] || twin / 3 == t) continue;
+            if (twin == kNone || place_[twin / 3] == kNone || twin / 3 == t) continue;
             bool crease = glm::dot(facets.normal[t], facets.normal[twin / 3]) < kCrease;
-            addNeighbour(c, {twin / 3, float(length), crease ? float(length) : 0.0f, kNever, t < twin / 3});
+            addNeighbour(c, {place_[twin / 3], float(length), crease ? float(length) : 0.0f, kNever,
+                             place_[t] < place_[twin / 3]});
         }
         return c;
     }
@@ -205,6 +250,7 @@ class Merger {
         tournament.changed(a);
     }
 
+    std::vector<uint32_t> order_, place_;  // per cluster its first triangle; per triangle the cluster that it was
     DisjointSets sets_;
     std::vector<Cluster> clusters_;
     std::vector<Merge> cheapest_;  // per cluster

@@ -145,7 +145,10 @@ PatchVerdict judgePatch(const Patch& patch) {
     }
     if (all.empty()) return out;
     double scale = std::sqrt(area / uvArea);
-    for (Weighted& w : all) w.most = std::max(w.most / scale, scale / std::max(w.least, 1e-12));
+    for (Weighted& w : all) {
+        w.most = std::max(w.most / scale, scale / std::max(w.least, 1e-12));
+        out.stretchMax = std::max(out.stretchMax, w.most);
+    }
     out.stretch95 = percentile(all, 0.95 * area);
     if (out.tangled.empty()) findWinding(patch, out);
     if (out.tangled.empty()) findMeetings(patch, borderLoops(patch), out);
