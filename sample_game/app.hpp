@@ -13,6 +13,7 @@ struct AppOptions {
     bool validation = false;
     uint64_t frames = 0;     // ends after so many, 0: when the user closes the window
     bool editor = false;     // begins in the editor
+    double autosave = 60;    // seconds between two autosaves
     std::string record;      // begins with recording a run into this file
     std::string screenshot;  // written after the last of `frames`
 };

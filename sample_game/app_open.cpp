@@ -142,6 +142,7 @@ bool App::open() {
     if (!showOpening(options_.request.file)) return false;
     if (!openDocument(options_.request, error)) return fail(error);
     work_.editing = options_.editor;
+    session_.autosaveEvery = options_.autosave;
     if (!options_.record.empty() &&
         !session_.startRecording(work_, options_.record, uint32_t(options_.width), uint32_t(options_.height)))
         return fail(work_.error);

@@ -23,6 +23,7 @@ void Controls::catchMouse(bool caught) {
 
 void Controls::setEditing(bool editing) {
     brush_.cancel(work_);
+    seeds_.cancel(work_);
     catchMouse(false);
     work_.editing = editing;
     work_.redraw = true;
@@ -30,6 +31,7 @@ void Controls::setEditing(bool editing) {
 
 void Controls::chooseTool(Tool tool) {
     brush_.cancel(work_);
+    seeds_.cancel(work_);
     work_.choose(tool);
 }
 
@@ -42,12 +44,13 @@ void Controls::takeKey(const KeyEvent& event) {
     if (key == GLFW_KEY_F4) work_.layout.grammar = !work_.layout.grammar;
     if (key == GLFW_KEY_F5) work_.layout.atlas = !work_.layout.atlas;
     if (key == GLFW_KEY_F12) work_.screenshot = true;
+    if (control && takeViewKey(event)) return;
     if (control) {
         if (key == GLFW_KEY_Q) session_.quit = true;
         if (key == GLFW_KEY_S) askToSave(work_, session_);
         if (key == GLFW_KEY_O) askToOpen();
         if (key == GLFW_KEY_E && !work_.brush.layer.empty()) askForLayer(work_.brush.layer, false);
-        if (brush_.painting()) return;
+        if (toolBusy()) return;
         if (key == GLFW_KEY_Z && !shift && work_.document->undoName()) work_.perform(Undo{});
         if (((key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y) && work_.document->redoName()) work_.perform(Redo{});
         return;
@@ -61,16 +64,47 @@ void Controls::takeKey(const KeyEvent& event) {
             work_.layout.help = false;
         else if (brush_.sizing())
             brush_.cancel(work_);
+        else if (seeds_.dragging())
+            seeds_.cancel(work_);
         else
             chooseTool(Tool::look);
     }
-    if (key == GLFW_KEY_HOME) work_.lookFrom(espFrameAll(work_.context.get()));
+    if (key == GLFW_KEY_HOME) work_.lookFrom(espFrameAll(work_.context.get())), navigation_.moved();
     if (!work_.editing) {
         if (key == GLFW_KEY_G) navigation_.toggleFlying();
         if (key == GLFW_KEY_SPACE) navigation_.jump();
         return;
     }
-    if (!navigation_.dragging()) takeToolKey(event);  // letters fly
+    if (takeViewKey(event) || navigation_.dragging()) return;  // letters fly
+    if (!seeds_.dragging()) takeToolKey(event);
+}
+
+// The views of Blender's number pad.
+bool Controls::takeViewKey(const KeyEvent& event) {
+    constexpr float kQuarter = 1.57079633f, kStep = .26179939f;  // 15 degrees
+    struct View {
+        int key;
+        float yaw, pitch, yawOther, pitchOther;  // the other: with Ctrl
+    };
+    constexpr View kViewKeys[] = {{GLFW_KEY_KP_1, 0, 0, 2 * kQuarter, 0},
+                                  {GLFW_KEY_KP_3, kQuarter, 0, -kQuarter, 0},
+                                  {GLFW_KEY_KP_7, 0, -kQuarter, 0, kQuarter}};
+    const auto view = std::ranges::find(kViewKeys, event.key, &View::key);
+    const bool other = event.mods & GLFW_MOD_CONTROL;
+    if (view != std::end(kViewKeys))
+        work_.camera.turnTo(other ? view->yawOther : view->yaw, other ? view->pitchOther : view->pitch);
+    else if (event.key == GLFW_KEY_KP_4 || event.key == GLFW_KEY_KP_6)
+        work_.camera.turnBy(event.key == GLFW_KEY_KP_4 ? -kStep : kStep, 0);
+    else if (event.key == GLFW_KEY_KP_8 || event.key == GLFW_KEY_KP_2)
+        work_.camera.turnBy(0, event.key == GLFW_KEY_KP_8 ? -kStep : kStep);
+    else if (event.key == GLFW_KEY_KP_ADD || event.key == GLFW_KEY_KP_SUBTRACT)
+        work_.camera.zoom(event.key == GLFW_KEY_KP_ADD ? 1 : -1);
+    else if (event.key == GLFW_KEY_KP_DECIMAL || event.key == GLFW_KEY_PERIOD)
+        work_.frameChosen();
+    else
+        return false;
+    navigation_.moved();
+    return true;
 }
 
 void Controls::takeToolKey(const KeyEvent& event) {
@@ -87,7 +121,8 @@ void Controls::takeToolKey(const KeyEvent& event) {
         const ImVec2 mouse = ImGui::GetIO().MousePos;
         if (key == GLFW_KEY_F) brush_.startSizing(work_, {mouse.x, mouse.y}, event.mods & GLFW_MOD_SHIFT);
     } else if (key == GLFW_KEY_F) {
-        work_.lookFrom(espFrameAll(work_.context.get()));
+        work_.frameChosen();
+        navigation_.moved();
     }
     const bool removes = key == GLFW_KEY_DELETE || key == GLFW_KEY_X;
     if (work_.tool == Tool::branch && removes) work_.prune();
@@ -95,8 +130,11 @@ void Controls::takeToolKey(const KeyEvent& event) {
     if (work_.tool == Tool::seeds) {
         if (removes) seeds_.remove(work_);
         if (key == GLFW_KEY_A) seeds_.selectAll(work_);
+        const bool turns = key == GLFW_KEY_R && !(event.mods & GLFW_MOD_SHIFT);
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        if (key == GLFW_KEY_G || turns) seeds_.grab(work_, {mouse.x, mouse.y}, turns);
     }
-    if (key == GLFW_KEY_R) {
+    if (key == GLFW_KEY_R && (event.mods & GLFW_MOD_SHIFT)) {
         ChangeSeeds change;
         for (const auto& seed : work_.scene().seeds) {
             change.seeds.push_back(work_.document->recordOf(seed));

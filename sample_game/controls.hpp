@@ -31,6 +31,7 @@ class Controls {
 
   private:
     void takeKey(const KeyEvent& key);
+    bool takeViewKey(const KeyEvent& key);  // false: it is none
     void takeToolKey(const KeyEvent& key);
     void takePointer(const PointerEvent& event);
     bool toolBusy() const;

@@ -83,7 +83,10 @@ void HouseTool::dragTo(Workspace& work, glm::vec2 at) {
     if (*corner_ >= house.corners.size() || espHouseInfo(work.context.get(), house.index, &info) != ESP_OK) return;
     const Ray ray = work.rayThrough(at);
     const float along = (info.eaveHeight - ray.origin.y) / ray.direction.y;
-    if (!(along > 0 && along < 1e4f)) return;  // towards the horizon
+    // Towards the horizon a pixel is many metres: nobody means that.
+    const auto& corner = house.corners[*corner_];
+    const float now = glm::distance(ray.origin, {corner[0], info.eaveHeight, corner[1]});
+    if (!(along > 0 && along < 2 * now + 2)) return;
     const glm::vec3 to = ray.origin + along * ray.direction;
     house.corners[*corner_] = {to.x, to.z};
     work.perform(SetHouse{house}, gesture_);

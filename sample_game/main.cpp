@@ -27,6 +27,9 @@ int main(int argc, char** argv) {
     cli.add_option("--screenshot", options.screenshot, "writes the last of --frames as PNG");
     cli.add_flag("--editor", options.editor, "begins in the editor (Tab)");
     cli.add_option("--record", options.record, "records what is done into this file, for espalier-capture --replay");
+    cli.add_option("--autosave", options.autosave, "seconds between two autosaves of what isn't saved")
+        ->capture_default_str()
+        ->check(CLI::Range(1., 86400.));
     cli.add_flag("--validation", options.validation, "with Vulkan's validation layer (also: ESPALIER_VALIDATION=1)");
     try {
         cli.parse(argc, argv);

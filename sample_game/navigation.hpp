@@ -22,6 +22,7 @@ class Navigation {
     void toggleFlying() { flying_ = !flying_; }
     bool flying() const { return flying_; }
     void jump() { jump_ = true; }
+    void moved() { moved_ = true; }  // by a key
     bool dragging() const { return drag_ != Drag::none; }
     // The mouse is caught by the game: events are moves of the view whatever they are over.
     bool caught = false;

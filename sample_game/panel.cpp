@@ -234,7 +234,7 @@ void seedsPanel(Workspace& work) {
     }
     chosenSeeds(work);
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    if (ImGui::Button("All anew  R", {half, 0})) {
+    if (ImGui::Button("All anew", {half, 0})) {
         ChangeSeeds change;
         for (const Seed& seed : scene.seeds) {
             change.seeds.push_back(work.document->recordOf(seed));
@@ -242,7 +242,7 @@ void seedsPanel(Workspace& work) {
         }
         work.perform(change);
     }
-    toolTip("Other random numbers for all seeds");
+    toolTip("Other random numbers for all seeds  (Shift+R)");
     ImGui::SameLine();
     if (ImGui::Button("Remove all", {half, 0})) {
         RemoveSeeds all;

@@ -89,7 +89,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         graph(work);
         row("Grown so far", grouped(stats.expansions));
         row("GPU memory", grouped(stats.totalBytes >> 20) + " MiB");
-        row("Undo", grouped(work.document->undoSteps()) + " steps");
+        row("Undo", grouped(work.document->undoSteps()) + (work.document->undoSteps() == 1 ? " step" : " steps"));
         if (stats.overflow) row("Ran out of room", grouped(stats.overflow));
         if (stats.stopped) row("Stopped by a limit", grouped(stats.stopped));
         if (validation) row("Validation messages", grouped(validationMessages));

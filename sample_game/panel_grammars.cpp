@@ -129,6 +129,7 @@ void presets(Workspace& work, uint32_t index) {
         }
     ImGui::Separator();
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     bool keeps = ImGui::InputTextWithHint("##name", "name for these values", name, sizeof name,
                                           ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();

@@ -232,7 +232,7 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
     else if (work.tool == Tool::seeds)
         text =
             "Click: plant   drag: plant with a direction   Ctrl+drag: a row   click a seed: choose, drag it: move   "
-            "Del: remove";
+            "G: move   R: turn   Del: remove   F: show it";
     else if (work.tool == Tool::houses)
         text =
             "Click a house, or an edge of the chosen one   drag a corner: the roof follows   Ctrl+drag an edge: a new "
@@ -287,7 +287,8 @@ void showHelp(Workspace& work) {
                           {"Middle drag, Alt+drag", "turn around; with Shift sideways"},
                           {"Right drag", "look around; with W A S D Q E fly"},
                           {"Wheel", "nearer, further"},
-                          {"Home", "show everything"}};
+                          {"Home, F or numpad .", "show everything, what is chosen"},
+                          {"Numpad 1 3 7", "from the front, the right, above; Ctrl: the other side"}};
     const Row paint[] = {{"B, then drag", "paint the chosen layer"},
                          {"Ctrl+drag, Shift+drag", "erase, smooth"},
                          {"[ and ]", "smaller, larger brush"},
@@ -295,9 +296,10 @@ void showHelp(Workspace& work) {
                          {"V", "show or hide what is painted"}};
     const Row seeds[] = {{"S, then click", "plant; drag gives the direction"},
                          {"Ctrl+drag", "plant a row"},
-                         {"Click, Shift+click", "choose seeds; drag moves them"},
-                         {"A, Del", "choose all, remove"},
-                         {"R", "other random numbers for all"},
+                         {"Click, Shift+click", "choose seeds; drag moves them, a drag of the arrow turns them"},
+                         {"G, R", "move, turn the chosen seeds; a click ends it, Esc takes it back"},
+                         {"A, X or Del", "choose all, remove"},
+                         {"Shift+R", "other random numbers for all"},
                          {"P, then click", "the walk of a branch; Del prunes it"},
                          {"H, then click", "a house; drag its corners, choose its edges"}};
     const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z", "undo, redo: of everything"},

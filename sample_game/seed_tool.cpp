@@ -40,70 +40,117 @@ uint32_t SeedTool::seedAt(const Workspace& work, glm::vec2 at) const {
     return best;
 }
 
+bool SeedTool::arrowAt(const Workspace& work, glm::vec2 at) const {
+    return std::ranges::any_of(work.scene().seeds, [&](const Seed& seed) {
+        if (!work.selected.count(seed.key) || glm::length(vec(seed.direction)) == 0) return false;
+        const auto tip = work.place(vec(seed.position) + kArrow * glm::normalize(vec(seed.direction)));
+        return tip && glm::distance(*tip, at) < kReach * work.scale;
+    });
+}
+
+template <class Change>
+void SeedTool::changeChosen(Workspace& work, Change&& change) {
+    ChangeSeeds action;
+    for (uint32_t key : work.selected)
+        if (const Seed* seed = work.document->seed(key)) {
+            action.seeds.push_back(work.document->recordOf(*seed));
+            change(action.seeds.back());
+        }
+    if (!action.seeds.empty() && work.perform(action, gesture_)) changed_ = true;
+}
+
+void SeedTool::press(Workspace& work, const PointerEvent& event) {
+    const glm::vec2 at{event.x, event.y};
+    from_ = last_ = at;
+    moved_ = changed_ = false;
+    gesture_ = work.newGesture();
+    if (const uint32_t key = seedAt(work, at)) {
+        const bool more = event.mods & GLFW_MOD_SHIFT;
+        if (more && work.selected.erase(key)) return;
+        if (!more && !work.selected.count(key)) work.selected.clear();
+        work.selected.insert(key);
+        drag_ = Drag::move;
+        return;
+    }
+    if (arrowAt(work, at)) {
+        drag_ = Drag::turn;
+        return;
+    }
+    const auto hit = work.pick(at);
+    if (!hit) return work.selected.clear();
+    pending_ = newSeed(work, *hit);
+    drag_ = event.mods & GLFW_MOD_CONTROL ? Drag::row : Drag::direction;
+    if (drag_ != Drag::row) return;
+    plant(work, pending_, gesture_);
+    lastInRow_ = vec(hit->position);
+}
+
+void SeedTool::follow(Workspace& work, glm::vec2 at) {
+    moved_ = moved_ || glm::distance(at, from_) > 4 * work.scale;
+    const auto hit = work.pick(at);
+    if (!moved_ || !hit) return;
+    const glm::vec3 point = vec(hit->position);
+    const auto towards = [&](SeedRecord& seed) {
+        const glm::vec3 to = point - vec(seed.position);
+        if (glm::length(to) > 1e-4f) seed.direction = array(glm::normalize(to));
+    };
+    if (drag_ == Drag::direction) {
+        towards(pending_);
+    } else if (drag_ == Drag::turn) {
+        changeChosen(work, towards);
+    } else if (drag_ == Drag::row && lastInRow_ && glm::distance(point, *lastInRow_) > kRowStep) {
+        plant(work, newSeed(work, *hit), gesture_);
+        lastInRow_ = point;
+    } else if (drag_ == Drag::move) {
+        const auto before = work.pick(last_);
+        if (!before) return;
+        const glm::vec3 by = point - vec(before->position);
+        // A single one follows the mouse onto whatever surface is under it.
+        changeChosen(work, [&](SeedRecord& seed) {
+            seed.position = array(work.selected.size() == 1 ? point : vec(seed.position) + by);
+        });
+    }
+    last_ = at;
+}
+
 bool SeedTool::take(Workspace& work, const PointerEvent& event) {
     using Kind = PointerEvent::Kind;
     const glm::vec2 at{event.x, event.y};
-    if (event.kind == Kind::press && event.button == GLFW_MOUSE_BUTTON_LEFT) {
-        from_ = last_ = at;
-        moved_ = false;
-        gesture_ = work.newGesture();
-        if (const uint32_t key = seedAt(work, at)) {
-            const bool more = event.mods & GLFW_MOD_SHIFT;
-            if (more && work.selected.erase(key)) return true;
-            if (!more && !work.selected.count(key)) work.selected.clear();
-            work.selected.insert(key);
-            drag_ = Drag::move;
-            return true;
-        }
-        const auto hit = work.pick(at);
-        if (!hit) {
-            work.selected.clear();
-            return true;
-        }
-        pending_ = newSeed(work, *hit);
-        normal_ = vec(hit->normal);
-        drag_ = event.mods & GLFW_MOD_CONTROL ? Drag::row : Drag::direction;
-        if (drag_ == Drag::row) {
-            plant(work, pending_, gesture_);
-            lastInRow_ = vec(hit->position);
-        }
+    const bool left = event.button == GLFW_MOUSE_BUTTON_LEFT;
+    if (byKey_ && event.kind != Kind::move) {
+        if (event.kind == Kind::press && !left)
+            cancel(work);
+        else if (event.kind == Kind::press)
+            byKey_ = false, drag_ = Drag::none;
+        return true;
+    }
+    if (event.kind == Kind::press && left && drag_ == Drag::none) {
+        press(work, event);
         return true;
     }
     if (drag_ == Drag::none) return false;
     if (event.kind == Kind::move) {
-        moved_ = moved_ || glm::distance(at, from_) > 4 * work.scale;
-        const auto hit = work.pick(at);
-        if (!moved_ || !hit) return true;
-        const glm::vec3 point = vec(hit->position);
-        if (drag_ == Drag::direction) {
-            const glm::vec3 to = point - vec(pending_.position);
-            if (glm::length(to) > 1e-4f) pending_.direction = array(glm::normalize(to));
-        } else if (drag_ == Drag::row && lastInRow_ && glm::distance(point, *lastInRow_) > kRowStep) {
-            plant(work, newSeed(work, *hit), gesture_);
-            lastInRow_ = point;
-        } else if (drag_ == Drag::move) {
-            const auto before = work.pick(last_);
-            if (!before) return true;
-            const glm::vec3 by = point - vec(before->position);
-            ChangeSeeds change;
-            for (uint32_t key : work.selected)
-                if (const Seed* seed = work.document->seed(key)) {
-                    SeedRecord record = work.document->recordOf(*seed);
-                    record.position = array(vec(record.position) + by);
-                    // A single one follows the mouse onto whatever surface is under it.
-                    if (work.selected.size() == 1) record.position = array(point);
-                    change.seeds.push_back(record);
-                }
-            work.perform(change, gesture_);
-        }
-        last_ = at;
-        return true;
-    }
-    if (event.kind == Kind::release && event.button == GLFW_MOUSE_BUTTON_LEFT) {
+        follow(work, at);
+    } else if (event.kind == Kind::release && left) {
         if (drag_ == Drag::direction) plant(work, pending_, gesture_);
         drag_ = Drag::none;
     }
     return true;
+}
+
+void SeedTool::grab(Workspace& work, glm::vec2 at, bool turns) {
+    if (work.selected.empty() || drag_ != Drag::none) return;
+    from_ = last_ = at;
+    moved_ = byKey_ = true;
+    changed_ = false;
+    gesture_ = work.newGesture();
+    drag_ = turns ? Drag::turn : Drag::move;
+}
+
+void SeedTool::cancel(Workspace& work) {
+    if (drag_ != Drag::none && changed_) work.perform(Undo{});
+    drag_ = Drag::none;
+    byKey_ = changed_ = false;
 }
 
 void SeedTool::remove(Workspace& work) {

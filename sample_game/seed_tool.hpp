@@ -6,27 +6,37 @@
 namespace sample {
 
 // Seeds: a click plants one that grows upward, a drag gives the direction. A click on a seed chooses it (Shift: one
-// more), a drag of a chosen one moves it. Ctrl and a drag plant along the way.
+// more), a drag of a chosen one moves all that are, a drag of its arrow turns them. Ctrl and a drag plant along the
+// way.
 class SeedTool {
   public:
     bool take(Workspace& work, const PointerEvent& event);
+    // Without a button held: the chosen ones follow the mouse, or turn towards it, until a click.
+    void grab(Workspace& work, glm::vec2 at, bool turns);
+    void cancel(Workspace& work);     // what is under way, as if it hadn't been
     void remove(Workspace& work);     // those that are chosen
     void selectAll(Workspace& work);  // or none, if all are
     bool dragging() const { return drag_ != Drag::none; }
     void draw(const Workspace& work) const;
 
   private:
-    enum class Drag { none, direction, move, row };
+    enum class Drag { none, direction, move, turn, row };
     espalier::document::SeedRecord newSeed(Workspace& work, const EspHit& hit) const;
     void plant(Workspace& work, const espalier::document::SeedRecord& seed, uint32_t gesture);
     uint32_t seedAt(const Workspace& work, glm::vec2 at) const;
+    bool arrowAt(const Workspace& work, glm::vec2 at) const;  // of a chosen one
+    void press(Workspace& work, const PointerEvent& event);
+    void follow(Workspace& work, glm::vec2 at);
+    // The chosen ones, as `change` leaves them.
+    template <class Change>
+    void changeChosen(Workspace& work, Change&& change);
 
     Drag drag_ = Drag::none;
     glm::vec2 from_{0}, last_{0};
-    bool moved_ = false;
+    bool moved_ = false, changed_ = false;
+    bool byKey_ = false;  // no button is held
     uint32_t gesture_ = 0;
     espalier::document::SeedRecord pending_;  // planted on release
-    glm::vec3 normal_{0, 1, 0};
     std::optional<glm::vec3> lastInRow_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace espalier::document;
 
-constexpr double kAutosaveEvery = 60, kLookEvery = .3;  // seconds
+constexpr double kLookEvery = .3;  // seconds
 
 // The newest change among the grammars of a folder: an included file counts too.
 fs::file_time_type newestGrammar(const fs::path& file) {
@@ -68,7 +68,7 @@ std::string Session::autosaveFolder() const {
 
 bool Session::step(Workspace& work, double now) {
     if (now >= nextAutosave_) {
-        nextAutosave_ = now + kAutosaveEvery;
+        nextAutosave_ = now + autosaveEvery;
         const uint64_t revision = work.document->revision();
         if (recovery_.empty() && modified(work) && revision != autosavedRevision_ && !autosaveFolder().empty() &&
             autosave(*work.document, autosaveFolder(), work.error))

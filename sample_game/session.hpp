@@ -41,6 +41,7 @@ class Session {
     Origin origin(const Workspace& work) const { return {file_, folder_, modified(work)}; }
     void setOrigin(const Workspace& work, const Origin& origin);
     bool quit = false;
+    double autosaveEvery = 60;  // seconds
 
     bool recording() const { return recorder_.on(); }
     // Of what was opened; the run's file names it.

@@ -63,6 +63,22 @@ void ViewCamera::zoom(float steps) {
     eye_ = target - distance_ * ahead();
 }
 
+void ViewCamera::turnTo(float yaw, float pitch) {
+    const glm::vec3 target = eye_ + distance_ * ahead();
+    yaw_ = yaw;
+    pitch_ = std::clamp(pitch, -kMaxPitch, kMaxPitch);
+    eye_ = target - distance_ * ahead();
+}
+
+void ViewCamera::turnBy(float yaw, float pitch) {
+    turnTo(yaw_ + yaw, pitch_ + pitch);
+}
+
+void ViewCamera::frame(glm::vec3 centre, float radius) {
+    distance_ = std::max(1.2f * radius / std::sin(fovY_ / 2), reach_ * 1e-3f);
+    eye_ = centre - distance_ * ahead();
+}
+
 void ViewCamera::fly(glm::vec3 steps, float seconds, bool fast) {
     const float speed = std::clamp(reach_ * .2f, .3f, 12.f) * (fast ? 3.f : 1.f);
     eye_ += seconds * speed * (steps.x * right() + steps.y * glm::vec3(0, 1, 0) + steps.z * ahead());

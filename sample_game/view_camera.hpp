@@ -20,7 +20,10 @@ class ViewCamera {
     // ---- Editor. Moves of the mouse by fractions of the window's height; x to the right, y down.
     void orbit(float x, float y);
     void pan(float x, float y);
-    void zoom(float steps);  // positive: nearer
+    void zoom(float steps);                      // positive: nearer
+    void turnTo(float yaw, float pitch);         // about what is looked at; 0, 0: from the front, +z
+    void turnBy(float yaw, float pitch);         // likewise, radians
+    void frame(glm::vec3 centre, float radius);  // so that the ball fills the view, from where it is seen now
     // ---- Both
     void look(float x, float y);
     // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`.

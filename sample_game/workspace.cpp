@@ -49,6 +49,23 @@ void Workspace::lookFrom(const EspCamera& from) {
     redraw = true;
 }
 
+void Workspace::frameChosen() {
+    std::vector<glm::vec3> points;
+    if (tool == Tool::seeds)
+        for (const auto& seed : scene().seeds)
+            if (selected.count(seed.key)) points.push_back(vec(seed.position));
+    if (tool == Tool::branch)
+        for (const EspPathSample& sample : path) points.push_back(vec(sample.position));
+    EspHouseInfo info;
+    if (tool == Tool::houses && house && espHouseInfo(context.get(), *house, &info) == ESP_OK)
+        points = {vec(info.boundsMin), vec(info.boundsMax)};
+    if (points.empty()) return lookFrom(espFrameAll(context.get()));
+    glm::vec3 low = points[0], high = points[0];
+    for (const glm::vec3& point : points) low = glm::min(low, point), high = glm::max(high, point);
+    camera.frame((low + high) * .5f, std::max(glm::distance(low, high) / 2, .4f));
+    redraw = true;
+}
+
 bool Workspace::perform(const espalier::document::Action& action, uint32_t gesture) {
     error.clear();
     if (!std::holds_alternative<espalier::document::SetCamera>(action)) message.clear();

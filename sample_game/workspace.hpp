@@ -79,6 +79,7 @@ struct Workspace {
     float shift() const;
     float reach() const;  // how large the scene is, metres
     void lookFrom(const EspCamera& from);
+    void frameChosen();        // what is chosen with the tool in hand fills the view; everything, if nothing is
     float panelUnits() const;  // what the panel takes at the left, in ImGui's units
     // A message appears where it fails.
     bool perform(const espalier::document::Action& action, uint32_t gesture = 0);

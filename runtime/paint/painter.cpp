@@ -5,12 +5,15 @@
 #include <cstring>
 
 #include "runtime/core/check.hpp"
-#include "shaders/paint/block_records.h"
+#include "shaders/paint/smooth_records.h"
 
 namespace espalier {
 namespace {
 
 constexpr uint64_t kBlockBytes = kBlockTexels * sizeof(float);
+constexpr uint64_t kPlacesBytes = kSmoothPlaces * kBlockTexels * sizeof(uint32_t);  // of a block
+constexpr uint32_t kNoSlot = ~0u;
+constexpr float kLeastReach = 3;  // texels: for shorter ways a whole texel is too coarse a place
 
 struct StrokeUniforms {
     BrushRecord brush;
@@ -36,7 +39,6 @@ PaintEnv environment(const Canvas& canvas, uint64_t blocks, size_t count) {
     env.count = uint32_t(count);
     env.instance = canvas.instance;
     env.size = canvas.surface.levels[0].size;
-    env.surfaces = canvas.surfaces;
     return env;
 }
 
@@ -46,6 +48,22 @@ Status ensure(Device& device, Buffer& buffer, const char* name, uint64_t bytes) 
     if (!made) return made.failure();
     buffer = std::move(*made);
     return Done{};
+}
+
+// Room for so many items, of which the first `kept` stay.
+Status makeRoom(Commands& commands, Buffer& buffer, const char* name, size_t kept, size_t items, uint64_t itemBytes) {
+    Buffer before = std::move(buffer);
+    if (before && before.size() >= items * itemBytes) {
+        buffer = std::move(before);
+        return Done{};
+    }
+    Status made = ensure(commands.device(), buffer, name, std::max(items * itemBytes, 2 * before.size()));
+    if (!made) {
+        buffer = std::move(before);
+        return made;
+    }
+    if (kept) commands.copy(before, buffer, kept * itemBytes);
+    return made;
 }
 
 }  // namespace
@@ -76,53 +94,60 @@ Status Painter::upload(Commands& commands, const std::vector<uint32_t>& words) {
     return room ? commands.upload(words_, words) : room;
 }
 
-Status Painter::makeRoom(Commands& commands, BlockRecord& record, size_t blocks) {
-    if (record.texels_ && record.texels_.size() >= blocks * kBlockBytes) return Done{};
-    Result<Buffer> larger =
-        Buffer::create(device_, "stroke record", std::max(blocks * kBlockBytes, 2 * record.texels_.size()));
-    if (!larger) return larger.failure();
-    if (!record.blocks_.empty()) commands.copy(record.texels_, *larger, record.blocks_.size() * kBlockBytes);
-    record.texels_ = std::move(*larger);
-    return Done{};
+// Blocks that were not kept after all.
+void Painter::forgetLast(BlockRecord& record, uint32_t count) {
+    for (; count > 0; --count) {
+        record.slots_[record.blocks_.back()] = kNoSlot;
+        record.blocks_.pop_back();
+    }
 }
 
-Result<std::vector<uint64_t>> Painter::begin(Commands& commands, std::span<PaintJob> jobs) {
+Result<std::vector<Painter::Placed>> Painter::begin(Commands& commands, std::span<PaintJob> jobs) {
     std::vector<uint32_t> words;
-    std::vector<std::vector<uint32_t>> fresh(jobs.size());
+    std::vector<Placed> placed(jobs.size());
+    Status room = Done{};
+    const auto put = [&](std::span<const uint32_t> list) {
+        words.insert(words.end(), list.begin(), list.end());
+        return (words.size() - list.size()) * sizeof(uint32_t);
+    };
     for (size_t j = 0; j < jobs.size(); ++j) {
         BlockRecord& record = *jobs[j].record;
         const uint32_t side = jobs[j].canvas.surface.levels[0].size / 8;
-        record.known_.resize(size_t(side) * side);
-        for (uint32_t block : jobs[j].blocks)
-            if (!record.known_[block]) fresh[j].push_back(block);
-        Status room = makeRoom(commands, record, record.blocks_.size() + fresh[j].size());
-        if (!room) return room.failure();
-        words.insert(words.end(), jobs[j].blocks.begin(), jobs[j].blocks.end());
-        words.insert(words.end(), fresh[j].begin(), fresh[j].end());
+        record.slots_.resize(size_t(side) * side, kNoSlot);
+        const uint32_t known = uint32_t(record.blocks_.size());
+        std::vector<uint32_t> slots;
+        for (uint32_t block : jobs[j].blocks) {
+            if (record.slots_[block] == kNoSlot) {
+                record.slots_[block] = uint32_t(record.blocks_.size());
+                record.blocks_.push_back(block);
+            }
+            slots.push_back(record.slots_[block]);
+        }
+        if (room) room = makeRoom(commands, record.texels_, "stroke record", known, record.blocks_.size(), kBlockBytes);
+        placed[j] = {put(jobs[j].blocks), put(slots), put(std::span(record.blocks_).subspan(known)),
+                     uint32_t(record.blocks_.size()) - known};
     }
-    Status uploaded = upload(commands, words);
-    if (!uploaded) return uploaded.failure();
+    if (room) room = upload(commands, words);
+    if (!room) {
+        for (size_t j = 0; j < jobs.size(); ++j) forgetLast(*jobs[j].record, placed[j].freshCount);
+        return room.failure();
+    }
     commands.barrier(Use::transfer, Use::compute);
 
-    std::vector<uint64_t> placed(jobs.size());
-    uint64_t next = words_.address();
     Pass pass(commands, "paint save");
     for (size_t j = 0; j < jobs.size(); ++j) {
-        BlockRecord& record = *jobs[j].record;
-        placed[j] = next;
-        next += jobs[j].blocks.size() * sizeof(uint32_t);
-        if (!fresh[j].empty())
+        Placed& p = placed[j];
+        for (uint64_t* list : {&p.blocks, &p.slots, &p.fresh}) *list += words_.address();
+        const BlockRecord& record = *jobs[j].record;
+        if (p.freshCount)
             move(pass, {wordsOf(*jobs[j].canvas.layer),
                         wordsOf(record.texels_),
-                        at<UintBuf, uint32_t>(next),
+                        at<UintBuf, uint32_t>(p.fresh),
                         {},
-                        uint32_t(fresh[j].size()),
-                        uint32_t(record.blocks_.size()),
+                        p.freshCount,
+                        uint32_t(record.blocks_.size()) - p.freshCount,
                         kBlocksSave,
                         0});
-        next += fresh[j].size() * sizeof(uint32_t);
-        record.blocks_.insert(record.blocks_.end(), fresh[j].begin(), fresh[j].end());
-        for (uint32_t block : fresh[j]) record.known_[block] = true;
     }
     pass.barrier(Use::compute, Use::compute);
     return placed;
@@ -131,7 +156,7 @@ Result<std::vector<uint64_t>> Painter::begin(Commands& commands, std::span<Paint
 Status Painter::dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs) {
     Result<Commands> commands = Commands::begin(device_, "paint");
     if (!commands) return commands.failure();
-    Result<std::vector<uint64_t>> placed = begin(*commands, jobs);
+    Result<std::vector<Placed>> placed = begin(*commands, jobs);
     if (!placed) return placed.failure();
     for (size_t first = 0; first < dabs.size(); first += kDabsAtOnce) {
         const std::span<const DabRecord> some = dabs.subspan(first, std::min<size_t>(kDabsAtOnce, dabs.size() - first));
@@ -145,7 +170,7 @@ Status Painter::dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<cons
         Pass pass(*commands, "paint dabs");
         for (size_t j = 0; j < jobs.size(); ++j)
             pass.dispatchItems(dabs_, uint32_t(jobs[j].blocks.size()) * kBlockTexels,
-                               environment(jobs[j].canvas, (*placed)[j], jobs[j].blocks.size()), {stroke_});
+                               environment(jobs[j].canvas, (*placed)[j].blocks, jobs[j].blocks.size()), {stroke_});
         pass.barrier(Use::compute, Use::compute | Use::transfer);
     }
     Result<uint64_t> submitted = commands->submit();
@@ -155,14 +180,14 @@ Status Painter::dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<cons
 Status Painter::fill(std::span<PaintJob> jobs, float value) {
     Result<Commands> commands = Commands::begin(device_, "paint fill");
     if (!commands) return commands.failure();
-    Result<std::vector<uint64_t>> placed = begin(*commands, jobs);
+    Result<std::vector<Placed>> placed = begin(*commands, jobs);
     if (!placed) return placed.failure();
     {
         Pass pass(*commands, "paint fill");
         for (size_t j = 0; j < jobs.size(); ++j)
             move(pass, {wordsOf(*jobs[j].canvas.layer),
                         {},
-                        at<UintBuf, uint32_t>((*placed)[j]),
+                        at<UintBuf, uint32_t>((*placed)[j].blocks),
                         {},
                         uint32_t(jobs[j].blocks.size()),
                         0,
@@ -173,24 +198,39 @@ Status Painter::fill(std::span<PaintJob> jobs, float value) {
     return submitted ? Status(Done{}) : submitted.failure();
 }
 
-// Dab by dab, since what one leaves the next one averages: inner texels first, then the gutters that stand for them.
-Status Painter::smooth(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs) {
-    if (!smooth_) {
-        Result<Program> made = Program::compute(device_, "paint/smooth.comp", {.exact = true, .constants = {}});
-        Result<Program> inside =
-            Program::compute(device_, "paint/smooth_inside.comp", {.exact = true, .constants = {}});
-        if (!made || !inside) return made ? inside.failure() : made.failure();
-        smooth_ = std::move(*made);
-        smoothInside_ = std::move(*inside);
+Status Painter::makeSmoothing() {
+    struct Row {
+        Program& program;
+        const char* shader;
+    };
+    for (const Row& row : {Row{places_, "paint/smooth_places.comp"}, Row{walk_, "paint/smooth_walk.comp"},
+                           Row{smooth_, "paint/smooth.comp"}}) {
+        if (smooth_) break;
+        Result<Program> made = Program::compute(device_, row.shader, {.exact = true, .constants = {}});
+        if (!made) return made.failure();
+        row.program = std::move(*made);
     }
-    size_t most = 0;
-    for (const PaintJob& job : jobs) most = std::max(most, job.blocks.size());
-    Status room = ensure(device_, result_, "paint result", most * kBlockBytes);
-    if (!room) return room;
+    return Done{};
+}
+
+// Dab by dab, since what one leaves the next one averages.
+Status Painter::smooth(PaintJob& job, Reach reach, BrushRecord brush, std::span<const DabRecord> dabs) {
+    const uint32_t count = uint32_t(job.blocks.size());
+    Status ready = makeSmoothing();
+    if (ready) ready = ensure(device_, result_, "paint result", count * kBlockBytes);
+    if (!ready) return ready;
     Result<Commands> commands = Commands::begin(device_, "paint");
     if (!commands) return commands.failure();
-    Result<std::vector<uint64_t>> placed = begin(*commands, jobs);
+    Result<std::vector<Placed>> placed = begin(*commands, {&job, 1});
     if (!placed) return placed.failure();
+    Status found = findPlaces(*commands, job, placed->front(), reach);
+    if (!found) return found;
+
+    PaintEnv env = environment(job.canvas, placed->front().blocks, count);
+    env.result = at<FloatBuf, float>(result_.address());
+    env.slots = at<UintBuf, uint32_t>(placed->front().slots);
+    env.places = wordsOf(job.record->places_);
+    brush.fine = reach.texels < kLeastReach;
     brush.dabs = 1;
     for (const DabRecord& dab : dabs)
         for (brush.gutters = 0; brush.gutters < 2; ++brush.gutters) {
@@ -201,39 +241,50 @@ Status Painter::smooth(std::span<PaintJob> jobs, BrushRecord brush, std::span<co
             if (!uploaded) return uploaded;
             commands->barrier(Use::transfer, Use::compute);
             Pass pass(*commands, "paint smooth");
-            for (size_t j = 0; j < jobs.size(); ++j) {
-                // Gutters lie beside borders: there are none in blocks that no border is near.
-                const uint32_t inside = jobs[j].inside, all = uint32_t(jobs[j].blocks.size());
-                const uint32_t first = brush.gutters ? inside : 0;
-                const auto smoothBlocks = [&](const Program& program, uint32_t from, uint32_t to) {
-                    if (from == to) return;
-                    PaintEnv env = environment(jobs[j].canvas, (*placed)[j] + from * sizeof(uint32_t), to - from);
-                    env.result = at<FloatBuf, float>(result_.address() + from * kBlockBytes);
-                    pass.dispatchItems(program, (to - from) * kBlockTexels, env, {stroke_});
-                };
-                smoothBlocks(smoothInside_, first, inside);
-                smoothBlocks(smooth_, inside, all);
-                pass.barrier(Use::compute, Use::compute);
-                if (first < all)
-                    move(pass, {wordsOf(*jobs[j].canvas.layer),
-                                at<UintBuf, uint32_t>(result_.address() + first * kBlockBytes),
-                                at<UintBuf, uint32_t>((*placed)[j] + first * sizeof(uint32_t)),
-                                {},
-                                all - first,
-                                0,
-                                kBlocksTake,
-                                0});
-                pass.barrier(Use::compute, Use::compute | Use::transfer);
-            }
+            pass.dispatchItems(smooth_, count * kBlockTexels, env, {stroke_});
+            pass.barrier(Use::compute, Use::compute | Use::transfer);
+            if (brush.gutters) continue;
+            move(pass, {wordsOf(*job.canvas.layer), wordsOf(result_), env.blocks, {}, count, 0, kBlocksTake, 0});
+            pass.barrier(Use::compute, Use::compute | Use::transfer);
         }
     Result<uint64_t> submitted = commands->submit();
     return submitted ? Status(Done{}) : submitted.failure();
 }
 
+Status Painter::findPlaces(Commands& commands, const PaintJob& job, const Placed& placed, Reach reach) {
+    if (!placed.freshCount) return Done{};
+    BlockRecord& record = *job.record;
+    const size_t blocks = record.blocks_.size(), known = blocks - placed.freshCount;
+    Status room = makeRoom(commands, record.places_, "places of smoothing", known, blocks, kPlacesBytes);
+    if (room) room = ensure(device_, walkers_, "texels that walk", 4 + placed.freshCount * kBlockBytes);
+    if (!room) return room;
+    commands.fill(walkers_, 0, 0, 4);
+    commands.barrier(Use::transfer, Use::compute);
+    PlacesEnv env{};
+    env.texels = job.canvas.surface.levels[0].texels;
+    env.blocks = at<UintBuf, uint32_t>(placed.fresh);
+    env.places = at<UintBuf, uint32_t>(record.places_.address() + known * kPlacesBytes);
+    env.walkers = wordsOf(walkers_);
+    env.surfaces = job.canvas.surfaces;
+    env.perScale = 1 / job.canvas.surface.scale;
+    env.reach = reach.metres;
+    env.quads = reach.texels >= kQuadReach;
+    env.count = placed.freshCount;
+    env.instance = job.canvas.instance;
+    env.size = job.canvas.surface.levels[0].size;
+    Pass pass(commands, "paint places");
+    pass.dispatchItems(places_, placed.freshCount * kBlockTexels, env);
+    pass.barrier(Use::compute, Use::compute);
+    // As many as there may be: those beyond the list end at once.
+    pass.dispatchItems(walk_, placed.freshCount * kBlockTexels, env);
+    pass.barrier(Use::compute, Use::compute | Use::transfer);
+    return Done{};
+}
+
 Status Painter::replace(PaintJob& job, std::span<const float> texels) {
     Result<Commands> commands = Commands::begin(device_, "paint replace");
     if (!commands) return commands.failure();
-    Result<std::vector<uint64_t>> placed = begin(*commands, {&job, 1});
+    Result<std::vector<Placed>> placed = begin(*commands, {&job, 1});
     if (!placed) return placed.failure();
     commands->barrier(Use::compute, Use::transfer);
     Status uploaded = commands->upload(*job.canvas.layer, std::as_bytes(texels));
@@ -265,7 +316,8 @@ Status Painter::swap(const Canvas& canvas, BlockRecord& record) {
 }
 
 Status Painter::close(const Canvas& canvas, BlockRecord& record) {
-    record.known_ = {};
+    record.slots_ = {};
+    record.places_ = {};
     if (record.blocks_.empty()) return Done{};
     const uint32_t count = uint32_t(record.blocks_.size());
     Result<Buffer> marks = Buffer::create(device_, "stroke changes", count * 4);

@@ -32,8 +32,10 @@ class BlockRecord {
   private:
     friend class Painter;
     std::vector<uint32_t> blocks_;
-    std::vector<bool> known_;  // [block], while the stroke goes on
     Buffer texels_;
+    // While the stroke goes on:
+    std::vector<uint32_t> slots_;  // [block]: where it is among blocks_, or kNoSlot
+    Buffer places_;                // where smoothing looks, 1,536 bytes a block
 };
 
 // The part of a stroke that falls on one canvas.
@@ -41,7 +43,11 @@ struct PaintJob {
     Canvas canvas;
     BlockRecord* record = nullptr;
     std::vector<uint32_t> blocks;  // that its dabs may reach, each once
-    uint32_t inside = 0;           // so many of them, the first, are smoothed without walking: no border is near
+};
+
+// How far smoothing looks.
+struct Reach {
+    float metres = 0, texels = 0;  // the same on one surface
 };
 
 class Painter {
@@ -51,9 +57,10 @@ class Painter {
 
     // Applies the dabs in order. Blocks that a record doesn't hold yet are kept in it first.
     Status dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs);
-    // Smooths by the dabs, one after the other: texels go towards the mean of places brush.reach away, found by walking
-    // over the surface. The canvases need their table of surfaces.
-    Status smooth(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs);
+    // Smooths by the dabs, one after the other: texels go towards the mean of places brush.reach away over the surface,
+    // which are found when a stroke comes to a block. All dabs of a record have one reach. The canvases need their
+    // table of surfaces.
+    Status smooth(PaintJob& job, Reach reach, BrushRecord brush, std::span<const DabRecord> dabs);
     // Sets all texels of the jobs' blocks, likewise.
     Status fill(std::span<PaintJob> jobs, float value);
     // Sets all texels of one canvas: size² floats in texelIndex order. The job's blocks are those to be kept.
@@ -66,18 +73,27 @@ class Painter {
 
   private:
     explicit Painter(Device& device) : device_(device) {}
-    // Puts the jobs' blocks on the GPU, and keeps those that are new to their records. Addresses of the blocks.
-    Result<std::vector<uint64_t>> begin(Commands& commands, std::span<PaintJob> jobs);
-    Status makeRoom(Commands& commands, BlockRecord& record, size_t blocks);
+    // Where a job's lists lie on the GPU: addresses of numbers of blocks, and of their places in the record.
+    struct Placed {
+        uint64_t blocks = 0, slots = 0;
+        uint64_t fresh = 0;  // those that are new to the record, its last
+        uint32_t freshCount = 0;
+    };
+    // Puts the jobs' blocks on the GPU, and keeps those that are new to their records.
+    Result<std::vector<Placed>> begin(Commands& commands, std::span<PaintJob> jobs);
+    static void forgetLast(BlockRecord& record, uint32_t count);
+    Status makeSmoothing();
+    // The same for all dabs of a stroke: where texels of the new blocks look.
+    Status findPlaces(Commands& commands, const PaintJob& job, const Placed& placed, Reach reach);
     Status upload(Commands& commands, const std::vector<uint32_t>& words);
     void move(Pass& pass, BlocksEnv env);
 
     Device& device_;
     Program dabs_, blocks_;
-    Program smooth_, smoothInside_;  // made when first asked for
-    Buffer stroke_;                  // BrushRecord and its dabs
-    Buffer words_;                   // numbers of blocks
-    Buffer result_;                  // of smoothing
+    Program smooth_, places_, walk_;  // made when first asked for
+    Buffer stroke_;                   // BrushRecord and its dabs
+    Buffer words_;                    // numbers of blocks
+    Buffer result_, walkers_;         // of smoothing
 };
 
 }  // namespace espalier

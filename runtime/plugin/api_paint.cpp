@@ -15,7 +15,6 @@ constexpr float kSteepest = 1e30f;       // a fade of no width
 constexpr float kSlopeFade = kPi / 4;    // radians at softness 1
 constexpr float kSmoothReach = .12f;     // of the radius, to what is averaged
 constexpr float kMostReach = 16;         // texels: what a texel tells of borders ends a little farther out
-constexpr float kLeastStep = 3;          // texels: for shorter ones a whole texel is too coarse a place
 
 // The numbers by which a kernel applies the brush; `fill` is the layer's.
 BrushRecord recordOf(const EspBrush& brush, float fill) {
@@ -143,23 +142,7 @@ float texelOf(const PlacedSurface& surface) {
     return float(metres / std::max(area, 1e-20)) * surface.scale / float(surface.data.levels.front().size);
 }
 
-// Puts those blocks first in which no texel is nearer to a border than smoothing reaches.
-void sortByBorders(PaintJob& job, const PlacedSurface& surface, float reach) {
-    const SurfaceLevelData& level = surface.data.levels.front();
-    const auto inside = [&](uint32_t block) {
-        for (uint32_t i = block * kBlockTexels; i < (block + 1) * kBlockTexels; ++i) {
-            const uint32_t bits = level.texels[i].bits;
-            if (texelClass(bits) != kTexelInner) return false;
-            const float texel = surface.data.charts[texelChart(bits)].metresPerUv * surface.scale / float(level.size);
-            if (float(texelClearance(bits)) < 1.4f * reach / texel + 2 || reach < kLeastStep * texel) return false;
-        }
-        return true;
-    };
-    const auto rest = std::stable_partition(job.blocks.begin(), job.blocks.end(), inside);
-    job.inside = uint32_t(rest - job.blocks.begin());
-}
-
-// Near borders smoothing walks, so it needs the table of surfaces; and steps of a texel and a half at least.
+// Near borders smoothing walks, so it needs the table of surfaces; ways are a texel and a half long at least.
 Status smooth(EspContext& context, std::vector<PaintJob>& jobs, const PaintStroke& stroke,
               std::span<const DabRecord> dabs) {
     Status tables = context.refreshTables();
@@ -167,14 +150,14 @@ Status smooth(EspContext& context, std::vector<PaintJob>& jobs, const PaintStrok
     Status smoothed = Done{};
     for (PaintJob& job : jobs) {
         job.canvas.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
-        BrushRecord brush = stroke.brush;
+        Reach reach;
         context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
             if (surface.instance != job.canvas.instance) return;
             const float texel = texelOf(surface);
-            brush.reach = std::clamp(kSmoothReach * stroke.radius, 1.5f * texel, kMostReach * texel);
-            sortByBorders(job, surface, brush.reach);
+            reach.texels = std::clamp(kSmoothReach * stroke.radius / texel, 1.5f, kMostReach);
+            reach.metres = reach.texels * texel;
         });
-        if (smoothed) smoothed = context.painter->smooth({&job, 1}, brush, dabs);
+        if (smoothed) smoothed = context.painter->smooth(job, reach, stroke.brush, dabs);
     }
     return smoothed;
 }

@@ -134,11 +134,11 @@ EspResult rebuild(EspContext& context, uint32_t index, const Footprint& footprin
     RoofStructure made;
     std::vector<Diagnostic> diagnostics;
     appendRoof(footprint, made, diagnostics);
-    if (made.houses.size() != siblings.size()) {
-        std::string why = toString(diagnostics);
+    if (made.houses.size() > siblings.size())
         return fail(&context, ESP_INVALID_CONTENT,
-                    why.empty() ? "the outline falls into other pieces than before" : why);
-    }
+                    footprint.id + ": the outline crosses or touches itself, so that the house would fall into " +
+                        std::to_string(made.houses.size()) + " parts; it stands as it did");
+    if (made.houses.size() < siblings.size()) return fail(&context, ESP_INVALID_CONTENT, toString(diagnostics));
     town.planned.try_emplace(number, town.footprints[number]);
     town.footprints[number] = footprint;
     for (size_t i = 0; i < siblings.size(); ++i) {

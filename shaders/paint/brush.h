@@ -28,8 +28,8 @@ struct BrushRecord {
     float heightLow, heightHigh, perHeight;   // metres
     uint flags;
     uint dabs;                 // of this dispatch
-    float reach;               // smoothing: metres to the places that are averaged
     uint gutters;              // smoothing: 0 inner texels, 1 the gutters
+    uint fine;                 // smoothing: a whole texel is too coarse a place for so short a reach
     uint spare;
 };
 STATIC_SIZE(BrushRecord, 64);
@@ -43,7 +43,7 @@ struct DabRecord {
 };
 STATIC_SIZE(DabRecord, 32);
 
-// A layer over a placed surface as the kernels get it, push constants of 112 bytes.
+// A layer over a placed surface as the kernels get it, push constants of 120 bytes.
 struct PaintEnv {
     TexelBuf texels;           // of the surface's finest level
     TexelAuxBuf aux;
@@ -54,10 +54,11 @@ struct PaintEnv {
     uint count;                // of blocks
     uint instance;
     uint size;                 // texels a side
-    SurfaceBuf surfaces;       // for smoothing, which walks
-    FloatBuf result;           // and writes here first, [64 * i]: block blocks[i]
+    FloatBuf result;           // smoothing writes here first, [64 * i]: block blocks[i]
+    UintBuf slots;             // [i]: which of the stroke's blocks block blocks[i] is
+    UintBuf places;            // see smooth_records.h
 };
-STATIC_SIZE(PaintEnv, 112);
+STATIC_SIZE(PaintEnv, 120);
 
 // 1 within [low, high], 0 a fade beyond; smooth between.
 FN float limitWeight(float v, float low, float high, float per) {

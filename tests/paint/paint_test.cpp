@@ -308,6 +308,36 @@ TEST_CASE("painting refuses what isn't a brush, a dab or a stroke, and stays as 
     CHECK(espReadLayer(painting.context, painting.surface, "paint", &texel, &side) == ESP_INVALID_ARGUMENT);
 }
 
+TEST_CASE("smoothing far is as even as smoothing near: over a seam as inside a chart") {
+    // A stripe over an edge of the cube and the same stripe in the middle of a face, ways of 8 and more texels.
+    Painting painting(cube(2), 512);
+    const auto smoothedAt = [&](glm::vec3 middle, glm::vec3 a, glm::vec3 b) {
+        EspStroke clear{};
+        painting.ok(espFillLayer(painting.context, "paint", 0, &clear));
+        painting.stroke(brushOn("paint", .2f, 1, 1), {dabAt(middle)});
+        EspBrush brush = brushOn("paint", .9f, 1, .5f);
+        brush.mode = ESP_BRUSH_SMOOTH;
+        painting.stroke(brush, std::vector<EspDab>(6, dabAt(middle)));
+        const std::vector<float> layer = painting.layer("paint");
+        std::vector<float> values;
+        for (int i = 1; i <= 12; ++i)
+            for (const glm::vec3& way : {a, b}) {
+                const glm::vec3 p = middle + way * (float(i) * .03f);
+                const float point[3] = {p.x, p.y, p.z};
+                EspHit hit{};
+                painting.ok(espNearest(painting.context, point, &hit));
+                values.push_back(readAt(layer, painting.size(), {hit.uv[0], hit.uv[1]}));
+            }
+        return values;
+    };
+    const std::vector<float> inside = smoothedAt({1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    const std::vector<float> over = smoothedAt({1, 1, 0}, {-1, 0, 0}, {0, 0, 1});
+    REQUIRE(inside.size() == over.size());
+    CHECK(inside[0] > .2f);
+    CHECK(inside[0] < .9f);
+    for (size_t i = 0; i < inside.size(); ++i) CHECK(over[i] == doctest::Approx(inside[i]).scale(1).epsilon(.06));
+}
+
 TEST_CASE("smoothing lowers what stands out, on both sides of a seam alike, and keeps what is even") {
     for (const Model& model : {cube(2), cubeCross(2)}) {
         Painting painting(model, 256);

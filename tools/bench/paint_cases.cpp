@@ -1,6 +1,7 @@
 // paint/…: one dab on the sample's ruin, from the call until the layer has it; a C++ loop over the same blocks beside
 // it.
-#include <cstdio>
+#include <algorithm>
+#include <array>
 
 #include "runtime/paint/painter.hpp"
 #include "runtime/surface/gpu_surface.hpp"
@@ -71,10 +72,88 @@ void dabCase(Bench& bench, Device& device, Painter& painter, const SurfaceData& 
                device.milliseconds("paint save")});
 }
 
+// The mean of six places straight over the chart, clamped to the picture: no seams, the least that smoothing can do.
+void loopSmooth(const SurfaceLevelData& level, const std::vector<uint32_t>& blocks, const BrushRecord& brush,
+                const DabRecord& dab, int reach, std::vector<float>& layer, std::vector<float>& result) {
+    const int last = int(level.size) - 1;
+    const int up = reach * 7 / 8;
+    const int ways[6][2] = {{reach, 0},       {-reach, 0},      {reach / 2, up},
+                            {reach / 2, -up}, {-reach / 2, up}, {-reach / 2, -up}};
+    result.clear();
+    for (uint32_t block : blocks)
+        for (uint32_t i = block * kBlockTexels; i < (block + 1) * kBlockTexels; ++i) {
+            const Texel& texel = level.texels[i];
+            result.push_back(layer[i]);
+            if (texelClass(texel.bits) == kTexelEmpty) continue;
+            const float share = dabWeight(brush, dab, texel.position, glm::vec3(0));
+            const int x = int(block % (level.size / 8) * 8 + i % 8), y = int(block / (level.size / 8) * 8 + i % 64 / 8);
+            float sum = 0;
+            for (const auto& way : ways)
+                sum += layer[texelIndex(level.size, uint32_t(std::clamp(x + way[0], 0, last)),
+                                        uint32_t(std::clamp(y + way[1], 0, last)))];
+            result.back() = towards(layer[i], sum / 6, share);
+        }
+    size_t k = 0;
+    for (uint32_t block : blocks)
+        for (uint32_t i = block * kBlockTexels; i < (block + 1) * kBlockTexels; ++i) layer[i] = result[k++];
+}
+
+// Strokes of so many dabs, a quarter of the radius apart; CPU time of a dab.
+void smoothCase(Bench& bench, Device& device, Painter& painter, const SurfaceData& data, int dabs,
+                const std::string& name) {
+    if (!bench.wants(name)) return;
+    const float radius = 1;
+    const SurfaceLevelData& level = data.levels.front();
+    std::vector<float> onCpu(size_t(level.size) * level.size), result;
+    for (size_t i = 0; i < onCpu.size(); ++i) onCpu[i] = float(i / kBlockTexels % 2);
+    Result<GpuSurface> surface = GpuSurface::create(device, data);
+    Result<Buffer> layer = makeBuffer(device, "bench layer", onCpu);
+    if (!surface || !layer) return bench.skip(name, "no room on the device");
+    Result<Buffer> table = makeBuffer(device, "bench surfaces", std::vector<SurfaceRef>{surface->ref()});
+    if (!table) return bench.skip(name, "no room on the device");
+    Canvas canvas{&*layer, surface->ref(), 0, {reinterpret_cast<SurfaceRef*>(table->address())}};
+    const BlockBounds bounds(level);
+    const BrushRecord brush = softBrush(radius);
+    const auto dabAt = [&](int i) { return DabRecord{{-1.4f + .25f * float(i), 1.2f, .36f}, 1, {0, 0, 1}, 0}; };
+    size_t touched = 0;
+    const auto ours = [&] {
+        BlockRecord record;
+        for (int i = 0; i < dabs; ++i) {
+            const DabRecord dab = dabAt(i);
+            PaintJob job{canvas, &record, {}};
+            bounds.near(dab.position, radius, job.blocks);
+            touched = job.blocks.size();
+            (void)painter.smooth(job, {.12f, 11}, brush, {&dab, 1});
+        }
+        (void)device.wait(device.submitted());
+    };
+    const auto loop = [&] {
+        for (int i = 0; i < dabs; ++i) {
+            std::vector<uint32_t> blocks;
+            bounds.near(dabAt(i).position, radius, blocks);
+            loopSmooth(level, blocks, brush, dabAt(i), 11, onCpu, result);
+        }
+    };
+    ours();
+    std::vector<double> a, b;
+    for (int i = 0; i < bench.options().repeats; ++i) {
+        a.push_back(cpuSeconds(ours));
+        b.push_back(cpuSeconds(loop));
+    }
+    device.collect();
+    bench.add({name, std::to_string(touched * kBlockTexels) + " texels; CPU time of a dab", "ms",
+               median(a) * 1e3 / dabs, "a C++ loop that knows no seams", median(b) * 1e3 / dabs});
+    bench.add({name + "/places", "GPU time of finding where texels look", "ms", device.milliseconds("paint places"),
+               "of a dab", device.milliseconds("paint smooth")});
+}
+
 }  // namespace
 
 void paintCases(Bench& bench) {
-    if (!bench.wants("paint/dab-25cm") && !bench.wants("paint/dab-100cm")) return;
+    if (std::ranges::none_of(
+            std::array{"paint/dab-25cm", "paint/dab-100cm", "paint/smooth-first", "paint/smooth-100cm"},
+            [&](const char* name) { return bench.wants(name); }))
+        return;
     const std::string path = bench.options().contentFolder + "/ruin.surface.glb";
     Result<SurfaceData> data = readSurface(path);
     if (!data) return bench.skip("paint/", "needs " + path);
@@ -84,6 +163,8 @@ void paintCases(Bench& bench) {
     if (!painter) return bench.skip("paint/", painter.failure().text());
     dabCase(bench, **device, **painter, *data, .25f, "paint/dab-25cm");
     dabCase(bench, **device, **painter, *data, 1, "paint/dab-100cm");
+    smoothCase(bench, **device, **painter, *data, 1, "paint/smooth-first");
+    smoothCase(bench, **device, **painter, *data, 8, "paint/smooth-100cm");
 }
 
 }  // namespace espalier
