@@ -32,7 +32,10 @@ class RoofLowering {
             pending_.pop_front();
             lowerNested(next);
         }
-        if (!c_.reporter.failed()) markGrids(c_);  // a rule with a mistake lacks its numbers
+        if (!c_.reporter.failed()) {  // a rule with a mistake lacks its numbers
+            markGrids(c_);
+            markTerminals(c_);
+        }
         const uint32_t house = c_.findSymbol("House");
         if (!c_.symbols.empty()) c_.startSymbol = house != kNoSymbol ? c_.symbols[house].record : 0;
     }

@@ -24,5 +24,7 @@ bool lowerBlock(Compilation& c, const BlockInfo& info, const Element& e, Env& en
 
 // Marks the Repeats that stay one record of many cells. All rules are there, without mistakes.
 void markGrids(Compilation& c);
+// Marks successors that are terminals already (kSuccessorTerminal).
+void markTerminals(Compilation& c);
 
 }  // namespace espalier::grammar

@@ -3,6 +3,7 @@
 // A Repeat whose successors are terminals that ask for nothing but parameters and arguments stays one shape with many
 // cells (Buron 2013 §4's Repeat(XY) of tiles): the expander hands its cells on to grids.
 #include "runtime/grammar/lower_roof.hpp"
+#include "runtime/grammar/rule_map_layout.hpp"
 
 namespace espalier::grammar {
 namespace {
@@ -59,6 +60,16 @@ void markGrids(Compilation& c) {
         for (uint32_t i = 0; i < r.successorCount; ++i)
             grid = grid && contextFree(c, c.successors[r.firstSuccessor + i].symbol, 0);
         if (grid) r.extrude |= kRepeatGrid;
+    }
+}
+
+void markTerminals(Compilation& c) {
+    for (SuccessorRecord& s : c.successors) {
+        const SymbolRecord& symbol = c.symbolRecords[s.symbol];
+        const RuleRecord& rule = c.rules[symbol.firstRule];
+        if (symbol.ruleCount != 1 || rule.kind != kRuleShape || rule.params != 0) continue;
+        if (isPlainTerminal(symbol, rule, std::span(c.roofValues).subspan(rule.values, kScopeValues)))
+            s.flags |= kSuccessorTerminal | rule.extrude << kSuccessorMesh;
     }
 }
 

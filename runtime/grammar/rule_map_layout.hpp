@@ -29,6 +29,18 @@ inline constexpr uint32_t kRecordWords[] = {sizeof(SymbolRecord) / 4,
 // Where in a record of that section Values stand (in words); a code word's immediate is patched too, but is none.
 std::span<const uint32_t> valueOffsets(uint32_t section);
 
+// True if the symbol's only rule is a terminal that leaves its shape as it is. values: the rule's kScopeValues numbers.
+inline bool isPlainTerminal(const SymbolRecord& symbol, const RuleRecord& rule, std::span<const Value> values) {
+    if (symbol.ruleCount != 1 || symbol.select.count != 0 || symbol.selected.slot != kSlotImmediate) return false;
+    if (rule.kind != kRuleShape || rule.start.count != 0) return false;
+    for (uint32_t i = 0; i < kScopeValues; ++i) {
+        const bool change = i >= 3 && i < 8;  // T and R: by how much; the others: negative leaves what there is
+        if (values[i].slot != kSlotImmediate) return false;
+        if (change ? values[i].immediate != 0 : values[i].immediate >= 0) return false;
+    }
+    return true;
+}
+
 struct RuleMapAccess {
     using Section = RuleMap::Section;
     using Uniform = RuleMap::Uniform;

@@ -145,13 +145,21 @@ class Verifier {
         for (uint32_t i = 0; ok() && i < r.successorCount; ++i)
             need(get<SuccessorRecord>(kSectionSuccessors, r.firstSuccessor + i).part < parts, "a successor's part");
     }
+    bool terminalFlags(uint32_t flags, const SymbolRecord& target) {
+        if (!map_.roofs() || target.ruleCount != 1 || target.firstRule >= counts_[kSectionRules]) return false;
+        const RuleRecord rule = get<RuleRecord>(kSectionRules, target.firstRule);
+        if (rule.params != 0 || !inRange(rule.values, kScopeValues, counts_[kSectionValues])) return false;
+        Value values[kScopeValues];
+        for (uint32_t i = 0; i < kScopeValues; ++i) values[i] = get<Value>(kSectionValues, rule.values + i);
+        return isPlainTerminal(target, rule, values) && flags == (kSuccessorTerminal | rule.extrude << kSuccessorMesh);
+    }
     void successor(uint32_t i) {
         SuccessorRecord s = get<SuccessorRecord>(kSectionSuccessors, i);
         need(s.symbol < counts_[kSectionSymbols], "a successor's symbol");
         if (!ok()) return;
         SymbolRecord target = get<SymbolRecord>(kSectionSymbols, s.symbol);
         need(s.argCount == target.argCount && s.nameHash == target.nameHash && s.ordinal < kMaxSuccessors &&
-                 s.flags <= 1,
+                 (s.flags <= 1 || terminalFlags(s.flags, target)),
              "a successor");
         code(s.code);
         for (const Value& v : s.args) value(v);

@@ -180,6 +180,7 @@ EspResult updateTown(EspContext& context) {
     }
     RoofInputs inputs;
     inputs.town = &town.tables;
+    inputs.townRevision = town.number;
     inputs.grammar = &grammar->map;
     inputs.grammarRevision = grammar->revision;
     inputs.meshes = context.roofBounds;

@@ -53,6 +53,7 @@ class HouseAtoms {
         claimUppers();
         addBareWalls();
         range.atomCount = uint32_t(t_.atoms.size()) - range.firstAtom;
+        for (uint32_t i = 0; i < range.atomCount; ++i) markPieces(t_.atoms[range.firstAtom + i]);
         return range;
     }
 
@@ -271,6 +272,14 @@ class HouseAtoms {
             }
     }
 
+    void markPieces(RoofAtom& atom) const {
+        for (uint32_t i = 0; i < atom.pieceCount; ++i) {
+            const RoofPiece& piece = t_.pieces[atom.firstPiece + i];
+            if (piece.upper != kNoIndex) atom.style |= kAtomGoesOn;
+            if (piece.kind == uint32_t(JointKind::ridge) + 1) atom.style |= kAtomRidged;
+        }
+    }
+
     // Walls whose edge has no face above it (a flat roof hangs on one of its edges).
     void addBareWalls() {
         uint32_t edge = 0;
@@ -315,28 +324,10 @@ void replaceAtoms(RoofTables& tables, uint32_t index, const RoofStructure& struc
     tables.houses[index] = HouseAtoms(tables, structure, 0, index, options).run();
 }
 
-void appendStartShapes(const RoofTables& tables, uint32_t house, uint32_t symbol, std::vector<RoofScope>& shapes) {
+void appendStarts(const RoofTables& tables, uint32_t house, std::vector<uint32_t>& atoms) {
     const RoofTables::House& range = tables.houses[house];
-    for (uint32_t i = range.firstAtom; i < range.firstAtom + range.atomCount; ++i) {
-        const RoofAtom& atom = tables.atoms[i];
-        if (atom.tier != 0 || !(atom.eaveLength > 0)) continue;
-        RoofScope s{};
-        s.key = atom.key;
-        s.origin = atom.foot;
-        s.axisX = atom.tangent;
-        s.axisY = {0, 1, 0};
-        s.size = s.step = s.extent = {atom.eaveLength, 0};
-        s.cells = 0x10001u;
-        s.thickness = 1;
-        s.colour = 0x80FFFFFFu;
-        s.base = atom.foot.y + atom.wallHeight;
-        s.stretch = 1;
-        s.region = kNoIndex;
-        s.atom = i;
-        s.symbol = symbol;
-        s.marks = kShapeSegment;
-        shapes.push_back(s);
-    }
+    for (uint32_t i = range.firstAtom; i < range.firstAtom + range.atomCount; ++i)
+        if (tables.atoms[i].tier == 0 && tables.atoms[i].eaveLength > 0) atoms.push_back(i);
 }
 
 }  // namespace espalier

@@ -32,8 +32,8 @@ RoofTables makeAtoms(const RoofStructure& structure, const AtomOptions& options 
 // Replaces house `index` by the only one of `structure`: its atoms are added at the end, the old ones are left unused.
 void replaceAtoms(RoofTables& tables, uint32_t index, const RoofStructure& structure, const AtomOptions& options = {});
 
-// The shapes that expansion begins with: a segment at the wall's foot for each atom of tier 0 of the house.
-void appendStartShapes(const RoofTables& tables, uint32_t house, uint32_t symbol, std::vector<RoofScope>& shapes);
+// The atoms of the house that expansion begins with, see startShape(): those of tier 0.
+void appendStarts(const RoofTables& tables, uint32_t house, std::vector<uint32_t>& atoms);
 
 // Triangulates nothing: cuts a simple polygon with counterclockwise edges into convex parts between upright lines. Edge
 // i leads from point i to the next; planes[i] is the half-space of edge i. Exposed for tests.

@@ -1,10 +1,7 @@
 // Expansion of roofs on the CPU (Buron 2013 §3), wave by wave as on the GPU: reference, debugger and what the GPU is
 // measured against.
-#include <atomic>
-
 #include "runtime/core/jobs.hpp"
 #include "runtime/roof/roof_growth.hpp"
-#include "shaders/shared/roof_cells.h"
 #include "shaders/shared/roof_expand.h"
 
 namespace espalier {
@@ -51,6 +48,7 @@ struct CpuRun {
     const RoofInputs& in;
     RuleMapRef map;
     std::vector<RoofScope> scopes[2];
+    std::vector<uint32_t> starts;  // atoms of the first wave
     std::vector<RoofWave> waves;
     std::vector<uint32_t> generations;
     std::vector<float> means;
@@ -96,6 +94,8 @@ struct CpuRun {
         env.means.v = means.data();
         env.reads.v = out.reads.data();
         env.site = in.site;
+        env.starts.v = starts.data();
+        env.startSymbol = in.grammar->startSymbol();
         env.shapeRoom = room.scopes;
         env.gridRoom = room.grids;
         env.rowRoom = room.rows;
@@ -115,26 +115,14 @@ struct CpuRun {
             parallelFor(
                 std::min(waves[w].count, env.shapeRoom), 256,
                 [&](size_t begin, size_t end) {
-                    for (size_t i = begin; i < end; ++i) deriveShape(env, uint32_t(i));
+                    RoofTally tally = emptyTally();
+                    for (size_t i = begin; i < end; ++i) deriveShape(env, uint32_t(i), tally);
+                    addTally(out.status, tally);
                 },
                 threads);
             out.waves = w + 1;
         }
         return widest;
-    }
-    void findRuns(const RoofEnv& env, unsigned threads) {
-        std::atomic<uint32_t> touched = 0, whole = 0;
-        parallelFor(
-            out.status.grids, 512,
-            [&](size_t begin, size_t end) {
-                uvec2 sum(0u);
-                for (size_t i = begin; i < end; ++i) sum += gridRuns(env, uint32_t(i));
-                touched += sum.x;
-                whole += sum.y;
-            },
-            threads);
-        out.status.touched = touched;
-        out.status.whole = whole;
     }
 };
 
@@ -142,28 +130,26 @@ struct CpuRun {
 
 CpuRoofs growRoofsOnCpu(const RoofInputs& inputs, unsigned threads) {
     CpuRun run(inputs);
-    std::vector<RoofScope> start;
-    for (uint32_t h = 0; h < inputs.town->houses.size(); ++h)
-        appendStartShapes(*inputs.town, h, inputs.grammar->startSymbol(), start);
-    RoofRoom room;
-    room.scopes = std::max(room.scopes, uint32_t(start.size()) * 4);
-    room.grids = std::max(room.grids, uint32_t(start.size()) * 8);
-    room.rows = std::max(room.rows, uint32_t(start.size()) * 64);
+    for (uint32_t h = 0; h < inputs.town->houses.size(); ++h) appendStarts(*inputs.town, h, run.starts);
+    const uint32_t count = uint32_t(run.starts.size()), some = std::min(count * 4 + 16, 1024u);
+    RoofRoom room{count * 4 + 16, count * 8 + 16, count * 64 + 64, some, some, 3 * some};
     for (int attempt = 0; attempt < 12; ++attempt) {
         RoofEnv env = run.prepare(room);
-        std::copy(start.begin(), start.end(), run.scopes[0].begin());
-        run.waves[0].count = uint32_t(start.size());
+        run.waves[0].count = count;
         const uint32_t widest = run.derive(env, threads);
         RoofStatus made = run.out.status;
         made.regions -= uint32_t(inputs.town->regions.size());
         made.parts -= uint32_t(inputs.town->parts.size());
         made.planes -= uint32_t(inputs.town->planes.size());
-        if (!room.hold(made, widest)) continue;
-        run.findRuns(env, threads);
-        break;
+        if (room.hold(made, widest)) break;
     }
-    run.out.records.grids.resize(std::min<size_t>(run.out.status.grids, run.out.records.grids.size()));
-    run.out.records.runs.resize(std::min<size_t>(run.out.status.rows, run.out.records.runs.size()));
+    auto trim = [](auto& records, uint32_t made) { records.resize(std::min<size_t>(made, records.size())); };
+    RoofRecords& made = run.out.records;
+    trim(made.grids, run.out.status.grids);
+    trim(made.runs, run.out.status.rows);
+    trim(made.regions, run.out.status.regions);
+    trim(made.parts, run.out.status.parts);
+    trim(made.planes, run.out.status.planes);
     return std::move(run.out);
 }
 

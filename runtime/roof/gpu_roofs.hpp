@@ -1,6 +1,7 @@
 #pragma once
 
-// RoofGrowth on the GPU: its buffers and kernels. roof_growth.cpp expands, roof_upload.cpp sends what that reads.
+// RoofGrowth on the GPU: its buffers and kernels. roof_growth.cpp expands, roof_upload.cpp sends what that reads,
+// few_roofs.cpp grows a few houses on the CPU.
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/program.hpp"
@@ -31,8 +32,15 @@ class GpuRoofs final : public RoofGrowth {
     Result<RoofRecords> read() override;
 
   private:
+    // Records of the town's tables, which only grow, and how many of them the GPU has been sent.
+    struct Table {
+        Buffer buffer;
+        uint32_t held = 0;
+    };
+    // Regions, parts and planes that Join makes stand behind the town's.
     struct Set {
-        Buffer grids, runs, regions, parts, planes;
+        Buffer grids, runs;
+        Table regions, parts, planes;
     };
     struct Outcome {
         RoofStatus status;
@@ -42,7 +50,7 @@ class GpuRoofs final : public RoofGrowth {
     };
     // Records as the kernels of one expansion fetch them.
     struct Texels {
-        TexelView atoms, regions, pieces, shapes[2], grids, parts, planes;
+        TexelView atoms, regions, pieces, shapes[2], parts, planes;
     };
     // Records of the town's tables, with room for houses that change.
     struct Counts {
@@ -72,40 +80,53 @@ class GpuRoofs final : public RoofGrowth {
 
     Status makeKernels(const RuleMap& grammar, bool fetches);
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
+    Status ensure(Table& table, const char* name, uint64_t bytes);
     Status makeRoom(Set& set);
     Result<Texels> viewRecords(const Set& set, bool fetches) const;
     bool mayFetch(const RoofInputs& inputs, const Set& set) const;
-    Status uploadTables(Commands& commands, const RoofTables& t, const Set& set, Counts& sent);
+    void noticeTown(const RoofInputs& inputs);
+    void forgetTables();
+    Status uploadTables(Commands& commands, const RoofTables& t, Set& set);
+    Status uploadStarts(Commands& commands, const RoofTables& t, std::span<const uint32_t> houses);
     Status uploadGrammar(Commands& commands, const RoofInputs& inputs);
     Status uploadLayers(Commands& commands, const RoofInputs& inputs);
     Status uploadHouses(Commands& commands, const RoofInputs& inputs, std::span<const uint32_t> houses);
-    RoofEnv environment(const RoofInputs& inputs, const Set& set, uint32_t firstGrid) const;
+    RoofEnv environment(const RoofInputs& inputs, const Set& set) const;
 
     // houses: those to grow, none: all. Goes through at most `waves` waves.
     Result<Outcome> expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses, RoofStatus status,
-                           Counts& sent, uint32_t waves);
+                           uint32_t waves);
     // With as many waves as the last expansion took, or with all if that was too few.
-    Result<Outcome> expandWhole(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses, RoofStatus status,
-                                Counts& sent);
+    Result<Outcome> expandWhole(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
+                                RoofStatus status);
+    // On the CPU, sent behind what the published set holds. Not complete: there is no room for it.
+    Result<Outcome> growFew(const RoofInputs& inputs, std::span<const uint32_t> houses);
     void record(Commands& commands, const Texels& texels, uint32_t waves);
     Outcome readBack();
+    // Whether what a status tells has found room.
+    static bool fits(const RoofStatus& status, const Set& set);
     // houses: that have grown, none: all.
     void publish(const RoofInputs& inputs, const Outcome& outcome, std::span<const uint32_t> houses);
     void measure(const RoofTables& t, uint32_t house);
 
     Device& device_;
-    Program derive_, runs_;
+    Program derive_;
     Kind kind_;
     RoofRoom room_;
     Set sets_[2];
     uint32_t front_ = 0;
-    Buffer atoms_, pieces_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, generations_,
-        houseReads_, means_, layerTable_, readback_;
+    Table atoms_, pieces_;
+    Buffer starts_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, generations_, houseReads_,
+        means_, layerTable_, readback_;
     Buffer layers_[kRoofLayers];
     uint64_t grammarRevision_ = 0;
     uint32_t wavesAhead_ = 4;
-    Counts own_, sent_;             // of the town's tables: room, and what the published set holds
-    std::vector<RoofScope> start_;  // the first wave; kept, since fresh memory costs more than filling it
+    Counts own_;                             // room for the town's tables
+    uint64_t town_ = 0;                      // RoofInputs::townRevision
+    std::vector<RoofTables::House> ranges_;  // of its houses, when what follows was made
+    std::vector<uint32_t> townStarts_;       // atoms of all houses' first shapes
+    bool startsSent_ = false;                // `starts_` holds these
+    uint32_t startCount_ = 0;                // of the expansion that is being recorded
     std::vector<uint32_t> generationOf_, reads_;
     std::vector<Box> boxes_;  // [house]
     RoofStatus last_{};

@@ -14,6 +14,7 @@ namespace espalier {
 namespace {
 
 constexpr int kMostAttempts = 12;
+constexpr size_t kFewHouses = 32;  // that the CPU grows in less time than submitting to a software device takes
 // A kernel takes a software device seconds to make, so kinds of rules come together: those that any roof has, and the
 // rest.
 constexpr uint32_t kCommonRules = 1u << kRuleNull | 1u << kRuleExtrude | 1u << kRuleJoinRoof | 1u << kRuleRepeat |
@@ -47,8 +48,6 @@ Status GpuRoofs::makeKernels(const RuleMap& grammar, bool fetches) {
     for (uint32_t i = 0; i < map.symbolCount; ++i)
         if (map.symbols.v[i].layers) kind.uses |= kRoofUsesLayers;
     kind.uses |= kCommonRules | (kind.uses & kRareRules ? kRareRules : 0);
-    if (!runs_ || kind.recordsByAddress != kind_.recordsByAddress)
-        if (Status s = makeKernel(device_, runs_, "roof/runs.comp", {{2, kind.recordsByAddress}}); !s) return s;
     if (derive_ && kind == kind_) return Done{};
     kind_ = kind;
     derive_ = {};
@@ -56,14 +55,14 @@ Status GpuRoofs::makeKernels(const RuleMap& grammar, bool fetches) {
                       {{0, kind.mapByAddress}, {1, kind.uses}, {2, kind.recordsByAddress}});
 }
 
-RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set, uint32_t firstGrid) const {
+RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set) const {
     RoofEnv env{};
     env.map = addressOf<RuleMapBuf>(map_);
-    env.atoms = addressOf<RoofAtomBuf>(atoms_);
-    env.pieces = addressOf<RoofPieceBuf>(pieces_);
-    env.regions = addressOf<RoofRegionBuf>(set.regions);
-    env.parts = addressOf<RoofPartBuf>(set.parts);
-    env.planes = addressOf<Vec4Buf>(set.planes);
+    env.atoms = addressOf<RoofAtomBuf>(atoms_.buffer);
+    env.pieces = addressOf<RoofPieceBuf>(pieces_.buffer);
+    env.regions = addressOf<RoofRegionBuf>(set.regions.buffer);
+    env.parts = addressOf<RoofPartBuf>(set.parts.buffer);
+    env.planes = addressOf<Vec4Buf>(set.planes.buffer);
     env.shapes = addressOf<RoofScopeBuf>(scopes_[0]);
     env.next = addressOf<RoofScopeBuf>(scopes_[1]);
     env.grids = addressOf<RoofGridBuf>(set.grids);
@@ -80,10 +79,11 @@ RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set, uint32_t
     env.shapeRoom = room_.scopes;
     env.gridRoom = uint32_t(set.grids.size() / sizeof(RoofGrid));
     env.rowRoom = uint32_t(set.runs.size() / sizeof(RoofRun));
-    env.regionRoom = uint32_t(set.regions.size() / sizeof(RoofRegion));
-    env.partRoom = uint32_t(set.parts.size() / sizeof(RoofPart));
-    env.planeRoom = uint32_t(set.planes.size() / sizeof(vec4));
-    env.firstGrid = firstGrid;
+    env.regionRoom = uint32_t(set.regions.buffer.size() / sizeof(RoofRegion));
+    env.partRoom = uint32_t(set.parts.buffer.size() / sizeof(RoofPart));
+    env.planeRoom = uint32_t(set.planes.buffer.size() / sizeof(vec4));
+    env.starts = addressOf<UintBuf>(starts_);
+    env.startSymbol = inputs.grammar->startSymbol();
     return env;
 }
 
@@ -94,12 +94,9 @@ void GpuRoofs::record(Commands& commands, const Texels& texels, uint32_t waves) 
         for (uint32_t w = 0; w < waves; ++w) {
             pass.dispatchIndirect(derive_, waves_, w * sizeof(RoofWave) + offsetof(RoofWave, groups), w,
                                   {env_, map_, kind_.mapByAddress ? noWords_ : words_, texels.atoms, texels.regions,
-                                   texels.pieces, texels.shapes[w & 1]});
-            pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
+                                   texels.pieces, texels.shapes[w & 1], texels.parts, texels.planes});
+            pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect | Use::transfer | Use::vertex);
         }
-        pass.dispatchIndirect(runs_, status_, offsetof(RoofStatus, gridGroups), {},
-                              {env_, texels.grids, texels.regions, texels.parts, texels.planes});
-        pass.barrier(Use::compute, Use::transfer | Use::compute | Use::vertex);
     }
     commands.copy(status_, readback_, sizeof(RoofStatus));
     commands.copy(waves_, readback_, kRoofWaves * sizeof(RoofWave), 0, sizeof(RoofStatus));
@@ -123,33 +120,25 @@ GpuRoofs::Outcome GpuRoofs::readBack() {
 }
 
 Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
-                                           RoofStatus status, Counts& sent, uint32_t waves) {
-    const RoofTables& t = *inputs.town;
-    std::vector<RoofScope>& start = start_;
-    start.clear();
-    const uint32_t symbol = inputs.grammar->startSymbol();
-    for (uint32_t house : houses) appendStartShapes(t, house, symbol, start);
-    for (uint32_t h = 0; houses.empty() && h < t.houses.size(); ++h) appendStartShapes(t, h, symbol, start);
-    room_.scopes = std::max(room_.scopes, uint32_t(start.size()));
+                                           RoofStatus status, uint32_t waves) {
     if (houses.empty())
         if (Status s = makeRoom(set); !s) return s.failure();
-    for (Buffer& scopes : scopes_)
-        if (Status s = ensure(scopes, "roof scopes", room_.scopes * sizeof(RoofScope)); !s) return s.failure();
     Result<Commands> commands = Commands::begin(device_, "roofs");
     if (!commands) return commands.failure();
     if (Status s = uploadGrammar(*commands, inputs); !s) return s.failure();
-    if (Status s = uploadTables(*commands, t, set, sent); !s) return s.failure();
+    if (Status s = uploadTables(*commands, *inputs.town, set); !s) return s.failure();
+    if (Status s = uploadStarts(*commands, *inputs.town, houses); !s) return s.failure();
     if (Status s = uploadHouses(*commands, inputs, houses); !s) return s.failure();
     if (Status s = uploadLayers(*commands, inputs); !s) return s.failure();
+    room_.scopes = std::max(room_.scopes, startCount_);
+    for (Buffer& scopes : scopes_)
+        if (Status s = ensure(scopes, "roof scopes", room_.scopes * sizeof(RoofScope)); !s) return s.failure();
 
     std::array<RoofWave, kRoofWaves> queues;
     queues.fill({0, {0, 1, 1}});
-    queues[0] = {uint32_t(start.size()), {uint32_t((start.size() + kRoofGroup - 1) / kRoofGroup), 1, 1}};
-    // One group more than records fill, since the first new one needn't begin a group.
-    status.gridGroups[0] = status.gridGroups[1] = status.gridGroups[2] = 1;
-    const RoofEnv env = environment(inputs, set, status.grids);
-    Status steps[] = {start.empty() ? Status(Done{}) : commands->upload(scopes_[0], start),
-                      commands->upload(waves_, std::as_bytes(std::span(queues))),
+    queues[0] = {startCount_, {(startCount_ + kRoofGroup - 1) / kRoofGroup, 1, 1}};
+    const RoofEnv env = environment(inputs, set);
+    Status steps[] = {commands->upload(waves_, std::as_bytes(std::span(queues))),
                       commands->upload(status_, std::as_bytes(std::span(&status, 1))),
                       commands->upload(env_, std::as_bytes(std::span(&env, 1)))};
     for (Status& s : steps)
@@ -168,11 +157,13 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, s
 }
 
 Result<GpuRoofs::Outcome> GpuRoofs::expandWhole(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
-                                                RoofStatus status, Counts& sent) {
-    Result<Outcome> outcome = expand(inputs, set, houses, status, sent, wavesAhead_);
-    if (outcome && !outcome->complete) outcome = expand(inputs, set, houses, status, sent, kRoofWaves - 1);
+                                                RoofStatus status) {
+    Result<Outcome> outcome = expand(inputs, set, houses, status, wavesAhead_);
+    if (outcome && !outcome->complete) outcome = expand(inputs, set, houses, status, kRoofWaves - 1);
     if (outcome)
         wavesAhead_ = std::min(houses.empty() ? outcome->waves : std::max(wavesAhead_, outcome->waves), kRoofWaves - 1);
+    else
+        forgetTables();
     return outcome;
 }
 
@@ -196,9 +187,9 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     last_ = outcome.status;
     view_.grids = addressOf<RoofGridBuf>(set.grids);
     view_.runs = addressOf<RoofRunBuf>(set.runs);
-    view_.regions = addressOf<RoofRegionBuf>(set.regions);
-    view_.parts = addressOf<RoofPartBuf>(set.parts);
-    view_.planes = addressOf<Vec4Buf>(set.planes);
+    view_.regions = addressOf<RoofRegionBuf>(set.regions.buffer);
+    view_.parts = addressOf<RoofPartBuf>(set.parts.buffer);
+    view_.planes = addressOf<Vec4Buf>(set.planes.buffer);
     view_.meshes = addressOf<RoofMeshBuf>(meshes_);
     view_.generations = addressOf<UintBuf>(generations_);
     view_.layers = addressOf<RoofLayerBuf>(layerTable_);
@@ -209,9 +200,7 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     view_.clippedCount = last_.touched - last_.whole;
     view_.revision += 1;
     const RoofTables& t = *inputs.town;
-    boxes_.resize(t.houses.size());
     for (uint32_t house : houses) measure(t, house);
-    for (uint32_t h = 0; houses.empty() && h < t.houses.size(); ++h) measure(t, h);
     Box all;
     for (const Box& box : boxes_) {
         all.low = glm::min(all.low, box.low);
@@ -235,13 +224,21 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
                    (last_.planes - own_.planes) * sizeof(vec4);
     stats_.reservedBytes = 0;
     for (const Set& s : sets_)
-        stats_.reservedBytes += s.grids.size() + s.runs.size() + s.regions.size() + s.parts.size() + s.planes.size();
-    for (const Buffer* b : {&atoms_, &pieces_, &scopes_[0], &scopes_[1], &generations_})
+        stats_.reservedBytes +=
+            s.grids.size() + s.runs.size() + s.regions.buffer.size() + s.parts.buffer.size() + s.planes.buffer.size();
+    for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1], &generations_})
         stats_.reservedBytes += b->size();
+}
+
+bool GpuRoofs::fits(const RoofStatus& s, const Set& set) {
+    return s.grids <= set.grids.size() / sizeof(RoofGrid) && s.rows <= set.runs.size() / sizeof(RoofRun) &&
+           s.regions <= set.regions.buffer.size() / sizeof(RoofRegion) &&
+           s.parts <= set.parts.buffer.size() / sizeof(RoofPart) && s.planes <= set.planes.buffer.size() / sizeof(vec4);
 }
 
 Status GpuRoofs::grow(const RoofInputs& inputs) {
     const RoofTables& t = *inputs.town;
+    noticeTown(inputs);
     generationOf_.assign(t.houses.size(), 0);
     own_ = Counts::of(t).withSlack();
     stats_.overflow = 0;
@@ -250,8 +247,7 @@ Status GpuRoofs::grow(const RoofInputs& inputs) {
         status.regions = own_.regions;
         status.parts = own_.parts;
         status.planes = own_.planes;
-        Counts sent;
-        Result<Outcome> outcome = expandWhole(inputs, sets_[1 - front_], {}, status, sent);
+        Result<Outcome> outcome = expandWhole(inputs, sets_[1 - front_], {}, status);
         if (!outcome) return outcome.failure();
         RoofStatus made = outcome->status;
         made.regions -= own_.regions;
@@ -259,7 +255,6 @@ Status GpuRoofs::grow(const RoofInputs& inputs) {
         made.planes -= own_.planes;
         if (room_.hold(made, outcome->widest)) {
             front_ = 1 - front_;
-            sent_ = sent;
             publish(inputs, *outcome, {});
             stats_.housesGrown += t.houses.size();
             return Done{};
@@ -274,7 +269,8 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
     if (houses.empty()) return Done{};
     // A generation has eight bits, and what has gone is swept out by growing all anew when room runs out.
     bool possible = view_.revision != 0 && generationOf_.size() == t.houses.size() && own_.holds(Counts::of(t)) &&
-                    grammarRevision_ == inputs.grammarRevision && houses.size() * 2 < t.houses.size() + 2;
+                    town_ == inputs.townRevision && grammarRevision_ == inputs.grammarRevision &&
+                    houses.size() * 2 < t.houses.size() + 2;
     for (uint32_t house : houses) {
         require(house < t.houses.size(), "a house of the town");
         possible = possible && house < generationOf_.size() && generationOf_[house] < 255;
@@ -282,13 +278,11 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
     if (!possible) return grow(inputs);
     for (uint32_t house : houses) generationOf_[house] += 1;
     Set& set = sets_[front_];
-    Result<Outcome> outcome = expandWhole(inputs, set, houses, last_, sent_);
+    const bool few = houses.size() <= kFewHouses;
+    Result<Outcome> outcome = few ? growFew(inputs, houses) : expandWhole(inputs, set, houses, last_);
     if (!outcome) return outcome.failure();
     const RoofStatus& s = outcome->status;
-    const bool held = s.grids <= set.grids.size() / sizeof(RoofGrid) && s.rows <= set.runs.size() / sizeof(RoofRun) &&
-                      s.regions <= set.regions.size() / sizeof(RoofRegion) &&
-                      s.parts <= set.parts.size() / sizeof(RoofPart) && s.planes <= set.planes.size() / sizeof(vec4) &&
-                      outcome->widest <= room_.scopes;
+    const bool held = outcome->complete && fits(s, set) && outcome->widest <= room_.scopes;
     if (!held) return grow(inputs);
     publish(inputs, *outcome, houses);
     stats_.housesGrown += houses.size();
@@ -306,8 +300,9 @@ Result<RoofRecords> GpuRoofs::read() {
         return Done{};
     };
     Status steps[] = {fetch(to.grids, set.grids, last_.grids), fetch(to.runs, set.runs, last_.rows),
-                      fetch(to.regions, set.regions, last_.regions), fetch(to.parts, set.parts, last_.parts),
-                      fetch(to.planes, set.planes, last_.planes)};
+                      fetch(to.regions, set.regions.buffer, last_.regions),
+                      fetch(to.parts, set.parts.buffer, last_.parts),
+                      fetch(to.planes, set.planes.buffer, last_.planes)};
     for (Status& s : steps)
         if (!s) return s.failure();
     return to;

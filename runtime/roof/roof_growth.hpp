@@ -15,6 +15,7 @@ namespace espalier {
 // Everything that roofs grow from. Pointers stay valid during the call.
 struct RoofInputs {
     const RoofTables* town = nullptr;
+    uint64_t townRevision = 0;  // changes with tables that are made anew; replaceAtoms() keeps it. 0: not known
     const RuleMap* grammar = nullptr;
     uint64_t grammarRevision = 1;      // changes with rules and parameters, which are uploaded anew then
     std::span<const RoofMesh> meshes;  // by the numbers that the grammar was compiled with
@@ -66,7 +67,7 @@ struct RoofStats {
     uint64_t bytes = 0;        // of grids, runs and the regions that Join made
     uint64_t reservedBytes = 0;
     uint64_t hash = 0;    // of all grids, independent of their order; of the latest full growth
-    double expandMs = 0;  // GPU time of the latest expansion
+    double expandMs = 0;  // GPU time of the latest expansion; of a few houses that the CPU grows, its time
 };
 
 struct RoofRecords {
@@ -85,7 +86,7 @@ class RoofGrowth {
     // Grows all roofs anew and publishes them when complete; on failure the last ones stand.
     virtual Status grow(const RoofInputs& inputs) = 0;
     // Grows some houses anew, each named once, whose atoms replaceAtoms() has changed or whose layers; the others
-    // stand.
+    // stand. A few grow on the CPU, which takes less time than asking the GPU.
     virtual Status growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses) = 0;
     // Sends the rows of layers that have changed, for what is drawn of them; growing does so too.
     virtual Status showLayers(const RoofInputs& inputs) = 0;

@@ -18,22 +18,35 @@ Status GpuRoofs::ensure(Buffer& buffer, const char* name, uint64_t bytes, Buffer
     return Done{};
 }
 
+Status GpuRoofs::ensure(Table& table, const char* name, uint64_t bytes) {
+    const VkBuffer before = table.buffer.handle();
+    Status made = ensure(table.buffer, name, bytes);
+    if (table.buffer.handle() != before) table.held = 0;
+    return made;
+}
+
 Status GpuRoofs::makeRoom(Set& set) {
     const uint64_t houses = std::max<uint64_t>(generationOf_.size(), 1);
+    const struct {
+        Table& table;
+        const char* name;
+        uint64_t bytes;
+    } tables[] = {{set.regions, "roof regions", (own_.regions + room_.regions) * sizeof(RoofRegion)},
+                  {set.parts, "roof parts", (own_.parts + room_.parts) * sizeof(RoofPart)},
+                  {set.planes, "roof planes", (own_.planes + room_.planes) * sizeof(vec4)},
+                  {atoms_, "roof atoms", own_.atoms * sizeof(RoofAtom)},
+                  {pieces_, "roof pieces", own_.pieces * sizeof(RoofPiece)}};
+    for (const auto& r : tables)
+        if (Status s = ensure(r.table, r.name, r.bytes); !s) return s;
     const struct {
         Buffer& buffer;
         const char* name;
         uint64_t bytes;
     } rows[] = {{set.grids, "roof grids", room_.grids * sizeof(RoofGrid)},
                 {set.runs, "roof runs", room_.rows * sizeof(RoofRun)},
-                {set.regions, "roof regions", (own_.regions + room_.regions) * sizeof(RoofRegion)},
-                {set.parts, "roof parts", (own_.parts + room_.parts) * sizeof(RoofPart)},
-                {set.planes, "roof planes", (own_.planes + room_.planes) * sizeof(vec4)},
                 {status_, "roof status", sizeof(RoofStatus)},
                 {waves_, "roof waves", kRoofWaves * sizeof(RoofWave)},
                 {env_, "roof environment", sizeof(RoofEnv)},
-                {atoms_, "roof atoms", own_.atoms * sizeof(RoofAtom)},
-                {pieces_, "roof pieces", own_.pieces * sizeof(RoofPiece)},
                 {generations_, "roof generations", houses * 4},
                 {houseReads_, "what roofs read", houses * 4},
                 {means_, "roof layers' means", houses * kRoofLayers * 4}};
@@ -43,20 +56,58 @@ Status GpuRoofs::makeRoom(Set& set) {
     return ensure(readback_, "roof readback", back, BufferUse::readback);
 }
 
-// What the town's tables hold beyond what was sent before.
-Status GpuRoofs::uploadTables(Commands& commands, const RoofTables& t, const Set& set, Counts& sent) {
-    auto send = [&](const Buffer& buffer, const auto& all, uint32_t& from) -> Status {
-        const uint32_t begin = from;
-        from = uint32_t(all.size());
-        if (begin >= all.size()) return Done{};
-        return commands.upload(buffer, std::as_bytes(std::span(all).subspan(begin)), begin * sizeof(all[0]));
+// What is worked out of the town's tables once, not at each expansion.
+void GpuRoofs::noticeTown(const RoofInputs& inputs) {
+    const RoofTables& t = *inputs.town;
+    const bool other = inputs.townRevision == 0 || inputs.townRevision != town_;
+    if (other) forgetTables();
+    auto same = [](const RoofTables::House& a, const RoofTables::House& b) {
+        return a.firstAtom == b.firstAtom && a.atomCount == b.atomCount;
     };
-    Status steps[] = {send(atoms_, t.atoms, sent.atoms), send(pieces_, t.pieces, sent.pieces),
-                      send(set.regions, t.regions, sent.regions), send(set.parts, t.parts, sent.parts),
-                      send(set.planes, t.planes, sent.planes)};
+    if (!other && std::ranges::equal(t.houses, ranges_, same)) return;
+    town_ = inputs.townRevision;
+    ranges_ = t.houses;
+    townStarts_.clear();
+    startsSent_ = false;
+    boxes_.resize(t.houses.size());
+    for (uint32_t h = 0; h < t.houses.size(); ++h) {
+        appendStarts(t, h, townStarts_);
+        measure(t, h);
+    }
+}
+
+void GpuRoofs::forgetTables() {
+    for (Table* t : {&atoms_, &pieces_}) t->held = 0;
+    for (Set& set : sets_)
+        for (Table* t : {&set.regions, &set.parts, &set.planes}) t->held = 0;
+    startsSent_ = false;
+}
+
+// What the town's tables hold beyond what was sent before.
+Status GpuRoofs::uploadTables(Commands& commands, const RoofTables& t, Set& set) {
+    auto send = [&](Table& to, const auto& all) -> Status {
+        const uint32_t begin = to.held;
+        to.held = uint32_t(all.size());
+        if (begin >= all.size()) return Done{};
+        return commands.upload(to.buffer, std::as_bytes(std::span(all).subspan(begin)), begin * sizeof(all[0]));
+    };
+    Status steps[] = {send(atoms_, t.atoms), send(pieces_, t.pieces), send(set.regions, t.regions),
+                      send(set.parts, t.parts), send(set.planes, t.planes)};
     for (Status& s : steps)
         if (!s) return s;
     return Done{};
+}
+
+// The atoms of the first wave. houses: that grow, none: all.
+Status GpuRoofs::uploadStarts(Commands& commands, const RoofTables& t, std::span<const uint32_t> houses) {
+    std::vector<uint32_t> some;
+    for (uint32_t house : houses) appendStarts(t, house, some);
+    const std::vector<uint32_t>& starts = houses.empty() ? townStarts_ : some;
+    startCount_ = uint32_t(starts.size());
+    if (houses.empty() && startsSent_) return Done{};
+    startsSent_ = houses.empty();
+    if (Status s = ensure(starts_, "roof starts", std::max<uint64_t>(starts.size() * 4, 16)); !s) return s;
+    return starts.empty() ? Status(Done{}) : commands.upload(starts_, starts);
 }
 
 Status GpuRoofs::uploadGrammar(Commands& commands, const RoofInputs& inputs) {
@@ -108,19 +159,22 @@ Status GpuRoofs::showLayers(const RoofInputs& inputs) {
     return Done{};
 }
 
-// What is kept of each house that grows.
+// What is kept of each house that grows. Layers are known to grammars that declare them only.
 Status GpuRoofs::uploadHouses(Commands& commands, const RoofInputs& inputs, std::span<const uint32_t> houses) {
     const auto generations = std::as_bytes(std::span(generationOf_));
+    const bool layered = !inputs.grammar->contexts().empty();
     if (houses.empty() && !generationOf_.empty()) {
-        commands.fill(houseReads_, 0);
+        commands.fill(houseReads_, 0, 0, generations.size());
         if (Status s = commands.upload(generations_, generations); !s) return s;
-        return commands.upload(means_, inputs.filledMeans(generationOf_.size()));
+        return layered ? commands.upload(means_, inputs.filledMeans(generationOf_.size())) : Status(Done{});
     }
     for (uint32_t house : houses) {
         const RoofInputs::Means means = inputs.meansOf(house);
         commands.fill(houseReads_, 0, house * 4, 4);
         if (Status s = commands.upload(generations_, generations.subspan(house * 4, 4), house * 4); !s) return s;
-        if (Status s = commands.upload(means_, std::as_bytes(std::span(means)), house * sizeof(means)); !s) return s;
+        if (layered)
+            if (Status s = commands.upload(means_, std::as_bytes(std::span(means)), house * sizeof(means)); !s)
+                return s;
     }
     return Done{};
 }
@@ -128,8 +182,8 @@ Status GpuRoofs::uploadHouses(Commands& commands, const RoofInputs& inputs, std:
 bool GpuRoofs::mayFetch(const RoofInputs& inputs, const Set& set) const {
     const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
     bool may = inputs.fetch && device_.info().cpu;
-    for (const Buffer* b :
-         {&atoms_, &pieces_, &scopes_[0], &scopes_[1], &set.regions, &set.grids, &set.parts, &set.planes})
+    for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1], &set.regions.buffer,
+                            &set.parts.buffer, &set.planes.buffer})
         may = may && b->size() >= 16 && b->size() <= most;
     return may;
 }
@@ -140,8 +194,9 @@ Result<GpuRoofs::Texels> GpuRoofs::viewRecords(const Set& set, bool fetches) con
     const struct {
         TexelView& view;
         const Buffer& buffer;
-    } rows[] = {{t.atoms, atoms_},         {t.regions, set.regions}, {t.pieces, pieces_},  {t.shapes[0], scopes_[0]},
-                {t.shapes[1], scopes_[1]}, {t.grids, set.grids},     {t.parts, set.parts}, {t.planes, set.planes}};
+    } rows[] = {{t.atoms, atoms_.buffer},     {t.regions, set.regions.buffer}, {t.pieces, pieces_.buffer},
+                {t.shapes[0], scopes_[0]},    {t.shapes[1], scopes_[1]},       {t.parts, set.parts.buffer},
+                {t.planes, set.planes.buffer}};
     for (const auto& [view, buffer] : rows) {
         Result<TexelView> made = TexelView::create(device_, fetches ? buffer : noWords_, VK_FORMAT_R32G32B32A32_UINT);
         if (!made) return made.failure();

@@ -1,6 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Shapes of one wave -> shapes of the next, grids of terminals; see roof_expand.h.
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+// Shapes of one wave -> shapes of the next, grids of terminals with their rows; see roof_expand.h.
 #include "shaders/shared/extensions.glsl"
 
 #define ESPALIER_ROOF_FETCH
@@ -9,10 +11,14 @@ layout(binding = 3) uniform usamplerBuffer atomTexels;
 layout(binding = 4) uniform usamplerBuffer regionTexels;
 layout(binding = 5) uniform usamplerBuffer pieceTexels;
 layout(binding = 6) uniform usamplerBuffer shapeTexels;
+layout(binding = 7) uniform usamplerBuffer partTexels;
+layout(binding = 8) uniform usamplerBuffer planeTexels;
 #define ATOM_TEXEL(i) texelFetch(atomTexels, int(i))
 #define REGION_TEXEL(i) texelFetch(regionTexels, int(i))
 #define PIECE_TEXEL(i) texelFetch(pieceTexels, int(i))
 #define SHAPE_TEXEL(i) texelFetch(shapeTexels, int(i))
+#define PART_TEXEL(i) texelFetch(partTexels, int(i))
+#define PLANE_TEXEL(i) texelFetch(planeTexels, int(i))
 #include "shaders/shared/roof_expand.h"
 
 layout(local_size_x = 64) in;
@@ -26,5 +32,7 @@ void main() {
         env.next = roofEnv.shapes;
     }
     uint i = gl_GlobalInvocationID.x;
-    if (i < min(env.waves.v[wave].count, env.shapeRoom)) deriveShape(env, i);
+    RoofTally tally = emptyTally();
+    if (i < min(env.waves.v[wave].count, env.shapeRoom)) deriveShape(env, i, tally);
+    addTally(env, tally);
 }

@@ -70,7 +70,7 @@ struct RoofDrawEnv {
     uint flags;
     uint shownLayer;              // for the view of a layer: the grammar's number; kNoIndex: none
 };
-STATIC_SIZE(RoofDrawEnv, 280);
+STATIC_SIZE(RoofDrawEnv, 288);
 BUFFER(RoofDrawEnvBuf, RoofDrawEnv)
 
 struct RoofCullPush {

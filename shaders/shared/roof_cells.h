@@ -107,12 +107,10 @@ FN RoofRun joinedRuns(RoofRun a, RoofRun b) {
     return run;
 }
 
-// All rows of a grid, part by part of its region, each plane worked out once. Returns the cells that the region touches,
-// and those of them that are whole.
-FN uvec2 gridRuns(RoofEnv env, uint at) {
-    RoofGrid g = readGrid(env, at);
+// All rows of a grid that has any, part by part of its region, each plane worked out once. Returns the cells that the
+// region touches, and those of them that are whole.
+FN uvec2 gridRuns(RoofEnv env, RoofGrid g) {
     uvec2 sums = uvec2(0u, 0u);
-    if (g.firstRow == kNoIndex) return uvec2(1u, 1u);
     CellBox first = cellBox(g, env.meshes.v[g.mesh & 255u], 0u, 0u);
     float inverse = rcpExact(g.step.x);
     uint rows = g.cells >> 16u;

@@ -1,8 +1,10 @@
 // Replaces shapes of roofs by their rules' shapes until terminals are left (Buron 2013 §3, §4), on GPU and CPU alike.
 // In: a shape. Out: shapes for the next wave, grids of terminals, regions that Join makes. A lane goes on with the last
-// successor itself.
+// successor itself, and ends with at most one grid, so that grids are written behind the loop over rules: a software
+// device goes through all code of a loop each time, used or not.
 #ifndef ESPALIER_SHARED_ROOF_EXPAND_H
 #define ESPALIER_SHARED_ROOF_EXPAND_H
+#include "shaders/shared/roof_cells.h"
 #include "shaders/shared/roof_rules.h"
 #include "shaders/shared/roof_tables.h"
 
@@ -12,7 +14,65 @@ ESPALIER_BEGIN
 struct RoofHand {
     RoofScope kept;
     uint has;
+    uint mesh;   // of a kept shape that is a terminal already, else kNoIndex
 };
+
+// What a lane adds to the status.
+struct RoofTally {
+    uint touched, whole, terminals, stopped;
+    uvec2 hash;
+};
+FN RoofTally emptyTally() {
+    RoofTally t;
+    t.touched = 0u;
+    t.whole = 0u;
+    t.terminals = 0u;
+    t.stopped = 0u;
+    t.hash = uvec2(0u, 0u);
+    return t;
+}
+
+// Where a grid of so many rows goes.
+struct RoofPlace {
+    uint grid, row;
+};
+#ifdef __cplusplus
+inline RoofPlace takePlace(RoofEnv env, uint rows) {
+    return {roofAdd(env.status.v[0].grids, 1u), rows != 0u ? roofAdd(env.status.v[0].rows, rows) : 0u};
+}
+inline void addTally(RoofStatus& to, const RoofTally& t) {
+    roofAdd(to.touched, t.touched);
+    roofAdd(to.whole, t.whole);
+    roofAdd(to.terminals, t.terminals);
+    roofAdd(to.stopped, t.stopped);
+    roofAdd(to.hash[0], t.hash.x);
+    roofAdd(to.hash[1], t.hash.y);
+}
+#else
+// The lanes of a subgroup together.
+RoofPlace takePlace(RoofEnv env, uint rows) {
+    uint rowsBefore = subgroupExclusiveAdd(rows);
+    uint allRows = subgroupAdd(rows);
+    uvec4 lanes = subgroupBallot(true);
+    uvec2 base = uvec2(0u);
+    if (subgroupElect())
+        base = uvec2(atomicAdd(env.status.v[0].grids, subgroupBallotBitCount(lanes)), atomicAdd(env.status.v[0].rows, allRows));
+    base = subgroupBroadcastFirst(base);
+    return RoofPlace(base.x + subgroupBallotExclusiveBitCount(lanes), base.y + rowsBefore);
+}
+void addTally(RoofEnv env, RoofTally t) {
+    uvec2 cells = subgroupAdd(uvec2(t.touched, t.whole));
+    uvec2 shapes = subgroupAdd(uvec2(t.terminals, t.stopped));
+    uvec2 hash = subgroupAdd(t.hash);
+    if (!subgroupElect()) return;
+    atomicAdd(env.status.v[0].touched, cells.x);
+    atomicAdd(env.status.v[0].whole, cells.y);
+    if (shapes.x != 0u) atomicAdd(env.status.v[0].terminals, shapes.x);
+    if (shapes.y != 0u) atomicAdd(env.status.v[0].stopped, shapes.y);
+    atomicAdd(env.status.v[0].hash[0], hash.x);
+    atomicAdd(env.status.v[0].hash[1], hash.y);
+}
+#endif
 
 FN void queueShape(RoofEnv env, RoofScope shape) {
     uint at = roofAdd(env.waves.v[env.wave + 1u].count, 1u);
@@ -22,35 +82,36 @@ FN void queueShape(RoofEnv env, RoofScope shape) {
     }
 }
 
-// Gives `shape` to a successor. number: tells apart shapes of one part.
-FN void handOn(MACHINE_PARAM RoofEnv env, SuccessorRecord s, u64 parent, RoofScope shape, uint number, INOUT(RoofHand) hand) {
-    if ((shape.marks & 255u) >= kMaxRoofDepth) {
-        roofAdd(env.status.v[0].stopped, 1u);
-        return;
-    }
+// Gives `shape` to a successor. number: tells apart shapes of one part. A shape on another atom than its parent's is
+// queued, since a lane reads one atom.
+FN void handOn(MACHINE_PARAM RoofEnv env, SuccessorRecord s, RoofScope parent, RoofScope shape, uint number, INOUT(RoofHand) hand) {
     runRoofCode(MACHINE env, s.code);
-    if (hand.has != 0u) queueShape(env, hand.kept);
-    hand.kept = shape;
-    hand.kept.symbol = s.symbol;
-    hand.kept.marks += 1u;
-    hand.kept.key = childKey(parent, s.nameHash, s.ordinal);
-    if (number != 0u) hand.kept.key = mix64(hand.kept.key + u64(number));
-    for (uint a = 0u; a < kMaxArgs; ++a) hand.kept.args[a] = valueOf(MACHINE s.args[a]);
-    hand.has = 1u;
+    shape.symbol = s.symbol;
+    shape.marks += 1u;
+    shape.key = childKey(parent.key, s.nameHash, s.ordinal);
+    if (number != 0u) shape.key = mix64(shape.key + u64(number));
+    for (uint a = 0u; a < kMaxArgs; ++a) shape.args[a] = valueOf(MACHINE s.args[a]);
+    bool elsewhere = shape.atom != parent.atom;
+    RoofScope queued = hand.kept;
+    if (elsewhere) queued = shape;
+    if (elsewhere || hand.has != 0u) queueShape(env, queued);
+    if (!elsewhere) {
+        hand.kept = shape;
+        hand.has = 1u;
+        hand.mesh = (s.flags & kSuccessorTerminal) != 0u ? (s.flags >> kSuccessorMesh) & 255u : kNoIndex;
+    }
 }
 
 FN uint quantised(float x) { return uint(int(floorExact(limited(x * 128.0f, -2e9f, 2e9f)))); }
 
 // The shape becomes a grid record: one cell, or those that a Repeat has left together.
-FN void writeGrid(RoofEnv env, RoofScope shape, uint house, uint mesh) {
+FN void writeGrid(RoofEnv env, RoofScope shape, uint house, uint mesh, INOUT(RoofTally) tally) {
     if (shape.size.x < kLeastSide || shape.size.y < kLeastSide) return;
     uint rows = shape.cells >> 16u;
     bool many = shape.cells != 0x10001u;
-    uint at = roofAdd(env.status.v[0].grids, 1u);
-    uint firstRow = many ? roofAdd(env.status.v[0].rows, rows) : kNoIndex;
-    if (!many) roofAdd(env.status.v[0].terminals, 1u);
-    if (at >= env.gridRoom || (many && firstRow + rows > env.rowRoom)) return;
-    if ((at & (kRoofGroup - 1u)) == 0u) roofAdd(env.status.v[0].gridGroups[0], 1u);
+    RoofPlace place = takePlace(env, many ? rows : 0u);
+    if (!many) tally.terminals += 1u;
+    if (place.grid >= env.gridRoom || (many && place.row + rows > env.rowRoom)) return;
     RoofGrid g;
     g.key = shape.key;
     g.origin = shape.origin;
@@ -70,13 +131,16 @@ FN void writeGrid(RoofEnv env, RoofScope shape, uint house, uint mesh) {
     g.region = shape.region;
     g.atom = shape.atom;
     g.house = house | (env.generations.v[house] << 24u);
-    g.firstRow = firstRow;
-    writeGridRecord(env, at, g);
+    g.firstRow = many ? place.row : kNoIndex;
+    writeGridRecord(env, place.grid, g);
     u64 hash = mix64(shape.key + mix64((u64(shape.cells) << 32) | u64(g.mesh)));
     hash = mix64(hash + ((u64(quantised(g.origin.x)) << 32) | u64(quantised(g.origin.z))));
     hash = mix64(hash + ((u64(quantised(g.origin.y)) << 32) | u64(quantised(g.size.x * 16.0f))));
-    roofAdd(env.status.v[0].hash[0], uint(hash));
-    roofAdd(env.status.v[0].hash[1], uint(hash >> 32));
+    tally.hash = tally.hash + uvec2(uint(hash), uint(hash >> 32));
+    uvec2 cells = uvec2(1u, 1u);
+    if (many) cells = gridRuns(env, g);
+    tally.touched += cells.x;
+    tally.whole += cells.y;
 }
 
 FN uint childCount(RuleRecord rule, RoofCells cells, RoofScope shape, RoofAtom atom) {
@@ -105,19 +169,21 @@ FN bool joinsRoofOnly(RoofEnv env, uint successor) {
     return rule.kind == kRuleJoin && rule.extrude != 0u;
 }
 
-// The parts that a rule's successors take, four bits each.
+// The parts that a rule's successors take, four bits each; any: bit 1 << part of all of them.
 struct RoofParts {
-    uint count, low, high;
+    uint count, low, high, any;
 };
 FN RoofParts partsOf(RoofEnv env, RuleRecord rule) {
     RoofParts p;
     p.count = rule.successorCount;
     p.low = 0u;
     p.high = 0u;
+    p.any = 0u;
     uint i = 0u;
     if (p.count != 0u) do {
             uint part = roofPartOf(env, rule.firstSuccessor + i) & 15u;
             if (part == 2u && rule.kind == kRuleJoin && joinsRoofOnly(env, rule.firstSuccessor + i)) part = kPartGoesOn;
+            p.any |= 1u << part;
             if (i < 8u)
                 p.low |= part << (4u * i);
             else
@@ -163,55 +229,76 @@ FN RoofPair firstPair(RoofEnv env, RuleRecord rule, RoofParts parts, RoofScope s
     return p;
 }
 
-// Applies one rule. True: `shape` is now the successor to go on with.
-FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
-    SymbolRecord symbol = roofSymbol(env, shape.symbol);
-    RoofAtom atom = readAtom(env, shape.atom);
-    for (uint a = 0u; a < kMaxArgs; ++a) SLOT(kSlotArg + a) = shape.args[a];
-    // Twice the same: what the symbol's choice asks for, then what the chosen rule does.
-    uint given = 0u;
-    uint inputs = symbol.inputs;
-    uint layers = symbol.layers;
-    uint firstSite = symbol.firstSite;
-    uint siteCount = symbol.siteCount;
-    CodeRange code = symbol.select;
-    uint chosen = kNoIndex;
-    uint stage = 0u;
+// Without these no piece of an outline is of use to a Join to the roof.
+FN bool takesTops(RoofParts parts, uint style) {
+    bool ridge = (style & kAtomRidged) != 0u;
+    bool on = (style & kAtomGoesOn) != 0u;
+    return ((parts.any >> 2u & 1u) != 0u && (ridge || on)) || ((parts.any >> kPartGoesOn & 1u) != 0u && on);
+}
+
+// Draws, inputs and code of the chosen rule; before it, where the symbol has a choice, those of the choice.
+struct RoofChoice {
     RuleRecord rule;
+    bool made;
+};
+FN RoofChoice chosenRule(MACHINE_PARAM RoofEnv env, RoofScope shape, RoofAtom atom, RoofRegion face) {
+    SymbolRecord symbol = roofSymbol(env, shape.symbol);
+    RoofChoice c;
+    c.made = symbol.ruleCount != 0u;
+    bool choosing = c.made && (symbol.select.count != 0u || symbol.selected.slot != kSlotImmediate || symbol.ruleCount > 1u);
+    uint number = c.made ? symbol.firstRule : 0u;
+    uint given = 0u;
+    bool again;
     do {
-        if ((inputs & ~given) != 0u) giveShape(MACHINE env, shape, atom, inputs);
+        c.rule = roofRule(env, number);
+        uint inputs = choosing ? symbol.inputs : c.rule.startInputs;
+        if ((inputs & ~given) != 0u) giveShape(MACHINE shape, atom, face, inputs);
         given |= inputs;
-        if ((kRoofUses & kRoofUsesLayers) != 0u) giveLayers(MACHINE env, shape, atom.house, layers);
-        drawRoofSites(MACHINE env, firstSite, siteCount, shape.key);
+        if ((kRoofUses & kRoofUsesLayers) != 0u)
+            giveLayers(MACHINE env, shape, atom.house, choosing ? symbol.layers : c.rule.startLayers);
+        drawRoofSites(MACHINE env, choosing ? symbol.firstSite : c.rule.firstSite,
+                      choosing ? symbol.siteCount : c.rule.siteCount, shape.key);
+        CodeRange code = c.rule.start;
+        if (choosing) code = symbol.select;
         runRoofCode(MACHINE env, code);
-        if (stage == 0u) {
-            int selected = symbol.ruleCount == 0u ? -1 : selectedRule(MACHINE symbol);
-            if (selected >= 0) {
-                chosen = symbol.firstRule + uint(selected);
-                rule = roofRule(env, chosen);
-                inputs = rule.startInputs;
-                layers = rule.startLayers & ~symbol.layers;
-                firstSite = rule.firstSite;
-                siteCount = rule.siteCount;
-                code = rule.start;
-            }
+        again = false;
+        if (choosing) {
+            int selected = selectedRule(MACHINE symbol);
+            c.made = selected >= 0;
+            number = symbol.firstRule + uint(selected);
+            again = c.made;
         }
-        stage += 1u;
-    } while (stage < 2u && chosen != kNoIndex);
-    if (chosen == kNoIndex) return false;
+        choosing = false;
+    } while (again);
+    return c;
+}
+
+FN RoofNumbers numbersOf(MACHINE_PARAM RoofEnv env, RuleRecord rule) {
     RoofNumbers n;
-    uint numbers = rule.kind == kRuleSplit ? kMaxSplit : rule.kind >= kRuleScope ? kScopeValues
-                   : rule.kind == kRuleJoin ? 7u : rule.kind == kRuleProject ? 6u : rule.kind == kRuleRepeat ? 2u
-                   : rule.kind == kRuleExtrude ? 1u : 0u;
     for (uint i = 0u; i < kMaxSplit; ++i) n.v[i] = 0.0f;
+    uint numbers = rule.kind == kRuleSplit ? kMaxSplit : rule.kind >= kRuleScope ? kScopeValues
+                   : rule.kind == kRuleJoin ? (rule.extrude != 0u ? 1u : 7u) : rule.kind == kRuleProject ? 6u
+                   : rule.kind == kRuleRepeat ? 2u : rule.kind == kRuleExtrude ? 1u : 0u;
     uint at = 0u;
     if (numbers != 0u) do n.v[at] = valueOf(MACHINE roofValue(env, rule.values + at));
         while (++at < numbers);
+    return n;
+}
+
+// Applies one rule. True: `shape` is now the successor to go on with. mesh: that of the terminal that `shape` has become.
+FN bool replaceShape(MACHINE_PARAM RoofEnv env, RoofAtom atom, RoofRegion face, INOUT(RoofScope) shape, INOUT(uint) mesh,
+                     INOUT(RoofTally) tally) {
+    for (uint a = 0u; a < kMaxArgs; ++a) SLOT(kSlotArg + a) = shape.args[a];
+    RoofChoice choice = chosenRule(MACHINE env, shape, atom, face);
+    if (!choice.made) return false;
+    RuleRecord rule = choice.rule;
+    RoofNumbers n = numbersOf(MACHINE env, rule);
     uint kind = roofKind(rule);
     RoofScope changed = shape;
     if (ROOF_USES(kRuleShape) || ROOF_USES(kRuleScope)) changed = applyScope(n, shape);
     if (kind == kRuleShape) {
-        if (ROOF_USES(kRuleShape)) writeGrid(env, changed, atom.house, rule.extrude);
+        shape = changed;
+        mesh = rule.extrude;
         return false;
     }
     RoofCells cells;
@@ -219,15 +306,15 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
     cells.y = 1u;
     if (rule.kind == kRuleRepeat) cells = cellsOf(rule, n, shape);
     uint count = childCount(rule, cells, shape, atom);
-    if (count > kMaxRoofCells) {
-        roofAdd(env.status.v[0].stopped, 1u);
-        count = kMaxRoofCells;
-    }
+    RoofParts parts = partsOf(env, rule);
+    if (kind == kRuleJoinRoof && count > 2u && !takesTops(parts, atom.style)) count = 2u;
+    if (count > kMaxRoofCells || (shape.marks & 255u) >= kMaxRoofDepth) tally.stopped += 1u;
+    if (count > kMaxRoofCells) count = kMaxRoofCells;
+    if (parts.count == 0u || (shape.marks & 255u) >= kMaxRoofDepth) count = 0u;
     RoofHand hand;
     hand.kept = shape;
     hand.has = 0u;
-    RoofParts parts = partsOf(env, rule);
-    if (parts.count == 0u) count = 0u;
+    hand.mesh = kNoIndex;
     RoofPair pair;
     pair.child = 0u;
     pair.successor = 0u;
@@ -236,15 +323,15 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
             uint k = pair.child;
             RoofChild c = childFor(shape, 0u);
             if (ROOF_USES(kRuleExtrude) && kind == kRuleExtrude) c = extruded(n, shape, k);
-            if (ROOF_USES(kRuleJoinRoof) && kind == kRuleJoinRoof) c = joinedRoof(env, n, shape, atom, k);
+            if (ROOF_USES(kRuleJoinRoof) && kind == kRuleJoinRoof) c = joinedRoof(env, n, shape, atom, face, k);
             if (ROOF_USES(kRuleJoin) && kind == kRuleJoin) c = joined(env, n, shape, k);
             if (ROOF_USES(kRuleProject) && kind == kRuleProject) c = projected(n, shape);
-            if (ROOF_USES(kRuleExplode) && kind == kRuleExplode) c = exploded(env, shape, atom, k);
+            if (ROOF_USES(kRuleExplode) && kind == kRuleExplode) c = exploded(env, shape, atom, face, k);
             if (ROOF_USES(kRuleSplit) && kind == kRuleSplit) c = splitPart(rule, n, shape, k);
             if (ROOF_USES(kRuleRepeat) && kind == kRuleRepeat) c = repeated(rule, cells, shape, k);
             if (ROOF_USES(kRuleScope) && kind == kRuleScope) c.shape = changed;
             SuccessorRecord s = roofSuccessor(env, rule.firstSuccessor + pair.successor);
-            if (c.made && c.part == s.part) handOn(MACHINE env, s, shape.key, c.shape, c.number, hand);
+            if (c.made && c.part == s.part) handOn(MACHINE env, s, shape, c.shape, c.number, hand);
             pair.successor += 1u;
             if (pair.successor >= parts.count) {
                 pair.successor = 0u;
@@ -253,20 +340,30 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, INOUT(RoofScope) shape) {
             pair = firstPair(env, rule, parts, shape, atom.firstPiece, count, pair);
         } while (pair.child < count);
     shape = hand.kept;
-    return hand.has != 0u;
+    mesh = hand.mesh;
+    return hand.has != 0u && mesh == kNoIndex;
 }
 
-// Derives a shape of this wave until only queued ones are left. (Software devices go through a loop's body once more where
-// the test comes first, and every rule's code for every shape: so tests come last, and what no successor takes isn't made.)
-FN void deriveShape(RoofEnv env, uint at) {
+// Derives a shape of this wave until only queued ones and at most one terminal are left. (Software devices go through a
+// loop's body once more where the test comes first, and every rule's code for every shape: so tests come last, and what
+// no successor takes isn't made.)
+FN void deriveShape(RoofEnv env, uint at, INOUT(RoofTally) tally) {
 #ifdef __cplusplus
     Machine machine;
 #endif
     resetMachine(MACHINE_ONLY);
-    RoofScope shape = readScope(env, at);
+    bool first = env.wave == 0u;
+    RoofScope shape;
+    if (!first) shape = readScope(env, at);
+    uint number = first ? env.starts.v[at] : shape.atom;
+    RoofAtom atom = readAtom(env, number);
+    if (first) shape = startShape(atom, number, env.startSymbol);
+    RoofRegion face = readRegion(env, atom.region != kNoIndex ? atom.region : 0u);   // there is room for one in any town
+    uint mesh = kNoIndex;
     bool goes;
-    do goes = replaceShape(MACHINE env, shape);
+    do goes = replaceShape(MACHINE env, atom, face, shape, mesh, tally);
     while (goes);
+    if (mesh != kNoIndex) writeGrid(env, shape, atom.house, mesh, tally);
 }
 
 ESPALIER_END

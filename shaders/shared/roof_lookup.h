@@ -21,7 +21,6 @@ inline RoofRegion readRegion(RoofEnv env, uint at) { return env.regions.v[at]; }
 inline RoofPiece readPiece(RoofEnv env, uint at) { return env.pieces.v[at]; }
 inline PieceBrief readPieceBrief(RoofEnv env, uint at) { return {env.pieces.v[at].kind, env.pieces.v[at].upper}; }
 inline RoofScope readScope(RoofEnv env, uint at) { return env.shapes.v[at]; }
-inline RoofGrid readGrid(RoofEnv env, uint at) { return env.grids.v[at]; }
 inline RoofPart readPart(RoofEnv env, uint at) { return env.parts.v[at]; }
 inline vec4 readPlane(RoofEnv env, uint at) { return env.planes.v[at]; }
 inline void writeScope(RoofEnv env, uint at, const RoofScope& scope) { env.next.v[at] = scope; }
@@ -36,8 +35,7 @@ const uint kRecordsByAddress = 1u;
 #define PIECE_TEXEL(i) uvec4(0u)
 #define SHAPE_TEXEL(i) uvec4(0u)
 #endif
-#ifndef GRID_TEXEL
-#define GRID_TEXEL(i) uvec4(0u)
+#ifndef PART_TEXEL
 #define PART_TEXEL(i) uvec4(0u)
 #define PLANE_TEXEL(i) uvec4(0u)
 #endif
@@ -155,37 +153,6 @@ RoofScope readScope(RoofEnv env, uint at) {
     s.args[2] = j.y;
     s.args[3] = j.z;
     return s;
-}
-RoofGrid readGrid(RoofEnv env, uint at) {
-    if (kRecordsByAddress != 0u) return env.grids.v[at];
-    uint i = 8u * at;
-    uvec4 a = GRID_TEXEL(i);
-    vec4 b = uintBitsToFloat(GRID_TEXEL(i + 1u));
-    vec4 c = uintBitsToFloat(GRID_TEXEL(i + 2u));
-    vec4 d = uintBitsToFloat(GRID_TEXEL(i + 3u));
-    uvec4 e = GRID_TEXEL(i + 4u);
-    uvec4 f = GRID_TEXEL(i + 5u);
-    uvec4 h = GRID_TEXEL(i + 6u);
-    RoofGrid g;
-    g.key = packUint2x32(a.xy);
-    g.origin = vec3(uintBitsToFloat(a.zw), b.x);
-    g.axisX = b.yzw;
-    g.axisY = c.xyz;
-    g.size = vec2(c.w, d.x);
-    g.step = d.yz;
-    g.extent = vec2(d.w, uintBitsToFloat(e.x));
-    g.taper = uintBitsToFloat(e.yz);
-    g.cells = e.w;
-    g.mesh = f.x;
-    g.thickness = uintBitsToFloat(f.y);
-    g.colour = f.z;
-    g.base = uintBitsToFloat(f.w);
-    g.shrink = uintBitsToFloat(h.x);
-    g.region = h.y;
-    g.atom = h.z;
-    g.house = h.w;
-    g.firstRow = GRID_TEXEL(i + 7u).x;
-    return g;
 }
 RoofPart readPart(RoofEnv env, uint at) {
     if (kRecordsByAddress != 0u) return env.parts.v[at];

@@ -42,12 +42,15 @@ struct RoofAtom {
     uint house;
     uint kind;          // FaceKind; 3: wall only
     uint tier;
-    uint style;         // bits 7..0 RoofShape, 15..8 material, bit 16: the house has a colour
+    uint style;         // bits 7..0 RoofShape, 15..8 material, bit 16: the house has a colour, then kAtom...
     float random;       // of the house
     vec3 colour;        // of the house, linear
     vec2 corners;       // at the eave's begin and end: by how much of its overhang it goes on; below 0 at reflex corners, 0 at gables
 };
 STATIC_SIZE(RoofAtom, 128);
+// RoofAtom::style: what is among the outline's pieces.
+CONST_UINT(kAtomGoesOn, 1u << 17u);    // one with an atom above it
+CONST_UINT(kAtomRidged, 1u << 18u);    // a ridge
 
 // 80 bytes. A region of a face first, then those that Join makes.
 struct RoofRegion {
@@ -146,8 +149,7 @@ struct RoofStatus {
     uint touched, whole;   // cells
     uint terminals;     // grids of one cell
     uint hash[2];       // of all grids, in no order
-    uint gridGroups[3]; // indirect dispatch over the grids
-    uint spare;
+    uint spare[4];
 };
 STATIC_SIZE(RoofStatus, 64);
 
@@ -210,14 +212,15 @@ struct RoofEnv {
     UintBuf generations;      // [house]
     uint wave;
     uint shapeRoom, gridRoom, rowRoom, regionRoom, partRoom, planeRoom;
-    uint firstGrid;           // rows are worked out for grids from here on
+    uint startSymbol;         // of the first wave's shapes
+    UintBuf starts;           // the atoms that they stand on
     RoofLayerBuf layers;      // [kRoofLayers], as the grammar counts them
     FloatBuf means;           // [house * kRoofLayers + layer]: the mean over the house
     UintBuf reads;            // [house]: what it has asked of layers: bits 7..0 at places, 15..8 means
     RoofSite site;
     u64 words;                // address of the map's words
 };
-STATIC_SIZE(RoofEnv, 192);
+STATIC_SIZE(RoofEnv, 200);
 
 ESPALIER_END
 #endif

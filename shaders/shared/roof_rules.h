@@ -51,9 +51,8 @@ FN RoofChild extruded(RoofNumbers n, RoofScope shape, uint k) {
 
 // Join to the roof's own targets: the rectangle around the atom's outline, in the plane of the face; then what lies on
 // top of it, piece by piece.
-FN RoofChild joinedRoof(RoofEnv env, RoofNumbers n, RoofScope shape, RoofAtom atom, uint k) {
+FN RoofChild joinedRoof(RoofEnv env, RoofNumbers n, RoofScope shape, RoofAtom atom, RoofRegion r, uint k) {
     float wanted = n.v[0];
-    RoofRegion r = readRegion(env, atom.region);
     shape.region = atom.region;
     shape.base = shape.origin.y;
     shape.stretch = atom.height > kLeastSide && wanted > kLeastSide ? divExact(wanted, atom.height) : 1.0f;
@@ -174,10 +173,9 @@ FN RoofChild projected(RoofNumbers n, RoofScope shape) {
 }
 
 // The rectangle and its four sides; of a face's own outline the eave, what rises, what is level, what falls.
-FN RoofChild exploded(RoofEnv env, RoofScope shape, RoofAtom atom, uint k) {
+FN RoofChild exploded(RoofEnv env, RoofScope shape, RoofAtom atom, RoofRegion r, uint k) {
     if (k == 0u) return childFor(cleared(shape), 0u);
     if ((shape.marks & kShapeOutline) != 0u) {
-        RoofRegion r = readRegion(env, atom.region);
         if (k == 1u) {
             vec3 from = regionPoint(r, vec3(0.0f, 0.0f, 0.0f), shape.base, shape.stretch);
             RoofScope eave = segmentOf(shape, from, from + r.axisA * atom.eaveLength, shape.axisY);

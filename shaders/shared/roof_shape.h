@@ -46,8 +46,8 @@ FN void giveLayers(MACHINE_PARAM RoofEnv env, RoofScope shape, uint house, uint 
     roofOr(env.reads.v[house], layers);
 }
 // inputs: as the compiler notes them for these slots, by their places among a plant's.
-// atom: the shape's.
-FN void giveShape(MACHINE_PARAM RoofEnv env, RoofScope shape, RoofAtom atom, uint inputs) {
+// atom: the shape's; face: its region, where it has one.
+FN void giveShape(MACHINE_PARAM RoofScope shape, RoofAtom atom, RoofRegion face, uint inputs) {
     giveVector(MACHINE kSlotPos0, shape.origin);
     giveVector(MACHINE kSlotPos1, shape.origin + shape.axisX * shape.size.x);
     giveVector(MACHINE kSlotLocalNormal, cross3(shape.axisX, shape.axisY));
@@ -57,10 +57,9 @@ FN void giveShape(MACHINE_PARAM RoofEnv env, RoofScope shape, RoofAtom atom, uin
     vec3 target2 = atom.foot;
     float start = 0.0f;
     if ((inputs & kInputsOfTargets) != 0u && atom.region != kNoIndex) {
-        RoofRegion r = readRegion(env, atom.region);
-        target1 = regionPoint(r, atom.target1, shape.base, shape.stretch);
-        target2 = regionPoint(r, atom.target2, shape.base, shape.stretch);
-        start = -r.low.x;
+        target1 = regionPoint(face, atom.target1, shape.base, shape.stretch);
+        target2 = regionPoint(face, atom.target2, shape.base, shape.stretch);
+        start = -face.low.x;
     }
     giveVector(MACHINE kSlotRoofPos1, target1);
     giveVector(MACHINE kSlotRoofPos2, target2);
@@ -129,6 +128,33 @@ FN RoofScope applyScope(RoofNumbers n, RoofScope shape) {
     if (n.v[12] >= 0.0f) shape.layers = (shape.layers & 0xFF00u) | uint(limited(n.v[12], 0.0f, 8.0f));
     if (n.v[13] >= 0.0f) shape.layers = (shape.layers & 0xFFu) | (uint(limited(n.v[13], 0.0f, 8.0f)) << 8u);
     return shape;
+}
+
+// What expansion begins with: a segment at the wall's foot.
+FN RoofScope startShape(RoofAtom atom, uint number, uint symbol) {
+    RoofScope s;
+    s.key = atom.key;
+    s.origin = atom.foot;
+    s.axisX = atom.tangent;
+    s.axisY = upward();
+    s.size = vec2(atom.eaveLength, 0.0f);
+    s.taper = vec2(0.0f, 0.0f);
+    s.step = s.size;
+    s.extent = s.size;
+    s.cells = 0x10001u;
+    s.thickness = 1.0f;
+    s.colour = 0x80FFFFFFu;
+    s.projectHeight = 0.0f;
+    s.base = atom.foot.y + atom.wallHeight;
+    s.stretch = 1.0f;
+    s.region = kNoIndex;
+    s.atom = number;
+    s.symbol = symbol;
+    s.place = 0u;
+    s.marks = kShapeSegment;
+    s.layers = 0u;
+    for (uint a = 0u; a < 4u; ++a) s.args[a] = 0.0f;
+    return s;
 }
 
 // The shape that a rectangle or segment of another starts as: no cells, no taper.

@@ -70,6 +70,7 @@ SuccessorRecord roofSuccessor(RoofEnv env, uint i) {
     s.symbol = MAP_WORD(roofMap.successors, at);
     s.nameHash = MAP_WORD(roofMap.successors, at + 1u);
     s.ordinal = MAP_WORD(roofMap.successors, at + 2u);
+    s.flags = MAP_WORD(roofMap.successors, at + 3u);
     s.code.first = MAP_WORD(roofMap.successors, at + 4u);
     s.code.count = MAP_WORD(roofMap.successors, at + 5u);
     for (uint a = 0u; a < 4u; ++a)

@@ -187,6 +187,9 @@ struct RuleRecord {
 STATIC_SIZE(RuleRecord, 88);
 
 CONST_UINT(kSuccessorContinues, 1u);
+// Of roofs: the symbol's only rule is a terminal that changes nothing; bits 15..8 its mesh.
+CONST_UINT(kSuccessorTerminal, 2u);
+CONST_UINT(kSuccessorMesh, 8u);
 struct SuccessorRecord {
     uint symbol;
     uint nameHash;       // of that symbol
