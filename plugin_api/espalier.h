@@ -356,6 +356,30 @@ ESP_API EspResult espReadFrozen(EspContext* context, EspSeed seed, void* bytes, 
  * same order. ESP_INVALID_CONTENT: the bytes are none of a plant, of another version, or of a missing surface. */
 ESP_API EspResult espFreezeAs(EspContext* context, EspSeed seed, const void* bytes, size_t size);
 
+/* ---- Furnishing ---------------------------------------------------------------------------------------------- */
+
+/* Props: trees, walls, grass, whatever a scene is furnished with that nothing grows on. A host that draws its own scene
+ * (EspHostScene) draws its own. */
+typedef struct EspPropPlace {
+    const char* model;           /* as the file names it, without _lodN */
+    float position[3];           /* of its origin, world */
+    float turn;                  /* radians about the vertical, counterclockwise from above */
+    float scale;                 /* over 0 */
+} EspPropPlace;
+/* Places props in place of all that stood. models: a glTF binary of meshes NAME_lodN, of one material each (docs/scene_format.md);
+ * NULL, or count 0: none. */
+ESP_API EspResult espSetProps(EspContext* context, const char* models, const EspPropPlace* places, uint32_t count);
+
+/* What lies on the ground that EspLook::ground or a town draws, seen from above, the first row at low[1]. Red: 0.5 at a paved
+ * street's edge, 1 four metres inside of it, 0 four metres outside; green: trodden earth; blue: share of the sky that is
+ * seen. Its outermost texels go on to the horizon. */
+typedef struct EspSiteDef {
+    const uint8_t* rgba;         /* height rows of width texels, 1 to 8192 each; NULL: nothing lies there */
+    uint32_t width, height;
+    float low[2], high[2];       /* world x and z of its corners, metres */
+} EspSiteDef;
+ESP_API EspResult espSetSite(EspContext* context, const EspSiteDef* def);
+
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
 typedef enum EspWalkMode { ESP_WALK_INTRINSIC = 0, ESP_WALK_PAPER = 1 } EspWalkMode;

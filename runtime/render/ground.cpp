@@ -78,6 +78,54 @@ std::vector<uint8_t> noiseTile() {
     return rgba;
 }
 
+constexpr uint32_t kPavingSide = 512;
+constexpr int kSetts = 20;  // courses in a tile
+
+// Setts in courses, of uneven widths and heights; each a little tilted, its top rounded towards the joints.
+std::vector<uint8_t> pavingTile() {
+    std::vector<float> height(size_t(kPavingSide) * kPavingSide), shade(height.size()), stone(height.size());
+    const auto smooth = [](float a, float b, float x) {
+        const float t = std::clamp((x - a) / (b - a), 0.0f, 1.0f);
+        return t * t * (3 - 2 * t);
+    };
+    for (uint32_t y = 0; y < kPavingSide; ++y)
+        for (uint32_t x = 0; x < kPavingSide; ++x) {
+            const float bend = 0.10f * octaves(x, y, 8, 2, 71);
+            float v = float(y) * kSetts / kPavingSide + bend;
+            v -= kSetts * std::floor(v / kSetts);
+            const uint32_t course = uint32_t(v) % kSetts;
+            const int across = 13 + int(course % 3);  // so that joints don't line up
+            float u =
+                float(x) * float(across) / kPavingSide + 0.5f * float(course % 2) + 0.10f * octaves(x, y, 8, 2, 73);
+            u -= float(across) * std::floor(u / float(across));
+            const uint32_t which = uint32_t(u) % uint32_t(across);
+            const float random = lattice(which, course, 75), other = lattice(which, course, 77);
+            const float fu = u - std::floor(u), fv = v - std::floor(v);
+            const float toEdge =
+                std::min(std::min(fu, 1 - fu) * 1.35f, std::min(fv, 1 - fv)) + 0.03f * octaves(x, y, 64, 2, 79);
+            const size_t at = size_t(y) * kPavingSide + x;
+            stone[at] = smooth(0.045f, 0.13f, toEdge);
+            height[at] = stone[at] * (0.7f + 0.3f * smooth(0.1f, 0.45f, toEdge)) + 0.12f * random +
+                         0.25f * other * (fu - 0.5f) + 0.10f * octaves(x, y, 64, 3, 81);
+            shade[at] = std::clamp(0.52f + 0.26f * random + 0.22f * octaves(x, y, 32, 4, 83), 0.0f, 1.0f);
+        }
+    std::vector<uint8_t> rgba(height.size() * 4);
+    const auto byte = [](float v) { return uint8_t(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f); };
+    const auto at = [&](uint32_t x, uint32_t y) {
+        return height[size_t(y % kPavingSide) * kPavingSide + x % kPavingSide];
+    };
+    for (uint32_t y = 0; y < kPavingSide; ++y)
+        for (uint32_t x = 0; x < kPavingSide; ++x) {
+            uint8_t* texel = &rgba[(size_t(y) * kPavingSide + x) * 4];
+            const size_t i = size_t(y) * kPavingSide + x;
+            texel[0] = byte(shade[i]);
+            texel[1] = byte(stone[i]);
+            texel[2] = byte(0.5f + 0.9f * (at(x + 1, y) - at(x + kPavingSide - 1, y)));
+            texel[3] = byte(0.5f + 0.9f * (at(x, y + 1) - at(x, y + kPavingSide - 1)));
+        }
+    return rgba;
+}
+
 }  // namespace
 
 Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
@@ -107,12 +155,48 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
         Sampler::create(device, {.name = "ground noise", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
     if (!sampler) return sampler.failure();
     ground.sampler_ = std::move(*sampler);
+    Result<Sampler> clamped = Sampler::create(device, {.name = "site map",
+                                                       .address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                                       .anisotropy = device.info().cpu ? 1.0f : 8.0f});
+    if (!clamped) return clamped.failure();
+    ground.siteSampler_ = std::move(*clamped);
     return ground;
+}
+
+Status Ground::setSite(Device& device, const SiteMap& map) {
+    if (map.rgba.empty()) {
+        site_ = Image();
+        siteRcp_ = glm::vec2(0);
+        return Done{};
+    }
+    const auto upload = [&](Image& image, const char* name, uint32_t width, uint32_t height,
+                            const std::vector<uint8_t>& rgba) -> Status {
+        ImageDesc desc{.name = name, .width = width, .height = height};
+        desc.levels = 0;
+        Result<Image> made = Image::create(device, desc);
+        if (!made) return made.failure();
+        image = std::move(*made);
+        return fillImage(device, image, std::as_bytes(std::span(rgba)));
+    };
+    if (!paving_)
+        if (Status s = upload(paving_, "paving", kPavingSide, kPavingSide, pavingTile()); !s) return s;
+    Image site;
+    if (Status s = upload(site, "site map", map.width, map.height, map.rgba); !s) return s;
+    site_ = std::move(site);
+    siteLow_ = map.low;
+    siteRcp_ = 1.0f / (map.high - map.low);
+    return Done{};
+}
+
+void Ground::describe(FrameRecord& frame) const {
+    frame.siteLow = siteLow_;
+    frame.siteRcp = siteRcp_;
 }
 
 void Ground::draw(DrawPass& pass, const PostPush& push, const Buffer& frame, const Image& shadowMap,
                   const Sampler& shadowSampler, bool explains) const {
-    pass.draw(programs_[explains], 3, 1, push, {{noise_, sampler_}, {shadowMap, shadowSampler}, frame});
+    pass.draw(programs_[explains], 3, 1, push,
+              {noiseBinding(), {shadowMap, shadowSampler}, siteBinding(), pavingBinding(), frame});
 }
 
 }  // namespace espalier

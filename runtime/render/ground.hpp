@@ -3,6 +3,8 @@
 // The stage's ground: a level meadow that reaches the horizon, for pictures of a thing that would float otherwise.
 // Nothing grows on it.
 
+#include <vector>
+
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/image.hpp"
 #include "shaders/render/frame_records.h"
@@ -15,10 +17,24 @@ struct GroundLook {
     glm::vec3 colour{0.085f, 0.105f, 0.045f};  // of its grass, linear
 };
 
+// What lies on the meadow of a site, seen from above: 8-bit RGBA, the first row at low.y (world z). Red: 0.5 at a
+// street's edge, 1 four metres inside, 0 four metres outside; green: trodden earth; blue: share of the sky that is
+// seen.
+struct SiteMap {
+    uint32_t width = 0, height = 0;
+    std::vector<uint8_t> rgba;
+    glm::vec2 low{0}, high{0};  // world x and z, metres
+};
+
 class Ground {
   public:
     // Formats and samples of the images that it draws into. Uploads a tile of noise and waits.
     static Result<Ground> create(Device& device, VkFormat color, VkFormat depth, uint32_t samples);
+
+    // Without texels: none. Uploads and waits.
+    Status setSite(Device& device, const SiteMap& map);
+    // Sets FrameRecord::siteLow and siteRcp.
+    void describe(FrameRecord& frame) const;
 
     // In FrameRecord::groundLevel; what is nearer hides it.
     void draw(DrawPass& pass, const PostPush& push, const Buffer& frame, const Image& shadowMap,
@@ -27,11 +43,17 @@ class Ground {
     // Four octave sums of noise that repeat at the border: see ground.frag.
     const Image& noise() const { return noise_; }
     const Sampler& sampler() const { return sampler_; }
+    Binding noiseBinding() const { return {noise_, sampler_}; }
+    Binding siteBinding() const { return {site_ ? site_ : noise_, siteSampler_}; }
+    // A tile of setts: brightness, stone or joint, slopes.
+    Binding pavingBinding() const { return {paving_ ? paving_ : noise_, sampler_}; }
 
   private:
     Program programs_[2];  // of the shaded view, of others
     Image noise_;
-    Sampler sampler_;
+    Image site_, paving_;  // empty: there is no map
+    Sampler sampler_, siteSampler_;
+    glm::vec2 siteLow_{0}, siteRcp_{0};
 };
 
 }  // namespace espalier

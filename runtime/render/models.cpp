@@ -179,7 +179,7 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
 }
 
 void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow,
-                  const Binding& noise, bool walkData) const {
+                  const Ground& ground, bool walkData) const {
     for (const auto& [index, model] : models_) {
         pass.setIndices(model.indices);
         const auto drawMesh = [&](uint32_t mesh, float fade) {
@@ -192,7 +192,9 @@ void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, c
                                  {{pictureOr(model.colors, material.baseColorImage, white_), sampler_},
                                   {pictureOr(model.normals, material.normalImage, flat_), sampler_},
                                   shadow,
-                                  noise,
+                                  ground.noiseBinding(),
+                                  ground.siteBinding(),
+                                  ground.pavingBinding(),
                                   frame});
             }
         };

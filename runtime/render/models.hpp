@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/gpu/commands.hpp"
+#include "runtime/render/ground.hpp"
 #include "runtime/surface/surface.hpp"
 #include "shaders/render/frame_records.h"
 
@@ -23,8 +24,8 @@ class Models {
     void choose(glm::vec3 eye, float pixelScale, float pixels);
     static constexpr uint32_t kFadeFrames = 8;
 
-    // Draws all of them as chosen. noise: Ground::noise(), of which the meadow at their feet is made, and their grain.
-    void draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow, const Binding& noise,
+    // Draws all of them as chosen. ground: of it the meadow at their feet is made, and their grain.
+    void draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow, const Ground& ground,
               bool walkData) const;
     // The simplest meshes with an error of at most `error` metres.
     void drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const;

@@ -11,7 +11,8 @@ namespace espalier {
 namespace {
 
 constexpr float kShadowLodPixels = 1.2f;
-constexpr uint32_t kShadowPeriod = 8;       // frames, while growth changes in each
+constexpr uint32_t kShadowPeriod = 8;  // frames, while growth changes in each
+constexpr float kWideBias = 0.12f;     // metres that what lies far away is moved towards the sun when it is compared
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
 constexpr float kGrownPixels = 0.25f;       // error of models with growth on them: bark that is seen isn't buried
 
@@ -94,20 +95,36 @@ void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
     }
 }
 
+Status RendererImpl::setProps(TerminalData models, std::vector<PropPlace> places) {
+    Result<Props> made = Props::create(device_, std::move(models), kSceneFormat, kDepthFormat, targets_.samples);
+    if (!made) return made.failure();
+    if (Status s = made->place(device_, std::move(places)); !s) return s;
+    props_ = std::make_unique<Props>(std::move(*made));
+    ++propsRevision_;
+    return Done{};
+}
+
+Status RendererImpl::removeProps() {
+    props_.reset();
+    ++propsRevision_;
+    return Done{};
+}
+
 Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels) {
     FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
     frame.viewProjection = sun.toClip;
     if (Status s = upload(commands, frame); !s) return s;
+    const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, lodPixels);
     if (grows_) {
-        EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, lodPixels);
-        view.leastPixels = 0.35f;
-        if (Status s = emit_.cull(commands, emitInputs(inputs), view, "shadow emit", false); !s) return s;
+        EmitView grown = view;
+        grown.leastPixels = 0.35f;
+        if (Status s = emit_.cull(commands, emitInputs(inputs), grown, "shadow emit", false); !s) return s;
     }
-    if (roofed_) {
-        const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, lodPixels);
+    if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
-    }
-    commands.transition(shadowMap_, ImageState::depthTarget, true);
+    if (furnished_)
+        if (Status s = props_->chooseCasters(commands, sun.toClip); !s) return s;
+    commands.transition(shadowMap_, ImageState::depthTarget, !wideDrawn_);  // its other half stays
     {
         DrawTargets targets;
         targets.extent = {kShadowSize, kShadowSize};
@@ -116,6 +133,32 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
         models_.drawDepth(pass, modelDepth_, *frame_, kShadowModelTexels * sun.width / kShadowSize);
         if (grows_) drawTerminals(pass, true);
         if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr, false);
+        if (furnished_) props_->drawDepth(pass, *frame_);
+    }
+    commands.transition(shadowMap_, ImageState::sampled);
+    return Done{};
+}
+
+Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
+    FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
+    frame.viewProjection = sun.toClip;
+    if (Status s = upload(commands, frame); !s) return s;
+    const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, kShadowLodPixels);
+    if (roofed_)
+        if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
+    if (furnished_)
+        if (Status s = props_->chooseCasters(commands, sun.toClip); !s) return s;
+    commands.transition(shadowMap_, ImageState::depthTarget, true);
+    {
+        DrawTargets targets;
+        targets.extent = {2 * kShadowSize, kShadowSize};
+        targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = 1.0f};
+        DrawPass pass(commands, "shadow draw", targets);
+        pass.setViewport({float(kShadowSize), 0, float(kShadowSize), float(kShadowSize), 0, 1});
+        pass.setScissor(kShadowSize, 0, kShadowSize, kShadowSize);
+        models_.drawDepth(pass, modelDepth_, *frame_, kShadowModelTexels * sun.width / kShadowSize);
+        if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr, false);
+        if (furnished_) props_->drawDepth(pass, *frame_);
     }
     commands.transition(shadowMap_, ImageState::sampled);
     return Done{};
@@ -136,8 +179,8 @@ Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, co
     commands.transition(targets_.depth, ImageState::depthTarget, !hosted_);
     DrawPass pass(commands, "draw scene", targets);
     if (!hosted_ || target.host.models)
-        models_.draw(pass, scene_->model, *frame_, {shadowMap_, shadowSampler_}, {ground_.noise(), ground_.sampler()},
-                     inputs.surfaces.v != nullptr);
+        models_.draw(pass, scene_->model, *frame_, {shadowMap_, shadowSampler_}, ground_, inputs.surfaces.v != nullptr);
+    if (furnished_) props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, explained_);
     if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, explained_);
     return Done{};
 }
@@ -172,7 +215,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.wholePixels = std::max(inputs.look.leafPixels, 1e-3f);
     // A host's scene or a level that fades hides something else in each frame.
     ++sceneNumber_;
-    view.scene = hosted_ || models_.fading() > 0 ? sceneNumber_ << 32 : models_.revision();
+    view.scene = hosted_ || models_.fading() > 0 ? sceneNumber_ << 32 : models_.revision() + (propsRevision_ << 16);
     if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
     if (!grows_) return Done{};
@@ -235,6 +278,32 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     return hosted_ ? merge_->end(commands, targets_) : Status(Done{});
 }
 
+Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
+                                    float radius, FrameRecord& frame) {
+    const ShadowKey key{0, models_.revision() + (propsRevision_ << 32), frame.sunDirection,       0,
+                        0, roofed_ ? inputs.roofs->revision : 0,        glm::vec4(center, radius)};
+    // While houses change in every frame, shadows far away follow in every eighth and when they have come to rest.
+    wideChanges_ = key == wideBefore_ ? 0 : wideChanges_ + 1;
+    wideBefore_ = key;
+    const bool turned = wideKey_.sun != key.sun;
+    const bool wait = wideDrawn_ && !turned && wideChanges_ > 2 && wideChanges_ % kShadowPeriod != 0;
+    if (!wait && (!wideDrawn_ || wideKey_ != key)) {
+        const SunView wide = makeSunView(key.sun, center, radius);
+        if (Status s = drawWideShadows(commands, inputs, wide); !s) return s;
+        wideKey_ = key;
+        wideToTexture_ = wide.toTexture;
+        wideDrawn_ = true;
+        shadowDrawn_ = false;  // the whole map was cleared
+    }
+    // Both look along the sun: one's coordinates are the other's, scaled and moved.
+    const float scale = near.width / (2 * wideKey_.sphere.w);
+    const glm::vec4 origin(0, 0, 0, 1);
+    frame.wideScale = glm::vec3(scale);
+    frame.wideOffset = glm::vec3(wideToTexture_ * origin) - scale * glm::vec3(near.toTexture * origin);
+    frame.wideOffset.z -= kWideBias / (2 * wideKey_.sphere.w);
+    return Done{};
+}
+
 bool RendererImpl::shadowsWait(const ShadowKey& key) {
     changes_ = key.growth == growthBefore_ ? 0 : changes_ + 1;
     growthBefore_ = key.growth;
@@ -249,7 +318,7 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     Status drawn = drawFrame(commands, inputs, target);
     if (drawn) return drawn;
     emit_.forget();
-    shadowDrawn_ = false;
+    shadowDrawn_ = wideDrawn_ = false;
     return drawn;
 }
 
@@ -267,6 +336,8 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
         if (!made) return made.failure();
         merge_ = std::move(*made);
     }
+
+    furnished_ = props_ && !props_->empty() && !hosted_;
 
     glm::vec3 low, high;
     models_.bounds(low, high);
@@ -291,19 +362,27 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
     frame.shadowTexel = 1.0f / kShadowSize;
     frame.unit = roofed_ ? 1.0f : lengthUnit(high - low);
     frame.shadowOffset = 1.2f * sun.width / kShadowSize;
-    const ShadowKey key{growth.revision,          models_.revision(), frame.sunDirection,
-                        growth.nodeCount,         growth.leafCount,   roofed_ ? inputs.roofs->revision : 0,
+    const uint64_t stands = models_.revision() + (propsRevision_ << 32);
+    const ShadowKey key{growth.revision,          stands,           frame.sunDirection,
+                        growth.nodeCount,         growth.leafCount, roofed_ ? inputs.roofs->revision : 0,
                         glm::vec4(center, radius)};
+    if (furnished_) props_->bounds(low, high);
+    const float wideRadius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.02f;
+    if (frame.shadows && wideRadius > 1.1f * radius)
+        if (Status s = aimWideShadows(commands, inputs, sun, (low + high) * 0.5f, wideRadius, frame); !s) return s;
     const bool wait = shadowsWait(key);
     if (frame.shadows && !wait && (!shadowDrawn_ || key != shadowKey_)) {
         if (Status s = drawShadows(commands, inputs, sun, kShadowLodPixels); !s) return s;
         shadowKey_ = key;
         shadowDrawn_ = true;
-    } else if (!shadowDrawn_) {
+    } else if (!shadowDrawn_ && !wideDrawn_) {
         commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
     }
 
+    ground_.describe(frame);
     if (Status s = upload(commands, frame); !s) return s;
+    if (furnished_)
+        if (Status s = props_->choose(commands, frame); !s) return s;
     PostPush push{};
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
     push.ground = inputs.ground.drawn && !hosted_ ? 1 : 0;

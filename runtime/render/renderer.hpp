@@ -7,6 +7,7 @@
 
 #include "runtime/emit/emit.hpp"
 #include "runtime/render/ground.hpp"
+#include "runtime/render/props.hpp"
 #include "runtime/render/roof_draw.hpp"
 #include "runtime/surface/surface.hpp"
 
@@ -93,6 +94,12 @@ class Renderer {
 
     // Meshes that roofs are drawn with, kind 0 being none; returns their bounds. Once, before the first roofs.
     virtual Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes) = 0;
+
+    // Models of props, their variants sorted by kind, and where they stand; in place of all that were. Waits.
+    virtual Status setProps(TerminalData models, std::vector<PropPlace> places) = 0;
+    virtual Status removeProps() = 0;
+    // What lies on the ground that is drawn; without texels: nothing.
+    virtual Status setSite(const SiteMap& map) = 0;
 
     // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed; from
     // the third frame in a row on in which growth alone has, in every eighth and when it has come to rest.

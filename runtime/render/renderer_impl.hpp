@@ -26,6 +26,9 @@ class RendererImpl final : public Renderer {
     void removeSurface(uint32_t index) override { models_.remove(index); }
     void placeSurface(uint32_t index, const glm::mat4& toWorld) override { models_.place(index, toWorld); }
     Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes) override;
+    Status setProps(TerminalData models, std::vector<PropPlace> places) override;
+    Status removeProps() override;
+    Status setSite(const SiteMap& map) override { return ground_.setSite(device_, map); }
     Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) override;
     Result<std::vector<uint8_t>> readPixels() override;
     RenderStats stats() const override;
@@ -56,6 +59,11 @@ class RendererImpl final : public Renderer {
     // Uploads the record to frame_.
     Status upload(Commands& commands, const FrameRecord& frame);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels);
+    // All that stands but growth, into the map's right half; the whole map is cleared.
+    Status drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
+    // Draws them if they aren't up to date, and tells the frame where they are.
+    Status aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
+                          float radius, FrameRecord& frame);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
     EmitInputs emitInputs(const DrawInputs& inputs) const;
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
@@ -68,6 +76,7 @@ class RendererImpl final : public Renderer {
     Terminals terminals_;
     Emit emit_;
     std::unique_ptr<RoofDraw> roofs_;
+    std::unique_ptr<Props> props_;
     std::unique_ptr<HostMerge> merge_;  // made when a host first has a scene
     Models models_;
     Ground ground_;
@@ -83,11 +92,16 @@ class RendererImpl final : public Renderer {
     const Buffer* frame_ = nullptr;  // the one of this recording
     Buffer tiles_;
     uint32_t frameSlot_ = 0;
-    ShadowKey shadowKey_;
+    ShadowKey shadowKey_, wideKey_, wideBefore_;
+    glm::mat4 wideToTexture_{1};
+    uint32_t wideChanges_ = 0;  // frames in a row in which what casts them has changed
+    bool wideDrawn_ = false;
     uint64_t growthBefore_ = 0, sceneNumber_ = 0;
     uint32_t changes_ = 0;  // frames in a row in which growth has changed
+    uint64_t propsRevision_ = 0;
     bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;
-    bool hosted_ = false;  // this recording goes into a host's scene
+    bool hosted_ = false;     // this recording goes into a host's scene
+    bool furnished_ = false;  // it draws props
 };
 
 }  // namespace espalier

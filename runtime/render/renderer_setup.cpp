@@ -131,7 +131,7 @@ Status RendererImpl::setUp(TerminalData data) {
     Result<Ground> ground = Ground::create(device_, kSceneFormat, kDepthFormat, targets_.samples);
     if (!ground) return ground.failure();
     ground_ = std::move(*ground);
-    ImageDesc shadow{.name = "shadow map", .format = kDepthFormat, .width = kShadowSize, .height = kShadowSize};
+    ImageDesc shadow{.name = "shadow map", .format = kDepthFormat, .width = 2 * kShadowSize, .height = kShadowSize};
     shadow.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     Result<Image> map = Image::create(device_, shadow);
     if (!map) return map.failure();

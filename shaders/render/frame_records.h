@@ -20,7 +20,7 @@ CONST_UINT(kRooted, 1u);
 // Colours are linear. Clip space: depth reversed, 1 at the near plane, 0 at infinity.
 struct FrameRecord {
     mat4 viewProjection;
-    mat4 shadowMatrix;       // world -> shadow map: xy texture coordinates, z depth
+    mat4 shadowMatrix;       // world -> near shadow map: xy texture coordinates in its half, z depth
     vec3 eye;
     float nearPlane;
     vec3 sunDirection;       // towards the sun, unit
@@ -34,7 +34,7 @@ struct FrameRecord {
     vec3 background;
     uint shadows;
     vec3 horizon;
-    float shadowTexel;       // 1 / size of the shadow map
+    float shadowTexel;       // 1 / side of each half of the shadow map
     vec3 rayRight;           // half the picture's width at distance 1
     float pixelScale;        // pixels of one metre at one metre's distance
     vec3 rayUp;
@@ -45,8 +45,10 @@ struct FrameRecord {
     LayerBuf layers;
     float layerOpacity;      // over the model
     vec3 grassColor;         // of the ground that is drawn
+    vec2 siteLow, siteRcp;   // the site's map: its corner, 1 / its size; world, metres; 0: there is none
+    vec3 wideScale, wideOffset;   // coordinates in the near shadow map -> in the wide one
 };
-STATIC_SIZE(FrameRecord, 320);
+STATIC_SIZE(FrameRecord, 360);
 
 // As DrawVertex of runtime/surface.
 struct ModelVertex {

@@ -8,6 +8,8 @@
 
 layout(push_constant, scalar) uniform Data { PostPush push; };
 layout(set = 0, binding = 0) uniform sampler2D noise;
+layout(set = 0, binding = 4) uniform sampler2D site;
+layout(set = 0, binding = 5) uniform sampler2D paving;
 layout(location = 0) out vec4 color;
 
 void main() {
@@ -18,7 +20,9 @@ void main() {
     vec3 position = frame.eye + ray * along;
     vec2 place = position.xz / frame.unit;
     float metres = along * length(ray) / frame.unit;
-    Meadow meadow = meadowAt(noise, place, dFdx(place), dFdy(place), metres);
+    vec2 placeX = dFdx(place), placeY = dFdy(place);
+    vec3 laid = siteAt(site, place, placeX, placeY);
+    Meadow meadow = meadowAt(noise, paving, place, placeX, placeY, metres, laid, max(abs(dFdx(laid.x)), abs(dFdy(laid.x))));
     if (explains && frame.view == kViewOverdraw) {
         color = oneFragment();
         return;
@@ -29,7 +33,7 @@ void main() {
     }
     float facing = max(dot(meadow.normal, frame.sunDirection), 0.0);
     vec3 direct = frame.sunColor * (sunVisibility(position, vec3(0.0, 1.0, 0.0)) * facing) * meadow.base;
-    vec3 ambient = meadow.base * skyLight(meadow.normal);
+    vec3 ambient = meadow.base * skyLight(meadow.normal) * meadow.open;
     // What is far goes over into the land at the horizon.
     float haze = 1.0 - exp(-metres * (1.0 / 420.0));
     color = lit(mix(direct, vec3(0.0), haze), mix(ambient, farLand(ray, 0.0), haze));

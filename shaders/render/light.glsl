@@ -6,19 +6,25 @@
 
 layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
 
-// 1: lit. Four bilinear comparisons in a ring of one and a half texels. A loop of one round: a device that runs all lanes
-// through both sides of an `if` does leave a loop early.
+// 1: lit. The left half of the map is near and fine, the right half holds all that stands. Four bilinear comparisons in a
+// ring of one and a half texels. A loop of one round: a device that runs all lanes through both sides of an `if` does
+// leave a loop early.
 float sunVisibility(vec3 position, vec3 normal) {
     vec4 at = frame.shadowMatrix * vec4(position + normal * frame.shadowOffset, 1.0);
-    bool covered = frame.shadows != 0u && all(greaterThan(at.xy, vec2(0.0))) && all(lessThan(at.xy, vec2(1.0)));
+    vec2 off = abs(at.xy - 0.5);
+    bool near = max(off.x, off.y) < 0.499;
+    at.xyz = near ? at.xyz : at.xyz * frame.wideScale + frame.wideOffset;
+    off = abs(at.xy - 0.5);
+    bool covered = frame.shadows != 0u && max(off.x, off.y) < 0.499;
+    at.x = 0.5 * at.x + (near ? 0.0 : 0.5);
     at.z = min(at.z, 0.9999);   // behind all that casts shadows
     float visible = 1.0;
     for (bool taken = covered; taken; taken = false) {
-        float d = 0.75 * frame.shadowTexel;
-        visible = 0.25 * (textureLod(shadowMap, vec3(at.xy + vec2(-d, -0.4 * d), at.z), 0.0) +
-                          textureLod(shadowMap, vec3(at.xy + vec2(0.4 * d, -d), at.z), 0.0) +
-                          textureLod(shadowMap, vec3(at.xy + vec2(d, 0.4 * d), at.z), 0.0) +
-                          textureLod(shadowMap, vec3(at.xy + vec2(-0.4 * d, d), at.z), 0.0));
+        vec2 d = vec2(0.375, 0.75) * frame.shadowTexel;
+        visible = 0.25 * (textureLod(shadowMap, vec3(at.xy + d * vec2(-1.0, -0.4), at.z), 0.0) +
+                          textureLod(shadowMap, vec3(at.xy + d * vec2(0.4, -1.0), at.z), 0.0) +
+                          textureLod(shadowMap, vec3(at.xy + d * vec2(1.0, 0.4), at.z), 0.0) +
+                          textureLod(shadowMap, vec3(at.xy + d * vec2(-0.4, 1.0), at.z), 0.0));
     }
     return visible;
 }

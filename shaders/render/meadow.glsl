@@ -1,15 +1,45 @@
-// A meadow's colour and bumps: grass in patches of hue, worn earth here and there, blades near by. What stands on the ground
-// goes over into it.
+// A meadow's colour and bumps: grass in patches of hue, worn earth here and there, blades near by, and what the site's map
+// lays over it: paved streets between kerbs, trodden earth. What stands on the ground goes over into it.
 #ifndef ESPALIER_RENDER_MEADOW_GLSL
 #define ESPALIER_RENDER_MEADOW_GLSL
 #include "shaders/render/frame.glsl"
 
 struct Meadow {
     vec3 base, normal;
+    float open;   // share of the sky that is seen
 };
 
-// noise: Ground::noise(). place: on the ground, metres; dx, dy: its change from pixel to pixel; metres: from the eye.
-Meadow meadowAt(sampler2D noise, vec2 place, vec2 dx, vec2 dy, float metres) {
+const float kSiteReach = 4.0;   // metres inside a street where the site's red is 1; as far outside it is 0
+
+// Setts and joints up to a kerb. inside: metres from its outer edge; pixel: how much that changes over a pixel.
+void addStreet(sampler2D paving, vec2 place, vec2 dx, vec2 dy, float inside, float pixel, float uneven, inout Meadow m) {
+    const float side = 1.0 / 2.4;
+    vec4 stone = textureGrad(paving, place * side, dx * side, dy * side);
+    float worn = 0.80 + 0.35 * uneven;
+    vec3 setts = mix(vec3(0.062, 0.054, 0.040), vec3(0.200, 0.182, 0.155) * worn, stone.g) * (0.55 + 0.75 * stone.r);
+    vec3 kerb = vec3(0.225, 0.208, 0.178) * (0.72 + 0.45 * stone.r) * worn;
+    float wide = pixel + 0.012;
+    float onKerb = clamp((0.26 - inside) / wide + 0.5, 0.0, 1.0);
+    float gutter = smoothstep(0.55, 0.28, inside) * (1.0 - onKerb);
+    vec3 base = mix(setts * (1.0 - 0.42 * gutter), kerb, onKerb);
+    vec2 slope = (stone.ba * 2.0 - 1.0) * (1.0 - 0.7 * onKerb);
+    float share = clamp(inside / wide + 0.5, 0.0, 1.0);
+    m.base = mix(m.base, base, share);
+    m.normal = mix(m.normal, normalize(vec3(-slope.x, 1.0, -slope.y)), share);
+}
+
+// What the site's map says of a place. x: metres into a street, negative beside it; y: trodden earth; z: share of the sky
+// that is seen.
+vec3 siteAt(sampler2D site, vec2 place, vec2 dx, vec2 dy) {
+    vec3 laid = vec3(0.0, 0.0, 1.0);
+    for (bool mapped = frame.siteRcp.x > 0.0; mapped; mapped = false)
+        laid = textureGrad(site, (place - frame.siteLow) * frame.siteRcp, dx * frame.siteRcp, dy * frame.siteRcp).xyz;
+    return vec3((laid.x - 0.5) * (2.0 * kSiteReach), laid.yz);
+}
+
+// noise: Ground::noise(). paving: Ground::paving(). place: on the ground, metres; dx, dy: its change from pixel to pixel;
+// metres: from the eye; laid: siteAt(); pixel: change of laid.x from pixel to pixel.
+Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy, float metres, vec3 laid, float pixel) {
     const mat2 turned = mat2(0.8, 0.6, -0.6, 0.8) * (1.0 / 5.3);
     const mat2 mown = mat2(0.6, -0.8, 0.8, 0.6) * (1.0 / 1.3);
     vec4 broad = textureGrad(noise, place * (1.0 / 61.0), dx * (1.0 / 61.0), dy * (1.0 / 61.0)) * 2.0 - 1.0;
@@ -23,7 +53,7 @@ Meadow meadowAt(sampler2D noise, vec2 place, vec2 dx, vec2 dy, float metres) {
 
     // Patches that lie flat to the eye run together into streaks: far away the meadow is one green, its hue changing slowly.
     float calm = clamp(metres * 0.03 - 0.2, 0.0, 1.0);
-    float grass = smoothstep(-0.30, 0.25, 0.30 + 0.5 * calm + (0.7 * broad.x + 0.8 * near.x) * (1.0 - 0.7 * calm) + 0.3 * fine.y);
+    float grass = smoothstep(-0.30, 0.25, 0.30 + 0.5 * calm + (0.7 * broad.x + 0.8 * near.x) * (1.0 - 0.7 * calm) + 0.3 * fine.y - 1.6 * laid.y);
     float blades = clamp(0.5 + 0.75 * fine.y + 0.2 * near.x * (1.0 - calm), 0.0, 1.0);
     vec3 green = frame.grassColor * (0.35 + blades);
     float dry = clamp(0.28 + (0.5 * broad.x + 0.45 * near.z) * (1.0 - 0.35 * calm) + 0.25 * fine.y, 0.0, 0.75);
@@ -33,6 +63,8 @@ Meadow meadowAt(sampler2D noise, vec2 place, vec2 dx, vec2 dy, float metres) {
     m.base = mix(earth, green, grass);
     vec2 slope = near.zw * 0.35 * (1.0 - calm) + fine.zw * 0.55;
     m.normal = normalize(vec3(-slope.x, 1.0, -slope.y));
+    m.open = laid.z;
+    for (bool street = laid.x > -0.3; street; street = false) addStreet(paving, place, dx, dy, laid.x, pixel, near.x, m);
     return m;
 }
 #endif

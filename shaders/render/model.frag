@@ -9,6 +9,8 @@ layout(push_constant, scalar) uniform Data { ModelPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;
 layout(set = 0, binding = 1) uniform sampler2D normalMap;
 layout(set = 0, binding = 3) uniform sampler2D noise;
+layout(set = 0, binding = 4) uniform sampler2D site;
+layout(set = 0, binding = 5) uniform sampler2D paving;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
@@ -76,7 +78,9 @@ void addMeadow(vec3 plane, float metres, inout vec3 base, inout vec3 bumped) {
     float share = clamp(1.25 - above * 14.0, 0.0, 1.0) * clamp(plane.y * 4.0 - 2.6, 0.0, 1.0);
     vec2 place = position.xz / frame.unit, placeX = dFdx(place), placeY = dFdy(place);
     for (bool overgrown = share > 0.0; overgrown; overgrown = false) {
-        Meadow meadow = meadowAt(noise, place, placeX, placeY, metres);
+        vec3 laid = siteAt(site, place, placeX, placeY);
+        float pixel = 0.5 * max(length(placeX), length(placeY));
+        Meadow meadow = meadowAt(noise, paving, place, placeX, placeY, metres, laid, pixel);
         // Blades first: the lighter ones reach out farther.
         float lush = dot(meadow.base, vec3(0.3, 0.6, 0.1)) / dot(frame.grassColor, vec3(0.3, 0.6, 0.1));
         share = smoothstep(0.25, 0.75, share * 1.2 + 1.6 * (lush - 1.0) * share * (1.0 - share));

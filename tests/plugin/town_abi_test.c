@@ -226,6 +226,21 @@ int main(void) {
     layers(context);
     triangles(context);
 
+    /* Furnishing: what can't stand is refused by name, and the last that stood goes on. */
+    EspPropPlace place = {"bench", {1, 0, 1}, 0, 1};
+    const uint8_t street[8] = {255, 0, 255, 255, 0, 0, 255, 255};
+    EspSiteDef site = {street, 2, 1, {0, 0}, {10, 10}};
+    CHECK(espSetProps(context, "/no/such/file.glb", &place, 1) == ESP_INVALID_CONTENT);
+    CHECK(strstr(espLastError(context), "/no/such/file.glb") != NULL);
+    REFUSED(espSetProps(context, "/no/such/file.glb", NULL, 1));
+    OK(context, espSetProps(context, NULL, NULL, 0));
+    OK(context, espSetSite(context, &site));
+    site.high[0] = 0;
+    REFUSED(espSetSite(context, &site));
+    site.width = 0;
+    REFUSED(espSetSite(context, &site));
+    OK(context, espSetSite(context, NULL));
+
     /* Turned by a right angle and moved: what lay to the east lies to the north. */
     load.turn = 1.57079633f;
     load.position[0] = 100;

@@ -1,0 +1,88 @@
+// Furnishing: props and what lies on the ground.
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+namespace {
+
+EspResult findPlaces(const EspContext& context, const TerminalData& models, const EspPropPlace* places, uint32_t count,
+                     std::vector<PropPlace>& out) {
+    for (uint32_t i = 0; i < count; ++i) {
+        const EspPropPlace& place = places[i];
+        const std::string name = place.model ? place.model : "";
+        const auto found = std::find_if(models.variants.begin(), models.variants.end(),
+                                        [&](const TerminalVariant& v) { return v.name == name; });
+        if (found == models.variants.end())
+            return fail(&context, ESP_INVALID_CONTENT, "espSetProps: there is no model '" + name + "'");
+        const float sum = place.position[0] + place.position[1] + place.position[2] + place.turn + place.scale;
+        if (!std::isfinite(sum) || !(place.scale > 0) || std::abs(sum) > 1e7f)
+            return fail(&context, ESP_INVALID_ARGUMENT,
+                        "espSetProps: place " + std::to_string(i) + " of '" + name + "' is out of range");
+        out.push_back({uint32_t(found - models.variants.begin()),
+                       {place.position[0], place.position[1], place.position[2]},
+                       place.turn,
+                       place.scale});
+    }
+    return ESP_OK;
+}
+
+EspResult setProps(EspContext& context, const char* path, const EspPropPlace* places, uint32_t count) {
+    if (!path || count == 0) {
+        Status cleared = context.renderer->removeProps();
+        return cleared ? ESP_OK : failGpu(&context, cleared.failure());
+    }
+    // The first kind is none: it would be bark.
+    Result<TerminalData> models = readTerminals(path, {"none"});
+    if (!models) return fail(&context, ESP_INVALID_CONTENT, models.failure().text());
+    // As the GPU sorts them.
+    std::stable_sort(models->variants.begin(), models->variants.end(),
+                     [](const TerminalVariant& a, const TerminalVariant& b) { return a.kind < b.kind; });
+    std::vector<PropPlace> found;
+    if (EspResult bad = findPlaces(context, *models, places, count, found)) return bad;
+    Status set = context.renderer->setProps(std::move(*models), std::move(found));
+    if (set) return ESP_OK;
+    if (set.failure().diagnostics.front().file == "terminals")
+        return fail(&context, ESP_INVALID_CONTENT, std::string(path) + ": " + set.failure().text());
+    return failGpu(&context, set.failure());
+}
+
+EspResult setSite(EspContext& context, const EspSiteDef* def) {
+    constexpr uint32_t kMostSide = 8192;
+    SiteMap map;
+    if (def && def->rgba) {
+        if (def->width < 1 || def->height < 1 || def->width > kMostSide || def->height > kMostSide)
+            return fail(&context, ESP_INVALID_ARGUMENT, "espSetSite: a map has 1 to 8192 texels a side");
+        map.low = {def->low[0], def->low[1]};
+        map.high = {def->high[0], def->high[1]};
+        const glm::vec2 size = map.high - map.low;
+        if (!(size.x > 1e-3f && size.y > 1e-3f && size.x < 1e6f && size.y < 1e6f))
+            return fail(&context, ESP_INVALID_ARGUMENT, "espSetSite: 'high' must lie beyond 'low'");
+        map.width = def->width;
+        map.height = def->height;
+        map.rgba.assign(def->rgba, def->rgba + size_t(def->width) * def->height * 4);
+    }
+    Status set = context.renderer->setSite(map);
+    return set ? ESP_OK : failGpu(&context, set.failure());
+}
+
+}  // namespace
+}  // namespace espalier
+
+using namespace espalier;
+
+extern "C" {
+
+EspResult espSetProps(EspContext* context, const char* models, const EspPropPlace* places, uint32_t count) {
+    return guarded(context, [&] {
+        if (count > 0 && models && !places) return fail(context, ESP_INVALID_ARGUMENT, "espSetProps: null pointer");
+        return setProps(*context, models, places, count);
+    });
+}
+
+EspResult espSetSite(EspContext* context, const EspSiteDef* def) {
+    return guarded(context, [&] { return setSite(*context, def); });
+}
+
+}  // extern "C"

@@ -1,0 +1,228 @@
+// Enters: models with levels of detail, where they stand, a view. Leaves: an instance buffer a view and one draw for
+// each level that is seen.
+#include "runtime/render/props.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/core/check.hpp"
+#include "runtime/gpu/color_texture.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr float kBuiltPixels = 1;                      // error allowed of walls and the like
+constexpr float kFoliagePixels = 6;                    // of foliage, which is noise
+constexpr float kFadeZone = 0.15f;                     // share of the distance over which a level takes over
+constexpr float kLeastPixels = 2;                      // radius below which a prop isn't drawn
+constexpr float kGrassReach = 24, kGrassShrinks = 10;  // metres from the eye; over which it sinks into the meadow
+
+// Distances of a sphere's centre from the sides of the view; the far side is at infinity.
+struct Sides {
+    glm::vec4 planes[5];
+    explicit Sides(const glm::mat4& m) {
+        const auto row = [&](int r) { return glm::vec4(m[0][r], m[1][r], m[2][r], m[3][r]); };
+        const glm::vec4 found[5] = {row(3) + row(0), row(3) - row(0), row(3) + row(1), row(3) - row(1), row(3)};
+        for (int i = 0; i < 5; ++i) planes[i] = found[i] / std::max(glm::length(glm::vec3(found[i])), 1e-12f);
+    }
+    bool misses(glm::vec3 centre, float radius) const {
+        return std::any_of(std::begin(planes), std::end(planes),
+                           [&](glm::vec4 p) { return glm::dot(p, glm::vec4(centre, 1)) < -radius; });
+    }
+};
+
+}  // namespace
+
+Result<Props> Props::create(Device& device, TerminalData models, VkFormat color, VkFormat depth, uint32_t samples) {
+    Props props;
+    Result<Terminals> terminals = Terminals::create(device, std::move(models));
+    if (!terminals) return terminals.failure();
+    props.terminals_ = std::move(*terminals);
+    Result<Sampler> sampler =
+        Sampler::create(device, {.name = "prop textures", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
+    if (!sampler) return sampler.failure();
+    props.sampler_ = std::move(*sampler);
+    if (Status s = props.makePrograms(device, color, depth, samples); !s) return s.failure();
+    return props;
+}
+
+Status Props::makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
+    const char* foliage = samples == 1 ? "render/foliage_single.frag" : "render/foliage.frag";
+    const struct {
+        Program& program;
+        const char* name;
+        const char* vertex;
+        const char* fragment;
+        bool explains = false, shadow = false;
+    } rows[] = {{built_[0], "prop", "render/prop.vert", "render/prop.frag"},
+                {built_[1], "prop", "render/prop.vert", "render/prop.frag", true},
+                {foliage_[0], "foliage", "render/foliage.vert", foliage},
+                {foliage_[1], "foliage", "render/foliage.vert", foliage, true},
+                {depth_, "prop shadow", "render/prop.vert", "render/prop_shadow.frag", false, true}};
+    for (const auto& r : rows) {
+        GraphicsDesc desc;
+        desc.name = r.name;
+        desc.vertex = r.vertex;
+        desc.fragment = r.fragment;
+        desc.depth = depth;
+        desc.options.constants = {{kExplains, r.explains ? 1u : 0u}, {kRooted, holdsRoots(device) ? 1u : 0u}};
+        if (r.shadow) {
+            desc.depthBiasConstant = 2;
+            desc.depthBiasSlope = 1.8f;
+        } else {
+            desc.colors = {color};
+            desc.samples = samples;
+            desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+        }
+        Result<Program> made = Program::graphics(device, desc);
+        if (!made) return made.failure();
+        r.program = std::move(*made);
+    }
+    return Done{};
+}
+
+Status Props::place(Device& device, std::vector<PropPlace> places) {
+    for (const PropPlace& p : places) require(p.variant < variants().size(), "a prop has a variant");
+    // An instance stands twice where a level of detail takes over.
+    for (Chosen* chosen : {&inView_, &casters_}) {
+        Result<Buffer> made =
+            Buffer::create(device, "props", std::max<size_t>(2 * places.size(), 1) * sizeof(PropInstance));
+        if (!made) return made.failure();
+        Result<TexelView> texels = TexelView::create(device, *made, VK_FORMAT_R32G32B32A32_UINT);
+        if (!texels) return texels.failure();
+        *chosen = {{}, std::move(*made), std::move(*texels)};
+    }
+    places_ = std::move(places);
+    instances_.clear();
+    for (size_t i = 0; i < places_.size(); ++i) {
+        const PropPlace& p = places_[i];
+        const float tint = std::fmod(float(i) * 0.61803399f, 1.0f);
+        instances_.push_back({p.position, p.scale, {std::cos(p.turn), std::sin(p.turn)}, tint, 1});
+    }
+    chosenFor_ = glm::mat4(0);
+    return Done{};
+}
+
+void Props::bounds(glm::vec3& low, glm::vec3& high) const {
+    for (const PropPlace& p : places_) {
+        const float reach = terminals_.table().variants[p.variant].extent * p.scale;
+        low = glm::min(low, p.position - reach);
+        high = glm::max(high, p.position + reach);
+    }
+}
+
+Status Props::choose(Commands& commands, const FrameRecord& frame) {
+    if (chosenFor_ == frame.viewProjection) return Done{};
+    const EmitTable& table = terminals_.table();
+    std::vector<Level> levels(table.bucketCount);
+    const Sides sides(frame.viewProjection);
+    for (size_t i = 0; i < places_.size(); ++i) {
+        const VariantRecord& variant = table.variants[places_[i].variant];
+        const TerminalMaterial& material = terminals_.data().materials[table.buckets[variant.firstBucket].material];
+        PropInstance instance = instances_[i];
+        const float radius = variant.extent * instance.scale;
+        if (sides.misses(instance.position, radius)) continue;
+        const float distance = std::max(glm::length(instance.position - frame.eye), 1e-3f);
+        if (radius * frame.pixelScale < kLeastPixels * distance) continue;
+        if (material.name == "grass") {
+            instance.scale *= std::clamp((kGrassReach - distance / frame.unit) / kGrassShrinks, 0.0f, 1.0f);
+            if (instance.scale <= 0) continue;
+        }
+        const bool noisy = material.alphaCutoff > 0 || material.name == "grass";
+        const float allowed = noisy ? kFoliagePixels : kBuiltPixels;
+        // How many times as far away as needed for level l to do; the coarser takes over just beyond 1.
+        uint32_t level = 0;
+        float over = 0;
+        while (level + 1 < variant.lodCount) {
+            const float next = distance * allowed / (variant.error[level + 1] * instance.scale * frame.pixelScale);
+            if (next < 1) break;
+            over = next;
+            ++level;
+        }
+        const float share = level > 0 ? (over - 1) / kFadeZone : 1;
+        auto& coarse = levels[variant.firstBucket + level].seen;
+        if (share >= 1) {
+            coarse.emplace_back(distance, instance);
+            continue;
+        }
+        instance.fade = std::max(share, 0.01f);
+        coarse.emplace_back(distance, instance);
+        instance.fade = -instance.fade;
+        levels[variant.firstBucket + level - 1].seen.emplace_back(distance, instance);
+    }
+    triangles_ = 0;
+    for (uint32_t b = 0; b < table.bucketCount; ++b)
+        triangles_ += levels[b].seen.size() * (table.buckets[b].indexCount / 3);
+    if (Status s = upload(commands, levels, inView_); !s) return s;
+    chosenFor_ = frame.viewProjection;
+    return Done{};
+}
+
+Status Props::chooseCasters(Commands& commands, const glm::mat4& sunClip) {
+    const EmitTable& table = terminals_.table();
+    std::vector<Level> levels(table.bucketCount);
+    for (size_t i = 0; i < places_.size(); ++i) {
+        const VariantRecord& variant = table.variants[places_[i].variant];
+        const TerminalMaterial& material = terminals_.data().materials[table.buckets[variant.firstBucket].material];
+        if (material.name == "grass") continue;
+        const glm::vec4 at = sunClip * glm::vec4(places_[i].position, 1);
+        const float reach = variant.extent * places_[i].scale * glm::length(glm::vec3(sunClip[0]));
+        if (std::max(std::abs(at.x), std::abs(at.y)) > 1 + reach) continue;
+        const uint32_t level = std::min(1u, variant.lodCount - 1);
+        levels[variant.firstBucket + level].seen.emplace_back(0.0f, instances_[i]);
+    }
+    return upload(commands, levels, casters_);
+}
+
+// Nearest first, so that what is behind costs no shading.
+Status Props::upload(Commands& commands, std::vector<Level>& levels, Chosen& out) const {
+    std::vector<PropInstance> all;
+    out.runs.clear();
+    for (uint32_t b = 0; b < levels.size(); ++b) {
+        auto& seen = levels[b].seen;
+        if (seen.empty()) continue;
+        std::stable_sort(seen.begin(), seen.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+        out.runs.push_back({b, uint32_t(all.size()), uint32_t(seen.size())});
+        for (const auto& [distance, instance] : seen) all.push_back(instance);
+    }
+    if (all.empty()) return Done{};
+    commands.barrier(Use::vertex, Use::transfer);
+    if (Status s = commands.upload(out.instances, all); !s) return s;
+    commands.barrier(Use::transfer, Use::vertex);
+    return Done{};
+}
+
+PropPush Props::pushOf(uint32_t bucket, uint32_t first) const {
+    const TerminalMaterial& material = terminals_.data().materials[terminals_.table().buckets[bucket].material];
+    return {material.baseColor, first, material.name == "grass" ? 1u : 0u, material.roughness, material.alphaCutoff};
+}
+
+void Props::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Binding* shadow,
+                     bool explains) const {
+    const EmitTable& table = terminals_.table();
+    pass.setIndices(terminals_.batches());
+    for (const Run& run : chosen.runs) {
+        const BucketRecord& bucket = table.buckets[run.bucket];
+        const PropPush push = pushOf(run.bucket, run.first);
+        // Patterns are for records; here each instance draws the first of its repetitions.
+        const DrawPass::IndexRange range{bucket.indexCount, bucket.firstIndex, int32_t(bucket.firstVertex), run.count};
+        const Binding color{terminals_.baseColor(bucket.material), sampler_}, texels(chosen.texels),
+            meshes(terminals_.vertexTexels());
+        if (!shadow)
+            pass.drawIndexed(depth_, range, push, {color, frame, texels, meshes});
+        else if (push.alphaCutoff > 0 || push.grass)
+            pass.drawIndexed(foliage_[explains], range, push, {color, *shadow, frame, texels, meshes});
+        else
+            pass.drawIndexed(built_[explains], range, push, {color, *shadow, frame, texels, meshes});
+    }
+}
+
+void Props::draw(DrawPass& pass, const Buffer& frame, const Binding& shadow, bool explains) const {
+    drawRuns(pass, inView_, frame, &shadow, explains);
+}
+
+void Props::drawDepth(DrawPass& pass, const Buffer& frame) const {
+    drawRuns(pass, casters_, frame, nullptr, false);
+}
+
+}  // namespace espalier

@@ -1,0 +1,36 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// Walls, fences, wood and stone of props: a texture, or the shade that texture u carries, under sun and sky.
+#include "shaders/render/light.glsl"
+#include "shaders/render/prop_records.h"
+#include "shaders/render/prop_fade.glsl"
+
+layout(push_constant, scalar) uniform Data { PropPush push; };
+layout(set = 0, binding = 0) uniform sampler2D colorMap;
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) flat in vec2 tintFade;
+layout(location = 0) out vec4 color;
+
+void main() {
+    if (fadedOut(tintFade.y)) discard;
+    vec3 n = normalize(normal);
+    vec3 eye = normalize(frame.eye - position);
+    if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;
+    if (explains) {
+        color = frame.view == kViewOverdraw ? oneFragment()
+                : frame.view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(vec3(0.4), n);
+        return;
+    }
+    vec3 base = texelColor(texture(colorMap, uv).rgb) * push.baseColor.rgb * (0.88 + 0.24 * tintFade.x);
+    // What stands on the ground is dark and damp at its foot.
+    float foot = clamp((position.y - frame.groundLevel) * 4.0 / frame.unit, 0.0, 1.0);
+    base *= 0.62 + 0.38 * foot;
+    vec3 sun = frame.sunDirection;
+    float facing = max(dot(n, sun), 0.0);
+    float visible = facingSunVisibility(facing, position, n);
+    vec3 direct = frame.sunColor * visible * facing * (base + gloss(n, eye, sun, max(push.roughness, 0.35)));
+    color = lit(direct, base * skyLight(n) * (0.55 + 0.45 * foot));
+}

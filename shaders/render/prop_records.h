@@ -1,0 +1,28 @@
+// What the shaders of props read: where each stands, and each draw's push data.
+#ifndef ESPALIER_RENDER_PROP_RECORDS_H
+#define ESPALIER_RENDER_PROP_RECORDS_H
+#include "shaders/render/frame_records.h"
+
+ESPALIER_BEGIN
+
+// Two texels of four words.
+struct PropInstance {
+    vec3 position;
+    float scale;
+    vec2 turn;      // cosine and sine about the vertical, counterclockwise from above
+    float tint;     // 0 to 1, how it differs from others of its kind
+    float fade;     // 1: all pixels; above 0: this share of them; below: those that -fade leaves out
+};
+STATIC_SIZE(PropInstance, 32);
+
+struct PropPush {
+    vec4 baseColor;
+    uint firstInstance;
+    uint grass;         // 1: it has the meadow's colour
+    float roughness;
+    float alphaCutoff;  // 0: opaque
+};
+STATIC_SIZE(PropPush, 32);
+
+ESPALIER_END
+#endif

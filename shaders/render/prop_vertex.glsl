@@ -1,0 +1,31 @@
+// Where a prop's vertex stands.
+#ifndef ESPALIER_RENDER_PROP_VERTEX_GLSL
+#define ESPALIER_RENDER_PROP_VERTEX_GLSL
+#include "shaders/emit/triangle_vertex.glsl"
+#include "shaders/render/frame.glsl"
+#include "shaders/render/prop_records.h"
+
+layout(set = 0, binding = 10) uniform usamplerBuffer instances;   // four words a texel
+layout(set = 0, binding = 11) uniform usamplerBuffer meshes;      // two words a texel
+
+struct PropVertex {
+    vec3 position, normal;
+    vec2 uv;
+    float tint, fade;
+};
+
+PropVertex propVertex(uint vertex, uint instance) {
+    uvec4 a = texelFetch(instances, int(2u * instance)), b = texelFetch(instances, int(2u * instance + 1u));
+    uvec2 p = texelFetch(meshes, int(3u * vertex)).xy, q = texelFetch(meshes, int(3u * vertex + 1u)).xy;
+    vec3 at = vec3(uintBitsToFloat(p), uintBitsToFloat(q.x)), n = octahedralToUnit(q.y);
+    vec2 turn = uintBitsToFloat(b.xy);
+    PropVertex v;
+    at *= uintBitsToFloat(a.w);
+    v.position = uintBitsToFloat(a.xyz) + vec3(turn.x * at.x + turn.y * at.z, at.y, turn.x * at.z - turn.y * at.x);
+    v.normal = vec3(turn.x * n.x + turn.y * n.z, n.y, turn.x * n.z - turn.y * n.x);
+    v.uv = uintBitsToFloat(texelFetch(meshes, int(3u * vertex + 2u)).xy);
+    v.tint = uintBitsToFloat(b.z);
+    v.fade = uintBitsToFloat(b.w);
+    return v;
+}
+#endif
