@@ -110,6 +110,7 @@ SceneFile describe(const Document& document) {
             if (seed.grammar == i) described.seeds.push_back(seed);
     }
     out.town = scene.town;
+    out.site = scene.site;
     out.pruned.resize(espPrunedCount(document.context()));
     for (uint32_t i = 0; i < out.pruned.size(); ++i) (void)espPrunedAt(document.context(), i, &out.pruned[i]);
     describeLook(scene, out);

@@ -11,6 +11,7 @@
 #include "tools/scene/daylight.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene_file.hpp"
+#include "tools/scene/site.hpp"
 
 namespace espalier::scene {
 namespace {
@@ -276,6 +277,8 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         if (!fromContext(context, espPruneBranch(context, branch, 1), error)) return false;
     out.town = file.town;
     if (out.town && !loadTown(context, out, error)) return false;
+    out.site = file.site;
+    if (!out.site.empty() && !furnish(context, out.site, error)) return false;
     noteLayers(context, out);
     for (const SceneLayer& layer : file.layers) {
         // A scene may paint layers that only some grammar, given in place of its own, doesn't read.

@@ -87,6 +87,7 @@ struct Scene {
     std::vector<LoadedGrammar> grammars;
     std::vector<Seed> seeds;
     std::optional<SceneTown> town;
+    std::string site;  // file of what furnishes it; empty: nothing does
     std::vector<std::string> layers;
     std::vector<std::string> notes;  // what of the file couldn't be kept, a line each
     EspCamera camera{};

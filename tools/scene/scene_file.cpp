@@ -24,7 +24,7 @@ class Reader {
         if (!readVersion(json)) return;
         if (!isObject(json, "a scene",
                       {"project", "surface", "surfaces", "town", "pruned", "grammars", "layers", "camera", "sun", "sky",
-                       "ground", "exposure"}))
+                       "ground", "site", "exposure"}))
             return;
         readSurfaces(json);
         if (const Json* grammars = need(json, "grammars")) {
@@ -33,6 +33,7 @@ class Reader {
             for (const Json& grammar : grammars->items) readGrammar(grammar);
         }
         if (const Json* town = json.find("town")) readTown(*town);
+        if (const Json* site = json.find("site")) out_.site = file(*site);
         if (const Json* pruned = json.find("pruned")) readPruned(*pruned);
         if (const Json* layers = json.find("layers")) {
             if (layers->kind != Json::Kind::object) fail(*layers, "'layers' must be an object");

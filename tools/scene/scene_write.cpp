@@ -87,6 +87,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     for (const SceneSurface& surface : file.surfaces)
         json["surfaces"].push_back(placedJson(beside(surface.file), surface.placing));
     if (file.town) json["town"] = townJson(*file.town, beside(file.town->file));
+    if (!file.site.empty()) json["site"] = beside(file.site);
     for (uint64_t branch : file.pruned) {
         char key[20];
         std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(branch));
