@@ -11,8 +11,10 @@
 #include "tools/content/leaf.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/preview.hpp"
+#include "tools/content/props.hpp"
 #include "tools/content/roof_mesh.hpp"
 #include "tools/content/ruin.hpp"
+#include "tools/content/site.hpp"
 
 namespace espalier::content {
 namespace {
@@ -139,6 +141,26 @@ Status writeRoofMeshes(const Options& options) {
     return writeGlb(options.directory + "/roofs.glb", glb);
 }
 
+Status writeProps(const Options& options) {
+    const PropMeshes meshes = makePropMeshes();
+    Glb glb;
+    glb.images = {{"foliage", encodePng(paintFoliage(1024), 4), true}, {"palette", encodePng(paintPalette(), 3), true}};
+    glb.materials = {{"foliage", 0, -1, 0.7f, 0.5f, true, true},
+                     {"built", 1, -1, 0.92f, 0, false, false},
+                     {"grass", -1, -1, 0.8f, 0, true, false}};
+    for (const PropMeshes::Entry& e : meshes.all) glb.meshes.push_back({e.name, &e.mesh, e.material});
+    return writeGlb(options.directory + "/props.glb", glb);
+}
+
+Status writeSite(const Options& options) {
+    Result<std::vector<Outline>> houses = readOutlines(options.town);
+    if (!houses) return houses.failure();
+    const Site site = makeSite(*houses, 512);
+    if (Status s = writeBytes(options.directory + "/site.png", encodePng(site.map, 3)); !s) return s;
+    const std::string text = siteJson(site);
+    return writeBytes(options.directory + "/site.json", {text.begin(), text.end()});
+}
+
 }  // namespace
 
 Status generate(const Options& options) {
@@ -150,6 +172,10 @@ Status generate(const Options& options) {
         if (Status s = writeRuin(options); !s) return s;
     if (wanted("roofs"))
         if (Status s = writeRoofMeshes(options); !s) return s;
+    if (wanted("props"))
+        if (Status s = writeProps(options); !s) return s;
+    if (wanted("props") && !options.town.empty())
+        if (Status s = writeSite(options); !s) return s;
     return wanted("terminals") ? writeTerminals(options) : Status(Done{});
 }
 

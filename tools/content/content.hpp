@@ -10,10 +10,11 @@
 namespace espalier::content {
 
 struct Options {
-    std::string directory;  // of ruin.glb, its layers (mask.png, ivy.png), terminals.glb, roofs.glb; made if missing
+    std::string directory;         // of all files; made if missing
     std::string previewDirectory;  // empty: no pictures
     int textureSize = 2048;        // of the ruin, a power of two
-    std::string only = "";         // "ruin", "roofs" or "terminals"; empty: all
+    std::string only = "";         // "ruin", "roofs", "terminals" or "props"; empty: all
+    std::string town = "";         // houses that the site is laid out around; empty: no site.json and site.png
 };
 
 Status generate(const Options& options);

@@ -1,5 +1,6 @@
 // espalier-content OUT_DIR: generates Espalier's own sample content. In: nothing but options. Out: ruin.glb,
-// mask.png, ivy.png, terminals.glb, roofs.glb; with --preview DIR, pictures of them.
+// mask.png, ivy.png, terminals.glb, roofs.glb, props.glb; with --town FILE, site.json and site.png; with --preview DIR,
+// pictures.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -12,13 +13,14 @@ int main(int argc, char** argv) {
     CLI::App app{"Generates Espalier's sample content: a ruin, its layers, leaves, bark and pebbles."};
     content::Options options;
     app.add_option("OUT_DIR", options.directory,
-                   "folder for ruin.glb, its layers, terminals.glb and roofs.glb; made if missing")
+                   "folder for ruin.glb, its layers, terminals.glb, roofs.glb and props.glb; made if missing")
         ->required();
     app.add_option("--preview", options.previewDirectory, "folder for pictures of what was made");
     app.add_option("--textures", options.textureSize, "texels a side of the ruin's textures")
         ->check(CLI::IsMember({256, 512, 1024, 2048, 4096}));
-    app.add_option("--only", options.only, "makes one of ruin, roofs, terminals instead of all")
-        ->check(CLI::IsMember({"ruin", "roofs", "terminals"}));
+    app.add_option("--only", options.only, "makes one of ruin, roofs, terminals, props instead of all")
+        ->check(CLI::IsMember({"ruin", "roofs", "terminals", "props"}));
+    app.add_option("--town", options.town, "houses that the site is laid out around");
     app.set_version_flag("--version", "espalier-content " ESPALIER_VERSION);
     CLI11_PARSE(app, argc, argv);
     Status status = content::generate(options);

@@ -1,0 +1,120 @@
+// Props and the site: meshes are sound, and nothing stands in a house or on a street. The judge reads the outlines anew
+// and asks the painted map, not the layout's own distances.
+
+#include <doctest/doctest.h>
+#include <cmath>
+#include <set>
+
+#include "tools/content/props.hpp"
+#include "tools/content/site.hpp"
+
+using namespace espalier::content;
+
+namespace {
+
+// By the angles under which the corners are seen.
+bool within(const Outline& o, glm::vec2 p) {
+    double sum = 0;
+    for (size_t i = 0; i < o.size(); ++i) {
+        const glm::dvec2 a = glm::dvec2(o[i]) - glm::dvec2(p), b = glm::dvec2(o[(i + 1) % o.size()]) - glm::dvec2(p);
+        sum += std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
+    }
+    return std::abs(sum) > 3;
+}
+
+const uint8_t* mapAt(const Site& site, glm::vec2 p) {
+    const glm::vec2 at = (p - site.low) / (site.high - site.low) * glm::vec2(site.map.width, site.map.height);
+    return site.map.at(int(at.x), int(at.y));
+}
+
+}  // namespace
+
+TEST_CASE("props' meshes are sound and get coarser level by level") {
+    const PropMeshes props = makePropMeshes();
+    std::map<std::string, size_t> finer;
+    for (const PropMeshes::Entry& e : props.all) {
+        CAPTURE(e.name);
+        const Mesh& m = e.mesh;
+        REQUIRE(m.positions.size() == m.normals.size());
+        REQUIRE(m.positions.size() == m.uvs.size());
+        REQUIRE(m.indices.size() % 3 == 0);
+        for (uint32_t i : m.indices) REQUIRE(i < m.positions.size());
+        for (size_t i = 0; i < m.positions.size(); ++i) {
+            REQUIRE(std::isfinite(m.positions[i].x + m.positions[i].y + m.positions[i].z));
+            REQUIRE(glm::length(m.normals[i]) == doctest::Approx(1).epsilon(0.001));
+            REQUIRE(m.positions[i].y > -1.2f);
+        }
+        const std::string model = e.name.substr(0, e.name.rfind("_lod"));
+        if (finer.count(model)) CHECK(m.indices.size() < finer[model]);
+        finer[model] = m.indices.size();
+        CHECK(m.indices.size() / 3 < 1500);
+    }
+}
+
+TEST_CASE("a card's texture coordinates stay in one cell of the foliage") {
+    for (const PropMeshes::Entry& e : makePropMeshes().all) {
+        if (e.material != PropMeshes::kFoliage) continue;
+        CAPTURE(e.name);
+        for (size_t i = 0; i < e.mesh.indices.size(); i += 3) {
+            std::set<int> open;
+            for (size_t k = 0; k < 3; ++k) open.insert(int(std::floor(e.mesh.uvs[e.mesh.indices[i + k]].x)));
+            REQUIRE(open.size() == 1);
+            CHECK(*open.begin() >= 1);
+            CHECK(*open.begin() <= 8);
+        }
+    }
+}
+
+TEST_CASE("twigs have gaps and leaves, and no leaf is black") {
+    const Picture picture = paintFoliage(512);
+    size_t leaves = 0, dark = 0;
+    for (int y = 0; y < 512; ++y)
+        for (int x = 64; x < 448; ++x) {
+            const uint8_t* texel = picture.at(x, y);
+            if (texel[3] < 128) continue;
+            ++leaves;
+            if (texel[1] < 30) ++dark;
+        }
+    CHECK(leaves > 0.15 * 384 * 512);
+    CHECK(leaves < 0.7 * 384 * 512);
+    CHECK(dark * 100 < leaves);
+}
+
+TEST_CASE("nothing stands in a house or on a street, and streets lead past no wall") {
+    auto houses = readOutlines("content/street.json");
+    REQUIRE(houses);
+    REQUIRE(houses->size() == 15);
+    const Site site = makeSite(*houses, 256);
+    CHECK(site.props.at("well").size() == 1);
+    size_t trees = 0;
+    for (const auto& [model, places] : site.props)
+        for (const SitePlace& p : places) {
+            const glm::vec2 at(p.position.x, p.position.z);
+            CAPTURE(model);
+            CAPTURE(at.x);
+            CAPTURE(at.y);
+            for (const Outline& o : *houses) CHECK_FALSE(within(o, at));
+            CHECK(p.scale > 0);
+            const bool tree = model.starts_with("lime") || model.starts_with("apple") || model.starts_with("birch");
+            trees += tree;
+            if (glm::max(std::abs(at.x), std::abs(at.y)) > 100 || !tree) continue;
+            CHECK(mapAt(site, at)[0] < 118);
+        }
+    CHECK(trees > 60);
+    int paved = 0;
+    for (int y = 0; y < 256; ++y)
+        for (int x = 0; x < 256; ++x) {
+            if (site.map.at(x, y)[0] < 128) continue;
+            ++paved;
+            const glm::vec2 p = glm::mix(site.low, site.high, (glm::vec2(x, y) + 0.5f) / 256.0f);
+            for (const Outline& o : *houses) CHECK_FALSE(within(o, p));
+        }
+    CHECK(paved > 800);
+    CHECK(siteJson(site).find("\"map\":\"site.png\"") != std::string::npos);
+}
+
+TEST_CASE("a town that is none is told by name") {
+    auto none = readOutlines("content/sample.json");
+    REQUIRE_FALSE(none);
+    CHECK(none.failure().text().find("sample.json") != std::string::npos);
+}

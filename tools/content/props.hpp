@@ -1,0 +1,38 @@
+#pragma once
+
+// Props that the sample's site is furnished with: trees and bushes of leaves on cards, grass, walls, fences, a well, a
+// bench. Metres, y up, origin on the ground.
+
+#include "tools/content/model.hpp"
+
+namespace espalier::content {
+
+struct PropMeshes {
+    enum Material { kFoliage, kBuilt, kGrass };
+    struct Entry {
+        std::string name;  // MODEL_lodN
+        Mesh mesh;
+        Material material;
+    };
+    std::vector<Entry> all;
+    void add(const std::string& model, int lod, Mesh mesh, Material material) {
+        all.push_back({model + "_lod" + std::to_string(lod), std::move(mesh), material});
+    }
+};
+PropMeshes makePropMeshes();
+void addTrees(PropMeshes& out);
+void addFurniture(PropMeshes& out);
+
+// Twigs full of leaves, cut out along a distance ramp, and bark. Cells are a quarter of the picture wide, from u = 1/8;
+// bark fills the strip before them, birch its right half, and repeats along v.
+constexpr float kCellSide = 0.25f, kFirstCell = 0.125f;
+Picture paintFoliage(int size);
+
+// Built props' colours: u is how bright, v picks the material.
+enum class Paint { stone, mortar, wood, darkWood, white, iron, clay, count };
+Picture paintPalette();
+inline glm::vec2 paletteUv(Paint paint, float bright) {
+    return {0.05f + 0.9f * glm::clamp(bright, 0.0f, 1.0f), (float(paint) + 0.5f) / 8};
+}
+
+}  // namespace espalier::content
