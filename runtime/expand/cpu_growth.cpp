@@ -1,15 +1,13 @@
-// In: growth's inputs with pointers for addresses. Out: the same records as the GPU's. Waves are taken in turn, items
-// in the order in which they were pushed; running out of room is answered as on the GPU.
+// In: growth's inputs with pointers for addresses. Out: the same records as the GPU's, in the order in which items were
+// pushed. Running out of room is answered as on the GPU.
 #include "runtime/expand/cpu_growth.hpp"
 
 #include <algorithm>
 #include <map>
 
 #include "runtime/expand/growth_plan.hpp"
+#include "runtime/expand/native_growth.hpp"
 #include "runtime/expand/seed_changes.hpp"
-#include "shaders/shared/expand_fit.h"
-#include "shaders/shared/expand_grow.h"
-#include "shaders/shared/expand_terminals.h"
 
 namespace espalier {
 namespace {
@@ -19,57 +17,6 @@ struct Attempt {
     GrowStatus status;
     std::vector<Wave> waves;
 };
-
-void runWaves(Attempt& a, ExpandEnv env, const GrowthInputs& inputs, const GrowthRoom& room, const GrowthCut& cut) {
-    std::vector<WorkItem> queue[2];
-    queue[0] = itemsOfSeeds(inputs.seeds);
-    queue[0].resize(room.items);
-    queue[1].resize(room.items);
-    std::vector<uint32_t> scratch(kChunkNodes * kStagedWords);
-    env.itemCapacity = room.items;
-    env.phase = lastWave(cut);
-    env.scratch = {scratch.data()};
-    uint32_t w = 0;
-    for (; w + 1 < a.waves.size() && a.waves[w].count > 0; ++w) {
-        env.wave = w;
-        env.nextItems = {queue[(w + 1) & 1].data()};
-        uint32_t count = std::min(a.waves[w].count, room.items);
-        if (a.waves[w].count > count) atomicMax(a.status.items, a.waves[w].count);
-        GrowthTally tally = emptyTally();
-        for (uint32_t i = 0; i < count; ++i) {
-            Machine machine;
-            ChunkGrowth c;
-            if (!beginChunk(machine, env, queue[w & 1][i], c)) continue;
-            while (growing(c.g)) growOn(machine, env, c);
-            endChunk(env, c, tally);
-        }
-        addTally(env, tally);
-    }
-    a.waves.resize(w + 1);
-}
-
-void runTerminals(Attempt& a, ExpandEnv env) {
-    GrowStatus& s = a.status;
-    env.wave = uint32_t(a.waves.size()) - 1;
-    if (!complete(env)) return;
-    std::vector<uint32_t> density(kDensityCells + 3 * size_t(s.nodes));
-    env.density = {density.data()};
-    uvec2 hash(0, 0);
-    for (uint32_t i = 0; s.tangentMode != 0 && i < s.branches; ++i) sumJoint(env, i);
-    for (uint32_t phase : {kTerminalsCount, kTerminalsWrite}) {
-        if (phase == kTerminalsCount && s.leafDensityCap <= 0) continue;
-        env.phase = phase;
-        for (uint32_t i = 0; i < s.nodes; ++i) {
-            Machine machine;
-            const NodeFinish finish = finishNode(machine, env, i, hash);
-            if (phase == kTerminalsWrite) keepFinish(env.nodes, i, finish);
-        }
-    }
-    for (uint32_t i = 0; i < s.branches; ++i) a.out.branches[i].thickness = thicknessOf(env, i);
-    for (uint32_t i = 0; i < s.nodes; ++i) hash += fitNode(env, i);
-    s.hash[0] = hash.x;
-    s.hash[1] = hash.y;
-}
 
 Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const GrowthCut& cut) {
     Attempt a;
@@ -88,7 +35,6 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     std::vector<GrammarTables> heads = placeTables(inputs, words);
     std::vector<uint32_t> tables(words + 1);
     std::memcpy(tables.data(), heads.data(), heads.size() * sizeof(GrammarTables));
-    for (uint32_t i = 0; i < grammars.size(); ++i) packGrammar({grammars.data()}, {tables.data()}, i, 0, 1);
 
     ExpandEnv env{};
     env.surfaces = inputs.surfaces;
@@ -101,8 +47,18 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     env.leaves = {a.out.leaves.data()};
     env.status = {&a.status};
     env.waves = {a.waves.data()};
-    runWaves(a, env, inputs, room, cut);
-    runTerminals(a, env);
+    packTablesNative(env, uint32_t(grammars.size()));
+    env.itemCapacity = room.items;
+    env.phase = lastWave(cut);
+    std::vector<WorkItem> even = itemsOfSeeds(inputs.seeds), odd(room.items);
+    even.resize(room.items);
+    env.wave = marchNative(env, {even.data(), odd.data()}, uint32_t(a.waves.size()) - 1, 1);
+    a.waves.resize(env.wave + 1);
+    const bool sums = inputs.limits.leafDensityCap > 0 || inputs.limits.tangents == TangentMode::paper;
+    std::vector<uint32_t> density(sums ? kDensityCells + 3 * size_t(a.status.nodes) : 0);
+    env.density = {density.data()};
+    terminalsNative(env, inputs.limits, 1);
+    fitNative(env, 1);
     return a;
 }
 
@@ -139,10 +95,9 @@ std::string decisionAt(const std::vector<Node>& a, const std::vector<Node>& b, f
 
 }  // namespace
 
-Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs) {
+Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room) {
     Status usable = checkInputs(inputs);
     if (!usable) return usable.failure();
-    GrowthRoom room;
     room.items = std::max(room.items, uint32_t(inputs.seeds.size()));
     GrowthCut cut = noCut(inputs.limits);
     for (uint32_t overflow = 0; overflow < 48; ++overflow) {

@@ -14,8 +14,9 @@ struct CpuGrowth : GrowthRecords {
     GrowthStats stats;
 };
 
-// All addresses in `inputs` (surfaces, layers, rule maps) are pointers here. Fails as Growth::grow does.
-Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs);
+// All addresses in `inputs` (surfaces, layers, rule maps) are pointers here. room: to begin with; what takes more is
+// grown again from the start, as on a GPU. Fails as Growth::grow does.
+Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room = {});
 
 // How two growths of the same inputs differ, branch by branch; for tests and reports.
 struct GrowthDifference {

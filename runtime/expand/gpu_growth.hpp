@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <optional>
 #include <thread>
 
 #include "runtime/expand/growth.hpp"
 #include "runtime/expand/growth_plan.hpp"
+#include "runtime/expand/native_growth.hpp"
 #include "runtime/expand/seed_changes.hpp"
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/gpu/commands.hpp"
@@ -28,6 +30,16 @@ Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
 // Bytes of a buffer that is read as texels to its end.
 inline uint64_t wholeTexels(uint64_t bytes) {
     return (bytes + 15) / 16 * 16;
+}
+
+constexpr unsigned kAllThreads = 0;  // of parallelFor
+
+// Wall time of work().
+template <class Work>
+double millisecondsOf(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 template <class T>
@@ -68,10 +80,12 @@ class GpuGrowth final : public Growth {
     Status viewSurfaces(const GrowthInputs& inputs);
     Status viewRecords(const GrowthInputs& inputs, const Plants& plants, const Links& links, const Links& before);
     void dropViews();  // no view outlives its buffer
+    Status makeTables(const GrowthInputs& inputs);
     Status makeKernels(const GrowthInputs& inputs);
     Status makeQueues(const GrowthInputs& inputs);
     Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen);
-    Status uploadTables(Commands& commands, const GrowthInputs& inputs);
+    // pack: by a kernel; else it is left to native code.
+    Status uploadTables(Commands& commands, const GrowthInputs& inputs, bool pack);
     // Counters of an attempt, and the pruned branches that they lead to.
     Status uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status);
     ExpandEnv environment(const GrowthInputs& inputs, const Plants& plants, const Links& links);
@@ -82,6 +96,10 @@ class GpuGrowth final : public Growth {
     void remember(const GrowthInputs& inputs);
     void showLinks(const GrowStatus& status);
     uint64_t reserved() const;
+    // Whether growth runs as native code.
+    bool runsNative(const GrowthInputs& inputs) const {
+        return inputs.native && device_.info().cpu && status_ && uintptr_t(status_.mapped()) == status_.address();
+    }
     uint64_t densityWords(const GrowthLimits& limits) const {
         if (limits.tangents == TangentMode::paper) return kDensityCells + 3ull * room_.nodes;
         return limits.leafDensityCap > 0 ? kDensityCells : 1;
@@ -94,6 +112,8 @@ class GpuGrowth final : public Growth {
     // All anew: growth.cpp.
     Status growAll(const GrowthInputs& inputs);
     Result<Outcome> attempt(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
+    Result<Outcome> attemptShaders(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
+    Result<Outcome> attemptNative(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
     Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
     Status record(Commands& commands, const ExpandEnv& env, uint32_t first, uint32_t last, const GrowthLimits& limits);
     void recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits);
@@ -108,10 +128,14 @@ class GpuGrowth final : public Growth {
     Status uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
                        const std::vector<uint32_t>& edits);
     Result<AgainState> findDirty(const GrowthInputs& inputs, const SeedChanges& seeds, ExpandEnv env);
-    Result<Regrown> growAgain(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
+    Result<Regrown> growAgain(const GrowthInputs& inputs, const ExpandEnv& env, Outcome& outcome, AgainState& state);
+    Status growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
+    void growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
     void recordAgain(Commands& commands, ExpandEnv env);
-    void recordAgainProf(ExpandEnv env);
     void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state);
+    ItemQueues itemQueues() const {
+        return {addressOf<WorkItemBuf, WorkItem>(items_[0]).v, addressOf<WorkItemBuf, WorkItem>(items_[1]).v};
+    }
     // Groups of a pass whose kernels go through chunks or lists of them by themselves: few, since each costs, but none
     // with more than some 512 chunks to go through, see kMaxTrips.
     std::array<uint32_t, 3> spreadGroups() const {

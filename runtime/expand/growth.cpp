@@ -58,7 +58,7 @@ Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, c
     wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_);
     Status steps[] = {uploadStatus(commands, inputs, withFrozen(freshStatus(inputs.limits, room_, cut), frozen)),
                       commands.upload(waves_, wave), commands.upload(items_[0], itemsOfSeeds(inputs.seeds)),
-                      uploadTables(commands, inputs)};
+                      uploadTables(commands, inputs, !runsNative(inputs))};
     for (Status& step : steps)
         if (!step) return step;
     return Done{};
@@ -132,10 +132,38 @@ void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthL
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 
+// What follows needs no kernels, so none are made.
+Result<GpuGrowth::Outcome> GpuGrowth::attemptNative(const GrowthInputs& inputs, const FrozenSum& frozen,
+                                                    const GrowthCut& cut) {
+    ExpandEnv env = environment(inputs, plants_[1 - frontPlants_], links_[1 - frontLinks_]);
+    {
+        Result<Commands> commands = Commands::begin(device_, "expand inputs");
+        if (!commands) return commands.failure();
+        if (Status uploaded = uploadInputs(*commands, inputs, frozen, cut); !uploaded) return uploaded.failure();
+        if (densityWords(inputs.limits) > 1) commands->fill(density_, 0);
+        if (Status finished = commands->finish(); !finished) return finished.failure();
+    }
+    packTablesNative(env, uint32_t(inputs.grammars.size()));
+    Outcome outcome;
+    env.phase = lastWave(cut);
+    outcome.marchMs =
+        millisecondsOf([&] { env.wave = marchNative(env, itemQueues(), inputs.limits.maxDepth + 1, kAllThreads); });
+    outcome.terminalsMs = millisecondsOf([&] { terminalsNative(env, inputs.limits, kAllThreads); });
+    outcome.fitMs = millisecondsOf([&] { fitNative(env, kAllThreads); });
+    outcome.status = status_.mappedAs<GrowStatus>()[0];
+    outcome.waves.assign(env.waves.v, env.waves.v + env.wave + 1);
+    return outcome;
+}
+
 Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const FrozenSum& frozen,
                                               const GrowthCut& cut) {
-    Status room = makeRoom(inputs, frozen.records);
-    if (!room) return room.failure();
+    if (Status room = makeRoom(inputs, frozen.records); !room) return room.failure();
+    stats_.native = runsNative(inputs);
+    return stats_.native ? attemptNative(inputs, frozen, cut) : attemptShaders(inputs, frozen, cut);
+}
+
+Result<GpuGrowth::Outcome> GpuGrowth::attemptShaders(const GrowthInputs& inputs, const FrozenSum& frozen,
+                                                     const GrowthCut& cut) {
     ExpandEnv env = environment(inputs, plants_[1 - frontPlants_], links_[1 - frontLinks_]);
     Outcome outcome;
     uint32_t first = 0;

@@ -38,6 +38,9 @@ struct GrowthInputs {
     // The one buffer that all arrays of all surfaces lie in, where there is one (GpuSurface::data): software devices
     // then read it as texels, which is faster. Null: by address.
     const Buffer* surfaceData = nullptr;
+    // True: on a software device whose addresses are the process's own, growth runs as native code on its cores
+    // (native_growth.hpp), with the same result. False: as shaders there too.
+    bool native = true;
     // False: a software device too reads surfaces and records by address only, as all other devices do.
     bool fetch = true;
     LayerBuf layers{};  // surfaceCount * kMaxLayers
@@ -85,7 +88,8 @@ struct GrowthStats {
              chunkBytes = 0;     // of records; chunkBytes counts branches too, leafBytes the links from nodes
     uint64_t reservedBytes = 0;  // of all buffers held: both sets of records, queues, scratch
     uint64_t hash = 0;           // canonical: positions, radii and all terminals, independent of order
-    double expandMs = 0;         // GPU time of the attempt that succeeded
+    bool native = false;         // it ran as native code
+    double expandMs = 0;         // GPU time of the attempt that succeeded; of native code, wall time
     double marchMs = 0, terminalsMs = 0, fitMs = 0;
 };
 

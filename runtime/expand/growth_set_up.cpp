@@ -102,11 +102,17 @@ void GpuGrowth::dropViews() {
         *view = {};
 }
 
-// Kernels for what these grammars ask of them.
-Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
+Status GpuGrowth::makeTables(const GrowthInputs& inputs) {
     uint64_t words = 0;
     placeTables(inputs, words);
     byAddress_ = words > kUniformTableWords;
+    Status made = ensure(tables_, "growth tables", (byAddress_ ? words : kUniformTableWords) * 4);
+    if (made) made = ensure(noTables_, "growth no tables", byAddress_ ? kUniformTableWords * 4 : 0);
+    return made ? ensure(grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)) : made;
+}
+
+// Kernels for what these grammars ask of them.
+Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
     Status viewed = viewSurfaces(inputs);
     if (!viewed) return viewed;
     uint32_t features = features_ | kFeatureKnown;
@@ -120,12 +126,7 @@ Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
         for (Program& program : marchPaper_) program = {};
         features_ = features;
     }
-    Status kernels = loadKernels(inputs.limits.walk);
-    if (!kernels) return kernels;
-    const uint64_t tableWords = byAddress_ ? words : kUniformTableWords;
-    Status made = ensure(tables_, "growth tables", tableWords * 4);
-    if (made) made = ensure(noTables_, "growth no tables", byAddress_ ? kUniformTableWords * 4 : 0);
-    return made ? ensure(grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)) : made;
+    return loadKernels(inputs.limits.walk);
 }
 
 Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen) {
@@ -148,9 +149,10 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
     }
     chained_ = false;  // the attempt writes its own
     if (Status ok = ensureChains(plants); !ok) return ok;
+    if (Status tables = makeTables(inputs); !tables) return tables;
+    if (Status queues = makeQueues(inputs); !queues || runsNative(inputs)) return queues;
     if (Status viewed = viewRecords(inputs, plants, links, links); !viewed) return viewed;
-    if (Status kernels = makeKernels(inputs); !kernels) return kernels;
-    return makeQueues(inputs);
+    return makeKernels(inputs);
 }
 
 Status GpuGrowth::makeQueues(const GrowthInputs& inputs) {
@@ -184,14 +186,14 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plant
     return env;
 }
 
-Status GpuGrowth::uploadTables(Commands& commands, const GrowthInputs& inputs) {
+Status GpuGrowth::uploadTables(Commands& commands, const GrowthInputs& inputs, bool pack) {
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     uint64_t words = 0;
     Status steps[] = {commands.upload(grammars_, grammars), commands.upload(tables_, placeTables(inputs, words))};
     for (Status& step : steps)
         if (!step) return step;
     commands.barrier(Use::transfer, Use::compute | Use::indirect);
-    if (grammars.empty()) return Done{};
+    if (grammars.empty() || !pack) return Done{};
     Pass pass(commands, "expand tables");
     pass.dispatch(packTables_, {uint32_t(grammars.size()), 1, 1},
                   environment(inputs, plants_[frontPlants_], links_[frontLinks_]));

@@ -71,8 +71,11 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
     if (Status ok = ensureChains(plants_[frontPlants_]); !ok) return ok;
     for (const auto& row : rows)
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
+    if (Status tables = makeTables(inputs); !tables) return tables;
+    if (Status queues = makeQueues(inputs); !queues || runsNative(inputs)) return queues;
     if (Status viewed = viewRecords(inputs, plants_[frontPlants_], to, from); !viewed) return viewed;
-    return makeQueues(inputs);
+    if (Status kernels = makeKernels(inputs); !kernels) return kernels;
+    return makeAgainKernels();
 }
 
 // Copies the links, and uploads counters, edits and the seeds that are planted anew as the first wave.
@@ -134,7 +137,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
                       inputs.grammars.size() == maps_.size() && inputs.widths.size() == from_.widths.size() &&
                       std::memcmp(inputs.grammars.data(), maps_.data(), maps_.size() * sizeof(RuleMapRef)) == 0 &&
                       std::equal(from_.widths.begin(), from_.widths.end(), inputs.widths.begin());
-    if (!same) return uploadTables(commands, inputs);
+    if (!same) return uploadTables(commands, inputs, !runsNative(inputs));
     commands.barrier(Use::transfer, Use::compute | Use::indirect);
     return Done{};
 }
@@ -144,9 +147,15 @@ Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedCh
     Result<Commands> commands = Commands::begin(device_, "find what changed");
     if (!commands) return commands.failure();
     if (Status ok = uploadAgain(*commands, inputs, seeds, edits); !ok) return ok.failure();
+    env.items = addressOf<WorkItemBuf, WorkItem>(items_[0]);
+    if (runsNative(inputs)) {
+        if (Status finished = commands->finish(); !finished) return finished.failure();
+        packTablesNative(env, uint32_t(inputs.grammars.size()));
+        findNative(env, kAllThreads);
+        return again_.mappedAs<AgainState>()[0];
+    }
     {
         Pass pass(*commands, "expand find");
-        env.items = addressOf<WorkItemBuf, WorkItem>(items_[0]);
         pass.dispatch(find_[fetchesRecords_], spreadGroups(), env, {nodeView_, chunkView_, branchView_});
         pass.barrier(Use::compute, Use::compute);
         pass.dispatch(start_, spreadGroups(), env);
@@ -185,9 +194,17 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 
-// Publishes, unless there is too little room or too much to grow.
-Result<GpuGrowth::Regrown> GpuGrowth::growAgain(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome,
-                                                AgainState& state) {
+void GpuGrowth::growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
+    env.phase = lastWave(noCut(inputs.limits));
+    outcome.marchMs = millisecondsOf(
+        [&] { env.wave = marchAgainNative(env, itemQueues(), inputs.limits.maxDepth + 1, kAllThreads); });
+    outcome.terminalsMs = millisecondsOf([&] { finishAgainNative(env, kAllThreads); });
+    outcome.status = status_.mappedAs<GrowStatus>()[0];
+    outcome.waves.assign(env.waves.v, env.waves.v + env.wave + 1);
+    state = again_.mappedAs<AgainState>()[0];
+}
+
+Status GpuGrowth::growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
     const uint32_t most = inputs.limits.maxDepth + 1;
     const uint64_t stateAt = sizeof(GrowStatus) + (inputs.limits.maxDepth + 2ull) * sizeof(Wave);
     uint32_t first = 0;
@@ -207,7 +224,7 @@ Result<GpuGrowth::Regrown> GpuGrowth::growAgain(const GrowthInputs& inputs, Expa
         commands->copy(waves_, readback_, (last + 1) * sizeof(Wave), 0, sizeof(GrowStatus));
         commands->copy(again_, readback_, sizeof(AgainState), 0, stateAt);
         commands->barrier(Use::transfer, Use::host);
-        if (Status finished = commands->finish(); !finished) return finished.failure();
+        if (Status finished = commands->finish(); !finished) return finished;
         device_.collect();
         Outcome read = readOutcome(last);
         outcome.status = read.status;
@@ -216,9 +233,19 @@ Result<GpuGrowth::Regrown> GpuGrowth::growAgain(const GrowthInputs& inputs, Expa
         outcome.terminalsMs += device_.milliseconds("expand terminals");
         outcome.fitMs += device_.milliseconds("expand fit");
         std::memcpy(&state, readback_.mapped() + stateAt, sizeof state);
-        if (outcome.waves[last].count == 0 || last == most || outcome.status.items > 0) break;
+        if (outcome.waves[last].count == 0 || last == most || outcome.status.items > 0) return Done{};
         first = last;
         batch *= 2;
+    }
+}
+
+// Publishes, unless there is too little room or too much to grow.
+Result<GpuGrowth::Regrown> GpuGrowth::growAgain(const GrowthInputs& inputs, const ExpandEnv& env, Outcome& outcome,
+                                                AgainState& state) {
+    if (runsNative(inputs)) {
+        growAgainNative(inputs, env, outcome, state);
+    } else if (Status grown = growAgainShaders(inputs, env, outcome, state); !grown) {
+        return grown.failure();
     }
     const GrowStatus& s = outcome.status;
     const bool fits = s.chunks <= s.chunkCapacity && s.nodes <= s.nodeCapacity && s.branches <= s.branchCapacity &&
@@ -272,8 +299,6 @@ Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const S
     const uint64_t words = kEditHead + seeds.to.size() + inputs.grammars.size() + 2 * seeds.pruned.size() + 1 +
                            uint64_t(dirtyGrid(kMaxReadLevel + 1) + kCellWords + 1) * inputs.changes->cells.size();
     if (Status made = makeAgainRoom(inputs, words); !made) return made.failure();
-    if (Status made = makeKernels(inputs); !made) return made.failure();
-    if (Status made = makeAgainKernels(); !made) return made.failure();
     const ExpandEnv env = environment(inputs, plants_[frontPlants_], links_[1 - frontLinks_]);
     Result<AgainState> found = findDirty(inputs, seeds, env);
     if (!found) return found.failure();

@@ -1,38 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// After the march: what is gone because no chunk asked for it again, and which branches have new chunks.
+// A regrowth's pass over grown chunks.
 #include "shaders/shared/extensions.glsl"
-#include "shaders/expand/again.glsl"
+#include "shaders/expand/again_settle.h"
 
 layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
-
-// Chunks that followed from `root`, and it.
-void letGo(ExpandEnv env, uint root) {
-    ChunkBuf before = AGAIN.chunksBefore;
-    uint visited = 0u;
-    uint chunks = 0u;
-    uint nodes = 0u;
-    uint branches = 0u;
-    for (uint at = root; at != kNoIndex; at = nextChunk(before, root, at, false)) {
-        visited += 1u;
-        if (visited > kMostVisited) {
-            AGAIN.overrun = 1u;
-            break;
-        }
-        appendTo(env, kListGone, at);
-        chunks += 1u;
-        nodes += chunkNodes(before.v[at].marks);
-        uint branch = before.v[at].branch;
-        if (branch != kNoIndex && AGAIN.branchesBefore.v[branch].firstChunk == at) {
-            env.branches.v[branch].firstChunk = kNoIndex;
-            branches += 1u;
-        }
-    }
-    atomicAdd(AGAIN.goneChunks, chunks);
-    atomicAdd(AGAIN.goneNodes, nodes);
-    atomicAdd(AGAIN.goneBranches, branches);
-}
 
 void main() {
     openAgain(env);
@@ -40,19 +13,5 @@ void main() {
     ChunkBuf before = AGAIN.chunksBefore;
     uint count = listed(env, kListGrown);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
-    for (uint i = gl_GlobalInvocationID.x; i < count; i += lanes) {
-        uint chunk = listEntry(env, kListGrown, i);
-        uint branch = env.chunks.v[chunk].branch;
-        if (branch != kNoIndex && (atomicOr(againMarks.v[branch].branchBits, kBranchListed) & kBranchListed) == 0u)
-            appendTo(env, kListBranches, branch);
-        if ((againMarks.v[chunk].bits & kMarkAgain) == 0u) continue;
-        atomicAdd(AGAIN.goneNodes, chunkNodes(before.v[chunk].marks));
-        uint was = before.v[chunk].branch;
-        if (branch == kNoIndex && was != kNoIndex) {
-            env.branches.v[was].firstChunk = kNoIndex;
-            atomicAdd(AGAIN.goneBranches, 1u);
-        }
-        for (uint child = before.v[chunk].firstChild; child != kNoIndex; child = before.v[child].nextSibling)
-            if ((againMarks.v[child].bits & (kMarkKept | kMarkAgain)) == 0u) letGo(env, child);
-    }
+    for (uint i = gl_GlobalInvocationID.x; i < count; i += lanes) settleAgain(env, before, i);
 }

@@ -14,7 +14,5 @@ void main() {
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     uvec2 hash = uvec2(0u);
     for (uint i = env.status.v[0].frozenNodes + gl_GlobalInvocationID.x; ready && i < count; i += lanes) hash += fitNode(env, i);
-    uint slot = (gl_WorkGroupID.x & (kHashSlots - 1u)) * 2u;
-    atomicAdd(env.status.v[0].hash[slot], hash.x);
-    atomicAdd(env.status.v[0].hash[slot + 1u], hash.y);
+    addHash(env, gl_WorkGroupID.x, hash);
 }

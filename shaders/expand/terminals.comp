@@ -26,7 +26,5 @@ void main() {
         keepFinish(env.nodes, i, finish);
         firstLeaves.v[i] = finish.firstLeaf;
     }
-    uint slot = (gl_WorkGroupID.x & (kHashSlots - 1u)) * 2u;
-    atomicAdd(env.status.v[0].hash[slot], hash.x);
-    atomicAdd(env.status.v[0].hash[slot + 1u], hash.y);
+    addHash(env, gl_WorkGroupID.x, hash);
 }

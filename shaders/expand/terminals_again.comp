@@ -4,8 +4,7 @@
 #define ESPALIER_TABLES
 #define ESPALIER_RECORD_FETCH
 #include "shaders/shared/extensions.glsl"
-#include "shaders/expand/again.glsl"
-#include "shaders/shared/expand_terminals.h"
+#include "shaders/expand/again_terminals.h"
 #include "shaders/expand/node_trips.glsl"
 
 layout(local_size_x = 32) in;
@@ -22,14 +21,7 @@ void main() {
     nextLeavesAtHand = env.status.v[0].nextLeaves;
     uvec2 hash = uvec2(0u);
     for (uint k = 0u; nodeOfTrip(k) < count; ++k) {
-        uint at = kResultWords * nodeOfTrip(k);
-        NodeFinish finish = finishNode(env, results.v[at], hash);
-        results.v[at + 1u] = finish.tangent;
-        results.v[at + 2u] = finish.flags;
-        results.v[at + 3u] = floatBitsToUint(finish.radius);
-        results.v[at + 4u] = finish.firstLeaf;
+        finishAgain(env, results, nodeOfTrip(k), hash);
     }
-    uint slot = (gl_WorkGroupID.x & (kHashSlots - 1u)) * 2u;
-    atomicAdd(env.status.v[0].hash[slot], hash.x);
-    atomicAdd(env.status.v[0].hash[slot + 1u], hash.y);
+    addHash(env, gl_WorkGroupID.x, hash);
 }

@@ -85,7 +85,7 @@ struct ExpandEnv {
     ChunkBuf chunks;
     BranchBuf branches;
     LeafBuf leaves;
-    UintBuf scratch;         // the CPU's stage for a chunk's nodes; for kernels, where their surfaces' texels begin
+    UintBuf scratch;         // native code's stage for a chunk's nodes; for shaders, where surfaces' texels begin
     GrowStatusBuf status;
     WaveBuf waves;
     UintBuf density;         // [kDensityCells] leaves counted, when there is a cap; after them, for the paper's
@@ -101,25 +101,13 @@ STATIC_SIZE(ExpandEnv, 128);
 CONST_UINT(kItemsPerGroupAgain, 16u);   // of a regrowth: its few items shall not all go to one thread
 
 #ifdef __cplusplus
-// The CPU reference runs on one thread.
-inline uint atomicAdd(uint& memory, uint value) {
-    uint old = memory;
-    memory += value;
-    return old;
-}
-inline uint atomicOr(uint& memory, uint value) {
-    uint old = memory;
-    memory |= value;
-    return old;
-}
-inline uint atomicExchange(uint& memory, uint value) {
-    uint old = memory;
-    memory = value;
-    return old;
-}
+// As in kernels, of no order with other memory.
+inline uint atomicAdd(uint& memory, uint value) { return __atomic_fetch_add(&memory, value, __ATOMIC_RELAXED); }
+inline uint atomicOr(uint& memory, uint value) { return __atomic_fetch_or(&memory, value, __ATOMIC_RELAXED); }
+inline uint atomicExchange(uint& memory, uint value) { return __atomic_exchange_n(&memory, value, __ATOMIC_RELAXED); }
 inline uint atomicMax(uint& memory, uint value) {
-    uint old = memory;
-    memory = old < value ? value : old;
+    uint old = __atomic_load_n(&memory, __ATOMIC_RELAXED);
+    while (old < value && !__atomic_compare_exchange_n(&memory, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {}
     return old;
 }
 #endif
@@ -163,6 +151,12 @@ FN uint stirred(uint h, uint word, uint odd) {
 FN uvec2 hashWord(uvec2 h, uint word) { return uvec2(stirred(h.x, word, 0x85EBCA6Bu), stirred(h.y, word, 0xC2B2AE35u)); }
 FN uvec2 hashVec3(uvec2 h, vec3 v) {
     return hashWord(hashWord(hashWord(h, floatBitsToUint(v.x)), floatBitsToUint(v.y)), floatBitsToUint(v.z));
+}
+// Adds to the structure's hash. slot: any, unlike ones for those who add at the same time.
+FN void addHash(ExpandEnv env, uint slot, uvec2 hash) {
+    uint at = (slot & (kHashSlots - 1u)) * 2u;
+    atomicAdd(env.status.v[0].hash[at], hash.x);
+    atomicAdd(env.status.v[0].hash[at + 1u], hash.y);
 }
 FN uvec2 hashKey(u64 key) { return uvec2(uint(key), uint(key >> 32)); }
 

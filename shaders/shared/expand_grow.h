@@ -2,11 +2,14 @@
 //
 // A chunk is a pure function of its work item and of the inputs (surface, rule maps, layers): it reads nothing that
 // growth writes but the chunk that it leaves. What a regrowth does otherwise (ESPALIER_AGAIN: it takes places of chunks
-// that are grown again, and leaves those alone that come out as they were) is in shaders/expand/again_claim.glsl.
+// that are grown again, and leaves those alone that come out as they were) is in shaders/expand/again_claim.h.
 #ifndef ESPALIER_SHARED_EXPAND_GROW_H
 #define ESPALIER_SHARED_EXPAND_GROW_H
 #include "shaders/shared/expand_step.h"
 #include "shaders/shared/triangle_lookup.h"
+#ifdef ESPALIER_AGAIN
+#include "shaders/expand/again_claim.h"
+#endif
 
 ESPALIER_BEGIN
 
@@ -34,9 +37,7 @@ FN bool refused(ExpandEnv env, uint depth, u64 key) {
     return depth > last || (depth == last && uint(key >> 32) >= env.status.v[0].limitKey);
 }
 
-#ifdef ESPALIER_AGAIN
-#include "shaders/expand/again_claim.glsl"
-#else
+#ifndef ESPALIER_AGAIN
 // The place of a new chunk. False: there is none.
 FN bool claimChunk(ExpandEnv env, INOUT(WorkItem) item, OUT(uint) chunk) {
     UNUSED(item);

@@ -41,10 +41,15 @@ struct NodeSite {
 
 // Chains a node's leaves, so that a regrowth finds them.
 #ifdef __cplusplus
-inline void chainLeaf(uint, uint&) {}
+inline void chainLeaf(const ExpandEnv& env, uint at, uint& last) {
+    const UintBuf next = env.status.v[0].nextLeaves;
+    if (!IS_GIVEN(next)) return;   // the CPU reference knows no regrowth
+    next.v[at] = last;
+    last = at;
+}
 #else
 UintBuf nextLeavesAtHand;   // GrowStatus::nextLeaves, to be set by the kernel
-void chainLeaf(uint at, inout uint last) {
+void chainLeaf(ExpandEnv env, uint at, inout uint last) {
     nextLeavesAtHand.v[at] = last;
     last = at;
 }
@@ -81,7 +86,7 @@ FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, uint colour, float siz
     uint at = atomicAdd(env.status.v[0].leaves, 1u);
     if (at < env.status.v[0].leafCapacity) {
         writeLeaf(env.leaves, at, leaf);
-        chainLeaf(at, lastLeaf);
+        chainLeaf(env, at, lastLeaf);
     }
     hash = hash + hashOfLeaf(site.chunkKey, site.flags, leaf);
 }

@@ -131,6 +131,7 @@ Status Scene::grow(Device& device, Growth& growth) {
     in.surfaceCount = 1;
     in.surfaceData = &gpuSurface_.data();
     in.fetch = fetch;
+    in.native = native;
     in.layers = {reinterpret_cast<LayerRef*>(upload(layers, "layers"))};
     in.grammars = refs;
     in.widths = widths;

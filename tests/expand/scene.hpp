@@ -44,6 +44,7 @@ class Scene {
     std::vector<float> widths;
     const GrowthChanges* changes = nullptr;  // see GrowthInputs::changes
     bool fetch = true;                       // see GrowthInputs
+    bool native = false;                     // see there; tests are of shaders where they don't say otherwise
 
     Result<CpuGrowth> growOnCpu();
     // Uploads and grows; the buffers live as long as the scene.

@@ -101,6 +101,7 @@ Status BenchScene::grow(Growth& growth) {
     in.surfaceCount = 1;
     in.surfaceData = &gpuSurface_.data();
     in.fetch = fetch;
+    in.native = native;
     in.layers = {reinterpret_cast<LayerRef*>(layers_.address())};
     in.grammars = {&map, 1};
     in.seeds = seeds_;
@@ -109,7 +110,7 @@ Status BenchScene::grow(Growth& growth) {
     return growth.grow(in);
 }
 
-Result<CpuGrowth> BenchScene::growOnCpu() const {
+Result<CpuGrowth> BenchScene::growOnCpu(const GrowthStats& stats) const {
     SurfaceRef surface = surfaceRef(surface_);
     std::vector<LayerRef> none(kMaxLayers, LayerRef{{nullptr}, 0, 1});
     RuleMapRef map = grammar_.ref();
@@ -120,7 +121,7 @@ Result<CpuGrowth> BenchScene::growOnCpu() const {
     in.grammars = {&map, 1};
     in.seeds = seeds_;
     in.limits = limits;
-    return espalier::growOnCpu(in);
+    return espalier::growOnCpu(in, {stats.chunks, stats.nodes, stats.branches, stats.leaves, stats.chunks});
 }
 
 float BenchScene::texelMetres() const {

@@ -25,7 +25,7 @@ class BenchScene {
     // `count` seeds over all inner texels, each with a direction of its own; the same in every run.
     void plant(uint32_t count);
     GrowthLimits limits;
-    bool fetch = true;  // see GrowthInputs
+    bool fetch = true, native = true;  // see GrowthInputs
 
     // Paints a layer of `size` texels a side; the next growth reads it. False: no memory.
     bool paint(uint32_t layer, uint32_t size, const std::vector<float>& texels);
@@ -33,7 +33,8 @@ class BenchScene {
     const GrowthChanges* changes = nullptr;
 
     Status grow(Growth& growth);
-    Result<CpuGrowth> growOnCpu() const;
+    // With room for as much as `stats` count, so that it needn't begin again.
+    Result<CpuGrowth> growOnCpu(const GrowthStats& stats) const;
 
     // Median edge of a texel of the finest level, metres.
     float texelMetres() const;

@@ -1,5 +1,6 @@
 // growth/…: nodes a second on a real model, from 1 to 4,096 seeds; the CPU reference of the same text beside it,
-// and 4,096 seeds beside 64.
+// and 4,096 seeds beside 64. On software devices growth is native code (GrowthInputs::native); shaders have rows of
+// their own.
 #include <cstdio>
 #include <map>
 
@@ -31,7 +32,7 @@ Measured measure(Bench& bench, BenchScene& scene, Growth& growth) {
         if (i < 0) continue;  // pipelines warm up, buffers reach their size
         gpu.push_back(wall);
         core.push_back(busy);
-        if (i < 2) cpu.push_back(cpuSeconds([&] { (void)scene.growOnCpu(); }));
+        if (i < 2) cpu.push_back(cpuSeconds([&] { (void)scene.growOnCpu(growth.stats()); }));
     }
     result.stats = growth.stats();
     result.nodesPerSecond = stepsOf(result.stats) / median(gpu);
@@ -69,14 +70,19 @@ void growthCases(Bench& bench) {
         bench.add({row + "/core", "growth with terminals, a second of CPU time", "nodes/s", m.coreNodesPerSecond,
                    "the CPU reference", m.cpuNodesPerSecond});
         if (seeds != 42) continue;
+        scene->native = false;
+        const Measured shaders = m.stats.native ? measure(bench, *scene, **growth) : m;
         scene->fetch = false;
         const Measured addressed = measure(bench, *scene, **growth);
-        scene->fetch = true;
-        bench.add({row + "/texels", "reading texels, a second of CPU time", "nodes/s", m.coreNodesPerSecond,
-                   "all by address", addressed.coreNodesPerSecond});
+        scene->fetch = scene->native = true;
+        if (m.stats.native)
+            bench.add({row + "/native", "growth as native code, a second of CPU time", "nodes/s", m.coreNodesPerSecond,
+                       "as shaders", shaders.coreNodesPerSecond});
+        bench.add({row + "/texels", "shaders reading texels, a second of CPU time", "nodes/s",
+                   shaders.coreNodesPerSecond, "all by address", addressed.coreNodesPerSecond});
         const GrowthStats& s = m.stats;
         bench.add({row + "/nodes", "nodes grown", "nodes", stepsOf(s), "asked for", 500000});
-        bench.add({row + "/gpu", "GPU time of expansion", "ms", s.expandMs, "of it marching", s.marchMs});
+        bench.add({row + "/gpu", "time of expansion", "ms", s.expandMs, "of it marching", s.marchMs});
         bench.add({row + "/memory", "bytes of a bark node, chunks too", "B",
                    double(s.nodeBytes + s.chunkBytes) / s.nodes, "bound", 64});
         if (s.leaves) bench.add({row + "/leaf", "bytes of a leaf", "B", double(s.leafBytes) / s.leaves, "bound", 32});

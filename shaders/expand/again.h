@@ -1,15 +1,26 @@
-// What all kernels of a regrowth begin with.
-#ifndef ESPALIER_EXPAND_AGAIN_GLSL
-#define ESPALIER_EXPAND_AGAIN_GLSL
+// What all passes of a regrowth begin with; see expand_again.h.
+#ifndef ESPALIER_EXPAND_AGAIN_H
+#define ESPALIER_EXPAND_AGAIN_H
 #include "shaders/shared/exact.h"
 #include "shaders/shared/expand_again.h"
 
+ESPALIER_BEGIN
+
+#ifdef __cplusplus
+#define AGAIN (*reinterpret_cast<AgainState*>(env.status.v[0].again))
+#define AGAIN_LISTS AGAIN.lists
+#define AGAIN_MARKS AGAIN.marks
+#define AGAIN_CAPACITY AGAIN.listCapacity
+#else
 // Kept at hand from openAgain() on, the first thing that a kernel does: what is read by address costs each time.
 AgainStateBuf againState;
 UintBuf againLists;
 AgainMarkBuf againMarks;
 uint againListCapacity;
 #define AGAIN againState.v[0]
+#define AGAIN_LISTS againLists
+#define AGAIN_MARKS againMarks
+#define AGAIN_CAPACITY againListCapacity
 
 void openAgain(ExpandEnv env) {
     againState = AgainStateBuf(env.status.v[0].again);
@@ -17,43 +28,47 @@ void openAgain(ExpandEnv env) {
     againMarks = AGAIN.marks;
     againListCapacity = AGAIN.listCapacity;
 }
+#endif
 
-void appendTo(ExpandEnv env, uint list, uint value) {
+FN void appendTo(ExpandEnv env, uint list, uint value) {
     uint at = atomicAdd(AGAIN.counts[list], 1u);
-    if (at < againListCapacity) againLists.v[list * againListCapacity + at] = value;
+    if (at < AGAIN_CAPACITY) AGAIN_LISTS.v[list * AGAIN_CAPACITY + at] = value;
 }
-uint listed(ExpandEnv env, uint list) { return min(AGAIN.counts[list], againListCapacity); }
-uint listEntry(ExpandEnv env, uint list, uint i) { return againLists.v[list * againListCapacity + i]; }
+FN uint listed(ExpandEnv env, uint list) {
+    uint count = AGAIN.counts[list];
+    return count < AGAIN_CAPACITY ? count : AGAIN_CAPACITY;
+}
+FN uint listEntry(ExpandEnv env, uint list, uint i) { return AGAIN_LISTS.v[list * AGAIN_CAPACITY + i]; }
 
 // Whether what was grown is whole and has room; then it is published.
-bool holds(ExpandEnv env) {
+FN bool holds(ExpandEnv env) {
     uint nodes = AGAIN.liveNodes + env.status.v[0].nodes - AGAIN.nodeCount - AGAIN.goneNodes;
     uint chunks = AGAIN.liveChunks + env.status.v[0].chunks - AGAIN.chunkCount - AGAIN.goneChunks;
     return complete(env) && AGAIN.overrun == 0u && env.status.v[0].leaves <= env.status.v[0].leafCapacity &&
            nodes <= AGAIN.mostNodes && chunks <= AGAIN.mostChunks;
 }
 
-uint seedOf(BranchBuf branches, ChunkBuf chunks, uint chunk) {
+FN uint seedOf(BranchBuf branches, ChunkBuf chunks, uint chunk) {
     uint branch = chunks.v[chunk].branch;
     return branch == kNoIndex ? chunks.v[chunk].firstNode : branches.v[branch].seed;
 }
 
 // A node's radius before the fit: as its terminals have just given it, or told from what the last fit made of it.
-float bareRadius(ExpandEnv env, uint index) {
+FN float bareRadius(ExpandEnv env, uint index) {
     float radius = env.nodes.v[index].radius;
     uint chunk = env.nodes.v[index].chunk;
-    bool fresh = ((againMarks.v[chunk].nodes >> ((env.nodes.v[index].flags >> 8u) & 31u)) & 1u) != 0u;
+    bool fresh = ((AGAIN_MARKS.v[chunk].nodes >> ((env.nodes.v[index].flags >> 8u) & 31u)) & 1u) != 0u;
     return fresh ? radius : roundRadius(divExact(radius, AGAIN.branchesBefore.v[env.chunks.v[chunk].branch].thickness));
 }
 
-bool startsBranch(ChunkBuf chunks, uint chunk) {
+FN bool startsBranch(ChunkBuf chunks, uint chunk) {
     uint parent = chunks.v[chunk].parent;
     return parent == kNoIndex || (chunks.v[parent].depth & 0xFFFFu) != (chunks.v[chunk].depth & 0xFFFFu);
 }
 
 // The next chunk of those that follow from `root`, parents first; kNoIndex after the last. prune: not those that
 // follow from `at`.
-uint nextChunk(ChunkBuf chunks, uint root, uint at, bool prune) {
+FN uint nextChunk(ChunkBuf chunks, uint root, uint at, bool prune) {
     uint child = prune ? kNoIndex : chunks.v[at].firstChild;
     while (child == kNoIndex && at != root) {
         child = chunks.v[at].nextSibling;
@@ -63,7 +78,7 @@ uint nextChunk(ChunkBuf chunks, uint root, uint at, bool prune) {
 }
 
 // An item that grows a chunk again in its place.
-WorkItem itemAgain(ExpandEnv env, uint chunk) {
+FN WorkItem itemAgain(ExpandEnv env, uint chunk) {
     WorkItem item;
     item.key = env.chunks.v[chunk].key;
     item.walk = env.chunks.v[chunk].entry;
@@ -77,7 +92,7 @@ WorkItem itemAgain(ExpandEnv env, uint chunk) {
     item.step = (env.chunks.v[chunk].step & 0xFFFFFFu) | kItemAgain;
     return item;
 }
-void queueAgain(ExpandEnv env, WorkItemBuf items, uint wave, uint chunk, uint itemsPerGroup) {
+FN void queueAgain(ExpandEnv env, WorkItemBuf items, uint wave, uint chunk, uint itemsPerGroup) {
     uint at = atomicAdd(env.waves.v[wave].count, 1u);
     if (at < env.itemCapacity) writeItem(items, at, itemAgain(env, chunk));
     uint before = atomicAdd(env.waves.v[wave].announced, 1u);
@@ -86,9 +101,11 @@ void queueAgain(ExpandEnv env, WorkItemBuf items, uint wave, uint chunk, uint it
 }
 
 // Lets a dirty chunk wait for `above`, which is grown before it. Its own children need not: they are found dirty.
-void waitFor(ExpandEnv env, uint chunk, uint below) {
+FN void waitFor(ExpandEnv env, uint chunk, uint below) {
     if (below == chunk) return;
-    uint next = atomicExchange(againMarks.v[below].firstWaiting, chunk + 1u);
-    againMarks.v[chunk].nextWaiting = next;
+    uint next = atomicExchange(AGAIN_MARKS.v[below].firstWaiting, chunk + 1u);
+    AGAIN_MARKS.v[chunk].nextWaiting = next;
 }
+
+ESPALIER_END
 #endif

@@ -1,20 +1,24 @@
 // What a regrowth does otherwise when a chunk begins and ends; see expand_again.h. Included by expand_grow.h.
-#include "shaders/expand/again.glsl"
+#ifndef ESPALIER_EXPAND_AGAIN_CLAIM_H
+#define ESPALIER_EXPAND_AGAIN_CLAIM_H
+#include "shaders/expand/again.h"
 
-uint previousNodeOf(ExpandEnv env, WorkItem item) {
+ESPALIER_BEGIN
+
+FN uint previousNodeOf(ExpandEnv env, WorkItem item) {
     if ((item.step & kItemAgain) != 0u) return env.chunks.v[item.origin].previousNode;
     if (item.parent == kNoIndex) return kNoIndex;
     return item.origin == kNoIndex ? env.chunks.v[item.parent].previousNode
                                    : env.chunks.v[item.parent].firstNode + item.origin;
 }
-uint joinSiblings(ExpandEnv env, WorkItem item, uint chunk) {
+FN uint joinSiblings(ExpandEnv env, WorkItem item, uint chunk) {
     if ((item.step & kItemAgain) != 0u) return env.chunks.v[chunk].nextSibling;   // it stands among them
     return item.parent == kNoIndex ? kNoIndex : atomicExchange(env.chunks.v[item.parent].firstChild, chunk);
 }
 
 // A branch whose first chunk is grown again stays the same.
-uint claimBranch(ExpandEnv env, uint chunk) {
-    if ((againMarks.v[chunk].bits & kMarkAgain) != 0u) {
+FN uint claimBranch(ExpandEnv env, uint chunk) {
+    if ((AGAIN_MARKS.v[chunk].bits & kMarkAgain) != 0u) {
         uint branch = AGAIN.chunksBefore.v[chunk].branch;
         if (branch != kNoIndex && AGAIN.branchesBefore.v[branch].firstChunk == chunk) return branch;
     }
@@ -22,25 +26,27 @@ uint claimBranch(ExpandEnv env, uint chunk) {
 }
 
 // The child that the item's parent had with the item's key before it was grown again.
-uint childBefore(ExpandEnv env, WorkItem item) {
-    if (item.parent == kNoIndex || (againMarks.v[item.parent].bits & kMarkAgain) == 0u) return kNoIndex;
+FN uint childBefore(ExpandEnv env, WorkItem item) {
+    if (item.parent == kNoIndex || (AGAIN_MARKS.v[item.parent].bits & kMarkAgain) == 0u) return kNoIndex;
     ChunkBuf before = AGAIN.chunksBefore;
     uint child = before.v[item.parent].firstChild;
     while (child != kNoIndex && before.v[child].key != item.key) child = before.v[child].nextSibling;
     return child;
 }
 
-bool entersAlike(Chunk c, WorkItem item) {
+FN bool sameBits(float a, float b) { return floatBitsToUint(a) == floatBitsToUint(b); }
+FN bool entersAlike(Chunk c, WorkItem item) {
     bool alike = c.depth == item.depth && (c.step & 0xFFFFFFu) == (item.step & 0xFFFFFFu) && c.symbol == item.symbol &&
                  (item.branch == kNoIndex || item.branch == c.branch) && c.entry.place == item.walk.place;
-    for (uint i = 0u; i < 4u; ++i) alike = alike && floatBitsToUint(c.args[i]) == floatBitsToUint(item.args[i]);
-    return alike && floatBitsToUint(c.entry.uv) == floatBitsToUint(item.walk.uv) &&
-           floatBitsToUint(c.entry.direction) == floatBitsToUint(item.walk.direction) &&
-           floatBitsToUint(c.entry.arc) == floatBitsToUint(item.walk.arc);
+    for (uint i = 0u; i < 4u; ++i) alike = alike && sameBits(c.args[i], item.args[i]);
+    return alike && sameBits(c.entry.uv.x, item.walk.uv.x) && sameBits(c.entry.uv.y, item.walk.uv.y) &&
+           sameBits(c.entry.direction.x, item.walk.direction.x) &&
+           sameBits(c.entry.direction.y, item.walk.direction.y) &&
+           sameBits(c.entry.direction.z, item.walk.direction.z) && sameBits(c.entry.arc, item.walk.arc);
 }
 
 // Gives a kept chunk the node that it now starts from, and so those that follow from it before its first step.
-void moveFoot(ExpandEnv env, uint chunk, uint node) {
+FN void moveFoot(ExpandEnv env, uint chunk, uint node) {
     uint old = env.chunks.v[chunk].previousNode;
     uint at = old == node ? kNoIndex : chunk;
     while (at != kNoIndex) {
@@ -50,27 +56,27 @@ void moveFoot(ExpandEnv env, uint chunk, uint node) {
     }
 }
 
-void keepChunk(ExpandEnv env, uint chunk, WorkItem item) {
-    againMarks.v[chunk].bits |= kMarkKept;
+FN void keepChunk(ExpandEnv env, uint chunk, WorkItem item) {
+    AGAIN_MARKS.v[chunk].bits |= kMarkKept;
     moveFoot(env, chunk, previousNodeOf(env, item));
     env.chunks.v[chunk].nextSibling = atomicExchange(env.chunks.v[item.parent].firstChild, chunk);
     if (item.branch != kNoIndex) {
         env.chunks.v[item.parent].next = chunk;
         env.branches.v[item.branch].extent = AGAIN.branchesBefore.v[item.branch].extent;
     }
-    uint waiting = againMarks.v[chunk].firstWaiting;
+    uint waiting = AGAIN_MARKS.v[chunk].firstWaiting;
     while (waiting != 0u) {
         queueAgain(env, env.nextItems, env.wave + 1u, waiting - 1u, kItemsPerGroupAgain);
-        waiting = againMarks.v[waiting - 1u].nextWaiting;
+        waiting = AGAIN_MARKS.v[waiting - 1u].nextWaiting;
     }
 }
 
 // Those that waited at a chunk that is now grown itself wait further down.
-void waitBelow(ExpandEnv env, uint chunk) {
-    uint waiting = againMarks.v[chunk].firstWaiting;
+FN void waitBelow(ExpandEnv env, uint chunk) {
+    uint waiting = AGAIN_MARKS.v[chunk].firstWaiting;
     while (waiting != 0u) {
         uint dirty = waiting - 1u;
-        waiting = againMarks.v[dirty].nextWaiting;
+        waiting = AGAIN_MARKS.v[dirty].nextWaiting;
         uint below = dirty;
         uint above = env.chunks.v[dirty].parent;
         while (above != chunk) {
@@ -82,11 +88,11 @@ void waitBelow(ExpandEnv env, uint chunk) {
 }
 
 // The place where the item's chunk is to be grown. False: it stays as it was, or there is no room.
-bool claimChunk(ExpandEnv env, inout WorkItem item, out uint chunk) {
+FN bool claimChunk(ExpandEnv env, INOUT(WorkItem) item, OUT(uint) chunk) {
     bool again = (item.step & kItemAgain) != 0u;
     chunk = again ? item.origin : childBefore(env, item);
     bool old = chunk != kNoIndex;
-    if (old && !again && (againMarks.v[chunk].bits & kMarkDirty) == 0u &&
+    if (old && !again && (AGAIN_MARKS.v[chunk].bits & kMarkDirty) == 0u &&
         entersAlike(AGAIN.chunksBefore.v[chunk], item)) {
         keepChunk(env, chunk, item);
         return false;
@@ -97,7 +103,10 @@ bool claimChunk(ExpandEnv env, inout WorkItem item, out uint chunk) {
         chunk = atomicAdd(env.status.v[0].chunks, 1u);
     }
     if (chunk >= env.status.v[0].chunkCapacity) return false;
-    againMarks.v[chunk].bits |= old ? kMarkGrown | kMarkAgain : kMarkGrown;
+    AGAIN_MARKS.v[chunk].bits |= old ? kMarkGrown | kMarkAgain : kMarkGrown;
     appendTo(env, kListGrown, chunk);
     return true;
 }
+
+ESPALIER_END
+#endif

@@ -1,16 +1,26 @@
 // Reads of the records that a regrowth takes out, as record_lookup.h has those that stand.
-#ifndef ESPALIER_EXPAND_AGAIN_LOOKUP_GLSL
-#define ESPALIER_EXPAND_AGAIN_LOOKUP_GLSL
+#ifndef ESPALIER_EXPAND_AGAIN_LOOKUP_H
+#define ESPALIER_EXPAND_AGAIN_LOOKUP_H
 #include "shaders/shared/record_lookup.h"
 
-layout(binding = 5) uniform usamplerBuffer leafTexels;
-layout(binding = 6) uniform usamplerBuffer chunkTexelsBefore;
+ESPALIER_BEGIN
 
 // What is asked of a chunk as it was before.
 struct ChunkBefore {
-    uint64_t key;
+    u64 key;
     uint previousNode, firstNode, step, marks;
 };
+
+#ifdef __cplusplus
+inline ChunkBefore readBefore(ChunkBuf before, uint at) {
+    const Chunk& c = before.v[at];
+    return {c.key, c.previousNode, c.firstNode, c.step, c.marks};
+}
+inline Leaf readLeaf(const ExpandEnv& env, uint at) { return env.leaves.v[at]; }
+#else
+layout(binding = 5) uniform usamplerBuffer leafTexels;
+layout(binding = 6) uniform usamplerBuffer chunkTexelsBefore;
+
 ChunkBefore readBefore(ChunkBuf before, uint at) {
     ChunkBefore c;
     if (kRecordsByAddress != 0u) {
@@ -35,4 +45,7 @@ Leaf readLeaf(ExpandEnv env, uint at) {
     uvec4 t = texelFetch(leafTexels, int(at));
     return Leaf(t.x, t.y, t.z, t.w);
 }
+#endif
+
+ESPALIER_END
 #endif

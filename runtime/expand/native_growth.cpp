@@ -1,0 +1,68 @@
+// In: growth's buffers by pointer. Out: the records that the kernels leave. Waves are taken in turn, items by whichever
+// thread is free; places are drawn by atomics as on a GPU, so records' order differs between runs of several threads.
+#include "runtime/expand/native_growth.hpp"
+
+#include "runtime/expand/native_march.hpp"
+#include "shaders/shared/expand_fit.h"
+#include "shaders/shared/expand_terminals.h"
+
+namespace espalier {
+namespace {
+
+constexpr size_t kNodesAtOnce = 1024, kBranchesAtOnce = 1024;
+
+ESPALIER_WHOLE void finishNodes(ExpandEnv env, size_t begin, size_t end) {
+    uvec2 hash(0, 0);
+    Machine machine;
+    const UintBuf firstLeaves = env.status.v[0].firstLeaves;
+    for (size_t i = begin; i < end; ++i) {
+        const NodeFinish finish = finishNode(machine, env, uint32_t(i), hash);
+        if (env.phase != kTerminalsWrite) continue;
+        keepFinish(env.nodes, uint32_t(i), finish);
+        if (IS_GIVEN(firstLeaves)) firstLeaves.v[i] = finish.firstLeaf;
+    }
+    addHash(env, uint32_t(begin / kNodesAtOnce), hash);
+}
+
+ESPALIER_WHOLE void fitNodes(ExpandEnv env, size_t begin, size_t end) {
+    uvec2 hash(0, 0);
+    for (size_t i = begin; i < end; ++i) hash += fitNode(env, uint32_t(i));
+    addHash(env, uint32_t(begin / kNodesAtOnce), hash);
+}
+
+}  // namespace
+
+void packTablesNative(ExpandEnv env, uint32_t grammars) {
+    for (uint32_t i = 0; i < grammars; ++i) packGrammar(env.grammars, env.tables, i, 0, 1);
+}
+
+uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads) {
+    return march(env, queues, most, threads);
+}
+
+void terminalsNative(ExpandEnv env, const GrowthLimits& limits, unsigned threads) {
+    if (!complete(env)) return;
+    const GrowStatus& s = env.status.v[0];
+    if (limits.tangents == TangentMode::paper)
+        overRange(s.frozenBranches, s.branches, kBranchesAtOnce, threads, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) sumJoint(env, uint32_t(i));
+        });
+    for (uint32_t phase : {kTerminalsCount, kTerminalsWrite}) {
+        if (phase == kTerminalsCount && limits.leafDensityCap <= 0) continue;
+        env.phase = phase;
+        overRange(s.frozenNodes, s.nodes, kNodesAtOnce, threads,
+                  [&](size_t begin, size_t end) { finishNodes(env, begin, end); });
+    }
+}
+
+void fitNative(ExpandEnv env, unsigned threads) {
+    if (!complete(env)) return;
+    const GrowStatus& s = env.status.v[0];
+    overRange(s.frozenBranches, s.branches, kBranchesAtOnce, threads, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) env.branches.v[i].thickness = thicknessOf(env, uint32_t(i));
+    });
+    overRange(s.frozenNodes, s.nodes, kNodesAtOnce, threads,
+              [&](size_t begin, size_t end) { fitNodes(env, begin, end); });
+}
+
+}  // namespace espalier

@@ -1,0 +1,38 @@
+#pragma once
+
+// The kernels of growth as native code: their own text compiled as C++ (-ffp-contract=off), so it leaves the same bits.
+// The CPU reference runs it on one thread. On software devices it runs on all, over the very memory that shaders would
+// use: lanes of such a device share one core, and code that can leave out what a lane doesn't need is faster there.
+//
+// All addresses in an ExpandEnv are pointers here. Nothing else may use that memory meanwhile.
+
+#include <array>
+
+#include "runtime/expand/growth.hpp"
+#include "shaders/shared/expand_env.h"
+
+namespace espalier {
+
+// The two queues, of env.itemCapacity items each; wave w is in [w & 1].
+using ItemQueues = std::array<WorkItem*, 2>;
+
+// Packs the tables of env's first `grammars` grammars, whose heads stand in env.tables (expand_tables.h).
+void packTablesNative(ExpandEnv env, uint32_t grammars);
+
+// Grows waves from env.wave on until one is empty or the next would be `most`, env.phase being the last that may be
+// grown. Returns the first wave that didn't run. threads: 0: as many as the machine has.
+uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads);
+
+// The passes after wave env.wave: terminals, fit and the structure's hash. Nothing, unless growth is complete.
+// env.density must be zero where limits ask for it.
+void terminalsNative(ExpandEnv env, const GrowthLimits& limits, unsigned threads);
+void fitNative(ExpandEnv env, unsigned threads);
+
+// A regrowth's: which chunks are to be grown again, the first wave to come into env.items;
+void findNative(ExpandEnv env, unsigned threads);
+// its waves, as marchNative; and all that follows after wave env.wave: nothing, unless what was grown is whole and
+// fits.
+uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads);
+void finishAgainNative(ExpandEnv env, unsigned threads);
+
+}  // namespace espalier
