@@ -36,6 +36,15 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
     Result<Terminals> terminals = Terminals::create(device, std::move(meshes));
     if (!terminals) return terminals.failure();
     out->terminals_ = std::move(*terminals);
+    const EmitTable& table = out->terminals_.table();
+    out->flatShades_.assign(table.bucketCount, kShadeOfTiles);
+    for (size_t kind = 0; kind < out->bounds_.size(); ++kind) {
+        if (out->bounds_[kind].high.z >= 0) continue;
+        const KindRecord& record = table.kinds[kind];
+        for (uint32_t v = record.firstVariant; v < record.firstVariant + record.variantCount; ++v)
+            std::fill_n(out->flatShades_.begin() + table.variants[v].firstBucket, table.variants[v].lodCount,
+                        kShadeOfBattens);
+    }
     if (Status s = out->makePrograms(device, color, depth, samples); !s) return s.failure();
     const struct {
         Buffer& buffer;
@@ -199,6 +208,7 @@ void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap,
         push.firstVertex = bucket.firstVertex;
         push.vertexCount = bucket.vertexCount;
         push.batch = bucket.batch;
+        push.flatShade = flatShades_[b];
         push.roughness = terminals_.data().materials[bucket.material].roughness;
         for (uint32_t cut : {0u, 1u}) {
             const uint64_t offset = offsetof(RoofDrawState, draws) + (128ull * cut + 2 * b) * sizeof(DrawCommand);

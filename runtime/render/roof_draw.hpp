@@ -38,6 +38,7 @@ class RoofDraw {
     Device* device_ = nullptr;
     Terminals terminals_;
     std::vector<RoofMesh> bounds_;
+    std::vector<float> flatShades_;  // [bucket]
     Program cullGrids_, cullRows_, scan_, writeRows_;
     Program tile_[2], cutTile_[2], rectangle_[2];  // of the shaded view, of others
     Program tileDepth_, cutTileDepth_, rectangleDepth_;

@@ -4,6 +4,7 @@
 #include "shaders/roof/draw_records.h"
 
 const float kFadeEnd = 1.7;
+const float kReliefEnd = 2.6;   // from here on cells are lit as their meshes are; below ever more as the pattern is
 
 // pixels: of a metre there. lying: how little its plane is seen edge-on.
 float cellClarity(RoofDrawEnv env, RoofGrid g, float pixels, float lying) {

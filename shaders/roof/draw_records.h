@@ -54,6 +54,10 @@ BUFFER(RoofTileBuf, RoofTile)
 BUFFER(RoofCutTileBuf, RoofCutTile)
 BUFFER(RoofDrawStateBuf, RoofDrawState)
 
+// Means of meshes' shades: of coverings, and of what lies below them with the dark of the loft between.
+CONST_FLOAT(kShadeOfTiles, 0.9f);
+CONST_FLOAT(kShadeOfBattens, 0.3f);
+
 CONST_UINT(kRoofShadow, 1u);   // far rectangles only, as coarse as shadows are
 struct RoofDrawEnv {
     RoofEnv roofs;                // grids, runs, regions, parts, planes, meshes, generations
@@ -83,7 +87,7 @@ struct RoofDrawPush {
     TerminalVertexBuf vertices;
     uint bucket, firstVertex, vertexCount, batch;
     float roughness;
-    uint spare;
+    float flatShade;     // mean of the mesh's shades, for cells too small to show them
 };
 STATIC_SIZE(RoofDrawPush, 40);
 

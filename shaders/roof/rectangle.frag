@@ -37,6 +37,8 @@ void main() {
     // Each cell's lower edge shades the one below.
     float edge = 1.0 - smoothstep(0.0, max(0.12, width.y), 1.0 - fract(cell.y));
     base *= 1.0 - 0.35 * mix(0.12, edge, clear);
+    // Battens: wood, and the dark between.
+    if (surface.z > 0.5) base *= mix(kShadeOfBattens, abs(fract(cell.y) - 0.2) < 0.1 ? 1.0 : 0.12, clear);
     RoofDrawEnv env = push.env.v[0];
     base = mossy(env, look.w, base, position, edge * clear);
     uint drop = (look.w >> kGridDrop) & 15u;

@@ -36,16 +36,17 @@ void main() {
     // Normals are the mesh's in metres: what is stretched leans away.
     n = normalize(vec3(n.xy / max(g.size, vec2(1e-4)), n.z / max(g.thickness, 1e-4)));
     normal = g.axisX * n.x + g.axisY * n.y + cross(g.axisX, g.axisY) * n.z;
-    // Cells that give way to their pattern are lit ever more as it is, so that what stands among it is no mosaic.
+    // Cells are lit as their pattern is long before they give way to it: at a low sun the relief of some among others
+    // without would be a mosaic of streaks.
     float clear = 1.0;
     if (g.firstRow != kNoIndex) {
         vec3 face = cross(g.axisX, g.axisY);
         vec3 ray = frame.eye - position;
         float far = max(length(ray), 0.05);
-        clear = clamp((cellClarity(env, g, frame.pixelScale / far, abs(dot(face, ray)) / far) - 1.0) / (kFadeEnd - 1.0), 0.0, 1.0);
+        clear = smoothstep(1.0, kReliefEnd, cellClarity(env, g, frame.pixelScale / far, abs(dot(face, ray)) / far));
         normal = mix(face, normal, clear);
     }
-    surface = vec4(at.xy, mix(0.9, mesh.uv.x, clear), float(g.colour >> 24u) * (1.0 / 255.0));
+    surface = vec4(at.xy, mix(push.flatShade, mesh.uv.x, clear), float(g.colour >> 24u) * (1.0 / 255.0));
     look = uvec4(g.colour & 0xFFFFFFu, cellHash(g, column, row), push.bucket, g.mesh);
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 #ifdef ESPALIER_CUT
