@@ -16,17 +16,37 @@ constexpr double kBandTexels = 1.001;  // what a bilinear read reaches, of the c
 constexpr double kDensity = 1.0;       // of the grid that the masks may fill, as a first guess
 constexpr double kWorthScale = 0.8;    // a coarser level is worth this loss of scale
 
+// Sets bits from `first` up to and with `last`.
+void setBits(uint64_t* words, uint32_t first, uint32_t last) {
+    const uint64_t from = ~uint64_t(0) << (first % 64), to = ~uint64_t(0) >> (63 - last % 64);
+    if (first / 64 == last / 64) {
+        words[first / 64] |= from & to;
+        return;
+    }
+    words[first / 64] |= from;
+    for (uint32_t w = first / 64 + 1; w < last / 64; ++w) words[w] = ~uint64_t(0);
+    words[last / 64] |= to;
+}
+
+// The first bit from `at` on that is set, or isn't; `end` where there is none.
+uint32_t findBit(const uint64_t* words, uint32_t at, uint32_t end, bool set) {
+    while (at < end) {
+        const uint64_t word = (set ? words[at / 64] : ~words[at / 64]) >> (at % 64);
+        if (word) return std::min(end, at + uint32_t(std::countr_zero(word)));
+        at = (at / 64 + 1) * 64;
+    }
+    return end;
+}
+
 // A set of grid cells, one bit each, row by row.
 struct Mask {
     uint32_t width = 0, height = 0, words = 0;
     std::vector<uint64_t> bits;
-    std::vector<std::array<uint32_t, 3>> runs;  // row, first column, length
+    std::vector<std::array<uint32_t, 3>> runs;  // row, first column, length; the longest first
     glm::dvec2 origin{0};                       // of cell (0, 0), in cells, where the chart lies at this scale
     uint64_t cells = 0;
 
-    void set(uint32_t y, uint32_t x0, uint32_t x1) {
-        for (uint32_t x = x0; x <= x1; ++x) bits[size_t(y) * words + x / 64] |= uint64_t(1) << (x % 64);
-    }
+    void set(uint32_t y, uint32_t x0, uint32_t x1) { setBits(&bits[size_t(y) * words], x0, x1); }
 };
 
 class Packer {
@@ -123,6 +143,7 @@ class Packer {
         }
         fillInside(chart, k, mask);
         for (uint32_t y = 0; y < mask.height; ++y) findRuns(mask, y);
+        std::sort(mask.runs.begin(), mask.runs.end(), [](const auto& x, const auto& y) { return x[2] > y[2]; });
         return mask;
     }
 
@@ -150,14 +171,10 @@ class Packer {
     }
 
     static void findRuns(Mask& mask, uint32_t y) {
-        auto bit = [&](uint32_t x) { return (mask.bits[size_t(y) * mask.words + x / 64] >> (x % 64)) & 1; };
-        for (uint32_t x = 0; x < mask.width;) {
-            if (!bit(x)) {
-                ++x;
-                continue;
-            }
-            uint32_t from = x;
-            while (x < mask.width && bit(x)) ++x;
+        const uint64_t* row = &mask.bits[size_t(y) * mask.words];
+        for (uint32_t x = 0; (x = findBit(row, x, mask.width, true)) < mask.width;) {
+            const uint32_t from = x;
+            x = findBit(row, x, mask.width, false);
             mask.runs.push_back({y, from, x - from});
             mask.cells += x - from;
         }
@@ -201,18 +218,37 @@ class Packer {
         std::iota(order.begin(), order.end(), 0u);
         std::stable_sort(order.begin(), order.end(),
                          [&](uint32_t a, uint32_t b) { return size(masks[a]) > size(masks[b]); });
-        uint32_t words = grid_ / 64;
-        std::vector<uint64_t> taken(size_t(words) * grid_, 0), blocked(words), shifted(words);
+        Grid grid(grid_);
         std::vector<glm::dvec2> offset(masks.size());
         for (uint32_t c : order) {
             uint32_t x, y;
-            if (!place(masks[c], taken, blocked, shifted, x, y)) return {};
+            if (!place(masks[c], grid, x, y)) return {};
             for (const auto& [row, first, length] : masks[c].runs)
-                for (uint32_t i = 0; i < length; ++i)
-                    taken[size_t(y + row) * words + (x + first + i) / 64] |= uint64_t(1) << ((x + first + i) % 64);
+                setBits(&grid.taken[size_t(y + row) * grid.words], x + first, x + first + length - 1);
+            for (uint32_t row = y; row < y + masks[c].height; ++row) grid.widest[row] = widestGap(grid, row);
             offset[c] = (glm::dvec2(x, y) - masks[c].origin) / double(grid_);
         }
         return offset;
+    }
+
+    // What is taken, and of each row how many free cells there are at most side by side.
+    struct Grid {
+        explicit Grid(uint32_t size)
+            : words(size / 64), taken(size_t(words) * size, 0), widest(size, size), blocked(words), shifted(words) {}
+        uint32_t words;
+        std::vector<uint64_t> taken;
+        std::vector<uint32_t> widest;
+        std::vector<uint64_t> blocked, shifted, other;  // scratch: a row each
+    };
+    uint32_t widestGap(const Grid& grid, uint32_t y) const {
+        const uint64_t* row = &grid.taken[size_t(y) * grid.words];
+        uint32_t most = 0;
+        for (uint32_t x = 0; (x = findBit(row, x, grid_, false)) < grid_;) {
+            const uint32_t from = x;
+            x = findBit(row, x, grid_, true);
+            most = std::max(most, x - from);
+        }
+        return most;
     }
 
     // bits[x] of `row` shifted down by n: result bit x is bit x + n.
@@ -227,11 +263,14 @@ class Packer {
     }
 
     // The lowest free row for a mask, then the leftmost column: all columns of a row are tried at once.
-    bool place(const Mask& mask, const std::vector<uint64_t>& taken, std::vector<uint64_t>& blocked,
-               std::vector<uint64_t>& shifted, uint32_t& outX, uint32_t& outY) const {
-        uint32_t words = grid_ / 64;
-        std::vector<uint64_t> other(words);
+    bool place(const Mask& mask, Grid& grid, uint32_t& outX, uint32_t& outY) const {
+        const uint32_t words = grid.words;
+        std::vector<uint64_t>&blocked = grid.blocked, &shifted = grid.shifted, &other = grid.other;
         for (uint32_t y = 0; y + mask.height <= grid_; ++y) {
+            bool narrow = false;
+            for (size_t i = 0; i < mask.runs.size() && !narrow; ++i)
+                narrow = mask.runs[i][2] > grid.widest[y + mask.runs[i][0]];
+            if (narrow) continue;
             for (uint32_t w = 0; w < words; ++w) {
                 // Columns from which the mask would reach past the right border.
                 uint64_t b = 0;
@@ -244,7 +283,7 @@ class Packer {
             }
             bool full = false;
             for (const auto& [row, first, length] : mask.runs) {
-                const uint64_t* from = &taken[size_t(y + row) * words];
+                const uint64_t* from = &grid.taken[size_t(y + row) * words];
                 uint64_t any = 0;
                 for (uint32_t w = 0; w < words; ++w) any |= shifted[w] = from[w];
                 if (!any) continue;
