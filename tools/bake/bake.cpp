@@ -224,10 +224,14 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
 
     stages.begin(0.37f, "drawing_mesh");
     makeDrawing(model, *mesh, surface);
-    const MeshTree drawn = drawnTree(surface);
+    MeshTree drawn;
     std::vector<std::vector<uint8_t>> walkable;
-    beside([&] { simplifyDrawing(drawn, surface); },
-           [&] { walkable = makeLevels(*mesh, links, contacts, *allowed, options, stages, surface, report); });
+    beside(
+        [&] {
+            drawn = drawnTree(surface);
+            simplifyDrawing(drawn, surface);
+        },
+        [&] { walkable = makeLevels(*mesh, links, contacts, *allowed, options, stages, surface, report); });
     for (const SurfaceLevelData& level : surface.levels)
         if (level.crossingRefs.size() >= (size_t(1) << 24))
             return Failure(model.name, "more borders than a level can list: bake at a lower resolution");

@@ -7,11 +7,12 @@
 #include "runtime/core/jobs.hpp"
 #include "shaders/shared/exact.h"
 #include "tools/bake/bake_mesh.hpp"
+#include "tools/bake/bands.hpp"
 
 namespace espalier::bakery {
 namespace {
 
-constexpr size_t kBandRows = 64;
+constexpr uint32_t kBandRows = 64;
 constexpr double kCreaseGrow = 1.5;       // a texel's half side and one texel around
 constexpr double kCreaseAltitude = 1;     // texels: creases between narrower triangles are roundings
 constexpr float kMaxStretch = 4;          // gutters never run faster than this times the chart's mean scale
@@ -32,6 +33,14 @@ struct LevelWork {
     }
 };
 
+// The crossings that come near each band.
+Bands bandsOf(std::span<const Crossing> crossings, uint32_t size, double reach) {
+    return Bands(crossings.size(), size, kBandRows, [&](size_t i) {
+        const double a = double(crossings[i].a.y) * size, b = double(crossings[i].b.y) * size;
+        return std::pair(std::min(a, b) - reach, std::max(a, b) + reach);
+    });
+}
+
 // Lists the crossings of each texel's own chart that pass its square.
 void listCrossings(LevelWork& work, std::vector<uint8_t>& walkable) {
     const auto& crossings = work.source.crossings;
@@ -41,11 +50,11 @@ void listCrossings(LevelWork& work, std::vector<uint8_t>& walkable) {
         uint32_t texel, crossing;
     };
     std::vector<std::vector<Hit>> hits(bands);
+    const Bands near = bandsOf(crossings, size, 1);
     parallelFor(size, kBandRows, [&](size_t begin, size_t end) {
         auto& mine = hits[begin / kBandRows];
-        for (uint32_t i = 0; i < crossings.size(); ++i) {
+        for (uint32_t i : near.at(begin)) {
             glm::dvec2 a = glm::dvec2(crossings[i].a) * double(size), b = glm::dvec2(crossings[i].b) * double(size);
-            if (std::max(a.y, b.y) + 1 < double(begin) || std::min(a.y, b.y) - 1 > double(end)) continue;
             uint32_t chart = crossings[i].flags >> 16;
             gridSegment(a, b, kCrossingGrow, size, int64_t(begin), int64_t(end),
                         [&](int64_t y, int64_t x0, int64_t x1) {
@@ -120,10 +129,15 @@ void markCreases(LevelWork& work) {
     const auto& mesh = work.source.mesh;
     uint32_t size = work.image.size;
     work.crease.assign(size_t(size) * size, 0);
+    const auto& creases = work.source.creases;
+    const Bands bands(creases.size(), size, kBandRows, [&](size_t i) {
+        const double a = mesh.uvAt(creases[i]).y * size, b = mesh.uvAt(BakeMesh::next(creases[i])).y * size;
+        return std::pair(std::min(a, b) - 2, std::max(a, b) + 2);
+    });
     parallelFor(size, kBandRows, [&](size_t begin, size_t end) {
-        for (uint32_t h : work.source.creases) {
+        for (uint32_t i : bands.at(begin)) {
+            const uint32_t h = creases[i];
             glm::dvec2 a = mesh.uvAt(h) * double(size), b = mesh.uvAt(BakeMesh::next(h)) * double(size);
-            if (std::max(a.y, b.y) + 2 < double(begin) || std::min(a.y, b.y) - 2 > double(end)) continue;
             if (std::min(altitude(mesh, h), altitude(mesh, mesh.twin[h])) * size < kCreaseAltitude) continue;
             uint32_t chart = mesh.chartOf(h);
             gridSegment(a, b, kCreaseGrow, size, int64_t(begin), int64_t(end), [&](int64_t y, int64_t x0, int64_t x1) {
@@ -220,12 +234,12 @@ void markSlits(LevelWork& work) {
     uint32_t size = work.image.size;
     std::vector<uint8_t> far(size_t(size) * size, 0);
     std::atomic<bool> any = false;
+    const Bands bands = bandsOf({source.crossings.data(), source.links.size()}, size, 2);
     parallelFor(size, kBandRows, [&](size_t begin, size_t end) {
         bool found = false;
-        for (uint32_t i = 0; i < source.links.size(); ++i) {
+        for (uint32_t i : bands.at(begin)) {
             glm::dvec2 a = glm::dvec2(source.crossings[i].a) * double(size);
             glm::dvec2 b = glm::dvec2(source.crossings[i].b) * double(size);
-            if (std::max(a.y, b.y) + 2 < double(begin) || std::min(a.y, b.y) - 2 > double(end)) continue;
             uint32_t t = source.links[i].from / 3, chart = source.mesh.triangles[t].chart;
             const Plane& plane = source.planes[t];
             float limit = kSlitTexels * source.charts[chart].metresPerUv / float(size);

@@ -6,11 +6,12 @@
 
 #include "runtime/core/jobs.hpp"
 #include "tools/bake/bake_mesh.hpp"
+#include "tools/bake/bands.hpp"
 
 namespace espalier::bakery {
 namespace {
 
-constexpr size_t kBandRows = 32;
+constexpr uint32_t kBandRows = 32;
 constexpr double kGutterTexels = 2;  // the gutter's width
 constexpr double kNeededTexels = 1;  // a bilinear read reaches texel centres nearer than this
 constexpr float kNotNeeded = 1e6f;   // added to distances of gutter texels that no read needs
@@ -42,31 +43,22 @@ void gridTriangle(const std::array<glm::dvec2, 3>& p, int64_t size, int64_t yBeg
     }
 }
 
-struct Rows {
-    int32_t first, last;  // inclusive
-};
-
 }  // namespace
 
 void drawTriangles(const BakeMesh& mesh, uint32_t size, IdImage& image, uint64_t* covered, uint64_t* overlaps) {
     image.size = size;
     image.id.resize(size_t(size) * size);
-    size_t count = mesh.triangles.size();
-    std::vector<Rows> rows(count);
-    parallelFor(count, 16384, [&](size_t begin, size_t end) {
-        for (size_t t = begin; t < end; ++t) {
-            const auto& uv = mesh.triangles[t].uv;
-            rows[t] = {int32_t(std::floor(std::min({uv[0].y, uv[1].y, uv[2].y}) * size - 0.5)),
-                       int32_t(std::ceil(std::max({uv[0].y, uv[1].y, uv[2].y}) * size - 0.5))};
-        }
+    const Bands bands(mesh.triangles.size(), size, kBandRows, [&](size_t t) {
+        const auto& uv = mesh.triangles[t].uv;
+        return std::pair(std::min({uv[0].y, uv[1].y, uv[2].y}) * size - 0.5,
+                         std::max({uv[0].y, uv[1].y, uv[2].y}) * size - 0.5);
     });
     std::atomic<uint64_t> allCovered = 0, allOverlaps = 0;
     parallelFor(size, kBandRows, [&](size_t begin, size_t end) {
         uint32_t* ids = image.id.data();
         std::fill(ids + begin * size, ids + end * size, kNone);
         uint64_t hits = 0, again = 0;
-        for (uint32_t t = 0; t < count; ++t) {
-            if (rows[t].last < int32_t(begin) || rows[t].first >= int32_t(end)) continue;
+        for (uint32_t t : bands.at(begin)) {
             const auto& uv = mesh.triangles[t].uv;
             std::array<glm::dvec2, 3> p = {uv[0] * double(size), uv[1] * double(size), uv[2] * double(size)};
             gridTriangle(p, size, int64_t(begin), int64_t(end), [&](int64_t y, int64_t x0, int64_t x1) {
@@ -107,13 +99,17 @@ bool drawGutters(const BakeMesh& mesh, const std::vector<uint32_t>& borders, IdI
         cleared.store(true, std::memory_order_relaxed);
     };
     const std::vector<uint8_t> drawn = walkable;
+    const Bands bands(borders.size(), size, kBandRows, [&](size_t i) {
+        const double a = mesh.uvAt(borders[i]).y * size, b = mesh.uvAt(BakeMesh::next(borders[i])).y * size;
+        return std::pair(std::min(a, b) - 3, std::max(a, b) + 3);
+    });
     parallelFor(size, kBandRows, [&](size_t begin, size_t end) {
         std::vector<float> distance((end - begin) * size, 3e6f);
         auto forBorders = [&](double grow, auto&& texel) {
-            for (uint32_t h : borders) {
+            for (uint32_t i : bands.at(begin)) {
+                const uint32_t h = borders[i];
                 if (!drawn[mesh.chartOf(h)]) continue;
                 glm::dvec2 a = mesh.uvAt(h) * double(size), b = mesh.uvAt(BakeMesh::next(h)) * double(size);
-                if (std::max(a.y, b.y) + 3 < double(begin) || std::min(a.y, b.y) - 3 > double(end)) continue;
                 gridSegment(a, b, grow, size, int64_t(begin), int64_t(end), [&](int64_t y, int64_t x0, int64_t x1) {
                     for (int64_t x = x0; x <= x1; ++x) texel(h, a, b, size_t(x), size_t(y));
                 });
