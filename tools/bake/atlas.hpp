@@ -67,12 +67,14 @@ constexpr double kMostStretch = 1.5;
 struct PatchVerdict {
     std::vector<uint32_t> tangled;  // vertices at turned over triangles, at cones that wind twice, of holes inside out
     std::vector<uint32_t> crossed;  // vertices where the outer border meets itself within a few edges
-    bool overlapping = false;       // it does so from afar, or runs the wrong way round
+    bool torn = false;              // holes meet something or are inside out
+    bool overlapping = false;       // the outer border meets itself from afar, or runs the wrong way round
     double stretch95 = 0;           // of its area
     double stretchMax = 0;
     bool good() const { return tangled.empty() && crossed.empty() && !overlapping; }
     bool serves() const { return good() && stretch95 <= kMostStretch; }
-    bool excels() const { return serves() && stretchMax <= kMostStretch * 2; }  // not worth more work
+    bool excels() const { return serves() && stretchMax <= kMostStretch * 2; }
+    bool settled() const { return excels() || torn; }  // more rounds won't change it
 };
 PatchVerdict judgePatch(const Patch& patch);
 

@@ -194,7 +194,7 @@ PatchVerdict flatten(Patch& patch) {
         }
         if (!trial) continue;
         stitcher.take(patch.uv);
-        if (PatchVerdict verdict = judgePatch(patch); verdict.excels()) return verdict;
+        if (PatchVerdict verdict = judgePatch(patch); verdict.settled()) return verdict;
     }
     stitcher.take(patch.uv);
     return judgePatch(patch);

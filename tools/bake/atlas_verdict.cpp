@@ -85,7 +85,7 @@ void findMeetings(const Patch& patch, const std::vector<std::vector<uint32_t>>& 
     }
     for (uint32_t l = 1; l < loops.size(); ++l)
         if (meets[l] || signedArea(patch, loops[l]) > 0)
-            for (uint32_t h : loops[l]) out.tangled.push_back(patch.corner[h / 3][h % 3]);
+            for (uint32_t h : loops[l]) out.torn = true, out.tangled.push_back(patch.corner[h / 3][h % 3]);
     if (signedArea(patch, loops[0]) < 0) out.overlapping = true;
 }
 
