@@ -69,25 +69,32 @@ float chance(uint32_t seed, uint32_t index) {
     return float(x >> 8) / 16777216.f;
 }
 
-// Seeds where rays from around the model, aimed at its middle, meet its lower part.
+// Seeds where rays from all around meet the model's lower part. They are aimed at places spread evenly over its ground
+// plan, so that of pieces that lie apart each gets its share; what leads through a gap is aimed at the middle.
 void plantAround(const EspContext* context, const EspSurfaceInfo& info, uint32_t number, Scene& scene) {
-    constexpr uint32_t kSeeds = 14;
+    constexpr uint32_t kSeeds = 16;
+    constexpr float kPlanX = .7548777f, kPlanZ = .5698403f;  // of the evenest sequence of points in a square
     float centre[3], size[3];
     for (int i = 0; i < 3; ++i) {
         centre[i] = (info.boundsMin[i] + info.boundsMax[i]) / 2;
         size[i] = info.boundsMax[i] - info.boundsMin[i];
     }
-    const float radius = std::sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]) / 2;
+    const float far = std::sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
     for (uint32_t i = 0; i < kSeeds; ++i) {
         const float angle = 2 * kPi * (float(i) + .7f * chance(number, 3 * i)) / kSeeds;
         const float height = info.boundsMin[1] + size[1] * (.04f + .12f * chance(number, 3 * i + 1));
-        const float origin[3] = {centre[0] + 2 * radius * std::sin(angle), height,
-                                 centre[2] + 2 * radius * std::cos(angle)};
-        const float to[3] = {centre[0] - origin[0], 0, centre[2] - origin[2]};
+        const float outX = std::sin(angle), outZ = std::cos(angle), inward[3] = {-outX, 0, -outZ};
+        const auto aimAt = [&](float x, float z, EspHit& hit) {
+            const float origin[3] = {x + far * outX, height, z + far * outZ};
+            return espPick(context, origin, inward, &hit) == ESP_OK;
+        };
+        const float planX = std::fmod(.5f + float(i) * kPlanX, 1.f) - .5f,
+                    planZ = std::fmod(.5f + float(i) * kPlanZ, 1.f) - .5f;
+        const float aside[3] = {centre[0] + .5f * size[0] * outX, height, centre[2] + .5f * size[2] * outZ};
         EspHit hit;
-        const float aside[3] = {centre[0] + .5f * size[0] * std::sin(angle), height,
-                                centre[2] + .5f * size[2] * std::cos(angle)};
-        if (espPick(context, origin, to, &hit) != ESP_OK && espNearest(context, aside, &hit) != ESP_OK) continue;
+        if (!aimAt(centre[0] + size[0] * planX, centre[2] + size[2] * planZ, hit) &&
+            !aimAt(centre[0], centre[2], hit) && espNearest(context, aside, &hit) != ESP_OK)
+            continue;
         Seed seed;
         std::memcpy(seed.position.data(), hit.position, sizeof hit.position);
         seed.direction = {chance(number, 3 * i + 2) - .5f, 1, 0};
