@@ -3,11 +3,13 @@
 #include <draco/compression/encode.h>
 #include <stb_image_write.h>
 
+#include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "runtime/core/glb.hpp"
 #include "runtime/core/hash.hpp"
+#include "runtime/core/jobs.hpp"
 #include "runtime/surface/codec.hpp"
 #include "runtime/surface/surface.hpp"
 #include "runtime/surface/surface_file.hpp"
@@ -40,12 +42,13 @@ class Writer {
         root_["nodes"] = {{{"mesh", 0}, {"name", "surface"}}};
         root_["bufferViews"] = ordered_json::array();
         root_["accessors"] = ordered_json::array();
-        writeShared();
         measureMesh();
+        packAll();
+        writeShared();
         Status done = writeCoarser();
-        if (done && data_.coarser.empty()) done = writeMesh({data_.vertices, data_.indices, data_.ranges}, 0);
+        if (done && data_.coarser.empty()) done = writeMesh(0);
         if (done) done = writeLevels();
-        if (done && !data_.coarser.empty()) done = writeMesh({data_.vertices, data_.indices, data_.ranges}, 0);
+        if (done && !data_.coarser.empty()) done = writeMesh(0);
         if (!done) return done;
         writeMaterials();
         root_["extensions"][kExtension] = std::move(walk_);
@@ -81,8 +84,41 @@ class Writer {
         const std::vector<DrawRange>& ranges;
     };
 
+    // A range as Draco's bytes, and what a decoder will find in them.
+    struct PackedRange {
+        uint32_t material = 0, points = 0, faces = 0;
+        draco::EncoderBuffer bytes;
+        std::array<uint32_t, 4> unique{};  // ids of position, normal and both UVs
+        glm::vec3 low{3e38f}, high{-3e38f};
+        const char* fault = nullptr;
+    };
+
+    // All that takes long and needs nothing else, on all cores: drawn meshes, the largest first, and records.
+    void packAll() {
+        std::vector<std::pair<Drawn, const DrawRange*>> jobs;
+        meshes_.resize(data_.coarser.size() + 1);
+        for (size_t m = 0; m < meshes_.size(); ++m) {
+            const Drawn drawn = m == 0 ? Drawn{data_.vertices, data_.indices, data_.ranges}
+                                       : Drawn{data_.coarser[m - 1].vertices, data_.coarser[m - 1].indices,
+                                               data_.coarser[m - 1].ranges};
+            for (const DrawRange& range : drawn.ranges)
+                if (range.indexCount >= 3) jobs.push_back({drawn, &range}), meshes_[m].emplace_back();
+        }
+        std::vector<PackedRange*> places;
+        for (auto& mesh : meshes_)
+            for (PackedRange& range : mesh) places.push_back(&range);
+        parallelFor(jobs.size() + 2, 1, [&](size_t i, size_t) {
+            if (i == 0)
+                packedTriangles_ = pack(data_.triangles);
+            else if (i == 1)
+                packedCrossings_ = pack(data_.crossings);
+            else
+                packRange(jobs[i - 2].first, *jobs[i - 2].second, *places[i - 2]);
+        });
+    }
+
     // One range as a Draco mesh of its own vertices.
-    Status writeRange(const Drawn& drawn, const DrawRange& range, ordered_json& primitives) {
+    void packRange(const Drawn& drawn, const DrawRange& range, PackedRange& out) const {
         std::vector<uint32_t> local(drawn.vertices.size(), kNoIndex), used;
         draco::Mesh mesh;
         for (uint32_t i = 0; i < range.indexCount; ++i) {
@@ -104,11 +140,12 @@ class Writer {
                       addAttribute(mesh, Kind::NORMAL, 3, [&](uint32_t i) { return &vertex(i).normal.x; }),
                       addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).uv.x; }),
                       addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).walkUv.x; })};
-        uint32_t unique[4];
-        for (int k = 0; k < 4; ++k) unique[k] = mesh.attribute(ids[k])->unique_id();
-        draco::EncoderBuffer encoded;
-        if (!encode(mesh, encoded)) return Failure(path_, "Draco could not encode the mesh");
-        return describeRange(range, encoded, unique, primitives);
+        for (size_t k = 0; k < 4; ++k) out.unique[k] = mesh.attribute(ids[k])->unique_id();
+        out.material = range.material;
+        if (!encode(mesh, out.bytes))
+            out.fault = "Draco could not encode the mesh";
+        else
+            measureRange(out);
     }
 
     bool encode(const draco::Mesh& mesh, draco::EncoderBuffer& out) const {
@@ -129,52 +166,55 @@ class Writer {
     }
 
     // Accessors state what a decoder will find: counts and bounds are those of the decoded mesh.
-    Status describeRange(const DrawRange& range, const draco::EncoderBuffer& encoded, const uint32_t (&unique)[4],
-                         ordered_json& primitives) {
+    static void measureRange(PackedRange& out) {
         draco::DecoderBuffer buffer;
-        buffer.Init(encoded.data(), encoded.size());
+        buffer.Init(out.bytes.data(), out.bytes.size());
         draco::Decoder decoder;
         auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-        if (!decoded.ok()) return Failure(path_, "Draco does not read back what it wrote");
+        if (!decoded.ok()) {
+            out.fault = "Draco does not read back what it wrote";
+            return;
+        }
         const draco::Mesh& mesh = *decoded.value();
-        if (mesh.num_faces() == 0) return Done{};  // triangles without area only
-        int view = addView(encoded.data(), encoded.size());
+        out.points = mesh.num_points(), out.faces = uint32_t(mesh.num_faces());
+        const draco::PointAttribute* position = mesh.GetAttributeByUniqueId(out.unique[0]);
+        for (uint32_t i = 0; i < out.points; ++i) {
+            glm::vec3 p;
+            position->ConvertValue<float, 3>(position->mapped_index(draco::PointIndex(i)), &p.x);
+            out.low = glm::min(out.low, p), out.high = glm::max(out.high, p);
+        }
+    }
+
+    void describeRange(const PackedRange& range, ordered_json& primitives) {
+        if (range.faces == 0) return;  // triangles without area only
+        int view = addView(range.bytes.data(), range.bytes.size());
         static constexpr const char* kNames[4] = {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1"};
         ordered_json attributes, packed;
         for (int k = 0; k < 4; ++k) {
-            packed[kNames[k]] = unique[k];
+            packed[kNames[k]] = range.unique[size_t(k)];
             attributes[kNames[k]] = root_["accessors"].size();
             ordered_json accessor = {
-                {"componentType", 5126}, {"count", mesh.num_points()}, {"type", k < 2 ? "VEC3" : "VEC2"}};
+                {"componentType", 5126}, {"count", range.points}, {"type", k < 2 ? "VEC3" : "VEC2"}};
             if (k == 0) {
-                const draco::PointAttribute* position = mesh.GetAttributeByUniqueId(unique[0]);
-                float low[3] = {3e38f, 3e38f, 3e38f}, high[3] = {-3e38f, -3e38f, -3e38f}, p[3];
-                for (uint32_t i = 0; i < mesh.num_points(); ++i) {
-                    position->ConvertValue<float, 3>(position->mapped_index(draco::PointIndex(i)), p);
-                    for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
-                }
-                accessor["min"] = {low[0], low[1], low[2]};
-                accessor["max"] = {high[0], high[1], high[2]};
+                accessor["min"] = {range.low.x, range.low.y, range.low.z};
+                accessor["max"] = {range.high.x, range.high.y, range.high.z};
             }
             root_["accessors"].push_back(std::move(accessor));
         }
         size_t indices = root_["accessors"].size();
-        root_["accessors"].push_back(
-            {{"componentType", 5125}, {"count", size_t(mesh.num_faces()) * 3}, {"type", "SCALAR"}});
+        root_["accessors"].push_back({{"componentType", 5125}, {"count", size_t(range.faces) * 3}, {"type", "SCALAR"}});
         primitives.push_back({{"attributes", attributes},
                               {"indices", indices},
                               {"material", range.material},
                               {"mode", 4},
                               {"extensions", {{kDraco, {{"bufferView", view}, {"attributes", packed}}}}}});
-        return Done{};
     }
 
-    Status writeMesh(const Drawn& drawn, size_t place) {
+    Status writeMesh(size_t place) {
         ordered_json primitives = ordered_json::array();
-        for (const DrawRange& range : drawn.ranges) {
-            if (range.indexCount < 3) continue;
-            Status done = writeRange(drawn, range, primitives);
-            if (!done) return done;
+        for (const PackedRange& range : meshes_[place]) {
+            if (range.fault) return Failure(path_, range.fault);
+            describeRange(range, primitives);
         }
         if (primitives.empty()) return Failure(path_, "the surface has no mesh to draw");
         root_["meshes"][place] = {{"primitives", primitives}, {"name", place == 0 ? "surface" : "coarser"}};
@@ -192,8 +232,7 @@ class Writer {
     Status writeCoarser() {
         walk_["coarser"] = ordered_json::array();
         for (size_t i = data_.coarser.size(); i-- > 0;) {
-            const CoarserMesh& mesh = data_.coarser[i];
-            Status done = writeMesh({mesh.vertices, mesh.indices, mesh.ranges}, i + 1);
+            Status done = writeMesh(i + 1);
             if (!done) return done;
         }
         for (size_t i = 0; i < data_.coarser.size(); ++i)
@@ -241,10 +280,13 @@ class Writer {
     }
 
     template <class T>
-    ordered_json writeRecords(const std::vector<T>& records) {
+    static std::vector<uint8_t> pack(const std::vector<T>& records) {
+        return records.empty() ? std::vector<uint8_t>{} : encodeRecords(records.data(), records.size(), sizeof(T));
+    }
+    template <class T>
+    ordered_json writeRecords(const std::vector<T>& records, const std::vector<uint8_t>& bytes) {
         ordered_json field = {{"count", records.size()}, {"stride", sizeof(T)}};
         if (records.empty()) return field;
-        const std::vector<uint8_t> bytes = encodeRecords(records.data(), records.size(), sizeof(T));
         field["bufferView"] = addView(bytes.data(), bytes.size());
         return field;
     }
@@ -257,9 +299,9 @@ class Writer {
                  {"bounds_min", {data_.boundsMin.x, data_.boundsMin.y, data_.boundsMin.z}},
                  {"bounds_max", {data_.boundsMax.x, data_.boundsMax.y, data_.boundsMax.z}},
                  {"uv_set", 1}};
-        walk_["crossings"] = writeRecords(data_.crossings);
-        walk_["charts"] = writeRecords(data_.charts);
-        walk_["triangles"] = writeRecords(data_.triangles);
+        walk_["crossings"] = writeRecords(data_.crossings, packedCrossings_);
+        walk_["charts"] = writeRecords(data_.charts, pack(data_.charts));
+        walk_["triangles"] = writeRecords(data_.triangles, packedTriangles_);
     }
 
     // Coarse ones first in the file, the finest first in the list.
@@ -289,7 +331,8 @@ class Writer {
     glm::vec3 low_{0};  // of the mesh
     float extent_ = 1;
     ordered_json root_, walk_;
-    std::vector<uint8_t> binary_;
+    std::vector<uint8_t> binary_, packedCrossings_, packedTriangles_;
+    std::vector<std::vector<PackedRange>> meshes_;  // ranges of the drawn mesh, then of each coarser one
 };
 
 }  // namespace
