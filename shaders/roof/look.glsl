@@ -24,11 +24,14 @@ float noise3(vec3 p) {
     vec2 d = mix(c.xz, c.yw, f.x);
     return mix(d.x, d.y, f.y);
 }
-// variation: 0..1 of the cell.
+// variation: 0..1 of the cell. What has no tint, walls above all, is streaked by rain and splashed above the ground.
 vec3 weathered(vec3 base, float variation, float tint, vec3 position) {
-    float patchy = noise3(position * 0.7) * 0.6 + noise3(position * 2.9) * 0.4;
+    vec3 finer = tint > 0.0 ? vec3(2.9) : vec3(4.1, 0.45, 4.1);
+    float patchy = noise3(position * 0.7) * 0.6 + noise3(position * finer) * 0.4;
     base *= 1.0 + tint * 0.55 * (variation - 0.5) * 2.0;
-    return base * (0.86 + 0.28 * patchy);
+    float high = (position.y - frame.groundLevel) / frame.unit;
+    vec3 splashed = mix(vec3(0.62, 0.585, 0.51), vec3(1.0), clamp(0.9 * high + 1.6 * patchy - 0.75, 0.0, 1.0));
+    return base * splashed * (0.84 + 0.32 * patchy);
 }
 // Moss grows in cushions where its layer is painted, thickest in the joints and on the shaded side of tiles.
 vec3 mossy(RoofDrawEnv env, uint mesh, vec3 base, vec3 position, float joint) {

@@ -196,10 +196,10 @@ class Layout {
     void trees() {
         // Along streets, in groups between the houses and, ever denser, behind them, so that the village lies among
         // trees.
-        for (uint32_t i = 0; i < 1500; ++i) {
+        for (uint32_t i = 0; i < 3200; ++i) {
             const float angle = 2 * kPi * random01(i, 41), r = 16 + 84 * std::pow(random01(i, 42), 0.7f);
             const vec2 p(r * std::cos(angle), r * std::sin(angle));
-            const float grove = noise(p / 17.0f, 43), chance = r < 34 ? 0.03f : r < 62 ? 0.08f : 0.24f;
+            const float grove = noise(p / 17.0f, 43), chance = r < 34 ? 0.02f : r < 62 ? 0.06f : 0.30f;
             if (random01(i, 44) > chance + 0.34f * std::max(grove, 0.0f) * ramp(26, 60, r)) continue;
             const bool tall = random01(i, 45) < 0.55f;
             if (!clear(p, tall ? 3.2f : 2.0f, tall ? 4.5f : 3.0f)) continue;
@@ -237,12 +237,12 @@ class Layout {
                                : "tuft_c",
                 p, 360 * random01(i, 62), most * (0.7f + 0.6f * random01(i, 63)));
         };
-        for (uint32_t i = 0; i < 15000; ++i) {
+        for (uint32_t i = 0; i < 24000; ++i) {
             const float angle = 2 * kPi * random01(i, 64), r = 22 * std::sqrt(random01(i, 65));
             const vec2 p = kCourt + r * vec2(std::cos(angle), std::sin(angle));
             const float rank =
                 noise(p / 1.7f, 66) + 0.5f * noise(p / 5.0f, 67) + 0.9f * ramp(1.8f, 0.3f, Plan::toCourt(p));
-            if (rank > 0.12f) tuft(p, 0.75f + 0.4f * saturate(rank - 0.3f));
+            if (rank > 0.06f) tuft(p, 0.75f + 0.4f * saturate(rank - 0.3f));
         }
         const std::map<std::string, std::vector<SitePlace>> built = site_.props;
         for (const char* foot : {"wall", "pier", "fence", "rubble", "bench"}) {
@@ -277,7 +277,7 @@ void paintMap(const Plan& plan, const std::vector<glm::vec3>& shades, Site& site
             const float uneven = noise(p / 1.3f, 71) + 0.6f * noise(p / 0.5f, 72);
             float earth = 0.75f * ramp(-0.9f - 0.5f * uneven, -0.15f, paved);         // beside kerbs
             earth = std::max(earth, 0.8f * ramp(1.5f + 0.6f * uneven, 0.3f, house));  // around houses
-            earth = std::max(earth, 0.30f * ramp(0.9f + uneven, 0.0f, court));
+            earth = std::max(earth, 0.16f * ramp(0.9f + uneven, 0.0f, court));
             float open = 1 - 0.55f * std::exp(-std::max(house, 0.0f) / 0.9f);
             for (glm::vec3 s : shades) {
                 const float d = glm::distance(p, vec2(s)) / s.z;
