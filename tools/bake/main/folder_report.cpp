@@ -15,14 +15,17 @@ struct Column {
     const char* place;  // JSON pointer into the row's report
     int width;
 };
-constexpr Column kColumns[] = {{"triangles", "/triangles", 10},       {"charts", "/charts", 7},
-                               {"area m2", "/walkable_area", 10},     {"str50", "/stretch/p50", 6},
-                               {"str95", "/stretch/p95", 6},          {"seams", "/crossings/seam", 8},
-                               {"nearest", "/crossings/nearest", 8},  {"contact", "/crossings/contact", 8},
-                               {"dangling", "/crossings/dangling", 9}};
+constexpr Column kColumns[] = {{"triangles", "/triangles", 10},        {"charts", "/charts", 7},
+                               {"area m2", "/walkable_area", 10},      {"str50", "/stretch/p50", 6},
+                               {"str95", "/stretch/p95", 6},           {"overlaps", "/overlapping_texels", 9},
+                               {"walkable", "/levels/0/walkable", 9},  {"seams", "/crossings/seam", 8},
+                               {"nearest", "/crossings/nearest", 8},   {"contact", "/crossings/contact", 8},
+                               {"dangling", "/crossings/dangling", 9}, {"one-way", "/crossings/dangling_contacts", 8},
+                               {"reach", "/reachable/least", 6}};
 
+// At least a space before it.
 std::string padded(std::string text, int width) {
-    return std::string(size_t(std::max(0, width - int(text.size()))), ' ') + text;
+    return std::string(size_t(std::max(1, width - int(text.size()))), ' ') + text;
 }
 
 std::string cell(const Row& row, const Column& column) {
@@ -30,7 +33,8 @@ std::string cell(const Row& row, const Column& column) {
     if (!row.contains("report") || !row["report"].contains(place)) return padded("-", column.width);
     const Row& value = row["report"][place];
     char text[40] = "-";
-    if (value.is_number_float()) std::snprintf(text, sizeof text, "%.*f", value < 100 ? 2 : 0, value.get<double>());
+    if (value.is_number_float())
+        std::snprintf(text, sizeof text, value < 1e6 ? "%.*f" : "%.*e", value < 100 ? 2 : 0, value.get<double>());
     if (value.is_number_integer()) std::snprintf(text, sizeof text, "%lld", value.get<long long>());
     return padded(text, column.width);
 }
