@@ -169,11 +169,14 @@ struct Search {
         const ContactMesh &from = (fromA ? a : b).ground->mesh(), &to = (fromA ? b : a).ground->mesh();
         const uint32_t fromBody = from.triangles[c.from].body, toBody = to.triangles[c.to].body;
         const size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / (kPart * tolerance)), size_t(1), kMostParts);
+        // The sides are up to a reach apart: asked from either, so that both directions get one answer.
+        auto alike = [&](dvec3 p) {
+            return hidden(!fromA, p + c.onward * (kAside * tolerance), c.to, fromBody) ==
+                   hidden(fromA, p + c.back * (kAside * tolerance), c.from, toBody);
+        };
         auto leads = [&](size_t k) {
             const double t = (double(k) + 0.5) / double(parts);
-            const dvec3 there = c.a + (c.b - c.a) * t, here = c.fromA + (c.fromB - c.fromA) * t;
-            return hidden(!fromA, there + c.onward * (kAside * tolerance), c.to, fromBody) ==
-                   hidden(fromA, here + c.back * (kAside * tolerance), c.from, toBody);
+            return alike(c.a + (c.b - c.a) * t) || alike(c.fromA + (c.fromB - c.fromA) * t);
         };
         std::vector<Crossing> out;
         for (size_t k = 0; k < parts; ++k) {

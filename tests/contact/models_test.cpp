@@ -110,7 +110,8 @@ Verdict judge(const Model& model, const Baked& baked) {
 TEST_CASE("where pieces of real models run into each other, walks cross") {
     std::vector<const char*> files = {
         "derived/fort_unwrap_scene.glb", "models/kaykit_medieval/building_castle_blue.gltf",
-        "models/quaternius/House2.glb", "models/quaternius/House_3.glb", "models/kaykit_dungeon/wall.glb"};
+        "models/quaternius/House2.glb",  "models/quaternius/House_3.glb",
+        "models/quaternius/Gazebo.glb",  "models/kaykit_dungeon/wall.glb"};
     if (const char* more = std::getenv("ESPALIER_CONTACT_MODEL")) files = {more};
     for (const char* file : files) {
         auto path = test::dataFile(file);

@@ -33,11 +33,14 @@ void Contacts::dropHidden() {
             const Contact& c = list_[i];
             uint32_t fromBody = mesh_.triangles[c.from].body, toBody = mesh_.triangles[c.to].body;
             size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / tolerance_), size_t(1), kMostParts);
+            // The sides are up to a reach apart: asked from either, so that both directions get one answer.
+            auto alike = [&](glm::dvec3 p) {
+                return hidden(p + c.onward * (0.3 * tolerance_), c.to, fromBody) ==
+                       hidden(p + c.back * (0.3 * tolerance_), c.from, toBody);
+            };
             auto leads = [&](size_t k) {
                 const double t = (double(k) + 0.5) / double(parts);
-                const glm::dvec3 there = c.a + (c.b - c.a) * t, here = c.fromA + (c.fromB - c.fromA) * t;
-                return hidden(there + c.onward * (0.3 * tolerance_), c.to, fromBody) ==
-                       hidden(here + c.back * (0.3 * tolerance_), c.from, toBody);
+                return alike(c.a + (c.b - c.a) * t) || alike(c.fromA + (c.fromB - c.fromA) * t);
             };
             for (size_t k = 0; k < parts;) {
                 if (!leads(k)) {
