@@ -56,7 +56,7 @@ BUFFER(RoofDrawStateBuf, RoofDrawState)
 
 // Means of meshes' shades: of coverings, and of what lies below them with the dark of the loft between.
 CONST_FLOAT(kShadeOfTiles, 0.9f);
-CONST_FLOAT(kShadeOfBattens, 0.3f);
+CONST_FLOAT(kShadeOfBattens, 0.22f);
 
 CONST_UINT(kRoofShadow, 1u);   // far rectangles only, as coarse as shadows are
 struct RoofDrawEnv {

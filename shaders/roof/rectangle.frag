@@ -45,7 +45,7 @@ void main() {
     if (drop != 0u) {
         float painted = roofLayerAt(env.roofs.layers, env.roofs.site, drop - 1u, position.xz);
         float gone = painted > cellHold(u64(look.y), uint(column), uint(row)) ? 1.0 : 0.0;
-        base = mix(base, vec3(0.03, 0.025, 0.02), mix(painted, gone, clear) * step(0.001, painted));
+        base = mix(base, vec3(0.016, 0.013, 0.01), mix(painted, gone, clear) * step(0.001, painted));
     }
     color = shade(base, n, position, push.roughness);
 }

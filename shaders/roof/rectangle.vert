@@ -25,7 +25,7 @@ void main() {
     uvec2 cells = uvec2(g.cells & 0xFFFFu, g.cells >> 16u);
     vec2 low = vec2(0.0);
     vec2 high = min(g.extent, g.step * vec2(cells));
-    float lift = (env.flags & kRoofShadow) != 0u ? -0.04 : below ? -0.006 : 0.01;   // cells don't shade themselves
+    float lift = (env.flags & kRoofShadow) != 0u ? -0.04 : below ? 0.0 : 0.01;   // cells don't shade themselves; battens end 6 mm below
     lift += 4.0 * min(mesh.high.z, 0.0);   // what lies below tiles stays there
     if (cells.y == 1u) {
         low.y = mesh.low.y * g.size.y;
