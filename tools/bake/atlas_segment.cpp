@@ -11,14 +11,15 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr double kBent = 0.45;        // 1 - |mean normal|²: what a region may bend as a whole
-constexpr double kMeet = 0.17;        // cosine: regions whose mean normals differ more are not merged
-constexpr double kPlainCost = 0.004;  // of a flat region's area: small ones are merged first
-constexpr double kCreaseCost = 6;     // how much dearer it is to merge over creases
-constexpr double kCrease = 0.8;       // cosine, 37°: edges that are sharper are creases
-constexpr int kSweeps = 12;           // of straightening
-constexpr size_t kBlock = 4096;       // triangles that a thread merges by themselves
-constexpr double kBlockShare = 0.85;  // of a block's merges that are made so
+constexpr double kBent = 0.45;          // 1 - |mean normal|²: what a region may bend as a whole
+constexpr double kMeet = 0.17;          // cosine: regions whose mean normals differ more are not merged
+constexpr double kPlainCost = 0.004;    // of a flat region's area: small ones are merged first
+constexpr double kCreaseCost = 6;       // how much dearer it is to merge over creases
+constexpr double kCrease = 0.8;         // cosine, 37°: edges that are sharper are creases
+constexpr int kSweeps = 12;             // of straightening
+constexpr size_t kBlock = 4096;         // triangles that a thread merges by themselves
+constexpr double kBlockShare = 0.85;    // of a block's merges that are made so
+constexpr size_t kWorthBlocks = 65536;  // triangles: borders of smaller models' regions had better be straight
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
 struct Neighbour {
@@ -57,7 +58,7 @@ std::vector<uint32_t> orderByPlace(const BakeMesh& mesh, const std::vector<uint8
             for (uint32_t k = 0; k < 3; ++k) key |= uint64_t(at[int(k)] >> bit & 1) << (bit * 3 + k);
         keys.push_back(key << 32 | t);
     }
-    if (keys.size() > kBlock) std::sort(keys.begin(), keys.end());
+    if (keys.size() >= kWorthBlocks) std::sort(keys.begin(), keys.end());
     return {keys.begin(), keys.end()};
 }
 
@@ -128,8 +129,16 @@ class Merger {
         });
     }
 
-    // First most of what lies within blocks, each by itself, clusters at its border left out; then all.
+    // Of large models first most of what lies within blocks, each by itself, clusters at its border left out; then all.
     void run() {
+        if (order_.size() >= kWorthBlocks) mergeBlocks();
+        mergeCheapest(0, order_.size(), {}, order_.size());
+    }
+    // A number that the triangles of a cluster share.
+    uint32_t clusterOf(uint32_t triangle) { return sets_.find(place_[triangle]); }
+
+  private:
+    void mergeBlocks() {
         std::vector<uint8_t> barred(order_.size(), 0);
         parallelFor(order_.size(), kBlock, [&](size_t begin, size_t end) {
             for (size_t c = begin; c < end; ++c)
@@ -137,12 +146,8 @@ class Merger {
                     barred[c] = barred[c] || n.cluster < begin || n.cluster >= end;
             mergeCheapest(begin, end, barred, size_t(double(end - begin) * kBlockShare));
         });
-        mergeCheapest(0, order_.size(), {}, order_.size());
     }
-    // A number that the triangles of a cluster share.
-    uint32_t clusterOf(uint32_t triangle) { return sets_.find(place_[triangle]); }
 
-  private:
     void mergeCheapest(size_t begin, size_t end, const std::vector<uint8_t>& barred, size_t most) {
         Tournament tournament(cheapest_, begin, end, barred);
         for (size_t i = 0; i < most && !tournament.over(); ++i) {
