@@ -107,7 +107,7 @@ Mesh makeTree(const Habit& h, int lod) {
             const float angle = 2.399963f * float(b) + random01(h.salt, uint32_t(b), 5);
             const float from = h.crownFoot * 0.85f + tall * 0.36f * float(b) / float(h.boughs);
             const float t = glm::clamp((from - h.crownFoot) / tall + 0.24f, 0.1f, 0.9f);
-            const float reach = 0.78f * crownRadius(h, t);
+            const float reach = 0.58f * crownRadius(h, t);
             const glm::vec3 root = glm::vec3(0, from, 0) + lean * (0.1f * from);
             const glm::vec3 end(reach * std::cos(angle), h.crownFoot + tall * (t + 0.08f), reach * std::sin(angle));
             const glm::vec3 bend = glm::mix(root, end, 0.5f) + glm::vec3(0, h.birch ? 0.5f : -0.18f, 0);
@@ -137,7 +137,7 @@ Mesh makeTree(const Habit& h, int lod) {
         const glm::vec2 cell(kFirstCell + kCellSide * float(int(3 * random(8)) % 3), kCellSide * float(h.row));
         // Dark inside and below, open above.
         const float open =
-            glm::clamp(0.30f + 0.55f * (deep - h.hollow) / (1 - h.hollow) + 0.25f * (t - 0.4f), 0.25f, 1.0f);
+            glm::clamp(0.38f + 0.50f * (deep - h.hollow) / (1 - h.hollow) + 0.25f * (t - 0.4f), 0.25f, 1.0f);
         addCard(mesh, at, out, up, side * (0.8f + 0.4f * random(9)), cell, open, middle, squash);
     }
     return mesh;
