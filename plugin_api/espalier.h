@@ -450,7 +450,9 @@ typedef struct EspHostScene {
 /* Where to draw. With commandBuffer NULL Espalier draws into its own image of width × height, submits, waits, and
  * espReadPixels returns it. Otherwise it records into the host's VkCommandBuffer (outside of a render pass), and ends
  * with colourView's image in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL. What it held before is lost, unless there is a
- * `scene`: then it must come in that layout. It must be 8-bit RGBA or BGRA, UNORM or SRGB, colours in it sRGB.
+ * `scene`: then it must come in that layout. Its colours are sRGB: encoded in 8-bit RGBA or BGRA and A2B10G10R10 or
+ * A2R10G10B10, all UNORM; linear in 8-bit SRGB, R16G16B16A16_SFLOAT and B10G11R11_UFLOAT, where what we draw is within [0, 1].
+ * Another format is refused. One sample a pixel: a multisampled picture has to be resolved first.
  * What was recorded has to be submitted to EspHostDevice::queue before the next call that changes the context
  * (espUpdate, espLoadSurface ...): `frame` and `framesDone` tell Espalier how long it must keep what that frame reads. */
 typedef struct EspDrawDef {

@@ -225,6 +225,8 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
         text = std::string(caught ? "Mouse: look   " : "Click: look around   ") +
                "W A S D: " + (flying ? "fly   Q E: down, up   G: walk" : "walk   Space: jump   Shift: run   G: fly") +
                "   Tab: the editor" + (caught ? "   Esc: free the mouse" : "");
+    else if (work.underWay)
+        text = work.underWay;
     else if (work.tool == Tool::paint)
         text = "Drag: paint " + work.brush.layer +
                "   Ctrl: erase   Shift: smooth   [ ]: size   V: show the layer   right drag: look, with W A S D: fly   "

@@ -121,7 +121,7 @@ bool SeedTool::take(Workspace& work, const PointerEvent& event) {
         if (event.kind == Kind::press && !left)
             cancel(work);
         else if (event.kind == Kind::press)
-            byKey_ = false, drag_ = Drag::none;
+            finish(work);
         return true;
     }
     if (event.kind == Kind::press && left && drag_ == Drag::none) {
@@ -145,12 +145,19 @@ void SeedTool::grab(Workspace& work, glm::vec2 at, bool turns) {
     changed_ = false;
     gesture_ = work.newGesture();
     drag_ = turns ? Drag::turn : Drag::move;
+    work.underWay = turns ? "Move the mouse: turn   click: keep it   Esc: as it was"
+                          : "Move the mouse: move   click: keep it   Esc: as it was";
 }
 
 void SeedTool::cancel(Workspace& work) {
     if (drag_ != Drag::none && changed_) work.perform(Undo{});
+    finish(work);
+}
+
+void SeedTool::finish(Workspace& work) {
     drag_ = Drag::none;
     byKey_ = changed_ = false;
+    work.underWay = nullptr;
 }
 
 void SeedTool::remove(Workspace& work) {

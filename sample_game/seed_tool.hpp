@@ -27,6 +27,7 @@ class SeedTool {
     bool arrowAt(const Workspace& work, glm::vec2 at) const;  // of a chosen one
     void press(Workspace& work, const PointerEvent& event);
     void follow(Workspace& work, glm::vec2 at);
+    void finish(Workspace& work);
     // The chosen ones, as `change` leaves them.
     template <class Change>
     void changeChosen(Workspace& work, Change&& change);

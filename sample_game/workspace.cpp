@@ -62,7 +62,7 @@ void Workspace::frameChosen() {
     if (points.empty()) return lookFrom(espFrameAll(context.get()));
     glm::vec3 low = points[0], high = points[0];
     for (const glm::vec3& point : points) low = glm::min(low, point), high = glm::max(high, point);
-    camera.frame((low + high) * .5f, std::max(glm::distance(low, high) / 2, .4f));
+    camera.frame((low + high) * .5f, std::max(glm::distance(low, high) / 2, .12f * reach()));
     redraw = true;
 }
 

@@ -65,7 +65,8 @@ struct Workspace {
     Layout layout;
     EspGrowDef grow = espDefaultGrowDef();
 
-    std::string message, error;  // the latest of each
+    std::string message, error;      // the latest of each
+    const char* underWay = nullptr;  // what the next click does, while a tool follows the mouse without one
     EspStats stats{};
     double frameMs = 0;
     std::vector<std::array<float, 4>> history;  // expand, emit, draw, frame; milliseconds of the latest frames

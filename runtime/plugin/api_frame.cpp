@@ -5,6 +5,7 @@
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/render/host_formats.hpp"
 #include "shaders/render/heat.h"
 
 namespace espalier {
@@ -29,6 +30,10 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
     if (def.commandBuffer && (!def.colourImage || !def.colourView || !def.frame))
         return fail(context, ESP_INVALID_ARGUMENT,
                     "espDraw: with a command buffer, colourImage, colourView and frame are needed");
+    if (def.commandBuffer && !isHostPicture(VkFormat(def.colourFormat)))
+        return fail(context, ESP_INVALID_ARGUMENT,
+                    "espDraw: colourFormat " + std::to_string(def.colourFormat) +
+                        " is none that a frame is drawn into; espalier.h lists them");
     if (def.scene &&
         (!def.commandBuffer || !def.scene->depthImage || !isDepthFormat(VkFormat(def.scene->depthFormat)) ||
          !std::isfinite(def.scene->depthAtInfinity) || !std::isfinite(def.scene->depthPerNearness) ||

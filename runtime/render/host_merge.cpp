@@ -2,14 +2,12 @@
 // are turned into first; what growth hasn't touched isn't written, so that a host's pixels stay as they are to the bit.
 #include "runtime/render/host_merge.hpp"
 
+#include "runtime/render/host_formats.hpp"
+
 namespace espalier {
 namespace {
 
 constexpr VkFormat kNearFormat = VK_FORMAT_R32_SFLOAT;
-
-bool encodesItself(VkFormat format) {
-    return format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB;
-}
 
 GraphicsDesc fullscreen(const char* fragment) {
     GraphicsDesc desc;
@@ -100,7 +98,7 @@ Status HostMerge::begin(Commands& commands, const DrawTarget& target, Targets& t
     push_.atInfinity = target.host.atInfinity;
     push_.perNearness = target.host.perNearness;
     push_.nearPlane = nearPlane;
-    push_.encoded = encodesItself(target.format) ? 0 : 1;
+    push_.encoded = takesLinear(target.format) ? 0 : 1;
 
     commands.transition(hostColor_, ImageState::sampled);
     commands.transition(hostDepth_, ImageState::sampled);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/core/check.hpp"
+#include "runtime/render/host_formats.hpp"
 #include "runtime/render/renderer_impl.hpp"
 
 namespace espalier {
@@ -254,7 +255,7 @@ void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
 Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostPush push) {
     const bool intoOwn = !target.image || hosted_;
     const VkFormat format = intoOwn ? kOwnFormat : target.format;
-    push.encode = format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB ? 0 : 1;
+    push.encode = takesLinear(format) ? 0 : 1;
     Result<const Program*> program = resolveProgram(format);
     if (!program) return program.failure();
     Image host;

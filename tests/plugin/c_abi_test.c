@@ -7,18 +7,13 @@
 #include <string.h>
 #include <vulkan/vulkan.h>
 
-#include "tests/plugin/check.h"
+#include "tests/plugin/c_abi.h"
 
 enum { kWidth = 320, kHeight = 180 };
 
-static char surfacePath[1024];
-static const char* programPath; /* a file that is no surface */
-static int logged = 0;
-
-static void countLog(void* user, EspLogLevel level, const char* message) {
-    (void)message;
-    if (level == ESP_LOG_ERROR) ++*(int*)user;
-}
+char surfacePath[1024];
+const char* programPath;
+int logged = 0;
 
 static const char* kIvy =
     "param reach = 0.6 [0.1 .. 5] \"m\" \"Length of the stems\"\n"
@@ -30,14 +25,14 @@ static const char* kIvy =
     "Wood -> S(0.01) Shape(\"bark\", C1)\n"
     "Foliage -> Repeat(lush * 2) {S(0.06) T(rand(), 0.02) R(rand(-1, 1), 0.3) Shape(\"leaf\")}\n";
 
-static EspGrammarDef ivy(void) {
+EspGrammarDef ivy(void) {
     EspGrammarDef def = {"ivy", NULL, 0};
     def.text = kIvy;
     def.length = strlen(kIvy);
     return def;
 }
 
-static EspSeed plant(EspContext* context, EspGrammar grammar, float x, float y, float z, uint32_t number) {
+EspSeed plant(EspContext* context, EspGrammar grammar, float x, float y, float z, uint32_t number) {
     EspSeedDef def = espDefaultSeedDef();
     EspSeed seed = {0};
     def.grammar = grammar;
@@ -57,8 +52,7 @@ static EspStats stats(EspContext* context) {
     return s;
 }
 
-/* Draws, reads back, and returns how many pixels differ from the first one: 0 would be an empty picture. */
-static size_t drawn(EspContext* context) {
+size_t drawn(EspContext* context) {
     static uint8_t pixels[kWidth * kHeight * 4];
     size_t different = 0;
     EspDrawDef draw = espDefaultDrawDef();
@@ -300,139 +294,6 @@ static void surfacesTouch(EspContext* context) {
     OK(context, espUpdate(context));
     CHECK(stats(context).hash == alone);
     CHECK(stats(context).validationMessages == 0);
-}
-
-static void badArguments(EspContext* context) {
-    EspSurface surface = {0}, none = {77};
-    EspGrammar grammar = {0}, noGrammar = {12345};
-    EspGrammarDef def = ivy();
-    EspHit hit;
-    EspStats s;
-    const float point[3] = {0, 0, 0}, bad[3] = {NAN, 0, 0};
-
-    REFUSED(espCreate(NULL, NULL));
-    CHECK(espUpdate(NULL) == ESP_INVALID_ARGUMENT && espDraw(NULL, NULL) == ESP_INVALID_ARGUMENT);
-    CHECK(espParamCount(NULL, grammar) == 0 && espLayerName(context, noGrammar, 0)[0] == 0);
-    CHECK(espReadStats(context, NULL) == ESP_INVALID_ARGUMENT && espLastError(context)[0] != 0);
-    REFUSED(espLoadSurface(context, NULL, NULL, &surface));
-    CHECK(espLoadSurface(context, "no/such/file.glb", NULL, &surface) == ESP_IO_FAILED);
-    CHECK(strstr(espLastError(context), "no/such/file.glb") != NULL && surface.id == 0);
-    CHECK(espLoadSurface(context, ".", NULL, &surface) == ESP_IO_FAILED);
-    CHECK(espLoadSurface(context, programPath, NULL, &surface) == ESP_INVALID_CONTENT);
-    EspTransform skewed = espIdentity();
-    skewed.rows[0][0] = 2;
-    REFUSED(espLoadSurface(context, surfacePath, &skewed, &surface));
-    skewed.rows[0][0] = -1;
-    REFUSED(espLoadSurface(context, surfacePath, &skewed, &surface));
-    skewed.rows[0][0] = NAN;
-    REFUSED(espLoadSurface(context, surfacePath, &skewed, &surface));
-    REFUSED(espDestroySurface(context, none));
-    REFUSED(espNearest(context, point, &hit));
-    CHECK(espNearest(context, bad, &hit) == ESP_INVALID_ARGUMENT && espPick(context, point, point, &hit) != ESP_OK);
-
-    EspGrammarDef empty = {"empty.grammar", "", 0}, null = {NULL, NULL, 5};
-    CHECK(espCompileGrammar(context, &empty, &grammar) == ESP_INVALID_CONTENT);
-    CHECK(strstr(espLastError(context), "empty.grammar") != NULL);
-    REFUSED(espCompileGrammar(context, &null, &grammar));
-    OK(context, espCompileGrammar(context, &def, &grammar));
-    const float nan = NAN, one = 1;
-    REFUSED(espSetParam(context, grammar, "reach", &nan, 1));
-    REFUSED(espSetParam(context, grammar, "nothing", &one, 1));
-    CHECK(strstr(espLastError(context), "nothing") != NULL);
-    REFUSED(espSetParam(context, grammar, "reach", &one, 4));
-
-    EspSeedDef seed = espDefaultSeedDef();
-    EspSeed planted;
-    seed.grammar = grammar;
-    REFUSED(espPlant(context, &seed, &planted)); /* no surface yet */
-    OK(context, espLoadSurface(context, surfacePath, NULL, &surface));
-    seed.symbol = "Wood"; /* draws, but doesn't grow */
-    REFUSED(espPlant(context, &seed, &planted));
-    seed.symbol = NULL;
-    seed.position[1] = INFINITY;
-    REFUSED(espPlant(context, &seed, &planted));
-    seed.position[1] = 0;
-    seed.grammar = noGrammar;
-    REFUSED(espPlant(context, &seed, &planted));
-
-    EspLayerDef layer = espDefaultLayerDef();
-    layer.surface = surface;
-    layer.name = "mask";
-    layer.texels = &one;
-    REFUSED(espSetLayer(context, &layer)); /* 0 x 0 */
-    layer.width = 9000;
-    layer.height = 1;
-    CHECK(espSetLayer(context, &layer) == ESP_INVALID_ARGUMENT && strstr(espLastError(context), "9000") != NULL);
-    layer.width = 1;
-    layer.surface = none;
-    REFUSED(espSetLayer(context, &layer));
-
-    EspDrawDef draw = espDefaultDrawDef();
-    draw.width = 0;
-    REFUSED(espDraw(context, &draw));
-    draw.width = 20000;
-    REFUSED(espDraw(context, &draw));
-    draw = espDefaultDrawDef();
-    draw.camera.eye[0] = NAN;
-    REFUSED(espDraw(context, &draw));
-    draw = espDefaultDrawDef();
-    draw.look.view = ESP_VIEW_LAYER;
-    draw.look.viewLayer = "no such layer";
-    REFUSED(espDraw(context, &draw));
-    uint8_t pixel[4];
-    REFUSED(espReadPixels(context, pixel, sizeof pixel));
-    EspGrowDef grow = espDefaultGrowDef();
-    grow.maxNodes = 0;
-    REFUSED(espSetGrow(context, &grow));
-
-    /* After all that it still works. */
-    plant(context, grammar, 0, 1, 0, 1);
-    OK(context, espUpdate(context));
-    OK(context, espReadStats(context, &s));
-    CHECK(s.nodes > 0 && drawn(context) > 1000);
-}
-
-/* A host's own instance and device, made as vulkan.h's users make them. */
-static EspHostDevice makeHost(void) {
-    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = VK_API_VERSION_1_3};
-    VkInstanceCreateInfo instanceInfo = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                         .pApplicationInfo = &application};
-    VkInstance instance;
-    CHECK(vkCreateInstance(&instanceInfo, NULL, &instance) == VK_SUCCESS);
-    uint32_t count = 1;
-    VkPhysicalDevice physical;
-    CHECK(vkEnumeratePhysicalDevices(instance, &count, &physical) >= 0 && count == 1);
-    uint32_t extensionCount = 0;
-    const char* const* extensions = espRequiredExtensions(&extensionCount);
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queueInfo = {
-        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
-    VkDeviceCreateInfo deviceInfo = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-                                     .pNext = espRequiredFeatures(),
-                                     .queueCreateInfoCount = 1,
-                                     .pQueueCreateInfos = &queueInfo,
-                                     .enabledExtensionCount = extensionCount,
-                                     .ppEnabledExtensionNames = extensions};
-    VkDevice device;
-    CHECK(vkCreateDevice(physical, &deviceInfo, NULL, &device) == VK_SUCCESS);
-    VkQueue queue;
-    vkGetDeviceQueue(device, 0, 0, &queue);
-    EspHostDevice host = {(void*)vkGetInstanceProcAddr, instance, physical, device, queue, 0, 0};
-    return host;
-}
-
-static EspContext* create(const EspHostDevice* host, const char* cache) {
-    EspContextDef def = espDefaultContextDef();
-    EspContext* context = NULL;
-    const char* validation = getenv("ESPALIER_VALIDATION");
-    def.host = host;
-    def.validation = validation && !strcmp(validation, "1");
-    def.log = countLog;
-    def.logUser = &logged;
-    def.cacheFolder = cache;
-    OK(NULL, espCreate(&def, &context));
-    CHECK(context != NULL && espDeviceName(context)[0] != 0 && espLastError(context)[0] == 0);
-    return context;
 }
 
 int main(int argc, char** argv) {

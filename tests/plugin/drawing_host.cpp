@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/packing.hpp>
 
 namespace espalier {
 namespace {
@@ -175,12 +177,40 @@ std::vector<DrawingHost::Picture> DrawingHost::drawAtOnce(const std::vector<EspC
     return pictures;
 }
 
+namespace {
+
+// sRGB, whatever the picture's format.
+std::vector<uint8_t> inEightBits(const std::vector<std::byte>& bytes, VkFormat format) {
+    std::vector<uint8_t> rgba(size_t(DrawingHost::kWidth) * DrawingHost::kHeight * 4);
+    if (format == VK_FORMAT_R16G16B16A16_SFLOAT) {
+        for (size_t i = 0; i < rgba.size(); ++i) {
+            uint16_t half;
+            std::memcpy(&half, &bytes[2 * i], 2);
+            const float v = std::clamp(glm::unpackHalf1x16(half), 0.f, 1.f);
+            const float encoded = v <= .0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - .055f;
+            rgba[i] = uint8_t(255 * (i % 4 == 3 ? v : encoded) + .5f);
+        }
+    } else if (format == VK_FORMAT_A2B10G10R10_UNORM_PACK32) {
+        for (size_t i = 0; i < rgba.size() / 4; ++i) {
+            uint32_t word;
+            std::memcpy(&word, &bytes[4 * i], 4);
+            for (size_t k = 0; k < 3; ++k) rgba[4 * i + k] = uint8_t(float(word >> 10 * k & 1023u) * 255 / 1023 + .5f);
+            rgba[4 * i + 3] = uint8_t((word >> 30) * 85);
+        }
+    } else {
+        REQUIRE(bytes.size() == rgba.size());
+        std::memcpy(rgba.data(), bytes.data(), bytes.size());
+    }
+    return rgba;
+}
+
+}  // namespace
+
 DrawingHost::Picture DrawingHost::read() {
     picture_.state = ImageState::colorTarget;
     Picture picture;
     const std::vector<std::byte> bytes = must(readImage(*device_, picture_));
-    picture.rgba.resize(bytes.size());
-    std::memcpy(picture.rgba.data(), bytes.data(), bytes.size());
+    picture.rgba = inEightBits(bytes, colour_);
     const bool legible = depth_.format == VK_FORMAT_D32_SFLOAT || depth_.format == VK_FORMAT_D16_UNORM;
     if (!legible || nearest_.state != ImageState::depthTarget) return picture;
     const std::vector<std::byte> depths = must(readImage(*device_, nearest_));

@@ -171,7 +171,9 @@ void otherFormats(DrawingHost& host, Grown& grown) {
         VkFormat depth, colour;
     } cases[] = {{VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_R8G8B8A8_UNORM},
                  {VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_R8G8B8A8_SRGB},
-                 {VK_FORMAT_X8_D24_UNORM_PACK32, VK_FORMAT_R8G8B8A8_SRGB}};
+                 {VK_FORMAT_X8_D24_UNORM_PACK32, VK_FORMAT_R8G8B8A8_SRGB},
+                 {VK_FORMAT_D32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT},
+                 {VK_FORMAT_D32_SFLOAT, VK_FORMAT_A2B10G10R10_UNORM_PACK32}};
     for (const auto& c : cases) {
         if (!host.has(c.depth)) continue;
         CAPTURE(int(c.depth));
@@ -226,6 +228,16 @@ void refusals(DrawingHost& host, Grown& grown) {
     CHECK(refused([](EspDrawDef&, EspHostScene& scene) { scene.depthPerNearness = 0; }));
     CHECK(refused([](EspDrawDef&, EspHostScene& scene) { scene.depthAtInfinity = NAN; }));
     CHECK(refused([](EspDrawDef& def, EspHostScene&) { def.look.view = ESP_VIEW_OVERDRAW; }));
+    // A picture that isn't one, with a scene or without.
+    for (const VkFormat format : {VK_FORMAT_R8_UNORM, VK_FORMAT_R16G16B16A16_UNORM, VK_FORMAT_UNDEFINED}) {
+        EspDrawDef def = espDefaultDrawDef();
+        int handle = 0;
+        def.commandBuffer = def.colourImage = def.colourView = &handle;
+        def.colourFormat = format;
+        def.frame = 1;
+        CHECK(espDraw(grown.context, &def) == ESP_INVALID_ARGUMENT);
+        CHECK(std::string(espLastError(grown.context)).find("colourFormat") != std::string::npos);
+    }
 }
 
 }  // namespace
