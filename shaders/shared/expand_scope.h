@@ -171,7 +171,7 @@ FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint
             SLOT(kSlotLayer + i) = layerAt(env.layers, p.instance, env.grammars.v[grammar].layerOf[i] & 15u, p.uv);
         }
     }
-    if ((kFeatures & kFeatureWorld) == 0u) return;
+    if ((kFeatures & kFeatureWorld) == 0u || (inputs & kInputsOfWorld) == 0u) return;
     vec3 normal = vec3(dot3(f.x, p.normal), dot3(f.y, p.normal), dot3(f.z, p.normal)) * f.perMetre;
     vec3 heading = vec3(dot3(f.x, p.heading), dot3(f.y, p.heading), dot3(f.z, p.heading)) * f.perMetre;
     float height = dot3(f.y, p.position) + f.offset.y;

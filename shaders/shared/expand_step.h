@@ -54,7 +54,7 @@ CONST_FLOAT(kDetourAngle, 0.314159265f);   // between two of them on one side: t
 // ends early after this many of its main loop, and an invocation takes no more items than these.
 CONST_UINT(kMaxTrips, 256u);
 CONST_UINT(kMostTaken, 4u);
-#ifdef ESPALIER_AGAIN
+#if defined(ESPALIER_AGAIN) && !defined(__cplusplus)   // native code knows no groups
 CONST_UINT(kItemsPerGroup, kItemsPerGroupAgain);
 #else
 CONST_UINT(kItemsPerGroup, 64u);           // a group is dispatched for so many items; below kMostTaken an invocation

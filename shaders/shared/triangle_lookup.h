@@ -26,14 +26,15 @@ FN void seatOnTriangle(SurfaceBuf surfaces, uint place, vec2 uv, INOUT(vec3) pos
     vec3 dv = vec3(0.0f);
     vec3 point = position;
     vec2 inside = vec2(0.0f);
-    bool found = false;
+    uint known = kNoIndex;
     for (uint k = 0u; k < 4u; ++k) {
         uint cx = x + ((nearest ^ k) & 1u);
         uint cy = y + ((nearest ^ k) >> 1u);
         uint at = texelRow(size, cy) + texelColumn(cx);
         uint triangle = readTriangle(surfaces, instance, 0u, at);
-        bool serves = texelOwned(readTexel(surfaces, instance, 0u, at).bits, chart) && triangle != kNoIndex;
-        TrianglePlane plane = readPlane(surfaces, instance, serves ? triangle : 0u);
+        if (triangle == known) continue;   // or none, at first
+        if (!texelOwned(readTexel(surfaces, instance, 0u, at).bits, chart) || triangle == kNoIndex) continue;
+        TrianglePlane plane = readPlane(surfaces, instance, triangle);
         vec2 offset = uv - plane.uv0;
         vec3 here = plane.position + plane.du * offset.x + plane.dv * offset.y;
         vec2 center = vec2((float(cx) + 0.5f) * texel, (float(cy) + 0.5f) * texel) - uv;
@@ -44,17 +45,17 @@ FN void seatOnTriangle(SurfaceBuf surfaces, uint place, vec2 uv, INOUT(vec3) pos
         vec3 apartThere = apart + ddu * center.x + ddv * center.y;
         vec3 apartInside = apart + ddu * inside.x + ddv * inside.y;
         bool closer = dot3(apartThere, apartInside) < 0.0f && dot3(apartThere, apart) > 0.0f;
-        if (serves && (closer || !found)) {
+        if (closer || known == kNoIndex) {
             du = plane.du;
             dv = plane.dv;
             point = here;
             inside = center;
-            found = true;
+            known = triangle;
         }
     }
     vec3 across = cross3(du, dv);
     float area2 = dot3(across, across);
-    if (!found || !(area2 > 1e-36f)) return;
+    if (known == kNoIndex || !(area2 > 1e-36f)) return;
     across = across * rsqrtExact(area2);
     position = point;
     normal = dot3(across, normal) < 0.0f ? -across : across;

@@ -406,14 +406,16 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         float turn = dot3(n, p.normal);
         bool creased = (w.flags & kWalkFlagCrease) != 0u || texelCrease(p.bits);
         // Two planes meet toCrease ahead; on a smooth patch the rates of both ends count alike.
+        // Of what follows, smooth stretches need nothing.
         float slope = dot3(p.normal, t);
-        float toCrease = divExact(dot3(p.normal, p.position - w.position), slope);
+        vec3 chord = p.position - w.position;
+        bool bulges = absolute(dot3(n, chord)) * pace > kWalkBulgeTexels * texel;
+        float toCrease = creased || bulges ? divExact(dot3(p.normal, chord), slope) : 0.0f;
         bool meet = creased && absolute(slope) > 1e-3f && toCrease >= 0.0f && toCrease <= s;
         vec2 correction = (rate1 - rate) * (meet ? s - toCrease : 0.5f * s);
         // Both ends far under each other's planes: the surface bulges between them.
-        float bulge = smaller(absolute(dot3(n, p.position - w.position)), absolute(slope * toCrease));
-        bool rough = turn < kWalkTurnCosine || dot2(correction, correction) > 0.04f * dot2(delta, delta) ||
-                     bulge * pace > kWalkBulgeTexels * texel;
+        bulges = bulges && absolute(slope * toCrease) * pace > kWalkBulgeTexels * texel;
+        bool rough = turn < kWalkTurnCosine || dot2(correction, correction) > 0.04f * dot2(delta, delta) || bulges;
         // A sharp crease. The nearest texel changes sides up to half a texel before or after the planes do.
         float close = texel * rcpExact(pace);
         float height = slope * toCrease;
