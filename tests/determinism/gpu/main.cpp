@@ -1,5 +1,6 @@
-// In: a file of inputs. Out: one line on what the GPU grows of them, growing twice in one process, from little room
-// and from room that suffices. Exits with 77 where there is no device.
+// In: a file of inputs. Out: one line on what the GPU grows of them, growing thrice in one process: by shaders from
+// little room and from room that suffices, and, on a software device, as native code. Exits with 77 where there is no
+// device.
 #include <cstdio>
 
 #include "runtime/expand/growth.hpp"
@@ -53,14 +54,19 @@ int run(Device& device, FixedInputs& in) {
     inputs.seeds = in.seeds;
     inputs.limits.maxNodes = kMostNodes;
     GrowthRoom little{64, 512, 64, 512, 64};
+    inputs.native = false;
     Result<std::string> tight = grown(device, inputs, little);
     Result<std::string> wide = grown(device, inputs, {});
-    if (!trouble.empty() || !tight || !wide) {
-        std::fprintf(stderr, "%s\n", (!trouble.empty() ? trouble : (!tight ? tight : wide).failure().text()).c_str());
+    inputs.native = true;
+    Result<std::string> native = grown(device, inputs, {});
+    for (const auto* result : {&tight, &wide, &native}) {
+        if (trouble.empty() && *result) continue;
+        std::fprintf(stderr, "%s\n", (!trouble.empty() ? trouble : result->failure().text()).c_str());
         return 1;
     }
-    if (*tight != *wide) {
-        std::fprintf(stderr, "little room: %s\nenough room: %s\n", tight->c_str(), wide->c_str());
+    if (*tight != *wide || *native != *wide) {
+        std::fprintf(stderr, "little room: %s\nenough room: %s\nnative code: %s\n", tight->c_str(), wide->c_str(),
+                     native->c_str());
         return 1;
     }
     std::puts(wide->c_str());
