@@ -70,7 +70,7 @@ TEST_CASE("edits of what native code has grown") {
     Session s(ball());
     s.scene.native = true;
     s.scene.plantMany(40, 0);
-    s.scene.plantMany(20, 1);
+    s.scene.plantMany(20, 1, 2);  // with keys of their own, by which growths are compared
     s.upload(0);
     s.upload(1);
     s.check();
