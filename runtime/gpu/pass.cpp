@@ -153,6 +153,11 @@ void DrawPass::setViewport(const VkViewport& viewport) {
     vk_.vkCmdSetViewport(cmd_, 0, 1, &viewport);
 }
 
+void DrawPass::setVertices(const Buffer& vertices, uint64_t offset) {
+    const VkBuffer handle = vertices.handle();
+    vk_.vkCmdBindVertexBuffers(cmd_, 0, 1, &handle, &offset);
+}
+
 void DrawPass::setIndices(const Buffer& indices, VkIndexType type, uint64_t offset) {
     vk_.vkCmdBindIndexBuffer(cmd_, indices.handle(), offset, type);
 }

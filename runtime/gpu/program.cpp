@@ -96,6 +96,12 @@ struct FixedFunctions {
         depth.depthTestEnable = d.depth != VK_FORMAT_UNDEFINED && d.depthTest;
         depth.depthWriteEnable = d.depth != VK_FORMAT_UNDEFINED && d.depthWrite;
         depth.depthCompareOp = d.depthCompare;
+        for (const VertexInput& input : d.inputs) attributes.push_back({input.location, 0, input.format, input.offset});
+        vertices = {0, d.vertexBytes, VK_VERTEX_INPUT_RATE_VERTEX};
+        vertexInput.vertexBindingDescriptionCount = attributes.empty() ? 0 : 1;
+        vertexInput.pVertexBindingDescriptions = &vertices;
+        vertexInput.vertexAttributeDescriptionCount = uint32_t(attributes.size());
+        vertexInput.pVertexAttributeDescriptions = attributes.data();
         blend.attachmentCount = uint32_t(blends.size());
         blend.pAttachments = blends.data();
         dynamic.dynamicStateCount = uint32_t(std::size(dynamicStates));
@@ -117,6 +123,8 @@ struct FixedFunctions {
     VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     std::vector<VkPipelineColorBlendAttachmentState> blends;
+    std::vector<VkVertexInputAttributeDescription> attributes;
+    VkVertexInputBindingDescription vertices{};
 };
 
 }  // namespace

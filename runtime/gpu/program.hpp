@@ -21,10 +21,19 @@ struct ProgramOptions {
 
 enum class Blend { none, alpha, premultiplied, additive };
 
+// Input `location` of a vertex shader: so many bytes into a vertex.
+struct VertexInput {
+    uint32_t location = 0;
+    VkFormat format = VK_FORMAT_R32G32B32_SFLOAT;
+    uint32_t offset = 0;
+};
+
 struct GraphicsDesc {
     std::string_view name;
-    std::string_view vertex;    // vertices are pulled by gl_VertexIndex: there is no vertex input
-    std::string_view fragment;  // empty: depth only
+    std::string_view vertex;
+    std::string_view fragment;        // empty: depth only
+    std::vector<VertexInput> inputs;  // of DrawPass::setVertices; none: vertices are pulled by gl_VertexIndex
+    uint32_t vertexBytes = 0;         // from one vertex to the next
     std::vector<VkFormat> colors;
     VkFormat depth = VK_FORMAT_UNDEFINED;
     bool depthTest = true;

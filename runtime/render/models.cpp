@@ -10,8 +10,6 @@
 namespace espalier {
 namespace {
 
-static_assert(sizeof(DrawVertex) == sizeof(ModelVertex));
-
 Result<Image> makeNormals(Device& device, std::string_view name, uint32_t width, uint32_t height,
                           std::span<const uint8_t> rgba) {
     ImageDesc desc{.name = name, .width = width, .height = height};
@@ -37,6 +35,14 @@ glm::vec4 shownColor(const Material& material) {
 
 }  // namespace
 
+void takeModelVertices(GraphicsDesc& desc) {
+    desc.vertexBytes = sizeof(DrawVertex);
+    desc.inputs = {{0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(DrawVertex, position)},
+                   {1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(DrawVertex, normal)},
+                   {2, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(DrawVertex, tangent)},
+                   {3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(DrawVertex, uv)}};  // and walkUv
+}
+
 Result<Models> Models::create(Device& device) {
     Models models;
     const uint8_t white[4] = {255, 255, 255, 255}, flat[4] = {128, 128, 255, 255};
@@ -59,7 +65,7 @@ Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& mode
     model.meshes.push_back({0, data.ranges, 0});
     const float scale = glm::length(glm::vec3(model.toWorld[0]));
     for (const CoarserMesh& mesh : data.coarser) {
-        model.meshes.push_back({vertices.size(), mesh.ranges, mesh.error * scale});
+        model.meshes.push_back({int32_t(vertices.size()), mesh.ranges, mesh.error * scale});
         for (DrawRange& range : model.meshes.back().ranges) range.firstIndex += uint32_t(indices.size());
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -165,7 +171,6 @@ void Models::choose(glm::vec3 eye, float pixelScale, float pixels) {
 
 ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& material, uint32_t surface) const {
     ModelPush push{};
-    push.vertices.v = reinterpret_cast<ModelVertex*>(model.vertices.address()) + model.meshes[mesh].firstVertex;
     for (int r = 0; r < 3; ++r)
         push.toWorld[r] = {model.toWorld[0][r], model.toWorld[1][r], model.toWorld[2][r], model.toWorld[3][r]};
     push.baseColor = shownColor(material);
@@ -181,6 +186,7 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
 void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow,
                   const Ground& ground, bool walkData) const {
     for (const auto& [index, model] : models_) {
+        pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
         const auto drawMesh = [&](uint32_t mesh, float fade) {
             for (const DrawRange& range : model.meshes[mesh].ranges) {
@@ -188,7 +194,7 @@ void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, c
                     model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
                 ModelPush push = pushOf(model, mesh, material, walkData ? index : kNoIndex);
                 push.fade = fade;
-                pass.drawIndexed(program, {range.indexCount, range.firstIndex}, push,
+                pass.drawIndexed(program, {range.indexCount, range.firstIndex, model.meshes[mesh].firstVertex}, push,
                                  {{pictureOr(model.colors, material.baseColorImage, white_), sampler_},
                                   {pictureOr(model.normals, material.normalImage, flat_), sampler_},
                                   shadow,
@@ -211,12 +217,13 @@ void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, c
 
 void Models::drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const {
     for (const auto& [index, model] : models_) {
+        pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
         const uint32_t mesh = simplest(model, error);
         for (const DrawRange& range : model.meshes[mesh].ranges) {
             const Material& material = model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
-            pass.drawIndexed(program, {range.indexCount, range.firstIndex}, pushOf(model, mesh, material, index),
-                             {frame});
+            pass.drawIndexed(program, {range.indexCount, range.firstIndex, model.meshes[mesh].firstVertex},
+                             pushOf(model, mesh, material, index), {frame});
         }
     }
 }

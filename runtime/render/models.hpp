@@ -10,6 +10,9 @@
 
 namespace espalier {
 
+// What render/model.vert reads of a vertex.
+void takeModelVertices(GraphicsDesc& desc);
+
 // The drawn meshes of the surfaces on the GPU, with their textures.
 class Models {
   public:
@@ -40,7 +43,7 @@ class Models {
   private:
     // One of a model's meshes; all of them lie in the same buffers.
     struct Mesh {
-        uint64_t firstVertex = 0;
+        int32_t firstVertex = 0;
         std::vector<DrawRange> ranges;
         float error = 0;  // metres in the world
     };

@@ -27,6 +27,7 @@ Status RendererImpl::makePrograms() {
         desc.depth = kDepthFormat;
         desc.depthBiasConstant = 2;
         desc.depthBiasSlope = 1.8f;
+        if (&program == &modelDepth_) takeModelVertices(desc);
         Result<Program> made = Program::graphics(device_, desc);
         if (!made) return made.failure();
         program = std::move(*made);
@@ -85,6 +86,7 @@ Status RendererImpl::makeScene(ScenePrograms& programs, bool explains, Blend ble
         desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
         desc.blend = blend;
         desc.options.constants = {{kExplains, explains ? 1u : 0u}, {kRooted, holdsRoots(device_) ? 1u : 0u}};
+        if (&row.program == &programs.model) takeModelVertices(desc);
         Result<Program> made = Program::graphics(device_, desc);
         if (!made) return made.failure();
         row.program = std::move(*made);

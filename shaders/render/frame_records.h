@@ -50,19 +50,7 @@ struct FrameRecord {
 };
 STATIC_SIZE(FrameRecord, 360);
 
-// As DrawVertex of runtime/surface.
-struct ModelVertex {
-    vec3 position;
-    vec3 normal;
-    vec4 tangent;
-    vec2 uv;
-    vec2 walkUv;
-};
-STATIC_SIZE(ModelVertex, 56);
-BUFFER(ModelVertexBuf, ModelVertex)
-
 struct ModelPush {
-    ModelVertexBuf vertices;
     vec4 toWorld[3];         // rows
     vec4 baseColor;
     float normalScale;
@@ -72,7 +60,7 @@ struct ModelPush {
     float fade;              // 1: all pixels; above 0: this share of them; below: those that -fade leaves out
     uint lod;                // 0: the mesh; then its coarser ones
 };
-STATIC_SIZE(ModelPush, 96);
+STATIC_SIZE(ModelPush, 88);
 
 struct TerminalPush {
     uint bucket, firstVertex, vertexCount, batch;

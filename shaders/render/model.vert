@@ -5,18 +5,21 @@
 #include "shaders/render/frame.glsl"
 
 layout(push_constant, scalar) uniform Data { ModelPush push; };
+layout(location = 0) in vec3 atVertex;
+layout(location = 1) in vec3 vertexNormal;
+layout(location = 2) in vec4 vertexTangent;
+layout(location = 3) in vec4 vertexUvs;   // of the textures, of the walk
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uvs;
 
 void main() {
-    ModelVertex v = push.vertices.v[gl_VertexIndex];
-    vec4 p = vec4(v.position, 1.0);
+    vec4 p = vec4(atVertex, 1.0);
     position = vec3(dot(push.toWorld[0], p), dot(push.toWorld[1], p), dot(push.toWorld[2], p));
-    normal = vec3(dot(push.toWorld[0].xyz, v.normal), dot(push.toWorld[1].xyz, v.normal), dot(push.toWorld[2].xyz, v.normal));
-    tangent = vec4(dot(push.toWorld[0].xyz, v.tangent.xyz), dot(push.toWorld[1].xyz, v.tangent.xyz),
-                   dot(push.toWorld[2].xyz, v.tangent.xyz), v.tangent.w);
-    uvs = vec4(v.uv, v.walkUv);
+    normal = vec3(dot(push.toWorld[0].xyz, vertexNormal), dot(push.toWorld[1].xyz, vertexNormal), dot(push.toWorld[2].xyz, vertexNormal));
+    tangent = vec4(dot(push.toWorld[0].xyz, vertexTangent.xyz), dot(push.toWorld[1].xyz, vertexTangent.xyz),
+                   dot(push.toWorld[2].xyz, vertexTangent.xyz), vertexTangent.w);
+    uvs = vertexUvs;
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 }
