@@ -26,6 +26,9 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
                     {emit.bindSpans_[1], "emit/bind_spans.comp", {{3, 0}}},
                     {emit.bindLeaves_[0], "emit/bind_leaves.comp", {{3, 1}}},
                     {emit.bindLeaves_[1], "emit/bind_leaves.comp", {{3, 0}}},
+                    {emit.bindTouch_, "emit/bind_touch.comp", {}},
+                    {emit.bindKeep_, "emit/bind_keep.comp", {}},
+                    {emit.bindCount_, "emit/bind_count.comp", {}},
                     {emit.bindCells_, "emit/bind_cells.comp", {}},
                     {emit.bindOrder_, "emit/bind_order.comp", {}},
                     {emit.bindSort_, "emit/bind_sort.comp", {}},
@@ -43,16 +46,15 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
         if (!made) return made.failure();
         p.program = std::move(*made);
     }
-    constexpr uint64_t kCells = 2 * kMaxCells;
     const struct {
         Buffer& buffer;
         const char* name;
         uint64_t bytes;
         BufferUse use = BufferUse::device;
     } buffers[] = {{emit.state_, "emit state", sizeof(EmitState)},
-                   {emit.cells_, "emit cells", (kCells + 1) * sizeof(EmitCell)},
-                   {emit.bins_, "emit bins", kCells * kCellBins * 4},
-                   {emit.seen_, "emit seen cells", kCells * 4},
+                   {emit.cells_, "emit cells", (kAllCells + 1) * sizeof(EmitCell)},
+                   {emit.bins_, "emit bins", kAllCells * kCellBins * 4ull},
+                   {emit.seen_, "emit seen cells", kAllCells * 4},
                    {emit.noTexels_, "emit no texels", 16},
                    {emit.readback_, "emit counts", sizeof(EmitState), BufferUse::readback}};
     for (const auto& b : buffers) {
@@ -60,10 +62,13 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
         if (!made) return made.failure();
         b.buffer = std::move(*made);
     }
-    for (Buffer& view : emit.views_) {
-        Result<Buffer> made = Buffer::create(device, "emit view", sizeof(EmitView));
-        if (!made) return made.failure();
-        view = std::move(*made);
+    for (size_t i = 0; i < emit.views_.size(); ++i) {
+        Result<Buffer> view = Buffer::create(device, "emit view", sizeof(EmitView));
+        if (!view) return view.failure();
+        emit.views_[i] = std::move(*view);
+        Result<Buffer> bind = Buffer::create(device, "bind inputs", sizeof(BindInputs));
+        if (!bind) return bind.failure();
+        emit.binds_[i] = std::move(*bind);
     }
     std::fill(emit.readback_.mappedAs<uint32_t>().begin(), emit.readback_.mappedAs<uint32_t>().end(), 0u);
     return emit;
@@ -87,9 +92,9 @@ Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
     push.notes.v = reinterpret_cast<DrawnItem*>(notes_.address());
     push.drawn.v = reinterpret_cast<DrawnItem*>(drawn_.address());
     push.grid = grid_;
-    push.nodeCount = bound_.nodeCount;
+    push.leafBase = leafBase_;
 
-    pass.dispatchItems(cullCells_, 2 * kMaxCells, push, {table, shown});
+    pass.dispatchItems(cullCells_, kAllCells, push, {table, shown});
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(listBlocks_, {1, 1, 1}, push);
     pass.barrier(Use::compute, Use::compute | Use::indirect);
@@ -129,6 +134,7 @@ EmitStats Emit::stats() const {
     stats.spans = state.spanCount;
     stats.leaves = state.leafCount;
     stats.overflow = overflow_;
+    stats.bound = state.boundItems;
     stats.buckets.assign(state.counts, state.counts + kMaxBuckets);
     return stats;
 }
@@ -138,6 +144,13 @@ EmitView perspectiveView(const glm::mat4& viewProjection, glm::vec3 eye, float p
     view.eye = eye;
     view.parallel = 0;
     return view;
+}
+
+void thinOut(EmitView& view, float leafPixels) {
+    const float coarser = std::max(leafPixels / kWholePixels, 1.0f);
+    view.wholePixels = std::max(leafPixels, 1e-3f);
+    view.leastShare = kLeastShare / (coarser * coarser);
+    view.leastPixels = 0.5f * std::min(coarser, 2.0f);
 }
 
 EmitView parallelView(const glm::mat4& m, float pixelsPerMetre, float lodPixels) {

@@ -30,13 +30,14 @@ struct EmitStats {
     uint64_t fullTriangles = 0;      // the same growth at full detail
     uint32_t spans = 0, leaves = 0;  // instances seen
     uint32_t overflow = 0;           // leaves left out for want of room
+    uint32_t bound = 0;              // spans and leaves that the last binding looked at
     std::vector<uint32_t> buckets;   // instances of each
 };
 
-// When growth has changed, binds it: every span and leaf becomes an instance in the world, in a cell of space. Culls
-// and picks LODs in compute, by cells first, so that a view costs what is seen in it; no loop over instances runs on
-// the CPU. One Emit serves several views in one recording, one after another: cull, draw, cull, draw. What is drawn is
-// in the same order in every run. Its buffers grow as growth does.
+// When growth has changed, binds it: every span and leaf becomes an instance in the world, in a cell of space; after
+// edits only those that they concerned. Culls and picks LODs in compute, by cells first, so that a view costs what is
+// seen in it; no loop over instances runs on the CPU. One Emit serves several views in one recording, one after
+// another: cull, draw, cull, draw. What is drawn is in the same order in every run. Its buffers grow as growth does.
 class Emit {
   public:
     // `terminals` must outlive it.
@@ -72,7 +73,7 @@ class Emit {
     // What the instances were made from.
     struct Bound {
         uint64_t nodes = 0, leaves = 0, surfaces = 0, surfacesRevision = 0, revision = 0;
-        uint32_t nodeCount = 0, leafCount = 0;
+        uint32_t nodeCount = 0, leafCount = 0, number = 0;
         glm::vec3 low{0}, high{0};
         bool operator==(const Bound&) const = default;
     };
@@ -80,6 +81,7 @@ class Emit {
     // emit_bind.cpp
     Status reserve(uint32_t nodes, uint32_t leaves);
     Status viewRecords(const GrowthView& growth);
+    bool staysBound(const Bound& wanted, const GrowthView& growth) const;
     Status bind(Commands& commands, const EmitInputs& inputs);
 
     Status record(Commands& commands, const EmitView& view, Pass& pass);
@@ -87,11 +89,12 @@ class Emit {
     Device* device_ = nullptr;
     const Terminals* terminals_ = nullptr;
     std::array<Program, 2> bindSpans_, bindLeaves_;  // [1] fetches records as texels
-    Program bindCells_, bindOrder_, bindSort_;
+    Program bindTouch_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
     Program cullCells_, listBlocks_, classifySpans_, classifyLeaves_, scan_, writeDrawn_;
     Program barkVertices_, barkIndices_, looseTriangles_;
-    std::array<Buffer, 8> views_;                                     // that recordings in flight may still read
-    Buffer spans_, leaves_, cells_, bins_, keys_, order_;             // bound growth
+    std::array<Buffer, 8> views_, binds_;                  // that recordings in flight may still read
+    Buffer spans_, leaves_, cells_, bins_, keys_, order_;  // bound growth
+    Buffer flags_, list_;
     Buffer state_, seen_, blocks_, rows_, notes_, drawn_, readback_;  // of a view
     TexelView spanTexels_, leafTexels_, noteTexels_, drawnTexels_;    // of these; after them
     Buffer noTexels_;
@@ -102,11 +105,14 @@ class Emit {
     bool counted_ = false;
     bool fetches_ = false;
     uint32_t overflow_ = 0;
-    uint32_t viewSlot_ = 0;
+    uint32_t viewSlot_ = 0, bindSlot_ = 0;
+    uint32_t leafBase_ = 0;  // number of the first leaf among items
 };
 
 // The six planes of a view-projection matrix with reversed depth (near at 1, far at 0), and the rest of a view.
 EmitView perspectiveView(const glm::mat4& viewProjection, glm::vec3 eye, float pixelScale, float lodPixels);
+// Fewer and larger leaves, of at least `leafPixels` where there are leaves to leave out; beyond 8 fewer twigs, too.
+void thinOut(EmitView& view, float leafPixels);
 EmitView parallelView(const glm::mat4& viewProjection, float pixelsPerMetre, float lodPixels);
 
 }  // namespace espalier

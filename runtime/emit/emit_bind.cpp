@@ -1,5 +1,6 @@
 // Enters: growth's records. Leaves: an instance in the world for each span and leaf, and the order of items by cells of
-// space, each cell's by their order of going when they are thinned out. Runs when growth has changed.
+// space, each cell's by their order of going when they are thinned out. Runs when growth has changed; after edits, on
+// what they concerned: nodes that were written and what hangs on them, and the cells where something was or is of that.
 #include <algorithm>
 #include <cmath>
 
@@ -30,35 +31,39 @@ EmitGrid gridOver(glm::vec3 low, glm::vec3 high) {
 
 }  // namespace
 
-// Items lie in blocks of their cells, of which the last may be half empty.
+// Items lie in blocks of their cells, of which the last may be half empty. Buffers get a fourth more than is asked for.
 Status Emit::reserve(uint32_t nodes, uint32_t leaves) {
-    const uint64_t items = uint64_t(nodes) + leaves, blocks = items / kBlockItems + 2 * kMaxCells;
-    struct Row {
-        Buffer& buffer;
-        const char* name;
-        uint64_t bytes;
-        TexelView* texels = nullptr;
-    } rows[] = {{spans_, "span instances", nodes * sizeof(SpanInstance), &spanTexels_},
-                {leaves_, "leaf instances", leaves * sizeof(LeafInstance), &leafTexels_},
-                {keys_, "emit keys", items * 4},
-                {order_, "emit order", items * 4},
-                {blocks_, "emit blocks", blocks * sizeof(EmitBlock)},
-                {rows_, "emit rows", blocks * kMaxBuckets * 4},
-                {notes_, "emit notes", blocks * kBlockItems * sizeof(DrawnItem), &noteTexels_},
-                {drawn_, "drawn instances", items * sizeof(DrawnItem), &drawnTexels_}};
-    for (Row& row : rows) {
-        if (row.buffer && row.buffer.size() >= row.bytes) continue;
-        if (row.texels) *row.texels = {};
-        const uint64_t bytes = std::max<uint64_t>(row.bytes + row.bytes / 4, 65536) / 16 * 16;
-        Result<Buffer> made = Buffer::create(*device_, row.name, bytes);
+    const auto hold = [&](Buffer& buffer, const char* name, uint64_t wanted, TexelView* texels = nullptr) -> Status {
+        if (buffer && buffer.size() >= wanted) return Done{};
+        if (texels) *texels = {};
+        const uint64_t bytes = std::max<uint64_t>(wanted + wanted / 4, 65536) / 16 * 16;
+        Result<Buffer> made = Buffer::create(*device_, name, bytes);
         if (!made) return made.failure();
-        row.buffer = std::move(*made);
+        buffer = std::move(*made);
         bound_ = {};
-        if (!row.texels) continue;
-        Result<TexelView> view = TexelView::create(*device_, row.buffer, VK_FORMAT_R32G32B32A32_UINT);
+        if (!texels) return Done{};
+        Result<TexelView> view = TexelView::create(*device_, buffer, VK_FORMAT_R32G32B32A32_UINT);
         if (!view) return view.failure();
-        *row.texels = std::move(*view);
-    }
+        *texels = std::move(*view);
+        return Done{};
+    };
+    Status instances[] = {hold(spans_, "span instances", nodes * sizeof(SpanInstance), &spanTexels_),
+                          hold(leaves_, "leaf instances", leaves * sizeof(LeafInstance), &leafTexels_)};
+    for (Status& s : instances)
+        if (!s) return s;
+    leafBase_ = uint32_t(spans_.size() / sizeof(SpanInstance));
+    const uint64_t items = uint64_t(nodes) + leaves, blocks = items / kBlockItems + kAllCells;
+    const uint64_t numbers = leafBase_ + leaves_.size() / sizeof(LeafInstance);
+    Status rest[] = {hold(keys_, "emit keys", numbers * 4),
+                     hold(flags_, "emit flags", leafBase_ * 4ull),
+                     hold(list_, "emit list", numbers * 4),
+                     hold(order_, "emit order", (items + items / 2 + 32 * kAllCells) * 4),
+                     hold(blocks_, "emit blocks", blocks * sizeof(EmitBlock)),
+                     hold(rows_, "emit rows", blocks * kMaxBuckets * 4),
+                     hold(notes_, "emit notes", blocks * kBlockItems * sizeof(DrawnItem), &noteTexels_),
+                     hold(drawn_, "drawn instances", items * sizeof(DrawnItem), &drawnTexels_)};
+    for (Status& s : rest)
+        if (!s) return s;
     return Done{};
 }
 
@@ -83,6 +88,16 @@ Status Emit::viewRecords(const GrowthView& growth) {
     return Done{};
 }
 
+// Whether what is bound is what regrowths began with.
+bool Emit::staysBound(const Bound& wanted, const GrowthView& growth) const {
+    const Bound& b = bound_;
+    const bool crowded = reinterpret_cast<const EmitState*>(readback_.mapped())->crowded != 0;
+    return b.nodes != 0 && b.nodes == wanted.nodes && b.leaves == wanted.leaves && b.surfaces == wanted.surfaces &&
+           b.surfacesRevision == wanted.surfacesRevision && b.low == wanted.low && b.high == wanted.high &&
+           b.nodeCount <= wanted.nodeCount && b.leafCount <= wanted.leafCount && growth.touched != nullptr &&
+           growth.renewed <= b.number && b.number <= growth.number && !crowded;
+}
+
 Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     const GrowthView& growth = inputs.growth;
     const uint32_t nodes = growth.nodeCount, leaves = std::min(growth.leafCount, kMostLeaves);
@@ -94,45 +109,74 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
                        growth.revision,
                        nodes,
                        leaves,
+                       growth.number,
                        inputs.low,
                        inputs.high};
     if (wanted == bound_) return Done{};
+    const bool partly = staysBound(wanted, growth);
+    const Bound before = bound_;
     bound_ = culled_ = {};
     if (Status s = viewRecords(growth); !s) return s;
     grid_ = gridOver(inputs.low, inputs.high);
     overflow_ = growth.leafCount - leaves;
 
-    BindPush push{};
-    push.nodes = growth.nodes;
-    push.chunks = growth.chunks;
-    push.leaves = growth.leaves;
-    push.surfaces = inputs.surfaces;
-    push.spans.v = reinterpret_cast<SpanInstance*>(spans_.address());
-    push.leafInstances.v = reinterpret_cast<LeafInstance*>(leaves_.address());
-    push.cells.v = reinterpret_cast<EmitCell*>(cells_.address());
-    push.bins.v = reinterpret_cast<uint32_t*>(bins_.address());
-    push.keys.v = reinterpret_cast<uint32_t*>(keys_.address());
-    push.order.v = reinterpret_cast<uint32_t*>(order_.address());
-    push.grid = grid_;
-    push.nodeCount = nodes;
-    push.leafCount = leaves;
+    BindInputs given{};
+    given.nodes = growth.nodes;
+    given.chunks = growth.chunks;
+    given.leaves = growth.leaves;
+    given.surfaces = inputs.surfaces;
+    given.spans.v = reinterpret_cast<SpanInstance*>(spans_.address());
+    given.leafInstances.v = reinterpret_cast<LeafInstance*>(leaves_.address());
+    given.cells.v = reinterpret_cast<EmitCell*>(cells_.address());
+    given.bins.v = reinterpret_cast<uint32_t*>(bins_.address());
+    given.keys.v = reinterpret_cast<uint32_t*>(keys_.address());
+    given.order.v = reinterpret_cast<uint32_t*>(order_.address());
+    if (partly) given.touched.v = reinterpret_cast<uint32_t*>(growth.touched->address());
+    given.flags.v = reinterpret_cast<uint32_t*>(flags_.address());
+    given.list.v = reinterpret_cast<uint32_t*>(list_.address());
+    given.grid = grid_;
+    given.nodeCount = nodes;
+    given.leafCount = leaves;
+    given.leafBase = leafBase_;
+    given.orderRoom = uint32_t(order_.size() / 4);
+    given.partly = partly ? 1 : 0;
+    given.since = before.number;
+    given.nodesBefore = partly ? before.nodeCount : 0;
+    given.leavesBefore = partly ? before.leafCount : 0;
 
     const Buffer& table = terminals_->tableBuffer();
+    const Buffer& in = binds_[bindSlot_++ % binds_.size()];
     Pass pass(commands, "bind");
     commands.barrier(Use::compute | Use::vertex, Use::transfer | Use::compute);
-    commands.fill(cells_, 0);
-    commands.fill(bins_, 0);
+    if (Status s = commands.upload(in, std::as_bytes(std::span(&given, 1))); !s) return s;
+    if (partly) {
+        commands.fill(flags_, 0);
+    } else {
+        commands.fill(cells_, 0);
+        commands.fill(bins_, 0);
+    }
     commands.barrier(Use::transfer, Use::compute);
+    if (partly) {
+        pass.dispatchItems(bindTouch_, std::max(nodes, kAllCells + 1), {}, {in});
+        pass.barrier(Use::compute, Use::compute);
+    }
     // The lookup knows branches too, which nobody asks for here.
-    pass.dispatchItems(bindSpans_[fetches_], nodes, push, {table, nodeRecords_, chunkRecords_, chunkRecords_});
+    pass.dispatchItems(bindSpans_[fetches_], nodes, {}, {table, nodeRecords_, chunkRecords_, chunkRecords_, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(bindLeaves_[fetches_], leaves, push, {table, leafRecords_, spanTexels_});
+    pass.dispatchItems(bindLeaves_[fetches_], leaves, {}, {table, leafRecords_, spanTexels_, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(bindCells_, 2 * kMaxCells, push);
+    if (partly) {
+        pass.dispatchItems(bindKeep_, kAllCells, {}, {in});
+        pass.barrier(Use::compute, Use::compute);
+    }
+    const std::array<uint32_t, 3> groups{partly ? 64u : std::min((nodes + leaves) / 64 + 1, 4096u), 1, 1};
+    pass.dispatch(bindCount_, groups, {}, {table, spanTexels_, leafTexels_, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(bindOrder_, nodes + leaves, push);
+    pass.dispatchItems(bindCells_, kAllCells + 1, {}, {in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(bindSort_, 2 * kMaxCells * kCellBins, push, {spanTexels_, leafTexels_});
+    pass.dispatch(bindOrder_, groups, {}, {in});
+    pass.barrier(Use::compute, Use::compute);
+    pass.dispatchItems(bindSort_, kAllCells * kCellBins, {}, {spanTexels_, leafTexels_, in});
     pass.barrier(Use::compute, Use::compute | Use::vertex);
     bound_ = wanted;
     return Done{};

@@ -69,7 +69,7 @@ Status GpuGrowth::compact() {
     status.branches = view_.branchCount;
     frontPlants_ = 1 - frontPlants_;
     chained_ = false;
-    showLinks(status);
+    showLinks(status, true);
     stats_.reservedBytes = reserved();
     return Done{};
 }

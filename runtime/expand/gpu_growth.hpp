@@ -94,7 +94,8 @@ class GpuGrowth final : public Growth {
                      uint32_t last);
     Outcome readOutcome(uint32_t last);
     void remember(const GrowthInputs& inputs);
-    void showLinks(const GrowStatus& status);
+    // all: nodes aren't where they were.
+    void showLinks(const GrowStatus& status, bool all);
     uint64_t reserved() const;
     // Whether growth runs as native code.
     bool runsNative(const GrowthInputs& inputs) const {
@@ -171,8 +172,9 @@ class GpuGrowth final : public Growth {
     Links links_[2];
     uint32_t frontPlants_ = 0, frontLinks_ = 0;
     Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, noTexels_, density_, readback_;
-    Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_;
-    bool chained_ = false;  // leaves on the nodes that are drawn are chained
+    Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_;
+    bool touchedIsNew_ = false;  // and holds nothing yet
+    bool chained_ = false;       // leaves on the nodes that are drawn are chained
     GrowthView view_;
     GrowthStats stats_;
     // What the growth that is shown was made from.

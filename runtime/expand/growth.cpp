@@ -199,7 +199,7 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptShaders(const GrowthInputs& inputs,
 void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome) {
     frontPlants_ = 1 - frontPlants_;
     chained_ = frozen.records.nodes.empty();
-    showLinks(outcome.status);
+    showLinks(outcome.status, true);
     stats_.seeds = uint32_t(inputs.seeds.size() + inputs.frozen.size());
     takeCounters(outcome.status, stats_);
     stats_.derived = stats_.nodes - uint32_t(frozen.records.nodes.size());

@@ -72,6 +72,11 @@ struct GrowthView {
     // can't.
     const Buffer *nodeBuffer = nullptr, *chunkBuffer = nullptr, *leafBuffer = nullptr;
     uint64_t revision = 0;  // grows with every grow() that changed anything
+    // Growths have numbers. Those after `renewed` only added nodes and leaves at the end, and wrote the nodes (and took
+    // away, or added, their leaves) whose touched[node] is their number, or a later one; `renewed` wrote all.
+    // touched null: all growths did.
+    const Buffer* touched = nullptr;
+    uint32_t number = 0, renewed = 0;
 };
 
 struct GrowthStats {

@@ -223,7 +223,7 @@ GpuGrowth::Outcome GpuGrowth::readOutcome(uint32_t last) {
 }
 
 // The links that were written are those of what is drawn from now on.
-void GpuGrowth::showLinks(const GrowStatus& status) {
+void GpuGrowth::showLinks(const GrowStatus& status, bool all) {
     frontLinks_ = 1 - frontLinks_;
     const Plants& plants = plants_[frontPlants_];
     const Links& links = links_[frontLinks_];
@@ -239,14 +239,18 @@ void GpuGrowth::showLinks(const GrowStatus& status) {
     view_.branchCount = status.branches;
     view_.leafCount = status.leaves;
     view_.revision += 1;
+    view_.number += 1;
+    if (all) view_.renewed = view_.number;
+    view_.touched = all ? nullptr : &touched_;
 }
 
 uint64_t GpuGrowth::reserved() const {
     uint64_t bytes = 0;
     for (const Plants& p : plants_) bytes += p.nodes.size() + p.leaves.size();
     for (const Links& l : links_) bytes += l.chunks.size() + l.branches.size();
-    for (const Buffer* b : {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_,
-                            &density_, &again_, &marks_, &lists_, &edits_, &results_, &firstLeaves_, &nextLeaves_})
+    for (const Buffer* b :
+         {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_, &density_, &again_,
+          &marks_, &lists_, &edits_, &results_, &firstLeaves_, &nextLeaves_, &touched_})
         bytes += b->size();
     return bytes;
 }

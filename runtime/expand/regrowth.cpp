@@ -69,6 +69,10 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
                 {&edits_, "regrowth edits", std::max<uint64_t>(editWords * 4, 16384)},
                 {&results_, "regrowth results", chunks / 4 * kChunkNodes * kResultWords * 4}};
     if (Status ok = ensureChains(plants_[frontPlants_]); !ok) return ok;
+    // Regrowths of the same nodes find the same room: nothing that is noted there gets lost.
+    const uint64_t touched = capacityOf<Node>(plants_[frontPlants_].nodes) * 4ull;
+    touchedIsNew_ = touchedIsNew_ || !touched_ || touched_.size() < touched;
+    if (Status ok = ensure(touched_, "growth touched nodes", touched); !ok) return ok;
     for (const auto& row : rows)
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
     if (Status tables = makeTables(inputs); !tables) return tables;
@@ -88,6 +92,8 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     commands.copy(from.branches, to.branches, view_.branchCount * sizeof(BranchRecord));
     commands.fill(marks_, 0);
     if (!chained_) commands.fill(firstLeaves_, kNoIndex);
+    if (touchedIsNew_) commands.fill(touched_, 0);
+    touchedIsNew_ = false;
 
     GrowStatus s = freshStatus(inputs.limits, room_, noCut(inputs.limits));
     s.chunks = view_.chunkCount;
@@ -110,6 +116,8 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     a.lists = addressOf<UintBuf, uint32_t>(lists_);
     a.edits = addressOf<UintBuf, uint32_t>(edits_);
     a.results = addressOf<UintBuf, uint32_t>(results_);
+    a.touched = addressOf<UintBuf, uint32_t>(touched_);
+    a.number = view_.number + 1;
     a.chainedLeaves = chained_ ? view_.leafCount : 0;
     a.listCapacity = s.chunkCapacity;
     a.resultCapacity = uint32_t(results_.size() / (kResultWords * 4));
@@ -264,7 +272,7 @@ void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome,
     const GrowStatus& s = outcome.status;
     GrowthStats delta;
     takeCounters(s, delta);
-    showLinks(s);
+    showLinks(s, false);
     stats_.seeds = uint32_t(inputs.seeds.size() + inputs.frozen.size());
     stats_.derived = s.nodes - state.nodeCount;
     stats_.nodes += stats_.derived - state.goneNodes;

@@ -1,20 +1,40 @@
-// What the kernels that bind growth share: their inputs, and how an item is put into its cell.
+// What the kernels that bind growth share: their inputs, and how an item is given its bin.
 #ifndef ESPALIER_EMIT_BIND_GLSL
 #define ESPALIER_EMIT_BIND_GLSL
 #include "shaders/emit/cells.glsl"
 #include "shaders/shared/dispatch.glsl"
 
-layout(push_constant, scalar) uniform Data { BindPush push; };
+layout(set = 0, binding = 8, scalar) uniform BindBlock { BindInputs push; };
 
-// kind: 0 a span, 1 a leaf; order: its order of going, [0, 1); large: what EmitCell::largest is of.
-void putIntoCell(uint item, uint kind, vec3 center, float reach, float large, float order) {
-    uint cell = cellOf(push.grid, center);
-    float far = distance(center, cellMiddle(push.grid, cell)) + reach;
-    cell += kind * kMaxCells;
-    uint bin = cell * kCellBins + min(uint(order * float(kCellBins)), kCellBins - 1u);
-    atomicAdd(push.bins.v[bin], 1u);
-    atomicMax(push.cells.v[cell].reach, floatBitsToUint(far));
-    atomicMax(push.cells.v[cell].largest, floatBitsToUint(large));
-    push.keys.v[item] = bin;
+#define HEAD push.cells.v[kAllCells]
+
+// A span's class by its thickness, in parts of a cell's side.
+uint spanClass(float thick) {
+    float t = thick * push.grid.rcpCell;
+    return t > 0.012 ? 0u : t > 0.006 ? 1u : 2u;
+}
+
+// Takes an item out of where it was; whether it was there.
+bool takeKey(uint item, bool before) {
+    uint was = push.partly != 0u && before ? push.keys.v[item] : kNoIndex;
+    push.keys.v[item] = kNoIndex;
+    for (bool there = was != kNoIndex; there; there = false) push.cells.v[was / kCellBins].changed = 1u;
+    return was != kNoIndex;
+}
+// bin: by its order of going.
+void giveKey(uint item, uint kind, vec3 center, uint bin) {
+    uint cell = kind * kMaxCells + cellOf(push.grid, center);
+    push.keys.v[item] = (cell * kCellBins + bin) | kFresh;
+    for (bool listed = push.partly != 0u; listed; listed = false) {
+        push.cells.v[cell].changed = 1u;
+        push.list.v[atomicAdd(HEAD.changed, 1u)] = item;
+    }
+}
+
+// Item i of those that are put into cells, below itemsToPut().
+uint itemsToPut() { return push.partly != 0u ? HEAD.changed : push.nodeCount + push.leafCount; }
+uint itemToPut(uint i) {
+    if (push.partly != 0u) return push.list.v[i];
+    return i < push.nodeCount ? i : push.leafBase + i - push.nodeCount;
 }
 #endif

@@ -41,11 +41,28 @@ LoadedSpan spanUnder(SpanInstance o) {
     return s;
 }
 
+uint trianglesOf(uint bits, uint hash) {
+    KindRecord kind = table.kinds[(bits >> 8u) & 255u];
+    uint variant = kind.firstVariant + (hash >> 3u) % kind.variantCount;
+    return table.buckets[table.variants[variant].firstBucket].indexCount / 3u;
+}
+
+// Whether leaf `i`, of span `node`, is to be bound, or taken out.
+bool concerns(uint i, uint node) {
+    bool concerned = push.partly == 0u || i >= push.leavesBefore;
+    for (bool asked = !concerned; asked; asked = false)
+        concerned = node < push.nodeCount ? push.flags.v[node] != 0u : push.keys.v[push.leafBase + i] != kNoIndex;
+    return concerned;
+}
+
 void main() {
     uint i = itemIndex();
-    for (bool given = i < push.leafCount; given; given = false) {
-        push.keys.v[push.nodeCount + i] = kNoIndex;
-        Leaf record = readLeaf(i);
+    Leaf record = Leaf(kNoIndex, 0u, 0u, 0u);
+    if (i < push.leafCount) record = readLeaf(i);
+    for (bool given = i < push.leafCount && concerns(i, record.node); given; given = false) {
+        uint item = push.leafBase + i;
+        for (bool was = takeKey(item, i < push.leavesBefore); was; was = false)
+            atomicAdd(HEAD.first, 0u - trianglesOf(push.leafInstances.v[i].bits, push.leafInstances.v[i].hash));
         LeafPose pose = unpackLeaf(record.place, record.pose, record.tint);
         bool known = record.node < push.nodeCount && pose.mesh < table.kindCount &&
                      table.kinds[pose.mesh].variantCount > 0u && table.kinds[pose.mesh].bark == 0u;
@@ -67,10 +84,8 @@ void main() {
                 float height = clamp(leaf.height / max(1.1 * leaf.size, 1e-6), 0.0, 1.0);
                 o.bits = (record.place & 0xFFFFu) | (((under.bits >> 7u) & 31u) << 16u) | (uint(height * 2047.0 + 0.5) << 21u);
                 writeLeaf(i, o);
-                float order = float(hash >> 8u) * 5.96046448e-8;
-                putIntoCell(push.nodeCount + i, 1u, o.origin, leaf.size * table.variants[v].extent, leaf.size, order);
-                atomicAdd(push.cells.v[2u * kMaxCells].first,
-                          table.buckets[table.variants[v].firstBucket].indexCount / 3u);
+                giveKey(item, kLeafClass, o.origin, (hash >> 8u) / (0x1000000u / kCellBins));
+                atomicAdd(HEAD.first, trianglesOf(o.bits, hash));
             }
         }
     }

@@ -7,10 +7,19 @@
 layout(local_size_x = 64) in;
 
 void main() {
-    uint item = itemIndex();
-    uint bin = item < push.nodeCount + push.leafCount ? push.keys.v[item] : kNoIndex;
-    for (bool put = bin != kNoIndex; put; put = false) {
-        uint at = atomicAdd(push.bins.v[bin], 1u);
-        push.order.v[push.cells.v[bin / kCellBins].first + at] = item;
+    uint lanes = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+    uint items = itemsToPut();
+    for (uint i = gl_GlobalInvocationID.x; i < items; i += lanes) {
+        uint item = itemToPut(i);
+        uint key = push.keys.v[item];
+        for (bool put = key != kNoIndex; put; put = false) {
+            uint bin = key & ~kFresh;
+            push.keys.v[item] = bin;
+            uint cell = bin / kCellBins;
+            for (bool room = push.cells.v[cell].count > 0u; room; room = false) {
+                uint at = atomicAdd(push.bins.v[bin], 1u);
+                push.order.v[push.cells.v[cell].first + at] = item;
+            }
+        }
     }
 }

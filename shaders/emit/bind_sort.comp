@@ -10,16 +10,16 @@ layout(set = 0, binding = 1) uniform usamplerBuffer leafTexels;
 
 // Differs between instances and is the same in every run: of the end of a span, or of a leaf's place and turn.
 uint rankOf(uint item, uint kind) {
-    uvec4 t = kind == 0u ? texelFetch(spanTexels, int(6u * item + 2u))
-                         : texelFetch(leafTexels, int(4u * (item - push.nodeCount)));
+    uvec4 t = kind < kLeafClass ? texelFetch(spanTexels, int(6u * item + 2u))
+                         : texelFetch(leafTexels, int(4u * (item - push.leafBase)));
     uint h = t.x * 0x9E3779B1u ^ t.y * 0x85EBCA77u ^ t.z * 0xC2B2AE3Du ^ t.w * 0x27D4EB2Fu;
     return (h ^ (h >> 15u)) * 0x2C1B3C6Du;
 }
 
 void main() {
     uint bin = itemIndex();
-    if (bin >= 2u * kMaxCells * kCellBins) return;
     uint cell = bin / kCellBins;
+    if (cell >= kAllCells || (push.partly != 0u && push.cells.v[cell].changed == 0u)) return;
     uint kind = cell / kMaxCells;
     uint first = push.cells.v[cell].first;
     uint end = first + push.bins.v[bin];

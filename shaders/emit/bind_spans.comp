@@ -48,13 +48,20 @@ SpanInstance instanceOf(LoadedSpan s, Node node, ChunkBrief chunk, uint kind) {
     return o;
 }
 
+uint trianglesOf(uint kind) {
+    return table.buckets[table.variants[table.kinds[kind].firstVariant].firstBucket].indexCount / 3u;
+}
+
 void main() {
     ExpandEnv env;
     env.nodes = push.nodes;
     env.chunks = push.chunks;
     uint i = itemIndex();
-    for (bool given = i < push.nodeCount; given; given = false) {
-        push.keys.v[i] = kNoIndex;
+    bool concerned = i < push.nodeCount;
+    for (bool asked = concerned && push.partly != 0u; asked; asked = false) concerned = push.flags.v[i] != 0u;
+    for (bool given = concerned; given; given = false) {
+        for (bool was = takeKey(i, i < push.nodesBefore); was; was = false)
+            atomicAdd(HEAD.first, 0u - trianglesOf(push.spans.v[i].bits & 63u));
         push.spans.v[i].reach = -1.0;
         Node node = readNode(env, i);
         bool there = node.flags != 0u || node.radius >= 0.0;
@@ -87,9 +94,8 @@ void main() {
             writeSpan(i, o);
             for (bool drawn = bark; drawn; drawn = false) {
                 float thick = max(o.radius0, o.radius1);
-                putIntoCell(i, 0u, o.center, o.reach + 2.0 * thick, thick, twigOrder(chunk.key));
-                uint bucket = table.variants[table.kinds[kind].firstVariant].firstBucket;
-                atomicAdd(push.cells.v[2u * kMaxCells].first, table.buckets[bucket].indexCount / 3u);
+                giveKey(i, spanClass(thick), o.center, (o.bits >> 16u) / (0x10000u / kCellBins));
+                atomicAdd(HEAD.first, trianglesOf(kind));
             }
         }
     }

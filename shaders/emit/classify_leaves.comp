@@ -17,23 +17,23 @@ void main() {
     DrawnItem o = DrawnItem(0u, 0u, 1.0, 0u);
     uint bucket = kNoBucket;
     for (bool there = lane < given.count; there; there = false) {
-        o.item = push.order.v[given.first + lane] - push.nodeCount;
+        o.item = push.order.v[given.first + lane] - push.leafBase;
         vec3 origin = uintBitsToFloat(texelFetch(leafTexels, int(4u * o.item)).xyz);
         uvec4 d = texelFetch(leafTexels, int(4u * o.item + 3u));
         KindRecord kind = table.kinds[(d.w >> 8u) & 255u];
-        VariantRecord variant = table.variants[kind.firstVariant + (d.z >> 3u) % kind.variantCount];
-        bucket = variant.firstBucket;
+        uint variant = kind.firstVariant + (d.z >> 3u) % kind.variantCount;
+        bucket = table.variants[variant].firstBucket;
         for (bool culled = (view.flags & kFullDetail) == 0u; culled; culled = false) {
             float size = decodeLeafSize(d.w & 255u);
             float pixels = pixelsPerMetre(view, origin) * size;
             float share = leafShare(view, pixels);
             o.value = leafGrowth(share);
-            float reach = size * o.value * variant.extent;
+            float reach = size * o.value * table.variants[variant].extent;
             bool seen = leafIsKept(share, d.z) && !outside(view, origin, reach);
             for (bool asked = seen && u64(view.tiles) != 0ul; asked; asked = false) seen = !hidden(view, origin, reach);
-            uint lod = variant.lodCount - 1u;
-            while (lod > 0u && variant.error[lod] * pixels > view.lodPixels) --lod;
-            bucket = seen ? variant.firstBucket + lod : kNoBucket;
+            uint lod = table.variants[variant].lodCount - 1u;
+            while (lod > 0u && table.variants[variant].error[lod] * pixels > view.lodPixels) --lod;
+            bucket = seen ? bucket + lod : kNoBucket;
             o.bits = lod;
         }
     }

@@ -22,9 +22,9 @@ void main() {
         vec4 sphere = uintBitsToFloat(texelFetch(spanTexels, int(6u * o.item + 5u)));
         float thick = max(uintBitsToFloat(d.z), uintBitsToFloat(d.w));
         float order = float(e.w >> 16u) * (1.0 / 65535.0);
-        VariantRecord variant = table.variants[table.kinds[e.w & 63u].firstVariant];
+        uint variant = table.kinds[e.w & 63u].firstVariant;
         o.bits = 0xFFFF0000u;
-        bucket = variant.firstBucket;
+        bucket = table.variants[variant].firstBucket;
         for (bool culled = (view.flags & kFullDetail) == 0u; culled; culled = false) {
             float pixels = pixelsPerMetre(view, sphere.xyz);
             float thin = thick * pixels / view.leastPixels;
@@ -32,13 +32,13 @@ void main() {
             bool seen = thin >= kThinnest && spanIsKept(thin, order) && !outside(view, sphere.xyz, reach);
             for (bool asked = seen && u64(view.tiles) != 0ul; asked; asked = false) seen = !hidden(view, sphere.xyz, reach);
             // n straight pieces leave about 1/n² of the bend.
-            uint lod = variant.lodCount - 1u;
+            uint lod = table.variants[variant].lodCount - 1u;
             while (lod > 0u) {
-                float pieces = variant.segments[lod];
-                if ((variant.error[lod] * thick + uintBitsToFloat(e.z) / (pieces * pieces)) * pixels <= view.lodPixels) break;
+                float pieces = table.variants[variant].segments[lod];
+                if ((table.variants[variant].error[lod] * thick + uintBitsToFloat(e.z) / (pieces * pieces)) * pixels <= view.lodPixels) break;
                 --lod;
             }
-            bucket = seen ? variant.firstBucket + lod : kNoBucket;
+            bucket = seen ? bucket + lod : kNoBucket;
             o.bits = lod | (uint(spanFade(thin, order) * 65535.0 + 0.5) << 16u);
             o.value = view.leastPixels / pixels;
         }

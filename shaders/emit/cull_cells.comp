@@ -16,12 +16,12 @@ const int kCellTiles = 9;   // more tiles than these, less one, along a side: no
 
 void main() {
     uint i = itemIndex();
-    if (i >= 2u * kMaxCells) return;
+    if (i >= kAllCells) return;
     EmitCell cell = push.cells.v[i];
     uint kept = cell.count;
     for (bool looked = kept > 0u && (view.flags & kFullDetail) == 0u; looked; looked = false) {
-        bool leaves = i >= kMaxCells;
-        vec3 middle = cellMiddle(push.grid, leaves ? i - kMaxCells : i);
+        bool leaves = i >= kLeafClass * kMaxCells;
+        vec3 middle = cellMiddle(push.grid, i % kMaxCells);
         float reach = uintBitsToFloat(cell.reach);
         float largest = uintBitsToFloat(cell.largest);
         float pixels = view.pixelScale;

@@ -84,19 +84,23 @@ struct DrawCommand {
 };
 STATIC_SIZE(DrawCommand, 20);
 
-// Space is divided into cells of a grid; each holds its spans and its leaves in bins by their order of going when they
-// are thinned out, so that what stays is a run of them.
+// Space is divided into cells of a grid; each holds its spans, in classes by thickness, and its leaves, in bins by their
+// order of going when they are thinned out, so that what stays is a run of them. Cells of a class have the number
+// class * kMaxCells + cell.
 CONST_UINT(kMaxCells, 4096u);
+CONST_UINT(kLeafClass, 3u);    // classes below: of spans
+CONST_UINT(kAllCells, 16384u);
 CONST_UINT(kCellBins, 64u);
 CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
 
-// A cell's spans, or its leaves. reach: of any of them from the cell's middle, metres; largest: thickest radius, or
-// size. Both as bits, which order as the numbers do.
+// A cell's spans of one class, or its leaves. reach: of any of them from the cell's middle, metres; largest: thickest
+// radius, or size. Both as bits, which order as the numbers do.
 struct EmitCell {
-    uint first, count;          // in the order of items
+    uint first, count, room;    // in the order of items; how many may come to lie there
+    uint changed;               // 1: items of it were bound anew, or left it
     uint reach, largest;
 };
-STATIC_SIZE(EmitCell, 16);
+STATIC_SIZE(EmitCell, 24);
 BUFFER(EmitCellBuf, EmitCell)
 
 // A run of a cell's items, of one kind (0 spans, 1 leaves).
@@ -127,8 +131,10 @@ struct EmitState {
     uint drawnTriangles;
     uint blocks[2];             // of spans, of leaves
     uint groups[9];             // VkDispatchIndirectCommand for the blocks of spans, of leaves, of both
+    uint boundItems;            // that the last binding looked at
+    uint crowded;               // 1: cells had no room for what came to them, all is to be bound anew
 };
-STATIC_SIZE(EmitState, 3132);
+STATIC_SIZE(EmitState, 3140);
 
 // The span that ends at a node, in the world, 96 bytes: read as six texels.
 //   bits 5..0 kind (63: no bark), bit 6 rounded tip, 11..7 branches from the seed, 31..16 its order of going (unorm16)
@@ -189,24 +195,32 @@ struct EmitGrid {
     uint size[3];
 };
 
-// Push data of the kernels that bind growth. Arrays of both kinds: spans first; items are node indices, or nodeCount +
-// leaf indices.
-struct BindPush {
+// What the kernels that bind growth read, a uniform block. Items are node indices, or leafBase + leaf indices.
+struct BindInputs {
     NodeBuf nodes;
     ChunkBuf chunks;
     LeafBuf leaves;
     SurfaceBuf surfaces;
     SpanInstanceBuf spans;      // [node]
     LeafInstanceBuf leafInstances;
-    EmitCellBuf cells;          // [kind * kMaxCells + cell]
-    UintBuf bins;               // [(kind * kMaxCells + cell) * kCellBins + bin]: counts, then starts, then ends in the cell
-    UintBuf keys;               // [item]: its bin, kNoIndex: none
-    UintBuf order;              // items of cells, one cell after another
+    EmitCellBuf cells;          // and one more, see below
+    UintBuf bins;               // [cell * kCellBins + bin]: counts, then starts, then ends in the cell
+    UintBuf keys;               // [item]: its bin, kNoIndex: none; and kFresh
+    UintBuf order;              // items of cells
+    UintBuf touched;            // of growth: [node] the number of the regrowth that wrote it last
+    UintBuf flags;              // [node]: 1: its span is to be bound
+    UintBuf list;               // items that are put into cells
     EmitGrid grid;
-    uint nodeCount, leafCount;
-    uint spare;
+    uint nodeCount, leafCount, leafBase;
+    uint orderRoom;
+    uint partly;                // 0: all is bound; 1: what regrowths after the one of number `since` have written, and
+    uint since;                 // what there wasn't before:
+    uint nodesBefore, leavesBefore;
 };
-STATIC_SIZE(BindPush, 120);
+STATIC_SIZE(BindInputs, 168);
+// cells[kAllCells]: first: triangles of all items at full detail; count: where room in the order begins; changed: items
+// of the list; room: EmitState::crowded.
+CONST_UINT(kFresh, 0x80000000u);
 
 // Push data of the culling kernels. View and table come as uniform blocks: software devices read these once for all lanes.
 struct EmitPush {
@@ -214,13 +228,13 @@ struct EmitPush {
     EmitCellBuf cells;
     UintBuf bins;
     UintBuf order;
-    UintBuf seen;               // [kind * kMaxCells + cell]: items to look at
+    UintBuf seen;               // [cell]: items to look at
     EmitBlockBuf blocks;
     UintBuf rows;               // [block * kMaxBuckets + bucket]: counts, then where they begin in their bucket
     DrawnBuf notes;             // [block * kBlockItems + lane]
     DrawnBuf drawn;
     EmitGrid grid;
-    uint nodeCount;
+    uint leafBase;
 };
 STATIC_SIZE(EmitPush, 104);
 

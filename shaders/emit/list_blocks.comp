@@ -7,7 +7,8 @@
 
 layout(local_size_x = 64) in;
 
-const uint kLaneCells = 2u * kMaxCells / 64u;
+const uint kLaneCells = kAllCells / 64u;
+const uint kSpanLanes = 64u * kLeafClass * kMaxCells / kAllCells;   // their cells hold spans, those of others leaves
 shared uint laneBlocks[64];
 
 uint blocksOf(uint cell) { return (push.seen.v[cell] + kBlockItems - 1u) / kBlockItems; }
@@ -28,23 +29,24 @@ void main() {
     barrier();
     uint at = 0u;
     for (uint l = 0u; l < lane; ++l) at += laneBlocks[l];
-    // Cells of spans are those of the first half of lanes.
-    if (lane == 32u) {
+    if (lane == kSpanLanes) {
         push.state.v[0].blocks[0] = at;
         writeGroups(0u, at);
     }
     if (lane == 63u) {
         uint spans = 0u;
-        for (uint l = 0u; l < 32u; ++l) spans += laneBlocks[l];
+        for (uint l = 0u; l < kSpanLanes; ++l) spans += laneBlocks[l];
         push.state.v[0].blocks[1] = at + count - spans;
         writeGroups(3u, at + count - spans);
         writeGroups(6u, at + count);
-        push.state.v[0].fullTriangles = push.cells.v[2u * kMaxCells].first;
+        push.state.v[0].fullTriangles = push.cells.v[kAllCells].first;
+        push.state.v[0].boundItems = push.cells.v[kAllCells].changed;
+        push.state.v[0].crowded = push.cells.v[kAllCells].room;
     }
     for (uint c = first; c < first + kLaneCells; ++c) {
         uint kept = push.seen.v[c];
         uint item = kept > 0u ? push.cells.v[c].first : 0u;
         for (uint done = 0u; done < kept; done += kBlockItems)
-            push.blocks.v[at++] = EmitBlock(item + done, min(kept - done, kBlockItems), c / kMaxCells, 0u);
+            push.blocks.v[at++] = EmitBlock(item + done, min(kept - done, kBlockItems), c / (kLeafClass * kMaxCells), 0u);
     }
 }

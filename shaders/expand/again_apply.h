@@ -58,6 +58,7 @@ FN void takeOut(ExpandEnv env, LeafChains chains, ChunkBefore was, uint lane, IN
         t.feet += lane == 0u && was.previousNode == kNoIndex ? 1u : 0u;
         env.nodes.v[index].flags = flags & 0x1F00u;
         env.nodes.v[index].radius = -1.0f;
+        AGAIN.touched.v[index] = AGAIN.number;
     }
     if (lane == 0u) {
         t.deadEnds += (was.marks & kChunkDeadEnd) != 0u ? 1u : 0u;
@@ -76,6 +77,7 @@ FN void applyResult(ExpandEnv env, LeafChains chains, UintBuf results, uint i, I
     env.nodes.v[index].flags = results.v[at + 2u];
     env.nodes.v[index].radius = uintBitsToFloat(results.v[at + 3u]);
     chains.first.v[index] = results.v[at + 4u];
+    AGAIN.touched.v[index] = AGAIN.number;
 }
 
 ESPALIER_END

@@ -33,6 +33,7 @@ FN void fitAgain(ExpandEnv env, BranchBuf branchesBefore, uint chunk, ChunkBrief
     }
     node.radius = node.radius * readBranch(env, brief.branch).thickness;
     env.nodes.v[index].radius = node.radius;
+    AGAIN.touched.v[index] = AGAIN.number;
     hash += hashOfNode(brief.key, node);
 }
 

@@ -50,18 +50,19 @@ struct AgainState {
     UintBuf lists;           // [list * listCapacity + i]
     UintBuf edits;           // see below
     UintBuf results;         // kResultWords a node of kListWork: its index, NodeFinish
+    UintBuf touched;         // GrowthView::touched
     uint listCapacity, resultCapacity;   // chunks, nodes
     uint chunkCount, nodeCount, branchCount, leafCount;   // before, with the gaps among them
     uint liveNodes, liveChunks;          // before, without
     uint mostNodes, mostChunks;          // limits
     uint chainedLeaves;                  // leaves from this one on aren't among their nodes' yet
-    uint spare;
+    uint number;             // that written nodes get in `touched`
     uint counts[8];          // of the lists
     uint overrun;            // not 0: this is too much for a regrowth
     uint goneNodes, goneChunks, goneBranches, goneLeaves, goneInserted, goneFeet, goneDeadEnds, goneStopped;
     uint firstFrozen;        // seeds from this index on are frozen: what they have grown is never dirty
 };
-STATIC_SIZE(AgainState, 168);
+STATIC_SIZE(AgainState, 176);
 BUFFER(AgainStateBuf, AgainState)
 
 // AgainState::edits, words: 0 dirty layers (bits), 1 first word of the seeds' new indices (0: seeds are the same;

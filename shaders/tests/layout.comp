@@ -23,7 +23,7 @@ struct EmitRecords {
     LeafInstance leaf;
     TerminalVertex vertex;
     TriangleVertex triangle;
-    BindPush bind;
+    BindInputs bind;
     EmitPush push;
     TrianglesPush triangles;
 };
