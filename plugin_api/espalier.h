@@ -424,7 +424,7 @@ typedef struct EspLook {
     uint32_t viewLevel;          /* for ESP_VIEW_CHARTS: the level whose charts and links are shown */
     float windowLodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
     float leafPixels;            /* leaves of at least so many pixels are all drawn, of smaller ones fewer and larger;
-                                    default 8 */
+                                    beyond 8 fewer twigs, too; default 8 */
     int ground;                  /* 1: a meadow to the horizon under it all, only to be looked at; default 0 */
     float groundLevel;           /* its height in the world, metres */
 } EspLook;
@@ -493,6 +493,7 @@ typedef struct EspStats {
     uint32_t contacts;           /* crossings from surface to surface */
     double contactMs;            /* on the CPU: finding them when surfaces last came, went or moved */
     uint64_t derivedNodes;       /* that the latest growth derived; the others stood as they were */
+    uint64_t drawnLeaves;        /* of the growth in the last frame */
 } EspStats;
 ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
 

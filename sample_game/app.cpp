@@ -20,6 +20,7 @@ namespace sample {
 namespace {
 
 using namespace espalier::document;
+using espalier::scene::MovingDetail;
 namespace fs = std::filesystem;
 
 constexpr double kSlowDrawMs = 40, kSlowGrowthMs = 500;
@@ -87,18 +88,20 @@ bool App::drawFrame(bool moving, bool last) {
     draw.look.viewLayer = work_.scene().viewLayer.c_str();
     draw.look.viewOpacity = work_.layout.layerOpacity;
     draw.look.viewLevel = work_.viewLevel;
-    // While the camera moves on a slow device, less detail: what counts then is that it follows the hand.
-    const bool slow = moving && !last && work_.stats.drawMs > kSlowDrawMs;
+    // While the camera moves, or a stroke goes on, on a slow device, less detail.
+    const bool slow = moving && !last && (coarse_ || work_.stats.drawMs > kSlowDrawMs);
     if (slow) {
-        draw.look.windowLodPixels *= 4;
-        draw.look.leafPixels *= 1.5f;
+        draw.look.windowLodPixels *= MovingDetail::kLod;
+        draw.look.leafPixels *= detail_.leaf();
     }
     const float scale = slow && work_.layout.halfWhileMoving ? .5f : 1;
     if (!image_->show(work_.context.get(), *frame, draw, scale, work_.redraw)) return fail(image_->error());
     if (image_->drew()) {
         coarse_ = slow;
         EspStats stats;
-        work_.redraw = espReadStats(work_.context.get(), &stats) == ESP_OK && stats.modelsFading > 0;
+        const bool read = espReadStats(work_.context.get(), &stats) == ESP_OK;
+        work_.redraw = read && stats.modelsFading > 0;
+        if (read && slow) detail_.follow(work_.frameMs, uint32_t(stats.drawnLeaves));
     }
     ImGui::Render();
     if (!ui_->draw(*frame, *ImGui::GetDrawData())) return fail(ui_->error());
@@ -145,9 +148,10 @@ bool App::frame(float seconds) {
     }
     showUi();
     const bool grew = update();
-    if (coarse_ && !moved) work_.redraw = true;
+    if (coarse_ && !moved && !controls_->painting()) work_.redraw = true;
     ++frames_;
-    if (!drawFrame(moved, options_.frames && frames_ >= options_.frames)) return false;
+    const bool hurried = moved || controls_->painting();
+    if (!drawFrame(hurried, options_.frames && frames_ >= options_.frames)) return false;
     session_.nextFrame();
     work_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     noteTimes(grew);

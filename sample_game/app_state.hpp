@@ -8,6 +8,7 @@
 #include "sample_game/controls.hpp"
 #include "sample_game/scene_image.hpp"
 #include "sample_game/ui_renderer.hpp"
+#include "tools/scene/moving.hpp"
 
 namespace sample {
 
@@ -58,6 +59,7 @@ class App {
     static constexpr int kFramesAfterChange = 3;  // ImGui settles within two
     int awake_ = kFramesAfterChange;
     uint64_t frames_ = 0, grownRevision_ = 0;
+    espalier::scene::MovingDetail detail_;
     bool coarse_ = false, growing_ = false;
     float themeScale_ = 0;
 };

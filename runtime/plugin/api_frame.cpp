@@ -142,6 +142,7 @@ EspStats gather(const EspContext& context) {
     stats.leaves = growth.leaves;
     stats.polygons = render.emit.fullTriangles;
     stats.drawnPolygons = render.emit.drawnTriangles;
+    stats.drawnLeaves = render.emit.leaves;
     stats.expansions = growth.expansions;
     stats.overflow = growth.overflow + render.emit.overflow;
     stats.stopped = growth.stopped;

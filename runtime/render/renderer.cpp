@@ -213,7 +213,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.tiles = push.tiles;
     view.width = targets_.width;
     view.height = targets_.height;
-    view.wholePixels = std::max(inputs.look.leafPixels, 1e-3f);
+    thinOut(view, inputs.look.leafPixels);
     // A host's scene or a level that fades hides something else in each frame.
     ++sceneNumber_;
     view.scene = hosted_ || models_.fading() > 0 ? sceneNumber_ << 32 : models_.revision() + (propsRevision_ << 16);

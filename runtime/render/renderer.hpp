@@ -37,7 +37,8 @@ struct Look {
     float layerOpacity = 1;
     uint32_t level = 0;    // for ViewMode::charts
     float lodPixels = 1;   // error allowed when choosing LOD, pixels
-    float leafPixels = 8;  // leaves of at least so many are all drawn, of smaller ones fewer and larger
+    float leafPixels = 8;  // leaves of at least so many are all drawn, of smaller ones fewer and larger; beyond 8 also
+                           // fewer twigs
 };
 
 struct DrawInputs {

@@ -1,7 +1,7 @@
 // frame/…: what a frame of the sample's court costs, with half a million nodes of ivy: standing; while the camera goes
-// round, shadows kept, drawn at half the window's size, which the window does then, and with leaves thinned out from
-// kMovingLeaf pixels on; and with a dab of the brush in each frame, shadows redrawn in every eighth. CPU time, which on
-// a software device is all of it and which other programs disturb less than the clock, beside what a frame may cost on
+// round, shadows kept, drawn at half the window's size and as coarsely as MovingDetail says, as the window does then;
+// and with a dab of the brush in each frame, shadows redrawn in every eighth, as coarsely. CPU time, which on a
+// software device is all of it and which other programs disturb less than the clock, beside what a frame may cost on
 // two cores; stages by the device's clock.
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,7 @@
 #include "shaders/shared/exact.h"
 #include "tools/bench/bench.hpp"
 #include "tools/bench/bench_scene.hpp"
+#include "tools/scene/moving.hpp"
 
 namespace espalier {
 namespace {
@@ -23,7 +24,6 @@ namespace {
 constexpr uint32_t kNodes = 500'000;
 constexpr uint32_t kTexels = 1024;                         // of the mask
 constexpr double kMoving = 2e3 / 15, kPainting = 2e3 / 8;  // CPU ms of a frame on two cores: 15 and 8 frames/s
-constexpr float kMovingLeaf = 12;
 constexpr DrawTarget kFull{.width = 1280, .height = 720}, kHalf{.width = 640, .height = 360};
 
 struct Film {
@@ -31,24 +31,34 @@ struct Film {
     Renderer& renderer;
     DrawInputs inputs;
     int repeats;
+    scene::MovingDetail detail{};
+    bool coarse = false;  // as `detail` says, which follows the frames' time
 
     // Milliseconds of CPU time a frame, the camera turned by `degrees` for each, once levels of detail have settled:
     // the median; with `edit` done in each frame, the mean of sixteen. 0: it can't be drawn.
     double cost(const DrawTarget& target, float degrees, const std::function<void(int)>& edit = {}) {
         const Camera start = inputs.camera;
+        const Look look = inputs.look;
         std::vector<double> times;
         for (int frame = -9; frame < (edit ? 16 : repeats); ++frame) {
             const float a = degrees * float(frame) * 0.0174533f;
             const glm::vec3 d = start.eye - start.target;
             inputs.camera.eye = start.target + glm::vec3(std::cos(a) * d.x + std::sin(a) * d.z, d.y,
                                                          std::cos(a) * d.z - std::sin(a) * d.x);
+            if (coarse) {
+                inputs.look.lodPixels = scene::MovingDetail::kLod;
+                inputs.look.leafPixels = Look{}.leafPixels * detail.leaf();
+            }
             const std::clock_t before = std::clock();
             if (edit) edit(frame);
             Result<Commands> commands = Commands::begin(device, "frame");
             if (!commands || !renderer.draw(*commands, inputs, target) || !commands->finish()) return 0;
-            if (frame >= 0) times.push_back(double(std::clock() - before) * 1e3 / CLOCKS_PER_SEC);
+            const double cost = double(std::clock() - before) * 1e3 / CLOCKS_PER_SEC;
+            if (coarse) detail.follow(cost / 2, renderer.stats().emit.leaves);
+            if (frame >= 0) times.push_back(cost);
         }
         inputs.camera = start;
+        inputs.look = look;
         device.collect();
         double sum = 0;
         for (double t : times) sum += t;
@@ -139,7 +149,7 @@ void frameCases(Bench& bench) {
     film.inputs.surfaces = scene->surfaces();
     const double still = film.cost(kFull, 0);
     const RenderStats stats = (*renderer)->stats();
-    film.inputs.look.leafPixels = kMovingLeaf;
+    film.coarse = true;
     const double moving = film.cost(kFull, 2);
     std::vector<std::pair<std::string, double>> stages;
     for (const char* stage : {"emit", "draw scene", "draw occlusion", "draw resolve"})
@@ -147,7 +157,6 @@ void frameCases(Bench& bench) {
     const double whole = (*device)->milliseconds("draw");
     const double movingHalf = film.cost(kHalf, 2);
     const uint32_t drawn = (*renderer)->stats().emit.leaves;
-    film.inputs.look.leafPixels = Look{}.leafPixels;
     Painter painter(*scene, **growth, film);
     const double painting = film.cost(kHalf, 0, [&](int frame) { painter.dab(frame); });
     std::printf("%u nodes, %u leaves grown; %u spans and %u leaves in view, %.2f million triangles of them\n",
