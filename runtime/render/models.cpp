@@ -215,6 +215,21 @@ void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, c
     }
 }
 
+void Models::drawAhead(DrawPass& pass, const Program& program, const Buffer& frame) const {
+    for (const auto& [index, model] : models_) {
+        if (model.step != kFadeFrames) continue;
+        pass.setVertices(model.vertices);
+        pass.setIndices(model.indices);
+        const Mesh& mesh = model.meshes[model.shown];
+        for (const DrawRange& range : mesh.ranges) {
+            const Material& material = model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
+            if (material.alphaCutoff > 0) continue;
+            pass.drawIndexed(program, {range.indexCount, range.firstIndex, mesh.firstVertex},
+                             pushOf(model, model.shown, material, index), {frame});
+        }
+    }
+}
+
 void Models::drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const {
     for (const auto& [index, model] : models_) {
         pass.setVertices(model.vertices);

@@ -30,6 +30,8 @@ class Models {
     // Draws all of them as chosen. ground: of it the meadow at their feet is made, and their grain.
     void draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow, const Ground& ground,
               bool walkData) const;
+    // The depths of those that draw() draws whole: they go ahead, so that it shades only what is seen.
+    void drawAhead(DrawPass& pass, const Program& program, const Buffer& frame) const;
     // The simplest meshes with an error of at most `error` metres.
     void drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const;
 

@@ -12,8 +12,9 @@ namespace espalier {
 namespace {
 
 constexpr float kShadowLodPixels = 1.2f;
-constexpr uint32_t kShadowPeriod = 8;  // frames, while growth changes in each
-constexpr float kWideBias = 0.12f;     // metres that what lies far away is moved towards the sun when it is compared
+constexpr float kStrokeLeafTexels = 16;  // as Look::leafPixels, of shadows while a stroke goes on
+constexpr uint32_t kShadowPeriod = 8;    // frames, while growth changes in each
+constexpr float kWideBias = 0.12f;       // metres that what lies far away is moved towards the sun when it is compared
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
 constexpr float kGrownPixels = 0.25f;       // error of models with growth on them: bark that is seen isn't buried
 
@@ -57,7 +58,8 @@ Status RendererImpl::upload(Commands& commands, const FrameRecord& frame) {
 void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
     const EmitTable& table = terminals_.table();
     pass.setIndices(terminals_.batches());
-    for (uint32_t b = 0; b < table.bucketCount; ++b) {
+    for (uint32_t i = 0; i < table.bucketCount; ++i) {
+        const uint32_t b = (i + table.barkBuckets) % table.bucketCount;  // leaves first: much bark lies under them
         const BucketRecord& bucket = table.buckets[b];
         const TerminalMaterial& material = terminals_.data().materials[bucket.material];
         TerminalPush push{};
@@ -76,8 +78,8 @@ void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
         const Binding instances(bark ? emit_.spanTexels() : emit_.leafTexels()), meshes(terminals_.vertexTexels()),
             drawn(emit_.drawnTexels());
         if (!depthOnly && bark)
-            pass.drawIndexedIndirect(scene_->bark, emit_.state(), offset, 2, push,
-                                     {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
+            pass.drawIndexedIndirect(!explained_ && small_[b] ? scene_->barkSmall : scene_->bark, emit_.state(), offset,
+                                     2, push, {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
         else if (!depthOnly && !explained_ && small_[b])
             pass.drawIndexedIndirect(scene_->leafSmall, emit_.state(), offset, 2, push,
                                      {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
@@ -111,14 +113,15 @@ Status RendererImpl::removeProps() {
     return Done{};
 }
 
-Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels) {
+Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse) {
     FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
     frame.viewProjection = sun.toClip;
     if (Status s = upload(commands, frame); !s) return s;
-    const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, lodPixels);
+    const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, kShadowLodPixels);
     if (grows_) {
         EmitView grown = view;
         grown.leastPixels = 0.35f;
+        if (coarse) thinOut(grown, kStrokeLeafTexels);
         if (Status s = emit_.cull(commands, emitInputs(inputs), grown, "shadow emit", false); !s) return s;
     }
     if (roofed_)
@@ -165,8 +168,26 @@ Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& input
     return Done{};
 }
 
+// All that growth stands among.
+void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post) {
+    models_.draw(pass, scene_->model, *frame_, {shadowMap_, shadowSampler_}, ground_, inputs.surfaces.v != nullptr);
+    if (furnished_) props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, explained_);
+    if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, explained_);
+}
+
+// What hides growth. Where the picture is ours and shaded, that is depths only: what growth hides isn't shaded at all.
 Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target,
                                 const PostPush& post) {
+    ahead_ = !hosted_ && !explained_;
+    if (ahead_) {
+        DrawTargets depths;
+        depths.extent = {targets_.width, targets_.height};
+        depths.depth = DepthTarget{.view = targets_.depth.view(), .clear = 0.0f};
+        commands.transition(targets_.depth, ImageState::depthTarget, true);
+        DrawPass pass(commands, "draw ahead", depths);
+        models_.drawAhead(pass, modelAhead_, *frame_);
+        return Done{};
+    }
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
     targets.depth = DepthTarget{.view = targets_.depth.view(), .clear = {}};
     if (hosted_) {
@@ -179,10 +200,7 @@ Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, co
     commands.transition(targets_.color, ImageState::colorTarget, !hosted_);
     commands.transition(targets_.depth, ImageState::depthTarget, !hosted_);
     DrawPass pass(commands, "draw scene", targets);
-    if (!hosted_ || target.host.models)
-        models_.draw(pass, scene_->model, *frame_, {shadowMap_, shadowSampler_}, ground_, inputs.surfaces.v != nullptr);
-    if (furnished_) props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, explained_);
-    if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, explained_);
+    if (!hosted_ || target.host.models) drawSurroundings(pass, inputs, post);
     return Done{};
 }
 
@@ -223,15 +241,17 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     return emit_.cull(commands, emitInputs(inputs), view, "emit", true);
 }
 
-void RendererImpl::drawGrowth(Commands& commands, const PostPush& post) {
-    commands.transition(targets_.color, ImageState::colorTarget);
+void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post) {
+    commands.transition(targets_.color, ImageState::colorTarget, ahead_);
     commands.transition(targets_.depth, ImageState::depthTarget);
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
     targets.depth = DepthTarget{};
     targets.depth->view = targets_.depth.view();
+    if (ahead_) targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
     DrawPass pass(commands, "draw scene", targets);
     if (grows_) drawTerminals(pass, false);
     if (roofed_) roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, explained_);
+    if (ahead_) drawSurroundings(pass, inputs, post);
     if (!hosted_) pass.draw(sky_, 3, 1, post, {{ground_.noise(), ground_.sampler()}, *frame_});
 }
 
@@ -372,9 +392,11 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
     if (frame.shadows && wideRadius > 1.1f * radius)
         if (Status s = aimWideShadows(commands, inputs, sun, (low + high) * 0.5f, wideRadius, frame); !s) return s;
     const bool wait = shadowsWait(key);
-    if (frame.shadows && !wait && (!shadowDrawn_ || key != shadowKey_)) {
-        if (Status s = drawShadows(commands, inputs, sun, kShadowLodPixels); !s) return s;
+    const bool stroke = changes_ > 2;
+    if (frame.shadows && !wait && (!shadowDrawn_ || key != shadowKey_ || (shadowCoarse_ && !stroke))) {
+        if (Status s = drawShadows(commands, inputs, sun, stroke); !s) return s;
         shadowKey_ = key;
+        shadowCoarse_ = stroke;
         shadowDrawn_ = true;
     } else if (!shadowDrawn_ && !wideDrawn_) {
         commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
@@ -393,7 +415,7 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
     if (Status s = drawModels(commands, inputs, target, push); !s) return s;
     if (grows_ || roofed_)
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
-    drawGrowth(commands, push);
+    drawGrowth(commands, inputs, push);
     commands.transition(targets_.color, ImageState::sampled);
     drawOcclusion(commands, push);
     return resolve(commands, target, push);

@@ -51,23 +51,24 @@ class RendererImpl final : public Renderer {
     // The programs that draw what is lit: for the shaded view, for views that explain, for the one that counts
     // fragments.
     struct ScenePrograms {
-        Program model, bark, leaf, leafSmall;
+        Program model, bark, barkSmall, leaf, leafSmall;
     };
     Status makeScene(ScenePrograms& programs, bool explains, Blend blend) const;
     Status pickScene(ViewMode shown);
     Result<const Program*> resolveProgram(VkFormat format);
     // Uploads the record to frame_.
     Status upload(Commands& commands, const FrameRecord& frame);
-    Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, float lodPixels);
+    Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse);
     // All that stands but growth, into the map's right half; the whole map is cleared.
     Status drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
     // Draws them if they aren't up to date, and tells the frame where they are.
     Status aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
                           float radius, FrameRecord& frame);
+    void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
     EmitInputs emitInputs(const DrawInputs& inputs) const;
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
-    void drawGrowth(Commands& commands, const PostPush& post);
+    void drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post);
     void drawTerminals(DrawPass& pass, bool depthOnly);
     void drawOcclusion(Commands& commands, const PostPush& push);
     Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
@@ -85,9 +86,9 @@ class RendererImpl final : public Renderer {
     Sampler shadowSampler_, textureSampler_, plainSampler_, pointSampler_;
     ScenePrograms shaded_, explaining_, counting_;  // each made when first asked for
     const ScenePrograms* scene_ = &shaded_;         // of this recording
-    Program modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_, sky_, depthTiles_;
+    Program modelAhead_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_, sky_, depthTiles_;
     std::map<std::pair<VkFormat, bool>, Program> resolves_;  // by format and whether the view counts
-    std::array<bool, kMaxBuckets> small_{};                  // buckets of leaves that are lit at their vertices
+    std::array<bool, kMaxBuckets> small_{};                  // buckets that are lit at their vertices
     std::array<Buffer, kFrameSlots> frames_;
     const Buffer* frame_ = nullptr;  // the one of this recording
     Buffer tiles_;
@@ -100,8 +101,10 @@ class RendererImpl final : public Renderer {
     uint32_t changes_ = 0;  // frames in a row in which growth has changed
     uint64_t propsRevision_ = 0;
     bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;
-    bool hosted_ = false;     // this recording goes into a host's scene
-    bool furnished_ = false;  // it draws props
+    bool shadowCoarse_ = false;  // the map has fewer and larger leaves, as in a stroke
+    bool ahead_ = false;         // models' depths went ahead, they are shaded after growth
+    bool hosted_ = false;        // this recording goes into a host's scene
+    bool furnished_ = false;     // it draws props
 };
 
 }  // namespace espalier

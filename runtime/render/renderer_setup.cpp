@@ -33,6 +33,16 @@ Status RendererImpl::makePrograms() {
         program = std::move(*made);
         return Done{};
     };
+    GraphicsDesc ahead;
+    ahead.name = "model ahead";
+    ahead.vertex = "render/model.vert";
+    ahead.depth = kDepthFormat;
+    ahead.samples = targets_.samples;
+    ahead.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    takeModelVertices(ahead);
+    Result<Program> aheadMade = Program::graphics(device_, ahead);
+    if (!aheadMade) return aheadMade.failure();
+    modelAhead_ = std::move(*aheadMade);
     GraphicsDesc skyDesc = fullscreen("sky", "render/sky.frag", kSceneFormat);
     skyDesc.samples = targets_.samples;
     skyDesc.depth = kDepthFormat;  // it lies at depth 0, infinitely far
@@ -71,6 +81,8 @@ Status RendererImpl::makeScene(ScenePrograms& programs, bool explains, Blend ble
         const char* vertex;
         const char* fragment;
     } rows[] = {{programs.bark, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag"},
+                {programs.barkSmall, "small bark", "render/bark_small.vert",
+                 one ? "render/bark_small_single.frag" : "render/bark_small.frag"},
                 {programs.leaf, "leaf", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag"},
                 {programs.leafSmall, "small leaf", "render/leaf_small.vert",
                  one ? "render/leaf_small_single.frag" : "render/leaf_small.frag"},
@@ -122,7 +134,8 @@ Status RendererImpl::setUp(TerminalData data) {
     for (uint32_t v = 0; v < table.variantCount; ++v) {
         const VariantRecord& variant = table.variants[v];
         const uint32_t last = variant.firstBucket + variant.lodCount - 1;
-        small_[last] = last >= table.barkBuckets && variant.lodCount > 1;
+        const bool ribbon = table.buckets[last].vertexCount == 4;
+        small_[last] = last >= table.barkBuckets ? variant.lodCount > 1 : ribbon;
     }
     Result<Emit> emit = Emit::create(device_, terminals_);
     if (!emit) return emit.failure();

@@ -2,6 +2,7 @@
 // Bark: its texture at two neighbouring octaves of scale, blended by the radius, so that nothing is stretched where
 // a stem grows thinner and nothing jumps at a joint.
 #include "shaders/render/light.glsl"
+#include "shaders/render/bark_color.glsl"
 
 layout(push_constant, scalar) uniform Data { TerminalPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;
@@ -35,9 +36,7 @@ void main() {
     float scale = exp2(-octave) * (1.0 / 6.2831853);
     vec3 base = texelColor(mix(texture(colorMap, vec2(along.x, along.y * scale)).rgb,
                                texture(colorMap, vec2(along.x, along.y * scale * 0.5)).rgb, blend)) * push.baseColor.rgb;
-    // Young wood is smooth and greenish, old wood grey-brown.
-    float young = clamp((log2(frame.unit) - along.z - 7.6) * 0.5, 0.0, 1.0);
-    base = mix(base, vec3(0.16, 0.17, 0.06), 0.55 * young);
+    base = mix(base, kYoungBark, youngBark(along.z));
     vec3 eye = normalize(frame.eye - position);
     vec3 sun = frame.sunDirection;
     float facing = max(dot(n, sun), 0.0);

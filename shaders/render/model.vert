@@ -14,6 +14,9 @@ layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uvs;
 
+// Drawn twice: what is shaded must meet the depth that went ahead.
+invariant gl_Position;
+
 void main() {
     vec4 p = vec4(atVertex, 1.0);
     position = vec3(dot(push.toWorld[0], p), dot(push.toWorld[1], p), dot(push.toWorld[2], p));

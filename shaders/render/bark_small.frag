@@ -1,0 +1,4 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+#include "shaders/render/bark_small.glsl"

@@ -1,0 +1,21 @@
+// Included once for four samples a pixel and once for one (ESPALIER_ONE_SAMPLE).
+// Bark of few pixels, its light brought along from the vertices.
+#include "shaders/render/light.glsl"
+
+layout(push_constant, scalar) uniform Data { TerminalPush push; };
+layout(set = 0, binding = 0) uniform sampler2D colorMap;
+layout(location = 0) in vec4 uvFade;
+layout(location = 1) in vec3 own;
+layout(location = 2) in vec3 other;
+layout(location = 3) flat in uint hash;
+layout(location = 0) out vec4 color;
+
+void main() {
+#ifdef ESPALIER_ONE_SAMPLE
+    if (uvFade.z < ditherAt(gl_FragCoord.xy)) discard;
+#else
+    gl_SampleMask[0] = coverage(uvFade.z, hash >> 8u);
+#endif
+    vec3 texel = texelColor(texture(colorMap, uvFade.xy).rgb);
+    color = stored(toneMapped(texel * own + other), uvFade.w);
+}

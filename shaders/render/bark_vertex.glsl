@@ -1,0 +1,59 @@
+// Bends a terminal mesh along its span (Buron 2015 §6): x and y in radii across, z along.
+#ifndef ESPALIER_RENDER_BARK_VERTEX_GLSL
+#define ESPALIER_RENDER_BARK_VERTEX_GLSL
+#include "shaders/emit/span_load.h"
+#include "shaders/emit/triangle_vertex.glsl"
+#include "shaders/render/drawn.glsl"
+#include "shaders/render/frame.glsl"
+
+struct BarkVertex {
+    SpanInstance span;
+    vec3 position, normal;
+    float around, metres;   // along the branch
+    float radius;
+};
+
+BarkVertex barkVertex(TerminalPush push, uint vertex, uint drawn) {
+    uint instance = vertex / push.vertexCount;
+    uint local = vertex - instance * push.vertexCount;
+    instance += drawn * push.batch;
+    BarkVertex v;
+    SpanInstance o = drawnSpan(state.starts[push.bucket] + instance);
+    TerminalVertex mesh = drawnVertex(push.firstVertex + local);
+    float u = clamp(mesh.position.z, 0.0, 1.0);
+    float w = 1.0 - u;
+    vec3 center = o.p0 * (w * w * w) + o.b1 * (3.0 * w * w * u) + o.b2 * (3.0 * w * u * u) + o.p3 * (u * u * u);
+    vec3 tangent = (o.b1 - o.p0) * (w * w) + (o.b2 - o.b1) * (2.0 * w * u) + (o.p3 - o.b2) * (u * u);
+    vec3 up = octahedralToUnit(o.normal0) * w + octahedralToUnit(o.normal1) * u;
+    vec3 side = cross(up, tangent);
+    side *= inversesqrt(max(dot(side, side), 1e-30));
+    up = cross(tangent, side);
+    up *= inversesqrt(max(dot(up, up), 1e-30));
+    if (push.vertexCount == 4u) {
+        // A ribbon: across the view, its normal towards the eye.
+        vec3 toEye = frame.eye - center;
+        side = cross(toEye, tangent);
+        side *= inversesqrt(max(dot(side, side), 1e-30));
+        vec3 facing = cross(tangent, side);
+        up = normalize(up + facing * inversesqrt(max(dot(facing, facing), 1e-30)));
+    }
+    float radius = o.radius0 * w + o.radius1 * u;
+    center += up * (kBarkRise * radius);
+    if ((o.bits & 256u) != 0u) radius = barkRadius(o.radius0, o.radius1, o.metres, true, u);
+    v.position = center + (side * mesh.position.x + up * mesh.position.y) * radius;
+    vec3 n = octahedralToUnit(mesh.normal);
+    v.normal = side * n.x + up * n.y + normalize(tangent + vec3(1e-12)) * n.z;
+    v.span = o;
+    v.around = mesh.uv.x;
+    v.metres = o.arc0 + o.metres * u;
+    v.radius = radius;
+    return v;
+}
+
+float barkFade(SpanInstance span) { return float(span.bits >> 16u) * (1.0 / 65535.0); }
+// Above bit 7 differs between spans; below as SpanInstance::bits.
+uint barkHash(SpanInstance span) {
+    uint hash = (span.normal0 ^ floatBitsToUint(span.p0.x)) * 0x9E3779B1u;
+    return (hash & ~255u) | (span.bits & 255u);
+}
+#endif
