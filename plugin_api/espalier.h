@@ -391,6 +391,8 @@ typedef struct EspGrowDef {
     uint32_t maxNodes;           /* growth stops there and says so; default 4,000,000 */
     uint32_t maxDepth;           /* chunks one after another along one path, 1 to 65,534, default 4096 */
     float leafDensityCap;        /* leaves per square metre and seed at most, 0: no cap */
+    int shadersOnly;             /* 1: by shaders on a software device too, where growth is native code of their text
+                                    otherwise, with the same result; default 0 */
 } EspGrowDef;
 ESP_API EspGrowDef espDefaultGrowDef(void);
 ESP_API EspResult espSetGrow(EspContext* context, const EspGrowDef* def);
@@ -418,6 +420,8 @@ typedef struct EspLook {
     float exposure;              /* stops */
     float background[3], horizon[3];
     int shadows;
+    int shadowsLag;              /* 1: while growth or houses change in every frame, shadows follow in every eighth and more
+                                    coarsely, and wholly once all rests; default 0: each picture has its own */
     EspView view;
     const char* viewLayer;       /* for ESP_VIEW_LAYER */
     float viewOpacity;           /* 0 to 1: of that layer over the model; default 1 */

@@ -85,6 +85,7 @@ bool App::drawFrame(bool moving, bool last) {
     EspDrawDef draw = espDefaultDrawDef();
     draw.camera = work_.camera.camera(work_.shift());
     draw.look = work_.scene().look;
+    draw.look.shadowsLag = 1;
     draw.look.viewLayer = work_.scene().viewLayer.c_str();
     draw.look.viewOpacity = work_.layout.layerOpacity;
     draw.look.viewLevel = work_.viewLevel;

@@ -54,6 +54,7 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     look.background = vec(from.background);
     look.horizon = vec(from.horizon);
     look.shadows = from.shadows != 0;
+    look.shadowsLag = from.shadowsLag != 0;
     look.view = ViewMode(from.view);
     look.lodPixels = from.windowLodPixels;
     look.leafPixels = from.leafPixels;
@@ -186,6 +187,7 @@ EspLook espDefaultLook(void) {
     set(out.horizon, look.horizon);
     out.exposure = look.exposure;
     out.shadows = look.shadows;
+    out.shadowsLag = look.shadowsLag;
     out.windowLodPixels = look.lodPixels;
     out.leafPixels = look.leafPixels;
     out.viewOpacity = look.layerOpacity;

@@ -89,6 +89,7 @@ EspResult update(EspContext& context) {
     inputs.limits.maxNodes = context.grow.maxNodes;
     inputs.limits.maxDepth = context.grow.maxDepth;
     inputs.limits.leafDensityCap = context.grow.leafDensityCap;
+    inputs.native = !context.grow.shadersOnly;
     std::vector<uint32_t> ids;
     for (const auto& [id, index] : places) ids.push_back(id);
     for (uint32_t i = 0; i < context.variants.size(); ++i) ids.push_back(i);  // no grammar's id is so small
@@ -136,7 +137,8 @@ EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
             return fail(context, ESP_INVALID_ARGUMENT, "espSetGrow: null pointer, or a value out of its range");
         const EspGrowDef& now = context->grow;
         if (now.walk == def->walk && now.tangents == def->tangents && now.maxNodes == def->maxNodes &&
-            now.maxDepth == def->maxDepth && now.leafDensityCap == def->leafDensityCap)
+            now.maxDepth == def->maxDepth && now.leafDensityCap == def->leafDensityCap &&
+            now.shadersOnly == def->shadersOnly)
             return ESP_OK;
         context->grow = *def;
         context->touch();

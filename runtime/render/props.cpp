@@ -11,11 +11,11 @@
 namespace espalier {
 namespace {
 
-constexpr float kBuiltPixels = 1;                      // error allowed of walls and the like
-constexpr float kFoliagePixels = 6;                    // of foliage, which is noise
-constexpr float kFadeZone = 0.15f;                     // share of the distance over which a level takes over
-constexpr float kLeastPixels = 2;                      // radius below which a prop isn't drawn
-constexpr float kGrassReach = 24, kGrassShrinks = 10;  // metres from the eye; over which it sinks into the meadow
+constexpr float kBuiltPixels = 1;                         // error allowed of walls and the like
+constexpr float kFoliagePixels = 6;                       // of foliage, which is noise
+constexpr float kFadeZone = 0.15f, kFoliageZone = 0.05f;  // shares of the distance over which a level takes over
+constexpr float kLeastPixels = 2;                         // radius below which a prop isn't drawn
+constexpr float kGrassReach = 24, kGrassShrinks = 10;     // metres from the eye; over which it sinks into the meadow
 
 // Distances of a sphere's centre from the sides of the view; the far side is at infinity.
 struct Sides {
@@ -139,7 +139,7 @@ Status Props::choose(Commands& commands, const FrameRecord& frame) {
             over = next;
             ++level;
         }
-        const float share = level > 0 ? (over - 1) / kFadeZone : 1;
+        const float share = level > 0 ? (over - 1) / (noisy ? kFoliageZone : kFadeZone) : 1;
         auto& coarse = levels[variant.firstBucket + level].seen;
         if (share >= 1) {
             coarse.emplace_back(distance, instance);

@@ -303,11 +303,11 @@ Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs
                                     float radius, FrameRecord& frame) {
     const ShadowKey key{0, models_.revision() + (propsRevision_ << 32), frame.sunDirection,       0,
                         0, roofed_ ? inputs.roofs->revision : 0,        glm::vec4(center, radius)};
-    // While houses change in every frame, shadows far away follow in every eighth and when they have come to rest.
+    // If they may lag: while houses change in every frame, shadows far away follow in every eighth and when they rest.
     wideChanges_ = key == wideBefore_ ? 0 : wideChanges_ + 1;
     wideBefore_ = key;
     const bool turned = wideKey_.sun != key.sun;
-    const bool wait = wideDrawn_ && !turned && wideChanges_ > 2 && wideChanges_ % kShadowPeriod != 0;
+    const bool wait = inputs.look.shadowsLag && wideDrawn_ && !turned && wideChanges_ > 2 && wideChanges_ % kShadowPeriod != 0;
     if (!wait && (!wideDrawn_ || wideKey_ != key)) {
         const SunView wide = makeSunView(key.sun, center, radius);
         if (Status s = drawWideShadows(commands, inputs, wide); !s) return s;
@@ -391,8 +391,8 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
     const float wideRadius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.02f;
     if (frame.shadows && wideRadius > 1.1f * radius)
         if (Status s = aimWideShadows(commands, inputs, sun, (low + high) * 0.5f, wideRadius, frame); !s) return s;
-    const bool wait = shadowsWait(key);
-    const bool stroke = changes_ > 2;
+    const bool wait = shadowsWait(key) && inputs.look.shadowsLag;
+    const bool stroke = inputs.look.shadowsLag && changes_ > 2;
     if (frame.shadows && !wait && (!shadowDrawn_ || key != shadowKey_ || (shadowCoarse_ && !stroke))) {
         if (Status s = drawShadows(commands, inputs, sun, stroke); !s) return s;
         shadowKey_ = key;

@@ -32,6 +32,7 @@ struct Look {
     glm::vec3 background{0.17f, 0.36f, 0.72f};  // at the zenith
     glm::vec3 horizon{0.66f, 0.77f, 0.88f};
     bool shadows = true;
+    bool shadowsLag = false;  // while growth or houses change in every frame, shadows may follow late and coarsely
     ViewMode view = ViewMode::shaded;
     uint32_t layer = 0;  // for ViewMode::layer: index into DrawInputs::layers' 16 a surface
     float layerOpacity = 1;
@@ -102,9 +103,9 @@ class Renderer {
     // What lies on the ground that is drawn; without texels: nothing.
     virtual Status setSite(const SiteMap& map) = 0;
 
-    // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed; from
-    // the third frame in a row on in which growth alone has, in every eighth, with fewer and larger leaves, and when it
-    // has come to rest.
+    // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed. If it
+    // may lag: from the third frame in a row on in which growth alone has, in every eighth, with fewer and larger leaves,
+    // and when it has come to rest.
     virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;
 
     // The last frame drawn into the renderer's own image: RGBA, sRGB, rows top to bottom. Waits for it.

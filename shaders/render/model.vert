@@ -14,9 +14,7 @@ layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uvs;
 
-// Drawn twice: what is shaded must meet the depth that went ahead.
-invariant gl_Position;
-
+// Drawn twice: what is shaded must meet the depth that went ahead, so positions are never fused or reordered.
 void main() {
     vec4 p = vec4(atVertex, 1.0);
     position = vec3(dot(push.toWorld[0], p), dot(push.toWorld[1], p), dot(push.toWorld[2], p));
@@ -24,5 +22,6 @@ void main() {
     tangent = vec4(dot(push.toWorld[0].xyz, vertexTangent.xyz), dot(push.toWorld[1].xyz, vertexTangent.xyz),
                    dot(push.toWorld[2].xyz, vertexTangent.xyz), vertexTangent.w);
     uvs = vertexUvs;
-    gl_Position = frame.viewProjection * vec4(position, 1.0);
+    precise vec4 clip = frame.viewProjection * vec4(position, 1.0);
+    gl_Position = clip;
 }

@@ -18,7 +18,7 @@ std::string frame(const Folder& folder, const char* out) {
 
 }  // namespace
 
-TEST_CASE("the sample scene is drawn as the golden shows, in every run, whatever the threads") {
+TEST_CASE("the sample scene is drawn as the golden shows, in every run, whatever the threads, by shaders too") {
     const Folder folder;
     const std::string capture = program("espalier-capture") + " " + content("sample.json") + " --size 640x360";
     const Ran first =
@@ -27,7 +27,7 @@ TEST_CASE("the sample scene is drawn as the golden shows, in every run, whatever
     const Ran second =
         run("env LP_NUM_THREADS=1 " + capture + " -o " + folder.file("b") + " --stats " + folder.file("b.json"));
     REQUIRE_MESSAGE(second.code == 0, second.output);
-    const Ran third = run(capture + " -o " + folder.file("c"));
+    const Ran third = run(capture + " --shaders -o " + folder.file("c"));
     REQUIRE_MESSAGE(third.code == 0, third.output);
     CHECK(readAll(frame(folder, "a")) == readAll(frame(folder, "b")));
     CHECK(readAll(frame(folder, "a")) == readAll(frame(folder, "c")));

@@ -158,6 +158,7 @@ void frameCases(Bench& bench) {
     const double movingHalf = film.cost(kHalf, 2);
     const uint32_t drawn = (*renderer)->stats().emit.leaves;
     Painter painter(*scene, **growth, film);
+    film.inputs.look.shadowsLag = true;  // as in the window
     const double painting = film.cost(kHalf, 0, [&](int frame) { painter.dab(frame); });
     std::printf("%u nodes, %u leaves grown; %u spans and %u leaves in view, %.2f million triangles of them\n",
                 film.inputs.growth.nodeCount, film.inputs.growth.leafCount, stats.emit.spans, stats.emit.leaves,

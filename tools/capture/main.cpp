@@ -32,7 +32,7 @@ struct Options {
     long long seed = -1;
     uint32_t maxNodes = espDefaultGrowDef().maxNodes;
     float leafCap = 0;
-    bool validation = false;
+    bool shaders = false, validation = false;
 };
 
 int fail(const std::string& message) {
@@ -71,6 +71,7 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--leaf-cap", options.leafCap, "leaves per square metre and seed at most, 0: no cap")
         ->capture_default_str();
     app.add_option("--cache", options.cache, "folder that keeps compiled grammars");
+    app.add_flag("--shaders", options.shaders, "growth by shaders on a software device too, not as native code");
     app.add_flag("--validation", options.validation, "with Vulkan's validation layer (also: ESPALIER_VALIDATION=1)");
 }
 
@@ -199,6 +200,7 @@ int run(Options options) {
     grow.walk = options.walk == "paper" ? ESP_WALK_PAPER : ESP_WALK_INTRINSIC;
     grow.maxNodes = options.maxNodes;
     grow.leafDensityCap = options.leafCap;
+    grow.shadersOnly = options.shaders;
     if (espSetGrow(made, &grow) != ESP_OK) return fail(espLastError(made));
     Document document(made);
     if (!document.open(options.request, error)) return fail(error);
