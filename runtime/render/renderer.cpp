@@ -307,7 +307,8 @@ Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs
     wideChanges_ = key == wideBefore_ ? 0 : wideChanges_ + 1;
     wideBefore_ = key;
     const bool turned = wideKey_.sun != key.sun;
-    const bool wait = inputs.look.shadowsLag && wideDrawn_ && !turned && wideChanges_ > 2 && wideChanges_ % kShadowPeriod != 0;
+    const bool wait =
+        inputs.look.shadowsLag && wideDrawn_ && !turned && wideChanges_ > 2 && wideChanges_ % kShadowPeriod != 0;
     if (!wait && (!wideDrawn_ || wideKey_ != key)) {
         const SunView wide = makeSunView(key.sun, center, radius);
         if (Status s = drawWideShadows(commands, inputs, wide); !s) return s;

@@ -104,8 +104,8 @@ class Renderer {
     virtual Status setSite(const SiteMap& map) = 0;
 
     // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed. If it
-    // may lag: from the third frame in a row on in which growth alone has, in every eighth, with fewer and larger leaves,
-    // and when it has come to rest.
+    // may lag: from the third frame in a row on in which growth alone has, in every eighth, with fewer and larger
+    // leaves, and when it has come to rest.
     virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;
 
     // The last frame drawn into the renderer's own image: RGBA, sRGB, rows top to bottom. Waits for it.

@@ -176,7 +176,8 @@ TEST_CASE("a picture is the same on every run, whatever the order of instances")
     }
 }
 
-TEST_CASE("shadows follow growth at once; if they may lag, they stay behind in a long stroke, and catch up when it rests") {
+TEST_CASE(
+    "shadows follow growth at once; if they may lag, they stay behind in a long stroke, and catch up when it rests") {
     Studio fresh, studio, prompt;
     studio.inputs.look.shadowsLag = true;
     auto grown = [](Studio& in, uint32_t leaves) {

@@ -238,7 +238,8 @@ Result<BakeMesh> buildMesh(const Model& model, std::vector<Diagnostic>& warnings
     if (nonManifold > 0)
         warn(warnings, model, std::to_string(nonManifold) + " edges with more than two triangles: paired by direction");
     if (unlike > 0)
-        warn(warnings, model, std::to_string(unlike) + " edges whose two triangles face opposite ways: walks go over to the back there");
+        warn(warnings, model,
+             std::to_string(unlike) + " edges whose two triangles face opposite ways: walks go over to the back there");
     return mesh;
 }
 

@@ -42,7 +42,7 @@ struct SceneFile {
     std::vector<SceneSurface> surfaces;
     std::vector<SceneGrammar> grammars;
     std::optional<SceneTown> town;
-    std::string site;  // file of what furnishes the scene; empty: nothing does
+    std::string site;              // file of what furnishes the scene; empty: nothing does
     std::vector<uint64_t> pruned;  // keys of branches, ascending
     std::vector<SceneLayer> layers;
     bool hasCamera = false;
