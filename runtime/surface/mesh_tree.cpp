@@ -161,7 +161,7 @@ std::optional<MeshHit> MeshTree::pick(glm::vec3 origin, glm::vec3 direction, flo
     return best;
 }
 
-std::optional<MeshHit> MeshTree::nearest(glm::vec3 point, float limit) const {
+std::optional<MeshHit> MeshTree::nearest(glm::vec3 point, float limit, float enough) const {
     if (nodes_.empty()) return std::nullopt;
     std::optional<MeshHit> best;
     float reach = limit * limit;
@@ -179,6 +179,7 @@ std::optional<MeshHit> MeshTree::nearest(glm::vec3 point, float limit) const {
             if (!(d < reach)) continue;
             reach = d;
             best = MeshHit{t.index, w, on, std::sqrt(d)};
+            if (best->distance <= enough) return best;
         }
         if (node.count == 0) {
             const Node& left = nodes_[node.first];

@@ -44,7 +44,9 @@ size_t dropCopies(BakeMesh& mesh, double finArea) {
         size_t even = 0, odd = 0;
         for (j = i; j < corners.size() && corners[j].point == corners[i].point; ++j) {
             size_t& seen = corners[j].odd ? odd : even;
-            if (seen++ > 0) drop[corners[j].triangle] = 1;
+            if (seen++ == 0) continue;
+            drop[corners[j].triangle] = 1;
+            mesh.copied += area3(mesh, mesh.triangles[corners[j].triangle]);
         }
         for (size_t k = i; k < j && even > 0 && odd > 0; ++k)
             if (!drop[corners[k].triangle]) paired.push_back(corners[k].triangle);

@@ -5,11 +5,10 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <system_error>
-#include <thread>
 
 #include "runtime/core/jobs.hpp"
 #include "tools/bake/bake_mesh.hpp"
+#include "tools/bake/beside.hpp"
 #include "tools/bake/contact.hpp"
 #include "tools/bake/repair.hpp"
 
@@ -41,18 +40,6 @@ class Stages {
     const char* name_ = nullptr;
     Clock::time_point start_;
 };
-
-// Does both at once: the second one on this thread, which tells of progress.
-template <class First, class Second>
-void beside(First&& first, Second&& second) {
-    std::jthread other;
-    try {
-        other = std::jthread(first);
-    } catch (const std::system_error&) {  // no thread is left to give
-        first();
-    }
-    second();
-}
 
 std::vector<Chart> makeCharts(const BakeMesh& mesh) {
     std::vector<Chart> charts(mesh.chartCount());
@@ -88,24 +75,23 @@ std::vector<TrianglePlane> makeRecords(const BakeMesh& mesh) {
     return out;
 }
 
-// Rasterises all levels and settles down to which level each chart can be walked. Returns per level, per chart,
-// whether it can.
+// Rasterises all levels and settles down to which level each chart can be walked. image: the triangles on the finest
+// level. Returns per level, per chart, whether it can.
 std::vector<std::vector<uint8_t>> makeLevels(const BakeMesh& mesh, const std::vector<Link>& links,
                                              const Contacts& contacts, const std::vector<uint32_t>& allowed,
-                                             const BakeOptions& options, Stages& stages, SurfaceData& surface,
-                                             BakeReport& report) {
+                                             IdImage image, const BakeOptions& options, Stages& stages,
+                                             SurfaceData& surface, BakeReport& report) {
     std::vector<Plane> planes = makePlanes(mesh);
     std::vector<uint32_t> creases = creaseEdges(mesh), borders = borderEdges(mesh);
     LevelSource source{mesh, planes, surface.triangles, links, surface.crossings, creases, surface.charts};
     std::vector<std::vector<uint8_t>> walkable(options.levels);
     surface.levels.resize(options.levels);
-    IdImage image;
     for (uint32_t l = 0; l < options.levels; ++l) {
         if (l == 0) stages.begin(0.4f, "level_0");
         if (l == 1) stages.begin(0.75f, "further_levels");
         walkable[l].assign(mesh.chartCount(), 1);
         for (size_t c = 0; l > 0 && c < walkable[l].size(); ++c) walkable[l][c] = walkable[l - 1][c] && allowed[c] >= l;
-        drawTriangles(mesh, options.resolution >> l, image, nullptr, nullptr);
+        if (l > 0) drawTriangles(mesh, options.resolution >> l, image, nullptr);
         drawGutters(mesh, borders, image, walkable[l]);
         surface.levels[l] = composeLevel(source, image, walkable[l]);
         uint64_t buried = contacts.bury(surface.crossings, planes, surface.levels[l]);
@@ -204,11 +190,13 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     stages.begin(0.05f, "atlas");
     Status cut = makeAtlas(model, *mesh, options.resolution, options.keepLayout, report);
     if (!cut) return std::move(cut.failure());
-    addNormalsAndCurvature(model, *mesh);
     stages.begin(0.1f, "layout");
     LayoutOptions layout{options.resolution, options.levels, options.keepLayout, {}};
     if (!options.weights.empty()) layout.density = chartDensities(model, *mesh, options.weights);
-    auto allowed = layOut(*mesh, model.name, layout, report);
+    IdImage finest;
+    Result<std::vector<uint32_t>> allowed = std::vector<uint32_t>();
+    beside([&] { addNormalsAndCurvature(model, *mesh); },
+           [&] { allowed = layOut(*mesh, model.name, layout, finest, report); });
     if (!allowed) return std::move(allowed.failure());
     stages.begin(0.3f, "links");
     surface.boundsMin = glm::vec3(mesh->boundsMin);
@@ -222,25 +210,28 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     Contacts contacts(*mesh, links, {options.contacts, tolerance, 1.0 / options.resolution});
     for (const Contact& contact : contacts.list()) surface.crossings.push_back(contact.crossing);
 
-    stages.begin(0.37f, "drawing_mesh");
-    makeDrawing(model, *mesh, surface);
-    MeshTree drawn;
+    MeshTree drawn;  // beside the levels, which know nothing of it
     std::vector<std::vector<uint8_t>> walkable;
     beside(
         [&] {
+            makeDrawing(model, *mesh, surface);
             drawn = drawnTree(surface);
             simplifyDrawing(drawn, surface);
         },
-        [&] { walkable = makeLevels(*mesh, links, contacts, *allowed, options, stages, surface, report); });
+        [&] {
+            walkable =
+                makeLevels(*mesh, links, contacts, *allowed, std::move(finest), options, stages, surface, report);
+        });
     for (const SurfaceLevelData& level : surface.levels)
         if (level.crossingRefs.size() >= (size_t(1) << 24))
             return Failure(model.name, "more borders than a level can list: bake at a lower resolution");
-    stages.begin(0.91f, "level_errors");
-    measureLevelErrors(drawn, surface);
-    stages.begin(0.93f, "hash");
-    surface.hash = walkHash(surface);
-    stages.begin(0.95f, "report");
-    measure(*mesh, links, contacts.list(), surface, report);
+    stages.begin(0.92f, "report");
+    beside(
+        [&] {
+            measureLevelErrors(drawn, surface);
+            surface.hash = walkHash(surface);
+        },
+        [&] { measure(*mesh, links, contacts.list(), surface, report); });
     reportLevels(model.name, surface, walkable, report);
     stages.end();
     if (options.progress) options.progress(1.0f, "done");

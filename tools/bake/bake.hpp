@@ -46,6 +46,11 @@ struct UvFate {
     double area = 0;      // share of the model's
 };
 
+// A measure of distortion over the area: 1 is none.
+struct Distortion {
+    double p50 = 1, p95 = 1, max = 1;
+};
+
 // A connected piece of the model: what borders, near borders and contacts join.
 struct PieceReach {
     double area = 0;       // m² of its ground on the finest level
@@ -60,7 +65,9 @@ struct BakeReport {
     uint64_t innerTexels = 0, linkTexels = 0, openTexels = 0, buriedTexels = 0;
     uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0, danglingContacts = 0;
     double walkableArea = 0;
+    double charted = 0;  // share of the model's area that is in charts; what others cover exactly isn't asked for
     double stretch50 = 0, stretch95 = 0, stretchMax = 0;
+    Distortion ofArea, ofAngle;
     double roundTrip50 = 0, roundTrip999 = 0;                  // texels
     double gap999 = 0;                                         // local texels
     std::vector<std::pair<uint32_t, double>> walkableByLevel;  // size, area share of charts walkable on it

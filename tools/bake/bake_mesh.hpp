@@ -45,6 +45,7 @@ struct BakeMesh {
     bool metric = false;  // UVs are in metres and charts lie anywhere: layOut has to place them
     double radius = 0;    // half the diagonal of the bounds
     double area = 0;      // of the model, what is left out included
+    double copied = 0;    // of that: triangles that others cover exactly
 
     uint32_t chartCount() const { return uint32_t(orientation.size()); }
     uint32_t chartOf(uint32_t halfEdge) const { return triangles[halfEdge / 3].chart; }
@@ -78,16 +79,24 @@ Status makeAtlas(const Model& model, BakeMesh& mesh, uint32_t resolution, bool k
 // Puts shading normals and mean curvature on the mesh.
 void addNormalsAndCurvature(const Model& model, BakeMesh& mesh);
 
+// Which texel a level holds: an inner texel's triangle, a gutter texel's half-edge, or nothing.
+constexpr uint32_t kGutterBit = 0x80000000u;
+struct IdImage {
+    uint32_t size = 0;
+    std::vector<uint32_t> id;  // row by row: kNone, triangle, or kGutterBit | half-edge
+};
+
 // Keeps the charts where they are, moved into [0,1]² as a whole, if none lies over another and their gutters are wide
 // enough, and densities are even; else places each anew. Refuses models whose charts don't fit.
-// coarsest[chart]: the coarsest level that its place allows for; later rasterising may lower it.
+// Returns per chart the coarsest level that its place allows for; later rasterising may lower it. finest: the triangles
+// as they lie then, drawn at the resolution. Touches nothing of the mesh but its UVs.
 struct LayoutOptions {
     uint32_t resolution, levels;
     bool keep;
     std::vector<double> density;  // per chart, to the densest; empty: even
 };
 Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, const LayoutOptions& options,
-                                     BakeReport& report);
+                                     IdImage& finest, BakeReport& report);
 
 // What is painted on each chart, as a share of the densest chart's: LayoutOptions::density. weights: in the model's
 // UVs.
@@ -112,15 +121,8 @@ struct Link {
 std::vector<Link> findLinks(const BakeMesh& mesh, double tolerance);
 std::vector<Crossing> makeCrossings(const BakeMesh& mesh, const std::vector<Link>& links);
 
-// Which texel a level holds: an inner texel's triangle, a gutter texel's half-edge, or nothing.
-constexpr uint32_t kGutterBit = 0x80000000u;
-struct IdImage {
-    uint32_t size = 0;
-    std::vector<uint32_t> id;  // row by row: kNone, triangle, or kGutterBit | half-edge
-};
-
 // Draws triangles' centres. overlaps: texels that a second triangle would have covered as well.
-void drawTriangles(const BakeMesh& mesh, uint32_t size, IdImage& image, uint64_t* covered, uint64_t* overlaps);
+void drawTriangles(const BakeMesh& mesh, uint32_t size, IdImage& image, uint64_t* overlaps);
 
 // Draws gutters around charts for which walkable[chart] is set, nearest border first, and clears the flag of each
 // chart that misses a texel which a bilinear read inside of it needs. Returns whether a flag was cleared.

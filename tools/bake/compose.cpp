@@ -8,6 +8,7 @@
 #include "shaders/shared/exact.h"
 #include "tools/bake/bake_mesh.hpp"
 #include "tools/bake/bands.hpp"
+#include "tools/bake/beside.hpp"
 
 namespace espalier::bakery {
 namespace {
@@ -200,8 +201,6 @@ void fillTexels(LevelWork& work) {
         balance[link.from] += float(link.from1 - link.from0) * (link.to == kNone ? 1.0f : -1.0f);
     for (size_t h = 0; h < open.size(); ++h) open[h] = balance[h] > 0;
     auto& level = work.level;
-    level.texels.resize(size_t(size) * size);
-    level.aux.resize(size_t(size) * size);
     float radius = float(mesh.radius);
     parallelFor(size, 8, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y)
@@ -314,8 +313,16 @@ SurfaceLevelData composeLevel(const LevelSource& source, const IdImage& image, s
     level.size = image.size;
     LevelWork work{source, image, level, {}, {}};
     listCrossings(work, walkable);
-    measureClearance(work);
-    markCreases(work);
+    // Fresh memory is slow to touch.
+    beside(
+        [&] {
+            level.texels.resize(size_t(level.size) * level.size);
+            level.aux.resize(size_t(level.size) * level.size);
+        },
+        [&] {
+            measureClearance(work);
+            markCreases(work);
+        });
     fillTexels(work);
     markSlits(work);
     return level;

@@ -45,7 +45,7 @@ std::vector<double> chartAreas(const BakeMesh& mesh) {
 // The area share of charts that can be walked on a level of this size where the charts lie now.
 double walkableShare(const BakeMesh& mesh, const std::vector<uint32_t>& borders, uint32_t size) {
     IdImage image;
-    drawTriangles(mesh, size, image, nullptr, nullptr);
+    drawTriangles(mesh, size, image, nullptr);
     std::vector<uint8_t> walkable(mesh.chartCount(), 1);
     drawGutters(mesh, borders, image, walkable);
     std::vector<double> area = chartAreas(mesh);
@@ -141,15 +141,13 @@ std::vector<double> chartDensities(const Model& model, const BakeMesh& mesh, con
 }
 
 Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, const LayoutOptions& options,
-                                     BakeReport& report) {
+                                     IdImage& finest, BakeReport& report) {
     std::vector<uint32_t> coarsest(mesh.chartCount(), options.levels - 1);
-    IdImage image;
-    uint64_t covered = 0;
     if (!mesh.metric && options.density.empty()) {
         if (enclose(mesh))
             report.warnings.push_back(
                 {name, 0, 0, {}, "UVs outside of [0,1]²: the walk's charts were moved into it", true});
-        drawTriangles(mesh, options.resolution, image, &covered, &report.overlaps);
+        drawTriangles(mesh, options.resolution, finest, &report.overlaps);
         report.layoutKept = options.keep;
         if (options.keep) return coarsest;
         std::vector<uint32_t> borders = borderEdges(mesh);
@@ -168,7 +166,7 @@ Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, co
                                  "² with room around each: bake at a higher resolution");
     for (Triangle& t : mesh.triangles)
         for (glm::dvec2& uv : t.uv) uv = uv * placed.scale + placed.offset[t.chart];
-    drawTriangles(mesh, options.resolution, image, &covered, &report.overlaps);
+    drawTriangles(mesh, options.resolution, finest, &report.overlaps);
     return std::move(placed.coarsest);
 }
 

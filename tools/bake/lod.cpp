@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "runtime/core/jobs.hpp"
@@ -19,6 +20,8 @@ constexpr size_t kFewestTriangles = 48;
 constexpr double kWorthwhile = 0.75;        // of the triangles before: what can't be made simpler ends the chain
 constexpr float kLargestError = 1.0f / 16;  // of the bounding radius: beyond that it is another thing
 constexpr size_t kSamples = 2048;           // each way
+constexpr size_t kSamplesAtOnce = 64;
+constexpr float kAnyDistance = std::numeric_limits<float>::infinity();
 
 std::vector<glm::vec3> positionsOf(const std::vector<DrawVertex>& vertices) {
     std::vector<glm::vec3> out(vertices.size());
@@ -26,20 +29,23 @@ std::vector<glm::vec3> positionsOf(const std::vector<DrawVertex>& vertices) {
     return out;
 }
 
-// The largest distance from samples of one mesh, its corners and its triangles' middles, to the other.
-float distanceTo(const MeshTree& to, const std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices) {
+// The largest distance from samples of one mesh, its corners and its triangles' middles, to the other; `least` if that
+// is more.
+float distanceTo(const MeshTree& to, const std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices,
+                 float least) {
     const size_t triangles = indices.size() / 3, stride = std::max<size_t>(1, triangles * 2 / kSamples);
     const size_t count = (triangles + stride - 1) / stride;
-    std::vector<float> found(count, 0);
-    parallelFor(count, 64, [&](size_t begin, size_t end) {
+    std::vector<float> found((count + kSamplesAtOnce - 1) / kSamplesAtOnce, least);
+    parallelFor(count, kSamplesAtOnce, [&](size_t begin, size_t end) {
+        float& most = found[begin / kSamplesAtOnce];
         for (size_t i = begin; i < end; ++i) {
             const uint32_t* t = &indices[i * stride * 3];
             const glm::vec3 a = vertices[t[0]].position, b = vertices[t[1]].position, c = vertices[t[2]].position;
             for (glm::vec3 p : {a, (a + b + c) / 3.0f})
-                if (auto hit = to.nearest(p)) found[i] = std::max(found[i], hit->distance);
+                if (auto hit = to.nearest(p, kAnyDistance, most)) most = std::max(most, hit->distance);
         }
     });
-    return count == 0 ? 0 : *std::max_element(found.begin(), found.end());
+    return count == 0 ? least : *std::max_element(found.begin(), found.end());
 }
 
 // The largest distance to the mesh of bilinear reads between four inner texels of a chart, creases left out: there a
@@ -62,7 +68,7 @@ float levelError(const SurfaceLevelData& level, const MeshTree& mesh) {
         }
     float error = 0;
     for (glm::vec3 p : places)
-        if (auto hit = mesh.nearest(p)) error = std::max(error, hit->distance);
+        if (auto hit = mesh.nearest(p, kAnyDistance, error)) error = std::max(error, hit->distance);
     return error;
 }
 
@@ -175,9 +181,9 @@ void simplifyDrawing(const MeshTree& drawn, SurfaceData& surface) {
         dress(from, groups, indices);
         from = compact(from.vertices, std::vector<uint32_t>(materials), indices, materials);
         const MeshTree simple(positionsOf(from.vertices), from.indices);
-        from.error = std::max({distanceTo(simple, surface.vertices, surface.indices),
-                               distanceTo(drawn, from.vertices, from.indices),
-                               surface.coarser.empty() ? 0.0f : surface.coarser.back().error});
+        from.error = surface.coarser.empty() ? 0 : surface.coarser.back().error;
+        from.error = distanceTo(simple, surface.vertices, surface.indices, from.error);
+        from.error = distanceTo(drawn, from.vertices, from.indices, from.error);
         if (from.error > kLargestError * radius) return;
         surface.coarser.push_back(from);
     }

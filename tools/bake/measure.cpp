@@ -102,13 +102,31 @@ void measureCrossings(const std::vector<Link>& links, const std::vector<Contact>
     report.gap999 = percentile(gaps, 0.999);
 }
 
-// How far a triangle's map is from the chart's mean scale, in its worst direction: 1 is none.
+struct Weighted {
+    double value, area;
+};
+
+Distortion spread(std::vector<Weighted>& all, double total) {
+    std::sort(all.begin(), all.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+    Distortion out;
+    double sum = 0;
+    for (const Weighted& w : all) {
+        if (sum < total * 0.5) out.p50 = w.value;
+        if (sum < total * 0.95) out.p95 = w.value;
+        sum += w.area;
+    }
+    out.max = all.back().value;
+    return out;
+}
+
+// How far a triangle's map is from the chart's mean scale: in its worst direction, by its area, and, whatever its
+// scale, by its shape.
 void measureStretch(const BakeMesh& mesh, const SurfaceData& surface, BakeReport& report) {
-    struct Weighted {
-        double stretch, area;
-    };
-    std::vector<Weighted> all;
+    std::vector<Weighted> worst, ofArea, ofAngle;
     double total = 0;
+    const auto add = [](std::vector<Weighted>& to, double more, double less, double area) {
+        to.push_back({std::min(std::max(more, 1 / std::max(less, 1e-6)), 1e6), area});
+    };
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
         const TrianglePlane& plane = surface.triangles[t];
         double uu = glm::dot(glm::dvec3(plane.du), glm::dvec3(plane.du)),
@@ -118,17 +136,16 @@ void measureStretch(const BakeMesh& mesh, const SurfaceData& surface, BakeReport
         double scale = surface.charts[plane.chart].metresPerUv;
         double most = std::sqrt(mean + half) / scale, least = std::sqrt(std::max(mean - half, 0.0)) / scale;
         double area = area3(mesh, mesh.triangles[t]);
-        all.push_back({std::min(std::max(most, 1 / std::max(least, 1e-6)), 1e6), area});
+        add(worst, most, least, area);
+        add(ofArea, most * least, most * least, area);
+        add(ofAngle, most / std::max(least, 1e-6), 1, area);
         total += area;
     }
-    std::sort(all.begin(), all.end(), [](const Weighted& a, const Weighted& b) { return a.stretch < b.stretch; });
-    double sum = 0;
-    for (const Weighted& w : all) {
-        if (sum < total * 0.5) report.stretch50 = w.stretch;
-        if (sum < total * 0.95) report.stretch95 = w.stretch;
-        sum += w.area;
-    }
-    report.stretchMax = all.back().stretch;
+    const Distortion stretch = spread(worst, total);
+    report.stretch50 = stretch.p50, report.stretch95 = stretch.p95, report.stretchMax = stretch.max;
+    report.ofArea = spread(ofArea, total);
+    report.ofAngle = spread(ofAngle, total);
+    report.charted = std::min(1.0, total / (mesh.area - mesh.copied));
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ void gridTriangle(const std::array<glm::dvec2, 3>& p, int64_t size, int64_t yBeg
 
 }  // namespace
 
-void drawTriangles(const BakeMesh& mesh, uint32_t size, IdImage& image, uint64_t* covered, uint64_t* overlaps) {
+void drawTriangles(const BakeMesh& mesh, uint32_t size, IdImage& image, uint64_t* overlaps) {
     image.size = size;
     image.id.resize(size_t(size) * size);
     const Bands bands(mesh.triangles.size(), size, kBandRows, [&](size_t t) {
@@ -53,31 +53,27 @@ void drawTriangles(const BakeMesh& mesh, uint32_t size, IdImage& image, uint64_t
         return std::pair(std::min({uv[0].y, uv[1].y, uv[2].y}) * size - 0.5,
                          std::max({uv[0].y, uv[1].y, uv[2].y}) * size - 0.5);
     });
-    std::atomic<uint64_t> allCovered = 0, allOverlaps = 0;
+    std::atomic<uint64_t> all = 0;
     parallelFor(size, kBandRows, [&](size_t begin, size_t end) {
         uint32_t* ids = image.id.data();
         std::fill(ids + begin * size, ids + end * size, kNone);
-        uint64_t hits = 0, again = 0;
+        uint64_t again = 0;
         for (uint32_t t : bands.at(begin)) {
             const auto& uv = mesh.triangles[t].uv;
             std::array<glm::dvec2, 3> p = {uv[0] * double(size), uv[1] * double(size), uv[2] * double(size)};
             gridTriangle(p, size, int64_t(begin), int64_t(end), [&](int64_t y, int64_t x0, int64_t x1) {
                 uint32_t* line = ids + size_t(y) * size;
                 for (int64_t x = x0; x < x1; ++x) {
-                    if (line[x] == kNone) {
+                    if (line[x] == kNone)
                         line[x] = t;
-                        ++hits;
-                    } else {
+                    else
                         ++again;
-                    }
                 }
             });
         }
-        allCovered += hits;
-        allOverlaps += again;
+        all += again;
     });
-    if (covered) *covered = allCovered;
-    if (overlaps) *overlaps = allOverlaps;
+    if (overlaps) *overlaps = all;
 }
 
 std::vector<uint32_t> borderEdges(const BakeMesh& mesh) {

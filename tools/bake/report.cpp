@@ -56,7 +56,15 @@ std::string BakeReport::json() const {
                                             {"share", pieces[i].reachable / pieces[i].area},
                                             {"enclosed", pieces[i].enclosed}});
     j["walkable_area"] = walkableArea;
-    j["stretch"] = {{"p50", stretch50}, {"p95", stretch95}, {"max", stretchMax}};
+    j["charted"] = charted;
+    const auto spread = [](const Distortion& d) {
+        return ordered_json{{"p50", d.p50}, {"p95", d.p95}, {"max", d.max}};
+    };
+    j["stretch"] = {{"p50", stretch50},
+                    {"p95", stretch95},
+                    {"max", stretchMax},
+                    {"area", spread(ofArea)},
+                    {"angle", spread(ofAngle)}};
     j["round_trip_texels"] = {{"p50", roundTrip50}, {"p999", roundTrip999}};
     j["gap_texels"] = {{"p999", gap999}};
     j["levels"] = ordered_json::array();
