@@ -197,6 +197,10 @@ int main(int argc, char** argv) {
     app.add_flag("--keep-layout", arguments.bake.keepLayout, "never move charts apart");
     app.add_option("--grammar", arguments.town.grammar,
                    "of a town: writes all that this grammar of roofs makes, as triangles; else walls and roof planes");
+    app.add_flag(
+        "--walls", arguments.town.walls,
+        "of a town, with --grammar: its walls alone, without windows and doors: bake that as ground for plants");
+    app.add_option("--house", arguments.town.houses, "of a town: only these, by id; may be repeated")->take_all();
     app.add_option("--meshes", arguments.town.meshes, "of a town: its terminals (default: roofs.glb of the content)");
     app.add_flag("-q,--quiet", arguments.quiet, "no progress, warnings only");
     CLI11_PARSE(app, argc, argv);

@@ -1,6 +1,7 @@
 // In: footprints. Out: a glTF 2.0 binary of the town's houses (Buron 2013 §5: geometry only where someone asks for it).
 #include "tools/bake/main/town.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include "runtime/core/glb.hpp"
 #include "runtime/roof/shapes.hpp"
 #include "tools/bake/main/town_mesh.hpp"
+#include "tools/bake/main/town_walls.hpp"
 
 namespace espalier {
 namespace {
@@ -118,12 +120,27 @@ Status addTiles(const TownArguments& arguments, const RoofStructure& structure, 
         gridsOf[roofs.records.grids[i].house & 0xFFFFFFu].push_back(i);
     for (uint32_t h = 0; h < structure.houses.size(); ++h) {
         RoofTriangles mesh;
-        for (uint32_t g : gridsOf[h]) appendGrid(env, roofs.records.grids[g], *meshes, mesh);
+        if (arguments.walls)
+            appendWalls(env, gridsOf[h], structure.houses[h], mesh);
+        else
+            for (uint32_t g : gridsOf[h]) appendGrid(env, roofs.records.grids[g], *meshes, mesh);
         triangles += mesh.indices.size() / 3;
         if (!glb.add(structure.houses[h].id, mesh))
             return Failure(arguments.output,
                            "more than 3 GiB of triangles: leave the grammar out, or give fewer houses");
     }
+    return Done{};
+}
+
+// Leaves the footprints that were asked for.
+Status keepHouses(const TownArguments& arguments, std::vector<Footprint>& footprints) {
+    for (const std::string& id : arguments.houses)
+        if (std::none_of(footprints.begin(), footprints.end(), [&](const Footprint& f) { return f.id == id; }))
+            return Failure(arguments.footprints, "holds no building '" + id + "'");
+    if (!arguments.houses.empty())
+        std::erase_if(footprints, [&](const Footprint& f) {
+            return std::find(arguments.houses.begin(), arguments.houses.end(), f.id) == arguments.houses.end();
+        });
     return Done{};
 }
 
@@ -143,6 +160,9 @@ Status bakeTown(const TownArguments& arguments) {
     if (!text) return text.failure();
     Result<Town> town = parseFootprints(*text, arguments.footprints);
     if (!town) return town.failure();
+    if (arguments.walls && arguments.grammar.empty())
+        return Failure(arguments.footprints, "--walls needs --grammar: it says where windows and doors are");
+    if (Status s = keepHouses(arguments, town->footprints); !s) return s;
     std::vector<Diagnostic> diagnostics = std::move(town->diagnostics);
     const RoofStructure structure = roofsOf(town->footprints, diagnostics);
     for (const Diagnostic& d : diagnostics) std::fprintf(stderr, "%s\n", toString(d).c_str());

@@ -1,0 +1,108 @@
+// A town's walls as ground: judged against all that the same grammar makes, as triangles.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.hpp"
+
+namespace {
+
+using Point = std::array<float, 3>;
+
+struct House {
+    std::string name;
+    std::vector<Point> corners;  // three a triangle
+};
+
+// Of the files that espalier-bake writes for towns: a node a house, positions and indices of one primitive.
+std::vector<House> readTown(const std::string& path) {
+    const std::string bytes = readAll(path);
+    REQUIRE(bytes.size() > 20);
+    uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, 4);
+    const auto json = nlohmann::json::parse(bytes.substr(20, length));
+    const char* binary = bytes.data() + 20 + length + 8;
+    const auto begin = [&](int accessor) {
+        const auto& view = json["bufferViews"][json["accessors"][size_t(accessor)]["bufferView"].get<size_t>()];
+        return binary + view["byteOffset"].get<size_t>();
+    };
+    std::vector<House> houses;
+    for (const auto& mesh : json["meshes"]) {
+        const auto& primitive = mesh["primitives"][0];
+        const int indices = primitive["indices"];
+        House house{mesh["name"], {}};
+        for (size_t i = 0; i < json["accessors"][size_t(indices)]["count"].get<size_t>(); ++i) {
+            uint32_t index = 0;
+            std::memcpy(&index, begin(indices) + 4 * i, 4);
+            Point p;
+            std::memcpy(p.data(), begin(primitive["attributes"]["POSITION"]) + 12 * size_t(index), 12);
+            house.corners.push_back(p);
+        }
+        houses.push_back(house);
+    }
+    return houses;
+}
+
+// Twice the area to the left of a-b-c, seen along z.
+float turn(const Point& a, const Point& b, const Point& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+}
+
+}  // namespace
+
+TEST_CASE("walls as ground have none where windows and doors stand out, and stand where the house's do") {
+    const Folder folder;
+    folder.write("plan.json", R"({"buildings": [
+ {"id": "a", "outer": [[0, 0], [14, 0], [14, 9], [0, 9]], "roof:shape": "hipped", "roof:material": "slate", "building:levels": 2},
+ {"id": "b", "outer": [[20, 0], [30, 0], [30, 8], [20, 8]], "building:levels": 1}]})");
+    const std::string bake = "cd " + folder.path.string() + " && " + program("espalier-bake") +
+                             " plan.json -q --grammar " + content("grammars/town.grammar");
+    const Ran walls = run(bake + " --house a --walls -o walls.glb"), all = run(bake + " -o all.glb");
+    REQUIRE_MESSAGE(walls.code == 0, walls.output);
+    REQUIRE_MESSAGE(all.code == 0, all.output);
+    const std::vector<House> ground = readTown(folder.file("walls.glb")), town = readTown(folder.file("all.glb"));
+    REQUIRE(ground.size() == 1);
+    REQUIRE(ground[0].name == "a");
+    REQUIRE(town.size() == 2);
+
+    // The wall towards the south, at z = 0.
+    constexpr float kLength = 14, kPlinth = .6f, kHeight = 2 * 2.9f;
+    std::vector<std::array<Point, 3>> south;
+    double area = 0;
+    for (size_t i = 0; i + 2 < ground[0].corners.size(); i += 3) {
+        const std::array<Point, 3> t{ground[0].corners[i], ground[0].corners[i + 1], ground[0].corners[i + 2]};
+        for (const Point& p : t)
+            CHECK((p[0] > -.2f && p[0] < kLength + .2f && p[1] > -.01f && p[2] < .2f && p[2] > -9.2f));
+        if (t[0][2] < 0 || t[1][2] < 0 || t[2][2] < 0) continue;
+        if (turn(t[0], t[1], t[2]) <= 1e-6f) continue;  // a ledge
+        area += .5 * turn(t[0], t[1], t[2]);
+        south.push_back(t);
+    }
+    CHECK(area > .4 * kLength * kHeight);
+    CHECK(area < .97 * kLength * kHeight);
+
+    size_t standOut = 0, covered = 0;
+    for (const Point& p : town[0].corners) {
+        if (p[2] < .025f || p[2] > .25f || p[1] < kPlinth || p[1] > kHeight - .8f || p[0] < .5f || p[0] > kLength - .5f)
+            continue;
+        ++standOut;
+        for (const auto& t : south)
+            if (turn(t[0], t[1], p) >= 0 && turn(t[1], t[2], p) >= 0 && turn(t[2], t[0], p) >= 0) {
+                ++covered;
+                break;
+            }
+    }
+    CHECK(standOut > 100);
+    CHECK(covered == 0);
+
+    const Ran unknown = run(bake + " --house nobody -o x.glb");
+    CHECK(unknown.code == 1);
+    CHECK(contains(unknown.output, "plan.json: holds no building 'nobody'"));
+    const Ran bare =
+        run("cd " + folder.path.string() + " && " + program("espalier-bake") + " plan.json --walls -o x.glb");
+    CHECK(bare.code == 1);
+    CHECK(contains(bare.output, "--walls needs --grammar"));
+}

@@ -1,0 +1,182 @@
+// In: a house's outline and the grids of its walls. Out: triangles. All walls of a house are divided at the same
+// heights, so that they meet in equal corners; cells under an opening are left out.
+#include "tools/bake/main/town_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shaders/shared/roof_cells.h"
+
+namespace espalier {
+namespace {
+
+constexpr float kBefore = 0.01f;  // metres before the plaster
+constexpr float kStandsOut = 0.02f, kNear = 0.3f;
+constexpr float kMargin = 0.03f;     // left bare around an opening
+constexpr float kBelowEave = 0.3f;  // where leaves don't come through the tiles
+constexpr float kWhole = 0.9f;       // of a wall, that a plinth is long at least
+constexpr uint32_t kWallColour = 0xFF8FB0C4;
+
+struct Rect {
+    glm::vec2 low, high;  // along the wall and up, metres
+};
+
+struct Wall {
+    glm::vec3 foot, along, out;  // unit
+    float length = 0;
+    std::vector<Rect> openings;
+    float plinth = 0, plinthOut = 0;  // height and how far it stands out
+};
+
+// The cell's box in the wall's frame: along, up, out.
+void boxOf(const RoofGrid& g, const RoofMesh& mesh, glm::vec2 corner, const Wall& wall, glm::vec3& low,
+           glm::vec3& high) {
+    const glm::vec3 x(g.axisX), y(g.axisY), up = glm::cross(x, y);
+    low = glm::vec3(1e30f);
+    high = -low;
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec3 unit(i & 1 ? mesh.high.x : mesh.low.x, i & 2 ? mesh.high.y : mesh.low.y,
+                             i & 4 ? mesh.high.z : mesh.low.z);
+        const glm::vec3 p = glm::vec3(g.origin) + x * (corner.x + unit.x * g.size.x) +
+                            y * (corner.y + unit.y * g.size.y) + up * (unit.z * g.thickness) - wall.foot;
+        const glm::vec3 at(glm::dot(p, wall.along), p.y, glm::dot(p, wall.out));
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+}
+
+void takeCell(const RoofGrid& g, const RoofMesh& mesh, glm::vec2 corner, std::vector<Wall>& walls) {
+    const glm::vec3 faces = glm::cross(glm::vec3(g.axisX), glm::vec3(g.axisY));
+    for (Wall& wall : walls) {
+        if (glm::dot(faces, wall.out) < 0.99f * glm::length(faces)) continue;
+        glm::vec3 low, high;
+        boxOf(g, mesh, corner, wall, low, high);
+        if (low.z < -kNear || low.z > kNear || high.z < kStandsOut || high.x < 0 || low.x > wall.length) continue;
+        if (low.y < kMargin && high.x - low.x > kWhole * wall.length) {
+            wall.plinth = std::max(wall.plinth, high.y);
+            wall.plinthOut = std::max(wall.plinthOut, high.z);
+        } else {
+            wall.openings.push_back({glm::vec2(low) - kMargin, glm::vec2(high) + kMargin});
+        }
+    }
+}
+
+void takeGrid(const RoofEnv& env, const RoofGrid& g, std::vector<Wall>& walls) {
+    if (std::abs(glm::cross(glm::vec3(g.axisX), glm::vec3(g.axisY)).y) > 0.01f) return;
+    const RoofMesh mesh = env.meshes.v[g.mesh & 255u];
+    if (g.firstRow == kNoIndex) return takeCell(g, mesh, {0, 0}, walls);
+    for (uint32_t row = 0; row < g.cells >> 16; ++row) {
+        const uint32_t run = env.runs.v[g.firstRow + row].touched;
+        for (uint32_t c = runFirst(run); c < runFirst(run) + runCount(run); ++c)
+            takeCell(g, mesh, glm::vec2(c, row) * glm::vec2(g.step), walls);
+    }
+}
+
+// Rising, no two nearer than a centimetre; what lies outside of 0 to `end` is pulled in.
+std::vector<float> cuts(std::vector<float> at, float end) {
+    at.insert(at.end(), {0, end});
+    for (float& v : at) v = std::clamp(v, 0.0f, end);
+    std::sort(at.begin(), at.end());
+    std::vector<float> kept;
+    for (float v : at)
+        if (kept.empty() || v - kept.back() > 0.01f) kept.push_back(v);
+    kept.back() = end;
+    return kept;
+}
+
+class Builder {
+  public:
+    Builder(const RoofHouse& house, RoofTriangles& out) : house_(house), out_(out) {}
+
+    void build(const RoofEnv& env, const std::vector<uint32_t>& grids) {
+        std::vector<size_t> sizes;
+        for (const auto& ring : house_.rings) {
+            sizes.push_back(ring.size());
+            for (size_t i = 0; i < ring.size(); ++i) walls_.push_back(wallFrom(ring[i], ring[(i + 1) % ring.size()]));
+        }
+        for (uint32_t g : grids) takeGrid(env, env.grids.v[g], walls_);
+        std::vector<float> heights;
+        for (const Wall& wall : walls_) {
+            plinth_ = std::max(plinth_, wall.plinth);
+            plinthOut_ = std::max(plinthOut_, wall.plinthOut);
+            for (const Rect& r : wall.openings) heights.insert(heights.end(), {r.low.y, r.high.y});
+        }
+        if (plinth_ > 0) heights.push_back(plinth_);
+        heights_ = cuts(std::move(heights), std::max(house_.eaveHeight - house_.baseHeight - kBelowEave, 0.1f));
+        size_t first = 0;
+        for (size_t size : sizes) {
+            for (size_t i = 0; i < size; ++i)
+                write(walls_[first + (i + size - 1) % size], walls_[first + i], walls_[first + (i + 1) % size]);
+            first += size;
+        }
+    }
+
+  private:
+    Wall wallFrom(glm::vec2 a, glm::vec2 b) const {
+        Wall wall;
+        const glm::vec2 to = (b - a) / glm::distance(a, b);
+        wall.foot = {house_.origin.x + a.x, house_.baseHeight, -a.y - house_.origin.y};
+        wall.along = {to.x, 0, -to.y};
+        wall.out = {to.y, 0, to.x};
+        wall.length = glm::distance(a, b);
+        return wall;
+    }
+    // Where the wall's column stands, `before` metres before the plaster; its ends are those of its neighbours.
+    static glm::vec3 corner(const Wall& wall, const Wall& next, float before) {
+        const glm::vec3 both = wall.out + next.out;
+        return next.foot + both * (before / std::max(0.5f * glm::dot(both, both), 0.1f));
+    }
+    void write(const Wall& last, const Wall& wall, const Wall& next) {
+        std::vector<float> along;
+        for (const Rect& r : wall.openings) along.insert(along.end(), {r.low.x, r.high.x});
+        along = cuts(std::move(along), wall.length);
+        const size_t columns = along.size() - 1, rows = heights_.size() - 1;
+        const auto at = [&](size_t column, float height, float before) {
+            glm::vec3 p = column == 0         ? corner(last, wall, before)
+                          : column == columns ? corner(wall, next, before)
+                                              : wall.foot + wall.along * along[column] + wall.out * before;
+            p.y += height;
+            return p;
+        };
+        const auto open = [&](size_t column, size_t row) {
+            const glm::vec2 middle((along[column] + along[column + 1]) / 2, (heights_[row] + heights_[row + 1]) / 2);
+            return std::any_of(wall.openings.begin(), wall.openings.end(), [&](const Rect& r) {
+                return glm::all(glm::greaterThan(middle, r.low)) && glm::all(glm::lessThan(middle, r.high));
+            });
+        };
+        const auto before = [&](size_t row) { return heights_[row] < plinth_ - 0.02f ? plinthOut_ : kBefore; };
+        for (size_t row = 0; row < rows; ++row)
+            for (size_t c = 0; c < columns; ++c) {
+                if (open(c, row)) continue;
+                const float low = heights_[row], high = heights_[row + 1], d = before(row);
+                quad(at(c, low, d), at(c + 1, low, d), at(c + 1, high, d), at(c, high, d));
+                // The ledge from a plinth to the wall above it.
+                if (row + 1 < rows && before(row + 1) != d && !open(c, row + 1))
+                    quad(at(c, high, d), at(c + 1, high, d), at(c + 1, high, kBefore), at(c, high, kBefore));
+            }
+    }
+    void quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
+        const uint32_t first = uint32_t(out_.positions.size());
+        const glm::vec3 normal = glm::normalize(glm::cross(c - a, d - b));
+        for (glm::vec3 p : {a, b, c, d}) {
+            out_.positions.push_back(p);
+            out_.normals.push_back(normal);
+            out_.colours.push_back(kWallColour);
+        }
+        for (uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) out_.indices.push_back(first + i);
+    }
+
+    const RoofHouse& house_;
+    RoofTriangles& out_;
+    std::vector<Wall> walls_;
+    std::vector<float> heights_;
+    float plinth_ = 0, plinthOut_ = 0;
+};
+
+}  // namespace
+
+void appendWalls(const RoofEnv& env, const std::vector<uint32_t>& grids, const RoofHouse& house, RoofTriangles& out) {
+    Builder(house, out).build(env, grids);
+}
+
+}  // namespace espalier
