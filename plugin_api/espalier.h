@@ -106,6 +106,9 @@ typedef struct EspSurfaceInfo {
 /* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from
  * one to the other. */
 ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
+/* Likewise, of ground that something else draws, such as the walls of a town's houses: of it only ESP_VIEW_CHARTS and
+ * ESP_VIEW_LAYER show anything, and it casts no shadow. */
+ESP_API EspResult espLoadGround(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
 /* Puts a surface elsewhere, with its seeds and layers. In the next espUpdate contacts with other surfaces are found anew,
  * and plants grow again that can get to it from where they stand; others are left alone. */
 ESP_API EspResult espMoveSurface(EspContext* context, EspSurface surface, const EspTransform* place);

@@ -91,7 +91,7 @@ void surfacesChanged(EspContext& context) {
     context.touch();
 }
 
-EspResult load(EspContext& context, const char* path, const EspTransform& place, EspSurface* out) {
+EspResult load(EspContext& context, const char* path, const EspTransform& place, bool groundOnly, EspSurface* out) {
     const glm::mat4 toWorld = matrixOf(place);
     const std::optional<float> scale = evenScale(toWorld);
     if (!scale)
@@ -119,7 +119,7 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     if (!id) return fail(&context, ESP_OUT_OF_MEMORY, "espLoadSurface: no ids left");
     PlacedSurface& placed = *context.surfaces.find(id);
     placed.instance = instanceOf(id);
-    Status drawn = context.renderer->setSurface(placed.instance, placed.data, toWorld);
+    Status drawn = context.renderer->setSurface(placed.instance, placed.data, toWorld, groundOnly);
     if (!drawn) {
         context.surfaces.erase(id);
         return failGpu(&context, drawn.failure());
@@ -234,7 +234,14 @@ EspTransform espIdentity(void) {
 EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out) {
     return guarded(context, [&] {
         if (!path || !out) return fail(context, ESP_INVALID_ARGUMENT, "espLoadSurface: null pointer");
-        return load(*context, path, place ? *place : espIdentity(), out);
+        return load(*context, path, place ? *place : espIdentity(), false, out);
+    });
+}
+
+EspResult espLoadGround(EspContext* context, const char* path, const EspTransform* place, EspSurface* out) {
+    return guarded(context, [&] {
+        if (!path || !out) return fail(context, ESP_INVALID_ARGUMENT, "espLoadGround: null pointer");
+        return load(*context, path, place ? *place : espIdentity(), true, out);
     });
 }
 

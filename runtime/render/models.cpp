@@ -117,8 +117,9 @@ void Models::Model::place(const glm::mat4& to) {
     }
 }
 
-Status Models::set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld) {
+Status Models::set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly) {
     Model model;
+    model.groundOnly = groundOnly;
     model.objectLow = data.boundsMin;
     model.objectHigh = data.boundsMax;
     model.place(toWorld);
@@ -152,6 +153,10 @@ uint32_t Models::simplest(const Model& model, float error) {
 
 void Models::choose(glm::vec3 eye, float pixelScale, float pixels) {
     for (auto& [index, model] : models_) {
+        if (model.groundOnly) {
+            model.step = kFadeFrames;
+            continue;
+        }
         const float distance = glm::length(eye - glm::clamp(eye, model.low, model.high));
         const uint32_t wanted = simplest(model, pixels * distance / pixelScale);
         if (model.step == 0) {  // at once, where nothing was seen before
@@ -184,8 +189,9 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
 }
 
 void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow,
-                  const Ground& ground, bool walkData) const {
+                  const Ground& ground, bool walkData, bool drawnOnly) const {
     for (const auto& [index, model] : models_) {
+        if (drawnOnly && model.groundOnly) continue;
         pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
         const auto drawMesh = [&](uint32_t mesh, float fade) {
@@ -217,7 +223,7 @@ void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, c
 
 void Models::drawAhead(DrawPass& pass, const Program& program, const Buffer& frame) const {
     for (const auto& [index, model] : models_) {
-        if (model.step != kFadeFrames) continue;
+        if (model.step != kFadeFrames || model.groundOnly) continue;
         pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
         const Mesh& mesh = model.meshes[model.shown];
@@ -232,6 +238,7 @@ void Models::drawAhead(DrawPass& pass, const Program& program, const Buffer& fra
 
 void Models::drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const {
     for (const auto& [index, model] : models_) {
+        if (model.groundOnly) continue;
         pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
         const uint32_t mesh = simplest(model, error);
@@ -249,6 +256,7 @@ uint64_t Models::triangles() const {
         for (const DrawRange& range : mesh.ranges) sum += range.indexCount / 3;
     };
     for (const auto& [index, model] : models_) {
+        if (model.groundOnly) continue;
         add(model.meshes[model.shown]);
         if (model.step < kFadeFrames) add(model.meshes[model.before]);
     }

@@ -18,7 +18,8 @@ class Models {
   public:
     static Result<Models> create(Device& device);
 
-    Status set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld);
+    // groundOnly: something else draws it, see draw().
+    Status set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly);
     void remove(uint32_t index);
     void place(uint32_t index, const glm::mat4& toWorld);
 
@@ -27,9 +28,10 @@ class Models {
     void choose(glm::vec3 eye, float pixelScale, float pixels);
     static constexpr uint32_t kFadeFrames = 8;
 
-    // Draws all of them as chosen. ground: of it the meadow at their feet is made, and their grain.
+    // Draws all of them as chosen, but for those that are ground only if `drawnOnly`. ground: of it the meadow at their
+    // feet is made, and their grain.
     void draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow, const Ground& ground,
-              bool walkData) const;
+              bool walkData, bool drawnOnly) const;
     // The depths of those that draw() draws whole: they go ahead, so that it shades only what is seen.
     void drawAhead(DrawPass& pass, const Program& program, const Buffer& frame) const;
     // The simplest meshes with an error of at most `error` metres.
@@ -54,6 +56,7 @@ class Models {
         std::vector<Mesh> meshes;  // of rising error, 0 the model itself
         uint32_t shown = 0, before = 0;
         uint32_t step = 0;  // of kFadeFrames from `before` to `shown`; 0: never drawn
+        bool groundOnly = false;
         std::vector<Material> materials;
         std::vector<Image> colors, normals;  // one a picture of the file; empty where unused in that role
         glm::vec3 objectLow{0}, objectHigh{0};

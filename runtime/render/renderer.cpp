@@ -170,7 +170,9 @@ Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& input
 
 // All that growth stands among.
 void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post) {
-    models_.draw(pass, scene_->model, *frame_, {shadowMap_, shadowSampler_}, ground_, inputs.surfaces.v != nullptr);
+    const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
+    models_.draw(pass, scene_->model, *frame_, {shadowMap_, shadowSampler_}, ground_, inputs.surfaces.v != nullptr,
+                 !onGround);
     if (furnished_) props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, explained_);
     if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, explained_);
 }

@@ -88,8 +88,10 @@ class Renderer {
     static Result<std::unique_ptr<Renderer>> create(Device& device, const std::filesystem::path& terminals);
     virtual ~Renderer() = default;
 
-    // The drawn mesh of surface instance `index`; uploads and waits.
-    virtual Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld) = 0;
+    // The drawn mesh of surface instance `index`; uploads and waits. groundOnly: something else draws it; only views of
+    // charts and of a layer show it.
+    virtual Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld,
+                              bool groundOnly = false) = 0;
     virtual void removeSurface(uint32_t index) = 0;
     // Draws a surface that was set elsewhere.
     virtual void placeSurface(uint32_t index, const glm::mat4& toWorld) = 0;

@@ -20,8 +20,8 @@ class RendererImpl final : public Renderer {
     explicit RendererImpl(Device& device) : device_(device) {}
 
     Status setUp(TerminalData data);
-    Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld) override {
-        return models_.set(device_, index, data, toWorld);
+    Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly) override {
+        return models_.set(device_, index, data, toWorld, groundOnly);
     }
     void removeSurface(uint32_t index) override { models_.remove(index); }
     void placeSurface(uint32_t index, const glm::mat4& toWorld) override { models_.place(index, toWorld); }

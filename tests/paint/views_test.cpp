@@ -110,3 +110,69 @@ TEST_CASE("a layer of no opacity leaves the model as it is, a full one doesn't")
     look.viewOpacity = 1;
     CHECK(!alike(at(picture(painting, look), 48, 48), at(shaded, 48, 48)));
 }
+
+TEST_CASE("ground that something else draws is seen in views of charts and layers only, and plants grow on it") {
+    Painting painting;
+    painting.ok(espDestroySurface(painting.context, painting.surface));
+    EspLook look = espDefaultLook();
+    const std::vector<uint8_t> nothing = picture(painting, look);
+    painting.ok(espLoadGround(painting.context, painting.path.c_str(), nullptr, &painting.surface));
+    CHECK(picture(painting, look) == nothing);
+    look.view = ESP_VIEW_NORMALS;
+    CHECK(alike(at(picture(painting, look), 48, 48), at(picture(painting, look), 2, 48)));
+    look.view = ESP_VIEW_CHARTS;
+    CHECK(!alike(at(picture(painting, look), 48, 48), at(nothing, 48, 48)));
+    EspStroke stroke{};
+    painting.ok(espFillLayer(painting.context, "moss", 1, &stroke));
+    look.view = ESP_VIEW_LAYER;
+    look.viewLayer = "moss";
+    CHECK(!alike(at(picture(painting, look), 48, 48), at(nothing, 48, 48)));
+    painting.plant(
+        painting.grammar("Vine -> Marching(0.05, 0, arc < 1) {Vine, Wood}\nWood -> S(0.2) Shape(\"bark\")\n"),
+        {0, -.5f, 1}, {0, 1, 0});
+    CHECK(painting.grown().nodes > 10);
+    CHECK(!alike(at(picture(painting, espDefaultLook()), 48, 48), at(nothing, 48, 48)));
+}
+
+TEST_CASE("leaves take the colour and the size that are painted for them") {
+    const Painting painting;
+    const EspGrammar grammar = painting.grammar(
+        "param turned = #b8350c \"Turned leaves\"\n"
+        "context autumn = 0 \"Share of leaves that have turned\"\n"
+        "context lush = 0.2 \"Size of leaves\"\n"
+        "Vine -> Marching(0.05, 0, arc < 1.6) {Vine, Leaves}\n"
+        "Leaves -> Repeat(every(0.03)) {S(0.5 * lush(texCoord)) R(rand(-3, 3)) Leaf}\n"
+        "Leaf : rand() < autumn(texCoord) -> Colour(turned) Shape(\"leaf\")\n"
+        "Leaf -> Shape(\"leaf\")\n");
+    painting.plant(grammar, {0, -.8f, 1}, {0, 1, 0});
+    const std::vector<uint8_t> bare = picture(Painting(), espDefaultLook());
+    struct Seen {
+        int red = 0, green = 0;
+        int both() const { return red + green; }
+    };
+    const auto seen = [&](uint32_t fromY, uint32_t toY) {
+        const std::vector<uint8_t> shown = picture(painting, espDefaultLook());
+        Seen found;
+        for (uint32_t y = fromY; y < toY; ++y)
+            for (uint32_t x = 0; x < kSide; ++x) {
+                const Pixel p = at(shown, x, y);
+                if (alike(p, at(bare, x, y))) continue;
+                found.red += p[0] > p[1] + 25;
+                found.green += p[1] > p[0] + 8;
+            }
+        return found;
+    };
+    const Seen before = seen(0, kSide);
+    CHECK(before.green > 20);
+    CHECK(before.red < before.green / 10);
+    // The upper half has turned, the lower stays green.
+    painting.stroke(brushOn("autumn", .8f, 1, 1), {{{0, .85f, 1}, {0, 0, 1}, 1}});
+    const Seen up = seen(0, kSide / 2 - 6), down = seen(kSide / 2 + 6, kSide);
+    CHECK(up.red > 10);
+    CHECK(up.green < up.red / 3);
+    CHECK(down.green > 10);
+    CHECK(down.red < down.green / 3);
+    EspStroke stroke{};
+    painting.ok(espFillLayer(painting.context, "lush", .6f, &stroke));
+    CHECK(seen(0, kSide).both() > 2 * before.both());
+}

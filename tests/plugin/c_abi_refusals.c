@@ -17,6 +17,7 @@ void badArguments(EspContext* context) {
     CHECK(espParamCount(NULL, grammar) == 0 && espLayerName(context, noGrammar, 0)[0] == 0);
     CHECK(espReadStats(context, NULL) == ESP_INVALID_ARGUMENT && espLastError(context)[0] != 0);
     REFUSED(espLoadSurface(context, NULL, NULL, &surface));
+    REFUSED(espLoadGround(context, NULL, NULL, &surface));
     CHECK(espLoadSurface(context, "no/such/file.glb", NULL, &surface) == ESP_IO_FAILED);
     CHECK(strstr(espLastError(context), "no/such/file.glb") != NULL && surface.id == 0);
     CHECK(espLoadSurface(context, ".", NULL, &surface) == ESP_IO_FAILED);

@@ -97,7 +97,8 @@ SceneFile describe(const Document& document) {
     const scene::Scene& scene = document.scene();
     SceneFile out;
     out.project = SceneFile::kProjectVersion;
-    for (const scene::LoadedSurface& surface : scene.surfaces) out.surfaces.push_back({surface.file, surface.placing});
+    for (const scene::LoadedSurface& surface : scene.surfaces)
+        out.surfaces.push_back({surface.file, surface.placing, surface.drawn});
     for (size_t i = 0; i < scene.grammars.size(); ++i) {
         const scene::LoadedGrammar& grammar = scene.grammars[i];
         scene::SceneGrammar& described = out.grammars.emplace_back();

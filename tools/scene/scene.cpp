@@ -256,10 +256,11 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
     SceneFile file;
     if (!readSceneFile(request.file, file, error)) return false;
     for (const SceneSurface& described : file.surfaces) {
-        LoadedSurface& surface = out.surfaces.emplace_back(LoadedSurface{described.file, described.placing, {}});
+        LoadedSurface& surface =
+            out.surfaces.emplace_back(LoadedSurface{described.file, described.placing, described.drawn, {}});
         const EspTransform place = surface.placing.transform();
-        if (!fromContext(context, espLoadSurface(context, surface.file.c_str(), &place, &surface.id), error))
-            return false;
+        const auto load = surface.drawn ? espLoadSurface : espLoadGround;
+        if (!fromContext(context, load(context, surface.file.c_str(), &place, &surface.id), error)) return false;
     }
     uint32_t number = request.seed.value_or(0);
     for (size_t i = 0; i < file.grammars.size(); ++i) {

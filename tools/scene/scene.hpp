@@ -35,6 +35,7 @@ struct Placing {
 struct LoadedSurface {
     std::string file;
     Placing placing;
+    bool drawn = true;  // false: it is ground only, and something else draws it
     EspSurface id{};
 };
 

@@ -86,11 +86,12 @@ class Reader {
         if (many->kind != Json::Kind::list || many->items.empty())
             fail(*many, "'surfaces' must be a list of at least one");
         for (const Json& surface : many->items) {
-            if (!isObject(surface, "a surface", {"file", "position", "turn", "scale"})) continue;
+            if (!isObject(surface, "a surface", {"file", "position", "turn", "scale", "drawn"})) continue;
             SceneSurface& placed = out_.surfaces.emplace_back();
             if (const Json* name = need(surface, "file")) placed.file = file(*name);
             readPlace(surface, placed.placing);
             number(surface, "scale", 1e-4f, 1e4f, placed.placing.scale);
+            flag(surface, "drawn", placed.drawn);
         }
     }
     void readPlace(const Json& json, Placing& placing) {

@@ -18,6 +18,7 @@ struct SceneParam {
 struct SceneSurface {
     std::string file;
     Placing placing;
+    bool drawn = true;
 };
 
 struct SceneGrammar {

@@ -84,8 +84,10 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     };
     ordered_json json;
     if (file.project) json["project"] = file.project;
-    for (const SceneSurface& surface : file.surfaces)
+    for (const SceneSurface& surface : file.surfaces) {
         json["surfaces"].push_back(placedJson(beside(surface.file), surface.placing));
+        if (!surface.drawn) json["surfaces"].back()["drawn"] = false;
+    }
     if (file.town) json["town"] = townJson(*file.town, beside(file.town->file));
     if (!file.site.empty()) json["site"] = beside(file.site);
     for (uint64_t branch : file.pruned) {
