@@ -277,10 +277,8 @@ void AtlasView::tellAt(const View& view) const {
 void AtlasView::show(Workspace& work) {
     if (!work.layout.atlas || work.scene().surfaces.empty()) return;
     const float s = work.scale;
-    ImGui::SetNextWindowPos({work.window.x - 500 * s, work.window.y - 590 * s}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({480 * s, 540 * s}, ImGuiCond_FirstUseEver);
-    if (!ImGui::Begin("Atlas", &work.layout.atlas,
-                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | kQuiet))
+    if (!beginWindow(work, "Atlas", &work.layout.atlas, {work.window.x - 500 * s, work.window.y - 590 * s},
+                     {480 * s, 540 * s}, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
         return ImGui::End();
     if (wanted_.surface >= work.scene().surfaces.size()) wanted_.surface = 0;
     controls(work);

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "sample_game/panels.hpp"
+
 namespace sample {
 namespace {
 
@@ -72,6 +74,7 @@ bool GuiEvents::feedMouse() {
 }
 
 void GuiEvents::feedKeys(bool typing, std::vector<KeyEvent>& pressed) {
+    if (awaitsText()) return;
     bool keyed = false, wrote = false;
     for (bool asked = false; !keys_.empty() && !asked; keys_.pop_front()) {
         const Key& e = keys_.front();

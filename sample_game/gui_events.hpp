@@ -18,7 +18,7 @@ bool overPanel(float x, float y);
 // Keys, letters and clicks on their way to ImGui, which sees only how things stand once a frame. With frames that take
 // long, a key that went down and up in between would be lost to it, and a click would land where the mouse is by now:
 // so it gets no more at a time than it can tell apart, and the rest with the next frames. What is typed after the key
-// that asks for a dialogue waits for the dialogue.
+// that asks for a dialogue waits until the dialogue can be typed into.
 class GuiEvents {
   public:
     void key(GLFWwindow* window, int key, int scancode, int action, int mods);

@@ -30,12 +30,14 @@ void toolButtons(Workspace& work) {
     // Only scenes with a town have roofs.
     const size_t count = std::size(entries) - (espHouseCount(work.context.get()) ? 0 : 1);
     const float width = (ImGui::GetContentRegionAvail().x - gap * float(count - 1)) / float(count);
+    const auto full = [](const Entry& entry) { return std::string(entry.label) + " " + entry.key; };
+    const bool fit = std::ranges::all_of(std::span(entries, count), [&](const Entry& entry) {
+        return ImGui::CalcTextSize(full(entry).c_str()).x + 4 * work.scale < width;
+    });
     for (const Entry& entry : std::span(entries, count)) {
         const bool on = work.tool == entry.tool;
         if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        const std::string full = std::string(entry.label) + " " + entry.key;
-        const bool fits = ImGui::CalcTextSize(full.c_str()).x + 4 * work.scale < width;
-        if (ImGui::Button(fits ? full.c_str() : entry.label, {width, 0})) work.choose(entry.tool);
+        if (ImGui::Button(fit ? full(entry).c_str() : entry.label, {width, 0})) work.choose(entry.tool);
         if (on) ImGui::PopStyleColor();
         toolTip((std::string(entry.tip) + "  (" + entry.key + ")").c_str());
         if (&entry != entries + count - 1) ImGui::SameLine();
@@ -112,6 +114,11 @@ void chosenSeeds(Workspace& work) {
         ImGui::Text("Seed at %.2f, %.2f, %.2f", chosen[0].position[0], chosen[0].position[1], chosen[0].position[2]);
     else
         ImGui::Text("%zu seeds chosen", chosen.size());
+    // Growth is read back for it: not while a seed is on its way.
+    if (chosen.size() == 1 && !work.underWay && !ImGui::IsMouseDown(0) && work.barren(chosen[0].key))
+        hint(work.scene().layers.empty()
+                 ? "Nothing grows from it."
+                 : "Nothing grows from it: it may be that a layer is empty here. B shows what is painted.");
     bool changed = false;
     uint32_t number = chosen[0].number;
     rowLabel("Number");
@@ -182,6 +189,26 @@ const char* viewTitle(EspView view) {
 
 void toolTip(const char* text) {
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetTooltip("%s", text);
+}
+
+bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2 at, glm::vec2 size, int flags) {
+    const float top = ImGui::GetFrameHeight(), bottom = work.window.y - ImGui::GetFrameHeight() - 4 * work.scale;
+    const glm::vec2 least = 120.f * glm::vec2(work.scale), room = glm::max({work.window.x, bottom - top}, least);
+    ImGui::SetNextWindowSizeConstraints({least.x, least.y}, {room.x, room.y});
+    ImGui::SetNextWindowPos({at.x, at.y}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({size.x, size.y}, ImGuiCond_FirstUseEver);
+    const bool shown = ImGui::Begin(title, open, flags | kQuiet);
+    const ImVec2 is = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
+    const ImVec2 wanted{std::max(0.f, std::min(is.x, work.window.x - extent.x)),
+                        std::max(top, std::min(is.y, bottom - extent.y))};
+    if (!ImGui::IsMouseDown(0) && (wanted.x != is.x || wanted.y != is.y)) ImGui::SetWindowPos(wanted);
+    return shown;
+}
+
+void hint(const char* text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, {1, .8f, .45f, 1});
+    ImGui::TextWrapped("%s", text);
+    ImGui::PopStyleColor();
 }
 
 void rowLabel(const char* text) {

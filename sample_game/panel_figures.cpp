@@ -31,16 +31,20 @@ void graph(const Workspace& work) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(0, 0, 0, 90));
-    float highest = 20;
-    for (const auto& frame : work.history) highest = std::max(highest, frame[0] + frame[1] + frame[2]);
     const float column = 2 * s;
     const size_t shown = std::min(work.history.size(), size_t(width / column));
+    std::vector<float> sums;
+    for (size_t i = work.history.size() - shown; i < work.history.size(); ++i)
+        if (const auto& f = work.history[i]; f[0] + f[1] + f[2] > 0) sums.push_back(f[0] + f[1] + f[2]);
+    std::sort(sums.begin(), sums.end());
+    // The first frame, which makes programs, would flatten all others: it is cut off at the top.
+    const float highest = sums.empty() ? 20 : std::max(20.f, std::min(sums.back(), 4 * sums[sums.size() / 2]));
     for (size_t i = 0; i < shown; ++i) {
         const auto& frame = work.history[work.history.size() - shown + i];
         const float x = at.x + width - column * float(shown - i);
         float y = at.y + height;
         for (int stage = 0; stage < 3; ++stage) {
-            const float top = y - height * frame[stage] / highest;
+            const float top = std::max(y - height * frame[stage] / highest, at.y);
             if (y - top > .3f) list.AddRectFilled({x, top}, {x + column - 1, y}, kColours[stage]);
             y = top;
         }
@@ -76,20 +80,23 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         };
         ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 2 * s});
         const EspStats& stats = work.stats;
-        row("Seeds", grouped(stats.seeds));
-        row("Branches", grouped(stats.branches));
+        // Where letters are large and the window isn't, the scene comes first.
+        const bool brief = work.window.x - work.panelUnits() < 2.5f * 235 * s;
+        if (!brief) row("Seeds", grouped(stats.seeds));
+        if (!brief) row("Branches", grouped(stats.branches));
         row("Nodes", grouped(stats.nodes));
         row("Leaves", grouped(stats.leaves));
-        row("Triangles drawn", grouped(stats.drawnPolygons));
-        row("at full detail", grouped(stats.polygons));
+        if (!brief) row("Triangles drawn", grouped(stats.drawnPolygons));
+        if (!brief) row("at full detail", grouped(stats.polygons));
         ImGui::Spacing();
         const double times[] = {stats.expandMs, stats.emitMs, stats.drawMs};
-        for (int i = 0; i < 3; ++i) row(kStages[i], ms(times[i]), kColours[i]);
+        for (int i = 0; i < 3 && !brief; ++i) row(kStages[i], ms(times[i]), kColours[i]);
         row("Frame", ms(work.frameMs));
-        graph(work);
-        row("Grown so far", grouped(stats.expansions));
+        if (!brief) graph(work);
+        if (!brief) row("Grown so far", grouped(stats.expansions));
         row("GPU memory", grouped(stats.totalBytes >> 20) + " MiB");
-        row("Undo", grouped(work.document->undoSteps()) + (work.document->undoSteps() == 1 ? " step" : " steps"));
+        if (!brief)
+            row("Undo", grouped(work.document->undoSteps()) + (work.document->undoSteps() == 1 ? " step" : " steps"));
         if (stats.overflow) row("Ran out of room", grouped(stats.overflow));
         if (stats.stopped) row("Stopped by a limit", grouped(stats.stopped));
         if (validation) row("Validation messages", grouped(validationMessages));

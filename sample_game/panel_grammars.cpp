@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 
 #include "sample_game/panels.hpp"
@@ -165,7 +166,8 @@ std::vector<std::pair<int, std::string>> mistakes(const espalier::scene::LoadedG
 struct TextState {
     uint32_t grammar = ~0u;
     std::string shown;  // what the widget holds
-    int cursorLine = 0, scrolledTo = -1;
+    int cursorLine = 0, scrolledLine = -1;
+    float cursorX = 0, scrolledX = -1;  // within the line
     float changedAt = -1e9f;
     uint32_t gesture = 0;
 };
@@ -176,7 +178,10 @@ int onEdit(ImGuiInputTextCallbackData* data) {
         state.shown.resize(size_t(data->BufTextLen));
         data->Buf = state.shown.data();
     } else {
-        state.cursorLine = int(std::count(data->Buf, data->Buf + data->CursorPos, '\n'));
+        const char *text = data->Buf, *cursor = text + data->CursorPos, *begin = cursor;
+        while (begin > text && begin[-1] != '\n') --begin;
+        state.cursorLine = int(std::count(text, cursor, '\n'));
+        state.cursorX = ImGui::CalcTextSize(begin, cursor).x;
     }
     return 0;
 }
@@ -241,10 +246,8 @@ void showGrammarWindow(Workspace& work) {
     work.openGrammar = std::min(work.openGrammar, uint32_t(work.scene().grammars.size() - 1));
     const auto& grammar = work.scene().grammars[work.openGrammar];
     const float s = work.scale;
-    ImGui::SetNextWindowPos({work.window.x - 600 * s, 60 * s}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({580 * s, 520 * s}, ImGuiCond_FirstUseEver);
     const std::string title = grammarName(work.scene(), work.openGrammar) + "###grammar";
-    if (ImGui::Begin(title.c_str(), &work.layout.grammar, kQuiet)) {
+    if (beginWindow(work, title.c_str(), &work.layout.grammar, {work.window.x - 600 * s, 60 * s}, {580 * s, 520 * s})) {
         const auto wrong = mistakes(grammar);
         const bool another = state.grammar != work.openGrammar;
         const bool active = ImGui::GetActiveID() && state.gesture && ImGui::GetTime() - state.changedAt < 1;
@@ -256,19 +259,25 @@ void showGrammarWindow(Workspace& work) {
         const float below =
             wrong.empty() ? line * 1.6f : line * (1.6f + 1.4f * float(std::min<size_t>(wrong.size(), 4)));
         const float height = line * float(lines + 1) + 2 * ImGui::GetStyle().FramePadding.y;
-        if (ImGui::BeginChild("text", {0, -below})) {
+        if (ImGui::BeginChild("text", {0, -below}, false, ImGuiWindowFlags_HorizontalScrollbar)) {
             const float margin = ImGui::CalcTextSize("0000").x + 8;
+            const float whole = ImGui::CalcTextSize(state.shown.c_str()).x + 2 * line;
             lineNumbers(lines, wrong, margin, height);
             ImGui::SameLine(0, 0);
             const ImGuiInputTextFlags flags = ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CallbackResize |
                                               ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo;
             const bool changed = ImGui::InputTextMultiline("##grammar", state.shown.data(), state.shown.size() + 1,
-                                                           {-1, height}, flags, onEdit, &state);
-            if (ImGui::IsItemActive() && state.cursorLine != state.scrolledTo) {
-                state.scrolledTo = state.cursorLine;
-                const float y = line * float(state.cursorLine), view = ImGui::GetWindowHeight();
+                                                           {std::max(whole, ImGui::GetContentRegionAvail().x), height},
+                                                           flags, onEdit, &state);
+            if (ImGui::IsItemActive() && (state.cursorLine != state.scrolledLine || state.cursorX != state.scrolledX)) {
+                state.scrolledLine = state.cursorLine;
+                state.scrolledX = state.cursorX;
+                const float y = line * float(state.cursorLine), high = ImGui::GetWindowHeight() - line;
                 if (y < ImGui::GetScrollY()) ImGui::SetScrollY(y);
-                if (y + 2 * line > ImGui::GetScrollY() + view) ImGui::SetScrollY(y + 2 * line - view);
+                if (y + 2 * line > ImGui::GetScrollY() + high) ImGui::SetScrollY(y + 2 * line - high);
+                const float x = margin + state.cursorX, wide = ImGui::GetWindowWidth() - line;
+                if (state.cursorX < ImGui::GetScrollX()) ImGui::SetScrollX(state.cursorX);
+                if (x + 2 * line > ImGui::GetScrollX() + wide) ImGui::SetScrollX(x + 2 * line - wide);
             }
             if (changed && state.shown != grammar.text) {
                 // A pause ends a step of undo.
@@ -279,7 +288,9 @@ void showGrammarWindow(Workspace& work) {
         }
         ImGui::EndChild();
         if (wrong.empty()) {
-            ImGui::TextDisabled("It compiles. %d lines, %s", lines, grammar.file.c_str());
+            ImGui::TextDisabled("It compiles. %d lines, %s", lines,
+                                std::filesystem::path(grammar.file).filename().c_str());
+            toolTip(grammar.file.c_str());
         } else {
             ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
             for (size_t i = 0; i < wrong.size() && i < 4; ++i) ImGui::TextWrapped("%s", wrong[i].second.c_str());

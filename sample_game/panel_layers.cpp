@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "sample_game/panels.hpp"
 
@@ -9,8 +10,6 @@ namespace sample {
 namespace {
 
 using namespace espalier::document;
-
-const ImVec4 kHint{1, .8f, .45f, 1};
 
 struct Layer {
     std::string name, label, readers;
@@ -78,14 +77,16 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     ImGui::PopStyleVar();
     ImGui::NewLine();
     ImGui::PushTextWrapPos(0);
-    if (!layer.painted && work.brush.value == layer.fill)
-        ImGui::TextColored(kHint,
-                           "All of %s is %.2g, and the brush paints %.2g: a stroke changes nothing. Clear it first.",
-                           layer.name.c_str(), layer.fill, work.brush.value);
-    else if (!layer.painted)
+    if (!layer.painted && work.brush.value == layer.fill) {
+        char text[200];
+        std::snprintf(text, sizeof text,
+                      "All of %s is %.2g, and the brush paints %.2g: a stroke changes nothing. Clear it first.",
+                      layer.name.c_str(), layer.fill, work.brush.value);
+        hint(text);
+    }
+    if (!layer.painted && work.brush.value != layer.fill)
         ImGui::TextDisabled("Not painted yet: all of it is %.2g.", layer.fill);
-    else if (layer.town)
-        ImGui::TextDisabled("Drag over the roofs: paint falls straight down.");
+    if (layer.painted && layer.town) ImGui::TextDisabled("Drag over the roofs: paint falls straight down.");
     ImGui::PopTextWrapPos();
 }
 

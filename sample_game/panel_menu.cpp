@@ -19,6 +19,7 @@ const ImVec4 kBad{1, .55f, .45f, 1}, kGood{.62f, .85f, .5f, 1};
 struct Dialogues {
     const char* open = nullptr;
     bool failed = false;  // the open one's last try
+    bool asks = false;    // one that asks for a path was open in the last frame
     char project[512] = "", file[512] = "", run[512] = "", picture[512] = "";
     std::string layer;  // of the picture
 };
@@ -41,6 +42,7 @@ void askPath(Workspace& work, const char* title, const char* label, const char* 
              Act&& act) {
     bool confirmed = false;
     if (!beginDialogue(title)) return;
+    dialogues().asks = true;
     ImGui::TextUnformatted(label);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 32);
     if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // it is all that one can type into
@@ -57,7 +59,10 @@ void askPath(Workspace& work, const char* title, const char* label, const char* 
         ImGui::TextColored(kBad, "%s", work.error.c_str());
         ImGui::PopTextWrapPos();
     }
-    if (cancelled || (confirmed && !dialogues().failed)) ImGui::CloseCurrentPopup();
+    if (cancelled || (confirmed && !dialogues().failed)) {
+        dialogues().asks = false;
+        ImGui::CloseCurrentPopup();
+    }
     ImGui::EndPopup();
 }
 void ask(const char* title) {
@@ -102,7 +107,13 @@ void askForLayer(const std::string& layer, bool import) {
 
 void closeDialogues() {
     dialogues().open = nullptr;
+    dialogues().asks = false;
     if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) ImGui::ClosePopupToLevel(0, false);
+}
+
+bool awaitsText() {
+    const Dialogues& d = dialogues();
+    return (d.open || d.asks) && !ImGui::GetIO().WantTextInput;
 }
 
 bool closeMenus() {
@@ -123,6 +134,7 @@ void askToOpen(const std::string& refused) {
 
 void showDialogues(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
+    d.asks = false;
     if (d.open) {
         if (!d.project[0]) put(d.project, sizeof d.project, std::filesystem::path(work.scene().name).stem().string());
         if (!d.run[0]) put(d.run, sizeof d.run, "run.jsonl");
@@ -311,7 +323,7 @@ void showHelp(Workspace& work) {
                        {"F12", "write a screenshot"},
                        {"Esc", "puts the tool away"}};
     ImGui::SetNextWindowPos({work.window.x / 2, work.window.y / 2}, ImGuiCond_Always, {.5f, .5f});
-    ImGui::SetNextWindowSize({680 * work.scale, 0});
+    ImGui::SetNextWindowSize({std::min(680 * work.scale, work.window.x), 0});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize | kQuiet;
     if (ImGui::Begin("Keys and mouse", &work.layout.help, flags)) {
@@ -328,7 +340,9 @@ void showHelp(Workspace& work) {
                 ImGui::TableNextColumn();
                 ImGui::TextUnformatted(rows[i].keys);
                 ImGui::TableNextColumn();
-                ImGui::TextDisabled("%s", rows[i].what);
+                ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+                ImGui::TextWrapped("%s", rows[i].what);
+                ImGui::PopStyleColor();
             }
             ImGui::EndTable();
         };

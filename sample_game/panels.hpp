@@ -25,6 +25,8 @@ void askToOpen(const std::string& refused = {});  // refused: what couldn't be o
 bool closeMenus();                                // those that are open, not dialogues; false: there are none
 // In frames without showDialogues(): ImGui can't do with a dialogue that is open and isn't laid out.
 void closeDialogues();
+// A dialogue has been asked for, or is open, whose text can't be typed into yet: it can within some frames.
+bool awaitsText();
 void askForLayer(const std::string& layer, bool import);
 
 // The parts of showPanel().
@@ -48,6 +50,10 @@ constexpr EspView kViews[] = {ESP_VIEW_SHADED, ESP_VIEW_CHARTS, ESP_VIEW_NORMALS
                               ESP_VIEW_LOD,    ESP_VIEW_DEPTH,  ESP_VIEW_OVERDRAW};
 const char* viewTitle(EspView view);
 // The words before a widget, which takes the rest of the row.
+// ImGui::Begin of a window that the user may move, with where and how large it is the first time. It stays between the
+// bars at the top and bottom, whatever the size of window and letters becomes.
+bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2 at, glm::vec2 size, int flags = 0);
+void hint(const char* text);  // what keeps the user from seeing anything happen
 void rowLabel(const char* text);
 // Shown when the mouse rests on the last widget.
 void toolTip(const char* text);

@@ -149,6 +149,16 @@ void Workspace::readPath() {
     if (espBranchPath(context.get(), branch->branch, path.data(), &count) != ESP_OK) path.clear();
 }
 
+bool Workspace::barren(uint32_t key) {
+    const auto* seed = document->seed(key);
+    if (!seed) return false;
+    if (asked_.key == key && asked_.expansions == stats.expansions) return asked_.barren;
+    uint32_t nodes = 0;
+    const bool known = espPlantNodes(context.get(), seed->planted, &nodes) == ESP_OK;
+    asked_ = {key, stats.expansions, known && nodes < 2};  // the first stands where the seed does
+    return asked_.barren;
+}
+
 std::optional<glm::vec2> Workspace::place(glm::vec3 point) const {
     glm::vec2 at;
     if (!camera.project(point, window.x / window.y, shift(), at)) return {};

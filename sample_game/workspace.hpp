@@ -106,6 +106,8 @@ struct Workspace {
     // Lets the chosen seeds' plants stand as they are, or grow again.
     void freeze(const std::vector<uint32_t>& keys, bool frozen);
     void readPath();  // of the branch, from the last growth
+    // A seed that the last growth got no further than. Reads growth back, once after each.
+    bool barren(uint32_t key);
     // Where a point of the scene is in the window; nothing: behind the camera.
     std::optional<glm::vec2> place(glm::vec3 point) const;
     // Nothing of the scene is before the point.
@@ -113,6 +115,10 @@ struct Workspace {
 
   private:
     uint32_t gesture_ = 0;
+    struct {
+        uint32_t key = 0, expansions = 0;
+        bool barren = false;
+    } asked_;  // by barren()
 };
 
 glm::vec3 vec(const float* v);

@@ -10,10 +10,10 @@
 namespace espalier {
 
 struct TownArguments {
-    std::string footprints, output;  // GeoJSON or a plan in metres (docs/roofs.md); .glb
-    std::string grammar;             // empty: walls and roof planes only; else all that it makes, as triangles
-    std::string meshes;              // roofs.glb; read with a grammar only
-    bool walls = false;  // with a grammar: only walls, as ground for plants (town_walls.hpp)
+    std::string footprints, output;   // GeoJSON or a plan in metres (docs/roofs.md); .glb
+    std::string grammar;              // empty: walls and roof planes only; else all that it makes, as triangles
+    std::string meshes;               // roofs.glb; read with a grammar only
+    bool walls = false;               // with a grammar: only walls, as ground for plants (town_walls.hpp)
     std::vector<std::string> houses;  // ids; empty: all
     bool quiet = false;
 };
