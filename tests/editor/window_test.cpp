@@ -37,9 +37,12 @@ TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are plan
         if (const auto* stroke = std::get_if<StrokeBegin>(&line.action)) modes.push_back(stroke->mode);
     CHECK(modes == std::vector<std::string>{"paint", "erase"});
 
+    // A path that was typed as soon as its dialogue was asked for, and Return.
+    CHECK(std::filesystem::exists(folder.path / "saved/project.json"));
+
     // What was done and not saved was kept.
     bool kept = false;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path / "config"))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path))
         kept = kept || entry.path().filename() == "autosave.json";
     CHECK(kept);
     const Ran replayed = run(program("espalier-capture") + " --replay " + folder.file("run.jsonl") +
