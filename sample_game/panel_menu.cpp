@@ -335,6 +335,7 @@ void showHelp(Workspace& work) {
             ImGui::TextColored({.62f, .85f, .5f, 1}, "%s", title);
             if (!ImGui::BeginTable(title, 2)) return;
             ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 230 * work.scale);
+            ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
             for (size_t i = 0; i < count; ++i) {
                 ImGui::TableNextRow();
                 ImGui::TableNextColumn();
