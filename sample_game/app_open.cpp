@@ -21,6 +21,7 @@ namespace sample {
 namespace fs = std::filesystem;
 using espalier::document::Document;
 using espalier::document::saveProject;
+using espalier::document::SetView;
 
 void WindowCloser::operator()(GLFWwindow* window) const {
     glfwDestroyWindow(window);
@@ -188,12 +189,14 @@ bool App::reload() {
     if (work_.document->stroking()) return true;
     session_.reload = false;
     const Session::Origin origin = session_.origin(work_);
+    const SetView view{espalier::scene::nameOf(work_.scene().look.view), work_.scene().viewLayer};
     const fs::path folder = fs::temp_directory_path() / ("espalier-reload-" + std::to_string(getpid()));
     const fs::path kept = folder / work_.scene().name;
     work_.error.clear();
     if (!saveProject(*work_.document, kept.string(), work_.error)) return true;
     if (!showOpening(origin.file)) return false;
     if (openDocument({kept.string(), {}, {}, {}}, work_.error)) {
+        work_.perform(view);
         session_.setOrigin(work_, origin);
         work_.message = "Its model has changed on disk: " + fs::path(origin.file).filename().string() + " was reloaded";
     }
