@@ -24,8 +24,10 @@ void main() {
         vec3 middle = cellMiddle(push.grid, i % kMaxCells);
         float reach = uintBitsToFloat(cell.reach);
         float largest = uintBitsToFloat(cell.largest);
-        float pixels = view.pixelScale;
-        if (view.parallel == 0u) pixels /= max(distance(view.eye, middle) - reach, 1e-6);
+        // No branch here on what is the same in all of a view: lavapipe would compile the kernel anew for every value
+        // of the view, frame by frame, and keep each.
+        float away = max(distance(view.eye, middle) - reach, 1e-6);
+        float pixels = view.pixelScale / (view.parallel == 0u ? away : 1.0);
         // Share of the items that stay; leaves grow as others go, twigs are drawn at the least thickness.
         float share = leaves ? leafShare(view, largest * pixels) : largest * pixels / (view.leastPixels * kFaintest);
         float most = leaves ? reach + 1.3 * largest * inversesqrt(view.leastShare) : reach + view.leastPixels / pixels;
