@@ -1,6 +1,7 @@
 // Coarser meshes and levels' errors, judged on a sphere whose shape is known; reading a file as far as it has come.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -10,6 +11,7 @@
 
 #include "runtime/core/file.hpp"
 #include "runtime/surface/surface.hpp"
+#include "tests/bake/kits.hpp"
 #include "tests/bake/small_models.hpp"
 
 using namespace espalier;
@@ -64,6 +66,22 @@ size_t openEdges(const std::vector<DrawVertex>& vertices, const std::vector<uint
     return open;
 }
 
+// From a point to the triangle that begins at index i: over its face if the point is above it, else over an edge.
+float distanceTo(const CoarserMesh& mesh, size_t i, glm::vec3 p) {
+    glm::vec3 c[3];
+    for (size_t k = 0; k < 3; ++k) c[k] = mesh.vertices[mesh.indices[i + k]].position;
+    const glm::vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]);
+    float least = 1e30f;
+    bool above = glm::dot(n, n) > 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const glm::vec3 a = c[k], e = c[(k + 1) % 3] - a;
+        above = above && glm::dot(glm::cross(e, p - a), n) >= 0;
+        const float t = std::clamp(glm::dot(p - a, e) / glm::dot(e, e), 0.0f, 1.0f);
+        least = std::min(least, glm::length(p - a - e * t));
+    }
+    return above ? std::abs(glm::dot(p - c[0], glm::normalize(n))) : least;
+}
+
 }  // namespace
 
 TEST_CASE("coarser meshes of a sphere halve, stay closed in the file, and are no further off than they say") {
@@ -99,6 +117,51 @@ TEST_CASE("coarser meshes of a sphere halve, stay closed in the file, and are no
     }
     CHECK(error <= std::sqrt(3.0f) / 16);  // of the bounding radius
     CHECK(error > 0.002f);
+}
+
+TEST_CASE("kits of textured boxes get coarser too: closed, each part in its own colour, no further off than they say") {
+    Kit kit;
+    kit.box({0, 0, 0}, glm::dvec3(4, 2, 0.3));
+    for (int i = 0; i < 95; ++i) {  // stones that stick out of a wall
+        const glm::dvec3 place(i % 19 * 0.4 - 3.6, i / 19 * 0.7 - 1.4, 0.3);
+        kit.box(place, glm::dvec3(0.1 + 0.01 * (i % 7), 0.1 + 0.02 * (i % 5), 0.05 + 0.03 * (i % 3)));
+    }
+    Model model = kit.model();
+    model.materials.resize(1);
+    model.materials[0].baseColorImage = 0;
+    model.images.resize(1);
+    model.materialUvs.resize(model.positions.size());  // a palette: a colour a box
+    for (size_t t = 0; t < model.indices.size() / 3; ++t)
+        for (size_t k = 0; k < 3; ++k)
+            model.materialUvs[model.indices[t * 3 + k]] = glm::vec2((float(t / 12) + 0.5f) / 96, 0.5f);
+    const SurfaceData made = baked(model, 512);
+    REQUIRE(made.coarser.size() >= 2);
+    size_t before = made.indices.size();
+    float error = 0;
+    for (const CoarserMesh& mesh : made.coarser) {
+        CAPTURE(mesh.indices.size() / 3);
+        CHECK(mesh.indices.size() < before * 3 / 4);
+        before = mesh.indices.size();
+        CHECK(mesh.error >= error);
+        error = mesh.error;
+        std::map<std::array<float, 6>, bool> edges;
+        for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const DrawVertex* corner[3];
+            for (size_t k = 0; k < 3; ++k) corner[k] = &mesh.vertices[mesh.indices[i + k]];
+            CHECK((corner[0]->uv == corner[1]->uv && corner[1]->uv == corner[2]->uv));
+            for (size_t k = 0; k < 3; ++k) {
+                const glm::vec3 a = corner[k]->position, b = corner[(k + 1) % 3]->position;
+                edges[{a.x, a.y, a.z, b.x, b.y, b.z}] = true;
+            }
+        }
+        for (const auto& [e, there] : edges) CHECK(edges.count({e[3], e[4], e[5], e[0], e[1], e[2]}) == 1);
+        for (const DrawVertex& v : made.vertices) {
+            float nearest = 1e30f;
+            for (size_t i = 0; i < mesh.indices.size(); i += 3)
+                nearest = std::min(nearest, distanceTo(mesh, i, v.position));
+            REQUIRE(nearest <= mesh.error + 1e-5f);
+        }
+    }
 }
 
 TEST_CASE("a level's error is that of a bilinear read: a quarter with each doubling, none on a cube") {

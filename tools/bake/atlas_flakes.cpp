@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "tools/bake/bake_mesh.hpp"
+#include "tools/bake/sort_buckets.hpp"
 
 namespace espalier::bakery {
 namespace {
@@ -24,9 +25,11 @@ std::vector<Corners> sortedCorners(const BakeMesh& mesh) {
             if (c.point[i] > c.point[j]) std::swap(c.point[i], c.point[j]), c.odd = !c.odd;
         out.push_back(c);
     }
-    std::sort(out.begin(), out.end(), [](const Corners& a, const Corners& b) {
-        return std::tie(a.point, a.odd, a.triangle) < std::tie(b.point, b.odd, b.triangle);
-    });
+    sortBuckets(
+        out, mesh.points.size(), [](const Corners& c) { return c.point[0]; },
+        [](const Corners& a, const Corners& b) {
+            return std::tie(a.point, a.odd, a.triangle) < std::tie(b.point, b.odd, b.triangle);
+        });
     return out;
 }
 

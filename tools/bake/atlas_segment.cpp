@@ -19,7 +19,9 @@ constexpr double kCrease = 0.8;         // cosine, 37°: edges that are sharper 
 constexpr int kSweeps = 12;             // of straightening
 constexpr size_t kBlock = 4096;         // triangles that a thread merges by themselves
 constexpr double kBlockShare = 0.85;    // of a block's merges that are made so
-constexpr size_t kWorthBlocks = 65536;  // triangles: borders of smaller models' regions had better be straight
+constexpr double kSmallShare = 0.75;    // the same of models below
+constexpr size_t kLarge = 65536;        // triangles
+constexpr size_t kWorthBlocks = 32768;  // triangles: borders of smaller models' regions had better be straight
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
 struct Neighbour {
@@ -139,12 +141,13 @@ class Merger {
 
   private:
     void mergeBlocks() {
+        const double share = order_.size() < kLarge ? kSmallShare : kBlockShare;
         std::vector<uint8_t> barred(order_.size(), 0);
         parallelFor(order_.size(), kBlock, [&](size_t begin, size_t end) {
             for (size_t c = begin; c < end; ++c)
                 for (const Neighbour& n : clusters_[c].neighbours)
                     barred[c] = barred[c] || n.cluster < begin || n.cluster >= end;
-            mergeCheapest(begin, end, barred, size_t(double(end - begin) * kBlockShare));
+            mergeCheapest(begin, end, barred, size_t(double(end - begin) * share));
         });
     }
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+
+#include "tools/bake/sort_buckets.hpp"
 
 namespace espalier::bakery {
 namespace {
@@ -103,22 +106,6 @@ struct Edge {
     uint32_t half;
 };
 
-// Sorts by key: twice 32 bits' worth of counting passes over 11 bits at a time.
-void sortEdges(std::vector<Edge>& edges, uint32_t pointCount) {
-    std::vector<Edge> other(edges.size());
-    int bits = 1;
-    while (pointCount >> bits) ++bits;
-    for (int base : {0, 32})
-        for (int shift = 0; shift < bits; shift += 11) {
-            std::array<uint32_t, 2049> start{};
-            int at = base + shift;
-            for (const Edge& e : edges) ++start[((e.key >> at) & 2047) + 1];
-            for (int i = 0; i < 2048; ++i) start[size_t(i) + 1] += start[size_t(i)];
-            for (const Edge& e : edges) other[start[(e.key >> at) & 2047]++] = e;
-            edges.swap(other);
-        }
-}
-
 glm::dvec3 normalOf(const BakeMesh& mesh, const Triangle& t) {
     glm::dvec3 n = glm::cross(mesh.points[t.point[1]] - mesh.points[t.point[0]],
                               mesh.points[t.point[2]] - mesh.points[t.point[0]]);
@@ -146,7 +133,9 @@ void pairEdges(BakeMesh& mesh, size_t& nonManifold, size_t& unlike) {
         uint32_t b = mesh.triangles[h / 3].point[(h + 1) % 3];
         edges[h] = {uint64_t(std::min(a, b)) << 32 | std::max(a, b), h};
     }
-    sortEdges(edges, uint32_t(mesh.points.size()));
+    sortBuckets(
+        edges, mesh.points.size(), [](const Edge& e) { return e.key >> 32; },
+        [](const Edge& a, const Edge& b) { return std::tie(a.key, a.half) < std::tie(b.key, b.half); });
     mesh.twin.assign(count, kNone);
     auto startOf = [&](uint32_t h) { return mesh.triangles[h / 3].point[h % 3]; };
     struct Pair {

@@ -1,7 +1,7 @@
 // In: the mesh as it is drawn. Out: ever simpler ones by quadric edge collapses (meshoptimizer), each with its measured
 // distance to the mesh. Seams of materials and of textures collapse on both sides alike, so that what is closed stays
 // closed. Where no texture is drawn, seams of charts and normals are none: corners take the normal that fits the new
-// triangle best.
+// triangle best. What has no edges to collapse, as kits of boxes, is put into a grid's cells instead (lod_cluster.cpp).
 #include <meshoptimizer.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "runtime/core/jobs.hpp"
 #include "runtime/surface/mesh_tree.hpp"
 #include "tools/bake/bake_mesh.hpp"
+#include "tools/bake/lod_cluster.hpp"
 
 namespace espalier::bakery {
 namespace {
@@ -19,6 +20,8 @@ namespace {
 constexpr size_t kFewestTriangles = 48;
 constexpr double kWorthwhile = 0.75;        // of the triangles before: what can't be made simpler ends the chain
 constexpr float kLargestError = 1.0f / 16;  // of the bounding radius: beyond that it is another thing
+constexpr float kFinestCell = 1.0f / 512;   // of the bounding radius
+constexpr float kNextCell = 1.2f;           // of one side to the one before
 constexpr size_t kSamples = 2048;           // each way
 constexpr size_t kSamplesAtOnce = 64;
 constexpr float kAnyDistance = std::numeric_limits<float>::infinity();
@@ -155,6 +158,33 @@ void splitByMaterial(const SurfaceData& surface, CoarserMesh& mesh, std::vector<
     }
 }
 
+// About half the triangles, by collapsing edges; false: too few give way.
+bool collapse(const SurfaceData& surface, CoarserMesh& mesh, std::vector<uint32_t>& materials) {
+    const Groups groups = groupVertices(mesh, materials, surface);
+    std::vector<uint32_t> indices(mesh.indices.size()), grouped;
+    for (uint32_t v : mesh.indices) grouped.push_back(groups.first[v]);
+    indices.resize(meshopt_simplify(indices.data(), grouped.data(), grouped.size(), &mesh.vertices[0].position.x,
+                                    mesh.vertices.size(), sizeof(DrawVertex), mesh.indices.size() / 6 * 3,
+                                    kLargestError, 0, nullptr));
+    if (double(indices.size()) > kWorthwhile * double(mesh.indices.size())) return false;
+    dress(mesh, groups, indices);
+    mesh = compact(mesh.vertices, std::vector<uint32_t>(materials), indices, materials);
+    return true;
+}
+
+// About half the triangles, by the finest grid of cells that leaves no more; false: its cells would be too large.
+bool cluster(float radius, CoarserMesh& mesh, std::vector<uint32_t>& materials) {
+    for (float cell = kFinestCell * radius; cell < 2 * kLargestError * radius; cell *= kNextCell) {
+        std::vector<DrawVertex> vertices = mesh.vertices;
+        const std::vector<uint32_t> indices = clusterVertices(vertices, mesh.indices, materials, cell);
+        if (indices.size() * 2 > mesh.indices.size()) continue;
+        if (indices.size() / 3 < kFewestTriangles / 2) return false;
+        mesh = compact(vertices, std::vector<uint32_t>(materials), indices, materials);
+        return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 MeshTree drawnTree(const SurfaceData& surface) {
@@ -167,19 +197,11 @@ void measureLevelErrors(const MeshTree& drawn, SurfaceData& surface) {
 
 void simplifyDrawing(const MeshTree& drawn, SurfaceData& surface) {
     const float radius = glm::length(surface.boundsMax - surface.boundsMin) / 2;
-    std::vector<uint32_t> materials;
     CoarserMesh from;
+    std::vector<uint32_t> materials;
     splitByMaterial(surface, from, materials);
     while (from.indices.size() / 3 >= kFewestTriangles * 2) {
-        const Groups groups = groupVertices(from, materials, surface);
-        std::vector<uint32_t> indices(from.indices.size()), grouped;
-        for (uint32_t v : from.indices) grouped.push_back(groups.first[v]);
-        indices.resize(meshopt_simplify(indices.data(), grouped.data(), grouped.size(), &from.vertices[0].position.x,
-                                        from.vertices.size(), sizeof(DrawVertex), from.indices.size() / 6 * 3,
-                                        kLargestError, 0, nullptr));
-        if (double(indices.size()) > kWorthwhile * double(from.indices.size())) return;
-        dress(from, groups, indices);
-        from = compact(from.vertices, std::vector<uint32_t>(materials), indices, materials);
+        if (!collapse(surface, from, materials) && !cluster(radius, from, materials)) return;
         const MeshTree simple(positionsOf(from.vertices), from.indices);
         from.error = surface.coarser.empty() ? 0 : surface.coarser.back().error;
         from.error = distanceTo(simple, surface.vertices, surface.indices, from.error);

@@ -2,6 +2,7 @@
 // first, each at the lowest row and then column where it is free. The band is one texel of the coarsest level
 // that the chart serves; small charts serve fewer levels.
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -195,8 +196,11 @@ class Packer {
         if (cells > uint64_t(grid_) * grid_) return false;
         // Which order packs best is luck: all are tried, the first that fits is taken.
         std::array<std::vector<glm::dvec2>, 3> offsets;
-        parallelFor(offsets.size(), 1, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) offsets[i] = packInOrder(masks, i);
+        std::atomic<size_t> fits = offsets.size();  // the first that does, by now
+        parallelFor(offsets.size(), 1, [&](size_t i, size_t) {
+            offsets[i] = packInOrder(masks, i, fits);
+            for (size_t known = fits; !offsets[i].empty() && i < known && !fits.compare_exchange_weak(known, i);) {
+            }
         });
         for (std::vector<glm::dvec2>& offset : offsets) {
             if (offset.empty()) continue;
@@ -209,8 +213,9 @@ class Packer {
         return false;
     }
 
-    // Places all masks, largest first by side, cells or height. Empty: they don't fit.
-    std::vector<glm::dvec2> packInOrder(const std::vector<Mask>& masks, size_t measure) const {
+    // Places all masks, largest first by side, cells or height. Empty: they don't fit, or an earlier order has.
+    std::vector<glm::dvec2> packInOrder(const std::vector<Mask>& masks, size_t measure,
+                                        const std::atomic<size_t>& fits) const {
         auto size = [&](const Mask& m) -> uint64_t {
             return measure == 0 ? std::max(m.width, m.height) : measure == 1 ? m.cells : m.height;
         };
@@ -222,7 +227,7 @@ class Packer {
         std::vector<glm::dvec2> offset(masks.size());
         for (uint32_t c : order) {
             uint32_t x, y;
-            if (!place(masks[c], grid, x, y)) return {};
+            if (fits < measure || !place(masks[c], grid, x, y)) return {};
             for (const auto& [row, first, length] : masks[c].runs)
                 setBits(&grid.taken[size_t(y + row) * grid.words], x + first, x + first + length - 1);
             for (uint32_t row = y; row < y + masks[c].height; ++row) grid.widest[row] = widestGap(grid, row);
