@@ -22,6 +22,7 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
         Program& program;
         const char* shader;
         std::vector<SpecConstant> constants;
+        bool exact = false;
     } programs[] = {{emit.bindSpans_[0], "emit/bind_spans.comp", {{3, 1}}},
                     {emit.bindSpans_[1], "emit/bind_spans.comp", {{3, 0}}},
                     {emit.bindLeaves_[0], "emit/bind_leaves.comp", {{3, 1}}},
@@ -38,11 +39,11 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
                     {emit.classifyLeaves_, "emit/classify_leaves.comp", {}},
                     {emit.scan_, "emit/scan.comp", {}},
                     {emit.writeDrawn_, "emit/write_drawn.comp", {}},
-                    {emit.barkVertices_, "emit/bark_vertices.comp", {}},
+                    {emit.barkVertices_, "emit/bark_vertices.comp", {}, true},
                     {emit.barkIndices_, "emit/bark_indices.comp", {}},
                     {emit.looseTriangles_, "emit/loose_triangles.comp", {}}};
     for (const auto& p : programs) {
-        Result<Program> made = Program::compute(device, p.shader, {.exact = false, .constants = p.constants});
+        Result<Program> made = Program::compute(device, p.shader, {.exact = p.exact, .constants = p.constants});
         if (!made) return made.failure();
         p.program = std::move(*made);
     }

@@ -16,13 +16,17 @@ struct EmitInputs {
     uint64_t surfacesRevision = 0;  // another one when a surface stands elsewhere
     // Where things grow, more or less: space is divided there. What lies elsewhere costs more, no more than that.
     glm::vec3 low{-4}, high{4};
+    // True: on a software device whose addresses are the process's own, bark's triangles are written by native code on
+    // its cores (native_triangles.hpp), the same to the bit. False: by shaders there too.
+    bool native = true;
 };
 
 // Triangles in GPU memory: TriangleVertex and 32-bit indices, in the world.
 struct EmittedTriangles {
     Buffer vertices, indices;
     uint64_t vertexCount = 0, indexCount = 0;
-    double milliseconds = 0;  // GPU time of writing them
+    double milliseconds = 0;  // of writing them: GPU time; of native code, wall time
+    bool native = false;      // native code wrote the bark
 };
 
 struct EmitStats {

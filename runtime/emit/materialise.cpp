@@ -1,8 +1,11 @@
 // Enters: growth's records. Leaves: all of it as triangles in memory. The instances are gathered by the culling
-// kernels at full detail; then a thread a ring, a thread a strip of quads, a thread a leaf write whole runs.
+// kernels at full detail; then a thread a ring, a thread a strip of quads, a thread a leaf write whole runs. On
+// software devices native code writes the bark.
 #include <algorithm>
+#include <chrono>
 
 #include "runtime/emit/emit.hpp"
+#include "runtime/emit/native_triangles.hpp"
 
 namespace espalier {
 namespace {
@@ -51,6 +54,17 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
     out.vertices = std::move(*vertices);
     out.indices = std::move(*indices);
 
+    using Clock = std::chrono::steady_clock;
+    const bool mapped = uintptr_t(out.vertices.mapped()) == out.vertices.address() &&
+                        uintptr_t(out.indices.mapped()) == out.indices.address();
+    const bool native = inputs.native && device_->info().cpu && mapped && state.spanCount > 0;
+    const Clock::time_point start = Clock::now();
+    if (native)
+        writeBarkNative(reinterpret_cast<const SpanInstance*>(spans_.address()),
+                        reinterpret_cast<const DrawnItem*>(drawn_.address()), state.spanCount,
+                        reinterpret_cast<TriangleVertex*>(out.vertices.address()),
+                        reinterpret_cast<uint32_t*>(out.indices.address()));
+    const double nativeMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     Result<Commands> commands = Commands::begin(*device_, "materialise");
     if (!commands) return commands.failure();
     {
@@ -62,9 +76,9 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
         push.meshIndices.v = reinterpret_cast<uint32_t*>(terminals_->indices().address());
         push.vertices.v = reinterpret_cast<uint64_t*>(out.vertices.address());
         push.indices.v = reinterpret_cast<uint64_t*>(out.indices.address());
-        push.count = state.spanCount;
-        pass.dispatchItems(barkVertices_, state.spanCount * kBarkRings, push, {spanTexels_, drawnTexels_});
-        pass.dispatchItems(barkIndices_, state.spanCount * (kBarkRings - 1), push);
+        push.count = native ? 0 : state.spanCount;
+        pass.dispatchItems(barkVertices_, push.count * kBarkRings, push, {spanTexels_, drawnTexels_});
+        pass.dispatchItems(barkIndices_, push.count * (kBarkRings - 1), push);
         for (const Block& block : blocks) {
             const BucketRecord& bucket = table.buckets[block.bucket];
             const TerminalLod& lod = terminals_->lodOfBucket(block.bucket);
@@ -84,7 +98,8 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
     }
     if (Status s = commands->finish(); !s) return s.failure();
     device_->collect();
-    out.milliseconds = device_->milliseconds("materialise");
+    out.milliseconds = device_->milliseconds("materialise") + (native ? nativeMs : 0);
+    out.native = native;
     return out;
 }
 

@@ -248,6 +248,29 @@ TEST_CASE("leaves stand off the wall") {
     CHECK(facing == leaves.size());
 }
 
+TEST_CASE("native code writes what shaders write") {
+    Gpu gpu;
+    for (uint32_t count : {2u, 40u, 600u}) {
+        CAPTURE(count);
+        test::PlantData data = test::helix(count);
+        const test::Plant plant = test::upload(*gpu.device, data);
+        std::vector<std::byte> written[2];
+        for (bool native : {false, true}) {
+            EmitInputs inputs = plant.inputs();
+            inputs.native = native;
+            Result<EmittedTriangles> out = gpu.emit.materialise(inputs);
+            REQUIRE(out);
+            CHECK(out->native == (native && gpu.device->info().cpu));
+            std::vector<std::byte>& bytes = written[native];
+            bytes = *readVector<std::byte>(*gpu.device, out->vertices, 0, out->vertexCount * sizeof(TriangleVertex));
+            const auto indices = *readVector<std::byte>(*gpu.device, out->indices, 0, out->indexCount * 4);
+            bytes.insert(bytes.end(), indices.begin(), indices.end());
+        }
+        CHECK(written[0].size() > 0);
+        CHECK(written[0] == written[1]);
+    }
+}
+
 TEST_CASE("written triangles are those of a loop on the CPU") {
     Gpu gpu;
     for (uint32_t count : {0u, 1u, 2u, 40u, 65u}) {

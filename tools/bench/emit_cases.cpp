@@ -1,5 +1,6 @@
 // emit/…: 4.5 million triangles of bark written to memory, beside a hand-written C++ loop on two threads that writes
-// as many, and beside memset of the same bytes.
+// as many, and beside memset of the same bytes. On software devices they are written by native code
+// (EmitInputs::native); shaders have a row of their own.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,6 +8,8 @@
 #include <thread>
 
 #include "runtime/emit/emit.hpp"
+#include "runtime/emit/native_triangles.hpp"
+#include "shaders/shared/exact.h"
 #include "tools/bench/bark_loop.hpp"
 #include "tools/bench/bench.hpp"
 #include "tools/bench/bench_scene.hpp"
@@ -28,12 +31,27 @@ std::vector<BarkSpan> spansLike(uint32_t count) {
 
 struct LoopTimes {
     double loop = 0, fill = 0;
+    double loopCpu = 0, nativeCpu = 0;  // CPU time of the loop, and of native code on the same spans
 };
 
 LoopTimes timeLoop(uint32_t spanCount, std::vector<BarkVertex>& vertices, std::vector<uint32_t>& indices) {
     std::vector<BarkSpan> spans = spansLike(spanCount);
+    std::vector<SpanInstance> instances(spanCount);
+    std::vector<DrawnItem> drawn(spanCount);
+    for (uint32_t i = 0; i < spanCount; ++i) {
+        const BarkSpan& s = spans[i];
+        instances[i] = {
+            s.p0, s.b1, s.b2,         s.p3, packOct(s.normal0), packOct(s.normal1), s.radius0, s.radius1, 0, 0,
+            0,    0,    glm::vec3(0), 0};
+        drawn[i].item = i;
+    }
+    static_assert(sizeof(TriangleVertex) == sizeof(BarkVertex));
     LoopTimes times;
-    times.loop = seconds([&] { writeBark(spans, vertices, indices); });
+    times.nativeCpu = cpuSeconds([&] {
+        writeBarkNative(instances.data(), drawn.data(), spanCount, reinterpret_cast<TriangleVertex*>(vertices.data()),
+                        indices.data());
+    });
+    times.loopCpu = cpuSeconds([&] { times.loop = seconds([&] { writeBark(spans, vertices, indices); }); });
     times.fill = seconds([&] {
         std::thread other([&] { std::memset(indices.data(), 1, indices.size() * 4); });
         std::memset(static_cast<void*>(vertices.data()), 1, vertices.size() * sizeof(BarkVertex));
@@ -65,10 +83,11 @@ void emitCases(Bench& bench) {
     scene->plant(16);
     if (Status grown = scene->grow(**growth); !grown) return bench.skip(name, grown.failure().text());
 
-    std::vector<double> ours, gather, loop, fill;
+    std::vector<double> ours, shaders, gather, loop, fill, loopCpu, nativeCpu;
     uint64_t triangles = 0, bytes = 0;
     for (int i = -1; i < bench.options().repeats; ++i) {
-        Result<EmittedTriangles> made = emit->materialise({(*growth)->view(), scene->surfaces()});
+        EmitInputs inputs{(*growth)->view(), scene->surfaces()};
+        Result<EmittedTriangles> made = emit->materialise(inputs);
         if (!made) return bench.skip(name, made.failure().text());
         triangles = made->indexCount / 3;
         bytes = made->vertexCount * sizeof(BarkVertex) + made->indexCount * 4;
@@ -77,17 +96,28 @@ void emitCases(Bench& bench) {
         uint32_t spans = uint32_t(made->vertexCount / kBarkSpanVertices);
         timeLoop(spans, vertices, indices);  // touches the memory first
         LoopTimes times = timeLoop(spans, vertices, indices);
-        if (i < 0) continue;
-        ours.push_back(made->milliseconds * 1e-3);
+        const double ms = made->milliseconds;
+        inputs.native = false;
+        made = emit->materialise(inputs);
+        if (i < 0 || !made) continue;
+        ours.push_back(ms * 1e-3);
+        shaders.push_back(made->milliseconds * 1e-3);
+        loopCpu.push_back(times.loopCpu);
+        nativeCpu.push_back(times.nativeCpu);
         gather.push_back((*device)->milliseconds("materialise gather") * 1e-3);
         loop.push_back(times.loop);
         fill.push_back(times.fill);
     }
     double million = double(triangles) * 1e-6;
     std::printf("%.2f million triangles, %.0f MB\n", million, double(bytes) * 1e-6);
-    bench.add(
-        {name, "triangles written, GPU time", "ms", median(ours) * 1e3, "C++ loop, 2 threads", median(loop) * 1e3});
-    bench.add({std::string(name) + "/memset", "triangles written, GPU time", "ms", median(ours) * 1e3,
+    bench.add({name, "triangles written", "ms", median(ours) * 1e3, "C++ loop, 2 threads", median(loop) * 1e3});
+    if ((*device)->info().cpu) {
+        bench.add({std::string(name) + "/cpu", "CPU time of native code", "ms", median(nativeCpu) * 1e3,
+                   "of the C++ loop", median(loopCpu) * 1e3});
+        bench.add({std::string(name) + "/native", "written by native code", "ms", median(ours) * 1e3, "by shaders",
+                   median(shaders) * 1e3});
+    }
+    bench.add({std::string(name) + "/memset", "triangles written", "ms", median(ours) * 1e3,
                "memset of the same bytes, 2 threads", median(fill) * 1e3});
     bench.add({std::string(name) + "/gather", "spans gathered, GPU time", "ms", median(gather) * 1e3,
                "writing their triangles", median(ours) * 1e3});
