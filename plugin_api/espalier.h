@@ -436,8 +436,8 @@ typedef struct EspLook {
     float groundLevel;           /* its height in the world, metres */
 } EspLook;
 ESP_API EspLook espDefaultLook(void);
-/* For legends: the linear colour by which ESP_VIEW_DEPTH, ESP_VIEW_OVERDRAW or ESP_VIEW_LAYER shows `amount`, and the
- * amount from which on nothing changes. */
+/* For legends: the linear colour by which ESP_VIEW_DEPTH, ESP_VIEW_OVERDRAW, ESP_VIEW_LAYER or ESP_VIEW_LOD (levels, 0 the
+ * finest) shows `amount`, and the amount from which on nothing changes. */
 ESP_API EspResult espViewColour(EspView view, float amount, float rgb[3], float* most);
 
 /* A picture that the host has begun: its opaque objects are in colourImage and in a depth buffer. Growth and roofs are

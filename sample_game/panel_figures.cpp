@@ -117,14 +117,16 @@ void showLegend(const Workspace& work) {
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize;
     if (ImGui::Begin("legend", nullptr, flags)) {
-        const bool layer = view == ESP_VIEW_LAYER;
+        const bool layer = view == ESP_VIEW_LAYER, levels = view == ESP_VIEW_LOD;
         ImGui::TextUnformatted(layer                    ? work.scene().viewLayer.c_str()
+                               : levels                 ? "Level of detail: 0 is the model itself"
                                : view == ESP_VIEW_DEPTH ? "Branches between a stem and its seed"
                                                         : "Fragments shaded for a pixel");
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float width = (layer ? 120 : 260) * s, height = ImGui::GetFontSize(), steps = 64;
+        const float width = (layer ? 120 : 260) * s, height = ImGui::GetFontSize();
+        const float steps = levels ? most + 1 : 64;
         for (float i = 0; i < steps; ++i) {
-            (void)espViewColour(view, most * (i + .5f) / steps, rgb, &most);
+            (void)espViewColour(view, levels ? i : most * (i + .5f) / steps, rgb, &most);
             for (float& c : rgb) c = c <= .0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - .055f;
             ImGui::GetWindowDrawList()->AddRectFilled({at.x + width * i / steps, at.y},
                                                       {at.x + width * (i + 1) / steps, at.y + height},

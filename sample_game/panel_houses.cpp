@@ -111,6 +111,11 @@ void housesPanel(Workspace& work) {
     if (edit.changed) work.perform(SetHouse{house}, edit.gesture);
     if (ImGui::Button("As it was planned", {-1, 0})) work.perform(ResetHouse{*work.house});
     toolTip("Back to what the town's file says");
+    if (std::ranges::any_of(work.scene().surfaces, [](const auto& surface) { return !surface.drawn; })) {
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        ImGui::TextWrapped("Plants keep to walls as they were baked: they don't follow an outline.");
+        ImGui::PopStyleColor();
+    }
 }
 
 }  // namespace sample

@@ -195,11 +195,25 @@ EspLook espDefaultLook(void) {
 }
 
 EspResult espViewColour(EspView view, float amount, float rgb[3], float* most) {
-    if (!rgb || !most || (view != ESP_VIEW_DEPTH && view != ESP_VIEW_OVERDRAW && view != ESP_VIEW_LAYER))
-        return ESP_INVALID_ARGUMENT;
-    const bool layer = view == ESP_VIEW_LAYER;
-    *most = layer ? 1 : view == ESP_VIEW_DEPTH ? kHottestDepth : kHottestOverdraw;
-    const glm::vec3 colour = layer ? layerColor(amount) : heatColor(amount / *most);
+    if (!rgb || !most) return ESP_INVALID_ARGUMENT;
+    glm::vec3 colour;
+    switch (view) {
+        case ESP_VIEW_LOD:
+            *most = float(kCoarsestLod);
+            colour = lodColor(uint32_t(std::clamp(amount, 0.0f, *most)));
+            break;
+        case ESP_VIEW_LAYER:
+            *most = 1;
+            colour = layerColor(amount);
+            break;
+        case ESP_VIEW_DEPTH:
+        case ESP_VIEW_OVERDRAW:
+            *most = view == ESP_VIEW_DEPTH ? kHottestDepth : kHottestOverdraw;
+            colour = heatColor(amount / *most);
+            break;
+        default:
+            return ESP_INVALID_ARGUMENT;
+    }
     std::memcpy(rgb, &colour, sizeof colour);
     return ESP_OK;
 }

@@ -20,6 +20,17 @@ FN vec3 heatColor(float t) {
     return low + (high - low) * (x - below);
 }
 
+// A level of detail, 0 the finest; from kCoarsestLod on all are alike.
+CONST_UINT(kCoarsestLod, 5u);
+FN vec3 lodColor(uint lod) {
+    if (lod == 0u) return vec3(0.85f, 0.15f, 0.1f);
+    if (lod == 1u) return vec3(0.9f, 0.55f, 0.1f);
+    if (lod == 2u) return vec3(0.75f, 0.8f, 0.15f);
+    if (lod == 3u) return vec3(0.15f, 0.7f, 0.25f);
+    if (lod == 4u) return vec3(0.1f, 0.5f, 0.85f);
+    return vec3(0.45f, 0.25f, 0.8f);
+}
+
 // A painted layer, from grey to orange.
 FN vec3 layerColor(float t) {
     vec3 none = vec3(0.08f, 0.09f, 0.12f);

@@ -67,11 +67,6 @@ vec3 hashColor(uint x) {
     x ^= x >> 15u;
     return vec3(x & 255u, (x >> 8u) & 255u, (x >> 16u) & 255u) / 255.0 * 0.75 + 0.2;
 }
-vec3 lodColor(uint lod) {
-    const vec3 colors[6] = vec3[6](vec3(0.85, 0.15, 0.1), vec3(0.9, 0.55, 0.1), vec3(0.75, 0.8, 0.15),
-                                   vec3(0.15, 0.7, 0.25), vec3(0.1, 0.5, 0.85), vec3(0.45, 0.25, 0.8));
-    return colors[min(lod, 5u)];
-}
 vec4 diagnostic(vec3 color, vec3 normal) {
     return stored(color * (0.55 + 0.45 * max(dot(normal, frame.sunDirection), 0.0)), 0.6);
 }

@@ -58,6 +58,12 @@ TEST_CASE("overdraw counts nothing where nothing is, and a fragment or two on a 
     float rgb[3], most = 0;
     CHECK(espViewColour(ESP_VIEW_SHADED, 1, rgb, &most) == ESP_INVALID_ARGUMENT);
     CHECK(legend(ESP_VIEW_DEPTH, 8) == legend(ESP_VIEW_DEPTH, 80));
+    look.view = ESP_VIEW_LOD;
+    const Pixel level = at(picture(painting, look), kSide / 2, kSide / 2), finest = legend(ESP_VIEW_LOD, 0);
+    CHECK(level[0] > 2 * level[2]);  // dimmed where it faces away from the sun
+    CHECK(finest[0] > 2 * finest[2]);
+    CHECK(legend(ESP_VIEW_LOD, 5) == legend(ESP_VIEW_LOD, 9));
+    CHECK(legend(ESP_VIEW_LOD, 0) != legend(ESP_VIEW_LOD, 1));
     CHECK(legend(ESP_VIEW_DEPTH, 0) != legend(ESP_VIEW_DEPTH, 1));
 }
 
