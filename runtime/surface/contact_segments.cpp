@@ -21,12 +21,13 @@ struct Trace {
     int edge = -1;
 };
 
-Trace trace(const ContactShape& s, const ContactShape& plane) {
+// share: of the corners' reach.
+Trace trace(const ContactShape& s, const ContactShape& plane, double share) {
     std::array<double, 3> d;
     int zeros = 0, positive = 0;
     for (size_t k = 0; k < 3; ++k) {
         d[k] = glm::dot(plane.normal, s.p[k] - plane.p[0]);
-        if (std::abs(d[k]) <= s.reach[k]) d[k] = 0;
+        if (std::abs(d[k]) <= s.reach[k] * share) d[k] = 0;
         zeros += d[k] == 0;
         positive += d[k] > 0;
     }
@@ -112,13 +113,19 @@ void clipOutlines(const ContactShape& s, const ContactShape& t, bool first, std:
 }  // namespace
 
 int touch(const ContactShape& s, const ContactShape& t, std::array<ContactSegment, 6>& out) {
-    Trace of[2] = {trace(s, t), {}};
-    if (of[0].kind == Trace::none) return 0;
-    of[1] = trace(t, s);
-    if (of[1].kind == Trace::none) return 0;
+    Trace of[2];
+    bool flat = false;
+    auto traceBoth = [&](double share) {
+        of[0] = trace(s, t, share);
+        of[1] = of[0].kind == Trace::none ? Trace{} : trace(t, s, share);
+        flat = of[0].kind == Trace::flat || of[1].kind == Trace::flat;
+        return of[1].kind != Trace::none;
+    };
+    if (!traceBoth(1)) return 0;
     int count = 0;
-    if (of[0].kind == Trace::flat || of[1].kind == Trace::flat) {
-        if (std::abs(glm::dot(s.normal, t.normal)) < kParallel) return 0;
+    // A shingle may lie within reach of the roof that it comes out of, and aslant all the same.
+    if (flat && std::abs(glm::dot(s.normal, t.normal)) < kParallel && (!traceBoth(0) || flat)) return 0;
+    if (flat) {
         clipOutlines(s, t, true, out, count);
         clipOutlines(t, s, false, out, count);
         return count;

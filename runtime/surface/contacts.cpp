@@ -77,6 +77,7 @@ struct Flap {
     int side;
     uint32_t triangle;
     dvec3 away, normal;  // unit; away from the stretch, within the surface
+    uint32_t half;       // half-edge that it ends at there; kNoIndex: it goes on as another flap
     bool atBorder;       // along a border of its chart
 };
 
@@ -132,7 +133,7 @@ class Assembler {
         if (flaps_.size() == 2 && sideOf(flaps_[0]) != sideOf(flaps_[1]) && view_[0] == view_[1]) return;
         for (const Flap& f : flaps_) {
             const Flap* g = goesOn(f);
-            if (!g || g->side == f.side) continue;
+            if (!g || g->side == f.side || seamLeads(f, *g)) continue;
             if (!faces(*g, f) && solid(*g)) continue;
             if (auto contact = make(f, *g)) addWithin(*contact, *g, *out[size_t(f.side)]);
         }
@@ -143,26 +144,34 @@ class Assembler {
         const View& view = *view_[s];
         const auto& side = found_->segment.side[s];
         uint32_t t = found_->triangle[size_t(s)];
-        auto push = [&](uint32_t triangle, dvec3 towards, bool atBorder) {
+        auto push = [&](uint32_t triangle, dvec3 towards, uint32_t half) {
             dvec3 n = view.normal(triangle);
             dvec3 w = glm::cross(n, direction_);
             double length = glm::length(w);
             if (!(length > 0.1)) return;
             w /= length;
-            flaps_.push_back({s, triangle, glm::dot(w, towards) < 0 ? -w : w, n, atBorder});
+            const bool atBorder = half != kNoIndex && view.mesh.chartBorder[half] != 0;
+            flaps_.push_back({s, triangle, glm::dot(w, towards) < 0 ? -w : w, n, half, atBorder});
         };
         if (side.edge < 0) {
             dvec3 w = glm::cross(view.normal(t), direction_);
-            push(t, w, false);
-            push(t, -w, false);
+            push(t, w, kNoIndex);
+            push(t, -w, kNoIndex);
             return;
         }
         uint32_t h = t * 3 + uint32_t(side.edge);
         for (uint32_t half : {h, view.mesh.twin[h]}) {
             if (half == kNoIndex) continue;
             dvec3 tip = view.at(half / 3, (half + 2) % 3) - view.at(half / 3, half % 3);
-            push(half / 3, tip, view.mesh.chartBorder[half] != 0);
+            push(half / 3, tip, half);
         }
+    }
+
+    // Does a seam along the stretch lead from f to g?
+    bool seamLeads(const Flap& f, const Flap& g) const {
+        if (f.half == kNoIndex || g.half == kNoIndex || view_[0] != view_[1]) return false;
+        const auto& seam = meshOf(f).seam;
+        return !seam.empty() && seam[f.half] == g.half;
     }
 
     const ContactMesh& meshOf(const Flap& f) const { return view_[f.side]->mesh; }
@@ -349,6 +358,30 @@ void find(const View& a, uint32_t i, const View& b, uint32_t j, double scale, st
     }
 }
 
+// A shell meets itself where one of its borders lies against the middle of its own: a wall of a welded house that ends
+// at another one.
+void findWithinShells(const View& view, const BoxTree& tree, double tolerance, std::vector<Found>& found) {
+    const ContactMesh& mesh = view.mesh;
+    auto shareAPoint = [&](uint32_t i, uint32_t j) {
+        for (uint32_t p : mesh.triangles[i].point)
+            if (std::count(mesh.triangles[j].point.begin(), mesh.triangles[j].point.end(), p) > 0) return true;
+        return false;
+    };
+    for (uint32_t h = 0; h < mesh.twin.size(); ++h) {
+        if (mesh.twin[h] != kNoIndex) continue;
+        const uint32_t i = h / 3;
+        Box edge;
+        edge.add(mesh.at(i, h % 3)), edge.add(mesh.at(i, (h + 1) % 3));
+        tree.near(edge.grown(tolerance), [&](uint32_t j) {
+            if (mesh.triangles[i].shell != mesh.triangles[j].shell || shareAPoint(i, j)) return;
+            std::vector<Found> all;
+            find(view, i, view, j, 1, all);
+            for (const Found& f : all)
+                if (f.segment.side[0].edge == int(h % 3)) found.push_back(f);
+        });
+    }
+}
+
 }  // namespace
 
 BoxTree ContactMesh::tree() const {
@@ -385,6 +418,7 @@ std::vector<Contact> contactsWithin(const ContactMesh& mesh, const BoxTree& tree
             std::swap(i, j);  // one order for all pairs of two shells
         find(view, i, view, j, 1, found);
     });
+    findWithinShells(view, tree, options.tolerance, found);
     merge(found);
     std::vector<Contact> out;
     Assembler assembler(view, view, options);

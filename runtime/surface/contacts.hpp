@@ -25,6 +25,7 @@ struct ContactMesh {
     std::vector<glm::dvec3> points;  // welded; object space, metres
     std::vector<Triangle> triangles;
     std::vector<uint32_t> twin;        // per half-edge, kNoIndex at borders
+    std::vector<uint32_t> seam;        // per half-edge: the one that walks come to over it anyway; empty: the twin
     std::vector<uint8_t> chartBorder;  // per half-edge: the chart ends here
     std::vector<float> orientation;    // per chart, as Chart::orientation
     std::vector<uint8_t> solid;        // per body: it encloses room (BodyTest); others are sheets

@@ -122,6 +122,57 @@ TEST_CASE("a sheet that stands on a floor is climbed from both sides") {
     }
 }
 
+TEST_CASE("pieces put corner to corner are pieces: a ledge is met at its top though its foot shares the wall's edge") {
+    Kit kit;
+    const double deep = 0.3, high = 0.1;
+    const int lower = kit.panel({-1, 0, 0}, {2, 0, 0}, {0, 1, 0}), upper = kit.panel({-1, 1, 0}, {2, 0, 0}, {0, 1, 0});
+    // A ledge without a back, whose foot ends where the wall's panels meet.
+    kit.panel({-1, 1, 0}, {2, 0, 0}, {0, 0, deep});
+    kit.panel({-1, 1, deep}, {2, 0, 0}, {0, high, 0});
+    kit.panel({-1, 1 + high, deep}, {2, 0, 0}, {0, 0, -deep});
+    kit.panel({-1, 1, 0}, {0, 0, deep}, {0, high, 0});
+    kit.panel({1, 1, deep}, {0, 0, -deep}, {0, high, 0});
+    Baked baked = kit.bake();
+    Stroll walk(baked.surface);
+    const double around = 0.5 - high + deep + high + deep + 0.5;
+    for (double s : {0.3, 0.5, 0.72}) {
+        CAPTURE(s);
+        REQUIRE(walk.start(kit, upper, s, 0.5, {0, -1, 0}));
+        CHECK(walk.go(around) == kWalkDone);
+        CHECK(near(walk.w.position, kit[lower].at(s, 0.5), 2e-3));
+        CHECK(near(walk.w.walk.direction, {0, -1, 0}, 1e-3));
+        walk.turnBack();
+        CHECK(walk.go(around) == kWalkDone);
+        CHECK(near(walk.w.position, kit[upper].at(s, 0.5), 2e-3));
+    }
+    // The wall behind the ledge is no ground.
+    const SurfaceLevelData& level = baked.surface.levels[0];
+    auto classAt = [&](double t) {
+        return texelClass(level.texels[texelAt(level.size, glm::vec2(kit.uv(upper, 0.5, t)))].bits);
+    };
+    CHECK(classAt(high / 2) == kTexelLink);
+    CHECK(classAt(2 * high) == kTexelInner);
+}
+
+TEST_CASE("a wall that ends in the middle of another one is met, though they are one piece around the corner") {
+    // A niche, seen from inside; its back wall goes on behind the right one.
+    Kit kit;
+    const int back = kit.panel({-1, 0, 0}, {2, 0, 0}, {0, 1, 0});
+    kit.panel({-1, 0, 1}, {0, 0, -1}, {0, 1, 0});
+    kit.panel({-1, 1, 0}, {1, 0, 0}, {0, 0, 1});
+    kit.panel({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
+    kit.panel({-1, -1, 2}, {2, 0, 0}, {0, 1, 0});  // another piece, far off
+    Baked baked = kit.bake();
+    Stroll walk(baked.surface);
+    REQUIRE(walk.start(kit, back, 0.25, 0.6, {1, 0, 0}));
+    CHECK(walk.go(1) == kWalkDone);
+    CHECK(near(walk.w.position, {0, 0.6, 0.5}, 2e-3));
+    CHECK(near(walk.w.walk.direction, {0, 0, 1}, 1e-3));
+    walk.turnBack();
+    CHECK(walk.go(1) == kWalkDone);
+    CHECK(near(walk.w.position, {-0.5, 0.6, 0}, 2e-3));
+}
+
 TEST_CASE("a groove between boards, narrower than a texel, is gone through or over, never along only") {
     const double depth = 0.08, texel = 4 / (0.88 / 5 * 1024);
     // Boards nearer to each other than a tenth of their thickness count as touching.

@@ -1,6 +1,10 @@
 #include "tests/contact/oracle.hpp"
 
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Triangle_3.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
@@ -45,13 +49,21 @@ double toTriangle(Vec3 p, const Vec3 (&q)[3]) {
 
 }  // namespace
 
+struct Oracle::Sight {
+    using Plain = CGAL::Simple_cartesian<double>;
+    using Shapes = std::vector<Plain::Triangle_3>;
+    using Tree =
+        CGAL::AABB_tree<CGAL::AABB_traits<Plain, CGAL::AABB_triangle_primitive<Plain, Shapes::const_iterator>>>;
+    Shapes shapes;
+    Tree tree;
+};
+
 Oracle::Oracle(const Model& model) {
-    Vec3 low(1e300), high(-1e300);
     for (uint32_t i : model.indices) {
-        low = glm::min(low, Vec3(model.positions[i]));
-        high = glm::max(high, Vec3(model.positions[i]));
+        low_ = glm::min(low_, Vec3(model.positions[i]));
+        high_ = glm::max(high_, Vec3(model.positions[i]));
     }
-    radius_ = glm::length(high - low) / 2;
+    radius_ = glm::length(high_ - low_) / 2;
     std::map<std::tuple<int64_t, int64_t, int64_t>, uint32_t> cells;
     auto pointOf = [&](Vec3 p) {
         Vec3 g = glm::round(p / (radius_ * 1e-6));
@@ -89,6 +101,12 @@ Oracle::Oracle(const Model& model) {
         borders_.push_back({t.p[halves[0] % 3], t.p[(halves[0] + 1) % 3]});
         borderTriangle_.push_back(halves[0] / 3);
     }
+    auto sight = std::make_shared<Sight>();
+    auto point = [](Vec3 p) { return Sight::Plain::Point_3(p.x, p.y, p.z); };
+    for (const Triangle& t : triangles_) sight->shapes.emplace_back(point(t.p[0]), point(t.p[1]), point(t.p[2]));
+    sight->tree.rebuild(sight->shapes.cbegin(), sight->shapes.cend());
+    sight->tree.build();
+    sight_ = sight;
 }
 
 std::vector<ContactLine> Oracle::intersections() const {
@@ -121,14 +139,39 @@ double Oracle::winding(Vec3 p) const {
     return sum;
 }
 
-bool Oracle::visible(const ContactLine& line) const {
+bool Oracle::seen(Vec3 p, Vec3 normal) const {
+    constexpr int kRays = 200;
+    for (int i = 0; i < kRays; ++i) {
+        double z = 1 - (2 * i + 1.0) / kRays, r = std::sqrt(1 - z * z), turn = 2.399963229728653 * i;
+        Vec3 ray(r * std::cos(turn), z, r * std::sin(turn));
+        if (normal != Vec3(0) && glm::dot(ray, normal) < 0.02) continue;
+        Vec3 end = p + ray * (ray.y < 0 ? (low_.y - p.y) / ray.y : 0.0);
+        if (ray.y < 0 && end.x > low_.x && end.x < high_.x && end.z > low_.z && end.z < high_.z) continue;
+        using Plain = Sight::Plain;
+        if (!sight_->tree.do_intersect(
+                Plain::Ray_3(Plain::Point_3(p.x, p.y, p.z), Plain::Vector_3(ray.x, ray.y, ray.z))))
+            return true;
+    }
+    return false;
+}
+
+bool Oracle::visible(const ContactLine& line, double room) const {
     Vec3 d = glm::normalize(line.b - line.a), m = (line.a + line.b) * 0.5;
     Vec3 u = glm::normalize(glm::cross(d, std::abs(d.x) < 0.7 ? Vec3(1, 0, 0) : Vec3(0, 1, 0))), v = glm::cross(d, u);
     for (int k = 0; k < 16; ++k) {
         double angle = (k + 0.5) * 6.283185307179586 / 16;
-        if (winding(m + (u * std::cos(angle) + v * std::sin(angle)) * (2e-4 * radius_)) < 0.5) return true;
+        for (double away : {0.75, 1.0, 2.0}) {
+            Vec3 p = m + (u * std::cos(angle) + v * std::sin(angle)) * (room > 0 ? away * room : 2e-4 * radius_);
+            double near2 = room > 0 ? sight_->tree.squared_distance({p.x, p.y, p.z}) : 1e300;
+            if (near2 >= 0.24 * room * room && winding(p) < 0.5 && seen(p, Vec3(0))) return true;
+        }
     }
     return false;
+}
+
+uint32_t Oracle::pieceAt(Vec3 p) const {
+    auto nearest = sight_->tree.closest_point_and_primitive({p.x, p.y, p.z}).second;
+    return triangles_[size_t(nearest - sight_->shapes.cbegin())].piece;
 }
 
 double Oracle::toBorder(Vec3 p, double within) const {

@@ -1,8 +1,9 @@
 #pragma once
 
 // What an independent judge says of a model: where its pieces intersect, what is inside of them, which borders are
-// its own. By CGAL's triangle intersections and by solid angles; nothing of the baker's.
+// its own, what can be seen. By CGAL's triangle intersections and rays and by solid angles; nothing of the baker's.
 
+#include <memory>
 #include <vector>
 
 #include "tools/bake/bake.hpp"
@@ -22,8 +23,15 @@ class Oracle {
 
     // Where triangles of different pieces cross each other, not merely touch.
     std::vector<ContactLine> intersections() const;
-    // Is there room beside the line, on the outside of all pieces that are closed?
-    bool visible(const ContactLine& line) const;
+    // Does a straight way lead from p out of the model, not to the ground under it, on which models stand? `normal`: on
+    // that side only, 0: on all.
+    bool seen(Vec3 p, Vec3 normal) const;
+    // Is there a place beside the line that is seen, outside of all pieces that are closed, and that has room for a
+    // ball of diameter `room` (0: for a point)? Kits leave out the faces that others hide: a roof's underside and the
+    // attic's walls meet where no plant and no eye comes. And what is as narrow as a texel or two, walks go over.
+    bool visible(const ContactLine& line, double room = 0) const;
+    // The piece of the triangle that is nearest to p, by a number of its own.
+    uint32_t pieceAt(Vec3 p) const;
     // How often the pieces that are closed wind around the point: 0.5 and more is inside.
     double winding(Vec3 p) const;
     // The distance to the nearest edge of one triangle alone that nothing of another piece touches; those farther than
@@ -42,6 +50,9 @@ class Oracle {
     std::vector<ContactLine> borders_;
     std::vector<uint32_t> borderTriangle_;
     double radius_ = 0;
+    Vec3 low_{1e300}, high_{-1e300};
+    struct Sight;
+    std::shared_ptr<const Sight> sight_;
 };
 
 }  // namespace espalier::contacttest

@@ -113,19 +113,9 @@ glm::dvec3 normalOf(const BakeMesh& mesh, const Triangle& t) {
     return length > 0 ? n / length : glm::dvec3(0);
 }
 
-// The angle by which a walk that comes to half-edge a turns towards its outside until it stands on b's triangle, which
-// runs along the same edge the other way. Faces that coincide count as back to back.
-double outsideAngle(const BakeMesh& mesh, uint32_t a, uint32_t b) {
-    glm::dvec3 na = normalOf(mesh, mesh.triangles[a / 3]), nb = normalOf(mesh, mesh.triangles[b / 3]);
-    glm::dvec3 along = glm::normalize(mesh.pointAt(BakeMesh::next(a)) - mesh.pointAt(a));
-    glm::dvec3 intoA = glm::cross(na, along), intoB = glm::cross(along, nb);
-    double angle = std::atan2(glm::dot(intoB, na), glm::dot(intoB, intoA));
-    return angle < 1e-6 ? angle + 6.283185307179586 : angle;
-}
-
 // Pairs half-edges that run along one edge in opposite directions. Of more than two, those go together whose outsides
 // face each other most closely: a walk goes on along the outside.
-void pairEdges(BakeMesh& mesh, size_t& nonManifold, size_t& unlike) {
+void pairEdges(BakeMesh& mesh, size_t& unlike) {
     size_t count = mesh.triangles.size() * 3;
     std::vector<Edge> edges(count);
     for (uint32_t h = 0; h < count; ++h) {
@@ -153,7 +143,7 @@ void pairEdges(BakeMesh& mesh, size_t& nonManifold, size_t& unlike) {
             else
                 ++unlike;
         } else if (j - i > 2 && j - i <= 64) {
-            ++nonManifold;
+            ++mesh.crowdedEdges;
             pairs.clear();
             for (size_t p = i; p < j; ++p)
                 for (size_t q = p + 1; q < j; ++q) {
@@ -193,6 +183,14 @@ size_t collectTriangles(const Model& model, const std::vector<uint32_t>& point, 
 
 }  // namespace
 
+double outsideAngle(const BakeMesh& mesh, uint32_t a, uint32_t b) {
+    glm::dvec3 na = normalOf(mesh, mesh.triangles[a / 3]), nb = normalOf(mesh, mesh.triangles[b / 3]);
+    glm::dvec3 along = glm::normalize(mesh.pointAt(BakeMesh::next(a)) - mesh.pointAt(a));
+    glm::dvec3 intoA = glm::cross(na, along), intoB = glm::cross(along, nb);
+    double angle = std::atan2(glm::dot(intoB, na), glm::dot(intoB, intoA));
+    return angle < 1e-6 ? angle + 6.283185307179586 : angle;
+}
+
 double area3(const BakeMesh& mesh, const Triangle& t) {
     return glm::length(glm::cross(mesh.points[t.point[1]] - mesh.points[t.point[0]],
                                   mesh.points[t.point[2]] - mesh.points[t.point[0]])) /
@@ -218,14 +216,15 @@ Result<BakeMesh> buildMesh(const Model& model, std::vector<Diagnostic>& warnings
     std::vector<uint32_t> point = weld(model, kWeldRadius * mesh.radius, mesh.points);
     size_t degenerate = collectTriangles(model, point, mesh);
     if (mesh.triangles.empty()) return Failure(model.name, "no triangle can be baked: all lack area");
-    size_t copies = dropCopies(mesh, kFinShare * mesh.area), nonManifold = 0, unlike = 0;
-    pairEdges(mesh, nonManifold, unlike);
+    size_t copies = dropCopies(mesh, kFinShare * mesh.area), unlike = 0;
+    pairEdges(mesh, unlike);
     if (copies > 0)
         warn(warnings, model,
              std::to_string(copies) + " triangles that others cover exactly, or of small fins, left out");
     if (degenerate > 0) warn(warnings, model, std::to_string(degenerate) + " triangles without area left out");
-    if (nonManifold > 0)
-        warn(warnings, model, std::to_string(nonManifold) + " edges with more than two triangles: paired by direction");
+    if (mesh.crowdedEdges > 0)
+        warn(warnings, model,
+             std::to_string(mesh.crowdedEdges) + " edges with more than two triangles: paired by direction");
     if (unlike > 0)
         warn(warnings, model,
              std::to_string(unlike) + " edges whose two triangles face opposite ways: walks go over to the back there");

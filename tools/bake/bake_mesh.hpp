@@ -42,10 +42,11 @@ struct BakeMesh {
     std::vector<glm::vec3> normals;       // per corner: the shading normal
     std::vector<float> curvature;         // per point, 1/m, positive on bulges
     glm::dvec3 boundsMin{0}, boundsMax{0};
-    bool metric = false;  // UVs are in metres and charts lie anywhere: layOut has to place them
-    double radius = 0;    // half the diagonal of the bounds
-    double area = 0;      // of the model, what is left out included
-    double copied = 0;    // of that: triangles that others cover exactly
+    size_t crowdedEdges = 0;  // edges of more than two triangles
+    bool metric = false;      // UVs are in metres and charts lie anywhere: layOut has to place them
+    double radius = 0;        // half the diagonal of the bounds
+    double area = 0;          // of the model, what is left out included
+    double copied = 0;        // of that: triangles that others cover exactly
 
     uint32_t chartCount() const { return uint32_t(orientation.size()); }
     uint32_t chartOf(uint32_t halfEdge) const { return triangles[halfEdge / 3].chart; }
@@ -61,6 +62,9 @@ inline double uvArea(const Triangle& t) {
     return cross(t.uv[1] - t.uv[0], t.uv[2] - t.uv[0]) / 2;
 }
 double area3(const BakeMesh& mesh, const Triangle& t);
+// The angle by which a walk that comes to half-edge a turns towards its outside until it stands on b's triangle, which
+// runs along the same edge the other way, (0, 2 pi]. Faces that coincide count as back to back.
+double outsideAngle(const BakeMesh& mesh, uint32_t a, uint32_t b);
 
 // Welds and pairs edges, by positions alone: fills in points, triangles without chart and UV, twins and measures.
 // Refuses models without area or with NaN.
