@@ -177,19 +177,23 @@ uint32_t Oracle::pieceAt(Vec3 p) const {
 double Oracle::toBorder(Vec3 p, double within) const {
     double best = 1e300;
     for (size_t i = 0; i < borders_.size(); ++i) {
-        double d = toSegment(p, borders_[i].a, borders_[i].b);
-        if (d >= best || d > within) continue;
-        // Where another piece touches, the model does go on.
-        Vec3 ab = borders_[i].b - borders_[i].a;
-        double t = std::clamp(glm::dot(p - borders_[i].a, ab) / glm::dot(ab, ab), 0.0, 1.0);
-        Vec3 at = borders_[i].a + ab * t;
+        const ContactLine& l = borders_[i];
+        if (toSegment(p, l.a, l.b) > within) continue;
+        Vec3 ab = l.b - l.a;
+        double length = glm::length(ab), foot = glm::dot(p - l.a, ab) / length;
         uint32_t own = borderTriangle_[i];
-        bool goesOn = false;
-        for (uint32_t k = 0; k < triangles_.size() && !goesOn; ++k) {
-            if (k == own || triangles_[k].piece == triangles_[own].piece) continue;
-            goesOn = toTriangle(at, triangles_[k].p) <= 1e-4 * radius_;
+        // Where another piece touches, the model does go on; beside that it may not.
+        for (double beside : {0.0, -0.15, 0.15, -0.4, 0.4, -0.8, 0.8}) {
+            Vec3 at = l.a + ab * (std::clamp(foot + beside * within, 0.0, length) / length);
+            double d = glm::length(p - at);
+            if (d >= best || d > within) continue;
+            bool goesOn = false;
+            for (uint32_t k = 0; k < triangles_.size() && !goesOn; ++k) {
+                if (k == own || triangles_[k].piece == triangles_[own].piece) continue;
+                goesOn = toTriangle(at, triangles_[k].p) <= 1e-4 * radius_;
+            }
+            if (!goesOn) best = d;
         }
-        if (!goesOn) best = d;
     }
     return best;
 }

@@ -34,8 +34,8 @@ class Oracle {
     uint32_t pieceAt(Vec3 p) const;
     // How often the pieces that are closed wind around the point: 0.5 and more is inside.
     double winding(Vec3 p) const;
-    // The distance to the nearest edge of one triangle alone that nothing of another piece touches; those farther than
-    // `within` aren't looked at.
+    // The distance to the nearest place on an edge of one triangle alone that nothing of another piece touches; those
+    // that are farther than `within` aren't looked at.
     double toBorder(Vec3 p, double within) const;
     double radius() const { return radius_; }
 
