@@ -28,6 +28,7 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
                     {emit.bindLeaves_[0], "emit/bind_leaves.comp", {{3, 1}}},
                     {emit.bindLeaves_[1], "emit/bind_leaves.comp", {{3, 0}}},
                     {emit.bindTouch_, "emit/bind_touch.comp", {}},
+                    {emit.bindStretches_, "emit/bind_stretches.comp", {}},
                     {emit.bindKeep_, "emit/bind_keep.comp", {}},
                     {emit.bindCount_, "emit/bind_count.comp", {}},
                     {emit.bindCells_, "emit/bind_cells.comp", {}},
@@ -152,6 +153,7 @@ void thinOut(EmitView& view, float leafPixels) {
     view.wholePixels = std::max(leafPixels, 1e-3f);
     view.leastShare = kLeastShare / (coarser * coarser);
     view.leastPixels = 0.5f * std::min(coarser, 2.0f);
+    if (coarser > 1) view.flags |= kStretches;
 }
 
 EmitView parallelView(const glm::mat4& m, float pixelsPerMetre, float lodPixels) {

@@ -93,7 +93,7 @@ class Emit {
     Device* device_ = nullptr;
     const Terminals* terminals_ = nullptr;
     std::array<Program, 2> bindSpans_, bindLeaves_;  // [1] fetches records as texels
-    Program bindTouch_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
+    Program bindTouch_, bindStretches_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
     Program cullCells_, listBlocks_, classifySpans_, classifyLeaves_, scan_, writeDrawn_;
     Program barkVertices_, barkIndices_, looseTriangles_;
     std::array<Buffer, 8> views_, binds_;                  // that recordings in flight may still read
@@ -115,7 +115,8 @@ class Emit {
 
 // The six planes of a view-projection matrix with reversed depth (near at 1, far at 0), and the rest of a view.
 EmitView perspectiveView(const glm::mat4& viewProjection, glm::vec3 eye, float pixelScale, float lodPixels);
-// Fewer and larger leaves, of at least `leafPixels` where there are leaves to leave out; beyond 8 fewer twigs, too.
+// Fewer and larger leaves, of at least `leafPixels` where there are leaves to leave out; beyond 8 fewer twigs, too, and
+// spans that follow each other may be drawn as one.
 void thinOut(EmitView& view, float leafPixels);
 EmitView parallelView(const glm::mat4& viewProjection, float pixelsPerMetre, float lodPixels);
 

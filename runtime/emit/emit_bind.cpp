@@ -163,6 +163,8 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     // The lookup knows branches too, which nobody asks for here.
     pass.dispatchItems(bindSpans_[fetches_], nodes, {}, {table, nodeRecords_, chunkRecords_, chunkRecords_, in});
     pass.barrier(Use::compute, Use::compute);
+    pass.dispatchItems(bindStretches_, nodes, {}, {table, spanTexels_, in});
+    pass.barrier(Use::compute, Use::compute);
     pass.dispatchItems(bindLeaves_[fetches_], leaves, {}, {table, leafRecords_, spanTexels_, in});
     pass.barrier(Use::compute, Use::compute);
     if (partly) {

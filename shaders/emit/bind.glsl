@@ -8,10 +8,10 @@ layout(set = 0, binding = 8, scalar) uniform BindBlock { BindInputs push; };
 
 #define HEAD push.cells.v[kAllCells]
 
-// A span's class by its thickness, in parts of a cell's side.
-uint spanClass(float thick) {
+// A span's class by its thickness, in parts of a cell's side. last: of its stretch.
+uint spanClass(float thick, bool last) {
     float t = thick * push.grid.rcpCell;
-    return t > 0.012 ? 0u : t > 0.006 ? 1u : 2u;
+    return t > 0.012 ? 0u : t > 0.006 ? 1u : last ? 2u : 3u;
 }
 
 // Takes an item out of where it was; whether it was there.

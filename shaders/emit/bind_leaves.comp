@@ -51,7 +51,7 @@ uint trianglesOf(uint bits, uint hash) {
 bool concerns(uint i, uint node) {
     bool concerned = push.partly == 0u || i >= push.leavesBefore;
     for (bool asked = !concerned; asked; asked = false)
-        concerned = node < push.nodeCount ? push.flags.v[node] != 0u : push.keys.v[push.leafBase + i] != kNoIndex;
+        concerned = node < push.nodeCount ? (push.flags.v[node] & kFlagSpan) != 0u : push.keys.v[push.leafBase + i] != kNoIndex;
     return concerned;
 }
 

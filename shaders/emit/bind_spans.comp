@@ -5,6 +5,7 @@
 // A node each: the span that ends there, as an instance in the world, put into its cell.
 #include "shaders/emit/bind.glsl"
 #include "shaders/emit/span_load.h"
+#include "shaders/emit/sight.glsl"
 #include "shaders/emit/span_thinning.glsl"
 #include "shaders/shared/record_lookup.h"
 
@@ -22,9 +23,17 @@ void writeSpan(uint i, SpanInstance o) {
     to.v[6] = pairOf(o.normal0, o.normal1);
     to.v[7] = pairOf(o.radius0, o.radius1);
     to.v[8] = pairOf(o.arc0, o.metres);
-    to.v[9] = pairOf(floatBitsToUint(o.bend), o.bits);
+    to.v[9] = pairOf(o.errors, o.bits);
     to.v[10] = pairOf(o.center.x, o.center.y);
     to.v[11] = pairOf(o.center.z, o.reach);
+}
+
+// As in SpanInstance::bits.
+uint stretchBits(Node node, ChunkBrief chunk) {
+    uint local = (node.flags >> 8u) & 31u;
+    uint place = local % kStretch;
+    bool last = place == kStretch - 1u || local + 1u == chunkNodes(chunk.marks);
+    return (place << 12u) | (last ? 0x8000u : 0u);
 }
 
 SpanInstance instanceOf(LoadedSpan s, Node node, ChunkBrief chunk, uint kind) {
@@ -40,11 +49,13 @@ SpanInstance instanceOf(LoadedSpan s, Node node, ChunkBrief chunk, uint kind) {
     o.arc0 = s.arc0;
     o.metres = spanLength(s.span);
     vec3 chord = o.p3 - o.p0;
-    o.bend = 0.75 * max(length(o.b1 - o.p0 - chord / 3.0), length(o.b2 - o.p3 + chord / 3.0));
+    float bend = 0.75 * max(length(o.b1 - o.p0 - chord / 3.0), length(o.b2 - o.p3 + chord / 3.0));
+    o.errors = packHalf2x16(vec2(bend, kNeverJoined));
     uint order = uint(twigOrder(chunk.key) * 65535.0);
-    o.bits = kind | (s.tip ? 64u : 0u) | (min(chunk.depth & 0xFFFFu, 31u) << 7u) | (order << 16u);
-    o.center = (o.p0 + o.p3) * 0.5;
-    o.reach = max(max(distance(o.center, o.b1), distance(o.center, o.b2)), distance(o.center, o.p0));
+    o.bits = kind | (s.tip ? 64u : 0u) | (min(chunk.depth & 0xFFFFu, 31u) << 7u) | stretchBits(node, chunk) | (order << 16u);
+    vec4 sphere = spanSphere(o.p0, o.b1, o.b2, o.p3);
+    o.center = sphere.xyz;
+    o.reach = sphere.w;
     return o;
 }
 
@@ -58,7 +69,7 @@ void main() {
     env.chunks = push.chunks;
     uint i = itemIndex();
     bool concerned = i < push.nodeCount;
-    for (bool asked = concerned && push.partly != 0u; asked; asked = false) concerned = push.flags.v[i] != 0u;
+    for (bool asked = concerned && push.partly != 0u; asked; asked = false) concerned = (push.flags.v[i] & kFlagSpan) != 0u;
     for (bool given = concerned; given; given = false) {
         for (bool was = takeKey(i, i < push.nodesBefore); was; was = false)
             atomicAdd(HEAD.first, 0u - trianglesOf(push.spans.v[i].bits & 63u));
@@ -66,6 +77,7 @@ void main() {
         Node node = readNode(env, i);
         bool there = node.flags != 0u || node.radius >= 0.0;
         ChunkBrief chunk = readBrief(env, there ? node.chunk : 0u);
+        push.spans.v[i].bits = kNoBark | (there ? stretchBits(node, chunk) : 0u);
         uint before = ((node.flags >> 8u) & 31u) > 0u ? i - 1u : chunk.previousNode;
         for (bool spans = there && before != kNoIndex; spans; spans = false) {
             Node start = readNode(env, before);
@@ -94,7 +106,7 @@ void main() {
             writeSpan(i, o);
             for (bool drawn = bark; drawn; drawn = false) {
                 float thick = max(o.radius0, o.radius1);
-                giveKey(i, spanClass(thick), o.center, (o.bits >> 16u) / (0x10000u / kCellBins));
+                giveKey(i, spanClass(thick, (o.bits & 0x8000u) != 0u), o.center, (o.bits >> 16u) / (0x10000u / kCellBins));
                 atomicAdd(HEAD.first, trianglesOf(kind));
             }
         }

@@ -19,27 +19,36 @@ void main() {
         o.item = push.order.v[given.first + lane];
         uvec4 d = texelFetch(spanTexels, int(6u * o.item + 3u));
         uvec4 e = texelFetch(spanTexels, int(6u * o.item + 4u));
-        vec4 sphere = uintBitsToFloat(texelFetch(spanTexels, int(6u * o.item + 5u)));
         float thick = max(uintBitsToFloat(d.z), uintBitsToFloat(d.w));
         float order = float(e.w >> 16u) * (1.0 / 65535.0);
         uint variant = table.kinds[e.w & 63u].firstVariant;
         o.bits = 0xFFFF0000u;
         bucket = table.variants[variant].firstBucket;
         for (bool culled = (view.flags & kFullDetail) == 0u; culled; culled = false) {
+            vec4 sphere = uintBitsToFloat(texelFetch(spanTexels, int(6u * o.item + 5u)));
+            vec2 errors = unpackHalf2x16(e.z);
+            bool joined = (view.flags & kStretches) != 0u && errors.y * pixelsPerMetre(view, sphere.xyz) <= view.lodPixels;
+            for (bool alone = !joined; alone; alone = false) {
+                uvec4 a = texelFetch(spanTexels, int(6u * o.item));
+                uvec4 b = texelFetch(spanTexels, int(6u * o.item + 1u));
+                uvec4 c = texelFetch(spanTexels, int(6u * o.item + 2u));
+                sphere = spanSphere(uintBitsToFloat(a.xyz), uintBitsToFloat(uvec3(a.w, b.xy)),
+                                    uintBitsToFloat(uvec3(b.zw, c.x)), uintBitsToFloat(c.yzw));
+            }
             float pixels = pixelsPerMetre(view, sphere.xyz);
             float thin = thick * pixels / view.leastPixels;
             float reach = sphere.w + 2.0 * max(thick, view.leastPixels / pixels);
-            bool seen = thin >= kThinnest && spanIsKept(thin, order) && !outside(view, sphere.xyz, reach);
+            bool seen = (!joined || (e.w & 0x8000u) != 0u) && thin >= kThinnest && spanIsKept(thin, order) && !outside(view, sphere.xyz, reach);
             for (bool asked = seen && u64(view.tiles) != 0ul; asked; asked = false) seen = !hidden(view, sphere.xyz, reach);
             // n straight pieces leave about 1/n² of the bend.
             uint lod = table.variants[variant].lodCount - 1u;
-            while (lod > 0u) {
+            while (lod > 0u && !joined) {
                 float pieces = table.variants[variant].segments[lod];
-                if ((table.variants[variant].error[lod] * thick + uintBitsToFloat(e.z) / (pieces * pieces)) * pixels <= view.lodPixels) break;
+                if ((table.variants[variant].error[lod] * thick + errors.x / (pieces * pieces)) * pixels <= view.lodPixels) break;
                 --lod;
             }
             bucket = seen ? bucket + lod : kNoBucket;
-            o.bits = lod | (uint(spanFade(thin, order) * 65535.0 + 0.5) << 16u);
+            o.bits = lod | (joined ? (e.w >> 9u) & 56u : 0u) | (uint(spanFade(thin, order) * 65535.0 + 0.5) << 16u);
             o.value = view.leastPixels / pixels;
         }
     }

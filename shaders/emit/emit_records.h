@@ -18,6 +18,7 @@ CONST_UINT(kMaxVariants, 48u);
 CONST_UINT(kMaxLods, 6u);
 CONST_UINT(kMaxBuckets, 64u);
 CONST_UINT(kNoBucket, 0xFFu);
+CONST_UINT(kStretches, 2u);    // EmitView::flags: spans that follow each other may be drawn as one
 CONST_UINT(kFullDetail, 1u);   // EmitView::flags: every instance at LOD 0, nothing is culled, thickened or thinned out
 
 // What a cull is for. A sphere (c, r) is outside if dot(planes[i].xyz, c) + planes[i].w < -r for some i.
@@ -84,23 +85,24 @@ struct DrawCommand {
 };
 STATIC_SIZE(DrawCommand, 20);
 
-// Space is divided into cells of a grid; each holds its spans, in classes by thickness, and its leaves, in bins by their
-// order of going when they are thinned out, so that what stays is a run of them. Cells of a class have the number
+// Space is divided into cells of a grid; each holds its spans, in classes by thickness, the thinnest in two of them: the
+// last of a stretch, and others. And it holds its leaves. Both lie in bins by their order of going when they are thinned
+// out, so that what stays is a run of them. Cells of a class have the number
 // class * kMaxCells + cell.
 CONST_UINT(kMaxCells, 4096u);
-CONST_UINT(kLeafClass, 3u);    // classes below: of spans
-CONST_UINT(kAllCells, 16384u);
+CONST_UINT(kLeafClass, 4u);    // classes below: of spans
+CONST_UINT(kAllCells, 20480u);
 CONST_UINT(kCellBins, 64u);
 CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
 
 // A cell's spans of one class, or its leaves. reach: of any of them from the cell's middle, metres; largest: thickest
-// radius, or size. Both as bits, which order as the numbers do.
+// radius, or size; error: largest of the stretches that its spans belong to. All as bits, which order as the numbers do.
 struct EmitCell {
     uint first, count, room;    // in the order of items; how many may come to lie there
     uint changed;               // 1: items of it were bound anew, or left it
-    uint reach, largest;
+    uint reach, largest, error;
 };
-STATIC_SIZE(EmitCell, 24);
+STATIC_SIZE(EmitCell, 28);
 BUFFER(EmitCellBuf, EmitCell)
 
 // A run of a cell's items, of one kind (0 spans, 1 leaves).
@@ -110,7 +112,7 @@ struct EmitBlock {
 STATIC_SIZE(EmitBlock, 16);
 BUFFER(EmitBlockBuf, EmitBlock)
 
-// An instance as it is drawn. bits: of a span 2..0 LOD, 31..16 fade (unorm16: how much of a pixel it covers); of a leaf
+// An instance as it is drawn. bits: of a span 2..0 LOD, 5..3 how many spans before it are drawn with it, 31..16 fade (unorm16: how much of a pixel it covers); of a leaf
 // 2..0 LOD. value: of a span the least radius that it is drawn with, of a leaf the factor of its size.
 // bucket: kNoBucket if it isn't seen; rank: in its bucket and block. Both of notes only.
 struct DrawnItem {
@@ -136,17 +138,22 @@ struct EmitState {
 };
 STATIC_SIZE(EmitState, 3140);
 
+// Up to so many spans of a chunk that follow each other are a stretch, which far views draw as one.
+CONST_UINT(kStretch, 8u);
+CONST_FLOAT(kNeverJoined, 60000.0f);   // metres: an error that no view allows
 // The span that ends at a node, in the world, 96 bytes: read as six texels.
-//   bits 5..0 kind (63: no bark), bit 6 rounded tip, 11..7 branches from the seed, 31..16 its order of going (unorm16)
+//   bits 5..0 kind (63: no bark), bit 6 rounded tip, 11..7 branches from the seed, 14..12 its place in its stretch, bit 15
+//   the last there, 31..16 its order of going (unorm16)
+// errors: two halves, metres: how far the curve swings away from its chord; how far a ribbon for all of its stretch is off.
 struct SpanInstance {
     vec3 p0, b1, b2, p3;
     uint normal0, normal1;      // octahedral, surface
     float radius0, radius1;
     float arc0, metres;         // along the branch where it starts; of the span
-    float bend;                 // how far the curve swings away from its chord, metres
+    uint errors;
     uint bits;
-    vec3 center;
-    float reach;                // of the curve from there
+    vec3 center;                // of its stretch
+    float reach;                // of the stretch's curves from there
 };
 STATIC_SIZE(SpanInstance, 96);
 CONST_UINT(kNoBark, 63u);
@@ -208,7 +215,7 @@ struct BindInputs {
     UintBuf keys;               // [item]: its bin, kNoIndex: none; and kFresh
     UintBuf order;              // items of cells
     UintBuf touched;            // of growth: [node] the number of the regrowth that wrote it last
-    UintBuf flags;              // [node]: 1: its span is to be bound
+    UintBuf flags;              // [node]: kFlagSpan: its span is to be bound; kFlagStretch: one of its stretch
     UintBuf list;               // items that are put into cells
     EmitGrid grid;
     uint nodeCount, leafCount, leafBase;
@@ -221,6 +228,8 @@ STATIC_SIZE(BindInputs, 168);
 // cells[kAllCells]: first: triangles of all items at full detail; count: where room in the order begins; changed: items
 // of the list; room: EmitState::crowded.
 CONST_UINT(kFresh, 0x80000000u);
+CONST_UINT(kFlagSpan, 1u);
+CONST_UINT(kFlagStretch, 2u);
 
 // Push data of the culling kernels. View and table come as uniform blocks: software devices read these once for all lanes.
 struct EmitPush {

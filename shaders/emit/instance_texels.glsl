@@ -28,7 +28,7 @@ SpanInstance spanOf(uvec4 a, uvec4 b, uvec4 c, uvec4 d, uvec4 e, uvec4 f) {
     o.radius1 = uintBitsToFloat(d.w);
     o.arc0 = uintBitsToFloat(e.x);
     o.metres = uintBitsToFloat(e.y);
-    o.bend = uintBitsToFloat(e.z);
+    o.errors = e.z;
     o.bits = e.w;
     o.center = uintBitsToFloat(f.xyz);
     o.reach = uintBitsToFloat(f.w);

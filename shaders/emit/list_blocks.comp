@@ -5,11 +5,12 @@
 // takes cells that follow each other.
 #include "shaders/emit/emit_push.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 80) in;
 
-const uint kLaneCells = kAllCells / 64u;
-const uint kSpanLanes = 64u * kLeafClass * kMaxCells / kAllCells;   // their cells hold spans, those of others leaves
-shared uint laneBlocks[64];
+const uint kLanes = 80u;
+const uint kLaneCells = kAllCells / kLanes;
+const uint kSpanLanes = kLanes * kLeafClass * kMaxCells / kAllCells;   // their cells hold spans, those of others leaves
+shared uint laneBlocks[kLanes];
 
 uint blocksOf(uint cell) { return (push.seen.v[cell] + kBlockItems - 1u) / kBlockItems; }
 
@@ -33,7 +34,7 @@ void main() {
         push.state.v[0].blocks[0] = at;
         writeGroups(0u, at);
     }
-    if (lane == 63u) {
+    if (lane == kLanes - 1u) {
         uint spans = 0u;
         for (uint l = 0u; l < kSpanLanes; ++l) spans += laneBlocks[l];
         push.state.v[0].blocks[1] = at + count - spans;

@@ -30,6 +30,12 @@ bool hidden(EmitView view, vec3 center, float radius, int most) {
 
 bool hidden(EmitView view, vec3 center, float radius) { return hidden(view, center, radius, 4); }
 
+// Around a curve: center and radius.
+vec4 spanSphere(vec3 p0, vec3 b1, vec3 b2, vec3 p3) {
+    vec3 center = (p0 + p3) * 0.5;
+    return vec4(center, max(max(distance(center, b1), distance(center, b2)), distance(center, p0)));
+}
+
 // Pixels that a metre covers at `center`.
 float pixelsPerMetre(EmitView view, vec3 center) {
     if (view.parallel != 0u) return view.pixelScale;

@@ -31,10 +31,20 @@ LeafInstance drawnLeaf(uint i) {
     return o;
 }
 
-// bits: 2..0 LOD, 7..3 branches from the seed, bit 8 rounded tip, bits 31..16 fade (unorm16).
+// A stretch is one span, its ends those of the first and last. bits: 2..0 LOD, 7..3 branches from the seed, bit 8 rounded tip, bits 31..16 fade (unorm16).
 SpanInstance drawnSpan(uint i) {
     uvec4 item = texelFetch(drawn, int(i));
     SpanInstance o = SPAN_INSTANCE(instances, item.x);
+    uint before = (item.y >> 3u) & 7u;
+    for (bool joined = before > 0u; joined; joined = false) {
+        SpanInstance first = SPAN_INSTANCE(instances, item.x - before);
+        o.p0 = first.p0;
+        o.b1 = first.b1;
+        o.normal0 = first.normal0;
+        o.radius0 = first.radius0;
+        o.metres += o.arc0 - first.arc0;
+        o.arc0 = first.arc0;
+    }
     // Thinner than it can be drawn: drawn at that width, but fainter.
     float least = uintBitsToFloat(item.z);
     float radius0 = o.radius0;

@@ -1,0 +1,86 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// A node each, where the last span of a stretch ends: a sphere around all of the stretch, and how far one ribbon from its
+// beginning to its end would be off, for each of its spans.
+#include "shaders/emit/bind.glsl"
+#include "shaders/emit/sight.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, scalar) uniform TableBlock { EmitTable table; };
+layout(set = 0, binding = 1) uniform usamplerBuffer spanTexels;
+
+struct Curve {
+    vec3 p0, b1, b2, p3;
+};
+Curve curveOf(uint i) {
+    uvec4 a = texelFetch(spanTexels, int(6u * i));
+    uvec4 b = texelFetch(spanTexels, int(6u * i + 1u));
+    uvec4 c = texelFetch(spanTexels, int(6u * i + 2u));
+    return Curve(uintBitsToFloat(a.xyz), uintBitsToFloat(uvec3(a.w, b.xy)), uintBitsToFloat(uvec3(b.zw, c.x)),
+                 uintBitsToFloat(c.yzw));
+}
+
+float ribbonError(uint kind) {
+    VariantRecord variant = table.variants[table.kinds[kind].firstVariant];
+    return variant.error[variant.lodCount - 1u];
+}
+
+// What stays in its cell may reach further now.
+void widen(uint item, vec3 center, float reach, float thick, float error) {
+    uint key = push.keys.v[item];
+    for (bool stays = key < kFresh; stays; stays = false) {
+        uint cell = key / kCellBins;
+        float away = distance(center, cellMiddle(push.grid, cell % kMaxCells)) + reach + 2.0 * thick;
+        atomicMax(push.cells.v[cell].reach, floatBitsToUint(away));
+        atomicMax(push.cells.v[cell].error, floatBitsToUint(error));
+    }
+}
+
+void main() {
+    uint end = itemIndex();
+    bool given = end < push.nodeCount;
+    for (bool asked = given && push.partly != 0u; asked; asked = false) given = push.flags.v[end] != 0u;
+    uint bits = 0u;
+    for (bool known = given; known; known = false) bits = texelFetch(spanTexels, int(6u * end + 4u)).w;
+    for (bool last = (bits & 0x8000u) != 0u; last; last = false) {
+        uint kind = bits & 63u;
+        uint first = end - ((bits >> 12u) & 7u);
+        vec3 start = curveOf(first).p0;
+        vec3 stop = curveOf(end).p3;
+        vec3 along = stop - start;
+        along *= inversesqrt(max(dot(along, along), 1e-30));
+        vec3 center = (start + stop) * 0.5;
+        float reach = 0.0;
+        float thick = 0.0;
+        float bend = 0.0;
+        float off = 0.0;
+        bool sound = kind != kNoBark;
+        for (uint i = first; i <= end; ++i) {
+            Curve s = curveOf(i);
+            uvec4 d = texelFetch(spanTexels, int(6u * i + 3u));
+            uvec4 e = texelFetch(spanTexels, int(6u * i + 4u));
+            sound = sound && uintBitsToFloat(texelFetch(spanTexels, int(6u * i + 5u)).w) >= 0.0 && (e.w & 63u) == kind;
+            reach = max(max(reach, max(distance(center, s.p0), distance(center, s.p3))),
+                        max(distance(center, s.b1), distance(center, s.b2)));
+            thick = max(thick, max(uintBitsToFloat(d.z), uintBitsToFloat(d.w)));
+            bend = max(bend, unpackHalf2x16(e.z).x);
+            vec3 arm = s.p3 - start;
+            off = max(off, length(arm - along * dot(arm, along)));
+        }
+        float error = off + bend + (sound ? ribbonError(kind) * thick : 0.0);
+        sound = sound && error < kNeverJoined;
+        error = sound ? error : kNeverJoined;
+        for (uint i = first; i <= end; ++i) {
+            float own = unpackHalf2x16(texelFetch(spanTexels, int(6u * i + 4u)).z).x;
+            push.spans.v[i].errors = packHalf2x16(vec2(own, error));
+            Curve s = curveOf(i);
+            vec4 sphere = sound ? vec4(center, reach) : spanSphere(s.p0, s.b1, s.b2, s.p3);
+            for (bool there = uintBitsToFloat(texelFetch(spanTexels, int(6u * i + 5u)).w) >= 0.0; there; there = false) {
+                push.spans.v[i].center = sphere.xyz;
+                push.spans.v[i].reach = sphere.w;
+            }
+            for (bool part = push.partly != 0u; part; part = false) widen(i, sphere.xyz, sphere.w, thick, error);
+        }
+    }
+}
