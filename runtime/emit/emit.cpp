@@ -1,6 +1,6 @@
 // Enters: bound growth (emit_bind.cpp) and a view. Leaves: what of it is drawn, sorted by bucket, with indirect draws.
-// One kernel looks at cells, one lists blocks of what they keep, two give each item of a block its bucket, one scans,
-// one writes.
+// One kernel looks at cells, two list what these keep, two give each item of the list its bucket, one scans, one
+// writes.
 #include "runtime/emit/emit.hpp"
 
 #include <algorithm>
@@ -36,6 +36,7 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
                     {emit.bindSort_, "emit/bind_sort.comp", {}},
                     {emit.cullCells_, "emit/cull_cells.comp", {}},
                     {emit.listBlocks_, "emit/list_blocks.comp", {}},
+                    {emit.listItems_, "emit/list_items.comp", {}},
                     {emit.classifySpans_, "emit/classify_spans.comp", {}},
                     {emit.classifyLeaves_, "emit/classify_leaves.comp", {}},
                     {emit.scan_, "emit/scan.comp", {}},
@@ -56,7 +57,7 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
     } buffers[] = {{emit.state_, "emit state", sizeof(EmitState)},
                    {emit.cells_, "emit cells", (kAllCells + 1) * sizeof(EmitCell)},
                    {emit.bins_, "emit bins", kAllCells * kCellBins * 4ull},
-                   {emit.seen_, "emit seen cells", kAllCells * 4},
+                   {emit.seen_, "emit seen cells", kAllCells * 8},
                    {emit.noTexels_, "emit no texels", 16},
                    {emit.readback_, "emit counts", sizeof(EmitState), BufferUse::readback}};
     for (const auto& b : buffers) {
@@ -89,7 +90,7 @@ Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
     push.bins.v = reinterpret_cast<uint32_t*>(bins_.address());
     push.order.v = reinterpret_cast<uint32_t*>(order_.address());
     push.seen.v = reinterpret_cast<uint32_t*>(seen_.address());
-    push.blocks.v = reinterpret_cast<EmitBlock*>(blocks_.address());
+    push.list.v = reinterpret_cast<uint32_t*>(list_.address());
     push.rows.v = reinterpret_cast<uint32_t*>(rows_.address());
     push.notes.v = reinterpret_cast<DrawnItem*>(notes_.address());
     push.drawn.v = reinterpret_cast<DrawnItem*>(drawn_.address());
@@ -100,6 +101,8 @@ Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(listBlocks_, {1, 1, 1}, push);
     pass.barrier(Use::compute, Use::compute | Use::indirect);
+    pass.dispatchItems(listItems_, kAllCells, push);
+    pass.barrier(Use::compute, Use::compute);
     const uint64_t groups = offsetof(EmitState, groups);
     pass.dispatchIndirect(classifySpans_, state_, groups, push, {table, shown, spanTexels_});
     pass.dispatchIndirect(classifyLeaves_, state_, groups + 12, push, {table, shown, leafTexels_});

@@ -94,13 +94,13 @@ class Emit {
     const Terminals* terminals_ = nullptr;
     std::array<Program, 2> bindSpans_, bindLeaves_;  // [1] fetches records as texels
     Program bindTouch_, bindStretches_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
-    Program cullCells_, listBlocks_, classifySpans_, classifyLeaves_, scan_, writeDrawn_;
+    Program cullCells_, listBlocks_, listItems_, classifySpans_, classifyLeaves_, scan_, writeDrawn_;
     Program barkVertices_, barkIndices_, looseTriangles_;
     std::array<Buffer, 8> views_, binds_;                  // that recordings in flight may still read
     Buffer spans_, leaves_, cells_, bins_, keys_, order_;  // bound growth
     Buffer flags_, list_;
-    Buffer state_, seen_, blocks_, rows_, notes_, drawn_, readback_;  // of a view
-    TexelView spanTexels_, leafTexels_, noteTexels_, drawnTexels_;    // of these; after them
+    Buffer state_, seen_, rows_, notes_, drawn_, readback_;         // of a view
+    TexelView spanTexels_, leafTexels_, noteTexels_, drawnTexels_;  // of these; after them
     Buffer noTexels_;
     TexelView nodeRecords_, chunkRecords_, leafRecords_;
     EmitGrid grid_{};

@@ -31,7 +31,7 @@ EmitGrid gridOver(glm::vec3 low, glm::vec3 high) {
 
 }  // namespace
 
-// Items lie in blocks of their cells, of which the last may be half empty. Buffers get a fourth more than is asked for.
+// Buffers get a fourth more than is asked for.
 Status Emit::reserve(uint32_t nodes, uint32_t leaves) {
     const auto hold = [&](Buffer& buffer, const char* name, uint64_t wanted, TexelView* texels = nullptr) -> Status {
         if (buffer && buffer.size() >= wanted) return Done{};
@@ -52,13 +52,12 @@ Status Emit::reserve(uint32_t nodes, uint32_t leaves) {
     for (Status& s : instances)
         if (!s) return s;
     leafBase_ = uint32_t(spans_.size() / sizeof(SpanInstance));
-    const uint64_t items = uint64_t(nodes) + leaves, blocks = items / kBlockItems + kAllCells;
+    const uint64_t items = uint64_t(nodes) + leaves, blocks = items / kBlockItems + 2;
     const uint64_t numbers = leafBase_ + leaves_.size() / sizeof(LeafInstance);
     Status rest[] = {hold(keys_, "emit keys", numbers * 4),
                      hold(flags_, "emit flags", leafBase_ * 4ull),
-                     hold(list_, "emit list", numbers * 4),
+                     hold(list_, "emit list", (numbers + kBlockItems) * 4),
                      hold(order_, "emit order", (items + items / 2 + 32 * kAllCells) * 4),
-                     hold(blocks_, "emit blocks", blocks * sizeof(EmitBlock)),
                      hold(rows_, "emit rows", blocks * kMaxBuckets * 4),
                      hold(notes_, "emit notes", blocks * kBlockItems * sizeof(DrawnItem), &noteTexels_),
                      hold(drawn_, "drawn instances", items * sizeof(DrawnItem), &drawnTexels_)};
@@ -178,7 +177,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(bindOrder_, groups, {}, {in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(bindSort_, kAllCells * kCellBins, {}, {spanTexels_, leafTexels_, in});
+    pass.dispatchItems(bindSort_, kAllCells * kSortLanes, {}, {spanTexels_, leafTexels_, in});
     pass.barrier(Use::compute, Use::compute | Use::vertex);
     bound_ = wanted;
     return Done{};

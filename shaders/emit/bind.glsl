@@ -8,11 +8,13 @@ layout(set = 0, binding = 8, scalar) uniform BindBlock { BindInputs push; };
 
 #define HEAD push.cells.v[kAllCells]
 
-// A span's class by its thickness, in parts of a cell's side. last: of its stretch.
-uint spanClass(float thick, bool last) {
+// A span's class by its thickness, in parts of a cell's side. The third becomes the fourth for spans that far views don't
+// draw, since the last of their stretch stands for them.
+uint spanClass(float thick) {
     float t = thick * push.grid.rcpCell;
-    return t > 0.012 ? 0u : t > 0.006 ? 1u : last ? 2u : 3u;
+    return t > 0.012 ? 0u : t > 0.006 ? 1u : 2u;
 }
+const float kLoose = 0.05;   // error of a stretch, in parts of a cell's side, up to which that is so
 
 // Takes an item out of where it was; whether it was there.
 bool takeKey(uint item, bool before) {

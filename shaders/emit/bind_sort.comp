@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-// A bin each: its few items by where they are in the world, so that every run draws in the same order.
+// Eight bins of a cell each: their few items by where they are in the world, so that every run draws in the same order.
 #include "shaders/emit/bind.glsl"
 
 layout(local_size_x = 64) in;
@@ -16,14 +16,7 @@ uint rankOf(uint item, uint kind) {
     return (h ^ (h >> 15u)) * 0x2C1B3C6Du;
 }
 
-void main() {
-    uint bin = itemIndex();
-    uint cell = bin / kCellBins;
-    if (cell >= kAllCells || (push.partly != 0u && push.cells.v[cell].changed == 0u)) return;
-    uint kind = cell / kMaxCells;
-    uint first = push.cells.v[cell].first;
-    uint end = first + push.bins.v[bin];
-    first += bin % kCellBins > 0u ? push.bins.v[bin - 1u] : 0u;
+void sortRun(uint first, uint end, uint kind) {
     for (uint i = first + 1u; i < end; ++i) {
         uint item = push.order.v[i];
         uint rank = rankOf(item, kind);
@@ -35,5 +28,21 @@ void main() {
             --to;
         }
         push.order.v[to] = item;
+    }
+}
+
+void main() {
+    uint i = itemIndex();
+    uint cell = i / kSortLanes;
+    if (cell >= kAllCells || push.cells.v[cell].count == 0u) return;
+    if (push.partly != 0u && push.cells.v[cell].changed == 0u) return;
+    uint kind = cell / kMaxCells;
+    uint first = push.cells.v[cell].first;
+    uint bin = i * (kCellBins / kSortLanes);
+    uint begin = i % kSortLanes > 0u ? push.bins.v[bin - 1u] : 0u;
+    for (uint b = bin; b < bin + kCellBins / kSortLanes; ++b) {
+        uint end = push.bins.v[b];
+        sortRun(first + begin, first + end, kind);
+        begin = end;
     }
 }

@@ -106,7 +106,7 @@ void main() {
             writeSpan(i, o);
             for (bool drawn = bark; drawn; drawn = false) {
                 float thick = max(o.radius0, o.radius1);
-                giveKey(i, spanClass(thick, (o.bits & 0x8000u) != 0u), o.center, (o.bits >> 16u) / (0x10000u / kCellBins));
+                giveKey(i, spanClass(thick), o.center, (o.bits >> 16u) / (0x10000u / kCellBins));
                 atomicAdd(HEAD.first, trianglesOf(kind));
             }
         }

@@ -26,6 +26,22 @@ float ribbonError(uint kind) {
     return variant.error[variant.lodCount - 1u];
 }
 
+// A thin span's class, by its stretch.
+void settleClass(uint item, bool last, float error) {
+    uint key = push.keys.v[item];
+    uint kind = (key & ~kFresh) / (kCellBins * kMaxCells);
+    uint wanted = !last && error * push.grid.rcpCell <= kLoose ? kLeafClass - 1u : kLeafClass - 2u;
+    for (bool moves = key != kNoIndex && kind >= kLeafClass - 2u && kind != wanted; moves; moves = false) {
+        uint moved = (key & ~kFresh) % (kCellBins * kMaxCells) + wanted * kCellBins * kMaxCells;
+        push.keys.v[item] = moved | kFresh;
+        for (bool listed = push.partly != 0u; listed; listed = false) {
+            push.cells.v[moved / kCellBins].changed = 1u;
+            push.cells.v[(key & ~kFresh) / kCellBins].changed = 1u;
+            for (bool stays = key < kFresh; stays; stays = false) push.list.v[atomicAdd(HEAD.changed, 1u)] = item;
+        }
+    }
+}
+
 // What stays in its cell may reach further now.
 void widen(uint item, vec3 center, float reach, float thick, float error) {
     uint key = push.keys.v[item];
@@ -80,6 +96,7 @@ void main() {
                 push.spans.v[i].center = sphere.xyz;
                 push.spans.v[i].reach = sphere.w;
             }
+            settleClass(i, i == end, error);
             for (bool part = push.partly != 0u; part; part = false) widen(i, sphere.xyz, sphere.w, thick, error);
         }
     }

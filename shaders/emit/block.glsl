@@ -10,14 +10,15 @@ shared uint bucketCounts[64];
 
 #define groupIndex() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)
 
-// All invocations of the group call it. Leaves the note of what this lane has found, and the block's counts.
-void noteItem(uint block, DrawnItem found, uint bucket) {
+// All invocations of the group call it. Leaves the note of what this lane has found, and the block's counts. count: items
+// of the block.
+void noteItem(uint block, uint count, DrawnItem found, uint bucket) {
     uint lane = gl_LocalInvocationID.x;
     laneBuckets[lane] = bucket;
     bucketCounts[lane] = 0u;
     barrier();
     // The first lane alone, one item after another.
-    for (uint i = 0u; i < (lane == 0u ? kBlockItems : 0u); ++i) {
+    for (uint i = 0u; i < (lane == 0u ? count : 0u); ++i) {
         uint b = laneBuckets[i];
         if (b != kNoBucket) laneRanks[i] = bucketCounts[b]++;
     }

@@ -11,13 +11,13 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 2) uniform usamplerBuffer leafTexels;
 
 void main() {
+    uint count = min(push.state.v[0].listed[1] - groupIndex() * kBlockItems, kBlockItems);
     uint block = push.state.v[0].blocks[0] + groupIndex();
-    EmitBlock given = push.blocks.v[block];
     uint lane = gl_LocalInvocationID.x;
     DrawnItem o = DrawnItem(0u, 0u, 1.0, 0u);
     uint bucket = kNoBucket;
-    for (bool there = lane < given.count; there; there = false) {
-        o.item = push.order.v[given.first + lane] - push.leafBase;
+    for (bool there = lane < count; there; there = false) {
+        o.item = push.list.v[block * kBlockItems + lane] - push.leafBase;
         vec3 origin = uintBitsToFloat(texelFetch(leafTexels, int(4u * o.item)).xyz);
         uvec4 d = texelFetch(leafTexels, int(4u * o.item + 3u));
         KindRecord kind = table.kinds[(d.w >> 8u) & 255u];
@@ -37,5 +37,5 @@ void main() {
             o.bits = lod;
         }
     }
-    noteItem(block, o, bucket);
+    noteItem(block, count, o, bucket);
 }

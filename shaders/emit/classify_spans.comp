@@ -11,12 +11,12 @@ layout(set = 0, binding = 2) uniform usamplerBuffer spanTexels;
 
 void main() {
     uint block = groupIndex();
-    EmitBlock given = push.blocks.v[block];
+    uint count = min(push.state.v[0].listed[0] - block * kBlockItems, kBlockItems);
     uint lane = gl_LocalInvocationID.x;
     DrawnItem o = DrawnItem(0u, 0u, 0.0, 0u);
     uint bucket = kNoBucket;
-    for (bool there = lane < given.count; there; there = false) {
-        o.item = push.order.v[given.first + lane];
+    for (bool there = lane < count; there; there = false) {
+        o.item = push.list.v[block * kBlockItems + lane];
         uvec4 d = texelFetch(spanTexels, int(6u * o.item + 3u));
         uvec4 e = texelFetch(spanTexels, int(6u * o.item + 4u));
         float thick = max(uintBitsToFloat(d.z), uintBitsToFloat(d.w));
@@ -52,5 +52,5 @@ void main() {
             o.value = view.leastPixels / pixels;
         }
     }
-    noteItem(block, o, bucket);
+    noteItem(block, count, o, bucket);
 }

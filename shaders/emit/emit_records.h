@@ -85,14 +85,15 @@ struct DrawCommand {
 };
 STATIC_SIZE(DrawCommand, 20);
 
-// Space is divided into cells of a grid; each holds its spans, in classes by thickness, the thinnest in two of them: the
-// last of a stretch, and others. And it holds its leaves. Both lie in bins by their order of going when they are thinned
-// out, so that what stays is a run of them. Cells of a class have the number
+// Space is divided into cells of a grid; each holds its leaves and, in classes by thickness, its spans; of the thinnest
+// those have a class that far views don't draw, since the last of their stretch stands for them. All lie in bins by their
+// order of going when they are thinned out, so that what stays is a run of them. Cells of a class have the number
 // class * kMaxCells + cell.
 CONST_UINT(kMaxCells, 4096u);
 CONST_UINT(kLeafClass, 4u);    // classes below: of spans
 CONST_UINT(kAllCells, 20480u);
 CONST_UINT(kCellBins, 64u);
+CONST_UINT(kSortLanes, 8u);    // that put a cell's bins in order
 CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
 
 // A cell's spans of one class, or its leaves. reach: of any of them from the cell's middle, metres; largest: thickest
@@ -104,13 +105,6 @@ struct EmitCell {
 };
 STATIC_SIZE(EmitCell, 28);
 BUFFER(EmitCellBuf, EmitCell)
-
-// A run of a cell's items, of one kind (0 spans, 1 leaves).
-struct EmitBlock {
-    uint first, count, kind, spare;
-};
-STATIC_SIZE(EmitBlock, 16);
-BUFFER(EmitBlockBuf, EmitBlock)
 
 // An instance as it is drawn. bits: of a span 2..0 LOD, 5..3 how many spans before it are drawn with it, 31..16 fade (unorm16: how much of a pixel it covers); of a leaf
 // 2..0 LOD. value: of a span the least radius that it is drawn with, of a leaf the factor of its size.
@@ -131,12 +125,13 @@ struct EmitState {
     uint spanCount, leafCount;  // visible instances
     uint fullTriangles;         // of all bark and leaves at full detail, seen or not
     uint drawnTriangles;
-    uint blocks[2];             // of spans, of leaves
+    uint listed[2];             // items to look at: spans, leaves
+    uint blocks[2];             // of these, each of kBlockItems or less; those of leaves follow those of spans
     uint groups[9];             // VkDispatchIndirectCommand for the blocks of spans, of leaves, of both
     uint boundItems;            // that the last binding looked at
     uint crowded;               // 1: cells had no room for what came to them, all is to be bound anew
 };
-STATIC_SIZE(EmitState, 3140);
+STATIC_SIZE(EmitState, 3148);
 
 // Up to so many spans of a chunk that follow each other are a stretch, which far views draw as one.
 CONST_UINT(kStretch, 8u);
@@ -237,8 +232,8 @@ struct EmitPush {
     EmitCellBuf cells;
     UintBuf bins;
     UintBuf order;
-    UintBuf seen;               // [cell]: items to look at
-    EmitBlockBuf blocks;
+    UintBuf seen;               // [cell]: items to look at; [kAllCells + cell]: where these begin in the list
+    UintBuf list;               // [block * kBlockItems + lane]: items to look at
     UintBuf rows;               // [block * kMaxBuckets + bucket]: counts, then where they begin in their bucket
     DrawnBuf notes;             // [block * kBlockItems + lane]
     DrawnBuf drawn;

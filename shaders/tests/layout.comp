@@ -16,7 +16,6 @@ struct EmitRecords {
     EmitTable table;
     DrawCommand draw;
     EmitCell cell;
-    EmitBlock block;
     DrawnItem drawn;
     EmitState state;
     SpanInstance span;
