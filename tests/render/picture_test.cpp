@@ -9,6 +9,7 @@
 
 #include "runtime/render/renderer.hpp"
 #include "tests/emit/fixture.hpp"
+#include "tests/support/heap.hpp"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
@@ -248,6 +249,21 @@ TEST_CASE("views without walk data fall back, and each differs from the shaded o
     CHECK(normals != lod);
     studio.inputs.look.view = ViewMode::layer;  // no layers were given
     CHECK(studio.draw(160, 90) == normals);
+}
+
+// Drivers keep memory too: lavapipe compiled a kernel of ours for every view, and kept each.
+TEST_CASE("frames of a moving camera leave no memory behind") {
+    Studio studio;
+    auto move = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            studio.inputs.camera.eye.x += 0.01f;
+            studio.draw(160, 90);
+        }
+    };
+    move(8);
+    const size_t before = test::heapInUse();
+    move(24);
+    CHECK(double(test::heapInUse()) - double(before) < 1e6);
 }
 
 TEST_CASE("awkward sizes") {
