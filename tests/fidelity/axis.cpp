@@ -63,7 +63,7 @@ struct Gathered {
     size_t withinTexel = 0;
     uint32_t spans = 0, nodesOut = 0;
     size_t floating = 0, sinking = 0;
-    size_t turning = 0, inserted = 0, lengthy = 0, nodeOut = 0;
+    size_t nodeOut = 0, handles = 0, corners = 0, between = 0;
 };
 
 void gatherSpan(const GrowthRecords& g, const SurfaceRef& surface, const SignedDistance& mesh, uint32_t index,
@@ -84,18 +84,16 @@ void gatherSpan(const GrowthRecords& g, const SurfaceRef& surface, const SignedD
 
     const double scale = surface.scale;
     const double texel = surface.charts.v[node.place & 0xFFFFu].metresPerUv / double(surface.levels[0].size) * scale;
-    auto radii = [&](float u) {
+    auto radii = [&](const Span& curve, float u) {
         const double radius = s.radius0 + (s.radius1 - s.radius0) * u;
-        return mesh.at(glm::dvec3(spanPoint(s.span, u)) / scale) * scale / radius;
+        return mesh.at(glm::dvec3(spanPoint(curve, u)) / scale) * scale / radius;
     };
-    const bool startOut = std::abs(radii(0)) > 1, endOut = std::abs(radii(1)) > 1;
-    const bool turning = angleBetween(s.normal0, s.normal1) > 20;
-    const bool inserted = ((node.flags | g.nodes[before].flags) & kNodeInserted) != 0;
-    const bool lengthy = length3(s.span.p3 - s.span.p0) > 8 * std::min(s.radius0, s.radius1);
+    const bool startOut = std::abs(radii(s.span, 0)) > 1, endOut = std::abs(radii(s.span, 1)) > 1;
+    size_t outside = 0;
     out.spans += 1;
     out.nodesOut += endOut;
     for (int k = 0; k < kSamples; ++k) {
-        const double d = radii((float(k) + .5f) / kSamples);
+        const double d = radii(s.span, (float(k) + .5f) / kSamples);
         out.distances.push_back(std::abs(d));
         out.floating += d > 1;
         out.sinking += d < -1;
@@ -103,11 +101,14 @@ void gatherSpan(const GrowthRecords& g, const SurfaceRef& surface, const SignedD
         out.withinTexel += std::abs(d) <= 1 || std::abs(d) * inTexels <= 1;
         if (std::abs(d) <= 1) continue;
         out.outTexels.push_back(inTexels);
-        out.turning += turning;
-        out.inserted += inserted;
-        out.lengthy += lengthy;
-        out.nodeOut += startOut || endOut;
+        outside += 1;
     }
+    if (outside == 0) return;
+    const Span chord = straightSpan(s.span.p0, s.span.p3);
+    bool chordOut = false;
+    for (int k = 0; k < kSamples; ++k) chordOut = chordOut || std::abs(radii(chord, (float(k) + .5f) / kSamples)) > 1;
+    const bool turns = angleBetween(s.normal0, s.normal1) > 20;
+    (startOut || endOut ? out.nodeOut : !chordOut ? out.handles : turns ? out.corners : out.between) += outside;
 }
 
 AxisFigures figures(Gathered& all) {
@@ -130,10 +131,10 @@ AxisFigures figures(Gathered& all) {
     f.worst = quantile(all.distances, 1);
     f.break999 = quantile(all.breaks, .999);
     f.worstBreak = quantile(all.breaks, 1);
-    f.outTurning = double(all.turning) / any;
-    f.outInserted = double(all.inserted) / any;
-    f.outLong = double(all.lengthy) / any;
     f.outNodes = double(all.nodeOut) / any;
+    f.outHandles = double(all.handles) / any;
+    f.outCorners = double(all.corners) / any;
+    f.outBetween = double(all.between) / any;
     return f;
 }
 
@@ -176,17 +177,17 @@ AxisFigures measureAxis(const Baked& baked, const SignedDistance& mesh, const Ax
 void printHeading() {
     std::printf(
         "bark's curve to the mesh, 16 samples a span, distances in radii, before the bark's rise\n"
-        "%-11s %-9s %6s %8s %8s %8s %8s %8s %6s %6s %6s %6s | %-36s | %s\n",
+        "%-11s %-9s %6s %8s %8s %8s %8s %8s %6s %6s %6s %6s | %-39s | %s\n",
         "model", "grammar", "spans", "nodes in", "within", "floating", "sinking", "or texel", "p50", "p99", "p99.9",
-        "worst", "out: turns seams  long nodes r/texel", "break p99.9 worst");
+        "worst", "out: nodes handles corners else r/texel", "break p99.9 worst");
 }
 
 void print(const std::string& name, const AxisCase& c, const AxisFigures& f) {
     std::printf("%-11s %-9s %6u %7.3f%% %7.3f%% %7.3f%% %7.3f%% %7.3f%% %6.3f %6.3f %6.3f %6.2f | ", name.c_str(),
                 c.grammar.substr(0, c.grammar.find('.')).c_str(), f.spans, 100 * f.nodesWithin, 100 * f.within,
                 100 * f.floating, 100 * f.sinking, 100 * f.withinTexel, f.median, f.p99, f.p999, f.worst);
-    std::printf("%9.0f%% %4.0f%% %4.0f%% %4.0f%% %8.2f | %11.3f %.3f\n", 100 * f.outTurning, 100 * f.outInserted,
-                100 * f.outLong, 100 * f.outNodes, f.outTexels, f.break999, f.worstBreak);
+    std::printf("%9.0f%% %6.0f%% %6.0f%% %3.0f%% %7.2f | %11.3f %.3f\n", 100 * f.outNodes, 100 * f.outHandles,
+                100 * f.outCorners, 100 * f.outBetween, f.outTexels, f.break999, f.worstBreak);
     std::fflush(stdout);
 }
 

@@ -18,10 +18,10 @@ struct AxisFigures {
     double median = 0, p99 = 0, p999 = 0, worst = 0;  // of |distance|
     double worstBreak = 0, break999 = 0;              // degrees, at joints
     double withinTexel = 0;  // share of samples within one radius or one texel of the chart, whichever is more
-    // Of the samples beyond one radius: those on spans whose ends' normals differ by more than 20 degrees, that begin
-    // or end with a sample at a seam or crease, whose chord is longer than eight radii, of which a node itself is
-    // beyond one radius; and the median of their radii, in texels.
-    double outTurning = 0, outInserted = 0, outLong = 0, outNodes = 0, outTexels = 0;
+    // Of the samples beyond one radius, shares by cause: an end of the span is out itself; the straight line between
+    // the ends would stay within, so the handles are to blame; the ends' normals differ by more than 20 degrees, so a
+    // corner is cut; else something lies between ends that are alike. And the median of their radii, in texels.
+    double outNodes = 0, outHandles = 0, outCorners = 0, outBetween = 0, outTexels = 0;
 };
 
 struct AxisCase {

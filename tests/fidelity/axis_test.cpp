@@ -29,7 +29,7 @@ struct Bounds {
 };
 
 // Both grammars on a model.
-void judge(const std::string& name, const Model& model, Bounds bounds) {
+void judge(const std::string& name, const Model& model, Bounds bounds, uint32_t maxNodes = 40'000) {
     BakeOptions options;
     Result<Baked> baked = bake(model, options);
     if (!baked) FAIL(baked.failure().text());
@@ -37,6 +37,7 @@ void judge(const std::string& name, const Model& model, Bounds bounds) {
     for (const char* grammar : {"ivy_free.grammar", "ivy_paper.grammar"}) {
         AxisCase c;
         c.grammar = grammar;
+        c.maxNodes = maxNodes;
         CAPTURE(name);
         CAPTURE(c.grammar);
         const bool isFree = c.grammar == "ivy_free.grammar";
@@ -87,9 +88,17 @@ TEST_CASE("bark on our own shapes") {
     judge("sphere", test::ball(48), {.999, .999});
 }
 
-TEST_CASE("bark on the sample ruin") {
+// With its charts turned the model comes to another atlas: creases lie otherwise between texels. The bounds of the
+// first layout are the luckier ones of several; those of the other say what none falls below.
+TEST_CASE("bark on the sample ruin, however its atlas lies") {
     const test::ScratchFolder folder;
-    judgeFile("ruin", ruinFile(folder.path.string()), {.999, .995});
+    Result<Model> model = importModel(ruinFile(folder.path.string()));
+    if (!model) FAIL(model.failure().text());
+    judge("ruin", *model, {.999, .995});
+    if (model->materialUvs.empty()) model->materialUvs = model->uvs;
+    const float c = std::cos(.8f), s = std::sin(.8f);
+    for (glm::vec2& uv : model->uvs) uv = {uv.x * c - uv.y * s, uv.x * s + uv.y * c};
+    judge("ruin turned", *model, {.997, .993, .999}, 15'000);
 }
 
 TEST_CASE("bark on real models") {
