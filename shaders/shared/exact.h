@@ -15,7 +15,8 @@ FN float dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 FN vec3 cross3(vec3 a, vec3 b) {
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-FN float absolute(float x) { return x < 0.0f ? -x : x; }
+// Without a branch: signs of what a walk compares are as good as random.
+FN float absolute(float x) { return uintBitsToFloat(floatBitsToUint(x) & 0x7FFFFFFFu); }
 FN float smaller(float a, float b) { return a < b ? a : b; }
 FN float larger(float a, float b) { return a < b ? b : a; }
 FN float limited(float x, float low, float high) { return smaller(larger(x, low), high); }
@@ -49,7 +50,7 @@ FN float length2(vec2 v) { return sqrtExact(dot2(v, v)); }
 // Greatest integer <= x, |x| < 2^31.
 FN float floorExact(float x) {
     float t = float(int(x));
-    return t > x ? t - 1.0f : t;
+    return t - (t > x ? 1.0f : 0.0f);
 }
 
 // sin and cos of x (radians, |x| < 1e4), absolute error below 2e-7 near zero and 1e-6 at |x| = 1000.

@@ -260,8 +260,9 @@ FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, uint flags, uint inde
 // The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes
 // first drawn by the key.
 FN float attemptAngle(Grower g) {
+    if (g.attempt == 0u) return g.angle;
     float side = ((uint(g.key >> 17) ^ g.attempt) & 1u) != 0u ? 1.0f : -1.0f;
-    return g.attempt == 0u ? g.angle : side * kDetourAngle * float((g.attempt + 1u) >> 1u);
+    return side * kDetourAngle * float((g.attempt + 1u) >> 1u);
 }
 
 // One stretch of the step under way.

@@ -236,6 +236,8 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
     float radius = 0.0f;
     uint barkFlags = 0u;
     findStep(env, firstNode, local, node.arc, entryArc, node.flags, site);
+    vec3 normal = unpackOct(node.normal);
+    vec3 heading = unpackOct(headingOfNode(node));
 
     if (extrude != 0u) {
         TableBases map = basesOf(env, grammar);
@@ -251,8 +253,8 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
         site.key = childKey(branchKey, nameHash, step);
         Place place;
         place.position = node.position;
-        place.normal = unpackOct(node.normal);
-        place.heading = unpackOct(headingOfNode(node));
+        place.normal = normal;
+        place.heading = heading;
         place.uv = unpackUv(node.uv);
         place.instance = node.place >> 16u;
         place.level = 0u;
@@ -275,8 +277,6 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
         radius = runTerminals(MACHINE env, map, first, first + (range >> 16u), site, cell, barkFlags);
     }
     hash = hash + site.hash;
-    vec3 normal = unpackOct(node.normal);
-    vec3 heading = unpackOct(headingOfNode(node));
     vec3 sum = segmentDirection(before, node.position) + segmentDirection(node.position, after);
     if ((kFeatures & kFeatureJoints) != 0u && env.status.v[0].tangentMode != 0u) {
         // The paper's average is over all adjacent segments, the branches' too.
