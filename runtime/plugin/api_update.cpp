@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/plugin/context.hpp"
+#include "runtime/plugin/buried_seeds.hpp"
 
 namespace espalier {
 namespace {
@@ -59,6 +59,7 @@ EspResult update(EspContext& context) {
             frozenIds.push_back(seedId);
             return;
         }
+        if (buriedByOthers(context, planted)) return;
         seed.walk = planted.walk;
         for (const auto& [id, index] : places)
             if (id == planted.grammar) seed.grammar = index;

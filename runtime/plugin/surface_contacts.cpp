@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "runtime/plugin/context.hpp"
+#include "runtime/plugin/buried_seeds.hpp"
 
 namespace espalier {
 namespace {
@@ -73,6 +73,19 @@ void addReached(const EspContext& context, std::vector<bool>& instances) {
                     more = instances[surface.instance] = instances[c.target >> 16] = true;
         });
     }
+}
+
+bool buriedByOthers(const EspContext& context, const PlantedSeed& seed) {
+    const auto hides = [&](const Stand& other, bool yields) {
+        const PlacedSurface &by = *context.surfaces.find(other.id), &own = *context.surfaces.find(seed.surface);
+        return hiddenBy({by.ground.get(), glm::dmat4(other.toWorld)},
+                        {seed.position, seed.normal, kNoIndex, kNoIndex, false, yields},
+                        own.ground->texel() * own.scale);
+    };
+    return std::ranges::any_of(context.pairs, [&](const SurfacePair& pair) {
+        return (pair.a.id == seed.surface && hides(pair.b, true)) ||
+               (pair.b.id == seed.surface && hides(pair.a, false));
+    });
 }
 
 Status refreshContacts(EspContext& context) {

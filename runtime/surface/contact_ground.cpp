@@ -147,16 +147,9 @@ struct Search {
         const dvec3 normal = glm::normalize(glm::dmat3(own.toWorld) *
                                             glm::cross(mesh.at(triangle, 1) - corner, mesh.at(triangle, 2) - corner));
         const dvec3 world(aToWorld * glm::dvec4(p, 1));
+        const double reach = mesh.reachOf(triangle) * glm::length(dvec3(own.toWorld[0]));
         auto hides = [&](const PlacedGround& by, uint32_t ownBody, uint32_t exceptBody, bool yields) {
-            const dmat4 back = glm::inverse(by.toWorld);
-            const double scale = glm::length(dvec3(back[0])) * glm::length(dvec3(own.toWorld[0]));
-            const HiddenQuery query{dvec3(back * glm::dvec4(world, 1)),
-                                    glm::normalize(glm::dmat3(back) * normal),
-                                    ownBody,
-                                    exceptBody,
-                                    mesh.solid[body] != 0,
-                                    yields};
-            return by.ground->bodies().hide(query, mesh.reachOf(triangle) * scale);
+            return hiddenBy(by, {world, normal, ownBody, exceptBody, mesh.solid[body] != 0, yields}, reach);
         };
         if (own.ground->bodyCount() > 1 && hides(own, body, kNoIndex, false)) return true;
         if (other.ground->bodyCount() > 1 && hides(other, kNoIndex, except, ofA)) return true;
@@ -209,6 +202,13 @@ struct Search {
 };
 
 }  // namespace
+
+bool hiddenBy(const PlacedGround& by, HiddenQuery query, double tolerance) {
+    const dmat4 back = glm::inverse(by.toWorld);
+    query.position = dvec3(back * glm::dvec4(query.position, 1));
+    query.normal = glm::normalize(glm::dmat3(back) * query.normal);
+    return by.ground->bodies().hide(query, tolerance * glm::length(dvec3(back[0])));
+}
 
 PlacedContacts contactsOf(const PlacedGround& a, const PlacedGround& b, std::span<const PlacedGround> others) {
     const double scaleA = glm::length(dvec3(a.toWorld[0])), scaleB = glm::length(dvec3(b.toWorld[0]));

@@ -42,4 +42,8 @@ struct PlacedContacts {
 };
 PlacedContacts contactsOf(const PlacedGround& a, const PlacedGround& b, std::span<const PlacedGround> others);
 
+// Is a place of another surface within a solid body of this one, or beneath a face that lies on it? All in world space;
+// query.body: kNoIndex. tolerance: metres, a texel of the place's own surface.
+bool hiddenBy(const PlacedGround& by, HiddenQuery query, double tolerance);
+
 }  // namespace espalier

@@ -319,3 +319,35 @@ TEST_CASE("a surface that moves takes its plants along and leaves the others alo
     painting.ok(espMoveSurface(painting.context, second, &away));
     CHECK(infoOf(painting, moved).frozen == 0);
 }
+
+TEST_CASE("a seed whose ground lies inside of another surface waits until that one has moved away") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    EspTransform away = espIdentity(), over = espIdentity();
+    away.rows[0][3] = 10;
+    over.rows[0][3] = 1.5f;  // from x = 0.5 on
+    EspSurface second{};
+    painting.ok(espLoadSurface(painting.context, painting.path.c_str(), &away, &second));
+    painting.plant(grammar, {-1, -.8f, 0}, kUp);
+    painting.ok(espMoveSurface(painting.context, second, &over));
+    const EspStats outer = painting.grown();
+    CHECK(outer.contacts > 0);
+    CHECK(outer.nodes > 0);
+    painting.ok(espMoveSurface(painting.context, second, &away));
+    const EspStats one = painting.grown();
+    painting.plant(grammar, kFoot, kUp);  // on the face x = 1
+    const EspStats both = painting.grown();
+    REQUIRE(both.nodes > one.nodes);
+
+    painting.ok(espMoveSurface(painting.context, second, &over));
+    const EspStats waiting = painting.grown();
+    CHECK(waiting.hash == outer.hash);
+    CHECK(waiting.nodes == outer.nodes);
+    // One that is planted there waits too.
+    const EspSeed late = painting.plant(grammar, {1, -.7f, .3f}, kUp);
+    CHECK(painting.grown().hash == outer.hash);
+    painting.ok(espRemoveSeed(painting.context, late));
+    painting.ok(espMoveSurface(painting.context, second, &away));
+    CHECK(painting.grown().nodes == both.nodes);
+    CHECK(painting.grown().hash == both.hash);
+}
