@@ -96,6 +96,13 @@ TEST_CASE("rays and points find what trying every triangle finds") {
             CHECK(hit->distance >= expected - .02);  // as fine as the oracle cuts
             CHECK(glm::length(hit->position - p) == doctest::Approx(hit->distance).epsilon(1e-4));
             CHECK(!tree.nearest(p, hit->distance * .99f));
+            // Asked for any place near enough, it gives one; where none is, the nearest.
+            const float generous = hit->distance * 1.5f, strict = hit->distance * .99f;
+            const auto any = tree.nearest(p, INFINITY, generous), exact = tree.nearest(p, INFINITY, strict);
+            REQUIRE((any && exact));
+            CHECK(any->distance <= generous);
+            CHECK(any->distance >= hit->distance);
+            CHECK(exact->distance == hit->distance);
         }
     }
 }
