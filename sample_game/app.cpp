@@ -94,6 +94,7 @@ bool App::drawFrame(bool moving, bool last) {
     if (slow) {
         draw.look.windowLodPixels *= MovingDetail::kLod;
         draw.look.leafPixels *= detail_.leaf();
+        draw.look.quick = 1;
     }
     const float scale = slow && work_.layout.halfWhileMoving ? .5f : 1;
     if (!image_->show(work_.context.get(), *frame, draw, scale, work_.redraw)) return fail(image_->error());

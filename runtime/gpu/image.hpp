@@ -71,6 +71,7 @@ struct SamplerDesc {
     VkFilter filter = VK_FILTER_LINEAR;
     VkSamplerAddressMode address = VK_SAMPLER_ADDRESS_MODE_REPEAT;
     bool mips = true;
+    bool blendMips = true;       // else the nearer of two
     float anisotropy = 1;        // limited to what the device has
     bool shadowCompare = false;  // for sampler2DShadow: compares LESS_OR_EQUAL
 };

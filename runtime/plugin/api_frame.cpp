@@ -55,6 +55,7 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     look.horizon = vec(from.horizon);
     look.shadows = from.shadows != 0;
     look.shadowsLag = from.shadowsLag != 0;
+    look.quick = from.quick != 0;
     look.view = ViewMode(from.view);
     look.lodPixels = from.windowLodPixels;
     look.leafPixels = from.leafPixels;
@@ -188,6 +189,7 @@ EspLook espDefaultLook(void) {
     out.exposure = look.exposure;
     out.shadows = look.shadows;
     out.shadowsLag = look.shadowsLag;
+    out.quick = look.quick;
     out.windowLodPixels = look.lodPixels;
     out.leafPixels = look.leafPixels;
     out.viewOpacity = look.layerOpacity;

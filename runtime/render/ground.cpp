@@ -138,11 +138,11 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
     desc.depth = depth;
     desc.samples = samples;
     desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    for (uint32_t explains : {0u, 1u}) {
-        desc.options.constants = {{kExplains, explains}};
+    for (uint32_t shading = 0; shading < kShadings; ++shading) {
+        desc.options.constants = constantsOf(Shading(shading));
         Result<Program> program = Program::graphics(device, desc);
         if (!program) return program.failure();
-        ground.programs_[explains] = std::move(*program);
+        ground.programs_[shading] = std::move(*program);
     }
     ImageDesc tile{.name = "ground noise", .width = kSide, .height = kSide};
     tile.levels = 0;
@@ -151,15 +151,18 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
     const std::vector<uint8_t> texels = noiseTile();
     if (Status s = fillImage(device, *image, std::as_bytes(std::span(texels))); !s) return s.failure();
     ground.noise_ = std::move(*image);
-    Result<Sampler> sampler =
-        Sampler::create(device, {.name = "ground noise", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
-    if (!sampler) return sampler.failure();
-    ground.sampler_ = std::move(*sampler);
-    Result<Sampler> clamped = Sampler::create(device, {.name = "site map",
-                                                       .address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                                       .anisotropy = device.info().cpu ? 1.0f : 8.0f});
-    if (!clamped) return clamped.failure();
-    ground.siteSampler_ = std::move(*clamped);
+    for (const bool quick : {false, true}) {
+        SamplerDesc sampler{.name = "ground noise", .blendMips = !quick};
+        sampler.anisotropy = device.info().cpu ? 1.0f : 8.0f;
+        Result<Sampler> repeated = Sampler::create(device, sampler);
+        if (!repeated) return repeated.failure();
+        ground.samplers_[quick] = std::move(*repeated);
+        sampler.name = "site map";
+        sampler.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        Result<Sampler> clamped = Sampler::create(device, sampler);
+        if (!clamped) return clamped.failure();
+        ground.siteSamplers_[quick] = std::move(*clamped);
+    }
     return ground;
 }
 
@@ -194,9 +197,10 @@ void Ground::describe(FrameRecord& frame) const {
 }
 
 void Ground::draw(DrawPass& pass, const PostPush& push, const Buffer& frame, const Image& shadowMap,
-                  const Sampler& shadowSampler, bool explains) const {
-    pass.draw(programs_[explains], 3, 1, push,
-              {noiseBinding(), {shadowMap, shadowSampler}, siteBinding(), pavingBinding(), frame});
+                  const Sampler& shadowSampler, Shading shading) const {
+    const bool quick = shading == Shading::quick;
+    pass.draw(programs_[size_t(shading)], 3, 1, push,
+              {noiseBinding(quick), {shadowMap, shadowSampler}, siteBinding(quick), pavingBinding(quick), frame});
 }
 
 }  // namespace espalier

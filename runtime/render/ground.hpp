@@ -7,7 +7,7 @@
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/image.hpp"
-#include "shaders/render/frame_records.h"
+#include "runtime/render/shading.hpp"
 
 namespace espalier {
 
@@ -38,21 +38,22 @@ class Ground {
 
     // In FrameRecord::groundLevel; what is nearer hides it.
     void draw(DrawPass& pass, const PostPush& push, const Buffer& frame, const Image& shadowMap,
-              const Sampler& shadowSampler, bool explains) const;
+              const Sampler& shadowSampler, Shading shading) const;
 
     // Four octave sums of noise that repeat at the border: see ground.frag.
     const Image& noise() const { return noise_; }
-    const Sampler& sampler() const { return sampler_; }
-    Binding noiseBinding() const { return {noise_, sampler_}; }
-    Binding siteBinding() const { return {site_ ? site_ : noise_, siteSampler_}; }
+    const Sampler& sampler() const { return samplers_[0]; }
+    // quick: with samplers that take the nearer of two mips.
+    Binding noiseBinding(bool quick = false) const { return {noise_, samplers_[quick]}; }
+    Binding siteBinding(bool quick = false) const { return {site_ ? site_ : noise_, siteSamplers_[quick]}; }
     // A tile of setts: brightness, stone or joint, slopes.
-    Binding pavingBinding() const { return {paving_ ? paving_ : noise_, sampler_}; }
+    Binding pavingBinding(bool quick = false) const { return {paving_ ? paving_ : noise_, samplers_[quick]}; }
 
   private:
-    Program programs_[2];  // of the shaded view, of others
+    Program programs_[kShadings];
     Image noise_;
-    Image site_, paving_;  // empty: there is no map
-    Sampler sampler_, siteSampler_;
+    Image site_, paving_;                    // empty: there is no map
+    Sampler samplers_[2], siteSamplers_[2];  // blending mips or not
     glm::vec2 siteLow_{0}, siteRcp_{0};
 };
 

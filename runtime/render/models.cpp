@@ -33,6 +33,8 @@ glm::vec4 shownColor(const Material& material) {
     return lost ? glm::vec4(0.30f, 0.285f, 0.26f, c.w) : c;
 }
 
+constexpr float kMeadowReach = 0.0895f;  // units above the ground to which model.frag's addMeadow() has an effect
+
 }  // namespace
 
 void takeModelVertices(GraphicsDesc& desc) {
@@ -56,20 +58,70 @@ Result<Models> Models::create(Device& device) {
         Sampler::create(device, {.name = "model textures", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
     if (!sampler) return sampler.failure();
     models.sampler_ = std::move(*sampler);
+    Result<Sampler> quick = Sampler::create(device, {.name = "model textures, quick", .blendMips = false});
+    if (!quick) return quick.failure();
+    models.quickSampler_ = std::move(*quick);
     return models;
+}
+
+// Which way is up, and how high storeys are.
+void Models::raise(const SurfaceData& data, Model& model) {
+    model.up = glm::vec3(model.toWorld[0].y, model.toWorld[1].y, model.toWorld[2].y);
+    float highest = -1e30f;
+    model.lowest = 1e30f;
+    for (const DrawVertex& v : data.vertices) {
+        model.lowest = std::min(model.lowest, glm::dot(model.up, v.position));
+        highest = std::max(highest, glm::dot(model.up, v.position));
+    }
+    model.storey = std::max((highest - model.lowest) / kStoreys, 1e-12f);
+}
+
+// Within a storey triangles keep their order, which vertex caches like.
+Models::Storeys Models::intoStoreys(const Model& model, std::span<const DrawVertex> vertices,
+                                    std::span<uint32_t> indices) {
+    std::array<std::vector<uint32_t>, kStoreys> storeys;
+    for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+        float lowest = 1e30f;
+        for (size_t c = i; c < i + 3; ++c) lowest = std::min(lowest, glm::dot(model.up, vertices[indices[c]].position));
+        const float at = std::clamp((lowest - model.lowest) / model.storey, 0.0f, float(kStoreys - 1));
+        auto& storey = storeys[size_t(at)];
+        storey.insert(storey.end(), &indices[i], &indices[i] + 3);
+    }
+    Storeys ends{};
+    uint32_t end = 0;
+    for (uint32_t s = 0; s < kStoreys; ++s) {
+        std::copy(storeys[s].begin(), storeys[s].end(), indices.begin() + end);
+        ends[s] = end += uint32_t(storeys[s].size());
+    }
+    return ends;
+}
+
+uint32_t Models::footOf(const Model& model, const Mesh& mesh, size_t range, float groundLevel, float unit) {
+    const uint32_t all = mesh.ranges[range].indexCount;
+    const glm::vec3 up(model.toWorld[0].y, model.toWorld[1].y, model.toWorld[2].y);
+    if (glm::length(up - model.up) > 1e-5f * glm::length(up)) return all;  // it was turned over since
+    const float reach = groundLevel + kMeadowReach * unit - model.toWorld[3].y;
+    const float storeys = std::floor((reach - model.lowest) / model.storey + 0.01f);
+    if (storeys < 0) return 0;
+    return storeys < float(kStoreys) ? mesh.storeys[range][size_t(storeys)] : all;
 }
 
 Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& model) {
     std::vector<DrawVertex> vertices = data.vertices;
     std::vector<uint32_t> indices = data.indices;
-    model.meshes.push_back({0, data.ranges, 0});
+    model.meshes.push_back({0, data.ranges, {}, 0});
     const float scale = glm::length(glm::vec3(model.toWorld[0]));
     for (const CoarserMesh& mesh : data.coarser) {
-        model.meshes.push_back({int32_t(vertices.size()), mesh.ranges, mesh.error * scale});
+        model.meshes.push_back({int32_t(vertices.size()), mesh.ranges, {}, mesh.error * scale});
         for (DrawRange& range : model.meshes.back().ranges) range.firstIndex += uint32_t(indices.size());
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
+    raise(data, model);
+    for (Mesh& mesh : model.meshes)
+        for (const DrawRange& range : mesh.ranges)
+            mesh.storeys.push_back(intoStoreys(model, std::span(vertices).subspan(size_t(mesh.firstVertex)),
+                                               std::span(indices).subspan(range.firstIndex, range.indexCount)));
     Result<Buffer> vertexBuffer = makeBuffer(device, "model vertices", vertices);
     if (!vertexBuffer) return vertexBuffer.failure();
     model.vertices = std::move(*vertexBuffer);
@@ -188,26 +240,35 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
     return push;
 }
 
-void Models::draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow,
-                  const Ground& ground, bool walkData, bool drawnOnly) const {
+void Models::draw(DrawPass& pass, const Drawn& with) const {
+    const bool quick = with.shading == Shading::quick;
+    const Sampler& sampler = quick ? quickSampler_ : sampler_;
     for (const auto& [index, model] : models_) {
-        if (drawnOnly && model.groundOnly) continue;
+        if (with.drawnOnly && model.groundOnly) continue;
         pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
-        const auto drawMesh = [&](uint32_t mesh, float fade) {
-            for (const DrawRange& range : model.meshes[mesh].ranges) {
+        const auto drawMesh = [&](uint32_t which, float fade) {
+            const Mesh& mesh = model.meshes[which];
+            for (size_t r = 0; r < mesh.ranges.size(); ++r) {
+                const DrawRange& range = mesh.ranges[r];
                 const Material& material =
                     model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
-                ModelPush push = pushOf(model, mesh, material, walkData ? index : kNoIndex);
+                ModelPush push = pushOf(model, which, material, with.walkData ? index : kNoIndex);
                 push.fade = fade;
-                pass.drawIndexed(program, {range.indexCount, range.firstIndex, model.meshes[mesh].firstVertex}, push,
-                                 {{pictureOr(model.colors, material.baseColorImage, white_), sampler_},
-                                  {pictureOr(model.normals, material.normalImage, flat_), sampler_},
-                                  shadow,
-                                  ground.noiseBinding(),
-                                  ground.siteBinding(),
-                                  ground.pavingBinding(),
-                                  frame});
+                const uint32_t foot = footOf(model, mesh, r, with.groundLevel, with.unit);
+                const auto drawPart = [&](const Program& program, uint32_t first, uint32_t count) {
+                    if (count == 0) return;
+                    pass.drawIndexed(program, {count, range.firstIndex + first, mesh.firstVertex}, push,
+                                     {{pictureOr(model.colors, material.baseColorImage, white_), sampler},
+                                      {pictureOr(model.normals, material.normalImage, flat_), sampler},
+                                      with.shadow,
+                                      with.ground.noiseBinding(quick),
+                                      with.ground.siteBinding(quick),
+                                      with.ground.pavingBinding(quick),
+                                      with.frame});
+                };
+                drawPart(with.foot, 0, foot);
+                drawPart(with.program, foot, range.indexCount - foot);
             }
         };
         if (model.step == kFadeFrames) {

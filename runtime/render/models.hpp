@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "runtime/gpu/commands.hpp"
@@ -28,10 +30,19 @@ class Models {
     void choose(glm::vec3 eye, float pixelScale, float pixels);
     static constexpr uint32_t kFadeFrames = 8;
 
-    // Draws all of them as chosen, but for those that are ground only if `drawnOnly`. ground: of it the meadow at their
-    // feet is made, and their grain.
-    void draw(DrawPass& pass, const Program& program, const Buffer& frame, const Binding& shadow, const Ground& ground,
-              bool walkData, bool drawnOnly) const;
+    // Draws all of them as chosen, but for those that are ground only if `drawnOnly`: triangles that the meadow at
+    // groundLevel, in metres of `unit`, may reach by `foot`, all others by `program`. ground: of it the meadow is made,
+    // and their grain.
+    struct Drawn {
+        const Program &program, &foot;
+        const Buffer& frame;
+        Binding shadow;
+        const Ground& ground;
+        Shading shading = Shading::full;
+        bool walkData = false, drawnOnly = false;
+        float groundLevel = 0, unit = 1;
+    };
+    void draw(DrawPass& pass, const Drawn& with) const;
     // The depths of those that draw() draws whole: they go ahead, so that it shades only what is seen.
     void drawAhead(DrawPass& pass, const Program& program, const Buffer& frame) const;
     // The simplest meshes with an error of at most `error` metres.
@@ -45,11 +56,16 @@ class Models {
     void bounds(glm::vec3& low, glm::vec3& high) const;
 
   private:
+    // Triangles of a range lie in order of the storey that their lowest corner is in: so many indices are in each and
+    // those below it.
+    static constexpr uint32_t kStoreys = 32;
+    using Storeys = std::array<uint32_t, kStoreys>;
     // One of a model's meshes; all of them lie in the same buffers.
     struct Mesh {
         int32_t firstVertex = 0;
         std::vector<DrawRange> ranges;
-        float error = 0;  // metres in the world
+        std::vector<Storeys> storeys;  // [range]
+        float error = 0;               // metres in the world
     };
     struct Model {
         Buffer vertices, indices;
@@ -61,9 +77,15 @@ class Models {
         std::vector<Image> colors, normals;  // one a picture of the file; empty where unused in that role
         glm::vec3 objectLow{0}, objectHigh{0};
         glm::mat4 toWorld{1};
-        glm::vec3 low{0}, high{0};  // world
+        glm::vec3 low{0}, high{0};     // world
+        glm::vec3 up{0};               // of the world, in object space, when triangles were put in order
+        float lowest = 0, storey = 0;  // along `up`: where the first storey begins, how high each is
         void place(const glm::mat4& to);
     };
+    static void raise(const SurfaceData& data, Model& model);
+    static Storeys intoStoreys(const Model& model, std::span<const DrawVertex> vertices, std::span<uint32_t> indices);
+    // Indices at a range's front whose triangles the meadow may reach.
+    static uint32_t footOf(const Model& model, const Mesh& mesh, size_t range, float groundLevel, float unit);
     Status uploadMeshes(Device& device, const SurfaceData& data, Model& model);
     Status uploadPictures(Device& device, const SurfaceData& data, Model& model);
     ModelPush pushOf(const Model& model, uint32_t mesh, const Material& material, uint32_t surface) const;
@@ -71,7 +93,7 @@ class Models {
 
     std::map<uint32_t, Model> models_;
     Image white_, flat_;
-    Sampler sampler_;
+    Sampler sampler_, quickSampler_;
     uint64_t revision_ = 1;
 };
 

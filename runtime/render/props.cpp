@@ -53,19 +53,22 @@ Status Props::makePrograms(Device& device, VkFormat color, VkFormat depth, uint3
         const char* name;
         const char* vertex;
         const char* fragment;
-        bool explains = false, shadow = false;
+        Shading shading = Shading::full;
+        bool shadow = false;
     } rows[] = {{built_[0], "prop", "render/prop.vert", "render/prop.frag"},
-                {built_[1], "prop", "render/prop.vert", "render/prop.frag", true},
+                {built_[1], "prop", "render/prop.vert", "render/prop.frag", Shading::explaining},
+                {built_[2], "prop", "render/prop.vert", "render/prop.frag", Shading::quick},
                 {foliage_[0], "foliage", "render/foliage.vert", foliage},
-                {foliage_[1], "foliage", "render/foliage.vert", foliage, true},
-                {depth_, "prop shadow", "render/prop.vert", "render/prop_shadow.frag", false, true}};
+                {foliage_[1], "foliage", "render/foliage.vert", foliage, Shading::explaining},
+                {foliage_[2], "foliage", "render/foliage.vert", foliage, Shading::quick},
+                {depth_, "prop shadow", "render/prop.vert", "render/prop_shadow.frag", Shading::full, true}};
     for (const auto& r : rows) {
         GraphicsDesc desc;
         desc.name = r.name;
         desc.vertex = r.vertex;
         desc.fragment = r.fragment;
         desc.depth = depth;
-        desc.options.constants = {{kExplains, r.explains ? 1u : 0u}, {kRooted, holdsRoots(device) ? 1u : 0u}};
+        desc.options.constants = constantsOf(r.shading, holdsRoots(device));
         if (r.shadow) {
             desc.depthBiasConstant = 2;
             desc.depthBiasSlope = 1.8f;
@@ -198,7 +201,7 @@ PropPush Props::pushOf(uint32_t bucket, uint32_t first) const {
 }
 
 void Props::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Binding* shadow,
-                     bool explains) const {
+                     Shading shading) const {
     const EmitTable& table = terminals_.table();
     pass.setIndices(terminals_.batches());
     for (const Run& run : chosen.runs) {
@@ -211,18 +214,18 @@ void Props::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, 
         if (!shadow)
             pass.drawIndexed(depth_, range, push, {color, frame, texels, meshes});
         else if (push.alphaCutoff > 0 || push.grass)
-            pass.drawIndexed(foliage_[explains], range, push, {color, *shadow, frame, texels, meshes});
+            pass.drawIndexed(foliage_[size_t(shading)], range, push, {color, *shadow, frame, texels, meshes});
         else
-            pass.drawIndexed(built_[explains], range, push, {color, *shadow, frame, texels, meshes});
+            pass.drawIndexed(built_[size_t(shading)], range, push, {color, *shadow, frame, texels, meshes});
     }
 }
 
-void Props::draw(DrawPass& pass, const Buffer& frame, const Binding& shadow, bool explains) const {
-    drawRuns(pass, inView_, frame, &shadow, explains);
+void Props::draw(DrawPass& pass, const Buffer& frame, const Binding& shadow, Shading shading) const {
+    drawRuns(pass, inView_, frame, &shadow, shading);
 }
 
 void Props::drawDepth(DrawPass& pass, const Buffer& frame) const {
-    drawRuns(pass, casters_, frame, nullptr, false);
+    drawRuns(pass, casters_, frame, nullptr, Shading::full);
 }
 
 }  // namespace espalier

@@ -7,6 +7,7 @@
 
 #include "runtime/emit/terminals.hpp"
 #include "runtime/gpu/commands.hpp"
+#include "runtime/render/shading.hpp"
 #include "shaders/render/prop_records.h"
 
 namespace espalier {
@@ -35,7 +36,7 @@ class Props {
     // What draw (drawDepth) draws: before its pass, whenever the view changed. sunClip: world -> the sun's clip space.
     Status choose(Commands& commands, const FrameRecord& frame);
     Status chooseCasters(Commands& commands, const glm::mat4& sunClip);
-    void draw(DrawPass& pass, const Buffer& frame, const Binding& shadow, bool explains) const;
+    void draw(DrawPass& pass, const Buffer& frame, const Binding& shadow, Shading shading) const;
     void drawDepth(DrawPass& pass, const Buffer& frame) const;
     uint64_t triangles() const { return triangles_; }  // of the last choice
 
@@ -55,14 +56,14 @@ class Props {
     Status makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples);
     Status upload(Commands& commands, std::vector<Level>& levels, Chosen& out) const;
     void drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Binding* shadow,
-                  bool explains) const;
+                  Shading shading) const;
     PropPush pushOf(uint32_t bucket, uint32_t first) const;
 
     Terminals terminals_;
     Sampler sampler_;
     std::vector<PropPlace> places_;
     std::vector<PropInstance> instances_;  // [place], whole
-    Program built_[2], foliage_[2];        // of the shaded view, of others
+    Program built_[kShadings], foliage_[kShadings];
     Program depth_;
     Chosen inView_, casters_;
     glm::mat4 chosenFor_{0};

@@ -136,7 +136,7 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
         DrawPass pass(commands, "shadow draw", targets);
         models_.drawDepth(pass, modelDepth_, *frame_, kShadowModelTexels * sun.width / kShadowSize);
         if (grows_) drawTerminals(pass, true);
-        if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr, false);
+        if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr);
         if (furnished_) props_->drawDepth(pass, *frame_);
     }
     commands.transition(shadowMap_, ImageState::sampled);
@@ -161,7 +161,7 @@ Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& input
         pass.setViewport({float(kShadowSize), 0, float(kShadowSize), float(kShadowSize), 0, 1});
         pass.setScissor(kShadowSize, 0, kShadowSize, kShadowSize);
         models_.drawDepth(pass, modelDepth_, *frame_, kShadowModelTexels * sun.width / kShadowSize);
-        if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr, false);
+        if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr);
         if (furnished_) props_->drawDepth(pass, *frame_);
     }
     commands.transition(shadowMap_, ImageState::sampled);
@@ -171,10 +171,18 @@ Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& input
 // All that growth stands among.
 void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post) {
     const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
-    models_.draw(pass, scene_->model, *frame_, {shadowMap_, shadowSampler_}, ground_, inputs.surfaces.v != nullptr,
-                 !onGround);
-    if (furnished_) props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, explained_);
-    if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, explained_);
+    models_.draw(pass, {scene_->model,
+                        scene_->modelFoot,
+                        *frame_,
+                        {shadowMap_, shadowSampler_},
+                        ground_,
+                        shading_,
+                        inputs.surfaces.v != nullptr,
+                        !onGround,
+                        groundLevel_,
+                        unit_});
+    if (furnished_) props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, shading_);
+    if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, shading_);
 }
 
 // What hides growth. Where the picture is ours and shaded, that is depths only: what growth hides isn't shaded at all.
@@ -252,9 +260,10 @@ void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, cons
     if (ahead_) targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
     DrawPass pass(commands, "draw scene", targets);
     if (grows_) drawTerminals(pass, false);
-    if (roofed_) roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, explained_);
+    if (roofed_) roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, shading_);
     if (ahead_) drawSurroundings(pass, inputs, post);
-    if (!hosted_) pass.draw(sky_, 3, 1, post, {{ground_.noise(), ground_.sampler()}, *frame_});
+    for (uint32_t hills = 0; hills < (hosted_ ? 0u : 1u + post.ground); ++hills)
+        pass.draw(sky_[hills], 3, 1, post, {{ground_.noise(), ground_.sampler()}, *frame_});
 }
 
 void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
@@ -278,8 +287,13 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     const bool intoOwn = !target.image || hosted_;
     const VkFormat format = intoOwn ? kOwnFormat : target.format;
     push.encode = takesLinear(format) ? 0 : 1;
-    Result<const Program*> program = resolveProgram(format);
-    if (!program) return program.failure();
+    std::vector<const Program*> programs;
+    for (bool rest : {false, true}) {
+        if (rest && targets_.samples > 1) break;
+        Result<const Program*> program = resolveProgram(format, rest);
+        if (!program) return program.failure();
+        programs.push_back(*program);
+    }
     Image host;
     VkImageView view = target.view;
     if (!intoOwn) {
@@ -296,7 +310,8 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     commands.transition(intoOwn ? targets_.own : host, ImageState::colorTarget, true);
     {
         DrawPass pass(commands, "draw resolve", onto({target.width, target.height}, view));
-        pass.draw(**program, 3, 1, push, {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}, *frame_});
+        for (const Program* program : programs)
+            pass.draw(*program, 3, 1, push, {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}, *frame_});
     }
     return hosted_ ? merge_->end(commands, targets_) : Status(Done{});
 }
@@ -351,7 +366,7 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
             "a picture is 1 to 16384 pixels wide and high");
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
     const GrowthView& growth = inputs.growth;
-    if (Status s = pickScene(shownView(inputs)); !s) return s;
+    if (Status s = pickScene(shownView(inputs), inputs.look.quick); !s) return s;
     grows_ = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
     roofed_ = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
     hosted_ = target.image && target.host.depth;
@@ -405,6 +420,8 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
         commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
     }
 
+    groundLevel_ = frame.groundLevel;
+    unit_ = frame.unit;
     ground_.describe(frame);
     if (Status s = upload(commands, frame); !s) return s;
     if (furnished_)

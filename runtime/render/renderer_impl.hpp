@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <tuple>
 
 #include "runtime/render/frame.hpp"
 #include "runtime/render/host_merge.hpp"
@@ -48,14 +49,14 @@ class RendererImpl final : public Renderer {
     Status drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
     // Whether shadows can stay behind for this frame.
     bool shadowsWait(const ShadowKey& key);
-    // The programs that draw what is lit: for the shaded view, for views that explain, for the one that counts
-    // fragments.
+    // The programs that draw what is lit: one set for each kind of shading, one for the view that counts fragments.
     struct ScenePrograms {
-        Program model, bark, barkSmall, leaf, leafSmall;
+        Program model, modelFoot, bark, barkSmall, leaf, leafSmall;
     };
-    Status makeScene(ScenePrograms& programs, bool explains, Blend blend) const;
-    Status pickScene(ViewMode shown);
-    Result<const Program*> resolveProgram(VkFormat format);
+    Status makeScene(ScenePrograms& programs, Shading shading, Blend blend) const;
+    Status pickScene(ViewMode shown, bool quick);
+    // rest: what draws edges, where there is one sample a pixel.
+    Result<const Program*> resolveProgram(VkFormat format, bool rest);
     // Uploads the record to frame_.
     Status upload(Commands& commands, const FrameRecord& frame);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse);
@@ -84,11 +85,13 @@ class RendererImpl final : public Renderer {
     Targets targets_;
     Image shadowMap_;
     Sampler shadowSampler_, textureSampler_, plainSampler_, pointSampler_;
-    ScenePrograms shaded_, explaining_, counting_;  // each made when first asked for
-    const ScenePrograms* scene_ = &shaded_;         // of this recording
-    Program modelAhead_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_, sky_, depthTiles_;
-    std::map<std::pair<VkFormat, bool>, Program> resolves_;  // by format and whether the view counts
-    std::array<bool, kMaxBuckets> small_{};                  // buckets that are lit at their vertices
+    ScenePrograms scenes_[kShadings], counting_;  // each made when first asked for
+    const ScenePrograms* scene_ = &scenes_[0];    // of this recording
+    Shading shading_ = Shading::full;
+    Program modelAhead_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_, depthTiles_;
+    Program sky_[2];                                                // without and with hills
+    std::map<std::tuple<VkFormat, bool, bool>, Program> resolves_;  // by format, whether the view counts, rest
+    std::array<bool, kMaxBuckets> small_{};                         // buckets that are lit at their vertices
     std::array<Buffer, kFrameSlots> frames_;
     const Buffer* frame_ = nullptr;  // the one of this recording
     Buffer tiles_;
@@ -101,10 +104,11 @@ class RendererImpl final : public Renderer {
     uint32_t changes_ = 0;  // frames in a row in which growth has changed
     uint64_t propsRevision_ = 0;
     bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;
-    bool shadowCoarse_ = false;  // the map has fewer and larger leaves, as in a stroke
-    bool ahead_ = false;         // models' depths went ahead, they are shaded after growth
-    bool hosted_ = false;        // this recording goes into a host's scene
-    bool furnished_ = false;     // it draws props
+    bool shadowCoarse_ = false;         // the map has fewer and larger leaves, as in a stroke
+    float groundLevel_ = 0, unit_ = 1;  // of this recording
+    bool ahead_ = false;                // models' depths went ahead, they are shaded after growth
+    bool hosted_ = false;               // this recording goes into a host's scene
+    bool furnished_ = false;            // it draws props
 };
 
 }  // namespace espalier

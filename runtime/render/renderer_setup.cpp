@@ -48,9 +48,13 @@ Status RendererImpl::makePrograms() {
     skyDesc.depth = kDepthFormat;  // it lies at depth 0, infinitely far
     skyDesc.depthTest = true;
     skyDesc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    Result<Program> sky = Program::graphics(device_, skyDesc);
-    if (!sky) return sky.failure();
-    sky_ = std::move(*sky);
+    skyDesc.depthWrite = false;
+    for (uint32_t rest : {0u, 1u}) {
+        skyDesc.options.constants = {{kRest, rest}};
+        Result<Program> sky = Program::graphics(device_, skyDesc);
+        if (!sky) return sky.failure();
+        sky_[rest] = std::move(*sky);
+    }
     Result<Program> depthTiles = Program::compute(device_, one ? "render/tiles_single.comp" : "render/tiles.comp");
     if (!depthTiles) return depthTiles.failure();
     depthTiles_ = std::move(*depthTiles);
@@ -72,7 +76,7 @@ Status RendererImpl::makePrograms() {
     return Done{};
 }
 
-Status RendererImpl::makeScene(ScenePrograms& programs, bool explains, Blend blend) const {
+Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading, Blend blend) const {
     if (programs.model) return Done{};
     const bool one = targets_.samples == 1;
     const struct {
@@ -80,13 +84,15 @@ Status RendererImpl::makeScene(ScenePrograms& programs, bool explains, Blend ble
         const char* name;
         const char* vertex;
         const char* fragment;
+        bool rest = false;
     } rows[] = {{programs.bark, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag"},
                 {programs.barkSmall, "small bark", "render/bark_small.vert",
                  one ? "render/bark_small_single.frag" : "render/bark_small.frag"},
                 {programs.leaf, "leaf", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag"},
                 {programs.leafSmall, "small leaf", "render/leaf_small.vert",
                  one ? "render/leaf_small_single.frag" : "render/leaf_small.frag"},
-                {programs.model, "model", "render/model.vert", "render/model.frag"}};
+                {programs.model, "model", "render/model.vert", "render/model.frag"},
+                {programs.modelFoot, "model's foot", "render/model.vert", "render/model.frag", true}};
     for (const auto& row : rows) {
         GraphicsDesc desc;
         desc.name = row.name;
@@ -97,8 +103,8 @@ Status RendererImpl::makeScene(ScenePrograms& programs, bool explains, Blend ble
         desc.samples = targets_.samples;
         desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
         desc.blend = blend;
-        desc.options.constants = {{kExplains, explains ? 1u : 0u}, {kRooted, holdsRoots(device_) ? 1u : 0u}};
-        if (&row.program == &programs.model) takeModelVertices(desc);
+        desc.options.constants = constantsOf(shading, holdsRoots(device_), row.rest);
+        if (&row.program == &programs.model || row.rest) takeModelVertices(desc);
         Result<Program> made = Program::graphics(device_, desc);
         if (!made) return made.failure();
         row.program = std::move(*made);
@@ -106,22 +112,23 @@ Status RendererImpl::makeScene(ScenePrograms& programs, bool explains, Blend ble
     return Done{};
 }
 
-Status RendererImpl::pickScene(ViewMode shown) {
+Status RendererImpl::pickScene(ViewMode shown, bool quick) {
     explained_ = shown != ViewMode::shaded;
     counts_ = shown == ViewMode::overdraw;
-    ScenePrograms& wanted = counts_ ? counting_ : explained_ ? explaining_ : shaded_;
+    shading_ = explained_ ? Shading::explaining : quick && device_.info().cpu ? Shading::quick : Shading::full;
+    ScenePrograms& wanted = counts_ ? counting_ : scenes_[size_t(shading_)];
     scene_ = &wanted;
-    return makeScene(wanted, explained_, counts_ ? Blend::additive : Blend::none);
+    return makeScene(wanted, shading_, counts_ ? Blend::additive : Blend::none);
 }
 
-Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
-    if (auto it = resolves_.find({format, counts_}); it != resolves_.end()) return &it->second;
+Result<const Program*> RendererImpl::resolveProgram(VkFormat format, bool rest) {
+    if (auto it = resolves_.find({format, counts_, rest}); it != resolves_.end()) return &it->second;
     const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
     GraphicsDesc desc = fullscreen("resolve", fragment, format);
-    desc.options.constants = {{kExplains, counts_ ? 1u : 0u}};
+    desc.options.constants = {{kExplains, counts_ ? 1u : 0u}, {kRest, rest ? 1u : 0u}};
     Result<Program> made = Program::graphics(device_, desc);
     if (!made) return made.failure();
-    return &(resolves_[{format, counts_}] = std::move(*made));
+    return &(resolves_[{format, counts_, rest}] = std::move(*made));
 }
 
 Status RendererImpl::setUp(TerminalData data) {

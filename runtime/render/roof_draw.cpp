@@ -78,13 +78,16 @@ Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, ui
         const char* name;
         const char* vertex;
         const char* fragment;
-        bool explains = false;
+        Shading shading = Shading::full;
     } rows[] = {{tile_[0], "roof tile", "roof/tile.vert", "roof/tile.frag"},
-                {tile_[1], "roof tile", "roof/tile.vert", "roof/tile.frag", true},
+                {tile_[1], "roof tile", "roof/tile.vert", "roof/tile.frag", Shading::explaining},
+                {tile_[2], "roof tile", "roof/tile.vert", "roof/tile.frag", Shading::quick},
                 {cutTile_[0], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag"},
-                {cutTile_[1], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag", true},
+                {cutTile_[1], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag", Shading::explaining},
+                {cutTile_[2], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag", Shading::quick},
                 {rectangle_[0], "far roof", "roof/rectangle.vert", "roof/rectangle.frag"},
-                {rectangle_[1], "far roof", "roof/rectangle.vert", "roof/rectangle.frag", true},
+                {rectangle_[1], "far roof", "roof/rectangle.vert", "roof/rectangle.frag", Shading::explaining},
+                {rectangle_[2], "far roof", "roof/rectangle.vert", "roof/rectangle.frag", Shading::quick},
                 {tileDepth_, "roof tile shadow", "roof/tile.vert", ""},
                 {cutTileDepth_, "cut roof tile shadow", "roof/cut_tile.vert", ""},
                 {rectangleDepth_, "far roof shadow", "roof/rectangle.vert", ""}};
@@ -94,7 +97,7 @@ Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, ui
         desc.vertex = r.vertex;
         desc.fragment = r.fragment;
         desc.depth = depth;
-        desc.options.constants = {{kExplains, r.explains ? 1u : 0u}};
+        desc.options.constants = constantsOf(r.shading);
         if (*r.fragment) {
             desc.colors = {color};
             desc.samples = samples;
@@ -189,7 +192,7 @@ Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView&
 }
 
 void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap, const Sampler* shadowSampler,
-                    bool explains) {
+                    Shading shading) {
     const EmitTable& table = terminals_.table();
     const bool depthOnly = shadowMap == nullptr;
     RoofDrawPush push{};
@@ -200,7 +203,8 @@ void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap,
     if (depthOnly)
         pass.drawIndirect(rectangleDepth_, state_, rectangles, 1, push, {frame});
     else
-        pass.drawIndirect(rectangle_[explains], state_, rectangles, 1, push, {{*shadowMap, *shadowSampler}, frame});
+        pass.drawIndirect(rectangle_[size_t(shading)], state_, rectangles, 1, push,
+                          {{*shadowMap, *shadowSampler}, frame});
     pass.setIndices(terminals_.batches());
     for (uint32_t b = 0; b < table.bucketCount; ++b) {
         const BucketRecord& bucket = table.buckets[b];
@@ -215,8 +219,8 @@ void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap,
             if (depthOnly)
                 pass.drawIndexedIndirect(cut ? cutTileDepth_ : tileDepth_, state_, offset, 2, push, {frame});
             else
-                pass.drawIndexedIndirect(cut ? cutTile_[explains] : tile_[explains], state_, offset, 2, push,
-                                         {{*shadowMap, *shadowSampler}, frame});
+                pass.drawIndexedIndirect(cut ? cutTile_[size_t(shading)] : tile_[size_t(shading)], state_, offset, 2,
+                                         push, {{*shadowMap, *shadowSampler}, frame});
         }
     }
 }

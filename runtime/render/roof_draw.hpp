@@ -3,6 +3,7 @@
 // Drawing roofs: culled grid by grid and row by row on the GPU, drawn by indirect draws.
 
 #include "runtime/emit/emit.hpp"
+#include "runtime/render/shading.hpp"
 #include "runtime/roof/roof_growth.hpp"
 #include "shaders/roof/draw_records.h"
 
@@ -27,7 +28,8 @@ class RoofDraw {
     Status cull(Commands& commands, const RoofView& roofs, const EmitView& view, bool shadow,
                 std::string_view passName);
     // Draws what the last cull left. frame: a FrameRecord. Depth only without a shadow map.
-    void draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap, const Sampler* shadowSampler, bool explains);
+    void draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap, const Sampler* shadowSampler,
+              Shading shading = Shading::full);
     // Of the last cull for a picture that has finished.
     RoofDrawStats stats() const;
 
@@ -40,7 +42,7 @@ class RoofDraw {
     std::vector<RoofMesh> bounds_;
     std::vector<float> flatShades_;  // [bucket]
     Program cullGrids_, cullRows_, scan_, writeRows_;
-    Program tile_[2], cutTile_[2], rectangle_[2];  // of the shaded view, of others
+    Program tile_[kShadings], cutTile_[kShadings], rectangle_[kShadings];
     Program tileDepth_, cutTileDepth_, rectangleDepth_;
     Buffer views_, envs_, state_, rows_, tiles_, cuts_, rectangles_, readback_;
     uint64_t env_ = 0;  // of the last cull

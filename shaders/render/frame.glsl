@@ -7,6 +7,11 @@ layout(set = 0, binding = 8, scalar) uniform FrameBlock { FrameRecord frame; };
 
 // Any view but the shaded one. A constant: some devices run both sides of an `if`.
 layout(constant_id = 0) const bool explains = false;
+// Fewer samples of shadows and textures.
+layout(constant_id = 2) const bool quick = false;
+
+// What most pixels don't need is in a program of its own, which discards them first: the only jump that some devices know.
+layout(constant_id = 3) const bool rest = false;
 
 // Textures hold the square roots of linear colours, instead of sRGB: what software devices filter fastest.
 layout(constant_id = 1) const bool rooted = false;

@@ -13,9 +13,12 @@ CONST_UINT(kViewLayer, 4u);
 CONST_UINT(kViewDepth, 5u);
 CONST_UINT(kViewOverdraw, 6u);
 
-// Constants of programs: do they draw another view than the shaded one? Do textures hold square roots of colours?
+// Constants of programs: do they draw another view than the shaded one? Do textures hold square roots of colours? Are
+// they for pictures of what moves, which have to be cheap? Do they draw the rest that a simpler program left out?
 CONST_UINT(kExplains, 0u);
 CONST_UINT(kRooted, 1u);
+CONST_UINT(kQuick, 2u);
+CONST_UINT(kRest, 3u);
 
 // Colours are linear. Clip space: depth reversed, 1 at the near plane, 0 at infinity.
 struct FrameRecord {

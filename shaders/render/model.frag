@@ -72,7 +72,7 @@ void addGrain(vec3 plane, vec2 footX, vec2 footY, inout vec3 base, inout vec3 bu
     }
 }
 
-// What lies almost as low as the meadow is overgrown by it.
+// What lies almost as low as the meadow is overgrown by it (`rest` is the program of such triangles).
 void addMeadow(vec3 plane, float metres, inout vec3 base, inout vec3 bumped) {
     float above = (position.y - frame.groundLevel) / frame.unit;
     float share = clamp(1.25 - above * 14.0, 0.0, 1.0) * clamp(plane.y * 4.0 - 2.6, 0.0, 1.0);
@@ -116,8 +116,8 @@ void main() {
     }
     vec2 texels = vec2(textureSize(colorMap, 0));
     vec2 footX = dFdx(uvs.xy) * texels, footY = dFdy(uvs.xy) * texels;
-    if (texels.x > 4.0) addGrain(n, footX, footY, base.rgb, bumped);
-    addMeadow(n, length(frame.eye - position) / frame.unit, base.rgb, bumped);
+    if (!quick && texels.x > 4.0) addGrain(n, footX, footY, base.rgb, bumped);
+    if (rest) addMeadow(n, length(frame.eye - position) / frame.unit, base.rgb, bumped);
     vec3 sun = frame.sunDirection;
     float facing = max(dot(bumped, sun), 0.0) * step(0.0, dot(n, sun));
     float visible = facingSunVisibility(facing, position, n);

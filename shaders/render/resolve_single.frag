@@ -3,7 +3,7 @@
 #include "shaders/shared/extensions.glsl"
 // Pixels of one sample -> smooth edges, with ambient occlusion. Where brightness breaks, the edge is followed both
 // ways to its ends (the idea of FXAA, Lottes 2009); from where between them the pixel lies follows how much of it
-// belongs to the other side.
+// belongs to the other side. Drawn twice: all pixels as they are, then `rest`, the edges.
 #include "shaders/render/frame.glsl"
 #include "shaders/render/encode.glsl"
 #include "shaders/render/heat.h"
@@ -77,16 +77,17 @@ vec4 smoothed(ivec2 at, float m, float n, float s, float w, float e, float range
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 shown = texelFetch(colorMap, at, 0);
-    float m = brightness(shown.rgb);
-    float n = fetch(at + ivec2(0, -1));
-    float s = fetch(at + ivec2(0, 1));
-    float w = fetch(at + ivec2(-1, 0));
-    float e = fetch(at + ivec2(1, 0));
-    float most = max(m, max(max(n, s), max(w, e)));
-    float range = most - min(m, min(min(n, s), min(w, e)));
-    // A loop of one round: a device that runs all lanes through both sides of an `if` does leave a loop early.
-    for (bool edge = range >= max(kLeastContrast, kRelativeContrast * most); edge; edge = false)
+    if (rest) {
+        float n = fetch(at + ivec2(0, -1));
+        float s = fetch(at + ivec2(0, 1));
+        float w = fetch(at + ivec2(-1, 0));
+        float e = fetch(at + ivec2(1, 0));
+        float m = brightness(shown.rgb);
+        float most = max(m, max(max(n, s), max(w, e)));
+        float range = most - min(m, min(min(n, s), min(w, e)));
+        if (range < max(kLeastContrast, kRelativeContrast * most)) discard;
         shown = smoothed(at, m, n, s, w, e, range);
+    }
     float open = textureLod(openMap, gl_FragCoord.xy * push.rcpSize, 0.0).x;
     if (explains && frame.view == kViewOverdraw) shown = stored(heatColor(shown.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
     color = pictureColor(shown, open, push.encode != 0u, at);

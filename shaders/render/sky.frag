@@ -39,10 +39,10 @@ vec3 clouds(vec3 ray, vec3 sky) {
 void main() {
     vec2 at = gl_FragCoord.xy * push.rcpSize * 2.0 - 1.0;
     vec3 ray = normalize(frame.rayForward + frame.rayRight * at.x - frame.rayUp * at.y);
+    if (rest ? ray.y >= kHighestHill : push.ground != 0u && ray.y < kHighestHill) discard;
     vec3 seen = skyColor(ray);
-    // A loop of one round: a device that runs all lanes through both sides of an `if` does leave a loop early.
-    for (bool high = ray.y > 0.02; high; high = false) seen = clouds(ray, seen);
-    for (bool low = push.ground != 0u && ray.y < kHighestHill; low; low = false) seen = hills(ray, seen);
+    if (ray.y > 0.02) seen = clouds(ray, seen);
+    if (rest) seen = hills(ray, seen);
     color = stored(toneMapped(seen * frame.exposure), 0.0);
     if (frame.view == kViewOverdraw) color = vec4(0.0);
 }

@@ -27,7 +27,7 @@ float noise3(vec3 p) {
 // variation: 0..1 of the cell. What has no tint, walls above all, is streaked by rain and splashed above the ground.
 vec3 weathered(vec3 base, float variation, float tint, vec3 position) {
     vec3 finer = tint > 0.0 ? vec3(2.9) : vec3(4.1, 0.45, 4.1);
-    float patchy = noise3(position * 0.7) * 0.6 + noise3(position * finer) * 0.4;
+    float patchy = noise3(position * 0.7) * 0.6 + (quick ? 0.2 : noise3(position * finer) * 0.4);
     base *= 1.0 + tint * 0.55 * (variation - 0.5) * 2.0;
     float high = (position.y - frame.groundLevel) / frame.unit;
     vec3 splashed = mix(vec3(0.62, 0.585, 0.51), vec3(1.0), clamp(0.9 * high + 1.6 * patchy - 0.75, 0.0, 1.0));
@@ -39,9 +39,9 @@ vec3 mossy(RoofDrawEnv env, uint mesh, vec3 base, vec3 position, float joint) {
     if (layer == 0u) return base;
     float painted = roofLayerAt(env.roofs.layers, env.roofs.site, layer - 1u, position.xz);
     if (painted <= 0.0) return base;
-    float cushions = noise3(position * 3.1) * 0.45 + noise3(position * 9.7) * 0.35 + noise3(position * 31.0) * 0.2;
+    float cushions = noise3(position * 3.1) * 0.45 + (quick ? 0.275 : noise3(position * 9.7) * 0.35 + noise3(position * 31.0) * 0.2);
     float share = smoothstep(0.62, 0.38, cushions + 0.55 * (0.75 - painted) - 0.2 * joint);
-    vec3 green = mix(vec3(0.038, 0.046, 0.016), vec3(0.085, 0.098, 0.03), noise3(position * 17.0));
+    vec3 green = mix(vec3(0.038, 0.046, 0.016), vec3(0.085, 0.098, 0.03), quick ? 0.5 : noise3(position * 17.0));
     return mix(base, green * (1.0 - 0.4 * joint), share * min(1.0, 3.0 * painted));
 }
 // What the view of a layer shows on roofs and ground.

@@ -1,0 +1,24 @@
+#pragma once
+
+// How the drawing programs shade. Each kind is a program of its own, as some devices run both sides of an `if`.
+
+#include <vector>
+
+#include "runtime/gpu/spirv.hpp"
+#include "shaders/render/frame_records.h"
+
+namespace espalier {
+
+// full: as settled pictures are. explaining: any view but the shaded one. quick: for a moving picture on a software
+// device, with fewer samples of shadows and textures.
+enum class Shading : uint32_t { full = 0, explaining = 1, quick = 2 };
+constexpr uint32_t kShadings = 3;
+
+inline std::vector<SpecConstant> constantsOf(Shading shading, bool rooted = false, bool rest = false) {
+    return {{kExplains, shading == Shading::explaining ? 1u : 0u},
+            {kRooted, rooted ? 1u : 0u},
+            {kQuick, shading == Shading::quick ? 1u : 0u},
+            {kRest, rest ? 1u : 0u}};
+}
+
+}  // namespace espalier
