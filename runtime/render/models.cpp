@@ -203,7 +203,7 @@ uint32_t Models::simplest(const Model& model, float error) {
     return mesh;
 }
 
-void Models::choose(glm::vec3 eye, float pixelScale, float pixels) {
+void Models::choose(glm::vec3 eye, float pixelScale, float pixels, bool atOnce) {
     for (auto& [index, model] : models_) {
         if (model.groundOnly) {
             model.step = kFadeFrames;
@@ -211,7 +211,7 @@ void Models::choose(glm::vec3 eye, float pixelScale, float pixels) {
         }
         const float distance = glm::length(eye - glm::clamp(eye, model.low, model.high));
         const uint32_t wanted = simplest(model, pixels * distance / pixelScale);
-        if (model.step == 0) {  // at once, where nothing was seen before
+        if (model.step == 0 || atOnce) {  // where nothing was seen before, too
             model.shown = wanted;
             model.step = kFadeFrames;
         } else if (model.step < kFadeFrames && wanted == model.before) {

@@ -26,8 +26,9 @@ class Models {
     void place(uint32_t index, const glm::mat4& toWorld);
 
     // Picks for each model the simplest mesh whose error is at most `pixels` where the model is nearest. Once before a
-    // frame's draw: when the pick changes, the one mesh takes over from the other within the next kFadeFrames.
-    void choose(glm::vec3 eye, float pixelScale, float pixels);
+    // frame's draw: when the pick changes, the one mesh takes over from the other within the next kFadeFrames,
+    // or at once.
+    void choose(glm::vec3 eye, float pixelScale, float pixels, bool atOnce = false);
     static constexpr uint32_t kFadeFrames = 8;
 
     // Draws all of them as chosen, but for those that are ground only if `drawnOnly`: triangles that the meadow at

@@ -35,7 +35,8 @@ float lengthUnit(glm::vec3 size) {
 // Pixels. Views of the walk's UV square want the mesh that has it everywhere.
 float allowedModelError(const Look& look, bool grows) {
     if (look.view == ViewMode::charts || look.view == ViewMode::layer) return 0;
-    return grows ? std::min(look.lodPixels, kGrownPixels) : look.lodPixels;
+    const float grown = look.quick ? kGrownPixels * std::max(look.lodPixels, 1.0f) : kGrownPixels;
+    return grows ? std::min(look.lodPixels, grown) : look.lodPixels;
 }
 
 }  // namespace
@@ -431,7 +432,10 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
     push.ground = inputs.ground.drawn && !hosted_ ? 1 : 0;
     // Some devices do a pass' work when the next one needs it: only the whole is a true time.
     Pass whole(commands, "draw");
-    models_.choose(frame.eye, frame.pixelScale, allowedModelError(inputs.look, grows_));
+    // Where pictures begin or end to be quick, nobody sees one mesh replace another.
+    models_.choose(frame.eye, frame.pixelScale, allowedModelError(inputs.look, grows_),
+                   inputs.look.quick != quickBefore_);
+    quickBefore_ = inputs.look.quick;
     if (Status s = drawModels(commands, inputs, target, push); !s) return s;
     if (grows_ || roofed_)
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;

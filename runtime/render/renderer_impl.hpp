@@ -104,7 +104,8 @@ class RendererImpl final : public Renderer {
     uint32_t changes_ = 0;  // frames in a row in which growth has changed
     uint64_t propsRevision_ = 0;
     bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;
-    bool shadowCoarse_ = false;         // the map has fewer and larger leaves, as in a stroke
+    bool shadowCoarse_ = false;  // the map has fewer and larger leaves, as in a stroke
+    bool quickBefore_ = false;
     float groundLevel_ = 0, unit_ = 1;  // of this recording
     bool ahead_ = false;                // models' depths went ahead, they are shaded after growth
     bool hosted_ = false;               // this recording goes into a host's scene
