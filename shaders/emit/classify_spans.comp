@@ -24,10 +24,13 @@ void main() {
         uint variant = table.kinds[e.w & 63u].firstVariant;
         o.bits = 0xFFFF0000u;
         bucket = table.variants[variant].firstBucket;
-        for (bool culled = (view.flags & kFullDetail) == 0u; culled; culled = false) {
+        // No branch on what is the same in all of a view; see cull_cells.comp.
+        uint lanes = kBlockItems * (1u - (view.flags & kFullDetail));
+        for (bool culled = lane < lanes; culled; culled = false) {
             vec4 sphere = uintBitsToFloat(texelFetch(spanTexels, int(6u * o.item + 5u)));
             vec2 errors = unpackHalf2x16(e.z);
-            bool joined = (view.flags & kStretches) != 0u && errors.y * pixelsPerMetre(view, sphere.xyz) <= view.lodPixels;
+            float stretches = float((view.flags & kStretches) / kStretches);
+            bool joined = errors.y * pixelsPerMetre(view, sphere.xyz) <= mix(-1.0, view.lodPixels, stretches);
             for (bool alone = !joined; alone; alone = false) {
                 uvec4 a = texelFetch(spanTexels, int(6u * o.item));
                 uvec4 b = texelFetch(spanTexels, int(6u * o.item + 1u));

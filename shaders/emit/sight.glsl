@@ -38,7 +38,7 @@ vec4 spanSphere(vec3 p0, vec3 b1, vec3 b2, vec3 p3) {
 
 // Pixels that a metre covers at `center`.
 float pixelsPerMetre(EmitView view, vec3 center) {
-    if (view.parallel != 0u) return view.pixelScale;
-    return view.pixelScale / max(distance(view.eye, center), 1e-6);
+    float away = max(distance(view.eye, center), 1e-6);
+    return view.pixelScale / (view.parallel == 0u ? away : 1.0);
 }
 #endif
