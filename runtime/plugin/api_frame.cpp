@@ -113,7 +113,10 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
         Status drawn = context.renderer->draw(*commands, inputs, target);
         if (!drawn) return failGpu(&context, drawn.failure());
         Status finished = commands->finish();
-        if (!finished) return failGpu(&context, finished.failure());
+        if (!finished) {
+            context.renderer->forget();
+            return failGpu(&context, finished.failure());
+        }
         context.hasPicture = true;
         context.pictureWidth = def.width;
         context.pictureHeight = def.height;

@@ -356,10 +356,13 @@ bool RendererImpl::shadowsWait(const ShadowKey& key) {
 
 Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
     Status drawn = drawFrame(commands, inputs, target);
-    if (drawn) return drawn;
+    if (!drawn) forget();
+    return drawn;
+}
+
+void RendererImpl::forget() {
     emit_.forget();
     shadowDrawn_ = wideDrawn_ = false;
-    return drawn;
 }
 
 Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {

@@ -111,6 +111,9 @@ class Renderer {
     // leaves, and when it has come to rest.
     virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;
 
+    // What the last draw has recorded didn't run: the next relies on none of it.
+    virtual void forget() = 0;
+
     // The last frame drawn into the renderer's own image: RGBA, sRGB, rows top to bottom. Waits for it.
     virtual Result<std::vector<uint8_t>> readPixels() = 0;
 
