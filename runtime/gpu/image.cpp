@@ -140,7 +140,8 @@ Result<Image> Image::finish(Device& device, const ImageDesc& desc, Image image) 
 Result<Sampler> Sampler::create(Device& device, const SamplerDesc& desc) {
     VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     info.magFilter = info.minFilter = desc.filter;
-    info.mipmapMode = desc.filter == VK_FILTER_LINEAR && desc.blendMips ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.mipmapMode = desc.filter == VK_FILTER_LINEAR && desc.blendMips ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                                        : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.addressModeU = info.addressModeV = info.addressModeW = desc.address;
     info.maxLod = desc.mips ? VK_LOD_CLAMP_NONE : 0;
     info.maxAnisotropy = std::min(desc.anisotropy, device.info().maxAnisotropy);

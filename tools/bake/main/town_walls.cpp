@@ -12,9 +12,9 @@ namespace {
 
 constexpr float kBefore = 0.01f;  // metres before the plaster
 constexpr float kStandsOut = 0.02f, kNear = 0.3f;
-constexpr float kMargin = 0.03f;     // left bare around an opening
+constexpr float kMargin = 0.03f;    // left bare around an opening
 constexpr float kBelowEave = 0.3f;  // where leaves don't come through the tiles
-constexpr float kWhole = 0.9f;       // of a wall, that a plinth is long at least
+constexpr float kWhole = 0.9f;      // of a wall, that a plinth is long at least
 constexpr uint32_t kWallColour = 0xFF8FB0C4;
 
 struct Rect {
