@@ -104,7 +104,7 @@ typedef struct EspSurfaceInfo {
 } EspSurfaceInfo;
 
 /* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from
- * one to the other. */
+ * one to the other; a seed that lies within another surface's solid body waits until one of them is elsewhere. */
 ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
 /* Likewise, of ground that something else draws, such as the walls of a town's houses: of it only ESP_VIEW_CHARTS and
  * ESP_VIEW_LAYER show anything, and it casts no shadow. */

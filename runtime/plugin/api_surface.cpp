@@ -92,13 +92,14 @@ void surfacesChanged(EspContext& context) {
 }
 
 EspResult load(EspContext& context, const char* path, const EspTransform& place, bool groundOnly, EspSurface* out) {
+    const std::string call = groundOnly ? "espLoadGround: " : "espLoadSurface: ";
     const glm::mat4 toWorld = matrixOf(place);
     const std::optional<float> scale = evenScale(toWorld);
     if (!scale)
         return fail(&context, ESP_INVALID_ARGUMENT,
-                    "espLoadSurface: the transform must move, turn and scale evenly, without mirroring");
+                    call + "the transform must move, turn and scale evenly, without mirroring");
     if (context.surfaces.size() >= kMaxSurfaces)
-        return fail(&context, ESP_INVALID_ARGUMENT, "espLoadSurface: there are 255 surfaces already");
+        return fail(&context, ESP_INVALID_ARGUMENT, call + "there are 255 surfaces already");
     if (EspResult readable = checkReadable(&context, path)) return readable;
     Result<SurfaceData> data = readSurface(path);
     if (!data) return failContent(&context, data.failure());
@@ -116,7 +117,7 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     surface.gpu = std::move(*gpu);
 
     const uint32_t id = context.surfaces.insert(std::move(surface));
-    if (!id) return fail(&context, ESP_OUT_OF_MEMORY, "espLoadSurface: no ids left");
+    if (!id) return fail(&context, ESP_OUT_OF_MEMORY, call + "no ids left");
     PlacedSurface& placed = *context.surfaces.find(id);
     placed.instance = instanceOf(id);
     Status drawn = context.renderer->setSurface(placed.instance, placed.data, toWorld, groundOnly);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/plugin/buried_seeds.hpp"
+#include "runtime/plugin/context.hpp"
 
 namespace espalier {
 namespace {

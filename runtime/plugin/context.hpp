@@ -312,6 +312,9 @@ void thawPlantsOn(EspContext& context, uint32_t instance, bool across);
 void addReached(const EspContext& context, std::vector<bool>& instances);
 // Finds contacts between surfaces that came, went or moved, and gives them to the surfaces' GPU data.
 Status refreshContacts(EspContext& context);
+// Does another surface hide a seed's ground, within a solid body or beneath a face that lies on it? Such seeds wait. As
+// surfaces stood at the last refreshContacts; costs microseconds where bodies are near, else next to nothing.
+bool buriedByOthers(const EspContext& context, const PlantedSeed& seed);
 // Takes a seed out, and all notes of it.
 void removeSeed(EspContext& context, uint32_t id);
 // The plants as last grown, read back if that is still to do; null on failure, which is noted.

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "runtime/plugin/buried_seeds.hpp"
+#include "runtime/plugin/context.hpp"
 
 namespace espalier {
 namespace {

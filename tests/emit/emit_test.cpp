@@ -3,42 +3,14 @@
 #include <algorithm>
 #include <random>
 
-#include "tests/emit/fixture.hpp"
+#include "tests/emit/pipeline.hpp"
 
 using namespace espalier;
 
 namespace {
 
-struct Gpu {
-    std::unique_ptr<Device> device;
-    Terminals terminals;
-    Emit emit;
-
-    Gpu() {
-        DeviceOptions options;
-        options.validation = true;
-        Result<std::unique_ptr<Device>> made = Device::create(options);
-        REQUIRE_MESSAGE(made, (made ? "" : made.failure().text()));
-        device = std::move(*made);
-        Result<Terminals> t = Terminals::create(*device, test::simpleTerminals());
-        REQUIRE(t);
-        terminals = std::move(*t);
-        Result<Emit> e = Emit::create(*device, terminals);
-        REQUIRE_MESSAGE(e, (e ? "" : e.failure().text()));
-        emit = std::move(*e);
-    }
-    ~Gpu() {
-        for (const std::string& text : device->validationTexts()) MESSAGE(text);
-        CHECK(device->validationMessages() == 0);
-    }
-
-    EmitState cull(const test::Plant& plant, const EmitView& view) {
-        Result<Commands> commands = Commands::begin(*device, "cull");
-        REQUIRE(commands);
-        REQUIRE(emit.cull(*commands, plant.inputs(), view, "emit", true));
-        REQUIRE(commands->finish());
-        return readVector<EmitState>(*device, emit.state(), 0, 1)->at(0);
-    }
+struct Gpu : test::EmitPipeline {
+    EmitState cull(const test::Plant& plant, const EmitView& view) { return EmitPipeline::cull(plant.inputs(), view); }
 
     // What the last cull left, in the order of drawing, at the sizes that it asked for.
     std::vector<DrawnItem> drawn(const EmitState& state) {

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "tests/emit/fixture.hpp"
+#include "tests/emit/pipeline.hpp"
 
 using namespace espalier;
 
@@ -67,28 +67,10 @@ void overwrite(Commands& commands, const Buffer& buffer, const std::vector<T>& v
     REQUIRE(commands.upload(buffer, values));
 }
 
-struct Pipeline {
-    Terminals terminals;
-    Emit emit;
-    explicit Pipeline(Device& device) {
-        terminals = std::move(*Terminals::create(device, test::simpleTerminals()));
-        emit = std::move(*Emit::create(device, terminals));
-    }
-    EmitState cull(Device& device, const EmitInputs& inputs, const EmitView& view) {
-        Result<Commands> commands = Commands::begin(device, "cull");
-        REQUIRE(commands);
-        REQUIRE(emit.cull(*commands, inputs, view, "emit", true));
-        REQUIRE(commands->finish());
-        return readVector<EmitState>(device, emit.state(), 0, 1)->at(0);
-    }
-};
-
 }  // namespace
 
 TEST_CASE("an edit binds what it concerns, and leaves what binding everything leaves") {
-    DeviceOptions options;
-    options.validation = true;
-    std::unique_ptr<Device> device = std::move(*Device::create(options));
+    const std::shared_ptr<Device> device = test::validatedDevice();
     Edited e = edited();
     test::Plant plant = test::upload(*device, e.after);
     const Buffer touched = std::move(*makeBuffer(*device, "touched", e.touched));
@@ -98,7 +80,7 @@ TEST_CASE("an edit binds what it concerns, and leaves what binding everything le
     views[1] = parallelView(glm::mat4(1), 120, 1);  // thinned out
     for (glm::vec4& plane : views[1].planes) plane = glm::vec4(0, 0, 0, 1);
     for (const EmitView& view : views) {
-        Pipeline often(*device), once(*device);
+        test::EmitPipeline often(device), once(device);
         const auto write = [&](const test::PlantData& data) {
             Result<Commands> commands = Commands::begin(*device, "edit");
             REQUIRE(commands);
@@ -114,21 +96,21 @@ TEST_CASE("an edit binds what it concerns, and leaves what binding everything le
         write(e.before);
         plant.view.number = plant.view.renewed = 1;
         plant.view.touched = &touched;
-        often.cull(*device, plant.inputs(), view);
+        often.cull(plant.inputs(), view);
         CHECK(often.emit.stats().bound == plant.view.nodeCount + plant.view.leafCount);
         write(e.after);
         plant.view.number = 2;
-        const EmitState part = often.cull(*device, plant.inputs(), view);
+        const EmitState part = often.cull(plant.inputs(), view);
         const uint32_t bound = often.emit.stats().bound;
         CHECK(bound > 0);
         CHECK(bound < (plant.view.nodeCount + plant.view.leafCount) / 2);
-        const EmitState whole = once.cull(*device, plant.inputs(), view);
+        const EmitState whole = once.cull(plant.inputs(), view);
         CHECK(once.emit.stats().bound == plant.view.nodeCount + plant.view.leafCount);
         CHECK(whole.spanCount > 300);
         CHECK(part.fullTriangles == whole.fullTriangles);
         CHECK(std::memcmp(part.counts, whole.counts, sizeof part.counts) == 0);
         CHECK(std::memcmp(part.draws, whole.draws, sizeof part.draws) == 0);
-        const auto drawn = [&](Pipeline& p) {
+        const auto drawn = [&](test::EmitPipeline& p) {
             return *readVector<DrawnItem>(*device, p.emit.drawn(), 0, whole.spanCount + whole.leafCount);
         };
         const auto a = drawn(often), b = drawn(once);
@@ -150,9 +132,7 @@ TEST_CASE("an edit binds what it concerns, and leaves what binding everything le
         // Nodes elsewhere: all again.
         plant.view.number = plant.view.renewed = 3;
         plant.view.revision += 1;
-        often.cull(*device, plant.inputs(), view);
+        often.cull(plant.inputs(), view);
         CHECK(often.emit.stats().bound == plant.view.nodeCount + plant.view.leafCount);
     }
-    for (const std::string& text : device->validationTexts()) MESSAGE(text);
-    CHECK(device->validationMessages() == 0);
 }
