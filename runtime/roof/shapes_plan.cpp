@@ -1,0 +1,179 @@
+// In: a footprint, its outline repaired. Out: speeds of the wavefront, the inverse of slopes, edge by edge, and above
+// the break. A gable is an edge that doesn't move.
+#include "runtime/roof/shapes_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier {
+
+namespace {
+
+constexpr double kMansardTop = 0.364;                                             // tangent of 20 degrees
+constexpr double kGambrelTop = 0.577;                                             // of 30
+constexpr double kDefaultSlope[] = {0.7, 0.7, 0.7, 1.0, 0.268, 1.732, 2.747, 0};  // by RoofShape
+
+}  // namespace
+
+void RoofPlanner::say(const std::string& what) {
+    diagnostics_.push_back({{}, 0, 0, footprint_.id, what, true});
+}
+
+double RoofPlanner::slopeOf(RoofShape shape) const {
+    return std::clamp(footprint_.slope.value_or(kDefaultSlope[size_t(shape)]), 0.01, kSteepestRoof);
+}
+
+RoofPlan RoofPlanner::planOf(RoofShape shape, bool plain) {
+    RoofPlan plan;
+    plan.input.rings = outline_.rings;
+    size_t count = edges_.corner.size();
+    double slope = slopeOf(shape);
+    std::vector<double>& speeds = plan.input.speeds;
+    speeds.assign(count, 1 / slope);
+    plan.level = shape == RoofShape::flat;
+    if (plan.level || plain) {
+        speeds.assign(count, 1);
+        return plan;
+    }
+    if (shape == RoofShape::pyramid && !pyramid(slope, speeds))
+        say("its middle lies too near some eaves for a pyramid: a hip roof instead");
+    if (shape == RoofShape::gable || shape == RoofShape::halfHip || shape == RoofShape::gambrel) chooseGables(speeds);
+    ownSlopes(speeds);
+    breakSlopes(shape, slope, plan);
+    return plan;
+}
+
+// What goes on above a break: the hip of a half hip, the flatter part of a gambrel and a mansard.
+void RoofPlanner::breakSlopes(RoofShape shape, double slope, RoofPlan& plan) {
+    std::vector<double>& above = plan.input.speedsAbove;
+    above = plan.input.speeds;
+    if (shape == RoofShape::halfHip) {
+        // The hip begins half way up the gable.
+        double ridge = ridgeOf(plan);
+        plan.input.breakHeight = ridge > 0 ? ridge / 2 : INFINITY;
+        for (double& s : above)
+            if (s == 0) s = 1 / slope;
+    }
+    if (shape == RoofShape::gambrel || shape == RoofShape::mansard) {
+        bool mansard = shape == RoofShape::mansard;
+        double ridge = ridgeOf(plan);
+        // A mansard's attic is a storey high; a gambrel breaks half way in.
+        plan.input.breakHeight = mansard ? std::min(2.4, 0.6 * ridge) : ridge / 2;
+        if (!(ridge > 0)) plan.input.breakHeight = INFINITY;
+        plan.input.breakAll = true;
+        for (double& s : above) s = s == 0 ? 0 : 1 / std::min(mansard ? kMansardTop : kGambrelTop, 1 / s);
+    }
+}
+
+double RoofPlanner::ridgeOf(const RoofPlan& plan) {
+    RoofPlan whole = plan;
+    whole.input.breakHeight = INFINITY;
+    double ridge = 0;
+    attempts_.attempt(whole, [&](Facets& facets) {
+        for (const Facets::Side& s : facets.sides)
+            if (!s.dead) ridge = std::max(ridge, facets.points[s.from].z);
+        return true;
+    });
+    return ridge;
+}
+
+bool RoofPlanner::pyramid(double slope, std::vector<double>& speeds) const {
+    if (outline_.rings.size() != 1) return false;
+    glm::dvec2 sum(0);
+    double twice = 0;
+    for (size_t e = 0; e < edges_.corner.size(); e++) {
+        glm::dvec2 a = edges_.corner[e], b = edges_.corner[edges_.next[e]];
+        double c = a.x * b.y - a.y * b.x;
+        twice += c;
+        sum += (a + b) * c;
+    }
+    glm::dvec2 apex = sum / (3 * twice);
+    std::vector<double> distance;
+    for (size_t e = 0; e < edges_.corner.size(); e++) {
+        glm::dvec2 d = edges_.along(e), q = apex - edges_.corner[e];
+        distance.push_back(d.x * q.y - d.y * q.x);
+    }
+    auto [least, most] = std::minmax_element(distance.begin(), distance.end());
+    if (!(*least > 0.25 * *most)) return false;  // nor are some faces much steeper than others
+    for (size_t e = 0; e < distance.size(); e++) speeds[e] = distance[e] / (slope * *least);
+    return true;
+}
+
+// Both corners are convex and not blunt, as those of an octagon or a bay are.
+bool RoofPlanner::endsWing(size_t e) const {
+    auto sharp = [&](size_t corner) {
+        return edges_.turn(corner) > 0 && glm::dot(edges_.along(edges_.previous[corner]), edges_.along(corner)) < 0.45;
+    };
+    return sharp(e) && sharp(edges_.next[e]);
+}
+
+// A gable stands where a hip roof would be a triangle between two convex corners: at the end of a wing. Of two such
+// neighbours the shorter takes it, in a quadrangle with its ridge across the longer.
+void RoofPlanner::chooseGables(std::vector<double>& speeds) {
+    RoofPlan hips;
+    hips.input.rings = outline_.rings;
+    hips.input.speeds.assign(speeds.size(), 1);
+    std::vector<size_t> ends;
+    bool across = footprint_.orientation == RidgeOrientation::across && speeds.size() == 4;
+    auto triangles = [&](Facets& facets) {
+        ends.clear();
+        for (const Facets::Facet& f : facets.facets) {
+            if (f.side == kNone) continue;
+            uint32_t third = facets.sides[facets.sides[f.side].next].next;
+            bool triangle = facets.sides[third].next == f.side;
+            if (triangle && endsWing(f.edge)) ends.push_back(f.edge);
+        }
+        return true;
+    };
+    if (across)
+        ends = {0, 1, 2, 3};
+    else
+        attempts_.attempt(hips, triangles);
+    std::stable_sort(ends.begin(), ends.end(), [&](size_t a, size_t b) {
+        double difference = edges_.length(a) - edges_.length(b);
+        return across ? difference > 0.01 : difference < -0.01;
+    });
+    std::vector<bool> gable(speeds.size());
+    for (size_t e : ends)
+        if (!gable[edges_.next[e]] && !gable[edges_.previous[e]]) gable[e] = true;
+    if (ends.empty()) say("no edge of it can carry a gable: a hip roof instead");
+    for (size_t e = 0; e < speeds.size(); e++)
+        if (gable[e]) speeds[e] = 0;
+}
+
+// What edges have of their own; neighbours in one line then share the first one's.
+void RoofPlanner::ownSlopes(std::vector<double>& speeds) {
+    std::vector<bool> own(speeds.size());
+    for (const EdgeRoof& given : footprint_.edges)
+        for (size_t e = 0; e < speeds.size(); e++) {
+            if (outline_.sourceEdges[e] != given.edge) continue;
+            own[e] = true;
+            if (given.slope) speeds[e] = 1 / std::clamp(*given.slope, 0.01, kSteepestRoof);
+            if (given.gable && *given.gable) speeds[e] = 0;
+            if (given.gable && !*given.gable && speeds[e] == 0) speeds[e] = 1 / slopeOf(RoofShape::hip);
+        }
+    levelLines(speeds, own);
+    if (std::all_of(speeds.begin(), speeds.end(), [](double s) { return s == 0; })) {
+        say("all its edges are gables: hips instead");
+        for (double& s : speeds) s = 1 / slopeOf(RoofShape::hip);
+    }
+}
+
+// Neighbours in one line share a slope: that of the one which has its own, else of the first.
+void RoofPlanner::levelLines(std::vector<double>& speeds, std::vector<bool>& own) {
+    bool differ = false;
+    for (int round = 0; round < 2; round++)
+        for (size_t e = 0; e < speeds.size(); e++) {
+            size_t before = edges_.previous[e];
+            if (!edges_.continues(e) || speeds[e] == speeds[before]) continue;
+            if (own[e] && !own[before]) continue;
+            differ = differ || (own[e] && own[before]);
+            speeds[e] = speeds[before];
+            own[e] = own[before];
+        }
+    for (size_t i = speeds.size(); i-- > 0;)
+        if (edges_.continues(i)) speeds[edges_.previous[i]] = speeds[i];
+    if (differ) say("edges in one line have different slopes: they share the first one's");
+}
+
+}  // namespace espalier

@@ -1,0 +1,49 @@
+#pragma once
+
+// What a kind of roof asks of a house's skeleton: a slope for each edge, its gables, and the height of a break.
+
+#include <string>
+
+#include "runtime/core/result.hpp"
+#include "runtime/roof/footprint.hpp"
+#include "runtime/roof/shapes_attempts.hpp"
+
+namespace espalier {
+
+constexpr double kSteepestRoof = 20;  // tangent, 87 degrees
+
+// Plans of one house. Refers to what it is given, for as long as it lives. One thread.
+class RoofPlanner {
+  public:
+    RoofPlanner(const Footprint& footprint, const RepairedOutline& outline, const OutlineEdges& edges,
+                RoofAttempts& attempts, std::vector<Diagnostic>& diagnostics)
+        : footprint_(footprint), outline_(outline), edges_(edges), attempts_(attempts), diagnostics_(diagnostics) {}
+
+    // plain: slopes and gables of the footprint's own don't count. What can't be had is said and replaced by hips.
+    RoofPlan planOf(RoofShape shape, bool plain);
+
+    // Tangent that the footprint asks for, or the shape's usual one.
+    double slopeOf(RoofShape shape) const;
+
+    // A note about this house.
+    void say(const std::string& what);
+
+  private:
+    // The height that the plan's roof would have without a break; 0: it can't be made.
+    double ridgeOf(const RoofPlan& plan);
+    // Speeds that bring all edges to one apex over the centroid, if it lies before all of them.
+    bool pyramid(double slope, std::vector<double>& speeds) const;
+    bool endsWing(size_t e) const;
+    void chooseGables(std::vector<double>& speeds);
+    void breakSlopes(RoofShape shape, double slope, RoofPlan& plan);
+    void ownSlopes(std::vector<double>& speeds);
+    void levelLines(std::vector<double>& speeds, std::vector<bool>& own);
+
+    const Footprint& footprint_;
+    const RepairedOutline& outline_;
+    const OutlineEdges& edges_;
+    RoofAttempts& attempts_;
+    std::vector<Diagnostic>& diagnostics_;
+};
+
+}  // namespace espalier
