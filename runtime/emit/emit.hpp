@@ -84,7 +84,7 @@ class Emit {
 
     // emit_bind.cpp
     Status reserve(uint32_t nodes, uint32_t leaves);
-    Status viewRecords(const GrowthView& growth);
+    Status viewRecords(const GrowthView& growth, uint32_t nodesBefore);
     bool staysBound(const Bound& wanted, const GrowthView& growth) const;
     Status bind(Commands& commands, const EmitInputs& inputs);
 
@@ -92,22 +92,22 @@ class Emit {
 
     Device* device_ = nullptr;
     const Terminals* terminals_ = nullptr;
-    std::array<Program, 2> bindSpans_, bindLeaves_;  // [1] fetches records as texels
-    Program bindTouch_, bindStretches_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
+    std::array<Program, 2> bindTouch_, bindSpans_, bindLeaves_;  // [1] fetches records as texels
+    Program bindStretches_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
     Program cullCells_, listBlocks_, listItems_, classifySpans_, classifyLeaves_, scan_, writeDrawn_;
     Program barkVertices_, barkIndices_, looseTriangles_;
     std::array<Buffer, 8> views_, binds_;                  // that recordings in flight may still read
     Buffer spans_, leaves_, cells_, bins_, keys_, order_;  // bound growth
-    Buffer flags_, list_;
+    Buffer flags_, list_, leafHeads_, leafNext_;
     Buffer state_, seen_, rows_, notes_, drawn_, readback_;         // of a view
     TexelView spanTexels_, leafTexels_, noteTexels_, drawnTexels_;  // of these; after them
     Buffer noTexels_;
-    TexelView nodeRecords_, chunkRecords_, leafRecords_;
+    TexelView nodeRecords_, chunkRecords_, leafRecords_, touchedRecords_;
     EmitGrid grid_{};
     Bound bound_, culled_;  // and what the last view was of
     EmitView view_{};
     bool counted_ = false;
-    bool fetches_ = false;
+    bool fetches_ = false, fetchesTouched_ = false;
     uint32_t overflow_ = 0;
     uint32_t viewSlot_ = 0, bindSlot_ = 0;
     uint32_t leafBase_ = 0;  // number of the first leaf among items

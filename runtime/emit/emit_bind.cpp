@@ -56,6 +56,8 @@ Status Emit::reserve(uint32_t nodes, uint32_t leaves) {
     const uint64_t numbers = leafBase_ + leaves_.size() / sizeof(LeafInstance);
     Status rest[] = {hold(keys_, "emit keys", numbers * 4),
                      hold(flags_, "emit flags", leafBase_ * 4ull),
+                     hold(leafHeads_, "emit leaf heads", leafBase_ * 4ull),
+                     hold(leafNext_, "emit next leaves", leaves * 4ull),
                      hold(list_, "emit list", (numbers + kBlockItems) * 4),
                      hold(order_, "emit order", (items + items / 2 + 32 * kAllCells) * 4),
                      hold(rows_, "emit rows", blocks * kMaxBuckets * 4),
@@ -67,7 +69,7 @@ Status Emit::reserve(uint32_t nodes, uint32_t leaves) {
 }
 
 // Records as texels, which software devices read faster than by address.
-Status Emit::viewRecords(const GrowthView& growth) {
+Status Emit::viewRecords(const GrowthView& growth, uint32_t nodesBefore) {
     const struct {
         TexelView& view;
         const Buffer* buffer;
@@ -84,6 +86,14 @@ Status Emit::viewRecords(const GrowthView& growth) {
         if (!made) return made.failure();
         row.view = std::move(*made);
     }
+    // Four numbers a texel.
+    const Buffer* touched = growth.touched;
+    fetchesTouched_ = fetches_ && touched && touched->size() / 16 * 4 >= nodesBefore && touched->size() <= most;
+    touchedRecords_ = {};
+    Result<TexelView> made =
+        TexelView::create(*device_, fetchesTouched_ ? *touched : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
+    if (!made) return made.failure();
+    touchedRecords_ = std::move(*made);
     return Done{};
 }
 
@@ -115,7 +125,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     const bool partly = staysBound(wanted, growth);
     const Bound before = bound_;
     bound_ = culled_ = {};
-    if (Status s = viewRecords(growth); !s) return s;
+    if (Status s = viewRecords(growth, before.nodeCount); !s) return s;
     grid_ = gridOver(inputs.low, inputs.high);
     overflow_ = growth.leafCount - leaves;
 
@@ -133,6 +143,10 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     if (partly) given.touched.v = reinterpret_cast<uint32_t*>(growth.touched->address());
     given.flags.v = reinterpret_cast<uint32_t*>(flags_.address());
     given.list.v = reinterpret_cast<uint32_t*>(list_.address());
+    given.leafHeads.v = reinterpret_cast<uint32_t*>(leafHeads_.address());
+    given.leafNext.v = reinterpret_cast<uint32_t*>(leafNext_.address());
+    given.work.v = reinterpret_cast<uint32_t*>(notes_.address());  // which a view writes only when all is bound
+    given.leafWork = nodes;
     given.grid = grid_;
     given.nodeCount = nodes;
     given.leafCount = leaves;
@@ -150,27 +164,33 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     if (Status s = commands.upload(in, std::as_bytes(std::span(&given, 1))); !s) return s;
     if (partly) {
         commands.fill(flags_, 0);
+        commands.fill(cells_, 0, kAllCells * sizeof(EmitCell) + offsetof(EmitCell, changed),
+                      sizeof(EmitCell) - offsetof(EmitCell, changed));
     } else {
         commands.fill(cells_, 0);
         commands.fill(bins_, 0);
     }
     commands.barrier(Use::transfer, Use::compute);
     if (partly) {
-        pass.dispatchItems(bindTouch_, std::max(nodes, kAllCells + 1), {}, {in});
+        pass.dispatchItems(bindTouch_[fetchesTouched_], std::max(nodes / 4 + 1, kAllCells), {}, {touchedRecords_, in});
         pass.barrier(Use::compute, Use::compute);
     }
+    // Kernels go through what there is to do in strides: how much that is, a part's are the first to know.
+    const auto groupsFor = [&](uint32_t items) {
+        return std::array<uint32_t, 3>{partly ? 64u : std::min(items / 64 + 1, 65535u), 1, 1};
+    };
     // The lookup knows branches too, which nobody asks for here.
-    pass.dispatchItems(bindSpans_[fetches_], nodes, {}, {table, nodeRecords_, chunkRecords_, chunkRecords_, in});
+    pass.dispatch(bindSpans_[fetches_], groupsFor(nodes), {}, {table, nodeRecords_, chunkRecords_, chunkRecords_, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(bindStretches_, nodes, {}, {table, spanTexels_, in});
+    pass.dispatch(bindStretches_, groupsFor(nodes), {}, {table, spanTexels_, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(bindLeaves_[fetches_], leaves, {}, {table, leafRecords_, spanTexels_, in});
+    pass.dispatch(bindLeaves_[fetches_], groupsFor(leaves), {}, {table, leafRecords_, spanTexels_, in});
     pass.barrier(Use::compute, Use::compute);
     if (partly) {
         pass.dispatchItems(bindKeep_, kAllCells, {}, {in});
         pass.barrier(Use::compute, Use::compute);
     }
-    const std::array<uint32_t, 3> groups{partly ? 64u : std::min((nodes + leaves) / 64 + 1, 4096u), 1, 1};
+    const std::array<uint32_t, 3> groups = groupsFor(std::min(nodes + leaves, 4095u * 64));
     pass.dispatch(bindCount_, groups, {}, {table, spanTexels_, leafTexels_, in});
     pass.barrier(Use::compute, Use::compute);
     pass.dispatchItems(bindCells_, kAllCells + 1, {}, {in});

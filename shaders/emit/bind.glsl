@@ -8,6 +8,17 @@ layout(set = 0, binding = 8, scalar) uniform BindBlock { BindInputs push; };
 
 #define HEAD push.cells.v[kAllCells]
 
+// Lanes go through work of any size in strides.
+#define FIRST_LANE gl_GlobalInvocationID.x
+#define LANES (gl_NumWorkGroups.x * gl_WorkGroupSize.x)
+
+// Node i of those to look at, below nodesToBind().
+uint nodesToBind() { return push.partly != 0u ? HEAD.reach : push.nodeCount; }
+uint nodeToBind(uint i) {
+    if (push.partly != 0u) return push.work.v[i];
+    return i;
+}
+
 // A span's class by its thickness, in parts of a cell's side. The third becomes the fourth for spans that far views don't
 // draw, since the last of their stretch stands for them.
 uint spanClass(float thick) {

@@ -47,46 +47,46 @@ uint trianglesOf(uint bits, uint hash) {
     return table.buckets[table.variants[variant].firstBucket].indexCount / 3u;
 }
 
-// Whether leaf `i`, of span `node`, is to be bound, or taken out.
-bool concerns(uint i, uint node) {
-    bool concerned = push.partly == 0u || i >= push.leavesBefore;
-    for (bool asked = !concerned; asked; asked = false)
-        concerned = node < push.nodeCount ? (push.flags.v[node] & kFlagSpan) != 0u : push.keys.v[push.leafBase + i] != kNoIndex;
-    return concerned;
+void bindLeaf(uint i) {
+    Leaf record = readLeaf(i);
+    uint item = push.leafBase + i;
+    for (bool was = takeKey(item, i < push.leavesBefore); was; was = false)
+        atomicAdd(HEAD.first, 0u - trianglesOf(push.leafInstances.v[i].bits, push.leafInstances.v[i].hash));
+    LeafPose pose = unpackLeaf(record.place, record.pose, record.tint);
+    bool known = record.node < push.nodeCount && pose.mesh < table.kindCount &&
+                 table.kinds[pose.mesh].variantCount > 0u && table.kinds[pose.mesh].bark == 0u;
+    for (bool looked = known; looked; looked = false) {
+        push.leafNext.v[i] = atomicExchange(push.leafHeads.v[record.node], i);
+        SpanInstance under = SPAN_INSTANCE(spanTexels, record.node);
+        uint hash = leafHash(record);
+        KindRecord kind = table.kinds[pose.mesh];
+        uint v = kind.firstVariant + (hash >> 3u) % kind.variantCount;
+        for (bool stands = under.reach >= 0.0; stands; stands = false) {
+            PlacedLeaf leaf = placeLeaf(spanUnder(under), pose, hash, table.variants[v].extent);
+            LeafInstance o;
+            o.origin = leaf.origin;
+            o.axisX = leaf.axisX * leaf.size;
+            o.axisY = leaf.axisY * leaf.size;
+            o.axisZ = leaf.axisZ * leaf.size;
+            o.normal = packOct(leaf.normal);
+            o.tint = record.tint;
+            o.hash = hash;
+            float height = clamp(leaf.height / max(1.1 * leaf.size, 1e-6), 0.0, 1.0);
+            o.bits = (record.place & 0xFFFFu) | (((under.bits >> 7u) & 31u) << 16u) | (uint(height * 2047.0 + 0.5) << 21u);
+            writeLeaf(i, o);
+            giveKey(item, kLeafClass, o.origin, (hash >> 8u) / (0x1000000u / kCellBins));
+            atomicAdd(HEAD.first, trianglesOf(o.bits, hash));
+        }
+    }
 }
 
+// All of them; or those on nodes whose spans were bound anew, and those that there weren't before.
 void main() {
-    uint i = itemIndex();
-    Leaf record = Leaf(kNoIndex, 0u, 0u, 0u);
-    if (i < push.leafCount) record = readLeaf(i);
-    for (bool given = i < push.leafCount && concerns(i, record.node); given; given = false) {
-        uint item = push.leafBase + i;
-        for (bool was = takeKey(item, i < push.leavesBefore); was; was = false)
-            atomicAdd(HEAD.first, 0u - trianglesOf(push.leafInstances.v[i].bits, push.leafInstances.v[i].hash));
-        LeafPose pose = unpackLeaf(record.place, record.pose, record.tint);
-        bool known = record.node < push.nodeCount && pose.mesh < table.kindCount &&
-                     table.kinds[pose.mesh].variantCount > 0u && table.kinds[pose.mesh].bark == 0u;
-        for (bool looked = known; looked; looked = false) {
-            SpanInstance under = SPAN_INSTANCE(spanTexels, record.node);
-            uint hash = leafHash(record);
-            KindRecord kind = table.kinds[pose.mesh];
-            uint v = kind.firstVariant + (hash >> 3u) % kind.variantCount;
-            for (bool stands = under.reach >= 0.0; stands; stands = false) {
-                PlacedLeaf leaf = placeLeaf(spanUnder(under), pose, hash, table.variants[v].extent);
-                LeafInstance o;
-                o.origin = leaf.origin;
-                o.axisX = leaf.axisX * leaf.size;
-                o.axisY = leaf.axisY * leaf.size;
-                o.axisZ = leaf.axisZ * leaf.size;
-                o.normal = packOct(leaf.normal);
-                o.tint = record.tint;
-                o.hash = hash;
-                float height = clamp(leaf.height / max(1.1 * leaf.size, 1e-6), 0.0, 1.0);
-                o.bits = (record.place & 0xFFFFu) | (((under.bits >> 7u) & 31u) << 16u) | (uint(height * 2047.0 + 0.5) << 21u);
-                writeLeaf(i, o);
-                giveKey(item, kLeafClass, o.origin, (hash >> 8u) / (0x1000000u / kCellBins));
-                atomicAdd(HEAD.first, trianglesOf(o.bits, hash));
-            }
-        }
+    uint listed = push.partly != 0u ? HEAD.largest : 0u;
+    uint count = push.partly != 0u ? listed + push.leafCount - push.leavesBefore : push.leafCount;
+    for (uint i = FIRST_LANE; i < count; i += LANES) {
+        uint leaf = push.partly != 0u ? push.leavesBefore + i - listed : i;
+        for (bool old = i < listed; old; old = false) leaf = push.work.v[push.leafWork + i];
+        bindLeaf(leaf);
     }
 }

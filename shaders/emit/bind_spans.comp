@@ -63,14 +63,26 @@ uint trianglesOf(uint kind) {
     return table.buckets[table.variants[table.kinds[kind].firstVariant].firstBucket].indexCount / 3u;
 }
 
-void main() {
+// Leaves that were bound to node `i` are to be bound again, and chained anew.
+void listLeaves(uint i) {
+    for (bool before = push.partly != 0u && i < push.nodesBefore; before; before = false) {
+        uint leaf = push.leafHeads.v[i];
+        while (leaf != kNoIndex) {
+            push.work.v[push.leafWork + atomicAdd(HEAD.largest, 1u)] = leaf;
+            leaf = push.leafNext.v[leaf];
+        }
+    }
+    push.leafHeads.v[i] = kNoIndex;
+}
+
+void bindSpan(uint i) {
     ExpandEnv env;
     env.nodes = push.nodes;
     env.chunks = push.chunks;
-    uint i = itemIndex();
-    bool concerned = i < push.nodeCount;
-    for (bool asked = concerned && push.partly != 0u; asked; asked = false) concerned = (push.flags.v[i] & kFlagSpan) != 0u;
+    bool concerned = true;
+    for (bool asked = push.partly != 0u; asked; asked = false) concerned = (push.flags.v[i] & kFlagSpan) != 0u;
     for (bool given = concerned; given; given = false) {
+        listLeaves(i);
         for (bool was = takeKey(i, i < push.nodesBefore); was; was = false)
             atomicAdd(HEAD.first, 0u - trianglesOf(push.spans.v[i].bits & 63u));
         push.spans.v[i].reach = -1.0;
@@ -111,4 +123,9 @@ void main() {
             }
         }
     }
+}
+
+void main() {
+    uint count = nodesToBind();
+    for (uint i = FIRST_LANE; i < count; i += LANES) bindSpan(nodeToBind(i));
 }

@@ -53,12 +53,8 @@ void widen(uint item, vec3 center, float reach, float thick, float error) {
     }
 }
 
-void main() {
-    uint end = itemIndex();
-    bool given = end < push.nodeCount;
-    for (bool asked = given && push.partly != 0u; asked; asked = false) given = push.flags.v[end] != 0u;
-    uint bits = 0u;
-    for (bool known = given; known; known = false) bits = texelFetch(spanTexels, int(6u * end + 4u)).w;
+void bindStretch(uint end) {
+    uint bits = texelFetch(spanTexels, int(6u * end + 4u)).w;
     for (bool last = (bits & 0x8000u) != 0u; last; last = false) {
         uint kind = bits & 63u;
         uint first = end - ((bits >> 12u) & 7u);
@@ -100,4 +96,9 @@ void main() {
             for (bool part = push.partly != 0u; part; part = false) widen(i, sphere.xyz, sphere.w, thick, error);
         }
     }
+}
+
+void main() {
+    uint count = nodesToBind();
+    for (uint i = FIRST_LANE; i < count; i += LANES) bindStretch(nodeToBind(i));
 }

@@ -1,19 +1,27 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-// When only a part is bound: a node each. Nodes that regrowths have written, and those whose spans begin there, are
-// flagged; so are other spans of their stretches, which stay.
+// When only a part is bound: four nodes each. Nodes that regrowths have written, and those whose spans begin there, are
+// flagged and listed; so are other spans of their stretches, which stay.
 #include "shaders/emit/bind.glsl"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 3) const uint kRecordsByAddress = 1u;
+layout(set = 0, binding = 0) uniform usamplerBuffer touchedTexels;
 
 const uint kMostChildren = 4096u;
 
+// A node is listed when it is flagged first.
+void flagNode(uint node, uint flag) {
+    for (bool first = atomicOr(push.flags.v[node], flag) == 0u; first; first = false)
+        push.work.v[atomicAdd(HEAD.reach, 1u)] = node;
+}
+
 // Of a chunk's nodes from `first` on and before `end`: the span that ends at `node`, and those of its stretch.
 void flagStretch(uint first, uint end, uint node) {
-    atomicOr(push.flags.v[node], kFlagSpan);
+    flagNode(node, kFlagSpan);
     uint from = node - (node - first) % kStretch;
-    for (uint i = from; i < min(from + kStretch, end); ++i) atomicOr(push.flags.v[i], kFlagStretch);
+    for (uint i = from; i < min(from + kStretch, end); ++i) flagNode(i, kFlagStretch);
 }
 
 void flagFollowers(uint i) {
@@ -32,14 +40,29 @@ void flagFollowers(uint i) {
     }
 }
 
+uvec4 numbersOf(uint first) {
+    if (kRecordsByAddress == 0u) return texelFetch(touchedTexels, int(first / 4u));
+    uvec4 numbers = uvec4(0u);
+    for (uint k = 0u; k < 4u; ++k)
+        if (first + k < push.nodesBefore) numbers[k] = push.touched.v[first + k];
+    return numbers;
+}
+
 void main() {
-    uint i = itemIndex();
-    if (i < kAllCells) push.cells.v[i].changed = 0u;
-    if (i == kAllCells) HEAD.changed = 0u;
-    bool wrote = i < push.nodeCount;
-    for (bool old = wrote && i < push.nodesBefore; old; old = false) wrote = push.touched.v[i] > push.since;
-    for (bool flagged = wrote; flagged; flagged = false) {
-        atomicOr(push.flags.v[i], kFlagSpan);
-        for (bool stands = push.nodes.v[i].radius >= 0.0; stands; stands = false) flagFollowers(i);
+    uint lane = itemIndex();
+    if (lane < kAllCells) push.cells.v[lane].changed = 0u;
+    uint first = 4u * lane;
+    uvec4 numbers = uvec4(0u);
+    for (bool old = first < push.nodesBefore; old; old = false) numbers = numbersOf(first);
+    bool some = first < push.nodeCount && (first + 4u > push.nodesBefore || any(greaterThan(numbers, uvec4(push.since))));
+    for (bool looked = some; looked; looked = false) {
+        for (uint k = 0u; k < 4u; ++k) {
+            uint i = first + k;
+            bool wrote = i < push.nodeCount && (i >= push.nodesBefore || numbers[k] > push.since);
+            for (bool flagged = wrote; flagged; flagged = false) {
+                flagNode(i, kFlagSpan);
+                for (bool stands = push.nodes.v[i].radius >= 0.0; stands; stands = false) flagFollowers(i);
+            }
+        }
     }
 }

@@ -212,16 +212,19 @@ struct BindInputs {
     UintBuf touched;            // of growth: [node] the number of the regrowth that wrote it last
     UintBuf flags;              // [node]: kFlagSpan: its span is to be bound; kFlagStretch: one of its stretch
     UintBuf list;               // items that are put into cells
+    UintBuf leafHeads, leafNext;   // [node], [leaf]: chains of the leaves that are bound to each node; kNoIndex: none
+    UintBuf work;               // where only a part is bound: nodes that are flagged; from leafWork on leaves on these
     EmitGrid grid;
     uint nodeCount, leafCount, leafBase;
     uint orderRoom;
     uint partly;                // 0: all is bound; 1: what regrowths after the one of number `since` have written, and
     uint since;                 // what there wasn't before:
     uint nodesBefore, leavesBefore;
+    uint leafWork;
 };
-STATIC_SIZE(BindInputs, 168);
+STATIC_SIZE(BindInputs, 192);
 // cells[kAllCells]: first: triangles of all items at full detail; count: where room in the order begins; changed: items
-// of the list; room: EmitState::crowded.
+// of the list; reach, largest: nodes and leaves of the work; room: EmitState::crowded.
 CONST_UINT(kFresh, 0x80000000u);
 CONST_UINT(kFlagSpan, 1u);
 CONST_UINT(kFlagStretch, 2u);

@@ -20,15 +20,15 @@ void linkChunks(test::PlantData& data) {
     }
 }
 
-// A plant as it was and as an edit left it, in the same buffers.
+// A plant as it was and as an edit and another one left it, in the same buffers. Touched: by all edits up to each.
 struct Edited {
-    test::PlantData before, after;
-    std::vector<uint32_t> touched;
+    test::PlantData before, after, last;
+    std::vector<uint32_t> touched, touchedLast;
 };
 
 // Moves and thickens nodes of which branches leave, takes a twig out with its leaves, adds one, moves leaves.
 Edited edited() {
-    Edited e{test::wallIvy(8, 2, 1.5f), {}, {}};
+    Edited e{test::wallIvy(8, 2, 1.5f), {}, {}, {}, {}};
     linkChunks(e.before);
     e.after = e.before;
     e.touched.assign(e.before.nodes.size(), 1);
@@ -59,6 +59,22 @@ Edited edited() {
     const uint32_t first = e.after.addBranch(points, normals, joints[1], [](float s) { return 0.004f * (1.2f - s); });
     for (uint32_t i = 0; i < 40; i += 2) e.after.addLeaf(first + i, 1, 0.07f, i % 4 ? 1.0f : -1.0f, 0.02f, 77 * i);
     linkChunks(e.after);
+    // Again, some of the same nodes: of every second one the leaves go, and one gets another.
+    e.last = e.after;
+    e.touched.resize(e.after.nodes.size(), 2);
+    e.touched.resize((e.touched.size() + 3) / 4 * 4);
+    e.touchedLast = e.touched;
+    for (size_t j = 0; j < 3; ++j) {
+        const uint32_t node = joints[j * 3];
+        e.last.nodes[node].radius *= 0.8f;
+        e.touchedLast[node] = 3;
+    }
+    for (uint32_t node = first; node < first + 20; node += 4) {
+        e.touchedLast[node] = 3;
+        for (Leaf& leaf : e.last.leaves)
+            if (leaf.node == node) leaf.node = kNoIndex;
+    }
+    e.last.addLeaf(first, 1, 0.05f, -1.0f, 0.02f, 4711);
     return e;
 }
 
@@ -67,70 +83,83 @@ void overwrite(Commands& commands, const Buffer& buffer, const std::vector<T>& v
     REQUIRE(commands.upload(buffer, values));
 }
 
+// The same draws of the same instances.
+void compare(Device& device, test::EmitPipeline& often, const EmitState& part, test::EmitPipeline& once,
+             const EmitState& whole) {
+    CHECK(part.fullTriangles == whole.fullTriangles);
+    CHECK(std::memcmp(part.counts, whole.counts, sizeof part.counts) == 0);
+    CHECK(std::memcmp(part.draws, whole.draws, sizeof part.draws) == 0);
+    const auto drawn = [&](test::EmitPipeline& p) {
+        return *readVector<DrawnItem>(device, p.emit.drawn(), 0, whole.spanCount + whole.leafCount);
+    };
+    const auto a = drawn(often), b = drawn(once);
+    CHECK(std::memcmp(a.data(), b.data(), a.size() * sizeof(DrawnItem)) == 0);
+    const auto sameInstances = [&](const Buffer& x, const Buffer& y, size_t bytes, bool spans) {
+        const auto p = *readVector<std::byte>(device, x, 0, x.size());
+        const auto q = *readVector<std::byte>(device, y, 0, y.size());
+        size_t others = 0;
+        for (size_t i = 0; i < a.size(); ++i)
+            if ((i < whole.spanCount) == spans)
+                others += std::memcmp(&p[a[i].item * bytes], &q[a[i].item * bytes], bytes) != 0;
+        return others == 0;
+    };
+    CHECK(sameInstances(often.emit.spanInstances(), once.emit.spanInstances(), sizeof(SpanInstance), true));
+    CHECK(sameInstances(often.emit.leafInstances(), once.emit.leafInstances(), sizeof(LeafInstance), false));
+}
+
 }  // namespace
 
 TEST_CASE("an edit binds what it concerns, and leaves what binding everything leaves") {
     const std::shared_ptr<Device> device = test::validatedDevice();
     Edited e = edited();
-    test::Plant plant = test::upload(*device, e.after);
-    const Buffer touched = std::move(*makeBuffer(*device, "touched", e.touched));
+    test::Plant plant = test::upload(*device, e.last);
+    const Buffer touched = std::move(*makeBuffer(*device, "touched", e.touchedLast));
     EmitView views[2] = {};
     views[0].flags = kFullDetail;
     views[0].lodPixels = 1;
     views[1] = parallelView(glm::mat4(1), 120, 1);  // thinned out
     for (glm::vec4& plane : views[1].planes) plane = glm::vec4(0, 0, 0, 1);
-    for (const EmitView& view : views) {
-        test::EmitPipeline often(device), once(device);
-        const auto write = [&](const test::PlantData& data) {
+    for (const bool texels : {false, true}) {  // records by address; on software devices as texels
+        CAPTURE(texels);
+        const EmitView& view = views[texels];
+        plant.view.nodeBuffer = texels ? &plant.nodes : nullptr;
+        plant.view.chunkBuffer = texels ? &plant.chunks : nullptr;
+        plant.view.leafBuffer = texels ? &plant.leaves : nullptr;
+        plant.view.touched = &touched;
+        test::EmitPipeline often(device);
+        const auto write = [&](const test::PlantData& data, const std::vector<uint32_t>& numbers) {
             Result<Commands> commands = Commands::begin(*device, "edit");
             REQUIRE(commands);
             overwrite(*commands, plant.nodes, data.nodes);
             overwrite(*commands, plant.chunks, data.chunks);
             overwrite(*commands, plant.leaves, data.leaves);
+            overwrite(*commands, touched, numbers);
             REQUIRE(commands->finish());
             plant.view.nodeCount = uint32_t(data.nodes.size());
             plant.view.chunkCount = uint32_t(data.chunks.size());
             plant.view.leafCount = uint32_t(data.leaves.size());
             plant.view.revision += 1;
         };
-        write(e.before);
+        write(e.before, e.touched);
         plant.view.number = plant.view.renewed = 1;
-        plant.view.touched = &touched;
         often.cull(plant.inputs(), view);
         CHECK(often.emit.stats().bound == plant.view.nodeCount + plant.view.leafCount);
-        write(e.after);
-        plant.view.number = 2;
-        const EmitState part = often.cull(plant.inputs(), view);
-        const uint32_t bound = often.emit.stats().bound;
-        CHECK(bound > 0);
-        CHECK(bound < (plant.view.nodeCount + plant.view.leafCount) / 2);
-        const EmitState whole = once.cull(plant.inputs(), view);
-        CHECK(once.emit.stats().bound == plant.view.nodeCount + plant.view.leafCount);
-        CHECK(whole.spanCount > 300);
-        CHECK(part.fullTriangles == whole.fullTriangles);
-        CHECK(std::memcmp(part.counts, whole.counts, sizeof part.counts) == 0);
-        CHECK(std::memcmp(part.draws, whole.draws, sizeof part.draws) == 0);
-        const auto drawn = [&](test::EmitPipeline& p) {
-            return *readVector<DrawnItem>(*device, p.emit.drawn(), 0, whole.spanCount + whole.leafCount);
-        };
-        const auto a = drawn(often), b = drawn(once);
-        CHECK(std::memcmp(a.data(), b.data(), a.size() * sizeof(DrawnItem)) == 0);
-        const auto sameInstances = [&](const Buffer& x, const Buffer& y, size_t bytes, size_t count) {
-            const auto p = *readVector<std::byte>(*device, x, 0, bytes * count);
-            const auto q = *readVector<std::byte>(*device, y, 0, bytes * count);
-            size_t others = 0;
-            for (size_t i = 0; i < a.size(); ++i) {
-                if ((i < whole.spanCount) != (bytes == sizeof(SpanInstance))) continue;
-                others += std::memcmp(&p[a[i].item * bytes], &q[a[i].item * bytes], bytes) != 0;
-            }
-            return others == 0;
-        };
-        CHECK(sameInstances(often.emit.spanInstances(), once.emit.spanInstances(), sizeof(SpanInstance),
-                            plant.view.nodeCount));
-        CHECK(sameInstances(often.emit.leafInstances(), once.emit.leafInstances(), sizeof(LeafInstance),
-                            plant.view.leafCount));
+        for (const bool again : {false, true}) {
+            CAPTURE(again);
+            write(again ? e.last : e.after, again ? e.touchedLast : e.touched);
+            plant.view.number += 1;
+            test::EmitPipeline once(device);
+            const EmitState part = often.cull(plant.inputs(), view);
+            const uint32_t bound = often.emit.stats().bound;
+            CHECK(bound > 0);
+            CHECK(bound < (plant.view.nodeCount + plant.view.leafCount) / 2);
+            const EmitState whole = once.cull(plant.inputs(), view);
+            CHECK(once.emit.stats().bound == plant.view.nodeCount + plant.view.leafCount);
+            CHECK(whole.spanCount > 300);
+            compare(*device, often, part, once, whole);
+        }
         // Nodes elsewhere: all again.
-        plant.view.number = plant.view.renewed = 3;
+        plant.view.renewed = plant.view.number += 1;
         plant.view.revision += 1;
         often.cull(plant.inputs(), view);
         CHECK(often.emit.stats().bound == plant.view.nodeCount + plant.view.leafCount);
