@@ -19,7 +19,8 @@ vec3 hills(vec3 ray, vec3 sky) {
         float far = float(range);
         vec4 high = textureLod(noise, to * (0.24 - 0.07 * far) + 0.37 * far, 0.0) - 0.5;
         vec4 trees = textureLod(noise, to * 2.1 + 0.11 * far, 0.0) - 0.5;
-        float crest = 0.011 + 0.012 * far + 0.040 * high.x + (0.011 - 0.0045 * far) * trees.x;
+        // Broad swells, hills on them, and near by the tops of woods.
+        float crest = 0.013 + 0.011 * far + (0.045 + 0.012 * far) * high.x + (0.030 - 0.006 * far) * high.z + (0.010 - 0.0045 * far) * trees.x;
         vec3 wood = farLand(ray, far) * (1.0 + (0.5 - 0.2 * far) * trees.x * clamp(ray.y * 120.0, 0.0, 1.0));
         seen = mix(seen, wood, clamp((crest - ray.y) * 700.0, 0.0, 1.0));
     }

@@ -11,9 +11,11 @@ vec3 skyColor(vec3 ray) {
     return (ray.y > 0.0 ? sky : below) + frame.sunColor * 0.05 * pow(glow, 12.0);
 }
 
-// Wooded land so far away that it is mostly haze, in ranges 0, 1, 2 ... behind each other.
+// Wooded land so far away that it is mostly haze, in ranges 0, 1, 2 ... behind each other; the more so the lower it lies,
+// so that each range rises out of the mist over the one before.
 vec3 farLand(vec3 ray, float range) {
     vec3 haze = skyColor(normalize(vec3(ray.x, 0.0, ray.z)));
-    return mix(frame.skyColor * vec3(0.11, 0.14, 0.07), haze, 0.20 + 0.22 * range);
+    float mist = exp2(-max(ray.y, 0.0) * (110.0 - 25.0 * range));
+    return mix(frame.skyColor * vec3(0.11, 0.14, 0.07), haze, 0.16 + 0.20 * range + (0.28 - 0.04 * range) * mist);
 }
 #endif

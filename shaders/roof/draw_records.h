@@ -58,6 +58,8 @@ BUFFER(RoofDrawStateBuf, RoofDrawState)
 CONST_FLOAT(kShadeOfTiles, 0.9f);
 CONST_FLOAT(kShadeOfBattens, 0.22f);
 
+CONST_FLOAT(kRoughnessOfGlass, 0.2f);   // what is less rough mirrors
+
 CONST_UINT(kRoofShadow, 1u);   // far rectangles only, as coarse as shadows are
 struct RoofDrawEnv {
     RoofEnv roofs;                // grids, runs, regions, parts, planes, meshes, generations

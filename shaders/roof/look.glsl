@@ -2,6 +2,7 @@
 #ifndef ESPALIER_ROOF_LOOK_GLSL
 #define ESPALIER_ROOF_LOOK_GLSL
 #include "shaders/render/light.glsl"
+#include "shaders/render/sky.glsl"
 #include "shaders/roof/draw_records.h"
 #include "shaders/shared/roof_layers.h"
 
@@ -50,12 +51,24 @@ vec3 layerColour(RoofDrawEnv env, vec3 position) {
     float x = roofLayerAt(env.roofs.layers, env.roofs.site, env.shownLayer, position.xz);
     return layerColor(x);
 }
-vec4 shade(vec3 base, vec3 n, vec3 position, float roughness) {
+// What a pane mirrors: the sky and, below an uneven crest, what stands across the way. Old glass isn't quite flat.
+vec3 mirrored(vec3 n, vec3 position) {
+    vec3 eye = normalize(frame.eye - position);
+    float c = 1.0 - clamp(dot(n, eye), 0.0, 1.0);
+    vec3 ray = reflect(-eye, n);
+    ray.y += 0.05 * (noise3(position * 2.3) - 0.5);
+    float crest = 0.02 + 0.30 * noise3(vec3(5.0 * ray.xz, 0.5)) + 0.08 * noise3(vec3(21.0 * ray.xz, 7.5));
+    vec3 across = mix(frame.groundColor * 0.30, frame.skyColor * vec3(0.13, 0.16, 0.10), clamp(8.0 * ray.y + 0.5, 0.0, 1.0));
+    vec3 seen = mix(across, skyColor(ray), smoothstep(-0.03, 0.03, ray.y - crest));
+    return seen * (0.12 + 0.88 * (c * c) * (c * c) * c);
+}
+// from: what is mirrored besides.
+vec4 shade(vec3 base, vec3 n, vec3 position, float roughness, vec3 from) {
     vec3 eye = normalize(frame.eye - position);
     vec3 sun = frame.sunDirection;
     float facing = max(dot(n, sun), 0.0);
     float visible = facingSunVisibility(facing, position, n);
     vec3 direct = frame.sunColor * visible * facing * (base + gloss(n, eye, sun, max(roughness, 0.35)));
-    return lit(direct, base * skyLight(n));
+    return lit(direct, base * skyLight(n) + from);
 }
 #endif

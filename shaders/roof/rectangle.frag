@@ -47,5 +47,5 @@ void main() {
         float gone = painted > cellHold(u64(look.y), uint(column), uint(row)) ? 1.0 : 0.0;
         base = mix(base, vec3(0.016, 0.013, 0.01), mix(painted, gone, clear) * step(0.001, painted));
     }
-    color = shade(base, n, position, push.roughness);
+    color = shade(base, n, position, push.roughness, vec3(0.0));
 }

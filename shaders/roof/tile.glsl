@@ -7,7 +7,7 @@
 layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
-layout(location = 2) out vec4 surface;      // along x and y of the shape in metres, the mesh's shade, tint
+layout(location = 2) out vec4 surface;      // along x and y of the shape in metres, the mesh's shade, tint; -1: a pane of glass
 layout(location = 3) flat out uvec4 look;   // colour, hash, bucket, RoofGrid::mesh
 #ifdef ESPALIER_CUT
 out float gl_ClipDistance[8];
@@ -46,7 +46,8 @@ void main() {
         clear = smoothstep(1.0, kReliefEnd, cellClarity(env, g, frame.pixelScale / far, abs(dot(face, ray)) / far));
         normal = mix(face, normal, clear);
     }
-    surface = vec4(at.xy, mix(push.flatShade, mesh.uv.x, clear), float(g.colour >> 24u) * (1.0 / 255.0));
+    float tint = push.roughness < kRoughnessOfGlass ? -1.0 : float(g.colour >> 24u) * (1.0 / 255.0);
+    surface = vec4(at.xy, mix(push.flatShade, mesh.uv.x, clear), tint);
     look = uvec4(g.colour & 0xFFFFFFu, cellHash(g, column, row), push.bucket, g.mesh);
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 #ifdef ESPALIER_CUT

@@ -26,6 +26,27 @@ Mesh surround() {
     return s.box({-0.17f, -0.07f, 0}, {1.17f, 0, 2.4f}, 0.95f).mesh;
 }
 
+// A pane with curtains behind it, gathered half-way down. They lie on it, all but flat: nobody sees how deep a room is.
+Mesh curtains(int lod) {
+    const int rows = lod == 0 ? 6 : 2, folds = lod == 0 ? 5 : 1;
+    const auto edge = [](float y) { return 0.17f + (y > 0.45f ? 0.44f * (y - 0.45f) : 0.27f * (0.45f - y)); };
+    Solid s;
+    for (int row = 0; row < rows; ++row) {
+        const float y = float(row) / float(rows), top = float(row + 1) / float(rows);
+        s.quad({edge(y), y, 0}, {1 - edge(y), y, 0}, {1 - edge(top), top, 0}, {edge(top), top, 0});
+        for (int fold = 0; fold < folds; ++fold) {
+            const auto at = [&](int line, float up, bool right) {
+                const float x = edge(up) * float(line) / float(folds);
+                return vec3(right ? 1 - x : x, up, line % 2 && line < folds ? 0.006f : 0.0f);
+            };
+            const float shade = (lod > 0 ? 7.4f : fold % 2 ? 6.2f : 8.2f) * (0.85f + 0.15f * y);
+            s.quad(at(fold, y, false), at(fold + 1, y, false), at(fold + 1, top, false), at(fold, top, false), shade);
+            s.quad(at(fold + 1, y, true), at(fold, y, true), at(fold, top, true), at(fold + 1, top, true), shade);
+        }
+    }
+    return s.mesh;
+}
+
 // A leaf with slats in two fields.
 Mesh shutter(int lod) {
     Solid s;
@@ -62,6 +83,7 @@ void addOpenings(RoofMeshes& out) {
         out.all.push_back({"casement" + end, casement(lod), 1});
         out.all.push_back({"shutter" + end, shutter(lod), 1});
         out.all.push_back({"door" + end, door(lod), 1});
+        out.all.push_back({"curtains" + end, curtains(lod), 2});
     }
     out.all.push_back({"surround_lod0", surround(), 0});
 }

@@ -1,6 +1,6 @@
-// Trees and bushes. In: how a species stands. Out: trunk and boughs as tubes, twigs as cards that lie about its crown,
-// fewer and larger ones a level. A card's normals lead out of the crown; the whole part of its u is how open it lies,
-// in eighths.
+// Trees and bushes. In: how a species stands. Out: trunk and boughs as tubes, twigs as cards that lie about the lobes
+// of its crown, fewer and larger ones a level. A card's normals lead out of lobe and crown; the whole part of its u is
+// how open it lies, in eighths.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,8 @@ struct Habit {
     float crownFoot, crownTop;  // metres
     float radius;               // of the crown where it is widest
     float widest;               // 0 to 1, from its foot
-    float hollow;               // share of the radius without twigs
+    float hollow;               // share of a lobe's radius without twigs
+    int lobes;
     int cards[kLods];
     float side;   // of a card of the finest level, metres
     float trunk;  // radius at the foot; 0: boughs from the ground
@@ -29,13 +30,13 @@ struct Habit {
     bool birch;
 };
 const Habit kHabits[] = {
-    {"lime_a", 0, 21, 1.9f, 9.6f, 3.5f, 0.42f, 0.45f, {230, 76, 26}, 1.45f, 0.30f, 9, false},
-    {"lime_b", 0, 22, 2.2f, 11.2f, 3.9f, 0.40f, 0.45f, {260, 84, 28}, 1.55f, 0.36f, 10, false},
-    {"apple_a", 1, 23, 1.3f, 4.3f, 2.1f, 0.45f, 0.35f, {130, 46, 16}, 1.05f, 0.14f, 7, false},
-    {"apple_b", 1, 24, 1.2f, 4.9f, 2.4f, 0.50f, 0.35f, {140, 48, 16}, 1.10f, 0.15f, 7, false},
-    {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, {150, 52, 18}, 1.15f, 0.13f, 6, true},
-    {"bush_a", 3, 26, 0.0f, 1.5f, 1.05f, 0.45f, 0.30f, {64, 24, 9}, 0.78f, 0.0f, 0, false},
-    {"bush_b", 3, 27, 0.0f, 1.0f, 0.85f, 0.50f, 0.30f, {50, 20, 8}, 0.66f, 0.0f, 0, false},
+    {"lime_a", 0, 21, 1.9f, 9.6f, 3.5f, 0.42f, 0.45f, 13, {400, 104, 30}, 1.02f, 0.30f, 9, false},
+    {"lime_b", 0, 22, 2.2f, 11.2f, 3.9f, 0.40f, 0.45f, 15, {450, 115, 32}, 1.10f, 0.36f, 10, false},
+    {"apple_a", 1, 23, 1.3f, 4.3f, 2.1f, 0.45f, 0.35f, 8, {210, 60, 18}, 0.78f, 0.14f, 7, false},
+    {"apple_b", 1, 24, 1.2f, 4.9f, 2.4f, 0.50f, 0.35f, 9, {230, 64, 19}, 0.82f, 0.15f, 7, false},
+    {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, 14, {260, 70, 20}, 0.80f, 0.13f, 6, true},
+    {"bush_a", 3, 26, 0.0f, 1.5f, 1.05f, 0.45f, 0.30f, 5, {90, 28, 9}, 0.60f, 0.0f, 0, false},
+    {"bush_b", 3, 27, 0.0f, 1.0f, 0.85f, 0.50f, 0.30f, 4, {70, 24, 8}, 0.52f, 0.0f, 0, false},
 };
 
 float crownRadius(const Habit& h, float t) {
@@ -67,20 +68,51 @@ void addTube(Mesh& mesh, const std::vector<glm::vec3>& line, float r0, float r1,
         }
 }
 
+// What a card's place tells of its normal: it leads out of the crown and of the lobe.
+struct Round {
+    glm::vec3 middle, squash, lobe;
+    glm::vec3 normal(glm::vec3 p) const {
+        return glm::normalize((p - middle) / squash) + 0.8f * glm::normalize(p - lobe);
+    }
+};
+
 // Two triangles about `at`, facing `out`; its twig points along `up`.
 void addCard(Mesh& mesh, glm::vec3 at, glm::vec3 out, glm::vec3 up, float side, glm::vec2 cell, float open,
-             glm::vec3 middle, glm::vec3 squash) {
+             const Round& round) {
     const glm::vec3 x = glm::normalize(glm::cross(up, out)), y = glm::cross(out, x);
     const uint32_t first = uint32_t(mesh.positions.size());
     for (int k = 0; k < 4; ++k) {
         const glm::vec2 c(k == 1 || k == 2 ? 1 : 0, k >= 2 ? 1 : 0);
         const glm::vec3 p = at + side * ((c.x - 0.5f) * x + (c.y - 0.5f) * y);
         mesh.positions.push_back(p);
-        mesh.normals.push_back(glm::normalize((p - middle) / squash + 0.35f * out));
+        mesh.normals.push_back(glm::normalize(round.normal(p) + 0.35f * out));
         mesh.uvs.push_back(glm::vec2(std::round(open * 8), 0) + cell +
                            kCellSide * (0.02f + 0.96f * glm::vec2(c.x, 1 - c.y)));
     }
     for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
+}
+
+struct Lobe {
+    glm::vec3 at, away;  // away: from the trunk, unit
+    float radius;
+};
+
+// Each bough carries one, spiralling up, the last one on top; the same on every level.
+std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
+    std::vector<Lobe> lobes;
+    const float tall = h.crownTop - h.crownFoot;
+    for (int k = 0; k < h.lobes; ++k) {
+        const auto random = [&](uint32_t which) { return random01(h.salt * 5, uint32_t(k), which); };
+        const bool top = k + 1 == h.lobes;
+        const float t = top ? 0.84f : 0.10f + 0.72f * (float(k) + 0.7f * random(0)) / float(h.lobes);
+        const float angle = 2.399963f * float(k) + 0.6f * random(1), wide = crownRadius(h, t);
+        const float radius = std::min((h.birch ? 0.62f : 0.50f) * h.radius * (0.85f + 0.3f * random(2)), 0.2f * tall);
+        const float r = top ? 0 : std::max(wide - 0.75f * radius, 0.25f * wide);
+        const glm::vec3 out(std::cos(angle), 0, std::sin(angle));
+        lobes.push_back({r * out + glm::vec3(0, h.crownFoot + tall * t, 0) + lean * (0.4f * tall * t),
+                         glm::normalize(top ? glm::vec3(0, 1, 0) : out + glm::vec3(0, 0.5f * t, 0)), radius});
+    }
+    return lobes;
 }
 
 Mesh makeTree(const Habit& h, int lod) {
@@ -114,31 +146,34 @@ Mesh makeTree(const Habit& h, int lod) {
             addTube(mesh, {root, bend, end}, h.trunk * 0.45f, h.trunk * 0.10f, lod == 0 ? 4 : 3, bark, 0.5f);
         }
     const int cards = h.cards[lod];
-    const float side = h.side * std::pow(float(h.cards[0]) / float(cards), 0.42f);
+    const float side = h.side * std::pow(float(h.cards[0]) / float(cards), 0.46f);
     const glm::vec3 squash(h.radius, tall * 0.5f, h.radius);
+    const std::vector<Lobe> lobes = lobesOf(h, lean);
     for (int i = 0; i < cards; ++i) {
         const auto random = [&](uint32_t which) { return random01(h.salt * 7 + uint32_t(lod), uint32_t(i), which); };
-        // Even over the height by area, spiralling, so that no side stays bare.
-        const float t = glm::clamp((float(i) + 0.2f + 0.6f * random(0)) / float(cards), 0.02f, 0.985f);
-        const float angle = 2.399963f * float(i) + 0.7f * random(1);
-        // A crown is lumpy: boughs bulge out of it.
-        const float lump =
-            0.86f + 0.20f * noise(glm::vec3(1.6f * std::cos(angle), t * 4, 1.6f * std::sin(angle)), h.salt);
+        const Lobe& lobe = lobes[size_t(i) % lobes.size()];
+        // Even over the lobe; what would lie inside the crown comes round to its outside.
+        const int which = i / h.lobes, count = (cards + h.lobes - 1) / h.lobes;
+        const float up = 1 - 2 * glm::clamp((float(which) + random(0)) / float(count), 0.0f, 1.0f);
+        const float angle = 2.399963f * float(which) + 6.28f * random(1), flat = std::sqrt(1 - up * up);
+        glm::vec3 dir(flat * std::cos(angle), up, flat * std::sin(angle));
+        dir -= std::min(glm::dot(dir, lobe.away) + 0.25f, 0.0f) * 1.6f * lobe.away;
+        dir = glm::normalize(dir);
         const float deep = glm::mix(h.hollow, 1.0f, std::pow(random(2), 0.40f));
-        const float r = std::max(crownRadius(h, t) * lump - 0.25f * side, 0.05f) * deep;
-        const glm::vec3 at =
-            glm::vec3(r * std::cos(angle), h.crownFoot + tall * t, r * std::sin(angle)) + lean * (0.4f * tall * t);
+        const glm::vec3 at = lobe.at + dir * glm::vec3(1, 0.8f, 1) * (lobe.radius * deep);
         const glm::vec3 away = glm::normalize((at - middle) / squash);
         const glm::vec3 tilt(random(3) - 0.5f, random(4) - 0.35f, random(5) - 0.5f);
-        glm::vec3 out = glm::normalize(away + 0.9f * tilt);
+        glm::vec3 out = glm::normalize(0.5f * away + dir + 0.9f * tilt);
         // Seen from the ground, a card that lies flat is a line.
         out = glm::normalize(glm::vec3(out.x, 0.55f * out.y, out.z));
-        const glm::vec3 up = glm::normalize(glm::vec3(random(6) - 0.5f, h.birch ? -0.8f : 0.6f, random(7) - 0.5f));
+        const glm::vec3 twig = glm::normalize(glm::vec3(random(6) - 0.5f, h.birch ? -0.8f : 0.6f, random(7) - 0.5f));
         const glm::vec2 cell(kFirstCell + kCellSide * float(int(3 * random(8)) % 3), kCellSide * float(h.row));
-        // Dark inside and below, open above.
-        const float open =
-            glm::clamp(0.38f + 0.50f * (deep - h.hollow) / (1 - h.hollow) + 0.25f * (t - 0.4f), 0.25f, 1.0f);
-        addCard(mesh, at, out, up, side * (0.8f + 0.4f * random(9)), cell, open, middle, squash);
+        // Dark inside and below, of the crown and of each lobe; open above.
+        const float t = (at.y - h.crownFoot) / tall;
+        const float open = glm::clamp(0.36f + 0.28f * (deep - h.hollow) / (1 - h.hollow) + 0.24f * dir.y +
+                                          0.16f * glm::dot(dir, lobe.away) + 0.25f * (t - 0.4f),
+                                      0.2f, 1.0f);
+        addCard(mesh, at, out, twig, side * (0.8f + 0.4f * random(9)), cell, open, {middle, squash, lobe.at});
     }
     return mesh;
 }
@@ -154,7 +189,7 @@ Mesh makeHedge(int lod) {
         const glm::vec2 cell(kFirstCell + kCellSide * float(int(3 * random(3)) % 3), 3 * kCellSide);
         addCard(mesh, at + 0.08f * (glm::vec3(random(4), random(5), random(6)) - 0.5f), turned,
                 std::abs(out.y) > 0.5f ? glm::vec3(0.3f, 0, 1) : glm::vec3(0.2f * (random(7) - 0.5f), 1, 0), side, cell,
-                glm::clamp(0.35f + 0.5f * at.y / high, 0.0f, 1.0f), at - out, glm::vec3(1));
+                glm::clamp(0.35f + 0.5f * at.y / high, 0.0f, 1.0f), {at - out, glm::vec3(1), at - out});
     };
     uint32_t i = 0;
     const int rows = lod == 0 ? 4 : lod == 1 ? 2 : 1;
