@@ -100,10 +100,9 @@ bool App::drawFrame(bool moving, bool last) {
     if (!image_->show(work_.context.get(), *frame, draw, scale, work_.redraw)) return fail(image_->error());
     if (image_->drew()) {
         coarse_ = slow;
-        EspStats stats;
-        const bool read = espReadStats(work_.context.get(), &stats) == ESP_OK;
-        work_.redraw = read && stats.modelsFading > 0;
-        if (read && slow) detail_.follow(work_.frameMs, uint32_t(stats.drawnLeaves));
+        const bool read = espReadStats(work_.context.get(), &work_.stats) == ESP_OK;
+        work_.redraw = read && work_.stats.modelsFading > 0;
+        if (read && slow) detail_.follow(work_.frameMs, uint32_t(work_.stats.drawnLeaves));
     }
     ImGui::Render();
     if (!ui_->draw(*frame, *ImGui::GetDrawData())) return fail(ui_->error());

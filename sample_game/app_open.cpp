@@ -128,7 +128,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     session_.begin(work_, request.file);
     if (options_.frames) session_.forgetRecovery(false);
     work_.lookFrom(work_.scene().camera);
-    glfwSetWindowTitle(window_.get(), ("Espalier \u2014 " + work_.scene().name).c_str());
+    glfwSetWindowTitle(window_.get(), ("Espalier \u2014 " + session_.name(work_)).c_str());
     return true;
 }
 

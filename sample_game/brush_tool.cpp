@@ -33,7 +33,7 @@ void BrushTool::begin(Workspace& work, int mods) {
     StrokeBegin action;
     action.layer = b.layer;
     action.mode = modeOf(mods);
-    action.radius = b.radius;
+    action.radius = work.brushRadius();
     action.strength = b.strength;
     action.hardness = b.hardness;
     action.value = b.value;
@@ -62,14 +62,14 @@ void BrushTool::flush(Workspace& work) {
 }
 
 void BrushTool::cancel(Workspace& work) {
-    if (sizing_ != Sizing::none) (sizing_ == Sizing::radius ? work.brush.radius : work.brush.strength) = before_;
+    if (sizing_ != Sizing::none) (sizing_ == Sizing::radius ? work.brushRadius() : work.brush.strength) = before_;
     sizing_ = Sizing::none;
     end(work);
 }
 
 void BrushTool::layDab(const Workspace& work, const EspHit& hit) {
     const glm::vec3 at = vec(hit.position);
-    if (lastDab_ && glm::distance(at, *lastDab_) < work.brush.spacing * work.brush.radius) return;
+    if (lastDab_ && glm::distance(at, *lastDab_) < work.brush.spacing * work.brushRadius()) return;
     lastDab_ = at;
     dabs_.dabs.push_back({at.x, at.y, at.z, hit.normal[0], hit.normal[1], hit.normal[2], 1});
 }
@@ -89,7 +89,7 @@ bool BrushTool::take(Workspace& work, const PointerEvent& event) {
         if (event.kind == Kind::move) {
             const float moved = (at.x - sizingFrom_.x) / work.scale;
             if (sizing_ == Sizing::radius)
-                work.brush.radius = std::clamp(before_ * std::exp(moved / 150), kSmallest, kLargest);
+                work.brushRadius() = std::clamp(before_ * std::exp(moved / 150), kSmallest, kLargest);
             else
                 work.brush.strength = std::clamp(before_ + moved / 300, .01f, 1.f);
         } else if (event.kind == Kind::press) {
@@ -115,7 +115,7 @@ bool BrushTool::take(Workspace& work, const PointerEvent& event) {
 void BrushTool::startSizing(Workspace& work, glm::vec2 at, bool strength) {
     if (painting_) return;
     sizing_ = strength ? Sizing::strength : Sizing::radius;
-    before_ = strength ? work.brush.strength : work.brush.radius;
+    before_ = strength ? work.brush.strength : work.brushRadius();
     sizingFrom_ = at;
     sizingAt_ = work.hit;
 }
@@ -147,20 +147,20 @@ void BrushTool::draw(const Workspace& work, int mods) const {
     };
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImVec2 outer[kPoints], inner[kPoints];
-    const int count = ring(work.brush.radius, outer);
+    const int count = ring(work.brushRadius(), outer);
     if (count > 2) {
         list.AddPolyline(outer, count, IM_COL32(0, 0, 0, 160), ImDrawFlags_Closed, 4 * work.scale);
         list.AddPolyline(outer, count, colour, ImDrawFlags_Closed, 2 * work.scale);
     }
     if (work.brush.hardness > .05f) {
-        const int few = ring(work.brush.radius * work.brush.hardness, inner);
+        const int few = ring(work.brushRadius() * work.brush.hardness, inner);
         if (few > 2) list.AddPolyline(inner, few, (colour & 0xFFFFFF) | 0x70000000, ImDrawFlags_Closed, work.scale);
     }
     if (const auto at = work.place(centre)) list.AddCircleFilled({at->x, at->y}, 2.5f * work.scale, colour);
     if (sizing_ == Sizing::none) return;
     char text[64];
     if (sizing_ == Sizing::radius)
-        std::snprintf(text, sizeof text, "radius %.2f m", work.brush.radius);
+        std::snprintf(text, sizeof text, "radius %.2f m", work.brushRadius());
     else
         std::snprintf(text, sizeof text, "strength %.2f", work.brush.strength);
     if (const auto at = work.place(centre)) list.AddText({at->x + 12, at->y - 8}, IM_COL32_WHITE, text);

@@ -115,7 +115,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
     if (key == GLFW_KEY_P) chooseTool(Tool::branch);
     if (key == GLFW_KEY_H) chooseTool(Tool::houses);
     if (work_.tool == Tool::paint) {
-        float& radius = work_.brush.radius;
+        float& radius = work_.brushRadius();
         if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, .005f);
         if (key == GLFW_KEY_RIGHT_BRACKET) radius = std::min(radius * 1.15f, 20.f);
         const ImVec2 mouse = ImGui::GetIO().MousePos;

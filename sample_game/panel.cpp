@@ -234,7 +234,7 @@ std::string grammarName(const espalier::scene::Scene& scene, size_t index) {
 
 void brushPanel(Workspace& work) {
     Brush& b = work.brush;
-    slider("Radius", &b.radius, .01f, 5, "%.2f m", true);
+    slider("Radius", &work.brushRadius(), .01f, 20, "%.2f m", true);
     toolTip("[ and ], or F and a move of the mouse");
     slider("Strength", &b.strength, .01f, 1, "%.2f");
     toolTip("How much one dab changes, or Shift+F and a move of the mouse");

@@ -65,7 +65,9 @@ void edgePanel(Workspace& work, Edit& edit, House& house) {
             }
         ImGui::EndCombo();
     }
+    ImGui::BeginDisabled(edge.end == "gable");  // a wall
     pitch(work, edit, "Pitch##edge", edge.slope);
+    ImGui::EndDisabled();
     if (!edit.changed) return;
     if (own == house.edges.end())
         house.edges.push_back(edge);

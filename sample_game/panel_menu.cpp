@@ -136,7 +136,7 @@ void showDialogues(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
     d.asks = false;
     if (d.open) {
-        if (!d.project[0]) put(d.project, sizeof d.project, std::filesystem::path(work.scene().name).stem().string());
+        if (!d.project[0]) put(d.project, sizeof d.project, std::filesystem::path(session.name(work)).stem().string());
         if (!d.run[0]) put(d.run, sizeof d.run, "run.jsonl");
         ImGui::OpenPopup(d.open);
         d.open = nullptr;
@@ -221,8 +221,7 @@ void showMenu(Workspace& work, Session& session) {
             ImGui::MenuItem("Keys and mouse", "F1", &work.layout.help);
             ImGui::EndMenu();
         }
-        std::string name =
-            session.folder().empty() ? work.scene().name : std::filesystem::path(session.folder()).filename().string();
+        std::string name = session.name(work);
         if (session.modified(work)) name += " *";
         if (session.recording()) name += "   REC";
         ImGui::SetCursorPosX(ImGui::GetWindowWidth() - ImGui::CalcTextSize(name.c_str()).x - 12 * work.scale);

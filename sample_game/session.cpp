@@ -48,6 +48,7 @@ void Session::begin(Workspace& work, const std::string& file) {
     const bool recovered = place.filename() == "autosave.json";
     if (place.filename() == "project.json" || recovered) place = place.parent_path();
     folder_ = fs::exists(place / "project.json", ignored) ? place.string() : "";
+    recoveredFrom_ = recovered && folder_.empty() ? place.string() : "";
     savedRevision_ = recovered ? ~0ull : work.document->revision();
     autosavedRevision_ = work.document->revision();
     recovery_ = recovered ? "" : recoverable(autosaveFolder());
@@ -58,8 +59,14 @@ void Session::begin(Workspace& work, const std::string& file) {
     work.document->listen([this](const Action& action, uint32_t gesture) { recorder_.note(action, gesture); });
 }
 
+std::string Session::name(const Workspace& work) const {
+    if (!folder_.empty()) return fs::path(folder_).filename().string();
+    return !recoveredFrom_.empty() ? "recovered work" : work.scene().name;
+}
+
 std::string Session::autosaveFolder() const {
     if (!folder_.empty()) return folder_;
+    if (!recoveredFrom_.empty()) return recoveredFrom_;
     // Of what was never saved, beside the user's settings, by the file that it was opened from.
     std::string name = file_;
     std::replace(name.begin(), name.end(), '/', '-');

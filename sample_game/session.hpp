@@ -22,6 +22,8 @@ class Session {
 
     // The project's folder; empty: the document was never saved.
     const std::string& folder() const { return folder_; }
+    // As the title says it.
+    std::string name(const Workspace& work) const;
     bool modified(const Workspace& work) const { return work.document->revision() != savedRevision_; }
     void save(Workspace& work, const std::string& folder);
     // Of an earlier run that ended without saving; empty: there is none. Asked until answered.
@@ -55,6 +57,7 @@ class Session {
     bool watchModels(const Workspace& work);
 
     std::string file_, folder_, recovery_, recordingTo_;
+    std::string recoveredFrom_;  // the autosave's folder of what was never saved; it goes on there
     uint64_t savedRevision_ = 0, autosavedRevision_ = 0;
     double nextAutosave_ = 0, nextLook_ = 0;
     std::vector<std::filesystem::file_time_type> grammarTimes_, modelTimes_;

@@ -31,7 +31,7 @@ struct LayoutRecord {
         v("panel_width", layout.panelWidth), v("size", layout.sizeOfAll),
             v("half_while_moving", layout.halfWhileMoving);
         v("radius", brush.radius), v("strength", brush.strength), v("hardness", brush.hardness);
-        v("spacing", brush.spacing);
+        v("spacing", brush.spacing), v("town_radius", brush.townRadius);
     }
 };
 
@@ -88,6 +88,7 @@ void readLayout(Layout& layout, Brush& brush) {
     layout.layerOpacity = std::clamp(layout.layerOpacity, .05f, 1.f);
     layout.sizeOfAll = std::clamp(layout.sizeOfAll, .5f, 3.f);
     brush.radius = std::clamp(record.brush.radius, .005f, 20.f);
+    brush.townRadius = std::clamp(record.brush.townRadius, .005f, 20.f);
     brush.strength = std::clamp(record.brush.strength, .01f, 1.f);
     brush.hardness = std::clamp(record.brush.hardness, 0.f, 1.f);
     brush.spacing = std::clamp(record.brush.spacing, .05f, 1.f);

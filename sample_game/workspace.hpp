@@ -17,7 +17,8 @@ enum class Tool { look, paint, seeds, branch, houses };
 // What the brush paints with, but for what the keys say while it does.
 struct Brush {
     std::string layer;
-    float radius = .25f;  // metres
+    float radius = .25f;   // metres
+    float townRadius = 3;  // of layers over a town, whose houses are seen from afar
     float strength = .6f, hardness = .5f, value = 1;
     float spacing = .3f;              // of the radius, between two dabs
     bool limited = false;             // to slopes and heights
@@ -93,6 +94,8 @@ struct Workspace {
     // A layer that lies over the town, seen from above, and over no surface.
     bool townLayer(const std::string& name) const;
     void chooseLayer(const std::string& name);  // for the brush
+    float& brushRadius() { return townLayer(brush.layer) ? brush.townRadius : brush.radius; }
+    float brushRadius() const { return townLayer(brush.layer) ? brush.townRadius : brush.radius; }
 
     Ray rayThrough(glm::vec2 at) const;
     std::optional<EspHit> pick(glm::vec2 at) const;  // a surface

@@ -34,7 +34,7 @@ const Habit kHabits[] = {
     {"lime_b", 0, 22, 2.2f, 11.2f, 3.9f, 0.40f, 0.45f, 15, {450, 115, 32}, 1.10f, 0.36f, 10, false},
     {"apple_a", 1, 23, 1.3f, 4.3f, 2.1f, 0.45f, 0.35f, 8, {210, 60, 18}, 0.78f, 0.14f, 7, false},
     {"apple_b", 1, 24, 1.2f, 4.9f, 2.4f, 0.50f, 0.35f, 9, {230, 64, 19}, 0.82f, 0.15f, 7, false},
-    {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, 14, {260, 70, 20}, 0.80f, 0.13f, 6, true},
+    {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, 10, {260, 70, 20}, 0.80f, 0.13f, 6, true},
     {"bush_a", 3, 26, 0.0f, 1.5f, 1.05f, 0.45f, 0.30f, 5, {90, 28, 9}, 0.60f, 0.0f, 0, false},
     {"bush_b", 3, 27, 0.0f, 1.0f, 0.85f, 0.50f, 0.30f, 4, {70, 24, 8}, 0.52f, 0.0f, 0, false},
 };
@@ -104,9 +104,10 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
     for (int k = 0; k < h.lobes; ++k) {
         const auto random = [&](uint32_t which) { return random01(h.salt * 5, uint32_t(k), which); };
         const bool top = k + 1 == h.lobes;
-        const float t = top ? 0.84f : 0.10f + 0.72f * (float(k) + 0.7f * random(0)) / float(h.lobes);
+        const float t = top ? 0.84f : 0.10f + 0.72f * (float(k) + 0.5f * random(0)) / float(h.lobes - 1);
         const float angle = 2.399963f * float(k) + 0.6f * random(1), wide = crownRadius(h, t);
-        const float radius = std::min((h.birch ? 0.62f : 0.50f) * h.radius * (0.85f + 0.3f * random(2)), 0.2f * tall);
+        const float most = (h.trunk > 0 ? 0.26f : 0.38f) * tall;
+        const float radius = std::min((h.birch ? 0.62f : 0.50f) * h.radius * (0.85f + 0.3f * random(2)), most);
         const float r = top ? 0 : std::max(wide - 0.75f * radius, 0.25f * wide);
         const glm::vec3 out(std::cos(angle), 0, std::sin(angle));
         lobes.push_back({r * out + glm::vec3(0, h.crownFoot + tall * t, 0) + lean * (0.4f * tall * t),
