@@ -2,30 +2,61 @@
 #include "runtime/core/jobs.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <exception>
-#include <thread>
-#include <vector>
 
 namespace espalier {
 
-void parallelFor(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body,
-                 unsigned threads) {
-    grain = std::max<size_t>(grain, 1);
-    const size_t pieces = count / grain + (count % grain != 0);
-    const size_t machine = std::max(1u, threads ? threads : std::thread::hardware_concurrency());
-    std::atomic<size_t> next = 0;
-    auto work = [&] {
-        for (size_t piece = next++; piece < pieces; piece = next++)
-            body(piece * grain, std::min(count, (piece + 1) * grain));
-    };
-    std::vector<std::jthread> others;
+Crew::Crew(unsigned threads) : threads_(std::max(1u, threads ? threads : std::thread::hardware_concurrency())) {}
+
+Crew::~Crew() {
+    body_ = nullptr;
+    range_.fetch_add(1, std::memory_order_release);
+    range_.notify_all();
+    others_.clear();  // joins
+}
+
+void Crew::gather() {
     try {
-        for (size_t i = 1; i < std::min(machine, pieces); ++i) others.emplace_back(work);
+        while (others_.size() + 1 < threads_) others_.emplace_back([this] { workOn(); });
     } catch (const std::exception&) {
-        // The machine has no thread left to give: those that there are do the work.
+        threads_ = unsigned(others_.size()) + 1;  // the machine has no more to give: these do the work
     }
-    work();
+}
+
+void Crew::takePieces() {
+    for (size_t piece = next_++; piece < pieces_; piece = next_++)
+        (*body_)(piece * grain_, std::min(count_, (piece + 1) * grain_));
+}
+
+void Crew::workOn() {
+    for (unsigned seen = 0;;) {
+        range_.wait(seen, std::memory_order_acquire);
+        seen += 1;  // a range begins when all have ended the one before, so none is missed
+        if (!body_) return;
+        takePieces();
+        if (--atWork_ == 0) atWork_.notify_one();
+    }
+}
+
+void Crew::overRange(size_t count, size_t grain, const Body& body) {
+    count_ = count;
+    grain_ = std::max<size_t>(grain, 1);
+    pieces_ = count / grain_ + (count % grain_ != 0);
+    body_ = &body;
+    next_ = 0;
+    if (threads_ == 1 || pieces_ < 2) return takePieces();
+    gather();
+    atWork_ = unsigned(others_.size());
+    range_.fetch_add(1, std::memory_order_release);
+    range_.notify_all();
+    takePieces();
+    for (unsigned busy = atWork_; busy > 0; busy = atWork_) atWork_.wait(busy);
+}
+
+void parallelFor(size_t count, size_t grain, const Crew::Body& body, unsigned threads) {
+    const size_t pieces = count / std::max<size_t>(grain, 1) + 1;
+    const unsigned machine = threads ? threads : std::thread::hardware_concurrency();
+    Crew(unsigned(std::clamp<size_t>(machine, 1, pieces))).overRange(count, grain, body);
 }
 
 }  // namespace espalier

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
+#include <thread>
+#include <vector>
 
 namespace espalier {
 
@@ -10,5 +13,34 @@ namespace espalier {
 // depend on the number of threads; their order does. body must not throw.
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body,
                  unsigned threads = 0);
+
+// Threads for many such ranges one after the other. They begin with the first range of more than one piece and end with
+// the crew; in between they sleep.
+class Crew {
+  public:
+    using Body = std::function<void(size_t begin, size_t end)>;
+
+    explicit Crew(unsigned threads = 0);  // as parallelFor's
+    ~Crew();
+    Crew(const Crew&) = delete;
+    Crew& operator=(const Crew&) = delete;
+
+    // As parallelFor. One thread at a time may call it, and no body.
+    void overRange(size_t count, size_t grain, const Body& body);
+    unsigned threads() const { return threads_; }
+
+  private:
+    void gather();
+    void workOn();
+    void takePieces();
+
+    unsigned threads_;
+    std::vector<std::jthread> others_;
+    // The range under way; those who sleep wait for `range_` to change.
+    const Body* body_ = nullptr;
+    size_t count_ = 0, grain_ = 1, pieces_ = 0;
+    std::atomic<size_t> next_ = 0;
+    std::atomic<unsigned> range_ = 0, atWork_ = 0;
+};
 
 }  // namespace espalier

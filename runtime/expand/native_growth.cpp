@@ -43,14 +43,15 @@ uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, uns
 void terminalsNative(ExpandEnv env, const GrowthLimits& limits, unsigned threads) {
     if (!complete(env)) return;
     const GrowStatus& s = env.status.v[0];
+    Crew crew(threads);
     if (limits.tangents == TangentMode::paper)
-        overRange(s.frozenBranches, s.branches, kBranchesAtOnce, threads, [&](size_t begin, size_t end) {
+        overRange(s.frozenBranches, s.branches, kBranchesAtOnce, crew, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) sumJoint(env, uint32_t(i));
         });
     for (uint32_t phase : {kTerminalsCount, kTerminalsWrite}) {
         if (phase == kTerminalsCount && limits.leafDensityCap <= 0) continue;
         env.phase = phase;
-        overRange(s.frozenNodes, s.nodes, kNodesAtOnce, threads,
+        overRange(s.frozenNodes, s.nodes, kNodesAtOnce, crew,
                   [&](size_t begin, size_t end) { finishNodes(env, begin, end); });
     }
 }
@@ -58,11 +59,11 @@ void terminalsNative(ExpandEnv env, const GrowthLimits& limits, unsigned threads
 void fitNative(ExpandEnv env, unsigned threads) {
     if (!complete(env)) return;
     const GrowStatus& s = env.status.v[0];
-    overRange(s.frozenBranches, s.branches, kBranchesAtOnce, threads, [&](size_t begin, size_t end) {
+    Crew crew(threads);
+    overRange(s.frozenBranches, s.branches, kBranchesAtOnce, crew, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) env.branches.v[i].thickness = thicknessOf(env, uint32_t(i));
     });
-    overRange(s.frozenNodes, s.nodes, kNodesAtOnce, threads,
-              [&](size_t begin, size_t end) { fitNodes(env, begin, end); });
+    overRange(s.frozenNodes, s.nodes, kNodesAtOnce, crew, [&](size_t begin, size_t end) { fitNodes(env, begin, end); });
 }
 
 }  // namespace espalier

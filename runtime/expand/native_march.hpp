@@ -15,7 +15,7 @@
 namespace espalier {
 namespace {
 
-constexpr size_t kItemsAtOnce = 8;
+constexpr size_t kItemsAtOnce = 8;  // of a long queue
 
 // Has the processor fetch the texels about uv and what a patch there may read besides: growth waits for memory as much
 // as it computes, and knows a rule earlier about where it will be. A hint; gone wrong, it costs a little time.
@@ -45,11 +45,11 @@ ESPALIER_WHOLE void growItems(ExpandEnv env, size_t begin, size_t end) {
     env.scratch = {stage};
     GrowthTally tally = emptyTally();
     Machine machine;
-    for (size_t i = begin; i < end; ++i) {
+    for (size_t i = end; i-- > begin;) {
         ChunkGrowth c;
         if (!beginChunk(machine, env, env.items.v[i], c)) continue;
-        if (i + 1 < end) {
-            const Walk& next = env.items.v[i + 1].walk;
+        if (i > begin) {
+            const Walk& next = env.items.v[i - 1].walk;
             expectTexels(env.surfaces.v[next.place >> 16u].levels[c.site.level], next.uv, true);
         }
         while (growing(c.g)) {
@@ -63,14 +63,15 @@ ESPALIER_WHOLE void growItems(ExpandEnv env, size_t begin, size_t end) {
 
 // body(begin, end) over [first, last).
 template <class Body>
-void overRange(uint32_t first, uint32_t last, size_t grain, unsigned threads, const Body& body) {
-    parallelFor(
-        last > first ? last - first : 0, grain, [&](size_t begin, size_t end) { body(first + begin, first + end); },
-        threads);
+void overRange(uint32_t first, uint32_t last, size_t grain, Crew& crew, const Body& body) {
+    crew.overRange(last > first ? last - first : 0, grain,
+                   [&](size_t begin, size_t end) { body(first + begin, first + end); });
 }
 
-// See marchNative.
+// See marchNative. The last items are grown first: at their end chunks queue what carries a long branch on, and a long
+// one at the end of a wave would keep the others waiting.
 uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads) {
+    Crew crew(threads);
     uint32_t w = env.wave;
     for (; w < most && env.waves.v[w].count > 0; ++w) {
         env.wave = w;
@@ -78,8 +79,8 @@ uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned 
         env.nextItems = {queues[(w + 1) & 1]};
         const uint32_t wanted = env.waves.v[w].count, count = std::min(wanted, env.itemCapacity);
         if (wanted > count) atomicMax(env.status.v[0].items, wanted);
-        parallelFor(
-            count, kItemsAtOnce, [&](size_t begin, size_t end) { growItems(env, begin, end); }, threads);
+        const size_t grain = std::clamp<size_t>(count / (8 * crew.threads()), 1, kItemsAtOnce);
+        crew.overRange(count, grain, [&](size_t begin, size_t end) { growItems(env, count - end, count - begin); });
     }
     return w;
 }

@@ -29,15 +29,15 @@ ESPALIER_WHOLE void finishWork(ExpandEnv env, size_t begin, size_t end) {
 
 // each(i, tally) for what is taken out, from [0, count).
 template <class Each>
-void takeEach(ExpandEnv env, uint32_t count, size_t grain, unsigned threads, const Each& each) {
-    overRange(0, count, grain, threads, [&](size_t begin, size_t end) {
+void takeEach(ExpandEnv env, uint32_t count, size_t grain, Crew& crew, const Each& each) {
+    overRange(0, count, grain, crew, [&](size_t begin, size_t end) {
         GoneTally tally = nothingGone();
         for (size_t i = begin; i < end; ++i) each(uint32_t(i), tally);
         addGone(env, uint32_t(begin / grain), tally);
     });
 }
 
-void apply(ExpandEnv env, unsigned threads) {
+void apply(ExpandEnv env, Crew& crew) {
     const LeafChains chains = {env.status.v[0].firstLeaves, env.status.v[0].nextLeaves};
     const ChunkBuf before = AGAIN.chunksBefore;
     const auto takeChunk = [&](uint32_t chunk, GoneTally& tally) {
@@ -45,21 +45,21 @@ void apply(ExpandEnv env, unsigned threads) {
         for (uint32_t lane = 0; lane < std::max(1u, chunkNodes(was.marks)); ++lane)
             takeOut(env, chains, was, lane, tally);
     };
-    takeEach(env, AGAIN.counts[kListWork], kWorkAtOnce, threads,
+    takeEach(env, AGAIN.counts[kListWork], kWorkAtOnce, crew,
              [&](uint32_t i, GoneTally& tally) { applyResult(env, chains, AGAIN.results, i, tally); });
-    takeEach(env, listed(env, kListGrown), kEntriesAtOnce, threads, [&](uint32_t i, GoneTally& tally) {
+    takeEach(env, listed(env, kListGrown), kEntriesAtOnce, crew, [&](uint32_t i, GoneTally& tally) {
         const uint32_t chunk = listEntry(env, kListGrown, i);
         if ((AGAIN_MARKS.v[chunk].bits & kMarkAgain) != 0) takeChunk(chunk, tally);
     });
-    takeEach(env, listed(env, kListGone), kEntriesAtOnce, threads, [&](uint32_t i, GoneTally& tally) {
+    takeEach(env, listed(env, kListGone), kEntriesAtOnce, crew, [&](uint32_t i, GoneTally& tally) {
         const uint32_t chunk = listEntry(env, kListGone, i);
         takeChunk(chunk, tally);
         env.chunks.v[chunk].marks = 0;
     });
 }
 
-void fit(ExpandEnv env, unsigned threads) {
-    overRange(0, listed(env, kListFit), kEntriesAtOnce, threads, [&](size_t begin, size_t end) {
+void fit(ExpandEnv env, Crew& crew) {
+    overRange(0, listed(env, kListFit), kEntriesAtOnce, crew, [&](size_t begin, size_t end) {
         uvec2 hash(0, 0);
         for (size_t i = begin; i < end; ++i) {
             const uint32_t chunk = listEntry(env, kListFit, uint32_t(i));
@@ -74,8 +74,8 @@ void fit(ExpandEnv env, unsigned threads) {
 
 // each(i) over the entries of a list.
 template <class Each>
-void overList(ExpandEnv env, uint32_t list, unsigned threads, const Each& each) {
-    overRange(0, listed(env, list), kEntriesAtOnce, threads, [&](size_t begin, size_t end) {
+void overList(ExpandEnv env, uint32_t list, Crew& crew, const Each& each) {
+    overRange(0, listed(env, list), kEntriesAtOnce, crew, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) each(uint32_t(i));
     });
 }
@@ -83,13 +83,14 @@ void overList(ExpandEnv env, uint32_t list, unsigned threads, const Each& each) 
 }  // namespace
 
 void findNative(ExpandEnv env, unsigned threads) {
+    Crew crew(threads);
     const EditHead head = editHead(env);
-    overRange(0, AGAIN.chunkCount, kChunksAtOnce, threads, [&](size_t begin, size_t end) {
+    overRange(0, AGAIN.chunkCount, kChunksAtOnce, crew, [&](size_t begin, size_t end) {
         for (size_t c = begin; c < end; ++c) findChunk(env, head, uint32_t(c));
     });
     const UintBuf first = env.status.v[0].firstLeaves, next = env.status.v[0].nextLeaves;
     for (uint32_t i = AGAIN.chainedLeaves; i < AGAIN.leafCount; ++i) chainAgain(env, first, next, i);
-    overList(env, kListDirty, threads, [&](uint32_t i) { startAgain(env, i); });
+    overList(env, kListDirty, crew, [&](uint32_t i) { startAgain(env, i); });
 }
 
 uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads) {
@@ -98,17 +99,18 @@ uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most
 
 void finishAgainNative(ExpandEnv env, unsigned threads) {
     if (!complete(env)) return;
-    overList(env, kListGrown, threads, [&](uint32_t i) { settleAgain(env, AGAIN.chunksBefore, i); });
-    overList(env, kListBranches, threads, [&](uint32_t i) { workAgain(env, i); });
+    Crew crew(threads);
+    overList(env, kListGrown, crew, [&](uint32_t i) { settleAgain(env, AGAIN.chunksBefore, i); });
+    overList(env, kListBranches, crew, [&](uint32_t i) { workAgain(env, i); });
     const uint32_t work = AGAIN.counts[kListWork];
     if (work > AGAIN.resultCapacity) AGAIN.overrun = 1;
     if (AGAIN.overrun != 0) return;
     env.phase = kTerminalsAgain;
-    overRange(0, work, kWorkAtOnce, threads, [&](size_t begin, size_t end) { finishWork(env, begin, end); });
+    overRange(0, work, kWorkAtOnce, crew, [&](size_t begin, size_t end) { finishWork(env, begin, end); });
     if (!holds(env)) return;
-    apply(env, threads);
-    overList(env, kListKin, threads, [&](uint32_t i) { thickenAgain(env, i); });
-    fit(env, threads);
+    apply(env, crew);
+    overList(env, kListKin, crew, [&](uint32_t i) { thickenAgain(env, i); });
+    fit(env, crew);
 }
 
 }  // namespace espalier

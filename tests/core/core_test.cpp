@@ -95,3 +95,22 @@ TEST_CASE("parallelFor visits everything once") {
             CHECK(once);
         }
 }
+
+TEST_CASE("a crew goes from range to range") {
+    for (unsigned threads : {1u, 2u, 5u}) {
+        Crew crew(threads);
+        // Each range reads what the one before has written, by whichever thread.
+        std::vector<uint32_t> values(1000, 0), before;
+        for (uint32_t range = 0; range < 200; ++range) {
+            before = values;
+            const size_t count = range % 7 == 0 ? 3 : values.size();
+            crew.overRange(count, 16, [&](size_t begin, size_t end) {
+                for (size_t i = begin; i < end; ++i) values[i] += 1 + before[count - 1 - i];
+            });
+            for (size_t i = 0; i < count; ++i) before[i] = before[i] + 1;
+            std::vector<uint32_t> wanted = before;
+            for (size_t i = 0; i < count; ++i) wanted[i] = before[i] + before[count - 1 - i] - 1;
+            REQUIRE(values == wanted);
+        }
+    }
+}
