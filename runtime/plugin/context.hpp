@@ -25,7 +25,7 @@
 #include "runtime/roof/footprint.hpp"
 #include "runtime/roof/plan_layers.hpp"
 #include "runtime/roof/roof_growth.hpp"
-#include "runtime/surface/contact_ground.hpp"
+#include "runtime/surface/burial.hpp"
 #include "runtime/surface/gpu_surface.hpp"
 #include "runtime/surface/mesh_tree.hpp"
 #include "runtime/surface/surface.hpp"
@@ -47,6 +47,7 @@ struct PlacedSurface {
     // Made when it first comes near another surface; data then holds crossings and all levels again, without aux.
     std::unique_ptr<ContactGround> ground;
     std::vector<Crossing> contacts;  // to other surfaces, as its GPU data has them
+    TexelSets buried;                // by other surfaces, likewise
 };
 
 // The contacts of two surfaces as they stood when these were found; others: surfaces that may have hidden some.
@@ -59,6 +60,7 @@ struct SurfacePair {
     Stand a, b;
     std::vector<Stand> others;
     PlacedContacts found;
+    TexelSets hiddenOfA, hiddenOfB;  // texels of the one that bodies of the other hide
 };
 
 // One painted layer of one surface. `name` may be one that no grammar reads (yet).

@@ -38,7 +38,7 @@ std::vector<SurfacePair> pairsOf(const std::vector<Stand>& stands, const std::ve
         for (size_t j = i + 1; j < stands.size(); ++j) {
             if (!boxes[i].touches(boxes[j])) continue;
             Box shared{glm::max(boxes[i].low, boxes[j].low), glm::min(boxes[i].high, boxes[j].high)};
-            SurfacePair pair{stands[i], stands[j], {}, {}};
+            SurfacePair pair{stands[i], stands[j], {}, {}, {}, {}};
             for (size_t k = 0; k < stands.size(); ++k)
                 if (k != i && k != j && boxes[k].touches(shared)) pair.others.push_back(stands[k]);
             pairs.push_back(std::move(pair));
@@ -57,7 +57,10 @@ Status find(EspContext& context, SurfacePair& pair) {
         if (Status s = prepare(context, *context.surfaces.find(stand.id)); !s) return s;
         others.push_back(placed(stand));
     }
-    pair.found = contactsOf(placed(pair.a), placed(pair.b), others);
+    const PlacedGround a = placed(pair.a), b = placed(pair.b);
+    pair.found = contactsOf(a, b, others);
+    pair.hiddenOfA = hiddenTexels(context.surfaces.find(pair.a.id)->data, a, b, pair.found.fromA, true);
+    pair.hiddenOfB = hiddenTexels(context.surfaces.find(pair.b.id)->data, b, a, pair.found.fromB, false);
     return Done{};
 }
 
@@ -103,7 +106,7 @@ Status refreshContacts(EspContext& context) {
             return p.a == pair.a && p.b == pair.b && p.others == pair.others;
         });
         if (known != context.pairs.end())
-            pair.found = known->found;
+            pair.found = known->found, pair.hiddenOfA = known->hiddenOfA, pair.hiddenOfB = known->hiddenOfB;
         else if (Status s = find(context, pair); !s)
             return s;
     }
@@ -113,6 +116,7 @@ Status refreshContacts(EspContext& context) {
     Status status = Done{};
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         std::vector<Crossing> wanted;
+        TexelSets hidden;
         const auto add = [&](const std::vector<Crossing>& crossings, uint32_t target) {
             for (Crossing c : crossings) {
                 c.target = instanceOf(target) << 16 | (c.target & 0xFFFFu);
@@ -120,13 +124,17 @@ Status refreshContacts(EspContext& context) {
             }
         };
         for (const SurfacePair& pair : context.pairs) {
-            if (pair.a.id == id) add(pair.found.fromA, pair.b.id);
-            if (pair.b.id == id) add(pair.found.fromB, pair.a.id);
+            if (pair.a.id == id) add(pair.found.fromA, pair.b.id), addTo(hidden, pair.hiddenOfA);
+            if (pair.b.id == id) add(pair.found.fromB, pair.a.id), addTo(hidden, pair.hiddenOfB);
         }
         context.contactCount += uint32_t(wanted.size());
-        if (!status || same(wanted, surface.contacts)) return;
-        status = surface.gpu.addCrossings(*context.device, surface.data, wanted);
-        if (status) surface.contacts = std::move(wanted), context.tablesStale = true;
+        TexelSets buried = buriedTexels(surface.data, hidden, wanted);
+        if (!status || (same(wanted, surface.contacts) && buried == surface.buried)) return;
+        status = surface.gpu.addCrossings(*context.device, surface.data, wanted, buried);
+        if (!status) return;
+        if (buried != surface.buried && !context.moved.empty()) context.moved[surface.instance] = true;
+        surface.contacts = std::move(wanted), surface.buried = std::move(buried);
+        context.tablesStale = true;
     });
     context.contactMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return status;

@@ -11,7 +11,7 @@
 namespace espalier {
 namespace {
 
-constexpr uint32_t kMaxClearance = 31, kClearanceShift = 19;
+constexpr uint32_t kMaxClearance = 31, kClearanceShift = 19, kClassShift = 16;
 constexpr uint32_t kMostListed = 255;          // a head counts by 8 bits
 constexpr size_t kMostRefs = size_t(1) << 24;  // and begins by 24
 
@@ -37,6 +37,27 @@ std::vector<Hit> hitsOf(const SurfaceLevelData& level, std::span<const Crossing>
     }
     std::sort(hits.begin(), hits.end());
     return hits;
+}
+
+// Makes buried texels of a patch kTexelLink; those that it doesn't have come into it.
+void bury(const SurfaceLevelData& level, const std::vector<uint32_t>& buried, LevelPatch& patch) {
+    LevelPatch all;
+    all.added = std::move(patch.added);
+    const auto add = [&](uint32_t texel, uint32_t bits, uint32_t head) {
+        all.texels.push_back(texel), all.bits.push_back(bits), all.heads.push_back(head);
+    };
+    const auto link = [](uint32_t bits) { return (bits & ~(3u << kClassShift)) | kTexelLink << kClassShift; };
+    size_t i = 0;
+    for (uint32_t texel : buried) {
+        for (; i < patch.texels.size() && patch.texels[i] < texel; ++i)
+            add(patch.texels[i], patch.bits[i], patch.heads[i]);
+        const bool known = i < patch.texels.size() && patch.texels[i] == texel;
+        add(texel, link(known ? patch.bits[i] : level.texels[texel].bits),
+            known ? patch.heads[i] : level.crossingHead[texel]);
+        i += known ? 1 : 0;
+    }
+    for (; i < patch.texels.size(); ++i) add(patch.texels[i], patch.bits[i], patch.heads[i]);
+    patch = std::move(all);
 }
 
 // A texel of a level with its coordinates.
@@ -105,12 +126,21 @@ bool patchLevel(const SurfaceLevelData& level, std::span<const Crossing> added, 
 
 }  // namespace
 
-Result<std::vector<LevelPatch>> patchLevels(const SurfaceData& data, std::span<const Crossing> added) {
+std::vector<uint32_t> texelsPassed(const SurfaceLevelData& level, std::span<const Crossing> crossings) {
+    std::vector<uint32_t> out;
+    for (const Hit& hit : hitsOf(level, crossings, 0))
+        if (out.empty() || out.back() != hit.texel) out.push_back(hit.texel);
+    return out;
+}
+
+Result<std::vector<LevelPatch>> patchLevels(const SurfaceData& data, std::span<const Crossing> added,
+                                            const TexelSets& buried) {
     std::vector<LevelPatch> patches(data.levels.size());
-    if (added.empty()) return patches;
+    if (added.empty() && buried.empty()) return patches;
     std::atomic<bool> fits = true;
     parallelFor(patches.size(), 1, [&](size_t l, size_t) {
         if (!patchLevel(data.levels[l], added, uint32_t(data.crossings.size()), patches[l])) fits = false;
+        if (l < buried.size() && !buried[l].empty()) bury(data.levels[l], buried[l], patches[l]);
     });
     if (!fits) return Failure(data.source, "more contacts with other surfaces than a level can list");
     return patches;

@@ -43,39 +43,28 @@ class BoxTree {
     const Box& bounds() const { return nodes_[0].box; }
 
     // fn(i, j), i of this tree and j of the other, once for each two whose boxes, grown by `grow`, touch when the
-    // other's are mapped by toThis. With itself: each pair once, pairs of one group left out.
+    // other's are mapped by toThis.
     template <class Fn>
     void pairs(const BoxTree& other, const glm::dmat4& toThis, double grow, Fn&& fn) const {
-        if (empty() || other.empty()) return;
-        const bool self = this == &other;
-        std::vector<std::pair<uint32_t, uint32_t>> stack{{0, 0}};
-        while (!stack.empty()) {
-            auto [a, b] = stack.back();
-            stack.pop_back();
-            const Node &n = nodes_[a], &m = other.nodes_[b];
-            if (self && n.group == m.group && n.group != kMixed) continue;
-            if (!n.box.grown(grow).touches(self ? m.box : m.box.mapped(toThis))) continue;
-            if (n.count > 0 && m.count > 0) {
-                for (uint32_t i = n.first; i < n.first + n.count; ++i)
-                    for (uint32_t j = a == b && self ? i + 1 : m.first; j < m.first + m.count; ++j) {
-                        const Box& there = other.boxes_[other.items_[j]];
-                        if (boxes_[items_[i]].grown(grow).touches(self ? there : there.mapped(toThis)))
-                            fn(items_[i], other.items_[j]);
-                    }
-            } else if (self && a == b) {
-                stack.insert(stack.end(), {{n.first, n.first}, {n.first, n.first + 1}, {n.first + 1, n.first + 1}});
-            } else if (m.count > 0 || (n.count == 0 && size(n) >= size(m))) {
-                stack.insert(stack.end(), {{n.first, b}, {n.first + 1, b}});
-            } else {
-                stack.insert(stack.end(), {{a, m.first}, {a, m.first + 1}});
-            }
-        }
+        findPairs(other, toThis, grow, false, fn);
+    }
+    // The same within this tree: each pair once, pairs of one group left out.
+    template <class Fn>
+    void pairs(double grow, Fn&& fn) const {
+        findPairs(*this, glm::dmat4(1), grow, true, fn);
     }
 
     // fn(i) for each whose box touches `box`.
     template <class Fn>
     void near(const Box& box, Fn&& fn) const {
         visit([&](const Box& b) { return b.touches(box); }, fn);
+    }
+
+    // Does one of the boxes touch `box`?
+    bool meets(const Box& box) const {
+        bool met = false;
+        visit([&](const Box& b) { return !met && b.touches(box); }, [&](uint32_t) { met = true; });
+        return met;
     }
 
     // The least of square(i), the squares of distances from `point`, asked only of those whose boxes are nearer than
@@ -117,6 +106,33 @@ class BoxTree {
     static double size(const Node& n) {
         glm::dvec3 d = n.box.high - n.box.low;
         return d.x + d.y + d.z;
+    }
+
+    template <class Fn>
+    void findPairs(const BoxTree& other, const glm::dmat4& toThis, double grow, bool self, Fn& fn) const {
+        if (empty() || other.empty()) return;
+        std::vector<std::pair<uint32_t, uint32_t>> stack{{0, 0}};
+        while (!stack.empty()) {
+            auto [a, b] = stack.back();
+            stack.pop_back();
+            const Node &n = nodes_[a], &m = other.nodes_[b];
+            if (self && n.group == m.group && n.group != kMixed) continue;
+            if (!n.box.grown(grow).touches(self ? m.box : m.box.mapped(toThis))) continue;
+            if (n.count > 0 && m.count > 0) {
+                for (uint32_t i = n.first; i < n.first + n.count; ++i)
+                    for (uint32_t j = a == b && self ? i + 1 : m.first; j < m.first + m.count; ++j) {
+                        const Box& there = other.boxes_[other.items_[j]];
+                        if (boxes_[items_[i]].grown(grow).touches(self ? there : there.mapped(toThis)))
+                            fn(items_[i], other.items_[j]);
+                    }
+            } else if (self && a == b) {
+                stack.insert(stack.end(), {{n.first, n.first}, {n.first, n.first + 1}, {n.first + 1, n.first + 1}});
+            } else if (m.count > 0 || (n.count == 0 && size(n) >= size(m))) {
+                stack.insert(stack.end(), {{n.first, b}, {n.first + 1, b}});
+            } else {
+                stack.insert(stack.end(), {{a, m.first}, {a, m.first + 1}});
+            }
+        }
     }
 
     void build(uint32_t begin, uint32_t end, const std::vector<uint32_t>& group) {

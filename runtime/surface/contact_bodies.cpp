@@ -118,6 +118,13 @@ void Bodies::buildSolids(const std::vector<Wall>& all) {
     solidTree_ = BoxTree(std::move(bounds), {});
 }
 
+bool Bodies::meets(const Box& box) const {
+    if (tree_.meets(box)) return true;
+    bool met = false;
+    solidTree_.near(box, [&](uint32_t i) { met = met || solids_[i].tree.meets(box); });
+    return met;
+}
+
 bool Bodies::touched(glm::dvec3 p, uint32_t body, double tolerance) const {
     Box around;
     around.add(p);
@@ -179,9 +186,9 @@ bool Bodies::covered(const HiddenQuery& q, double tolerance) const {
     return found;
 }
 
-bool Bodies::hide(const HiddenQuery& q, double tolerance) const {
+bool Bodies::hide(const HiddenQuery& q, double tolerance, bool crevices) const {
     if (tree_.empty()) return false;
-    return inside(q, 0.1 * tolerance) || inside(q, 1.5 * tolerance) || covered(q, tolerance);
+    return inside(q, 0.1 * tolerance) || (crevices && inside(q, 1.5 * tolerance)) || covered(q, tolerance);
 }
 
 }  // namespace espalier

@@ -25,10 +25,15 @@ class Bodies {
     // a wall. open: per half-edge the share of it that leads nowhere. The mesh must outlive this, unchanged.
     Bodies(ContactMesh& mesh, std::span<const float> open);
 
-    // Inside of a solid body other than its own, or covered by a face nearer than the tolerance (metres).
-    bool hide(const HiddenQuery& query, double tolerance) const;
+    // Inside of a solid body other than its own, covered by a face nearer than the tolerance (metres), or, if asked
+    // for, in a crevice below a body that is half as wide again.
+    bool hide(const HiddenQuery& query, double tolerance, bool crevices = true) const;
 
     const BoxTree& tree() const { return tree_; }  // over the mesh's triangles
+    // May a triangle, or what closes a hole of a solid body, meet the box?
+    bool meets(const Box& box) const;
+    // Is p inside of a solid body? Alike for all of a box that meets() nothing.
+    bool enclose(glm::dvec3 p) const { return inside({p, glm::dvec3(0)}, 0); }
 
   private:
     struct Wall {

@@ -122,6 +122,8 @@ ContactGround::ContactGround(const SurfaceData& data) {
         if ((c.flags & 3u) == kCrossingNearest) together.join(c.flags >> 16, c.target & 0xFFFFu);
     together.number(body);
     for (ContactMesh::Triangle& t : mesh_.triangles) t.shell = shell[t.chart], t.body = body[t.chart];
+    bodyOfChart_ = std::move(body);
+    for (const SurfaceLevelData& each : data.levels) tiles_.emplace_back(each);
     setReach(mesh_, texel_);
     std::vector<float> open(mesh_.twin.size());
     for (size_t h = 0; h < open.size(); ++h) open[h] = mesh_.twin[h] == kNoIndex ? 1.0f : 0.0f;
@@ -139,7 +141,7 @@ struct Search {
     dmat4 aToWorld;
 
     // Is a place on `own` hidden by a body, other than its own and `except` of the other one of the two?
-    bool hidden(bool ofA, dvec3 p, uint32_t triangle, uint32_t except) const {
+    bool hidden(bool ofA, dvec3 p, uint32_t triangle, uint32_t except, bool crevices) const {
         const PlacedGround &own = ofA ? a : b, &other = ofA ? b : a;
         const ContactMesh& mesh = own.ground->mesh();
         const uint32_t body = mesh.triangles[triangle].body;
@@ -149,7 +151,7 @@ struct Search {
         const dvec3 world(aToWorld * glm::dvec4(p, 1));
         const double reach = mesh.reachOf(triangle) * glm::length(dvec3(own.toWorld[0]));
         auto hides = [&](const PlacedGround& by, uint32_t ownBody, uint32_t exceptBody, bool yields) {
-            return hiddenBy(by, {world, normal, ownBody, exceptBody, mesh.solid[body] != 0, yields}, reach);
+            return hiddenBy(by, {world, normal, ownBody, exceptBody, mesh.solid[body] != 0, yields}, reach, crevices);
         };
         if (own.ground->bodyCount() > 1 && hides(own, body, kNoIndex, false)) return true;
         if (other.ground->bodyCount() > 1 && hides(other, kNoIndex, except, ofA)) return true;
@@ -163,9 +165,13 @@ struct Search {
         const uint32_t fromBody = from.triangles[c.from].body, toBody = to.triangles[c.to].body;
         const size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / (kPart * tolerance)), size_t(1), kMostParts);
         // The sides are up to a reach apart: asked from either, so that both directions get one answer.
+        // What comes down a wedge isn't left at its narrow end: crevices hide texels, but no way.
         auto alike = [&](dvec3 p) {
-            return hidden(!fromA, p + c.onward * (kAside * tolerance), c.to, fromBody) ==
-                   hidden(fromA, p + c.back * (kAside * tolerance), c.from, toBody);
+            const dvec3 there = p + c.onward * (kAside * tolerance), here = p + c.back * (kAside * tolerance);
+            const auto same = [&](bool crevices) {
+                return hidden(!fromA, there, c.to, fromBody, crevices) == hidden(fromA, here, c.from, toBody, crevices);
+            };
+            return same(true) || same(false);
         };
         auto leads = [&](size_t k) {
             const double t = (double(k) + 0.5) / double(parts);
@@ -203,11 +209,11 @@ struct Search {
 
 }  // namespace
 
-bool hiddenBy(const PlacedGround& by, HiddenQuery query, double tolerance) {
+bool hiddenBy(const PlacedGround& by, HiddenQuery query, double tolerance, bool crevices) {
     const dmat4 back = glm::inverse(by.toWorld);
     query.position = dvec3(back * glm::dvec4(query.position, 1));
     query.normal = glm::normalize(glm::dmat3(back) * query.normal);
-    return by.ground->bodies().hide(query, tolerance * glm::length(dvec3(back[0])));
+    return by.ground->bodies().hide(query, tolerance * glm::length(dvec3(back[0])), crevices);
 }
 
 PlacedContacts contactsOf(const PlacedGround& a, const PlacedGround& b, std::span<const PlacedGround> others) {

@@ -6,6 +6,7 @@
 
 #include "runtime/surface/contact_bodies.hpp"
 #include "runtime/surface/surface.hpp"
+#include "runtime/surface/tile_boxes.hpp"
 
 namespace espalier {
 
@@ -13,8 +14,8 @@ namespace espalier {
 // and to a small part of a texel in UV.
 class ContactGround {
   public:
-    // Reads vertices, indices, charts, crossings and the finest level; triangles without a place in the walk's UVs are
-    // left out. `data` isn't needed after.
+    // Reads vertices, indices, charts, crossings and texels; triangles without a place in the walk's UVs are left out.
+    // `data` isn't needed after.
     explicit ContactGround(const SurfaceData& data);
     ContactGround(const ContactGround&) = delete;
 
@@ -23,11 +24,15 @@ class ContactGround {
     uint32_t bodyCount() const { return uint32_t(mesh_.solid.size()); }
     double texel() const { return texel_; }  // metres, object space: of the finest level
     double texelUv() const { return texelUv_; }
+    const TileBoxes& tiles(size_t level) const { return tiles_[level]; }
+    bool solidChart(uint32_t chart) const { return mesh_.solid[bodyOfChart_[chart]] != 0; }
 
   private:
     ContactMesh mesh_;
     Bodies bodies_;
     double texel_ = 0, texelUv_ = 0;
+    std::vector<uint32_t> bodyOfChart_;
+    std::vector<TileBoxes> tiles_;  // per level
 };
 
 struct PlacedGround {
@@ -43,7 +48,7 @@ struct PlacedContacts {
 PlacedContacts contactsOf(const PlacedGround& a, const PlacedGround& b, std::span<const PlacedGround> others);
 
 // Is a place of another surface within a solid body of this one, or beneath a face that lies on it? All in world space;
-// query.body: kNoIndex. tolerance: metres, a texel of the place's own surface.
-bool hiddenBy(const PlacedGround& by, HiddenQuery query, double tolerance);
+// query.body: kNoIndex. tolerance: metres, a texel of the place's own surface. crevices: as for Bodies::hide.
+bool hiddenBy(const PlacedGround& by, HiddenQuery query, double tolerance, bool crevices = true);
 
 }  // namespace espalier

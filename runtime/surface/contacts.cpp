@@ -412,7 +412,7 @@ void setReach(ContactMesh& mesh, double tolerance) {
 std::vector<Contact> contactsWithin(const ContactMesh& mesh, const BoxTree& tree, const ContactOptions& options) {
     View view{mesh, dmat4(1), true, options.borderShift};
     std::vector<Found> found;
-    tree.pairs(tree, dmat4(1), options.tolerance, [&](uint32_t i, uint32_t j) {
+    tree.pairs(options.tolerance, [&](uint32_t i, uint32_t j) {
         if (mesh.triangles[i].shell == mesh.triangles[j].shell) return;
         if (mesh.triangles[i].shell > mesh.triangles[j].shell)
             std::swap(i, j);  // one order for all pairs of two shells

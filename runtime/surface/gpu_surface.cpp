@@ -160,8 +160,9 @@ Status GpuSurface::readBack(Device& device, SurfaceData& out) const {
     return read(out.crossings, ref_.crossings, ref_.crossingCount);
 }
 
-Status GpuSurface::addCrossings(Device& device, const SurfaceData& base, std::span<const Crossing> added) {
-    Result<std::vector<LevelPatch>> patches = patchLevels(base, added);
+Status GpuSurface::addCrossings(Device& device, const SurfaceData& base, std::span<const Crossing> added,
+                                const TexelSets& buried) {
+    Result<std::vector<LevelPatch>> patches = patchLevels(base, added, buried);
     if (!patches) return patches.failure();
     SurfaceRef listed = ref_;
     Buffer lists;

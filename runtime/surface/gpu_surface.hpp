@@ -22,9 +22,11 @@ class GpuSurface {
 
     // What was uploaded of levels (without aux) and crossings; waits for the GPU.
     Status readBack(Device& device, SurfaceData& out) const;
-    // Adds crossings to those of the file in place of the ones added before; none: as it was loaded. `base`: what
-    // readBack gave. Records refer to them after the next ref(). On failure all is as before.
-    Status addCrossings(Device& device, const SurfaceData& base, std::span<const Crossing> added);
+    // Adds crossings to those of the file in place of the ones added before, and buries texels in place of those
+    // before; none: as it was loaded. `base`: what readBack gave. Records refer to them after the next ref(). On
+    // failure all is as before.
+    Status addCrossings(Device& device, const SurfaceData& base, std::span<const Crossing> added,
+                        const TexelSets& buried = {});
 
     uint64_t hash() const { return hash_; }
     uint64_t sizeBytes() const { return data_.size() + lists_.size(); }

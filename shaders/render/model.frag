@@ -22,6 +22,13 @@ uint walkTexel(uint size) {
     return texelIndex(size, at.x, at.y);
 }
 
+// Darkens what is no ground: within a chart only texels that others bury are links without a list.
+vec3 withBuried(vec3 shown, SurfaceLevel level) {
+    uint at = walkTexel(level.size);
+    bool buried = texelClass(level.texels.v[at].bits) == kTexelLink && (level.crossingHead.v[at] & 255u) == 0u;
+    return buried ? shown * 0.3 : shown;
+}
+
 vec4 otherView(vec3 n) {
     uint view = frame.view;
     if (view == kViewNormals) return stored(n * 0.5 + 0.5, 0.0);
@@ -35,6 +42,7 @@ vec4 otherView(vec3 n) {
         // Where links pass; and, on coarse levels, which texel is which.
         if ((level.crossingHead.v[at] & 255u) != 0u) shown = mix(shown, vec3(1.0), 0.6);
         if (frame.layer > 0u && ((at ^ (at >> 3u)) & 1u) != 0u) shown *= 0.8;
+        shown = withBuried(shown, level);
     } else if (push.surface != kNoIndex && view == kViewLayer) {
         LayerRef layer = frame.layers.v[push.surface * kMaxLayers + frame.layer];
         float x = layer.fill;
@@ -42,7 +50,7 @@ vec4 otherView(vec3 n) {
             uvec2 at = min(uvec2(clamp(uvs.zw, 0.0, 1.0) * float(layer.size)), uvec2(layer.size - 1u));
             x = layer.texels.v[texelIndex(layer.size, at.x, at.y)];
         }
-        shown = layerColor(x);
+        shown = withBuried(layerColor(x), frame.surfaces.v[push.surface].levels[0]);
     }
     return diagnostic(shown, n);
 }

@@ -174,6 +174,10 @@ uint32_t Oracle::pieceAt(Vec3 p) const {
     return triangles_[size_t(nearest - sight_->shapes.cbegin())].piece;
 }
 
+double Oracle::toSurface(Vec3 p) const {
+    return std::sqrt(sight_->tree.squared_distance({p.x, p.y, p.z}));
+}
+
 double Oracle::toBorder(Vec3 p, double within) const {
     double best = 1e300;
     for (size_t i = 0; i < borders_.size(); ++i) {

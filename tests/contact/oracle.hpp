@@ -37,6 +37,7 @@ class Oracle {
     // The distance to the nearest place on an edge of one triangle alone that nothing of another piece touches; those
     // that are farther than `within` aren't looked at.
     double toBorder(Vec3 p, double within) const;
+    double toSurface(Vec3 p) const;  // the distance to the nearest triangle
     double radius() const { return radius_; }
 
   private:

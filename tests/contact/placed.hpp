@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "runtime/surface/added_crossings.hpp"
-#include "runtime/surface/contact_ground.hpp"
+#include "runtime/surface/burial.hpp"
 #include "runtime/surface/gpu_surface.hpp"
 #include "shaders/shared/walk.h"
 #include "tools/bake/bake.hpp"
@@ -45,15 +45,19 @@ class World {
     }
     void place(uint32_t instance, const glm::mat4& toWorld) { all_[instance]->toWorld = toWorld; }
 
-    // Finds all contacts and gives them to the surfaces.
-    void join() {
+    // Finds all contacts and what is buried, and gives them to the surfaces.
+    // crossings: false for what is buried alone.
+    void join(bool crossings = true) {
         std::vector<std::vector<Crossing>> added(all_.size());
+        std::vector<TexelSets> hidden(all_.size());
         for (uint32_t i = 0; i < all_.size(); ++i)
             for (uint32_t j = i + 1; j < all_.size(); ++j) {
                 std::vector<PlacedGround> others;
                 for (uint32_t k = 0; k < all_.size(); ++k)
                     if (k != i && k != j) others.push_back(placed(k));
                 PlacedContacts found = contactsOf(placed(i), placed(j), others);
+                addTo(hidden[i], hiddenTexels(baked(i), placed(i), placed(j), found.fromA, true));
+                addTo(hidden[j], hiddenTexels(baked(j), placed(j), placed(i), found.fromB, false));
                 for (Crossing& c : found.fromA) c.target = j << 16 | (c.target & 0xFFFFu), added[i].push_back(c);
                 for (Crossing& c : found.fromB) c.target = i << 16 | (c.target & 0xFFFFu), added[j].push_back(c);
             }
@@ -61,7 +65,9 @@ class World {
         for (uint32_t i = 0; i < all_.size(); ++i) {
             One& one = *all_[i];
             one.joined = one.baked;
-            auto patches = patchLevels(one.baked, added[i]);
+            const TexelSets buried = buriedTexels(one.baked, hidden[i], added[i]);
+            if (!crossings) added[i].clear();
+            auto patches = patchLevels(one.baked, added[i], buried);
             REQUIRE(patches);
             for (size_t l = 0; l < patches->size(); ++l) applyPatch((*patches)[l], one.joined.levels[l]);
             one.joined.crossings.insert(one.joined.crossings.end(), added[i].begin(), added[i].end());
@@ -73,10 +79,14 @@ class World {
     const SurfaceData& baked(uint32_t i) const { return all_[i]->baked; }
     const SurfaceData& joined(uint32_t i) const { return all_[i]->joined; }
     glm::mat4 toWorld(uint32_t i) const { return all_[i]->toWorld; }
+    double texel(uint32_t i) const {  // metres in the world, of the finest level
+        return all_[i]->ground->texel() * glm::length(glm::dvec3(toWorld(i)[0]));
+    }
     SurfaceBuf table() { return {refs_.data()}; }
 
-    // On the inner texel whose point is nearest to `at`. position, direction: world.
-    bool start(WalkState& w, uint32_t instance, glm::vec3 at, glm::vec3 direction, uint32_t level = 0) {
+    // On the texel of that kind whose point is nearest to `at`. position, direction: world.
+    bool start(WalkState& w, uint32_t instance, glm::vec3 at, glm::vec3 direction, uint32_t level = 0,
+               uint32_t kind = kTexelInner) {
         const SurfaceLevelData& finest = all_[instance]->joined.levels[0];
         const glm::mat4 back = glm::inverse(toWorld(instance));
         const glm::vec3 local(back * glm::vec4(at, 1));
@@ -87,7 +97,7 @@ class World {
             for (uint32_t x = 0; x < finest.size; ++x) {
                 const Texel& t = finest.texels[texelIndex(finest.size, x, y)];
                 const float d = glm::length(t.position - local);
-                if (texelClass(t.bits) != kTexelInner || d >= least) continue;
+                if (texelClass(t.bits) != kind || d >= least) continue;
                 least = d, chart = texelChart(t.bits);
                 uv = (glm::vec2(float(x), float(y)) + 0.5f) / float(finest.size);
             }

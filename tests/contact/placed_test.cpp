@@ -62,10 +62,12 @@ uint32_t go(World& world, WalkState& w, float length, glm::vec3* outside = nullp
     return event;
 }
 
-Model together(const World& world, const std::vector<Model>& models) {
+// In the world: all, or one alone.
+Model together(const World& world, const std::vector<Model>& models, uint32_t only = kNoIndex) {
     Model all;
     all.name = "all";
     for (uint32_t i = 0; i < models.size(); ++i) {
+        if (only != kNoIndex && i != only) continue;
         const uint32_t base = uint32_t(all.positions.size());
         for (glm::vec3 p : models[i].positions) all.positions.push_back(glm::vec3(world.toWorld(i) * glm::vec4(p, 1)));
         for (uint32_t v : models[i].indices) all.indices.push_back(base + v);
@@ -184,6 +186,118 @@ TEST_CASE("contacts between placed surfaces are where their triangles intersect"
     CHECK(wrong == 0);
 }
 
+TEST_CASE("ground within a closed body that stands on it is buried until that has moved away, and no more than that") {
+    // Terrain whose hills a wall stands in, askew, and a pillar that runs into the wall.
+    const std::vector<Model> models = {terrain(24), block({0.9, 0.6, 0.15}), block({0.3, 0.8, 0.3})};
+    World world;
+    for (const Model& model : models) world.add(throughFile(model, 512), glm::mat4(1));
+    for (const glm::vec3 at : {glm::vec3(0.4f, 0.3f, 0.2f), glm::vec3(-1.2f, 0.1f, 0.9f)}) {
+        world.place(1, standing(at, 0.5f));
+        world.place(2, standing(at + glm::vec3(0.7f, -0.1f, -0.5f), 0.2f));
+        world.join();
+        for (uint32_t instance : {0u, 1u, 2u})
+            for (uint32_t l : {0u, 1u}) {
+                CAPTURE(instance);
+                CAPTURE(l);
+                std::vector<Oracle> judges;
+                for (uint32_t k : {1u, 2u})
+                    if (k != instance) judges.emplace_back(together(world, models, k));
+                const SurfaceLevelData &level = world.joined(instance).levels[l],
+                                       &baked = world.baked(instance).levels[l];
+                const double texel = world.texel(instance) * double(1u << l);
+                int within = 0, missed = 0, wrong = 0, altered = 0;
+                for (uint32_t i = 0; i < level.texels.size(); ++i) {
+                    if (texelClass(baked.texels[i].bits) != kTexelInner) continue;
+                    const bool buried = texelClass(level.texels[i].bits) == kTexelLink;
+                    altered += !buried && texelClass(level.texels[i].bits) != kTexelInner;
+                    const dvec3 p(glm::vec3(world.toWorld(instance) * glm::vec4(baked.texels[i].position, 1)));
+                    // A texel or two beside a contact are left as they are.
+                    double depth = -1e300;
+                    for (const Oracle& judge : judges)
+                        depth = std::max(depth, judge.toSurface(p) * (judge.winding(p) > 0.5 ? 1 : -1));
+                    within += depth > 2 * texel;
+                    missed += depth > 2 * texel && !buried;
+                    wrong += depth < -1e-3 * texel && buried;
+                }
+                MESSAGE("instance " << instance << ", level " << l << ": " << within << " texels are within");
+                CHECK(within > 50);
+                CHECK(missed == 0);
+                CHECK(wrong == 0);
+                CHECK(altered == 0);
+            }
+        // What walks all the same: none gets farther under a wall than to the contact.
+        std::mt19937_64 random(3);
+        std::uniform_real_distribution<float> unit(-1, 1);
+        const Oracle wall(together(world, models, 1)), pillar(together(world, models, 2));
+        int inside = 0, lost = 0;
+        for (int i = 0; i < 300; ++i) {
+            const glm::vec3 from(2.8f * unit(random), 0, 2.8f * unit(random));
+            if (wall.winding(dvec3(from)) > 0.5 || pillar.winding(dvec3(from)) > 0.5) continue;
+            WalkState w{};
+            if (!world.start(w, 0, from, {unit(random), 0, unit(random)})) continue;
+            uint32_t event = kWalkDone;
+            for (int step = 0; step < 60 && event == kWalkDone; ++step) {
+                event = go(world, w, 0.05f);
+                const dvec3 p(world.positionOf(w));
+                for (const Oracle* judge : {&wall, &pillar})
+                    inside += judge->winding(p) > 0.5 && judge->toSurface(p) > 2 * world.texel(0);
+            }
+            lost += event == kWalkLost;
+        }
+        CHECK(inside == 0);
+        CHECK(lost == 0);
+    }
+    world.place(1, standing({0, 9, 0}, 0.5f));
+    world.place(2, standing({0, -9, 0}, 0.5f));
+    world.join();
+    for (uint32_t i : {0u, 1u, 2u}) CHECK(walkHash(world.joined(i)) == world.baked(i).hash);
+}
+
+TEST_CASE("a walk that gets past a contact finds no ground beyond") {
+    World world;
+    world.add(throughFile(plate(2), 512), glm::mat4(1));
+    world.add(throughFile(block({0.5, 0.5, 0.4}), 256), standing({0, 0.3f, 0}, 0.4f));
+    world.join(false);
+    WalkState w{};
+    REQUIRE(world.start(w, 0, {0.1f, 0, 1.2f}, {0, 0, -1}));
+    CHECK(go(world, w, 1.5f) == kWalkLost);
+    const double z = 0.4 / std::cos(0.4) - 0.1 * std::tan(0.4);  // of the wall, at x = 0.1
+    CHECK(world.positionOf(w).z > z - 4 * world.texel(0));
+    // Nor does one that begins there go anywhere.
+    if (world.start(w, 0, {0, 0, 0}, {0, 0, -1}, 0, kTexelLink)) CHECK(go(world, w, 0.2f) == kWalkLost);
+}
+
+TEST_CASE("ground that a door leads to is not buried, ground behind a closed one is") {
+    // A house without a floor; its front is open from x = -door to door.
+    const auto house = [](double door) {
+        test::Kit kit;
+        const dvec3 up(0, 1, 0), z(0, 0, 1);
+        const auto wall = [&](dvec3 from, dvec3 to) { kit.panel(from, to - from, up * 0.8); };
+        wall({-0.6, 0, -0.5}, {-0.6, 0, 0.5});
+        wall({0.6, 0, 0.5}, {0.6, 0, -0.5});
+        wall({0.6, 0, -0.5}, {-0.6, 0, -0.5});
+        if (door > 0) wall({-0.6, 0, 0.5}, {-door, 0, 0.5}), wall({door, 0, 0.5}, {0.6, 0, 0.5});
+        if (door > 0) kit.panel({-door, 0.5, 0.5}, {2 * door, 0, 0}, up * 0.3);
+        if (door == 0) wall({-0.6, 0, 0.5}, {0.6, 0, 0.5});
+        kit.panel({-0.6, 0.8, 0.5}, {1.2, 0, 0}, -z);
+        return kit.model();
+    };
+    for (double door : {0.0, 0.2}) {
+        CAPTURE(door);
+        World world;
+        world.add(throughFile(plate(2), 512), glm::mat4(1));
+        world.add(throughFile(house(door), 256), standing({0, -0.1f, 0}, 0.3f));
+        world.join();
+        const SurfaceLevelData &level = world.joined(0).levels[0], &baked = world.baked(0).levels[0];
+        int buried = 0;
+        for (uint32_t i = 0; i < level.texels.size(); ++i)
+            buried += texelClass(level.texels[i].bits) == kTexelLink && texelClass(baked.texels[i].bits) == kTexelInner;
+        const double within = 1.2 * 1.0 / (world.texel(0) * world.texel(0));
+        MESSAGE(buried << " of " << within << " texels are buried");
+        CHECK((door > 0 ? buried == 0 : buried > 0.93 * within && buried < within));
+    }
+}
+
 TEST_CASE("lists and clearances tell of added crossings") {
     World world;
     world.add(throughFile(terrain(12), 256), glm::mat4(1));
@@ -204,7 +318,8 @@ TEST_CASE("lists and clearances tell of added crossings") {
                 for (int x = 0; x < size; ++x) {
                     const uint32_t at = texelIndex(level.size, uint32_t(x), uint32_t(y));
                     const uint32_t bits = level.texels[at].bits, was = baked.texels[at].bits;
-                    lost += (bits ^ was) & ~(31u << 19) ? 1 : 0;
+                    const bool buried = texelClass(bits) == kTexelLink && texelClass(was) == kTexelInner;
+                    lost += (bits ^ was) & ~(31u << 19 | (buried ? 3u << 16 : 0u)) ? 1 : 0;
                     int nearest = 64;
                     for (glm::ivec2 p : listing)
                         nearest = std::min(nearest, std::max(std::abs(p.x - x), std::abs(p.y - y)));

@@ -28,7 +28,7 @@ class Contacts {
                   SurfaceLevelData& level) const;
 
   private:
-    bool hidden(glm::dvec3 p, uint32_t triangle, uint32_t exceptBody) const;
+    bool hidden(glm::dvec3 p, uint32_t triangle, uint32_t exceptBody, bool crevices = true) const;
     void dropHidden();
 
     ContactMesh mesh_;

@@ -17,11 +17,11 @@ constexpr size_t kMostParts = 32;      // that a contact is judged in
 
 }  // namespace
 
-bool Contacts::hidden(glm::dvec3 p, uint32_t t, uint32_t exceptBody) const {
+bool Contacts::hidden(glm::dvec3 p, uint32_t t, uint32_t exceptBody, bool crevices) const {
     glm::dvec3 a = mesh_.at(t, 0), n = glm::cross(mesh_.at(t, 1) - a, mesh_.at(t, 2) - a);
     uint32_t body = mesh_.triangles[t].body;
     // What isn't near enough to be joined hides nothing either: the sides of a groove between boards are ground.
-    return bodies_.hide({p, n / glm::length(n), body, exceptBody, mesh_.solid[body] != 0}, mesh_.reachOf(t));
+    return bodies_.hide({p, n / glm::length(n), body, exceptBody, mesh_.solid[body] != 0}, mesh_.reachOf(t), crevices);
 }
 
 // Where three pieces meet, a contact of two may lead from what is seen to what the third one hides, and back; another
@@ -34,9 +34,11 @@ void Contacts::dropHidden() {
             uint32_t fromBody = mesh_.triangles[c.from].body, toBody = mesh_.triangles[c.to].body;
             size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / tolerance_), size_t(1), kMostParts);
             // The sides are up to a reach apart: asked from either, so that both directions get one answer.
+            // What comes down a wedge isn't left at its narrow end: crevices hide texels, but no way.
             auto alike = [&](glm::dvec3 p) {
-                return hidden(p + c.onward * (0.3 * tolerance_), c.to, fromBody) ==
-                       hidden(p + c.back * (0.3 * tolerance_), c.from, toBody);
+                const glm::dvec3 there = p + c.onward * (0.3 * tolerance_), here = p + c.back * (0.3 * tolerance_);
+                return hidden(there, c.to, fromBody) == hidden(here, c.from, toBody) ||
+                       hidden(there, c.to, fromBody, false) == hidden(here, c.from, toBody, false);
             };
             auto leads = [&](size_t k) {
                 const double t = (double(k) + 0.5) / double(parts);

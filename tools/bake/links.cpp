@@ -59,7 +59,7 @@ std::vector<Neighbours> findNeighbours(const std::vector<Border>& borders, doubl
     for (size_t i = 0; i < boxes.size(); ++i) boxes[i].add(borders[i].a), boxes[i].add(borders[i].b);
     BoxTree tree(std::move(boxes), {});
     std::vector<Neighbours> found;
-    tree.pairs(tree, glm::dmat4(1), tolerance, [&](uint32_t i, uint32_t j) {
+    tree.pairs(tolerance, [&](uint32_t i, uint32_t j) {
         uint32_t e = std::min(i, j), f = std::max(i, j);
         if (borders[f].half / 3 == borders[e].half / 3) return;
         Neighbours pair{0, e, f, 0, 0};
