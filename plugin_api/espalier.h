@@ -104,7 +104,8 @@ typedef struct EspSurfaceInfo {
 } EspSurfaceInfo;
 
 /* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from
- * one to the other; a seed that lies within another surface's solid body waits until one of them is elsewhere. */
+ * one to the other. What lies within another surface's solid body is no ground until one of them is elsewhere: nothing
+ * grows there, and seeds there wait. */
 ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
 /* Likewise, of ground that something else draws, such as the walls of a town's houses: of it only ESP_VIEW_CHARTS and
  * ESP_VIEW_LAYER show anything, and it casts no shadow. */
@@ -134,7 +135,7 @@ ESP_API EspResult espNearest(const EspContext* context, const float point[3], Es
 typedef enum EspTexelKind {
     ESP_TEXEL_EMPTY = 0,
     ESP_TEXEL_INNER = 1,         /* its centre lies in a chart */
-    ESP_TEXEL_LINK = 2,          /* beside a border that goes on somewhere */
+    ESP_TEXEL_LINK = 2,          /* beside a border that goes on somewhere; or buried, by the model or another surface */
     ESP_TEXEL_OPEN = 3           /* beside a border of the model itself */
 } EspTexelKind;
 /* A level of the surface, 0 the finest: size rows of size words, the first row at v = 0. Bits 15..0: the chart, 17..16:

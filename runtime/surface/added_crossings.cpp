@@ -1,9 +1,10 @@
 // In: a surface as it was baked, and crossings to be added. Out: what changes of its levels: lists of crossings, and
-// clearances by a chessboard distance that spreads from the texels that list new ones, ring by ring.
+// clearances by the chessboard distance to the texels that list new ones.
 #include "runtime/surface/added_crossings.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 
 #include "runtime/core/jobs.hpp"
 #include "runtime/surface/grid_segment.hpp"
@@ -60,68 +61,74 @@ void bury(const SurfaceLevelData& level, const std::vector<uint32_t>& buried, Le
     patch = std::move(all);
 }
 
-// A texel of a level with its coordinates.
-struct Spot {
-    uint32_t index, x, y;
-};
-Spot spotOf(uint32_t size, uint32_t index) {
-    const uint32_t tile = index >> 6, tiles = size >> 3;
-    return {index, (tile % tiles) * 8 + (index & 7u), (tile / tiles) * 8 + (index >> 3 & 7u)};
+// The chessboard distance of each texel to the nearest hit, row by row, up to kFar: a way leads along the hit's row,
+// then aslant or straight from row to row.
+constexpr uint8_t kFar = kMaxClearance + 2;
+std::vector<uint8_t> distances(uint32_t size, const std::vector<Hit>& hits) {
+    std::vector<uint8_t> out(size_t(size) * size, kFar), reached(size, 0);
+    for (const Hit& hit : hits) {
+        const uint32_t tile = hit.texel >> 6, tiles = size >> 3;
+        const uint32_t x = tile % tiles * 8 + (hit.texel & 7u), y = tile / tiles * 8 + (hit.texel >> 3 & 7u);
+        out[size_t(y) * size + x] = 0, reached[y] = 1;
+    }
+    for (uint32_t y = 0; y < size; ++y) {
+        uint8_t* row = &out[size_t(y) * size];
+        if (!reached[y]) continue;
+        for (uint32_t x = 1; x < size; ++x) row[x] = std::min<uint8_t>(row[x], row[x - 1] + 1);
+        for (uint32_t x = size - 1; x-- > 0;) row[x] = std::min<uint8_t>(row[x], row[x + 1] + 1);
+    }
+    const auto spread = [&](const uint8_t* from, uint8_t* to) {
+        to[0] = std::min<uint8_t>(to[0], std::min(from[0], from[1]) + 1);
+        for (uint32_t x = 1; x + 1 < size; ++x)
+            to[x] = std::min<uint8_t>(to[x], std::min(std::min(from[x - 1], from[x]), from[x + 1]) + 1);
+        to[size - 1] = std::min<uint8_t>(to[size - 1], std::min(from[size - 2], from[size - 1]) + 1);
+    };
+    for (uint32_t y = 1; y < size; ++y) spread(&out[size_t(y - 1) * size], &out[size_t(y) * size]);
+    for (uint32_t y = size - 1; y-- > 0;) spread(&out[size_t(y + 1) * size], &out[size_t(y) * size]);
+    return out;
 }
 
-// All texels nearer than 33 to one of the hits, with their distance, in ascending order.
-struct Near {
-    uint32_t texel, distance;
-    bool operator<(const Near& other) const { return texel < other.texel; }
-};
-std::vector<Near> surroundings(uint32_t size, const std::vector<Hit>& hits) {
-    std::vector<uint8_t> seen(size_t(size) * size, 0);
-    std::vector<Near> out;
-    std::vector<Spot> ring, next;
-    auto visit = [&](uint32_t index, uint32_t distance, std::vector<Spot>& into) {
-        if (seen[index]) return;
-        seen[index] = 1;
-        out.push_back({index, distance});
-        into.push_back(spotOf(size, index));
-    };
-    for (const Hit& hit : hits) visit(hit.texel, 0, ring);
-    for (uint32_t distance = 1; distance <= kMaxClearance + 1 && !ring.empty(); ++distance) {
-        next.clear();
-        for (const Spot& s : ring)
-            for (uint32_t y = s.y > 0 ? s.y - 1 : 0; y <= std::min(s.y + 1, size - 1); ++y)
-                for (uint32_t x = s.x > 0 ? s.x - 1 : 0; x <= std::min(s.x + 1, size - 1); ++x)
-                    visit(texelIndex(size, x, y), distance, next);
-        ring.swap(next);
-    }
-    std::sort(out.begin(), out.end());
-    return out;
+// Calls fn(texel, distance) for all that are nearer than kFar, in ascending order.
+template <class Fn>
+void forNear(uint32_t size, const std::vector<uint8_t>& distance, Fn&& fn) {
+    constexpr uint64_t kNone = kFar * 0x0101010101010101ull;
+    for (uint32_t tile = 0; tile < (size >> 3) * (size >> 3); ++tile)
+        for (uint32_t v = 0; v < 8; ++v) {
+            const uint32_t y = tile / (size >> 3) * 8 + v, x = tile % (size >> 3) * 8;
+            uint64_t eight;
+            std::memcpy(&eight, &distance[size_t(y) * size + x], 8);
+            for (uint32_t u = 0; eight != kNone && u < 8; ++u)
+                if (const uint8_t d = distance[size_t(y) * size + x + u]; d < kFar) fn(tile << 6 | v << 3 | u, d);
+        }
 }
 
 // False: the level lists more than it can.
 bool patchLevel(const SurfaceLevelData& level, std::span<const Crossing> added, uint32_t first, LevelPatch& patch) {
     const std::vector<Hit> hits = hitsOf(level, added, first);
+    if (hits.empty()) return true;
     size_t i = 0;
-    for (const Near& near : surroundings(level.size, hits)) {
-        uint32_t bits = level.texels[near.texel].bits, head = level.crossingHead[near.texel];
-        const uint32_t clearance = near.distance > 1 ? near.distance - 1 : 0;
-        if (near.distance > 0 && clearance >= texelClearance(bits)) continue;
+    bool fits = true;
+    forNear(level.size, distances(level.size, hits), [&](uint32_t texel, uint32_t distance) {
+        uint32_t bits = level.texels[texel].bits, head = level.crossingHead[texel];
+        const uint32_t clearance = distance > 1 ? distance - 1 : 0;
+        if (distance > 0 && clearance >= texelClearance(bits)) return;
         bits &= ~(kMaxClearance << kClearanceShift);
         bits |= clearance << kClearanceShift;
-        if (near.distance == 0) {
+        if (distance == 0) {
             const size_t start = level.crossingRefs.size() + patch.added.size();
             const auto old = level.crossingRefs.begin() + (head >> 8);
             patch.added.insert(patch.added.end(), old, old + (head & 255u));
             uint32_t count = head & 255u;
-            for (; i < hits.size() && hits[i].texel == near.texel; ++i)
+            for (; i < hits.size() && hits[i].texel == texel; ++i)
                 if (count < kMostListed) patch.added.push_back(hits[i].crossing), ++count;
-            if (start + count >= kMostRefs) return false;
+            fits = fits && start + count < kMostRefs;
             head = uint32_t(start) << 8 | count;
         }
-        patch.texels.push_back(near.texel);
+        patch.texels.push_back(texel);
         patch.bits.push_back(bits);
         patch.heads.push_back(head);
-    }
-    return true;
+    });
+    return fits;
 }
 
 }  // namespace

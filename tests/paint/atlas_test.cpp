@@ -1,4 +1,6 @@
 // What inside views read of a surface: texels as the file has them, links that lead where the mesh goes on.
+#include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <set>
 
@@ -55,6 +57,38 @@ TEST_CASE("the atlas of every level is read back as it was baked") {
     CHECK(espReadAtlas(painting.context, painting.surface, info.levels, nullptr, &small) == ESP_INVALID_ARGUMENT);
     CHECK(espReadAtlas(painting.context, painting.surface, 0, &texel, &small) == ESP_INVALID_ARGUMENT);
     CHECK(espReadAtlas(painting.context, {77}, 0, nullptr, &small) == ESP_INVALID_ARGUMENT);
+}
+
+TEST_CASE("what another surface buries is no ground in the atlas until that has moved away") {
+    const Painting painting;
+    EspTransform over = espIdentity(), away = espIdentity();
+    over.rows[0][3] = 1.5f, over.rows[1][3] = over.rows[2][3] = .3f;  // from (.5, -.7, -.7) on
+    away.rows[0][3] = 5;
+    EspSurface second{};
+    painting.ok(espLoadSurface(painting.context, painting.path.c_str(), &over, &second));
+    for (bool covered : {true, false, true}) {
+        painting.ok(espMoveSurface(painting.context, second, covered ? &over : &away));
+        painting.ok(espUpdate(painting.context));
+        for (uint32_t level : {0u, 1u}) {
+            const SurfaceLevelData& baked = painting.data.levels[level];
+            uint32_t side = baked.size, within = 0, unlike = 0;
+            std::vector<uint32_t> texels(size_t(side) * side);
+            painting.ok(espReadAtlas(painting.context, painting.surface, level, texels.data(), &side));
+            const float texel = 12.f / float(side);  // metres: two and more
+            for (uint32_t y = 0; y < side; ++y)
+                for (uint32_t x = 0; x < side; ++x) {
+                    const Texel& t = baked.texels[texelIndex(side, x, y)];
+                    if (texelClass(t.bits) != kTexelInner) continue;
+                    const glm::vec3 in = t.position - glm::vec3(.5f, -.7f, -.7f);
+                    const float depth = std::min({in.x, in.y, in.z});
+                    const bool shown = (texels[size_t(y) * side + x] >> 16 & 3u) != ESP_TEXEL_INNER;
+                    within += depth > texel;
+                    if (std::abs(depth) > texel || !covered) unlike += shown != (covered && depth > 0);
+                }
+            CHECK(within > 100);
+            CHECK(unlike == 0);
+        }
+    }
 }
 
 TEST_CASE("links lead to the same place of the model, and every face of a cube to four others") {
