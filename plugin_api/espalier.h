@@ -135,7 +135,7 @@ ESP_API EspResult espNearest(const EspContext* context, const float point[3], Es
 typedef enum EspTexelKind {
     ESP_TEXEL_EMPTY = 0,
     ESP_TEXEL_INNER = 1,         /* its centre lies in a chart */
-    ESP_TEXEL_LINK = 2,          /* beside a border that goes on somewhere; or buried, by the model or another surface */
+    ESP_TEXEL_LINK = 2,          /* beside a border that goes on somewhere; or buried */
     ESP_TEXEL_OPEN = 3           /* beside a border of the model itself */
 } EspTexelKind;
 /* A level of the surface, 0 the finest: size rows of size words, the first row at v = 0. Bits 15..0: the chart, 17..16:
