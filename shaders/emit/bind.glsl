@@ -19,11 +19,11 @@ uint nodeToBind(uint i) {
     return i;
 }
 
-// A span's class by its thickness, in parts of a cell's side. The third becomes the fourth for spans that far views don't
-// draw, since the last of their stretch stands for them.
+// A span's class by its thickness, in parts of a cell's side. The next one is for spans that far views don't draw, since
+// the last of their stretch stands for them.
 uint spanClass(float thick) {
     float t = thick * push.grid.rcpCell;
-    return t > 0.012 ? 0u : t > 0.006 ? 1u : 2u;
+    return t > 0.012 ? 0u : t > 0.006 ? 2u : 4u;
 }
 const float kLoose = 0.05;   // error of a stretch, in parts of a cell's side, up to which that is so
 

@@ -26,12 +26,12 @@ float ribbonError(uint kind) {
     return variant.error[variant.lodCount - 1u];
 }
 
-// A thin span's class, by its stretch.
+// A span's class, by its stretch.
 void settleClass(uint item, bool last, float error) {
     uint key = push.keys.v[item];
     uint kind = (key & ~kFresh) / (kCellBins * kMaxCells);
-    uint wanted = !last && error * push.grid.rcpCell <= kLoose ? kLeafClass - 1u : kLeafClass - 2u;
-    for (bool moves = key != kNoIndex && kind >= kLeafClass - 2u && kind != wanted; moves; moves = false) {
+    uint wanted = (kind & ~1u) + (!last && error * push.grid.rcpCell <= kLoose ? 1u : 0u);
+    for (bool moves = key != kNoIndex && kind != wanted; moves; moves = false) {
         uint moved = (key & ~kFresh) % (kCellBins * kMaxCells) + wanted * kCellBins * kMaxCells;
         push.keys.v[item] = moved | kFresh;
         for (bool listed = push.partly != 0u; listed; listed = false) {

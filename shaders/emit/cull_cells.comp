@@ -32,8 +32,8 @@ void main() {
         float share = leaves ? leafShare(view, largest * pixels) : largest * pixels / (view.leastPixels * kFaintest);
         float most = leaves ? reach + 1.3 * largest * inversesqrt(view.leastShare) : reach + view.leastPixels / pixels;
         bool none = !leaves && share * kFaintest < kThinnest || outside(view, middle, most);
-        // The last class isn't drawn where all stretches are joined.
-        none = none || i / kMaxCells == kLeafClass - 1u && (view.flags & kStretches) != 0u &&
+        // Odd classes aren't drawn where all stretches are joined.
+        none = none || !leaves && (i / kMaxCells & 1u) != 0u && (view.flags & kStretches) != 0u &&
                            uintBitsToFloat(cell.error) * pixels <= view.lodPixels;
         for (bool asked = !none && u64(view.tiles) != 0ul; asked; asked = false) none = hidden(view, middle, most, kCellTiles);
         uint bins = uint(min(share * float(kCellBins) + 1.0, float(kCellBins)));

@@ -85,13 +85,13 @@ struct DrawCommand {
 };
 STATIC_SIZE(DrawCommand, 20);
 
-// Space is divided into cells of a grid; each holds its leaves and, in classes by thickness, its spans; of the thinnest
-// those have a class that far views don't draw, since the last of their stretch stands for them. All lie in bins by their
-// order of going when they are thinned out, so that what stays is a run of them. Cells of a class have the number
-// class * kMaxCells + cell.
+// Space is divided into cells of a grid; each holds its leaves and, in classes by thickness, its spans. Of each thickness
+// those have a class of their own, the odd one, that far views don't draw, since the last of their stretch stands for
+// them. All lie in bins by their order of going when they are thinned out, so that what stays is a run of them. Cells of a
+// class have the number class * kMaxCells + cell.
 CONST_UINT(kMaxCells, 4096u);
-CONST_UINT(kLeafClass, 4u);    // classes below: of spans
-CONST_UINT(kAllCells, 20480u);
+CONST_UINT(kLeafClass, 6u);    // classes below: of spans
+CONST_UINT(kAllCells, 28672u);
 CONST_UINT(kCellBins, 64u);
 CONST_UINT(kSortLanes, 8u);    // that put a cell's bins in order
 CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at

@@ -5,9 +5,9 @@
 // it in blocks. One group: a lane takes cells that follow each other.
 #include "shaders/emit/emit_push.glsl"
 
-layout(local_size_x = 80) in;
+layout(local_size_x = 112) in;
 
-const uint kLanes = 80u;
+const uint kLanes = 112u;
 const uint kLaneCells = kAllCells / kLanes;
 const uint kSpanLanes = kLanes * kLeafClass * kMaxCells / kAllCells;   // their cells hold spans, those of others leaves
 shared uint laneItems[kLanes];
