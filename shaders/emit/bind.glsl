@@ -25,7 +25,6 @@ uint spanClass(float thick) {
     float t = thick * push.grid.rcpCell;
     return t > 0.012 ? 0u : t > 0.006 ? 2u : 4u;
 }
-const float kLoose = 0.05;   // error of a stretch, in parts of a cell's side, up to which that is so
 
 // Takes an item out of where it was; whether it was there.
 bool takeKey(uint item, bool before) {

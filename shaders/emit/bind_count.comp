@@ -15,14 +15,12 @@ void count(uint item, uint key) {
     vec3 center;
     float large;
     float reach;
-    float error = 0.0;
     if (item < push.leafBase) {
         uvec4 d = texelFetch(spanTexels, int(6u * item + 3u));
         vec4 sphere = uintBitsToFloat(texelFetch(spanTexels, int(6u * item + 5u)));
         center = sphere.xyz;
         large = max(uintBitsToFloat(d.z), uintBitsToFloat(d.w));
         reach = sphere.w + 2.0 * large;
-        error = unpackHalf2x16(texelFetch(spanTexels, int(6u * item + 4u)).z).y;
     } else {
         int leaf = int(4u * (item - push.leafBase));
         uvec4 d = texelFetch(leafTexels, leaf + 3);
@@ -34,7 +32,6 @@ void count(uint item, uint key) {
     atomicAdd(push.bins.v[key], 1u);
     atomicMax(push.cells.v[cell].reach, floatBitsToUint(distance(center, cellMiddle(push.grid, cell % kMaxCells)) + reach));
     atomicMax(push.cells.v[cell].largest, floatBitsToUint(large));
-    atomicMax(push.cells.v[cell].error, floatBitsToUint(error));
 }
 
 void main() {

@@ -18,5 +18,4 @@ void main() {
     for (uint b = 0u; b < kCellBins; ++b) push.bins.v[cell * kCellBins + b] = 0u;
     push.cells.v[cell].reach = 0u;
     push.cells.v[cell].largest = 0u;
-    push.cells.v[cell].error = 0u;
 }

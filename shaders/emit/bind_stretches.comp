@@ -26,30 +26,31 @@ float ribbonError(uint kind) {
     return variant.error[variant.lodCount - 1u];
 }
 
-// A span's class, by its stretch.
-void settleClass(uint item, bool last, float error) {
+// A span's class and bin, by its stretch. order: of going.
+void settleClass(uint item, bool last, float error, uint order) {
     uint key = push.keys.v[item];
-    uint kind = (key & ~kFresh) / (kCellBins * kMaxCells);
-    uint wanted = (kind & ~1u) + (!last && error * push.grid.rcpCell <= kLoose ? 1u : 0u);
-    for (bool moves = key != kNoIndex && kind != wanted; moves; moves = false) {
-        uint moved = (key & ~kFresh) % (kCellBins * kMaxCells) + wanted * kCellBins * kMaxCells;
+    uint cell = (key & ~kFresh) / kCellBins;
+    bool stood = !last && error < kNeverJoined;
+    uint kind = ((cell / kMaxCells) & ~1u) + (stood ? 1u : 0u);
+    uint bin = stood ? errorBin(push.grid, error) : order / (0x10000u / kCellBins);
+    uint moved = (kind * kMaxCells + cell % kMaxCells) * kCellBins + bin;
+    for (bool moves = key != kNoIndex && (key & ~kFresh) != moved; moves; moves = false) {
         push.keys.v[item] = moved | kFresh;
         for (bool listed = push.partly != 0u; listed; listed = false) {
             push.cells.v[moved / kCellBins].changed = 1u;
-            push.cells.v[(key & ~kFresh) / kCellBins].changed = 1u;
+            push.cells.v[cell].changed = 1u;
             for (bool stays = key < kFresh; stays; stays = false) push.list.v[atomicAdd(HEAD.changed, 1u)] = item;
         }
     }
 }
 
 // What stays in its cell may reach further now.
-void widen(uint item, vec3 center, float reach, float thick, float error) {
+void widen(uint item, vec3 center, float reach, float thick) {
     uint key = push.keys.v[item];
     for (bool stays = key < kFresh; stays; stays = false) {
         uint cell = key / kCellBins;
         float away = distance(center, cellMiddle(push.grid, cell % kMaxCells)) + reach + 2.0 * thick;
         atomicMax(push.cells.v[cell].reach, floatBitsToUint(away));
-        atomicMax(push.cells.v[cell].error, floatBitsToUint(error));
     }
 }
 
@@ -84,16 +85,16 @@ void bindStretch(uint end) {
         sound = sound && error < kNeverJoined;
         error = sound ? error : kNeverJoined;
         for (uint i = first; i <= end; ++i) {
-            float own = unpackHalf2x16(texelFetch(spanTexels, int(6u * i + 4u)).z).x;
-            push.spans.v[i].errors = packHalf2x16(vec2(own, error));
+            uvec4 own = texelFetch(spanTexels, int(6u * i + 4u));
+            push.spans.v[i].errors = packHalf2x16(vec2(unpackHalf2x16(own.z).x, error));
             Curve s = curveOf(i);
             vec4 sphere = sound ? vec4(center, reach) : spanSphere(s.p0, s.b1, s.b2, s.p3);
             for (bool there = uintBitsToFloat(texelFetch(spanTexels, int(6u * i + 5u)).w) >= 0.0; there; there = false) {
                 push.spans.v[i].center = sphere.xyz;
                 push.spans.v[i].reach = sphere.w;
             }
-            settleClass(i, i == end, error);
-            for (bool part = push.partly != 0u; part; part = false) widen(i, sphere.xyz, sphere.w, thick, error);
+            settleClass(i, i == end, error, own.w >> 16u);
+            for (bool part = push.partly != 0u; part; part = false) widen(i, sphere.xyz, sphere.w, thick);
         }
     }
 }

@@ -15,5 +15,10 @@ vec3 cellMiddle(EmitGrid grid, uint cell) {
     vec3 c = vec3(cell - row * grid.size[0], row - z * grid.size[1], z);
     return grid.low + (c + 0.5) / grid.rcpCell;
 }
+// The bin of a span for which the last one of its stretch stands, by the stretch's error in metres.
+uint errorBin(EmitGrid grid, float error) {
+    float halvings = -log2(max(error * grid.rcpCell, 1e-6));
+    return uint(clamp(halvings * 8.0, 0.0, float(kCellBins - 1u)));
+}
 uint cellCount(EmitGrid grid) { return grid.size[0] * grid.size[1] * grid.size[2]; }
 #endif

@@ -32,12 +32,13 @@ void main() {
         float share = leaves ? leafShare(view, largest * pixels) : largest * pixels / (view.leastPixels * kFaintest);
         float most = leaves ? reach + 1.3 * largest * inversesqrt(view.leastShare) : reach + view.leastPixels / pixels;
         bool none = !leaves && share * kFaintest < kThinnest || outside(view, middle, most);
-        // Odd classes aren't drawn where all stretches are joined.
-        none = none || !leaves && (i / kMaxCells & 1u) != 0u && (view.flags & kStretches) != 0u &&
-                           uintBitsToFloat(cell.error) * pixels <= view.lodPixels;
         for (bool asked = !none && u64(view.tiles) != 0ul; asked; asked = false) none = hidden(view, middle, most, kCellTiles);
-        uint bins = uint(min(share * float(kCellBins) + 1.0, float(kCellBins)));
-        kept = none ? 0u : push.bins.v[i * kCellBins + bins - 1u];
+        uint last = min(uint(min(share, 1.0) * float(kCellBins)), kCellBins - 1u);
+        // Of odd classes those for whose stretches a ribbon would be too far off; one bin more, since errors are rounded.
+        bool odd = !leaves && (i / kMaxCells & 1u) != 0u;
+        uint off = min(errorBin(push.grid, view.lodPixels / pixels) + 1u, kCellBins - 1u);
+        last = odd ? ((view.flags & kStretches) != 0u ? off : kCellBins - 1u) : last;
+        kept = none ? 0u : push.bins.v[i * kCellBins + last];
     }
     push.seen.v[i] = kept;
 }

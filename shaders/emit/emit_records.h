@@ -87,8 +87,8 @@ STATIC_SIZE(DrawCommand, 20);
 
 // Space is divided into cells of a grid; each holds its leaves and, in classes by thickness, its spans. Of each thickness
 // those have a class of their own, the odd one, that far views don't draw, since the last of their stretch stands for
-// them. All lie in bins by their order of going when they are thinned out, so that what stays is a run of them. Cells of a
-// class have the number class * kMaxCells + cell.
+// them: these lie in bins by how far off it is, the worst first. All others lie in bins by their order of going when they
+// are thinned out. So what a view looks at is a run of them. Cells of a class have the number class * kMaxCells + cell.
 CONST_UINT(kMaxCells, 4096u);
 CONST_UINT(kLeafClass, 6u);    // classes below: of spans
 CONST_UINT(kAllCells, 28672u);
@@ -97,13 +97,13 @@ CONST_UINT(kSortLanes, 8u);    // that put a cell's bins in order
 CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
 
 // A cell's spans of one class, or its leaves. reach: of any of them from the cell's middle, metres; largest: thickest
-// radius, or size; error: largest of the stretches that its spans belong to. All as bits, which order as the numbers do.
+// radius, or size. Both as bits, which order as the numbers do.
 struct EmitCell {
     uint first, count, room;    // in the order of items; how many may come to lie there
     uint changed;               // 1: items of it were bound anew, or left it
-    uint reach, largest, error;
+    uint reach, largest;
 };
-STATIC_SIZE(EmitCell, 28);
+STATIC_SIZE(EmitCell, 24);
 BUFFER(EmitCellBuf, EmitCell)
 
 // An instance as it is drawn. bits: of a span 2..0 LOD, 5..3 how many spans before it are drawn with it, 31..16 fade (unorm16: how much of a pixel it covers); of a leaf
