@@ -41,6 +41,26 @@ float depth(const std::vector<std::array<float, 2>>& ring, glm::vec2 p) {
     return in ? nearest : -1;
 }
 
+// Of the wall that the ray meets there, towards it; of a roof, upward.
+glm::vec3 facing(const std::vector<std::array<float, 2>>& ring, const Ray& ray, float along) {
+    const glm::vec3 at = ray.origin + along * ray.direction;
+    const glm::vec2 p(at.x, at.z), from(ray.direction.x, ray.direction.z);
+    glm::vec3 normal(0, 1, 0);
+    if (glm::length(from) < .1f) return normal;
+    float nearest = kMissed;
+    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+        const glm::vec2 a(ring[j][0], ring[j][1]), ab = glm::vec2(ring[i][0], ring[i][1]) - a;
+        const float t = std::clamp(glm::dot(p - a, ab) / std::max(glm::dot(ab, ab), 1e-9f), 0.f, 1.f);
+        const float distance = glm::distance(p, a + t * ab);
+        if (distance >= nearest || glm::dot(ab, ab) < 1e-9f) continue;
+        nearest = distance;
+        const glm::vec2 across = glm::normalize(glm::vec2(ab.y, -ab.x));
+        const float side = glm::dot(across, from) > 0 ? -1.f : 1.f;
+        normal = {side * across.x, 0, side * across.y};
+    }
+    return normal;
+}
+
 float meet(const Ray& ray, const House& house, const EspHouseInfo& info, bool sloped) {
     float first = 0, last = 0;
     if (!crossBox(ray, info.boundsMin, info.boundsMax, first, last)) return kMissed;
@@ -86,6 +106,30 @@ std::optional<uint32_t> Workspace::pickHouse(glm::vec2 at) const {
     const auto before = pick(at);
     const auto found = meetHouse(rayThrough(at), before ? before->distance : kMissed);
     return found ? std::optional(found->house) : std::nullopt;
+}
+
+bool Workspace::meets(const Ray& ray, float reach, EspHit& met) const {
+    bool found = espPick(context.get(), &ray.origin.x, &ray.direction.x, &met) == ESP_OK && met.distance <= reach;
+    const auto nearer = [&](float distance, glm::vec3 normal) {
+        const glm::vec3 point = ray.origin + distance * ray.direction;
+        met = {};
+        met.distance = distance;
+        std::copy(&point.x, &point.x + 3, met.position);
+        std::copy(&normal.x, &normal.x + 3, met.normal);
+        found = true;
+    };
+    EspTownInfo town{};
+    const bool ground = scene().look.ground || espTownInfo(context.get(), &town) == ESP_OK;
+    const float level = scene().look.ground ? scene().look.groundLevel : town.groundHeight;
+    if (ground && ray.direction.y < 0) {
+        const float down = (level - ray.origin.y) / ray.direction.y;
+        if (down >= 0 && down < (found ? met.distance : reach)) nearer(down, {0, 1, 0});
+    }
+    // Who is inside a house already, by G, gets out again.
+    const auto wall = meetHouse(ray, found ? met.distance : reach);
+    if (wall && wall->distance > 0)
+        nearer(wall->distance, facing(houseNow(context.get(), wall->house).corners, ray, wall->distance));
+    return found;
 }
 
 std::optional<EspHit> Workspace::aim(glm::vec2 at) const {

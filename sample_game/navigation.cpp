@@ -57,8 +57,11 @@ bool Navigation::step(Workspace& work, const Input& input, float seconds, bool t
     } else if (steps != glm::vec3(0) || jump_ || work.camera.falling()) {
         // Small steps, so that a slow frame doesn't walk through a wall.
         constexpr float kStep = .05f;
+        const auto meets = [&](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
+            return work.meets({from, along}, reach, hit);
+        };
         for (float left = seconds; left > 0; left -= kStep, jump_ = false)
-            work.camera.walk(work.context.get(), {steps.x, steps.z}, std::min(left, kStep), fast, jump_);
+            work.camera.walk(meets, {steps.x, steps.z}, std::min(left, kStep), fast, jump_);
     }
     jump_ = false;
     const bool moved = moved_ || before != work.camera.eye();

@@ -1,5 +1,5 @@
-// Mouse and keys in, a camera out. Pitch stops short of the poles, so that up stays up. Walking asks the plugin for
-// the ground and for walls, as any game asks its physics.
+// Mouse and keys in, a camera out. Pitch stops short of the poles, so that up stays up. Walking asks the
+// host for the ground and for walls, as any game asks its physics.
 #include "sample_game/view_camera.hpp"
 
 #include <algorithm>
@@ -10,10 +10,6 @@ namespace {
 
 constexpr float kMaxPitch = 1.55f;
 constexpr float kEyeHeight = 1.65f, kBody = .3f, kStep = .45f, kGravity = 9.81f;
-
-bool pick(const EspContext* context, glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
-    return espPick(context, &from.x, &along.x, &hit) == ESP_OK && hit.distance <= reach;
-}
 
 }  // namespace
 
@@ -85,30 +81,32 @@ void ViewCamera::fly(glm::vec3 steps, float seconds, bool fast) {
     fall_ = 0;
 }
 
-void ViewCamera::walk(const EspContext* context, glm::vec2 rightAhead, float seconds, bool fast, bool jump) {
+void ViewCamera::walk(const Meets& meets, glm::vec2 rightAhead, float seconds, bool fast, bool jump) {
     const glm::vec3 level{-std::sin(yaw_), 0, -std::cos(yaw_)};
     glm::vec3 move = (rightAhead.x * right() + rightAhead.y * level) * (fast ? 3.4f : 1.7f) * seconds;
     // Against a wall only what goes along it is left; in a corner nothing.
     for (int wall = 0; wall < 2 && glm::length(move) > 1e-5f; ++wall) {
-        EspHit hit;
-        const glm::vec3 knee = eye_ - glm::vec3(0, kEyeHeight - kStep - .1f, 0);
-        const float length = glm::length(move);
-        if (!pick(context, knee, move / length, length + kBody, hit) &&
-            !pick(context, eye_ - glm::vec3(0, .2f, 0), move / length, length + kBody, hit))
+        EspHit hit, high;
+        const glm::vec3 knee = eye_ - glm::vec3(0, kEyeHeight - kStep - .1f, 0), head = eye_ - glm::vec3(0, .2f, 0);
+        const float length = glm::length(move), reach = length + 3 * kBody;
+        const bool low = meets(knee, move / length, reach, hit);
+        if (meets(head, move / length, reach, high) && (!low || high.distance < hit.distance))
+            hit = high;
+        else if (!low)
             break;
         glm::vec3 normal{hit.normal[0], 0, hit.normal[2]};
         if (glm::length(normal) < .3f) break;  // a slope: walked up
         normal = glm::normalize(normal);
-        if (wall == 1)
-            move = {};
-        else
-            move -= std::min(0.f, glm::dot(move, normal)) * normal;
+        // The body is as wide in every direction, however slantingly it comes.
+        const float into = -glm::dot(move, normal), most = std::max(hit.distance * into / length - kBody, 0.f);
+        if (into <= most) break;
+        move = wall == 1 ? glm::vec3(0) : move + (into - most) * normal;
     }
     eye_ += move;
     EspHit ground;
     const float drop = std::max(0.f, -fall_ * seconds);
     const glm::vec3 hip = eye_ - glm::vec3(0, kEyeHeight - kStep, 0);
-    const bool stands = fall_ <= 0 && pick(context, hip, {0, -1, 0}, 2 * kStep + drop, ground);
+    const bool stands = fall_ <= 0 && meets(hip, {0, -1, 0}, 2 * kStep + drop, ground);
     if (stands && jump) {
         fall_ = 3.4f;
     } else if (stands) {
@@ -120,7 +118,7 @@ void ViewCamera::walk(const EspContext* context, glm::vec2 rightAhead, float sec
     }
     fall_ -= kGravity * seconds;
     // Off the world's rim there is nothing to fall onto.
-    if (fall_ < 0 && !pick(context, eye_, {0, -1, 0}, 1e6f, ground)) {
+    if (fall_ < 0 && !meets(eye_, {0, -1, 0}, 1e6f, ground)) {
         fall_ = 0;
         return;
     }

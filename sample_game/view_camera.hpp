@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 
 #include "plugin_api/espalier.h"
@@ -9,6 +10,10 @@ namespace sample {
 struct Ray {
     glm::vec3 origin, direction;
 };
+
+// What a ray along the unit vector `along` meets within `reach`: hit's distance, position and normal are set; false:
+// nothing.
+using Meets = std::function<bool(glm::vec3 from, glm::vec3 along, float reach, EspHit& hit)>;
 
 // The camera of the game and of the editor: it stands at `eye` and looks along yaw and pitch, at a point `distance`
 // away, about which the editor turns it. Angles in radians, lengths in metres.
@@ -29,7 +34,7 @@ class ViewCamera {
     // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`.
     void fly(glm::vec3 steps, float seconds, bool fast);
     // ---- Game: on the ground, with a body that walls stop and steps don't. Falls if there is nothing below.
-    void walk(const EspContext* context, glm::vec2 rightAhead, float seconds, bool fast, bool jump);
+    void walk(const Meets& meets, glm::vec2 rightAhead, float seconds, bool fast, bool jump);
     bool falling() const { return fall_ < 0; }
 
     // shift: of the lens, to the right; see EspCamera.

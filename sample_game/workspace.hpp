@@ -104,6 +104,8 @@ struct Workspace {
     void pickBranch(glm::vec2 at);
     std::optional<HouseHit> meetHouse(const Ray& ray, float before) const;
     std::optional<uint32_t> pickHouse(glm::vec2 at) const;
+    // What stops who walks: surfaces, houses and the ground; see Meets.
+    bool meets(const Ray& ray, float reach, EspHit& met) const;
     // Cuts the picked branch away.
     void prune();
     // Lets the chosen seeds' plants stand as they are, or grow again.

@@ -1,0 +1,101 @@
+// Walking through a world of boxes, whose rays are met by formulas.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sample_game/view_camera.hpp"
+
+namespace {
+
+constexpr float kEyes = 1.65f, kBody = .3f, kFrame = .05f;
+
+struct Box {
+    glm::vec3 low, high;
+};
+
+// Over a floor at y = 0.
+struct World {
+    std::vector<Box> boxes;
+    sample::ViewCamera walker;
+
+    explicit World(std::vector<Box> stands) : boxes(std::move(stands)) {
+        boxes.push_back({{-100, -1, -100}, {100, 0, 100}});
+        EspCamera camera{};
+        camera.eye[1] = camera.target[1] = kEyes;
+        camera.target[2] = -1;  // towards -z
+        camera.fovY = .7f;
+        walker.set(camera, 10);
+    }
+    bool meets(glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) const {
+        bool found = false;
+        for (const Box& box : boxes) {
+            float first = 0, last = reach;
+            glm::vec3 normal(0);
+            for (int i = 0; i < 3; ++i) {
+                if (std::abs(along[i]) < 1e-9f) {
+                    if (from[i] < box.low[i] || from[i] > box.high[i]) last = -1;
+                    continue;
+                }
+                float a = (box.low[i] - from[i]) / along[i], b = (box.high[i] - from[i]) / along[i];
+                if (a > b) std::swap(a, b);
+                if (a > first) first = a, normal = glm::vec3(0), normal[i] = along[i] > 0 ? -1.f : 1.f;
+                last = std::min(last, b);
+            }
+            if (first <= 0 || first > last) continue;
+            reach = hit.distance = first;
+            const glm::vec3 at = from + first * along;
+            std::copy(&at.x, &at.x + 3, hit.position);
+            std::copy(&normal.x, &normal.x + 3, hit.normal);
+            found = true;
+        }
+        return found;
+    }
+    glm::vec3 go(glm::vec2 rightAhead, float seconds) {
+        const sample::Meets rays = [this](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
+            return meets(from, along, reach, hit);
+        };
+        for (float t = 0; t < seconds; t += kFrame) walker.walk(rays, rightAhead, kFrame, false, false);
+        return walker.eye();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a walker climbs stairs and comes down again") {
+    std::vector<Box> stairs;
+    for (int step = 0; step < 8; ++step) {
+        const float face = -1 - .28f * float(step);
+        stairs.push_back({{-2, 0, -8}, {2, .18f * float(step + 1), face}});
+    }
+    World world(stairs);
+    const glm::vec3 up = world.go({0, 1}, 3);
+    CHECK(up.z < -4);
+    CHECK(up.y == doctest::Approx(8 * .18f + kEyes).epsilon(.01));
+    const glm::vec3 down = world.go({0, -1}, 3);
+    CHECK(down.z > -.6f);
+    CHECK(down.y == doctest::Approx(kEyes).epsilon(.01));
+}
+
+TEST_CASE("walls stop a walker, and let him go along them") {
+    World ahead({{{-3, 0, -5}, {3, 1, -2}}});
+    const glm::vec3 stopped = ahead.go({0, 1}, 4);
+    CHECK(stopped.z >= -2 + kBody - .02f);
+    CHECK(stopped.z < -1.5f);
+    CHECK(stopped.y == doctest::Approx(kEyes).epsilon(.01));
+
+    World slanting({{{-30, 0, -5}, {30, 3, -2}}});
+    const glm::vec3 slid = slanting.go({.7f, .7f}, 4);
+    CHECK(slid.z >= -2 + kBody - .02f);
+    CHECK(slid.x == doctest::Approx(4 * 1.7f * .7f).epsilon(.03));
+}
+
+TEST_CASE("who is let go of in the air comes down on the ground") {
+    World world({{{-2, 0, -2}, {2, 3, 2}}});
+    world.walker.fly({0, 1, 0}, 3, false);
+    world.walker.fly({0, 0, 1}, 10, false);
+    REQUIRE(world.walker.eye().y > 4);
+    REQUIRE(world.walker.eye().z < -4);
+    CHECK(world.go({0, 0}, 4).y == doctest::Approx(kEyes).epsilon(.01));
+}
