@@ -337,9 +337,12 @@ class Assembler {
             part.fromB = contact.fromA + (contact.fromB - contact.fromA) * to;
             out.push_back(part);
         };
-        add(0, t0, t0, t0);
+        // A walk tells by the target's direction on which side of it the chart lies, so that it has to have one.
+        const double least = view.borderShift / std::max(glm::length(b - a), 1e-300);
+        const bool room = t1 > t0;
+        add(0, t0, room ? t0 : t0 - least / 2, room ? std::min(t0 + least, t1) : t0 + least / 2);
         add(t0, t1, t0, t1);
-        add(t1, 1, t1, t1);
+        add(t1, 1, room ? std::max(t1 - least, t0) : t1 - least / 2, room ? t1 : t1 + least / 2);
     }
 
     std::array<const View*, 2> view_;
