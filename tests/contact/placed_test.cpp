@@ -267,6 +267,40 @@ TEST_CASE("a walk that gets past a contact finds no ground beyond") {
     if (world.start(w, 0, {0, 0, 0}, {0, 0, -1}, 0, kTexelLink)) CHECK(go(world, w, 0.2f) == kWalkLost);
 }
 
+TEST_CASE("a contact that overhangs its target leads into the chart, from every part of it") {
+    // A board on a box, which it overhangs by less than a texel, so that its outline leads beyond the box's top.
+    test::Kit kit;
+    kit.box(dvec3(0), {0.5, 0.3, 0.5});
+    kit.box({0.2, 0.33, 0.1}, {0.3007, 0.03, 0.4007});
+    const SurfaceData data = throughFile(kit.model(), 512);
+    const auto inside = [&](glm::dvec2 p) {
+        for (size_t i = 0; i + 2 < data.indices.size(); i += 3) {
+            int left = 0, right = 0;
+            for (size_t k = 0; k < 3; ++k) {
+                const glm::dvec2 a(data.vertices[data.indices[i + k]].walkUv),
+                    b(data.vertices[data.indices[i + (k + 1) % 3]].walkUv), e = b - a, r = p - a;
+                (e.x * r.y - e.y * r.x > -1e-9 ? left : right) += 1;
+            }
+            if (left == 3 || right == 3) return true;
+        }
+        return false;
+    };
+    int contacts = 0, stubs = 0, beside = 0;
+    for (const Crossing& c : data.crossings) {
+        if ((c.flags & 3u) != kCrossingContact) continue;
+        ++contacts;
+        const double orientation = data.charts[c.flags >> 16].orientation * data.charts[c.target & 0xFFFFu].orientation;
+        const bool left =
+            ((c.flags & kCrossingInsideLeft) != 0) == (orientation * ((c.flags & kCrossingTurned) != 0 ? -1 : 1) < 0);
+        const glm::dvec2 e(c.tb - c.ta), inward = glm::dvec2(-e.y, e.x) * ((left ? 0.01 : -0.01) / glm::length(e));
+        stubs += glm::length(e) * 512 < 0.03;
+        for (double t : {0.1, 0.5, 0.9}) beside += !inside(glm::dvec2(c.ta) + e * t + inward / 512.0);
+    }
+    MESSAGE(contacts << " contacts, " << stubs << " lead to one place");
+    CHECK(stubs > 0);
+    CHECK(beside == 0);
+}
+
 TEST_CASE("ground that a door leads to is not buried, ground behind a closed one is") {
     // A house without a floor; its front is open from x = -door to door.
     const auto house = [](double door) {

@@ -8,7 +8,8 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr int kProbes = 3;  // per crossing
+constexpr int kProbes = 3;       // per crossing
+constexpr float kPlace = 0.03f;  // texels: a shorter target is one place, not a stretch
 
 double percentile(std::vector<double>& values, double share) {
     if (values.empty()) return 0;
@@ -93,8 +94,8 @@ void measureCrossings(const std::vector<Link>& links, const std::vector<Contact>
             gaps.push_back(glm::length(onTriangle(here, p) - onTriangle(there, q)) / texel);
         }
         // From the back of a sheet no way leads back: there walks are on its outside. The end of a contact that leads
-        // to one point of a border is judged with its middle.
-        if (dangling && (c.flags & kCrossingTurned) == 0 && c.ta != c.tb)
+        // to one place of a border is judged with its middle.
+        if (dangling && (c.flags & kCrossingTurned) == 0 && glm::length(c.tb - c.ta) * float(size) > kPlace)
             ++(kind == kCrossingContact ? report.danglingContacts : report.danglingCrossings);
     }
     report.roundTrip50 = percentile(trips, 0.5);
