@@ -61,46 +61,74 @@ void bury(const SurfaceLevelData& level, const std::vector<uint32_t>& buried, Le
     patch = std::move(all);
 }
 
-// The chessboard distance of each texel to the nearest hit, row by row, up to kFar: a way leads along the hit's row,
-// then aslant or straight from row to row.
-constexpr uint8_t kFar = kMaxClearance + 2;
-std::vector<uint8_t> distances(uint32_t size, const std::vector<Hit>& hits) {
-    std::vector<uint8_t> out(size_t(size) * size, kFar), reached(size, 0);
-    for (const Hit& hit : hits) {
-        const uint32_t tile = hit.texel >> 6, tiles = size >> 3;
-        const uint32_t x = tile % tiles * 8 + (hit.texel & 7u), y = tile / tiles * 8 + (hit.texel >> 3 & 7u);
-        out[size_t(y) * size + x] = 0, reached[y] = 1;
-    }
-    for (uint32_t y = 0; y < size; ++y) {
-        uint8_t* row = &out[size_t(y) * size];
-        if (!reached[y]) continue;
-        for (uint32_t x = 1; x < size; ++x) row[x] = std::min<uint8_t>(row[x], row[x - 1] + 1);
-        for (uint32_t x = size - 1; x-- > 0;) row[x] = std::min<uint8_t>(row[x], row[x + 1] + 1);
-    }
-    const auto spread = [&](const uint8_t* from, uint8_t* to) {
-        to[0] = std::min<uint8_t>(to[0], std::min(from[0], from[1]) + 1);
-        for (uint32_t x = 1; x + 1 < size; ++x)
-            to[x] = std::min<uint8_t>(to[x], std::min(std::min(from[x - 1], from[x]), from[x + 1]) + 1);
-        to[size - 1] = std::min<uint8_t>(to[size - 1], std::min(from[size - 2], from[size - 1]) + 1);
-    };
-    for (uint32_t y = 1; y < size; ++y) spread(&out[size_t(y - 1) * size], &out[size_t(y) * size]);
-    for (uint32_t y = size - 1; y-- > 0;) spread(&out[size_t(y + 1) * size], &out[size_t(y) * size]);
-    return out;
-}
-
-// Calls fn(texel, distance) for all that are nearer than kFar, in ascending order.
-template <class Fn>
-void forNear(uint32_t size, const std::vector<uint8_t>& distance, Fn&& fn) {
-    constexpr uint64_t kNone = kFar * 0x0101010101010101ull;
-    for (uint32_t tile = 0; tile < (size >> 3) * (size >> 3); ++tile)
-        for (uint32_t v = 0; v < 8; ++v) {
-            const uint32_t y = tile / (size >> 3) * 8 + v, x = tile % (size >> 3) * 8;
-            uint64_t eight;
-            std::memcpy(&eight, &distance[size_t(y) * size + x], 8);
-            for (uint32_t u = 0; eight != kNone && u < 8; ++u)
-                if (const uint8_t d = distance[size_t(y) * size + x + u]; d < kFar) fn(tile << 6 | v << 3 | u, d);
+// The chessboard distance of texels to the nearest hit, up to kFar, in the whole tiles around all that is nearer.
+class Distances {
+  public:
+    Distances(uint32_t size, const std::vector<Hit>& hits) : tiles_(size >> 3) {
+        uint32_t low[2] = {size, size}, high[2] = {0, 0};
+        for (const Hit& hit : hits)
+            for (int k = 0; k < 2; ++k) {
+                low[k] = std::min(low[k], placeOf(hit.texel, k));
+                high[k] = std::max(high[k], placeOf(hit.texel, k));
+            }
+        for (int k = 0; k < 2; ++k) {
+            first_[k] = low[k] > kFar ? (low[k] - kFar) & ~7u : 0;
+            count_[k] = std::min(size, (high[k] + kFar + 8) & ~7u) - first_[k];
         }
-}
+        values_.assign(size_t(count_[0]) * count_[1], kFar);
+        std::vector<uint8_t> reached(count_[1], 0);
+        for (const Hit& hit : hits) {
+            const uint32_t y = placeOf(hit.texel, 1) - first_[1];
+            row(y)[placeOf(hit.texel, 0) - first_[0]] = 0, reached[y] = 1;
+        }
+        // A way leads along the hit's row, then aslant or straight from row to row.
+        for (uint32_t y = 0; y < count_[1]; ++y) {
+            if (!reached[y]) continue;
+            uint8_t* to = row(y);
+            for (uint32_t x = 1; x < count_[0]; ++x) to[x] = std::min<uint8_t>(to[x], to[x - 1] + 1);
+            for (uint32_t x = count_[0] - 1; x-- > 0;) to[x] = std::min<uint8_t>(to[x], to[x + 1] + 1);
+        }
+        for (uint32_t y = 1; y < count_[1]; ++y) spread(row(y - 1), row(y));
+        for (uint32_t y = count_[1] - 1; y-- > 0;) spread(row(y + 1), row(y));
+    }
+
+    // Calls fn(texel, distance) for all that are nearer than kFar, in ascending order.
+    template <class Fn>
+    void forNear(Fn&& fn) const {
+        constexpr uint64_t kNone = kFar * 0x0101010101010101ull;
+        for (uint32_t y0 = 0; y0 < count_[1]; y0 += 8)
+            for (uint32_t x0 = 0; x0 < count_[0]; x0 += 8) {
+                const uint32_t tile = ((first_[1] + y0) >> 3) * tiles_ + ((first_[0] + x0) >> 3);
+                for (uint32_t v = 0; v < 8; ++v) {
+                    const uint8_t* from = &values_[size_t(y0 + v) * count_[0] + x0];
+                    uint64_t eight;
+                    std::memcpy(&eight, from, 8);
+                    for (uint32_t u = 0; eight != kNone && u < 8; ++u)
+                        if (from[u] < kFar) fn(tile << 6 | v << 3 | u, from[u]);
+                }
+            }
+    }
+
+  private:
+    static constexpr uint8_t kFar = kMaxClearance + 2;
+
+    uint32_t placeOf(uint32_t texel, int axis) const {
+        const uint32_t tile = texel >> 6;
+        return axis == 0 ? tile % tiles_ * 8 + (texel & 7u) : tile / tiles_ * 8 + (texel >> 3 & 7u);
+    }
+    uint8_t* row(uint32_t y) { return &values_[size_t(y) * count_[0]]; }
+    void spread(const uint8_t* from, uint8_t* to) const {
+        const uint32_t last = count_[0] - 1;
+        to[0] = std::min<uint8_t>(to[0], std::min(from[0], from[1]) + 1);
+        for (uint32_t x = 1; x < last; ++x)
+            to[x] = std::min<uint8_t>(to[x], std::min(std::min(from[x - 1], from[x]), from[x + 1]) + 1);
+        to[last] = std::min<uint8_t>(to[last], std::min(from[last - 1], from[last]) + 1);
+    }
+
+    uint32_t tiles_;                // of the level, a side
+    uint32_t first_[2], count_[2];  // of the texels, in x and y
+    std::vector<uint8_t> values_;   // row by row
+};
 
 // False: the level lists more than it can.
 bool patchLevel(const SurfaceLevelData& level, std::span<const Crossing> added, uint32_t first, LevelPatch& patch) {
@@ -108,7 +136,7 @@ bool patchLevel(const SurfaceLevelData& level, std::span<const Crossing> added, 
     if (hits.empty()) return true;
     size_t i = 0;
     bool fits = true;
-    forNear(level.size, distances(level.size, hits), [&](uint32_t texel, uint32_t distance) {
+    Distances(level.size, hits).forNear([&](uint32_t texel, uint32_t distance) {
         uint32_t bits = level.texels[texel].bits, head = level.crossingHead[texel];
         const uint32_t clearance = distance > 1 ? distance - 1 : 0;
         if (distance > 0 && clearance >= texelClearance(bits)) return;

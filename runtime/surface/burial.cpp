@@ -176,7 +176,9 @@ class Parts {
           rim_(known_.size(), 0),
           leaks_(known_.size(), 0),
           sets_(known_.size()) {
-        for (uint32_t texel : hidden) known_[placeOf(texel)] = kHidden;
+        for (uint32_t texel : passed_)
+            if (slotOfTile_[texel >> 6] != kNoIndex) known_[placeOf(texel)] = kPassed;
+        for (uint32_t texel : hidden) known_[placeOf(texel)] |= kHidden;
         for (uint32_t texel : hidden) join(texel);
         sum(rim_), sum(leaks_);
     }
@@ -189,12 +191,12 @@ class Parts {
             if (leaks_[root] <= errors && !passes(texel)) out.push_back(texel);
         }
         // Contacts that run within a third body, with what is on both sides of them.
-        for (uint32_t texel : out) known_[placeOf(texel)] = kClosed;
+        for (uint32_t texel : out) known_[placeOf(texel)] |= kClosed;
         const size_t sure = out.size();
         for (size_t i = 0; i < out.size(); ++i)
             around(out[i], [&](uint32_t other) {
-                if (!isHidden(other) || known_[placeOf(other)] == kClosed || !passes(other)) return;
-                known_[placeOf(other)] = kClosed;
+                if (!isHidden(other) || (known_[placeOf(other)] & kClosed) != 0 || !passes(other)) return;
+                known_[placeOf(other)] |= kClosed;
                 out.push_back(other);
             });
         std::sort(out.begin() + std::ptrdiff_t(sure), out.end());
@@ -211,8 +213,13 @@ class Parts {
         return count;
     }
     uint32_t placeOf(uint32_t texel) const { return slotOfTile_[texel >> 6] << 6 | (texel & 63u); }
-    bool isHidden(uint32_t texel) const { return slotOfTile_[texel >> 6] != kNoIndex && known_[placeOf(texel)]; }
-    bool passes(uint32_t texel) const { return std::binary_search(passed_.begin(), passed_.end(), texel); }
+    bool isHidden(uint32_t texel) const {
+        return slotOfTile_[texel >> 6] != kNoIndex && (known_[placeOf(texel)] & kHidden) != 0;
+    }
+    bool passes(uint32_t texel) const {
+        if (slotOfTile_[texel >> 6] != kNoIndex) return (known_[placeOf(texel)] & kPassed) != 0;
+        return std::binary_search(passed_.begin(), passed_.end(), texel);
+    }
     bool isGround(uint32_t texel, uint32_t chart) const {
         const uint32_t bits = level_.texels[texel].bits;
         return texelClass(bits) == kTexelInner && texelChart(bits) == chart;
@@ -274,7 +281,7 @@ class Parts {
     std::vector<uint32_t> passed_;
     std::vector<uint32_t> slotOfTile_;
     // By slot and texel of the tile:
-    enum : uint8_t { kSeen, kHidden, kClosed };
+    enum : uint8_t { kHidden = 1, kClosed = 2, kPassed = 4 };
     std::vector<uint8_t> known_;
     std::vector<uint32_t> rim_, leaks_;
     DisjointSets sets_;

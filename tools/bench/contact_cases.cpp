@@ -4,15 +4,27 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "runtime/surface/burial.hpp"
+#include "tools/bake/bake.hpp"
 #include "tools/bench/bench.hpp"
 
 namespace espalier {
 namespace {
 
+using glm::dmat4;
+using glm::dvec3;
+
+// Finds what is buried of a surface and what changes of its levels, and adds to their numbers.
+void give(const SurfaceData& data, const PlacedGround& own, const PlacedGround& by, const std::vector<Crossing>& added,
+          bool yields, size_t& changed, size_t& buried) {
+    const TexelSets sets = buriedTexels(data, hiddenTexels(data, own, by, added, yields), added);
+    for (const auto& level : sets) buried += level.size();
+    if (const auto patches = patchLevels(data, added, sets))
+        for (const LevelPatch& patch : patches.value()) changed += patch.texels.size();
+}
+
 // A place of b's ruin against a's: a little further each time.
-glm::dmat4 placeOf(int move) {
-    return glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(6.5 + 0.01 * (move % 20), 0.02, 0.4)), 0.3,
-                       glm::dvec3(0, 1, 0));
+dmat4 placeOf(int move) {
+    return glm::rotate(glm::translate(dmat4(1), dvec3(6.5 + 0.01 * (move % 20), 0.02, 0.4)), 0.3, dvec3(0, 1, 0));
 }
 
 void moveRuin(Bench& bench) {
@@ -24,19 +36,12 @@ void moveRuin(Bench& bench) {
     size_t crossings = 0, changed = 0, buried = 0;
     int moves = 0;
     const auto join = [&](const ContactGround& a, const ContactGround& b) {
-        const PlacedGround placedA{&a, glm::dmat4(1)}, placedB{&b, placeOf(moves++)};
+        const PlacedGround placedA{&a, dmat4(1)}, placedB{&b, placeOf(moves++)};
         const PlacedContacts found = contactsOf(placedA, placedB, {});
         crossings = found.fromA.size() + found.fromB.size();
         changed = buried = 0;
-        const auto patch = [&](const PlacedGround& own, const PlacedGround& by, const std::vector<Crossing>& added,
-                               bool yields) {
-            const TexelSets sets = buriedTexels(*data, hiddenTexels(*data, own, by, added, yields), added);
-            for (const auto& level : sets) buried += level.size();
-            if (const auto patches = patchLevels(*data, added, sets))
-                for (const LevelPatch& one : patches.value()) changed += one.texels.size();
-        };
-        patch(placedA, placedB, found.fromA, true);
-        patch(placedB, placedA, found.fromB, false);
+        give(*data, placedA, placedB, found.fromA, true, changed, buried);
+        give(*data, placedB, placedA, found.fromB, false, changed, buried);
     };
     const Pair times = medianSeconds(
         bench.options().repeats, [&] { join(keptA, keptB); },
@@ -51,10 +56,52 @@ void moveRuin(Bench& bench) {
     bench.add({name, figure, "ms", times.a * 1e3, "nothing kept from before", times.b * 1e3});
 }
 
+// A block that stands in the ruin's ground, moved about on it: what it buries is found, and what it had buried comes
+// back.
+void moveBlock(Bench& bench) {
+    const char* name = "contact/bury";
+    if (!bench.wants(name)) return;
+    Result<SurfaceData> data = readSurface(bench.options().contentFolder + "/ruin.surface.glb");
+    if (!data) return bench.skip(name, "needs the sample content");
+    Model model;
+    model.name = "block";
+    for (uint32_t i = 0; i < 8; ++i)
+        model.positions.push_back({i & 1 ? 0.5f : -0.5f, i & 2 ? 0.5f : -0.5f, i & 4 ? 0.3f : -0.3f});
+    model.indices = {1, 3, 7, 1, 7, 5, 0, 4, 6, 0, 6, 2, 2, 6, 7, 2, 7, 3,
+                     0, 1, 5, 0, 5, 4, 4, 5, 7, 4, 7, 6, 0, 2, 3, 0, 3, 1};
+    BakeOptions options;
+    options.resolution = 256;
+    Result<Baked> block = bake(model, options);
+    if (!block) return bench.skip(name, block.failure().text());
+    const SurfaceData& moved = block->surface;
+    const ContactGround keptRuin(*data), keptBlock(moved);
+    size_t buried = 0, changed = 0;
+    int moves = 0;
+    const auto join = [&](const ContactGround& ruin, const ContactGround& box) {
+        const dmat4 place = glm::translate(dmat4(1), {-1.6 + 0.01 * (moves++ % 20), 0.2, 1.4});
+        const PlacedGround on{&ruin, dmat4(1)}, stands{&box, place};
+        const PlacedContacts found = contactsOf(on, stands, {});
+        changed = buried = 0;
+        give(*data, on, stands, found.fromA, true, changed, buried);
+        give(moved, stands, on, found.fromB, false, changed, buried);
+    };
+    const Pair times = medianSeconds(
+        bench.options().repeats, [&] { join(keptRuin, keptBlock); },
+        [&] {
+            const ContactGround ruin(*data), box(moved);
+            join(ruin, box);
+        });
+    char figure[160];
+    std::snprintf(figure, sizeof figure, "a block moved on a ruin's ground: %zu texels changed, %zu buried", changed,
+                  buried);
+    bench.add({name, figure, "ms", times.a * 1e3, "nothing kept from before", times.b * 1e3});
+}
+
 }  // namespace
 
 void contactCases(Bench& bench) {
     moveRuin(bench);
+    moveBlock(bench);
 }
 
 }  // namespace espalier
