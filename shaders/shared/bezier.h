@@ -38,10 +38,11 @@ FN vec3 stemTangent(vec3 before, vec3 at, vec3 after, vec3 normal, vec3 heading)
 
 // The span from p0 with unit tangent t0 to p3 with unit tangent t3. The handles are the paper's: a third of the
 // chord laid onto each tangent; held to at least a fifteenth of the chord, so that no joint loses its tangent
-// where a walk turns by 80 degrees and more.
+// where a walk turns by 80 degrees and more, and to some hundred times what coordinates are rounded by.
 FN Span smoothSpan(vec3 p0, vec3 t0, vec3 p3, vec3 t3) {
     vec3 chord = p3 - p0;
-    float least = 0.2f * length3(chord);
+    float farthest = larger(absolute(p0.x), larger(absolute(p0.y), absolute(p0.z)));
+    float least = larger(0.2f * length3(chord), 5e-5f * farthest);
     Span s;
     s.p0 = p0;
     s.b1 = p0 + t0 * (larger(dot3(t0, chord), least) * 0.333333333f);

@@ -51,6 +51,17 @@ TEST_CASE("smooth spans pass their samples along the tangents; neighbours join w
     }
 }
 
+TEST_CASE("spans so short that coordinates hardly tell their ends apart keep their tangents") {
+    std::mt19937 random(3);
+    for (float length : {0.0f, 1e-7f, 1e-6f, 1e-5f, 1e-4f, 1e-3f})
+        for (int i = 0; i < 500; ++i) {
+            const vec3 p0 = randomUnit(random) * 4.0f, t0 = randomUnit(random), t3 = randomUnit(random);
+            const Span s = smoothSpan(p0, t0, p0 + randomUnit(random) * length, t3);
+            CHECK(dot3(unit3(spanVelocity(s, 0)), t0) > 0.99998f);  // a third of a degree
+            CHECK(dot3(unit3(spanVelocity(s, 1)), t3) > 0.99998f);
+        }
+}
+
 TEST_CASE("frames are orthonormal, agree at joints and follow the surface") {
     std::mt19937 random(2);
     for (int i = 0; i < 2000; ++i) {
