@@ -16,8 +16,9 @@ struct EmitInputs {
     uint64_t surfacesRevision = 0;  // another one when a surface stands elsewhere
     // Where things grow, more or less: space is divided there. What lies elsewhere costs more, no more than that.
     glm::vec3 low{-4}, high{4};
-    // True: on a software device whose addresses are the process's own, bark's triangles are written by native code on
-    // its cores (native_triangles.hpp), the same to the bit. False: by shaders there too.
+    // True: on a software device whose addresses are the process's own, what is to be written as triangles is gathered,
+    // and bark's are written, by native code (native_gather.hpp, native_triangles.hpp), the same to the bit. False: by
+    // shaders there too.
     bool native = true;
 };
 
@@ -25,8 +26,9 @@ struct EmitInputs {
 struct EmittedTriangles {
     Buffer vertices, indices;
     uint64_t vertexCount = 0, indexCount = 0;
-    double milliseconds = 0;  // of writing them: GPU time; of native code, wall time
-    bool native = false;      // native code wrote the bark
+    double milliseconds = 0;        // of writing them: GPU time; of native code, wall time
+    double gatherMilliseconds = 0;  // of finding what there is, before, when all was bound
+    bool native = false;            // native code wrote the bark
 };
 
 struct EmitStats {
@@ -89,6 +91,7 @@ class Emit {
     Status bind(Commands& commands, const EmitInputs& inputs);
 
     Status record(Commands& commands, const EmitView& view, Pass& pass);
+    Result<EmitState> gather(const EmitInputs& inputs, bool native, double& milliseconds);  // materialise.cpp
 
     Device* device_ = nullptr;
     const Terminals* terminals_ = nullptr;

@@ -1,14 +1,27 @@
 // Enters: growth's records. Leaves: all of it as triangles in memory. The instances are gathered by the culling
 // kernels at full detail; then a thread a ring, a thread a strip of quads, a thread a leaf write whole runs. On
-// software devices native code writes the bark.
+// software devices native code gathers them and writes the bark.
 #include <algorithm>
 #include <chrono>
 
 #include "runtime/emit/emit.hpp"
+#include "runtime/emit/native_gather.hpp"
 #include "runtime/emit/native_triangles.hpp"
 
 namespace espalier {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// A buffer's memory where addresses are the process's own.
+template <class T>
+T* at(const Buffer& buffer) {
+    return reinterpret_cast<T*>(buffer.address());
+}
 
 struct Block {
     uint32_t bucket = 0, instances = 0;
@@ -32,17 +45,39 @@ std::vector<Block> layOut(const EmitState& state, const EmitTable& table, uint64
 
 }  // namespace
 
-Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
+// What full detail draws, in `drawn_`. milliseconds: what it took once all was bound.
+Result<EmitState> Emit::gather(const EmitInputs& inputs, bool native, double& milliseconds) {
+    Result<Commands> commands = Commands::begin(*device_, "materialise gather");
+    if (!commands) return commands.failure();
     EmitView view{};
     view.flags = kFullDetail;
     view.lodPixels = 1;
-    Result<Commands> gather = Commands::begin(*device_, "materialise gather");
-    if (!gather) return gather.failure();
-    if (Status s = cull(*gather, inputs, view, "materialise gather", true); !s) return s.failure();
-    if (Status s = gather->finish(); !s) return s.failure();
-    const EmitState state = *reinterpret_cast<const EmitState*>(readback_.mapped());
+    Status recorded = native ? bind(*commands, inputs) : cull(*commands, inputs, view, "materialise gather", true);
+    if (!recorded) return recorded.failure();
+    if (Status s = commands->finish(); !s) return s.failure();
+    EmitState& counted = *reinterpret_cast<EmitState*>(readback_.mapped());
+    EmitState state = counted;
+    if (native) {
+        const Clock::time_point start = Clock::now();
+        const EmitCell* cells = at<EmitCell>(cells_);
+        gatherNative({cells, at<uint32_t>(order_), at<SpanInstance>(spans_), at<LeafInstance>(leaves_), leafBase_},
+                     terminals_->table(), at<DrawnItem>(drawn_), state);
+        counted.crowded = cells[kAllCells].room;
+        culled_ = {};
+        milliseconds = millisecondsSince(start);
+    } else {
+        device_->collect();
+        milliseconds = device_->milliseconds("materialise gather");
+    }
+    return state;
+}
 
+Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
+    const bool native = inputs.native && device_->info().cpu && uintptr_t(state_.mapped()) == state_.address();
     EmittedTriangles out;
+    Result<EmitState> gathered = gather(inputs, native, out.gatherMilliseconds);
+    if (!gathered) return gathered.failure();
+    const EmitState& state = *gathered;
     const EmitTable& table = terminals_->table();
     const std::vector<Block> blocks = layOut(state, table, out.vertexCount, out.indexCount);
     if (overflow_ > 0 || out.vertexCount > 0x7FFFFFFFu || out.indexCount > 0xFFFFFFFFu)
@@ -54,17 +89,14 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
     out.vertices = std::move(*vertices);
     out.indices = std::move(*indices);
 
-    using Clock = std::chrono::steady_clock;
-    const bool mapped = uintptr_t(out.vertices.mapped()) == out.vertices.address() &&
-                        uintptr_t(out.indices.mapped()) == out.indices.address();
-    const bool native = inputs.native && device_->info().cpu && mapped && state.spanCount > 0;
     const Clock::time_point start = Clock::now();
     if (native)
-        writeBarkNative(reinterpret_cast<const SpanInstance*>(spans_.address()),
-                        reinterpret_cast<const DrawnItem*>(drawn_.address()), state.spanCount,
-                        reinterpret_cast<TriangleVertex*>(out.vertices.address()),
-                        reinterpret_cast<uint32_t*>(out.indices.address()));
-    const double nativeMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+        writeBarkNative(at<SpanInstance>(spans_), at<DrawnItem>(drawn_), state.spanCount,
+                        at<TriangleVertex>(out.vertices), at<uint32_t>(out.indices));
+    const double nativeMs = millisecondsSince(start);
+    out.native = native && state.spanCount > 0;
+    out.milliseconds = nativeMs;
+    if (native && blocks.empty()) return out;
     Result<Commands> commands = Commands::begin(*device_, "materialise");
     if (!commands) return commands.failure();
     {
@@ -99,7 +131,6 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
     if (Status s = commands->finish(); !s) return s.failure();
     device_->collect();
     out.milliseconds = device_->milliseconds("materialise") + (native ? nativeMs : 0);
-    out.native = native;
     return out;
 }
 
