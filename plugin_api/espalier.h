@@ -479,6 +479,10 @@ typedef struct EspDrawDef {
 } EspDrawDef;
 ESP_API EspDrawDef espDefaultDrawDef(void);
 ESP_API EspResult espDraw(EspContext* context, const EspDrawDef* def);
+/* What espDraw has recorded last into a command buffer of the host's won't be submitted after all (a swapchain that was
+ * lost, an error). The next frame relies on nothing of it and draws its shadows anew. Without this call pictures stay wrong
+ * until growth or the view changes: what was recorded there counts as done. Its `frame` is done when framesDone says so. */
+ESP_API EspResult espDropFrame(EspContext* context);
 /* rgba: width * height * 4 bytes, rows top to bottom, sRGB, of the last espDraw into Espalier's own image. */
 ESP_API EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes);
 

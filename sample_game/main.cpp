@@ -1,11 +1,10 @@
 // espalier-sample: reads the command line and runs the game.
-#include <malloc.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 
 #include "sample_game/app.hpp"
+#include "tools/scene/heap.hpp"
 
 int main(int argc, char** argv) {
     CLI::App cli{"A window on a growing scene: paint with seeds, sliders and grammars.", "espalier-sample"};
@@ -53,9 +52,7 @@ int main(int argc, char** argv) {
     if (options.request.file.empty()) options.request.file = espalier::scene::contentFolder() + "/sample.json";
     const char* wanted = std::getenv("ESPALIER_VALIDATION");
     options.validation = options.validation || (wanted && std::string(wanted) == "1");
-    // So that large blocks go back when they are freed: left alone, glibc takes them from its heap as soon as one was,
-    // and each document that is opened finds that in more pieces. Software devices take theirs by malloc, too.
-    (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    espalier::scene::keepHeap();
     try {
         return sample::runApp(options);
     } catch (const std::exception& e) {

@@ -244,6 +244,13 @@ EspResult espDraw(EspContext* context, const EspDrawDef* def) {
     });
 }
 
+EspResult espDropFrame(EspContext* context) {
+    return guarded(context, [&] {
+        context->renderer->forget();
+        return ESP_OK;
+    });
+}
+
 EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes) {
     return guarded(context, [&] {
         if (!rgba) return fail(context, ESP_INVALID_ARGUMENT, "espReadPixels: null pointer");

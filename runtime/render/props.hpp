@@ -39,6 +39,7 @@ class Props {
     void draw(DrawPass& pass, const Buffer& frame, const Binding& shadow, Shading shading) const;
     void drawDepth(DrawPass& pass, const Buffer& frame) const;
     uint64_t triangles() const { return triangles_; }  // of the last choice
+    void forget() { chosenFor_ = glm::mat4(0); }       // the last recording won't be submitted
 
   private:
     // Instances of one level of detail, one after another.

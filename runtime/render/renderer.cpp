@@ -12,7 +12,8 @@ namespace espalier {
 namespace {
 
 constexpr float kShadowLodPixels = 1.2f;
-constexpr float kStrokeLeafTexels = 16;  // as Look::leafPixels, of shadows while a stroke goes on
+constexpr float kStrokeLeafTexels = 32;  // as Look::leafPixels, of shadows while a stroke goes on
+constexpr float kStrokeError = 3;        // times the errors that are allowed otherwise, then
 constexpr uint32_t kShadowPeriod = 8;    // frames, while growth changes in each
 constexpr float kWideBias = 0.12f;       // metres that what lies far away is moved towards the sun when it is compared
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
@@ -118,7 +119,8 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
     FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
     frame.viewProjection = sun.toClip;
     if (Status s = upload(commands, frame); !s) return s;
-    const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, kShadowLodPixels);
+    const float error = coarse ? kStrokeError : 1;
+    const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, error * kShadowLodPixels);
     if (grows_) {
         EmitView grown = view;
         grown.leastPixels = 0.35f;
@@ -135,7 +137,7 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
         targets.extent = {kShadowSize, kShadowSize};
         targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = 1.0f};
         DrawPass pass(commands, "shadow draw", targets);
-        models_.drawDepth(pass, modelDepth_, *frame_, kShadowModelTexels * sun.width / kShadowSize);
+        models_.drawDepth(pass, modelDepth_, *frame_, error * kShadowModelTexels * sun.width / kShadowSize);
         if (grows_) drawTerminals(pass, true);
         if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr);
         if (furnished_) props_->drawDepth(pass, *frame_);
@@ -360,8 +362,13 @@ Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const Dr
     return drawn;
 }
 
+// Nor are images where the recording would have left them.
 void RendererImpl::forget() {
     emit_.forget();
+    if (props_) props_->forget();
+    merge_.reset();
+    targets_.color = Image();
+    shadowMap_.state = ImageState::undefined;
     shadowDrawn_ = wideDrawn_ = false;
 }
 

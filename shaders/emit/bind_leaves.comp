@@ -82,7 +82,7 @@ void bindLeaf(uint i) {
 
 // All of them; or those on nodes whose spans were bound anew, and those that there weren't before.
 void main() {
-    uint listed = push.partly != 0u ? HEAD.largest : 0u;
+    uint listed = push.partly != 0u ? min(HEAD.largest, push.leavesBefore) : 0u;
     uint count = push.partly != 0u ? listed + push.leafCount - push.leavesBefore : push.leafCount;
     for (uint i = FIRST_LANE; i < count; i += LANES) {
         uint leaf = push.partly != 0u ? push.leavesBefore + i - listed : i;

@@ -63,12 +63,15 @@ uint trianglesOf(uint kind) {
     return table.buckets[table.variants[table.kinds[kind].firstVariant].firstBucket].indexCount / 3u;
 }
 
+const uint kMostLeaves = 65536u;   // of a node: no chain that was never written is followed for ever
+
 // Leaves that were bound to node `i` are to be bound again, and chained anew.
 void listLeaves(uint i) {
     for (bool before = push.partly != 0u && i < push.nodesBefore; before; before = false) {
         uint leaf = push.leafHeads.v[i];
-        while (leaf != kNoIndex) {
-            push.work.v[push.leafWork + atomicAdd(HEAD.largest, 1u)] = leaf;
+        for (uint k = 0u; k < kMostLeaves && leaf < push.leavesBefore; ++k) {
+            uint at = atomicAdd(HEAD.largest, 1u);
+            for (bool room = at < push.leavesBefore; room; room = false) push.work.v[push.leafWork + at] = leaf;
             leaf = push.leafNext.v[leaf];
         }
     }

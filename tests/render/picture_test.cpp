@@ -272,6 +272,25 @@ TEST_CASE("frames of a moving camera leave no memory behind") {
     }
 }
 
+TEST_CASE("a frame that was recorded and never submitted leaves no trace, once it is forgotten") {
+    Studio fresh, studio;
+    for (int round = 0; round < 2; ++round) {  // the first of all; another view of other growth
+        CAPTURE(round);
+        for (Studio* in : {&fresh, &studio}) {
+            in->inputs.camera.eye.x += 0.1f;
+            in->inputs.growth.leafCount -= 100;
+            ++in->inputs.growth.revision;
+        }
+        {
+            Result<Commands> dropped = Commands::begin(*studio.device, "dropped");
+            REQUIRE(dropped);
+            REQUIRE(studio.renderer->draw(*dropped, studio.inputs, {.width = 160, .height = 90}));
+        }
+        studio.renderer->forget();
+        CHECK(studio.draw(160, 90) == fresh.draw(160, 90));
+    }
+}
+
 TEST_CASE("awkward sizes") {
     Studio studio;
     for (glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(63, 65), glm::uvec2(2, 300), glm::uvec2(641, 3)})

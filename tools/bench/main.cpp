@@ -5,9 +5,11 @@
 
 #include "runtime/gpu/device.hpp"
 #include "tools/bench/bench.hpp"
+#include "tools/scene/heap.hpp"
 
 int main(int argc, char** argv) {
     using namespace espalier;
+    scene::keepHeap();
     BenchOptions options;
     std::string csv;
     const char* data = std::getenv("ESPALIER_DATA");
