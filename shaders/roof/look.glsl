@@ -32,7 +32,13 @@ vec3 weathered(vec3 base, float variation, float tint, vec3 position) {
     base *= 1.0 + tint * 0.55 * (variation - 0.5) * 2.0;
     float high = (position.y - frame.groundLevel) / frame.unit;
     vec3 splashed = mix(vec3(0.62, 0.585, 0.51), vec3(1.0), clamp(0.9 * high + 1.6 * patchy - 0.75, 0.0, 1.0));
-    return base * splashed * (0.84 + 0.32 * patchy);
+    // Plaster and stone have a grain, which is seen near by. A loop of one round: a device that runs all lanes through both
+    // sides of an `if` does leave a loop early.
+    float near = quick ? 0.0 : clamp(1.5 - 0.25 * length(frame.eye - position) / frame.unit, 0.0, 1.0) * step(tint, 0.0);
+    float grain = 0.0;
+    for (bool seen = near > 0.0; seen; seen = false)
+        grain = near * (0.16 * noise3(position * 85.0) + 0.10 * noise3(position * 31.0) + 0.08 * noise3(position * 9.0) - 0.17);
+    return base * splashed * (0.84 + 0.32 * patchy + grain);
 }
 // Moss grows in cushions where its layer is painted, thickest in the joints and on the shaded side of tiles.
 vec3 mossy(RoofDrawEnv env, uint mesh, vec3 base, vec3 position, float joint) {
