@@ -112,6 +112,14 @@ inline uint atomicMax(uint& memory, uint value) {
 }
 #endif
 
+// A word of which others read meanwhile what stays the same.
+#ifdef __cplusplus
+inline uint loadShared(const uint& memory) { return __atomic_load_n(&memory, __ATOMIC_RELAXED); }
+#define STORE_SHARED(memory, value) __atomic_store_n(&(memory), value, __ATOMIC_RELAXED)
+#else
+#define STORE_SHARED(memory, value) memory = value
+#endif
+
 // Whether branches are complete and all found room: not while waves are left, nor when something was lost.
 FN bool complete(ExpandEnv env) {
     return env.status.v[0].nodes <= env.status.v[0].nodeCapacity &&

@@ -187,7 +187,7 @@ struct NodeFinish {
 };
 FN void keepFinish(NodeBuf nodes, uint index, NodeFinish f) {
     nodes.v[index].tangent = f.tangent;
-    nodes.v[index].flags = f.flags;
+    STORE_SHARED(nodes.v[index].flags, f.flags);   // neighbours look at the bits that stay
     nodes.v[index].radius = f.radius;
 }
 

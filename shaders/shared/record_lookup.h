@@ -27,7 +27,8 @@ struct NodeArc {
 inline Node readNode(ExpandEnv env, uint at) { return env.nodes.v[at]; }
 inline vec3 readPosition(ExpandEnv env, uint at) { return env.nodes.v[at].position; }
 inline NodeArc readArc(ExpandEnv env, uint at) {
-    return {env.nodes.v[at].arc, env.nodes.v[at].chunk, env.nodes.v[at].flags};
+    const Node& node = env.nodes.v[at];
+    return {node.arc, node.chunk, loadShared(node.flags)};
 }
 inline ChunkBrief readBrief(ExpandEnv env, uint at) {
     const Chunk& c = env.chunks.v[at];
