@@ -20,7 +20,8 @@ FN float absolute(float x) { return uintBitsToFloat(floatBitsToUint(x) & 0x7FFFF
 FN float smaller(float a, float b) { return a < b ? a : b; }
 FN float larger(float a, float b) { return a < b ? b : a; }
 FN float limited(float x, float low, float high) { return smaller(larger(x, low), high); }
-FN float sign1(float x) { return x < 0.0f ? -1.0f : 1.0f; }
+FN uint signBit(float x) { return x < 0.0f ? 0x80000000u : 0u; }
+FN float sign1(float x) { return uintBitsToFloat(0x3F800000u | signBit(x)); }
 
 // 1 / sqrt(x) for normal x > 0, to about 2 units in the last place; x <= 0 gives a large finite value.
 FN float rsqrtExact(float x) {
@@ -40,7 +41,7 @@ FN float rcpExact(float x) {
     y = y * (2.0f - a * y);
     y = y * (2.0f - a * y);
     y = y * (2.0f - a * y);
-    return x < 0.0f ? -y : y;
+    return uintBitsToFloat(floatBitsToUint(y) ^ signBit(x));
 }
 FN float divExact(float a, float b) { return a * rcpExact(b); }
 FN vec3 unit3(vec3 v) { return v * rsqrtExact(dot3(v, v)); }
@@ -50,7 +51,7 @@ FN float length2(vec2 v) { return sqrtExact(dot2(v, v)); }
 // Greatest integer <= x, |x| < 2^31.
 FN float floorExact(float x) {
     float t = float(int(x));
-    return t - (t > x ? 1.0f : 0.0f);
+    return t - float(t > x);
 }
 
 // sin and cos of x (radians, |x| < 1e4), absolute error below 2e-7 near zero and 1e-6 at |x| = 1000.
@@ -83,7 +84,11 @@ FN float atan2Exact(float y, float x) {
 }
 
 // Octahedral unit vectors, 2×16 bit snorm: error below 1e-4 radians.
-FN uint packSnorm16(float v) { return uint(int(floorExact(limited(v, -1.0f, 1.0f) * 32767.0f + 0.5f))) & 0xFFFFu; }
+FN uint packSnorm16(float v) {
+    float x = limited(v, -1.0f, 1.0f) * 32767.0f + 0.5f;
+    int i = int(x);
+    return uint(i - int(float(i) > x)) & 0xFFFFu;
+}
 FN float unpackSnorm16(uint h) {
     int i = int(h << 16u) >> 16;
     return larger(float(i) * 3.05185095e-5f, -1.0f);
@@ -92,11 +97,11 @@ FN uint packOct(vec3 n) {
     float k = rcpExact(absolute(n.x) + absolute(n.y) + absolute(n.z));
     float x = n.x * k;
     float y = n.y * k;
-    if (n.z < 0.0f) {
-        float fx = (1.0f - absolute(y)) * sign1(x);
-        y = (1.0f - absolute(x)) * sign1(y);
-        x = fx;
-    }
+    float fx = uintBitsToFloat(floatBitsToUint(1.0f - absolute(y)) ^ signBit(x));
+    float fy = uintBitsToFloat(floatBitsToUint(1.0f - absolute(x)) ^ signBit(y));
+    bool under = n.z < 0.0f;
+    x = under ? fx : x;
+    y = under ? fy : y;
     return packSnorm16(x) | (packSnorm16(y) << 16u);
 }
 FN vec3 unpackOct(uint p) {

@@ -184,15 +184,26 @@ FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, floa
     vec3 position = t00.position + low * (fx * ey) + (left + high * fx) * fy;
 
     // The nearest texel of this chart, and whether all four serve.
-    float best = -9.0f;
-    uint nearest = kNoIndex;
-    uint bits = 0u;
-    if (texelOwned(t00.bits, chart)) { best = ex * ey; nearest = r0 + c0; bits = t00.bits; }
-    if (texelOwned(t10.bits, chart) && fx * ey > best) { best = fx * ey; nearest = r0 + c1; bits = t10.bits; }
-    if (texelOwned(t01.bits, chart) && ex * fy > best) { best = ex * fy; nearest = r1 + c0; bits = t01.bits; }
-    if (texelOwned(t11.bits, chart) && fx * fy > best) { nearest = r1 + c1; bits = t11.bits; }
-    bool own = texelOwned(t00.bits, chart) && texelOwned(t10.bits, chart) && texelOwned(t01.bits, chart) &&
-               texelOwned(t11.bits, chart);
+    // Which that is is as good as random, so no branch hangs on it.
+    bool own00 = texelOwned(t00.bits, chart);
+    bool own10 = texelOwned(t10.bits, chart);
+    bool own01 = texelOwned(t01.bits, chart);
+    bool own11 = texelOwned(t11.bits, chart);
+    uint nearest = own00 ? r0 + c0 : kNoIndex;
+    uint bits = own00 ? t00.bits : 0u;
+    float best = own00 ? ex * ey : -9.0f;
+    float share = own10 ? fx * ey : -9.0f;
+    nearest = share > best ? r0 + c1 : nearest;
+    bits = share > best ? t10.bits : bits;
+    best = larger(best, share);
+    share = own01 ? ex * fy : -9.0f;
+    nearest = share > best ? r1 + c0 : nearest;
+    bits = share > best ? t01.bits : bits;
+    best = larger(best, share);
+    share = own11 ? fx * fy : -9.0f;
+    nearest = share > best ? r1 + c1 : nearest;
+    bits = share > best ? t11.bits : bits;
+    bool own = own00 && own10 && own01 && own11;
     bool creased = texelCrease(t00.bits | t10.bits | t01.bits | t11.bits);
     bool valid = nearest != kNoIndex && absolute(uv.x - 0.5f) <= 0.5f && absolute(uv.y - 0.5f) <= 0.5f;
     if (valid && (creased || !own)) {

@@ -49,6 +49,7 @@ struct WalkState {
     Walk walk;
     vec3 position;
     vec3 du, dv;         // Jacobian, metres per unit of UV
+    float spread;        // spreadOf(du, dv)
     vec3 normal;         // unit, outward
     float orientation;   // of the chart
     uint level;          // stood on: the one asked for or the chart's coarsest
@@ -69,16 +70,21 @@ CONST_UINT(kWalkFlagBeside, 1u << 13u); // last read was Patch::beside a crease
 FN bool walkGoesOn(uint event) { return event >= kWalkSeam && event <= kWalkRetry; }
 FN bool walkHasSample(uint event) { return event != kWalkRetry && event != kWalkLost; }
 
-// UV per metre along tangent t: the pseudoinverse of [du dv] applied to t.
-FN vec2 tangentRate(vec3 du, vec3 dv, vec3 t) {
+// The square of UV area per metre².
+FN float spreadOf(vec3 du, vec3 dv) {
     float e = dot3(du, du);
     float f = dot3(du, dv);
     float g = dot3(dv, dv);
+    return rcpExact(larger(e * g - f * f, 1e-6f * e * g));
+}
+// UV per metre along tangent t: the pseudoinverse of [du dv] applied to t. spread: spreadOf(du, dv).
+FN vec2 spreadRate(vec3 du, vec3 dv, float spread, vec3 t) {
+    float f = dot3(du, dv);
     float a = dot3(du, t);
     float b = dot3(dv, t);
-    float k = rcpExact(larger(e * g - f * f, 1e-6f * e * g));
-    return vec2((g * a - f * b) * k, (e * b - f * a) * k);
+    return vec2((dot3(dv, dv) * a - f * b) * spread, (dot3(du, du) * b - f * a) * spread);
 }
+FN vec2 tangentRate(vec3 du, vec3 dv, vec3 t) { return spreadRate(du, dv, spreadOf(du, dv), t); }
 
 // t, tangent under unit normal n, turned with the least rotation that takes n to m; unit and tangent under m.
 FN vec3 carriedTangent(vec3 t, vec3 n, vec3 m) {
@@ -94,6 +100,7 @@ FN void standOn(INOUT(WalkState) w, Patch p, float texel) {
     w.position = p.position;
     w.du = p.du;
     w.dv = p.dv;
+    w.spread = spreadOf(p.du, p.dv);
     w.normal = p.normal;
     w.clear = float(texelClearance(p.bits)) * texel;
     w.flags = (w.flags & ~(kWalkFlagCrease | kWalkFlagBeside)) | (texelCrease(p.bits) ? kWalkFlagCrease : 0u) |
@@ -282,10 +289,14 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
     // The stretch: what remains, unless the surface turns or it is very many texels.
     remaining = inRange(remaining, kWalkMaxRadii * surfaceRadius(surfaces, instance) * scale);
     float wanted = remaining * rcpExact(scale);
-    vec2 rate = tangentRate(w.du, w.dv, t);
+    vec2 rate = spreadRate(w.du, w.dv, w.spread, t);
     float pace = length2(rate);
     float most = (w.flags & kWalkFlagCrease) != 0u ? kWalkCreaseTexels : kWalkMaxTexels;
-    float farthest = smaller(w.limit, most * texel * rcpExact(pace));
+    // What is surely within reach doesn't wait for the pace.
+    float farthest = wanted;
+    if (!(w.limit >= wanted && wanted * pace < 0.999f * most * texel)) {
+        farthest = smaller(w.limit, most * texel * rcpExact(pace));
+    }
     bool partly = farthest < wanted;
     float s = partly ? farthest : wanted;
     vec2 delta = rate * s;
@@ -417,7 +428,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         bulges = bulges && absolute(slope * toCrease) * pace > kWalkBulgeTexels * texel;
         bool rough = turn < kWalkTurnCosine || dot2(correction, correction) > 0.04f * dot2(delta, delta) || bulges;
         // A sharp crease. The nearest texel changes sides up to half a texel before or after the planes do.
-        float close = texel * rcpExact(pace);
+        float close = creased ? texel * rcpExact(pace) : 0.0f;
         float height = slope * toCrease;
         float sine2 = larger(1.0f - turn * turn, 0.01f);
         bool sharp = creased && turn < kWalkTurnCosine && absolute(slope) > 1e-2f &&
@@ -446,6 +457,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             w.walk.direction = t1;
             w.du = p.du;
             w.dv = p.dv;
+            w.spread = spreadOf(p.du, p.dv);
             w.normal = p.normal;
             w.clear = larger(w.clear - length2(shiftUv), 0.0f);
             w.flags = w.flags | kWalkFlagCrease | kWalkFlagOver;
