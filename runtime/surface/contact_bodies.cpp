@@ -188,7 +188,8 @@ bool Bodies::covered(const HiddenQuery& q, double tolerance) const {
 
 bool Bodies::hide(const HiddenQuery& q, double tolerance, bool crevices) const {
     if (tree_.empty()) return false;
-    return inside(q, 0.1 * tolerance) || (crevices && inside(q, 1.5 * tolerance)) || covered(q, tolerance);
+    if (!crevices) return inside(q, 0.1 * tolerance) || covered(q, 0.1 * tolerance);
+    return inside(q, 0.1 * tolerance) || inside(q, 1.5 * tolerance) || covered(q, tolerance);
 }
 
 }  // namespace espalier

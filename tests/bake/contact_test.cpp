@@ -200,6 +200,27 @@ TEST_CASE("a groove between boards, narrower than a texel, is gone through or ov
     }
 }
 
+TEST_CASE("a walk down a wedge whose foot is narrower than a texel comes out again") {
+    // A sheet on a floor, before it a block that leans away, its edge in the floor.
+    const double texel = 3 / (0.88 / 4 * 1024), gap = 0.75 * texel, lean = 0.15, thick = 0.2;
+    const dvec3 up(0, std::cos(lean), std::sin(lean)), out(0, -std::sin(lean), std::cos(lean));
+    Kit kit;
+    kit.box({0, 0, 0}, {1.5, 0.2, 1.5});
+    const int sheet = kit.panel({-1, 0.2, 0}, {2, 0, 0}, {0, 0.8, 0});
+    const double z = gap + (thick + 0.25 * std::sin(lean)) / std::cos(lean);
+    kit.box({0, 0.45, z}, glm::dmat3(dvec3(0.4, 0, 0), up * 0.3, out * thick));
+    const Baked baked = kit.bake(1024);
+    Stroll walk(baked.surface);
+    for (double s : {0.35, 0.42, 0.5, 0.57, 0.65}) {
+        CAPTURE(s);
+        REQUIRE(walk.start(kit, sheet, s, 0.9, {0, -1, 0}));
+        CHECK(walk.go(0.72 + 0.2) == kWalkDone);
+        // Up the block's back.
+        CHECK(walk.w.position.y > 0.35f);
+        CHECK(std::abs(glm::dot(dvec3(walk.w.position) - dvec3(0, 0.2, gap), out)) < 0.3 * texel);
+    }
+}
+
 TEST_CASE("boxes stacked, side by side and through each other: walks stay on the outside and go everywhere") {
     std::vector<std::pair<dvec3, glm::dmat3>> boxes;
     auto axes = [](dvec3 half, double turn) {
