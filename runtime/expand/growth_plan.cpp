@@ -39,10 +39,10 @@ GrowthCut findCut(std::span<const Wave> waves, const GrowthLimits& limits, const
     uint64_t most = chunkLimit(limits);
     for (size_t w = 0; w < waves.size(); ++w) {
         if (w > 0 && waves[w].count > most) return shareOf(w - 1, double(most) / double(waves[w].count));
-        double share = 1;
-        if (nodes + waves[w].nodes > limits.maxNodes) share = double(limits.maxNodes - nodes) / waves[w].nodes;
-        if (chunks + waves[w].chunks > most) share = std::min(share, double(most - chunks) / waves[w].chunks);
-        if (share < 1) return shareOf(w, share);
+        // Nodes of chunks that found no room aren't counted, so chunks come first.
+        if (chunks + waves[w].chunks > most) return shareOf(w, double(most - chunks) / waves[w].chunks);
+        if (nodes + waves[w].nodes > limits.maxNodes)
+            return shareOf(w, double(limits.maxNodes - nodes) / waves[w].nodes);
         nodes += waves[w].nodes;
         chunks += waves[w].chunks;
     }
@@ -161,20 +161,24 @@ Wave firstWave(uint32_t seeds, const GrowthRoom& room) {
 
 Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
               GrowthCut& cut) {
-    GrowthCut needed = findCut(waves, limits, cut);
-    bool later = needed.wave > cut.wave || (needed.wave == cut.wave && needed.key >= cut.key);
-    if (!later) {
-        if (cut.wave == 0 && cut.key == 0) return Verdict::impossible;
-        cut = needed;
-        return Verdict::retry;
+    const uint32_t most = chunkLimit(limits);
+    const bool itemsFit = status.items <= room.items, chunksFit = status.chunks <= room.chunks;
+    // Who found no room left nothing to the waves after it, and who that was hangs on the schedule: such counts tell of
+    // a cut only where there can't be more room.
+    const bool counted = (itemsFit || room.items >= most) && (chunksFit || room.chunks >= most);
+    if (counted) {
+        GrowthCut needed = findCut(waves, limits, cut);
+        bool later = needed.wave > cut.wave || (needed.wave == cut.wave && needed.key >= cut.key);
+        if (!later) {
+            if (cut.wave == 0 && cut.key == 0) return Verdict::impossible;
+            cut = needed;
+            return Verdict::retry;
+        }
     }
-    bool itemsFit = status.items <= room.items;
-    bool chunksFit = status.chunks <= room.chunks;
     bool complete = itemsFit && chunksFit;
     bool fits =
         complete && status.nodes <= room.nodes && status.branches <= room.branches && status.leaves <= room.leaves;
     if (fits) return Verdict::complete;
-    uint32_t most = chunkLimit(limits);
     bool terminalsRan = complete && status.nodes <= room.nodes && status.branches <= room.branches;
     room.items = enlarged(room.items, std::max(status.items, room.items), itemsFit, most);
     room.chunks = enlarged(room.chunks, status.chunks, complete, most);

@@ -154,6 +154,15 @@ DrawingHost::Picture DrawingHost::draw(const EspCamera& camera, const std::vecto
     return read();
 }
 
+void DrawingHost::recordInVain(const EspCamera& camera, EspContext* context) {
+    makeImages();
+    Commands commands = must(Commands::begin(*device_, "host's frame"));
+    ++frame_;
+    const EspDrawDef drawn = def(camera, commands);
+    const EspResult result = espDraw(context, &drawn);
+    REQUIRE_MESSAGE(result == ESP_OK, espLastError(context));
+}
+
 std::vector<DrawingHost::Picture> DrawingHost::drawAtOnce(const std::vector<EspCamera>& cameras, EspContext* context) {
     std::vector<Image> images;
     std::vector<Commands> recorded;

@@ -39,6 +39,8 @@ class DrawingHost {
 
     // A picture of the boxes; with a context growth is drawn into it, with `surfaces` its surfaces too.
     Picture draw(const EspCamera& camera, const std::vector<Box>& boxes, EspContext* context, bool surfaces = false);
+    // Has such a frame recorded, and neither submits it nor says so.
+    void recordInVain(const EspCamera& camera, EspContext* context);
     // The plugin's own pictures for each camera, all recorded before the first is submitted.
     std::vector<Picture> drawAtOnce(const std::vector<EspCamera>& cameras, EspContext* context);
 

@@ -208,6 +208,20 @@ void sixFramesAtOnce(DrawingHost& host, Grown& grown) {
 }
 
 // A host's scene that can't be used is refused.
+// The first frame of a plant is recorded and dropped: what it would have bound, culled and shaded, the next one does.
+void droppedFrame(DrawingHost& host, Grown& grown) {
+    host.use(VK_FORMAT_R8G8B8A8_UNORM, {});
+    const std::vector<EspCamera> cameras = {cameraAt(.9f, .8f, 1.7f)};
+    const Picture wanted = host.drawAtOnce(cameras, grown.context)[0];
+    Grown other(host);
+    host.recordInVain(cameras[0], other.context);
+    REQUIRE(espDropFrame(other.context) == ESP_OK);
+    const Picture after = host.drawAtOnce(cameras, other.context)[0];
+    save("host-dropped", after);
+    CHECK(after.rgba == wanted.rgba);
+    CHECK(espDropFrame(nullptr) == ESP_INVALID_ARGUMENT);
+}
+
 void refusals(DrawingHost& host, Grown& grown) {
     const auto refused = [&](auto&& spoil) {
         EspHostScene scene = host.scene();
@@ -250,5 +264,6 @@ TEST_CASE("growth in a host's scene") {
     depthsAreWhereRaysHit(host, grown);
     otherFormats(host, grown);
     sixFramesAtOnce(host, grown);
+    droppedFrame(host, grown);
     refusals(host, grown);
 }
