@@ -1,5 +1,5 @@
-// Placed surfaces -> crossings between those that touch. A pair is looked at again only when one of the two, or a third
-// that reaches between them, has moved.
+// Placed surfaces -> crossings between those that touch, and the ground that they bury of each other. A pair is looked
+// at again only when one of the two, or a third that reaches between them, has moved.
 #include <algorithm>
 #include <chrono>
 #include <cstring>

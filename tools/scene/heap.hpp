@@ -7,6 +7,7 @@
 
 namespace espalier::scene {
 
+// Of the whole process. Call it once, before other threads begin.
 inline void keepHeap() {
     // Large blocks go back when they are freed: left alone, glibc takes them from its heap as soon as one was, and each
     // document that is opened finds that in more pieces.
