@@ -1,6 +1,6 @@
 #pragma once
 
-// The renderer behind renderer.hpp: renderer_setup.cpp makes it, renderer.cpp draws.
+// The renderer behind renderer.hpp: renderer_setup.cpp makes it, renderer.cpp draws, renderer_shadows.cpp its shadows.
 
 #include <array>
 #include <map>
@@ -48,8 +48,6 @@ class RendererImpl final : public Renderer {
 
     Status makePrograms();
     Status drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
-    // Whether shadows can stay behind for this frame.
-    bool shadowsWait(const ShadowKey& key);
     // The programs that draw what is lit: one set for each kind of shading, one for the view that counts fragments.
     struct ScenePrograms {
         Program model, modelFoot, bark, barkSmall, leaf, leafSmall;
@@ -60,10 +58,13 @@ class RendererImpl final : public Renderer {
     Result<const Program*> resolveProgram(VkFormat format, bool rest);
     // Uploads the record to frame_.
     Status upload(Commands& commands, const FrameRecord& frame);
+    // renderer_shadows.cpp: redraws shadows that aren't up to date, and tells the frame where they are.
+    Status keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame);
+    // Whether shadows can stay behind for this frame.
+    bool shadowsWait(const ShadowKey& key);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse);
     // All that stands but growth, into the map's right half; the whole map is cleared.
     Status drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
-    // Draws them if they aren't up to date, and tells the frame where they are.
     Status aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
                           float radius, FrameRecord& frame);
     void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);

@@ -1,0 +1,164 @@
+// Enters: what casts shadows, the sun, what is looked at. Leaves: the map of shadows, its near half with growth and its
+// wide half with all else that stands, redrawn when what it shows has changed; the frame's record says where they are.
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/render/renderer_impl.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr float kShadowLodPixels = 1.2f;
+constexpr float kStrokeLeafTexels = 32;  // as Look::leafPixels, of shadows while a stroke goes on
+constexpr float kStrokeError = 3;        // times the errors that are allowed otherwise, then
+constexpr uint32_t kShadowPeriod = 8;    // frames, while growth changes in each
+constexpr float kWideBias = 0.12f;       // metres that what lies far away is moved towards the sun when it is compared
+constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
+
+// Metres, unless the models are far too small or too large for that: then their longest side counts as six.
+float lengthUnit(glm::vec3 size) {
+    const float side = std::max({size.x, size.y, size.z});
+    return side > 1.0f && side < 200.0f ? 1.0f : std::max(side, 1e-6f) / 6;
+}
+
+}  // namespace
+
+Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse) {
+    FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
+    frame.viewProjection = sun.toClip;
+    if (Status s = upload(commands, frame); !s) return s;
+    const float error = coarse ? kStrokeError : 1;
+    const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, error * kShadowLodPixels);
+    if (grows_) {
+        EmitView grown = view;
+        grown.leastPixels = 0.35f;
+        if (coarse) thinOut(grown, kStrokeLeafTexels);
+        if (Status s = emit_.cull(commands, emitInputs(inputs), grown, "shadow emit", false); !s) return s;
+    }
+    if (roofed_)
+        if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
+    if (furnished_)
+        if (Status s = props_->chooseCasters(commands, sun.toClip); !s) return s;
+    commands.transition(shadowMap_, ImageState::depthTarget, !wideDrawn_);  // its other half stays
+    {
+        DrawTargets targets;
+        targets.extent = {kShadowSize, kShadowSize};
+        targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = 1.0f};
+        DrawPass pass(commands, "shadow draw", targets);
+        models_.drawDepth(pass, modelDepth_, *frame_, error * kShadowModelTexels * sun.width / kShadowSize);
+        if (grows_) drawTerminals(pass, true);
+        if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr);
+        if (furnished_) props_->drawDepth(pass, *frame_);
+    }
+    commands.transition(shadowMap_, ImageState::sampled);
+    return Done{};
+}
+
+Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
+    FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
+    frame.viewProjection = sun.toClip;
+    if (Status s = upload(commands, frame); !s) return s;
+    const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, kShadowLodPixels);
+    if (roofed_)
+        if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
+    if (furnished_)
+        if (Status s = props_->chooseCasters(commands, sun.toClip); !s) return s;
+    commands.transition(shadowMap_, ImageState::depthTarget, true);
+    {
+        DrawTargets targets;
+        targets.extent = {2 * kShadowSize, kShadowSize};
+        targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = 1.0f};
+        DrawPass pass(commands, "shadow draw", targets);
+        pass.setViewport({float(kShadowSize), 0, float(kShadowSize), float(kShadowSize), 0, 1});
+        pass.setScissor(kShadowSize, 0, kShadowSize, kShadowSize);
+        models_.drawDepth(pass, modelDepth_, *frame_, kShadowModelTexels * sun.width / kShadowSize);
+        if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr);
+        if (furnished_) props_->drawDepth(pass, *frame_);
+    }
+    commands.transition(shadowMap_, ImageState::sampled);
+    return Done{};
+}
+
+Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
+                                    float radius, FrameRecord& frame) {
+    const ShadowKey key{0, models_.revision() + (propsRevision_ << 32), frame.sunDirection,       0,
+                        0, roofed_ ? inputs.roofs->revision : 0,        glm::vec4(center, radius)};
+    // If they may lag: while houses change in every frame, shadows far away follow in every eighth and when they rest.
+    wideChanges_ = key == wideBefore_ ? 0 : wideChanges_ + 1;
+    wideBefore_ = key;
+    const bool turned = wideKey_.sun != key.sun;
+    const bool wait =
+        inputs.look.shadowsLag && wideDrawn_ && !turned && wideChanges_ > 2 && wideChanges_ % kShadowPeriod != 0;
+    if (!wait && (!wideDrawn_ || wideKey_ != key)) {
+        const SunView wide = makeSunView(key.sun, center, radius);
+        if (Status s = drawWideShadows(commands, inputs, wide); !s) return s;
+        wideKey_ = key;
+        wideToTexture_ = wide.toTexture;
+        wideDrawn_ = true;
+        shadowDrawn_ = false;  // the whole map was cleared
+    }
+    // Both look along the sun: one's coordinates are the other's, scaled and moved.
+    const float scale = near.width / (2 * wideKey_.sphere.w);
+    const glm::vec4 origin(0, 0, 0, 1);
+    frame.wideScale = glm::vec3(scale);
+    frame.wideOffset = glm::vec3(wideToTexture_ * origin) - scale * glm::vec3(near.toTexture * origin);
+    frame.wideOffset.z -= kWideBias / (2 * wideKey_.sphere.w);
+    return Done{};
+}
+
+bool RendererImpl::shadowsWait(const ShadowKey& key) {
+    changes_ = key.growth == growthBefore_ ? 0 : changes_ + 1;
+    growthBefore_ = key.growth;
+    ShadowKey grown = shadowKey_;
+    grown.growth = key.growth;
+    grown.nodes = key.nodes;
+    grown.leaves = key.leaves;
+    return shadowDrawn_ && grown == key && changes_ > 2 && changes_ % kShadowPeriod != 0;
+}
+
+Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame) {
+    const GrowthView& growth = inputs.growth;
+    glm::vec3 low, high;
+    models_.bounds(low, high);
+    if (roofed_) {
+        low = models_.empty() ? inputs.roofs->low : glm::min(low, inputs.roofs->low);
+        high = models_.empty() ? inputs.roofs->high : glm::max(high, inputs.roofs->high);
+    }
+    float radius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.06f;
+    glm::vec3 center = (low + high) * 0.5f;
+    // A town is larger than a map of shadows can resolve: it covers what is looked at.
+    if (roofed_) {
+        const float reach =
+            std::exp2(std::ceil(std::log2(1.6f * glm::length(inputs.camera.target - inputs.camera.eye))));
+        if (reach < radius) {
+            radius = std::max(reach, 8.0f);
+            center = glm::round(inputs.camera.target / (0.125f * radius)) * (0.125f * radius);
+        }
+    }
+    const SunView sun = makeSunView(frame.sunDirection, center, radius);
+    frame.shadowMatrix = sun.toTexture;
+    frame.shadowTexel = 1.0f / kShadowSize;
+    frame.unit = roofed_ ? 1.0f : lengthUnit(high - low);
+    frame.shadowOffset = 1.2f * sun.width / kShadowSize;
+    const uint64_t stands = models_.revision() + (propsRevision_ << 32);
+    const ShadowKey key{growth.revision,          stands,           frame.sunDirection,
+                        growth.nodeCount,         growth.leafCount, roofed_ ? inputs.roofs->revision : 0,
+                        glm::vec4(center, radius)};
+    if (furnished_) props_->bounds(low, high);
+    const float wideRadius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.02f;
+    if (frame.shadows && wideRadius > 1.1f * radius)
+        if (Status s = aimWideShadows(commands, inputs, sun, (low + high) * 0.5f, wideRadius, frame); !s) return s;
+    const bool wait = shadowsWait(key) && inputs.look.shadowsLag;
+    const bool stroke = inputs.look.shadowsLag && changes_ > 2;
+    if (frame.shadows && !wait && (!shadowDrawn_ || key != shadowKey_ || (shadowCoarse_ && !stroke))) {
+        if (Status s = drawShadows(commands, inputs, sun, stroke); !s) return s;
+        shadowKey_ = key;
+        shadowCoarse_ = stroke;
+        shadowDrawn_ = true;
+    } else if (!shadowDrawn_ && !wideDrawn_) {
+        commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
+    }
+    return Done{};
+}
+
+}  // namespace espalier
