@@ -240,6 +240,16 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
     return push;
 }
 
+// each(mesh, fade): the mesh that is drawn, or the two that share the picture.
+template <class Each>
+void Models::overShown(const Model& model, const Each& each) {
+    if (model.step == kFadeFrames) return each(model.shown, 1.0f);
+    // Pixels go to the coarser one in one order and come back in the same.
+    const float share = float(model.step) / kFadeFrames, coarser = model.shown > model.before ? share : 1 - share;
+    each(std::max(model.shown, model.before), coarser);
+    each(std::min(model.shown, model.before), -coarser);
+}
+
 void Models::draw(DrawPass& pass, const Drawn& with) const {
     const bool quick = with.shading == Shading::quick;
     const Sampler& sampler = quick ? quickSampler_ : sampler_;
@@ -271,29 +281,27 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
                 drawPart(with.program, foot, range.indexCount - foot);
             }
         };
-        if (model.step == kFadeFrames) {
-            drawMesh(model.shown, 1);
-            continue;
-        }
-        // Pixels go to the coarser one in one order and come back in the same.
-        const float share = float(model.step) / kFadeFrames, coarser = model.shown > model.before ? share : 1 - share;
-        drawMesh(std::max(model.shown, model.before), coarser);
-        drawMesh(std::min(model.shown, model.before), -coarser);
+        overShown(model, drawMesh);
     }
 }
 
-void Models::drawAhead(DrawPass& pass, const Program& program, const Buffer& frame) const {
+void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame) const {
     for (const auto& [index, model] : models_) {
-        if (model.step != kFadeFrames || model.groundOnly) continue;
+        if (model.groundOnly) continue;
         pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
-        const Mesh& mesh = model.meshes[model.shown];
-        for (const DrawRange& range : mesh.ranges) {
-            const Material& material = model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
-            if (material.alphaCutoff > 0) continue;
-            pass.drawIndexed(program, {range.indexCount, range.firstIndex, mesh.firstVertex},
-                             pushOf(model, model.shown, material, index), {frame});
-        }
+        overShown(model, [&](uint32_t which, float fade) {
+            const Mesh& mesh = model.meshes[which];
+            for (const DrawRange& range : mesh.ranges) {
+                const Material& material =
+                    model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
+                if (material.alphaCutoff > 0) continue;
+                ModelPush push = pushOf(model, which, material, index);
+                push.fade = fade;
+                pass.drawIndexed(fade < 1 ? fading : whole, {range.indexCount, range.firstIndex, mesh.firstVertex},
+                                 push, {frame});
+            }
+        });
     }
 }
 

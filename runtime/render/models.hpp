@@ -44,8 +44,9 @@ class Models {
         float groundLevel = 0, unit = 1;
     };
     void draw(DrawPass& pass, const Drawn& with) const;
-    // The depths of those that draw() draws whole: they go ahead, so that it shades only what is seen.
-    void drawAhead(DrawPass& pass, const Program& program, const Buffer& frame) const;
+    // The depths of what draw() draws without cut-outs: they go ahead, so that it shades only what is seen. fading: for
+    // models of which two meshes are drawn.
+    void drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame) const;
     // The simplest meshes with an error of at most `error` metres.
     void drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const;
 
@@ -91,6 +92,8 @@ class Models {
     Status uploadPictures(Device& device, const SurfaceData& data, Model& model);
     ModelPush pushOf(const Model& model, uint32_t mesh, const Material& material, uint32_t surface) const;
     static uint32_t simplest(const Model& model, float error);
+    template <class Each>
+    static void overShown(const Model& model, const Each& each);
 
     std::map<uint32_t, Model> models_;
     Image white_, flat_;

@@ -1,6 +1,6 @@
 // Enters: growth's records, surfaces, camera, look. Leaves: a picture. A frame is: shadow map if something that casts
-// shadows has changed (renderer_shadows.cpp), cull, scene (in four samples, on a CPU in one), ambient occlusion at half size,
-// samples or smoothed edges to pixels.
+// shadows has changed (renderer_shadows.cpp), cull, scene (in four samples, on a CPU in one), ambient occlusion at half
+// size, samples or smoothed edges to pixels.
 #include <algorithm>
 #include <cmath>
 
@@ -130,7 +130,7 @@ Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, co
         depths.depth = DepthTarget{.view = targets_.depth.view(), .clear = 0.0f};
         commands.transition(targets_.depth, ImageState::depthTarget, true);
         DrawPass pass(commands, "draw ahead", depths);
-        models_.drawAhead(pass, modelAhead_, *frame_);
+        models_.drawAhead(pass, modelAhead_, modelAheadFading_, *frame_);
         return Done{};
     }
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());

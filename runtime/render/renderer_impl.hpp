@@ -90,7 +90,8 @@ class RendererImpl final : public Renderer {
     ScenePrograms scenes_[kShadings], counting_;  // each made when first asked for
     const ScenePrograms* scene_ = &scenes_[0];    // of this recording
     Shading shading_ = Shading::full;
-    Program modelAhead_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_, depthTiles_;
+    Program modelAhead_, modelAheadFading_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_,
+        depthTiles_;
     Program sky_[2];                                                // without and with hills
     std::map<std::tuple<VkFormat, bool, bool>, Program> resolves_;  // by format, whether the view counts, rest
     std::array<bool, kMaxBuckets> small_{};                         // buckets that are lit at their vertices

@@ -40,9 +40,12 @@ Status RendererImpl::makePrograms() {
     ahead.samples = targets_.samples;
     ahead.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
     takeModelVertices(ahead);
-    Result<Program> aheadMade = Program::graphics(device_, ahead);
-    if (!aheadMade) return aheadMade.failure();
-    modelAhead_ = std::move(*aheadMade);
+    for (Program* program : {&modelAhead_, &modelAheadFading_}) {
+        if (program == &modelAheadFading_) ahead.fragment = "render/model_fade.frag";
+        Result<Program> made = Program::graphics(device_, ahead);
+        if (!made) return made.failure();
+        *program = std::move(*made);
+    }
     GraphicsDesc skyDesc = fullscreen("sky", "render/sky.frag", kSceneFormat);
     skyDesc.samples = targets_.samples;
     skyDesc.depth = kDepthFormat;  // it lies at depth 0, infinitely far

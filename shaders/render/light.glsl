@@ -2,6 +2,7 @@
 #ifndef ESPALIER_RENDER_LIGHT_GLSL
 #define ESPALIER_RENDER_LIGHT_GLSL
 #include "shaders/render/tone.glsl"
+#include "shaders/render/fade.glsl"
 #include "shaders/render/heat.h"
 
 layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
@@ -75,9 +76,6 @@ vec4 diagnostic(vec3 color, vec3 normal) {
 }
 
 vec3 depthColor(uint depth) { return heatColor(float(depth) * (1.0 / kHottestDepth)); }
-
-// A threshold for each pixel, even over small neighbourhoods: with one sample, half a pixel is every second one.
-float ditherAt(vec2 pixel) { return fract(52.98 * fract(dot(floor(pixel), vec2(0.0671, 0.00584)))) * 0.996 + 0.002; }
 
 // Coverage of `alpha` over the four samples. which: varies the pattern between things that lie over each other.
 int coverage(float alpha, uint which) {

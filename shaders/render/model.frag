@@ -55,12 +55,6 @@ vec4 otherView(vec3 n) {
     return diagnostic(shown, n);
 }
 
-// Two meshes share the picture while one takes over: each pixel shows the one or the other.
-bool fadedOut() {
-    float threshold = ditherAt(gl_FragCoord.xy);
-    return push.fade > 0.0 ? threshold >= push.fade : threshold < -push.fade;
-}
-
 // Where a texture has fewer texels than there are pixels, rough material goes on in a grain of its own.
 // plane: the face's normal; footX, footY: how uvs.xy change from pixel to pixel, in texels.
 void addGrain(vec3 plane, vec2 footX, vec2 footY, inout vec3 base, inout vec3 bumped) {
@@ -98,7 +92,7 @@ void addMeadow(vec3 plane, float metres, inout vec3 base, inout vec3 bumped) {
 }
 
 void main() {
-    if (push.fade != 1.0 && fadedOut()) discard;
+    if (push.fade != 1.0 && fadedOut(push.fade, gl_FragCoord.xy)) discard;
     vec4 base = texture(colorMap, uvs.xy);
     base = vec4(texelColor(base.rgb), base.a) * push.baseColor;
     if (push.alphaCutoff > 0.0 && base.a < push.alphaCutoff) discard;

@@ -4,7 +4,7 @@
 // Walls, fences, wood and stone of props: a texture, or the shade that texture u carries, under sun and sky.
 #include "shaders/render/light.glsl"
 #include "shaders/render/prop_records.h"
-#include "shaders/render/prop_fade.glsl"
+#include "shaders/render/fade.glsl"
 
 layout(push_constant, scalar) uniform Data { PropPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;
@@ -15,7 +15,7 @@ layout(location = 3) flat in vec2 tintFade;
 layout(location = 0) out vec4 color;
 
 void main() {
-    if (fadedOut(tintFade.y)) discard;
+    if (fadedOut(tintFade.y, gl_FragCoord.xy)) discard;
     vec3 n = normalize(normal);
     vec3 eye = normalize(frame.eye - position);
     if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;

@@ -63,6 +63,7 @@ class Stage {
         return std::move(*pixels);
     }
     RenderStats stats() const { return renderer_->stats(); }
+    Device& device() { return *device_; }
 
     // Which pixels lie inside the mesh's silhouette by two pixels or more.
     std::vector<bool> inside(const MeshTree& mesh) const {
@@ -189,5 +190,48 @@ TEST_CASE("where a level takes over, no frame's mean changes by more than a fift
         CHECK(meanDifference(stage.frame(), down[1]) == 0);
         CHECK(meanDifference(stage.frame(), down[0]) == 0);
         stage.clear();
+    }
+}
+
+TEST_CASE("what a model hides is not drawn while one of its levels takes over, either") {
+    Stage stage;
+    const test::Plant ivy = test::upload(stage.device(), test::wallIvy(8, 2, 1.5f));
+    stage.inputs.growth = ivy.view;
+    stage.inputs.surfaces = ivy.surfaceBuf;
+    // A screen before the lower part of the ivy, in two levels of the same shape.
+    SurfaceData screen;
+    screen.boundsMin = {-3, -1, 0.5f};
+    screen.boundsMax = {3, 0.9f, 0.5f};
+    for (int i = 0; i < 4; ++i) {
+        const glm::vec2 at(i & 1, i >> 1);
+        screen.vertices.push_back({glm::vec3(-3 + 6 * at.x, -1 + 1.9f * at.y, 0.5f), {0, 0, 1}, {1, 0, 0, 1}, at, at});
+    }
+    screen.indices = {0, 1, 2, 1, 3, 2};
+    screen.materials.resize(1);
+    screen.ranges.push_back({0, 6, 0});
+    CoarserMesh coarser;
+    coarser.vertices = screen.vertices;
+    coarser.indices = screen.indices;
+    coarser.ranges = screen.ranges;
+    coarser.error = 0.0018f;  // seen as a sixth of a pixel
+    screen.coarser.push_back(coarser);
+    stage.look(screen, 1.2f);
+    stage.inputs.camera.eye = {0, 1, 4};
+    stage.inputs.camera.target = {0, 0.7f, 0};
+    const auto drawn = [&] { return stage.stats().emit.leaves + stage.stats().emit.spans; };
+    stage.inputs.look.lodPixels = 0.1f;
+    stage.frame();
+    const uint32_t open = drawn();
+    stage.place(screen);
+    stage.frame();
+    const uint32_t hidden = drawn();
+    CHECK(hidden > 0);
+    CHECK(hidden < open / 2);
+    stage.inputs.look.lodPixels = 1;
+    for (int i = 0; i < 9; ++i) {
+        stage.frame();
+        CAPTURE(i);
+        CHECK(stage.stats().modelsFading == (i < 7 ? 1 : 0));
+        CHECK(drawn() <= hidden);
     }
 }
