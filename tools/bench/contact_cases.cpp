@@ -1,5 +1,6 @@
 // contact/…: a surface of the sample's size moved against another: contacts and what is buried found and given to both,
 // beside the same from loaded surfaces on, as if nothing were kept.
+#include <cmath>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -20,6 +21,17 @@ void give(const SurfaceData& data, const PlacedGround& own, const PlacedGround& 
     for (const auto& level : sets) buried += level.size();
     if (const auto patches = patchLevels(data, added, sets))
         for (const LevelPatch& patch : patches.value()) changed += patch.texels.size();
+}
+
+// A closed block from -half to half.
+Model block(glm::vec3 half) {
+    Model model;
+    model.name = "block";
+    for (uint32_t i = 0; i < 8; ++i)
+        model.positions.push_back(half * glm::vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+    model.indices = {1, 3, 7, 1, 7, 5, 0, 4, 6, 0, 6, 2, 2, 6, 7, 2, 7, 3,
+                     0, 1, 5, 0, 5, 4, 4, 5, 7, 4, 7, 6, 0, 2, 3, 0, 3, 1};
+    return model;
 }
 
 // A place of b's ruin against a's: a little further each time.
@@ -63,17 +75,11 @@ void moveBlock(Bench& bench) {
     if (!bench.wants(name)) return;
     Result<SurfaceData> data = readSurface(bench.options().contentFolder + "/ruin.surface.glb");
     if (!data) return bench.skip(name, "needs the sample content");
-    Model model;
-    model.name = "block";
-    for (uint32_t i = 0; i < 8; ++i)
-        model.positions.push_back({i & 1 ? 0.5f : -0.5f, i & 2 ? 0.5f : -0.5f, i & 4 ? 0.3f : -0.3f});
-    model.indices = {1, 3, 7, 1, 7, 5, 0, 4, 6, 0, 6, 2, 2, 6, 7, 2, 7, 3,
-                     0, 1, 5, 0, 5, 4, 4, 5, 7, 4, 7, 6, 0, 2, 3, 0, 3, 1};
     BakeOptions options;
     options.resolution = 256;
-    Result<Baked> block = bake(model, options);
-    if (!block) return bench.skip(name, block.failure().text());
-    const SurfaceData& moved = block->surface;
+    Result<Baked> baked = bake(block({0.5, 0.5, 0.3}), options);
+    if (!baked) return bench.skip(name, baked.failure().text());
+    const SurfaceData& moved = baked->surface;
     const ContactGround keptRuin(*data), keptBlock(moved);
     size_t buried = 0, changed = 0;
     int moves = 0;
@@ -97,11 +103,57 @@ void moveBlock(Bench& bench) {
     bench.add({name, figure, "ms", times.a * 1e3, "nothing kept from before", times.b * 1e3});
 }
 
+// A house as large as a quarter of a terrain's side, moved about on its hills and set into them.
+void moveHouse(Bench& bench) {
+    const char* name = "contact/terrain";
+    if (!bench.wants(name)) return;
+    constexpr uint32_t kQuads = 200;
+    Model hills;
+    hills.name = "hills";
+    for (uint32_t y = 0; y <= kQuads; ++y)
+        for (uint32_t x = 0; x <= kQuads; ++x) {
+            const double u = 60.0 * x / kQuads - 30, v = 60.0 * y / kQuads - 30;
+            hills.positions.push_back({float(u), float(0.8 * std::sin(0.31 * u) * std::cos(0.23 * v)), float(v)});
+            if (x == kQuads || y == kQuads) continue;
+            const uint32_t a = y * (kQuads + 1) + x, b = a + 1, c = a + kQuads + 1, d = c + 1;
+            for (uint32_t i : {a, c, b, b, c, d}) hills.indices.push_back(i);
+        }
+    Model walls = block({7.5, 6, 5});
+    walls.name = "house";
+    BakeOptions options;
+    options.resolution = 1024;
+    Result<Baked> terrain = bake(hills, options), house = bake(walls, options);
+    if (!terrain || !house) return bench.skip(name, (terrain ? house : terrain).failure().text());
+    const SurfaceData &under = terrain->surface, &over = house->surface;
+    const ContactGround keptUnder(under), keptOver(over);
+    size_t buried = 0, changed = 0;
+    int moves = 0;
+    const auto join = [&](const ContactGround& ground, const ContactGround& stands) {
+        const dmat4 place = glm::rotate(glm::translate(dmat4(1), {0.1 * (moves++ % 20), 2, 1.4}), 0.3, dvec3(0, 1, 0));
+        const PlacedGround a{&ground, dmat4(1)}, b{&stands, place};
+        const PlacedContacts found = contactsOf(a, b, {});
+        changed = buried = 0;
+        give(under, a, b, found.fromA, true, changed, buried);
+        give(over, b, a, found.fromB, false, changed, buried);
+    };
+    const Pair times = medianSeconds(
+        bench.options().repeats, [&] { join(keptUnder, keptOver); },
+        [&] {
+            const ContactGround ground(under), stands(over);
+            join(ground, stands);
+        });
+    char figure[160];
+    std::snprintf(figure, sizeof figure, "a house moved on hills, both 1024 squared: %zu texels changed, %zu buried",
+                  changed, buried);
+    bench.add({name, figure, "ms", times.a * 1e3, "nothing kept from before", times.b * 1e3});
+}
+
 }  // namespace
 
 void contactCases(Bench& bench) {
     moveRuin(bench);
     moveBlock(bench);
+    moveHouse(bench);
 }
 
 }  // namespace espalier
