@@ -8,13 +8,14 @@ layout(set = 0, binding = 0) uniform sampler2D colorMap;
 layout(location = 0) in vec3 uvShare;
 layout(location = 1) in vec3 light;
 layout(location = 2) flat in float fade;
+layout(location = 3) flat in float shown;
 layout(location = 0) out vec4 color;
 
 // Where one level takes over from another its leaves grow, and then the other's shrink: alpha is a ramp towards their
 // middle. fade: PropInstance::fade.
 float cutoffOf(float fade) {
     float whole = fade > 0.0 ? smoothstep(0.0, 0.6, fade) : smoothstep(1.0, 0.4, -fade);
-    return mix(1.01, push.alphaCutoff, whole);
+    return mix(1.01, push.alphaCutoff, whole * shown);
 }
 
 void main() {

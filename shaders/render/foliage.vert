@@ -3,7 +3,8 @@
 #include "shaders/shared/extensions.glsl"
 // Leaves of trees and bushes on cards, and blades of grass: lit at each vertex. A card's normals point out of its crown, so
 // that the crown has one light and one dark side; the whole part of its texture u is how deep in the crown it lies, in
-// eighths, 8 being outside.
+// eighths, 8 being outside; where its v is negative, the whole part is where the card faces: seen from its edge, when it
+// would be a line, its leaves shrink away.
 #include "shaders/render/light.glsl"
 #include "shaders/render/prop_vertex.glsl"
 
@@ -11,10 +12,20 @@ layout(push_constant, scalar) uniform Data { PropPush push; };
 layout(location = 0) out vec3 uvShare;   // uv; share of the light that is the sky's
 layout(location = 1) out vec3 light;     // on a texel's colour
 layout(location = 2) flat out float fade;
+layout(location = 3) flat out float shown;   // of its leaves
 
-vec3 foliageColor(PropVertex v) {
+// code: of the card; twigs of one tree differ a little.
+vec3 foliageColor(PropVertex v, float code) {
     vec3 young = vec3(1.16, 1.06, 0.72), old = vec3(0.80, 0.92, 0.92);
-    return push.baseColor.rgb * mix(old, young, v.tint);
+    float own = fract(code * 0.618034) - 0.5;
+    return push.baseColor.rgb * mix(old, young, clamp(v.tint + 0.5 * own, 0.0, 1.0)) * (1.0 + 0.3 * own);
+}
+// What a card's code says, in the model's space; either side.
+vec3 cardNormal(float code) {
+    vec2 at = (vec2(mod(code, 32.0), floor(code * (1.0 / 32.0))) + 0.5) * (1.0 / 16.0) - 1.0;
+    vec3 n = vec3(at.x, 1.0 - abs(at.x) - abs(at.y), at.y);
+    if (n.y < 0.0) n.xz = (1.0 - abs(n.zx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.z < 0.0 ? -1.0 : 1.0);
+    return normalize(n);
 }
 // As meadow.glsl: green, in places dry; u is how far up the blade.
 vec3 grassColor(PropVertex v) {
@@ -25,7 +36,11 @@ vec3 grassColor(PropVertex v) {
 
 void main() {
     PropVertex v = propVertex(uint(gl_VertexIndex), push.firstInstance + uint(gl_InstanceIndex));
-    bool grass = push.grass != 0u;
+    bool grass = push.grass != 0u, card = v.uv.y < 0.0;
+    float code = card ? -1.0 - floor(v.uv.y) : 0.0;
+    v.uv.y -= card ? floor(v.uv.y) : 0.0;
+    vec3 eye = normalize(frame.eye - v.position);
+    shown = card ? smoothstep(0.06, 0.42, abs(dot(turned(v, cardNormal(code)), eye))) : 1.0;
     float open = grass ? 0.45 + 0.55 * v.uv.x : floor(v.uv.x) * 0.125;
     float side = dot(v.normal, frame.sunDirection);
     // Light gets some way into a crown.
@@ -33,9 +48,11 @@ void main() {
     float visible = mix(grass ? 0.0 : 0.22, 1.0, sunVisibility(v.position + frame.sunDirection * into, v.normal));
     // Leaves turn every way: what falls on a crown's far side comes through, the more the thinner it is.
     float facing = clamp(0.34 + 0.66 * side, 0.14, 1.0);
-    vec3 tone = grass ? grassColor(v) : foliageColor(v);
+    vec3 tone = grass ? grassColor(v) : foliageColor(v, code);
     vec3 direct = frame.sunColor * (visible * facing * (0.45 + 0.55 * open));
-    vec3 ambient = skyLight(v.normal) * open * (0.50 + 0.50 * open);
+    // Against the sun, leaves glow.
+    if (!grass) direct *= 1.0 + vec3(0.9, 0.7, 0.1) * pow(max(dot(-eye, frame.sunDirection), 0.0), 3.0);
+    vec3 ambient = skyLight(v.normal) * (grass ? open * (0.5 + 0.5 * open) : 0.36 + 0.64 * open * open);
     const vec3 weights = vec3(0.3, 0.6, 0.1);
     light = tone * (direct + ambient) * frame.exposure;
     uvShare = vec3(v.uv, dot(ambient, weights) / max(dot(direct + ambient, weights), 1e-5));

@@ -41,10 +41,12 @@ float facingSunVisibility(float facing, vec3 position, vec3 normal) {
     return visible;
 }
 
-// Light from the sky above and, bounced, from the ground below.
+// Light from the sky above and, bounced, from the ground below. The sky is brighter towards the sun; what faces away from
+// it sees the lit sides of other things.
 vec3 skyLight(vec3 normal) {
-    float up = normal.y * 0.5 + 0.5;
-    return mix(frame.groundColor, frame.skyColor, up * up * (3.0 - 2.0 * up));
+    float up = normal.y * 0.5 + 0.5, side = dot(normal.xz, frame.sunDirection.xz);
+    vec3 above = frame.skyColor * (1.0 + 0.24 * side), below = frame.groundColor * (1.0 - 0.45 * side);
+    return mix(below, above, up * up * (3.0 - 2.0 * up));
 }
 
 // Sheen of a rough dielectric: Blinn's lobe, Schlick's edge.

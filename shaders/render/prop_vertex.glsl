@@ -12,17 +12,21 @@ struct PropVertex {
     vec3 position, normal;
     vec2 uv;
     float tint, fade;
+    vec2 turn;   // PropInstance::turn
 };
+
+// From the model's space as the instance stands.
+vec3 turned(PropVertex v, vec3 a) { return vec3(v.turn.x * a.x + v.turn.y * a.z, a.y, v.turn.x * a.z - v.turn.y * a.x); }
 
 PropVertex propVertex(uint vertex, uint instance) {
     uvec4 a = texelFetch(instances, int(2u * instance)), b = texelFetch(instances, int(2u * instance + 1u));
     uvec2 p = texelFetch(meshes, int(3u * vertex)).xy, q = texelFetch(meshes, int(3u * vertex + 1u)).xy;
     vec3 at = vec3(uintBitsToFloat(p), uintBitsToFloat(q.x)), n = octahedralToUnit(q.y);
-    vec2 turn = uintBitsToFloat(b.xy);
     PropVertex v;
+    v.turn = uintBitsToFloat(b.xy);
     at *= uintBitsToFloat(a.w);
-    v.position = uintBitsToFloat(a.xyz) + vec3(turn.x * at.x + turn.y * at.z, at.y, turn.x * at.z - turn.y * at.x);
-    v.normal = vec3(turn.x * n.x + turn.y * n.z, n.y, turn.x * n.z - turn.y * n.x);
+    v.position = uintBitsToFloat(a.xyz) + turned(v, at);
+    v.normal = turned(v, n);
     v.uv = uintBitsToFloat(texelFetch(meshes, int(3u * vertex + 2u)).xy);
     v.tint = uintBitsToFloat(b.z);
     v.fade = uintBitsToFloat(b.w);

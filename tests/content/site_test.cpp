@@ -65,6 +65,32 @@ TEST_CASE("a card's texture coordinates stay in one cell of the foliage") {
     }
 }
 
+TEST_CASE("the whole part of a card's v tells how it faces") {
+    size_t cards = 0;
+    for (const PropMeshes::Entry& e : makePropMeshes().all) {
+        if (e.material != PropMeshes::kFoliage) continue;
+        CAPTURE(e.name);
+        const Mesh& m = e.mesh;
+        for (size_t i = 0; i < m.indices.size(); i += 3) {
+            const uint32_t a = m.indices[i], b = m.indices[i + 1], c = m.indices[i + 2];
+            if (m.uvs[a].y >= 0) continue;  // bark
+            ++cards;
+            const int code = -1 - int(std::floor(m.uvs[a].y));
+            REQUIRE(std::floor(m.uvs[b].y) == std::floor(m.uvs[a].y));
+            REQUIRE(std::floor(m.uvs[c].y) == std::floor(m.uvs[a].y));
+            REQUIRE(code >= 0);
+            REQUIRE(code < 1024);
+            // The octahedron's square, unfolded: its corners are folded down.
+            const float x = (float(code % 32) + 0.5f) / 16 - 1, z = (float(code / 32) + 0.5f) / 16 - 1;
+            glm::vec3 told(x, 1 - std::abs(x) - std::abs(z), z);
+            if (told.y < 0) told = {std::copysign(1 - std::abs(z), x), told.y, std::copysign(1 - std::abs(x), z)};
+            const glm::vec3 faces = glm::cross(m.positions[b] - m.positions[a], m.positions[c] - m.positions[a]);
+            CHECK(std::abs(glm::dot(glm::normalize(told), glm::normalize(faces))) > 0.99f);
+        }
+    }
+    CHECK(cards > 2000);
+}
+
 TEST_CASE("twigs have gaps and leaves, and no leaf is black") {
     const Picture picture = paintFoliage(512);
     size_t leaves = 0, dark = 0;

@@ -14,41 +14,47 @@ constexpr float kPi = 3.14159265f;
 
 struct Species {
     float length, width;    // of a leaf, in cells
-    int leaves;             // on a twig
+    int sprigs, leaves;     // on a twig; on a sprig
     glm::vec3 dark, light;  // linear
     float serrated;         // of its edge
 };
 // Rows of the atlas: lime, apple, birch, shrub.
-const Species kSpecies[] = {{0.078f, 0.062f, 230, {0.022f, 0.050f, 0.013f}, {0.074f, 0.116f, 0.030f}, 0.05f},
-                            {0.072f, 0.044f, 250, {0.026f, 0.048f, 0.020f}, {0.084f, 0.114f, 0.048f}, 0.03f},
-                            {0.054f, 0.044f, 250, {0.036f, 0.062f, 0.015f}, {0.110f, 0.140f, 0.036f}, 0.06f},
-                            {0.064f, 0.044f, 320, {0.018f, 0.040f, 0.014f}, {0.062f, 0.092f, 0.030f}, 0.02f}};
+const Species kSpecies[] = {{0.078f, 0.056f, 29, 8, {0.026f, 0.050f, 0.016f}, {0.094f, 0.136f, 0.040f}, 0.05f},
+                            {0.072f, 0.042f, 33, 8, {0.030f, 0.050f, 0.024f}, {0.100f, 0.128f, 0.058f}, 0.03f},
+                            {0.056f, 0.044f, 33, 8, {0.042f, 0.066f, 0.018f}, {0.130f, 0.156f, 0.046f}, 0.06f},
+                            {0.064f, 0.042f, 36, 8, {0.028f, 0.050f, 0.020f}, {0.092f, 0.122f, 0.044f}, 0.02f}};
 
 struct Leaf {
     glm::vec2 foot, along;
     float length, width, bright, lie;
 };
 
-// Leaves sit on twigs that spread from the middle of the lower edge; later ones lie over earlier ones.
-std::vector<Leaf> twigLeaves(const Species& s, uint32_t salt) {
+// Sprigs spread from about the cell's middle and leave gaps between their tips; leaves stand on them in turn to both
+// sides. What is farther out lies over the rest and is lighter. scale: of leaves and sprigs.
+std::vector<Leaf> twigLeaves(const Species& s, uint32_t salt, float scale) {
     std::vector<Leaf> leaves;
-    for (int i = 0; i < s.leaves; ++i) {
-        const auto random = [&](uint32_t which) { return random01(salt, uint32_t(i), which); };
-        const float radius = 0.40f * std::sqrt((float(i) + 0.5f) / float(s.leaves)) * (0.75f + 0.3f * random(0));
-        const float angle = 2.399963f * float(i) + 0.8f * random(1);
-        // Not a disc: clumps with gaps between them.
-        const float lobe = 0.80f + 0.22f * std::sin(3 * angle + 6.28f * random01(salt, 77)) +
-                           0.12f * std::sin(7 * angle + 6.28f * random01(salt, 78));
-        const glm::vec2 at = glm::vec2(0.5f) + radius * lobe * glm::vec2(std::cos(angle), std::sin(angle));
-        const float turn = angle + 1.9f * (random(2) - 0.5f);
-        const float size = 0.75f + 0.5f * random(3);
-        const float depth = float(i) / float(s.leaves);
-        leaves.push_back({at,
-                          {std::cos(turn), std::sin(turn)},
-                          s.length * size,
-                          s.width * size * (0.6f + 0.4f * random(4)),
-                          random(5) * 0.75f + 0.25f * depth,
-                          random(6)});
+    const int sprigs = int(float(s.sprigs) / (scale * scale));
+    for (int k = 0; k < sprigs; ++k) {
+        const auto ofSprig = [&](uint32_t which) { return random01(salt + 97, uint32_t(k), which); };
+        const float angle = 2.399963f * float(k) + 0.9f * (ofSprig(0) - 0.5f), bend = 1.6f * (ofSprig(1) - 0.5f);
+        const float reach = scale * (0.10f + 0.14f * ofSprig(2)),
+                    from = (0.44f - 0.24f * scale) * std::sqrt(ofSprig(3));
+        const glm::vec2 root = glm::vec2(0.5f) + from * glm::vec2(std::cos(angle), std::sin(angle));
+        for (int i = 0; i < s.leaves; ++i) {
+            const auto random = [&](uint32_t which) { return random01(salt, uint32_t(k * s.leaves + i), which); };
+            const bool tip = i + 1 == s.leaves;
+            const float t = std::sqrt((float(i) + 0.3f + 0.7f * random(0)) / float(s.leaves)),
+                        heading = angle + bend * t;
+            const glm::vec2 at = root + reach * t * glm::vec2(std::cos(heading), std::sin(heading));
+            const float turn = heading + bend * t + (tip ? 0 : (i % 2 ? 0.95f : -0.95f) + 0.7f * (random(1) - 0.5f));
+            const float size = scale * (0.8f + 0.4f * random(2) - 0.2f * t);
+            leaves.push_back({at,
+                              {std::cos(turn), std::sin(turn)},
+                              s.length * size,
+                              s.width * size * (0.6f + 0.4f * random(3)),
+                              glm::clamp(0.75f * random(4) + 2.2f * (from + reach * t) - 0.45f, 0.0f, 1.0f),
+                              from + reach * t + 0.15f * random(5)});
+        }
     }
     std::stable_sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.lie < b.lie; });
     return leaves;
@@ -68,8 +74,8 @@ float leafEdge(const Leaf& leaf, const Species& s, glm::vec2 p, float& along, fl
     return std::min(half - std::abs(side), -beyond);
 }
 
-void paintTwig(Picture& picture, int x0, int y0, int side, const Species& s, uint32_t salt) {
-    const std::vector<Leaf> leaves = twigLeaves(s, salt);
+void paintTwig(Picture& picture, int x0, int y0, int side, const Species& s, uint32_t salt, float scale) {
+    const std::vector<Leaf> leaves = twigLeaves(s, salt, scale);
     const glm::vec3 mean = 0.5f * (s.dark + s.light);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
@@ -83,7 +89,7 @@ void paintTwig(Picture& picture, int x0, int y0, int side, const Species& s, uin
                 edge = std::max(edge, e);
                 if (e < 0) continue;
                 color = glm::mix(s.dark, s.light, leaf.bright);
-                color *= 0.86f + 0.20f * across * (leaf.lie > 0.5f ? 1.0f : -1.0f);  // one half towards the light
+                color *= 0.86f + 0.20f * across * (leaf.bright > 0.5f ? 1.0f : -1.0f);  // one half towards the light
                 color = glm::mix(color, s.light * 1.25f, 0.35f * ramp(0.16f, 0.03f, std::abs(across)));
                 color *= 0.72f + 0.28f * ramp(0.0f, 0.010f, e);  // the next leaf's shadow
             }
@@ -123,7 +129,7 @@ Picture paintFoliage(int size) {
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 3; ++column)
             paintTwig(picture, first + column * side, row * side, side, kSpecies[row],
-                      450u + uint32_t(row) * 8 + uint32_t(column));
+                      450u + uint32_t(row) * 8 + uint32_t(column), column < kFarColumn ? 0.75f : 0.5f);
     return picture;
 }
 

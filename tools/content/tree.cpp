@@ -34,7 +34,7 @@ const Habit kHabits[] = {
     {"lime_b", 0, 22, 2.2f, 11.2f, 3.9f, 0.40f, 0.45f, 15, {450, 115, 32}, 1.10f, 0.36f, 10, false},
     {"apple_a", 1, 23, 1.3f, 4.3f, 2.1f, 0.45f, 0.35f, 8, {210, 60, 18}, 0.78f, 0.14f, 7, false},
     {"apple_b", 1, 24, 1.2f, 4.9f, 2.4f, 0.50f, 0.35f, 9, {230, 64, 19}, 0.82f, 0.15f, 7, false},
-    {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, 10, {260, 70, 20}, 0.80f, 0.13f, 6, true},
+    {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, 13, {300, 80, 22}, 0.80f, 0.13f, 6, true},
     {"bush_a", 3, 26, 0.0f, 1.5f, 1.05f, 0.45f, 0.30f, 5, {90, 28, 9}, 0.60f, 0.0f, 0, false},
     {"bush_b", 3, 27, 0.0f, 1.0f, 0.85f, 0.50f, 0.30f, 4, {70, 24, 8}, 0.52f, 0.0f, 0, false},
 };
@@ -76,20 +76,36 @@ struct Round {
     }
 };
 
+// A direction, either way, in 32 by 32 squares of the octahedron.
+float facingCode(glm::vec3 n) {
+    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    glm::vec2 o(n.x, n.z);
+    if (n.y < 0) o = (1.0f - glm::vec2(std::abs(n.z), std::abs(n.x))) * glm::vec2(n.x < 0 ? -1 : 1, n.z < 0 ? -1 : 1);
+    const glm::ivec2 at = glm::clamp(glm::ivec2((o * 0.5f + 0.5f) * 32.0f), 0, 31);
+    return float(at.x + 32 * at.y);
+}
+
 // Two triangles about `at`, facing `out`; its twig points along `up`.
 void addCard(Mesh& mesh, glm::vec3 at, glm::vec3 out, glm::vec3 up, float side, glm::vec2 cell, float open,
              const Round& round) {
     const glm::vec3 x = glm::normalize(glm::cross(up, out)), y = glm::cross(out, x);
     const uint32_t first = uint32_t(mesh.positions.size());
+    const float facing = facingCode(glm::cross(x, y));
     for (int k = 0; k < 4; ++k) {
         const glm::vec2 c(k == 1 || k == 2 ? 1 : 0, k >= 2 ? 1 : 0);
         const glm::vec3 p = at + side * ((c.x - 0.5f) * x + (c.y - 0.5f) * y);
         mesh.positions.push_back(p);
         mesh.normals.push_back(glm::normalize(round.normal(p) + 0.35f * out));
-        mesh.uvs.push_back(glm::vec2(std::round(open * 8), 0) + cell +
+        mesh.uvs.push_back(glm::vec2(std::round(open * 8), -1 - facing) + cell +
                            kCellSide * (0.02f + 0.96f * glm::vec2(c.x, 1 - c.y)));
     }
     for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
+}
+
+// chance: 0 to 1, picks among the twigs of a species.
+glm::vec2 cellOf(int lod, int row, float chance) {
+    const int column = lod > 0 ? kFarColumn : std::min(int(float(kFarColumn) * chance), kFarColumn - 1);
+    return {kFirstCell + kCellSide * float(column), kCellSide * float(row)};
 }
 
 struct Lobe {
@@ -104,10 +120,12 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
     for (int k = 0; k < h.lobes; ++k) {
         const auto random = [&](uint32_t which) { return random01(h.salt * 5, uint32_t(k), which); };
         const bool top = k + 1 == h.lobes;
-        const float t = top ? 0.84f : 0.10f + 0.72f * (float(k) + 0.5f * random(0)) / float(h.lobes - 1);
+        const float t =
+            top ? (h.birch ? 0.93f : 0.84f) : 0.10f + 0.72f * (float(k) + 0.5f * random(0)) / float(h.lobes - 1);
         const float angle = 2.399963f * float(k) + 0.6f * random(1), wide = crownRadius(h, t);
         const float most = (h.trunk > 0 ? 0.26f : 0.38f) * tall;
-        const float radius = std::min((h.birch ? 0.62f : 0.50f) * h.radius * (0.85f + 0.3f * random(2)), most);
+        const float broad = h.birch ? 0.72f * std::max(wide, 0.4f * h.radius) : 0.50f * h.radius;
+        const float radius = std::min(broad * (0.85f + 0.3f * random(2)), most);
         const float r = top ? 0 : std::max(wide - 0.75f * radius, 0.25f * wide);
         const glm::vec3 out(std::cos(angle), 0, std::sin(angle));
         lobes.push_back({r * out + glm::vec3(0, h.crownFoot + tall * t, 0) + lean * (0.4f * tall * t),
@@ -129,7 +147,7 @@ Mesh makeTree(const Habit& h, int lod) {
             const float t = float(i) / (lod == 0 ? 5.0f : 2.0f);
             line.push_back(glm::vec3(0, top * t - 0.1f, 0) + lean * (t * t * top * 0.4f));
         }
-        addTube(mesh, line, h.trunk, h.trunk * 0.35f, sides, bark, 0.6f);
+        addTube(mesh, line, h.trunk, h.trunk * (h.birch ? 0.12f : 0.35f), sides, bark, 0.6f);
         // The root's flare.
         if (lod == 0)
             addTube(mesh, {{0, -0.1f, 0}, {0, 0.16f, 0}, {0, 0.5f, 0}}, h.trunk * 1.55f, h.trunk * 0.92f, sides, bark,
@@ -168,7 +186,7 @@ Mesh makeTree(const Habit& h, int lod) {
         // Seen from the ground, a card that lies flat is a line.
         out = glm::normalize(glm::vec3(out.x, 0.55f * out.y, out.z));
         const glm::vec3 twig = glm::normalize(glm::vec3(random(6) - 0.5f, h.birch ? -0.8f : 0.6f, random(7) - 0.5f));
-        const glm::vec2 cell(kFirstCell + kCellSide * float(int(3 * random(8)) % 3), kCellSide * float(h.row));
+        const glm::vec2 cell = cellOf(lod, h.row, random(8));
         // Dark inside and below, of the crown and of each lobe; open above.
         const float t = (at.y - h.crownFoot) / tall;
         const float open = glm::clamp(0.36f + 0.28f * (deep - h.hollow) / (1 - h.hollow) + 0.24f * dir.y +
@@ -187,7 +205,7 @@ Mesh makeHedge(int lod) {
     const auto card = [&](glm::vec3 at, glm::vec3 out, uint32_t i) {
         const auto random = [&](uint32_t which) { return random01(911u + uint32_t(lod), i, which); };
         const glm::vec3 turned = glm::normalize(out + 0.7f * (glm::vec3(random(0), random(1), random(2)) - 0.5f));
-        const glm::vec2 cell(kFirstCell + kCellSide * float(int(3 * random(3)) % 3), 3 * kCellSide);
+        const glm::vec2 cell = cellOf(lod, 3, random(3));
         addCard(mesh, at + 0.08f * (glm::vec3(random(4), random(5), random(6)) - 0.5f), turned,
                 std::abs(out.y) > 0.5f ? glm::vec3(0.3f, 0, 1) : glm::vec3(0.2f * (random(7) - 0.5f), 1, 0), side, cell,
                 glm::clamp(0.35f + 0.5f * at.y / high, 0.0f, 1.0f), {at - out, glm::vec3(1), at - out});
