@@ -1,5 +1,5 @@
 // bake/…: all levels and links from a mesh in memory, beside the bake as the paper describes it (one level, kd-tree);
-// the atlas of models without UVs, beside what xatlas took; and how much memory both take at most.
+// and how much memory the atlas and the whole take at most.
 #include <malloc.h>
 
 #include <cstdio>
@@ -12,52 +12,6 @@
 namespace espalier {
 
 namespace {
-
-// Seconds from triangles to charts that lie in the square.
-double atlasSeconds(const BakeReport& report) {
-    double sum = 0;
-    for (const auto& [stage, time] : report.seconds)
-        if (stage == "mesh" || stage == "atlas" || stage == "layout") sum += time;
-    return sum;
-}
-
-void atlasCases(Bench& bench) {
-    struct Case {
-        const char *name, *file, *otherName;
-        double otherSeconds;  // xatlas isn't packaged: measured once, by itself, on such a machine
-    };
-    // Of 124k triangles in 5.6 s to 65k in 7.2 s: for models that it wasn't run on, the fastest of its rates.
-    const char* rate = "xatlas at its best rate";
-    constexpr double kRate = 5.6 / 124000;
-    const Case cases[] = {{"bake/atlas-bunny", "derived/bunny.glb", "xatlas, measured elsewhere, 53 charts", 12.3},
-                          {"bake/atlas-armadillo", "derived/armadillo.glb", rate, kRate * 86482},
-                          {"bake/atlas-dragon", "derived/dragon_res3.glb", rate, kRate * 47794},
-                          {"bake/atlas-house", "models/quaternius/House2.glb", rate, kRate * 19714}};
-    for (const Case& c : cases) {
-        if (!bench.wants(c.name)) continue;
-        std::string path = bench.options().dataFolder + "/" + c.file;
-        Result<Model> model = importModel(path);
-        if (!model) {
-            bench.skip(c.name, "needs " + path);
-            continue;
-        }
-        std::vector<double> times;
-        BakeReport last;
-        for (int i = 0; i < bench.options().repeats; ++i)
-            if (Result<Baked> baked = bake(*model, {})) {
-                last = baked->report;
-                times.push_back(atlasSeconds(last));
-            }
-        if (times.empty()) {
-            bench.skip(c.name, "can't be baked");
-            continue;
-        }
-        char figure[96];
-        std::snprintf(figure, sizeof figure, "%u triangles, %u charts, stretch %.2f at p95", last.triangles,
-                      last.charts, last.stretch95);
-        bench.add({c.name, figure, "s", median(times), c.otherName, c.otherSeconds});
-    }
-}
 
 // A line of the process's status in bytes, 0 where there is no such thing.
 double ownStatus(const std::string& line) {
@@ -102,7 +56,6 @@ void memoryCases(Bench& bench) {
 }  // namespace
 
 void bakeCases(Bench& bench) {
-    atlasCases(bench);
     memoryCases(bench);
     struct Case {
         const char* name;

@@ -24,6 +24,7 @@ struct BenchOptions {
     std::string filter;      // cases whose name contains it; empty: all
     std::string dataFolder;  // further models; cases that need them say when they are skipped
     std::string contentFolder;
+    std::string modulesFolder;  // npm's, with watlas in it: the other side of bake/atlas
     int repeats = 7;
 };
 
@@ -59,6 +60,7 @@ void editCases(Bench& bench);
 void emitCases(Bench& bench);
 void frameCases(Bench& bench);
 void bakeCases(Bench& bench);
+void atlasCases(Bench& bench);
 void contactCases(Bench& bench);
 void paintCases(Bench& bench);
 void surfaceCases(Bench& bench);

@@ -15,12 +15,16 @@ int main(int argc, char** argv) {
     const char* data = std::getenv("ESPALIER_DATA");
     options.dataFolder = data ? data : "../shared/data";
     options.contentFolder = ESPALIER_CONTENT;
+    options.modulesFolder = ESPALIER_NODE_MODULES;
     CLI::App app("Espalier's benchmark: medians; every row names the other side and the ratio ours / other.");
     app.set_version_flag("--version", ESPALIER_VERSION);
     app.add_option("--filter", options.filter,
                    "only cases whose name contains this: growth/, edit/, emit/, bake/, surface/, render/");
     app.add_option("--csv", csv, "also write the rows to this file");
     app.add_option("--data", options.dataFolder, "folder of further models")->capture_default_str();
+    app.add_option("--modules", options.modulesFolder,
+                   "folder of node's modules: with watlas in it, bake/atlas is compared with xatlas")
+        ->capture_default_str();
     app.add_option("--repeats", options.repeats, "measured runs of each")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
@@ -34,6 +38,7 @@ int main(int argc, char** argv) {
     emitCases(bench);
     frameCases(bench);
     bakeCases(bench);
+    atlasCases(bench);
     contactCases(bench);
     paintCases(bench);
     surfaceCases(bench);
