@@ -1,5 +1,6 @@
 // Layers by name: the numbers by which kernels know them, what changed of them, reading them back.
 #include <algorithm>
+#include <bit>
 
 #include "runtime/plugin/context.hpp"
 
@@ -85,15 +86,24 @@ std::optional<float> declaredFill(const EspContext& context, const std::string& 
     return fill;
 }
 
-void layerChanged(EspContext& context, uint32_t surface, const std::string& name, std::span<const uint32_t> blocks) {
+void layerChanged(EspContext& context, uint32_t surface, const std::string& name, std::span<const uint32_t> blocks,
+                  std::span<const uint64_t> texels) {
     if (blocks.empty() || !declaredFill(context, name)) return;
     const PlacedSurface& placed = *context.surfaces.find(surface);
     const uint32_t size = placed.data.levels.front().size, side = size / 8;
     for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer) {
         if (context.sceneLayers[layer].name != name) continue;
-        for (uint32_t block : blocks) {
-            const uint32_t x = block % side * 8, y = block / side * 8;
-            context.changes.markTexels(placed.instance, layer, size, x, y, x + 8, y + 8);
+        for (size_t i = 0; i < blocks.size(); ++i) {
+            const uint32_t x = blocks[i] % side * 8, y = blocks[i] / side * 8;
+            if (texels.empty()) {
+                context.changes.markTexels(placed.instance, layer, size, x, y, x + 8, y + 8);
+                continue;
+            }
+            for (uint32_t row = 0; row < 8; ++row) {
+                const uint8_t bits = uint8_t(texels[i] >> (8 * row));
+                context.changes.markTexels(placed.instance, layer, size, x + uint32_t(std::countr_zero(bits)), y + row,
+                                           x + 8 - uint32_t(std::countl_zero(bits)), y + row + 1);
+            }
         }
     }
     ++context.revision;

@@ -101,6 +101,23 @@ Canvas canvasOf(EspContext& context, uint32_t surface, const std::string& name) 
     return canvas;
 }
 
+// Of each block the texels that lie within a dab's radius, bit 8 y + x.
+std::vector<uint64_t> texelsWithin(const PlacedSurface& surface, std::span<const uint32_t> blocks,
+                                   std::span<const DabRecord> dabs, float radius) {
+    const float reach = radius / surface.scale * 1.001f;  // the kernel rounds otherwise
+    std::vector<glm::vec3> centres;
+    for (const DabRecord& dab : dabs) centres.push_back(surface.toObject * glm::vec4(dab.position, 1));
+    std::vector<uint64_t> within;
+    for (uint32_t block : blocks) {
+        const std::span texels = std::span(surface.data.levels.front().texels).subspan(size_t(block) * kBlockTexels);
+        uint64_t& mask = within.emplace_back(0);
+        for (uint32_t i = 0; i < kBlockTexels; ++i)
+            for (const glm::vec3& centre : centres)
+                if (glm::distance(texels[i].position, centre) < reach) mask |= uint64_t(1) << i;
+    }
+    return within;
+}
+
 BlockRecord& recordFor(PaintStroke& stroke, uint32_t surface) {
     for (PaintStroke::Part& part : stroke.parts)
         if (part.surface == surface) return part.record;
@@ -191,7 +208,10 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
     Status painted =
         stroke.smooths ? smooth(context, jobs, stroke, records) : context.painter->dabs(jobs, stroke.brush, records);
     if (!painted) return failGpu(&context, painted.failure());
-    for (const auto& [surface, blocks] : touched) layerChanged(context, surface, stroke.layer, blocks);
+    for (const auto& [id, blocks] : touched) {
+        const PlacedSurface& surface = *context.surfaces.find(id);
+        layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, records, stroke.radius));
+    }
     return ESP_OK;
 }
 

@@ -331,8 +331,10 @@ std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name,
 PaintedLayer* paintedLayer(EspContext& context, uint32_t surface, const std::string& name);
 // What the first grammar that declares the layer fills it with; nothing if none does.
 std::optional<float> declaredFill(const EspContext& context, const std::string& name);
-// Tells growth that these 8×8 blocks of a layer have changed.
-void layerChanged(EspContext& context, uint32_t surface, const std::string& name, std::span<const uint32_t> blocks);
+// Tells growth that these 8×8 blocks of a layer have changed; where `texels` are given, of each block only those whose
+// bit 8 y + x is set.
+void layerChanged(EspContext& context, uint32_t surface, const std::string& name, std::span<const uint32_t> blocks,
+                  std::span<const uint64_t> texels = {});
 // Sets all texels of a layer (texelIndex order), and makes an ended stroke of it.
 EspResult replaceLayer(EspContext& context, uint32_t surface, const std::string& name, std::span<const float> texels,
                        EspStroke* out);

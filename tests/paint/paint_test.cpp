@@ -270,6 +270,47 @@ TEST_CASE("growth follows strokes, their undoing and redoing, and is idle when t
     CHECK(painting.grown().expansions == expansions);
 }
 
+TEST_CASE("a dab beside a plant costs no growth, and dabs on it leave what growing anew gives") {
+    // Straight up, 64 steps of 2.5 cm, so that its nodes lie in z = 0.
+    const char* text =
+        "context mask = 1\n"
+        "Ivy -> Stem\n"
+        "Stem : arc >= 1.6 -> NULL\n"
+        "Stem -> Marching(0.025, 0, mask(texCoord) > 0.5) {Stem, Wood}\n"
+        "Wood -> S(0.01) Shape(\"bark\", C1)\n";
+    Painting painting;
+    painting.plant(painting.grammar(text), {1, -.9f, 0}, {0, 1, 0});
+    const EspStats free = painting.grown();
+    REQUIRE(free.nodes > 60);
+    // Farther away than a read reaches, a texel and a half of 6 cm at most, and within the same blocks of 8 texels.
+    EspBrush brush = brushOn("mask", .04f, 1, .9f);
+    brush.value = 0;
+    std::vector<EspDab> dabs;
+    for (float z : {-.25f, -.2f, -.16f, .16f, .2f, .25f})
+        for (float y : {-.5f, -.2f, .1f, .3f}) dabs.push_back(dabAt({1, y, z}));
+    for (const EspDab& dab : dabs) painting.stroke(brush, {dab});
+    const std::vector<float> layer = painting.layer("mask");
+    CHECK(std::count(layer.begin(), layer.end(), 1.f) < int(layer.size()) - 12);
+    CHECK(painting.grown().expansions == free.expansions);
+    // Across it, one after the other; it goes round them.
+    EspBrush wide = brush;
+    wide.radius = .09f;
+    std::vector<EspDab> across;
+    uint64_t before = free.hash;
+    for (float y : {.5f, .2f, -.3f}) {
+        across.push_back(dabAt({1, y, .02f}));
+        painting.stroke(wide, {across.back()});
+        const EspStats now = painting.grown();
+        CHECK(now.hash != before);
+        before = now.hash;
+        Painting other;
+        other.plant(other.grammar(text), {1, -.9f, 0}, {0, 1, 0});
+        other.stroke(brush, dabs);
+        other.stroke(wide, across);
+        CHECK(other.grown().hash == now.hash);
+    }
+}
+
 TEST_CASE("painting refuses what isn't a brush, a dab or a stroke, and stays as it was") {
     Painting painting;
     EspStroke stroke{};
