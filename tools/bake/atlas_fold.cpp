@@ -38,7 +38,8 @@ struct Fold {
 
 class Folder {
   public:
-    Folder(BakeMesh& mesh, uint32_t first, uint32_t count) : mesh_(mesh), first_(first), pieces_(count) {
+    Folder(BakeMesh& mesh, uint32_t first, uint32_t count)
+        : mesh_(mesh), first_(first), pieces_(count), changed_(count, 1) {
         for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             if (mesh.triangles[t].chart < first) continue;
             Piece& p = pieces_[mesh.triangles[t].chart - first];
@@ -54,11 +55,11 @@ class Folder {
         for (int round = 0; round < kRounds; ++round) {
             std::vector<Fold> folds = findFolds();
             std::sort(folds.begin(), folds.end());
-            std::vector<uint8_t> busy(pieces_.size(), 0);
+            changed_.assign(pieces_.size(), 0);
             bool any = false;
             for (const Fold& f : folds) {
-                if (busy[f.a] || busy[f.b] || !isFree(f)) continue;
-                busy[f.a] = busy[f.b] = 1;
+                if (changed_[f.a] || changed_[f.b] || !isFree(f)) continue;
+                changed_[f.a] = changed_[f.b] = 1;
                 apply(f);
                 any = true;
             }
@@ -88,7 +89,8 @@ class Folder {
                glm::length(m(mesh_.uvAt(twin)) - mesh_.uvAt(BakeMesh::next(h))) <= most;
     }
 
-    // For every two charts that share edges: the smaller one folded out at the longest of them.
+    // For every two charts that share edges, one of them changed by the last round (else they didn't fit then, and
+    // don't now): the smaller one folded out at the longest of them.
     std::vector<Fold> findFolds() const {
         struct Shared {
             uint64_t pair;
@@ -100,7 +102,8 @@ class Folder {
             uint32_t twin = mesh_.twin[h];
             if (mesh_.joined[h] || twin == kNone || mesh_.chartOf(h) < first_ || mesh_.chartOf(twin) < first_) continue;
             uint32_t a = pieceOf(h), b = pieceOf(twin);
-            if (a == b || pieces_[a].area + pieces_[b].area > kLargest * total_) continue;
+            if (a == b || !(changed_[a] || changed_[b]) || pieces_[a].area + pieces_[b].area > kLargest * total_)
+                continue;
             if (std::tie(pieces_[a].area, b) < std::tie(pieces_[b].area, a)) continue;
             shared.push_back({uint64_t(a) << 32 | b, length(h), h});
         }
@@ -237,6 +240,7 @@ class Folder {
     BakeMesh& mesh_;
     uint32_t first_;
     std::vector<Piece> pieces_;
+    std::vector<uint8_t> changed_;  // per piece: by the last round
     double total_ = 0;
 };
 
