@@ -42,6 +42,19 @@ struct Runner {
         output = text ? *text : "";
         return code == 0;
     }
+
+    // Of a PNG, as its first bytes state it: width and height.
+    std::pair<uint32_t, uint32_t> sizeOf(const std::string& name) const {
+        auto bytes = readFile(folder / name);
+        REQUIRE(bytes);
+        REQUIRE(bytes->size() > 24);
+        auto number = [&](size_t at) {
+            uint32_t n = 0;
+            for (size_t i = 0; i < 4; ++i) n = n << 8 | uint32_t((*bytes)[at + i]);
+            return n;
+        };
+        return {number(16), number(20)};
+    }
 };
 
 }  // namespace
@@ -56,7 +69,7 @@ TEST_CASE("espalier-bake writes surface, report and pictures") {
     CHECK(surface->levels[0].size == 128);
     CHECK(surface->source == "cube.glb");
     for (const char* picture : {"charts.png", "links.png", "contacts.png", "stretch.png"})
-        CHECK(r.has((std::string("out/pictures/") + picture).c_str()));
+        CHECK(r.sizeOf(std::string("out/pictures/") + picture) == std::pair(128u, 128u));
     auto text = readTextFile(r.file("out/r.json"));
     REQUIRE(text);
     auto report = nlohmann::json::parse(*text, nullptr, false);
@@ -72,6 +85,12 @@ TEST_CASE("espalier-bake writes surface, report and pictures") {
     CHECK(report["seconds"].is_object());
     CHECK(report["warnings"].is_array());
     CHECK(r.says("100 %"));
+    // Where there is room for words, a legend stands below.
+    REQUIRE(r.run("cube.glb -o out/surface.glb --resolution 512 --levels 1 --images out/pictures"));
+    for (const char* picture : {"charts.png", "links.png", "contacts.png", "stretch.png"}) {
+        CHECK(r.sizeOf(std::string("out/pictures/") + picture).first == 512);
+        CHECK(r.sizeOf(std::string("out/pictures/") + picture).second >= 512 + 30);
+    }
 }
 
 TEST_CASE("layers painted over an earlier surface are carried to the new one, and what is lost is told") {

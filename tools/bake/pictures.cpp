@@ -1,13 +1,12 @@
 // In: a baked surface. Out: pictures of its finest level to judge an atlas by.
 #include "tools/bake/pictures.hpp"
 
-#include <stb_image_write.h>
-
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
-#include "runtime/core/file.hpp"
 #include "shaders/shared/exact.h"
+#include "tools/bake/canvas.hpp"
 
 namespace espalier {
 namespace {
@@ -15,59 +14,11 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
-constexpr float kLinkLines = 220;  // that links.png draws at most: more would hide the atlas
-
-class Canvas {
-  public:
-    explicit Canvas(uint32_t size) : size_(size), pixels_(size_t(size) * size, vec3(0.11f, 0.115f, 0.13f)) {}
-    uint32_t size() const { return size_; }
-    vec3& at(uint32_t x, uint32_t y) { return pixels_[size_t(y) * size_ + x]; }
-
-    void blend(int x, int y, vec3 color, float alpha) {
-        if (x < 0 || y < 0 || x >= int(size_) || y >= int(size_)) return;
-        vec3& p = at(uint32_t(x), uint32_t(y));
-        p = p * (1 - alpha) + color * alpha;
-    }
-
-    // A smooth line; a and b in pixels.
-    void line(vec2 a, vec2 b, vec3 color, float width, float alpha) {
-        vec2 low = glm::min(a, b) - vec2(width + 1), high = glm::max(a, b) + vec2(width + 1), d = b - a;
-        float length2 = std::max(glm::dot(d, d), 1e-12f);
-        bool steep = std::abs(d.y) > std::abs(d.x);
-        int i0 = std::max(0, int(steep ? low.y : low.x)), i1 = std::min(int(size_) - 1, int(steep ? high.y : high.x));
-        for (int i = i0; i <= i1; ++i) {
-            float t = steep ? (float(i) + 0.5f - a.y) / d.y : (float(i) + 0.5f - a.x) / (d.x == 0 ? 1e-6f : d.x);
-            vec2 p = a + d * std::clamp(t, 0.0f, 1.0f);
-            int middle = int(steep ? p.x : p.y), reach = int(width * 1.5f) + 2;
-            for (int j = middle - reach; j <= middle + reach; ++j) {
-                vec2 c = steep ? vec2(float(j) + 0.5f, float(i) + 0.5f) : vec2(float(i) + 0.5f, float(j) + 0.5f);
-                vec2 away = c - a - d * std::clamp(glm::dot(c - a, d) / length2, 0.0f, 1.0f);
-                float cover = std::clamp(width / 2 + 0.5f - glm::length(away), 0.0f, 1.0f);
-                if (cover > 0) blend(steep ? j : i, steep ? i : j, color, cover * alpha);
-            }
-        }
-    }
-
-    Status write(const std::string& path) const {
-        std::vector<uint8_t> rgb;
-        rgb.reserve(pixels_.size() * 3);
-        for (const vec3& p : pixels_)
-            for (int k = 0; k < 3; ++k) rgb.push_back(uint8_t(std::clamp(p[k], 0.0f, 1.0f) * 255.0f + 0.5f));
-        std::vector<std::byte> file;
-        stbi_write_png_to_func(
-            [](void* out, void* data, int bytes) {
-                auto* from = static_cast<std::byte*>(data);
-                auto& to = *static_cast<std::vector<std::byte>*>(out);
-                to.insert(to.end(), from, from + bytes);
-            },
-            &file, int(size_), int(size_), 3, rgb.data(), int(size_) * 3);
-        return writeFile(path, file);
-    }
-
-  private:
-    uint32_t size_;
-    std::vector<vec3> pixels_;
-};
+constexpr float kLinkLines = 90;        // that links.png draws at most: more would hide the atlas
+constexpr uint32_t kLegible = 512;      // pixels: narrower pictures have no legend
+constexpr int kRow = 26, kSwatch = 34;  // pixels of a legend's line, and of what stands before its words
+const vec3 kWords(0.86f, 0.87f, 0.88f);
+const vec3 kSeam(0.95f), kNear(1.0f, 0.75f, 0.1f), kOpen(0.95f, 0.25f, 0.2f);
 
 vec3 fromHue(float hue, float saturation, float value) {
     vec3 k(5, 3, 1), out;
@@ -90,6 +41,33 @@ float shade(vec3 normal) {
     return 0.62f + 0.38f * glm::dot(normal, glm::normalize(vec3(-0.4f, 0.75f, 0.55f)));
 }
 
+// What a picture's colours and lines mean. draw: into a box of kSwatch by 14 pixels whose corner it is given.
+struct Meaning {
+    std::function<void(Canvas&, vec2)> draw;
+    const char* words;
+};
+
+void addLegend(Canvas& canvas, const std::vector<Meaning>& meanings) {
+    if (canvas.size() < kLegible) return;
+    int x = 12, y = canvas.extend(kRow + 8) + 10;
+    for (const Meaning& m : meanings) {
+        const int wide = kSwatch + 8 + Canvas::textWidth(m.words);
+        if (x + wide > int(canvas.size()) - 12) x = 12, y = canvas.extend(kRow) + 2;
+        m.draw(canvas, vec2(x, y));
+        canvas.text(x + kSwatch + 8, y, m.words, kWords);
+        x += wide + 24;
+    }
+}
+
+Meaning patch(vec3 color, const char* words) {
+    return {[=](Canvas& canvas, vec2 at) { canvas.fill(int(at.x), int(at.y), kSwatch, 14, color); }, words};
+}
+Meaning line(vec3 color, const char* words) {
+    return {[=](Canvas& canvas, vec2 at) { canvas.line(at + vec2(0, 7), at + vec2(kSwatch, 7), color, 2, 1); }, words};
+}
+const Meaning kBorderMeanings[] = {line(kSeam, "border that leads on"), line(kNear, "to a near border"),
+                                   line(kOpen, "open")};
+
 template <class Color>
 void paint(const SurfaceData& surface, Canvas& canvas, Color&& color) {
     const SurfaceLevelData& level = surface.levels[0];
@@ -106,27 +84,36 @@ void paint(const SurfaceData& surface, Canvas& canvas, Color&& color) {
 void drawBorders(const SurfaceData& surface, Canvas& canvas) {
     float size = float(canvas.size());
     for (const Crossing& c : surface.crossings) {
-        vec3 color(0.95f);
         if ((c.flags & 3u) == kCrossingContact) continue;
-        if ((c.flags & 3u) == kCrossingOpen) color = vec3(0.95f, 0.25f, 0.2f);
-        if ((c.flags & 3u) == kCrossingNearest) color = vec3(1.0f, 0.75f, 0.1f);
+        vec3 color = (c.flags & 3u) == kCrossingOpen ? kOpen : (c.flags & 3u) == kCrossingNearest ? kNear : kSeam;
         canvas.line(c.a * size, c.b * size, color, 1.3f, 0.9f);
     }
 }
 
-// A seam's line is drawn where it stands for a stretch of border, so that long borders show few lines.
+// Two charts that lead to each other have one colour for it.
+vec3 pairColor(const Crossing& c) {
+    return fromHue(std::fmod(float((c.flags >> 16) + (c.target & 0xFFFFu)) * 0.61803399f, 1.0f), 0.7f, 1.0f);
+}
+
+// Borders in the colour of their pair. A line is drawn where it stands for a stretch of border, so that long borders
+// show few; dots mark its ends.
 void drawLinks(const SurfaceData& surface, Canvas& canvas) {
     float size = float(canvas.size()), since = 1e9f, total = 0;
-    for (const Crossing& c : surface.crossings) total += glm::length(c.b - c.a) * size;
+    for (const Crossing& c : surface.crossings)
+        if ((c.flags & 3u) != kCrossingOpen) total += glm::length(c.b - c.a) * size;
     float spacing = total / kLinkLines;
-    for (uint32_t i = 0; i < surface.crossings.size(); ++i) {
-        const Crossing& c = surface.crossings[i];
-        if ((c.flags & 3u) == kCrossingOpen) continue;
+    for (const Crossing& c : surface.crossings) {
+        if ((c.flags & 3u) == kCrossingOpen) {
+            canvas.line(c.a * size, c.b * size, vec3(0.5f), 1.3f, 1);
+            continue;
+        }
+        canvas.line(c.a * size, c.b * size, pairColor(c), 2, 1);
         since += glm::length(c.b - c.a) * size;
         if (since < spacing) continue;
         since = 0;
         vec2 from = (c.a + c.b) * (size / 2), to = (c.ta + c.tb) * (size / 2);
-        canvas.line(from, to, fromHue(std::fmod(float(i) * 0.618f, 1.0f), 0.55f, 1.0f), 1.0f, 0.5f);
+        canvas.line(from, to, pairColor(c), 1, 0.45f);
+        for (vec2 end : {from, to}) canvas.line(end - vec2(1, 0), end + vec2(1, 0), pairColor(c), 6, 1);
     }
 }
 
@@ -153,6 +140,34 @@ std::vector<uint8_t> insideCharts(const SurfaceData& surface) {
     return inside;
 }
 
+const vec3 kBare(0.62f, 0.63f, 0.6f);
+vec3 buriedColor(uint32_t x, uint32_t y) {
+    return (x + y) % 8 < 3 ? vec3(0.72f, 0.2f, 0.16f) : vec3(0.3f, 0.13f, 0.12f);
+}
+
+std::vector<Meaning> contactMeanings() {
+    const vec3 color = fromHue(0.45f, 0.7f, 1.0f);
+    auto buried = [](Canvas& canvas, vec2 at) {
+        for (uint32_t y = uint32_t(at.y); y < uint32_t(at.y) + 14; ++y)
+            for (uint32_t x = uint32_t(at.x); x < uint32_t(at.x) + kSwatch; ++x) canvas.at(x, y) = buriedColor(x, y);
+    };
+    auto contact = [=](Canvas& canvas, vec2 at) {
+        canvas.line(at + vec2(0, 11), at + vec2(kSwatch, 11), color, 1.6f, 1);
+        for (float x = 3; x < kSwatch; x += 6) canvas.line(at + vec2(x, 11), at + vec2(x, 5), color, 1, 0.8f);
+    };
+    auto back = [=](Canvas& canvas, vec2 at) {
+        for (float x = 0; x < kSwatch; x += 8)
+            canvas.line(at + vec2(x, 7), at + vec2(std::min(x + 4, float(kSwatch)), 7), color, 1.6f, 1);
+    };
+    return {patch(kBare, "ground"),
+            {buried, "buried: no ground"},
+            {contact, "contact, walks come from its feathers"},
+            {back, "to a sheet's back"},
+            kBorderMeanings[0],
+            kBorderMeanings[1],
+            kBorderMeanings[2]};
+}
+
 // Ground in grey, buried texels hatched in red, contacts in the colour of their pair: a line with feathers on the side
 // from which a walk may come; dashed where they lead to the back of a sheet.
 Status writeContacts(const SurfaceData& surface, const std::string& path) {
@@ -164,17 +179,13 @@ Status writeContacts(const SurfaceData& surface, const std::string& path) {
             uint32_t at = texelIndex(size, x, y), kind = texelClass(surface.levels[0].texels[at].bits);
             if (kind == kTexelEmpty || !inside[size_t(y) * size + x]) continue;
             float light = shade(unpackOct(surface.levels[0].aux[at].normal));
-            bool hatch = (x + y) % 8 < 3;
-            canvas.at(x, y) = kind == kTexelInner
-                                  ? vec3(0.62f, 0.63f, 0.6f) * light
-                                  : (hatch ? vec3(0.72f, 0.2f, 0.16f) : vec3(0.3f, 0.13f, 0.12f)) * light;
+            canvas.at(x, y) = (kind == kTexelInner ? kBare : buriedColor(x, y)) * light;
         }
     drawBorders(surface, canvas);
     float scale = float(size), since = 0;
     for (const Crossing& c : surface.crossings) {
         if ((c.flags & 3u) != kCrossingContact) continue;
-        uint32_t here = c.flags >> 16, there = c.target & 0xFFFFu;
-        vec3 color = fromHue(std::fmod(float(here + there) * 0.61803399f, 1.0f), 0.75f, 1.0f);
+        const vec3 color = pairColor(c);
         vec2 a = c.a * scale, b = c.b * scale, d = b - a;
         float length = glm::length(d);
         if (!(length > 0)) continue;
@@ -187,7 +198,16 @@ Status writeContacts(const SurfaceData& surface, const std::string& path) {
                         1.0f, 0.8f);
         since = std::fmod(since + length, 6.0f);
     }
+    addLegend(canvas, contactMeanings());
     return canvas.write(path);
+}
+
+constexpr float kOctaves = 1.585f;  // of stretch, to a colour's end: a factor of 3
+
+// Longer texels than the mean are red, shorter ones blue.
+vec3 stretchColor(float octaves) {
+    const float k = std::clamp(std::abs(octaves) / kOctaves, 0.0f, 1.0f);
+    return vec3(0.93f) * (1 - k) + (octaves > 0 ? vec3(0.86f, 0.16f, 0.12f) : vec3(0.12f, 0.35f, 0.85f)) * k;
 }
 
 }  // namespace
@@ -201,13 +221,23 @@ Status writePictures(const SurfaceData& surface, const std::string& folder) {
     paint(surface, canvas, charts);
     Canvas links = canvas;
     drawBorders(surface, canvas);
+    addLegend(canvas,
+              {patch(chartColor(6), "chart"), patch(chartColor(6) * 0.35f + vec3(0.08f), "buried, or around a chart"),
+               kBorderMeanings[0], kBorderMeanings[1], kBorderMeanings[2]});
     Status done = canvas.write(folder + "/charts.png");
     if (!done) return done;
 
     for (uint32_t y = 0; y < size; ++y)
-        for (uint32_t x = 0; x < size; ++x) links.at(x, y) = links.at(x, y) * 0.7f;
+        for (uint32_t x = 0; x < size; ++x)
+            links.at(x, y) = vec3(glm::dot(links.at(x, y), vec3(0.3f, 0.5f, 0.2f))) * 0.55f;
     drawLinks(surface, links);
-    drawBorders(surface, links);
+    auto pair = [](Canvas& to, vec2 at) {
+        const vec3 color = fromHue(0.45f, 0.7f, 1.0f);
+        for (float y : {2.0f, 12.0f}) to.line(at + vec2(0, y), at + vec2(kSwatch, y), color, 2, 1);
+        to.line(at + vec2(10, 2), at + vec2(24, 12), color, 1, 0.6f);
+    };
+    addLegend(links, {{pair, "borders and contacts of one colour lead to each other; lines are samples"},
+                      line(vec3(0.5f), "open")});
     done = links.write(folder + "/links.png");
     if (!done) return done;
     done = writeContacts(surface, folder + "/contacts.png");
@@ -224,12 +254,16 @@ Status writePictures(const SurfaceData& surface, const std::string& folder) {
         float uu = glm::dot(t.du, t.du), vv = glm::dot(t.dv, t.dv), mixed = glm::dot(t.du, t.dv);
         float half = std::sqrt((uu - vv) * (uu - vv) / 4 + mixed * mixed), middle = (uu + vv) / 2;
         float most = std::sqrt(middle + half) / mean, least = std::sqrt(std::max(middle - half, 0.0f)) / mean;
-        // What is farther from 1, on a scale of octaves: metres per texel above the mean are red.
+        // What is farther from 1, on a scale of octaves.
         float high = std::log2(std::max(most, 1e-6f)), low = std::log2(std::max(least, 1e-6f));
-        float worst = std::abs(high) > std::abs(low) ? high : low, k = std::clamp(std::abs(worst) / 1.5f, 0.0f, 1.0f);
-        vec3 end = worst > 0 ? vec3(0.86f, 0.16f, 0.12f) : vec3(0.12f, 0.35f, 0.85f);
-        return (vec3(0.93f) * (1 - k) + end * k) * (0.4f + 0.6f * shade(unpackOct(aux.normal)));
+        return stretchColor(std::abs(high) > std::abs(low) ? high : low) * (0.4f + 0.6f * shade(unpackOct(aux.normal)));
     });
+    auto scale = [](Canvas& to, vec2 at) {
+        for (int i = 0; i < kSwatch; ++i)
+            to.fill(int(at.x) + i, int(at.y), 1, 14, stretchColor(kOctaves * (2 * float(i) / (kSwatch - 1) - 1)));
+    };
+    addLegend(stretch,
+              {{scale, "a texel's length on the model: a third (blue), the mean (white), three times that (red)"}});
     return stretch.write(folder + "/stretch.png");
 }
 
