@@ -20,6 +20,7 @@ constexpr double kBorderShift = 0.02;  // texels, as in what was baked
 constexpr size_t kMostParts = 8;       // that a contact is judged in
 constexpr double kPart = 4;            // tolerances
 constexpr double kAside = 0.3;         // tolerances: beside a contact that far, what is hidden is asked
+constexpr double kLeastAside = 0.05;   // or, in slits, that far
 
 struct PointHash {
     size_t operator()(const std::array<uint32_t, 3>& p) const {
@@ -164,18 +165,19 @@ struct Search {
         const ContactMesh &from = (fromA ? a : b).ground->mesh(), &to = (fromA ? b : a).ground->mesh();
         const uint32_t fromBody = from.triangles[c.from].body, toBody = to.triangles[c.to].body;
         const size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / (kPart * tolerance)), size_t(1), kMostParts);
-        // The sides are up to a reach apart: asked from either, so that both directions get one answer.
-        // What comes down a wedge isn't left at its narrow end: crevices hide texels, but no way.
-        auto alike = [&](dvec3 p) {
-            const dvec3 there = p + c.onward * (kAside * tolerance), here = p + c.back * (kAside * tolerance);
+        // What comes down a wedge isn't left at its narrow end: crevices hide texels, but no way. Nor is a slit missed
+        // that is narrower than the usual step aside.
+        const auto alike = [&](dvec3 onTo, dvec3 onFrom, double aside) {
+            const dvec3 there = onTo + c.onward * (aside * tolerance), here = onFrom + c.back * (aside * tolerance);
             const auto same = [&](bool crevices) {
                 return hidden(!fromA, there, c.to, fromBody, crevices) == hidden(fromA, here, c.from, toBody, crevices);
             };
             return same(true) || same(false);
         };
-        auto leads = [&](size_t k) {
+        const auto leads = [&](size_t k) {
             const double t = (double(k) + 0.5) / double(parts);
-            return alike(c.a + (c.b - c.a) * t) || alike(c.fromA + (c.fromB - c.fromA) * t);
+            const dvec3 onTo = c.a + (c.b - c.a) * t, onFrom = c.fromA + (c.fromB - c.fromA) * t;
+            return alike(onTo, onFrom, kAside) || alike(onTo, onFrom, kLeastAside);
         };
         std::vector<Crossing> out;
         for (size_t k = 0; k < parts; ++k) {

@@ -72,14 +72,14 @@ int edgeAlong(const ContactShape& t, dvec3 a, dvec3 b) {
 
 // Outlines of s as far as they lie in t, whose plane is the same. `first`: s is side 0. Over an edge across which t's
 // surface goes on flat, the next triangle has the rest; around others what is near touches too, and what runs along
-// one, inside or outside, is put onto it, so that both ways lead over the same line.
-void clipOutlines(const ContactShape& s, const ContactShape& t, bool first, std::array<ContactSegment, 6>& out,
-                  int& count) {
+// one, inside or outside, is put onto it, so that both ways lead over the same line. only: that edge, -1: all.
+void clipOutlines(const ContactShape& s, const ContactShape& t, bool first, int only,
+                  std::array<ContactSegment, 6>& out, int& count) {
     const double slack = std::max(reachOf(s), reachOf(t));
     std::array<dvec3, 3> inward;
     for (size_t e = 0; e < 3; ++e) inward[e] = glm::normalize(glm::cross(t.normal, t.p[(e + 1) % 3] - t.p[e]));
     for (size_t k = 0; k < 3; ++k) {
-        if (!s.outline[k]) continue;
+        if (!s.outline[k] || (only >= 0 && int(k) != only)) continue;
         const dvec3 a = s.p[k], d = s.p[(k + 1) % 3] - a;
         const double length = glm::length(d);
         double t0 = 0, t1 = 1;
@@ -110,6 +110,30 @@ void clipOutlines(const ContactShape& s, const ContactShape& t, bool first, std:
     }
 }
 
+// What the lines of two traces have in common, as it lies on each.
+bool alongLine(Trace (&of)[2], ContactSegment& out) {
+    dvec3 u = of[0].b - of[0].a, v = of[1].b - of[1].a;
+    double lu = glm::length(u), lv = glm::length(v);
+    if (lu <= 0 || lv <= 0) return false;
+    // Along the longer of the two, whose direction is the surer.
+    dvec3 d = lu >= lv ? u / lu : v / lv;
+    dvec3 origin = lu >= lv ? of[0].a : of[1].a;
+    double low = -1e300, high = 1e300;
+    for (Trace& tr : of) {
+        if (glm::dot(d, tr.b - tr.a) < 0) std::swap(tr.a, tr.b);
+        low = std::max(low, glm::dot(d, tr.a - origin));
+        high = std::min(high, glm::dot(d, tr.b - origin));
+    }
+    if (high - low <= 1e-6 * std::max(lu, lv)) return false;
+    for (int i = 0; i < 2; ++i) {
+        const Trace& tr = of[i];
+        double from = glm::dot(d, tr.a - origin), to = glm::dot(d, tr.b - origin);
+        auto at = [&](double x) { return tr.a + (tr.b - tr.a) * ((x - from) / (to - from)); };
+        out.side[i] = {at(low), at(high), tr.edge};
+    }
+    return true;
+}
+
 }  // namespace
 
 int touch(const ContactShape& s, const ContactShape& t, std::array<ContactSegment, 6>& out) {
@@ -126,33 +150,26 @@ int touch(const ContactShape& s, const ContactShape& t, std::array<ContactSegmen
     // A shingle may lie within reach of the roof that it comes out of, and aslant all the same.
     if (flat && std::abs(glm::dot(s.normal, t.normal)) < kParallel && (!traceBoth(0) || flat)) return 0;
     if (flat) {
-        clipOutlines(s, t, true, out, count);
-        clipOutlines(t, s, false, out, count);
+        clipOutlines(s, t, true, -1, out, count);
+        clipOutlines(t, s, false, -1, out, count);
         return count;
     }
-    dvec3 u = of[0].b - of[0].a, v = of[1].b - of[1].a;
-    double lu = glm::length(u), lv = glm::length(v);
-    if (lu <= 0 || lv <= 0) return 0;
-    // Along the longer of the two, whose direction is the surer.
-    dvec3 d = lu >= lv ? u / lu : v / lv;
-    dvec3 origin = lu >= lv ? of[0].a : of[1].a;
-    double low = -1e300, high = 1e300;
-    for (Trace& tr : of) {
-        if (glm::dot(d, tr.b - tr.a) < 0) std::swap(tr.a, tr.b);
-        low = std::max(low, glm::dot(d, tr.a - origin));
-        high = std::min(high, glm::dot(d, tr.b - origin));
-    }
-    if (high - low <= 1e-6 * std::max(lu, lv)) return 0;
-    for (int i = 0; i < 2; ++i) {
-        const Trace& tr = of[i];
-        double from = glm::dot(d, tr.a - origin), to = glm::dot(d, tr.b - origin);
-        auto at = [&](double x) { return tr.a + (tr.b - tr.a) * ((x - from) / (to - from)); };
-        out[0].side[i] = {at(low), at(high), tr.edge};
-    }
-    // Planes that meet at a small angle may have lines far from each other.
-    double apart = glm::length((out[0].side[0].a + out[0].side[0].b - out[0].side[1].a - out[0].side[1].b) * 0.5);
-    if (apart > 3 * std::max(reachOf(s), reachOf(t)) + 1e-9 * std::max(lu, lv)) return 0;
-    return 1;
+    // Planes that meet at a small angle may have lines far from each other: where an edge that was taken to lie in the
+    // other's plane has in truth gone through it, both meet where it did.
+    const auto apart = [](const ContactSegment& c) {
+        return glm::length((c.side[0].a + c.side[0].b - c.side[1].a - c.side[1].b) * 0.5);
+    };
+    const double reach = std::max(reachOf(s), reachOf(t));
+    const std::array<int, 2> edge{of[0].edge, of[1].edge};
+    const double least = alongLine(of, out[0]) ? apart(out[0]) : 1e300;
+    if (least <= reach) return 1;
+    ContactSegment exact;
+    if (traceBoth(0) && !flat && alongLine(of, exact) && apart(exact) < least) out[0] = exact;
+    if (apart(out[0]) <= reach) return 1;
+    // Edges that come near without going through lie where they are nearest.
+    if (edge[0] >= 0) clipOutlines(s, t, true, edge[0], out, count);
+    if (edge[1] >= 0) clipOutlines(t, s, false, edge[1], out, count);
+    return count;
 }
 
 }  // namespace espalier

@@ -1,5 +1,5 @@
-// Real models of many pieces: how much of the length along which they run into each other can be crossed, and how
-// many walks end where the model doesn't.
+// Real models of many pieces: how much of the length along which they run into each other can be crossed, how many
+// walks end where the model doesn't, and how many get into a closed piece.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,6 +18,7 @@ using namespace espalier::contacttest;
 namespace {
 
 constexpr int kSamples = 400, kWalks = 1000;
+constexpr double kInsideTexels = 3;  // deeper in a closed piece no bark may lie
 constexpr double kRoomTexels = 1.5;  // slits as narrow are walked over: tests/bake's groove between boards
 
 Vec3 placeOf(const SurfaceData& surface, uint32_t chart, glm::vec2 uv) {
@@ -74,9 +75,21 @@ double toSegment(Vec3 p, const ContactLine& l) {
 
 struct Verdict {
     double crossed = 0;  // share of the sampled contact length
-    int lines = 0, walks = 0, ended = 0, lost = 0;
+    int lines = 0, walks = 0, ended = 0, lost = 0, inside = 0;
     double contactLength = 0;
 };
+
+void tellInside(const Oracle& oracle, const WalkState& before, const WalkState& w, uint32_t piece, double texel) {
+    auto tell = [&](const WalkState& s) {
+        std::printf(" %.4f %.4f %.4f (piece %u, chart %u, uv %.5f %.5f)", s.position.x, s.position.y, s.position.z,
+                    oracle.pieceAt(Vec3(s.position)), s.walk.place & 0xFFFFu, s.walk.uv.x, s.walk.uv.y);
+    };
+    std::printf("    inside piece %u, from", piece);
+    tell(before);
+    std::printf(" to");
+    tell(w);
+    std::printf(" texel %.4f\n", texel);
+}
 
 Verdict judge(const Model& model, const Baked& baked) {
     const SurfaceData& surface = baked.surface;
@@ -133,7 +146,22 @@ Verdict judge(const Model& model, const Baked& baked) {
         ++verdict.walks;
         float step = 0.02f * float(oracle.radius());
         uint event = kWalkDone;
-        for (int i = 0; i < 150 && event == kWalkDone; ++i) event = walkStep(surfaces, 0, w, step);
+        bool inside = false;
+        WalkState before = w;
+        for (int i = 0; i < 150 && event == kWalkDone; ++i) {
+            float remaining = step;
+            event = kWalkRetry;
+            while (walkGoesOn(event)) {
+                glm::vec3 jointNormal;
+                event = walkAdvance(surfaces, 0, w, remaining, jointNormal);
+                if (inside || !walkHasSample(event)) continue;
+                const uint32_t piece = oracle.insideOf(Vec3(w.position), kInsideTexels * texel);
+                inside = piece != Oracle::kNoPiece;
+                if (inside && std::getenv("ESPALIER_VERBOSE")) tellInside(oracle, before, w, piece, texel);
+                before = w;
+            }
+        }
+        verdict.inside += inside;
         if (event == kWalkDone) continue;
         verdict.lost += event == kWalkLost;
         if (oracle.toBorder(Vec3(w.position), 3 * texel) > 3 * texel) {
@@ -169,11 +197,13 @@ TEST_CASE("where pieces of real models run into each other, walks cross") {
         if (!baked) FAIL(baked.failure().text());
         Verdict v = judge(*model, *baked);
         MESSAGE(file << ": " << v.lines << " lines, " << v.contactLength << " m, crossed " << v.crossed * 100 << " %; "
-                     << v.walks << " walks, " << v.ended << " end where the model goes on, " << v.lost << " lost; "
-                     << baked->report.reachableShare() * 100 << " % of the ground can be got to");
+                     << v.walks << " walks, " << v.ended << " end where the model goes on, " << v.lost << " lost, "
+                     << v.inside << " get inside; " << baked->report.reachableShare() * 100
+                     << " % of the ground can be got to");
         CHECK(baked->report.reachableShare() >= 0.95);
         CHECK(v.crossed >= 0.95);
         CHECK(v.ended <= v.walks * 0.005);
         CHECK(v.lost <= v.walks * 0.005);
+        CHECK(v.inside <= v.walks * 0.005);
     }
 }

@@ -56,6 +56,17 @@ struct Oracle::Sight {
         CGAL::AABB_tree<CGAL::AABB_traits<Plain, CGAL::AABB_triangle_primitive<Plain, Shapes::const_iterator>>>;
     Shapes shapes;
     Tree tree;
+    CGAL::Bbox_3 bounds;
+
+    void add(const Vec3 (&p)[3]) {
+        auto point = [](Vec3 q) { return Plain::Point_3(q.x, q.y, q.z); };
+        shapes.emplace_back(point(p[0]), point(p[1]), point(p[2]));
+        bounds += shapes.back().bbox();
+    }
+    void build() {
+        tree.rebuild(shapes.cbegin(), shapes.cend());
+        tree.build();
+    }
 };
 
 Oracle::Oracle(const Model& model) {
@@ -102,11 +113,21 @@ Oracle::Oracle(const Model& model) {
         borderTriangle_.push_back(halves[0] / 3);
     }
     auto sight = std::make_shared<Sight>();
-    auto point = [](Vec3 p) { return Sight::Plain::Point_3(p.x, p.y, p.z); };
-    for (const Triangle& t : triangles_) sight->shapes.emplace_back(point(t.p[0]), point(t.p[1]), point(t.p[2]));
-    sight->tree.rebuild(sight->shapes.cbegin(), sight->shapes.cend());
-    sight->tree.build();
+    std::map<uint32_t, std::shared_ptr<Sight>> bodies;
+    for (const Triangle& t : triangles_) {
+        sight->add(t.p);
+        if (!closed_[t.piece]) continue;
+        auto& body = bodies[t.piece];
+        if (!body) body = std::make_shared<Sight>();
+        body->add(t.p);
+    }
+    sight->build();
     sight_ = sight;
+    for (auto& [piece, body] : bodies) {
+        body->build();
+        bodies_.push_back(piece);
+        bodySight_.push_back(body);
+    }
 }
 
 std::vector<ContactLine> Oracle::intersections() const {
@@ -137,6 +158,22 @@ double Oracle::winding(Vec3 p) const {
     for (const Triangle& t : triangles_)
         if (closed_[t.piece]) sum += solidAngle(t.p[0], t.p[1], t.p[2], p);
     return sum;
+}
+
+uint32_t Oracle::insideOf(Vec3 p, double depth) const {
+    for (size_t i = 0; i < bodies_.size(); ++i) {
+        const Sight& body = *bodySight_[i];
+        const CGAL::Bbox_3& b = body.bounds;
+        if (p.x < b.xmin() || p.y < b.ymin() || p.z < b.zmin() || p.x > b.xmax() || p.y > b.ymax() || p.z > b.zmax())
+            continue;
+        if (body.tree.squared_distance({p.x, p.y, p.z}) <= depth * depth) continue;
+        double sum = 0;
+        for (const auto& t : body.shapes)
+            sum += solidAngle({t[0].x(), t[0].y(), t[0].z()}, {t[1].x(), t[1].y(), t[1].z()},
+                              {t[2].x(), t[2].y(), t[2].z()}, p);
+        if (std::abs(sum) > 0.5) return bodies_[i];
+    }
+    return kNoPiece;
 }
 
 bool Oracle::seen(Vec3 p, Vec3 normal) const {

@@ -34,6 +34,10 @@ class Oracle {
     uint32_t pieceAt(Vec3 p) const;
     // How often the pieces that are closed wind around the point: 0.5 and more is inside.
     double winding(Vec3 p) const;
+    // The piece that the point is inside of, deeper than `depth`, of those that are closed, and not of another's
+    // making: each is asked by itself. kNoPiece: none.
+    static constexpr uint32_t kNoPiece = ~0u;
+    uint32_t insideOf(Vec3 p, double depth) const;
     // The distance to the nearest place on an edge of one triangle alone that nothing of another piece touches; those
     // that are farther than `within` aren't looked at.
     double toBorder(Vec3 p, double within) const;
@@ -54,6 +58,8 @@ class Oracle {
     Vec3 low_{1e300}, high_{-1e300};
     struct Sight;
     std::shared_ptr<const Sight> sight_;
+    std::vector<uint32_t> bodies_;  // the closed pieces, and of each what it looks like
+    std::vector<std::shared_ptr<const Sight>> bodySight_;
 };
 
 }  // namespace espalier::contacttest
