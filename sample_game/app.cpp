@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "sample_game/app_state.hpp"
+#include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
 #include "tools/scene/picture.hpp"
@@ -50,7 +51,7 @@ void App::showUi() {
 
 // Growth that takes longer than a blink is announced one frame before.
 bool App::update() {
-    const bool changed = work_.document->revision() != grownRevision_ || controls_->painting();
+    const bool changed = work_.document->revision() != work_.grownRevision || controls_->painting();
     if (changed && !growing_ && !controls_->painting() && frames_ > 0 && work_.stats.expandMs > kSlowGrowthMs) {
         growing_ = true;
         showGrowing(work_);
@@ -60,7 +61,7 @@ bool App::update() {
     growing_ = false;
     const uint32_t before = work_.stats.expansions;
     if (espUpdate(work_.context.get()) != ESP_OK) work_.error = espLastError(work_.context.get());
-    grownRevision_ = work_.document->revision();
+    work_.grownRevision = work_.document->revision();
     if (espReadStats(work_.context.get(), &work_.stats) != ESP_OK) work_.error = espLastError(work_.context.get());
     const bool grew = work_.stats.expansions != before;
     if (grew && work_.branch) work_.readPath();
@@ -69,7 +70,8 @@ bool App::update() {
 }
 
 void App::screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height) {
-    if (espalier::scene::writePng(path, rgba.data(), width, height, work_.error)) work_.message = "Written: " + path;
+    if (espalier::scene::writePng(path, rgba.data(), width, height, work_.error))
+        work_.message = "Written: " + wholePath(path);
     wake();
 }
 

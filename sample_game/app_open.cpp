@@ -121,7 +121,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.brush.layer = work_.scene().layers.empty() ? "" : work_.scene().layers.front();
     work_.stats = {};
     work_.redraw = true;
-    grownRevision_ = ~0ull;
+    work_.grownRevision = ~0ull;
     espSetGrow(made, &work_.grow);
     work_.message.clear();
     for (const std::string& note : work_.scene().notes) work_.message += (work_.message.empty() ? "" : "\n") + note;

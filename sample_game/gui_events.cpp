@@ -55,17 +55,21 @@ void GuiEvents::button(int button, bool down) {
     if (button >= 0 && button < int(std::size(buttons_))) mouse_.push_back({button, down, 0, 0});
 }
 
-// True: a button changed that a panel is to see. Clicks beside them needn't be told apart, so that none of them waits.
+// True: a button changed that a panel is to see, or is about to. Clicks beside them needn't be told apart, so that none
+// of them waits.
 bool GuiEvents::feedMouse() {
-    bool changed = false;
+    bool changed = false, moved = false;
     for (; !mouse_.empty() && !changed; mouse_.pop_front()) {
         const Mouse& e = mouse_.front();
         if (e.button < 0) {
             x_ = e.x;
             y_ = e.y;
-            placed_ = true;
+            placed_ = moved = true;
             continue;
         }
+        // A slider looks where the mouse is only while its button is down: the end of a fast drag is a frame of its
+        // own.
+        if (moved && !e.down && ofPanel_[e.button]) return true;
         buttons_[e.button] = e.down;
         if (e.down) ofPanel_[e.button] = overPanel(x_, y_);
         changed = ofPanel_[e.button];

@@ -114,8 +114,9 @@ void chosenSeeds(Workspace& work) {
         ImGui::Text("Seed at %.2f, %.2f, %.2f", chosen[0].position[0], chosen[0].position[1], chosen[0].position[2]);
     else
         ImGui::Text("%zu seeds chosen", chosen.size());
-    // Growth is read back for it: not while a seed is on its way.
-    if (chosen.size() == 1 && !work.underWay && !ImGui::IsMouseDown(0) && work.barren(chosen[0].key))
+    // Growth is read back for it: not while a seed is on its way, nor before it has grown.
+    const bool settled = !work.underWay && work.grownRevision == work.document->revision();
+    if (chosen.size() == 1 && settled && !ImGui::IsMouseDown(0) && work.barren(chosen[0].key))
         hint(work.scene().layers.empty()
                  ? "Nothing grows from it."
                  : "Nothing grows from it: it may be that a layer is empty here. B shows what is painted.");

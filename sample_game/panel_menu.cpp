@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
 #include "tools/document/layer_files.hpp"
 
@@ -36,10 +37,34 @@ bool beginDialogue(const char* title) {
     return true;
 }
 
+// What lies in the folder of `path`, to be clicked. True: a file or project was clicked twice.
+bool showFolder(char* path, size_t size, const std::vector<std::string>& endings) {
+    static struct {
+        std::string typed;
+        double read = -1;
+        std::vector<FolderEntry> entries;
+    } shown;
+    if (shown.typed != path || ImGui::GetTime() > shown.read + 2)
+        shown = {path, ImGui::GetTime(), listFolder(path, endings)};
+    bool taken = false;
+    if (ImGui::BeginChild("folder", {ImGui::GetFontSize() * 32, ImGui::GetTextLineHeightWithSpacing() * 8}, true))
+        for (const FolderEntry& entry : shown.entries) {
+            const bool known = entry.kind == FolderEntry::project;
+            const std::string text = known ? entry.name + "   project" : entry.name;
+            const ImGuiSelectableFlags flags =
+                ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
+            if (!ImGui::Selectable(text.c_str(), entry.path == path, flags)) continue;
+            std::snprintf(path, size, "%s", entry.path.c_str());
+            taken = entry.kind != FolderEntry::folder && ImGui::IsMouseDoubleClicked(0);
+        }
+    ImGui::EndChild();
+    return taken;
+}
+
 // A dialogue that asks for a path, and stays with what went wrong until `act`, which is given the path, returns true.
 template <class Act>
 void askPath(Workspace& work, const char* title, const char* label, const char* button, char* path, size_t size,
-             Act&& act) {
+             const std::vector<std::string>& endings, Act&& act) {
     bool confirmed = false;
     if (!beginDialogue(title)) return;
     dialogues().asks = true;
@@ -47,6 +72,7 @@ void askPath(Workspace& work, const char* title, const char* label, const char* 
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 32);
     if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // it is all that one can type into
     confirmed = ImGui::InputText("##path", path, size, ImGuiInputTextFlags_EnterReturnsTrue);
+    confirmed |= showFolder(path, size, endings);
     confirmed |= ImGui::Button(button);
     ImGui::SameLine();
     const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
@@ -137,40 +163,42 @@ void showDialogues(Workspace& work, Session& session) {
     d.asks = false;
     if (d.open) {
         if (!d.project[0]) put(d.project, sizeof d.project, std::filesystem::path(session.name(work)).stem().string());
+        if (!d.file[0]) put(d.file, sizeof d.file, std::filesystem::path(session.file()).parent_path().string() + "/");
         if (!d.run[0]) put(d.run, sizeof d.run, "run.jsonl");
         ImGui::OpenPopup(d.open);
         d.open = nullptr;
     }
-    askPath(work, "Save the project", "Folder of the project:", "Save", d.project, sizeof d.project,
+    askPath(work, "Save the project", "Folder of the project:", "Save", d.project, sizeof d.project, {},
             [&](const char* folder) {
                 session.save(work, folder);
                 return work.error.empty();
             });
     // What can't be opened asks again, see askToOpen.
     askPath(work, "Open", "A project's folder, a scene (.json) or a baked surface (.glb):", "Open", d.file,
-            sizeof d.file, [&](const char* file) {
+            sizeof d.file, {".json", ".glb"}, [&](const char* file) {
                 session.openNext = file;
                 return true;
             });
-    askPath(work, "Record a run", "File for what is done from now on:", "Record", d.run, sizeof d.run,
+    askPath(work, "Record a run", "File for what is done from now on:", "Record", d.run, sizeof d.run, {".jsonl"},
             [&](const char* file) {
                 return session.startRecording(work, file, uint32_t(work.window.x), uint32_t(work.window.y));
             });
     const bool town = work.townLayer(d.layer);
     const char* asked = town ? "Picture of the town from above, north up (.png, .exr):"
                              : "Picture in the surface's walk UVs, as Export writes it (.png, .exr):";
-    askPath(work, "Import a layer", asked, "Import", d.picture, sizeof d.picture, [&](const char* file) {
-        if (town) return work.perform(LoadTownLayer{d.layer, file});
-        const uint32_t gesture = work.newGesture();
-        for (uint32_t i = 0; i < work.scene().surfaces.size(); ++i)
-            if (!work.perform(LoadLayer{d.layer, pictureOf(*work.document, file, i), i}, gesture)) return false;
-        work.message = std::string("Read: ") + file;
-        return true;
-    });
+    askPath(work, "Import a layer", asked, "Import", d.picture, sizeof d.picture, {".png", ".exr"},
+            [&](const char* file) {
+                if (town) return work.perform(LoadTownLayer{d.layer, file});
+                const uint32_t gesture = work.newGesture();
+                for (uint32_t i = 0; i < work.scene().surfaces.size(); ++i)
+                    if (!work.perform(LoadLayer{d.layer, pictureOf(*work.document, file, i), i}, gesture)) return false;
+                work.message = "Read: " + wholePath(file);
+                return true;
+            });
     askPath(work, "Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture,
-            sizeof d.picture, [&](const char* file) {
+            sizeof d.picture, {".png", ".exr"}, [&](const char* file) {
                 if (!(town ? exportTownLayer : exportLayer)(*work.document, d.layer, file, work.error)) return false;
-                work.message = std::string("Written: ") + file;
+                work.message = "Written: " + wholePath(file);
                 return true;
             });
     if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");

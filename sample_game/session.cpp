@@ -131,7 +131,7 @@ void Session::save(Workspace& work, const std::string& folder) {
     folder_ = fs::absolute(folder).lexically_normal().string();
     savedRevision_ = autosavedRevision_ = work.document->revision();
     recovery_.clear();
-    work.message = "Saved: " + folder;
+    work.message = "Saved: " + folder_;
 }
 
 void Session::forgetRecovery(bool deleteIt) {

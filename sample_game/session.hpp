@@ -20,6 +20,7 @@ class Session {
     // The end of the program: what wasn't saved stays as an autosave.
     void end(Workspace& work);
 
+    const std::string& file() const { return file_; }  // that was opened, with its whole path
     // The project's folder; empty: the document was never saved.
     const std::string& folder() const { return folder_; }
     // As the title says it.

@@ -67,6 +67,7 @@ struct Workspace {
     EspGrowDef grow = espDefaultGrowDef();
 
     std::string message, error;      // the latest of each
+    uint64_t grownRevision = 0;      // of the document that stats tell of
     const char* underWay = nullptr;  // what the next click does, while a tool follows the mouse without one
     EspStats stats{};
     double frameMs = 0;

@@ -31,7 +31,22 @@ TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are plan
     CHECK(count(AddSeeds{}) == 1);
     CHECK(count(Undo{}) == 1);
     CHECK(count(Redo{}) == 1);
-    CHECK(count(SetParam{}) == 0);
+    // Only the last drag is one of a grammar's slider: it ends where the mouse was let go.
+    size_t redone = 0, slid = recorded.lines.size();
+    for (size_t i = 0; i < recorded.lines.size(); ++i) {
+        if (std::holds_alternative<Redo>(recorded.lines[i].action)) redone = i;
+        if (const auto* set = std::get_if<SetParam>(&recorded.lines[i].action)) {
+            slid = std::min(slid, i);
+            CHECK(set->param.name == "scale");
+        }
+    }
+    CHECK(slid > redone);
+    REQUIRE(count(SetParam{}) >= 1);
+    for (size_t i = recorded.lines.size(); i-- > slid;)
+        if (const auto* set = std::get_if<SetParam>(&recorded.lines[i].action)) {
+            CHECK(set->param.value.at(0) == doctest::Approx(3.3).epsilon(0.3));
+            break;
+        }
     std::vector<std::string> modes;
     for (const RunLine& line : recorded.lines)
         if (const auto* stroke = std::get_if<StrokeBegin>(&line.action)) modes.push_back(stroke->mode);

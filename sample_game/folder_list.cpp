@@ -1,0 +1,49 @@
+// A typed path -> what lies in its folder.
+#include "sample_game/folder_list.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <tuple>
+
+namespace sample {
+
+namespace fs = std::filesystem;
+
+std::vector<FolderEntry> listFolder(const std::string& typed, const std::vector<std::string>& endings) {
+    constexpr size_t kMost = 400;
+    const std::string before = typed.substr(0, typed.rfind('/') + 1);  // npos + 1: none
+    std::vector<FolderEntry> found;
+    std::error_code failed;
+    for (fs::directory_iterator at(before.empty() ? "." : before, failed), end; !failed && at != end;
+         at.increment(failed)) {
+        const std::string name = at->path().filename().string();
+        std::error_code gone;
+        if (name.empty() || name[0] == '.') continue;
+        if (at->is_directory(gone)) {
+            const bool project = fs::exists(at->path() / "project.json", gone);
+            found.push_back({name + "/", before + name + "/", project ? FolderEntry::project : FolderEntry::folder});
+        } else if (std::any_of(endings.begin(), endings.end(), [&](const auto& e) { return name.ends_with(e); })) {
+            found.push_back({name, before + name, FolderEntry::file});
+        }
+    }
+    std::sort(found.begin(), found.end(), [](const FolderEntry& a, const FolderEntry& b) {
+        return std::tuple(a.kind == FolderEntry::file, a.name) < std::tuple(b.kind == FolderEntry::file, b.name);
+    });
+    if (found.size() > kMost) found.resize(kMost);
+    const fs::path here = wholePath(before);
+    if (here.has_relative_path()) {
+        const std::string above = here.parent_path().string();
+        found.insert(found.begin(), {"..", above == "/" ? above : above + "/", FolderEntry::folder});
+    }
+    return found;
+}
+
+std::string wholePath(const std::string& path) {
+    std::error_code failed;
+    const fs::path whole = fs::absolute(path.empty() ? "." : path, failed).lexically_normal();
+    return failed                                               ? path
+           : whole.has_filename() || !whole.has_relative_path() ? whole.string()
+                                                                : whole.parent_path().string();
+}
+
+}  // namespace sample
