@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -219,6 +220,7 @@ struct EspContext {
     bool contactsStale = false;  // surfaces came, went or moved
     std::vector<bool> moved;     // [instance]: plants on it may stand on what has moved since the last growth
     std::vector<espalier::SurfacePair> pairs;
+    std::set<uint32_t> touched;     // surfaces of pairs that changed, until refreshContacts has told them
     uint32_t contactCount = 0;      // crossings between surfaces
     double contactMs = 0;           // of finding them the last time, CPU
     bool tablesStale = true;        // the two below don't describe surfaces and layers any more

@@ -100,21 +100,33 @@ Status refreshContacts(EspContext& context) {
         const Box box = boxOf(surface);
         boxes.push_back(box.grown(1e-3 * glm::length(box.high - box.low)));
     });
+    // Nothing changes for surfaces of which no pair came, went or is found anew.
+    const auto touch = [&](const SurfacePair& pair) { context.touched.insert({pair.a.id, pair.b.id}); };
+    const auto in = [](std::vector<SurfacePair>& some, const SurfacePair& pair) {
+        return std::ranges::find_if(
+            some, [&](const SurfacePair& p) { return p.a == pair.a && p.b == pair.b && p.others == pair.others; });
+    };
     std::vector<SurfacePair> pairs = pairsOf(stands, boxes);
+    for (const SurfacePair& pair : context.pairs)
+        if (in(pairs, pair) == pairs.end()) touch(pair);
     for (SurfacePair& pair : pairs) {
-        const auto known = std::ranges::find_if(context.pairs, [&](const SurfacePair& p) {
-            return p.a == pair.a && p.b == pair.b && p.others == pair.others;
-        });
-        if (known != context.pairs.end())
+        const auto known = in(context.pairs, pair);
+        if (known != context.pairs.end()) {
             pair.found = known->found, pair.hiddenOfA = known->hiddenOfA, pair.hiddenOfB = known->hiddenOfB;
-        else if (Status s = find(context, pair); !s)
-            return s;
+            continue;
+        }
+        touch(pair);
+        if (Status s = find(context, pair); !s) return s;
     }
     context.pairs = std::move(pairs);
 
     context.contactCount = 0;
     Status status = Done{};
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
+        if (!context.touched.contains(id)) {
+            context.contactCount += uint32_t(surface.contacts.size());
+            return;
+        }
         std::vector<Crossing> wanted;
         TexelSets hidden;
         const auto add = [&](const std::vector<Crossing>& crossings, uint32_t target) {
@@ -136,6 +148,7 @@ Status refreshContacts(EspContext& context) {
         surface.contacts = std::move(wanted), surface.buried = std::move(buried);
         context.tablesStale = true;
     });
+    if (status) context.touched.clear();
     context.contactMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return status;
 }
