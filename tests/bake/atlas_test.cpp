@@ -188,6 +188,36 @@ TEST_CASE("good charts of the model's are kept, the others are made anew, and th
     CHECK(good.report.madeCharts == 0);
 }
 
+// A wall of stones that stand out, or lie deeper, each by its own measure; UVs are those of the flat wall.
+Model stoneWall(float relief) {
+    Model wall;
+    wall.name = "wall";
+    constexpr int kCells = 96, kStones = 12;
+    addPatch(
+        wall, kCells,
+        [&](float s, float t) {
+            const float x = s * kStones, y = t * kStones;
+            const int column = int(x + 0.5f * float(int(y) % 2)), row = int(y);
+            const uint32_t number = uint32_t(column * 31 + row * 57) * 2654435761u;
+            const float edge = std::min(std::abs(std::sin(3.14159265f * (x + 0.5f * float(row % 2)))),
+                                        std::abs(std::sin(3.14159265f * y)));
+            const float out = std::min(1.0f, edge * 1.5f) * (0.4f + 0.6f * float(number >> 8) / 16777216.0f);
+            return glm::vec3(s, t, relief * out) * 4.0f;
+        },
+        [](float s, float t) { return glm::vec2(0.1f + 0.8f * s, 0.1f + 0.8f * t); });
+    return wall;
+}
+
+TEST_CASE("a wall whose stones stretch its UVs somewhat too much is still one chart") {
+    for (float relief : {0.02f, 0.03f, 0.04f, 0.05f}) {
+        CAPTURE(relief);
+        Model model = stoneWall(relief);
+        Baked baked = bakeOrFail(model);
+        checkAtlas(model, baked);
+        CHECK(baked.report.charts == 1);
+    }
+}
+
 TEST_CASE("charts that lie over each other or tile keep their shape and get a place of their own") {
     Model over = cube(4), tiled = cube(4);
     for (size_t i = 0; i < over.uvs.size(); ++i) {

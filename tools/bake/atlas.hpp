@@ -82,6 +82,9 @@ PatchVerdict judgePatch(const Patch& patch);
 // be bad all the same.
 PatchVerdict flatten(Patch& patch);
 
+// Makes the UVs that the patch has more rigid, by a few rounds, until it serves: what is one to one mostly stays so.
+PatchVerdict relax(Patch& patch);
+
 // Spreads vertices out evenly around those named, within some rings of triangles: what is tangled there mostly isn't
 // afterwards. The outer border stays.
 void untangle(Patch& patch, const std::vector<uint32_t>& tangled, int rings);

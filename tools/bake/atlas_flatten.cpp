@@ -97,6 +97,12 @@ class Stitcher {
     }
     bool good() const { return solver_.info() == Eigen::Success; }
 
+    // Begins with the patch's UVs.
+    void startFrom(const std::vector<glm::dvec2>& uv) {
+        const auto& place = solver_.permutationP().indices();
+        for (size_t v = 0; v < uv.size(); ++v) at_[size_t(place(long(v)))] = uv[v];
+    }
+
     // Lays the triangles out as they are turned.
     void start() {
         right_.assign(at_.size(), glm::dvec2(0));
@@ -198,6 +204,20 @@ PatchVerdict flatten(Patch& patch) {
     }
     stitcher.take(patch.uv);
     return judgePatch(patch);
+}
+
+PatchVerdict relax(Patch& patch) {
+    std::vector<Shape> shapes = measureShapes(patch);
+    Stitcher stitcher(patch, shapes);
+    PatchVerdict verdict = judgePatch(patch);
+    if (!stitcher.good()) return verdict;
+    stitcher.startFrom(patch.uv);
+    for (int round = 0; round < kTrialRounds && !verdict.serves(); ++round) {
+        stitcher.round(1);
+        stitcher.take(patch.uv);
+        verdict = judgePatch(patch);
+    }
+    return verdict;
 }
 
 }  // namespace espalier::bakery

@@ -75,10 +75,17 @@ UvFault judgeIsland(const BakeMesh& mesh, Patch& patch, double texel) {
     return hasNeighbours && isNarrow(patch, texel) ? UvFault::narrow : UvFault::none;
 }
 
-// Flattens an island that overlaps itself or is stretched, within its own outline: seams stay where an artist put them.
-bool mend(BakeMesh& mesh, Patch& patch, double texel) {
+// Flattens an island that overlaps itself or is stretched: seams stay where an artist put them. If that tangles it, what
+// is only stretched is made as rigid as it needs to be.
+bool mend(BakeMesh& mesh, Patch& patch, double texel, bool stretched) {
     if (!canFlatten(patch)) return false;
-    if (!flatten(patch).serves() || isNarrow(patch, texel)) return false;
+    const std::vector<glm::dvec2> given = patch.uv;
+    bool serves = flatten(patch).serves();
+    if (!serves && stretched) {
+        patch.uv = given;
+        serves = relax(patch).serves();
+    }
+    if (!serves || isNarrow(patch, texel)) return false;
     for (size_t t = 0; t < patch.triangles.size(); ++t)
         for (size_t k = 0; k < 3; ++k) mesh.triangles[patch.triangles[t]].uv[k] = patch.uv[patch.corner[t][k]];
     return true;
@@ -156,7 +163,7 @@ Islands judgeUvs(const Model& model, BakeMesh& mesh, uint32_t resolution, bool k
             for (uint32_t t : out.triangles[i]) area += area3(mesh, mesh.triangles[t]);
             bool large = area > kWorthMending * mesh.area;  // small ones had better be joined to others
             if (large && (out.fault[i] == UvFault::overlapping || out.fault[i] == UvFault::stretched))
-                out.mended[i] = mend(mesh, patch, texel);
+                out.mended[i] = mend(mesh, patch, texel, out.fault[i] == UvFault::stretched);
         }
     });
     return out;
