@@ -145,7 +145,8 @@ int touch(const ContactShape& s, const ContactShape& t, std::array<ContactSegmen
         flat = of[0].kind == Trace::flat || of[1].kind == Trace::flat;
         return of[1].kind != Trace::none;
     };
-    if (!traceBoth(1)) return 0;
+    // A corner that was taken to lie in the other's plane may have gone through it.
+    if (!traceBoth(1)) return traceBoth(0) && !flat && alongLine(of, out[0]) ? 1 : 0;
     int count = 0;
     // A shingle may lie within reach of the roof that it comes out of, and aslant all the same.
     if (flat && std::abs(glm::dot(s.normal, t.normal)) < kParallel && (!traceBoth(0) || flat)) return 0;

@@ -21,8 +21,9 @@ using glm::dvec2;
 using glm::dvec3;
 
 constexpr double kTurn = 6.283185307179586;
-constexpr double kSameAngle = 0.06;  // radians: flaps nearer to each other coincide
-constexpr double kReachShare = 0.1;  // of the least altitude of a point's triangles
+constexpr double kSameAngle = 0.06;       // radians: flaps nearer to each other coincide
+constexpr double kCrossingAngle = 0.004;  // radians: and those that do so in truth
+constexpr double kReachShare = 0.1;       // of the least altitude of a point's triangles
 constexpr double kOutlineCosine = 0.999;
 constexpr double kLeastShifts = 0.05;  // a shorter contact, in shifts of borders, is rounding
 
@@ -187,6 +188,9 @@ class Assembler {
         const auto &a = found_->segment.side[f.side], &b = found_->segment.side[g.side];
         double above = glm::dot(f.normal, (b.a + b.b - a.a - a.b) * 0.5);
         if (std::abs(above) > 0.02 * options_.tolerance) return above > 0;
+        // Where they cross at a small angle, the one that rises from the stretch.
+        const double rise = glm::dot(glm::cross(f.away, g.away), direction_) * sideOf(f);
+        if (std::abs(rise) > kCrossingAngle) return rise > 0;
         return std::make_pair(g.side == 1 && view_[0] != view_[1], body(g)) <
                std::make_pair(f.side == 1 && view_[0] != view_[1], body(f));
     }
