@@ -161,8 +161,10 @@ void AtlasView::controls(Workspace& work) {
     toolTip("0 is the finest; dark charts are too small to be walked on a coarse one");
     ImGui::SameLine();
     ImGui::Checkbox("Charts", &wanted_.charts);
+    toolTip("Each chart in a colour of its own");
     ImGui::SameLine();
     ImGui::Checkbox("Links", &wanted_.links);
+    toolTip("Borders, and at the mouse where they lead");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(room * 6);
     if (ImGui::BeginCombo("##layer", wanted_.layer.empty() ? "No layer" : wanted_.layer.c_str())) {

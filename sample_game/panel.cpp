@@ -68,7 +68,9 @@ void limits(Brush& brush) {
         brush.height[0] = shown[0] <= -100 ? -1e6f : shown[0];
         brush.height[1] = shown[1] >= 100 ? 1e6f : shown[1];
     }
+    toolTip("From the lowest to the highest point that takes paint; at -100 m and 100 m there is no limit");
     slider("Softness", &brush.softness, 0, 1, "%.2f");
+    toolTip("0: the limits are edges, 1: paint fades out over a wide band");
 }
 
 // Values that the chosen seeds have in place of their grammar's.
@@ -145,6 +147,7 @@ void chosenSeeds(Workspace& work) {
                 }
             ImGui::EndCombo();
         }
+        toolTip("What grows from the chosen seeds");
     }
     if (changed) work.perform(ChangeSeeds{chosen}, widgetGesture(work));
     ownValues(work, chosen);
@@ -164,6 +167,7 @@ void chosenSeeds(Workspace& work) {
         work.perform(remove);
         work.selected.clear();
     }
+    toolTip("The chosen seeds go, with what grew from them");
 }
 
 }  // namespace
@@ -259,6 +263,7 @@ void seedsPanel(Workspace& work) {
                 if (ImGui::Selectable(grammarName(scene, i).c_str(), i == work.plantGrammar)) work.plantGrammar = i;
             ImGui::EndCombo();
         }
+        toolTip("What grows from the next seeds");
     }
     chosenSeeds(work);
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
@@ -278,6 +283,7 @@ void seedsPanel(Workspace& work) {
         work.perform(all);
         work.selected.clear();
     }
+    toolTip("All seeds of the scene go; Ctrl+Z brings them back");
 }
 
 void lightPanel(Workspace& work) {
@@ -285,6 +291,7 @@ void lightPanel(Workspace& work) {
     SetLight light{scene.hour, scene.look.exposure, scene.look.shadows != 0};
     bool own = light.hour == espalier::scene::kOwnSun;
     bool changed = ImGui::Checkbox("The scene's own light", &own);
+    toolTip("As the scene's file says, or of a day, by its time");
     if (changed) light.hour = own ? espalier::scene::kOwnSun : 10;
     if (!own) {
         const int minutes = int(std::lround(light.hour * 60)) % 1440;
@@ -296,7 +303,9 @@ void lightPanel(Workspace& work) {
     const uint32_t gesture = changed ? widgetGesture(work) : 0;
     bool exposed = slider("Exposure", &light.exposure, -4, 4, "%.1f stops");
     const uint32_t second = exposed ? widgetGesture(work) : 0;
+    toolTip("One stop more is twice as bright");
     exposed |= ImGui::Checkbox("Shadows", &light.shadows);
+    toolTip("Of models, plants and houses");
     if (changed || exposed) work.perform(light, changed ? gesture : second);
 
     rowLabel("View");
@@ -310,13 +319,18 @@ void lightPanel(Workspace& work) {
                 work.perform(SetView{"layer", name});
         ImGui::EndCombo();
     }
-    if (layer && slider("Opacity", &work.layout.layerOpacity, .05f, 1, "%.2f")) work.redraw = true;
+    toolTip("What is shown of the scene  (1 to 6)");
+    if (layer) {
+        if (slider("Opacity", &work.layout.layerOpacity, .05f, 1, "%.2f")) work.redraw = true;
+        toolTip("Of the painted layer over the model");
+    }
     bool paper = work.grow.walk == ESP_WALK_PAPER;
     if (ImGui::Checkbox("The paper's walk, to compare", &paper)) {
         work.grow.walk = paper ? ESP_WALK_PAPER : ESP_WALK_INTRINSIC;
         if (espSetGrow(work.context.get(), &work.grow) != ESP_OK) work.error = espLastError(work.context.get());
         work.redraw = true;
     }
+    toolTip("Plants walk from texel to texel, as Buron 2015 does: they turn at seams");
 }
 
 void showPanel(Workspace& work) {

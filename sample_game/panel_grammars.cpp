@@ -109,7 +109,9 @@ void presets(Workspace& work, uint32_t index) {
     const auto& grammar = work.scene().grammars[index];
     static char name[64] = "";  // of the preset that is being saved
     ImGui::SetNextItemWidth(-1);
-    if (!ImGui::BeginCombo("##presets", "Presets")) return;
+    const bool open = ImGui::BeginCombo("##presets", "Presets");
+    if (!open) toolTip("Values kept under a name, and those that the grammar says");
+    if (!open) return;
     const auto apply = [&](const std::vector<Param>& params) {
         const uint32_t gesture = work.newGesture();
         for (const Param& param : params) work.perform(SetParam{index, param}, gesture);

@@ -65,6 +65,7 @@ void edgePanel(Workspace& work, Edit& edit, House& house) {
             }
         ImGui::EndCombo();
     }
+    toolTip("What the roof does over the chosen edge");
     ImGui::BeginDisabled(edge.end == "gable");  // a wall
     pitch(work, edit, "Pitch##edge", edge.slope);
     ImGui::EndDisabled();
@@ -98,6 +99,7 @@ void housesPanel(Workspace& work) {
             }
         ImGui::EndCombo();
     }
+    toolTip("Of the whole house; a chosen edge may differ");
     rowLabel("Walls");
     edit.note(work, ImGui::SliderFloat("##walls", &house.eaveHeight, 2, 20, "%.1f m", ImGuiSliderFlags_AlwaysClamp));
     toolTip("Height of the eaves above the house's foot");

@@ -267,9 +267,9 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
     else if (work.underWay)
         text = work.underWay;
     else if (work.tool == Tool::paint)
-        text = "Drag: paint " + work.brush.layer +
-               "   Ctrl: erase   Shift: smooth   [ ]: size   V: show the layer   right drag: look, with W A S D: fly   "
-               "middle drag: turn";
+        text = "Drag: paint " + work.brush.layer + "   Ctrl: erase   Shift: smooth   [ ]: size   " +
+               (work.townLayer(work.brush.layer) ? "" : "V: show the layer   ") +
+               "right drag: look, with W A S D: fly   middle drag: turn";
     else if (work.tool == Tool::seeds)
         text =
             "Click: plant   drag: plant with a direction   Ctrl+drag: a row   click a seed: choose, drag it: move   "

@@ -33,6 +33,7 @@ void prunedRow(Workspace& work) {
             work.perform(espalier::document::PruneBranch{text, false}, gesture);
         }
     }
+    toolTip("Takes all prunings back");
     ImGui::EndDisabled();
 }
 

@@ -59,6 +59,13 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     float dry = clamp(0.28 + (0.5 * broad.x + 0.45 * near.z) * (1.0 - 0.35 * calm) + 0.25 * fine.y, 0.0, 0.75);
     green = mix(green, frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.55 + 0.75 * blades), dry);
     vec3 earth = mix(vec3(0.075, 0.055, 0.036), vec3(0.150, 0.114, 0.076), 0.5 + 0.4 * fine.x + 0.2 * near.z);
+    // Far off lie fields, and woods between them.
+    float far = clamp(metres * 0.012 - 0.9, 0.0, 1.0);
+    for (bool distant = far > 0.0; distant; distant = false) {
+        vec4 land = textureGrad(noise, place * (1.0 / 730.0), dx * (1.0 / 730.0), dy * (1.0 / 730.0)) * 2.0 - 1.0;
+        green = mix(green, green.yyy * vec3(1.25, 1.12, 0.55), far * smoothstep(0.05, 0.35, land.z));
+        green *= 1.0 - 0.55 * far * smoothstep(0.0, 0.22, land.x + 0.35 * broad.y);
+    }
     Meadow m;
     m.base = mix(earth, green, grass);
     vec2 slope = near.zw * 0.35 * (1.0 - calm) + fine.zw * 0.55;

@@ -21,6 +21,8 @@ vec3 hills(vec3 ray, vec3 sky) {
         vec4 trees = textureLod(noise, to * 2.1 + 0.11 * far, 0.0) - 0.5;
         // Broad swells, hills on them, and near by the tops of woods.
         float crest = 0.013 + 0.011 * far + (0.045 + 0.012 * far) * high.x + (0.030 - 0.006 * far) * high.z + (0.010 - 0.0045 * far) * trees.x;
+        // The first is never without woods, so that the plain has no bare edge.
+        if (range == 0) crest = max(crest, 0.0045 + 0.004 * trees.z + 0.006 * trees.x);
         vec3 wood = farLand(ray, far) * (1.0 + (0.5 - 0.2 * far) * trees.x * clamp(ray.y * 120.0, 0.0, 1.0));
         seen = mix(seen, wood, clamp((crest - ray.y) * 700.0, 0.0, 1.0));
     }

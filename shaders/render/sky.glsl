@@ -12,10 +12,11 @@ vec3 skyColor(vec3 ray) {
 }
 
 // Wooded land so far away that it is mostly haze, in ranges 0, 1, 2 ... behind each other; the more so the lower it lies,
-// so that each range rises out of the mist over the one before.
+// so that each range rises out of the mist over the one before. At the foot of the first there is little of it: the plain
+// goes over into its woods.
 vec3 farLand(vec3 ray, float range) {
     vec3 haze = skyColor(normalize(vec3(ray.x, 0.0, ray.z)));
-    float mist = exp2(-max(ray.y, 0.0) * (110.0 - 25.0 * range));
-    return mix(frame.skyColor * vec3(0.11, 0.14, 0.07), haze, 0.16 + 0.20 * range + (0.28 - 0.04 * range) * mist);
+    float mist = exp2(-max(ray.y, 0.0) * (110.0 - 25.0 * range)) * (range > 0.0 ? 0.28 - 0.04 * range : 0.10);
+    return mix(frame.skyColor * vec3(0.11, 0.14, 0.07), haze, 0.16 + 0.20 * range + mist);
 }
 #endif
