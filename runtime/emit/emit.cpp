@@ -60,6 +60,7 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
                    {emit.bins_, "emit bins", kAllCells * kCellBins * 4ull},
                    {emit.seen_, "emit seen cells", kAllCells * 8},
                    {emit.noTexels_, "emit no texels", 16},
+                   {emit.watch_, "watched view", sizeof(EmitView)},
                    {emit.readback_, "emit counts", sizeof(EmitState), BufferUse::readback}};
     for (const auto& b : buffers) {
         Result<Buffer> made = Buffer::create(device, b.name, b.bytes, b.use);
@@ -132,6 +133,30 @@ Status Emit::cull(Commands& commands, const EmitInputs& inputs, const EmitView& 
     return Done{};
 }
 
+Status Emit::watch(Commands& commands, const EmitView& view) {
+    const auto along = [&](uint32_t pixels) { return (pixels + view.tilePixels - 1) / view.tilePixels; };
+    const uint64_t bytes = 4ull * along(view.width) * along(view.height);
+    watched_ = {};
+    if (!watchTiles_ || watchTiles_.size() != bytes) {
+        Result<Buffer> made = Buffer::create(*device_, "watched tiles", bytes);
+        if (!made) return made.failure();
+        watchTiles_ = std::move(*made);
+    }
+    EmitView watched = view;
+    watched.tiles.v = reinterpret_cast<float*>(watchTiles_.address());
+    commands.barrier(Use::compute, Use::transfer);
+    if (Status s = commands.upload(watch_, std::as_bytes(std::span(&watched, 1))); !s) return s;
+    watched_ = watched;
+    settle(commands);
+    return Done{};
+}
+
+void Emit::settle(Commands& commands) {
+    commands.barrier(Use::compute | Use::vertex, Use::transfer);
+    commands.fill(watchTiles_, kKeptTile);
+    commands.barrier(Use::transfer, Use::compute | Use::vertex);
+}
+
 EmitStats Emit::stats() const {
     const EmitState& state = *reinterpret_cast<const EmitState*>(readback_.mapped());
     EmitStats stats;
@@ -174,6 +199,7 @@ EmitView parallelView(const glm::mat4& m, float pixelsPerMetre, float lodPixels)
     view.lodPixels = std::max(lodPixels, 1e-3f);
     view.parallel = 1;
     view.leastPixels = 0.5f;
+    view.tilePixels = kDepthTile;
     view.wholePixels = kWholePixels;
     view.leastShare = kLeastShare;
     return view;

@@ -55,8 +55,22 @@ class Emit {
     Status cull(Commands& commands, const EmitInputs& inputs, const EmitView& view, std::string_view passName,
                 bool counted);
 
+    // When growth has changed, binds it; cull() does so too.
+    Status bind(Commands& commands, const EmitInputs& inputs);
+    // How often everything was bound.
+    uint64_t wholeBindings() const { return wholeBindings_; }
+
+    // Recorded once all of `view`, a parallel one, was drawn: from now on the tiles of its picture are noted where
+    // edits change it. changes() is the view of what lies in these, once it is bound; settle(): that was drawn.
+    Status watch(Commands& commands, const EmitView& view);
+    const EmitView& changes() const { return watched_; }
+    void settle(Commands& commands);
+
     // The last recording won't be submitted: nothing of it can be built on.
-    void forget() { bound_ = {}; }
+    void forget() {
+        bound_ = {};
+        watched_ = {};
+    }
 
     // Where the draws of the last cull lie; bucket b has the commands 2b and 2b + 1.
     const Buffer& state() const { return state_; }
@@ -88,8 +102,6 @@ class Emit {
     Status reserve(uint32_t nodes, uint32_t leaves);
     Status viewRecords(const GrowthView& growth, uint32_t nodesBefore);
     bool staysBound(const Bound& wanted, const GrowthView& growth) const;
-    Status bind(Commands& commands, const EmitInputs& inputs);
-
     Status record(Commands& commands, const EmitView& view, Pass& pass);
     Result<EmitState> gather(const EmitInputs& inputs, bool native, double& milliseconds);  // materialise.cpp
 
@@ -109,6 +121,9 @@ class Emit {
     EmitGrid grid_{};
     Bound bound_, culled_;  // and what the last view was of
     EmitView view_{};
+    Buffer watch_, watchTiles_;
+    EmitView watched_{};  // and its tiles; width 0: none
+    uint64_t wholeBindings_ = 0;
     bool counted_ = false;
     bool fetches_ = false, fetchesTouched_ = false;
     uint32_t overflow_ = 0;

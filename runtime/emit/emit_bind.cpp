@@ -123,6 +123,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
                        inputs.high};
     if (wanted == bound_) return Done{};
     const bool partly = staysBound(wanted, growth);
+    if (!partly) ++wholeBindings_;
     const Bound before = bound_;
     bound_ = culled_ = {};
     if (Status s = viewRecords(growth, before.nodeCount); !s) return s;
@@ -153,6 +154,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     given.leafBase = leafBase_;
     given.orderRoom = uint32_t(order_.size() / 4);
     given.partly = partly ? 1 : 0;
+    given.watched = partly && watched_.width > 0 ? 1 : 0;
     given.since = before.number;
     given.nodesBefore = partly ? before.nodeCount : 0;
     given.leavesBefore = partly ? before.leafCount : 0;
@@ -180,11 +182,12 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
         return std::array<uint32_t, 3>{partly ? 64u : std::min(items / 64 + 1, 65535u), 1, 1};
     };
     // The lookup knows branches too, which nobody asks for here.
-    pass.dispatch(bindSpans_[fetches_], groupsFor(nodes), {}, {table, nodeRecords_, chunkRecords_, chunkRecords_, in});
+    pass.dispatch(bindSpans_[fetches_], groupsFor(nodes), {},
+                  {table, nodeRecords_, chunkRecords_, chunkRecords_, watch_, in});
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(bindStretches_, groupsFor(nodes), {}, {table, spanTexels_, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(bindLeaves_[fetches_], groupsFor(leaves), {}, {table, leafRecords_, spanTexels_, in});
+    pass.dispatch(bindLeaves_[fetches_], groupsFor(leaves), {}, {table, leafRecords_, spanTexels_, watch_, in});
     pass.barrier(Use::compute, Use::compute);
     if (partly) {
         pass.dispatchItems(bindKeep_, kAllCells, {}, {in});

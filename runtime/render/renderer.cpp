@@ -176,6 +176,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.tiles = push.tiles;
     view.width = targets_.width;
     view.height = targets_.height;
+    view.tilePixels = kDepthTile;
     thinOut(view, inputs.look.leafPixels);
     // A host's scene or a level that fades hides something else in each frame.
     ++sceneNumber_;
@@ -263,7 +264,7 @@ void RendererImpl::forget() {
     if (props_) props_->forget();
     merge_.reset();
     targets_.color = Image();
-    shadowMap_.state = ImageState::undefined;
+    shadowMap_.state = standing_.state = ImageState::undefined;
     shadowDrawn_ = wideDrawn_ = false;
 }
 
@@ -323,6 +324,8 @@ RenderStats RendererImpl::stats() const {
     if (roofed_) stats.roofs = roofs_->stats();
     stats.modelTriangles = models_.triangles();
     stats.modelsFading = models_.fading();
+    stats.shadowsWhole = shadowsWhole_;
+    stats.shadowsPartly = shadowsPartly_;
     stats.emitMs = device_.milliseconds("emit");
     stats.drawMs = std::max(0.0, device_.milliseconds("draw") - stats.emitMs);
     stats.shadowMs = device_.milliseconds("shadow emit") + device_.milliseconds("shadow draw");

@@ -79,8 +79,9 @@ struct RenderStats {
     EmitStats emit;
     RoofDrawStats roofs;
     uint64_t modelTriangles = 0;
-    uint32_t modelsFading = 0;                    // models between two levels of detail
-    double emitMs = 0, drawMs = 0, shadowMs = 0;  // GPU time of the last finished frame; shadow: of the last redraw
+    uint32_t modelsFading = 0;                     // models between two levels of detail
+    uint32_t shadowsWhole = 0, shadowsPartly = 0;  // how often the near shadow map was redrawn
+    double emitMs = 0, drawMs = 0, shadowMs = 0;   // GPU time of the last finished frame; shadow: of the last redraw
 };
 
 class Renderer {
@@ -106,9 +107,10 @@ class Renderer {
     // What lies on the ground that is drawn; without texels: nothing.
     virtual Status setSite(const SiteMap& map) = 0;
 
-    // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed. If it
-    // may lag: from the third frame in a row on in which growth alone has, in every eighth, with fewer and larger
-    // leaves, and when it has come to rest.
+    // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed; after
+    // edits of growth only in tiles that they reach. If it may lag: from the third frame in a row on in which growth
+    // has changed, in every eighth, and when it has come to rest; where all growth is new, until then with fewer and
+    // larger leaves.
     virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;
 
     // What the last draw has recorded didn't run: the next relies on none of it.

@@ -63,6 +63,12 @@ class RendererImpl final : public Renderer {
     // Whether shadows can stay behind for this frame.
     bool shadowsWait(const ShadowKey& key);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse);
+    // The tiles that edits have changed since.
+    Status redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
+    void drawStanding(DrawPass& pass, const SunView& sun, float error);
+    Status makeStanding();
+    // `before` with the growth of `now`.
+    static ShadowKey edited(ShadowKey before, const ShadowKey& now);
     // All that stands but growth, into the map's right half; the whole map is cleared.
     Status drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
     Status aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
@@ -85,13 +91,13 @@ class RendererImpl final : public Renderer {
     Models models_;
     Ground ground_;
     Targets targets_;
-    Image shadowMap_;
+    Image shadowMap_, standing_;  // the near half without growth; made when something grows
     Sampler shadowSampler_, textureSampler_, plainSampler_, pointSampler_;
     ScenePrograms scenes_[kShadings], counting_;  // each made when first asked for
     const ScenePrograms* scene_ = &scenes_[0];    // of this recording
     Shading shading_ = Shading::full;
     Program modelAhead_, modelAheadFading_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_,
-        depthTiles_;
+        depthTiles_, shadowRestore_;
     Program sky_[2];                                                // without and with hills
     std::map<std::tuple<VkFormat, bool, bool>, Program> resolves_;  // by format, whether the view counts, rest
     std::array<bool, kMaxBuckets> small_{};                         // buckets that are lit at their vertices
@@ -109,6 +115,9 @@ class RendererImpl final : public Renderer {
     bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;
     bool shadowCoarse_ = false;  // the map has fewer and larger leaves, as in a stroke
     bool quickBefore_ = false;
+    bool shadowKept_ = false;      // edits of growth can be redrawn alone
+    uint64_t shadowBindings_ = 0;  // whole bindings when the map was last drawn whole
+    uint32_t shadowsWhole_ = 0, shadowsPartly_ = 0;
     float groundLevel_ = 0, unit_ = 1;  // of this recording
     bool ahead_ = false;                // models' depths went ahead, they are shaded after growth
     bool hosted_ = false;               // this recording goes into a host's scene

@@ -58,6 +58,16 @@ Status RendererImpl::makePrograms() {
         if (!sky) return sky.failure();
         sky_[rest] = std::move(*sky);
     }
+    GraphicsDesc restore;
+    restore.name = "shadow restore";
+    restore.vertex = "render/shadow_restore.vert";
+    restore.fragment = "render/shadow_restore.frag";
+    restore.depth = kDepthFormat;
+    restore.depthCompare = VK_COMPARE_OP_ALWAYS;
+    restore.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
+    Result<Program> restored = Program::graphics(device_, restore);
+    if (!restored) return restored.failure();
+    shadowRestore_ = std::move(*restored);
     Result<Program> depthTiles = Program::compute(device_, one ? "render/tiles_single.comp" : "render/tiles.comp");
     if (!depthTiles) return depthTiles.failure();
     depthTiles_ = std::move(*depthTiles);

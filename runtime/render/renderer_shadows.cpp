@@ -11,6 +11,7 @@ namespace {
 constexpr float kShadowLodPixels = 1.2f;
 constexpr float kStrokeLeafTexels = 32;  // as Look::leafPixels, of shadows while a stroke goes on
 constexpr float kStrokeError = 3;        // times the errors that are allowed otherwise, then
+constexpr uint32_t kShadowTile = 32;     // texels along a side of what is redrawn after edits
 constexpr uint32_t kShadowPeriod = 8;    // frames, while growth changes in each
 constexpr float kWideBias = 0.12f;       // metres that what lies far away is moved towards the sun when it is compared
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
@@ -21,36 +22,92 @@ float lengthUnit(glm::vec3 size) {
     return side > 1.0f && side < 200.0f ? 1.0f : std::max(side, 1e-6f) / 6;
 }
 
+// Bark and leaves as the near map has them.
+EmitView grownShadows(const SunView& sun, float error) {
+    EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, error * kShadowLodPixels);
+    view.leastPixels = 0.35f;
+    view.viewProjection = sun.toClip;
+    view.width = view.height = kShadowSize;
+    view.tilePixels = kShadowTile;
+    return view;
+}
+
 }  // namespace
+
+Status RendererImpl::makeStanding() {
+    if (standing_) return Done{};
+    ImageDesc desc{
+        .name = "shadows without growth", .format = kDepthFormat, .width = kShadowSize, .height = kShadowSize};
+    desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    Result<Image> made = Image::create(device_, desc);
+    if (!made) return made.failure();
+    standing_ = std::move(*made);
+    return Done{};
+}
+
+// error: times what is allowed otherwise.
+void RendererImpl::drawStanding(DrawPass& pass, const SunView& sun, float error) {
+    models_.drawDepth(pass, modelDepth_, *frame_, error * kShadowModelTexels * sun.width / kShadowSize);
+    if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr);
+    if (furnished_) props_->drawDepth(pass, *frame_);
+}
 
 Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse) {
     FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
     frame.viewProjection = sun.toClip;
     if (Status s = upload(commands, frame); !s) return s;
     const float error = coarse ? kStrokeError : 1;
-    const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, error * kShadowLodPixels);
-    if (grows_) {
-        EmitView grown = view;
-        grown.leastPixels = 0.35f;
-        if (coarse) thinOut(grown, kStrokeLeafTexels);
+    EmitView grown = grownShadows(sun, error);
+    if (coarse) thinOut(grown, kStrokeLeafTexels);
+    if (grows_)
         if (Status s = emit_.cull(commands, emitInputs(inputs), grown, "shadow emit", false); !s) return s;
-    }
+    const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, error * kShadowLodPixels);
     if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
     if (furnished_)
         if (Status s = props_->chooseCasters(commands, sun.toClip); !s) return s;
-    commands.transition(shadowMap_, ImageState::depthTarget, !wideDrawn_);  // its other half stays
+    const auto draw = [&](Image& image, bool growth) {
+        commands.transition(image, ImageState::depthTarget, !growth || !wideDrawn_);  // the map's other half stays
+        DrawTargets targets;
+        targets.extent = {kShadowSize, kShadowSize};
+        targets.depth = DepthTarget{.view = image.view(), .clear = 1.0f};
+        DrawPass pass(commands, "shadow draw", targets);
+        drawStanding(pass, sun, error);
+        if (growth && grows_) drawTerminals(pass, true);
+    };
+    draw(shadowMap_, true);
+    commands.transition(shadowMap_, ImageState::sampled);
+    ++shadowsWhole_;
+    shadowKept_ = grows_ && !coarse;
+    if (!shadowKept_) return Done{};
+    if (Status s = makeStanding(); !s) return s;
+    draw(standing_, false);
+    commands.transition(standing_, ImageState::sampled);
+    shadowBindings_ = emit_.wholeBindings();
+    return emit_.watch(commands, grown);
+}
+
+// What reaches tiles that haven't changed leaves there the depths that it left before.
+Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
+    FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
+    frame.viewProjection = sun.toClip;
+    if (Status s = upload(commands, frame); !s) return s;
+    const EmitView& changes = emit_.changes();
+    if (Status s = emit_.cull(commands, emitInputs(inputs), changes, "shadow emit", false); !s) return s;
+    commands.transition(shadowMap_, ImageState::depthTarget);
     {
         DrawTargets targets;
         targets.extent = {kShadowSize, kShadowSize};
-        targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = 1.0f};
+        targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = {}};
         DrawPass pass(commands, "shadow draw", targets);
-        models_.drawDepth(pass, modelDepth_, *frame_, error * kShadowModelTexels * sun.width / kShadowSize);
-        if (grows_) drawTerminals(pass, true);
-        if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr);
-        if (furnished_) props_->drawDepth(pass, *frame_);
+        const uint32_t columns = kShadowSize / kShadowTile;
+        pass.draw(shadowRestore_, 4, columns * columns, RestorePush{changes.tiles, columns, 0},
+                  {{standing_, pointSampler_}});
+        drawTerminals(pass, true);
     }
     commands.transition(shadowMap_, ImageState::sampled);
+    emit_.settle(commands);
+    ++shadowsPartly_;
     return Done{};
 }
 
@@ -71,9 +128,7 @@ Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& input
         DrawPass pass(commands, "shadow draw", targets);
         pass.setViewport({float(kShadowSize), 0, float(kShadowSize), float(kShadowSize), 0, 1});
         pass.setScissor(kShadowSize, 0, kShadowSize, kShadowSize);
-        models_.drawDepth(pass, modelDepth_, *frame_, kShadowModelTexels * sun.width / kShadowSize);
-        if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr);
-        if (furnished_) props_->drawDepth(pass, *frame_);
+        drawStanding(pass, sun, 1);
     }
     commands.transition(shadowMap_, ImageState::sampled);
     return Done{};
@@ -106,14 +161,17 @@ Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs
     return Done{};
 }
 
+RendererImpl::ShadowKey RendererImpl::edited(ShadowKey before, const ShadowKey& now) {
+    before.growth = now.growth;
+    before.nodes = now.nodes;
+    before.leaves = now.leaves;
+    return before;
+}
+
 bool RendererImpl::shadowsWait(const ShadowKey& key) {
     changes_ = key.growth == growthBefore_ ? 0 : changes_ + 1;
     growthBefore_ = key.growth;
-    ShadowKey grown = shadowKey_;
-    grown.growth = key.growth;
-    grown.nodes = key.nodes;
-    grown.leaves = key.leaves;
-    return shadowDrawn_ && grown == key && changes_ > 2 && changes_ % kShadowPeriod != 0;
+    return shadowDrawn_ && edited(shadowKey_, key) == key && changes_ > 2 && changes_ % kShadowPeriod != 0;
 }
 
 Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame) {
@@ -151,9 +209,14 @@ Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, F
     const bool wait = shadowsWait(key) && inputs.look.shadowsLag;
     const bool stroke = inputs.look.shadowsLag && changes_ > 2;
     if (frame.shadows && !wait && (!shadowDrawn_ || key != shadowKey_ || (shadowCoarse_ && !stroke))) {
-        if (Status s = drawShadows(commands, inputs, sun, stroke); !s) return s;
+        if (grows_)
+            if (Status s = emit_.bind(commands, emitInputs(inputs)); !s) return s;
+        const bool partly = shadowDrawn_ && shadowKept_ && grows_ && shadowBindings_ == emit_.wholeBindings() &&
+                            edited(shadowKey_, key) == key;
+        if (Status s = partly ? redrawShadows(commands, inputs, sun) : drawShadows(commands, inputs, sun, stroke); !s)
+            return s;
         shadowKey_ = key;
-        shadowCoarse_ = stroke;
+        shadowCoarse_ = !partly && stroke;
         shadowDrawn_ = true;
     } else if (!shadowDrawn_ && !wideDrawn_) {
         commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // A loose terminal each, on the span that bind_spans has made: an instance in the world, put into its cell.
-#include "shaders/emit/bind.glsl"
+#include "shaders/emit/watch.glsl"
 #include "shaders/emit/instance_texels.glsl"
 #include "shaders/emit/leaf_place.h"
 #include "shaders/shared/expand_env.h"
@@ -41,17 +41,23 @@ LoadedSpan spanUnder(SpanInstance o) {
     return s;
 }
 
-uint trianglesOf(uint bits, uint hash) {
+uint variantOf(uint bits, uint hash) {
     KindRecord kind = table.kinds[(bits >> 8u) & 255u];
-    uint variant = kind.firstVariant + (hash >> 3u) % kind.variantCount;
-    return table.buckets[table.variants[variant].firstBucket].indexCount / 3u;
+    return kind.firstVariant + (hash >> 3u) % kind.variantCount;
+}
+uint trianglesOf(uint variant) { return table.buckets[table.variants[variant].firstBucket].indexCount / 3u; }
+
+void takeLeaf(uint i) {
+    uint bits = push.leafInstances.v[i].bits;
+    uint variant = variantOf(bits, push.leafInstances.v[i].hash);
+    atomicAdd(HEAD.first, 0u - trianglesOf(variant));
+    noteLeaf(push.leafInstances.v[i].origin, decodeLeafSize(bits & 255u), table.variants[variant].extent);
 }
 
 void bindLeaf(uint i) {
     Leaf record = readLeaf(i);
     uint item = push.leafBase + i;
-    for (bool was = takeKey(item, i < push.leavesBefore); was; was = false)
-        atomicAdd(HEAD.first, 0u - trianglesOf(push.leafInstances.v[i].bits, push.leafInstances.v[i].hash));
+    for (bool was = takeKey(item, i < push.leavesBefore); was; was = false) takeLeaf(i);
     LeafPose pose = unpackLeaf(record.place, record.pose, record.tint);
     bool known = record.node < push.nodeCount && pose.mesh < table.kindCount &&
                  table.kinds[pose.mesh].variantCount > 0u && table.kinds[pose.mesh].bark == 0u;
@@ -75,7 +81,8 @@ void bindLeaf(uint i) {
             o.bits = (record.place & 0xFFFFu) | (((under.bits >> 7u) & 31u) << 16u) | (uint(height * 2047.0 + 0.5) << 21u);
             writeLeaf(i, o);
             giveKey(item, kLeafClass, o.origin, (hash >> 8u) / (0x1000000u / kCellBins));
-            atomicAdd(HEAD.first, trianglesOf(o.bits, hash));
+            atomicAdd(HEAD.first, trianglesOf(v));
+            noteLeaf(o.origin, decodeLeafSize(o.bits & 255u), table.variants[v].extent);
         }
     }
 }

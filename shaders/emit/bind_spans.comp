@@ -3,9 +3,8 @@
 #define ESPALIER_RECORD_FETCH
 #include "shaders/shared/extensions.glsl"
 // A node each: the span that ends there, as an instance in the world, put into its cell.
-#include "shaders/emit/bind.glsl"
+#include "shaders/emit/watch.glsl"
 #include "shaders/emit/span_load.h"
-#include "shaders/emit/sight.glsl"
 #include "shaders/emit/span_thinning.glsl"
 #include "shaders/shared/record_lookup.h"
 
@@ -86,8 +85,11 @@ void bindSpan(uint i) {
     for (bool asked = push.partly != 0u; asked; asked = false) concerned = (push.flags.v[i] & kFlagSpan) != 0u;
     for (bool given = concerned; given; given = false) {
         listLeaves(i);
-        for (bool was = takeKey(i, i < push.nodesBefore); was; was = false)
+        for (bool was = takeKey(i, i < push.nodesBefore); was; was = false) {
             atomicAdd(HEAD.first, 0u - trianglesOf(push.spans.v[i].bits & 63u));
+            noteSpan(push.spans.v[i].p0, push.spans.v[i].b1, push.spans.v[i].b2, push.spans.v[i].p3,
+                     max(push.spans.v[i].radius0, push.spans.v[i].radius1));
+        }
         push.spans.v[i].reach = -1.0;
         Node node = readNode(env, i);
         bool there = node.flags != 0u || node.radius >= 0.0;
@@ -122,6 +124,7 @@ void bindSpan(uint i) {
             for (bool drawn = bark; drawn; drawn = false) {
                 float thick = max(o.radius0, o.radius1);
                 giveKey(i, spanClass(thick), o.center, (o.bits >> 16u) / (0x10000u / kCellBins));
+                noteSpan(o.p0, o.b1, o.b2, o.p3, thick);
                 atomicAdd(HEAD.first, trianglesOf(kind));
             }
         }

@@ -31,16 +31,21 @@ struct EmitView {
     uint flags;
     float leastPixels;    // radius in pixels below which bark is thickened and faded instead
     // Farthest depth (reversed: the least) that the models leave in each tile of the picture; address 0: none. What
-    // lies behind it is culled.
+    // lies behind it is culled. Of a picture that is watched (Emit::watch): kKeptTile or kChangedTile.
     mat4 viewProjection;
     FloatBuf tiles;
     uint width, height;   // of the picture, pixels
     float wholePixels;    // leaves of at least this many pixels are all drawn, of smaller ones fewer and larger,
     float leastShare;     // but at least this share of them
+    uint tilePixels;      // side of the tiles, pixels
+    uint spare;
     u64 scene;            // differs when what `tiles` says may differ; no kernel reads it
 };
-STATIC_SIZE(EmitView, 224);
+STATIC_SIZE(EmitView, 232);
 CONST_UINT(kDepthTile, 8u);
+// Bits of a tile that all depths lie behind, and of one that none does.
+CONST_UINT(kKeptTile, 0x7F000000u);
+CONST_UINT(kChangedTile, 0xFF000000u);
 
 struct KindRecord {
     uint firstVariant, variantCount;
@@ -221,8 +226,10 @@ struct BindInputs {
     uint since;                 // what there wasn't before:
     uint nodesBefore, leavesBefore;
     uint leafWork;
+    uint watched;               // 1: tiles of a watched picture are noted
+    uint spare;
 };
-STATIC_SIZE(BindInputs, 192);
+STATIC_SIZE(BindInputs, 200);
 // cells[kAllCells]: first: triangles of all items at full detail; count: where room in the order begins; changed: items
 // of the list; reach, largest: nodes and leaves of the work; room: EmitState::crowded.
 CONST_UINT(kFresh, 0x80000000u);

@@ -9,22 +9,36 @@ bool outside(EmitView view, vec3 center, float radius) {
     return false;
 }
 
+// Tiles that a sphere reaches, its middle at `clip`, its nearest point so far along the view.
+struct Reach {
+    ivec2 low, high;
+    int columns;      // of all tiles
+};
+Reach reachOf(EmitView view, vec4 clip, float nearest, float radius) {
+    float pixels = radius * view.pixelScale / nearest + 1.0;
+    float rcpTile = 1.0 / float(view.tilePixels);
+    vec2 size = vec2(view.width, view.height);
+    vec2 at = (clip.xy / clip.w * 0.5 + 0.5) * size;
+    ivec2 last = ivec2(ceil(size * rcpTile)) - 1;
+    Reach o;
+    o.low = clamp(ivec2(floor((at - pixels) * rcpTile)), ivec2(0), last);
+    o.high = clamp(ivec2(floor((at + pixels) * rcpTile)), ivec2(0), last);
+    o.columns = last.x + 1;
+    return o;
+}
+
 // Is the sphere behind the models? Tests up to (most + 1)² tiles of the picture; larger spheres pass.
 bool hidden(EmitView view, vec3 center, float radius, int most) {
     if (u64(view.tiles) == 0ul) return false;
     vec4 clip = view.viewProjection * vec4(center, 1.0);
-    float nearest = clip.w - radius;
+    float nearest = view.parallel == 0u ? clip.w - radius : 1.0;
     if (nearest <= clip.z) return false;
-    float reach = radius * view.pixelScale / nearest + 1.0;
-    vec2 at = (clip.xy / clip.w * 0.5 + 0.5) * vec2(view.width, view.height);
-    ivec2 last = ivec2((uvec2(view.width, view.height) + kDepthTile - 1u) / kDepthTile) - 1;
-    ivec2 low = clamp(ivec2(floor((at - reach) / float(kDepthTile))), ivec2(0), last);
-    ivec2 high = clamp(ivec2(floor((at + reach) / float(kDepthTile))), ivec2(0), last);
-    if (any(greaterThan(high - low, ivec2(most)))) return false;
+    Reach tiles = reachOf(view, clip, nearest, radius);
+    if (any(greaterThan(tiles.high - tiles.low, ivec2(most)))) return false;
     float depth = clip.z / nearest;   // clip.z is the near plane's distance everywhere
-    for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x)
-            if (view.tiles.v[y * (last.x + 1) + x] <= depth) return false;
+    for (int y = tiles.low.y; y <= tiles.high.y; ++y)
+        for (int x = tiles.low.x; x <= tiles.high.x; ++x)
+            if (view.tiles.v[y * tiles.columns + x] <= depth) return false;
     return true;
 }
 

@@ -86,5 +86,12 @@ struct TilesPush {
 };
 STATIC_SIZE(TilesPush, 8);
 
+struct RestorePush {
+    FloatBuf tiles;          // kKeptTile or kChangedTile
+    uint columns;            // tiles along a side
+    uint spare;
+};
+STATIC_SIZE(RestorePush, 16);
+
 ESPALIER_END
 #endif

@@ -9,6 +9,7 @@
 
 #include "runtime/render/renderer.hpp"
 #include "tests/emit/fixture.hpp"
+#include "tests/render/wall.hpp"
 #include "tests/support/heap.hpp"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -20,6 +21,7 @@
 #pragma GCC diagnostic pop
 
 using namespace espalier;
+using espalier::test::wall;
 
 namespace {
 
@@ -27,28 +29,6 @@ void save(const std::string& name, const std::vector<uint8_t>& rgba, uint32_t wi
     if (const char* folder = std::getenv("ESPALIER_PICTURES"))
         stbi_write_png((std::string(folder) + "/" + name + ".png").c_str(), int(width), int(height), 4, rgba.data(),
                        int(width * 4));
-}
-
-// A wall z = 0 and the ground y = 0.
-SurfaceData wall(float width, float height) {
-    SurfaceData data;
-    auto quad = [&](glm::vec3 origin, glm::vec3 u, glm::vec3 v) {
-        const uint32_t first = uint32_t(data.vertices.size());
-        const glm::vec3 n = glm::normalize(glm::cross(u, v));
-        for (int i = 0; i < 4; ++i) {
-            const glm::vec2 at(i & 1, i >> 1);
-            data.vertices.push_back({origin + u * at.x + v * at.y, n, glm::vec4(glm::normalize(u), 1), at, at});
-        }
-        for (uint32_t i : {0u, 1u, 2u, 1u, 3u, 2u}) data.indices.push_back(first + i);
-    };
-    quad({-width / 2, 0, 0}, {width, 0, 0}, {0, height, 0});
-    quad({-width / 2, 0, 2}, {width, 0, 0}, {0, 0, -2});
-    data.boundsMin = {-width / 2, 0, 0};
-    data.boundsMax = {width / 2, height, 2};
-    data.materials.resize(1);
-    data.materials[0].baseColor = {0.55f, 0.5f, 0.44f, 1};
-    data.ranges.push_back({0, uint32_t(data.indices.size()), 0});
-    return data;
 }
 
 TerminalData terminals() {
