@@ -21,10 +21,9 @@ namespace sample {
 namespace {
 
 using namespace espalier::document;
-using espalier::scene::MovingDetail;
 namespace fs = std::filesystem;
 
-constexpr double kSlowDrawMs = 40, kSlowGrowthMs = 500;
+constexpr double kSlowGrowthMs = 500;
 constexpr double kLookEvery = .3;  // seconds
 constexpr size_t kHistory = 240;   // frames in the graph
 
@@ -92,19 +91,12 @@ bool App::drawFrame(bool moving, bool last) {
     draw.look.viewOpacity = work_.layout.layerOpacity;
     draw.look.viewLevel = work_.viewLevel;
     // While the camera moves, or a stroke goes on, on a slow device, less detail.
-    const bool slow = moving && !last && (coarse_ || work_.stats.drawMs > kSlowDrawMs);
-    if (slow) {
-        draw.look.windowLodPixels *= MovingDetail::kLod;
-        draw.look.leafPixels *= detail_.leaf();
-        draw.look.quick = 1;
-    }
-    const float scale = slow && work_.layout.halfWhileMoving ? .5f : 1;
+    const float scale = moving_.prepare(draw, moving && !last, work_.stats.drawMs, work_.layout.halfWhileMoving);
     if (!image_->show(work_.context.get(), *frame, draw, scale, work_.redraw)) return fail(image_->error());
     if (image_->drew()) {
-        coarse_ = slow;
         const bool read = espReadStats(work_.context.get(), &work_.stats) == ESP_OK;
         work_.redraw = read && work_.stats.modelsFading > 0;
-        if (read && slow) detail_.follow(work_.frameMs, uint32_t(work_.stats.drawnLeaves));
+        moving_.drew(work_.frameMs, uint32_t(work_.stats.drawnLeaves));
     }
     ImGui::Render();
     if (!ui_->draw(*frame, *ImGui::GetDrawData())) return fail(ui_->error());
@@ -151,7 +143,7 @@ bool App::frame(float seconds) {
     }
     showUi();
     const bool grew = update();
-    if (coarse_ && !moved && !controls_->painting()) work_.redraw = true;
+    if (moving_.coarse() && !moved && !controls_->painting()) work_.redraw = true;
     ++frames_;
     const bool hurried = moved || controls_->painting();
     if (!drawFrame(hurried, options_.frames && frames_ >= options_.frames)) return false;

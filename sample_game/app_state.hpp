@@ -59,8 +59,8 @@ class App {
     static constexpr int kFramesAfterChange = 3;  // ImGui settles within two
     int awake_ = kFramesAfterChange;
     uint64_t frames_ = 0;
-    espalier::scene::MovingDetail detail_;
-    bool coarse_ = false, growing_ = false;
+    espalier::scene::MovingPicture moving_;
+    bool growing_ = false;
     float themeScale_ = 0;
 };
 

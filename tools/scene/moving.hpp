@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "plugin_api/espalier.h"
+
 namespace espalier::scene {
 
 class MovingDetail {
@@ -27,6 +29,36 @@ class MovingDetail {
 
   private:
     float leaf_ = 1.5f;
+};
+
+// What a window asks for in each frame; it draws as it is told.
+class MovingPicture {
+  public:
+    static constexpr double kSlowDrawMs = 40;  // a device that takes longer over a whole picture is slow
+
+    // Before a frame: moving: the camera does, or a stroke goes on; drawMs: what the last picture took; half: such
+    // pictures may be smaller. Makes `draw` coarser if need be; returns the share of the window's width to draw.
+    float prepare(EspDrawDef& draw, bool moving, double drawMs, bool half) {
+        hurried_ = moving && (coarse_ || drawMs > kSlowDrawMs);
+        if (!hurried_) return 1;
+        draw.look.windowLodPixels *= MovingDetail::kLod;
+        draw.look.leafPixels *= detail_.leaf();
+        draw.look.quick = 1;
+        return half ? 0.5f : 1.0f;
+    }
+
+    // After it, if it was drawn: the whole frame's time, and the leaves in it.
+    void drew(double frameMs, uint32_t leaves) {
+        coarse_ = hurried_;
+        if (hurried_) detail_.follow(frameMs, leaves);
+    }
+
+    // The picture that is shown is a coarse one, to be drawn again when nothing moves.
+    bool coarse() const { return coarse_; }
+
+  private:
+    MovingDetail detail_;
+    bool coarse_ = false, hurried_ = false;
 };
 
 }  // namespace espalier::scene
