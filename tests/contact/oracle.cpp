@@ -164,8 +164,8 @@ uint32_t Oracle::insideOf(Vec3 p, double depth) const {
     for (size_t i = 0; i < bodies_.size(); ++i) {
         const Sight& body = *bodySight_[i];
         const CGAL::Bbox_3& b = body.bounds;
-        if (p.x < b.xmin() || p.y < b.ymin() || p.z < b.zmin() || p.x > b.xmax() || p.y > b.ymax() || p.z > b.zmax())
-            continue;
+        const Vec3 within = glm::min(p - Vec3(b.xmin(), b.ymin(), b.zmin()), Vec3(b.xmax(), b.ymax(), b.zmax()) - p);
+        if (std::min({within.x, within.y, within.z}) <= depth) continue;
         if (body.tree.squared_distance({p.x, p.y, p.z}) <= depth * depth) continue;
         double sum = 0;
         for (const auto& t : body.shapes)
