@@ -44,8 +44,7 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     const mat2 mown = mat2(0.6, -0.8, 0.8, 0.6) * (1.0 / 1.3);
     vec4 broad = textureGrad(noise, place * (1.0 / 61.0), dx * (1.0 / 61.0), dy * (1.0 / 61.0)) * 2.0 - 1.0;
     vec4 near = textureGrad(noise, turned * place, turned * dx, turned * dy) * 2.0 - 1.0;
-    // Blades are told apart near by only, and seen too flatly for their mean to do. A loop of one round: a device that runs all lanes through both sides of an `if`
-    // does leave a loop early.
+    // Blades are told apart near by only, and seen too flatly for their mean to do.
     vec4 fine = vec4(0.0);
     float share = clamp(1.5 - metres * 0.03, 0.0, 1.0);
     for (bool close = share > 0.0; close; close = false)

@@ -32,8 +32,7 @@ vec3 weathered(vec3 base, float variation, float tint, vec3 position) {
     base *= 1.0 + tint * 0.55 * (variation - 0.5) * 2.0;
     float high = (position.y - frame.groundLevel) / frame.unit;
     vec3 splashed = mix(vec3(0.62, 0.585, 0.51), vec3(1.0), clamp(0.9 * high + 1.6 * patchy - 0.75, 0.0, 1.0));
-    // Plaster and stone have a grain, which is seen near by. A loop of one round: a device that runs all lanes through both
-    // sides of an `if` does leave a loop early.
+    // Plaster and stone have a grain, which is seen near by.
     float near = quick ? 0.0 : clamp(1.5 - 0.25 * length(frame.eye - position) / frame.unit, 0.0, 1.0) * step(tint, 0.0);
     float grain = 0.0;
     for (bool seen = near > 0.0; seen; seen = false)
