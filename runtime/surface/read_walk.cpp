@@ -86,10 +86,13 @@ void validateLevel(const SurfaceData& data, const SurfaceLevelData& level, const
         uint32_t head = level.crossingHead[i];
         if (uint64_t(head >> 8) + (head & 255u) > level.crossingRefs.size())
             fail(place, indexed("crossing_head", i) + " is out of range");
-        if (texelClass(t.bits) == kTexelEmpty) continue;
+        const uint32_t triangle = level.aux[i].triangle;
+        const bool empty = texelClass(t.bits) == kTexelEmpty;
+        if (triangle >= data.triangles.size() && !(empty && triangle == kNoIndex))
+            fail(place, indexed("aux", i) + " is out of range");
+        if (empty) continue;
         if (texelChart(t.bits) >= data.charts.size() || !sane(t.position))
             fail(place, indexed("texels", i) + " is out of range");
-        if (level.aux[i].triangle >= data.triangles.size()) fail(place, indexed("aux", i) + " is out of range");
     }
 }
 
@@ -109,7 +112,8 @@ void validate(const SurfaceData& data) {
     }
     for (size_t i = 0; i < data.triangles.size(); ++i) {
         const TrianglePlane& t = data.triangles[i];
-        if (t.chart >= charts || !sane(t.position) || !sane(t.du) || !sane(t.dv) || !inSquare(t.uv0))
+        if (t.chart >= charts || !sane(t.position) || !sane(t.du) || !sane(t.dv) || !inSquare(t.uv0) ||
+            !inSquare(t.uv1) || !inSquare(t.uv2))
             fail(place, indexed("triangles", i) + " is out of range");
     }
     for (size_t i = 0; i < data.crossings.size(); ++i) {

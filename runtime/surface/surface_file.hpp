@@ -8,7 +8,7 @@ namespace espalier::surface_file {
 
 inline constexpr const char* kExtension = "ESPALIER_surface";
 inline constexpr const char* kDraco = "KHR_draco_mesh_compression";
-inline constexpr uint32_t kVersion = 2;
+inline constexpr uint32_t kVersion = 3;
 inline constexpr uint32_t kMaxCoarser = 32;  // coarser meshes in a file
 
 }  // namespace espalier::surface_file

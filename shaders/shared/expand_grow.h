@@ -6,7 +6,6 @@
 #ifndef ESPALIER_SHARED_EXPAND_GROW_H
 #define ESPALIER_SHARED_EXPAND_GROW_H
 #include "shaders/shared/expand_step.h"
-#include "shaders/shared/triangle_lookup.h"
 #ifdef ESPALIER_AGAIN
 #include "shaders/expand/again_claim.h"
 #endif
@@ -60,27 +59,10 @@ FN uint joinSiblings(ExpandEnv env, WorkItem item, uint chunk) {
 }
 #endif
 
-// Puts the staged samples beside creases onto the triangles under them. A loop of its own over those alone: elsewhere
-// it would cost every sample its full price on a software device.
-FN void seatStaged(ExpandEnv env, uint creased) {
-    for (uint left = creased; left != 0u;) {
-        uint at = kStagedWords * lowestBit(left);
-        left = left & (left - 1u);
-        vec3 position = vec3(uintBitsToFloat(STAGED(at)), uintBitsToFloat(STAGED(at + 1u)), uintBitsToFloat(STAGED(at + 2u)));
-        vec3 normal = unpackOct(STAGED(at + 3u));
-        seatOnTriangle(env.surfaces, STAGED(at + 6u), unpackUv(STAGED(at + 5u)), position, normal);
-        STAGED(at) = floatBitsToUint(position.x);
-        STAGED(at + 1u) = floatBitsToUint(position.y);
-        STAGED(at + 2u) = floatBitsToUint(position.z);
-        // On a crease the normal is the mean of both sides already.
-        bool inserted = (STAGED(at + 8u) & kNodeInserted) != 0u;
-        STAGED(at + 3u) = inserted ? STAGED(at + 3u) : packOct(normal);
-    }
-}
-
 // Takes a range of nodes, copies what was staged, and returns the first index.
-FN uint publishNodes(ExpandEnv env, uint chunk, uint count, uint creased) {
-    seatStaged(env, count < 32u ? creased & ((1u << count) - 1u) : creased);
+FN uint publishNodes(ExpandEnv env, uint chunk, uint count) {
+    UintBuf stage = env.scratch;
+    UNUSED(stage);
     uint first = count > 0u ? atomicAdd(env.status.v[0].nodes, count) : 0u;
     bool fits = first + count <= env.status.v[0].nodeCapacity;
     if (count > 0u) {
@@ -128,7 +110,7 @@ FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, float lengt
 FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower) g, uint previousNode, bool goesOn) {
     float length = g.at.walk.arc;
     uint branch = item.branch;
-    uint first = publishNodes(env, site.chunk, g.count, g.creased);
+    uint first = publishNodes(env, site.chunk, g.count);
     if (g.count > 0u || branch != kNoIndex) branch = publishBranch(env, item, site, length);
 
     Chunk c;
@@ -233,12 +215,13 @@ FN Grower freshGrower(WorkItem item) {
     g.fresh = true;
     g.arrived = false;
     g.placed = false;
+    g.ground = kNoIndex;
+    g.laying = kStepKept;
     g.pending = 0u;
     g.lastArc = item.walk.arc;
     g.count = 0u;
     g.steps = 0u;
     g.inserted = 0u;
-    g.creased = 0u;
     g.trips = 0u;
     g.pushed = 0u;
     g.refused = 0u;
@@ -283,7 +266,7 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
     }
     if (pruned) c.g.phase = kPhaseEnded;   // a chunk without nodes stays, so that the branch can come back
     if (stands && !pruned && item.parent == kNoIndex) {
-        stageNode(env, c.g.at, c.g.at.normal, 0u, 0u, c.g.creased);   // the seed's foot
+        stageNode(env, c.g.at, c.g.at.normal, false, 0u, 0u);   // the seed's foot
         c.g.count = 1u;
     }
     return true;
@@ -301,7 +284,7 @@ FN void growOn(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
     }
     // Rules read layers at the ends of steps, terminals at every sample.
     if ((kFeatures & kFeatureSurface) != 0u && c.site.sceneLayers != 0u) notePlace(c.g.reads, instance, c.g.trial.walk.uv);
-    if (c.g.arrived) arrive(MACHINE env, c.map, c.g);
+    if (c.g.arrived) arrive(MACHINE env, c.map, c.site, c.g);
     for (uint lists = 0u; lists <= kMaxListDepth && c.g.phase == kPhaseDerive; ++lists) {
         deriveRule(MACHINE env, c.map, c.site, c.item, c.g);
     }

@@ -5,7 +5,7 @@
 // the loop has one walk, one run of each code and one push in it.
 #ifndef ESPALIER_SHARED_EXPAND_STEP_H
 #define ESPALIER_SHARED_EXPAND_STEP_H
-#include "shaders/shared/expand_scope.h"
+#include "shaders/shared/expand_stage.h"
 #include "shaders/shared/paper_walk.h"
 
 ESPALIER_BEGIN
@@ -60,15 +60,6 @@ CONST_UINT(kItemsPerGroup, kItemsPerGroupAgain);
 CONST_UINT(kItemsPerGroup, 64u);           // a group is dispatched for so many items; below kMostTaken an invocation
 #endif
 
-// A chunk's nodes are staged in an array of words of the invocation's own, since they get their place at its end.
-CONST_UINT(kStagedWords, 9u);   // of a node: what the march knows of it
-#ifdef __cplusplus
-#define STAGED(i) env.scratch.v[i]
-#else
-uint stagedNodes[288];
-#define STAGED(i) stagedNodes[i]
-#endif
-
 CONST_UINT(kPhaseDerive, 0u);    // a rule is to be found
 CONST_UINT(kPhaseMarch, 1u);     // a step is under way
 CONST_UINT(kPhaseEnded, 2u);     // the branch has ended
@@ -95,13 +86,14 @@ struct Grower {
     bool fresh;          // the attempt has not left yet
     bool arrived;        // it has reached its end: the condition is to be asked there
     bool placed;         // the machine knows the place where `trial` stands
+    uint ground;         // the triangle under the last sample, where that is known
+    uint laying;         // kStepKept, ...: of the step that has arrived
     uint pending;        // samples staged for it
     float lastArc;       // of the last sample staged
     // What is done.
     uint count;          // nodes
     uint steps;
     uint inserted;
-    uint creased;        // bit i: the sample staged at i stands beside a crease
     uint trips;
     uint pushed, refused;   // items
     ReadSet reads;
@@ -242,7 +234,9 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
 }
 
 // Writes a sample into the stage.
-FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, uint flags, uint index, INOUT(uint) creased) {
+FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, bool seam, uint flags, uint index) {
+    UintBuf stage = env.scratch;
+    UNUSED(stage);
     uint at = index * kStagedWords;
     STAGED(at) = floatBitsToUint(w.position.x);
     STAGED(at + 1u) = floatBitsToUint(w.position.y);
@@ -253,8 +247,28 @@ FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, uint flags, uint inde
     STAGED(at + 6u) = w.walk.place;
     STAGED(at + 7u) = floatBitsToUint(w.walk.arc);
     STAGED(at + 8u) = flags | (index << 8u);
-    uint bit = 1u << index;
-    creased = (w.flags & (kWalkFlagCrease | kWalkFlagBeside)) != 0u ? creased | bit : creased & ~bit;
+    STAGED(at + 9u) = packUv(seam ? w.leftUv : w.walk.uv);
+    STAGED(at + 10u) = seam ? w.leftPlace : w.walk.place;
+}
+
+// Width of a texel where the walk goes, object metres.
+FN float texelOf(ExpandEnv env, GrowthSite site, uint instance) {
+    return 4.0f * site.minStep * rcpExact(surfaceScale(env.surfaces, instance));
+}
+
+// What a step's samples need. Its span leaves the surface where its ends turn much for their distance, or at creases
+// where they lie off each other's planes.
+FN uint layingOf(ExpandEnv env, GrowthSite site, Grower g) {
+    float scale = surfaceScale(env.surfaces, g.at.walk.place >> 16u);
+    vec3 chord = (g.trial.position - g.at.position) * scale;
+    float texel2nd = 16.0f * site.minStep * site.minStep;
+    float bend = 2.0f * dot3(chord, chord) * (1.0f - dot3(g.at.normal, g.trial.normal));
+    float lean = larger(absolute(dot3(chord, g.at.normal)), absolute(dot3(chord, g.trial.normal)));
+    bool ends = (g.trial.flags & (kWalkFlagCrease | kWalkFlagBeside)) != 0u;
+    bool creased = ends || (g.at.flags & (kWalkFlagCrease | kWalkFlagBeside)) != 0u;
+    bool leaves = bend > kBendTexels * kBendTexels * texel2nd ||
+                  (creased && lean * lean > kLeanTexels * kLeanTexels * texel2nd);
+    return leaves ? kStepFollowed : ends || (creased && g.pending > 0u) ? kStepLaid : kStepKept;
 }
 
 // The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes
@@ -287,12 +301,14 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
     recorded = recorded && (arrived || !tiny);
 
     uint index = g.count + g.pending;
-    bool room = index + (arrived ? 0u : 1u) < kChunkNodes;
+    g.laying = arrived && !PAPER_WALK(env) ? layingOf(env, site, g) : kStepKept;
+    uint spare = arrived ? (g.laying == kStepFollowed && g.count > 0u ? kRoomToFollow : 0u) : 1u;
+    bool room = index + spare < kChunkNodes;
     bool full = recorded && !room && g.count > 0u;
     g.phase = full ? kPhaseFull : g.phase;   // the whole step moves to the next chunk
     if (recorded && room) {
         uint flags = ((g.rule >> 8u) & 255u) | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
-        stageNode(env, g.trial, normal, flags, index, g.creased);
+        stageNode(env, g.trial, normal, event == kWalkSeam && !PAPER_WALK(env), flags, index);
         g.pending = g.pending + 1u;
         g.lastArc = g.trial.walk.arc;
     }
@@ -305,7 +321,7 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
 }
 
 // At the end of a step: its condition, and its successor. The machine knows the place.
-FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, INOUT(Grower) g) {
+FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, INOUT(Grower) g) {
     g.arrived = false;
     runTable(MACHINE env, map, g.arriveCode);
     if (!holds(packedValue(MACHINE g.conditionSlots & 127u, g.conditionValue))) {
@@ -318,6 +334,16 @@ FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, INOUT(Grower) g) {
         g.fresh = true;
         return;
     }
+    // A loop, since software devices skip only those.
+    for (uint once = 0u; once < (g.laying != kStepKept ? 1u : 0u); ++once) {
+        StagedNode start = enteredNode(g.at);
+        if (g.count > 0u) start = stagedNode(env.scratch, g.count - 1u);
+        float texel = texelOf(env, site, start.place >> 16u);
+        float size = float(levelSize(env.surfaces, start.place >> 16u, site.level));
+        g.pending = g.pending + layOnMesh(env.surfaces, env.scratch, start, texel, size, g.laying == kStepFollowed,
+                                          g.count, g.count + g.pending, g.ground);
+    }
+    g.ground = g.laying != kStepKept ? g.ground : kNoIndex;
     g.at = g.trial;
     g.count = g.count + g.pending;
     g.inserted = g.inserted + g.pending - 1u;

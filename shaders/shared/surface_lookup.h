@@ -90,10 +90,12 @@ Crossing readCrossing(SurfaceBuf surfaces, uint instance, uint i) {
 }
 TrianglePlane readPlane(SurfaceBuf surfaces, uint instance, uint i) {
     if (kSurfaceByAddress != 0u) return surfaces.v[instance].triangles.v[i];
-    vec4 a = uintBitsToFloat(fetchSurface(trianglesAt + 3u * i));
-    vec4 b = uintBitsToFloat(fetchSurface(trianglesAt + 3u * i + 1u));
-    uvec4 c = fetchSurface(trianglesAt + 3u * i + 2u);
-    return TrianglePlane(a.xyz, vec3(a.w, b.xy), vec3(b.zw, uintBitsToFloat(c.x)), uintBitsToFloat(c.yz), c.w);
+    vec4 a = uintBitsToFloat(fetchSurface(trianglesAt + 4u * i));
+    vec4 b = uintBitsToFloat(fetchSurface(trianglesAt + 4u * i + 1u));
+    uvec4 c = fetchSurface(trianglesAt + 4u * i + 2u);
+    vec4 d = uintBitsToFloat(fetchSurface(trianglesAt + 4u * i + 3u));
+    return TrianglePlane(a.xyz, vec3(a.w, b.xy), vec3(b.zw, uintBitsToFloat(c.x)), uintBitsToFloat(c.yz), c.w, d.xy,
+                         d.zw);
 }
 // A chart's orientation and coarsest level: words 4 and 5 of its 10.
 void readChart(SurfaceBuf surfaces, uint instance, uint i, out float orientation, out uint coarsest) {

@@ -82,13 +82,15 @@ struct Chart {
 };
 STATIC_SIZE(Chart, 40);
 
-// The affine map of one triangle, 48 bytes: P(uv) = position + du * (uv.x - uv0.x) + dv * (uv.y - uv0.y).
+// The affine map of one triangle, 64 bytes: P(uv) = position + du * (uv.x - uv0.x) + dv * (uv.y - uv0.y). Its corners
+// in UV are uv0, uv1, uv2, either way around.
 struct TrianglePlane {
     vec3 position, du, dv;
     vec2 uv0;
     uint chart;
+    vec2 uv1, uv2;
 };
-STATIC_SIZE(TrianglePlane, 48);
+STATIC_SIZE(TrianglePlane, 64);
 
 BUFFER(TexelBuf, Texel)
 BUFFER(TexelAuxBuf, TexelAux)

@@ -1,64 +1,99 @@
-// The triangle under a texture coordinate, told from the four texels around it. patchAt takes the nearest texel's
-// triangle, which near a crease is wrong by up to half a texel: enough for a walk, not for thin bark that lies there.
+// The triangle under a texture coordinate, told from the texels around it and its corners; the way out of it. patchAt
+// takes the nearest texel's triangle, which near a crease is wrong by up to half a texel: enough for a walk, not for
+// thin bark that lies there.
 #ifndef ESPALIER_SHARED_TRIANGLE_LOOKUP_H
 #define ESPALIER_SHARED_TRIANGLE_LOOKUP_H
 #include "shaders/shared/surface_lookup.h"
 
 ESPALIER_BEGIN
 
-// position: the point of that triangle under uv, on the finest level. normal: its unit normal, on the side of what it
-// was. Both stay as they are where no texel has a triangle.
-//
-// Two triangles' planes, as maps of uv, agree along their common edge alone. Its sides are told apart by the texels
-// whose triangles they are, since these lie inside them: no corner of a triangle need be read.
-FN void seatOnTriangle(SurfaceBuf surfaces, uint place, vec2 uv, INOUT(vec3) position, INOUT(vec3) normal) {
+FN vec3 pointOn(TrianglePlane t, vec2 uv) {
+    vec2 offset = uv - t.uv0;
+    return t.position + t.du * offset.x + t.dv * offset.y;
+}
+
+// The square of the distance of uv to a -> b.
+FN float besideEdge(vec2 a, vec2 b, vec2 uv) {
+    vec2 e = b - a;
+    vec2 d = uv - a;
+    float f = limited(dot2(d, e) * rcpExact(larger(dot2(e, e), 1e-30f)), 0.0f, 1.0f);
+    vec2 apart = d - e * f;
+    return dot2(apart, apart);
+}
+
+FN bool isInside(TrianglePlane t, vec2 uv) {
+    float a = cross2(t.uv1 - t.uv0, uv - t.uv0);
+    float b = cross2(t.uv2 - t.uv1, uv - t.uv1);
+    float c = cross2(t.uv0 - t.uv2, uv - t.uv2);
+    return smaller(a, smaller(b, c)) >= 0.0f || larger(a, larger(b, c)) <= 0.0f;
+}
+
+// The square of the distance in UV from the triangle to uv, 0 inside.
+FN float outsideOf(TrianglePlane t, vec2 uv) {
+    if (isInside(t, uv)) return 0.0f;
+    return smaller(besideEdge(t.uv0, t.uv1, uv), smaller(besideEdge(t.uv1, t.uv2, uv), besideEdge(t.uv2, t.uv0, uv)));
+}
+
+// The share of the way uv -> uv + delta after which it leaves the triangle that it begins in; 2: it doesn't. Shares are
+// compared as fractions, so that there is one division.
+FN float shareInside(TrianglePlane t, vec2 uv, vec2 delta) {
+    vec2 e0 = t.uv1 - t.uv0;
+    vec2 e1 = t.uv2 - t.uv1;
+    vec2 e2 = t.uv0 - t.uv2;
+    float turn = sign1(cross2(e0, e1));
+    float left = 2.0f;
+    float pace = 1.0f;
+    float p = -cross2(e0, delta) * turn;
+    float l = larger(cross2(e0, uv - t.uv0) * turn, 0.0f);
+    bool nearer = l * pace < left * p;
+    left = nearer ? l : left;
+    pace = nearer ? p : pace;
+    p = -cross2(e1, delta) * turn;
+    l = larger(cross2(e1, uv - t.uv1) * turn, 0.0f);
+    nearer = l * pace < left * p;
+    left = nearer ? l : left;
+    pace = nearer ? p : pace;
+    p = -cross2(e2, delta) * turn;
+    l = larger(cross2(e2, uv - t.uv2) * turn, 0.0f);
+    nearer = l * pace < left * p;
+    left = nearer ? l : left;
+    pace = nearer ? p : pace;
+    return left * rcpExact(pace);
+}
+
+// Of the chart's triangles that texels around uv name the one under uv, or else the one nearest to it; kNoIndex: there
+// is none, and `found` is of no use. The four texels are asked, nearest first, and where uv is in none of theirs (on an
+// edge by rounding, or none of the four is of its triangle) distances decide, to these and to those around.
+FN uint triangleUnder(SurfaceBuf surfaces, uint place, vec2 uv, OUT(TrianglePlane) found) {
     uint instance = place >> 16u;
     uint chart = place & 0xFFFFu;
     uint size = levelSize(surfaces, instance, 0u);
-    float texel = rcpExact(float(size));
     float gx = uv.x * float(size) - 0.5f;
     float gy = uv.y * float(size) - 0.5f;
     uint x = uint(inRange(gx, float(size) - 2.0f));
     uint y = uint(inRange(gy, float(size) - 2.0f));
     uint nearest = (gx - float(x) >= 0.5f ? 1u : 0u) | (gy - float(y) >= 0.5f ? 2u : 0u);
-    // The triangle found so far: du and dv, its plane's point under uv, its texel's centre seen from uv.
-    vec3 du = vec3(0.0f);
-    vec3 dv = vec3(0.0f);
-    vec3 point = position;
-    vec2 inside = vec2(0.0f);
+    float least = 4.0f;   // the UV square has no such distance
     uint known = kNoIndex;
-    for (uint k = 0u; k < 4u; ++k) {
-        uint cx = x + ((nearest ^ k) & 1u);
-        uint cy = y + ((nearest ^ k) >> 1u);
-        uint at = texelRow(size, cy) + texelColumn(cx);
-        uint triangle = readTriangle(surfaces, instance, 0u, at);
-        if (triangle == known) continue;   // or none, at first
-        if (!texelOwned(readTexel(surfaces, instance, 0u, at).bits, chart) || triangle == kNoIndex) continue;
+    uint tried = kNoIndex;
+    for (uint k = 0u; k < 20u && least > 0.0f; ++k) {
+        bool close = k < 4u;
+        uint cx = x + (close ? (nearest ^ k) & 1u : k & 3u) - (close ? 0u : 1u);
+        uint cy = y + (close ? (nearest ^ k) >> 1u : k >> 2u) - (close ? 0u : 2u);
+        if (cx >= size || cy >= size) continue;
+        uint triangle = readTriangle(surfaces, instance, 0u, texelRow(size, cy) + texelColumn(cx));
+        if (triangle == tried || triangle == kNoIndex) continue;
+        tried = triangle;
         TrianglePlane plane = readPlane(surfaces, instance, triangle);
-        vec2 offset = uv - plane.uv0;
-        vec3 here = plane.position + plane.du * offset.x + plane.dv * offset.y;
-        vec2 center = vec2((float(cx) + 0.5f) * texel, (float(cy) + 0.5f) * texel) - uv;
-        // How far the planes are apart under uv and under both texels' centres.
-        vec3 apart = point - here;
-        vec3 ddu = du - plane.du;
-        vec3 ddv = dv - plane.dv;
-        vec3 apartThere = apart + ddu * center.x + ddv * center.y;
-        vec3 apartInside = apart + ddu * inside.x + ddv * inside.y;
-        bool closer = dot3(apartThere, apartInside) < 0.0f && dot3(apartThere, apart) > 0.0f;
-        if (closer || known == kNoIndex) {
-            du = plane.du;
-            dv = plane.dv;
-            point = here;
-            inside = center;
+        if (plane.chart != chart) continue;
+        float outside = close ? (isInside(plane, uv) ? 0.0f : 4.0f) : outsideOf(plane, uv);
+        if (outside < least) {
+            least = outside;
             known = triangle;
+            found = plane;
         }
     }
-    vec3 across = cross3(du, dv);
-    float area2 = dot3(across, across);
-    if (known == kNoIndex || !(area2 > 1e-36f)) return;
-    across = across * rsqrtExact(area2);
-    position = point;
-    normal = dot3(across, normal) < 0.0f ? -across : across;
+    return known;
 }
 
 ESPALIER_END

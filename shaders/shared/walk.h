@@ -55,6 +55,8 @@ struct WalkState {
     uint level;          // stood on: the one asked for or the chart's coarsest
     float clear;         // no crossing within this distance, in UV; 0: not known
     float limit;         // longest stretch for now, object metres
+    vec2 leftUv;         // where it left the chart `leftPlace` for this one, once it has
+    uint leftPlace;
     vec2 slip;           // uv + slip is surely inside the chart: the last stretch's end before it was corrected
     uint flags;          // bits 7..0 tries, 8: last read was creased, 9: search crossings loosely, 10: step moved,
                          // 11: a cut for the turning is under way, 12: kWalkFlagOver, 13: kWalkFlagBeside, 31..16: pieces walked
@@ -117,6 +119,8 @@ FN bool resumeWalk(SurfaceBuf surfaces, uint level, Walk walk, OUT(WalkState) w)
     readChart(surfaces, instance, chart, w.orientation, coarsest);
     w.level = level < coarsest ? level : coarsest;
     w.limit = 1e30f;
+    w.leftUv = w.walk.uv;
+    w.leftPlace = walk.place;
     w.slip = vec2(0.0f);
     w.flags = 0u;
     Patch p;
@@ -401,6 +405,8 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
         } else {
             jointNormal = p.normal;
         }
+        w.leftUv = w.walk.uv + delta * leave.fraction;
+        w.leftPlace = w.walk.place;
         w.walk.place = toPlace;
         w.walk.uv = to;
         w.walk.direction = t1;

@@ -18,18 +18,14 @@ using namespace espalier::fidelitytest;
 
 namespace {
 
-// Least shares of samples within one radius that are asked for: the target, 0.999, of ivy for game scenes. The paper's
-// grammar makes steps of up to 30 radii with bark a tenth of a texel thick. There, less is asked for
-// on models whose surface bends within a step more than once: what lies between two reads of the walk is not seen.
-// Within a texel or a radius, the target is met everywhere (withinTexel).
-struct Bounds {
-    double free, paper;
-    double nodes = .9995;
-    double withinTexel = .999;
-};
+// Least shares that are asked for: of samples within one radius, and within a radius or a texel; of nodes within one
+// radius, free ivy's. The paper's grammar makes steps of up to 30 radii with bark a tenth of a texel thick: on models
+// whose surface bends within a step more than once, the least of these bends isn't followed.
+constexpr double kWithin = .999, kNodes = .9995;
 
 // Both grammars on a model.
-void judge(const std::string& name, const Model& model, Bounds bounds, uint32_t maxNodes = 40'000) {
+void judge(const std::string& name, const Model& model, double paper = kWithin, double nodes = kNodes,
+           uint32_t maxNodes = 40'000) {
     BakeOptions options;
     Result<Baked> baked = bake(model, options);
     if (!baked) FAIL(baked.failure().text());
@@ -45,17 +41,17 @@ void judge(const std::string& name, const Model& model, Bounds bounds, uint32_t 
         const AxisFigures f = measureAxis(*baked, mesh, c);
         print(name, c, f);
         CHECK(f.spans > 1000);
-        if (isFree) CHECK(f.nodesWithin >= bounds.nodes);
-        CHECK(f.within >= (isFree ? bounds.free : bounds.paper));
-        CHECK(f.withinTexel >= bounds.withinTexel);
+        if (isFree) CHECK(f.nodesWithin >= nodes);
+        CHECK(f.within >= (isFree ? kWithin : paper));
+        CHECK(f.withinTexel >= kWithin);
         CHECK(f.worstBreak <= 1.0);
     }
 }
 
-void judgeFile(const std::string& name, const std::string& file, Bounds bounds) {
+void judgeFile(const std::string& name, const std::string& file) {
     Result<Model> model = importModel(file);
     if (!model) FAIL(model.failure().text());
-    judge(name, *model, bounds);
+    judge(name, *model);
 }
 
 // The ruin, made here without its textures' detail.
@@ -84,26 +80,28 @@ TEST_CASE("the oracle's distances are those of a sphere and a cube") {
 
 TEST_CASE("bark on our own shapes") {
     printHeading();
-    judge("cube", test::cube(), {.999, .999});
-    judge("sphere", test::ball(48), {.999, .999});
+    judge("cube", test::cube());
+    judge("sphere", test::ball(48));
 }
 
-// With its charts turned the model comes to another atlas: creases lie otherwise between texels. The bounds of the
-// first layout are the luckier ones of several; those of the other say what none falls below.
+// With its charts turned the model comes to other atlases: creases lie otherwise between texels.
 TEST_CASE("bark on the sample ruin, however its atlas lies") {
     const test::ScratchFolder folder;
     Result<Model> model = importModel(ruinFile(folder.path.string()));
     if (!model) FAIL(model.failure().text());
-    judge("ruin", *model, {.999, .995});
     if (model->materialUvs.empty()) model->materialUvs = model->uvs;
-    const float c = std::cos(.8f), s = std::sin(.8f);
-    for (glm::vec2& uv : model->uvs) uv = {uv.x * c - uv.y * s, uv.x * s + uv.y * c};
-    judge("ruin turned", *model, {.997, .993, .999});
+    const std::vector<glm::vec2> uvs = model->uvs;
+    for (float angle : {0.f, .4f, .8f}) {
+        const float c = std::cos(angle), s = std::sin(angle);
+        for (size_t i = 0; i < uvs.size(); ++i)
+            model->uvs[i] = {uvs[i].x * c - uvs[i].y * s, uvs[i].x * s + uvs[i].y * c};
+        judge("ruin " + std::to_string(int(angle * 10)), *model, .9982, angle > 0 ? .999 : kNodes, 20'000);
+    }
 }
 
 TEST_CASE("bark on real models") {
     if (auto file = test::dataFile("models/polyhaven_concrete_cat_statue/concrete_cat_statue_1k.gltf"))
-        judgeFile("cat statue", *file, {.999, .999});
-    if (auto file = test::dataFile("models/threedscans/Column03.glb")) judgeFile("column", *file, {.999, .9985});
-    if (auto file = test::dataFile("derived/bunny_unwrap.glb")) judgeFile("bunny", *file, {.999, .998});
+        judgeFile("cat statue", *file);
+    if (auto file = test::dataFile("models/threedscans/Column03.glb")) judgeFile("column", *file);
+    if (auto file = test::dataFile("derived/bunny_unwrap.glb")) judgeFile("bunny", *file);
 }

@@ -25,7 +25,7 @@ TEST_CASE("an uploaded surface states its arrays' sizes, addresses and its place
     auto gpu = GpuSurface::create(**device, data);
     if (!gpu) FAIL(gpu.failure().text());
     CHECK(gpu->hash() == data.hash);
-    uint64_t expected = data.crossings.size() * 48 + data.charts.size() * 40 + data.triangles.size() * 48;
+    uint64_t expected = data.crossings.size() * 48 + data.charts.size() * 40 + data.triangles.size() * 64;
     for (const SurfaceLevelData& level : data.levels)
         expected += level.texels.size() * 28 + level.crossingRefs.size() * 4;
     CHECK(gpu->sizeBytes() >= expected);

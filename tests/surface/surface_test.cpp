@@ -170,6 +170,21 @@ TEST_CASE("other files are refused; failed writing leaves nothing") {
     CHECK(files == 2);
 }
 
+TEST_CASE("files of an older version are refused, and what is to be done is said") {
+    Folder folder;
+    REQUIRE(writeSurface(sample(), folder.file("old.glb")));
+    auto bytes = readFile(folder.file("old.glb"));
+    REQUIRE(bytes);
+    std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    const size_t at = text.find("\"version\":3");
+    REQUIRE(at != std::string::npos);
+    text[at + 10] = '2';
+    REQUIRE(writeFile(folder.file("old.glb"), std::string_view(text)));
+    const auto read = readSurface(folder.file("old.glb"));
+    REQUIRE(!read);
+    CHECK(read.failure().text().find("bake again") != std::string::npos);
+}
+
 TEST_CASE("indices out of range are refused even when the hashes fit") {
     Folder folder;
     auto refuses = [&](auto&& change) {
@@ -187,6 +202,7 @@ TEST_CASE("indices out of range are refused even when the hashes fit") {
     CHECK(refuses([](SurfaceData& s) { s.charts[0].coarsestLevel = 3; }));
     CHECK(refuses([](SurfaceData& s) { s.charts[0].triangleCount += 1; }));
     CHECK(refuses([](SurfaceData& s) { s.triangles[5].chart = 9; }));
+    CHECK(refuses([](SurfaceData& s) { s.triangles[5].uv2.y = -1; }));
     CHECK(refuses([](SurfaceData& s) { s.levels[0].crossingRefs[0] = 1u << 20; }));
     CHECK(refuses([](SurfaceData& s) { s.levels[1].crossingHead[9] = 0xFFFFFF01u; }));
     CHECK(refuses([](SurfaceData& s) {

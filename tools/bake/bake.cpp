@@ -70,7 +70,13 @@ std::vector<TrianglePlane> makeRecords(const BakeMesh& mesh) {
                    e2 = mesh.points[tri.point[2]] - p0;
         glm::dvec3 du = (e1 * u2.y - e2 * u1.y) / det, dv = (e2 * u1.x - e1 * u2.x) / det;
         glm::dvec2 shift = uv0 - tri.uv[0];
-        out[t] = {glm::vec3(p0 + du * shift.x + dv * shift.y), glm::vec3(du), glm::vec3(dv), glm::vec2(uv0), tri.chart};
+        out[t] = {glm::vec3(p0 + du * shift.x + dv * shift.y),
+                  glm::vec3(du),
+                  glm::vec3(dv),
+                  glm::vec2(uv0),
+                  tri.chart,
+                  glm::vec2(tri.uv[1]),
+                  glm::vec2(tri.uv[2])};
     }
     return out;
 }
