@@ -128,10 +128,11 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
     float step = kAheadTexels * rcpExact(size);
     for (uint trip = 0u; trip < kMostFollowed && i < end; ++trip) {
         vec2 delta = b.nearUv - at;
-        // Charts that border on themselves have neighbours far apart.
+        // Charts that border on themselves have neighbours far apart, and another instance has a space of its own.
         vec2 apart = delta * size * texel;
         vec3 chord = b.position - a.position;
-        bool follows = b.nearPlace == a.place && dot2(apart, apart) < 9.0f * dot3(chord, chord) + texel * texel;
+        bool follows = b.nearPlace == a.place && b.place >> 16u == a.place >> 16u &&
+                       dot2(apart, apart) < 9.0f * dot3(chord, chord) + texel * texel;
         float rate = rsqrtExact(larger(dot2(delta, delta), 1e-30f));
         vec2 ahead = delta * smaller(step * rate, 0.5f);
         TrianglePlane t = last;

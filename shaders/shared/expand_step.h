@@ -268,7 +268,8 @@ FN uint layingOf(ExpandEnv env, GrowthSite site, Grower g) {
     bool creased = ends || (g.at.flags & (kWalkFlagCrease | kWalkFlagBeside)) != 0u;
     bool leaves = bend > kBendTexels * kBendTexels * texel2nd ||
                   (creased && lean * lean > kLeanTexels * kLeanTexels * texel2nd);
-    return leaves ? kStepFollowed : ends || (creased && g.pending > 0u) ? kStepLaid : kStepKept;
+    bool moves = g.at.walk.place >> 16u != g.trial.walk.place >> 16u;   // to another instance's space
+    return leaves || moves ? kStepFollowed : ends || (creased && g.pending > 0u) ? kStepLaid : kStepKept;
 }
 
 // The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes
