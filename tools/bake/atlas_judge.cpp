@@ -75,8 +75,8 @@ UvFault judgeIsland(const BakeMesh& mesh, Patch& patch, double texel) {
     return hasNeighbours && isNarrow(patch, texel) ? UvFault::narrow : UvFault::none;
 }
 
-// Flattens an island that overlaps itself or is stretched: seams stay where an artist put them. If that tangles it, what
-// is only stretched is made as rigid as it needs to be.
+// Flattens an island that overlaps itself or is stretched: seams stay where an artist put them. If that tangles it,
+// what is only stretched is made as rigid as it needs to be.
 bool mend(BakeMesh& mesh, Patch& patch, double texel, bool stretched) {
     if (!canFlatten(patch)) return false;
     const std::vector<glm::dvec2> given = patch.uv;
