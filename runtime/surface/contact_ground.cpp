@@ -19,8 +19,6 @@ using glm::dvec3;
 constexpr double kBorderShift = 0.02;  // texels, as in what was baked
 constexpr size_t kMostParts = 8;       // that a contact is judged in
 constexpr double kPart = 4;            // tolerances
-constexpr double kAside = 0.3;         // tolerances: beside a contact that far, what is hidden is asked
-constexpr double kLeastAside = 0.05;   // or, in slits, that far
 
 struct PointHash {
     size_t operator()(const std::array<uint32_t, 3>& p) const {
@@ -165,20 +163,10 @@ struct Search {
         const ContactMesh &from = (fromA ? a : b).ground->mesh(), &to = (fromA ? b : a).ground->mesh();
         const uint32_t fromBody = from.triangles[c.from].body, toBody = to.triangles[c.to].body;
         const size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / (kPart * tolerance)), size_t(1), kMostParts);
-        // What comes down a wedge isn't left at its narrow end: crevices hide texels, but no way. Nor is a slit missed
-        // that is narrower than the usual step aside.
-        const auto alike = [&](dvec3 onTo, dvec3 onFrom, double aside) {
-            const dvec3 there = onTo + c.onward * (aside * tolerance), here = onFrom + c.back * (aside * tolerance);
-            const auto same = [&](bool crevices) {
-                return hidden(!fromA, there, c.to, fromBody, crevices) == hidden(fromA, here, c.from, toBody, crevices);
-            };
-            return same(true) || same(false);
+        const auto asked = [&](bool far, dvec3 p, bool crevices) {
+            return far ? hidden(!fromA, p, c.to, fromBody, crevices) : hidden(fromA, p, c.from, toBody, crevices);
         };
-        const auto leads = [&](size_t k) {
-            const double t = (double(k) + 0.5) / double(parts);
-            const dvec3 onTo = c.a + (c.b - c.a) * t, onFrom = c.fromA + (c.fromB - c.fromA) * t;
-            return alike(onTo, onFrom, kAside) || alike(onTo, onFrom, kLeastAside);
-        };
+        const auto leads = [&](size_t k) { return leadsOn(c, (double(k) + 0.5) / double(parts), tolerance, asked); };
         std::vector<Crossing> out;
         for (size_t k = 0; k < parts; ++k) {
             if (!leads(k)) continue;

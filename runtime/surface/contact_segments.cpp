@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 namespace espalier {
@@ -110,11 +111,11 @@ void clipOutlines(const ContactShape& s, const ContactShape& t, bool first, int 
     }
 }
 
-// What the lines of two traces have in common, as it lies on each.
-bool alongLine(Trace (&of)[2], ContactSegment& out) {
+// What the lines of two traces have in common, as it lies on each. Nothing: they lie apart along them.
+std::optional<ContactSegment> alongLine(Trace (&of)[2]) {
     dvec3 u = of[0].b - of[0].a, v = of[1].b - of[1].a;
     double lu = glm::length(u), lv = glm::length(v);
-    if (lu <= 0 || lv <= 0) return false;
+    if (lu <= 0 || lv <= 0) return std::nullopt;
     // Along the longer of the two, whose direction is the surer.
     dvec3 d = lu >= lv ? u / lu : v / lv;
     dvec3 origin = lu >= lv ? of[0].a : of[1].a;
@@ -124,14 +125,15 @@ bool alongLine(Trace (&of)[2], ContactSegment& out) {
         low = std::max(low, glm::dot(d, tr.a - origin));
         high = std::min(high, glm::dot(d, tr.b - origin));
     }
-    if (high - low <= 1e-6 * std::max(lu, lv)) return false;
+    if (high - low <= 1e-6 * std::max(lu, lv)) return std::nullopt;
+    ContactSegment out;
     for (int i = 0; i < 2; ++i) {
         const Trace& tr = of[i];
         double from = glm::dot(d, tr.a - origin), to = glm::dot(d, tr.b - origin);
         auto at = [&](double x) { return tr.a + (tr.b - tr.a) * ((x - from) / (to - from)); };
         out.side[i] = {at(low), at(high), tr.edge};
     }
-    return true;
+    return out;
 }
 
 }  // namespace
@@ -145,9 +147,13 @@ int touch(const ContactShape& s, const ContactShape& t, std::array<ContactSegmen
         flat = of[0].kind == Trace::flat || of[1].kind == Trace::flat;
         return of[1].kind != Trace::none;
     };
-    // A corner that was taken to lie in the other's plane may have gone through it.
-    if (!traceBoth(1)) return traceBoth(0) && !flat && alongLine(of, out[0]) ? 1 : 0;
     int count = 0;
+    const auto take = [&](const std::optional<ContactSegment>& segment) {
+        if (segment) out[size_t(count++)] = *segment;
+        return count;
+    };
+    // A corner that was taken to lie in the other's plane may have gone through it.
+    if (!traceBoth(1)) return traceBoth(0) && !flat ? take(alongLine(of)) : 0;
     // A shingle may lie within reach of the roof that it comes out of, and aslant all the same.
     if (flat && std::abs(glm::dot(s.normal, t.normal)) < kParallel && (!traceBoth(0) || flat)) return 0;
     if (flat) {
@@ -157,16 +163,15 @@ int touch(const ContactShape& s, const ContactShape& t, std::array<ContactSegmen
     }
     // Planes that meet at a small angle may have lines far from each other: where an edge that was taken to lie in the
     // other's plane has in truth gone through it, both meet where it did.
-    const auto apart = [](const ContactSegment& c) {
-        return glm::length((c.side[0].a + c.side[0].b - c.side[1].a - c.side[1].b) * 0.5);
-    };
     const double reach = std::max(reachOf(s), reachOf(t));
+    const auto joins = [&](const std::optional<ContactSegment>& c) {
+        return c && glm::length((c->side[0].a + c->side[0].b - c->side[1].a - c->side[1].b) * 0.5) <= reach;
+    };
     const std::array<int, 2> edge{of[0].edge, of[1].edge};
-    const double least = alongLine(of, out[0]) ? apart(out[0]) : 1e300;
-    if (least <= reach) return 1;
-    ContactSegment exact;
-    if (traceBoth(0) && !flat && alongLine(of, exact) && apart(exact) < least) out[0] = exact;
-    if (apart(out[0]) <= reach) return 1;
+    const std::optional<ContactSegment> near = alongLine(of);
+    if (joins(near)) return take(near);
+    const std::optional<ContactSegment> exact = traceBoth(0) && !flat ? alongLine(of) : std::nullopt;
+    if (joins(exact)) return take(exact);
     // Edges that come near without going through lie where they are nearest.
     if (edge[0] >= 0) clipOutlines(s, t, true, edge[0], out, count);
     if (edge[1] >= 0) clipOutlines(t, s, false, edge[1], out, count);

@@ -49,6 +49,21 @@ struct Contact {
     glm::dvec3 fromA, fromB, back;
 };
 
+// Whether what comes to the contact at `share` of its length is led on: beside it there is ground on both sides, or
+// what is hidden on both. Asked a step aside, and closer, so that a slit isn't missed that is narrower than the step.
+// hidden(far, p, crevices): whether p, of the side that it leads to (far) or comes from, is hidden; with crevices or
+// without, since these hide texels, but no way: what comes down a wedge isn't left at its narrow end. tolerance:
+// metres.
+template <class Hidden>
+bool leadsOn(const Contact& c, double share, double tolerance, const Hidden& hidden) {
+    const glm::dvec3 to = c.a + (c.b - c.a) * share, from = c.fromA + (c.fromB - c.fromA) * share;
+    for (double aside : {0.3 * tolerance, 0.05 * tolerance})
+        for (bool crevices : {true, false})
+            if (hidden(true, to + c.onward * aside, crevices) == hidden(false, from + c.back * aside, crevices))
+                return true;
+    return false;
+}
+
 struct ContactOptions {
     double tolerance;    // metres of a's object space; what is nearer touches
     double borderShift;  // UV: contacts along a chart's border are moved so far inside, before the border's own

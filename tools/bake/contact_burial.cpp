@@ -33,17 +33,11 @@ void Contacts::dropHidden() {
             const Contact& c = list_[i];
             uint32_t fromBody = mesh_.triangles[c.from].body, toBody = mesh_.triangles[c.to].body;
             size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / tolerance_), size_t(1), kMostParts);
-            // What comes down a wedge isn't left at its narrow end: crevices hide texels, but no way. Nor is a slit
-            // missed that is narrower than the usual step aside.
-            const auto alike = [&](glm::dvec3 to, glm::dvec3 from, double aside) {
-                const glm::dvec3 there = to + c.onward * aside, here = from + c.back * aside;
-                return hidden(there, c.to, fromBody) == hidden(here, c.from, toBody) ||
-                       hidden(there, c.to, fromBody, false) == hidden(here, c.from, toBody, false);
+            const auto asked = [&](bool far, glm::dvec3 p, bool crevices) {
+                return far ? hidden(p, c.to, fromBody, crevices) : hidden(p, c.from, toBody, crevices);
             };
             const auto leads = [&](size_t k) {
-                const double t = (double(k) + 0.5) / double(parts);
-                const glm::dvec3 to = c.a + (c.b - c.a) * t, from = c.fromA + (c.fromB - c.fromA) * t;
-                return alike(to, from, 0.3 * tolerance_) || alike(to, from, 0.05 * tolerance_);
+                return leadsOn(c, (double(k) + 0.5) / double(parts), tolerance_, asked);
             };
             for (size_t k = 0; k < parts;) {
                 if (!leads(k)) {
