@@ -293,39 +293,15 @@ Status Painter::replace(PaintJob& job, std::span<const float> texels) {
     return submitted ? Status(Done{}) : submitted.failure();
 }
 
-Status Painter::swap(const Canvas& canvas, BlockRecord& record) {
-    if (record.blocks_.empty()) return Done{};
-    Result<Commands> commands = Commands::begin(device_, "paint swap");
-    if (!commands) return commands.failure();
-    Status uploaded = upload(*commands, record.blocks_);
-    if (!uploaded) return uploaded;
-    commands->barrier(Use::transfer, Use::compute);
-    {
-        Pass pass(*commands, "paint swap");
-        move(pass, {wordsOf(*canvas.layer),
-                    wordsOf(record.texels_),
-                    wordsOf(words_),
-                    {},
-                    uint32_t(record.blocks_.size()),
-                    0,
-                    kBlocksSwap,
-                    0});
-    }
-    Result<uint64_t> submitted = commands->submit();
-    return submitted ? Status(Done{}) : submitted.failure();
-}
-
-Status Painter::close(const Canvas& canvas, BlockRecord& record) {
-    record.slots_ = {};
-    record.places_ = {};
-    if (record.blocks_.empty()) return Done{};
+Result<std::vector<uint64_t>> Painter::differences(const Canvas& canvas, const BlockRecord& record) {
     const uint32_t count = uint32_t(record.blocks_.size());
-    Result<Buffer> marks = Buffer::create(device_, "stroke changes", count * 4);
+    if (count == 0) return std::vector<uint64_t>();
+    Result<Buffer> marks = Buffer::create(device_, "stroke changes", count * sizeof(uint64_t));
     if (!marks) return marks.failure();
     Result<Commands> commands = Commands::begin(device_, "paint compare");
     if (!commands) return commands.failure();
     Status uploaded = upload(*commands, record.blocks_);
-    if (!uploaded) return uploaded;
+    if (!uploaded) return uploaded.failure();
     commands->fill(*marks, 0);
     commands->barrier(Use::transfer, Use::compute);
     {
@@ -334,12 +310,42 @@ Status Painter::close(const Canvas& canvas, BlockRecord& record) {
                     kBlocksCompare, 0});
     }
     Status compared = commands->finish();
-    if (!compared) return compared;
-    Result<std::vector<uint32_t>> changed = readVector<uint32_t>(device_, *marks, 0, count);
+    if (!compared) return compared.failure();
+    return readVector<uint64_t>(device_, *marks, 0, count);
+}
+
+Result<std::vector<uint64_t>> Painter::swap(const Canvas& canvas, BlockRecord& record) {
+    Result<std::vector<uint64_t>> changed = differences(canvas, record);
+    if (!changed || changed->empty()) return changed;
+    Result<Commands> commands = Commands::begin(device_, "paint swap");
+    if (!commands) return commands.failure();
+    Status uploaded = upload(*commands, record.blocks_);
+    if (!uploaded) return uploaded.failure();
+    commands->barrier(Use::transfer, Use::compute);
+    {
+        Pass pass(*commands, "paint swap");
+        move(pass, {wordsOf(*canvas.layer),
+                    wordsOf(record.texels_),
+                    wordsOf(words_),
+                    {},
+                    uint32_t(changed->size()),
+                    0,
+                    kBlocksSwap,
+                    0});
+    }
+    Result<uint64_t> submitted = commands->submit();
+    if (!submitted) return submitted.failure();
+    return changed;
+}
+
+Status Painter::close(const Canvas& canvas, BlockRecord& record) {
+    record.slots_ = {};
+    record.places_ = {};
+    Result<std::vector<uint64_t>> changed = differences(canvas, record);
     if (!changed) return changed.failure();
 
     std::vector<uint32_t> blocks, from;
-    for (uint32_t i = 0; i < count; ++i)
+    for (uint32_t i = 0; i < changed->size(); ++i)
         if ((*changed)[i]) {
             blocks.push_back(record.blocks_[i]);
             from.push_back(i);
@@ -351,7 +357,7 @@ Status Painter::close(const Canvas& canvas, BlockRecord& record) {
     Result<Buffer> packed = Buffer::create(device_, "stroke record", blocks.size() * kBlockBytes);
     Result<Commands> packing = Commands::begin(device_, "paint pack");
     if (!packed || !packing) return (packed ? packing.failure() : packed.failure());
-    uploaded = upload(*packing, from);
+    Status uploaded = upload(*packing, from);
     if (!uploaded) return uploaded;
     packing->barrier(Use::transfer, Use::compute);
     {

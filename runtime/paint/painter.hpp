@@ -68,8 +68,9 @@ class Painter {
     // Drops from a record the blocks that are as they were, and gives back the room it doesn't need; from then on it
     // takes no more dabs. Waits for the GPU.
     Status close(const Canvas& canvas, BlockRecord& record);
-    // Exchanges the layer's blocks with the record's, bit for bit: twice is as before.
-    Status swap(const Canvas& canvas, BlockRecord& record);
+    // Exchanges the layer's blocks with the record's, bit for bit: twice is as before. Gives of each block the texels
+    // that change by it, bit 8 y + x. Waits for what was submitted before.
+    Result<std::vector<uint64_t>> swap(const Canvas& canvas, BlockRecord& record);
 
   private:
     explicit Painter(Device& device) : device_(device) {}
@@ -85,6 +86,8 @@ class Painter {
     Status makeSmoothing();
     // The same for all dabs of a stroke: where texels of the new blocks look.
     Status findPlaces(Commands& commands, const PaintJob& job, const Placed& placed, Reach reach);
+    // Of each block of a record the texels that differ from the layer's, bit 8 y + x. Waits for the GPU.
+    Result<std::vector<uint64_t>> differences(const Canvas& canvas, const BlockRecord& record);
     Status upload(Commands& commands, const std::vector<uint32_t>& words);
     void move(Pass& pass, BlocksEnv env);
 

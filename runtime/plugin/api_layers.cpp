@@ -95,7 +95,7 @@ void layerChanged(EspContext& context, uint32_t surface, const std::string& name
         if (context.sceneLayers[layer].name != name) continue;
         for (size_t i = 0; i < blocks.size(); ++i) {
             const uint32_t x = blocks[i] % side * 8, y = blocks[i] / side * 8;
-            if (texels.empty()) {
+            if (texels.empty() || texels[i] == ~uint64_t(0)) {
                 context.changes.markTexels(placed.instance, layer, size, x, y, x + 8, y + 8);
                 continue;
             }

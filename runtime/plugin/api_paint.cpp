@@ -232,9 +232,10 @@ EspResult swap(EspContext& context, PaintStroke& stroke) {
     swapTown(context, stroke);
     for (PaintStroke::Part& part : stroke.parts) {
         if (!paintedLayer(context, part.surface, stroke.layer)) continue;
-        Status swapped = context.painter->swap(canvasOf(context, part.surface, stroke.layer), part.record);
+        Result<std::vector<uint64_t>> swapped =
+            context.painter->swap(canvasOf(context, part.surface, stroke.layer), part.record);
         if (!swapped) return failGpu(&context, swapped.failure());
-        layerChanged(context, part.surface, stroke.layer, part.record.blocks());
+        layerChanged(context, part.surface, stroke.layer, part.record.blocks(), *swapped);
     }
     return ESP_OK;
 }

@@ -7,7 +7,7 @@ ESPALIER_BEGIN
 
 CONST_UINT(kBlocksSave, 0u);      // kept = layer
 CONST_UINT(kBlocksSwap, 1u);      // each gets the other's
-CONST_UINT(kBlocksCompare, 2u);   // marks[block] != 0: some texel differs
+CONST_UINT(kBlocksCompare, 2u);   // marks: which texels differ
 CONST_UINT(kBlocksFill, 3u);      // layer = value
 CONST_UINT(kBlocksTake, 4u);      // layer = kept, but where that is kBlocksUntouched
 
@@ -18,7 +18,7 @@ struct BlocksEnv {
     UintBuf layer;
     UintBuf kept;      // [64 * (first + i)]: block blocks[i]
     UintBuf blocks;
-    UintBuf marks;
+    UintBuf marks;     // [2 * i], [2 * i + 1]: a bit a texel of block blocks[i]
     uint count, first, job, value;
 };
 STATIC_SIZE(BlocksEnv, 48);

@@ -25,7 +25,7 @@ void main() {
     }
     uint texel = env.layer.v[at];
     if (env.job == kBlocksCompare) {
-        if (texel != env.kept.v[kept]) atomicOr(env.marks.v[block], 1u);
+        if (texel != env.kept.v[kept]) atomicOr(env.marks.v[item / 32u], 1u << (item % 32u));
         return;
     }
     if (env.job == kBlocksSwap) env.layer.v[at] = env.kept.v[kept];

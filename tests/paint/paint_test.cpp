@@ -270,7 +270,7 @@ TEST_CASE("growth follows strokes, their undoing and redoing, and is idle when t
     CHECK(painting.grown().expansions == expansions);
 }
 
-TEST_CASE("a dab beside a plant costs no growth, and dabs on it leave what growing anew gives") {
+TEST_CASE("a dab beside a plant costs no growth, nor does its undoing, and dabs on it leave what growing anew gives") {
     // Straight up, 64 steps of 2.5 cm, so that its nodes lie in z = 0.
     const char* text =
         "context mask = 1\n"
@@ -288,10 +288,16 @@ TEST_CASE("a dab beside a plant costs no growth, and dabs on it leave what growi
     std::vector<EspDab> dabs;
     for (float z : {-.25f, -.2f, -.16f, .16f, .2f, .25f})
         for (float y : {-.5f, -.2f, .1f, .3f}) dabs.push_back(dabAt({1, y, z}));
-    for (const EspDab& dab : dabs) painting.stroke(brush, {dab});
+    std::vector<EspStroke> beside;
+    for (const EspDab& dab : dabs) beside.push_back(painting.stroke(brush, {dab}));
     const std::vector<float> layer = painting.layer("mask");
     CHECK(std::count(layer.begin(), layer.end(), 1.f) < int(layer.size()) - 12);
     CHECK(painting.grown().expansions == free.expansions);
+    for (size_t i = beside.size(); i-- > 0;) painting.ok(espSwapStroke(painting.context, beside[i]));
+    CHECK(painting.grown().expansions == free.expansions);
+    for (const EspStroke& stroke : beside) painting.ok(espSwapStroke(painting.context, stroke));
+    CHECK(painting.grown().expansions == free.expansions);
+    CHECK(painting.layer("mask") == layer);
     // Across it, one after the other; it goes round them.
     EspBrush wide = brush;
     wide.radius = .09f;
@@ -299,9 +305,17 @@ TEST_CASE("a dab beside a plant costs no growth, and dabs on it leave what growi
     uint64_t before = free.hash;
     for (float y : {.5f, .2f, -.3f}) {
         across.push_back(dabAt({1, y, .02f}));
-        painting.stroke(wide, {across.back()});
+        const EspStroke dab = painting.stroke(wide, {across.back()});
         const EspStats now = painting.grown();
         CHECK(now.hash != before);
+        // Taken back and done again: no more is derived than by the dab itself.
+        painting.ok(espSwapStroke(painting.context, dab));
+        const EspStats undone = painting.grown();
+        CHECK(undone.hash == before);
+        painting.ok(espSwapStroke(painting.context, dab));
+        const EspStats redone = painting.grown();
+        CHECK(redone.hash == now.hash);
+        CHECK(redone.derivedNodes <= now.derivedNodes);
         before = now.hash;
         Painting other;
         other.plant(other.grammar(text), {1, -.9f, 0}, {0, 1, 0});
