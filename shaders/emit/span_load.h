@@ -8,7 +8,6 @@ ESPALIER_BEGIN
 
 CONST_FLOAT(kBarkRise, 0.45f);     // the bark's axis lies this many radii above the surface: its back is buried
 CONST_FLOAT(kChildFlare, 1.12f);   // a child's radius where it leaves its parent
-CONST_FLOAT(kBendCosine, 0.906f);  // a span that turns by more, 25 degrees, has a crease right beside an end
 
 struct LoadedSpan {
     Span span;
@@ -27,13 +26,6 @@ FN vec3 placePoint(vec4 r0, vec4 r1, vec4 r2, vec3 p) {
 FN vec3 placeDirection(vec4 r0, vec4 r1, vec4 r2, vec3 d) {
     return unit3(vec3(r0.x * d.x + r0.y * d.y + r0.z * d.z, r1.x * d.x + r1.y * d.y + r1.z * d.z,
                       r2.x * d.x + r2.y * d.y + r2.z * d.z));
-}
-
-// The longest handle, of at most `length`, that lifts a curve by no more than about a fifth of `radius` off the
-// surface at its far end, whose normal is `far`. At a sample on a crease the tangent leans off both sides.
-FN float levelHandle(float length, vec3 tangent, vec3 far, float radius) {
-    float most = divExact(0.5f * radius, larger(absolute(dot3(tangent, far)), 1e-6f));
-    return smaller(length, larger(most, 0.02f * length));
 }
 
 // The node that the span of node `i` starts from, or kNoIndex.
@@ -59,13 +51,8 @@ FN LoadedSpan spanBetween(Node a, Node b, bool sameBranch, bool foot, vec4 a0, v
 
     uint smoothness = (b.flags >> 15u) & 3u;
     if (smoothness == kSmoothC1) {
-        s.span = smoothSpan(p0, t0, p3, t3);
-        float least = smaller(s.radius0, s.radius1);
-        bool bends = dot3(s.normal0, s.normal1) < kBendCosine;
-        if (bends || (a.flags & kNodeInserted) != 0u)
-            s.span.b1 = p0 + t0 * levelHandle(length3(s.span.b1 - p0), t0, s.normal1, least);
-        if (bends || (b.flags & kNodeInserted) != 0u)
-            s.span.b2 = p3 - t3 * levelHandle(length3(p3 - s.span.b2), t3, s.normal0, least);
+        s.span = levelSpan(smoothSpan(p0, t0, p3, t3), t0, s.normal0, (a.flags & kNodeInserted) != 0u, t3, s.normal1,
+                           (b.flags & kNodeInserted) != 0u, 0.5f * smaller(s.radius0, s.radius1));
     } else if (smoothness == kSmoothC0) {
         // Handles just long enough to turn the rings at the joints into the mitre; the rest is straight.
         float handle = 0.02f * length3(p3 - p0);

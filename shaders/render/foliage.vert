@@ -22,7 +22,8 @@ vec3 foliageColor(PropVertex v, float code) {
 }
 // What a card's code says, in the model's space; either side.
 vec3 cardNormal(float code) {
-    vec2 at = (vec2(mod(code, 32.0), floor(code * (1.0 / 32.0))) + 0.5) * (1.0 / 16.0) - 1.0;
+    const float side = float(kFacingSide);
+    vec2 at = (vec2(mod(code, side), floor(code * (1.0 / side))) + 0.5) * (2.0 / side) - 1.0;
     vec3 n = vec3(at.x, 1.0 - abs(at.x) - abs(at.y), at.y);
     if (n.y < 0.0) n.xz = (1.0 - abs(n.zx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.z < 0.0 ? -1.0 : 1.0);
     return normalize(n);

@@ -5,6 +5,8 @@
 
 ESPALIER_BEGIN
 
+CONST_UINT(kFacingSide, 32u);   // directions of foliage's cards are told in so many squares along a side of the octahedron
+
 // Two texels of four words.
 struct PropInstance {
     vec3 position;

@@ -5,6 +5,8 @@
 
 ESPALIER_BEGIN
 
+CONST_FLOAT(kBendCosine, 0.906f);  // a span that turns by more, 25 degrees, has a crease right beside an end
+
 // A cubic Bézier curve over [0, 1].
 struct Span {
     vec3 p0, b1, b2, p3;
@@ -49,6 +51,24 @@ FN Span smoothSpan(vec3 p0, vec3 t0, vec3 p3, vec3 t3) {
     s.b2 = p3 - t3 * (larger(dot3(t3, chord), least) * 0.333333333f);
     s.p3 = p3;
     return s;
+}
+
+// The longest handle, of at most `length`, whose end rises no more than `rise` off the surface at the span's far end,
+// whose normal is `far`.
+FN float levelHandle(float length, vec3 tangent, vec3 far, float rise) {
+    float most = divExact(rise, larger(absolute(dot3(tangent, far)), 1e-6f));
+    return smaller(length, larger(most, 0.02f * length));
+}
+
+// smoothSpan with handles held level where tangents lean off the surface: on spans that turn much, and at ends on
+// creases, where a tangent leans off both sides. n0, n3: unit normals at its ends. The curve itself leaves the surface
+// by some four ninths of `rise`.
+FN Span levelSpan(Span s, vec3 t0, vec3 n0, bool crease0, vec3 t3, vec3 n3, bool crease3, float rise) {
+    bool bends = dot3(n0, n3) < kBendCosine;
+    Span o = s;
+    if (bends || crease0) o.b1 = s.p0 + t0 * levelHandle(length3(s.b1 - s.p0), t0, n3, rise);
+    if (bends || crease3) o.b2 = s.p3 - t3 * levelHandle(length3(s.p3 - s.b2), t3, n0, rise);
+    return o;
 }
 
 // The straight span, for the two lesser smoothnesses.

@@ -17,7 +17,7 @@ CONST_UINT(kStagedWords, 11u);
 // Few steps come here: the others keep their registers.
 #define FN_SELDOM __attribute__((noinline, flatten)) inline
 #else
-uint stagedNodes[352];
+uint stagedNodes[kChunkNodes * kStagedWords];
 #define STAGED(i) stagedNodes[i]
 #define FN_SELDOM
 #endif
@@ -89,8 +89,7 @@ FN void openStage(UintBuf stage, uint index, uint count) {
     }
 }
 
-// How far above or below a point of the mesh the span from a to b will pass it, metres; normal: of the mesh there. Spans
-// get their handles as in span_load.h, which holds those short that lean off the surface.
+// How far above or below a point of the mesh the span from a to b will pass it, metres; normal: of the mesh there.
 FN float passedBy(StagedNode a, StagedNode b, vec3 point, vec3 normal, float texel) {
     vec3 chord = b.position - a.position;
     float length2nd = larger(dot3(chord, chord), 1e-30f);
@@ -98,12 +97,8 @@ FN float passedBy(StagedNode a, StagedNode b, vec3 point, vec3 normal, float tex
     vec3 n3 = unpackOct(b.normal);
     vec3 t0 = tangentOf(chord, n0);
     vec3 t3 = tangentOf(chord, n3);
-    bool bends = dot3(n0, n3) < 0.906f;
-    Span s = smoothSpan(a.position, t0, b.position, t3);
-    float most0 = divExact(kAsideTexels * texel, larger(absolute(dot3(t0, n3)), 1e-6f));
-    float most3 = divExact(kAsideTexels * texel, larger(absolute(dot3(t3, n0)), 1e-6f));
-    if (bends || a.inserted) s.b1 = a.position + t0 * smaller(length3(s.b1 - a.position), most0);
-    if (bends || b.inserted) s.b2 = b.position - t3 * smaller(length3(b.position - s.b2), most3);
+    Span s = levelSpan(smoothSpan(a.position, t0, b.position, t3), t0, n0, a.inserted, t3, n3, b.inserted,
+                       kAsideTexels * texel);
     float u = limited(dot3(point - a.position, chord) * rcpExact(length2nd), 0.0f, 1.0f);
     return absolute(dot3(normal, spanPoint(s, u) - point));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/render/prop_records.h"
 #include "tools/content/noise.hpp"
 #include "tools/content/props.hpp"
 
@@ -76,13 +77,14 @@ struct Round {
     }
 };
 
-// A direction, either way, in 32 by 32 squares of the octahedron.
+// A direction, either way: its square of the octahedron, which foliage.vert reads.
 float facingCode(glm::vec3 n) {
     n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
     glm::vec2 o(n.x, n.z);
     if (n.y < 0) o = (1.0f - glm::vec2(std::abs(n.z), std::abs(n.x))) * glm::vec2(n.x < 0 ? -1 : 1, n.z < 0 ? -1 : 1);
-    const glm::ivec2 at = glm::clamp(glm::ivec2((o * 0.5f + 0.5f) * 32.0f), 0, 31);
-    return float(at.x + 32 * at.y);
+    constexpr int kSide = int(kFacingSide);
+    const glm::ivec2 at = glm::clamp(glm::ivec2((o * 0.5f + 0.5f) * float(kSide)), 0, kSide - 1);
+    return float(at.x + kSide * at.y);
 }
 
 // Two triangles about `at`, facing `out`; its twig points along `up`.
