@@ -50,6 +50,70 @@ struct Mask {
     void set(uint32_t y, uint32_t x0, uint32_t x1) { setBits(&bits[size_t(y) * words], x0, x1); }
 };
 
+constexpr uint32_t kMostCells = 1024;  // of a grid's side
+constexpr uint32_t kMostWords = kMostCells / 64;
+
+// Which cells of a square are taken. Of each row it is known for spans of 1, 2, 4... cells at which columns one begins
+// that meets something taken: two of them make a span of any length.
+class Grid {
+  public:
+    explicit Grid(uint32_t size)
+        : size_(size),
+          words_(size / 64),
+          spans_(uint32_t(std::bit_width(size))),
+          taken_(size_t(size) * spans_ * words_, 0),
+          widest_(size, size) {}
+
+    // How many free cells of a row lie side by side at most.
+    uint32_t widest(uint32_t y) const { return widest_[y]; }
+
+    // Sets blocked[x] where a run of so many cells from x + first on meets something taken; whether that leaves a bit
+    // clear.
+    bool block(uint32_t y, uint32_t first, uint32_t length, uint64_t* blocked) const {
+        const uint32_t span = uint32_t(std::bit_width(length)) - 1;
+        const uint64_t* row = rowOf(y, span);
+        addFrom(row, first, blocked);
+        if (length > 1u << span) addFrom(row, first + length - (1u << span), blocked);
+        uint64_t open = 0;
+        for (uint32_t w = 0; w < words_; ++w) open |= ~blocked[w];
+        return open != 0;
+    }
+
+    void take(const Mask& mask, uint32_t x, uint32_t y) {
+        for (const auto& [row, first, length] : mask.runs)
+            setBits(rowOf(y + row, 0), x + first, x + first + length - 1);
+        for (uint32_t row = y; row < y + mask.height; ++row) measureRow(row);
+    }
+
+  private:
+    const uint64_t* rowOf(uint32_t y, uint32_t span) const { return &taken_[(size_t(y) * spans_ + span) * words_]; }
+    uint64_t* rowOf(uint32_t y, uint32_t span) { return &taken_[(size_t(y) * spans_ + span) * words_]; }
+
+    // Adds the bits of a row from bit n on.
+    void addFrom(const uint64_t* row, uint32_t n, uint64_t* to) const {
+        const uint32_t whole = n / 64, part = n % 64, last = words_ - 1 - whole;
+        for (uint32_t w = 0; w < last; ++w) to[w] |= row[w + whole] >> part | row[w + whole + 1] << 1 << (63 - part);
+        to[last] |= row[last + whole] >> part;
+    }
+
+    void measureRow(uint32_t y) {
+        for (uint32_t span = 1; span < spans_; ++span) {
+            std::copy_n(rowOf(y, span - 1), words_, rowOf(y, span));
+            addFrom(rowOf(y, span - 1), 1u << (span - 1), rowOf(y, span));
+        }
+        widest_[y] = 0;
+        for (uint32_t x = 0; (x = findBit(rowOf(y, 0), x, size_, false)) < size_;) {
+            const uint32_t from = x;
+            x = findBit(rowOf(y, 0), x, size_, true);
+            widest_[y] = std::max(widest_[y], x - from);
+        }
+    }
+
+    uint32_t size_, words_, spans_;
+    std::vector<uint64_t> taken_;  // per row and span
+    std::vector<uint32_t> widest_;
+};
+
 class Packer {
   public:
     Packer(const BakeMesh& mesh, uint32_t resolution, uint32_t levels)
@@ -74,7 +138,7 @@ class Packer {
     // First with bands for all levels; where that costs too much scale, small charts give up coarse levels, and
     // more of them, until charts fit. Finer grids waste less on bands, but take longer.
     Placement run() {
-        for (; grid_ <= std::min(resolution_, 1024u); grid_ *= 2) {
+        for (; grid_ <= std::min(resolution_, kMostCells); grid_ *= 2) {
             for (double texels : {3.0, 6.0, 12.0, 24.0, 48.0, 1e9}) {
                 minTexels_ = texels;
                 bool last = texels > 1e6;
@@ -150,24 +214,27 @@ class Packer {
 
     // Cells whose centre the chart covers: even-odd over its border, row by row.
     void fillInside(uint32_t chart, double k, Mask& mask) const {
-        std::vector<std::vector<double>> at(mask.height);
+        std::vector<std::pair<int64_t, double>> at;  // row, and where a border passes its middle
         for (uint32_t i = firstBorder_[chart]; i < firstBorder_[chart + 1]; ++i) {
             glm::dvec2 a = mesh_.uvAt(borders_[i]) * k - mask.origin,
                        b = mesh_.uvAt(BakeMesh::next(borders_[i])) * k - mask.origin;
             if (a.y > b.y) std::swap(a, b);
-            int64_t y0 = std::max(int64_t(0), int64_t(std::ceil(a.y - 0.5)));
-            int64_t y1 = std::min(int64_t(mask.height), int64_t(std::ceil(b.y - 0.5)));
+            int64_t y0 = std::max(int64_t(0), ceilWhole(a.y - 0.5));
+            int64_t y1 = std::min(int64_t(mask.height), ceilWhole(b.y - 0.5));
             for (int64_t y = y0; y < y1; ++y)
-                at[size_t(y)].push_back(a.x + (b.x - a.x) * (double(y) + 0.5 - a.y) / (b.y - a.y));
+                at.emplace_back(y, a.x + (b.x - a.x) * (double(y) + 0.5 - a.y) / (b.y - a.y));
         }
-        for (uint32_t y = 0; y < mask.height; ++y) {
-            auto& x = at[y];
-            std::sort(x.begin(), x.end());
-            for (size_t i = 0; i + 1 < x.size(); i += 2) {
-                int64_t x0 = std::max(int64_t(0), int64_t(std::ceil(x[i] - 0.5)));
-                int64_t x1 = std::min(int64_t(mask.width) - 1, int64_t(std::floor(x[i + 1] - 0.5)));
-                if (x0 <= x1) mask.set(y, uint32_t(x0), uint32_t(x1));
+        std::sort(at.begin(), at.end());
+        for (size_t i = 0; i + 1 < at.size();) {
+            const auto [y, from] = at[i];
+            if (at[i + 1].first != y) {
+                ++i;
+                continue;
             }
+            const int64_t x0 = std::max(int64_t(0), ceilWhole(from - 0.5));
+            const int64_t x1 = std::min(int64_t(mask.width) - 1, floorWhole(at[i + 1].second - 0.5));
+            if (x0 <= x1) mask.set(uint32_t(y), uint32_t(x0), uint32_t(x1));
+            i += 2;
         }
     }
 
@@ -228,93 +295,27 @@ class Packer {
         for (uint32_t c : order) {
             uint32_t x, y;
             if (fits < measure || !place(masks[c], grid, x, y)) return {};
-            for (const auto& [row, first, length] : masks[c].runs)
-                setBits(&grid.taken[size_t(y + row) * grid.words], x + first, x + first + length - 1);
-            for (uint32_t row = y; row < y + masks[c].height; ++row) grid.widest[row] = widestGap(grid, row);
+            grid.take(masks[c], x, y);
             offset[c] = (glm::dvec2(x, y) - masks[c].origin) / double(grid_);
         }
         return offset;
     }
 
-    // What is taken, and of each row how many free cells there are at most side by side.
-    struct Grid {
-        explicit Grid(uint32_t size)
-            : words(size / 64), taken(size_t(words) * size, 0), widest(size, size), blocked(words), shifted(words) {}
-        uint32_t words;
-        std::vector<uint64_t> taken;
-        std::vector<uint32_t> widest;
-        std::vector<uint64_t> blocked, shifted, other;  // scratch: a row each
-    };
-    uint32_t widestGap(const Grid& grid, uint32_t y) const {
-        const uint64_t* row = &grid.taken[size_t(y) * grid.words];
-        uint32_t most = 0;
-        for (uint32_t x = 0; (x = findBit(row, x, grid_, false)) < grid_;) {
-            const uint32_t from = x;
-            x = findBit(row, x, grid_, true);
-            most = std::max(most, x - from);
-        }
-        return most;
-    }
-
-    // bits[x] of `row` shifted down by n: result bit x is bit x + n.
-    static void shiftDown(std::vector<uint64_t>& row, uint32_t n) {
-        uint32_t whole = n / 64, part = n % 64;
-        size_t words = row.size();
-        for (size_t i = 0; i < words; ++i) {
-            uint64_t low = i + whole < words ? row[i + whole] : 0;
-            uint64_t high = i + whole + 1 < words ? row[i + whole + 1] : 0;
-            row[i] = part == 0 ? low : low >> part | high << (64 - part);
-        }
-    }
-
     // The lowest free row for a mask, then the leftmost column: all columns of a row are tried at once.
-    bool place(const Mask& mask, Grid& grid, uint32_t& outX, uint32_t& outY) const {
-        const uint32_t words = grid.words;
-        std::vector<uint64_t>&blocked = grid.blocked, &shifted = grid.shifted, &other = grid.other;
+    bool place(const Mask& mask, const Grid& grid, uint32_t& outX, uint32_t& outY) const {
+        std::array<uint64_t, kMostWords> outside{}, blocked;
+        // Columns from which the mask would reach past the right border.
+        if (mask.width > 1) setBits(outside.data(), grid_ - mask.width + 1, grid_ - 1);
         for (uint32_t y = 0; y + mask.height <= grid_; ++y) {
-            bool narrow = false;
-            for (size_t i = 0; i < mask.runs.size() && !narrow; ++i)
-                narrow = mask.runs[i][2] > grid.widest[y + mask.runs[i][0]];
-            if (narrow) continue;
-            for (uint32_t w = 0; w < words; ++w) {
-                // Columns from which the mask would reach past the right border.
-                uint64_t b = 0;
-                for (uint32_t i = 0; i < 64; ++i)
-                    if (w * 64 + i + mask.width > grid_) {
-                        b = ~uint64_t(0) << i;
-                        break;
-                    }
-                blocked[w] = b;
-            }
-            bool full = false;
-            for (const auto& [row, first, length] : mask.runs) {
-                const uint64_t* from = &grid.taken[size_t(y + row) * words];
-                uint64_t any = 0;
-                for (uint32_t w = 0; w < words; ++w) any |= shifted[w] = from[w];
-                if (!any) continue;
-                // Bit x of `shifted` becomes: any of bits x to x + length - 1 is taken.
-                for (uint32_t have = 1; have < length;) {
-                    uint32_t step = std::min(have, length - have);
-                    other = shifted;
-                    shiftDown(other, step);
-                    for (uint32_t w = 0; w < words; ++w) shifted[w] |= other[w];
-                    have += step;
-                }
-                shiftDown(shifted, first);
-                uint64_t open = 0;
-                for (uint32_t w = 0; w < words; ++w) open |= ~(blocked[w] |= shifted[w]);
-                if (!open) {
-                    full = true;
-                    break;
-                }
-            }
-            if (full) continue;
-            for (uint32_t w = 0; w < words; ++w)
-                if (~blocked[w]) {
-                    outX = w * 64 + uint32_t(std::countr_one(blocked[w]));
-                    outY = y;
-                    return true;
-                }
+            const auto tooLong = [&](const auto& run) { return run[2] > grid.widest(y + run[0]); };
+            if (std::any_of(mask.runs.begin(), mask.runs.end(), tooLong)) continue;
+            blocked = outside;
+            const auto leavesRoom = [&](const auto& run) {
+                return grid.block(y + run[0], run[1], run[2], blocked.data());
+            };
+            if (!std::all_of(mask.runs.begin(), mask.runs.end(), leavesRoom)) continue;
+            outX = findBit(blocked.data(), 0, grid_, false), outY = y;
+            return true;
         }
         return false;
     }

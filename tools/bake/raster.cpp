@@ -27,8 +27,8 @@ double crossingAt(glm::dvec2 a, glm::dvec2 b, double y) {
 template <class Row>
 void gridTriangle(const std::array<glm::dvec2, 3>& p, int64_t size, int64_t yBegin, int64_t yEnd, Row&& row) {
     double low = std::min({p[0].y, p[1].y, p[2].y}), high = std::max({p[0].y, p[1].y, p[2].y});
-    int64_t y0 = std::max(yBegin, int64_t(std::ceil(low - 0.5)));
-    int64_t y1 = std::min(yEnd, int64_t(std::ceil(high - 0.5)));
+    int64_t y0 = std::max(yBegin, ceilWhole(low - 0.5));
+    int64_t y1 = std::min(yEnd, ceilWhole(high - 0.5));
     for (int64_t y = y0; y < y1; ++y) {
         double cy = double(y) + 0.5, x[2];
         int found = 0;
@@ -37,8 +37,8 @@ void gridTriangle(const std::array<glm::dvec2, 3>& p, int64_t size, int64_t yBeg
             if ((a.y <= cy) != (b.y <= cy)) x[found++] = crossingAt(a, b, cy);
         }
         if (found < 2) continue;
-        int64_t x0 = std::max(int64_t(0), int64_t(std::ceil(std::min(x[0], x[1]) - 0.5)));
-        int64_t x1 = std::min(size, int64_t(std::ceil(std::max(x[0], x[1]) - 0.5)));
+        int64_t x0 = std::max(int64_t(0), ceilWhole(std::min(x[0], x[1]) - 0.5));
+        int64_t x1 = std::min(size, ceilWhole(std::max(x[0], x[1]) - 0.5));
         if (x0 < x1) row(y, x0, x1);
     }
 }
