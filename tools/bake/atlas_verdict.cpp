@@ -9,6 +9,7 @@ namespace espalier::bakery {
 namespace {
 
 constexpr uint32_t kNearEdges = 12;   // of a border: what meets within so many edges is a local fault
+constexpr size_t kFewSegments = 64;   // of a border: these are all compared with each other
 constexpr double kLeastScale = 1e-3;  // of a triangle's area in UV to its own: below it counts as flipped
 
 struct Segment {
@@ -17,8 +18,12 @@ struct Segment {
     uint32_t loop;
 };
 
-// Whether two segments without a common end cross or touch.
+// Whether two segments without a common end cross or touch. Of two on one line rounding can say so: their boxes are
+// asked first.
 bool meet(const Segment& s, const Segment& t) {
+    for (int k = 0; k < 2; ++k)
+        if (std::max(s.a[k], s.b[k]) < std::min(t.a[k], t.b[k]) || std::max(t.a[k], t.b[k]) < std::min(s.a[k], s.b[k]))
+            return false;
     glm::dvec2 d = s.b - s.a, e = t.b - t.a;
     double a = cross(d, t.a - s.a), b = cross(d, t.b - s.a), c = cross(e, s.a - t.a), f = cross(e, s.b - t.a);
     return ((a > 0) != (b > 0)) && ((c > 0) != (f > 0));
@@ -34,8 +39,34 @@ double signedArea(const Patch& patch, const std::vector<uint32_t>& loop) {
     return sum / 2;
 }
 
-// Border segments on a grid of cells about as large as they are: only those in one cell are compared. Where a hole
-// meets something, its vertices are tangled; where the outer border (loop 0) meets itself, they are crossed.
+// Where segments may meet: calls pair(i, j), i < j, some pairs more than once. Many lie on a grid of cells about as
+// large as they are, and only those in one cell are compared. low, side, length: of all.
+template <class Pair>
+void forNear(const std::vector<Segment>& segments, glm::dvec2 low, double side, double length, Pair&& pair) {
+    const uint32_t count = uint32_t(segments.size());
+    if (count <= kFewSegments) {
+        for (uint32_t i = 0; i < count; ++i)
+            for (uint32_t j = i + 1; j < count; ++j) pair(i, j);
+        return;
+    }
+    double cell = std::max(length / double(count), side / 1024);
+    if (!(cell > 0)) cell = 1;
+    const uint64_t size = uint64_t(side / cell) + 2;
+    std::vector<uint64_t> entries;  // cell, segment
+    for (uint32_t i = 0; i < count; ++i)
+        gridSegment((segments[i].a - low) / cell, (segments[i].b - low) / cell, 0.51, int64_t(size), 0, int64_t(size),
+                    [&](int64_t y, int64_t x0, int64_t x1) {
+                        for (int64_t x = x0; x <= x1; ++x)
+                            entries.push_back((uint64_t(y) * size + uint64_t(x)) << 32 | i);
+                    });
+    std::sort(entries.begin(), entries.end());
+    for (size_t i = 0, j; i < entries.size(); i = j)
+        for (j = i + 1; j < entries.size() && entries[j] >> 32 == entries[i] >> 32; ++j)
+            for (size_t k = i; k < j; ++k) pair(uint32_t(entries[k]), uint32_t(entries[j]));
+}
+
+// Where a hole meets something, its vertices are tangled; where the outer border (loop 0) meets itself, they are
+// crossed.
 void findMeetings(const Patch& patch, const std::vector<std::vector<uint32_t>>& loops, PatchVerdict& out) {
     std::vector<Segment> segments;
     glm::dvec2 low(1e300), high(-1e300);
@@ -49,40 +80,18 @@ void findMeetings(const Patch& patch, const std::vector<std::vector<uint32_t>>& 
         }
     std::vector<uint8_t> meets(loops.size(), 0);
     double side = std::max(high.x - low.x, high.y - low.y);
-    double cell = std::max(length / double(segments.size()), side / 1024);
-    if (!(cell > 0)) cell = 1;
-    struct Entry {
-        uint32_t cell, segment;
-    };
-    std::vector<Entry> entries;
-    int64_t size = int64_t(side / cell) + 2;
-    for (uint32_t i = 0; i < segments.size(); ++i)
-        gridSegment((segments[i].a - low) / cell, (segments[i].b - low) / cell, 0.51, size, 0, size,
-                    [&](int64_t y, int64_t x0, int64_t x1) {
-                        for (int64_t x = x0; x <= x1; ++x) entries.push_back({uint32_t(y * size + x), i});
-                    });
-    std::sort(entries.begin(), entries.end(),
-              [](const Entry& a, const Entry& b) { return std::tie(a.cell, a.segment) < std::tie(b.cell, b.segment); });
-    for (size_t i = 0; i < entries.size();) {
-        size_t j = i;
-        while (j < entries.size() && entries[j].cell == entries[i].cell) ++j;
-        for (size_t p = i; p < j; ++p)
-            for (size_t q = p + 1; q < j; ++q) {
-                const Segment &s = segments[entries[p].segment], &t = segments[entries[q].segment];
-                if (s.from == t.from || s.from == t.to || s.to == t.from || s.to == t.to) continue;
-                if (!meet(s, t)) continue;
-                if (s.loop == 0 && t.loop == 0) {
-                    uint32_t i0 = entries[p].segment, i1 = entries[q].segment, n = uint32_t(loops[0].size());
-                    uint32_t apart = i0 < i1 ? i1 - i0 : i0 - i1;
-                    if (std::min(apart, n - apart) > kNearEdges)
-                        out.overlapping = true;
-                    else
-                        out.crossed.insert(out.crossed.end(), {s.from, s.to, t.from, t.to});
-                }
-                meets[s.loop] = meets[t.loop] = 1;
-            }
-        i = j;
-    }
+    forNear(segments, low, side, length, [&](uint32_t i, uint32_t j) {
+        const Segment &s = segments[i], &t = segments[j];
+        if (s.from == t.from || s.from == t.to || s.to == t.from || s.to == t.to || !meet(s, t)) return;
+        if (s.loop == 0 && t.loop == 0) {
+            const uint32_t apart = j - i, n = uint32_t(loops[0].size());
+            if (std::min(apart, n - apart) > kNearEdges)
+                out.overlapping = true;
+            else
+                out.crossed.insert(out.crossed.end(), {s.from, s.to, t.from, t.to});
+        }
+        meets[s.loop] = meets[t.loop] = 1;
+    });
     for (uint32_t l = 1; l < loops.size(); ++l)
         if (meets[l] || signedArea(patch, loops[l]) > 0)
             for (uint32_t h : loops[l]) out.torn = true, out.tangled.push_back(patch.corner[h / 3][h % 3]);
