@@ -45,8 +45,11 @@ class Folder {
             Piece& p = pieces_[mesh.triangles[t].chart - first];
             p.triangles.push_back(t);
             p.area += area3(mesh, mesh.triangles[t]);
-            for (uint32_t h = t * 3; h < t * 3 + 3; ++h)
-                if (!mesh.joined[h]) p.border += length(h);
+            for (uint32_t h = t * 3; h < t * 3 + 3; ++h) {
+                if (mesh.joined[h]) continue;
+                p.border += length(h);
+                if (mesh.twin[h] != kNone && mesh.chartOf(mesh.twin[h]) >= first) open_.push_back(h);
+            }
         }
         for (const Triangle& t : mesh.triangles) total_ += area3(mesh, t);
     }
@@ -91,25 +94,24 @@ class Folder {
 
     // For every two charts that share edges, one of them changed by the last round (else they didn't fit then, and
     // don't now): the smaller one folded out at the longest of them.
-    std::vector<Fold> findFolds() const {
+    std::vector<Fold> findFolds() {
         struct Shared {
             uint64_t pair;
             double length;
             uint32_t half;
+            bool operator<(const Shared& o) const {
+                return pair != o.pair ? pair < o.pair : length != o.length ? length > o.length : half < o.half;
+            }
         };
         std::vector<Shared> shared;
-        for (uint32_t h = 0; h < mesh_.twin.size(); ++h) {
-            uint32_t twin = mesh_.twin[h];
-            if (mesh_.joined[h] || twin == kNone || mesh_.chartOf(h) < first_ || mesh_.chartOf(twin) < first_) continue;
-            uint32_t a = pieceOf(h), b = pieceOf(twin);
-            if (a == b || !(changed_[a] || changed_[b]) || pieces_[a].area + pieces_[b].area > kLargest * total_)
-                continue;
-            if (std::tie(pieces_[a].area, b) < std::tie(pieces_[b].area, a)) continue;
-            shared.push_back({uint64_t(a) << 32 | b, length(h), h});
-        }
-        std::sort(shared.begin(), shared.end(), [](const Shared& x, const Shared& y) {
-            return std::tie(x.pair, y.length, x.half) < std::tie(y.pair, x.length, y.half);
+        std::erase_if(open_, [&](uint32_t h) {
+            const uint32_t a = pieceOf(h), b = pieceOf(mesh_.twin[h]);
+            if (a == b || pieces_[a].area + pieces_[b].area > kLargest * total_) return true;
+            const bool larger = std::tie(pieces_[b].area, a) < std::tie(pieces_[a].area, b);
+            if (larger && (changed_[a] || changed_[b])) shared.push_back({uint64_t(a) << 32 | b, length(h), h});
+            return false;
         });
+        std::sort(shared.begin(), shared.end());
         std::vector<Fold> folds;
         for (size_t i = 0, j; i < shared.size(); i = j) {
             Fold f{0, uint32_t(shared[i].pair >> 32), uint32_t(shared[i].pair), {}, along(shared[i].half)};
@@ -241,6 +243,7 @@ class Folder {
     uint32_t first_;
     std::vector<Piece> pieces_;
     std::vector<uint8_t> changed_;  // per piece: by the last round
+    std::vector<uint32_t> open_;    // half-edges between pieces that might be joined there, ascending
     double total_ = 0;
 };
 
