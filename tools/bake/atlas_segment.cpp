@@ -48,8 +48,13 @@ double edgeLength(const BakeMesh& mesh, uint32_t h) {
     return glm::length(mesh.pointAt(BakeMesh::next(h)) - mesh.pointAt(h));
 }
 
-// Triangles that are wanted, those that lie near each other together: along a Z-order curve; few as they come.
-std::vector<uint32_t> orderByPlace(const BakeMesh& mesh, const std::vector<uint8_t>& wanted) {
+// Triangles that are wanted, and where parts of them begin, with their end: parts can be merged at the same time.
+struct Order {
+    std::vector<uint32_t> triangles, parts;
+};
+
+// Of large models those that lie near each other together, along a Z-order curve: one part.
+Order orderByPlace(const BakeMesh& mesh, const std::vector<uint8_t>& wanted) {
     std::vector<uint64_t> keys;
     const glm::dvec3 cell = glm::max(mesh.boundsMax - mesh.boundsMin, glm::dvec3(1e-300)) / 1023.0;
     for (uint32_t t = 0; t < wanted.size(); ++t) {
@@ -60,8 +65,31 @@ std::vector<uint32_t> orderByPlace(const BakeMesh& mesh, const std::vector<uint8
             for (uint32_t k = 0; k < 3; ++k) key |= uint64_t(at[int(k)] >> bit & 1) << (bit * 3 + k);
         keys.push_back(key << 32 | t);
     }
-    if (keys.size() >= kWorthBlocks) std::sort(keys.begin(), keys.end());
-    return {keys.begin(), keys.end()};
+    std::sort(keys.begin(), keys.end());
+    return {{keys.begin(), keys.end()}, {0, uint32_t(keys.size())}};
+}
+
+// Those of one connected piece together, as they come: a piece's merges know nothing of others.
+Order orderByPiece(const BakeMesh& mesh, const std::vector<uint8_t>& wanted) {
+    DisjointSets sets(wanted.size());
+    for (uint32_t h = 0; h < mesh.twin.size(); ++h)
+        if (const uint32_t twin = mesh.twin[h]; twin != kNone && twin < h && wanted[h / 3] && wanted[twin / 3])
+            sets.join(h / 3, twin / 3);
+    std::vector<uint32_t> piece;
+    const uint32_t pieces = sets.number(piece);
+    std::vector<uint32_t> first(pieces + 1, 0);
+    for (uint32_t t = 0; t < wanted.size(); ++t) first[piece[t] + 1] += wanted[t];
+    for (uint32_t p = 0; p < pieces; ++p) first[p + 1] += first[p];
+    Order order{std::vector<uint32_t>(first.back()), first};
+    order.parts.erase(std::unique(order.parts.begin(), order.parts.end()), order.parts.end());  // none wanted
+    for (uint32_t t = 0; t < wanted.size(); ++t)
+        if (wanted[t]) order.triangles[first[piece[t]]++] = t;
+    return order;
+}
+
+Order orderOf(const BakeMesh& mesh, const std::vector<uint8_t>& wanted) {
+    const bool large = size_t(std::count(wanted.begin(), wanted.end(), 1)) >= kWorthBlocks;
+    return large ? orderByPlace(mesh, wanted) : orderByPiece(mesh, wanted);
 }
 
 // Who of a range of clusters has the cheapest merge: a knockout tournament. A change is played up only as far as it
@@ -110,20 +138,20 @@ class Tournament {
     std::vector<Player> players_;  // the winner, its two last opponents, and so on down to all
 };
 
-// Each cluster knows its cheapest merge. Clusters begin as single triangles, those of one place together.
+// Each cluster knows its cheapest merge. Clusters begin as single triangles.
 class Merger {
   public:
     Merger(const BakeMesh& mesh, const Facets& facets, const std::vector<uint8_t>& wanted)
-        : order_(orderByPlace(mesh, wanted)),
+        : order_(orderOf(mesh, wanted)),
           place_(wanted.size(), kNone),
-          sets_(order_.size()),
-          clusters_(order_.size()),
-          cheapest_(order_.size()) {
-        for (uint32_t c = 0; c < order_.size(); ++c) place_[order_[c]] = c;
-        parallelFor(order_.size(), kBlock, [&](size_t begin, size_t end) {
-            for (size_t c = begin; c < end; ++c) clusters_[c] = clusterOf(mesh, facets, order_[c]);
+          sets_(size()),
+          clusters_(size()),
+          cheapest_(size()) {
+        for (uint32_t c = 0; c < size(); ++c) place_[order_.triangles[c]] = c;
+        parallelFor(size(), kBlock, [&](size_t begin, size_t end) {
+            for (size_t c = begin; c < end; ++c) clusters_[c] = clusterOf(mesh, facets, order_.triangles[c]);
         });
-        parallelFor(order_.size(), kBlock, [&](size_t begin, size_t end) {
+        parallelFor(size(), kBlock, [&](size_t begin, size_t end) {
             for (uint32_t c = uint32_t(begin); c < end; ++c) {
                 for (Neighbour& n : clusters_[c].neighbours) n.cost = costOf(c, n);
                 cheapest_[c] = cheapestOf(c);
@@ -133,17 +161,22 @@ class Merger {
 
     // Of large models first most of what lies within blocks, each by itself, clusters at its border left out; then all.
     void run() {
-        if (order_.size() >= kWorthBlocks) mergeBlocks();
-        mergeCheapest(0, order_.size(), {}, order_.size());
+        if (size() >= kWorthBlocks) mergeBlocks();
+        parallelFor(order_.parts.size() - 1, 1, [&](size_t part, size_t) {
+            const size_t begin = order_.parts[part], end = order_.parts[part + 1];
+            mergeCheapest(begin, end, {}, end - begin);
+        });
     }
     // A number that the triangles of a cluster share.
     uint32_t clusterOf(uint32_t triangle) { return sets_.find(place_[triangle]); }
 
   private:
+    size_t size() const { return order_.triangles.size(); }
+
     void mergeBlocks() {
-        const double share = order_.size() < kLarge ? kSmallShare : kBlockShare;
-        std::vector<uint8_t> barred(order_.size(), 0);
-        parallelFor(order_.size(), kBlock, [&](size_t begin, size_t end) {
+        const double share = size() < kLarge ? kSmallShare : kBlockShare;
+        std::vector<uint8_t> barred(size(), 0);
+        parallelFor(size(), kBlock, [&](size_t begin, size_t end) {
             for (size_t c = begin; c < end; ++c)
                 for (const Neighbour& n : clusters_[c].neighbours)
                     barred[c] = barred[c] || n.cluster < begin || n.cluster >= end;
@@ -258,7 +291,8 @@ class Merger {
         tournament.changed(a);
     }
 
-    std::vector<uint32_t> order_, place_;  // per cluster its first triangle; per triangle the cluster that it was
+    Order order_;                  // per cluster its first triangle
+    std::vector<uint32_t> place_;  // per triangle the cluster that it was
     DisjointSets sets_;
     std::vector<Cluster> clusters_;
     std::vector<Merge> cheapest_;  // per cluster
