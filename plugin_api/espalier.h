@@ -375,7 +375,7 @@ typedef struct EspPropPlace {
 ESP_API EspResult espSetProps(EspContext* context, const char* models, const EspPropPlace* places, uint32_t count);
 
 /* What lies on the ground that EspLook::ground or a town draws, seen from above, the first row at low[1]. Red: 0.5 at a paved
- * street's edge, 1 four metres inside of it, 0 four metres outside; green: trodden earth; blue: share of the sky that is
+ * street's edge, 1 a metre inside of it, 0 a metre outside; green: trodden earth; blue: share of the sky that is
  * seen. Its outermost texels go on to the horizon. */
 typedef struct EspSiteDef {
     const uint8_t* rgba;         /* height rows of width texels, 1 to 8192 each; NULL: nothing lies there */

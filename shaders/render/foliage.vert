@@ -53,10 +53,12 @@ void main() {
     vec3 direct = frame.sunColor * (visible * facing * (0.45 + 0.55 * open));
     // Against the sun, leaves glow.
     if (!grass) direct *= 1.0 + vec3(0.9, 0.7, 0.1) * pow(max(dot(-eye, frame.sunDirection), 0.0), 3.0);
-    vec3 ambient = skyLight(v.normal) * (grass ? open * (0.5 + 0.5 * open) : 0.36 + 0.64 * open * open);
+    vec3 ambient = skyLight(v.normal) * (grass ? open : 0.56 + 0.44 * open * open);
     const vec3 weights = vec3(0.3, 0.6, 0.1);
     light = tone * (direct + ambient) * frame.exposure;
-    uvShare = vec3(v.uv, dot(ambient, weights) / max(dot(direct + ambient, weights), 1e-5));
+    // What lets light through darkens what is behind it less than distances tell.
+    float share = dot(ambient, weights) / max(dot(direct + ambient, weights), 1e-5);
+    uvShare = vec3(v.uv, share * (grass ? 0.3 : 0.7));
     fade = v.fade;
     gl_Position = frame.viewProjection * vec4(v.position, 1.0);
 }

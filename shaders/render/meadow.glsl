@@ -9,7 +9,7 @@ struct Meadow {
     float open;   // share of the sky that is seen
 };
 
-const float kSiteReach = 4.0;   // metres inside a street where the site's red is 1; as far outside it is 0
+const float kSiteReach = 1.0;   // metres inside a street where the site's red is 1; as far outside it is 0
 
 // Setts and joints up to a kerb. inside: metres from its outer edge; pixel: how much that changes over a pixel.
 void addStreet(sampler2D paving, vec2 place, vec2 dx, vec2 dy, float inside, float pixel, float uneven, inout Meadow m) {
@@ -54,7 +54,8 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     float calm = clamp(metres * 0.03 - 0.2, 0.0, 1.0);
     float grass = smoothstep(-0.30, 0.25, 0.30 + 0.5 * calm + (0.7 * broad.x + 0.8 * near.x) * (1.0 - 0.7 * calm) + 0.3 * fine.y - 1.6 * laid.y);
     float blades = clamp(0.5 + 0.75 * fine.y + 0.2 * near.x * (1.0 - calm), 0.0, 1.0);
-    vec3 green = frame.grassColor * (0.35 + blades);
+    // Here thicker, there thinner, in swathes of some metres.
+    vec3 green = frame.grassColor * ((0.35 + blades) * (1.0 + 0.6 * broad.z + 0.25 * broad.x));
     float dry = clamp(0.28 + (0.5 * broad.x + 0.45 * near.z) * (1.0 - 0.35 * calm) + 0.25 * fine.y, 0.0, 0.75);
     green = mix(green, frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.55 + 0.75 * blades), dry);
     vec3 earth = mix(vec3(0.075, 0.055, 0.036), vec3(0.150, 0.114, 0.076), 0.5 + 0.4 * fine.x + 0.2 * near.z);

@@ -13,8 +13,7 @@ layout(location = 3) flat in uvec4 look;
 layout(location = 0) out vec4 color;
 
 void main() {
-    vec3 n = normalize(normal);
-    if (dot(n, frame.eye - position) < 0.0 && !gl_FrontFacing) n = -n;
+    vec3 n = normalize(normal);   // from below one sees what stands up from it, ridges' caps, not its underside
     uint view = frame.view;
     if (explains && view == kViewOverdraw) {
         color = oneFragment();

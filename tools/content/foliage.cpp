@@ -100,8 +100,9 @@ void paintTwig(Picture& picture, int x0, int y0, int side, const Species& s, uin
 }
 
 glm::vec3 barkColor(glm::vec2 p, bool birch) {
-    const float furrow = tilingFractal(p * glm::vec2(4, 8), {4, 8}, birch ? 411 : 421, 4);
-    const float fine = tilingFractal(p * glm::vec2(16, 32), {16, 32}, 431, 3);
+    const glm::ivec2 cells = birch ? glm::ivec2(4, 8) : glm::ivec2(12, 5);  // furrows lie along a trunk
+    const float furrow = tilingFractal(p * glm::vec2(cells), cells, birch ? 411 : 421, 4);
+    const float fine = tilingFractal(p * glm::vec2(24, 20), {24, 20}, 431, 3);
     if (birch) {
         const float scar = ramp(0.22f, 0.42f, tilingFractal(p * glm::vec2(2, 24), {2, 24}, 441, 3));
         return glm::mix(glm::vec3(0.56f, 0.54f, 0.48f) * (1 + 0.2f * furrow), glm::vec3(0.07f, 0.06f, 0.05f),

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 constexpr float kPi = 3.14159265f;
 constexpr float kLevel = -0.06f;  // of the meadow, as in sample.json
 constexpr float kHalfMap = 104;   // metres
-constexpr float kReach = 4;       // as kSiteReach of the shaders
+constexpr float kReach = 1;       // as kSiteReach of the shaders
 const vec2 kCourt{0.35f, 1.7f}, kCourtHalf{5.2f, 4.0f};
 
 struct Street {

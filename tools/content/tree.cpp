@@ -122,11 +122,12 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
     for (int k = 0; k < h.lobes; ++k) {
         const auto random = [&](uint32_t which) { return random01(h.salt * 5, uint32_t(k), which); };
         const bool top = k + 1 == h.lobes;
-        const float t =
-            top ? (h.birch ? 0.93f : 0.84f) : 0.10f + 0.72f * (float(k) + 0.5f * random(0)) / float(h.lobes - 1);
+        const bool bush = h.trunk == 0;  // its lobes run into each other
+        const float highest = h.birch ? 0.93f : bush ? 0.62f : 0.84f, rise = bush ? 0.40f : 0.72f;
+        const float t = top ? highest : 0.10f + rise * (float(k) + 0.5f * random(0)) / float(h.lobes - 1);
         const float angle = 2.399963f * float(k) + 0.6f * random(1), wide = crownRadius(h, t);
-        const float most = (h.trunk > 0 ? 0.26f : 0.38f) * tall;
-        const float broad = h.birch ? 0.72f * std::max(wide, 0.4f * h.radius) : 0.50f * h.radius;
+        const float most = (bush ? 0.44f : 0.26f) * tall;
+        const float broad = h.birch ? 0.72f * std::max(wide, 0.4f * h.radius) : (bush ? 0.66f : 0.50f) * h.radius;
         const float radius = std::min(broad * (0.85f + 0.3f * random(2)), most);
         const float r = top ? 0 : std::max(wide - 0.75f * radius, 0.25f * wide);
         const glm::vec3 out(std::cos(angle), 0, std::sin(angle));
