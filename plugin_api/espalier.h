@@ -135,7 +135,7 @@ ESP_API EspResult espNearest(const EspContext* context, const float point[3], Es
 typedef enum EspTexelKind {
     ESP_TEXEL_EMPTY = 0,
     ESP_TEXEL_INNER = 1,         /* its centre lies in a chart */
-    ESP_TEXEL_LINK = 2,          /* beside a border that goes on somewhere; or buried */
+    ESP_TEXEL_LINK = 2,          /* beside a border that goes on somewhere; or no ground: buried, or bare */
     ESP_TEXEL_OPEN = 3           /* beside a border of the model itself */
 } EspTexelKind;
 /* A level of the surface, 0 the finest: size rows of size words, the first row at v = 0. Bits 15..0: the chart, 17..16:
@@ -277,7 +277,7 @@ ESP_API EspResult espReadLayer(EspContext* context, EspSurface surface, const ch
 typedef struct EspSeedDef {
     EspGrammar grammar;
     const char* symbol;       /* start symbol; NULL: the grammar's first */
-    float position[3];        /* world; the nearest surface point is taken */
+    float position[3];        /* world; the nearest ground is taken */
     float direction[3];       /* world; laid into the surface. Zero: upward, or any where the surface is level */
     uint32_t number;          /* the seed's random number: seeds of unlike numbers grow unlike plants */
     uint32_t twin;            /* tells apart seeds of one number, from 1; 0: the first that isn't planted yet */
@@ -300,7 +300,7 @@ ESP_API uint32_t espSeedCount(const EspContext* context);
 /* In an order that doesn't change while no seed comes or goes. */
 ESP_API EspResult espSeedAt(const EspContext* context, uint32_t index, EspSeed* out);
 ESP_API EspResult espSeedInfo(const EspContext* context, EspSeed seed, EspSeedInfo* out);
-/* To the surface point nearest to `position`; its plant keeps its random numbers. */
+/* To the ground nearest to `position`; its plant keeps its random numbers. */
 ESP_API EspResult espMoveSeed(EspContext* context, EspSeed seed, const float position[3], const float direction[3]);
 /* twin: as in EspSeedDef. */
 ESP_API EspResult espSetSeedNumber(EspContext* context, EspSeed seed, uint32_t number, uint32_t twin);

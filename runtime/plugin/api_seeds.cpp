@@ -32,9 +32,9 @@ glm::vec3 laidInto(glm::vec3 wanted, glm::vec3 normal) {
     return glm::normalize(best);
 }
 
-// Puts a seed on the surface nearest to a point. False: there is none.
+// Puts a seed on the ground nearest to a point. False: there is none.
 bool place(const EspContext& context, glm::vec3 position, glm::vec3 direction, PlantedSeed& seed) {
-    const auto point = nearestOnSurfaces(context, position);
+    const auto point = nearestOnSurfaces(context, position, true);
     if (!point) return false;
     const PlacedSurface& surface = *context.surfaces.find(point->surface);
     seed.surface = point->surface;
@@ -68,7 +68,7 @@ EspResult plant(EspContext& context, const EspSeedDef& def, EspSeed* out) {
     seed.grammar = def.grammar.id;
     seed.symbol = def.symbol ? def.symbol : "";
     if (!place(context, vec(def.position), vec(def.direction), seed))
-        return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: there is no surface to plant on");
+        return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: there is no ground to plant on");
     if (!context.twins.take(def.number, def.twin, seed.twin))
         return fail(&context, ESP_INVALID_ARGUMENT,
                     "espPlant: twin " + std::to_string(def.twin) + " of number " + std::to_string(def.number) +
@@ -242,7 +242,7 @@ EspResult espMoveSeed(EspContext* context, EspSeed id, const float position[3], 
         if (!seed || !position || !direction || !finite(position) || !finite(direction))
             return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: no such seed, or a place that isn't one");
         if (!place(*context, vec(position), vec(direction), *seed))
-            return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: there is no surface");
+            return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: there is no ground");
         ++context->revision;
         return ESP_OK;
     });

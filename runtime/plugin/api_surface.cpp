@@ -72,14 +72,17 @@ void dropUploaded(SurfaceData& data) {
 void prepareSearch(PlacedSurface& surface) {
     SurfaceData& data = surface.data;
     std::vector<uint32_t> walkable;
+    std::vector<uint8_t> bare;
     walkable.reserve(data.indices.size());
     for (size_t i = 0; i + 2 < data.indices.size(); i += 3) {
         const auto uv = [&](size_t k) { return data.vertices[data.indices[i + k]].walkUv; };
         if (uv(0) == uv(1) && uv(1) == uv(2)) continue;
         walkable.insert(walkable.end(), data.indices.begin() + std::ptrdiff_t(i),
                         data.indices.begin() + std::ptrdiff_t(i) + 3);
+        if (!data.bareTriangles.empty()) bare.push_back(data.bareTriangles[i / 3]);
     }
     data.indices = std::move(walkable);
+    data.bareTriangles = std::move(bare);
     std::vector<glm::vec3> positions;
     positions.reserve(data.vertices.size());
     for (const DrawVertex& vertex : data.vertices) positions.push_back(vertex.position);

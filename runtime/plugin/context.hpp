@@ -305,7 +305,8 @@ struct SurfacePoint {
     float distance = 0;
 };
 std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction);
-std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point);
+// ground: only where something grows.
+std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point, bool ground);
 
 // The root of a seed's derivation path. Doesn't depend on other seeds or grammars.
 uint64_t seedKey(const PlantedSeed& seed);

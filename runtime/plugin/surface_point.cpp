@@ -8,6 +8,8 @@
 namespace espalier {
 namespace {
 
+constexpr float kOnEdge = 1e-3f;  // of a triangle's height
+
 glm::vec3 transformed(const glm::mat4& m, glm::vec3 p) {
     return glm::vec3(m * glm::vec4(p, 1));
 }
@@ -32,6 +34,21 @@ uint32_t chartAt(const SurfaceData& data, glm::vec2 uv, glm::vec3 position) {
                 }
             }
     return best;
+}
+
+// A hit on its triangle's edge, a quarter of a texel further inside: what begins on the edge of bare ground might as
+// well begin on that.
+MeshHit offEdge(const SurfaceData& data, MeshHit hit) {
+    const glm::vec2 w = hit.weights;
+    if (w.x > kOnEdge && w.y > kOnEdge && w.x + w.y < 1 - kOnEdge) return hit;
+    const auto at = [&](uint32_t k) -> const DrawVertex& { return data.vertices[data.indices[3 * hit.triangle + k]]; };
+    const glm::vec2 inward = glm::vec2(1.f / 3) - w;
+    const glm::vec2 uv = inward.x * (at(1).walkUv - at(0).walkUv) + inward.y * (at(2).walkUv - at(0).walkUv);
+    const float step = .25f / (float(data.levels.front().size) * std::max(glm::length(uv), 1e-20f));
+    const glm::vec2 moved = inward * std::min(step, .5f);
+    hit.weights += moved;
+    hit.position += moved.x * (at(1).position - at(0).position) + moved.y * (at(2).position - at(0).position);
+    return hit;
 }
 
 std::optional<SurfacePoint> pointOf(uint32_t id, const PlacedSurface& surface, const MeshHit& hit) {
@@ -70,12 +87,14 @@ std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 or
     return best;
 }
 
-std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point) {
+std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point, bool ground) {
     std::optional<SurfacePoint> best;
     float reach = std::numeric_limits<float>::infinity();  // metres in the world
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
-        const auto hit = surface.tree.nearest(transformed(surface.toObject, point), reach / surface.scale);
+        const std::span<const uint8_t> except = ground ? surface.data.bareTriangles : std::span<const uint8_t>{};
+        auto hit = surface.tree.nearest(transformed(surface.toObject, point), reach / surface.scale, 0, except);
         if (!hit) return;
+        if (!except.empty()) hit = offEdge(surface.data, *hit);
         if (auto found = pointOf(id, surface, *hit)) {
             best = found;
             best->distance = hit->distance * surface.scale;
@@ -129,7 +148,7 @@ EspResult espNearest(const EspContext* context, const float point[3], EspHit* ou
     return guarded(context, [&] {
         if (!point || !out || !finite(point))
             return fail(context, ESP_INVALID_ARGUMENT, "espNearest: null pointer, or a point that isn't finite");
-        const auto found = nearestOnSurfaces(*context, {point[0], point[1], point[2]});
+        const auto found = nearestOnSurfaces(*context, {point[0], point[1], point[2]}, false);
         if (!found) return fail(context, ESP_INVALID_ARGUMENT, "espNearest: there is no surface");
         fill(*found, out);
         return ESP_OK;

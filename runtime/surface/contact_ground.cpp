@@ -101,6 +101,7 @@ ContactGround::ContactGround(const SurfaceData& data) {
         if (turn == 0 || glm::cross(b - a, c - a) == dvec3(0)) continue;
         t.chart = chartAt(level, middle, glm::vec3((a + b + c) / 3.0));
         if (t.chart == kNoIndex) continue;
+        t.bare = !data.bareTriangles.empty() && data.bareTriangles[i / 3] != 0;
         if (turn * mesh_.orientation[t.chart] < 0) std::swap(t.point[1], t.point[2]), std::swap(t.uv[1], t.uv[2]);
         mesh_.triangles.push_back(t);
     }
@@ -111,10 +112,12 @@ ContactGround::ContactGround(const SurfaceData& data) {
         mesh_.chartBorder[h] = g == kNoIndex || mesh_.triangles[g / 3].chart != mesh_.triangles[h / 3].chart ||
                                mesh_.triangles[g / 3].uv[(g + 1) % 3] != mesh_.triangles[h / 3].uv[h % 3];
     }
-    // Charts that seams join are a shell, shells that near borders join are a body.
+    // Charts that seams join are a shell, shells that near borders join are a body. Seams that bare ground has closed
+    // still name their targets; other open borders name their own chart.
     DisjointSets together(data.charts.size());
     for (const Crossing& c : data.crossings)
-        if ((c.flags & 3u) == kCrossingSeam) together.join(c.flags >> 16, c.target & 0xFFFFu);
+        if ((c.flags & 3u) == kCrossingSeam || (c.flags & 3u) == kCrossingOpen)
+            together.join(c.flags >> 16, c.target & 0xFFFFu);
     std::vector<uint32_t> shell, body;
     together.number(shell);
     for (const Crossing& c : data.crossings)
@@ -182,7 +185,9 @@ struct Search {
         return out;
     }
 
-    std::vector<Crossing> visible(const std::vector<Contact>& contacts, bool fromA) const {
+    std::vector<Crossing> visible(std::vector<Contact> contacts, bool fromA) const {
+        for (Contact& c : contacts)
+            if ((fromA ? b : a).ground->mesh().triangles[c.to].bare) c.crossing = closed(c.crossing);
         std::vector<Crossing> out;
         if (a.ground->bodyCount() <= 1 && b.ground->bodyCount() <= 1 && others.empty()) {
             for (const Contact& c : contacts) out.push_back(c.crossing);

@@ -391,6 +391,15 @@ void findWithinShells(const View& view, const BoxTree& tree, double tolerance, s
 
 }  // namespace
 
+Crossing closed(Crossing contact) {
+    Crossing& c = contact;
+    c.ta = c.a, c.tb = c.b;
+    c.targetEdge = c.edge;
+    c.target = (c.target & 0xFFFF0000u) | c.flags >> 16;
+    c.flags = (c.flags & (0xFFFF0000u | kCrossingInsideLeft)) | kCrossingOpen;
+    return c;
+}
+
 BoxTree ContactMesh::tree() const {
     std::vector<Box> boxes(triangles.size());
     std::vector<uint32_t> group(triangles.size());

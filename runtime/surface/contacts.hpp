@@ -21,6 +21,7 @@ struct ContactMesh {
         uint32_t chart;
         uint32_t shell;  // connected over twins; contacts are looked for between shells only
         uint32_t body;   // shells joined at their borders
+        bool bare;       // nothing grows on it
     };
     std::vector<glm::dvec3> points;  // welded; object space, metres
     std::vector<Triangle> triangles;
@@ -48,6 +49,9 @@ struct Contact {
     glm::dvec3 a, b, onward;
     glm::dvec3 fromA, fromB, back;
 };
+
+// A contact with bare ground: as it was found, but it leads nowhere.
+Crossing closed(Crossing contact);
 
 // Whether what comes to the contact at `share` of its length is led on: beside it there is ground on both sides, or
 // what is hidden on both. Asked a step aside, and closer, so that a slit isn't missed that is narrower than the step.

@@ -59,6 +59,7 @@ void readMaterials(Container& file, SurfaceData& data) {
             out.alphaCutoff = number(m, "alphaCutoff", 0);
             out.doubleSided = m.is_object() && m.contains("doubleSided") && m["doubleSided"].is_boolean() &&
                               m["doubleSided"].get<bool>();
+            out.bare = m.is_object() && m.contains("extras") && m["extras"] == json{{"bare", true}};
             data.materials.push_back(out);
         }
     if (data.materials.empty()) data.materials.emplace_back();
@@ -138,6 +139,7 @@ void readDrawing(Container& file, SurfaceData& data) {
     data.vertices = std::move(mesh.vertices);
     data.indices = std::move(mesh.indices);
     data.ranges = std::move(mesh.ranges);
+    markBareTriangles(data);
 }
 
 }  // namespace espalier::surface_file

@@ -77,6 +77,15 @@ SurfaceRef surfaceRef(const SurfaceData& data, float scale) {
     return ref;
 }
 
+void markBareTriangles(SurfaceData& data) {
+    data.bareTriangles.clear();
+    for (const DrawRange& range : data.ranges) {
+        if (!data.materials[range.material].bare) continue;
+        data.bareTriangles.resize(data.indices.size() / 3, 0);
+        std::fill_n(data.bareTriangles.begin() + range.firstIndex / 3, range.indexCount / 3, uint8_t(1));
+    }
+}
+
 void addTangents(std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices) {
     std::vector<glm::vec3> u(vertices.size(), glm::vec3(0)), v(vertices.size(), glm::vec3(0));
     for (size_t i = 0; i + 2 < indices.size(); i += 3) {

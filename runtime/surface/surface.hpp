@@ -38,6 +38,7 @@ struct Material {
     float roughness = 1;
     float alphaCutoff = 0;  // 0: opaque
     bool doubleSided = false;
+    bool bare = false;  // nothing grows on it
 };
 
 struct DrawVertex {
@@ -76,6 +77,7 @@ struct SurfaceData {
     std::vector<CoarserMesh> coarser;  // of fewer and fewer triangles, of rising error; none for small models
     std::vector<Material> materials;
     std::vector<Picture> images;
+    std::vector<uint8_t> bareTriangles;  // of `indices`: 1, of a bare material; empty: none is
 };
 
 // The record by which kernels' CPU build reads `data` (pointers into it: valid while `data` lives unchanged).
@@ -91,6 +93,9 @@ uint64_t sharedHash(const SurfaceData& data);
 inline glm::vec3 placeOn(const TrianglePlane& t, glm::vec2 uv) {
     return t.position + t.du * (uv.x - t.uv0.x) + t.dv * (uv.y - t.uv0.y);
 }
+
+// Fills in bareTriangles by ranges and materials.
+void markBareTriangles(SurfaceData& data);
 
 // Puts tangents on vertices from positions, normals and the materials' UVs; zero where those have no area.
 void addTangents(std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices);

@@ -253,6 +253,7 @@ class Writer {
                 material["alphaMode"] = "MASK";
                 material["alphaCutoff"] = m.alphaCutoff;
             }
+            if (m.bare) material["extras"] = {{"bare", true}};
             materials.push_back(std::move(material));
         }
         if (!materials.empty()) root_["materials"] = std::move(materials);

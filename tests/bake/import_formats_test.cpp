@@ -151,6 +151,9 @@ TEST_CASE("OBJ: materials with colours, roughness and pictures; what is missing 
     CHECK(model->triangleMaterial == std::vector<uint32_t>{0, 1, 2, 0});
     CHECK(model->materials[1].baseColor == glm::vec4(0.5f, 0.25f, 0, 0.5f));
     CHECK(model->materials[1].roughness == 0.75f);
+    CHECK(model->materialNames == std::vector<std::string>{"", "red wall", "other"});
+    CHECK(model->materials[1].bare);
+    CHECK(!model->materials[2].bare);
     CHECK(model->materials[2].roughness == 1);
     REQUIRE(model->warnings.size() == 3);
     CHECK(has(toString(model->warnings[0]), "two words.mtl:7"));

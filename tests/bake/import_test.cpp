@@ -8,6 +8,7 @@
 #include "shaders/shared/random.h"
 #include "tests/bake/small_models.hpp"
 #include "tests/support/data.hpp"
+#include "tools/bake/import_model.hpp"
 
 using namespace espalier;
 using namespace espalier::test;
@@ -68,10 +69,10 @@ std::string squareText(const Parts& p) {
            p.more + "}";
 }
 
-Result<Model> importSquare(const Folder& folder, const Parts& parts) {
+Result<Model> importSquare(const Folder& folder, const Parts& parts, const ImportOptions& options = {}) {
     REQUIRE(writeFile(folder.file("square.bin"), squareBytes()));
     REQUIRE(writeFile(folder.file("square.gltf"), std::string_view(squareText(parts))));
-    return importModel(folder.file("square.gltf"));
+    return importModel(folder.file("square.gltf"), options);
 }
 
 std::string messageOf(const Result<Model>& model) {
@@ -113,6 +114,48 @@ TEST_CASE("lists, strips, fans, unindexed triangles, sparse and normalised acces
     if (!sparse) FAIL(sparse.failure().text());
     CHECK(sparse->positions[2] == glm::vec3(1, 1, 5));
     CHECK(sparse->positions[1] == glm::vec3(1, 0, 0));
+}
+
+TEST_CASE("transparent materials and those that are named are bare, but for what is said to be ground") {
+    Folder folder;
+    Parts parts;
+    const std::string square = parts.primitive;
+    parts.primitive.clear();
+    for (int m = 0; m < 6; ++m) parts.primitive += (m ? "},{" : "") + square + ",\"material\":" + std::to_string(m);
+    const std::string opaque = R"({"name":"Old Stone"})";
+    const std::string others =
+        R"({"name":"Pane","alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}},
+        {"name":"Bottle","extensions":{"KHR_materials_transmission":{"transmissionFactor":0.9}}},
+        {"name":"Poster","alphaMode":"BLEND"},{"name":"Leaves","alphaMode":"MASK"},
+        {"name":"Tile","extensions":{"KHR_materials_transmission":{}}})";
+    parts.more = ",\"materials\":[" + opaque + "," + others + "]";
+    const auto bareOf = [](const Model& model) {
+        std::string out;
+        for (const Material& m : model.materials) out += m.bare ? '1' : '0';
+        return out;
+    };
+    auto model = importSquare(folder, parts);
+    if (!model) FAIL(model.failure().text());
+    CHECK(model->materialNames[0] == "Old Stone");
+    CHECK(bareOf(*model) == "011000");
+    CHECK(model->warnings.empty());
+
+    ImportOptions options;
+    options.bare = {"*STONE", "l?aves", "door*"};
+    options.ground = {"bottle", "leaves"};
+    auto named = importSquare(folder, parts, options);
+    REQUIRE(named);
+    CHECK(bareOf(*named) == "110000");
+    REQUIRE(named->warnings.size() == 1);
+    CHECK(toString(named->warnings[0]).find("square.gltf") != std::string::npos);
+    CHECK(toString(named->warnings[0]).find("--bare 'door*' names none of its materials: Old Stone, Pane, Bottle") !=
+          std::string::npos);
+
+    // What is of glass throughout is something to grow on.
+    parts.primitive = square + ",\"material\":1";
+    auto glass = importSquare(folder, parts);
+    REQUIRE(glass);
+    CHECK(bareOf(*glass) == "000000");
 }
 
 TEST_CASE("nodes' transforms are applied; mirroring ones keep the outside outside") {

@@ -94,4 +94,17 @@ inline Model openQuad(int n) {
     return model;
 }
 
+// Makes triangles bare that lie within a box.
+inline void makeBare(Model& model, glm::vec3 low, glm::vec3 high) {
+    model.materials.assign(2, Material{});
+    model.materials[1].bare = true;
+    model.triangleMaterial.clear();
+    for (size_t i = 0; i < model.indices.size(); i += 3) {
+        glm::vec3 middle(0);
+        for (size_t k = 0; k < 3; ++k) middle += model.positions[model.indices[i + k]] / 3.0f;
+        model.triangleMaterial.push_back(glm::all(glm::greaterThan(middle, low)) &&
+                                         glm::all(glm::lessThan(middle, high)));
+    }
+}
+
 }  // namespace espalier::test

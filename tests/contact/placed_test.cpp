@@ -267,6 +267,34 @@ TEST_CASE("a walk that gets past a contact finds no ground beyond") {
     if (world.start(w, 0, {0, 0, 0}, {0, 0, -1}, 0, kTexelLink)) CHECK(go(world, w, 0.2f) == kWalkLost);
 }
 
+TEST_CASE("walks end where another surface's bare ground stands; it hides what it did, a bare face or none") {
+    size_t hidden[3] = {};
+    for (int bare : {0, 1, 2}) {  // faces: none, one, all but one
+        CAPTURE(bare);
+        Model standing = block({0.5, 0.5, 0.5});
+        if (bare) test::makeBare(standing, {-9, -9, bare == 1 ? 0.45f : -0.45f}, {9, 9, 9});
+        World world;
+        world.add(throughFile(plate(2), 512), glm::mat4(1));
+        world.add(throughFile(standing, 256), glm::translate(glm::mat4(1), {0, 0.3f, 0}));
+        world.join();
+        WalkState w{};
+        REQUIRE(world.start(w, 0, {0.1f, 0, 1.2f}, {0, 0, -1}));
+        CHECK(go(world, w, 1) == (bare ? kWalkOpen : kWalkDone));
+        CHECK(world.positionOf(w).y == doctest::Approx(bare ? 0 : 0.3f).epsilon(0.02));
+        if (bare) CHECK(world.positionOf(w).z == doctest::Approx(0.5f).epsilon(0.01));
+        // The face that never is bare.
+        REQUIRE(world.start(w, 0, {0.1f, 0, -1.2f}, {0, 0, 1}));
+        CHECK(go(world, w, 1) == kWalkDone);
+        CHECK(world.positionOf(w).y == doctest::Approx(0.3f).epsilon(0.02));
+        for (const Texel& t : world.joined(0).levels[0].texels)
+            hidden[bare] +=
+                texelClass(t.bits) == kTexelLink && std::max(std::abs(t.position.x), std::abs(t.position.z)) < 0.5f;
+    }
+    CHECK(hidden[0] > 1000);
+    CHECK(hidden[1] == hidden[0]);
+    CHECK(hidden[2] == hidden[0]);
+}
+
 TEST_CASE("a contact that overhangs its target leads into the chart, from every part of it") {
     // A board on a box, which it overhangs by less than a texel, so that its outline leads beyond the box's top.
     test::Kit kit;

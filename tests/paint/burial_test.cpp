@@ -57,6 +57,50 @@ TEST_CASE("a plant whose way is buried grows around what buries it, and as befor
     CHECK(barkWithin(painting, low, high) > 100);
 }
 
+TEST_CASE(
+    "what is planted on bare ground stands on the ground beside it, and nothing grows on the bare; the brush paints "
+    "it") {
+    Model model = cube(8);
+    const float half = .5f;
+    makeBare(model, {-half, -half, .9f}, {half, half, 2});
+    Painting painting(model, 256);
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    const auto depth = [&](const float p[3]) {
+        return p[2] < .9f ? -1 : half - std::max(std::abs(p[0]), std::abs(p[1]));
+    };
+    for (uint32_t i = 0; i < 24; ++i) {
+        const float angle = float(i) * .8f, far = .02f * float(i);
+        const EspSeed seed =
+            painting.plant(grammar, {far * std::cos(angle), far * std::sin(angle), 1}, {std::sin(angle), 1, 0}, i + 1);
+        EspSeedInfo info{};
+        painting.ok(espSeedInfo(painting.context, seed, &info));
+        CHECK(depth(info.position) < 0);
+        CHECK(depth(info.position) > -.02f);
+    }
+    CHECK(painting.grown().nodes > 500);
+    EspTriangles triangles{};
+    painting.ok(espMaterialise(painting.context, &triangles));
+    float deepest = -1;
+    for (uint64_t i = 0; i < triangles.vertexCount; ++i) {
+        float p[3];
+        std::memcpy(p, static_cast<const char*>(triangles.vertices) + 16 * i, sizeof p);
+        deepest = std::max(deepest, depth(p));
+    }
+    CHECK(deepest > 0);
+    CHECK(deepest < .03f);  // bark is as thick
+    EspBrush brush = brushOn("mask", .3f);
+    brush.value = .25f;
+    painting.stroke(brush, {{{0, 0, 1}, {0, 0, 1}, 1}});
+    const std::vector<float> mask = painting.layer("mask");
+    float least = 1;
+    for (uint32_t y = 0; y < painting.size(); ++y)
+        for (uint32_t x = 0; x < painting.size(); ++x) {
+            const glm::vec3 p = painting.texel(x, y).position;
+            if (glm::length(p - glm::vec3(0, 0, 1)) < .05f) least = std::min(least, mask[y * painting.size() + x]);
+        }
+    CHECK(least == doctest::Approx(.25f).epsilon(.1));
+}
+
 TEST_CASE("a plant that another surface swallows whole, without a contact, is gone until that has moved away") {
     Painting painting;
     const EspGrammar grammar = painting.grammar(kMaskedIvy);

@@ -2,6 +2,7 @@
 // level, measure.
 #include "tools/bake/bake.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -101,7 +102,8 @@ std::vector<std::vector<uint8_t>> makeLevels(const BakeMesh& mesh, const std::ve
         drawGutters(mesh, borders, image, walkable[l]);
         surface.levels[l] = composeLevel(source, image, walkable[l]);
         uint64_t buried = contacts.bury(surface.crossings, planes, surface.levels[l]);
-        if (l == 0) report.buriedTexels = buried;
+        uint64_t bare = takeBareTexels(mesh, surface.levels[l]);
+        if (l == 0) report.buriedTexels = buried, report.bareTexels = bare;
         for (size_t c = 0; c < walkable[l].size(); ++c)
             if (walkable[l][c]) surface.charts[c].coarsestLevel = l;
     }
@@ -185,6 +187,8 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     std::vector<Diagnostic> found;
     auto mesh = buildMesh(asGiven, found);
     if (!mesh) return std::move(mesh.failure());
+    if (std::ranges::all_of(mesh->triangles, &Triangle::bare))
+        return Failure(asGiven.name, "no ground is left: all of its materials are bare");
     std::optional<Model> turned = repairOrientation(asGiven, *mesh, report.warnings);
     const Model& model = turned ? *turned : asGiven;
     if (turned) {
@@ -215,6 +219,8 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     stages.begin(0.35f, "contacts");
     Contacts contacts(*mesh, links, {options.contacts, tolerance, 1.0 / options.resolution});
     for (const Contact& contact : contacts.list()) surface.crossings.push_back(contact.crossing);
+    const std::vector<Crossing> bare = makeCrossings(*mesh, bareBorders(*mesh));
+    surface.crossings.insert(surface.crossings.end(), bare.begin(), bare.end());
 
     MeshTree drawn;  // beside the levels, which know nothing of it
     std::vector<std::vector<uint8_t>> walkable;
@@ -228,6 +234,7 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
             walkable =
                 makeLevels(*mesh, links, contacts, *allowed, std::move(finest), options, stages, surface, report);
         });
+    closeTowardsBare(*mesh, links, contacts.list(), surface.crossings);  // only now: it buries as it would
     for (const SurfaceLevelData& level : surface.levels)
         if (level.crossingRefs.size() >= (size_t(1) << 24))
             return Failure(model.name, "more borders than a level can list: bake at a lower resolution");
@@ -237,7 +244,7 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
             measureLevelErrors(drawn, surface);
             surface.hash = walkHash(surface);
         },
-        [&] { measure(*mesh, links, contacts.list(), surface, report); });
+        [&] { measure(model, *mesh, links, contacts.list(), surface, report); });
     reportLevels(model.name, surface, walkable, report);
     stages.end();
     if (options.progress) options.progress(1.0f, "done");

@@ -22,6 +22,7 @@ struct Model {
     std::vector<uint32_t> indices;           // three a triangle
     std::vector<uint32_t> triangleMaterial;  // one a triangle, or empty: material 0
     std::vector<Material> materials;
+    std::vector<std::string> materialNames;  // same length, or empty
     std::vector<Picture> images;
     std::vector<Diagnostic> warnings;
 };
@@ -58,11 +59,18 @@ struct PieceReach {
     double reachable = 0;  // m² of `area` in the part within which plants get from everywhere to everywhere
 };
 
+// What a material covers, triangles without area aside.
+struct MaterialArea {
+    std::string name;
+    double area = 0;  // m²
+    bool bare = false;
+};
+
 // The figures of a bake; see docs/surface_format.md for the meaning of each.
 struct BakeReport {
     std::string source;
     uint32_t triangles = 0, charts = 0;
-    uint64_t innerTexels = 0, linkTexels = 0, openTexels = 0, buriedTexels = 0;
+    uint64_t innerTexels = 0, linkTexels = 0, openTexels = 0, buriedTexels = 0, bareTexels = 0;
     uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0, danglingContacts = 0;
     double walkableArea = 0;
     double charted = 0;  // share of the model's area that is in charts; what others cover exactly isn't asked for
@@ -72,6 +80,7 @@ struct BakeReport {
     double gap999 = 0;                                         // local texels
     std::vector<std::pair<uint32_t, double>> walkableByLevel;  // size, area share of charts walkable on it
     std::vector<UvFate> uvs;
+    std::vector<MaterialArea> materials;
     std::vector<PieceReach> pieces;  // the largest first
     uint32_t madeCharts = 0;         // of `charts`: not the model's own
     uint64_t overlaps = 0;           // texels of the finest level that two triangles claim

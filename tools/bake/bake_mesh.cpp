@@ -167,6 +167,8 @@ size_t collectTriangles(const Model& model, const std::vector<uint32_t>& point, 
     for (size_t t = 0; t < count; ++t) {
         Triangle triangle{};
         triangle.source = uint32_t(t);
+        if (const size_t m = model.triangleMaterial.empty() ? 0 : model.triangleMaterial[t]; m < model.materials.size())
+            triangle.bare = model.materials[m].bare;
         for (size_t k = 0; k < 3; ++k) triangle.point[k] = point[model.indices[t * 3 + k]];
         double area = area3(mesh, triangle), longest = 0;
         mesh.area += area;

@@ -25,6 +25,7 @@ struct Triangle {
     uint32_t source;                // triangle of the model
     uint32_t chart;
     bool turned;  // corners 1 and 2 are exchanged against the model's
+    bool bare;    // of a bare material: no ground
 };
 
 // The model's vertex at corner k of a triangle.
@@ -52,6 +53,8 @@ struct BakeMesh {
     uint32_t chartOf(uint32_t halfEdge) const { return triangles[halfEdge / 3].chart; }
     glm::dvec2 uvAt(uint32_t halfEdge) const { return triangles[halfEdge / 3].uv[halfEdge % 3]; }
     glm::dvec3 pointAt(uint32_t halfEdge) const { return points[triangles[halfEdge / 3].point[halfEdge % 3]]; }
+    // Does bare ground begin between two triangles?
+    bool parted(uint32_t t, uint32_t u) const { return triangles[t].bare != triangles[u].bare; }
     static uint32_t next(uint32_t halfEdge) { return halfEdge % 3 == 2 ? halfEdge - 2 : halfEdge + 1; }
 };
 
@@ -125,6 +128,16 @@ struct Link {
 std::vector<Link> findLinks(const BakeMesh& mesh, double tolerance);
 std::vector<Crossing> makeCrossings(const BakeMesh& mesh, const std::vector<Link>& links);
 
+// Bare ground. Borders between it and ground inside of charts, each as an open link of the ground's side.
+std::vector<Link> bareBorders(const BakeMesh& mesh);
+// Makes what leads from ground to bare ground, or back, lead nowhere. crossings: of the links, then of the contacts.
+// Seams keep their targets: they tell what is one piece.
+void closeTowardsBare(const BakeMesh& mesh, const std::vector<Link>& links, const std::vector<Contact>& contacts,
+                      std::vector<Crossing>& crossings);
+// Makes inner texels on bare triangles kTexelLink. They keep their clearance, so that a walk that should get past the
+// border ends there. Returns their number.
+uint64_t takeBareTexels(const BakeMesh& mesh, SurfaceLevelData& level);
+
 // Draws triangles' centres. overlaps: texels that a second triangle would have covered as well.
 void drawTriangles(const BakeMesh& mesh, uint32_t size, IdImage& image, uint64_t* overlaps);
 
@@ -174,8 +187,8 @@ void simplifyDrawing(const MeshTree& drawn, SurfaceData& surface);
 void measureLevelErrors(const MeshTree& drawn, SurfaceData& surface);
 
 // Fills the report's figures by walking through the finished surface's records.
-void measure(const BakeMesh& mesh, const std::vector<Link>& links, const std::vector<Contact>& contacts,
-             const SurfaceData& surface, BakeReport& report);
+void measure(const Model& model, const BakeMesh& mesh, const std::vector<Link>& links,
+             const std::vector<Contact>& contacts, const SurfaceData& surface, BakeReport& report);
 
 // The model's connected pieces, contacts included, the largest first, and how far plants get about on each.
 std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Link>& links,

@@ -197,8 +197,10 @@ void fillTexels(LevelWork& work) {
     // A border counts as open when more of it is open than not.
     std::vector<uint8_t> open(mesh.joined.size(), 0);
     std::vector<float> balance(mesh.joined.size(), 0);
-    for (const Link& link : source.links)
-        balance[link.from] += float(link.from1 - link.from0) * (link.to == kNone ? 1.0f : -1.0f);
+    for (const Link& link : source.links) {
+        const bool ends = link.to == kNone || mesh.parted(link.from / 3, link.to / 3);
+        balance[link.from] += float(link.from1 - link.from0) * (ends ? 1.0f : -1.0f);
+    }
     for (size_t h = 0; h < open.size(); ++h) open[h] = balance[h] > 0;
     auto& level = work.level;
     float radius = float(mesh.radius);

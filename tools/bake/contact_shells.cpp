@@ -80,7 +80,7 @@ Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const O
     mesh_.triangles.resize(count);
     for (uint32_t t = 0; t < count; ++t) {
         const Triangle& tri = mesh.triangles[t];
-        mesh_.triangles[t] = {tri.point, tri.uv, tri.chart, shell[t], body[t]};
+        mesh_.triangles[t] = {tri.point, tri.uv, tri.chart, shell[t], body[t], tri.bare};
     }
     setReach(mesh_, tolerance_);
     std::vector<float> open(mesh_.twin.size(), 0);

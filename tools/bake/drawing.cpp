@@ -74,6 +74,7 @@ void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface)
         }
         surface.ranges.back().indexCount += 3;
     }
+    markBareTriangles(surface);
     addTangents(surface.vertices, surface.indices);
 }
 

@@ -51,6 +51,9 @@ Result<Picture> readPicture(std::vector<uint8_t> bytes, const std::string& file,
 void triangulate(const std::vector<glm::vec3>& positions, std::span<const uint32_t> polygon,
                  std::vector<uint32_t>& triangles);
 
+// Decides which materials are bare: those that readers have marked, being transparent, and by the options' names.
+void decideBare(const ImportOptions& options, Model& model);
+
 constexpr size_t kMaxVertices = size_t(1) << 26;
 
 // tinygltf parses the document's text; buffers, images and compressed data stay in our hands, since a hostile
@@ -91,13 +94,12 @@ struct UvSets {
 Result<Primitive> readPrimitive(const Document& document, const tinygltf::Primitive& primitive, UvSets sets,
                                 const std::string& place);
 
-// Reads materials and the images that they use; what is missing becomes a warning.
-// textureUv[i]: the affine map of material i's base colour UVs (KHR_texture_transform), texCoord its UV set.
+// Reads materials, their names and the images that they use; what is missing becomes a warning.
+// uvs[i]: the affine map of material i's base colour UVs (KHR_texture_transform), texCoord its UV set.
 struct MaterialUv {
     int texCoord = 0;
     glm::vec3 u{1, 0, 0}, v{0, 1, 0};
 };
-void readMaterials(const Document& document, std::vector<Material>& materials, std::vector<MaterialUv>& uvs,
-                   std::vector<Picture>& images, std::vector<Diagnostic>& warnings);
+void readMaterials(const Document& document, Model& model, std::vector<MaterialUv>& uvs);
 
 }  // namespace espalier::import

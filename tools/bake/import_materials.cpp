@@ -91,15 +91,29 @@ MaterialUv readTransform(const tinygltf::TextureInfo& info) {
     return out;
 }
 
+// Does it let anything be seen through? Cut-outs don't count: leaves and grilles are something to climb.
+bool isTransparent(const tinygltf::Material& from, const Material& m, const std::vector<Picture>& images) {
+    const auto transmission = from.extensions.find("KHR_materials_transmission");
+    if (transmission != from.extensions.end() && number(transmission->second, "transmissionFactor", 0, 0) > 0)
+        return true;
+    if (from.alphaMode != "BLEND") return false;
+    if (m.baseColor.a < 1) return true;
+    if (m.baseColorImage < 0) return false;
+    const std::vector<uint8_t>& rgba = images[size_t(m.baseColorImage)].rgba;
+    for (size_t i = 3; i < rgba.size(); i += 4)
+        if (rgba[i] < 255) return true;
+    return false;
+}
+
 float finite(double value, double otherwise) {
     return float(std::isfinite(value) ? value : otherwise);
 }
 
 }  // namespace
 
-void readMaterials(const Document& document, std::vector<Material>& materials, std::vector<MaterialUv>& uvs,
-                   std::vector<Picture>& images, std::vector<Diagnostic>& warnings) {
-    Images found(document, images, warnings);
+void readMaterials(const Document& document, Model& model, std::vector<MaterialUv>& uvs) {
+    std::vector<Material>& materials = model.materials;
+    Images found(document, model.images, model.warnings);
     for (const tinygltf::Material& from : document.gltf.materials) {
         Material m;
         const auto& pbr = from.pbrMetallicRoughness;
@@ -113,11 +127,14 @@ void readMaterials(const Document& document, std::vector<Material>& materials, s
         // Blending is drawn as a cut-out at one half.
         if (from.alphaMode == "MASK") m.alphaCutoff = finite(from.alphaCutoff, 0.5);
         if (from.alphaMode == "BLEND" && m.baseColorImage >= 0) m.alphaCutoff = 0.5f;
+        m.bare = isTransparent(from, m, model.images);
         materials.push_back(m);
+        model.materialNames.push_back(from.name);
         uvs.push_back(readTransform(pbr.baseColorTexture));
     }
     if (materials.empty()) {
         materials.emplace_back();
+        model.materialNames.emplace_back();
         uvs.emplace_back();
     }
 }

@@ -52,6 +52,7 @@ Result<Model> importModel(const std::string& path, const ImportOptions& options)
         model.name = path;
         Status done = importAny(path, *file, options, intake, model);
         if (!done) return std::move(done.failure());
+        decideBare(options, model);
         return model;
     } catch (const std::bad_alloc&) {
         return Failure(path, "states sizes that do not fit into memory");

@@ -13,9 +13,12 @@ struct InputFile {
 };
 
 struct ImportOptions {
-    int uvSet = 0;                             // the TEXCOORD, 0 to 7, that the walk's charts come from (glTF)
-    int scene = -1;                            // which of a glTF file's scenes; -1: its default one
-    std::string as;                            // the ending that tells the format; empty: the file's own
+    int uvSet = 0;   // the TEXCOORD, 0 to 7, that the walk's charts come from (glTF)
+    int scene = -1;  // which of a glTF file's scenes; -1: its default one
+    std::string as;  // the ending that tells the format; empty: the file's own
+    // Of materials' names, * and ? standing for any letters and for one, small and capital alike. Nothing grows on
+    // those that `bare` names, nor on transparent ones; except on those that `ground` names.
+    std::vector<std::string> bare, ground;
     std::vector<InputFile>* inputs = nullptr;  // the model and what it refers to are appended, in failure too
 };
 

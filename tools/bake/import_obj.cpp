@@ -81,6 +81,7 @@ class MaterialFile {
         if (key == "newmtl") {
             names_[std::string(trimmed(line))] = uint32_t(model_.materials.size());
             model_.materials.emplace_back();
+            model_.materialNames.emplace_back(trimmed(line));
             material_ = &model_.materials.back();
             return;
         }
@@ -91,7 +92,7 @@ class MaterialFile {
         bool number1 = count >= 1 && std::isfinite(value[0]);
         if (key == "Kd" && count == 3)
             for (int i = 0; i < 3; ++i) material_->baseColor[i] = float(std::isfinite(value[i]) ? value[i] : 1);
-        if (key == "d" && number1) material_->baseColor.a = float(value[0]);
+        if (key == "d" && number1) material_->baseColor.a = float(value[0]), material_->bare = value[0] < 1;
         if (key == "Pr" && number1) material_->roughness = float(value[0]);
         // The lobe of Blinn and Phong with this exponent is about as wide as that of this roughness.
         if (key == "Ns" && number1 && value[0] >= 0) material_->roughness = float(std::sqrt(2 / (value[0] + 2)));
@@ -140,6 +141,7 @@ class ObjReader {
   public:
     ObjReader(const std::string& path, Intake& intake, Model& model) : path_(path), intake_(intake), model_(model) {
         model_.materials.emplace_back();
+        model_.materialNames.emplace_back();
     }
 
     Status run(std::string_view text) {

@@ -54,7 +54,7 @@ class Importer {
         if (options_.scene >= 0 && size_t(options_.scene) >= gltf.scenes.size())
             return Failure(document_.path, "scene " + std::to_string(options_.scene) +
                                                " does not exist: the file has " + std::to_string(gltf.scenes.size()));
-        readMaterials(document_, model_.materials, materialUvs_, model_.images, model_.warnings);
+        readMaterials(document_, model_, materialUvs_);
         for (MaterialUv& uv : materialUvs_) {
             if (uv.texCoord >= 0 && uv.texCoord <= kMaxUvSet) continue;
             warn("a material's texCoord " + std::to_string(uv.texCoord) + " is beyond 7: TEXCOORD_0 is taken");

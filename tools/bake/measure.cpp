@@ -149,10 +149,20 @@ void measureStretch(const BakeMesh& mesh, const SurfaceData& surface, BakeReport
     report.charted = std::min(1.0, total / (mesh.area - mesh.copied));
 }
 
+void measureMaterials(const Model& model, const BakeMesh& mesh, BakeReport& report) {
+    for (size_t m = 0; m < model.materials.size(); ++m)
+        report.materials.push_back(
+            {m < model.materialNames.size() ? model.materialNames[m] : "", 0, model.materials[m].bare});
+    for (const Triangle& t : mesh.triangles) {
+        const size_t m = model.triangleMaterial.empty() ? 0 : model.triangleMaterial[t.source];
+        if (m < report.materials.size()) report.materials[m].area += area3(mesh, t);
+    }
+}
+
 }  // namespace
 
-void measure(const BakeMesh& mesh, const std::vector<Link>& links, const std::vector<Contact>& contacts,
-             const SurfaceData& surface, BakeReport& report) {
+void measure(const Model& model, const BakeMesh& mesh, const std::vector<Link>& links,
+             const std::vector<Contact>& contacts, const SurfaceData& surface, BakeReport& report) {
     report.triangles = uint32_t(mesh.triangles.size());
     report.charts = mesh.chartCount();
     for (const Texel& t : surface.levels[0].texels) {
@@ -161,8 +171,9 @@ void measure(const BakeMesh& mesh, const std::vector<Link>& links, const std::ve
         report.linkTexels += kind == kTexelLink;
         report.openTexels += kind == kTexelOpen;
     }
-    report.linkTexels -= report.buriedTexels;
-    for (const Chart& c : surface.charts) report.walkableArea += c.area;
+    report.linkTexels -= report.buriedTexels + report.bareTexels;
+    for (const Triangle& t : mesh.triangles) report.walkableArea += t.bare ? 0 : area3(mesh, t);
+    measureMaterials(model, mesh, report);
     measureStretch(mesh, surface, report);
     measureCrossings(links, contacts, surface, report);
     report.pieces = measureReach(mesh, links, contacts, surface);

@@ -160,7 +160,7 @@ std::vector<Meaning> contactMeanings() {
             canvas.line(at + vec2(x, 7), at + vec2(std::min(x + 4, float(kSwatch)), 7), color, 1.6f, 1);
     };
     return {patch(kBare, "ground"),
-            {buried, "buried: no ground"},
+            {buried, "buried or bare: no ground"},
             {contact, "contact, walks come from its feathers"},
             {back, "to a sheet's back"},
             kBorderMeanings[0],

@@ -213,15 +213,19 @@ std::vector<uint32_t> findParts(const Map& map) {
     return part;
 }
 
-// Which piece of the model each triangle belongs to: what twins, links or contacts join, one way or both.
+// Which piece of the model each triangle belongs to: what twins, links or contacts join, one way or both, and bare
+// ground doesn't part.
 std::vector<uint32_t> findPieces(const BakeMesh& mesh, const std::vector<Link>& links,
                                  const std::vector<Contact>& contacts, uint32_t& count) {
     DisjointSets sets(mesh.triangles.size());
+    const auto join = [&](uint32_t a, uint32_t b) {
+        if (!mesh.parted(a, b)) sets.join(a, b);
+    };
     for (uint32_t h = 0; h < mesh.twin.size(); ++h)
-        if (mesh.twin[h] != kNone) sets.join(h / 3, mesh.twin[h] / 3);
+        if (mesh.twin[h] != kNone) join(h / 3, mesh.twin[h] / 3);
     for (const Link& link : links)
-        if (link.to != kNone) sets.join(link.from / 3, link.to / 3);
-    for (const Contact& contact : contacts) sets.join(contact.from, contact.to);
+        if (link.to != kNone) join(link.from / 3, link.to / 3);
+    for (const Contact& contact : contacts) join(contact.from, contact.to);
     std::vector<uint32_t> piece;
     count = sets.number(piece);
     return piece;

@@ -44,7 +44,11 @@ std::string BakeReport::json() const {
     j["uvs"] = ordered_json::array();
     for (const UvFate& u : uvs) j["uvs"].push_back({{"cause", u.cause}, {"charts", u.charts}, {"area", u.area}});
     j["overlapping_texels"] = overlaps;
-    j["texels"] = {{"inner", innerTexels}, {"link", linkTexels}, {"open", openTexels}, {"buried", buriedTexels}};
+    j["texels"] = {{"inner", innerTexels},
+                   {"link", linkTexels},
+                   {"open", openTexels},
+                   {"buried", buriedTexels},
+                   {"bare", bareTexels}};
     j["crossings"] = {{"seam", seamCrossings},
                       {"nearest", nearestCrossings},
                       {"contact", contactCrossings},
@@ -55,6 +59,9 @@ std::string BakeReport::json() const {
         j["reachable"]["pieces"].push_back({{"area", pieces[i].area},
                                             {"share", pieces[i].reachable / pieces[i].area},
                                             {"enclosed", pieces[i].enclosed}});
+    j["materials"] = ordered_json::array();
+    for (const MaterialArea& m : materials)
+        if (m.area > 0) j["materials"].push_back({{"name", m.name}, {"area", m.area}, {"bare", m.bare}});
     j["walkable_area"] = walkableArea;
     j["charted"] = charted;
     const auto spread = [](const Distortion& d) {

@@ -192,6 +192,14 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0, 7));
     app.add_option("--scene", arguments.importing.scene, "which of a glTF file's scenes, from 0; else its default one")
         ->check(CLI::NonNegativeNumber);
+    app.add_option("--bare", arguments.importing.bare,
+                   "nothing grows on materials of this name, as '*window*', small and capital letters alike; may be "
+                   "repeated. Nor does it on transparent ones")
+        ->allow_extra_args(false);
+    app.add_option(
+           "--ground", arguments.importing.ground,
+           "it does on materials of this name, though they are transparent or --bare names them; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--jobs", arguments.jobs, "of a folder: models at once; 0: as many as there are cores");
     app.add_option("--shard", arguments.shard, "of a folder: i/n bakes every nth model from the ith on");
     app.add_flag("--keep-layout", arguments.bake.keepLayout, "never move charts apart");
