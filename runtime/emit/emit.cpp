@@ -90,14 +90,14 @@ Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
     push.state.v = reinterpret_cast<EmitState*>(state_.address());
     push.cells.v = reinterpret_cast<EmitCell*>(cells_.address());
     push.bins.v = reinterpret_cast<uint32_t*>(bins_.address());
-    push.order.v = reinterpret_cast<uint32_t*>(order_.address());
+    push.order.v = reinterpret_cast<uint32_t*>(held_.order.address());
     push.seen.v = reinterpret_cast<uint32_t*>(seen_.address());
     push.list.v = reinterpret_cast<uint32_t*>(list_.address());
     push.rows.v = reinterpret_cast<uint32_t*>(rows_.address());
     push.notes.v = reinterpret_cast<DrawnItem*>(notes_.address());
     push.drawn.v = reinterpret_cast<DrawnItem*>(drawn_.address());
     push.grid = grid_;
-    push.leafBase = leafBase_;
+    push.leafBase = held_.leafBase;
 
     pass.dispatchItems(cullCells_, kAllCells, push, {table, shown});
     pass.barrier(Use::compute, Use::compute);
@@ -106,8 +106,8 @@ Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
     pass.dispatchItems(listItems_, kAllCells, push);
     pass.barrier(Use::compute, Use::compute);
     const uint64_t groups = offsetof(EmitState, groups);
-    pass.dispatchIndirect(classifySpans_, state_, groups, push, {table, shown, spanTexels_});
-    pass.dispatchIndirect(classifyLeaves_, state_, groups + 12, push, {table, shown, leafTexels_});
+    pass.dispatchIndirect(classifySpans_, state_, groups, push, {table, shown, held_.spanTexels});
+    pass.dispatchIndirect(classifyLeaves_, state_, groups + 12, push, {table, shown, held_.leafTexels});
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(scan_, {1, 1, 1}, push, {table, shown});
     pass.barrier(Use::compute, Use::compute);

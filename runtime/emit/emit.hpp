@@ -57,8 +57,10 @@ class Emit {
 
     // When growth has changed, binds it; cull() does so too.
     Status bind(Commands& commands, const EmitInputs& inputs);
-    // How often everything was bound.
+    // How often everything was bound, and how often what was bound was carried over to other buffers, since growth had
+    // closed gaps or there was too little room.
     uint64_t wholeBindings() const { return wholeBindings_; }
+    uint64_t carries() const { return carries_; }
 
     // Recorded once all of `view`, a parallel one, was drawn: from now on the tiles of its picture are noted where
     // edits change it. changes() is the view of what lies in these, once it is bound; settle(): that was drawn.
@@ -76,12 +78,12 @@ class Emit {
     const Buffer& state() const { return state_; }
     // Which instances are drawn, as DrawnItem: bucket b's from EmitState::starts[b] on.
     const Buffer& drawn() const { return drawn_; }
-    const Buffer& spanInstances() const { return spans_; }   // [node]
-    const Buffer& leafInstances() const { return leaves_; }  // [leaf]
+    const Buffer& spanInstances() const { return held_.spans; }   // [node]
+    const Buffer& leafInstances() const { return held_.leaves; }  // [leaf]
     // The same as texels of four words, for vertex shaders.
     const TexelView& drawnTexels() const { return drawnTexels_; }
-    const TexelView& spanTexels() const { return spanTexels_; }
-    const TexelView& leafTexels() const { return leafTexels_; }
+    const TexelView& spanTexels() const { return held_.spanTexels; }
+    const TexelView& leafTexels() const { return held_.leafTexels; }
 
     // Of the last counted cull that has finished. Call after waiting for it, or read an older one.
     EmitStats stats() const;
@@ -98,10 +100,30 @@ class Emit {
         bool operator==(const Bound&) const = default;
     };
 
+    // Bound growth: what of it has a place for each node and leaf.
+    struct Held {
+        Buffer spans, leaves, keys, order, leafHeads, leafNext;
+        TexelView spanTexels, leafTexels;  // of these; after them
+        uint32_t leafBase = 0;             // number of the first leaf among items
+
+        bool fits(uint32_t nodeCount, uint32_t leafCount) const {
+            return spans && spans.size() / sizeof(SpanInstance) >= nodeCount &&
+                   leaves.size() / sizeof(LeafInstance) >= leafCount;
+        }
+    };
+
     // emit_bind.cpp
-    Status reserve(uint32_t nodes, uint32_t leaves);
+    Result<Held> makeHeld(uint32_t nodes, uint32_t leaves);
+    void hold(Held held);
+    Status reserve();
+    Status viewTexels(TexelView& texels, const Buffer& buffer);
     Status viewRecords(const GrowthView& growth, uint32_t nodesBefore);
     bool staysBound(const Bound& wanted, const GrowthView& growth) const;
+    // emit_carry.cpp
+    bool nearlyCrowded() const;
+    Status makeCarrying(bool moved);
+    Status carry(Commands& commands, const GrowthView& growth, uint32_t leaves, Bound& bound);
+
     Status record(Commands& commands, const EmitView& view, Pass& pass);
     Result<EmitState> gather(const EmitInputs& inputs, bool native, double& milliseconds);  // materialise.cpp
 
@@ -109,13 +131,18 @@ class Emit {
     const Terminals* terminals_ = nullptr;
     std::array<Program, 2> bindTouch_, bindSpans_, bindLeaves_;  // [1] fetches records as texels
     Program bindStretches_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
+    struct Carrying {
+        Program spans, leaves, cells;
+    };
+    std::array<Carrying, 2> carrying_;  // [1] to other numbers; made when first asked for
     Program cullCells_, listBlocks_, listItems_, classifySpans_, classifyLeaves_, scan_, writeDrawn_;
     Program barkVertices_, barkIndices_, looseTriangles_;
-    std::array<Buffer, 8> views_, binds_;                  // that recordings in flight may still read
-    Buffer spans_, leaves_, cells_, bins_, keys_, order_;  // bound growth
-    Buffer flags_, list_, leafHeads_, leafNext_;
-    Buffer state_, seen_, rows_, notes_, drawn_, readback_;         // of a view
-    TexelView spanTexels_, leafTexels_, noteTexels_, drawnTexels_;  // of these; after them
+    std::array<Buffer, 8> views_, binds_;  // that recordings in flight may still read
+    Held held_;
+    Buffer cells_, bins_;  // bound growth, too
+    Buffer flags_, list_;
+    Buffer state_, seen_, rows_, notes_, drawn_, readback_;  // of a view
+    TexelView noteTexels_, drawnTexels_;                     // of these; after them
     Buffer noTexels_;
     TexelView nodeRecords_, chunkRecords_, leafRecords_, touchedRecords_;
     EmitGrid grid_{};
@@ -123,12 +150,11 @@ class Emit {
     EmitView view_{};
     Buffer watch_, watchTiles_;
     EmitView watched_{};  // and its tiles; width 0: none
-    uint64_t wholeBindings_ = 0;
+    uint64_t wholeBindings_ = 0, carries_ = 0;
     bool counted_ = false;
     bool fetches_ = false, fetchesTouched_ = false;
     uint32_t overflow_ = 0;
     uint32_t viewSlot_ = 0, bindSlot_ = 0;
-    uint32_t leafBase_ = 0;  // number of the first leaf among items
 };
 
 // The six planes of a view-projection matrix with reversed depth (near at 1, far at 0), and the rest of a view.

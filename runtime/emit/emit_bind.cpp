@@ -31,38 +31,61 @@ EmitGrid gridOver(glm::vec3 low, glm::vec3 high) {
 
 }  // namespace
 
-// Buffers get a fourth more than is asked for.
-Status Emit::reserve(uint32_t nodes, uint32_t leaves) {
-    const auto hold = [&](Buffer& buffer, const char* name, uint64_t wanted, TexelView* texels = nullptr) -> Status {
-        if (buffer && buffer.size() >= wanted) return Done{};
-        if (texels) *texels = {};
-        const uint64_t bytes = std::max<uint64_t>(wanted + wanted / 4, 65536) / 16 * 16;
-        Result<Buffer> made = Buffer::create(*device_, name, bytes);
+// With room for a fourth more than is asked for.
+Result<Emit::Held> Emit::makeHeld(uint32_t nodes, uint32_t leaves) {
+    Held held;
+    const auto make = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
+        Result<Buffer> made = Buffer::create(*device_, name, std::max<uint64_t>(bytes, 65536) / 16 * 16);
         if (!made) return made.failure();
         buffer = std::move(*made);
-        bound_ = {};
-        if (!texels) return Done{};
-        Result<TexelView> view = TexelView::create(*device_, buffer, VK_FORMAT_R32G32B32A32_UINT);
-        if (!view) return view.failure();
-        *texels = std::move(*view);
-        return Done{};
+        return texels ? viewTexels(*texels, buffer) : Status(Done{});
     };
-    Status instances[] = {hold(spans_, "span instances", nodes * sizeof(SpanInstance), &spanTexels_),
-                          hold(leaves_, "leaf instances", leaves * sizeof(LeafInstance), &leafTexels_)};
+    const uint64_t spans = nodes + nodes / 4, loose = leaves + leaves / 4;
+    Status instances[] = {make(held.spans, "span instances", spans * sizeof(SpanInstance), &held.spanTexels),
+                          make(held.leaves, "leaf instances", loose * sizeof(LeafInstance), &held.leafTexels)};
     for (Status& s : instances)
-        if (!s) return s;
-    leafBase_ = uint32_t(spans_.size() / sizeof(SpanInstance));
-    const uint64_t items = uint64_t(nodes) + leaves, blocks = items / kBlockItems + 2;
-    const uint64_t numbers = leafBase_ + leaves_.size() / sizeof(LeafInstance);
-    Status rest[] = {hold(keys_, "emit keys", numbers * 4),
-                     hold(flags_, "emit flags", leafBase_ * 4ull),
-                     hold(leafHeads_, "emit leaf heads", leafBase_ * 4ull),
-                     hold(leafNext_, "emit next leaves", leaves * 4ull),
+        if (!s) return s.failure();
+    held.leafBase = uint32_t(held.spans.size() / sizeof(SpanInstance));
+    const uint64_t numbers = held.leafBase + held.leaves.size() / sizeof(LeafInstance);
+    Status rest[] = {make(held.keys, "emit keys", numbers * 4),
+                     make(held.order, "emit order", (numbers + numbers / 2 + 32 * kAllCells) * 4),
+                     make(held.leafHeads, "emit leaf heads", held.leafBase * 4ull),
+                     make(held.leafNext, "emit next leaves", held.leaves.size() / sizeof(LeafInstance) * 4)};
+    for (Status& s : rest)
+        if (!s) return s.failure();
+    return held;
+}
+
+void Emit::hold(Held held) {
+    held_.spanTexels = {};  // no view outlives its buffer
+    held_.leafTexels = {};
+    held_ = std::move(held);
+}
+
+Status Emit::viewTexels(TexelView& texels, const Buffer& buffer) {
+    Result<TexelView> view = TexelView::create(*device_, buffer, VK_FORMAT_R32G32B32A32_UINT);
+    if (!view) return view.failure();
+    texels = std::move(*view);
+    return Done{};
+}
+
+// Room for what kernels leave to each other, as much as held_ has.
+Status Emit::reserve() {
+    const uint64_t numbers = held_.leafBase + held_.leaves.size() / sizeof(LeafInstance);
+    const auto hold = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
+        if (buffer && buffer.size() >= bytes) return Done{};
+        if (texels) *texels = {};
+        Result<Buffer> made = Buffer::create(*device_, name, (bytes + 15) / 16 * 16);
+        if (!made) return made.failure();
+        buffer = std::move(*made);
+        return texels ? viewTexels(*texels, buffer) : Status(Done{});
+    };
+    const uint64_t blocks = numbers / kBlockItems + 2;
+    Status rest[] = {hold(flags_, "emit flags", held_.leafBase * 4ull),
                      hold(list_, "emit list", (numbers + kBlockItems) * 4),
-                     hold(order_, "emit order", (items + items / 2 + 32 * kAllCells) * 4),
                      hold(rows_, "emit rows", blocks * kMaxBuckets * 4),
                      hold(notes_, "emit notes", blocks * kBlockItems * sizeof(DrawnItem), &noteTexels_),
-                     hold(drawn_, "drawn instances", items * sizeof(DrawnItem), &drawnTexels_)};
+                     hold(drawn_, "drawn instances", numbers * sizeof(DrawnItem), &drawnTexels_)};
     for (Status& s : rest)
         if (!s) return s;
     return Done{};
@@ -97,20 +120,23 @@ Status Emit::viewRecords(const GrowthView& growth, uint32_t nodesBefore) {
     return Done{};
 }
 
-// Whether what is bound is what regrowths began with.
+// Whether what is bound is what regrowths, or the gaps' closing before them, began with.
 bool Emit::staysBound(const Bound& wanted, const GrowthView& growth) const {
     const Bound& b = bound_;
     const bool crowded = reinterpret_cast<const EmitState*>(readback_.mapped())->crowded != 0;
-    return b.nodes != 0 && b.nodes == wanted.nodes && b.leaves == wanted.leaves && b.surfaces == wanted.surfaces &&
-           b.surfacesRevision == wanted.surfacesRevision && b.low == wanted.low && b.high == wanted.high &&
-           b.nodeCount <= wanted.nodeCount && b.leafCount <= wanted.leafCount && growth.touched != nullptr &&
-           growth.renewed <= b.number && b.number <= growth.number && !crowded;
+    const GrowthMove& moved = growth.moved;
+    const bool added = growth.renewed <= b.number && b.number <= growth.number && b.nodeCount <= wanted.nodeCount &&
+                       b.leafCount <= wanted.leafCount;
+    const bool movedThen = moved.nodes && b.number + 1 == growth.renewed && b.nodeCount == moved.nodesBefore &&
+                           b.leafCount == moved.leavesBefore;
+    return b.nodes != 0 && b.surfaces == wanted.surfaces && b.surfacesRevision == wanted.surfacesRevision &&
+           b.low == wanted.low && b.high == wanted.high && growth.touched != nullptr && (added || movedThen) &&
+           !crowded;
 }
 
 Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     const GrowthView& growth = inputs.growth;
     const uint32_t nodes = growth.nodeCount, leaves = std::min(growth.leafCount, kMostLeaves);
-    if (Status s = reserve(nodes, leaves); !s) return s;
     const Bound wanted{uint64_t(growth.nodes.v),
                        uint64_t(growth.leaves.v),
                        uint64_t(inputs.surfaces.v),
@@ -123,9 +149,19 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
                        inputs.high};
     if (wanted == bound_) return Done{};
     const bool partly = staysBound(wanted, growth);
-    if (!partly) ++wholeBindings_;
-    const Bound before = bound_;
+    Bound before = bound_;
     bound_ = culled_ = {};
+    if (!partly) {
+        ++wholeBindings_;
+        if (!held_.fits(nodes, leaves)) {
+            Result<Held> made = makeHeld(nodes, leaves);
+            if (!made) return made.failure();
+            hold(std::move(*made));
+        }
+    } else if (before.number < growth.renewed || !held_.fits(nodes, leaves) || nearlyCrowded()) {
+        if (Status s = carry(commands, growth, leaves, before); !s) return s;
+    }
+    if (Status s = reserve(); !s) return s;
     if (Status s = viewRecords(growth, before.nodeCount); !s) return s;
     grid_ = gridOver(inputs.low, inputs.high);
     overflow_ = growth.leafCount - leaves;
@@ -135,24 +171,24 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     given.chunks = growth.chunks;
     given.leaves = growth.leaves;
     given.surfaces = inputs.surfaces;
-    given.spans.v = reinterpret_cast<SpanInstance*>(spans_.address());
-    given.leafInstances.v = reinterpret_cast<LeafInstance*>(leaves_.address());
+    given.spans.v = reinterpret_cast<SpanInstance*>(held_.spans.address());
+    given.leafInstances.v = reinterpret_cast<LeafInstance*>(held_.leaves.address());
     given.cells.v = reinterpret_cast<EmitCell*>(cells_.address());
     given.bins.v = reinterpret_cast<uint32_t*>(bins_.address());
-    given.keys.v = reinterpret_cast<uint32_t*>(keys_.address());
-    given.order.v = reinterpret_cast<uint32_t*>(order_.address());
+    given.keys.v = reinterpret_cast<uint32_t*>(held_.keys.address());
+    given.order.v = reinterpret_cast<uint32_t*>(held_.order.address());
     if (partly) given.touched.v = reinterpret_cast<uint32_t*>(growth.touched->address());
     given.flags.v = reinterpret_cast<uint32_t*>(flags_.address());
     given.list.v = reinterpret_cast<uint32_t*>(list_.address());
-    given.leafHeads.v = reinterpret_cast<uint32_t*>(leafHeads_.address());
-    given.leafNext.v = reinterpret_cast<uint32_t*>(leafNext_.address());
+    given.leafHeads.v = reinterpret_cast<uint32_t*>(held_.leafHeads.address());
+    given.leafNext.v = reinterpret_cast<uint32_t*>(held_.leafNext.address());
     given.work.v = reinterpret_cast<uint32_t*>(notes_.address());  // which a view writes only when all is bound
     given.leafWork = nodes;
     given.grid = grid_;
     given.nodeCount = nodes;
     given.leafCount = leaves;
-    given.leafBase = leafBase_;
-    given.orderRoom = uint32_t(order_.size() / 4);
+    given.leafBase = held_.leafBase;
+    given.orderRoom = uint32_t(held_.order.size() / 4);
     given.partly = partly ? 1 : 0;
     given.watched = partly && watched_.width > 0 ? 1 : 0;
     given.since = before.number;
@@ -185,22 +221,22 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     pass.dispatch(bindSpans_[fetches_], groupsFor(nodes), {},
                   {table, nodeRecords_, chunkRecords_, chunkRecords_, watch_, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(bindStretches_, groupsFor(nodes), {}, {table, spanTexels_, in});
+    pass.dispatch(bindStretches_, groupsFor(nodes), {}, {table, held_.spanTexels, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(bindLeaves_[fetches_], groupsFor(leaves), {}, {table, leafRecords_, spanTexels_, watch_, in});
+    pass.dispatch(bindLeaves_[fetches_], groupsFor(leaves), {}, {table, leafRecords_, held_.spanTexels, watch_, in});
     pass.barrier(Use::compute, Use::compute);
     if (partly) {
         pass.dispatchItems(bindKeep_, kAllCells, {}, {in});
         pass.barrier(Use::compute, Use::compute);
     }
     const std::array<uint32_t, 3> groups = groupsFor(std::min(nodes + leaves, 4095u * 64));
-    pass.dispatch(bindCount_, groups, {}, {table, spanTexels_, leafTexels_, in});
+    pass.dispatch(bindCount_, groups, {}, {table, held_.spanTexels, held_.leafTexels, in});
     pass.barrier(Use::compute, Use::compute);
     pass.dispatchItems(bindCells_, kAllCells + 1, {}, {in});
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(bindOrder_, groups, {}, {in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(bindSort_, kAllCells * kSortLanes, {}, {spanTexels_, leafTexels_, in});
+    pass.dispatchItems(bindSort_, kAllCells * kSortLanes, {}, {held_.spanTexels, held_.leafTexels, in});
     pass.barrier(Use::compute, Use::compute | Use::vertex);
     bound_ = wanted;
     return Done{};

@@ -60,7 +60,8 @@ Result<EmitState> Emit::gather(const EmitInputs& inputs, bool native, double& mi
     if (native) {
         const Clock::time_point start = Clock::now();
         const EmitCell* cells = at<EmitCell>(cells_);
-        gatherNative({cells, at<uint32_t>(order_), at<SpanInstance>(spans_), at<LeafInstance>(leaves_), leafBase_},
+        gatherNative({cells, at<uint32_t>(held_.order), at<SpanInstance>(held_.spans), at<LeafInstance>(held_.leaves),
+                      held_.leafBase},
                      terminals_->table(), at<DrawnItem>(drawn_), state);
         counted.crowded = cells[kAllCells].room;
         culled_ = {};
@@ -91,7 +92,7 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
 
     const Clock::time_point start = Clock::now();
     if (native)
-        writeBarkNative(at<SpanInstance>(spans_), at<DrawnItem>(drawn_), state.spanCount,
+        writeBarkNative(at<SpanInstance>(held_.spans), at<DrawnItem>(drawn_), state.spanCount,
                         at<TriangleVertex>(out.vertices), at<uint32_t>(out.indices));
     const double nativeMs = millisecondsSince(start);
     out.native = native && state.spanCount > 0;
@@ -103,13 +104,13 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
         Pass pass(*commands, "materialise");
         TrianglesPush push{};
         push.drawn.v = reinterpret_cast<DrawnItem*>(drawn_.address());
-        push.leaves.v = reinterpret_cast<LeafInstance*>(leaves_.address());
+        push.leaves.v = reinterpret_cast<LeafInstance*>(held_.leaves.address());
         push.meshVertices.v = reinterpret_cast<TerminalVertex*>(terminals_->vertices().address());
         push.meshIndices.v = reinterpret_cast<uint32_t*>(terminals_->indices().address());
         push.vertices.v = reinterpret_cast<uint64_t*>(out.vertices.address());
         push.indices.v = reinterpret_cast<uint64_t*>(out.indices.address());
         push.count = native ? 0 : state.spanCount;
-        pass.dispatchItems(barkVertices_, push.count * kBarkRings, push, {spanTexels_, drawnTexels_});
+        pass.dispatchItems(barkVertices_, push.count * kBarkRings, push, {held_.spanTexels, drawnTexels_});
         pass.dispatchItems(barkIndices_, push.count * (kBarkRings - 1), push);
         for (const Block& block : blocks) {
             const BucketRecord& bucket = table.buckets[block.bucket];

@@ -150,7 +150,9 @@ class GpuGrowth final : public Growth {
 
     // Gaps that edits have left: compaction.cpp.
     bool gappy() const;
-    Status compact();
+    Status makeCompactRoom(bool native);
+    CompactEnv compactEnvironment() const;
+    Status compact(const GrowthInputs& inputs);
 
     Device& device_;
     GrowthRoom room_;            // of a full growth, beside frozen plants
@@ -172,7 +174,7 @@ class GpuGrowth final : public Growth {
     Links links_[2];
     uint32_t frontPlants_ = 0, frontLinks_ = 0;
     Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, noTexels_, density_, readback_;
-    Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_;
+    Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_, nodesWent_, leavesWent_;
     bool touchedIsNew_ = false;  // and holds nothing yet
     bool chained_ = false;       // leaves on the nodes that are drawn are chained
     GrowthView view_;

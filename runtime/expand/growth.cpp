@@ -221,10 +221,10 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     if (*put) {
         const std::optional<SeedChanges> seeds = seedChanges(from_, inputs);
         if (seeds && gappy())
-            if (Status closed = compact(); !closed) return closed;
+            if (Status closed = compact(inputs); !closed) return closed;
         Result<Regrown> done = seeds ? regrow(inputs, *seeds) : Result<Regrown>(Regrown::tooMuch);
         if (done && *done == Regrown::noRoom) {
-            if (Status closed = compact(); !closed) return closed;
+            if (Status closed = compact(inputs); !closed) return closed;
             done = regrow(inputs, *seeds);
         }
         dropViews();

@@ -60,6 +60,14 @@ struct GrowthInputs {
     const GrowthChanges* changes = nullptr;
 };
 
+// Where a growth that only closed gaps moved what there was.
+struct GrowthMove {
+    // [as it was numbered]: its number now, kNoIndex: it is no more. Null: there was no such move.
+    const Buffer *nodes = nullptr, *leaves = nullptr;
+    uint32_t nodesBefore = 0, leavesBefore = 0;  // with the gaps
+    uint32_t nodesAfter = 0, leavesAfter = 0;
+};
+
 // What the later stages read. Buffers belong to Growth and change only in grow(). Counts include the gaps that edits
 // left: nodes without bark and with a radius below 0, chunks without marks, branches and leaves of kNoIndex.
 struct GrowthView {
@@ -73,10 +81,11 @@ struct GrowthView {
     const Buffer *nodeBuffer = nullptr, *chunkBuffer = nullptr, *leafBuffer = nullptr;
     uint64_t revision = 0;  // grows with every grow() that changed anything
     // Growths have numbers. Those after `renewed` only added nodes and leaves at the end, and wrote the nodes (and took
-    // away, or added, their leaves) whose touched[node] is their number, or a later one; `renewed` wrote all.
-    // touched null: all growths did.
+    // away, or added, their leaves) whose touched[node] is their number, or a later one; `renewed` wrote all, but if it
+    // only moved what there was, `moved` says where to. touched null: all growths did.
     const Buffer* touched = nullptr;
     uint32_t number = 0, renewed = 0;
+    GrowthMove moved;
 };
 
 struct GrowthStats {

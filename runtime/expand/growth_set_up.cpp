@@ -242,6 +242,7 @@ void GpuGrowth::showLinks(const GrowStatus& status, bool all) {
     view_.number += 1;
     if (all) view_.renewed = view_.number;
     view_.touched = all ? nullptr : &touched_;
+    if (all) view_.moved = {};
 }
 
 uint64_t GpuGrowth::reserved() const {
@@ -250,7 +251,7 @@ uint64_t GpuGrowth::reserved() const {
     for (const Links& l : links_) bytes += l.chunks.size() + l.branches.size();
     for (const Buffer* b :
          {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_, &density_, &again_,
-          &marks_, &lists_, &edits_, &results_, &firstLeaves_, &nextLeaves_, &touched_})
+          &marks_, &lists_, &edits_, &results_, &firstLeaves_, &nextLeaves_, &touched_, &nodesWent_, &leavesWent_})
         bytes += b->size();
     return bytes;
 }

@@ -9,6 +9,7 @@
 #include <array>
 
 #include "runtime/expand/growth.hpp"
+#include "shaders/expand/compact.h"
 #include "shaders/shared/expand_env.h"
 
 namespace espalier {
@@ -34,5 +35,8 @@ void findNative(ExpandEnv env, unsigned threads);
 // fits.
 uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads);
 void finishAgainNative(ExpandEnv env, unsigned threads);
+
+// Closes gaps: env.status counts what there is then.
+void compactNative(CompactEnv env, unsigned threads);
 
 }  // namespace espalier

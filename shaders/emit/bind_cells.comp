@@ -17,7 +17,7 @@ void main() {
         push.bins.v[bin] = total;
         total += count;
     }
-    uint room = total > 0u ? total + total / 4u + 16u : 0u;
+    uint room = roomFor(total);
     if (total > push.cells.v[cell].room) {
         uint first = atomicAdd(HEAD.count, room);
         if (first + room > push.orderRoom) {

@@ -20,5 +20,7 @@ uint errorBin(EmitGrid grid, float error) {
     float halvings = -log2(max(error * grid.rcpCell, 1e-6));
     return uint(clamp(halvings * 8.0, 0.0, float(kCellBins - 1u)));
 }
+// In the order of items, for a cell of so many: some to spare.
+uint roomFor(uint count) { return count > 0u ? count + count / 4u + 16u : 0u; }
 uint cellCount(EmitGrid grid) { return grid.size[0] * grid.size[1] * grid.size[2]; }
 #endif

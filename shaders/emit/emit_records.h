@@ -135,8 +135,9 @@ struct EmitState {
     uint groups[9];             // VkDispatchIndirectCommand for the blocks of spans, of leaves, of both
     uint boundItems;            // that the last binding looked at
     uint crowded;               // 1: cells had no room for what came to them, all is to be bound anew
+    uint ordered;               // where room in the order of items begins
 };
-STATIC_SIZE(EmitState, 3148);
+STATIC_SIZE(EmitState, 3152);
 
 // Up to so many spans of a chunk that follow each other are a stretch, which far views draw as one.
 CONST_UINT(kStretch, 8u);
@@ -235,6 +236,22 @@ STATIC_SIZE(BindInputs, 200);
 CONST_UINT(kFresh, 0x80000000u);
 CONST_UINT(kFlagSpan, 1u);
 CONST_UINT(kFlagStretch, 2u);
+
+// Push data of the kernels that carry bound growth over to other buffers (emit_carry.cpp), where each node and leaf may
+// have another number.
+struct CarryPush {
+    UintBuf nodesWent, leavesWent;       // as GrowthMove
+    EmitCellBuf cells;
+    UintBuf order, orderTo;
+    UintBuf keys, keysTo;
+    UintBuf leafHeads, leafHeadsTo;
+    UintBuf leafNext, leafNextTo;
+    SpanInstanceBuf spansTo;
+    LeafInstanceBuf leavesTo;
+    uint nodeCount, leafCount;           // before
+    uint leafBase, leafBaseTo;
+};
+STATIC_SIZE(CarryPush, 120);
 
 // Push data of the culling kernels. View and table come as uniform blocks: software devices read these once for all lanes.
 struct EmitPush {

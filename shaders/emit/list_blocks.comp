@@ -43,6 +43,7 @@ void main() {
         push.state.v[0].fullTriangles = push.cells.v[kAllCells].first;
         push.state.v[0].boundItems = push.cells.v[kAllCells].changed;
         push.state.v[0].crowded = push.cells.v[kAllCells].room;
+        push.state.v[0].ordered = push.cells.v[kAllCells].count;
     }
     at += lane < kSpanLanes ? 0u : blocksOf(spans) * kBlockItems;
     for (uint c = first; c < first + kLaneCells; ++c) {

@@ -1,5 +1,5 @@
-// Closing the gaps that edits leave among nodes and leaves: what the compact_*.comp kernels are handed, in the order
-// places, nodes, leaves. Chunks and branches keep their places.
+// Closing the gaps that edits leave among nodes and leaves, in three passes one after another: places, nodes, leaves.
+// Chunks and branches keep their places. What the compact_*.comp kernels and native_compact.cpp share.
 #ifndef ESPALIER_EXPAND_COMPACT_H
 #define ESPALIER_EXPAND_COMPACT_H
 #include "shaders/shared/expand_env.h"
@@ -9,11 +9,45 @@ ESPALIER_BEGIN
 struct CompactEnv {
     NodeBuf nodes, toNodes;
     LeafBuf leaves, toLeaves;
-    ChunkBuf chunks, toChunks;   // toChunks: a copy at first
-    GrowStatusBuf status;        // nodes, leaves: how many there are now
-    uint chunkCount, leafCount;  // before, with gaps
+    ChunkBuf chunks, toChunks;        // toChunks: a copy at first
+    UintBuf nodesWent, leavesWent;    // GrowthMove::nodes, ::leaves; of nodes kNoIndex at first
+    GrowStatusBuf status;             // nodes, leaves: how many there are now
+    uint chunkCount, leafCount;       // before, with gaps
 };
-STATIC_SIZE(CompactEnv, 64);
+STATIC_SIZE(CompactEnv, 80);
+
+// Gives a chunk's nodes their new places.
+FN void placeChunk(CompactEnv env, uint chunk) {
+    uint count = chunkNodes(env.chunks.v[chunk].marks);
+    if (count > 0u) env.toChunks.v[chunk].firstNode = atomicAdd(env.status.v[0].nodes, count);
+}
+
+// The new place of a node that there is.
+FN uint placeOf(CompactEnv env, uint node) {
+    uint owner = env.nodes.v[node].chunk;
+    return env.toChunks.v[owner].firstNode + node - env.chunks.v[owner].firstNode;
+}
+
+// Moves node `lane` of a chunk, and with the first one the chunk's link to the node that it starts from.
+FN void moveNode(CompactEnv env, uint chunk, uint lane) {
+    uint marks = env.chunks.v[chunk].marks;
+    uint from = env.chunks.v[chunk].firstNode + lane;
+    uint to = env.toChunks.v[chunk].firstNode + lane;
+    // Loops, since software devices skip only those.
+    for (uint k = 0u; k < (lane < chunkNodes(marks) ? 1u : 0u); ++k) {
+        env.toNodes.v[to] = env.nodes.v[from];
+        env.nodesWent.v[from] = to;
+    }
+    uint foot = marks != 0u && lane == 0u ? env.chunks.v[chunk].previousNode : kNoIndex;
+    for (uint k = 0u; k < (foot != kNoIndex ? 1u : 0u); ++k) env.toChunks.v[chunk].previousNode = placeOf(env, foot);
+}
+
+FN void moveLeaf(CompactEnv env, uint leaf, uint to) {
+    Leaf moved = env.leaves.v[leaf];
+    moved.node = placeOf(env, moved.node);
+    env.toLeaves.v[to] = moved;
+    env.leavesWent.v[leaf] = to;
+}
 
 ESPALIER_END
 #endif

@@ -2,40 +2,10 @@
 // that has never seen the growth before.
 #include <doctest/doctest.h>
 
-#include <cstring>
-
 #include "tests/emit/edited.hpp"
 #include "tests/emit/pipeline.hpp"
 
 using namespace espalier;
-
-namespace {
-
-// The same draws of the same instances.
-void compare(Device& device, test::EmitPipeline& often, const EmitState& part, test::EmitPipeline& once,
-             const EmitState& whole) {
-    CHECK(part.fullTriangles == whole.fullTriangles);
-    CHECK(std::memcmp(part.counts, whole.counts, sizeof part.counts) == 0);
-    CHECK(std::memcmp(part.draws, whole.draws, sizeof part.draws) == 0);
-    const auto drawn = [&](test::EmitPipeline& p) {
-        return *readVector<DrawnItem>(device, p.emit.drawn(), 0, whole.spanCount + whole.leafCount);
-    };
-    const auto a = drawn(often), b = drawn(once);
-    CHECK(std::memcmp(a.data(), b.data(), a.size() * sizeof(DrawnItem)) == 0);
-    const auto sameInstances = [&](const Buffer& x, const Buffer& y, size_t bytes, bool spans) {
-        const auto p = *readVector<std::byte>(device, x, 0, x.size());
-        const auto q = *readVector<std::byte>(device, y, 0, y.size());
-        size_t others = 0;
-        for (size_t i = 0; i < a.size(); ++i)
-            if ((i < whole.spanCount) == spans)
-                others += std::memcmp(&p[a[i].item * bytes], &q[a[i].item * bytes], bytes) != 0;
-        return others == 0;
-    };
-    CHECK(sameInstances(often.emit.spanInstances(), once.emit.spanInstances(), sizeof(SpanInstance), true));
-    CHECK(sameInstances(often.emit.leafInstances(), once.emit.leafInstances(), sizeof(LeafInstance), false));
-}
-
-}  // namespace
 
 TEST_CASE("an edit binds what it concerns, and leaves what binding everything leaves") {
     const std::shared_ptr<Device> device = test::validatedDevice();
@@ -75,7 +45,7 @@ TEST_CASE("an edit binds what it concerns, and leaves what binding everything le
             const EmitState whole = once.cull(plant.inputs(), view);
             CHECK(once.emit.stats().bound == plant.view.nodeCount + plant.view.leafCount);
             CHECK(whole.spanCount > 300);
-            compare(*device, often, part, once, whole);
+            compareDrawn(*device, often, part, once, whole);
         }
         // Nodes elsewhere: all again.
         plant.view.renewed = plant.view.number += 1;

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// A node each: its span, its bin and the chain of its leaves.
+#include "shaders/emit/carry.glsl"
+#include "shaders/shared/pairs.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) uniform usamplerBuffer spanTexels;
+
+void main() {
+    uint i = itemIndex();
+    uint to = kNoIndex;
+    for (bool there = i < push.nodeCount; there; there = false) to = nodeNow(i);
+    for (bool stays = to != kNoIndex; stays; stays = false) {
+        PairBuf span = PairBuf(uint64_t(push.spansTo) + uint64_t(to) * 96u);
+        for (uint k = 0u; k < 6u; ++k) {
+            uvec4 texel = texelFetch(spanTexels, int(6u * i + k));
+            span.v[2u * k] = packUint2x32(texel.xy);
+            span.v[2u * k + 1u] = packUint2x32(texel.zw);
+        }
+        push.keysTo.v[to] = push.keys.v[i];
+        push.leafHeadsTo.v[to] = linkNow(push.leafHeads.v[i]);
+    }
+}
