@@ -32,6 +32,16 @@ class DisjointSets {
         return count;
     }
 
+    // The same in the room that the sets have taken, without those that don't count, as sets of one are: `none` for
+    // them.
+    template <class Counts>
+    std::vector<uint32_t> takeNumbers(Counts&& counts, uint32_t none, uint32_t& count) && {
+        count = 0;
+        for (uint32_t i = 0; i < parent_.size(); ++i)  // a parent comes before, and has its number already
+            parent_[i] = parent_[i] != i ? parent_[parent_[i]] : counts(i) ? count++ : none;
+        return std::move(parent_);
+    }
+
   private:
     std::vector<uint32_t> parent_;
 };

@@ -154,9 +154,13 @@ Islands judgeUvs(const Model& model, BakeMesh& mesh, uint32_t resolution, bool k
     out.mended.assign(out.triangles.size(), 0);
     double texel = std::sqrt(mesh.area / kAtlasFill) / resolution;
     std::vector<uint32_t> local(count, 0);
-    parallelFor(out.triangles.size(), 8, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            if (out.fault[i] != UvFault::none || keep) continue;
+    std::vector<uint32_t> order;  // the largest first, so that no thread is left alone with it
+    for (uint32_t i = 0; i < out.triangles.size(); ++i)
+        if (out.fault[i] == UvFault::none && !keep) order.push_back(i);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return out.triangles[a].size() > out.triangles[b].size(); });
+    parallelFor(order.size(), 1, [&](size_t begin, size_t end) {
+        for (uint32_t i : std::span(order).subspan(begin, end - begin)) {
             Patch patch = makePatch(mesh, out.triangles[i], out.cut, local);
             out.fault[i] = judgeIsland(mesh, patch, texel);
             double area = 0;

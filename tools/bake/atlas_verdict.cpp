@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/bake/atlas.hpp"
+#include "tools/bake/quantile.hpp"
 
 namespace espalier::bakery {
 namespace {
@@ -98,25 +99,10 @@ void findMeetings(const Patch& patch, const std::vector<std::vector<uint32_t>>& 
     if (signedArea(patch, loops[0]) < 0) out.overlapping = true;
 }
 
-struct Weighted {
-    double most, least, area;
+// A triangle's stretch: of its map the largest singular value, then the worst against the chart's mean.
+struct Stretch {
+    double value, least, area;
 };
-
-// The least value `most` of some entry that entries of so much area don't exceed; the largest where there is less.
-double percentile(std::vector<Weighted>& all, double area) {
-    auto low = all.begin(), high = all.end() - 1;
-    while (low < high) {
-        auto middle = low + (high - low) / 2;
-        std::nth_element(low, middle, high + 1, [](const Weighted& a, const Weighted& b) { return a.most < b.most; });
-        double below = 0;
-        for (auto w = low; w <= middle; ++w) below += w->area;
-        if (below >= area)
-            high = middle;
-        else
-            area -= below, low = middle + 1;
-    }
-    return low->most;
-}
 
 // Vertices around which triangles go more than once: they pass the ray along +u more than once.
 void findWinding(const Patch& patch, PatchVerdict& out) {
@@ -133,7 +119,7 @@ void findWinding(const Patch& patch, PatchVerdict& out) {
 
 PatchVerdict judgePatch(const Patch& patch) {
     PatchVerdict out;
-    std::vector<Weighted> all;
+    std::vector<Stretch> all;
     all.reserve(patch.triangles.size());
     double area = 0, uvArea = 0;
     for (const auto& c : patch.corner) {
@@ -154,11 +140,11 @@ PatchVerdict judgePatch(const Patch& patch) {
     }
     if (all.empty()) return out;
     double scale = std::sqrt(area / uvArea);
-    for (Weighted& w : all) {
-        w.most = std::max(w.most / scale, scale / std::max(w.least, 1e-12));
-        out.stretchMax = std::max(out.stretchMax, w.most);
+    for (Stretch& s : all) {
+        s.value = std::max(s.value / scale, scale / std::max(s.least, 1e-12));
+        out.stretchMax = std::max(out.stretchMax, s.value);
     }
-    out.stretch95 = percentile(all, 0.95 * area);
+    out.stretch95 = quantile(all, 0.95 * area);
     if (out.tangled.empty()) findWinding(patch, out);
     if (out.tangled.empty()) findMeetings(patch, borderLoops(patch), out);
     return out;

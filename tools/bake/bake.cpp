@@ -6,6 +6,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "runtime/core/jobs.hpp"
 #include "tools/bake/bake_mesh.hpp"
@@ -217,10 +218,17 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     std::vector<Link> links = findLinks(*mesh, tolerance);
     surface.crossings = makeCrossings(*mesh, links);
     stages.begin(0.35f, "contacts");
-    Contacts contacts(*mesh, links, {options.contacts, tolerance, 1.0 / options.resolution});
-    for (const Contact& contact : contacts.list()) surface.crossings.push_back(contact.crossing);
-    const std::vector<Crossing> bare = makeCrossings(*mesh, bareBorders(*mesh));
-    surface.crossings.insert(surface.crossings.end(), bare.begin(), bare.end());
+    std::vector<Sides> sides;  // of each crossing
+    for (const Link& link : links) sides.push_back({link.from / 3, link.to == kNone ? kNone : link.to / 3});
+    std::optional<Contacts> contacts(std::in_place, *mesh, links,
+                                     Contacts::Options{options.contacts, tolerance, 1.0 / options.resolution});
+    for (const Contact& contact : contacts->takeList()) {
+        surface.crossings.push_back(contact.crossing);
+        sides.push_back({contact.from, contact.to});
+    }
+    const std::vector<Link> bare = bareBorders(*mesh);
+    for (const Crossing& crossing : makeCrossings(*mesh, bare)) surface.crossings.push_back(crossing);
+    for (const Link& link : bare) sides.push_back({link.from / 3, kNone});
 
     MeshTree drawn;  // beside the levels, which know nothing of it
     std::vector<std::vector<uint8_t>> walkable;
@@ -232,9 +240,10 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
         },
         [&] {
             walkable =
-                makeLevels(*mesh, links, contacts, *allowed, std::move(finest), options, stages, surface, report);
+                makeLevels(*mesh, links, *contacts, *allowed, std::move(finest), options, stages, surface, report);
         });
-    closeTowardsBare(*mesh, links, contacts.list(), surface.crossings);  // only now: it buries as it would
+    contacts.reset();
+    closeTowardsBare(*mesh, sides, surface.crossings);  // only now: it buries as it would
     for (const SurfaceLevelData& level : surface.levels)
         if (level.crossingRefs.size() >= (size_t(1) << 24))
             return Failure(model.name, "more borders than a level can list: bake at a lower resolution");
@@ -243,8 +252,9 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
         [&] {
             measureLevelErrors(drawn, surface);
             surface.hash = walkHash(surface);
+            measureStretch(*mesh, surface, report);
         },
-        [&] { measure(model, *mesh, links, contacts.list(), surface, report); });
+        [&] { measure(model, *mesh, sides, drawn, surface, report); });
     reportLevels(model.name, surface, walkable, report);
     stages.end();
     if (options.progress) options.progress(1.0f, "done");

@@ -128,12 +128,16 @@ struct Link {
 std::vector<Link> findLinks(const BakeMesh& mesh, double tolerance);
 std::vector<Crossing> makeCrossings(const BakeMesh& mesh, const std::vector<Link>& links);
 
+// Triangles that a crossing leads from and to; kNone: open.
+struct Sides {
+    uint32_t from, to;
+};
+
 // Bare ground. Borders between it and ground inside of charts, each as an open link of the ground's side.
 std::vector<Link> bareBorders(const BakeMesh& mesh);
-// Makes what leads from ground to bare ground, or back, lead nowhere. crossings: of the links, then of the contacts.
+// Makes what leads from ground to bare ground, or back, lead nowhere. sides: of each crossing.
 // Seams keep their targets: they tell what is one piece.
-void closeTowardsBare(const BakeMesh& mesh, const std::vector<Link>& links, const std::vector<Contact>& contacts,
-                      std::vector<Crossing>& crossings);
+void closeTowardsBare(const BakeMesh& mesh, const std::vector<Sides>& sides, std::vector<Crossing>& crossings);
 // Makes inner texels on bare triangles kTexelLink. They keep their clearance, so that a walk that should get past the
 // border ends there. Returns their number.
 uint64_t takeBareTexels(const BakeMesh& mesh, SurfaceLevelData& level);
@@ -186,12 +190,17 @@ void simplifyDrawing(const MeshTree& drawn, SurfaceData& surface);
 // Measures the levels' distances to the drawn mesh.
 void measureLevelErrors(const MeshTree& drawn, SurfaceData& surface);
 
-// Fills the report's figures by walking through the finished surface's records.
-void measure(const Model& model, const BakeMesh& mesh, const std::vector<Link>& links,
-             const std::vector<Contact>& contacts, const SurfaceData& surface, BakeReport& report);
+// Fills in how far triangles' maps are from their charts' mean scale: in their worst direction, by their area, and,
+// whatever their scale, by their shape. Of the surface only charts and triangles are read.
+void measureStretch(const BakeMesh& mesh, const SurfaceData& surface, BakeReport& report);
+
+// Fills in the report's other figures by walking through the finished surface's records. sides: of each crossing.
+// drawn: the drawn mesh.
+void measure(const Model& model, const BakeMesh& mesh, const std::vector<Sides>& sides, const MeshTree& drawn,
+             const SurfaceData& surface, BakeReport& report);
 
 // The model's connected pieces, contacts included, the largest first, and how far plants get about on each.
-std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Link>& links,
-                                     const std::vector<Contact>& contacts, const SurfaceData& surface);
+std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Sides>& sides, const MeshTree& drawn,
+                                     const SurfaceData& surface);
 
 }  // namespace espalier::bakery

@@ -12,14 +12,15 @@ std::vector<Link> bareBorders(const BakeMesh& mesh) {
     return out;
 }
 
-void closeTowardsBare(const BakeMesh& mesh, const std::vector<Link>& links, const std::vector<Contact>& contacts,
-                      std::vector<Crossing>& crossings) {
-    for (size_t i = 0; i < links.size(); ++i)
-        if (links[i].to != kNone && mesh.parted(links[i].from / 3, links[i].to / 3))
-            crossings[i].flags |= kCrossingOpen;
-    for (size_t i = 0; i < contacts.size(); ++i)
-        if (mesh.parted(contacts[i].from, contacts[i].to))
-            crossings[links.size() + i] = closed(crossings[links.size() + i]);
+void closeTowardsBare(const BakeMesh& mesh, const std::vector<Sides>& sides, std::vector<Crossing>& crossings) {
+    for (size_t i = 0; i < sides.size(); ++i) {
+        if (sides[i].to == kNone || !mesh.parted(sides[i].from, sides[i].to)) continue;
+        Crossing& c = crossings[i];
+        if ((c.flags & 3u) == kCrossingContact)
+            c = closed(c);
+        else
+            c.flags |= kCrossingOpen;
+    }
 }
 
 uint64_t takeBareTexels(const BakeMesh& mesh, SurfaceLevelData& level) {

@@ -91,33 +91,34 @@ void listCrossings(LevelWork& work, std::vector<uint8_t>& walkable) {
         }
 }
 
-// Chessboard distance in texels, up to 255, to the nearest texel that lists a crossing: two passes are exact.
+// Chessboard distance in texels, up to 64, to the nearest texel that lists a crossing. Along rows first: then distances
+// of texels side by side differ by one at most, and each row only has to look at those before and after it.
 void measureClearance(LevelWork& work) {
-    uint32_t size = work.image.size;
+    const uint32_t size = work.image.size;
     work.distance.resize(size_t(size) * size);
+    const auto rowAt = [&](size_t y) { return work.distance.data() + y * size; };
+    const auto further = [](uint8_t d) { return uint8_t(d + 1); };
     parallelFor(size, kBandRows, [&](size_t begin, size_t end) {
-        for (size_t y = begin; y < end; ++y)
-            for (size_t x = 0; x < size; ++x)
-                work.distance[y * size + x] =
-                    (work.level.crossingHead[texelIndex(size, uint32_t(x), uint32_t(y))] & 255u) != 0 ? 0 : 64;
-    });
-    uint8_t* d = work.distance.data();
-    auto relax = [&](size_t y, size_t from, int step) {
-        uint8_t* row = d + y * size;
-        const uint8_t* other = d + from * size;
-        for (size_t i = 0; i < size; ++i) {
-            uint8_t m = std::min({other[i > 0 ? i - 1 : 0], other[i], other[i + 1 < size ? i + 1 : i]});
-            row[i] = std::min<uint8_t>(row[i], uint8_t(m + 1));
+        for (size_t y = begin; y < end; ++y) {
+            uint8_t* d = rowAt(y);
+            uint8_t last = 64;
+            for (uint32_t x = 0; x < size; ++x) {
+                const bool listed = (work.level.crossingHead[texelIndex(size, x, uint32_t(y))] & 255u) != 0;
+                d[x] = last = listed ? 0 : std::min<uint8_t>(64, further(last));
+            }
+            for (uint32_t x = size - 1; x-- > 0;) d[x] = last = std::min(d[x], further(last));
         }
-        if (step > 0)
-            for (size_t i = 1; i < size; ++i) row[i] = std::min<uint8_t>(row[i], uint8_t(row[i - 1] + 1));
-        else
-            for (size_t i = size - 1; i-- > 0;) row[i] = std::min<uint8_t>(row[i], uint8_t(row[i + 1] + 1));
+    });
+    const auto relax = [&](size_t y, size_t from) {
+        uint8_t* d = rowAt(y);
+        const uint8_t* f = rowAt(from);
+        d[0] = std::min(d[0], further(std::min(f[0], f[1])));
+        for (size_t x = 1; x + 1 < size; ++x)
+            d[x] = std::min(d[x], further(std::min(f[x - 1], std::min(f[x], f[x + 1]))));
+        d[size - 1] = std::min(d[size - 1], further(std::min(f[size - 2], f[size - 1])));
     };
-    // Along rows first, so that both directions are known before rows are compared.
-    for (size_t y = 0; y < size; ++y) relax(y, y, 1), relax(y, y, -1);
-    for (size_t y = 1; y < size; ++y) relax(y, y - 1, 1);
-    for (size_t y = size - 1; y-- > 0;) relax(y, y + 1, -1);
+    for (size_t y = 1; y < size; ++y) relax(y, y - 1);
+    for (size_t y = size - 1; y-- > 0;) relax(y, y + 1);
 }
 
 // The height of a triangle over one of its edges, in UV.

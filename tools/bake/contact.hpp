@@ -20,7 +20,8 @@ class Contacts {
     Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const Options& options);
     Contacts(const Contacts&) = delete;
 
-    const std::vector<Contact>& list() const { return list_; }
+    // All contacts; to be called once, since what follows does without them.
+    std::vector<Contact> takeList() { return std::move(list_); }
 
     // Makes buried inner texels of a composed level kTexelLink: data for reads beside a contact, no ground.
     // Returns their number.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/bake/bake_mesh.hpp"
+#include "tools/bake/quantile.hpp"
 
 namespace espalier::bakery {
 namespace {
@@ -65,8 +66,7 @@ Back wayBack(const SurfaceData& surface, glm::dvec2 uv, uint32_t chart, uint32_t
     return best;
 }
 
-void measureCrossings(const std::vector<Link>& links, const std::vector<Contact>& contacts, const SurfaceData& surface,
-                      BakeReport& report) {
+void measureCrossings(const std::vector<Sides>& sides, const SurfaceData& surface, BakeReport& report) {
     std::vector<double> trips, gaps;
     double size = surface.levels[0].size;
     for (uint32_t i = 0; i < surface.crossings.size(); ++i) {
@@ -76,9 +76,7 @@ void measureCrossings(const std::vector<Link>& links, const std::vector<Contact>
         (kind == kCrossingSeam      ? report.seamCrossings
          : kind == kCrossingNearest ? report.nearestCrossings
                                     : report.contactCrossings)++;
-        bool contact = i >= links.size();
-        const TrianglePlane& here = surface.triangles[contact ? contacts[i - links.size()].from : links[i].from / 3];
-        const TrianglePlane& there = surface.triangles[contact ? contacts[i - links.size()].to : links[i].to / 3];
+        const TrianglePlane &here = surface.triangles[sides[i].from], &there = surface.triangles[sides[i].to];
         bool dangling = false;
         for (int probe = 0; probe < kProbes; ++probe) {
             double t = fraction(i * kProbes + uint32_t(probe));
@@ -108,20 +106,23 @@ struct Weighted {
 };
 
 Distortion spread(std::vector<Weighted>& all, double total) {
-    std::sort(all.begin(), all.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
-    Distortion out;
-    double sum = 0;
-    for (const Weighted& w : all) {
-        if (sum < total * 0.5) out.p50 = w.value;
-        if (sum < total * 0.95) out.p95 = w.value;
-        sum += w.area;
-    }
-    out.max = all.back().value;
-    return out;
+    const auto less = [](const Weighted& a, const Weighted& b) { return a.value < b.value; };
+    const double most = std::max_element(all.begin(), all.end(), less)->value;
+    return {quantile(all, total * 0.5), quantile(all, total * 0.95), most};
 }
 
-// How far a triangle's map is from the chart's mean scale: in its worst direction, by its area, and, whatever its
-// scale, by its shape.
+void measureMaterials(const Model& model, const BakeMesh& mesh, BakeReport& report) {
+    for (size_t m = 0; m < model.materials.size(); ++m)
+        report.materials.push_back(
+            {m < model.materialNames.size() ? model.materialNames[m] : "", 0, model.materials[m].bare});
+    for (const Triangle& t : mesh.triangles) {
+        const size_t m = model.triangleMaterial.empty() ? 0 : model.triangleMaterial[t.source];
+        if (m < report.materials.size()) report.materials[m].area += area3(mesh, t);
+    }
+}
+
+}  // namespace
+
 void measureStretch(const BakeMesh& mesh, const SurfaceData& surface, BakeReport& report) {
     std::vector<Weighted> worst, ofArea, ofAngle;
     double total = 0;
@@ -149,20 +150,8 @@ void measureStretch(const BakeMesh& mesh, const SurfaceData& surface, BakeReport
     report.charted = std::min(1.0, total / (mesh.area - mesh.copied));
 }
 
-void measureMaterials(const Model& model, const BakeMesh& mesh, BakeReport& report) {
-    for (size_t m = 0; m < model.materials.size(); ++m)
-        report.materials.push_back(
-            {m < model.materialNames.size() ? model.materialNames[m] : "", 0, model.materials[m].bare});
-    for (const Triangle& t : mesh.triangles) {
-        const size_t m = model.triangleMaterial.empty() ? 0 : model.triangleMaterial[t.source];
-        if (m < report.materials.size()) report.materials[m].area += area3(mesh, t);
-    }
-}
-
-}  // namespace
-
-void measure(const Model& model, const BakeMesh& mesh, const std::vector<Link>& links,
-             const std::vector<Contact>& contacts, const SurfaceData& surface, BakeReport& report) {
+void measure(const Model& model, const BakeMesh& mesh, const std::vector<Sides>& sides, const MeshTree& drawn,
+             const SurfaceData& surface, BakeReport& report) {
     report.triangles = uint32_t(mesh.triangles.size());
     report.charts = mesh.chartCount();
     for (const Texel& t : surface.levels[0].texels) {
@@ -174,9 +163,8 @@ void measure(const Model& model, const BakeMesh& mesh, const std::vector<Link>& 
     report.linkTexels -= report.buriedTexels + report.bareTexels;
     for (const Triangle& t : mesh.triangles) report.walkableArea += t.bare ? 0 : area3(mesh, t);
     measureMaterials(model, mesh, report);
-    measureStretch(mesh, surface, report);
-    measureCrossings(links, contacts, surface, report);
-    report.pieces = measureReach(mesh, links, contacts, surface);
+    measureCrossings(sides, surface, report);
+    report.pieces = measureReach(mesh, sides, drawn, surface);
 }
 
 }  // namespace espalier::bakery

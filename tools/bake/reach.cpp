@@ -24,23 +24,30 @@ constexpr int kStrides = 5;
 constexpr size_t kProbes = 12;  // of a region, asked whether they are seen
 constexpr int kRays = 96;       // from each
 constexpr float kOff = 0.1f;    // texels off the surface that rays begin
-constexpr int kAround = 2;      // texels: how far from a place its region's centres are looked for
+constexpr uint32_t kBandRows = 64;
+constexpr int kAround = 2;  // texels: how far from a place its region's centres are looked for
 
 class Ground {
   public:
-    explicit Ground(const SurfaceData& surface)
-        : surface_(surface), level_(surface.levels[0]), size_(level_.size), cells_(level_.texels.size()) {
-        for (uint32_t y = 0; y < size_; ++y)
-            for (uint32_t x = 0; x < size_; ++x) {
-                if (x + 1 < size_) joinNeighbours(x, y, x + 1, y);
-                if (y + 1 < size_) joinNeighbours(x, y, x, y + 1);
-            }
+    explicit Ground(const SurfaceData& surface) : surface_(surface), level_(surface.levels[0]), size_(level_.size) {
+        DisjointSets cells(level_.texels.size());
+        parallelFor(size_, kBandRows, [&](size_t begin, size_t end) {
+            for (uint32_t y = uint32_t(begin); y < end; ++y)
+                for (uint32_t x = 0; x < size_; ++x) {
+                    if (x + 1 < size_) joinNeighbours(cells, x, y, x + 1, y);
+                    if (y + 1 < end) joinNeighbours(cells, x, y, x, y + 1);
+                }
+        });
+        for (uint32_t y = kBandRows; y < size_; y += kBandRows)
+            for (uint32_t x = 0; x < size_; ++x) joinNeighbours(cells, x, y - 1, x, y);
+        region_ = std::move(cells).takeNumbers([&](uint32_t cell) { return isGround(cell); }, kNone, regions_);
     }
 
     uint32_t size() const { return size_; }
     bool isGround(uint32_t cell) const { return texelClass(level_.texels[cell].bits) == kTexelInner; }
     uint32_t triangle(uint32_t cell) const { return level_.aux[cell].triangle; }
-    uint32_t region(uint32_t cell) { return cells_.find(cell); }
+    uint32_t regions() const { return regions_; }
+    uint32_t region(uint32_t cell) const { return region_[cell]; }  // kNone: no ground
 
     // A cell of the chart whose centre can be gone to straight from uv; kNone: none is near.
     uint32_t cellAt(glm::vec2 uv, uint32_t chart) const {
@@ -66,13 +73,13 @@ class Ground {
     }
     uint32_t listed(uint32_t cell) const { return level_.crossingHead[cell] & 255u; }
 
-    void joinNeighbours(uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1) {
+    void joinNeighbours(DisjointSets& cells, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1) {
         const uint32_t a = texelIndex(size_, x0, y0), b = texelIndex(size_, x1, y1);
         const uint32_t chart = texelChart(level_.texels[a].bits);
         if (!isGround(a) || !isGround(b) || texelChart(level_.texels[b].bits) != chart) return;
         const bool clear = listed(a) == 0 && listed(b) == 0;
         if (clear || !parted(chart, centreOf(x0, y0), centreOf(x1, y1), int(x0), int(y0), int(x1), int(y1)))
-            cells_.join(a, b);
+            cells.join(a, b);
     }
 
     // Does a border of the chart or a contact lie between p and q, by the lists of the texels given?
@@ -93,8 +100,8 @@ class Ground {
 
     const SurfaceData& surface_;
     const SurfaceLevelData& level_;
-    uint32_t size_;
-    DisjointSets cells_;
+    uint32_t size_, regions_ = 0;
+    std::vector<uint32_t> region_;  // per cell
 };
 
 struct Way {
@@ -147,30 +154,25 @@ struct Map {
     std::vector<double> area;
     std::vector<uint32_t> piece;
     std::vector<std::vector<uint32_t>> onward, back;
-    std::vector<uint32_t> number;  // of regions, by the cell that stands for each
 };
 
-Map mapOut(Ground& ground, const std::vector<Way>& ways, const SurfaceData& surface,
+Map mapOut(const Ground& ground, const std::vector<Way>& ways, const SurfaceData& surface,
            const std::vector<uint32_t>& pieceOf) {
     Map map;
+    map.area.resize(ground.regions(), 0);
+    map.piece.resize(ground.regions());
+    map.onward.resize(ground.regions());
+    map.back.resize(ground.regions());
     const uint32_t cells = ground.size() * ground.size();
-    std::vector<uint32_t>& number = map.number;
-    number.assign(cells, kNone);
     for (uint32_t cell = 0; cell < cells; ++cell) {
-        if (!ground.isGround(cell)) continue;
+        const uint32_t r = ground.region(cell);
+        if (r == kNone) continue;
         const TrianglePlane& plane = surface.triangles[ground.triangle(cell)];
-        uint32_t& n = number[ground.region(cell)];
-        if (n == kNone) {
-            n = uint32_t(map.area.size());
-            map.area.push_back(0);
-            map.piece.push_back(pieceOf[ground.triangle(cell)]);
-        }
-        map.area[n] += double(glm::length(glm::cross(plane.du, plane.dv))) / cells;
+        if (map.area[r] == 0) map.piece[r] = pieceOf[ground.triangle(cell)];
+        map.area[r] += double(glm::length(glm::cross(plane.du, plane.dv))) / cells;
     }
-    map.onward.resize(map.area.size());
-    map.back.resize(map.area.size());
     for (const Way& way : ways) {
-        const uint32_t from = number[ground.region(way.from)], to = number[ground.region(way.to)];
+        const uint32_t from = ground.region(way.from), to = ground.region(way.to);
         if (from == to) continue;
         map.onward[from].push_back(to);
         map.back[to].push_back(from);
@@ -213,19 +215,17 @@ std::vector<uint32_t> findParts(const Map& map) {
     return part;
 }
 
-// Which piece of the model each triangle belongs to: what twins, links or contacts join, one way or both, and bare
-// ground doesn't part.
-std::vector<uint32_t> findPieces(const BakeMesh& mesh, const std::vector<Link>& links,
-                                 const std::vector<Contact>& contacts, uint32_t& count) {
+// Which piece of the model each triangle belongs to: what twins or crossings join, one way or both, and bare ground
+// doesn't part.
+std::vector<uint32_t> findPieces(const BakeMesh& mesh, const std::vector<Sides>& sides, uint32_t& count) {
     DisjointSets sets(mesh.triangles.size());
     const auto join = [&](uint32_t a, uint32_t b) {
         if (!mesh.parted(a, b)) sets.join(a, b);
     };
     for (uint32_t h = 0; h < mesh.twin.size(); ++h)
         if (mesh.twin[h] != kNone) join(h / 3, mesh.twin[h] / 3);
-    for (const Link& link : links)
-        if (link.to != kNone) join(link.from / 3, link.to / 3);
-    for (const Contact& contact : contacts) join(contact.from, contact.to);
+    for (const Sides& s : sides)
+        if (s.to != kNone) join(s.from, s.to);
     std::vector<uint32_t> piece;
     count = sets.number(piece);
     return piece;
@@ -250,18 +250,12 @@ bool endsBelow(const BakeMesh& mesh, glm::dvec3 from, glm::dvec3 ray) {
 
 // Marks those of the regions that no ray from outside meets, at some of their texels: the insides of attics, of boxes
 // that others close, and of houses without a floor.
-std::vector<uint8_t> findEnclosed(Ground& ground, const Map& map, const std::vector<uint8_t>& asked,
-                                  const BakeMesh& mesh, const SurfaceData& surface) {
+std::vector<uint8_t> findEnclosed(const Ground& ground, const std::vector<uint8_t>& asked, const BakeMesh& mesh,
+                                  const MeshTree& drawn, const SurfaceData& surface) {
     std::vector<std::vector<uint32_t>> cells(asked.size());
-    for (uint32_t cell = 0; cell < map.number.size(); ++cell)
-        if (ground.isGround(cell) && asked[map.number[ground.region(cell)]])
-            cells[map.number[ground.region(cell)]].push_back(cell);
+    for (uint32_t cell = 0; cell < ground.size() * ground.size(); ++cell)
+        if (const uint32_t r = ground.region(cell); r != kNone && asked[r]) cells[r].push_back(cell);
     std::vector<uint8_t> enclosed(asked.size(), 0);
-    if (std::find(asked.begin(), asked.end(), 1) == asked.end()) return enclosed;
-    std::vector<glm::vec3> points(mesh.points.begin(), mesh.points.end());
-    std::vector<uint32_t> corners;
-    for (const Triangle& t : mesh.triangles) corners.insert(corners.end(), t.point.begin(), t.point.end());
-    const MeshTree tree(points, corners);
     const std::array<glm::dvec3, kRays> sphere = rays();
     parallelFor(cells.size(), 16, [&](size_t begin, size_t end) {
         for (size_t r = begin; r < end; ++r) {
@@ -276,7 +270,7 @@ std::vector<uint8_t> findEnclosed(Ground& ground, const Map& map, const std::vec
                 const glm::vec3 from = surface.levels[0].texels[cell].position + n * (kOff * texel);
                 for (const glm::dvec3& ray : sphere)
                     seen = seen || (glm::dot(glm::vec3(ray), n) > 0.05f && !endsBelow(mesh, from, ray) &&
-                                    !tree.pick(from, glm::vec3(ray)));
+                                    !drawn.pick(from, glm::vec3(ray)));
             }
             enclosed[r] = !seen;
         }
@@ -286,11 +280,11 @@ std::vector<uint8_t> findEnclosed(Ground& ground, const Map& map, const std::vec
 
 }  // namespace
 
-std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Link>& links,
-                                     const std::vector<Contact>& contacts, const SurfaceData& surface) {
+std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Sides>& sides, const MeshTree& drawn,
+                                     const SurfaceData& surface) {
     uint32_t count = 0;
-    const std::vector<uint32_t> pieceOf = findPieces(mesh, links, contacts, count);
-    Ground ground(surface);
+    const std::vector<uint32_t> pieceOf = findPieces(mesh, sides, count);
+    const Ground ground(surface);
     const Map map = mapOut(ground, walkOverAll(ground, surface), surface, pieceOf);
     const std::vector<uint32_t> part = findParts(map);
     std::vector<double> partArea(part.size(), 0);
@@ -302,7 +296,7 @@ std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Lin
     }
     std::vector<uint8_t> unreached(part.size());
     for (size_t r = 0; r < unreached.size(); ++r) unreached[r] = part[r] != largest[map.piece[r]];
-    const std::vector<uint8_t> enclosed = findEnclosed(ground, map, unreached, mesh, surface);
+    const std::vector<uint8_t> enclosed = findEnclosed(ground, unreached, mesh, drawn, surface);
     std::vector<PieceReach> pieces(count);
     for (uint32_t r = 0; r < map.area.size(); ++r) {
         PieceReach& piece = pieces[map.piece[r]];
