@@ -36,8 +36,8 @@ void packTablesNative(ExpandEnv env, uint32_t grammars) {
     for (uint32_t i = 0; i < grammars; ++i) packGrammar(env.grammars, env.tables, i, 0, 1);
 }
 
-uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads) {
-    return march(env, queues, most, threads);
+uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads, bool wide) {
+    return march(env, queues, most, threads, wide);
 }
 
 void terminalsNative(ExpandEnv env, const GrowthLimits& limits, unsigned threads) {

@@ -21,8 +21,9 @@ using ItemQueues = std::array<WorkItem*, 2>;
 void packTablesNative(ExpandEnv env, uint32_t grammars);
 
 // Grows waves from env.wave on until one is empty or the next would be `most`, env.phase being the last that may be
-// grown. Returns the first wave that didn't run. threads: 0: as many as the machine has.
-uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads);
+// grown. Returns the first wave that didn't run. threads: 0: as many as the machine has. wide: chunks are grown side by
+// side, their walks in the processor's vectors (wide_walk.hpp); the CPU reference grows them one by one.
+uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads, bool wide);
 
 // The passes after wave env.wave: terminals, fit and the structure's hash. Nothing, unless growth is complete.
 // env.density must be zero where limits ask for it.

@@ -4,9 +4,12 @@
 // that include this has its own.
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 
 #include "runtime/core/jobs.hpp"
 #include "runtime/expand/native_growth.hpp"
+#include "runtime/expand/wide_walk.hpp"
 #include "shaders/shared/expand_grow.h"
 
 // All of a pass in one function: its state stays in registers, and pointers needn't be handed on.
@@ -15,48 +18,88 @@
 namespace espalier {
 namespace {
 
-constexpr size_t kItemsAtOnce = 8;  // of a long queue
+constexpr uint32_t kFewestLanes = 3;  // fewer walk one by one
 
-// Has the processor fetch the texels about uv and what a patch there may read besides: growth waits for memory as much
-// as it computes, and knows a rule earlier about where it will be. A hint; gone wrong, it costs a little time.
-inline void expectTexels(const SurfaceLevel& level, vec2 uv, bool border) {
-    const float last = float(level.size) - 1.0f;
-    const uint x = uint(inRange(uv.x * float(level.size) - 1.5f, last - 3.0f));
-    const uint y = uint(inRange(uv.y * float(level.size) - 1.5f, last - 3.0f));
-    const uint near1 = texelColumn(x), far1 = texelColumn(x + 3u);
-    for (uint row = 0; row < 4; ++row) {
-        const uint at = texelRow(level.size, y + row);
-        __builtin_prefetch(level.texels.v + at + near1);
-        __builtin_prefetch(level.texels.v + at + far1);
-        if (row == 1 || row == 2) __builtin_prefetch(level.aux.v + at + near1);
-        if (border && (row == 1 || row == 2)) __builtin_prefetch(level.crossingHead.v + at + near1);
+// A wave's items, as they are taken by whoever is free. The last are grown first: at their end chunks queue what
+// carries a long branch on, and a long one at the end of a wave would keep the others waiting.
+struct WaveItems {
+    std::atomic<size_t> taken = 0;
+    size_t count = 0;
+    // kNoIndex: there are no more.
+    uint take() {
+        const size_t at = taken.fetch_add(1, std::memory_order_relaxed);
+        return at < count ? uint(count - 1 - at) : kNoIndex;
+    }
+};
+
+// A chunk in flight, beside others.
+struct Lane {
+    ExpandEnv env;
+    ChunkGrowth c;
+    Machine machine;
+    bool live = false;
+    uint32_t stage[kChunkNodes * kStagedWords];
+};
+
+// Grows the lane's chunk, and those that it takes after, until a stretch is to be walked. False: nothing is left.
+ESPALIER_WHOLE bool growToStretch(Lane& lane, WaveItems& items, GrowthTally& tally) {
+    for (;;) {
+        if (lane.live && growing(lane.c.g)) {
+            decide(lane.machine, lane.env, lane.c);
+            if (lane.c.g.phase == kPhaseMarch) return true;
+            endTrip(lane.c.g);
+        } else {
+            if (lane.live) endChunk(lane.env, lane.c, tally);
+            const uint item = items.take();
+            lane.live = item != kNoIndex && beginChunk(lane.machine, lane.env, lane.env.items.v[item], lane.c);
+            if (item == kNoIndex) return false;
+        }
     }
 }
 
-// A walk that goes on as it has come.
-inline void expectNext(const ExpandEnv& env, const Grower& g) {
-    const SurfaceLevel& level = env.surfaces.v[g.trial.walk.place >> 16u].levels[g.trial.level];
-    const vec2 uv = g.trial.walk.uv, step = uv - g.at.walk.uv;
-    expectTexels(level, uv + step, g.trial.clear * g.trial.clear <= dot2(step, step) * 4.0f);
+// One stretch of the walks of those lanes that have a bit in `marching`. wide: null, or where they walk side by side.
+ESPALIER_WHOLE void marchLanes(Lane* lanes, uint32_t marching, WideWalks* wide) {
+    const SurfaceBuf surfaces = lanes[0].env.surfaces;
+    for (uint32_t i = 0; wide && i < kWalkLanes; ++i) {
+        if ((marching >> i & 1) == 0) continue;
+        const Grower& g = lanes[i].c.g;
+        putWalk(*wide, i, surfaces, g.fresh ? g.at : g.trial, g.fresh ? g.distance : g.remaining);
+        if (!g.fresh) continue;
+        wide->turns[i] = 1;
+        wide->angle[i] = attemptAngle(g);
+    }
+    const uint32_t landed = wide ? advanceWide(*wide, surfaces, marching) : 0;
+    for (uint32_t i = 0; i < kWalkLanes; ++i) {
+        if ((marching >> i & 1) == 0) continue;
+        const ExpandEnv& env = lanes[i].env;
+        ChunkGrowth& c = lanes[i].c;
+        if ((landed >> i & 1) != 0) {
+            if (c.g.fresh) setOut(c.g);
+            takeWalk(*wide, i, c.g.trial);
+            c.g.remaining = wide->remaining[i];
+            takeStretch(env, c.site, c.g, wide->event[i], wide->packedNormal[i], wide->packedHeading[i]);
+        } else {
+            marchOn(env, c.site, c.g);
+        }
+        endTrip(c.g);
+    }
 }
 
-ESPALIER_WHOLE void growItems(ExpandEnv env, size_t begin, size_t end) {
-    uint32_t stage[kChunkNodes * kStagedWords];
-    env.scratch = {stage};
+// Grows items of a wave until none is left, `most` of them side by side.
+void growItems(const ExpandEnv& env, WaveItems& items, uint32_t most, bool wide) {
     GrowthTally tally = emptyTally();
-    Machine machine;
-    for (size_t i = end; i-- > begin;) {
-        ChunkGrowth c;
-        if (!beginChunk(machine, env, env.items.v[i], c)) continue;
-        if (i > begin) {
-            const Walk& next = env.items.v[i - 1].walk;
-            expectTexels(env.surfaces.v[next.place >> 16u].levels[c.site.level], next.uv, true);
-        }
-        while (growing(c.g)) {
-            growOn(machine, env, c);
-            if (c.g.arrived) expectNext(env, c.g);
-        }
-        endChunk(env, c, tally);
+    WideWalks walks = {};
+    Lane lanes[kWalkLanes];
+    for (Lane& lane : lanes) {
+        lane.env = env;
+        lane.env.scratch = {lane.stage};
+    }
+    for (uint32_t marching = 1; marching != 0;) {
+        marching = 0;
+        for (uint32_t i = 0; i < most; ++i)
+            if (growToStretch(lanes[i], items, tally)) marching |= 1u << i;
+        const bool pays = wide && uint32_t(std::popcount(marching)) >= kFewestLanes;
+        marchLanes(lanes, marching, pays ? &walks : nullptr);
     }
     addTally(env, tally);
 }
@@ -68,10 +111,10 @@ void overRange(uint32_t first, uint32_t last, size_t grain, Crew& crew, const Bo
                    [&](size_t begin, size_t end) { body(first + begin, first + end); });
 }
 
-// See marchNative. The last items are grown first: at their end chunks queue what carries a long branch on, and a long
-// one at the end of a wave would keep the others waiting.
-uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads) {
+// See marchNative.
+uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads, bool wide) {
     Crew crew(threads);
+    wide = wide && walksWide() && !PAPER_WALK(env);
     uint32_t w = env.wave;
     for (; w < most && env.waves.v[w].count > 0; ++w) {
         env.wave = w;
@@ -79,8 +122,10 @@ uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned 
         env.nextItems = {queues[(w + 1) & 1]};
         const uint32_t wanted = env.waves.v[w].count, count = std::min(wanted, env.itemCapacity);
         if (wanted > count) atomicMax(env.status.v[0].items, wanted);
-        const size_t grain = std::clamp<size_t>(count / (8 * crew.threads()), 1, kItemsAtOnce);
-        crew.overRange(count, grain, [&](size_t begin, size_t end) { growItems(env, count - end, count - begin); });
+        WaveItems items;
+        items.count = count;
+        const uint32_t side = std::clamp(count / crew.threads(), 1u, kWalkLanes);  // few items are for all threads
+        crew.overRange(std::min(crew.threads(), count), 1, [&](size_t, size_t) { growItems(env, items, side, wide); });
     }
     return w;
 }

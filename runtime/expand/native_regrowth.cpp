@@ -94,7 +94,7 @@ void findNative(ExpandEnv env, unsigned threads) {
 }
 
 uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads) {
-    return march(env, queues, most, threads);
+    return march(env, queues, most, threads, true);
 }
 
 void finishAgainNative(ExpandEnv env, unsigned threads) {

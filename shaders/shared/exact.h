@@ -15,6 +15,14 @@ FN float dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 FN vec3 cross3(vec3 a, vec3 b) {
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
+// And, or: without a branch.
+#ifdef __cplusplus
+inline bool both(bool a, bool b) { return a & b; }
+inline bool either(bool a, bool b) { return a | b; }
+#else
+bool both(bool a, bool b) { return a && b; }
+bool either(bool a, bool b) { return a || b; }
+#endif
 // Without a branch: signs of what a walk compares are as good as random.
 FN float absolute(float x) { return uintBitsToFloat(floatBitsToUint(x) & 0x7FFFFFFFu); }
 FN float smaller(float a, float b) { return a < b ? a : b; }

@@ -266,14 +266,14 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
     }
     if (pruned) c.g.phase = kPhaseEnded;   // a chunk without nodes stays, so that the branch can come back
     if (stands && !pruned && item.parent == kNoIndex) {
-        stageNode(env, c.g.at, c.g.at.normal, false, 0u, 0u);   // the seed's foot
+        stageNode(env, c.g.at, packOct(c.g.at.normal), packOct(headingOf(env, c.g.at)), false, 0u, 0u);   // the seed's foot
         c.g.count = 1u;
     }
     return true;
 }
 
-// One trip: the decision at the end of a step, the rule for the next, and a stretch of it.
-FN void growOn(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
+// A trip is the decision at the end of a step, the rule for the next, and a stretch of it: what comes before the stretch,
+FN void decide(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
     bool here = c.g.arrived || c.g.phase == kPhaseDerive;
     uint instance = c.g.trial.walk.place >> 16u;
     if (instance != c.frame.instance) c.frame = frameOf(env.surfaces, instance, c.site.inputs);
@@ -288,9 +288,17 @@ FN void growOn(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
     for (uint lists = 0u; lists <= kMaxListDepth && c.g.phase == kPhaseDerive; ++lists) {
         deriveRule(MACHINE env, c.map, c.site, c.item, c.g);
     }
+}
+// what comes after it,
+FN void endTrip(INOUT(Grower) g) {
+    g.trips = g.trips + 1u;
+    if (growing(g) && g.trips >= kMaxTrips) g.phase = g.count > 0u ? kPhaseFull : kPhaseStopped;
+}
+// and all of it.
+FN void growOn(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
+    decide(MACHINE env, c);
     if (c.g.phase == kPhaseMarch) marchOn(env, c.site, c.g);
-    c.g.trips = c.g.trips + 1u;
-    if (growing(c.g) && c.g.trips >= kMaxTrips) c.g.phase = c.g.count > 0u ? kPhaseFull : kPhaseStopped;
+    endTrip(c.g);
 }
 
 FN void endChunk(ExpandEnv env, INOUT(ChunkGrowth) c, INOUT(GrowthTally) t) {

@@ -233,16 +233,16 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
     }
 }
 
-// Writes a sample into the stage.
-FN void stageNode(ExpandEnv env, WalkState w, vec3 normal, bool seam, uint flags, uint index) {
+// Writes a sample into the stage. normal, heading: packed.
+FN void stageNode(ExpandEnv env, WalkState w, uint normal, uint heading, bool seam, uint flags, uint index) {
     UintBuf stage = env.scratch;
     UNUSED(stage);
     uint at = index * kStagedWords;
     STAGED(at) = floatBitsToUint(w.position.x);
     STAGED(at + 1u) = floatBitsToUint(w.position.y);
     STAGED(at + 2u) = floatBitsToUint(w.position.z);
-    STAGED(at + 3u) = packOct(normal);
-    STAGED(at + 4u) = packOct(headingOf(env, w));
+    STAGED(at + 3u) = normal;
+    STAGED(at + 4u) = heading;
     STAGED(at + 5u) = packUv(w.walk.uv);
     STAGED(at + 6u) = w.walk.place;
     STAGED(at + 7u) = floatBitsToUint(w.walk.arc);
@@ -280,18 +280,17 @@ FN float attemptAngle(Grower g) {
     return side * kDetourAngle * float((g.attempt + 1u) >> 1u);
 }
 
-// One stretch of the step under way.
-FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
-    if (g.fresh) {
-        g.trial = g.at;
-        g.remaining = g.distance;
-        g.pending = 0u;
-        g.lastArc = g.at.walk.arc;
-        g.fresh = false;
-        turnWalk(env, g.trial, attemptAngle(g));
-    }
-    vec3 normal;
-    uint event = advanceWalk(env, site.level, g.trial, g.remaining, normal);
+// Begins an attempt: the walk stands where the step begins, and has to turn by attemptAngle.
+FN void setOut(INOUT(Grower) g) {
+    g.trial = g.at;
+    g.remaining = g.distance;
+    g.pending = 0u;
+    g.lastArc = g.at.walk.arc;
+    g.fresh = false;
+}
+
+// What comes of a stretch that ended with `event`. normal, heading: packed, of a sample put there.
+FN void takeStretch(ExpandEnv env, GrowthSite site, INOUT(Grower) g, uint event, uint normal, uint heading) {
     bool goesOn = walkGoesOn(event);
     bool arrived = event == kWalkDone;
     g.arrived = arrived;
@@ -309,7 +308,7 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
     g.phase = full ? kPhaseFull : g.phase;   // the whole step moves to the next chunk
     if (recorded && room) {
         uint flags = ((g.rule >> 8u) & 255u) | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
-        stageNode(env, g.trial, normal, event == kWalkSeam && !PAPER_WALK(env), flags, index);
+        stageNode(env, g.trial, normal, heading, event == kWalkSeam && !PAPER_WALK(env), flags, index);
         g.pending = g.pending + 1u;
         g.lastArc = g.trial.walk.arc;
     }
@@ -319,6 +318,17 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
         g.attempt = g.attempt + 1u;
         g.fresh = true;
     }
+}
+
+// One stretch of the step under way.
+FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
+    if (g.fresh) {
+        setOut(g);
+        turnWalk(env, g.trial, attemptAngle(g));
+    }
+    vec3 normal;
+    uint event = advanceWalk(env, site.level, g.trial, g.remaining, normal);
+    takeStretch(env, site, g, event, packOct(normal), packOct(headingOf(env, g.trial)));
 }
 
 // At the end of a step: its condition, and its successor. The machine knows the place.

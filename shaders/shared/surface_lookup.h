@@ -137,7 +137,7 @@ FN void readChart(SurfaceBuf surfaces, uint instance, uint i, OUT(float) orienta
 FN uint texelRow(uint size, uint y) { return (((y >> 3u) * (size >> 3u)) << 6u) + ((y & 7u) << 3u); }
 FN uint texelColumn(uint x) { return ((x >> 3u) << 6u) + (x & 7u); }
 
-FN bool texelOwned(uint bits, uint chart) { return (bits & 0xFFFFu) == chart && (bits & 0x30000u) != 0u; }
+FN bool texelOwned(uint bits, uint chart) { return ((bits & 0x30000u) != 0u ? bits & 0xFFFFu : kNoIndex) == chart; }
 
 // v kept to [0, high]; NaN becomes 0.
 FN float inRange(float v, float high) {
@@ -153,37 +153,54 @@ FN uint texelAt(uint size, vec2 uv) {
     return texelRow(size, y) + texelColumn(x);
 }
 
-// Position, Jacobian and normal at uv of `chart` (whose Chart::orientation the caller has at hand). The bilinear
-// patch of the four texels around uv; where one of them is creased or belongs elsewhere, the plane of the
-// triangle under the nearest texel of the chart. False: no texel of the chart within reach, p is unchanged
-// but for values that nobody may use. Reads 4 texels, and a triangle in creased cells.
-FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, float orientation, vec2 uv, OUT(Patch) p) {
-    uint size = levelSize(surfaces, instance, level);
-    float fsize = float(size);
+// The four texels around a texture coordinate: their indices, and how far it lies from the first to the last. fsize: the
+// level's, a whole number.
+struct Cell {
+    uint at00, at10, at01, at11;
+    float fx, fy;        // [-1, 2]
+};
+FN Cell cellAt(float fsize, vec2 uv) {
+    uint size = uint(fsize);
     float gx = uv.x * fsize - 0.5f;
     float gy = uv.y * fsize - 0.5f;
     uint x = uint(inRange(gx, fsize - 2.0f));
     uint y = uint(inRange(gy, fsize - 2.0f));
-    float fx = limited(gx - float(x), -1.0f, 2.0f);
-    float fy = limited(gy - float(y), -1.0f, 2.0f);
     uint c0 = texelColumn(x);
     uint c1 = texelColumn(x + 1u);
     uint r0 = texelRow(size, y);
     uint r1 = texelRow(size, y + 1u);
-    Texel t00 = readTexel(surfaces, instance, level, r0 + c0);
-    Texel t10 = readTexel(surfaces, instance, level, r0 + c1);
-    Texel t01 = readTexel(surfaces, instance, level, r1 + c0);
-    Texel t11 = readTexel(surfaces, instance, level, r1 + c1);
+    Cell c;
+    c.at00 = r0 + c0;
+    c.at10 = r0 + c1;
+    c.at01 = r1 + c0;
+    c.at11 = r1 + c1;
+    c.fx = limited(gx - float(x), -1.0f, 2.0f);
+    c.fy = limited(gy - float(y), -1.0f, 2.0f);
+    return c;
+}
 
+// The bilinear patch of a cell.
+struct CellBlend {
+    vec3 position, du, dv;
+    uint nearest;        // index of the nearest texel of the chart; kNoIndex: none
+    uint bits;           // its Texel::bits
+    bool own;            // all four are the chart's
+    bool creased;        // one of them is
+    bool valid;          // there is something at uv
+};
+FN CellBlend blendOf(Cell c, float fsize, uint chart, vec2 uv, Texel t00, Texel t10, Texel t01, Texel t11) {
+    float fx = c.fx;
+    float fy = c.fy;
     float ex = 1.0f - fx;
     float ey = 1.0f - fy;
     vec3 low = t10.position - t00.position;
     vec3 high = t11.position - t01.position;
     vec3 left = t01.position - t00.position;
     vec3 right = t11.position - t10.position;
-    vec3 du = (low * ey + high * fy) * fsize;
-    vec3 dv = (left * ex + right * fx) * fsize;
-    vec3 position = t00.position + low * (fx * ey) + (left + high * fx) * fy;
+    CellBlend b;
+    b.du = (low * ey + high * fy) * fsize;
+    b.dv = (left * ex + right * fx) * fsize;
+    b.position = t00.position + low * (fx * ey) + (left + high * fx) * fy;
 
     // The nearest texel of this chart, and whether all four serve.
     // Which that is is as good as random, so no branch hangs on it.
@@ -191,43 +208,69 @@ FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, floa
     bool own10 = texelOwned(t10.bits, chart);
     bool own01 = texelOwned(t01.bits, chart);
     bool own11 = texelOwned(t11.bits, chart);
-    uint nearest = own00 ? r0 + c0 : kNoIndex;
+    uint nearest = own00 ? c.at00 : kNoIndex;
     uint bits = own00 ? t00.bits : 0u;
     float best = own00 ? ex * ey : -9.0f;
     float share = own10 ? fx * ey : -9.0f;
-    nearest = share > best ? r0 + c1 : nearest;
+    nearest = share > best ? c.at10 : nearest;
     bits = share > best ? t10.bits : bits;
     best = larger(best, share);
     share = own01 ? ex * fy : -9.0f;
-    nearest = share > best ? r1 + c0 : nearest;
+    nearest = share > best ? c.at01 : nearest;
     bits = share > best ? t01.bits : bits;
     best = larger(best, share);
     share = own11 ? fx * fy : -9.0f;
-    nearest = share > best ? r1 + c1 : nearest;
+    nearest = share > best ? c.at11 : nearest;
     bits = share > best ? t11.bits : bits;
-    bool own = own00 && own10 && own01 && own11;
-    bool creased = texelCrease(t00.bits | t10.bits | t01.bits | t11.bits);
-    bool valid = nearest != kNoIndex && absolute(uv.x - 0.5f) <= 0.5f && absolute(uv.y - 0.5f) <= 0.5f;
-    if (valid && (creased || !own)) {
-        uint triangle = readTriangle(surfaces, instance, level, nearest);
-        valid = triangle != kNoIndex || own;
-        if (triangle != kNoIndex) {
-            TrianglePlane plane = readPlane(surfaces, instance, triangle);
-            vec2 offset = uv - plane.uv0;
-            du = plane.du;
-            dv = plane.dv;
-            position = plane.position + du * offset.x + dv * offset.y;
-        }
+    b.nearest = nearest;
+    b.bits = bits;
+    b.own = own00 && own10 && own01 && own11;
+    b.creased = texelCrease(t00.bits | t10.bits | t01.bits | t11.bits);
+    b.valid = nearest != kNoIndex && absolute(uv.x - 0.5f) <= 0.5f && absolute(uv.y - 0.5f) <= 0.5f;
+    return b;
+}
+
+// Where the blend won't do: the plane of the triangle under the nearest texel of the chart.
+FN bool needsPlane(CellBlend b) { return b.valid && (b.creased || !b.own); }
+FN void takePlane(SurfaceBuf surfaces, uint instance, uint level, vec2 uv, INOUT(CellBlend) b) {
+    uint triangle = readTriangle(surfaces, instance, level, b.nearest);
+    b.valid = triangle != kNoIndex || b.own;
+    if (triangle != kNoIndex) {
+        TrianglePlane plane = readPlane(surfaces, instance, triangle);
+        vec2 offset = uv - plane.uv0;
+        b.du = plane.du;
+        b.dv = plane.dv;
+        b.position = plane.position + plane.du * offset.x + plane.dv * offset.y;
     }
-    vec3 across = cross3(du, dv);
+}
+
+// The patch that a blend, or what has been taken in its stead, makes. False: none.
+FN bool patchFrom(CellBlend b, float orientation, OUT(Patch) p) {
+    vec3 across = cross3(b.du, b.dv);
     float area2 = dot3(across, across);
-    p.position = position;
-    p.du = du;
-    p.dv = dv;
+    p.position = b.position;
+    p.du = b.du;
+    p.dv = b.dv;
     p.normal = across * (orientation * rsqrtExact(area2));
-    p.bits = bits;
-    p.beside = creased && !texelCrease(bits);
-    return valid && area2 > 1e-36f;
+    p.bits = b.bits;
+    p.beside = b.creased && !texelCrease(b.bits);
+    return b.valid && area2 > 1e-36f;
+}
+
+// Position, Jacobian and normal at uv of `chart` (whose Chart::orientation the caller has at hand). The bilinear
+// patch of the four texels around uv; where one of them is creased or belongs elsewhere, the plane of the
+// triangle under the nearest texel of the chart. False: no texel of the chart within reach, p is unchanged
+// but for values that nobody may use. Reads 4 texels, and a triangle in creased cells.
+FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, float orientation, vec2 uv, OUT(Patch) p) {
+    float size = float(levelSize(surfaces, instance, level));
+    Cell c = cellAt(size, uv);
+    Texel t00 = readTexel(surfaces, instance, level, c.at00);
+    Texel t10 = readTexel(surfaces, instance, level, c.at10);
+    Texel t01 = readTexel(surfaces, instance, level, c.at01);
+    Texel t11 = readTexel(surfaces, instance, level, c.at11);
+    CellBlend b = blendOf(c, size, chart, uv, t00, t10, t01, t11);
+    if (needsPlane(b)) takePlane(surfaces, instance, level, uv, b);
+    return patchFrom(b, orientation, p);
 }
 
 // Position, du and dv at uv, on the level asked for or the chart's coarsest. False as for patchAt.

@@ -1,0 +1,223 @@
+// In: walks, a lane each. Out: the same a stretch further. Loops over all lanes call text without branches, of which
+// the compiler makes vectors (CMakeLists.txt lets it); what reads the surface goes lane by lane between them.
+#include "runtime/expand/wide_walk.hpp"
+
+#include <initializer_list>
+
+#include "shaders/shared/walk_exit.h"
+#include "shaders/shared/walk_stretch.h"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define ESPALIER_WIDE __attribute__((flatten, target("avx2")))
+#else
+#define ESPALIER_WIDE
+#endif
+
+namespace espalier {
+namespace {
+
+vec3 vectorOf(const WideWalks::Vectors& v, uint32_t i) {
+    return {v.x[i], v.y[i], v.z[i]};
+}
+void put(WideWalks::Vectors& to, uint32_t i, vec3 v) {
+    to.x[i] = v.x;
+    to.y[i] = v.y;
+    to.z[i] = v.z;
+}
+void put(WideWalks::Vectors& to, WideWalks::Words& bits, uint32_t i, const Texel& t) {
+    put(to, i, t.position);
+    bits[i] = t.bits;
+}
+
+// What changes in a lane as it walks, from it and back to it.
+void loadWalk(const WideWalks& l, uint32_t i, WalkState& w) {
+    w.position = vectorOf(l.position, i);
+    w.du = vectorOf(l.du, i);
+    w.dv = vectorOf(l.dv, i);
+    w.normal = vectorOf(l.normal, i);
+    w.walk.direction = vectorOf(l.heading, i);
+    w.walk.uv = {l.u[i], l.v[i]};
+    w.walk.arc = l.arc[i];
+    w.slip = {l.slipU[i], l.slipV[i]};
+    w.spread = l.spread[i];
+    w.clear = l.clear[i];
+    w.limit = l.limit[i];
+    w.flags = l.flags[i];
+}
+void storeWalk(WideWalks& l, uint32_t i, const WalkState& w) {
+    put(l.position, i, w.position);
+    put(l.du, i, w.du);
+    put(l.dv, i, w.dv);
+    put(l.normal, i, w.normal);
+    put(l.heading, i, w.walk.direction);
+    l.u[i] = w.walk.uv.x;
+    l.v[i] = w.walk.uv.y;
+    l.arc[i] = w.walk.arc;
+    l.slipU[i] = w.slip.x;
+    l.slipV[i] = w.slip.y;
+    l.spread[i] = w.spread;
+    l.clear[i] = w.clear;
+    l.limit[i] = w.limit;
+    l.flags[i] = w.flags;
+}
+
+// Turns, and measures the stretch and where it would end.
+ESPALIER_WIDE void setOut(WideWalks& l) {
+    for (uint32_t i = 0; i < kWalkLanes; ++i) {
+        WalkState w;
+        loadWalk(l, i, w);
+        const vec3 straight = w.walk.direction;
+        rotateHeading(w, l.angle[i]);
+        const vec3 turned = w.walk.direction;
+        w.walk.direction.x = l.turns[i] != 0 ? turned.x : straight.x;
+        w.walk.direction.y = l.turns[i] != 0 ? turned.y : straight.y;
+        w.walk.direction.z = l.turns[i] != 0 ? turned.z : straight.z;
+        put(l.heading, i, w.walk.direction);
+        l.remaining[i] = inRange(l.remaining[i], l.farthest[i]);
+        const Stretch s = stretchOf(w, l.remaining[i] * rcpExact(l.scale[i]), rcpExact(l.size[i]));
+        l.metres[i] = s.metres;
+        l.pace[i] = s.pace;
+        l.rateU[i] = s.rate.x;
+        l.rateV[i] = s.rate.y;
+        l.toU[i] = w.walk.uv.x + s.delta.x;
+        l.toV[i] = w.walk.uv.y + s.delta.y;
+        l.partly[i] = s.partly ? 1 : 0;
+        l.searches[i] = s.searches ? 1 : 0;
+        const Cell c = cellAt(l.size[i], {l.toU[i], l.toV[i]});
+        l.at00[i] = c.at00;
+        l.at10[i] = c.at10;
+        l.at01[i] = c.at01;
+        l.at11[i] = c.at11;
+        l.fx[i] = c.fx;
+        l.fy[i] = c.fy;
+    }
+}
+
+// Has the processor fetch what the next two ask for.
+void expectEnd(const WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
+    const SurfaceLevel& level = surfaces.v[l.instance[i]].levels[l.level[i]];
+    for (uint32_t at : {l.at00[i], l.at10[i], l.at01[i], l.at11[i]}) __builtin_prefetch(level.texels.v + at);
+    if (l.searches[i] != 0) __builtin_prefetch(level.crossingHead.v + l.at00[i]);
+}
+
+bool leavesChart(const WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
+    if (l.searches[i] == 0) return false;
+    const vec2 slip = {l.slipU[i], l.slipV[i]};
+    const vec2 delta = vec2(l.rateU[i], l.rateV[i]) * l.metres[i];
+    const bool loose = (l.flags[i] & kWalkFlagLoose) != 0;
+    const Exit leave = findExit(surfaces, l.instance[i], l.level[i], l.chart[i], vec2(l.u[i], l.v[i]) + slip,
+                                delta - slip, l.clear[i], loose);
+    return leave.fraction <= 1.0f;
+}
+
+void readEnd(WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
+    const Texel* texels = surfaces.v[l.instance[i]].levels[l.level[i]].texels.v;
+    put(l.texel00, l.bits00, i, texels[l.at00[i]]);
+    put(l.texel10, l.bits10, i, texels[l.at10[i]]);
+    put(l.texel01, l.bits01, i, texels[l.at01[i]]);
+    put(l.texel11, l.bits11, i, texels[l.at11[i]]);
+}
+
+ESPALIER_WIDE void blendEnds(WideWalks& l) {
+    for (uint32_t i = 0; i < kWalkLanes; ++i) {
+        const Cell c = {l.at00[i], l.at10[i], l.at01[i], l.at11[i], l.fx[i], l.fy[i]};
+        const CellBlend b = blendOf(c, l.size[i], l.chart[i], {l.toU[i], l.toV[i]},
+                                    {vectorOf(l.texel00, i), l.bits00[i]}, {vectorOf(l.texel10, i), l.bits10[i]},
+                                    {vectorOf(l.texel01, i), l.bits01[i]}, {vectorOf(l.texel11, i), l.bits11[i]});
+        put(l.position1, i, b.position);
+        put(l.du1, i, b.du);
+        put(l.dv1, i, b.dv);
+        l.nearest[i] = b.nearest;
+        l.bits[i] = b.bits;
+        l.own[i] = b.own ? 1 : 0;
+        l.creased[i] = b.creased ? 1 : 0;
+        l.valid[i] = b.valid ? 1 : 0;
+    }
+}
+
+CellBlend blendIn(const WideWalks& l, uint32_t i) {
+    return {vectorOf(l.position1, i), vectorOf(l.du1, i), vectorOf(l.dv1, i), l.nearest[i], l.bits[i], l.own[i] != 0,
+            l.creased[i] != 0,        l.valid[i] != 0};
+}
+
+void readPlane(WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
+    CellBlend b = blendIn(l, i);
+    if (!needsPlane(b)) return;
+    takePlane(surfaces, l.instance[i], l.level[i], {l.toU[i], l.toV[i]}, b);
+    put(l.position1, i, b.position);
+    put(l.du1, i, b.du);
+    put(l.dv1, i, b.dv);
+    l.valid[i] = b.valid ? 1 : 0;
+}
+
+ESPALIER_WIDE void land(WideWalks& l) {
+    for (uint32_t i = 0; i < kWalkLanes; ++i) {
+        WalkState w;
+        loadWalk(l, i, w);
+        const float texel = rcpExact(l.size[i]);
+        const vec2 rate = {l.rateU[i], l.rateV[i]};
+        const Stretch s = {l.metres[i], l.partly[i] != 0, l.pace[i], rate, rate * l.metres[i], l.searches[i] != 0};
+        Patch p;
+        const bool found = patchFrom(blendIn(l, i), l.orientation[i], p);
+        const Landing landing = landingOf(w, s, p, texel);
+        l.landed[i] = both(found, both(liesInside(p), lands(landing))) ? 1 : 0;
+        const uint32_t tries = s.partly ? 0 : (w.flags & 0xFF) + 1;
+        const uint32_t met = landOn(w, s, landing, p, {l.toU[i], l.toV[i]}, texel);
+        float remaining = l.remaining[i];
+        l.event[i] = endStretch(w, remaining, met, s.metres, tries, l.scale[i]);
+        l.remaining[i] = remaining;
+        storeWalk(l, i, w);
+        l.packedNormal[i] = packOct(w.normal);
+        l.packedHeading[i] = packOct(w.walk.direction);
+    }
+}
+
+// visit(lane) for each bit.
+template <class Visit>
+void forLanes(uint32_t lanes, const Visit& visit) {
+    for (; lanes != 0; lanes &= lanes - 1) visit(uint32_t(__builtin_ctz(lanes)));
+}
+
+}  // namespace
+
+bool walksWide() {
+#if defined(__x86_64__) && defined(__GNUC__)
+    return __builtin_cpu_supports("avx2");
+#else
+    return false;
+#endif
+}
+
+void putWalk(WideWalks& l, uint32_t i, SurfaceBuf surfaces, const WalkState& w, float remaining) {
+    storeWalk(l, i, w);
+    l.remaining[i] = remaining;
+    l.turns[i] = 0;
+    l.instance[i] = w.walk.place >> 16;
+    l.chart[i] = w.walk.place & 0xFFFF;
+    l.level[i] = w.level;
+    const SurfaceRef& surface = surfaces.v[l.instance[i]];
+    l.orientation[i] = w.orientation;
+    l.size[i] = float(surface.levels[w.level].size);
+    l.scale[i] = surface.scale;
+    l.farthest[i] = kWalkMaxRadii * surface.radius * surface.scale;
+}
+
+uint32_t advanceWide(WideWalks& l, SurfaceBuf surfaces, uint32_t lanes) {
+    setOut(l);
+    forLanes(lanes, [&](uint32_t i) { expectEnd(l, i, surfaces); });
+    uint32_t stay = 0;
+    forLanes(lanes, [&](uint32_t i) { stay |= leavesChart(l, i, surfaces) ? 0 : 1u << i; });
+    forLanes(stay, [&](uint32_t i) { readEnd(l, i, surfaces); });
+    blendEnds(l);
+    forLanes(stay, [&](uint32_t i) { readPlane(l, i, surfaces); });
+    land(l);
+    uint32_t landed = 0;
+    forLanes(stay, [&](uint32_t i) { landed |= l.landed[i] << i; });
+    return landed;
+}
+
+void takeWalk(const WideWalks& l, uint32_t i, WalkState& w) {
+    loadWalk(l, i, w);
+}
+
+}  // namespace espalier

@@ -1,0 +1,58 @@
+#pragma once
+
+// Walks side by side, a lane of the processor's vectors each: a stretch is a chain of reciprocals and roots that wait
+// for each other, and lanes share that wait. The arithmetic is the kernels' text (walk_stretch.h), so the bits are the
+// same.
+
+#include <cstdint>
+
+#include "shaders/shared/walk_state.h"
+
+namespace espalier {
+
+constexpr uint32_t kWalkLanes = 8;
+
+// Whether this processor's vectors are wide enough for advanceWide to pay.
+bool walksWide();
+
+// What lanes compute with. Lanes that were never put are zero, or hold what another walk left there.
+struct alignas(64) WideWalks {
+    using Floats = float[kWalkLanes];
+    using Words = uint32_t[kWalkLanes];
+    struct Vectors {
+        Floats x, y, z;
+    };
+
+    // The walk: WalkState's parts, and what is still to be walked, metres of the world.
+    Vectors position, du, dv, normal, heading;
+    Floats u, v, slipU, slipV, spread, clear, limit, arc, remaining;
+    Words flags;
+    Words instance, chart, level;
+    Floats orientation, size, scale, farthest;  // size: texels along a side
+    // By how much it turns first, radians; 0 or 1: it does.
+    Floats angle;
+    Words turns;
+    // How its stretch ended: the event, and what a sample there keeps, packed.
+    Words event, packedNormal, packedHeading;
+
+    // The stretch, and the four texels about its end.
+    Floats metres, pace, rateU, rateV, toU, toV;
+    Words partly, searches;
+    Words at00, at10, at01, at11;
+    Floats fx, fy;
+    Vectors texel00, texel10, texel01, texel11;
+    Words bits00, bits10, bits01, bits11;
+    // Their blend, or the plane taken in its stead.
+    Vectors position1, du1, dv1;
+    Words nearest, bits, own, creased, valid, landed;
+};
+
+// A walk into a lane, with `remaining` to be walked; it doesn't turn.
+void putWalk(WideWalks& walks, uint32_t lane, SurfaceBuf surfaces, const WalkState& w, float remaining);
+// Walks what walkAdvance would, in the lanes of which `lanes` has the bit. Returns those whose stretch has landed
+// inside its chart. The others met something that needs walkAdvance: what is in these lanes then is of no use.
+uint32_t advanceWide(WideWalks& walks, SurfaceBuf surfaces, uint32_t lanes);
+// The walk of a lane that has landed into the state that it was put from.
+void takeWalk(const WideWalks& walks, uint32_t lane, WalkState& w);
+
+}  // namespace espalier
