@@ -47,6 +47,19 @@ App::~App() {
     if (glfw_) glfwTerminate();
 }
 
+namespace {
+
+// What was asked for, times the display's scale, may be more than the display has room for.
+void fitDisplay(GLFWwindow* window) {
+    int x, y, most[2] = {0, 0}, size[2];
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &most[0], &most[1]);
+    glfwGetWindowSize(window, &size[0], &size[1]);
+    if (most[0] > 0 && (size[0] > most[0] || size[1] > most[1]))
+        glfwSetWindowSize(window, std::min(size[0], most[0]), std::min(size[1], most[1]));
+}
+
+}  // namespace
+
 bool App::openWindow() {
     glfwSetErrorCallback([](int, const char* text) { std::fprintf(stderr, "espalier-sample: window: %s\n", text); });
     if (!glfwInit()) return fail("there is no display to open a window on; tools/run writes frames to out/ then");
@@ -55,6 +68,7 @@ bool App::openWindow() {
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     window_.reset(glfwCreateWindow(options_.width, options_.height, "Espalier", nullptr, nullptr));
     if (!window_) return fail("the window can't be opened");
+    fitDisplay(window_.get());
     glfwSetWindowSizeLimits(window_.get(), 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
     host_ = std::make_unique<VulkanHost>();
     uint32_t count = 0;

@@ -10,6 +10,7 @@
 
 #include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
+#include "sample_game/theme.hpp"
 
 namespace sample {
 namespace {
@@ -257,9 +258,10 @@ void showGrammarWindow(Workspace& work) {
         if (another || (!active && state.shown != grammar.text)) state.shown = grammar.text;
         state.grammar = work.openGrammar;
         const int lines = 1 + int(std::count(state.shown.begin(), state.shown.end(), '\n'));
-        const float line = ImGui::GetFontSize();
         const float below =
-            wrong.empty() ? line * 1.6f : line * (1.6f + 1.4f * float(std::min<size_t>(wrong.size(), 4)));
+            ImGui::GetFontSize() * (1.6f + (wrong.empty() ? 0 : 1.4f * float(std::min<size_t>(wrong.size(), 4))));
+        ImGui::PushFont(textFont());
+        const float line = ImGui::GetFontSize();
         const float height = line * float(lines + 1) + 2 * ImGui::GetStyle().FramePadding.y;
         if (ImGui::BeginChild("text", {0, -below}, false, ImGuiWindowFlags_HorizontalScrollbar)) {
             const float margin = ImGui::CalcTextSize("0000").x + 8;
@@ -289,6 +291,7 @@ void showGrammarWindow(Workspace& work) {
             }
         }
         ImGui::EndChild();
+        ImGui::PopFont();
         if (wrong.empty()) {
             ImGui::TextDisabled("It compiles. %d lines, %s", lines,
                                 std::filesystem::path(grammar.file).filename().c_str());

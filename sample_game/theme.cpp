@@ -1,4 +1,5 @@
-// A dark, neutral look that leaves colour to the picture. The font is DejaVu Sans where Debian has it installed.
+// A dark, neutral look that leaves colour to the picture. The fonts are DejaVu Sans and its sister of one width, where
+// Debian has them installed.
 #include "sample_game/theme.hpp"
 
 #include <imgui.h>
@@ -9,6 +10,7 @@ namespace sample {
 namespace {
 
 const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+const char* kTextFont = "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf";
 // Latin, Greek, Cyrillic, punctuation, superscripts, arrows, what labels and units of grammars are written with.
 const ImWchar kGlyphs[] = {0x20,   0x24F,  0x370,  0x3FF,  0x400,  0x4FF,  0x2010, 0x2027,
                            0x2070, 0x209F, 0x2190, 0x21FF, 0x2200, 0x22FF, 0};
@@ -17,20 +19,29 @@ ImVec4 grey(float value, float alpha = 1) {
     return {value, value, value * 1.02f, alpha};
 }
 
-}  // namespace
-
-void applyTheme(float scale) {
-    ImGuiIO& io = ImGui::GetIO();
-    io.Fonts->Clear();
+void addFont(const char* file, float size) {
+    ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     std::error_code ignored;
-    const float size = float(int(15 * scale + .5f));
-    if (std::filesystem::exists(kFont, ignored)) {
-        io.Fonts->AddFontFromFileTTF(kFont, size, nullptr, kGlyphs);
+    size = float(int(size + .5f));
+    if (std::filesystem::exists(file, ignored)) {
+        fonts.AddFontFromFileTTF(file, size, nullptr, kGlyphs);
     } else {
         ImFontConfig config;
         config.SizePixels = size;
-        io.Fonts->AddFontDefault(&config);
+        fonts.AddFontDefault(&config);
     }
+}
+
+}  // namespace
+
+ImFont* textFont() {
+    return ImGui::GetIO().Fonts->Fonts.back();
+}
+
+void applyTheme(float scale) {
+    ImGui::GetIO().Fonts->Clear();
+    addFont(kFont, 15 * scale);
+    addFont(kTextFont, 14 * scale);
 
     ImGuiStyle style;
     ImGui::StyleColorsDark(&style);

@@ -26,7 +26,7 @@ LeafInstance drawnLeaf(uint i) {
     o.axisX *= factor;
     o.axisY *= factor;
     o.axisZ *= factor;
-    uint height = uint(float(o.bits >> 21u) * (65535.0 / 2047.0) / factor);   // in sizes
+    uint height = uint(float(o.bits >> 21u) * (65535.0 / 2047.0));   // in sizes that it has when all are drawn
     o.bits = (item.y & 7u) | ((o.bits >> 13u) & 0xF8u) | (o.bits & 0xFF00u) | (height << 16u);
     return o;
 }

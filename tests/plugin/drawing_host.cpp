@@ -76,9 +76,11 @@ bool DrawingHost::has(VkFormat format) const {
     return (properties.optimalTilingFeatures & wanted) == wanted;
 }
 
-void DrawingHost::use(VkFormat colour, const Depth& depth) {
+void DrawingHost::use(VkFormat colour, const Depth& depth, uint32_t times) {
     colour_ = colour;
     depth_ = depth;
+    width_ = times * kWidth;
+    height_ = times * kHeight;
     makeImages();
     GraphicsDesc desc;
     desc.name = "host's box";
@@ -91,7 +93,7 @@ void DrawingHost::use(VkFormat colour, const Depth& depth) {
 }
 
 void DrawingHost::makeImages() {
-    ImageDesc desc{.name = "host's picture", .format = colour_, .width = kWidth, .height = kHeight};
+    ImageDesc desc{.name = "host's picture", .format = colour_, .width = width_, .height = height_};
     desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     picture_ = must(Image::create(*device_, desc));
     desc.name = "host's depth buffer";
@@ -115,8 +117,8 @@ double DrawingHost::distance(float depth) const {
 
 EspDrawDef DrawingHost::def(const EspCamera& camera, const Commands& commands) const {
     EspDrawDef def = espDefaultDrawDef();
-    def.width = kWidth;
-    def.height = kHeight;
+    def.width = width_;
+    def.height = height_;
     def.camera = camera;
     def.commandBuffer = commands.handle();
     def.colourImage = picture_.handle();
@@ -134,7 +136,7 @@ DrawingHost::Picture DrawingHost::draw(const EspCamera& camera, const std::vecto
     commands.transition(nearest_, ImageState::depthTarget, true);
     {
         DrawTargets targets;
-        targets.extent = {kWidth, kHeight};
+        targets.extent = {width_, height_};
         targets.colors.push_back({.view = picture_.view(), .clear = std::array<float, 4>{.2f, .3f, .5f, 1}});
         targets.depth = DepthTarget{.view = nearest_.view(), .clear = depth_.reversed ? 0.0f : 1.0f};
         DrawPass pass(commands, "host", targets);
@@ -189,8 +191,8 @@ std::vector<DrawingHost::Picture> DrawingHost::drawAtOnce(const std::vector<EspC
 namespace {
 
 // sRGB, whatever the picture's format.
-std::vector<uint8_t> inEightBits(const std::vector<std::byte>& bytes, VkFormat format) {
-    std::vector<uint8_t> rgba(size_t(DrawingHost::kWidth) * DrawingHost::kHeight * 4);
+std::vector<uint8_t> inEightBits(const std::vector<std::byte>& bytes, VkFormat format, size_t pixels) {
+    std::vector<uint8_t> rgba(pixels * 4);
     if (format == VK_FORMAT_R16G16B16A16_SFLOAT) {
         for (size_t i = 0; i < rgba.size(); ++i) {
             uint16_t half;
@@ -219,11 +221,11 @@ DrawingHost::Picture DrawingHost::read() {
     picture_.state = ImageState::colorTarget;
     Picture picture;
     const std::vector<std::byte> bytes = must(readImage(*device_, picture_));
-    picture.rgba = inEightBits(bytes, colour_);
+    picture.rgba = inEightBits(bytes, colour_, size_t(width_) * height_);
     const bool legible = depth_.format == VK_FORMAT_D32_SFLOAT || depth_.format == VK_FORMAT_D16_UNORM;
     if (!legible || nearest_.state != ImageState::depthTarget) return picture;
     const std::vector<std::byte> depths = must(readImage(*device_, nearest_));
-    picture.depth.resize(size_t(kWidth) * kHeight);
+    picture.depth.resize(size_t(width_) * height_);
     for (size_t i = 0; i < picture.depth.size(); ++i)
         if (depth_.format == VK_FORMAT_D16_UNORM) {
             uint16_t depth;

@@ -34,8 +34,8 @@ class DrawingHost {
     EspHostDevice device() const;
     // Whether the GPU has such a depth buffer that can be sampled.
     bool has(VkFormat format) const;
-    // Of the formats that follow pictures are made.
-    void use(VkFormat colour, const Depth& depth);
+    // Pictures are of these formats from now on, kWidth × kHeight, so many times as large.
+    void use(VkFormat colour, const Depth& depth, uint32_t times = 1);
 
     // A picture of the boxes; with a context growth is drawn into it, with `surfaces` its surfaces too.
     Picture draw(const EspCamera& camera, const std::vector<Box>& boxes, EspContext* context, bool surfaces = false);
@@ -56,6 +56,7 @@ class DrawingHost {
     std::unique_ptr<Device> device_;
     VkFormat colour_ = VK_FORMAT_R8G8B8A8_UNORM;
     Depth depth_;
+    uint32_t width_ = kWidth, height_ = kHeight;
     Image picture_, nearest_;
     Program box_;
     uint64_t frame_ = 0;

@@ -68,13 +68,17 @@ const std::vector<DrawingHost::Box> kBoxes = {{{0, 0, -.2f}, {1, 1, -.004f}, {.5
                                               {{.55f, .1f, .2f}, {.8f, .5f, .4f}, {.7f, .2f, .1f}},
                                               {{.15f, .45f, -.1f}, {.4f, .7f, .06f}, {.2f, .3f, .7f}}};
 
-void save(const std::string& name, const Picture& picture) {
+// The gallery's picture, where ESPALIER_PICTURES names a folder for it.
+void picture(DrawingHost& host, Grown& grown) {
     const char* folder = std::getenv("ESPALIER_PICTURES");
     if (!folder) return;
-    std::FILE* file = std::fopen((std::string(folder) + "/" + name + ".ppm").c_str(), "wb");
-    if (!file) return;
-    std::fprintf(file, "P6 %u %u 255\n", kWidth, kHeight);
-    for (size_t i = 0; i < kPixels; ++i) std::fwrite(&picture.rgba[4 * i], 1, 3, file);
+    constexpr uint32_t kTimes = 3;
+    host.use(VK_FORMAT_R8G8B8A8_UNORM, {}, kTimes);
+    const Picture drawn = host.draw(cameraAt(1.3f, .9f, 1.9f), kBoxes, grown.context);
+    std::FILE* file = std::fopen((std::string(folder) + "/host.ppm").c_str(), "wb");
+    REQUIRE(file);
+    std::fprintf(file, "P6 %u %u 255\n", kTimes * kWidth, kTimes * kHeight);
+    for (size_t i = 0; i < drawn.rgba.size(); i += 4) std::fwrite(&drawn.rgba[i], 1, 3, file);
     std::fclose(file);
 }
 
@@ -103,7 +107,6 @@ void hideEachOther(DrawingHost& host, Grown& grown) {
         const Picture boxes = host.draw(camera, kBoxes, nullptr);
         const Picture growth = host.draw(camera, {}, grown.context);
         const Picture both = host.draw(camera, kBoxes, grown.context);
-        save(std::string("host-") + c.name, both);
 
         std::vector<bool> shown(kPixels);  // pixels in which growth is to be seen
         size_t front = 0, behind = 0;
@@ -207,7 +210,6 @@ void sixFramesAtOnce(DrawingHost& host, Grown& grown) {
     CHECK(single[0].rgba != single[1].rgba);
 }
 
-// A host's scene that can't be used is refused.
 // The first frame of a plant is recorded and dropped: what it would have bound, culled and shaded, the next one does.
 void droppedFrame(DrawingHost& host, Grown& grown) {
     host.use(VK_FORMAT_R8G8B8A8_UNORM, {});
@@ -217,11 +219,11 @@ void droppedFrame(DrawingHost& host, Grown& grown) {
     host.recordInVain(cameras[0], other.context);
     REQUIRE(espDropFrame(other.context) == ESP_OK);
     const Picture after = host.drawAtOnce(cameras, other.context)[0];
-    save("host-dropped", after);
     CHECK(after.rgba == wanted.rgba);
     CHECK(espDropFrame(nullptr) == ESP_INVALID_ARGUMENT);
 }
 
+// A host's scene that can't be used is refused.
 void refusals(DrawingHost& host, Grown& grown) {
     const auto refused = [&](auto&& spoil) {
         EspHostScene scene = host.scene();
@@ -266,4 +268,5 @@ TEST_CASE("growth in a host's scene") {
     sixFramesAtOnce(host, grown);
     droppedFrame(host, grown);
     refusals(host, grown);
+    picture(host, grown);
 }
