@@ -318,6 +318,22 @@ TEST_CASE("thin twigs fade instead of breaking up") {
     CHECK(far == doctest::Approx(near).epsilon(0.35));
 }
 
+TEST_CASE("leaves that stand for others are as bright as all of them") {
+    Studio studio;
+    studio.inputs.look.shadows = false;
+    const auto brightness = [&](uint32_t width, uint32_t height) {
+        const std::vector<uint8_t> rgba = studio.draw(width, height);
+        double sum = 0, count = 0;
+        for (size_t i = 0; i < rgba.size(); i += 4)
+            if (green(rgba[i], rgba[i + 1], rgba[i + 2])) sum += std::pow(rgba[i + 1] / 255.0, 2.2), ++count;
+        REQUIRE(count > 100);
+        return sum / count;
+    };
+    const double all = brightness(1280, 720), few = brightness(112, 63);
+    CHECK(few > 0.95 * all);
+    CHECK(few < 1.07 * all);
+}
+
 TEST_CASE("the ground reaches the horizon, lies behind what stands on it and takes its shadow") {
     Studio studio;
     studio.inputs.growth = {};
