@@ -424,8 +424,8 @@ typedef struct EspLook {
     float exposure;              /* stops */
     float background[3], horizon[3];
     int shadows;
-    int shadowsLag;              /* 1: while growth or houses change in every frame, shadows follow in every eighth and more
-                                    coarsely, and wholly once all rests; default 0: each picture has its own */
+    int shadowsLag;              /* 1: while growth or houses change in every frame, shadows follow a few frames later,
+                                    wholly and finely once all rests; default 0: each picture has its own */
     int quick;                   /* 1: for pictures of what moves: a software device takes fewer samples of shadows and textures;
                                     default 0 */
     EspView view;

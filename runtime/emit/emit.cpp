@@ -135,7 +135,8 @@ Status Emit::cull(Commands& commands, const EmitInputs& inputs, const EmitView& 
 
 Status Emit::watch(Commands& commands, const EmitView& view) {
     const auto along = [&](uint32_t pixels) { return (pixels + view.tilePixels - 1) / view.tilePixels; };
-    const uint64_t bytes = 4ull * along(view.width) * along(view.height);
+    const uint32_t tiles = along(view.width) * along(view.height);
+    const uint64_t bytes = 4ull * tiles;
     watched_ = {};
     if (!watchTiles_ || watchTiles_.size() != bytes) {
         Result<Buffer> made = Buffer::create(*device_, "watched tiles", bytes);
@@ -147,13 +148,13 @@ Status Emit::watch(Commands& commands, const EmitView& view) {
     commands.barrier(Use::compute, Use::transfer);
     if (Status s = commands.upload(watch_, std::as_bytes(std::span(&watched, 1))); !s) return s;
     watched_ = watched;
-    settle(commands);
+    settle(commands, 0, tiles);
     return Done{};
 }
 
-void Emit::settle(Commands& commands) {
+void Emit::settle(Commands& commands, uint32_t first, uint32_t count) {
     commands.barrier(Use::compute | Use::vertex, Use::transfer);
-    commands.fill(watchTiles_, kKeptTile);
+    commands.fill(watchTiles_, kKeptTile, 4ull * first, 4ull * count);
     commands.barrier(Use::transfer, Use::compute | Use::vertex);
 }
 
@@ -202,6 +203,14 @@ EmitView parallelView(const glm::mat4& m, float pixelsPerMetre, float lodPixels)
     view.tilePixels = kDepthTile;
     view.wholePixels = kWholePixels;
     view.leastShare = kLeastShare;
+    return view;
+}
+
+EmitView bandOf(EmitView view, float low, float high) {
+    const glm::mat4& m = view.viewProjection;
+    const glm::vec4 height(m[0][1], m[1][1], m[2][1], m[3][1]);
+    const glm::vec4 planes[] = {height - glm::vec4(0, 0, 0, low), glm::vec4(0, 0, 0, high) - height};
+    for (int i = 0; i < 2; ++i) view.planes[2 + i] = planes[i] / glm::length(glm::vec3(planes[i]));
     return view;
 }
 

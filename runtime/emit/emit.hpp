@@ -63,10 +63,11 @@ class Emit {
     uint64_t carries() const { return carries_; }
 
     // Recorded once all of `view`, a parallel one, was drawn: from now on the tiles of its picture are noted where
-    // edits change it. changes() is the view of what lies in these, once it is bound; settle(): that was drawn.
+    // edits change it. changes() is the view of what lies in these, once it is bound; settle(): so many of them, from
+    // `first` on, row by row, were drawn.
     Status watch(Commands& commands, const EmitView& view);
     const EmitView& changes() const { return watched_; }
-    void settle(Commands& commands);
+    void settle(Commands& commands, uint32_t first, uint32_t count);
 
     // The last recording won't be submitted: nothing of it can be built on.
     void forget() {
@@ -163,5 +164,7 @@ EmitView perspectiveView(const glm::mat4& viewProjection, glm::vec3 eye, float p
 // spans that follow each other may be drawn as one.
 void thinOut(EmitView& view, float leafPixels);
 EmitView parallelView(const glm::mat4& viewProjection, float pixelsPerMetre, float lodPixels);
+// Of a parallel view what lies between two heights of its picture, in clip space.
+EmitView bandOf(EmitView view, float low, float high);
 
 }  // namespace espalier

@@ -80,7 +80,8 @@ struct RenderStats {
     RoofDrawStats roofs;
     uint64_t modelTriangles = 0;
     uint32_t modelsFading = 0;                     // models between two levels of detail
-    uint32_t shadowsWhole = 0, shadowsPartly = 0;  // how often the near shadow map was redrawn
+    uint32_t shadowsWhole = 0, shadowsPartly = 0;  // how often the near shadow map was redrawn, all or what had changed
+    uint32_t shadowBands = 0;                      // and a band of that, in strokes
     double emitMs = 0, drawMs = 0, shadowMs = 0;   // GPU time of the last finished frame; shadow: of the last redraw
 };
 
@@ -109,8 +110,8 @@ class Renderer {
 
     // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed; after
     // edits of growth only in tiles that they reach. If it may lag: from the third frame in a row on in which growth
-    // has changed, in every eighth, and when it has come to rest; where all growth is new, until then with fewer and
-    // larger leaves.
+    // has changed, an eighth of these tiles in each, by bands, and all when it has come to rest; where all growth is new,
+    // in every eighth frame, until then with fewer and larger leaves.
     virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;
 
     // What the last draw has recorded didn't run: the next relies on none of it.

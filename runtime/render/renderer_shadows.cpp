@@ -9,11 +9,13 @@ namespace espalier {
 namespace {
 
 constexpr float kShadowLodPixels = 1.2f;
-constexpr float kStrokeLeafTexels = 32;  // as Look::leafPixels, of shadows while a stroke goes on
-constexpr float kStrokeError = 3;        // times the errors that are allowed otherwise, then
-constexpr uint32_t kShadowTile = 32;     // texels along a side of what is redrawn after edits
-constexpr uint32_t kShadowPeriod = 8;    // frames, while growth changes in each
-constexpr float kWideBias = 0.12f;       // metres that what lies far away is moved towards the sun when it is compared
+constexpr float kStrokeLeafTexels = 32;                      // as Look::leafPixels, of shadows while a stroke goes on
+constexpr float kStrokeError = 3;                            // times the errors that are allowed otherwise, then
+constexpr uint32_t kShadowTile = 32;                         // texels along a side of what is redrawn after edits
+constexpr uint32_t kShadowRows = kShadowSize / kShadowTile;  // of tiles
+constexpr uint32_t kShadowPeriod = 8;                        // frames, while growth changes in each
+static_assert(kShadowRows % kShadowPeriod == 0);
+constexpr float kWideBias = 0.12f;  // metres that what lies far away is moved towards the sun when it is compared
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
 
 // Metres, unless the models are far too small or too large for that: then their longest side counts as six.
@@ -88,11 +90,13 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
 }
 
 // What reaches tiles that haven't changed leaves there the depths that it left before.
-Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
+Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, uint32_t first,
+                                   uint32_t rows) {
     FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
     frame.viewProjection = sun.toClip;
     if (Status s = upload(commands, frame); !s) return s;
-    const EmitView& changes = emit_.changes();
+    const auto height = [](uint32_t row) { return 2.0f * float(row) / float(kShadowRows) - 1; };
+    const EmitView changes = bandOf(emit_.changes(), height(first), height(first + rows));
     if (Status s = emit_.cull(commands, emitInputs(inputs), changes, "shadow emit", false); !s) return s;
     commands.transition(shadowMap_, ImageState::depthTarget);
     {
@@ -100,14 +104,13 @@ Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs,
         targets.extent = {kShadowSize, kShadowSize};
         targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = {}};
         DrawPass pass(commands, "shadow draw", targets);
-        const uint32_t columns = kShadowSize / kShadowTile;
-        pass.draw(shadowRestore_, 4, columns * columns, RestorePush{changes.tiles, columns, 0},
+        pass.setScissor(0, int32_t(first * kShadowTile), kShadowSize, rows * kShadowTile);
+        pass.draw(shadowRestore_, 4, rows * kShadowRows, RestorePush{changes.tiles, kShadowRows, first * kShadowRows},
                   {{standing_, pointSampler_}});
         drawTerminals(pass, true);
     }
     commands.transition(shadowMap_, ImageState::sampled);
-    emit_.settle(commands);
-    ++shadowsPartly_;
+    emit_.settle(commands, first * kShadowRows, rows * kShadowRows);
     return Done{};
 }
 
@@ -168,12 +171,6 @@ RendererImpl::ShadowKey RendererImpl::edited(ShadowKey before, const ShadowKey& 
     return before;
 }
 
-bool RendererImpl::shadowsWait(const ShadowKey& key) {
-    changes_ = key.growth == growthBefore_ ? 0 : changes_ + 1;
-    growthBefore_ = key.growth;
-    return shadowDrawn_ && edited(shadowKey_, key) == key && changes_ > 2 && changes_ % kShadowPeriod != 0;
-}
-
 Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame) {
     const GrowthView& growth = inputs.growth;
     glm::vec3 low, high;
@@ -206,21 +203,39 @@ Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, F
     const float wideRadius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.02f;
     if (frame.shadows && wideRadius > 1.1f * radius)
         if (Status s = aimWideShadows(commands, inputs, sun, (low + high) * 0.5f, wideRadius, frame); !s) return s;
-    const bool wait = shadowsWait(key) && inputs.look.shadowsLag;
+    return updateNearShadows(commands, inputs, sun, key);
+}
+
+Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun,
+                                       const ShadowKey& key) {
+    changes_ = key.growth == growthBefore_ ? 0 : changes_ + 1;
+    growthBefore_ = key.growth;
     const bool stroke = inputs.look.shadowsLag && changes_ > 2;
-    if (frame.shadows && !wait && (!shadowDrawn_ || key != shadowKey_ || (shadowCoarse_ && !stroke))) {
-        if (grows_)
-            if (Status s = emit_.bind(commands, emitInputs(inputs)); !s) return s;
-        const bool partly = shadowDrawn_ && shadowKept_ && grows_ && shadowBindings_ == emit_.wholeBindings() &&
-                            edited(shadowKey_, key) == key;
-        if (Status s = partly ? redrawShadows(commands, inputs, sun) : drawShadows(commands, inputs, sun, stroke); !s)
-            return s;
-        shadowKey_ = key;
-        shadowCoarse_ = !partly && stroke;
-        shadowDrawn_ = true;
-    } else if (!shadowDrawn_ && !wideDrawn_) {
-        commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
+    const bool asKept = shadowDrawn_ && key == shadowKey_ && (!shadowCoarse_ || stroke);
+    if (!inputs.look.shadows || asKept) {
+        if (!shadowDrawn_ && !wideDrawn_)
+            commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
+        return Done{};
     }
+    if (grows_)
+        if (Status s = emit_.bind(commands, emitInputs(inputs)); !s) return s;
+    const bool onlyGrown = shadowDrawn_ && edited(shadowKey_, key) == key;
+    const bool partly = onlyGrown && shadowKept_ && grows_ && shadowBindings_ == emit_.wholeBindings();
+    const uint32_t turn = changes_ % kShadowPeriod;
+    if (stroke && partly) {  // a band in each frame: what is left follows when growth rests
+        constexpr uint32_t kBand = kShadowRows / kShadowPeriod;
+        ++shadowBands_;
+        return redrawShadows(commands, inputs, sun, turn * kBand, kBand);
+    }
+    if (stroke && onlyGrown && turn != 0) return Done{};
+    if (partly) ++shadowsPartly_;
+    if (Status s =
+            partly ? redrawShadows(commands, inputs, sun, 0, kShadowRows) : drawShadows(commands, inputs, sun, stroke);
+        !s)
+        return s;
+    shadowKey_ = key;
+    shadowCoarse_ = !partly && stroke;
+    shadowDrawn_ = true;
     return Done{};
 }
 

@@ -89,7 +89,7 @@ STATIC_SIZE(TilesPush, 8);
 struct RestorePush {
     FloatBuf tiles;          // kKeptTile or kChangedTile
     uint columns;            // tiles along a side
-    uint spare;
+    uint first;              // the first one that is drawn
 };
 STATIC_SIZE(RestorePush, 16);
 
