@@ -110,8 +110,8 @@ class Renderer {
 
     // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed; after
     // edits of growth only in tiles that they reach. If it may lag: from the third frame in a row on in which growth
-    // has changed, an eighth of these tiles in each, by bands, and all when it has come to rest; where all growth is new,
-    // in every eighth frame, until then with fewer and larger leaves.
+    // has changed, an eighth of these tiles in each, by bands, and all when it has come to rest; where all growth is
+    // new, in every eighth frame, until then with fewer and larger leaves.
     virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;
 
     // What the last draw has recorded didn't run: the next relies on none of it.
