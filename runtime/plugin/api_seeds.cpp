@@ -32,14 +32,17 @@ glm::vec3 laidInto(glm::vec3 wanted, glm::vec3 normal) {
     return glm::normalize(best);
 }
 
-// Puts a seed on the ground nearest to a point. False: there is none.
+// Puts a seed on the surface nearest to a point, from bare ground to the ground beside it. False: there is no surface.
 bool place(const EspContext& context, glm::vec3 position, glm::vec3 direction, PlantedSeed& seed) {
-    const auto point = nearestOnSurfaces(context, position, true);
+    auto point = nearestOnSurfaces(context, position);
     if (!point) return false;
+    if (point->bare)
+        if (auto beside = groundBeside(context, *point)) point = beside;
     const PlacedSurface& surface = *context.surfaces.find(point->surface);
     seed.surface = point->surface;
     seed.walk.place = (surface.instance << 16) | point->chart;
     seed.walk.uv = point->uv;
+    seed.onBare = point->bare;
     seed.givenPosition = position;
     seed.givenDirection = direction;
     seed.position = point->position;
@@ -68,7 +71,7 @@ EspResult plant(EspContext& context, const EspSeedDef& def, EspSeed* out) {
     seed.grammar = def.grammar.id;
     seed.symbol = def.symbol ? def.symbol : "";
     if (!place(context, vec(def.position), vec(def.direction), seed))
-        return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: there is no ground to plant on");
+        return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: there is no surface to plant on");
     if (!context.twins.take(def.number, def.twin, seed.twin))
         return fail(&context, ESP_INVALID_ARGUMENT,
                     "espPlant: twin " + std::to_string(def.twin) + " of number " + std::to_string(def.number) +
@@ -242,7 +245,7 @@ EspResult espMoveSeed(EspContext* context, EspSeed id, const float position[3], 
         if (!seed || !position || !direction || !finite(position) || !finite(direction))
             return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: no such seed, or a place that isn't one");
         if (!place(*context, vec(position), vec(direction), *seed))
-            return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: there is no ground");
+            return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: there is no surface");
         ++context->revision;
         return ESP_OK;
     });

@@ -59,7 +59,7 @@ EspResult update(EspContext& context) {
             frozenIds.push_back(seedId);
             return;
         }
-        if (buriedByOthers(context, planted)) return;
+        if (planted.onBare || buriedByOthers(context, planted)) return;
         seed.walk = planted.walk;
         for (const auto& [id, index] : places)
             if (id == planted.grammar) seed.grammar = index;

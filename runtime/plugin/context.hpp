@@ -98,6 +98,7 @@ struct PlantedSeed {
     uint32_t number = 0;
     uint32_t twin = 1;  // tells apart seeds of one number
     Walk walk{};
+    bool onBare = false;                             // no ground is near: it waits
     glm::vec3 position{0}, normal{0}, direction{0};  // world
     glm::vec3 givenPosition{0}, givenDirection{0};   // as the host asked
     std::vector<SeedParam> params;                   // by name
@@ -303,10 +304,13 @@ struct SurfacePoint {
     glm::vec2 uv{0};
     glm::vec3 position{0}, normal{0};  // world; the triangle's own normal
     float distance = 0;
+    bool bare = false;  // nothing grows there
 };
 std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction);
-// ground: only where something grows.
-std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point, bool ground);
+std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point);
+// About the nearest ground around a place on bare ground that is seen by who looks straight at it: not what lies behind
+// a pane.
+std::optional<SurfacePoint> groundBeside(const EspContext& context, const SurfacePoint& bare);
 
 // The root of a seed's derivation path. Doesn't depend on other seeds or grammars.
 uint64_t seedKey(const PlantedSeed& seed);

@@ -8,7 +8,8 @@
 namespace espalier {
 namespace {
 
-constexpr float kOnEdge = 1e-3f;  // of a triangle's height
+constexpr float kFirstRing = 1e-3f, kNextRing = 1.25f;  // of the surface's size, and of the ring before
+constexpr int kAround = 16;
 
 glm::vec3 transformed(const glm::mat4& m, glm::vec3 p) {
     return glm::vec3(m * glm::vec4(p, 1));
@@ -36,21 +37,6 @@ uint32_t chartAt(const SurfaceData& data, glm::vec2 uv, glm::vec3 position) {
     return best;
 }
 
-// A hit on its triangle's edge, a quarter of a texel further inside: what begins on the edge of bare ground might as
-// well begin on that.
-MeshHit offEdge(const SurfaceData& data, MeshHit hit) {
-    const glm::vec2 w = hit.weights;
-    if (w.x > kOnEdge && w.y > kOnEdge && w.x + w.y < 1 - kOnEdge) return hit;
-    const auto at = [&](uint32_t k) -> const DrawVertex& { return data.vertices[data.indices[3 * hit.triangle + k]]; };
-    const glm::vec2 inward = glm::vec2(1.f / 3) - w;
-    const glm::vec2 uv = inward.x * (at(1).walkUv - at(0).walkUv) + inward.y * (at(2).walkUv - at(0).walkUv);
-    const float step = .25f / (float(data.levels.front().size) * std::max(glm::length(uv), 1e-20f));
-    const glm::vec2 moved = inward * std::min(step, .5f);
-    hit.weights += moved;
-    hit.position += moved.x * (at(1).position - at(0).position) + moved.y * (at(2).position - at(0).position);
-    return hit;
-}
-
 std::optional<SurfacePoint> pointOf(uint32_t id, const PlacedSurface& surface, const MeshHit& hit) {
     const SurfaceData& data = surface.data;
     const DrawVertex& a = data.vertices[data.indices[3 * hit.triangle]];
@@ -66,6 +52,7 @@ std::optional<SurfacePoint> pointOf(uint32_t id, const PlacedSurface& surface, c
     const glm::vec3 world = glm::mat3(surface.toWorld) * normal;
     const float length = glm::length(world);
     point.normal = length > 0 ? world / length : glm::vec3(0, 1, 0);
+    point.bare = !data.bareTriangles.empty() && data.bareTriangles[hit.triangle] != 0;
     return point;
 }
 
@@ -87,14 +74,12 @@ std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 or
     return best;
 }
 
-std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point, bool ground) {
+std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point) {
     std::optional<SurfacePoint> best;
     float reach = std::numeric_limits<float>::infinity();  // metres in the world
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
-        const std::span<const uint8_t> except = ground ? surface.data.bareTriangles : std::span<const uint8_t>{};
-        auto hit = surface.tree.nearest(transformed(surface.toObject, point), reach / surface.scale, 0, except);
+        const auto hit = surface.tree.nearest(transformed(surface.toObject, point), reach / surface.scale);
         if (!hit) return;
-        if (!except.empty()) hit = offEdge(surface.data, *hit);
         if (auto found = pointOf(id, surface, *hit)) {
             best = found;
             best->distance = hit->distance * surface.scale;
@@ -102,6 +87,22 @@ std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::ve
         }
     });
     return best;
+}
+
+std::optional<SurfacePoint> groundBeside(const EspContext& context, const SurfacePoint& bare) {
+    const glm::vec3 n = bare.normal, least = glm::abs(n.x) < .7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const glm::vec3 u = glm::normalize(glm::cross(n, least)), v = glm::cross(n, u);
+    const EspSurfaceInfo& info = context.surfaces.find(bare.surface)->info;
+    float size = 0;
+    for (int i = 0; i < 3; ++i) size = std::max(size, info.boundsMax[i] - info.boundsMin[i]);
+    for (float radius = kFirstRing * size; radius < size; radius *= kNextRing)
+        for (int i = 0; i < kAround; ++i) {
+            const float angle = 6.2831853f * float(i) / kAround;
+            const glm::vec3 aside = u * (radius * std::cos(angle)) + v * (radius * std::sin(angle));
+            const auto found = pickSurfaces(context, bare.position + aside + n * radius, -n);
+            if (found && !found->bare && found->distance < 2 * radius && glm::dot(found->normal, n) > 0) return found;
+        }
+    return std::nullopt;
 }
 
 }  // namespace espalier
@@ -148,7 +149,7 @@ EspResult espNearest(const EspContext* context, const float point[3], EspHit* ou
     return guarded(context, [&] {
         if (!point || !out || !finite(point))
             return fail(context, ESP_INVALID_ARGUMENT, "espNearest: null pointer, or a point that isn't finite");
-        const auto found = nearestOnSurfaces(*context, {point[0], point[1], point[2]}, false);
+        const auto found = nearestOnSurfaces(*context, {point[0], point[1], point[2]});
         if (!found) return fail(context, ESP_INVALID_ARGUMENT, "espNearest: there is no surface");
         fill(*found, out);
         return ESP_OK;

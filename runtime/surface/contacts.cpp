@@ -303,6 +303,8 @@ class Assembler {
         contact.fromA = found_->segment.side[f.side].a;
         contact.fromB = found_->segment.side[f.side].b;
         contact.back = f.away;
+        contact.turn = angle(f, g);
+        if (contact.turn == 0) contact.turn = kTurn;  // back to back
         return contact;
     }
 

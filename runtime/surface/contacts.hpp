@@ -48,6 +48,7 @@ struct Contact {
     // apart, and unit directions from there into either surface.
     glm::dvec3 a, b, onward;
     glm::dvec3 fromA, fromB, back;
+    double turn;  // radians, (0, 2 pi]: by which a walk turns to its outside until it stands on the far side
 };
 
 // A contact with bare ground: as it was found, but it leads nowhere.

@@ -161,8 +161,7 @@ std::optional<MeshHit> MeshTree::pick(glm::vec3 origin, glm::vec3 direction, flo
     return best;
 }
 
-std::optional<MeshHit> MeshTree::nearest(glm::vec3 point, float limit, float enough,
-                                         std::span<const uint8_t> except) const {
+std::optional<MeshHit> MeshTree::nearest(glm::vec3 point, float limit, float enough) const {
     if (nodes_.empty()) return std::nullopt;
     std::optional<MeshHit> best;
     float reach = limit * limit;
@@ -173,7 +172,6 @@ std::optional<MeshHit> MeshTree::nearest(glm::vec3 point, float limit, float eno
         if (!(distanceSquared(node.low, node.high, point) < reach)) continue;
         for (uint32_t i = node.first; i < node.first + node.count; ++i) {
             const Triangle& t = triangles_[i];
-            if (!except.empty() && except[t.index]) continue;
             const glm::vec2 w = nearestWeights(t.ab, t.ac, point - t.a);
             const glm::vec3 on = t.a + w.x * t.ab + w.y * t.ac;
             const glm::vec3 gap = point - on;

@@ -28,10 +28,9 @@ class MeshTree {
     // The first triangle, from either side, that origin + t * direction meets with 0 <= t < limit.
     std::optional<MeshHit> pick(glm::vec3 origin, glm::vec3 direction,
                                 float limit = std::numeric_limits<float>::infinity()) const;
-    // The nearest point nearer than `limit`; or any not farther than `enough`, which is found sooner. except: a number
-    // a triangle, those with other than 0 don't count; empty: all do.
+    // The nearest point nearer than `limit`; or any not farther than `enough`, which is found sooner.
     std::optional<MeshHit> nearest(glm::vec3 point, float limit = std::numeric_limits<float>::infinity(),
-                                   float enough = 0, std::span<const uint8_t> except = {}) const;
+                                   float enough = 0) const;
 
     uint64_t bytes() const { return nodes_.size() * sizeof(Node) + triangles_.size() * sizeof(Triangle); }
 

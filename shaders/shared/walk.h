@@ -170,6 +170,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
             w.normal = p.normal;
             w.clear = larger(w.clear - length2(shiftUv), 0.0f);
             w.flags = w.flags | kWalkFlagCrease | kWalkFlagOver;
+            tries = walked * s.pace > 0.05f * texel ? 0u : tries;   // nor are creases
             event = kWalkCrease;
         } else if (l.turns) {
             w.limit = 0.5f * s.metres;

@@ -21,6 +21,31 @@ int floorOf(Kit& kit, double half) {
 
 }  // namespace
 
+TEST_CASE("where sheets fan out from one edge, a walk goes on upon the one that it turns to first") {
+    for (int sheets : {3, 4, 5}) {
+        CAPTURE(sheets);
+        Kit kit;
+        std::vector<dvec3> away;
+        for (int i = 0; i < sheets; ++i) {
+            const double angle = 0.4 + (i + 0.25 * (i % 2)) * 6.2831853 / sheets;
+            away.push_back({0, std::cos(angle), std::sin(angle)});
+            kit.panel({-1, 0, 0}, {2, 0, 0}, away.back());  // faces the next one's back
+        }
+        const Baked baked = kit.bake();
+        CHECK(baked.report.leastReachable() > 0.99);
+        Stroll stroll(baked.surface);
+        for (int i = 0; i < sheets; ++i)
+            for (double s : {0.03, 0.5, 0.97}) {
+                CAPTURE(i);
+                CAPTURE(s);
+                REQUIRE(stroll.start(kit, i, s, 0.5, -away[size_t(i)]));
+                CHECK(stroll.go(0.8) == kWalkDone);
+                const dvec3 to = dvec3(2 * s - 1, 0, 0) + away[size_t((i + 1) % sheets)] * 0.3;
+                CHECK(glm::length(dvec3(stroll.w.position) - to) < 2e-3);
+            }
+    }
+}
+
 TEST_CASE("a walk leaves the floor for a wall that stands on it, and comes back") {
     struct Case {
         double lift;  // of the wall's underside over the floor

@@ -185,7 +185,8 @@ TEST_CASE("where pieces of real models run into each other, walks cross") {
                                       "models/quaternius/Gazebo.glb",
                                       "models/kaykit_dungeon/wall.glb",
                                       "models/kaykit_city/building_H_withoutBase.gltf",
-                                      "models/kaykit_medieval/wall_corner_A_gate.gltf"};
+                                      "models/kaykit_medieval/wall_corner_A_gate.gltf",
+                                      "models/khronos/Lantern/glTF/Lantern.gltf"};
     if (const char* more = std::getenv("ESPALIER_CONTACT_MODEL")) files = {more};
     for (const char* file : files) {
         auto path = test::dataFile(file);

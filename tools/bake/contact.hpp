@@ -31,12 +31,16 @@ class Contacts {
   private:
     bool hidden(glm::dvec3 p, uint32_t triangle, uint32_t exceptBody, bool crevices = true) const;
     void dropHidden();
+    void keepFirstMet();
 
     ContactMesh mesh_;
     Bodies bodies_;
     std::vector<Contact> list_;
-    double tolerance_ = 0;
+    double tolerance_ = 0, texel_ = 0;
     uint32_t shells_ = 0;
 };
+
+// The part of a contact's crossing between two shares of its length.
+Contact part(const Contact& contact, double from, double to);
 
 }  // namespace espalier::bakery

@@ -24,6 +24,18 @@ bool Contacts::hidden(glm::dvec3 p, uint32_t t, uint32_t exceptBody, bool crevic
     return bodies_.hide({p, n / glm::length(n), body, exceptBody, mesh_.solid[body] != 0}, mesh_.reachOf(t), crevices);
 }
 
+Contact part(const Contact& contact, double from, double to) {
+    Contact out = contact;
+    const float t0 = float(from), t1 = float(to);
+    auto cut = [&](glm::vec2& a, glm::vec2& b) {
+        glm::vec2 start = a, d = b - a;
+        a = t0 > 0 ? start + d * t0 : a, b = t1 < 1 ? start + d * t1 : b;
+    };
+    cut(out.crossing.a, out.crossing.b);
+    cut(out.crossing.ta, out.crossing.tb);
+    return out;
+}
+
 // Where three pieces meet, a contact of two may lead from what is seen to what the third one hides, and back; another
 // leads on there.
 void Contacts::dropHidden() {
@@ -46,15 +58,7 @@ void Contacts::dropHidden() {
                 }
                 size_t first = k;
                 while (k < parts && (k == first || leads(k))) ++k;
-                Contact part = c;
-                float t0 = float(first) / float(parts), t1 = float(k) / float(parts);
-                auto cut = [&](glm::vec2& a, glm::vec2& b) {
-                    glm::vec2 from = a, d = b - a;
-                    a = t0 > 0 ? from + d * t0 : a, b = t1 < 1 ? from + d * t1 : b;
-                };
-                cut(part.crossing.a, part.crossing.b);
-                cut(part.crossing.ta, part.crossing.tb);
-                kept[i].push_back(part);
+                kept[i].push_back(part(c, double(first) / double(parts), double(k) / double(parts)));
             }
         }
     });

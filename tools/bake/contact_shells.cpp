@@ -58,7 +58,7 @@ std::vector<uint32_t> pieceTwins(const BakeMesh& mesh) {
 }  // namespace
 
 Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const Options& options)
-    : tolerance_(options.tolerance) {
+    : tolerance_(options.tolerance), texel_(options.texel) {
     if (!options.wanted) return;
     size_t count = mesh.triangles.size();
     mesh_.twin = pieceTwins(mesh);
@@ -91,6 +91,7 @@ Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const O
     bodies_ = Bodies(mesh_, open);
     list_ = contactsWithin(mesh_, bodies_.tree(), {tolerance_, kBorderShift * options.texel});
     dropHidden();
+    keepFirstMet();
 }
 
 }  // namespace espalier::bakery
