@@ -44,6 +44,7 @@ struct EmitStats {
 // edits only those that they concerned. Culls and picks LODs in compute, by cells first, so that a view costs what is
 // seen in it; no loop over instances runs on the CPU. One Emit serves several views in one recording, one after
 // another: cull, draw, cull, draw. What is drawn is in the same order in every run. Its buffers grow as growth does.
+// All that it is given are growths of one Growth, by whose numbers it knows what has changed.
 class Emit {
   public:
     // `terminals` must outlive it.
