@@ -495,7 +495,7 @@ typedef struct EspStats {
     uint64_t polygons;           /* triangles of the growth at full detail */
     uint64_t drawnPolygons;      /* triangles of the growth in the last frame */
     uint32_t expansions;         /* espUpdate calls that expanded anything, since creation */
-    uint32_t overflow;           /* times that growth ran out of room and buffers were enlarged; maxNodes reached: +1 */
+    uint32_t overflow;           /* 0: plants stand whole; else times that maxNodes cut them, and leaves left out */
     uint32_t stopped;            /* branches that a depth or recursion limit ended */
     uint32_t deadEnds;           /* branches that found no direction that their condition allows */
     uint32_t validationMessages;
@@ -508,6 +508,7 @@ typedef struct EspStats {
     double contactMs;            /* on the CPU: finding them when surfaces last came, went or moved */
     uint64_t derivedNodes;       /* that the latest growth derived; the others stood as they were */
     uint64_t drawnLeaves;        /* of the growth in the last frame */
+    uint32_t enlarged;           /* times that the latest growth ran out of room and was given more, until it had enough */
 } EspStats;
 ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
 

@@ -100,11 +100,15 @@ Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room) {
     if (!usable) return usable.failure();
     room.items = std::max(room.items, uint32_t(inputs.seeds.size()));
     GrowthCut cut = noCut(inputs.limits);
-    for (uint32_t overflow = 0; overflow < 48; ++overflow) {
+    uint32_t overflow = 0, enlarged = 0;
+    while (overflow + enlarged < 48) {
         Attempt a = attempt(inputs, room, cut);
         Verdict verdict = judge(a.status, a.waves, inputs.limits, room, cut);
         if (verdict == Verdict::impossible) break;
-        if (verdict == Verdict::retry) continue;
+        if (verdict != Verdict::complete) {
+            (verdict == Verdict::cut ? overflow : enlarged) += 1;
+            continue;
+        }
         CpuGrowth& out = a.out;
         out.nodes.resize(a.status.nodes);
         out.chunks.resize(a.status.chunks);
@@ -114,6 +118,7 @@ Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room) {
         takeCounters(a.status, out.stats);
         out.stats.waves = uint32_t(a.waves.size()) - 1;
         out.stats.overflow = overflow;
+        out.stats.enlarged = enlarged;
         out.stats.expansions = 1;
         return std::move(a.out);
     }

@@ -241,7 +241,7 @@ Status GpuGrowth::growAll(const GrowthInputs& inputs) {
     const bool fits = frozen.records.nodes.size() < limits.maxNodes || inputs.seeds.empty();
     limits.maxNodes -= std::min(limits.maxNodes - 1, uint32_t(frozen.records.nodes.size()));
     GrowthCut cut = noCut(inputs.limits);
-    uint32_t overflow = 0;
+    uint32_t overflow = 0, enlarged = 0;
     for (uint32_t i = 0; fits && i < kMostAttempts; ++i) {
         Result<Outcome> outcome = attempt(inputs, frozen, cut);
         dropViews();
@@ -253,11 +253,12 @@ Status GpuGrowth::growAll(const GrowthInputs& inputs) {
             const GrowthCut none = noCut(inputs.limits);
             whole_ = cut.wave == none.wave && cut.key == none.key;
             stats_.overflow = overflow;
+            stats_.enlarged = enlarged;
             stats_.expansions += 1;
             remember(inputs);
             return Done{};
         }
-        overflow += 1;
+        (verdict == Verdict::cut ? overflow : enlarged) += 1;
     }
     return Failure("growth",
                    "the limit of " + std::to_string(inputs.limits.maxNodes) + " nodes leaves room for nothing");

@@ -95,7 +95,8 @@ struct GrowthStats {
     uint32_t expansions = 0;  // grow() calls since creation that had something to do
     uint32_t regrowths = 0;   // of these, those that grew only what an edit concerned
     uint32_t derived = 0;     // nodes that the latest grow() derived
-    uint32_t overflow = 0;    // times that buffers were too small or a limit cut growth, in the latest grow()
+    uint32_t enlarged = 0;    // times that buffers were too small and were enlarged, in the latest grow()
+    uint32_t overflow = 0;    // times that a limit cut growth, in the latest grow(); 0: it stands whole
     uint32_t stopped = 0;     // shapes that a limit ended
     uint32_t deadEnds = 0;    // branches that found no direction that their condition allows
     uint64_t nodeBytes = 0, leafBytes = 0,

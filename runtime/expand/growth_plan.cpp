@@ -172,7 +172,7 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
         if (!later) {
             if (cut.wave == 0 && cut.key == 0) return Verdict::impossible;
             cut = needed;
-            return Verdict::retry;
+            return Verdict::cut;
         }
     }
     bool complete = itemsFit && chunksFit;
@@ -186,7 +186,7 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
     room.branches = enlarged(room.branches, status.branches, complete, most);
     // Leaves are counted only when all else fitted.
     room.leaves = enlarged(room.leaves, status.leaves, terminalsRan || status.leaves == 0, ~0u);
-    return Verdict::retry;
+    return Verdict::tooSmall;
 }
 
 void countBytes(GrowthStats& stats) {

@@ -29,9 +29,9 @@ GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const
 uint32_t lastWave(const GrowthCut& cut);  // ExpandEnv::phase of the march
 Wave firstWave(uint32_t seeds, const GrowthRoom& room);
 
-enum class Verdict { complete, retry, impossible };
-// Judges an attempt. waves: those that ran and the next. Where room was short, `room` is enlarged; where a limit
-// is exceeded, `cut` is moved. impossible: limits leave room for nothing.
+enum class Verdict { complete, tooSmall, cut, impossible };
+// Judges an attempt. waves: those that ran and the next. tooSmall: `room` was and has been enlarged; cut: a limit was
+// exceeded and `cut` has been moved. impossible: limits leave room for nothing.
 Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
               GrowthCut& cut);
 

@@ -292,7 +292,7 @@ void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome,
     stats_.fitMs = outcome.fitMs;
     auto empty = std::find_if(outcome.waves.begin(), outcome.waves.end(), [](const Wave& w) { return w.count == 0; });
     stats_.waves = uint32_t(empty - outcome.waves.begin());
-    stats_.overflow = 0;
+    stats_.overflow = stats_.enlarged = 0;
     stats_.reservedBytes = reserved();
     stats_.expansions += 1;
     stats_.regrowths += 1;

@@ -150,6 +150,7 @@ EspStats gather(const EspContext& context) {
     stats.drawnLeaves = render.emit.leaves;
     stats.expansions = growth.expansions;
     stats.overflow = growth.overflow + render.emit.overflow;
+    stats.enlarged = growth.enlarged;
     stats.stopped = growth.stopped;
     stats.deadEnds = growth.deadEnds;
     stats.validationMessages = context.device->validationMessages();

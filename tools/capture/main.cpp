@@ -110,10 +110,11 @@ std::string statsJson(const EspStats& stats) {
                   ",\"ms\":{\"expand\":%.3f,\"emit\":%.3f,\"draw\":%.3f},"
                   "\"bytes\":{\"nodes\":%" PRIu64 ",\"leaves\":%" PRIu64 ",\"chunks\":%" PRIu64 ",\"surfaces\":%" PRIu64
                   ",\"layers\":%" PRIu64 ",\"total\":%" PRIu64
-                  "},\"overflow\":%u,\"validation_messages\":%u,\"hash\":\"%016" PRIx64 "\"}\n",
+                  "},\"overflow\":%u,\"enlarged\":%u,\"validation_messages\":%u,\"hash\":\"%016" PRIx64 "\"}\n",
                   stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons, stats.expandMs, stats.emitMs,
                   stats.drawMs, stats.nodeBytes, stats.leafBytes, stats.chunkBytes, stats.surfaceBytes,
-                  stats.layerBytes, stats.totalBytes, stats.overflow, stats.validationMessages, stats.hash);
+                  stats.layerBytes, stats.totalBytes, stats.overflow, stats.enlarged, stats.validationMessages,
+                  stats.hash);
     return text;
 }
 
