@@ -23,6 +23,7 @@ struct EmitRecords {
     TerminalVertex vertex;
     TriangleVertex triangle;
     BindInputs bind;
+    CarryPush carry;
     EmitPush push;
     TrianglesPush triangles;
 };
