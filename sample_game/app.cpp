@@ -150,8 +150,8 @@ bool App::frame(float seconds) {
     session_.nextFrame();
     work_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     noteTimes(grew);
-    const bool held =
-        ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || controls_->turning() || input_->gui.waiting();
+    const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || toolTipWaits() || controls_->turning() ||
+                      input_->gui.waiting();
     if (moved || held || wheel != 0 || !pointer.empty() || !keys.empty() || grew)
         wake();
     else if (awake_ > 0)

@@ -1,5 +1,6 @@
 // The panel at the left: one tool at a time with its settings, then what the scene is made of.
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,8 @@ namespace {
 
 using namespace espalier::document;
 using espalier::scene::Seed;
+
+constexpr float kTipDelay = .5f;  // seconds
 
 void toolButtons(Workspace& work) {
     struct Entry {
@@ -192,8 +195,13 @@ const char* viewTitle(EspView view) {
     return "Layer";
 }
 
+bool toolTipWaits() {
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    return gui.HoveredId != 0 && gui.HoveredIdNotActiveTimer < kTipDelay;
+}
+
 void toolTip(const char* text) {
-    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetTooltip("%s", text);
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive() && !toolTipWaits()) ImGui::SetTooltip("%s", text);
 }
 
 bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2 at, glm::vec2 size, int flags) {

@@ -57,5 +57,7 @@ void hint(const char* text);  // what keeps the user from seeing anything happen
 void rowLabel(const char* text);
 // Shown when the mouse rests on the last widget.
 void toolTip(const char* text);
+// Whether the pointer rests on something that will show its tip in a moment.
+bool toolTipWaits();
 
 }  // namespace sample
