@@ -277,7 +277,7 @@ ESP_API EspResult espReadLayer(EspContext* context, EspSurface surface, const ch
 typedef struct EspSeedDef {
     EspGrammar grammar;
     const char* symbol;       /* start symbol; NULL: the grammar's first */
-    float position[3];        /* world; the nearest ground is taken */
+    float position[3];        /* world; the nearest place on a surface is taken; from bare material ground beside it */
     float direction[3];       /* world; laid into the surface. Zero: upward, or any where the surface is level */
     uint32_t number;          /* the seed's random number: seeds of unlike numbers grow unlike plants */
     uint32_t twin;            /* tells apart seeds of one number, from 1; 0: the first that isn't planted yet */
@@ -300,7 +300,7 @@ ESP_API uint32_t espSeedCount(const EspContext* context);
 /* In an order that doesn't change while no seed comes or goes. */
 ESP_API EspResult espSeedAt(const EspContext* context, uint32_t index, EspSeed* out);
 ESP_API EspResult espSeedInfo(const EspContext* context, EspSeed seed, EspSeedInfo* out);
-/* To the ground nearest to `position`; its plant keeps its random numbers. */
+/* To where it would be planted at `position`; its plant keeps its random numbers. Without ground near, it doesn't grow. */
 ESP_API EspResult espMoveSeed(EspContext* context, EspSeed seed, const float position[3], const float direction[3]);
 /* twin: as in EspSeedDef. */
 ESP_API EspResult espSetSeedNumber(EspContext* context, EspSeed seed, uint32_t number, uint32_t twin);
