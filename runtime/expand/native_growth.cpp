@@ -2,25 +2,24 @@
 // thread is free; places are drawn by atomics as on a GPU, so records' order differs between runs of several threads.
 #include "runtime/expand/native_growth.hpp"
 
+#include "runtime/expand/native_finish.hpp"
 #include "runtime/expand/native_march.hpp"
 #include "shaders/shared/expand_fit.h"
-#include "shaders/shared/expand_terminals.h"
 
 namespace espalier {
 namespace {
 
 constexpr size_t kNodesAtOnce = 1024, kBranchesAtOnce = 1024;
 
-ESPALIER_WHOLE void finishNodes(ExpandEnv env, size_t begin, size_t end) {
-    uvec2 hash(0, 0);
-    Machine machine;
+void finishNodes(ExpandEnv env, size_t begin, size_t end) {
     const UintBuf firstLeaves = env.status.v[0].firstLeaves;
-    for (size_t i = begin; i < end; ++i) {
-        const NodeFinish finish = finishNode(machine, env, uint32_t(i), hash);
-        if (env.phase != kTerminalsWrite) continue;
+    const auto keep = [&](size_t i, const NodeFinish& finish) {
+        if (env.phase != kTerminalsWrite) return;
         keepFinish(env.nodes, uint32_t(i), finish);
         if (IS_GIVEN(firstLeaves)) firstLeaves.v[i] = finish.firstLeaf;
-    }
+    };
+    const uvec2 hash = finishEach(
+        env, begin, end, [](size_t i) { return uint32_t(i); }, keep);
     addHash(env, uint32_t(begin / kNodesAtOnce), hash);
 }
 

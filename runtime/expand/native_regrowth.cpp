@@ -6,6 +6,7 @@
 #undef FN
 #define FN static inline
 #define ESPALIER_AGAIN
+#include "runtime/expand/native_finish.hpp"
 #include "runtime/expand/native_march.hpp"
 #include "shaders/expand/again_apply.h"
 #include "shaders/expand/again_find.h"
@@ -20,10 +21,11 @@ namespace {
 
 constexpr size_t kChunksAtOnce = 4096, kEntriesAtOnce = 64, kWorkAtOnce = 512;
 
-ESPALIER_WHOLE void finishWork(ExpandEnv env, size_t begin, size_t end) {
-    uvec2 hash(0, 0);
-    Machine machine;
-    for (size_t i = begin; i < end; ++i) finishAgain(machine, env, AGAIN.results, uint32_t(i), hash);
+void finishWork(ExpandEnv env, size_t begin, size_t end) {
+    const UintBuf results = AGAIN.results;
+    const uvec2 hash = finishEach(
+        env, begin, end, [&](size_t i) { return workNode(results, uint32_t(i)); },
+        [&](size_t i, const NodeFinish& finish) { keepAgain(results, uint32_t(i), finish); });
     addHash(env, uint32_t(begin / kWorkAtOnce), hash);
 }
 

@@ -7,9 +7,9 @@
 ESPALIER_BEGIN
 
 // Node i of the work; see AgainState::results.
-FN void finishAgain(MACHINE_PARAM ExpandEnv env, UintBuf results, uint i, INOUT(uvec2) hash) {
+FN uint workNode(UintBuf results, uint i) { return results.v[kResultWords * i]; }
+FN void keepAgain(UintBuf results, uint i, NodeFinish finish) {
     uint at = kResultWords * i;
-    NodeFinish finish = finishNode(MACHINE env, results.v[at], hash);
     results.v[at + 1u] = finish.tangent;
     results.v[at + 2u] = finish.flags;
     results.v[at + 3u] = floatBitsToUint(finish.radius);

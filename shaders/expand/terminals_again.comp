@@ -21,7 +21,8 @@ void main() {
     nextLeavesAtHand = env.status.v[0].nextLeaves;
     uvec2 hash = uvec2(0u);
     for (uint k = 0u; nodeOfTrip(k) < count; ++k) {
-        finishAgain(env, results, nodeOfTrip(k), hash);
+        uint i = nodeOfTrip(k);
+        keepAgain(results, i, finishNode(env, workNode(results, i), hash));
     }
     addHash(env, gl_WorkGroupID.x, hash);
 }

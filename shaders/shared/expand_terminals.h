@@ -6,6 +6,9 @@
 #include "shaders/shared/expand_scope.h"
 #include "shaders/shared/leaf_pose.h"
 #include "shaders/shared/record_lookup.h"
+#ifdef __cplusplus
+#include <vector>
+#endif
 
 ESPALIER_BEGIN
 
@@ -39,19 +42,54 @@ struct NodeSite {
     uint lastLeaf;       // kNoIndex: none yet
 };
 
-// Chains a node's leaves, so that a regrowth finds them.
+// A leaf before it is packed.
+struct LeafDraft {
+    float along, span;   // metres from where its node's span begins, and that span's length
+    float size, lift, turn, pitch, tint;   // as packLeafPlace, packLeafPose and packLeafTint take them
+    uint mesh;
+    uint colour;         // packed
+    uint word;           // of its key
+};
+// Without its node.
+FN Leaf leafOf(LeafDraft d) {
+    Leaf leaf;
+    leaf.node = kNoIndex;
+    leaf.place = packLeafPlace(divExact(d.along, larger(d.span, 1e-9f)), d.mesh, d.size);
+    leaf.pose = packLeafPose(d.turn, d.pitch, d.lift, d.size);
+    leaf.tint = packLeafTint(d.tint, vec3(0.0f), d.word) | d.colour;
+    return leaf;
+}
+FN uint leafNode(ExpandEnv env, uint node) { return node | (env.phase == kTerminalsAgain ? kLeafPending : 0u); }
+
+// A leaf is counted, written, and chained to its node's last one, so that a regrowth finds it.
 #ifdef __cplusplus
-inline void chainLeaf(const ExpandEnv& env, uint at, uint& last) {
-    const UintBuf next = env.status.v[0].nextLeaves;
-    if (!IS_GIVEN(next)) return;   // the CPU reference knows no regrowth
-    next.v[at] = last;
-    last = at;
+// Native code keeps drafts until it has some to pack side by side; last: the draft before it on its node.
+struct StagedLeaf {
+    LeafDraft draft;
+    u64 chunkKey;
+    uint node, flags, last;
+};
+using LeafStage = std::vector<StagedLeaf>;
+#define LEAVES leaves,
+#define LEAVES_PARAM LeafStage &leaves,
+FN void takeLeaf(LEAVES_PARAM const ExpandEnv& env, NodeSite& site, const LeafDraft& draft) {
+    leaves.push_back({draft, site.chunkKey, leafNode(env, site.index), site.flags, site.lastLeaf});
+    site.lastLeaf = uint(leaves.size() - 1);
 }
 #else
+#define LEAVES
+#define LEAVES_PARAM
 UintBuf nextLeavesAtHand;   // GrowStatus::nextLeaves, to be set by the kernel
-void chainLeaf(ExpandEnv env, uint at, inout uint last) {
-    nextLeavesAtHand.v[at] = last;
-    last = at;
+void takeLeaf(ExpandEnv env, inout NodeSite site, LeafDraft draft) {
+    Leaf leaf = leafOf(draft);
+    leaf.node = leafNode(env, site.index);
+    uint at = atomicAdd(env.status.v[0].leaves, 1u);
+    if (at < env.status.v[0].leafCapacity) {
+        writeLeaf(env.leaves, at, leaf);
+        nextLeavesAtHand.v[at] = site.lastLeaf;
+        site.lastLeaf = at;
+    }
+    site.hash = site.hash + hashOfLeaf(site.chunkKey, site.flags, leaf);
 }
 #endif
 
@@ -62,12 +100,12 @@ FN uint instanceCount(float wanted, bool bark, bool barked, bool foot) {
     return (bark && barked) || (foot && !bark) ? 0u : count;
 }
 
-FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, uint colour, float size, float t, float lift, float turn,
-                 float pitch, float tint, u64 key, uint cell, INOUT(uvec2) hash, INOUT(uint) lastLeaf) {
-    // t runs along the step; inserted samples cut a step into spans, one of which holds the instance.
-    float arc = site.stepStart + limited(t, 0.0f, 1.0f) * (site.stepEnd - site.stepStart);
+// A leaf, unless it lies on another of its step's spans or the density cap takes it. along: of the step, [0, 1].
+FN void emitLeaf(LEAVES_PARAM ExpandEnv env, INOUT(NodeSite) site, LeafDraft draft, float along, u64 key, uint cell) {
+    // Inserted samples cut a step into spans, one of which holds the instance.
+    float arc = site.stepStart + limited(along, 0.0f, 1.0f) * (site.stepEnd - site.stepStart);
     bool last = site.after >= site.stepEnd;
-    bool here = arc >= site.before && (arc < site.after || last) && size > 0.0f;
+    bool here = arc >= site.before && (arc < site.after || last) && draft.size > 0.0f;
     bool capped = (kFeatures & kFeatureDensity) != 0u && env.status.v[0].leafDensityCap > 0.0f;
     bool counts = capped && env.phase == kTerminalsCount;
     if ((kFeatures & kFeatureDensity) != 0u) {
@@ -78,23 +116,16 @@ FN void emitLeaf(ExpandEnv env, NodeSite site, uint mesh, uint colour, float siz
         }
     }
     if (!here || counts) return;
-    Leaf leaf;
-    leaf.node = site.index | (env.phase == kTerminalsAgain ? kLeafPending : 0u);
-    leaf.place = packLeafPlace(divExact(arc - site.before, larger(site.after - site.before, 1e-9f)), mesh, size);
-    leaf.pose = packLeafPose(turn, pitch, lift, size);
-    leaf.tint = packLeafTint(tint, vec3(0.0f), uint(key)) | colour;
-    uint at = atomicAdd(env.status.v[0].leaves, 1u);
-    if (at < env.status.v[0].leafCapacity) {
-        writeLeaf(env.leaves, at, leaf);
-        chainLeaf(env, at, lastLeaf);
-    }
-    hash = hash + hashOfLeaf(site.chunkKey, site.flags, leaf);
+    draft.along = arc - site.before;
+    draft.span = site.after - site.before;
+    draft.word = uint(key);
+    takeLeaf(LEAVES env, site, draft);
 }
 
 // Runs the node's program. One loop over gates and bodies alike: a trip makes an instance, or evaluates a gate that
 // has code of its own.
-FN float runTerminals(MACHINE_PARAM ExpandEnv env, TableBases map, uint first, uint end, INOUT(NodeSite) site,
-                      uint cell, INOUT(uint) barkFlags) {
+FN float runTerminals(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, TableBases map, uint first, uint end,
+                      INOUT(NodeSite) site, uint cell, INOUT(uint) barkFlags) {
     float radius = 0.0f;
     bool barked = false;
     uint made = 0u;
@@ -135,12 +166,18 @@ FN float runTerminals(MACHINE_PARAM ExpandEnv env, TableBases map, uint first, u
         if (makes && !bark) {
             uint more = TABLE(at + 6u);
             float along = packedValue(MACHINE (slots >> 16u) & 127u, TABLE(at + 9u));
-            float lift = packedValue(MACHINE slots >> 24u, TABLE(at + 10u));
-            float turn = packedValue(MACHINE more & 127u, TABLE(at + 11u));
-            float pitch = packedValue(MACHINE (more >> 8u) & 127u, TABLE(at + 12u));
-            float tint = packedValue(MACHINE (more >> 16u) & 127u, TABLE(at + 13u));
-            emitLeaf(env, site, head & 255u, TABLE(at + 14u), size, along, lift, turn, pitch, tint, key, cell,
-                     site.hash, site.lastLeaf);
+            LeafDraft draft;
+            draft.along = 0.0f;
+            draft.span = 0.0f;
+            draft.size = size;
+            draft.lift = packedValue(MACHINE slots >> 24u, TABLE(at + 10u));
+            draft.turn = packedValue(MACHINE more & 127u, TABLE(at + 11u));
+            draft.pitch = packedValue(MACHINE (more >> 8u) & 127u, TABLE(at + 12u));
+            draft.tint = packedValue(MACHINE (more >> 16u) & 127u, TABLE(at + 13u));
+            draft.mesh = head & 255u;
+            draft.colour = TABLE(at + 14u);
+            draft.word = 0u;
+            emitLeaf(LEAVES env, site, draft, along, key, cell);
         }
         made = makes ? made + 1u : made;
         bool done = made >= count;
@@ -191,55 +228,85 @@ FN void keepFinish(NodeBuf nodes, uint index, NodeFinish f) {
     nodes.v[index].radius = f.radius;
 }
 
-// The node's radius, bark and tangent, and its leaves. hash: the sum of its leaves' hashes is added. It may run again
-// on a node that was finished before.
-FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) hash) {
-    Node node = readNode(env, index);
-    uint chunk = node.chunk;
-    ChunkBrief brief = readBrief(env, chunk);
-    uint firstNode = brief.firstNode;
-    uint nodeCount = chunkNodes(brief.marks);
-    uint previous = brief.previousNode;
-    uint branch = brief.branch;
-    uint next = brief.next;
-    float entryArc = brief.entryArc;
-    uint grammar = brief.symbol >> 16u;
-    uint local = index - firstNode;
+// A node and what lies around it along the stem.
+struct StemNode {
+    Node node;
+    ChunkBrief brief;
+    uint index;
+    uint leader, follower;   // kNoIndex: it is a foot, a tip
+    vec3 before, after;      // their places; its own where there is none
+};
 
-    // Neighbours along the stem.
-    bool last = local + 1u >= nodeCount;
-    uint follower = last ? kNoIndex : index + 1u;
+FN StemNode stemNode(ExpandEnv env, uint index) {
+    StemNode s;
+    s.index = index;
+    s.node = readNode(env, index);
+    s.brief = readBrief(env, s.node.chunk);
+    uint local = index - s.brief.firstNode;
+    uint next = s.brief.next;
+    bool last = local + 1u >= chunkNodes(s.brief.marks);
+    s.follower = last ? kNoIndex : index + 1u;
     // A loop, since software devices skip only those.
     for (uint k = 0u; k < (last && next != kNoIndex ? 1u : 0u); ++k) {
-        if (chunkNodes(readMarks(env, next)) > 0u) follower = readFirstNode(env, next);
+        if (chunkNodes(readMarks(env, next)) > 0u) s.follower = readFirstNode(env, next);
     }
-    uint leader = local > 0u ? index - 1u : previous;
-    vec3 before = readPosition(env, leader == kNoIndex ? index : leader);
-    vec3 after = readPosition(env, follower == kNoIndex ? index : follower);
+    s.leader = local > 0u ? index - 1u : s.brief.previousNode;
+    s.before = readPosition(env, s.leader == kNoIndex ? index : s.leader);
+    s.after = readPosition(env, s.follower == kNoIndex ? index : s.follower);
+    return s;
+}
 
+// The directions of the branches that leave a node, where the paper's average is asked for: it is over all adjacent
+// segments, the branches' too.
+FN bool joints(ExpandEnv env) { return (kFeatures & kFeatureJoints) != 0u && env.status.v[0].tangentMode != 0u; }
+FN vec3 jointsAt(ExpandEnv env, uint index) {
+    uint at = kDensityCells + 3u * index;
+    return vec3(float(int(env.density.v[at])), float(int(env.density.v[at + 1u])),
+                float(int(env.density.v[at + 2u]))) * 9.53674316e-7f;
+}
+
+// What follows from the node's surroundings alone.
+struct StemFrame {
+    vec3 normal, heading;
+    uint tangent;        // packed
+};
+// branches: jointsAt, or zero.
+FN StemFrame stemFrame(vec3 before, vec3 at, vec3 after, vec3 branches, uint normal, uint heading) {
+    StemFrame f;
+    f.normal = unpackOct(normal);
+    f.heading = unpackOct(heading);
+    vec3 sum = segmentDirection(before, at) + segmentDirection(at, after) + branches;
+    f.tangent = packOct(tangentFromSum(sum, f.normal, f.heading));
+    return f;
+}
+
+// The node's radius, bark and leaves. It may run again on a node that was finished before.
+FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, StemNode s, StemFrame frame, INOUT(uvec2) hash) {
+    Node node = s.node;
+    ChunkBrief brief = s.brief;
+    uint local = s.index - brief.firstNode;
     NodeSite site;
-    site.index = index;
-    site.chunk = chunk;
-    site.foot = leader == kNoIndex;
-    site.tip = follower == kNoIndex;
+    site.index = s.index;
+    site.chunk = node.chunk;
+    site.foot = s.leader == kNoIndex;
+    site.tip = s.follower == kNoIndex;
     site.chunkKey = brief.key;
     site.flags = node.flags;
     site.hash = uvec2(0u, 0u);
     site.lastLeaf = kNoIndex;
     site.after = node.arc;
-    site.before = local > 0u ? readArc(env, index - 1u).arc : entryArc;
+    site.before = local > 0u ? readArc(env, s.index - 1u).arc : brief.entryArc;
     uint flags = node.flags;
-    for (uint k = 0u; k < (site.foot && !site.tip ? 1u : 0u); ++k) flags = readArc(env, follower).flags;
+    for (uint k = 0u; k < (site.foot && !site.tip ? 1u : 0u); ++k) flags = readArc(env, s.follower).flags;
     uint extrude = flags & 255u;
     site.extrude = extrude - 1u;
     uint step = (brief.step & 0xFFFFFFu) + ((flags >> 26u) & 31u) + 1u;
     float radius = 0.0f;
     uint barkFlags = 0u;
-    findStep(env, firstNode, local, node.arc, entryArc, node.flags, site);
-    vec3 normal = unpackOct(node.normal);
-    vec3 heading = unpackOct(headingOfNode(node));
+    findStep(env, brief.firstNode, local, node.arc, brief.entryArc, node.flags, site);
 
     if (extrude != 0u) {
+        uint grammar = brief.symbol >> 16u;
         TableBases map = basesOf(env, grammar);
         uint program = map.extrudes + site.extrude * kExtrudeWords;
         uint range = TABLE(program);
@@ -247,14 +314,14 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
         uint inputs = TABLE(program + 2u);
         uint layers = TABLE(program + 3u);
         uint first = range & 0xFFFFu;
-        BranchRecord stem = readBranch(env, branch);
+        BranchRecord stem = readBranch(env, brief.branch);
         float length = stem.extent;
         u64 branchKey = readKey(env, stem.firstChunk);
         site.key = childKey(branchKey, nameHash, step);
         Place place;
         place.position = node.position;
-        place.normal = normal;
-        place.heading = heading;
+        place.normal = frame.normal;
+        place.heading = frame.heading;
         place.uv = unpackUv(node.uv);
         place.instance = node.place >> 16u;
         place.level = 0u;
@@ -268,29 +335,33 @@ FN NodeFinish finishNode(MACHINE_PARAM ExpandEnv env, uint index, INOUT(uvec2) h
         SLOT(kSlotSpanLength) = site.stepEnd - site.stepStart;
         SLOT(kSlotRadius) = 0.0f;
         SLOT(kSlotCount) = 0.0f;
-        WorldFrame frame = frameOf(env.surfaces, place.instance, inputs);
-        giveInputs(MACHINE env, frame, grammar, inputs, layers, place,
-                   brief.depth & 0xFFFFu, step, node.arc);
+        WorldFrame world = frameOf(env.surfaces, place.instance, inputs);
+        giveInputs(MACHINE env, world, grammar, inputs, layers, place, brief.depth & 0xFFFFu, step, node.arc);
         uint cell = 0u;
         if ((kFeatures & kFeatureDensity) != 0u && env.status.v[0].leafDensityCap > 0.0f)
             cell = densityCell(env, stem.seed, node.place, place.uv);
-        radius = runTerminals(MACHINE env, map, first, first + (range >> 16u), site, cell, barkFlags);
+        radius = runTerminals(MACHINE LEAVES env, map, first, first + (range >> 16u), site, cell, barkFlags);
     }
     hash = hash + site.hash;
-    vec3 sum = segmentDirection(before, node.position) + segmentDirection(node.position, after);
-    if ((kFeatures & kFeatureJoints) != 0u && env.status.v[0].tangentMode != 0u) {
-        // The paper's average is over all adjacent segments, the branches' too.
-        uint at = kDensityCells + 3u * index;
-        sum = sum + vec3(float(int(env.density.v[at])), float(int(env.density.v[at + 1u])),
-                         float(int(env.density.v[at + 2u]))) * 9.53674316e-7f;
-    }
     NodeFinish finish;
-    finish.tangent = tangentWithHeading(packOct(tangentFromSum(sum, normal, heading)), headingOfNode(node));
+    finish.tangent = tangentWithHeading(frame.tangent, headingOfNode(node));
     finish.flags = (node.flags & 0x7C003FFFu) | barkFlags | (site.tip ? kNodeTip : 0u);
     finish.radius = roundRadius(radius);
     finish.firstLeaf = site.lastLeaf;
     return finish;
 }
+
+#ifndef __cplusplus
+// All of it. hash: the sum of its leaves' hashes is added. Native code does the same for some nodes at a time
+// (native_finish.hpp).
+NodeFinish finishNode(ExpandEnv env, uint index, inout uvec2 hash) {
+    StemNode s = stemNode(env, index);
+    vec3 branches = vec3(0.0f);
+    if (joints(env)) branches = jointsAt(env, index);
+    StemFrame frame = stemFrame(s.before, s.node.position, s.after, branches, s.node.normal, headingOfNode(s.node));
+    return finishStem(env, s, frame, hash);
+}
+#endif
 
 ESPALIER_END
 #endif
