@@ -7,18 +7,11 @@
 
 ESPALIER_BEGIN
 
-FN vec3 pointOn(TrianglePlane t, vec2 uv) {
-    vec2 offset = uv - t.uv0;
-    return t.position + t.du * offset.x + t.dv * offset.y;
-}
 
-// The square of the distance of uv to a -> b.
-FN float besideEdge(vec2 a, vec2 b, vec2 uv) {
+// The point of a -> b that is nearest to uv.
+FN vec2 nearestOnEdge(vec2 a, vec2 b, vec2 uv) {
     vec2 e = b - a;
-    vec2 d = uv - a;
-    float f = limited(dot2(d, e) * rcpExact(larger(dot2(e, e), 1e-30f)), 0.0f, 1.0f);
-    vec2 apart = d - e * f;
-    return dot2(apart, apart);
+    return a + e * limited(dot2(uv - a, e) * rcpExact(larger(dot2(e, e), 1e-30f)), 0.0f, 1.0f);
 }
 
 FN bool isInside(TrianglePlane t, vec2 uv) {
@@ -28,10 +21,31 @@ FN bool isInside(TrianglePlane t, vec2 uv) {
     return smaller(a, smaller(b, c)) >= 0.0f || larger(a, larger(b, c)) <= 0.0f;
 }
 
+// The point of the triangle that is nearest to uv.
+FN vec2 nearestInside(TrianglePlane t, vec2 uv) {
+    vec2 nearest = uv;
+    // A loop, since software devices skip only those.
+    for (uint outside = isInside(t, uv) ? 0u : 1u; outside > 0u; --outside) {
+        nearest = nearestOnEdge(t.uv0, t.uv1, uv);
+        vec2 b = nearestOnEdge(t.uv1, t.uv2, uv);
+        vec2 c = nearestOnEdge(t.uv2, t.uv0, uv);
+        nearest = dot2(b - uv, b - uv) < dot2(nearest - uv, nearest - uv) ? b : nearest;
+        nearest = dot2(c - uv, c - uv) < dot2(nearest - uv, nearest - uv) ? c : nearest;
+    }
+    return nearest;
+}
+
 // The square of the distance in UV from the triangle to uv, 0 inside.
 FN float outsideOf(TrianglePlane t, vec2 uv) {
-    if (isInside(t, uv)) return 0.0f;
-    return smaller(besideEdge(t.uv0, t.uv1, uv), smaller(besideEdge(t.uv1, t.uv2, uv), besideEdge(t.uv2, t.uv0, uv)));
+    vec2 apart = nearestInside(t, uv) - uv;
+    return dot2(apart, apart);
+}
+
+// The point of the triangle at uv, or at what is nearest to uv: where the triangles between are so small that no texel
+// names them, uv lies outside, and the triangle's plane would lead off the mesh.
+FN vec3 pointOn(TrianglePlane t, vec2 uv) {
+    vec2 offset = nearestInside(t, uv) - t.uv0;
+    return t.position + t.du * offset.x + t.dv * offset.y;
 }
 
 // The share of the way uv -> uv + delta after which it leaves the triangle that it begins in; 2: it doesn't. Shares are

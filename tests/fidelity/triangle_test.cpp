@@ -52,3 +52,17 @@ TEST_CASE("a path leaves a triangle by the edge ahead") {
         CHECK(outsideOf(t, {-.3f, -.4f}) == doctest::Approx(.25));  // from a corner
     }
 }
+
+TEST_CASE("beside a triangle its nearest point stands for a place, not its plane") {
+    TrianglePlane t{};
+    t.uv0 = {0, 0};
+    t.uv1 = {1, 0};
+    t.uv2 = {0, 1};
+    t.position = {5, 0, 0};
+    t.du = {1, 0, 2};  // it rises by 2 along u
+    t.dv = {0, 1, 0};
+    CHECK(glm::length(pointOn(t, {.25f, .5f}) - vec3(5.25f, .5f, .5f)) < 1e-6f);
+    CHECK(glm::length(pointOn(t, {-1, .5f}) - vec3(5, .5f, 0)) < 1e-6f);  // beside an edge
+    CHECK(glm::length(pointOn(t, {1, 1}) - vec3(5.5f, .5f, 1)) < 1e-6f);  // beside the long one
+    CHECK(glm::length(pointOn(t, {3, -1}) - vec3(6, 0, 2)) < 1e-6f);      // beside a corner
+}
