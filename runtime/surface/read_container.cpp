@@ -46,6 +46,10 @@ float number(const json& object, const char* key, float otherwise) {
     return std::isfinite(f) ? f : otherwise;
 }
 
+bool flag(const json& object, const char* key) {
+    return object.is_object() && object.contains(key) && object[key].is_boolean() && object[key].get<bool>();
+}
+
 std::string indexed(const char* name, size_t i) {
     return std::string(name) + "[" + std::to_string(i) + "]";
 }

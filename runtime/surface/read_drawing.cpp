@@ -57,9 +57,8 @@ void readMaterials(Container& file, SurfaceData& data) {
             out.normalScale = out.normalImage >= 0 ? number(m["normalTexture"], "scale", 1) : 1;
             out.roughness = number(pbr, "roughnessFactor", 1);
             out.alphaCutoff = number(m, "alphaCutoff", 0);
-            out.doubleSided = m.is_object() && m.contains("doubleSided") && m["doubleSided"].is_boolean() &&
-                              m["doubleSided"].get<bool>();
-            out.bare = m.is_object() && m.contains("extras") && m["extras"] == json{{"bare", true}};
+            out.doubleSided = flag(m, "doubleSided");
+            out.bare = m.is_object() && m.contains("extras") && flag(m["extras"], "bare");
             data.materials.push_back(out);
         }
     if (data.materials.empty()) data.materials.emplace_back();

@@ -115,6 +115,37 @@ TEST_CASE("what is written is read: the walk's data bit for bit, the mesh within
     CHECK(again->hash == a.hash);
 }
 
+TEST_CASE("a material is bare if its extras say so, whatever else they hold") {
+    Folder folder;
+    SurfaceData surface = sample();
+    surface.materials[1].bare = true;
+    REQUIRE(writeSurface(surface, folder.file("a.glb")));
+    const std::vector<std::byte> written = bytesOf(folder.file("a.glb"));
+    const std::string text(reinterpret_cast<const char*>(written.data()), written.size());
+    const std::string own = R"({"bare":true})";
+    const size_t at = text.find(own);
+    REQUIRE(at != std::string::npos);
+    const auto bareWith = [&](std::string extras) {
+        while ((extras.size() - own.size()) % 4 != 0) extras += ' ';
+        std::string changed = std::string(text).replace(at, own.size(), extras);
+        for (size_t word : {8, 12}) {  // lengths of the file and of its text
+            uint32_t length;
+            std::memcpy(&length, changed.data() + word, 4);
+            length += uint32_t(extras.size() - own.size());
+            std::memcpy(changed.data() + word, &length, 4);
+        }
+        REQUIRE(writeFile(folder.file("b.glb"), std::string_view(changed)));
+        auto read = readSurface(folder.file("b.glb"));
+        if (!read) FAIL(read.failure().text());
+        CHECK(!read->materials[0].bare);
+        return read->materials[1].bare;
+    };
+    CHECK(bareWith(own));
+    CHECK(bareWith(R"({"author":"a tool that passed by","bare":true,"tags":[1,2]})"));
+    for (const char* other : {R"({"bare":false})", R"({"bare":"true"})", R"({"bare":1})", R"({"bald":true})", "[true]"})
+        CHECK(!bareWith(std::string(other)));
+}
+
 TEST_CASE("a truncated file is refused wherever it ends") {
     Folder folder;
     REQUIRE(writeSurface(sample(), folder.file("a.glb")));
