@@ -46,6 +46,34 @@ TEST_CASE("where sheets fan out from one edge, a walk goes on upon the one that 
     }
 }
 
+TEST_CASE("a sheet that lies on a wall, close to another one that stands out of it, is left for both") {
+    for (double slit : {0.1, 0.3})
+        for (bool up : {true, false}) {
+            CAPTURE(slit);
+            CAPTURE(up);
+            const double texel = 2 / 0.44 / 512;  // metres
+            Kit kit;
+            const int wall = kit.panel({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+            const int brick = kit.panel({-0.5, 0, 0.3 * texel}, {1, 0, 0}, {0, 0.5, 0});
+            const double y = -slit * texel, from = up ? 0.3 : 0;
+            kit.panel({-0.5, y, from}, {1, 0, 0}, {0, 0, 0.3 - 2 * from});  // its outside up or down
+            const Baked baked = kit.bake();
+            CHECK(baked.report.danglingContacts == 0);
+            // Over the slit, which is narrower than a texel, onto the shelf; and from there back.
+            Stroll stroll(baked.surface);
+            REQUIRE(stroll.start(kit, brick, 0.5, 0.4, {0, -1, 0}));
+            CHECK(stroll.go(0.3) == kWalkDone);
+            CHECK(near(stroll.w.position, {0, y, 0.1}, 2 * texel));
+            stroll.turnBack();
+            CHECK(stroll.go(0.2) == kWalkDone);
+            CHECK(stroll.w.position.z < texel);
+            CHECK(std::abs(stroll.w.position.y) > 0.09);
+            REQUIRE(stroll.start(kit, wall, 0.5, 0.25, {0, 1, 0}));
+            CHECK(stroll.go(0.6) == kWalkDone);
+            CHECK(near(stroll.w.position, {0, y, 0.1}, 2 * texel));
+        }
+}
+
 TEST_CASE("a walk leaves the floor for a wall that stands on it, and comes back") {
     struct Case {
         double lift;  // of the wall's underside over the floor

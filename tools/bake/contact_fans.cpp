@@ -1,5 +1,7 @@
 // In: the contacts that lead on. Out: of those that leave one line, as where sheets meet in a fan, what a walk meets
 // first when it turns to its outside. Contacts are found pair by pair, and the farther ones would else be as good.
+// Lines may lie up to a reach apart on a sheet that both of the others touch: they are no fan, since there is ground
+// between them, to which the farther contact leads back.
 #include <algorithm>
 #include <map>
 
@@ -8,6 +10,8 @@
 namespace espalier::bakery {
 namespace {
 
+using glm::dvec2;
+
 constexpr double kOneLine = 1e-3;   // texels: so far apart are lines that are one; shorter parts are none
 constexpr double kSameTurn = 0.06;  // radians: turns that are alike
 
@@ -15,14 +19,19 @@ struct Part {
     double from, to;  // shares of a contact
 };
 
-// The share of c's line that o's covers, coming from the same side.
-Part covered(const Crossing& c, const Crossing& o, double within) {
-    const glm::dvec2 a(c.a), d = glm::dvec2(c.b) - a, p = glm::dvec2(o.a) - a, q = glm::dvec2(o.b) - a;
-    const double length = glm::length(d), along = glm::dot(d, q - p);
-    const bool oneSide = ((c.flags ^ o.flags) & kCrossingInsideLeft) == 0 ? along > 0 : along < 0;
-    if (!oneSide || std::abs(cross(d, p)) > within * length || std::abs(cross(d, q)) > within * length) return {0, 0};
-    const double s = glm::dot(d, p) / (length * length), t = glm::dot(d, q) / (length * length);
+// The share of the line a-b that the line p-q covers.
+Part covered(dvec2 a, dvec2 b, dvec2 p, dvec2 q, double within) {
+    const dvec2 d = b - a;
+    const double length = glm::length(d);
+    if (std::abs(cross(d, p - a)) > within * length || std::abs(cross(d, q - a)) > within * length) return {0, 0};
+    const double s = glm::dot(d, p - a) / (length * length), t = glm::dot(d, q - a) / (length * length);
     return {std::max(0.0, std::min(s, t)), std::min(1.0, std::max(s, t))};
+}
+
+// Do walks come to lines of one place from the same side?
+bool fromOneSide(const Crossing& c, const Crossing& o) {
+    const bool alike = ((c.flags ^ o.flags) & kCrossingInsideLeft) == 0;
+    return (glm::dot(dvec2(c.b - c.a), dvec2(o.b - o.a)) > 0) == alike;
 }
 
 // least: the share of a contact below which nothing is left.
@@ -45,6 +54,18 @@ void Contacts::keepFirstMet() {
     std::map<uint32_t, std::vector<const Contact*>> leaving;  // by triangle
     for (const Contact& c : list_)
         if (ofSheets(c)) leaving[c.from].push_back(&c);
+    const double hair = kOneLine * texel_;
+    // Where along c its far side touches what o leads to, in the same line.
+    const auto touches = [&](const Contact& c, const Contact& o) {
+        std::vector<Part> parts;
+        const auto found = leaving.find(c.to);
+        if (found == leaving.end()) return parts;
+        for (const Contact* p : found->second)
+            if (mesh_.triangles[p->to].shell == mesh_.triangles[o.to].shell)
+                parts.push_back(covered(dvec2(c.crossing.ta), dvec2(c.crossing.tb), dvec2(p->crossing.a),
+                                        dvec2(p->crossing.b), hair));
+        return parts;
+    };
     std::vector<Contact> kept;
     for (const Contact& c : list_) {
         if (!ofSheets(c)) {
@@ -52,9 +73,15 @@ void Contacts::keepFirstMet() {
             continue;
         }
         std::vector<Part> parts{{0, 1}};
-        const double hair = kOneLine * texel_, least = hair / glm::length(c.crossing.b - c.crossing.a);
-        for (const Contact* other : leaving[c.from])
-            if (other->turn < c.turn - kSameTurn) takeFrom(parts, covered(c.crossing, other->crossing, hair), least);
+        const double least = hair / glm::length(c.crossing.b - c.crossing.a);
+        for (const Contact* o : leaving[c.from]) {
+            if (o->turn >= c.turn - kSameTurn || !fromOneSide(c.crossing, o->crossing)) continue;
+            const Part on =
+                covered(dvec2(c.crossing.a), dvec2(c.crossing.b), dvec2(o->crossing.a), dvec2(o->crossing.b), hair);
+            if (!(on.to > on.from)) continue;
+            for (const Part& p : touches(c, *o))
+                takeFrom(parts, {std::max(on.from, p.from), std::min(on.to, p.to)}, least);
+        }
         for (const Part& p : parts) kept.push_back(part(c, p.from, p.to));
     }
     list_.swap(kept);
