@@ -1,5 +1,7 @@
 // In: two triangles. Out: the stretches along which they touch. A corner within its reach of the other's plane lies
-// in it, so that walls that stand on a floor, or a hair above or below it, touch it along their lower edge.
+// in it, so that walls that stand on a floor, or a hair above it, touch it along their lower edge. Those that go
+// through the floor by more than a hair touch it where they do, so that there are lines on both that close off what is
+// below.
 #include "runtime/surface/contact_segments.hpp"
 
 #include <algorithm>
@@ -14,6 +16,7 @@ using glm::dvec3;
 
 constexpr double kParallel = 0.995;  // cosine: planes that meet at less than 6° may count as one
 constexpr double kHair = 1e-7;       // of an edge's length: rounding
+constexpr double kThrough = 0.1;     // of the reach: what is farther beyond a plane goes through it
 
 // What a triangle shares with a plane.
 struct Trace {
@@ -169,6 +172,16 @@ int touch(const ContactShape& s, const ContactShape& t, std::array<ContactSegmen
     };
     const std::array<int, 2> edge{of[0].edge, of[1].edge};
     const std::optional<ContactSegment> near = alongLine(of);
+    std::optional<ContactSegment> through = traceBoth(kThrough) ? alongLine(of) : std::nullopt;
+    if (joins(through) && (of[0].edge != edge[0] || of[1].edge != edge[1])) {
+        // Nor does the triangle beyond the edge touch along it.
+        take(through);
+        if (!joins(near)) return count;
+        take(near);
+        for (size_t i = 0; i < 2; ++i) through->side[i].edge = edge[i];
+        through->gone = true;
+        return take(through);
+    }
     if (joins(near)) return take(near);
     const std::optional<ContactSegment> exact = traceBoth(0) && !flat ? alongLine(of) : std::nullopt;
     if (joins(exact)) return take(exact);

@@ -20,6 +20,7 @@ struct ContactSegment {
         glm::dvec3 a, b;
         int edge;
     } side[2];
+    bool gone = false;  // no contact: along so much of these edges the surface goes on and touches elsewhere
 };
 
 // Up to six stretches; returns their number. Triangles that cross have one. In one plane: the outlines of each as far

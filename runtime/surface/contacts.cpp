@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "runtime/surface/contact_segments.hpp"
@@ -82,37 +83,63 @@ struct Flap {
     bool atBorder;       // along a border of its chart
 };
 
+// The parts of a stretch that come before and after another one.
+void addBeside(const Found& f, const Found& other, std::vector<Found>& out) {
+    const dvec3 a = f.segment.side[0].a, d = f.segment.side[0].b - a;
+    const auto at = [&](dvec3 p) { return glm::dot(d, p - a) / glm::dot(d, d); };
+    const double from = at(other.segment.side[0].a), to = at(other.segment.side[0].b);
+    const auto addPart = [&](double low, double high) {
+        if (!(low < high)) return;
+        Found part = f;
+        for (auto& side : part.segment.side) {
+            const dvec3 start = side.a, along = side.b - side.a;
+            if (low > 0) side.a = start + along * low;
+            if (high < 1) side.b = start + along * high;
+        }
+        out.push_back(part);
+    };
+    addPart(0, std::min(from, 1.0));
+    addPart(std::max(to, 0.0), 1);
+}
+
+// Adds what the stretches of one key make together; those that are gone come last.
+void mergeKey(std::span<Found> found, std::vector<Found>& out) {
+    const auto& first = found.front().segment.side[0];
+    const dvec3 d = glm::normalize(first.b - first.a);
+    for (Found& f : found)
+        for (auto& side : f.segment.side)
+            if (glm::dot(d, side.b - side.a) < 0) std::swap(side.a, side.b);
+    const auto from = [&](const Found& f) { return glm::dot(d, f.segment.side[0].a); };
+    const auto to = [&](const Found& f) { return glm::dot(d, f.segment.side[0].b); };
+    std::stable_sort(found.begin(), found.end(), [&](const Found& x, const Found& y) {
+        return std::make_pair(x.segment.gone, from(x)) < std::make_pair(y.segment.gone, from(y));
+    });
+    std::vector<Found> joined, left;
+    for (const Found& f : found) {
+        if (f.segment.gone) {
+            left.clear();
+            for (const Found& stretch : joined) addBeside(stretch, f, left);
+            joined.swap(left);
+        } else if (joined.empty() || from(f) > to(joined.back())) {
+            joined.push_back(f);
+        } else if (to(f) > to(joined.back())) {
+            for (int s = 0; s < 2; ++s) joined.back().segment.side[s].b = f.segment.side[s].b;
+        }
+    }
+    out.insert(out.end(), joined.begin(), joined.end());
+}
+
 // Stretches that were found by several pairs of triangles become one each.
 void merge(std::vector<Found>& found) {
     std::sort(found.begin(), found.end(),
               [](const Found& x, const Found& y) { return std::tie(x.key, x.triangle) < std::tie(y.key, y.triangle); });
     std::vector<Found> out;
-    for (size_t i = 0; i < found.size();) {
-        size_t j = i + 1;
+    for (size_t i = 0, j = 0; i < found.size(); i = j) {
         while (j < found.size() && found[j].key == found[i].key) ++j;
-        if (j - i == 1) {
-            out.push_back(found[i++]);
-            continue;
-        }
-        const auto& first = found[i].segment.side[0];
-        dvec3 d = glm::normalize(first.b - first.a);
-        for (size_t k = i; k < j; ++k)
-            for (auto& side : found[k].segment.side)
-                if (glm::dot(d, side.b - side.a) < 0) std::swap(side.a, side.b);
-        auto from = [&](const Found& f) { return glm::dot(d, f.segment.side[0].a); };
-        auto to = [&](const Found& f) { return glm::dot(d, f.segment.side[0].b); };
-        std::stable_sort(found.begin() + long(i), found.begin() + long(j),
-                         [&](const Found& x, const Found& y) { return from(x) < from(y); });
-        out.push_back(found[i]);
-        for (size_t k = i + 1; k < j; ++k) {
-            Found& last = out.back();
-            if (from(found[k]) > to(last)) {
-                out.push_back(found[k]);
-            } else if (to(found[k]) > to(last)) {
-                for (int s = 0; s < 2; ++s) last.segment.side[s].b = found[k].segment.side[s].b;
-            }
-        }
-        i = j;
+        if (j - i == 1)
+            out.push_back(found[i]);
+        else
+            mergeKey({found.data() + i, j - i}, out);
     }
     found.swap(out);
 }

@@ -74,6 +74,53 @@ TEST_CASE("a sheet that lies on a wall, close to another one that stands out of 
         }
 }
 
+TEST_CASE("a slit between boxes on either side of a bend is ground down to its bottom, and what is under them isn't") {
+    const double texel = 2 / (0.88 / 4) / 512;  // metres
+    for (double left : {-0.4, -0.6})
+        for (double right : {0.75, 0.9}) {
+            CAPTURE(left);
+            CAPTURE(right);
+            Kit kit;
+            const double fall = 0.2;
+            kit.panel({-1, -fall, 1}, {1, fall, 0}, {0, 0, -2});
+            kit.panel({0, 0, 1}, {1, -fall, 0}, {0, 0, -2});
+            const dvec3 half(0.25, 0.4, 0.4);
+            const int from = kit.box({left * texel - half.x, 0.2, 0}, half);
+            kit.box({right * texel + half.x, 0.2, 0}, half);
+            const Baked baked = kit.bake();
+            Stroll stroll(baked.surface);
+            for (double s : {0.2, 0.5, 0.8}) {
+                CAPTURE(s);
+                REQUIRE(stroll.start(kit, from, 0.5, s, {0, -1, 0.1}));
+                CHECK(stroll.go(0.4) == kWalkDone);
+                CHECK(stroll.w.position.x == doctest::Approx(right * texel).epsilon(1e-3));
+                CHECK(stroll.w.position.y > 0.1);
+            }
+        }
+}
+
+TEST_CASE("what lies under a box is no ground, however close to the floor's bend the box ends") {
+    const double texel = 2 / (0.88 / 3) / 512;  // metres
+    for (double gap : {0.2, 0.4, 0.6, 0.8}) {
+        CAPTURE(gap);
+        Kit kit;
+        const double fall = 0.2;
+        kit.panel({-1, -fall, 1}, {1, fall, 0}, {0, 0, -2});
+        kit.panel({0, 0, 1}, {1, -fall, 0}, {0, 0, -2});
+        const dvec3 half(0.25, 0.4, 0.4), middle(gap * texel + half.x, 0.2, 0);
+        kit.box(middle, half);
+        const Baked baked = kit.bake();
+        int under = 0, beside = 0;
+        for (const Texel& t : baked.surface.levels[0].texels) {
+            if (texelClass(t.bits) != kTexelInner || std::abs(t.position.y + fall * t.position.x) > 1e-4) continue;
+            const dvec3 in = half - glm::abs(dvec3(t.position) - middle);
+            (std::min(in.x, in.z) > 2 * texel ? under : beside)++;
+        }
+        CHECK(under == 0);
+        CHECK(beside > 1000);
+    }
+}
+
 TEST_CASE("a walk leaves the floor for a wall that stands on it, and comes back") {
     struct Case {
         double lift;  // of the wall's underside over the floor

@@ -10,10 +10,9 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr size_t kSamples = 15;        // judged per region
-constexpr double kSeenShare = 0.05;    // of what is hidden: less is an error of judgement
-constexpr float kAlongBorder = 0.05f;  // texels
-constexpr size_t kMostParts = 32;      // that a contact is judged in
+constexpr size_t kSamples = 15;      // judged per region
+constexpr double kSeenShare = 0.05;  // of what is hidden: less is an error of judgement
+constexpr size_t kMostParts = 32;    // that a contact is judged in
 
 }  // namespace
 
@@ -74,22 +73,26 @@ uint32_t texelOf(const SurfaceLevelData& level, glm::vec2 uv) {
     return uint32_t(p.y) * level.size + uint32_t(p.x);
 }
 
-// Does a contact run along a chart's border at uv? Walks meet it before the border.
-bool contactAt(const std::vector<Crossing>& crossings, const SurfaceLevelData& level, glm::vec2 uv, uint32_t chart) {
-    uint32_t texel = texelOf(level, uv), at = texelIndex(level.size, texel % level.size, texel / level.size);
-    uint32_t head = level.crossingHead[at];
-    for (uint32_t i = 0; i < (head & 255u); ++i) {
-        const Crossing& c = crossings[level.crossingRefs[(head >> 8) + i]];
-        if ((c.flags & 3u) != kCrossingContact || c.flags >> 16 != chart) continue;
-        glm::vec2 d = c.b - c.a, r = uv - c.a;
-        float t = glm::clamp(glm::dot(r, d) / std::max(glm::dot(d, d), 1e-20f), 0.0f, 1.0f);
-        if (glm::length(r - d * t) * float(level.size) < kAlongBorder) return true;
-    }
+// Does a contact of the chart lie between p and q? By the lists of the texels around them.
+bool parted(const std::vector<Crossing>& crossings, const SurfaceLevelData& level, uint32_t chart, glm::dvec2 p,
+            glm::dvec2 q) {
+    const uint32_t i = texelOf(level, glm::min(p, q)), j = texelOf(level, glm::max(p, q));
+    for (uint32_t y = i / level.size; y <= j / level.size; ++y)
+        for (uint32_t x = i % level.size; x <= j % level.size; ++x) {
+            const uint32_t head = level.crossingHead[texelIndex(level.size, x, y)];
+            for (uint32_t k = 0; k < (head & 255u); ++k) {
+                const Crossing& c = crossings[level.crossingRefs[(head >> 8) + k]];
+                if ((c.flags & 3u) != kCrossingContact || c.flags >> 16 != chart) continue;
+                const glm::dvec2 a(c.a), d = glm::dvec2(c.b) - a, e = q - p;
+                const bool beside = (cross(d, p - a) > 0) == (cross(d, q - a) > 0);
+                if (!beside && (cross(e, a - p) > 0) != (cross(e, a + d - p) > 0)) return true;
+            }
+        }
     return false;
 }
 
-// Regions that borders join are one, unless a contact runs along the border. Returns for each region the one that
-// stands for all that it is joined with. members, first: the regions' texels.
+// Regions that borders join are one, unless a contact runs along the border or close to it. Returns for each region the
+// one that stands for all that it is joined with. members, first: the regions' texels.
 std::vector<uint32_t> joinRegions(const std::vector<Crossing>& crossings, const SurfaceLevelData& level,
                                   const std::vector<uint32_t>& members, const std::vector<uint32_t>& first) {
     std::vector<uint32_t> regionOf(level.texels.size(), kNone), joined(first.size() - 1);
@@ -100,10 +103,10 @@ std::vector<uint32_t> joinRegions(const std::vector<Crossing>& crossings, const 
     // Where texels are too large to tell sides apart there is nothing to join: regions of one texel judge themselves.
     auto regionAt = [&](glm::vec2 at, glm::vec2 edge, bool left, uint32_t chart) {
         glm::vec2 inward = glm::vec2(-edge.y, edge.x) * ((left ? 1.0f : -1.0f) / std::max(glm::length(edge), 1e-20f));
-        if (contactAt(crossings, level, at, chart) || contactAt(crossings, level, at + inward * (0.03f * texel), chart))
-            return kNone;
         for (float reach : {0.6f, 1.2f}) {
-            uint32_t t = texelOf(level, at + inward * (reach * texel));
+            const glm::vec2 inside = at + inward * (reach * texel);
+            if (parted(crossings, level, chart, glm::dvec2(at), glm::dvec2(inside))) return kNone;
+            uint32_t t = texelOf(level, inside);
             uint32_t index = texelIndex(level.size, t % level.size, t / level.size);
             uint32_t head = level.crossingHead[index];
             bool contact = false;
