@@ -63,7 +63,8 @@ ESPALIER_WHOLE void marchLanes(Lane* lanes, uint32_t marching, WideWalks* wide) 
     for (uint32_t i = 0; wide && i < kWalkLanes; ++i) {
         if ((marching >> i & 1) == 0) continue;
         const Grower& g = lanes[i].c.g;
-        putWalk(*wide, i, surfaces, g.fresh ? g.at : g.trial, g.fresh ? g.distance : g.remaining);
+        putWalk(*wide, i, surfaces, lanes[i].c.site.level, g.fresh ? g.at : g.trial,
+                g.fresh ? g.distance : g.remaining);
         if (!g.fresh) continue;
         wide->turns[i] = 1;
         wide->angle[i] = attemptAngle(g);
@@ -73,13 +74,19 @@ ESPALIER_WHOLE void marchLanes(Lane* lanes, uint32_t marching, WideWalks* wide) 
         if ((marching >> i & 1) == 0) continue;
         const ExpandEnv& env = lanes[i].env;
         ChunkGrowth& c = lanes[i].c;
-        if ((landed >> i & 1) != 0) {
-            if (c.g.fresh) setOut(c.g);
-            takeWalk(*wide, i, c.g.trial);
-            c.g.remaining = wide->remaining[i];
-            takeStretch(env, c.site, c.g, wide->event[i], wide->packedNormal[i], wide->packedHeading[i]);
-        } else {
+        if (!wide) {
             marchOn(env, c.site, c.g);
+        } else {
+            if (c.g.fresh) setOut(c.g);
+            if ((landed >> i & 1) != 0) {
+                takeWalk(*wide, i, c.g.trial);
+                c.g.remaining = wide->remaining[i];
+                takeStretch(env, c.site, c.g, wide->event[i], wide->packedNormal[i], wide->packedHeading[i]);
+            } else {
+                vec3 normal;
+                const uint event = takeMeeting(*wide, i, c.g.trial, c.g.remaining, normal);
+                takeStretch(env, c.site, c.g, event, packOct(normal), packOct(c.g.trial.walk.direction));
+            }
         }
         endTrip(c.g);
     }

@@ -4,9 +4,6 @@
 
 #include <initializer_list>
 
-#include "shaders/shared/walk_exit.h"
-#include "shaders/shared/walk_stretch.h"
-
 #if defined(__x86_64__) && defined(__GNUC__)
 #define ESPALIER_WIDE __attribute__((flatten, target("avx2")))
 #else
@@ -44,6 +41,14 @@ void loadWalk(const WideWalks& l, uint32_t i, WalkState& w) {
     w.limit = l.limit[i];
     w.flags = l.flags[i];
 }
+void loadStretch(const WideWalks& l, uint32_t i, Stretch& s) {
+    s.metres = l.metres[i];
+    s.partly = l.partly[i] != 0;
+    s.pace = l.pace[i];
+    s.rate = {l.rateU[i], l.rateV[i]};
+    s.delta = s.rate * s.metres;
+    s.searches = l.searches[i] != 0;
+}
 void storeWalk(WideWalks& l, uint32_t i, const WalkState& w) {
     put(l.position, i, w.position);
     put(l.du, i, w.du);
@@ -61,6 +66,15 @@ void storeWalk(WideWalks& l, uint32_t i, const WalkState& w) {
     l.flags[i] = w.flags;
 }
 
+void putCell(WideWalks& l, uint32_t i, const Cell& c) {
+    l.at00[i] = c.at00;
+    l.at10[i] = c.at10;
+    l.at01[i] = c.at01;
+    l.at11[i] = c.at11;
+    l.fx[i] = c.fx;
+    l.fy[i] = c.fy;
+}
+
 // Turns, and measures the stretch and where it would end.
 ESPALIER_WIDE void setOut(WideWalks& l) {
     for (uint32_t i = 0; i < kWalkLanes; ++i) {
@@ -72,9 +86,10 @@ ESPALIER_WIDE void setOut(WideWalks& l) {
         w.walk.direction.x = l.turns[i] != 0 ? turned.x : straight.x;
         w.walk.direction.y = l.turns[i] != 0 ? turned.y : straight.y;
         w.walk.direction.z = l.turns[i] != 0 ? turned.z : straight.z;
-        put(l.heading, i, w.walk.direction);
+        put(l.along, i, w.walk.direction);
         l.remaining[i] = inRange(l.remaining[i], l.farthest[i]);
-        const Stretch s = stretchOf(w, l.remaining[i] * rcpExact(l.scale[i]), rcpExact(l.size[i]));
+        l.texel[i] = rcpExact(l.size[i]);
+        const Stretch s = stretchOf(w, l.remaining[i] * rcpExact(l.scale[i]), l.texel[i]);
         l.metres[i] = s.metres;
         l.pace[i] = s.pace;
         l.rateU[i] = s.rate.x;
@@ -83,13 +98,7 @@ ESPALIER_WIDE void setOut(WideWalks& l) {
         l.toV[i] = w.walk.uv.y + s.delta.y;
         l.partly[i] = s.partly ? 1 : 0;
         l.searches[i] = s.searches ? 1 : 0;
-        const Cell c = cellAt(l.size[i], {l.toU[i], l.toV[i]});
-        l.at00[i] = c.at00;
-        l.at10[i] = c.at10;
-        l.at01[i] = c.at01;
-        l.at11[i] = c.at11;
-        l.fx[i] = c.fx;
-        l.fy[i] = c.fy;
+        putCell(l, i, cellAt(l.size[i], {l.toU[i], l.toV[i]}));
     }
 }
 
@@ -100,14 +109,34 @@ void expectEnd(const WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
     if (l.searches[i] != 0) __builtin_prefetch(level.crossingHead.v + l.at00[i]);
 }
 
-bool leavesChart(const WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
+// Of a stretch that leaves its chart the end is beyond the crossing: it is read there.
+bool leavesChart(WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
     if (l.searches[i] == 0) return false;
-    const vec2 slip = {l.slipU[i], l.slipV[i]};
-    const vec2 delta = vec2(l.rateU[i], l.rateV[i]) * l.metres[i];
+    Stretch s;
+    loadStretch(l, i, s);
+    const vec2 slip = {l.slipU[i], l.slipV[i]}, uv = {l.u[i], l.v[i]};
     const bool loose = (l.flags[i] & kWalkFlagLoose) != 0;
-    const Exit leave = findExit(surfaces, l.instance[i], l.level[i], l.chart[i], vec2(l.u[i], l.v[i]) + slip,
-                                delta - slip, l.clear[i], loose);
-    return leave.fraction <= 1.0f;
+    const Exit leave =
+        findExit(surfaces, l.instance[i], l.level[i], l.chart[i], uv + slip, s.delta - slip, l.clear[i], loose);
+    if (leave.fraction > 1.0f) return false;
+    WalkState w;
+    loadWalk(l, i, w);
+    w.walk.place = l.instance[i] << 16 | l.chart[i];
+    w.orientation = l.orientation[i];
+    w.level = l.level[i];
+    Reach& r = l.reach[i];
+    r = reachInside(w, s, l.texel[i]);
+    reachBeyond(surfaces, l.wanted[i], w, s.delta, leave, r);
+    l.instance[i] = r.place >> 16;
+    l.chart[i] = r.place & 0xFFFF;
+    l.level[i] = r.level;
+    l.orientation[i] = r.orientation;
+    l.size[i] = float(surfaces.v[l.instance[i]].levels[r.level].size);
+    l.toU[i] = r.to.x;
+    l.toV[i] = r.to.y;
+    putCell(l, i, cellAt(l.size[i], r.to));
+    expectEnd(l, i, surfaces);
+    return true;
 }
 
 void readEnd(WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
@@ -154,9 +183,10 @@ ESPALIER_WIDE void land(WideWalks& l) {
     for (uint32_t i = 0; i < kWalkLanes; ++i) {
         WalkState w;
         loadWalk(l, i, w);
-        const float texel = rcpExact(l.size[i]);
-        const vec2 rate = {l.rateU[i], l.rateV[i]};
-        const Stretch s = {l.metres[i], l.partly[i] != 0, l.pace[i], rate, rate * l.metres[i], l.searches[i] != 0};
+        w.walk.direction = vectorOf(l.along, i);
+        const float texel = l.texel[i];
+        Stretch s;
+        loadStretch(l, i, s);
         Patch p;
         const bool found = patchFrom(blendIn(l, i), l.orientation[i], p);
         const Landing landing = landingOf(w, s, p, texel);
@@ -188,13 +218,14 @@ bool walksWide() {
 #endif
 }
 
-void putWalk(WideWalks& l, uint32_t i, SurfaceBuf surfaces, const WalkState& w, float remaining) {
+void putWalk(WideWalks& l, uint32_t i, SurfaceBuf surfaces, uint32_t level, const WalkState& w, float remaining) {
     storeWalk(l, i, w);
     l.remaining[i] = remaining;
     l.turns[i] = 0;
     l.instance[i] = w.walk.place >> 16;
     l.chart[i] = w.walk.place & 0xFFFF;
     l.level[i] = w.level;
+    l.wanted[i] = level;
     const SurfaceRef& surface = surfaces.v[l.instance[i]];
     l.orientation[i] = w.orientation;
     l.size[i] = float(surface.levels[w.level].size);
@@ -205,19 +236,30 @@ void putWalk(WideWalks& l, uint32_t i, SurfaceBuf surfaces, const WalkState& w, 
 uint32_t advanceWide(WideWalks& l, SurfaceBuf surfaces, uint32_t lanes) {
     setOut(l);
     forLanes(lanes, [&](uint32_t i) { expectEnd(l, i, surfaces); });
-    uint32_t stay = 0;
-    forLanes(lanes, [&](uint32_t i) { stay |= leavesChart(l, i, surfaces) ? 0 : 1u << i; });
-    forLanes(stay, [&](uint32_t i) { readEnd(l, i, surfaces); });
+    forLanes(lanes, [&](uint32_t i) { l.leaves[i] = leavesChart(l, i, surfaces) ? 1 : 0; });
+    forLanes(lanes, [&](uint32_t i) { readEnd(l, i, surfaces); });
     blendEnds(l);
-    forLanes(stay, [&](uint32_t i) { readPlane(l, i, surfaces); });
+    forLanes(lanes, [&](uint32_t i) { readPlane(l, i, surfaces); });
     land(l);
     uint32_t landed = 0;
-    forLanes(stay, [&](uint32_t i) { landed |= l.landed[i] << i; });
+    forLanes(lanes, [&](uint32_t i) { landed |= (l.landed[i] & ~l.leaves[i]) << i; });
     return landed;
 }
 
 void takeWalk(const WideWalks& l, uint32_t i, WalkState& w) {
     loadWalk(l, i, w);
+}
+
+uint32_t takeMeeting(const WideWalks& l, uint32_t i, WalkState& w, float& remaining, vec3& jointNormal) {
+    w.walk.direction = vectorOf(l.along, i);
+    remaining = inRange(remaining, l.farthest[i]);
+    Stretch s;
+    loadStretch(l, i, s);
+    Reach r = reachInside(w, s, l.texel[i]);
+    if (l.leaves[i] != 0) r = l.reach[i];
+    Patch p;
+    const bool found = patchFrom(blendIn(l, i), l.orientation[i], p);
+    return takeReach(w, remaining, s, r, p, found, l.texel[i], l.scale[i], jointNormal);
 }
 
 }  // namespace espalier
