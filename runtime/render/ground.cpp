@@ -1,4 +1,5 @@
-// Enters: nothing but the formats. Leaves: a tile of noise that repeats without a seam, and the draw of a plane of it.
+// Enters: nothing but the formats. Leaves: a tile of noise that repeats without a seam, the draw of a plane of it, and
+// the hills around that it makes.
 #include "runtime/render/ground.hpp"
 
 #include <algorithm>
@@ -78,6 +79,46 @@ std::vector<uint8_t> noiseTile() {
     return rgba;
 }
 
+constexpr uint32_t kSkyline = 4096;  // directions
+
+// What sky.frag reads: of three ranges of hills, each farther than the one before, the crest's height in a direction, a
+// byte being kHighestHill; in w woods, lighter or darker. Directions go around as texture u, see `around` there.
+std::vector<uint8_t> skylineOf(std::span<const uint8_t> noise) {
+    const auto noiseAt = [&](glm::vec2 at) {
+        at = at * float(kSide) - 0.5f;
+        const glm::vec2 low = glm::floor(at), share = at - low;
+        const auto texel = [&](int dx, int dy) {
+            const uint32_t x = uint32_t(int(low.x) + dx) % kSide, y = uint32_t(int(low.y) + dy) % kSide;
+            const uint8_t* t = &noise[(size_t(y) * kSide + x) * 4];
+            return glm::vec4(t[0], t[1], t[2], t[3]);
+        };
+        return glm::mix(glm::mix(texel(0, 0), texel(1, 0), share.x), glm::mix(texel(0, 1), texel(1, 1), share.x),
+                        share.y) /
+                   255.0f -
+               0.5f;
+    };
+    std::vector<uint8_t> rgba(kSkyline * 4);
+    const auto byte = [](float x) { return uint8_t(std::clamp(x, 0.0f, 1.0f) * 255 + 0.5f); };
+    for (uint32_t i = 0; i < kSkyline; ++i) {
+        const float u = 4 * (float(i) + 0.5f) / kSkyline;
+        const float x = u < 2 ? 1 - u : u - 3, z = (1 - std::abs(x)) * (u < 2 ? 1.0f : -1.0f);
+        const glm::vec2 to = glm::normalize(glm::vec2(x, z));
+        for (int range = 0; range < 3; ++range) {
+            const float far = float(range);
+            const glm::vec4 high = noiseAt(to * (0.24f - 0.07f * far) + 0.37f * far);
+            const glm::vec4 trees = noiseAt(to * 2.1f + 0.11f * far);
+            // Broad swells, hills on them, and near by the tops of woods.
+            float crest = 0.013f + 0.011f * far + (0.045f + 0.012f * far) * high.x + (0.030f - 0.006f * far) * high.z +
+                          (0.010f - 0.0045f * far) * trees.x;
+            // The first is never without woods, so that the plain has no bare edge.
+            if (range == 0) crest = std::max(crest, 0.0045f + 0.004f * trees.z + 0.006f * trees.x);
+            rgba[4 * size_t(i) + size_t(range)] = byte(crest / kHighestHill);
+            if (range == 0) rgba[4 * size_t(i) + 3] = byte(trees.x + 0.5f);
+        }
+    }
+    return rgba;
+}
+
 constexpr uint32_t kPavingSide = 512;
 constexpr int kSetts = 20;  // courses in a tile
 
@@ -151,6 +192,11 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
     const std::vector<uint8_t> texels = noiseTile();
     if (Status s = fillImage(device, *image, std::as_bytes(std::span(texels))); !s) return s.failure();
     ground.noise_ = std::move(*image);
+    Result<Image> skyline = Image::create(device, {.name = "skyline", .width = kSkyline, .height = 1});
+    if (!skyline) return skyline.failure();
+    const std::vector<uint8_t> crests = skylineOf(texels);
+    if (Status s = fillImage(device, *skyline, std::as_bytes(std::span(crests))); !s) return s.failure();
+    ground.skyline_ = std::move(*skyline);
     for (const bool quick : {false, true}) {
         SamplerDesc sampler{.name = "ground noise", .blendMips = !quick};
         sampler.anisotropy = device.info().cpu ? 1.0f : 8.0f;

@@ -41,17 +41,17 @@ class Ground {
               const Sampler& shadowSampler, Shading shading) const;
 
     // Four octave sums of noise that repeat at the border: see ground.frag.
-    const Image& noise() const { return noise_; }
-    const Sampler& sampler() const { return samplers_[0]; }
     // quick: with samplers that take the nearer of two mips.
     Binding noiseBinding(bool quick = false) const { return {noise_, samplers_[quick]}; }
+    // Crests of hills around the horizon.
+    Binding skylineBinding() const { return {skyline_, samplers_[1]}; }
     Binding siteBinding(bool quick = false) const { return {site_ ? site_ : noise_, siteSamplers_[quick]}; }
     // A tile of setts: brightness, stone or joint, slopes.
     Binding pavingBinding(bool quick = false) const { return {paving_ ? paving_ : noise_, samplers_[quick]}; }
 
   private:
     Program programs_[kShadings];
-    Image noise_;
+    Image noise_, skyline_;
     Image site_, paving_;                    // empty: there is no map
     Sampler samplers_[2], siteSamplers_[2];  // blending mips or not
     glm::vec2 siteLow_{0}, siteRcp_{0};

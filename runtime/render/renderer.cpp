@@ -199,7 +199,7 @@ void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, cons
     if (roofed_) roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, shading_);
     if (ahead_) drawSurroundings(pass, inputs, post);
     for (uint32_t hills = 0; hills < (hosted_ ? 0u : 1u + post.ground); ++hills)
-        pass.draw(sky_[hills], 3, 1, post, {{ground_.noise(), ground_.sampler()}, *frame_});
+        pass.draw(sky_[hills], 3, 1, post, {ground_.noiseBinding(true), ground_.skylineBinding(), *frame_});
 }
 
 void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {

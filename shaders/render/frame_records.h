@@ -20,6 +20,8 @@ CONST_UINT(kRooted, 1u);
 CONST_UINT(kQuick, 2u);
 CONST_UINT(kRest, 3u);
 
+CONST_FLOAT(kHighestHill, 0.075f);   // sine of its height over the horizon
+
 // Colours are linear. Clip space: depth reversed, 1 at the near plane, 0 at infinity.
 struct FrameRecord {
     mat4 viewProjection;

@@ -17,32 +17,29 @@ layout(location = 0) out vec4 color;
 const float kLeastContrast = 0.035;      // of the stored square roots
 const float kRelativeContrast = 0.12;
 const float kSpeckShare = 0.3;          // how far a lone pixel is drawn to its neighbours' mean
-const float kSteps[4] = float[4](1.0, 2.0, 4.0, 8.0);
+const int kReach = 8;                    // pixels that an edge is followed
 
 float brightness(vec3 c) { return dot(c, vec3(0.3, 0.6, 0.1)); }
-float brightnessAt(vec2 uv) { return brightness(textureLod(colorMap, uv, 0.0).rgb); }
-float fetch(ivec2 at) {
-    return brightness(texelFetch(colorMap, clamp(at, ivec2(0), textureSize(colorMap, 0) - 1), 0).rgb);
-}
+vec4 colorAt(ivec2 at) { return texelFetch(colorMap, clamp(at, ivec2(0), textureSize(colorMap, 0) - 1), 0); }
+float fetch(ivec2 at) { return brightness(colorAt(at).rgb); }
 
-// How far over the edge, in pixels, lies the end of the edge at `uv` along `along`? over: does brightness there leave
-// to the middle's other side?
-float edgeEnd(vec2 uv, vec2 along, float edge, float least, bool darkHere, out bool over) {
-    float difference = 0.0;
-    float far = kSteps[3];
-    for (int i = 0; i < 4; ++i) {
-        difference = brightnessAt(uv + along * kSteps[i]) - edge;
-        if (abs(difference) >= least) {
-            far = kSteps[i];
-            break;
-        }
+// How far away, in pixels along `along`, does the edge between `at` and its neighbour `across` end? next: the mean of
+// both brightnesses a pixel on. over: does brightness there leave to the middle's other side?
+float edgeEnd(ivec2 at, ivec2 across, ivec2 along, float next, float edge, float least, bool darkHere, out bool over) {
+    float difference = next - edge;
+    int far = 1;
+    for (int i = 2; i <= kReach; i *= 2) {
+        if (abs(difference) >= least) break;
+        ivec2 there = at + along * i;
+        difference = 0.5 * (fetch(there) + fetch(there + across)) - edge;
+        far = i;
     }
     over = (difference < 0.0) != darkHere;
-    return far;
+    return float(far);
 }
 
-// at: the pixel, its colour's brightness m and those of its neighbours in the four directions.
-vec4 smoothed(ivec2 at, float m, float n, float s, float w, float e, float range) {
+// at: the pixel, its colour and brightness m, those of its neighbours in the four directions.
+vec4 smoothed(ivec2 at, vec4 middle, float m, float n, float s, float w, float e, float range) {
     float nw = fetch(at + ivec2(-1, -1));
     float ne = fetch(at + ivec2(1, -1));
     float sw = fetch(at + ivec2(-1, 1));
@@ -54,24 +51,28 @@ vec4 smoothed(ivec2 at, float m, float n, float s, float w, float e, float range
     float after = flatEdge ? s : e;
     bool toBefore = abs(before - m) >= abs(after - m);
     float other = toBefore ? before : after;
-    vec2 across = (flatEdge ? vec2(0.0, push.rcpSize.y) : vec2(push.rcpSize.x, 0.0)) * (toBefore ? -1.0 : 1.0);
-    vec2 along = flatEdge ? vec2(push.rcpSize.x, 0.0) : vec2(0.0, push.rcpSize.y);
+    ivec2 across = (flatEdge ? ivec2(0, 1) : ivec2(1, 0)) * (toBefore ? -1 : 1);
+    ivec2 along = flatEdge ? ivec2(1, 0) : ivec2(0, 1);
 
-    vec2 uv = (vec2(at) + 0.5) * push.rcpSize;
     float edge = 0.5 * (m + other);
     float least = 0.25 * abs(other - m);
+    // A pixel on, back and forth.
+    float backHere = flatEdge ? w : n;
+    float forthHere = flatEdge ? e : s;
+    float backThere = toBefore ? nw : flatEdge ? sw : ne;
+    float forthThere = !toBefore ? se : flatEdge ? ne : sw;
     bool overBack;
     bool overForth;
     bool dark = m < edge;
-    float back = edgeEnd(uv + across * 0.5, -along, edge, least, dark, overBack);
-    float forth = edgeEnd(uv + across * 0.5, along, edge, least, dark, overForth);
+    float back = edgeEnd(at, across, -along, 0.5 * (backHere + backThere), edge, least, dark, overBack);
+    float forth = edgeEnd(at, across, along, 0.5 * (forthHere + forthThere), edge, least, dark, overForth);
     float nearer = min(back, forth);
     float share = (back < forth ? overBack : overForth) ? 0.5 - nearer / (back + forth) : 0.0;
     // Specks and thin things have no edge to follow.
     float mean = (2.0 * (n + s + w + e) + nw + ne + sw + se) * (1.0 / 12.0);
     float lone = smoothstep(0.0, 1.0, clamp(abs(mean - m) / range, 0.0, 1.0));
     share = max(share, lone * lone * kSpeckShare);
-    return textureLod(colorMap, uv + across * share, 0.0);
+    return mix(middle, colorAt(at + across), share);
 }
 
 void main() {
@@ -86,7 +87,7 @@ void main() {
         float most = max(m, max(max(n, s), max(w, e)));
         float range = most - min(m, min(min(n, s), min(w, e)));
         if (range < max(kLeastContrast, kRelativeContrast * most)) discard;
-        shown = smoothed(at, m, n, s, w, e, range);
+        shown = smoothed(at, shown, m, n, s, w, e, range);
     }
     float open = textureLod(openMap, gl_FragCoord.xy * push.rcpSize, 0.0).x;
     if (explains && frame.view == kViewOverdraw) shown = stored(heatColor(shown.x / (kOverdrawStep * kHottestOverdraw)), 0.0);

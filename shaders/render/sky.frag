@@ -7,24 +7,24 @@
 
 layout(push_constant, scalar) uniform Data { PostPush push; };
 layout(set = 0, binding = 0) uniform sampler2D noise;
+layout(set = 0, binding = 1) uniform sampler2D skyline;   // Ground::skylineBinding()
 layout(location = 0) out vec4 color;
 
-const float kHighestHill = 0.075;   // sine of its height over the horizon
+// A direction as texture u: along the sides of a square on its corner, from +x over +z.
+float around(vec2 to) {
+    float x = to.x / (abs(to.x) + abs(to.y));
+    return to.y >= 0.0 ? 0.25 - 0.25 * x : 0.75 + 0.25 * x;
+}
 
 // Three ranges, each farther one paler.
 vec3 hills(vec3 ray, vec3 sky) {
-    vec2 to = normalize(ray.xz);
+    vec4 line = textureLod(skyline, vec2(around(ray.xz), 0.5), 0.0);
+    float woods = (line.w - 0.5) * clamp(ray.y * 120.0, 0.0, 1.0);
     vec3 seen = sky;
     for (int range = 2; range >= 0; --range) {
         float far = float(range);
-        vec4 high = textureLod(noise, to * (0.24 - 0.07 * far) + 0.37 * far, 0.0) - 0.5;
-        vec4 trees = textureLod(noise, to * 2.1 + 0.11 * far, 0.0) - 0.5;
-        // Broad swells, hills on them, and near by the tops of woods.
-        float crest = 0.013 + 0.011 * far + (0.045 + 0.012 * far) * high.x + (0.030 - 0.006 * far) * high.z + (0.010 - 0.0045 * far) * trees.x;
-        // The first is never without woods, so that the plain has no bare edge.
-        if (range == 0) crest = max(crest, 0.0045 + 0.004 * trees.z + 0.006 * trees.x);
-        vec3 wood = farLand(ray, far) * (1.0 + (0.5 - 0.2 * far) * trees.x * clamp(ray.y * 120.0, 0.0, 1.0));
-        seen = mix(seen, wood, clamp((crest - ray.y) * 700.0, 0.0, 1.0));
+        vec3 wood = farLand(ray, far) * (1.0 + (0.5 - 0.2 * far) * woods);
+        seen = mix(seen, wood, clamp((line[range] * kHighestHill - ray.y) * 700.0, 0.0, 1.0));
     }
     return seen;
 }

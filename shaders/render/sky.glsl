@@ -8,7 +8,9 @@ vec3 skyColor(vec3 ray) {
     vec3 sky = mix(frame.horizon, frame.background, sqrt(clamp(ray.y * 1.1, 0.0, 1.0)));
     vec3 below = mix(frame.horizon, frame.groundColor * 1.2, clamp(-ray.y * 3.0, 0.0, 1.0));
     float glow = max(dot(ray, frame.sunDirection), 0.0);
-    return (ray.y > 0.0 ? sky : below) + frame.sunColor * 0.05 * pow(glow, 12.0);
+    glow *= glow;
+    glow *= glow;
+    return (ray.y > 0.0 ? sky : below) + frame.sunColor * (0.05 * glow * glow * glow);
 }
 
 // Wooded land so far away that it is mostly haze, in ranges 0, 1, 2 ... behind each other; the more so the lower it lies,
