@@ -198,8 +198,8 @@ void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, cons
     if (grows_) drawTerminals(pass, false);
     if (roofed_) roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, shading_);
     if (ahead_) drawSurroundings(pass, inputs, post);
-    for (uint32_t hills = 0; hills < (hosted_ ? 0u : 1u + post.ground); ++hills)
-        pass.draw(sky_[hills], 3, 1, post, {ground_.noiseBinding(true), ground_.skylineBinding(), *frame_});
+    if (!hosted_)
+        pass.draw(sky_[post.ground], 3, 1, post, {ground_.noiseBinding(true), ground_.skylineBinding(), *frame_});
 }
 
 void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
@@ -223,13 +223,8 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     const bool intoOwn = !target.image || hosted_;
     const VkFormat format = intoOwn ? kOwnFormat : target.format;
     push.encode = takesLinear(format) ? 0 : 1;
-    std::vector<const Program*> programs;
-    for (bool rest : {false, true}) {
-        if (rest && targets_.samples > 1) break;
-        Result<const Program*> program = resolveProgram(format, rest);
-        if (!program) return program.failure();
-        programs.push_back(*program);
-    }
+    Result<const Program*> program = resolveProgram(format);
+    if (!program) return program.failure();
     Image host;
     VkImageView view = target.view;
     if (!intoOwn) {
@@ -246,8 +241,7 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     commands.transition(intoOwn ? targets_.own : host, ImageState::colorTarget, true);
     {
         DrawPass pass(commands, "draw resolve", onto({target.width, target.height}, view));
-        for (const Program* program : programs)
-            pass.draw(*program, 3, 1, push, {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}, *frame_});
+        pass.draw(**program, 3, 1, push, {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}, *frame_});
     }
     return hosted_ ? merge_->end(commands, targets_) : Status(Done{});
 }

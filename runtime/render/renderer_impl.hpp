@@ -55,7 +55,7 @@ class RendererImpl final : public Renderer {
     Status makeScene(ScenePrograms& programs, Shading shading, Blend blend) const;
     Status pickScene(ViewMode shown, bool quick);
     // rest: what draws edges, where there is one sample a pixel.
-    Result<const Program*> resolveProgram(VkFormat format, bool rest);
+    Result<const Program*> resolveProgram(VkFormat format);
     // Uploads the record to frame_.
     Status upload(Commands& commands, const FrameRecord& frame);
     // renderer_shadows.cpp: redraws shadows that aren't up to date, and tells the frame where they are.
@@ -98,9 +98,9 @@ class RendererImpl final : public Renderer {
     Shading shading_ = Shading::full;
     Program modelAhead_, modelAheadFading_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_,
         depthTiles_, shadowRestore_;
-    Program sky_[2];                                                // without and with hills
-    std::map<std::tuple<VkFormat, bool, bool>, Program> resolves_;  // by format, whether the view counts, rest
-    std::array<bool, kMaxBuckets> small_{};                         // buckets that are lit at their vertices
+    Program sky_[2];                                         // without and with hills
+    std::map<std::pair<VkFormat, bool>, Program> resolves_;  // by format, whether the view counts
+    std::array<bool, kMaxBuckets> small_{};                  // buckets that are lit at their vertices
     std::array<Buffer, kFrameSlots> frames_;
     const Buffer* frame_ = nullptr;  // the one of this recording
     Buffer tiles_;

@@ -52,11 +52,11 @@ Status RendererImpl::makePrograms() {
     skyDesc.depthTest = true;
     skyDesc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
     skyDesc.depthWrite = false;
-    for (uint32_t rest : {0u, 1u}) {
-        skyDesc.options.constants = {{kRest, rest}};
+    for (uint32_t hills : {0u, 1u}) {
+        skyDesc.options.constants = {{kRest, hills}};
         Result<Program> sky = Program::graphics(device_, skyDesc);
         if (!sky) return sky.failure();
-        sky_[rest] = std::move(*sky);
+        sky_[hills] = std::move(*sky);
     }
     GraphicsDesc restore;
     restore.name = "shadow restore";
@@ -134,14 +134,14 @@ Status RendererImpl::pickScene(ViewMode shown, bool quick) {
     return makeScene(wanted, shading_, counts_ ? Blend::additive : Blend::none);
 }
 
-Result<const Program*> RendererImpl::resolveProgram(VkFormat format, bool rest) {
-    if (auto it = resolves_.find({format, counts_, rest}); it != resolves_.end()) return &it->second;
+Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
+    if (auto it = resolves_.find({format, counts_}); it != resolves_.end()) return &it->second;
     const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
     GraphicsDesc desc = fullscreen("resolve", fragment, format);
-    desc.options.constants = {{kExplains, counts_ ? 1u : 0u}, {kRest, rest ? 1u : 0u}};
+    desc.options.constants = {{kExplains, counts_ ? 1u : 0u}};
     Result<Program> made = Program::graphics(device_, desc);
     if (!made) return made.failure();
-    return &(resolves_[{format, counts_, rest}] = std::move(*made));
+    return &(resolves_[{format, counts_}] = std::move(*made));
 }
 
 Status RendererImpl::setUp(TerminalData data) {

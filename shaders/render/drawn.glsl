@@ -36,7 +36,7 @@ SpanInstance drawnSpan(uint i) {
     uvec4 item = texelFetch(drawn, int(i));
     SpanInstance o = SPAN_INSTANCE(instances, item.x);
     uint before = (item.y >> 3u) & 7u;
-    for (bool joined = before > 0u; joined; joined = false) {
+    if (before > 0u) {
         SpanInstance first = SPAN_INSTANCE(instances, item.x - before);
         o.p0 = first.p0;
         o.b1 = first.b1;

@@ -10,7 +10,8 @@ layout(constant_id = 0) const bool explains = false;
 // Fewer samples of shadows and textures.
 layout(constant_id = 2) const bool quick = false;
 
-// What most pixels don't need is in a program of its own, which discards them first: the only jump that some devices know.
+// What only some triangles or pictures need is in a program of its own: some devices run both sides of an `if`, and a loop's
+// body once when nothing of it is wanted.
 layout(constant_id = 3) const bool rest = false;
 
 // Textures hold the square roots of linear colours, instead of sRGB: what software devices filter fastest.

@@ -22,7 +22,7 @@ void main() {
     float metres = along * length(ray) / frame.unit;
     vec2 placeX = dFdx(place), placeY = dFdy(place);
     vec3 laid = siteAt(site, place, placeX, placeY);
-    Meadow meadow = meadowAt(noise, paving, place, placeX, placeY, metres, laid, max(abs(dFdx(laid.x)), abs(dFdy(laid.x))));
+    Meadow meadow = meadowAt(noise, paving, place, placeX, placeY, metres, laid, max(abs(dFdx(laid.x)), abs(dFdy(laid.x))), true);
     if (explains && frame.view == kViewOverdraw) {
         color = oneFragment();
         return;

@@ -32,14 +32,15 @@ void addStreet(sampler2D paving, vec2 place, vec2 dx, vec2 dy, float inside, flo
 // that is seen.
 vec3 siteAt(sampler2D site, vec2 place, vec2 dx, vec2 dy) {
     vec3 laid = vec3(0.0, 0.0, 1.0);
-    for (bool mapped = frame.siteRcp.x > 0.0; mapped; mapped = false)
+    if (frame.siteRcp.x > 0.0)
         laid = textureGrad(site, (place - frame.siteLow) * frame.siteRcp, dx * frame.siteRcp, dy * frame.siteRcp).xyz;
     return vec3((laid.x - 0.5) * (2.0 * kSiteReach), laid.yz);
 }
 
 // noise: Ground::noise(). paving: Ground::paving(). place: on the ground, metres; dx, dy: its change from pixel to pixel;
-// metres: from the eye; laid: siteAt(); pixel: change of laid.x from pixel to pixel.
-Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy, float metres, vec3 laid, float pixel) {
+// metres: from the eye; laid: siteAt(); pixel: change of laid.x from pixel to pixel; fields: far off lie
+// fields and woods.
+Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy, float metres, vec3 laid, float pixel, bool fields) {
     const mat2 turned = mat2(0.8, 0.6, -0.6, 0.8) * (1.0 / 5.3);
     const mat2 mown = mat2(0.6, -0.8, 0.8, 0.6) * (1.0 / 1.3);
     vec4 broad = textureGrad(noise, place * (1.0 / 61.0), dx * (1.0 / 61.0), dy * (1.0 / 61.0)) * 2.0 - 1.0;
@@ -47,7 +48,7 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     // Blades are told apart near by only, and seen too flatly for their mean to do.
     vec4 fine = vec4(0.0);
     float share = clamp(1.5 - metres * 0.03, 0.0, 1.0);
-    for (bool close = share > 0.0; close; close = false)
+    if (share > 0.0)
         fine = (textureGrad(noise, mown * place, mown * dx * 0.5, mown * dy * 0.5) * 2.0 - 1.0) * share;
 
     // Patches that lie flat to the eye run together into streaks: far away the meadow is one green, its hue changing slowly.
@@ -61,7 +62,7 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     vec3 earth = mix(vec3(0.075, 0.055, 0.036), vec3(0.150, 0.114, 0.076), 0.5 + 0.4 * fine.x + 0.2 * near.z);
     // Far off lie fields, and woods between them.
     float far = clamp(metres * 0.012 - 0.9, 0.0, 1.0);
-    for (bool distant = far > 0.0; distant; distant = false) {
+    if (fields && far > 0.0) {
         vec4 land = textureGrad(noise, place * (1.0 / 730.0), dx * (1.0 / 730.0), dy * (1.0 / 730.0)) * 2.0 - 1.0;
         green = mix(green, green.yyy * vec3(1.25, 1.12, 0.55), far * smoothstep(0.05, 0.35, land.z));
         green *= 1.0 - 0.55 * far * smoothstep(0.0, 0.22, land.x + 0.35 * broad.y);
@@ -71,7 +72,7 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     vec2 slope = near.zw * 0.35 * (1.0 - calm) + fine.zw * 0.55;
     m.normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     m.open = laid.z;
-    for (bool street = laid.x > -0.3; street; street = false) addStreet(paving, place, dx, dy, laid.x, pixel, near.x, m);
+    if (laid.x > -0.3) addStreet(paving, place, dx, dy, laid.x, pixel, near.x, m);
     return m;
 }
 #endif

@@ -63,7 +63,7 @@ void addGrain(vec3 plane, vec2 footX, vec2 footY, inout vec3 base, inout vec3 bu
     vec3 at = position * (1.0 / 0.37) / frame.unit, atX = dFdx(at), atY = dFdy(at);
     vec3 a = abs(plane);
     bool side = a.x > a.y && a.x > a.z, top = !side && a.y > a.z;
-    for (bool grained = share > 0.0; grained; grained = false) {
+    if (share > 0.0) {
         vec2 p = side ? at.zy : top ? at.xz : at.xy;
         vec2 px = side ? atX.zy : top ? atX.xz : atX.xy, py = side ? atY.zy : top ? atY.xz : atY.xy;
         vec4 coarse = textureGrad(noise, p, px, py) * 2.0 - 1.0;
@@ -79,26 +79,24 @@ void addMeadow(vec3 plane, float metres, inout vec3 base, inout vec3 bumped) {
     float above = (position.y - frame.groundLevel) / frame.unit;
     float share = clamp(1.25 - above * 14.0, 0.0, 1.0) * clamp(plane.y * 4.0 - 2.6, 0.0, 1.0);
     vec2 place = position.xz / frame.unit, placeX = dFdx(place), placeY = dFdy(place);
-    for (bool overgrown = share > 0.0; overgrown; overgrown = false) {
-        vec3 laid = siteAt(site, place, placeX, placeY);
-        float pixel = 0.5 * max(length(placeX), length(placeY));
-        Meadow meadow = meadowAt(noise, paving, place, placeX, placeY, metres, laid, pixel);
-        // Blades first: the lighter ones reach out farther.
-        float lush = dot(meadow.base, vec3(0.3, 0.6, 0.1)) / dot(frame.grassColor, vec3(0.3, 0.6, 0.1));
-        share = smoothstep(0.25, 0.75, share * 1.2 + 1.6 * (lush - 1.0) * share * (1.0 - share));
-        base = mix(base, meadow.base, share);
-        bumped = normalize(mix(bumped, meadow.normal, share));
-    }
+    vec3 laid = siteAt(site, place, placeX, placeY);
+    float pixel = 0.5 * max(length(placeX), length(placeY));
+    Meadow meadow = meadowAt(noise, paving, place, placeX, placeY, metres, laid, pixel, !quick);
+    // Blades first: the lighter ones reach out farther.
+    float lush = dot(meadow.base, vec3(0.3, 0.6, 0.1)) / dot(frame.grassColor, vec3(0.3, 0.6, 0.1));
+    share = smoothstep(0.25, 0.75, share * 1.2 + 1.6 * (lush - 1.0) * share * (1.0 - share));
+    base = mix(base, meadow.base, share);
+    bumped = normalize(mix(bumped, meadow.normal, share));
 }
 
 void main() {
     if (push.fade != 1.0 && fadedOut(push.fade, gl_FragCoord.xy)) discard;
-    vec4 base = texture(colorMap, uvs.xy);
-    base = vec4(texelColor(base.rgb), base.a) * push.baseColor;
-    if (push.alphaCutoff > 0.0 && base.a < push.alphaCutoff) discard;
     vec3 n = normalize(normal);
     vec3 eye = normalize(frame.eye - position);
     if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;
+    vec4 base = texture(colorMap, uvs.xy);
+    base = vec4(texelColor(base.rgb), base.a) * push.baseColor;
+    if (push.alphaCutoff > 0.0 && base.a < push.alphaCutoff) discard;
     vec3 bumped = n;
     float across = dot(tangent.xyz, tangent.xyz);
     if (across > 1e-12 && push.normalScale != 0.0) {

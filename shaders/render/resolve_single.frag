@@ -3,7 +3,7 @@
 #include "shaders/shared/extensions.glsl"
 // Pixels of one sample -> smooth edges, with ambient occlusion. Where brightness breaks, the edge is followed both
 // ways to its ends (the idea of FXAA, Lottes 2009); from where between them the pixel lies follows how much of it
-// belongs to the other side. Drawn twice: all pixels as they are, then `rest`, the edges.
+// belongs to the other side.
 #include "shaders/render/frame.glsl"
 #include "shaders/render/encode.glsl"
 #include "shaders/render/heat.h"
@@ -24,22 +24,33 @@ vec4 colorAt(ivec2 at) { return texelFetch(colorMap, clamp(at, ivec2(0), texture
 float fetch(ivec2 at) { return brightness(colorAt(at).rgb); }
 
 // How far away, in pixels along `along`, does the edge between `at` and its neighbour `across` end? next: the mean of
-// both brightnesses a pixel on. over: does brightness there leave to the middle's other side?
+// both brightnesses a pixel on. over: does brightness there leave to the middle's other side? The loop's end is the only
+// jump that software devices know: it ends when the last of a group's pixels has found its end.
 float edgeEnd(ivec2 at, ivec2 across, ivec2 along, float next, float edge, float least, bool darkHere, out bool over) {
     float difference = next - edge;
     int far = 1;
-    for (int i = 2; i <= kReach; i *= 2) {
-        if (abs(difference) >= least) break;
+    for (int i = 2;; i *= 2) {
         ivec2 there = at + along * i;
-        difference = 0.5 * (fetch(there) + fetch(there + across)) - edge;
-        far = i;
+        float found = 0.5 * (fetch(there) + fetch(there + across)) - edge;
+        bool goesOn = abs(difference) < least;
+        difference = goesOn ? found : difference;
+        far = goesOn ? i : far;
+        if (i >= kReach || abs(difference) >= least) break;
     }
     over = (difference < 0.0) != darkHere;
     return float(far);
 }
 
-// at: the pixel, its colour and brightness m, those of its neighbours in the four directions.
-vec4 smoothed(ivec2 at, vec4 middle, float m, float n, float s, float w, float e, float range) {
+// at: the pixel, its colour.
+vec4 smoothed(ivec2 at, vec4 middle) {
+    float m = brightness(middle.rgb);
+    float n = fetch(at + ivec2(0, -1));
+    float s = fetch(at + ivec2(0, 1));
+    float w = fetch(at + ivec2(-1, 0));
+    float e = fetch(at + ivec2(1, 0));
+    float most = max(m, max(max(n, s), max(w, e)));
+    float range = most - min(m, min(min(n, s), min(w, e)));
+    bool sharp = range >= max(kLeastContrast, kRelativeContrast * most);
     float nw = fetch(at + ivec2(-1, -1));
     float ne = fetch(at + ivec2(1, -1));
     float sw = fetch(at + ivec2(-1, 1));
@@ -55,7 +66,7 @@ vec4 smoothed(ivec2 at, vec4 middle, float m, float n, float s, float w, float e
     ivec2 along = flatEdge ? ivec2(1, 0) : ivec2(0, 1);
 
     float edge = 0.5 * (m + other);
-    float least = 0.25 * abs(other - m);
+    float least = sharp ? 0.25 * abs(other - m) : 0.0;
     // A pixel on, back and forth.
     float backHere = flatEdge ? w : n;
     float forthHere = flatEdge ? e : s;
@@ -72,23 +83,12 @@ vec4 smoothed(ivec2 at, vec4 middle, float m, float n, float s, float w, float e
     float mean = (2.0 * (n + s + w + e) + nw + ne + sw + se) * (1.0 / 12.0);
     float lone = smoothstep(0.0, 1.0, clamp(abs(mean - m) / range, 0.0, 1.0));
     share = max(share, lone * lone * kSpeckShare);
-    return mix(middle, colorAt(at + across), share);
+    return mix(middle, colorAt(at + across), sharp ? share : 0.0);
 }
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    vec4 shown = texelFetch(colorMap, at, 0);
-    if (rest) {
-        float n = fetch(at + ivec2(0, -1));
-        float s = fetch(at + ivec2(0, 1));
-        float w = fetch(at + ivec2(-1, 0));
-        float e = fetch(at + ivec2(1, 0));
-        float m = brightness(shown.rgb);
-        float most = max(m, max(max(n, s), max(w, e)));
-        float range = most - min(m, min(min(n, s), min(w, e)));
-        if (range < max(kLeastContrast, kRelativeContrast * most)) discard;
-        shown = smoothed(at, shown, m, n, s, w, e, range);
-    }
+    vec4 shown = smoothed(at, texelFetch(colorMap, at, 0));
     float open = textureLod(openMap, gl_FragCoord.xy * push.rcpSize, 0.0).x;
     if (explains && frame.view == kViewOverdraw) shown = stored(heatColor(shown.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
     color = pictureColor(shown, open, push.encode != 0u, at);

@@ -35,7 +35,7 @@ vec3 weathered(vec3 base, float variation, float tint, vec3 position) {
     // Plaster and stone have a grain, which is seen near by.
     float near = quick ? 0.0 : clamp(1.5 - 0.25 * length(frame.eye - position) / frame.unit, 0.0, 1.0) * step(tint, 0.0);
     float grain = 0.0;
-    for (bool seen = near > 0.0; seen; seen = false)
+    if (near > 0.0)
         grain = near * (0.16 * noise3(position * 85.0) + 0.10 * noise3(position * 31.0) + 0.08 * noise3(position * 9.0) - 0.17);
     return base * splashed * (0.84 + 0.32 * patchy + grain);
 }

@@ -30,6 +30,6 @@ void main() {
     vec3 base = weathered(unpackColour(look.x) * surface.z, variation, max(surface.w, 0.0), position);
     base = mossy(push.env.v[0], look.w, base, position, clamp(1.0 - surface.z, 0.0, 1.0));
     vec3 from = vec3(0.0);
-    for (bool pane = surface.w < 0.0; pane; pane = false) from = mirrored(n, position);
+    if (surface.w < 0.0) from = mirrored(n, position);
     color = shade(base, n, position, push.roughness, from);
 }
