@@ -1,6 +1,6 @@
 // In: a patch. Out: UVs for its vertices, in metres: the map that is as rigid as possible triangle by triangle (Liu et
 // al. 2008: local rotations and one sparse solve in turns). It starts from rotations that are carried over the patch
-// from triangle to triangle by the hinge rule, which unfolds what is developable exactly.
+// from triangle to triangle by the hinge rule, which unfolds what is developable exactly: that is done then.
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,7 @@ constexpr int kRounds = 24;
 constexpr int kTrialRounds = 5;    // after so many it mostly can be a chart: then it is left at that
 constexpr double kStride = 1.8;    // how much farther than to its solution a round goes: below 2 it always converges
 constexpr double kSettled = 1e-4;  // of the patch's size: a round that moves less is the last
+constexpr double kFlat = 1e-4;     // of a triangle's altitude: how far its corners may lie off where it lies flat
 constexpr double kLeastHeight = 0.01;  // of a triangle over its longest edge: slivers are treated as if they had it
 
 struct Shape {
@@ -49,13 +50,28 @@ glm::dvec2 turned(glm::dvec2 by, glm::dvec2 v) {
     return {by.x * v.x - by.y * v.y, by.y * v.x + by.x * v.y};
 }
 
+// Triangles turned as the first one lies, and vertices where the triangles that come to them first have them.
+struct Unfolded {
+    std::vector<glm::dvec2> rotation;  // per triangle
+    std::vector<glm::dvec2> at;        // per vertex
+};
+
 // Carries a rotation from the first triangle to all others across glued edges, breadth first.
-std::vector<glm::dvec2> unfold(const Patch& patch, const std::vector<Shape>& shapes) {
-    std::vector<glm::dvec2> rotation(shapes.size(), glm::dvec2(0));
+Unfolded unfold(const Patch& patch, const std::vector<Shape>& shapes) {
+    Unfolded out{std::vector<glm::dvec2>(shapes.size(), glm::dvec2(0)), std::vector<glm::dvec2>(patch.point.size())};
+    auto& rotation = out.rotation;
     std::vector<uint32_t> queue = {0};
+    std::vector<uint8_t> placed(patch.point.size(), 0);
     rotation[0] = {1, 0};
+    placed[patch.corner[0][0]] = 1;
     for (size_t i = 0; i < queue.size(); ++i) {
         uint32_t t = queue[i];
+        for (uint32_t k = 0; k < 5; ++k) {  // each corner from one that is placed, wherever that is
+            const uint32_t from = patch.corner[t][k % 3], to = patch.corner[t][(k + 1) % 3];
+            if (!placed[from] || placed[to]) continue;
+            out.at[to] = out.at[from] + turned(rotation[t], shapes[t].edge[k % 3]);
+            placed[to] = 1;
+        }
         for (uint32_t k = 0; k < 3; ++k) {
             uint32_t twin = patch.twin[t * 3 + k];
             if (twin == kNone || rotation[twin / 3] != glm::dvec2(0)) continue;
@@ -66,15 +82,31 @@ std::vector<glm::dvec2> unfold(const Patch& patch, const std::vector<Shape>& sha
             queue.push_back(twin / 3);
         }
     }
-    return rotation;
+    return out;
+}
+
+// Does every triangle lie as its corners have been placed? What is developable does.
+bool fits(const Unfolded& unfolded, const Patch& patch, const std::vector<Shape>& shapes) {
+    for (size_t t = 0; t < shapes.size(); ++t) {
+        const Shape& s = shapes[t];
+        const double altitude = cross(s.edge[2], s.edge[0]) /
+                                std::sqrt(std::max({glm::dot(s.edge[0], s.edge[0]), glm::dot(s.edge[1], s.edge[1]),
+                                                    glm::dot(s.edge[2], s.edge[2])}));
+        for (size_t k = 0; k < 3; ++k) {
+            const glm::dvec2 edge = unfolded.at[patch.corner[t][(k + 1) % 3]] - unfolded.at[patch.corner[t][k]];
+            if (!(glm::length(edge - turned(unfolded.rotation[t], s.edge[k])) < kFlat * altitude)) return false;
+        }
+    }
+    return true;
 }
 
 // One sparse system for both coordinates, solved for many right-hand sides. Vertices are kept in the order in which
 // they are eliminated.
 class Stitcher {
   public:
-    Stitcher(const Patch& patch, const std::vector<Shape>& shapes)
-        : shapes_(shapes), rotation_(unfold(patch, shapes)), corner_(patch.corner), at_(patch.point.size()) {
+    // rotation: per triangle, as it begins.
+    Stitcher(const Patch& patch, const std::vector<Shape>& shapes, std::vector<glm::dvec2> rotation)
+        : shapes_(shapes), rotation_(std::move(rotation)), corner_(patch.corner), at_(patch.point.size()) {
         std::vector<Eigen::Triplet<double>> entries;
         entries.reserve(shapes.size() * 9 + 1);
         for (size_t t = 0; t < shapes.size(); ++t)
@@ -184,7 +216,12 @@ class Stitcher {
 
 PatchVerdict flatten(Patch& patch) {
     std::vector<Shape> shapes = measureShapes(patch);
-    Stitcher stitcher(patch, shapes);
+    Unfolded unfolded = unfold(patch, shapes);
+    if (fits(unfolded, patch, shapes)) {
+        patch.uv = std::move(unfolded.at);
+        return judgePatch(patch);
+    }
+    Stitcher stitcher(patch, shapes, std::move(unfolded.rotation));
     if (!stitcher.good()) {
         patch.uv.assign(patch.point.size(), glm::dvec2(0));
         return judgePatch(patch);
@@ -208,7 +245,7 @@ PatchVerdict flatten(Patch& patch) {
 
 PatchVerdict relax(Patch& patch) {
     std::vector<Shape> shapes = measureShapes(patch);
-    Stitcher stitcher(patch, shapes);
+    Stitcher stitcher(patch, shapes, unfold(patch, shapes).rotation);
     PatchVerdict verdict = judgePatch(patch);
     if (!stitcher.good()) return verdict;
     stitcher.startFrom(patch.uv);

@@ -15,6 +15,12 @@ constexpr double kLeastEdge = 0.1;  // of the smaller chart's border that has to
 constexpr double kFits = 2e-3;      // of an edge's length: ends nearer than that fall together
 constexpr int kRounds = 24;
 
+// Shares of something that differ by rounding only, as in kits of equal parts, are made equal: then the order of the
+// model decides.
+double alike(double share) {
+    return std::round(share * 1e6) * 1e-6;
+}
+
 // A rigid motion of the plane: turn, then shift.
 struct Motion {
     glm::dvec2 turn{1, 0}, shift{0};
@@ -97,10 +103,10 @@ class Folder {
     std::vector<Fold> findFolds() {
         struct Shared {
             uint64_t pair;
-            double length;
+            double share;  // its length, of the square root of the model's area
             uint32_t half;
             bool operator<(const Shared& o) const {
-                return pair != o.pair ? pair < o.pair : length != o.length ? length > o.length : half < o.half;
+                return pair != o.pair ? pair < o.pair : share != o.share ? share > o.share : half < o.half;
             }
         };
         std::vector<Shared> shared;
@@ -108,7 +114,8 @@ class Folder {
             const uint32_t a = pieceOf(h), b = pieceOf(mesh_.twin[h]);
             if (a == b || pieces_[a].area + pieces_[b].area > kLargest * total_) return true;
             const bool larger = std::tie(pieces_[b].area, a) < std::tie(pieces_[a].area, b);
-            if (larger && (changed_[a] || changed_[b])) shared.push_back({uint64_t(a) << 32 | b, length(h), h});
+            if (larger && (changed_[a] || changed_[b]))
+                shared.push_back({uint64_t(a) << 32 | b, alike(length(h) / std::sqrt(total_)), h});
             return false;
         });
         std::sort(shared.begin(), shared.end());
@@ -117,8 +124,9 @@ class Folder {
             Fold f{0, uint32_t(shared[i].pair >> 32), uint32_t(shared[i].pair), {}, along(shared[i].half)};
             double fitting = 0;
             for (j = i; j < shared.size() && shared[j].pair == shared[i].pair; ++j)
-                if (fits(shared[j].half, f.motion)) fitting += shared[j].length, f.edges.push_back(shared[j].half);
-            f.score = fitting / std::min(pieces_[f.a].border, pieces_[f.b].border);
+                if (fits(shared[j].half, f.motion))
+                    fitting += length(shared[j].half), f.edges.push_back(shared[j].half);
+            f.score = alike(fitting / std::min(pieces_[f.a].border, pieces_[f.b].border));
             if (f.score >= kLeastEdge && isCompact(f, shared[i].half)) folds.push_back(std::move(f));
         }
         return folds;
