@@ -8,7 +8,7 @@ constexpr uint32_t kShadowSize = 2048;
 constexpr VkFormat kSceneFormat = VK_FORMAT_R8G8B8A8_UNORM;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kDistanceFormat = VK_FORMAT_R32_SFLOAT;
-constexpr VkFormat kOpenFormat = VK_FORMAT_R8_UNORM;
+constexpr VkFormat kOpenFormat = VK_FORMAT_R8G8B8A8_UNORM;  // a word a texel: what software devices filter fastest
 constexpr VkFormat kOwnFormat = VK_FORMAT_R8G8B8A8_UNORM;
 
 // The images that a frame of one size is drawn in.
