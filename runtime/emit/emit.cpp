@@ -12,6 +12,13 @@ namespace {
 // Far canopies are drawn with fewer, larger leaves: each goes on its own, by its hash, so that nothing pops at once.
 constexpr float kWholePixels = 8, kLeastShare = 0.12f;
 
+uint32_t tilesAlong(const EmitView& view, uint32_t pixels) {
+    return (pixels + view.tilePixels - 1) / view.tilePixels;
+}
+uint32_t tilesOf(const EmitView& view) {
+    return tilesAlong(view, view.width) * tilesAlong(view, view.height);
+}
+
 }  // namespace
 
 Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
@@ -42,6 +49,7 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
                     {emit.classifyLeaves_, "emit/classify_leaves.comp", {}},
                     {emit.scan_, "emit/scan.comp", {}},
                     {emit.writeDrawn_, "emit/write_drawn.comp", {}},
+                    {emit.takeTiles_, "emit/take_tiles.comp", {}},
                     {emit.barkVertices_, "emit/bark_vertices.comp", {}, true},
                     {emit.barkIndices_, "emit/bark_indices.comp", {}},
                     {emit.looseTriangles_, "emit/loose_triangles.comp", {}}};
@@ -134,28 +142,42 @@ Status Emit::cull(Commands& commands, const EmitInputs& inputs, const EmitView& 
 }
 
 Status Emit::watch(Commands& commands, const EmitView& view) {
-    const auto along = [&](uint32_t pixels) { return (pixels + view.tilePixels - 1) / view.tilePixels; };
-    const uint32_t tiles = along(view.width) * along(view.height);
-    const uint64_t bytes = 4ull * tiles;
+    const uint64_t bytes = 4ull * tilesOf(view);
     watched_ = {};
     if (!watchTiles_ || watchTiles_.size() != bytes) {
         Result<Buffer> made = Buffer::create(*device_, "watched tiles", bytes);
         if (!made) return made.failure();
         watchTiles_ = std::move(*made);
+        made = Buffer::create(*device_, "taken tiles", bytes + 4);
+        if (!made) return made.failure();
+        takenTiles_ = std::move(*made);
     }
     EmitView watched = view;
     watched.tiles.v = reinterpret_cast<float*>(watchTiles_.address());
     commands.barrier(Use::compute, Use::transfer);
     if (Status s = commands.upload(watch_, std::as_bytes(std::span(&watched, 1))); !s) return s;
     watched_ = watched;
-    settle(commands, 0, tiles);
+    commands.barrier(Use::compute | Use::vertex, Use::transfer);
+    commands.fill(watchTiles_, kKeptTile);
+    commands.fill(takenTiles_, 0);
+    commands.barrier(Use::transfer, Use::compute | Use::vertex);
     return Done{};
 }
 
-void Emit::settle(Commands& commands, uint32_t first, uint32_t count) {
-    commands.barrier(Use::compute | Use::vertex, Use::transfer);
-    commands.fill(watchTiles_, kKeptTile, 4ull * first, 4ull * count);
-    commands.barrier(Use::transfer, Use::compute | Use::vertex);
+EmitView Emit::takeChanges(Commands& commands, uint32_t mostTiles) {
+    EmitView view = watched_;
+    view.tiles.v = reinterpret_cast<float*>(takenTiles_.address());
+    TakePush push{};
+    push.watched = watched_.tiles;
+    push.taken = view.tiles;
+    push.tiles = tilesOf(view);
+    push.columns = tilesAlong(view, view.width);
+    push.most = mostTiles;
+    Pass pass(commands, "shadow emit");
+    pass.barrier(Use::compute | Use::vertex, Use::compute);
+    pass.dispatch(takeTiles_, {1, 1, 1}, push);
+    pass.barrier(Use::compute, Use::compute | Use::vertex);
+    return view;
 }
 
 EmitStats Emit::stats() const {
@@ -203,14 +225,6 @@ EmitView parallelView(const glm::mat4& m, float pixelsPerMetre, float lodPixels)
     view.tilePixels = kDepthTile;
     view.wholePixels = kWholePixels;
     view.leastShare = kLeastShare;
-    return view;
-}
-
-EmitView bandOf(EmitView view, float low, float high) {
-    const glm::mat4& m = view.viewProjection;
-    const glm::vec4 height(m[0][1], m[1][1], m[2][1], m[3][1]);
-    const glm::vec4 planes[] = {height - glm::vec4(0, 0, 0, low), glm::vec4(0, 0, 0, high) - height};
-    for (int i = 0; i < 2; ++i) view.planes[2 + i] = planes[i] / glm::length(glm::vec3(planes[i]));
     return view;
 }
 

@@ -64,11 +64,10 @@ class Emit {
     uint64_t carries() const { return carries_; }
 
     // Recorded once all of `view`, a parallel one, was drawn: from now on the tiles of its picture are noted where
-    // edits change it. changes() is the view of what lies in these, once it is bound; settle(): so many of them, from
-    // `first` on, row by row, were drawn.
+    // edits change it. takeChanges() is the view of what lies in these, once it is bound: in at most so many, the others
+    // come next time. They count as drawn.
     Status watch(Commands& commands, const EmitView& view);
-    const EmitView& changes() const { return watched_; }
-    void settle(Commands& commands, uint32_t first, uint32_t count);
+    EmitView takeChanges(Commands& commands, uint32_t mostTiles);
 
     // The last recording won't be submitted: nothing of it can be built on.
     void forget() {
@@ -150,7 +149,8 @@ class Emit {
     EmitGrid grid_{};
     Bound bound_, culled_;  // and what the last view was of
     EmitView view_{};
-    Buffer watch_, watchTiles_;
+    Program takeTiles_;
+    Buffer watch_, watchTiles_, takenTiles_;
     EmitView watched_{};  // and its tiles; width 0: none
     uint64_t wholeBindings_ = 0, carries_ = 0;
     bool counted_ = false;
@@ -165,7 +165,5 @@ EmitView perspectiveView(const glm::mat4& viewProjection, glm::vec3 eye, float p
 // spans that follow each other may be drawn as one.
 void thinOut(EmitView& view, float leafPixels);
 EmitView parallelView(const glm::mat4& viewProjection, float pixelsPerMetre, float lodPixels);
-// Of a parallel view what lies between two heights of its picture, in clip space.
-EmitView bandOf(EmitView view, float low, float high);
 
 }  // namespace espalier

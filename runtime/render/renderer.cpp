@@ -320,7 +320,7 @@ RenderStats RendererImpl::stats() const {
     stats.modelsFading = models_.fading();
     stats.shadowsWhole = shadowsWhole_;
     stats.shadowsPartly = shadowsPartly_;
-    stats.shadowBands = shadowBands_;
+    stats.shadowsTaken = shadowsTaken_;
     stats.emitMs = device_.milliseconds("emit");
     stats.drawMs = std::max(0.0, device_.milliseconds("draw") - stats.emitMs);
     stats.shadowMs = device_.milliseconds("shadow emit") + device_.milliseconds("shadow draw");

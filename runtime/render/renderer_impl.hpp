@@ -62,9 +62,8 @@ class RendererImpl final : public Renderer {
     Status keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame);
     Status updateNearShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, const ShadowKey& key);
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse);
-    // The tiles that edits have changed since, of `rows` rows of tiles from `first` on.
-    Status redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, uint32_t first,
-                         uint32_t rows);
+    // The tiles that edits have changed since, or so many of them.
+    Status redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, uint32_t mostTiles);
     void drawStanding(DrawPass& pass, const SunView& sun, float error);
     Status makeStanding();
     // `before` with the growth of `now`.
@@ -117,7 +116,7 @@ class RendererImpl final : public Renderer {
     bool quickBefore_ = false;
     bool shadowKept_ = false;      // edits of growth can be redrawn alone
     uint64_t shadowBindings_ = 0;  // whole bindings when the map was last drawn whole
-    uint32_t shadowsWhole_ = 0, shadowsPartly_ = 0, shadowBands_ = 0;
+    uint32_t shadowsWhole_ = 0, shadowsPartly_ = 0, shadowsTaken_ = 0;
     float groundLevel_ = 0, unit_ = 1;  // of this recording
     bool ahead_ = false;                // models' depths went ahead, they are shaded after growth
     bool hosted_ = false;               // this recording goes into a host's scene

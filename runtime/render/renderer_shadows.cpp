@@ -13,8 +13,8 @@ constexpr float kStrokeLeafTexels = 32;                      // as Look::leafPix
 constexpr float kStrokeError = 3;                            // times the errors that are allowed otherwise, then
 constexpr uint32_t kShadowTile = 32;                         // texels along a side of what is redrawn after edits
 constexpr uint32_t kShadowRows = kShadowSize / kShadowTile;  // of tiles
+constexpr uint32_t kStrokeTiles = 8, kStrokeFrames = 2;      // so many are redrawn in every second frame of a stroke
 constexpr uint32_t kShadowPeriod = 8;                        // frames, while growth changes in each
-static_assert(kShadowRows % kShadowPeriod == 0);
 constexpr float kWideBias = 0.12f;  // metres that what lies far away is moved towards the sun when it is compared
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
 
@@ -90,13 +90,12 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
 }
 
 // What reaches tiles that haven't changed leaves there the depths that it left before.
-Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, uint32_t first,
-                                   uint32_t rows) {
+Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun,
+                                   uint32_t mostTiles) {
     FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
     frame.viewProjection = sun.toClip;
     if (Status s = upload(commands, frame); !s) return s;
-    const auto height = [](uint32_t row) { return 2.0f * float(row) / float(kShadowRows) - 1; };
-    const EmitView changes = bandOf(emit_.changes(), height(first), height(first + rows));
+    const EmitView changes = emit_.takeChanges(commands, mostTiles);
     if (Status s = emit_.cull(commands, emitInputs(inputs), changes, "shadow emit", false); !s) return s;
     commands.transition(shadowMap_, ImageState::depthTarget);
     {
@@ -104,13 +103,11 @@ Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs,
         targets.extent = {kShadowSize, kShadowSize};
         targets.depth = DepthTarget{.view = shadowMap_.view(), .clear = {}};
         DrawPass pass(commands, "shadow draw", targets);
-        pass.setScissor(0, int32_t(first * kShadowTile), kShadowSize, rows * kShadowTile);
-        pass.draw(shadowRestore_, 4, rows * kShadowRows, RestorePush{changes.tiles, kShadowRows, first * kShadowRows},
+        pass.draw(shadowRestore_, 4, kShadowRows * kShadowRows, RestorePush{changes.tiles, kShadowRows, 0},
                   {{standing_, pointSampler_}});
         drawTerminals(pass, true);
     }
     commands.transition(shadowMap_, ImageState::sampled);
-    emit_.settle(commands, first * kShadowRows, rows * kShadowRows);
     return Done{};
 }
 
@@ -222,16 +219,14 @@ Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inp
     const bool onlyGrown = shadowDrawn_ && edited(shadowKey_, key) == key;
     const bool partly = onlyGrown && shadowKept_ && grows_ && shadowBindings_ == emit_.wholeBindings();
     const uint32_t turn = changes_ % kShadowPeriod;
-    if (stroke && partly) {  // a band in each frame: what is left follows when growth rests
-        constexpr uint32_t kBand = kShadowRows / kShadowPeriod;
-        ++shadowBands_;
-        return redrawShadows(commands, inputs, sun, turn * kBand, kBand);
+    if (stroke && partly && changes_ % kStrokeFrames != 0) return Done{};
+    if (stroke && partly) {  // a few tiles: what is left follows when growth rests
+        ++shadowsTaken_;
+        return redrawShadows(commands, inputs, sun, kStrokeTiles);
     }
     if (stroke && onlyGrown && turn != 0) return Done{};
     if (partly) ++shadowsPartly_;
-    if (Status s =
-            partly ? redrawShadows(commands, inputs, sun, 0, kShadowRows) : drawShadows(commands, inputs, sun, stroke);
-        !s)
+    if (Status s = partly ? redrawShadows(commands, inputs, sun, ~0u) : drawShadows(commands, inputs, sun, stroke); !s)
         return s;
     shadowKey_ = key;
     shadowCoarse_ = !partly && stroke;

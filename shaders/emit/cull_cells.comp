@@ -30,7 +30,10 @@ void main() {
         float pixels = view.pixelScale / (view.parallel == 0u ? away : 1.0);
         // Share of the items that stay; leaves grow as others go, twigs are drawn at the least thickness.
         float share = leaves ? leafShare(view, largest * pixels) : largest * pixels / (view.leastPixels * kFaintest);
-        float most = leaves ? reach + 1.3 * largest * inversesqrt(view.leastShare) : reach + view.leastPixels / pixels;
+        // No leaf is drawn larger than the largest one where that is farthest away.
+        float farPixels = view.pixelScale / (view.parallel == 0u ? distance(view.eye, middle) + reach : 1.0);
+        float drawn = largest * leafGrowth(leafShare(view, largest * farPixels));
+        float most = reach + (leaves ? 1.3 * drawn : view.leastPixels / pixels);
         bool none = !leaves && share * kFaintest < kThinnest || outside(view, middle, most);
         for (bool asked = !none && u64(view.tiles) != 0ul; asked; asked = false) none = hidden(view, middle, most, kCellTiles);
         uint last = min(uint(min(share, 1.0) * float(kCellBins)), kCellBins - 1u);

@@ -269,6 +269,16 @@ struct EmitPush {
 };
 STATIC_SIZE(EmitPush, 104);
 
+// Push data of the kernel that takes changed tiles of a watched picture.
+struct TakePush {
+    FloatBuf watched;        // [tile]: kKeptTile or kChangedTile; those that are taken become kept
+    FloatBuf taken;          // [tile]: kChangedTile where it is taken, else kKeptTile; [tiles]: where to begin, as bits
+    uint tiles, columns;     // of the picture
+    uint most;               // to be taken
+    uint spare;
+};
+STATIC_SIZE(TakePush, 32);
+
 // Bark at full detail as triangles: 12 sides and 10 rings, the paper's 216 polygons.
 CONST_UINT(kBarkSides, 12u);
 CONST_UINT(kBarkRings, 10u);

@@ -91,7 +91,7 @@ STATIC_SIZE(TilesPush, 8);
 struct RestorePush {
     FloatBuf tiles;          // kKeptTile or kChangedTile
     uint columns;            // tiles along a side
-    uint first;              // the first one that is drawn
+    uint spare;
 };
 STATIC_SIZE(RestorePush, 16);
 

@@ -7,7 +7,7 @@
 layout(push_constant, scalar) uniform Data { RestorePush push; };
 
 void main() {
-    uint tile = push.first + uint(gl_InstanceIndex);
+    uint tile = uint(gl_InstanceIndex);
     vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
     vec2 at = (vec2(tile % push.columns, tile / push.columns) + corner) * (2.0 / float(push.columns)) - 1.0;
     bool changed = floatBitsToUint(push.tiles.v[tile]) == kChangedTile;

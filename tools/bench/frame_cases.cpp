@@ -1,7 +1,7 @@
 // frame/…: what a frame of the sample's court costs, with half a million nodes of ivy: standing; while the camera goes
 // round, shadows kept, drawn at half the window's size and as coarsely as MovingDetail says, as the window does then;
-// and with a dab of the brush in each frame, shadows redrawn in every eighth where they changed. CPU time, which on a
-// software device is all of it and which other programs disturb less than the clock, beside what a frame may cost on
+// and with a dab of the brush in each frame, shadows following a few tiles at a time. CPU time, which on
+// a software device is all of it and which other programs disturb less than the clock, beside what a frame may cost on
 // two cores; stages by the device's clock.
 #include <algorithm>
 #include <cmath>
@@ -95,9 +95,13 @@ bool growEnough(BenchScene& scene, Growth& growth) {
 class Painter {
   public:
     Painter(BenchScene& scene, Growth& growth, Film& film) : scene_(scene), growth_(growth), film_(film) {
-        if (Result<GrowthRecords> records = growth.read())
-            for (size_t i = 0; i < 64; ++i)
-                places_.push_back(unpackUv(records->nodes[i * 7919 % records->nodes.size()].uv) * float(kTexels));
+        Result<GrowthRecords> records = growth.read();
+        if (!records) return;
+        std::vector<uint32_t> places;  // in an order that all runs have
+        for (const Node& node : records->nodes) places.push_back(node.uv);
+        std::sort(places.begin(), places.end());
+        for (size_t i = 0; i < 64; ++i)
+            places_.push_back(unpackUv(places[i * 777'777'777 % places.size()]) * float(kTexels));
     }
     void dab(int frame) {
         constexpr float kReach = 12;
