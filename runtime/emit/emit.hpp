@@ -114,7 +114,7 @@ class Emit {
     };
 
     // emit_bind.cpp
-    Result<Held> makeHeld(uint32_t nodes, uint32_t leaves);
+    Result<Held> makeHeld(const GrowthView& growth, uint32_t leaves);
     void hold(Held held);
     Status reserve();
     Status viewTexels(TexelView& texels, const Buffer& buffer);

@@ -31,8 +31,8 @@ EmitGrid gridOver(glm::vec3 low, glm::vec3 high) {
 
 }  // namespace
 
-// With room for a fourth more than is asked for.
-Result<Emit::Held> Emit::makeHeld(uint32_t nodes, uint32_t leaves) {
+// With room for all that growth has room for.
+Result<Emit::Held> Emit::makeHeld(const GrowthView& growth, uint32_t leaves) {
     Held held;
     const auto make = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
         Result<Buffer> made = Buffer::create(*device_, name, std::max<uint64_t>(bytes, 65536) / 16 * 16);
@@ -40,7 +40,11 @@ Result<Emit::Held> Emit::makeHeld(uint32_t nodes, uint32_t leaves) {
         buffer = std::move(*made);
         return texels ? viewTexels(*texels, buffer) : Status(Done{});
     };
-    const uint64_t spans = nodes + nodes / 4, loose = leaves + leaves / 4;
+    const auto room = [](const Buffer* records, uint64_t bytes, uint32_t count) {
+        return std::max<uint64_t>(records ? records->size() / bytes : 0, count);
+    };
+    const uint64_t spans = room(growth.nodeBuffer, sizeof(Node), growth.nodeCount);
+    const uint64_t loose = std::min<uint64_t>(room(growth.leafBuffer, sizeof(Leaf), leaves), kMostLeaves);
     Status instances[] = {make(held.spans, "span instances", spans * sizeof(SpanInstance), &held.spanTexels),
                           make(held.leaves, "leaf instances", loose * sizeof(LeafInstance), &held.leafTexels)};
     for (Status& s : instances)
@@ -154,7 +158,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     if (!partly) {
         ++wholeBindings_;
         if (!held_.fits(nodes, leaves)) {
-            Result<Held> made = makeHeld(nodes, leaves);
+            Result<Held> made = makeHeld(growth, leaves);
             if (!made) return made.failure();
             hold(std::move(*made));
         }

@@ -38,7 +38,7 @@ Status Emit::carry(Commands& commands, const GrowthView& growth, uint32_t leaves
     const bool moved = bound.number < growth.renewed;
     const GrowthMove& move = growth.moved;
     if (Status s = makeCarrying(moved); !s) return s;
-    Result<Held> to = makeHeld(growth.nodeCount, leaves);
+    Result<Held> to = makeHeld(growth, leaves);
     if (!to) return to.failure();
 
     CarryPush push{};

@@ -22,10 +22,10 @@ bool finite(const Seed& seed) {
     return ok;
 }
 
-// Room for `need` and a little more, at most `limit`. Counts that were cut short themselves are doubled.
+// Room for `need` and half as much for edits, at most `limit`. Counts that were cut short themselves are doubled.
 uint32_t enlarged(uint32_t have, uint32_t need, bool exact, uint32_t limit) {
     if (need <= have && exact) return have;
-    uint64_t wanted = exact ? need + need / 8ull + 64 : std::max<uint64_t>(need * 2ull, have * 2ull);
+    uint64_t wanted = exact ? need + need / 2ull + 64 : std::max<uint64_t>(need * 2ull, have * 2ull);
     return uint32_t(std::clamp<uint64_t>(wanted, have, std::max(limit, have)));
 }
 
