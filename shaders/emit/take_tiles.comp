@@ -20,7 +20,7 @@ uint tileAt(uint place) {
 bool changedAt(uint place) {
     uint tile = tileAt(place);
     uint bits = kKeptTile;
-    for (bool there = tile < push.tiles; there; there = false) bits = floatBitsToUint(push.watched.v[tile]);
+    if (tile < push.tiles) bits = floatBitsToUint(push.watched.v[tile]);
     return bits == kChangedTile;
 }
 
@@ -43,10 +43,8 @@ void main() {
         bool changed = changedAt(place);
         bool takes = changed && rank < push.most;
         rank += changed ? 1u : 0u;
-        for (bool there = tile < push.tiles; there; there = false)
-            push.taken.v[tile] = uintBitsToFloat(takes ? kChangedTile : kKeptTile);
-        for (bool settles = takes; settles; settles = false) push.watched.v[tile] = uintBitsToFloat(kKeptTile);
-        for (bool last = takes && rank == push.most; last; last = false)
-            push.taken.v[push.tiles] = uintBitsToFloat((place + 1u) % places);
+        if (tile < push.tiles) push.taken.v[tile] = uintBitsToFloat(takes ? kChangedTile : kKeptTile);
+        if (takes) push.watched.v[tile] = uintBitsToFloat(kKeptTile);
+        if (takes && rank == push.most) push.taken.v[push.tiles] = uintBitsToFloat((place + 1u) % places);
     }
 }
