@@ -64,8 +64,8 @@ class Emit {
     uint64_t carries() const { return carries_; }
 
     // Recorded once all of `view`, a parallel one, was drawn: from now on the tiles of its picture are noted where
-    // edits change it. takeChanges() is the view of what lies in these, once it is bound: in at most so many, the others
-    // come next time. They count as drawn.
+    // edits change it. takeChanges() is the view of what lies in these, once it is bound: in at most so many, the
+    // others come next time. They count as drawn.
     Status watch(Commands& commands, const EmitView& view);
     EmitView takeChanges(Commands& commands, uint32_t mostTiles);
 
