@@ -18,28 +18,28 @@ CONST_UINT(kMaxVariants, 48u);
 CONST_UINT(kMaxLods, 6u);
 CONST_UINT(kMaxBuckets, 64u);
 CONST_UINT(kNoBucket, 0xFFu);
-CONST_UINT(kStretches, 2u);   // EmitView::flags: spans that follow each other may be drawn as one
-CONST_UINT(kFullDetail, 1u);  // EmitView::flags: every instance at LOD 0, nothing is culled, thickened or thinned out
+CONST_UINT(kStretches, 2u);    // EmitView::flags: spans that follow each other may be drawn as one
+CONST_UINT(kFullDetail, 1u);   // EmitView::flags: every instance at LOD 0, nothing is culled, thickened or thinned out
 
 // What a cull is for. A sphere (c, r) is outside if dot(planes[i].xyz, c) + planes[i].w < -r for some i.
 struct EmitView {
     vec4 planes[6];
-    vec3 eye;          // world; parallel projection: unused
-    float pixelScale;  // pixels that one metre covers at one metre's distance; parallel: at any distance
-    float lodPixels;   // error allowed, in pixels
+    vec3 eye;             // world; parallel projection: unused
+    float pixelScale;     // pixels that one metre covers at one metre's distance; parallel: at any distance
+    float lodPixels;      // error allowed, in pixels
     uint parallel;
     uint flags;
-    float leastPixels;  // radius in pixels below which bark is thickened and faded instead
+    float leastPixels;    // radius in pixels below which bark is thickened and faded instead
     // Farthest depth (reversed: the least) that the models leave in each tile of the picture; address 0: none. What
     // lies behind it is culled. Of a picture that is watched (Emit::watch): kKeptTile or kChangedTile.
     mat4 viewProjection;
     FloatBuf tiles;
-    uint width, height;  // of the picture, pixels
-    float wholePixels;   // leaves of at least this many pixels are all drawn, of smaller ones fewer and larger,
-    float leastShare;    // but at least this share of them
-    uint tilePixels;     // side of the tiles, pixels
+    uint width, height;   // of the picture, pixels
+    float wholePixels;    // leaves of at least this many pixels are all drawn, of smaller ones fewer and larger,
+    float leastShare;     // but at least this share of them
+    uint tilePixels;      // side of the tiles, pixels
     uint spare;
-    u64 scene;  // differs when what `tiles` says may differ; no kernel reads it
+    u64 scene;            // differs when what `tiles` says may differ; no kernel reads it
 };
 STATIC_SIZE(EmitView, 232);
 CONST_UINT(kDepthTile, 8u);
@@ -54,11 +54,11 @@ struct KindRecord {
 };
 STATIC_SIZE(KindRecord, 16);
 
-// error[i]: mean distance (root mean square) of LOD i from the full mesh, in units of the instance's size (bark: of its
-// radius). segments[i]: pieces of LOD i along the span, bark only.
+// error[i]: mean distance (root mean square) of LOD i from the full mesh, in units of the instance's size (bark: of its radius).
+// segments[i]: pieces of LOD i along the span, bark only.
 struct VariantRecord {
     uint firstBucket, lodCount;
-    float extent;  // radius of the mesh around its origin, in the same unit
+    float extent;         // radius of the mesh around its origin, in the same unit
     float error[6];
     float segments[6];
 };
@@ -67,7 +67,7 @@ STATIC_SIZE(VariantRecord, 60);
 // batch: instances that one draw command's instance covers; firstIndex: of their repeated index pattern.
 struct BucketRecord {
     uint firstVertex, vertexCount;
-    uint indexCount;  // of one instance
+    uint indexCount;      // of one instance
     uint batch;
     uint firstIndex;
     uint material;
@@ -90,13 +90,12 @@ struct DrawCommand {
 };
 STATIC_SIZE(DrawCommand, 20);
 
-// Space is divided into cells of a grid; each holds its leaves and, in classes by thickness, its spans. Of each
-// thickness those have a class of their own, the odd one, that far views don't draw, since the last of their stretch
-// stands for them: these lie in bins by how far off it is, the worst first. All others lie in bins by their order of
-// going when they are thinned out. So what a view looks at is a run of them. Cells of a class have the number class *
-// kMaxCells + cell.
+// Space is divided into cells of a grid; each holds its leaves and, in classes by thickness, its spans. Of each thickness
+// those have a class of their own, the odd one, that far views don't draw, since the last of their stretch stands for
+// them: these lie in bins by how far off it is, the worst first. All others lie in bins by their order of going when they
+// are thinned out. So what a view looks at is a run of them. Cells of a class have the number class * kMaxCells + cell.
 CONST_UINT(kMaxCells, 4096u);
-CONST_UINT(kLeafClass, 6u);  // classes below: of spans
+CONST_UINT(kLeafClass, 6u);    // classes below: of spans
 CONST_UINT(kAllCells, 28672u);
 CONST_UINT(kCellBins, 64u);
 CONST_UINT(kSortLanes, 8u);    // that put a cell's bins in order
@@ -105,21 +104,20 @@ CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
 // A cell's spans of one class, or its leaves. reach: of any of them from the cell's middle, metres; largest: thickest
 // radius, or size. Both as bits, which order as the numbers do.
 struct EmitCell {
-    uint first, count, room;  // in the order of items; how many may come to lie there
-    uint changed;             // 1: items of it were bound anew, or left it
+    uint first, count, room;    // in the order of items; how many may come to lie there
+    uint changed;               // 1: items of it were bound anew, or left it
     uint reach, largest;
 };
 STATIC_SIZE(EmitCell, 24);
 BUFFER(EmitCellBuf, EmitCell)
 
-// An instance as it is drawn. bits: of a span 2..0 LOD, 5..3 how many spans before it are drawn with it, 31..16 fade
-// (unorm16: how much of a pixel it covers); of a leaf 2..0 LOD. value: of a span the least radius that it is drawn
-// with, of a leaf the factor of its size. bucket: kNoBucket if it isn't seen; rank: in its bucket and block. Both of
-// notes only.
+// An instance as it is drawn. bits: of a span 2..0 LOD, 5..3 how many spans before it are drawn with it, 31..16 fade (unorm16: how much of a pixel it covers); of a leaf
+// 2..0 LOD. value: of a span the least radius that it is drawn with, of a leaf the factor of its size.
+// bucket: kNoBucket if it isn't seen; rank: in its bucket and block. Both of notes only.
 struct DrawnItem {
     uint item, bits;
     float value;
-    uint place;  // bits 31..24 bucket, 23..0 rank
+    uint place;                 // bits 31..24 bucket, 23..0 rank
 };
 STATIC_SIZE(DrawnItem, 16);
 BUFFER(DrawnBuf, DrawnItem)
@@ -132,32 +130,31 @@ struct EmitState {
     uint spanCount, leafCount;  // visible instances
     uint fullTriangles;         // of all bark and leaves at full detail, seen or not
     uint drawnTriangles;
-    uint listed[2];   // items to look at: spans, leaves
-    uint blocks[2];   // of these, each of kBlockItems or less; those of leaves follow those of spans
-    uint groups[9];   // VkDispatchIndirectCommand for the blocks of spans, of leaves, of both
-    uint boundItems;  // that the last binding looked at
-    uint crowded;     // 1: cells had no room for what came to them, all is to be bound anew
-    uint ordered;     // where room in the order of items begins
+    uint listed[2];             // items to look at: spans, leaves
+    uint blocks[2];             // of these, each of kBlockItems or less; those of leaves follow those of spans
+    uint groups[9];             // VkDispatchIndirectCommand for the blocks of spans, of leaves, of both
+    uint boundItems;            // that the last binding looked at
+    uint crowded;               // 1: cells had no room for what came to them, all is to be bound anew
+    uint ordered;               // where room in the order of items begins
 };
 STATIC_SIZE(EmitState, 3152);
 
 // Up to so many spans of a chunk that follow each other are a stretch, which far views draw as one.
 CONST_UINT(kStretch, 8u);
-CONST_FLOAT(kNeverJoined, 60000.0f);  // metres: an error that no view allows
+CONST_FLOAT(kNeverJoined, 60000.0f);   // metres: an error that no view allows
 // The span that ends at a node, in the world, 96 bytes: read as six texels.
-//   bits 5..0 kind (63: no bark), bit 6 rounded tip, 11..7 branches from the seed, 14..12 its place in its stretch, bit
-//   15 the last there, 31..16 its order of going (unorm16)
-// errors: two halves, metres: how far the curve swings away from its chord; how far a ribbon for all of its stretch is
-// off.
+//   bits 5..0 kind (63: no bark), bit 6 rounded tip, 11..7 branches from the seed, 14..12 its place in its stretch, bit 15
+//   the last there, 31..16 its order of going (unorm16)
+// errors: two halves, metres: how far the curve swings away from its chord; how far a ribbon for all of its stretch is off.
 struct SpanInstance {
     vec3 p0, b1, b2, p3;
-    uint normal0, normal1;  // octahedral, surface
+    uint normal0, normal1;      // octahedral, surface
     float radius0, radius1;
-    float arc0, metres;  // along the branch where it starts; of the span
+    float arc0, metres;         // along the branch where it starts; of the span
     uint errors;
     uint bits;
-    vec3 center;  // of its stretch
-    float reach;  // of the stretch's curves from there
+    vec3 center;                // of its stretch
+    float reach;                // of the stretch's curves from there
 };
 STATIC_SIZE(SpanInstance, 96);
 CONST_UINT(kNoBark, 63u);
@@ -168,8 +165,8 @@ CONST_UINT(kNoBark, 63u);
 struct LeafInstance {
     vec3 origin;
     vec3 axisX, axisY, axisZ;
-    uint normal;  // octahedral, of the surface below
-    uint tint;    // Leaf::tint
+    uint normal;                // octahedral, of the surface below
+    uint tint;                  // Leaf::tint
     uint hash;
     uint bits;
 };
@@ -178,7 +175,7 @@ STATIC_SIZE(LeafInstance, 64);
 // Vertex of a terminal mesh, 24 bytes. Bark: x and y its cross-section in radii, z in [0,1] along the span.
 struct TerminalVertex {
     vec3 position;
-    uint normal;  // octahedral
+    uint normal;                // octahedral
     vec2 uv;
 };
 STATIC_SIZE(TerminalVertex, 24);
@@ -198,8 +195,8 @@ BUFFER(LeafInstanceBuf, LeafInstance)
 BUFFER(TerminalVertexBuf, TerminalVertex)
 BUFFER(TriangleVertexBuf, TriangleVertex)
 
-// The grid: cell (x, y, z) of size[0] * size[1] * size[2] is the cube of 1 / rcpCell metres at low + (x, y, z) /
-// rcpCell. Those at the border hold what lies beyond, too.
+// The grid: cell (x, y, z) of size[0] * size[1] * size[2] is the cube of 1 / rcpCell metres at low + (x, y, z) / rcpCell.
+// Those at the border hold what lies beyond, too.
 struct EmitGrid {
     vec3 low;
     float rcpCell;
@@ -212,25 +209,25 @@ struct BindInputs {
     ChunkBuf chunks;
     LeafBuf leaves;
     SurfaceBuf surfaces;
-    SpanInstanceBuf spans;  // [node]
+    SpanInstanceBuf spans;      // [node]
     LeafInstanceBuf leafInstances;
-    EmitCellBuf cells;            // and one more, see below
-    UintBuf bins;                 // [cell * kCellBins + bin]: counts, then starts, then ends in the cell
-    UintBuf keys;                 // [item]: its bin, kNoIndex: none; and kFresh
-    UintBuf order;                // items of cells
-    UintBuf touched;              // of growth: [node] the number of the regrowth that wrote it last
-    UintBuf flags;                // [node]: kFlagSpan: its span is to be bound; kFlagStretch: one of its stretch
-    UintBuf list;                 // items that are put into cells
-    UintBuf leafHeads, leafNext;  // [node], [leaf]: chains of the leaves that are bound to each node; kNoIndex: none
-    UintBuf work;  // where only a part is bound: nodes that are flagged; from leafWork on leaves on these
+    EmitCellBuf cells;          // and one more, see below
+    UintBuf bins;               // [cell * kCellBins + bin]: counts, then starts, then ends in the cell
+    UintBuf keys;               // [item]: its bin, kNoIndex: none; and kFresh
+    UintBuf order;              // items of cells
+    UintBuf touched;            // of growth: [node] the number of the regrowth that wrote it last
+    UintBuf flags;              // [node]: kFlagSpan: its span is to be bound; kFlagStretch: one of its stretch
+    UintBuf list;               // items that are put into cells
+    UintBuf leafHeads, leafNext;   // [node], [leaf]: chains of the leaves that are bound to each node; kNoIndex: none
+    UintBuf work;               // where only a part is bound: nodes that are flagged; from leafWork on leaves on these
     EmitGrid grid;
     uint nodeCount, leafCount, leafBase;
     uint orderRoom;
-    uint partly;  // 0: all is bound; 1: what regrowths after the one of number `since` have written, and
-    uint since;   // what there wasn't before:
+    uint partly;                // 0: all is bound; 1: what regrowths after the one of number `since` have written, and
+    uint since;                 // what there wasn't before:
     uint nodesBefore, leavesBefore;
     uint leafWork;
-    uint watched;  // 1: tiles of a watched picture are noted
+    uint watched;               // 1: tiles of a watched picture are noted
     uint spare;
 };
 STATIC_SIZE(BindInputs, 200);
@@ -243,7 +240,7 @@ CONST_UINT(kFlagStretch, 2u);
 // Push data of the kernels that carry bound growth over to other buffers (emit_carry.cpp), where each node and leaf may
 // have another number.
 struct CarryPush {
-    UintBuf nodesWent, leavesWent;  // as GrowthMove
+    UintBuf nodesWent, leavesWent;       // as GrowthMove
     EmitCellBuf cells;
     UintBuf order, orderTo;
     UintBuf keys, keysTo;
@@ -251,22 +248,21 @@ struct CarryPush {
     UintBuf leafNext, leafNextTo;
     SpanInstanceBuf spansTo;
     LeafInstanceBuf leavesTo;
-    uint nodeCount, leafCount;  // before
+    uint nodeCount, leafCount;           // before
     uint leafBase, leafBaseTo;
 };
 STATIC_SIZE(CarryPush, 120);
 
-// Push data of the culling kernels. View and table come as uniform blocks: software devices read these once for all
-// lanes.
+// Push data of the culling kernels. View and table come as uniform blocks: software devices read these once for all lanes.
 struct EmitPush {
     EmitStateBuf state;
     EmitCellBuf cells;
     UintBuf bins;
     UintBuf order;
-    UintBuf seen;    // [cell]: items to look at; [kAllCells + cell]: where these begin in the list
-    UintBuf list;    // [block * kBlockItems + lane]: items to look at
-    UintBuf rows;    // [block * kMaxBuckets + bucket]: counts, then where they begin in their bucket
-    DrawnBuf notes;  // [block * kBlockItems + lane]
+    UintBuf seen;               // [cell]: items to look at; [kAllCells + cell]: where these begin in the list
+    UintBuf list;               // [block * kBlockItems + lane]: items to look at
+    UintBuf rows;               // [block * kMaxBuckets + bucket]: counts, then where they begin in their bucket
+    DrawnBuf notes;             // [block * kBlockItems + lane]
     DrawnBuf drawn;
     EmitGrid grid;
     uint leafBase;
@@ -275,10 +271,10 @@ STATIC_SIZE(EmitPush, 104);
 
 // Push data of the kernel that takes changed tiles of a watched picture.
 struct TakePush {
-    FloatBuf watched;     // [tile]: kKeptTile or kChangedTile; those that are taken become kept
-    FloatBuf taken;       // [tile]: kChangedTile where it is taken, else kKeptTile; [tiles]: where to begin, as bits
-    uint tiles, columns;  // of the picture
-    uint most;            // to be taken
+    FloatBuf watched;        // [tile]: kKeptTile or kChangedTile; those that are taken become kept
+    FloatBuf taken;          // [tile]: kChangedTile where it is taken, else kKeptTile; [tiles]: where to begin, as bits
+    uint tiles, columns;     // of the picture
+    uint most;               // to be taken
     uint spare;
 };
 STATIC_SIZE(TakePush, 32);
@@ -290,13 +286,9 @@ CONST_UINT(kBarkVertices, 120u);
 CONST_UINT(kBarkIndices, 648u);
 
 #ifndef __cplusplus
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer U64Buf {
-    u64 v[];
-};
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer U64Buf { u64 v[]; };
 #else
-struct U64Buf {
-    u64* v;
-};
+struct U64Buf { u64* v; };
 #endif
 
 // Push data of the kernels that write triangles. Vertices and indices as 64-bit words: half as many stores.
@@ -307,10 +299,10 @@ struct TrianglesPush {
     UintBuf meshIndices;
     U64Buf vertices;
     U64Buf indices;
-    uint count;  // instances, from firstInstance on
+    uint count;              // instances, from firstInstance on
     uint firstInstance;
-    uint firstVertex;     // of the first instance, in `vertices`
-    uint firstIndexPair;  // where its indices begin, in pairs
+    uint firstVertex;        // of the first instance, in `vertices`
+    uint firstIndexPair;     // where its indices begin, in pairs
     uint meshFirstVertex, meshVertexCount;
     uint meshFirstIndex, meshIndexCount;
 };

@@ -20,50 +20,50 @@ CONST_UINT(kRooted, 1u);
 CONST_UINT(kQuick, 2u);
 CONST_UINT(kRest, 3u);
 
-CONST_FLOAT(kHighestHill, 0.075f);  // sine of its height over the horizon
+CONST_FLOAT(kHighestHill, 0.075f);   // sine of its height over the horizon
 
 // Colours are linear. Clip space: depth reversed, 1 at the near plane, 0 at infinity.
 struct FrameRecord {
     mat4 viewProjection;
-    mat4 shadowMatrix;  // world -> near shadow map: xy texture coordinates in its half, z depth
+    mat4 shadowMatrix;       // world -> near shadow map: xy texture coordinates in its half, z depth
     vec3 eye;
     float nearPlane;
-    vec3 sunDirection;   // towards the sun, unit
-    float shadowOffset;  // metres along the normal that lookups start from
+    vec3 sunDirection;       // towards the sun, unit
+    float shadowOffset;      // metres along the normal that lookups start from
     vec3 sunColor;
-    float exposure;  // factor
+    float exposure;          // factor
     vec3 skyColor;
     uint view;
     vec3 groundColor;
-    uint layer;  // that is seen; of charts: their level
+    uint layer;              // that is seen; of charts: their level
     vec3 background;
     uint shadows;
     vec3 horizon;
-    float shadowTexel;  // 1 / side of each half of the shadow map
-    vec3 rayRight;      // half the picture's width at distance 1
-    float pixelScale;   // pixels of one metre at one metre's distance
+    float shadowTexel;       // 1 / side of each half of the shadow map
+    vec3 rayRight;           // half the picture's width at distance 1
+    float pixelScale;        // pixels of one metre at one metre's distance
     vec3 rayUp;
-    float unit;  // what a metre is for models that come in other units: sizes of the look are in it
+    float unit;              // what a metre is for models that come in other units: sizes of the look are in it
     vec3 rayForward;
-    float groundLevel;  // height of the ground that is drawn to the horizon; none is drawn: far below
+    float groundLevel;       // height of the ground that is drawn to the horizon; none is drawn: far below
     SurfaceBuf surfaces;
     LayerBuf layers;
-    float layerOpacity;          // over the model
-    vec3 grassColor;             // of the ground that is drawn
-    vec2 siteLow, siteRcp;       // the site's map: its corner, 1 / its size; world, metres; 0: there is none
-    vec3 wideScale, wideOffset;  // coordinates in the near shadow map -> in the wide one
+    float layerOpacity;      // over the model
+    vec3 grassColor;         // of the ground that is drawn
+    vec2 siteLow, siteRcp;   // the site's map: its corner, 1 / its size; world, metres; 0: there is none
+    vec3 wideScale, wideOffset;   // coordinates in the near shadow map -> in the wide one
 };
 STATIC_SIZE(FrameRecord, 360);
 
 struct ModelPush {
-    vec4 toWorld[3];  // rows
+    vec4 toWorld[3];         // rows
     vec4 baseColor;
     float normalScale;
     float roughness;
     float alphaCutoff;
-    uint surface;  // instance; kNoIndex: no walk data
-    float fade;    // 1: all pixels; above 0: this share of them; below: those that -fade leaves out
-    uint lod;      // 0: the mesh; then its coarser ones
+    uint surface;            // instance; kNoIndex: no walk data
+    float fade;              // 1: all pixels; above 0: this share of them; below: those that -fade leaves out
+    uint lod;                // 0: the mesh; then its coarser ones
 };
 STATIC_SIZE(ModelPush, 88);
 
@@ -77,9 +77,9 @@ struct TerminalPush {
 STATIC_SIZE(TerminalPush, 48);
 
 struct PostPush {
-    vec2 rcpSize;  // 1 / pixels
-    uint ground;   // 1: ground is drawn, and hills at the horizon
-    uint encode;   // 1: the target doesn't encode to sRGB itself
+    vec2 rcpSize;            // 1 / pixels
+    uint ground;             // 1: ground is drawn, and hills at the horizon
+    uint encode;             // 1: the target doesn't encode to sRGB itself
 };
 STATIC_SIZE(PostPush, 16);
 
@@ -89,8 +89,8 @@ struct TilesPush {
 STATIC_SIZE(TilesPush, 8);
 
 struct RestorePush {
-    FloatBuf tiles;  // kKeptTile or kChangedTile
-    uint columns;    // tiles along a side
+    FloatBuf tiles;          // kKeptTile or kChangedTile
+    uint columns;            // tiles along a side
     uint spare;
 };
 STATIC_SIZE(RestorePush, 16);
