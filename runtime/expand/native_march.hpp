@@ -96,6 +96,7 @@ ESPALIER_WHOLE void marchLanes(Lane* lanes, uint32_t marching, WideWalks* wide) 
 void growItems(const ExpandEnv& env, WaveItems& items, uint32_t most, bool wide) {
     GrowthTally tally = emptyTally();
     WideWalks walks = {};
+    walks.vectors = widestVectors();
     Lane lanes[kWalkLanes];
     for (Lane& lane : lanes) {
         lane.env = env;
@@ -121,7 +122,7 @@ void overRange(uint32_t first, uint32_t last, size_t grain, Crew& crew, const Bo
 // See marchNative.
 uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads, bool wide) {
     Crew crew(threads);
-    wide = wide && walksWide() && !PAPER_WALK(env);
+    wide = wide && widestVectors() != VectorKind::narrow && !PAPER_WALK(env);
     uint32_t w = env.wave;
     for (; w < most && env.waves.v[w].count > 0; ++w) {
         env.wave = w;

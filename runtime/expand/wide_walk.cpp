@@ -5,9 +5,11 @@
 #include <initializer_list>
 
 #if defined(__x86_64__) && defined(__GNUC__)
-#define ESPALIER_WIDE __attribute__((flatten, target("avx2")))
+#define ESPALIER_AVX2 __attribute__((flatten, target("avx2")))
+#define ESPALIER_AVX512 __attribute__((flatten, target("avx512f,avx512bw,avx512dq,avx512vl")))
 #else
-#define ESPALIER_WIDE
+#define ESPALIER_AVX2
+#define ESPALIER_AVX512
 #endif
 
 namespace espalier {
@@ -76,7 +78,7 @@ void putCell(WideWalks& l, uint32_t i, const Cell& c) {
 }
 
 // Turns, and measures the stretch and where it would end.
-ESPALIER_WIDE void setOut(WideWalks& l) {
+inline void setOut(WideWalks& l) {
     for (uint32_t i = 0; i < kWalkLanes; ++i) {
         WalkState w;
         loadWalk(l, i, w);
@@ -147,7 +149,7 @@ void readEnd(WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
     put(l.texel11, l.bits11, i, texels[l.at11[i]]);
 }
 
-ESPALIER_WIDE void blendEnds(WideWalks& l) {
+inline void blendEnds(WideWalks& l) {
     for (uint32_t i = 0; i < kWalkLanes; ++i) {
         const Cell c = {l.at00[i], l.at10[i], l.at01[i], l.at11[i], l.fx[i], l.fy[i]};
         const CellBlend b = blendOf(c, l.size[i], l.chart[i], {l.toU[i], l.toV[i]},
@@ -179,7 +181,7 @@ void readPlane(WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
     l.valid[i] = b.valid ? 1 : 0;
 }
 
-ESPALIER_WIDE void land(WideWalks& l) {
+inline void land(WideWalks& l) {
     for (uint32_t i = 0; i < kWalkLanes; ++i) {
         WalkState w;
         loadWalk(l, i, w);
@@ -202,6 +204,33 @@ ESPALIER_WIDE void land(WideWalks& l) {
     }
 }
 
+// The loops over all lanes, for each kind of vectors.
+struct LaneLoops {
+    void (*setOut)(WideWalks&);
+    void (*blendEnds)(WideWalks&);
+    void (*land)(WideWalks&);
+};
+ESPALIER_AVX2 void setOutAvx2(WideWalks& l) {
+    setOut(l);
+}
+ESPALIER_AVX2 void blendEndsAvx2(WideWalks& l) {
+    blendEnds(l);
+}
+ESPALIER_AVX2 void landAvx2(WideWalks& l) {
+    land(l);
+}
+ESPALIER_AVX512 void setOutAvx512(WideWalks& l) {
+    setOut(l);
+}
+ESPALIER_AVX512 void blendEndsAvx512(WideWalks& l) {
+    blendEnds(l);
+}
+ESPALIER_AVX512 void landAvx512(WideWalks& l) {
+    land(l);
+}
+constexpr LaneLoops kLoopsAvx2 = {setOutAvx2, blendEndsAvx2, landAvx2},
+                    kLoopsAvx512 = {setOutAvx512, blendEndsAvx512, landAvx512};
+
 // visit(lane) for each bit.
 template <class Visit>
 void forLanes(uint32_t lanes, const Visit& visit) {
@@ -210,12 +239,14 @@ void forLanes(uint32_t lanes, const Visit& visit) {
 
 }  // namespace
 
-bool walksWide() {
+VectorKind widestVectors() {
 #if defined(__x86_64__) && defined(__GNUC__)
-    return __builtin_cpu_supports("avx2");
-#else
-    return false;
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl"))
+        return VectorKind::avx512;
+    if (__builtin_cpu_supports("avx2")) return VectorKind::avx2;
 #endif
+    return VectorKind::narrow;
 }
 
 void putWalk(WideWalks& l, uint32_t i, SurfaceBuf surfaces, uint32_t level, const WalkState& w, float remaining) {
@@ -234,13 +265,14 @@ void putWalk(WideWalks& l, uint32_t i, SurfaceBuf surfaces, uint32_t level, cons
 }
 
 uint32_t advanceWide(WideWalks& l, SurfaceBuf surfaces, uint32_t lanes) {
-    setOut(l);
+    const LaneLoops& loops = l.vectors == VectorKind::avx512 ? kLoopsAvx512 : kLoopsAvx2;
+    loops.setOut(l);
     forLanes(lanes, [&](uint32_t i) { expectEnd(l, i, surfaces); });
     forLanes(lanes, [&](uint32_t i) { l.leaves[i] = leavesChart(l, i, surfaces) ? 1 : 0; });
     forLanes(lanes, [&](uint32_t i) { readEnd(l, i, surfaces); });
-    blendEnds(l);
+    loops.blendEnds(l);
     forLanes(lanes, [&](uint32_t i) { readPlane(l, i, surfaces); });
-    land(l);
+    loops.land(l);
     uint32_t landed = 0;
     forLanes(lanes, [&](uint32_t i) { landed |= (l.landed[i] & ~l.leaves[i]) << i; });
     return landed;

@@ -10,10 +10,12 @@
 
 namespace espalier {
 
-constexpr uint32_t kWalkLanes = 8;
+constexpr uint32_t kWalkLanes = 16;
 
-// Whether this processor's vectors are wide enough for advanceWide to pay.
-bool walksWide();
+// Vectors of eight floats, AVX2's, or of 16, AVX-512's. Narrower ones don't pay: walks go one by one.
+enum class VectorKind { narrow, avx2, avx512 };
+// The widest that this processor has.
+VectorKind widestVectors();
 
 // What lanes compute with. Lanes that were never put are zero, or hold what another walk left there.
 struct alignas(64) WideWalks {
@@ -22,6 +24,8 @@ struct alignas(64) WideWalks {
     struct Vectors {
         Floats x, y, z;
     };
+
+    VectorKind vectors;  // that this processor has
 
     // The walk: WalkState's parts, and what is still to be walked, metres of the world.
     Vectors position, du, dv, normal, heading;
