@@ -22,6 +22,8 @@ struct FinishRoom {
     WideLeaves leaves = {};
     LeafStage staged;
     StemNode stems[kNodeLanes];
+    StemChunk chunks[kNodeLanes];  // of runs of these, in turn
+    uint32_t chunkOf[kNodeLanes];
     NodeFinish finished[kNodeLanes];
 };
 
@@ -56,6 +58,14 @@ void putLeaf(WideLeaves& wide, uint32_t i, const LeafDraft& draft) {
     wide.mesh[i] = draft.mesh;
     wide.colour[i] = draft.colour;
     wide.word[i] = draft.word;
+}
+
+// Reads a node and, unless the one before it has it already, its chunk. runs: chunks so far.
+void readStem(const ExpandEnv& env, FinishRoom& room, uint32_t i, uint32_t index, uint32_t& runs) {
+    const Node node = readNode(env, index);
+    if (i == 0 || node.chunk != room.stems[i - 1].node.chunk) room.chunks[runs++] = stemChunk(env, node.chunk);
+    room.chunkOf[i] = runs - 1;
+    room.stems[i] = stemNode(env, room.chunks[runs - 1].brief, node, index);
 }
 
 // Writes what is staged where there is room, each leaf chained to its node's last. Returns the place of the first, and
@@ -94,14 +104,15 @@ __attribute__((flatten)) uvec2 finishEach(ExpandEnv env, size_t begin, size_t en
     const bool joined = joints(env);
     for (; begin < end; begin += kNodeLanes) {
         const uint32_t lanes = uint32_t(std::min<size_t>(end - begin, kNodeLanes));
+        uint32_t runs = 0;
         for (uint32_t i = 0; i < lanes; ++i) {
-            room->stems[i] = stemNode(env, nodeOf(begin + i));
+            readStem(env, *room, i, nodeOf(begin + i), runs);
             putStem(*room, i, joined ? jointsAt(env, room->stems[i].index) : vec3(0.0f));
         }
         frameStems(room->wide);
         for (uint32_t i = 0; i < lanes; ++i)
-            room->finished[i] =
-                finishStem(room->machine, room->staged, env, room->stems[i], frameIn(room->wide, i), hash);
+            room->finished[i] = finishStem(room->machine, room->staged, env, room->chunks[room->chunkOf[i]],
+                                           room->stems[i], frameIn(room->wide, i), hash);
         const uint32_t firstLeaf = writeLeaves(env, *room, hash);
         for (uint32_t i = 0; i < lanes; ++i) {
             NodeFinish& finish = room->finished[i];

@@ -135,7 +135,8 @@ FN WorldFrame frameOf(SurfaceBuf surfaces, uint instance, uint inputs) {
     f.y = vec3(0.0f, 1.0f, 0.0f);
     f.z = vec3(0.0f, 0.0f, 1.0f);
     f.offset = vec3(0.0f);
-    f.perMetre = rcpExact(surfaceScale(surfaces, instance));
+    f.perMetre = 0.0f;
+    if ((inputs & (kInputsOfWorld | kInputCurvature)) != 0u) f.perMetre = rcpExact(surfaceScale(surfaces, instance));
     f.lowest = 0.0f;
     if ((kFeatures & kFeatureWorld) == 0u) return f;
     for (uint i = 0u; i < ((inputs & kInputsOfWorld) != 0u ? 3u : 0u); ++i) {

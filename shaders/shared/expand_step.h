@@ -243,11 +243,12 @@ FN void stageNode(ExpandEnv env, WalkState w, uint normal, uint heading, bool se
     STAGED(at + 2u) = floatBitsToUint(w.position.z);
     STAGED(at + 3u) = normal;
     STAGED(at + 4u) = heading;
-    STAGED(at + 5u) = packUv(w.walk.uv);
+    uint uv = packUv(w.walk.uv);
+    STAGED(at + 5u) = uv;
     STAGED(at + 6u) = w.walk.place;
     STAGED(at + 7u) = floatBitsToUint(w.walk.arc);
     STAGED(at + 8u) = flags | (index << 8u);
-    STAGED(at + 9u) = packUv(seam ? w.leftUv : w.walk.uv);
+    STAGED(at + 9u) = seam ? packUv(w.leftUv) : uv;
     STAGED(at + 10u) = seam ? w.leftPlace : w.walk.place;
 }
 
@@ -347,8 +348,12 @@ FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, INO
     }
     // A loop, since software devices skip only those.
     for (uint once = 0u; once < (g.laying != kStepKept ? 1u : 0u); ++once) {
-        StagedNode start = enteredNode(g.at);
-        if (g.count > 0u) start = stagedNode(env.scratch, g.count - 1u);
+        StagedNode start;
+        if (g.count > 0u) {
+            start = stagedNode(env.scratch, g.count - 1u);
+        } else {
+            start = enteredNode(g.at);
+        }
         float texel = texelOf(env, site, start.place >> 16u);
         float size = float(levelSize(env.surfaces, start.place >> 16u, site.level));
         g.pending = g.pending + layOnMesh(env.surfaces, env.scratch, start, texel, size, g.laying == kStepFollowed,

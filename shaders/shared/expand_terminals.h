@@ -228,29 +228,40 @@ FN void keepFinish(NodeBuf nodes, uint index, NodeFinish f) {
     nodes.v[index].radius = f.radius;
 }
 
+// What nodes of a chunk have in common.
+struct StemChunk {
+    ChunkBrief brief;
+    BranchRecord branch;
+    u64 branchKey;
+};
+FN StemChunk stemChunk(ExpandEnv env, uint chunk) {
+    StemChunk c;
+    c.brief = readBrief(env, chunk);
+    c.branch = readBranch(env, c.brief.branch);
+    c.branchKey = readKey(env, c.branch.firstChunk);
+    return c;
+}
+
 // A node and what lies around it along the stem.
 struct StemNode {
     Node node;
-    ChunkBrief brief;
     uint index;
     uint leader, follower;   // kNoIndex: it is a foot, a tip
     vec3 before, after;      // their places; its own where there is none
 };
-
-FN StemNode stemNode(ExpandEnv env, uint index) {
+FN StemNode stemNode(ExpandEnv env, ChunkBrief chunk, Node node, uint index) {
     StemNode s;
     s.index = index;
-    s.node = readNode(env, index);
-    s.brief = readBrief(env, s.node.chunk);
-    uint local = index - s.brief.firstNode;
-    uint next = s.brief.next;
-    bool last = local + 1u >= chunkNodes(s.brief.marks);
+    s.node = node;
+    uint local = index - chunk.firstNode;
+    uint next = chunk.next;
+    bool last = local + 1u >= chunkNodes(chunk.marks);
     s.follower = last ? kNoIndex : index + 1u;
     // A loop, since software devices skip only those.
     for (uint k = 0u; k < (last && next != kNoIndex ? 1u : 0u); ++k) {
         if (chunkNodes(readMarks(env, next)) > 0u) s.follower = readFirstNode(env, next);
     }
-    s.leader = local > 0u ? index - 1u : s.brief.previousNode;
+    s.leader = local > 0u ? index - 1u : chunk.previousNode;
     s.before = readPosition(env, s.leader == kNoIndex ? index : s.leader);
     s.after = readPosition(env, s.follower == kNoIndex ? index : s.follower);
     return s;
@@ -281,9 +292,10 @@ FN StemFrame stemFrame(vec3 before, vec3 at, vec3 after, vec3 branches, uint nor
 }
 
 // The node's radius, bark and leaves. It may run again on a node that was finished before.
-FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, StemNode s, StemFrame frame, INOUT(uvec2) hash) {
+FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, StemChunk chunk, StemNode s, StemFrame frame,
+                         INOUT(uvec2) hash) {
     Node node = s.node;
-    ChunkBrief brief = s.brief;
+    ChunkBrief brief = chunk.brief;
     uint local = s.index - brief.firstNode;
     NodeSite site;
     site.index = s.index;
@@ -314,10 +326,8 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, StemNode s, S
         uint inputs = TABLE(program + 2u);
         uint layers = TABLE(program + 3u);
         uint first = range & 0xFFFFu;
-        BranchRecord stem = readBranch(env, brief.branch);
-        float length = stem.extent;
-        u64 branchKey = readKey(env, stem.firstChunk);
-        site.key = childKey(branchKey, nameHash, step);
+        float length = chunk.branch.extent;
+        site.key = childKey(chunk.branchKey, nameHash, step);
         Place place;
         place.position = node.position;
         place.normal = frame.normal;
@@ -339,7 +349,7 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, StemNode s, S
         giveInputs(MACHINE env, world, grammar, inputs, layers, place, brief.depth & 0xFFFFu, step, node.arc);
         uint cell = 0u;
         if ((kFeatures & kFeatureDensity) != 0u && env.status.v[0].leafDensityCap > 0.0f)
-            cell = densityCell(env, stem.seed, node.place, place.uv);
+            cell = densityCell(env, chunk.branch.seed, node.place, place.uv);
         radius = runTerminals(MACHINE LEAVES env, map, first, first + (range >> 16u), site, cell, barkFlags);
     }
     hash = hash + site.hash;
@@ -355,11 +365,13 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, StemNode s, S
 // All of it. hash: the sum of its leaves' hashes is added. Native code does the same for some nodes at a time
 // (native_finish.hpp).
 NodeFinish finishNode(ExpandEnv env, uint index, inout uvec2 hash) {
-    StemNode s = stemNode(env, index);
+    Node node = readNode(env, index);
+    StemChunk chunk = stemChunk(env, node.chunk);
+    StemNode s = stemNode(env, chunk.brief, node, index);
     vec3 branches = vec3(0.0f);
     if (joints(env)) branches = jointsAt(env, index);
-    StemFrame frame = stemFrame(s.before, s.node.position, s.after, branches, s.node.normal, headingOfNode(s.node));
-    return finishStem(env, s, frame, hash);
+    StemFrame frame = stemFrame(s.before, node.position, s.after, branches, node.normal, headingOfNode(node));
+    return finishStem(env, chunk, s, frame, hash);
 }
 #endif
 
