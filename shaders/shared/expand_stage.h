@@ -103,10 +103,10 @@ FN float passedBy(StagedNode a, StagedNode b, vec3 point, vec3 normal, float tex
     return absolute(dot3(normal, spanPoint(s, u) - point));
 }
 
-// Lays the samples from `first` on, of `count`, that a step has staged, on the mesh and, if `whole`, puts more in where
-// edges of triangles lie off their spans by more than a little. start: where the step began. texel: its width where the
-// walk went, object metres; size: so many of them along a side. ground: the triangle under the start, then under the
-// last sample; kNoIndex: not known. Returns how many it has put in.
+// Lays the samples from `first` on, of `count`, that a step has staged (one at least) on the mesh and, if `whole`, puts
+// more in where edges of triangles lie off their spans by more than a little. start: where the step began. texel: its
+// width where the walk went, object metres; size: so many of them along a side. ground: the triangle under the start,
+// then under the last sample; kNoIndex: not known. Returns how many it has put in.
 FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, float texel, float size, bool whole,
                          uint first, uint count, INOUT(uint) ground) {
     uint end = count;
@@ -121,7 +121,8 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
     uint passed = kNoIndex;
     vec3 before = vec3(0.0f);
     float step = kAheadTexels * rcpExact(size);
-    for (uint trip = 0u; trip < kMostFollowed && i < end; ++trip) {
+    uint trips = 0u;
+    do {   // software devices go through a body once more where the test comes first
         vec2 delta = b.nearUv - at;
         // Charts that border on themselves have neighbours far apart, and another instance has a space of its own.
         vec2 apart = delta * size * texel;
@@ -163,14 +164,18 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
                 a.position = pointOn(t, a.uv);
                 if (i > 0u) stagePosition(stage, i - 1u, a.position);
             }
-            // A loop, since software devices skip only those.
-            for (uint met = 0u; met < (waits && end < kChunkNodes ? 1u : 0u); ++met) {
-                vec3 vertex = pointOn(t, at);
-                vec3 mean = unit3(before + normal * 1.0001f);
+            vec3 vertex = vec3(0.0f);
+            vec3 mean = normal;
+            bool aside = waits && end < kChunkNodes;
+            if (aside) {
+                vertex = pointOn(t, at);
+                mean = unit3(before + normal * 1.0001f);
                 float least = kAsideTexels * texel;
-                bool aside = absolute(dot3(mean, vertex - a.position)) > least ||
-                             absolute(dot3(mean, vertex - b.position)) > least;
-                if (!aside || passedBy(a, b, vertex, mean, texel) <= least) continue;
+                aside = absolute(dot3(mean, vertex - a.position)) > least ||
+                        absolute(dot3(mean, vertex - b.position)) > least;
+                if (aside) aside = passedBy(a, b, vertex, mean, texel) > least;
+            }
+            if (aside) {
                 openStage(stage, i, end);
                 vec2 way = b.nearUv - a.uv;
                 float share = dot2(at - a.uv, way) * rcpExact(larger(dot2(way, way), 1e-30f));
@@ -210,7 +215,8 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
             waits = false;
             passed = kNoIndex;
         }
-    }
+        trips = trips + 1u;
+    } while (trips < kMostFollowed && i < end);
     return end - count;
 }
 

@@ -346,8 +346,7 @@ FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, INO
         g.fresh = true;
         return;
     }
-    // A loop, since software devices skip only those.
-    for (uint once = 0u; once < (g.laying != kStepKept ? 1u : 0u); ++once) {
+    if (g.laying != kStepKept) {
         StagedNode start;
         if (g.count > 0u) {
             start = stagedNode(env.scratch, g.count - 1u);

@@ -187,17 +187,19 @@ FN TableBases basesOf(ExpandEnv env, uint grammar) {
 FN void runTable(MACHINE_PARAM ExpandEnv env, TableBases map, uint pair) {
     uint at = map.code + 2u * (pair & 0xFFFFu);
     uint end = at + 2u * (pair >> 16u);
-    for (; at < end; at += 2u) {
-        uint bits = TABLE(at);
-        uint immediate = TABLE(at + 1u);
-        runWord(MACHINE bits, uintBitsToFloat(immediate));
-    }
+    if (at < end) do {   // software devices go through a body once more where the test comes first
+            uint bits = TABLE(at);
+            uint immediate = TABLE(at + 1u);
+            runWord(MACHINE bits, uintBitsToFloat(immediate));
+            at += 2u;
+        } while (at < end);
 }
 FN void drawTable(MACHINE_PARAM ExpandEnv env, TableBases map, uint first, uint count, u64 key, u64 instanceKey) {
-    for (uint j = 0u; j < count; ++j) {
-        uint site = TABLE(map.sites + first + j);
-        SLOT(kSlotDraw + j) = drawSite(site, key, instanceKey);
-    }
+    uint j = 0u;
+    if (count != 0u) do {
+            uint site = TABLE(map.sites + first + j);
+            SLOT(kSlotDraw + j) = drawSite(site, key, instanceKey);
+        } while (++j < count);
 }
 
 // A value as the tables hold it.

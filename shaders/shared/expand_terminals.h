@@ -257,8 +257,7 @@ FN StemNode stemNode(ExpandEnv env, ChunkBrief chunk, Node node, uint index) {
     uint next = chunk.next;
     bool last = local + 1u >= chunkNodes(chunk.marks);
     s.follower = last ? kNoIndex : index + 1u;
-    // A loop, since software devices skip only those.
-    for (uint k = 0u; k < (last && next != kNoIndex ? 1u : 0u); ++k) {
+    if (last && next != kNoIndex) {
         if (chunkNodes(readMarks(env, next)) > 0u) s.follower = readFirstNode(env, next);
     }
     s.leader = local > 0u ? index - 1u : chunk.previousNode;
@@ -309,7 +308,7 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, StemChunk chu
     site.after = node.arc;
     site.before = local > 0u ? readArc(env, s.index - 1u).arc : brief.entryArc;
     uint flags = node.flags;
-    for (uint k = 0u; k < (site.foot && !site.tip ? 1u : 0u); ++k) flags = readArc(env, s.follower).flags;
+    if (site.foot && !site.tip) flags = readArc(env, s.follower).flags;
     uint extrude = flags & 255u;
     site.extrude = extrude - 1u;
     uint step = (brief.step & 0xFFFFFFu) + ((flags >> 26u) & 31u) + 1u;

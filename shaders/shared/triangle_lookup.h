@@ -24,8 +24,7 @@ FN bool isInside(TrianglePlane t, vec2 uv) {
 // The point of the triangle that is nearest to uv.
 FN vec2 nearestInside(TrianglePlane t, vec2 uv) {
     vec2 nearest = uv;
-    // A loop, since software devices skip only those.
-    for (uint outside = isInside(t, uv) ? 0u : 1u; outside > 0u; --outside) {
+    if (!isInside(t, uv)) {
         nearest = nearestOnEdge(t.uv0, t.uv1, uv);
         vec2 b = nearestOnEdge(t.uv1, t.uv2, uv);
         vec2 c = nearestOnEdge(t.uv2, t.uv0, uv);
@@ -90,7 +89,8 @@ FN uint triangleUnder(SurfaceBuf surfaces, uint place, vec2 uv, OUT(TrianglePlan
     float least = 4.0f;   // the UV square has no such distance
     uint known = kNoIndex;
     uint tried = kNoIndex;
-    for (uint k = 0u; k < 20u && least > 0.0f; ++k) {
+    uint k = 0u;
+    do {   // software devices go through a body once more where the test comes first
         bool close = k < 4u;
         uint cx = x + (close ? (nearest ^ k) & 1u : k & 3u) - (close ? 0u : 1u);
         uint cy = y + (close ? (nearest ^ k) >> 1u : k >> 2u) - (close ? 0u : 2u);
@@ -106,7 +106,7 @@ FN uint triangleUnder(SurfaceBuf surfaces, uint place, vec2 uv, OUT(TrianglePlan
             known = triangle;
             found = plane;
         }
-    }
+    } while (++k < 20u && least > 0.0f);
     return known;
 }
 
