@@ -87,13 +87,12 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
     return emit;
 }
 
-Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
-    const Buffer& shown = views_[viewSlot_++ % views_.size()];
-    const Buffer& table = terminals_->tableBuffer();
-    commands.barrier(Use::compute | Use::vertex | Use::indirect | Use::transfer, Use::transfer | Use::compute);
-    if (Status s = commands.upload(shown, std::as_bytes(std::span(&view, 1))); !s) return s;
-    commands.barrier(Use::transfer, Use::compute);
+// Native code reads and writes what kernels do.
+bool Emit::sharesMemory() const {
+    return device_->info().cpu && uintptr_t(state_.mapped()) == state_.address();
+}
 
+EmitPush Emit::cullPush() const {
     EmitPush push{};
     push.state.v = reinterpret_cast<EmitState*>(state_.address());
     push.cells.v = reinterpret_cast<EmitCell*>(cells_.address());
@@ -106,7 +105,17 @@ Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
     push.drawn.v = reinterpret_cast<DrawnItem*>(drawn_.address());
     push.grid = grid_;
     push.leafBase = held_.leafBase;
+    return push;
+}
 
+Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
+    const Buffer& shown = views_[viewSlot_++ % views_.size()];
+    const Buffer& table = terminals_->tableBuffer();
+    commands.barrier(Use::compute | Use::vertex | Use::indirect | Use::transfer, Use::transfer | Use::compute);
+    if (Status s = commands.upload(shown, std::as_bytes(std::span(&view, 1))); !s) return s;
+    commands.barrier(Use::transfer, Use::compute);
+
+    const EmitPush push = cullPush();
     pass.dispatchItems(cullCells_, kAllCells, push, {table, shown});
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(listBlocks_, {1, 1, 1}, push);
@@ -127,18 +136,55 @@ Status Emit::cull(Commands& commands, const EmitInputs& inputs, const EmitView& 
                   bool counted) {
     if (Status s = bind(commands, inputs); !s) return s;
     const bool known = bound_ == culled_ && std::memcmp(&view, &view_, sizeof view) == 0 && (counted_ || !counted);
+    if (known && culledNative()) natives_[native_].serial = commands.serial();
     if (known) return Done{};
     culled_ = bound_;
     view_ = view;
     counted_ = counted;
     Pass pass(commands, passName);
-    if (Status s = record(commands, view, pass); !s) return s;
-    pass.barrier(Use::compute, Use::indirect | Use::vertex | Use::transfer);
+    Result<bool> native = cullNative(inputs, view, commands.serial());
+    if (!native) return native.failure();
+    if (!*native) {
+        if (Status s = record(commands, view, pass); !s) return s;
+        pass.barrier(Use::compute, Use::indirect | Use::vertex | Use::transfer);
+    }
     if (counted) {
-        commands.copy(state_, readback_, sizeof(EmitState));
+        commands.copy(state(), readback_, sizeof(EmitState));
         commands.barrier(Use::transfer, Use::host);
     }
     return Done{};
+}
+
+// Into one of natives_ that no recording draws any more.
+Result<bool> Emit::cullNative(const EmitInputs& inputs, const EmitView& view, uint64_t recording) {
+    native_ = natives_.size();
+    const bool stands = !IS_GIVEN(view.tiles) || (view.flags & kTilesStand) != 0;
+    if (!inputs.native || !sharesMemory() || !stands || !device_->finished(boundBy_)) return false;
+    const auto free =
+        std::find_if(natives_.begin(), natives_.end(), [&](const Native& n) { return device_->finished(n.serial); });
+    if (free == natives_.end()) return false;
+    const EmitPush push = cullPush();
+    const uint32_t seen =
+        nativeCull_.look(push, view, terminals_->table(), reinterpret_cast<const SpanInstance*>(held_.spans.address()),
+                         reinterpret_cast<const LeafInstance*>(held_.leaves.address()));
+    const uint64_t bytes = std::max<uint64_t>(seen, 1) * sizeof(DrawnItem);
+    if (!free->drawn || free->drawn.size() < bytes) {
+        Result<Buffer> made = Buffer::create(*device_, "drawn instances, native", bytes + bytes / 4 / 16 * 16);
+        if (!made) return made.failure();
+        free->drawnTexels = {};
+        free->drawn = std::move(*made);
+        if (Status s = viewTexels(free->drawnTexels, free->drawn); !s) return s.failure();
+    }
+    if (!free->state) {
+        Result<Buffer> made = Buffer::create(*device_, "emit state, native", sizeof(EmitState));
+        if (!made) return made.failure();
+        free->state = std::move(*made);
+    }
+    nativeCull_.write(push, terminals_->table(), reinterpret_cast<DrawnItem*>(free->drawn.address()),
+                      *reinterpret_cast<EmitState*>(free->state.address()));
+    free->serial = recording;
+    native_ = size_t(free - natives_.begin());
+    return true;
 }
 
 Status Emit::watch(Commands& commands, const EmitView& view) {

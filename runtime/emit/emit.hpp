@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "runtime/emit/native_cull.hpp"
 #include "runtime/emit/terminals.hpp"
 #include "runtime/expand/growth.hpp"
 #include "runtime/gpu/commands.hpp"
@@ -16,9 +17,9 @@ struct EmitInputs {
     uint64_t surfacesRevision = 0;  // another one when a surface stands elsewhere
     // Where things grow, more or less: space is divided there. What lies elsewhere costs more, no more than that.
     glm::vec3 low{-4}, high{4};
-    // True: on a software device whose addresses are the process's own, what is to be written as triangles is gathered,
-    // and bark's are written, by native code (native_gather.hpp, native_triangles.hpp), the same to the bit. False: by
-    // shaders there too.
+    // True: on a software device whose addresses are the process's own, native code culls what stands already when a
+    // view is recorded (native_cull.hpp), gathers what is to be written as triangles, and writes bark's
+    // (native_triangles.hpp). False: shaders do there too.
     bool native = true;
 };
 
@@ -52,7 +53,8 @@ class Emit {
 
     // Records the culling of `inputs` for `view`; what an earlier cull left is lost. Timed as `passName`, binding as
     // "bind". With `counted` the figures come back in stats() once the work is done. A view that is the last one's over
-    // the same growth costs nothing.
+    // the same growth costs nothing. Native code culls at once, if EmitInputs says so: once growth's binding is done,
+    // and what the view's tiles say stands (kTilesStand), or it has none.
     Status cull(Commands& commands, const EmitInputs& inputs, const EmitView& view, std::string_view passName,
                 bool counted);
 
@@ -76,13 +78,14 @@ class Emit {
     }
 
     // Where the draws of the last cull lie; bucket b has the commands 2b and 2b + 1.
-    const Buffer& state() const { return state_; }
+    const Buffer& state() const { return culledNative() ? natives_[native_].state : state_; }
+    bool culledNative() const { return native_ < natives_.size(); }
     // Which instances are drawn, as DrawnItem: bucket b's from EmitState::starts[b] on.
-    const Buffer& drawn() const { return drawn_; }
+    const Buffer& drawn() const { return culledNative() ? natives_[native_].drawn : drawn_; }
     const Buffer& spanInstances() const { return held_.spans; }   // [node]
     const Buffer& leafInstances() const { return held_.leaves; }  // [leaf]
     // The same as texels of four words, for vertex shaders.
-    const TexelView& drawnTexels() const { return drawnTexels_; }
+    const TexelView& drawnTexels() const { return culledNative() ? natives_[native_].drawnTexels : drawnTexels_; }
     const TexelView& spanTexels() const { return held_.spanTexels; }
     const TexelView& leafTexels() const { return held_.leafTexels; }
 
@@ -125,7 +128,18 @@ class Emit {
     Status makeCarrying(bool moved);
     Status carry(Commands& commands, const GrowthView& growth, uint32_t leaves, Bound& bound);
 
+    // What native code has left for a recording to draw.
+    struct Native {
+        Buffer state, drawn;
+        TexelView drawnTexels;  // of it; after it
+        uint64_t serial = 0;    // of the last recording that draws it
+    };
+
     Status record(Commands& commands, const EmitView& view, Pass& pass);
+    EmitPush cullPush() const;
+    bool sharesMemory() const;
+    // False: shaders have to.
+    Result<bool> cullNative(const EmitInputs& inputs, const EmitView& view, uint64_t recording);
     Result<EmitState> gather(const EmitInputs& inputs, bool native, double& milliseconds);  // materialise.cpp
 
     Device* device_ = nullptr;
@@ -148,6 +162,10 @@ class Emit {
     TexelView nodeRecords_, chunkRecords_, leafRecords_, touchedRecords_;
     EmitGrid grid_{};
     Bound bound_, culled_;  // and what the last view was of
+    uint64_t boundBy_ = 0;  // the recording
+    NativeCull nativeCull_;
+    std::array<Native, 6> natives_;
+    size_t native_ = ~size_t(0);  // of these, the last view's; beyond: shaders have culled it
     EmitView view_{};
     Program takeTiles_;
     Buffer watch_, watchTiles_, takenTiles_;

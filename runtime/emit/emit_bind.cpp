@@ -155,6 +155,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     const bool partly = staysBound(wanted, growth);
     Bound before = bound_;
     bound_ = culled_ = {};
+    boundBy_ = commands.serial();
     if (!partly) {
         ++wholeBindings_;
         if (!held_.fits(nodes, leaves)) {

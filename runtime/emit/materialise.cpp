@@ -5,7 +5,6 @@
 #include <chrono>
 
 #include "runtime/emit/emit.hpp"
-#include "runtime/emit/native_gather.hpp"
 #include "runtime/emit/native_triangles.hpp"
 
 namespace espalier {
@@ -59,11 +58,11 @@ Result<EmitState> Emit::gather(const EmitInputs& inputs, bool native, double& mi
     EmitState state = counted;
     if (native) {
         const Clock::time_point start = Clock::now();
-        const EmitCell* cells = at<EmitCell>(cells_);
-        gatherNative({cells, at<uint32_t>(held_.order), at<SpanInstance>(held_.spans), at<LeafInstance>(held_.leaves),
-                      held_.leafBase},
-                     terminals_->table(), at<DrawnItem>(drawn_), state);
-        counted.crowded = cells[kAllCells].room;
+        const EmitPush push = cullPush();
+        nativeCull_.look(push, view, terminals_->table(), at<SpanInstance>(held_.spans),
+                         at<LeafInstance>(held_.leaves));
+        nativeCull_.write(push, terminals_->table(), at<DrawnItem>(drawn_), state);
+        counted.crowded = state.crowded;
         culled_ = {};
         milliseconds = millisecondsSince(start);
     } else {
@@ -74,7 +73,7 @@ Result<EmitState> Emit::gather(const EmitInputs& inputs, bool native, double& mi
 }
 
 Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
-    const bool native = inputs.native && device_->info().cpu && uintptr_t(state_.mapped()) == state_.address();
+    const bool native = inputs.native && sharesMemory();
     EmittedTriangles out;
     Result<EmitState> gathered = gather(inputs, native, out.gatherMilliseconds);
     if (!gathered) return gathered.failure();

@@ -64,6 +64,10 @@ void Device::hostFrameDone(uint64_t frame) {
     collect();
 }
 
+bool Device::finished(uint64_t recording) const {
+    return recording < retireQueue_->oldestPending();
+}
+
 size_t Device::retiredCount() const {
     return retireQueue_->size();
 }

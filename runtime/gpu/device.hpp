@@ -100,6 +100,8 @@ class Device {
     void collect();
     // The host's GPU work up to this frame number is done (see Commands::into).
     void hostFrameDone(uint64_t frame);
+    // Whether the recording of this number (Commands::serial()), and all before it, are known to have finished.
+    bool finished(uint64_t recording) const;
     // Objects dropped, but still waiting for the GPU.
     size_t retiredCount() const;
 

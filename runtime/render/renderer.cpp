@@ -155,32 +155,55 @@ EmitInputs RendererImpl::emitInputs(const DrawInputs& inputs) const {
     return given;
 }
 
-Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {
-    const uint32_t tiles =
-        ((targets_.width + kDepthTile - 1) / kDepthTile) * ((targets_.height + kDepthTile - 1) / kDepthTile);
-    if (!tiles_ || tiles_.size() < tiles * sizeof(float)) {
-        Result<Buffer> made = Buffer::create(device_, "depth tiles", tiles * sizeof(float));
+// Finds the tiles of this picture's depths, into those of the oldest one that are kept, and notes in the view where.
+Status RendererImpl::findTiles(Commands& commands, EmitView& view) {
+    DepthTiles& to = *std::min_element(tiles_.begin(), tiles_.end(),
+                                       [](const DepthTiles& a, const DepthTiles& b) { return a.serial < b.serial; });
+    const uint32_t count = ((view.width + kDepthTile - 1) / kDepthTile) * ((view.height + kDepthTile - 1) / kDepthTile);
+    if (!to.buffer || to.buffer.size() < count * sizeof(float)) {
+        Result<Buffer> made = Buffer::create(device_, "depth tiles", count * sizeof(float));
         if (!made) return made.failure();
-        tiles_ = std::move(*made);
+        to.buffer = std::move(*made);
     }
-    TilesPush push{};
-    push.tiles.v = reinterpret_cast<float*>(tiles_.address());
+    view.tiles.v = reinterpret_cast<float*>(to.buffer.address());
+    to.view = view;
+    to.serial = commands.serial();
+    to.models = hosted_ ? 0 : models_.revision();
     commands.transition(targets_.depth, ImageState::sampled);
-    {
-        Pass pass(commands, "emit");
-        pass.dispatchItems(depthTiles_, tiles, push, {{targets_.depth, pointSampler_}});
-        pass.barrier(Use::compute, Use::compute);
-    }
+    Pass pass(commands, "emit");
+    pass.dispatchItems(depthTiles_, count, TilesPush{view.tiles}, {{targets_.depth, pointSampler_}});
+    pass.barrier(Use::compute, Use::compute);
+    return Done{};
+}
+
+// Takes the depths of the newest picture of this size that has finished, if there is one: what they say stands, so that
+// native code can cull.
+void RendererImpl::lookBack(EmitView& view) const {
+    const DepthTiles* past = nullptr;
+    for (const DepthTiles& t : tiles_)
+        if (t.buffer && device_.finished(t.serial) && t.view.width == view.width && t.view.height == view.height &&
+            t.view.pixelScale == view.pixelScale && t.models == models_.revision() &&
+            (!past || t.serial > past->serial))
+            past = &t;
+    view.flags |= kTilesStand;
+    view.tiles.v = past ? past->view.tiles.v : nullptr;
+    if (!past) return;
+    view.viewProjection = past->view.viewProjection;
+    view.drift = std::max(glm::distance(view.eye, past->view.eye), 1e-6f);
+}
+
+Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {
     EmitView view = perspectiveView(frame.viewProjection, frame.eye, frame.pixelScale, inputs.look.lodPixels);
     view.viewProjection = frame.viewProjection;
-    view.tiles = push.tiles;
     view.width = targets_.width;
     view.height = targets_.height;
     view.tilePixels = kDepthTile;
+    if (Status s = findTiles(commands, view); !s) return s;
     thinOut(view, inputs.look.leafPixels);
     // A host's scene or a level that fades hides something else in each frame.
     ++sceneNumber_;
     view.scene = hosted_ || models_.fading() > 0 ? sceneNumber_ << 32 : models_.revision() + (propsRevision_ << 16);
+    if (shading_ == Shading::quick && !hosted_) lookBack(view);
     if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
     if (!grows_) return Done{};
@@ -257,6 +280,7 @@ void RendererImpl::forget() {
     emit_.forget();
     if (props_) props_->forget();
     merge_.reset();
+    tiles_ = {};
     targets_.color = Image();
     shadowMap_.state = standing_.state = ImageState::undefined;
     shadowDrawn_ = wideDrawn_ = false;

@@ -76,6 +76,8 @@ class RendererImpl final : public Renderer {
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
     EmitInputs emitInputs(const DrawInputs& inputs) const;
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
+    Status findTiles(Commands& commands, EmitView& view);
+    void lookBack(EmitView& view) const;
     void drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post);
     void drawTerminals(DrawPass& pass, bool depthOnly);
     void drawOcclusion(Commands& commands, const PostPush& push);
@@ -102,7 +104,14 @@ class RendererImpl final : public Renderer {
     std::array<bool, kMaxBuckets> small_{};                  // buckets that are lit at their vertices
     std::array<Buffer, kFrameSlots> frames_;
     const Buffer* frame_ = nullptr;  // the one of this recording
-    Buffer tiles_;
+    // Of pictures drawn before: the farthest depths that models leave in their tiles. The picture of recording
+    // `serial`.
+    struct DepthTiles {
+        Buffer buffer;
+        EmitView view{};
+        uint64_t serial = 0, models = 0;
+    };
+    std::array<DepthTiles, 4> tiles_;
     uint32_t frameSlot_ = 0;
     ShadowKey shadowKey_, wideKey_, wideBefore_;
     glm::mat4 wideToTexture_{1};

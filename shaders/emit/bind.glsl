@@ -1,7 +1,7 @@
 // What the kernels that bind growth share: their inputs, and how an item is given its bin.
 #ifndef ESPALIER_EMIT_BIND_GLSL
 #define ESPALIER_EMIT_BIND_GLSL
-#include "shaders/emit/cells.glsl"
+#include "shaders/emit/cells.h"
 #include "shaders/shared/dispatch.glsl"
 
 layout(set = 0, binding = 8, scalar) uniform BindBlock { BindInputs push; };

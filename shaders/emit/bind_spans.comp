@@ -5,7 +5,7 @@
 // A node each: the span that ends there, as an instance in the world, put into its cell.
 #include "shaders/emit/watch.glsl"
 #include "shaders/emit/span_load.h"
-#include "shaders/emit/span_thinning.glsl"
+#include "shaders/emit/span_thinning.h"
 #include "shaders/shared/record_lookup.h"
 
 layout(local_size_x = 64) in;

@@ -4,7 +4,7 @@
 // A node each, where the last span of a stretch ends: a sphere around all of the stretch, and how far one ribbon from its
 // beginning to its end would be off, for each of its spans.
 #include "shaders/emit/bind.glsl"
-#include "shaders/emit/sight.glsl"
+#include "shaders/emit/sight.h"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform TableBlock { EmitTable table; };

@@ -3,7 +3,7 @@
 #include "shaders/shared/extensions.glsl"
 // A cell each: what lies in it, by its numbers now and in its order, with new room to spare.
 #include "shaders/emit/carry.glsl"
-#include "shaders/emit/cells.glsl"
+#include "shaders/emit/cells.h"
 
 layout(local_size_x = 64) in;
 

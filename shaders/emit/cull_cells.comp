@@ -1,47 +1,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-// A cell of spans or of leaves each: is any of it seen, and how many of its items, by their order of going, can be kept
-// at its distance?
-#include "shaders/emit/cells.glsl"
+// A cell of spans or of leaves each: is any of it seen, and how many of its items can be kept?
+#include "shaders/emit/cells.h"
 #include "shaders/emit/emit_inputs.glsl"
-#include "shaders/emit/leaf_thinning.glsl"
-#include "shaders/emit/sight.glsl"
-#include "shaders/emit/span_thinning.glsl"
+#include "shaders/emit/leaf_thinning.h"
+#include "shaders/emit/sight.h"
+#include "shaders/emit/span_thinning.h"
 #include "shaders/shared/dispatch.glsl"
+#include "shaders/emit/keep_cell.h"
 
 layout(local_size_x = 64) in;
 
-const int kCellTiles = 9;   // more tiles than these, less one, along a side: not asked whether it is hidden
-
 void main() {
     uint i = itemIndex();
-    if (i >= kAllCells) return;
-    EmitCell cell = push.cells.v[i];
-    uint kept = cell.count;
-    for (bool looked = kept > 0u && (view.flags & kFullDetail) == 0u; looked; looked = false) {
-        bool leaves = i >= kLeafClass * kMaxCells;
-        vec3 middle = cellMiddle(push.grid, i % kMaxCells);
-        float reach = uintBitsToFloat(cell.reach);
-        float largest = uintBitsToFloat(cell.largest);
-        // No branch here on what is the same in all of a view: lavapipe would compile the kernel anew for every value
-        // of the view, frame by frame, and keep each.
-        float away = max(distance(view.eye, middle) - reach, 1e-6);
-        float pixels = view.pixelScale / (view.parallel == 0u ? away : 1.0);
-        // Share of the items that stay; leaves grow as others go, twigs are drawn at the least thickness.
-        float share = leaves ? leafShare(view, largest * pixels) : largest * pixels / (view.leastPixels * kFaintest);
-        // No leaf is drawn larger than the largest one where that is farthest away.
-        float farPixels = view.pixelScale / (view.parallel == 0u ? distance(view.eye, middle) + reach : 1.0);
-        float drawn = largest * leafGrowth(leafShare(view, largest * farPixels));
-        float most = reach + (leaves ? 1.3 * drawn : view.leastPixels / pixels);
-        bool none = !leaves && share * kFaintest < kThinnest || outside(view, middle, most);
-        for (bool asked = !none && u64(view.tiles) != 0ul; asked; asked = false) none = hidden(view, middle, most, kCellTiles);
-        uint last = min(uint(min(share, 1.0) * float(kCellBins)), kCellBins - 1u);
-        // Of odd classes those for whose stretches a ribbon would be too far off; one bin more, since errors are rounded.
-        bool odd = !leaves && (i / kMaxCells & 1u) != 0u;
-        uint off = min(errorBin(push.grid, view.lodPixels / pixels) + 1u, kCellBins - 1u);
-        last = odd ? ((view.flags & kStretches) != 0u ? off : kCellBins - 1u) : last;
-        kept = none ? 0u : push.bins.v[i * kCellBins + last];
-    }
-    push.seen.v[i] = kept;
+    if (i < kAllCells) push.seen.v[i] = keptOfCell(i);
 }

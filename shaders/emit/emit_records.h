@@ -20,6 +20,7 @@ CONST_UINT(kMaxBuckets, 64u);
 CONST_UINT(kNoBucket, 0xFFu);
 CONST_UINT(kStretches, 2u);    // EmitView::flags: spans that follow each other may be drawn as one
 CONST_UINT(kFullDetail, 1u);   // EmitView::flags: every instance at LOD 0, nothing is culled, thickened or thinned out
+CONST_UINT(kTilesStand, 4u);   // EmitView::flags: what tiles say stands already when the view is recorded
 
 // What a cull is for. A sphere (c, r) is outside if dot(planes[i].xyz, c) + planes[i].w < -r for some i.
 struct EmitView {
@@ -38,7 +39,7 @@ struct EmitView {
     float wholePixels;    // leaves of at least this many pixels are all drawn, of smaller ones fewer and larger,
     float leastShare;     // but at least this share of them
     uint tilePixels;      // side of the tiles, pixels
-    uint spare;
+    float drift;          // metres from this eye to that of the picture that tiles are of; 0: they are this picture's
     u64 scene;            // differs when what `tiles` says may differ; no kernel reads it
 };
 STATIC_SIZE(EmitView, 232);
@@ -98,6 +99,7 @@ CONST_UINT(kMaxCells, 4096u);
 CONST_UINT(kLeafClass, 6u);    // classes below: of spans
 CONST_UINT(kAllCells, 28672u);
 CONST_UINT(kCellBins, 64u);
+CONST_UINT(kCellTiles, 9u);    // what reaches more tiles along a side, less one, isn't asked whether it is hidden
 CONST_UINT(kSortLanes, 8u);    // that put a cell's bins in order
 CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
 

@@ -3,23 +3,12 @@
 #include "shaders/shared/extensions.glsl"
 // Blocks' counts -> where each block's instances begin in their bucket; buckets' counts, starts and indirect draws. One
 // group: a lane takes a bucket.
+#include "shaders/emit/batches.h"
 #include "shaders/emit/emit_inputs.glsl"
 
 layout(local_size_x = 64) in;
 
 shared uint counts[64];
-
-// Full batches in one command, the rest in another, so that small meshes aren't drawn one by one.
-void writeDraws(uint b, uint count) {
-    BucketRecord bucket = table.buckets[b];
-    uint batch = max(bucket.batch, 1u);
-    DrawCommand whole = DrawCommand(bucket.indexCount * batch, count / batch, bucket.firstIndex, 0, 0u);
-    uint rest = count % batch;
-    DrawCommand last = DrawCommand(bucket.indexCount * rest, rest > 0u ? 1u : 0u, bucket.firstIndex,
-                                   int((count - rest) * bucket.vertexCount), 0u);
-    push.state.v[0].draws[2u * b] = whole;
-    push.state.v[0].draws[2u * b + 1u] = last;
-}
 
 void main() {
     uint b = gl_LocalInvocationID.x;
@@ -40,7 +29,11 @@ void main() {
     for (uint i = 0u; i < b; ++i) start += counts[i];
     push.state.v[0].counts[b] = count;
     push.state.v[0].starts[b] = start;
-    writeDraws(b, count);
+    DrawCommand whole;
+    DrawCommand last;
+    drawBatches(table.buckets[b], count, whole, last);
+    push.state.v[0].draws[2u * b] = whole;
+    push.state.v[0].draws[2u * b + 1u] = last;
     if (b == 63u) {
         uint totals[2] = uint[2](0u, 0u);
         uint triangles = 0u;

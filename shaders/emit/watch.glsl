@@ -2,8 +2,8 @@
 #ifndef ESPALIER_EMIT_WATCH_GLSL
 #define ESPALIER_EMIT_WATCH_GLSL
 #include "shaders/emit/bind.glsl"
-#include "shaders/emit/leaf_thinning.glsl"
-#include "shaders/emit/sight.glsl"
+#include "shaders/emit/leaf_thinning.h"
+#include "shaders/emit/sight.h"
 
 layout(set = 0, binding = 7, scalar) uniform WatchBlock { EmitView watched; };
 

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // A grid each: is it seen, and as cells or as a pattern? Cells' rows are listed for cull_rows.
-#include "shaders/emit/sight.glsl"
+#include "shaders/emit/sight.h"
 #include "shaders/roof/clarity.glsl"
 #include "shaders/shared/dispatch.glsl"
 

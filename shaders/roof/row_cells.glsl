@@ -1,7 +1,7 @@
 // What becomes of a row's cells; counting and writing go through the same decisions.
 #ifndef ESPALIER_ROOF_ROW_CELLS_GLSL
 #define ESPALIER_ROOF_ROW_CELLS_GLSL
-#include "shaders/emit/sight.glsl"
+#include "shaders/emit/sight.h"
 #include "shaders/roof/clarity.glsl"
 #include "shaders/shared/roof_cells.h"
 

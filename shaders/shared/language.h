@@ -13,6 +13,7 @@
 #define ESPALIER_BEGIN namespace espalier {
 #define ESPALIER_END }
 #define FN inline
+#define IN(T) const T&
 #define INOUT(T) T&
 #define OUT(T) T&
 #define CONST_UINT(name, value) inline constexpr uint name = value
@@ -42,6 +43,7 @@ inline float uintBitsToFloat(uint b) { float x; std::memcpy(&x, &b, 4); return x
 #define ESPALIER_BEGIN
 #define ESPALIER_END
 #define FN
+#define IN(T) T
 #define INOUT(T) inout T
 #define OUT(T) out T
 #define CONST_UINT(name, value) const uint name = value

@@ -249,7 +249,9 @@ TEST_CASE("written triangles are those of a loop on the CPU") {
         CAPTURE(count);
         test::PlantData data = test::helix(count);
         const test::Plant plant = test::upload(*gpu.device, data);
-        Result<EmittedTriangles> out = gpu.emit.materialise(plant.inputs());
+        EmitInputs inputs = plant.inputs();
+        inputs.native = true;
+        Result<EmittedTriangles> out = gpu.emit.materialise(inputs);
         REQUIRE(out);
         const uint32_t spans = count > 0 ? count - 1 : 0;
         REQUIRE(out->vertexCount >= spans * kBarkVertices);

@@ -222,7 +222,12 @@ struct Plant {
     Buffer nodes, chunks, branches, leaves, surfaces;
     GrowthView view;
     SurfaceBuf surfaceBuf{};
-    EmitInputs inputs() const { return {view, surfaceBuf}; }
+    // To be culled by shaders, as on other devices.
+    EmitInputs inputs() const {
+        EmitInputs given{view, surfaceBuf};
+        given.native = false;
+        return given;
+    }
 };
 
 inline Plant upload(Device& device, const PlantData& data) {

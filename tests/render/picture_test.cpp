@@ -7,6 +7,8 @@
 #include <functional>
 #include <iostream>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "runtime/render/renderer.hpp"
 #include "tests/emit/fixture.hpp"
 #include "tests/render/wall.hpp"
@@ -250,6 +252,31 @@ TEST_CASE("frames of a moving camera leave no memory behind") {
         move(24);
         CHECK(double(test::heapInUse()) - double(before) < 1e6);
     }
+}
+
+TEST_CASE("what a moving picture hides by the depths of the one before, it doesn't show") {
+    Studio moving, fresh;  // the latter knows no picture before
+    const bool looksBack = moving.device->info().cpu;
+    const glm::mat4 before = glm::translate(glm::mat4(1), glm::vec3(0, 0, 1));
+    for (Studio* in : {&moving, &fresh}) {
+        REQUIRE(in->renderer->setSurface(1, wall(1.2f, 1.6f), before));  // hides much of the ivy
+        in->inputs.look.quick = true;
+        in->inputs.camera = {.eye = {-0.8f, 1, 4}, .target = {0, 0.8f, 0}};
+    }
+    size_t different = 0, fewer = 0, pixels = 0;
+    for (int frame = 0; frame < 12; ++frame) {
+        CAPTURE(frame);
+        for (Studio* in : {&moving, &fresh})
+            if (frame > 1) in->inputs.camera.eye += glm::vec3(0.15f, 0.02f, frame < 6 ? -0.05f : 0.05f);
+        fresh.renderer->forget();
+        const std::vector<uint8_t> a = moving.draw(320, 180), b = fresh.draw(320, 180);
+        for (size_t i = 0; i < a.size(); i += 4) different += std::abs(int(a[i + 1]) - int(b[i + 1])) > 8;
+        pixels += a.size() / 4;
+        if (frame > 0) fewer += moving.renderer->stats().emit.leaves * 10 < fresh.renderer->stats().emit.leaves * 9;
+        if (frame == 1 && looksBack) CHECK(a == b);
+    }
+    CHECK(double(different) < 2e-4 * double(pixels));
+    CHECK(fewer == (looksBack ? 11 : 0));
 }
 
 TEST_CASE("a frame that was recorded and never submitted leaves no trace, once it is forgotten") {

@@ -1,0 +1,27 @@
+// Is a loose terminal seen, in which bucket and how large? The text of a kernel, and in C++ of a member: `view`, `table`
+// and leafTexel() are around it.
+uint bucketOfLeaf(uint item, OUT(DrawnItem) o) {
+    vec3 origin = uintBitsToFloat(uvec3(leafTexel(4u * item)));
+    uvec4 d = leafTexel(4u * item + 3u);
+    uint kind = (d.w >> 8u) & 255u;
+    uint variant = table.kinds[kind].firstVariant + (d.z >> 3u) % table.kinds[kind].variantCount;
+    uint bucket = table.variants[variant].firstBucket;
+    o.item = item;
+    o.bits = 0u;
+    o.value = 1.0f;
+    o.place = 0u;
+    for (bool culled = (view.flags & kFullDetail) == 0u; culled; culled = false) {
+        float size = decodeLeafSize(d.w & 255u);
+        float pixels = pixelsPerMetre(view, origin) * size;
+        float share = leafShare(view, pixels);
+        o.value = leafGrowth(share);
+        float reach = size * o.value * table.variants[variant].extent;
+        bool seen = leafIsKept(share, d.z) && !outside(view, origin, reach);
+        for (bool asked = seen && IS_GIVEN(view.tiles); asked; asked = false) seen = !hidden(view, origin, reach);
+        uint lod = table.variants[variant].lodCount - 1u;
+        while (lod > 0u && table.variants[variant].error[lod] * pixels > view.lodPixels) --lod;
+        bucket = seen ? bucket + lod : kNoBucket;
+        o.bits = lod;
+    }
+    return bucket;
+}
