@@ -46,6 +46,27 @@ TEST_CASE("where sheets fan out from one edge, a walk goes on upon the one that 
     }
 }
 
+TEST_CASE("a gable that stands where a floor ends on another one of its height is climbed from there, and left") {
+    for (double wider : {0.1, 0.4}) {
+        CAPTURE(wider);
+        Kit kit;
+        const int upper = kit.panel({-0.5, 0, 0.8}, {1, 0, 0}, {0, 0, -0.8});
+        kit.panel({-0.5 - wider, 0, 0}, {1 + 2 * wider, 0, 0}, {0, 0.8, 0});  // its outside is the upper floor's side
+        floorOf(kit, 1);
+        const Baked baked = kit.bake();
+        Stroll stroll(baked.surface);
+        for (double s : {0.1, 0.5, 0.9}) {
+            CAPTURE(s);
+            REQUIRE(stroll.start(kit, upper, s, 0.5, {0, 0, -1}));
+            CHECK(stroll.go(0.7) == kWalkDone);
+            CHECK(near(stroll.w.position, {s - 0.5, 0.3, 0}, 2e-3));
+            stroll.turnBack();
+            CHECK(stroll.go(0.7) == kWalkDone);
+            CHECK(near(stroll.w.position, {s - 0.5, 0, 0.4}, 2e-3));
+        }
+    }
+}
+
 TEST_CASE("a sheet that lies on a wall, close to another one that stands out of it, is left for both") {
     for (double slit : {0.1, 0.3})
         for (bool up : {true, false}) {

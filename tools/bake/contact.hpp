@@ -31,6 +31,7 @@ class Contacts {
   private:
     bool hidden(glm::dvec3 p, uint32_t triangle, uint32_t exceptBody, bool crevices = true) const;
     void dropHidden();
+    void dropBehindLinks(const BakeMesh& mesh, const std::vector<Link>& links);
     void keepFirstMet();
 
     ContactMesh mesh_;

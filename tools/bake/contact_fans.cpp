@@ -1,7 +1,8 @@
 // In: the contacts that lead on. Out: of those that leave one line, as where sheets meet in a fan, what a walk meets
 // first when it turns to its outside. Contacts are found pair by pair, and the farther ones would else be as good.
 // Lines may lie up to a reach apart on a sheet that both of the others touch: they are no fan, since there is ground
-// between them, to which the farther contact leads back.
+// between them, to which the farther contact leads back. Where borders run along each other their link is met first
+// likewise, as by a gable that stands where two floors of one height meet.
 #include <algorithm>
 #include <map>
 
@@ -13,6 +14,7 @@ namespace {
 using glm::dvec2;
 
 constexpr double kOneLine = 1e-3;   // texels: so far apart are lines that are one; shorter parts are none
+constexpr double kAtBorder = 0.03;  // texels: so near to a border runs a contact along it
 constexpr double kSameTurn = 0.06;  // radians: turns that are alike
 
 struct Part {
@@ -45,6 +47,33 @@ void takeFrom(std::vector<Part>& parts, Part taken, double least) {
 }
 
 }  // namespace
+
+void Contacts::dropBehindLinks(const BakeMesh& mesh, const std::vector<Link>& links) {
+    std::map<uint32_t, std::vector<const Link*>> leaving;  // by triangle
+    for (const Link& link : links)
+        if (link.kind == kCrossingNearest && link.to0 > link.to1) leaving[link.from / 3].push_back(&link);
+    std::vector<Contact> kept;
+    for (const Contact& c : list_) {
+        std::vector<Part> parts{{0, 1}};
+        // Either way a walk turns through the same wedge.
+        const auto takeBehind = [&](uint32_t triangle, dvec2 a, dvec2 b) {
+            const auto found = leaving.find(triangle);
+            if (found == leaving.end()) return;
+            for (const Link* link : found->second) {
+                if (outsideAngle(mesh, link->from, link->to) >= c.turn - kSameTurn) continue;
+                const auto& uv = mesh.triangles[triangle].uv;
+                const dvec2 start = uv[link->from % 3], edge = uv[(link->from + 1) % 3] - start;
+                takeFrom(parts,
+                         covered(a, b, start + edge * link->from0, start + edge * link->from1, kAtBorder * texel_),
+                         kOneLine * texel_ / glm::length(b - a));
+            }
+        };
+        takeBehind(c.from, dvec2(c.crossing.a), dvec2(c.crossing.b));
+        takeBehind(c.to, dvec2(c.crossing.ta), dvec2(c.crossing.tb));
+        for (const Part& p : parts) kept.push_back(part(c, p.from, p.to));
+    }
+    list_.swap(kept);
+}
 
 void Contacts::keepFirstMet() {
     // Of solid bodies the nearer one hides what is behind it.

@@ -91,6 +91,7 @@ Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const O
     bodies_ = Bodies(mesh_, open);
     list_ = contactsWithin(mesh_, bodies_.tree(), {tolerance_, kBorderShift * options.texel});
     dropHidden();
+    dropBehindLinks(mesh, links);
     keepFirstMet();
 }
 
