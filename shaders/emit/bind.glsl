@@ -30,7 +30,7 @@ uint spanClass(float thick) {
 bool takeKey(uint item, bool before) {
     uint was = push.partly != 0u && before ? push.keys.v[item] : kNoIndex;
     push.keys.v[item] = kNoIndex;
-    for (bool there = was != kNoIndex; there; there = false) push.cells.v[was / kCellBins].changed = 1u;
+    if (was != kNoIndex) push.cells.v[was / kCellBins].changed = 1u;
     return was != kNoIndex;
 }
 // bin: by its order of going.

@@ -40,6 +40,6 @@ void main() {
     for (uint i = gl_GlobalInvocationID.x; i < items; i += lanes) {
         uint item = itemToPut(i);
         uint key = push.keys.v[item];
-        for (bool put = key != kNoIndex; put; put = false) count(item, key & ~kFresh);
+        if (key != kNoIndex) count(item, key & ~kFresh);
     }
 }

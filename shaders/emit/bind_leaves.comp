@@ -57,17 +57,17 @@ void takeLeaf(uint i) {
 void bindLeaf(uint i) {
     Leaf record = readLeaf(i);
     uint item = push.leafBase + i;
-    for (bool was = takeKey(item, i < push.leavesBefore); was; was = false) takeLeaf(i);
+    if (takeKey(item, i < push.leavesBefore)) takeLeaf(i);
     LeafPose pose = unpackLeaf(record.place, record.pose, record.tint);
     bool known = record.node < push.nodeCount && pose.mesh < table.kindCount &&
                  table.kinds[pose.mesh].variantCount > 0u && table.kinds[pose.mesh].bark == 0u;
-    for (bool looked = known; looked; looked = false) {
+    if (known) {
         push.leafNext.v[i] = atomicExchange(push.leafHeads.v[record.node], i);
         SpanInstance under = SPAN_INSTANCE(spanTexels, record.node);
         uint hash = leafHash(record);
         KindRecord kind = table.kinds[pose.mesh];
         uint v = kind.firstVariant + (hash >> 3u) % kind.variantCount;
-        for (bool stands = under.reach >= 0.0; stands; stands = false) {
+        if (under.reach >= 0.0) {
             PlacedLeaf leaf = placeLeaf(spanUnder(under), pose, hash, table.variants[v].extent);
             LeafInstance o;
             o.origin = leaf.origin;
@@ -93,7 +93,7 @@ void main() {
     uint count = push.partly != 0u ? listed + push.leafCount - push.leavesBefore : push.leafCount;
     for (uint i = FIRST_LANE; i < count; i += LANES) {
         uint leaf = push.partly != 0u ? push.leavesBefore + i - listed : i;
-        for (bool old = i < listed; old; old = false) leaf = push.work.v[push.leafWork + i];
+        if (i < listed) leaf = push.work.v[push.leafWork + i];
         bindLeaf(leaf);
     }
 }

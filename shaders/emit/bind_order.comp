@@ -12,11 +12,11 @@ void main() {
     for (uint i = gl_GlobalInvocationID.x; i < items; i += lanes) {
         uint item = itemToPut(i);
         uint key = push.keys.v[item];
-        for (bool put = key != kNoIndex; put; put = false) {
+        if (key != kNoIndex) {
             uint bin = key & ~kFresh;
             push.keys.v[item] = bin;
             uint cell = bin / kCellBins;
-            for (bool room = push.cells.v[cell].count > 0u; room; room = false) {
+            if (push.cells.v[cell].count > 0u) {
                 uint at = atomicAdd(push.bins.v[bin], 1u);
                 push.order.v[push.cells.v[cell].first + at] = item;
             }

@@ -70,7 +70,7 @@ void listLeaves(uint i) {
         uint leaf = push.leafHeads.v[i];
         for (uint k = 0u; k < kMostLeaves && leaf < push.leavesBefore; ++k) {
             uint at = atomicAdd(HEAD.largest, 1u);
-            for (bool room = at < push.leavesBefore; room; room = false) push.work.v[push.leafWork + at] = leaf;
+            if (at < push.leavesBefore) push.work.v[push.leafWork + at] = leaf;
             leaf = push.leafNext.v[leaf];
         }
     }
@@ -83,9 +83,9 @@ void bindSpan(uint i) {
     env.chunks = push.chunks;
     bool concerned = true;
     for (bool asked = push.partly != 0u; asked; asked = false) concerned = (push.flags.v[i] & kFlagSpan) != 0u;
-    for (bool given = concerned; given; given = false) {
+    if (concerned) {
         listLeaves(i);
-        for (bool was = takeKey(i, i < push.nodesBefore); was; was = false) {
+        if (takeKey(i, i < push.nodesBefore)) {
             atomicAdd(HEAD.first, 0u - trianglesOf(push.spans.v[i].bits & 63u));
             noteSpan(push.spans.v[i].p0, push.spans.v[i].b1, push.spans.v[i].b2, push.spans.v[i].p3,
                      max(push.spans.v[i].radius0, push.spans.v[i].radius1));
@@ -96,10 +96,10 @@ void bindSpan(uint i) {
         ChunkBrief chunk = readBrief(env, there ? node.chunk : 0u);
         push.spans.v[i].bits = kNoBark | (there ? stretchBits(node, chunk) : 0u);
         uint before = ((node.flags >> 8u) & 31u) > 0u ? i - 1u : chunk.previousNode;
-        for (bool spans = there && before != kNoIndex; spans; spans = false) {
+        if (there && before != kNoIndex) {
             Node start = readNode(env, before);
             ChunkBrief from = chunk;
-            for (bool other = start.chunk != node.chunk; other; other = false) from = readBrief(env, start.chunk);
+            if (start.chunk != node.chunk) from = readBrief(env, start.chunk);
             bool sameBranch = from.branch == chunk.branch;
             bool foot = sameBranch && ((start.flags >> 8u) & 31u) == 0u && from.previousNode == kNoIndex;
             uint ia = start.place >> 16u;
@@ -110,7 +110,7 @@ void bindSpan(uint i) {
             vec4 b0 = a0;
             vec4 b1 = a1;
             vec4 b2 = a2;
-            for (bool other = ia != ib; other; other = false) {
+            if (ia != ib) {
                 b0 = push.surfaces.v[ib].toWorld[0];
                 b1 = push.surfaces.v[ib].toWorld[1];
                 b2 = push.surfaces.v[ib].toWorld[2];
@@ -121,7 +121,7 @@ void bindSpan(uint i) {
             LoadedSpan s = spanBetween(start, node, sameBranch, foot, a0, a1, a2, b0, b1, b2);
             SpanInstance o = instanceOf(s, node, chunk, bark ? kind : kNoBark);
             writeSpan(i, o);
-            for (bool drawn = bark; drawn; drawn = false) {
+            if (bark) {
                 float thick = max(o.radius0, o.radius1);
                 giveKey(i, spanClass(thick), o.center, (o.bits >> 16u) / (0x10000u / kCellBins));
                 noteSpan(o.p0, o.b1, o.b2, o.p3, thick);

@@ -34,12 +34,12 @@ void settleClass(uint item, bool last, float error, uint order) {
     uint kind = ((cell / kMaxCells) & ~1u) + (stood ? 1u : 0u);
     uint bin = stood ? errorBin(push.grid, error) : order / (0x10000u / kCellBins);
     uint moved = (kind * kMaxCells + cell % kMaxCells) * kCellBins + bin;
-    for (bool moves = key != kNoIndex && (key & ~kFresh) != moved; moves; moves = false) {
+    if (key != kNoIndex && (key & ~kFresh) != moved) {
         push.keys.v[item] = moved | kFresh;
         for (bool listed = push.partly != 0u; listed; listed = false) {
             push.cells.v[moved / kCellBins].changed = 1u;
             push.cells.v[cell].changed = 1u;
-            for (bool stays = key < kFresh; stays; stays = false) push.list.v[atomicAdd(HEAD.changed, 1u)] = item;
+            if (key < kFresh) push.list.v[atomicAdd(HEAD.changed, 1u)] = item;
         }
     }
 }
@@ -47,7 +47,7 @@ void settleClass(uint item, bool last, float error, uint order) {
 // What stays in its cell may reach further now.
 void widen(uint item, vec3 center, float reach, float thick) {
     uint key = push.keys.v[item];
-    for (bool stays = key < kFresh; stays; stays = false) {
+    if (key < kFresh) {
         uint cell = key / kCellBins;
         float away = distance(center, cellMiddle(push.grid, cell % kMaxCells)) + reach + 2.0 * thick;
         atomicMax(push.cells.v[cell].reach, floatBitsToUint(away));
@@ -56,7 +56,7 @@ void widen(uint item, vec3 center, float reach, float thick) {
 
 void bindStretch(uint end) {
     uint bits = texelFetch(spanTexels, int(6u * end + 4u)).w;
-    for (bool last = (bits & 0x8000u) != 0u; last; last = false) {
+    if ((bits & 0x8000u) != 0u) {
         uint kind = bits & 63u;
         uint first = end - ((bits >> 12u) & 7u);
         vec3 start = curveOf(first).p0;
@@ -89,7 +89,7 @@ void bindStretch(uint end) {
             push.spans.v[i].errors = packHalf2x16(vec2(unpackHalf2x16(own.z).x, error));
             Curve s = curveOf(i);
             vec4 sphere = sound ? vec4(center, reach) : spanSphere(s.p0, s.b1, s.b2, s.p3);
-            for (bool there = uintBitsToFloat(texelFetch(spanTexels, int(6u * i + 5u)).w) >= 0.0; there; there = false) {
+            if (uintBitsToFloat(texelFetch(spanTexels, int(6u * i + 5u)).w) >= 0.0) {
                 push.spans.v[i].center = sphere.xyz;
                 push.spans.v[i].reach = sphere.w;
             }

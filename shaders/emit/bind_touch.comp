@@ -13,7 +13,7 @@ const uint kMostChildren = 4096u;
 
 // A node is listed when it is flagged first.
 void flagNode(uint node, uint flag) {
-    for (bool first = atomicOr(push.flags.v[node], flag) == 0u; first; first = false)
+    if (atomicOr(push.flags.v[node], flag) == 0u)
         push.work.v[atomicAdd(HEAD.reach, 1u)] = node;
 }
 
@@ -53,15 +53,15 @@ void main() {
     if (lane < kAllCells) push.cells.v[lane].changed = 0u;
     uint first = 4u * lane;
     uvec4 numbers = uvec4(0u);
-    for (bool old = first < push.nodesBefore; old; old = false) numbers = numbersOf(first);
+    if (first < push.nodesBefore) numbers = numbersOf(first);
     bool some = first < push.nodeCount && (first + 4u > push.nodesBefore || any(greaterThan(numbers, uvec4(push.since))));
-    for (bool looked = some; looked; looked = false) {
+    if (some) {
         for (uint k = 0u; k < 4u; ++k) {
             uint i = first + k;
             bool wrote = i < push.nodeCount && (i >= push.nodesBefore || numbers[k] > push.since);
-            for (bool flagged = wrote; flagged; flagged = false) {
+            if (wrote) {
                 flagNode(i, kFlagSpan);
-                for (bool stands = push.nodes.v[i].radius >= 0.0; stands; stands = false) flagFollowers(i);
+                if (push.nodes.v[i].radius >= 0.0) flagFollowers(i);
             }
         }
     }

@@ -18,7 +18,7 @@ uint leafNow(uint leaf) {
 // Of a chain: kNoIndex, where it ends.
 uint linkNow(uint leaf) {
     uint now = kNoIndex;
-    for (bool given = leaf < push.leafCount; given; given = false) now = leafNow(leaf);
+    if (leaf < push.leafCount) now = leafNow(leaf);
     return now;
 }
 #endif

@@ -10,8 +10,8 @@ layout(local_size_x = 64) in;
 void main() {
     uint cell = itemIndex();
     uint count = 0u;
-    for (bool there = cell < kAllCells; there; there = false) count = push.cells.v[cell].count;
-    for (bool some = count > 0u; some; some = false) {
+    if (cell < kAllCells) count = push.cells.v[cell].count;
+    if (count > 0u) {
         uint from = push.cells.v[cell].first;
         uint room = roomFor(count);
         uint to = atomicAdd(push.cells.v[kAllCells].count, room);
@@ -19,12 +19,12 @@ void main() {
             uint item = push.order.v[from + i];
             bool leaf = item >= push.leafBase;
             uint now = 0u;
-            for (bool is = leaf; is; is = false) now = push.leafBaseTo + leafNow(item - push.leafBase);
-            for (bool is = !leaf; is; is = false) now = nodeNow(item);
+            if (leaf) now = push.leafBaseTo + leafNow(item - push.leafBase);
+            if (!leaf) now = nodeNow(item);
             push.orderTo.v[to + i] = now;
         }
         push.cells.v[cell].first = to;
         push.cells.v[cell].room = room;
     }
-    for (bool none = cell < kAllCells && count == 0u; none; none = false) push.cells.v[cell].room = 0u;
+    if (cell < kAllCells && count == 0u) push.cells.v[cell].room = 0u;
 }

@@ -11,8 +11,8 @@ layout(set = 0, binding = 0) uniform usamplerBuffer leafTexels;
 void main() {
     uint i = itemIndex();
     uint to = kNoIndex;
-    for (bool there = i < push.leafCount; there; there = false) to = leafNow(i);
-    for (bool stays = to != kNoIndex; stays; stays = false) {
+    if (i < push.leafCount) to = leafNow(i);
+    if (to != kNoIndex) {
         PairBuf leaf = PairBuf(uint64_t(push.leavesTo) + uint64_t(to) * 64u);
         for (uint k = 0u; k < 4u; ++k) {
             uvec4 texel = texelFetch(leafTexels, int(4u * i + k));

@@ -11,8 +11,8 @@ layout(set = 0, binding = 0) uniform usamplerBuffer spanTexels;
 void main() {
     uint i = itemIndex();
     uint to = kNoIndex;
-    for (bool there = i < push.nodeCount; there; there = false) to = nodeNow(i);
-    for (bool stays = to != kNoIndex; stays; stays = false) {
+    if (i < push.nodeCount) to = nodeNow(i);
+    if (to != kNoIndex) {
         PairBuf span = PairBuf(uint64_t(push.spansTo) + uint64_t(to) * 96u);
         for (uint k = 0u; k < 6u; ++k) {
             uvec4 texel = texelFetch(spanTexels, int(6u * i + k));

@@ -10,14 +10,14 @@ uint bucketOfLeaf(uint item, OUT(DrawnItem) o) {
     o.bits = 0u;
     o.value = 1.0f;
     o.place = 0u;
-    for (bool culled = (view.flags & kFullDetail) == 0u; culled; culled = false) {
+    if ((view.flags & kFullDetail) == 0u) {
         float size = decodeLeafSize(d.w & 255u);
         float pixels = pixelsPerMetre(view, origin) * size;
         float share = leafShare(view, pixels);
         o.value = leafGrowth(share);
         float reach = size * o.value * table.variants[variant].extent;
         bool seen = leafIsKept(share, d.z) && !outside(view, origin, reach);
-        for (bool asked = seen && IS_GIVEN(view.tiles); asked; asked = false) seen = !hidden(view, origin, reach);
+        if (seen && IS_GIVEN(view.tiles)) seen = !hidden(view, origin, reach);
         uint lod = table.variants[variant].lodCount - 1u;
         while (lod > 0u && table.variants[variant].error[lod] * pixels > view.lodPixels) --lod;
         bucket = seen ? bucket + lod : kNoBucket;

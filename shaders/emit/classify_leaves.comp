@@ -19,7 +19,7 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     DrawnItem o = DrawnItem(0u, 0u, 1.0, 0u);
     uint bucket = kNoBucket;
-    for (bool there = lane < count; there; there = false)
+    if (lane < count)
         bucket = bucketOfLeaf(push.list.v[block * kBlockItems + lane] - push.leafBase, o);
     noteItem(block, count, o, bucket);
 }

@@ -13,13 +13,13 @@ uint bucketOfSpan(uint item, OUT(DrawnItem) o) {
     o.place = 0u;
     // No branch on what is the same in all of a view; see keep_cell.h. No bark is without variants.
     uint kinds = kMaxTerminalKinds * (1u - (view.flags & kFullDetail));
-    for (bool culled = (e.w & 63u) < kinds; culled; culled = false) {
+    if ((e.w & 63u) < kinds) {
         uvec4 f = spanTexel(6u * item + 5u);
         vec4 sphere = vec4(uintBitsToFloat(f.x), uintBitsToFloat(f.y), uintBitsToFloat(f.z), uintBitsToFloat(f.w));
         vec2 errors = unpackHalf2x16(e.z);
         float stretches = float((view.flags & kStretches) / kStretches);
         bool joined = errors.y * pixelsPerMetre(view, vec3(sphere)) <= mix(-1.0f, view.lodPixels, stretches);
-        for (bool alone = !joined; alone; alone = false) {
+        if (!joined) {
             uvec4 a = spanTexel(6u * item);
             uvec4 b = spanTexel(6u * item + 1u);
             uvec4 c = spanTexel(6u * item + 2u);
@@ -31,7 +31,7 @@ uint bucketOfSpan(uint item, OUT(DrawnItem) o) {
         float reach = sphere.w + 2.0f * max(thick, view.leastPixels / pixels);
         bool seen = (!joined || (e.w & 0x8000u) != 0u) && thin >= kThinnest && spanIsKept(thin, order) &&
                     !outside(view, vec3(sphere), reach);
-        for (bool asked = seen && IS_GIVEN(view.tiles); asked; asked = false) seen = !hidden(view, vec3(sphere), reach);
+        if (seen && IS_GIVEN(view.tiles)) seen = !hidden(view, vec3(sphere), reach);
         // n straight pieces leave about 1/n² of the bend.
         uint lod = table.variants[variant].lodCount - 1u;
         while (lod > 0u && !joined) {

@@ -18,7 +18,7 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     DrawnItem o = DrawnItem(0u, 0u, 0.0, 0u);
     uint bucket = kNoBucket;
-    for (bool there = lane < count; there; there = false)
+    if (lane < count)
         bucket = bucketOfSpan(push.list.v[block * kBlockItems + lane], o);
     noteItem(block, count, o, bucket);
 }

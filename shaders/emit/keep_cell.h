@@ -3,7 +3,7 @@
 uint keptOfCell(uint i) {
     EmitCell cell = push.cells.v[i];
     uint kept = cell.count;
-    for (bool looked = kept > 0u && (view.flags & kFullDetail) == 0u; looked; looked = false) {
+    if (kept > 0u && (view.flags & kFullDetail) == 0u) {
         bool leaves = i >= kLeafClass * kMaxCells;
         vec3 middle = cellMiddle(push.grid, i % kMaxCells);
         float reach = uintBitsToFloat(cell.reach);
@@ -19,7 +19,7 @@ uint keptOfCell(uint i) {
         float drawn = largest * leafGrowth(leafShare(view, largest * farPixels));
         float most = reach + (leaves ? 1.3f * drawn : view.leastPixels / pixels);
         bool none = (!leaves && share * kFaintest < kThinnest) || outside(view, middle, most);
-        for (bool asked = !none && IS_GIVEN(view.tiles); asked; asked = false) none = hidden(view, middle, most);
+        if (!none && IS_GIVEN(view.tiles)) none = hidden(view, middle, most);
         uint last = min(uint(min(share, 1.0f) * float(kCellBins)), kCellBins - 1u);
         // Of odd classes those for whose stretches a ribbon would be too far off; one bin more, since errors are rounded.
         bool odd = !leaves && (i / kMaxCells & 1u) != 0u;

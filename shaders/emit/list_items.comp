@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 void main() {
     uint cell = itemIndex();
     uint kept = cell < kAllCells ? push.seen.v[cell] : 0u;
-    for (bool some = kept > 0u; some; some = false) {
+    if (kept > 0u) {
         uint from = push.cells.v[cell].first;
         uint to = push.seen.v[kAllCells + cell];
         for (uint i = 0u; i < kept; ++i) push.list.v[to + i] = push.order.v[from + i];

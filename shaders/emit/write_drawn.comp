@@ -14,7 +14,7 @@ void main() {
     uint bucket = note.w >> 24u;
     uint block = i / kBlockItems;
     bool there = block < push.state.v[0].blocks[0] + push.state.v[0].blocks[1];
-    for (bool seen = there && bucket != kNoBucket; seen; seen = false) {
+    if (there && bucket != kNoBucket) {
         uint at = push.state.v[0].starts[bucket] + push.rows.v[block * kMaxBuckets + bucket] + (note.w & 0xFFFFFFu);
         push.drawn.v[at] = DrawnItem(note.x, note.y, uintBitsToFloat(note.z), 0u);
     }

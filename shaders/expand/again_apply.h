@@ -50,7 +50,7 @@ FN void unhash(ExpandEnv env, LeafChains chains, uint index, u64 key, Node node,
 // Takes out node `lane` of a chunk as it was, and with the first one what the chunk itself counted.
 FN void takeOut(ExpandEnv env, LeafChains chains, ChunkBefore was, uint lane, INOUT(GoneTally) t) {
     uint index = was.firstNode + lane;
-    for (uint k = 0u; k < (lane < chunkNodes(was.marks) ? 1u : 0u); ++k) {
+    if (lane < chunkNodes(was.marks)) {
         Node node = readNode(env, index);
         unhash(env, chains, index, was.key, node, t);
         uint flags = node.flags;
@@ -71,7 +71,7 @@ FN void applyResult(ExpandEnv env, LeafChains chains, UintBuf results, uint i, I
     uint at = kResultWords * i;
     uint index = results.v[at];
     Node node = readNode(env, index);
-    for (bool old = (AGAIN_MARKS.v[node.chunk].bits & kMarkGrown) == 0u; old; old = false)
+    if ((AGAIN_MARKS.v[node.chunk].bits & kMarkGrown) == 0u)
         unhash(env, chains, index, readKey(env, node.chunk), node, t);
     env.nodes.v[index].tangent = results.v[at + 1u];
     env.nodes.v[index].flags = results.v[at + 2u];

@@ -101,11 +101,10 @@ FN void findChunk(ExpandEnv env, EditHead head, uint c) {
     if (r.marks == 0u) return;
     uint level = (r.words[0] >> 8u) & 15u;
     bool dirty = false;
-    // Loops, since software devices skip only those.
-    for (uint asks = 0u; asks < (((r.marks >> 16u) & head.layers) != 0u ? 1u : 0u); ++asks) {
+    if (((r.marks >> 16u) & head.layers) != 0u) {
         uint grid = head.edits.v[kEditInstances + (r.words[0] & 255u)];
         bool near = grid != 0u ? readsNear(r, head.edits.v[grid - 1u], level) : level > kMaxReadLevel;
-        for (uint k = 0u; k < (near ? 1u : 0u); ++k) dirty = readsDirty(env, head.edits, c, r, grid, level);
+        if (near) dirty = readsDirty(env, head.edits, c, r, grid, level);
     }
     if (head.pruned != 0u) dirty = dirty || isAmong(head.edits, head.pruned + 1u, head.edits.v[head.pruned], env.chunks.v[c].key);
     uint looks = head.params + head.seeds != 0u || dirty ? 1u : 0u;
@@ -139,7 +138,7 @@ FN void findChunk(ExpandEnv env, EditHead head, uint c) {
             appendTo(env, kListBranches, branch);
         }
     }
-    for (uint k = 0u; k < (dirty ? 1u : 0u); ++k) {
+    if (dirty) {
         AGAIN_MARKS.v[c].bits = kMarkDirty;
         appendTo(env, kListDirty, c);
     }

@@ -20,7 +20,7 @@ void main() {
         uint chunk = listEntry(env, kListFit, i);
         ChunkBrief brief = readBrief(env, chunk);
         bool there = lane < chunkNodes(brief.marks);
-        for (uint k = 0u; k < (there ? 1u : 0u); ++k) fitAgain(env, branchesBefore, chunk, brief, lane, hash);
+        if (there) fitAgain(env, branchesBefore, chunk, brief, lane, hash);
     }
     uint end = env.status.v[0].leaves;
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;

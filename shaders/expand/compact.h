@@ -33,13 +33,12 @@ FN void moveNode(CompactEnv env, uint chunk, uint lane) {
     uint marks = env.chunks.v[chunk].marks;
     uint from = env.chunks.v[chunk].firstNode + lane;
     uint to = env.toChunks.v[chunk].firstNode + lane;
-    // Loops, since software devices skip only those.
-    for (uint k = 0u; k < (lane < chunkNodes(marks) ? 1u : 0u); ++k) {
+    if (lane < chunkNodes(marks)) {
         env.toNodes.v[to] = env.nodes.v[from];
         env.nodesWent.v[from] = to;
     }
     uint foot = marks != 0u && lane == 0u ? env.chunks.v[chunk].previousNode : kNoIndex;
-    for (uint k = 0u; k < (foot != kNoIndex ? 1u : 0u); ++k) env.toChunks.v[chunk].previousNode = placeOf(env, foot);
+    if (foot != kNoIndex) env.toChunks.v[chunk].previousNode = placeOf(env, foot);
 }
 
 FN void moveLeaf(CompactEnv env, uint leaf, uint to) {
