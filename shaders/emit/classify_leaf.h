@@ -10,7 +10,8 @@ uint bucketOfLeaf(uint item, OUT(DrawnItem) o) {
     o.bits = 0u;
     o.value = 1.0f;
     o.place = 0u;
-    if ((view.flags & kFullDetail) == 0u) {
+    // No branch on what is the same in all of a view; see keep_cell.h.
+    if (kind < kMaxTerminalKinds * (1u - (view.flags & kFullDetail))) {
         float size = decodeLeafSize(d.w & 255u);
         float pixels = pixelsPerMetre(view, origin) * size;
         float share = leafShare(view, pixels);

@@ -24,6 +24,7 @@ struct EmitRecords {
     TriangleVertex triangle;
     BindInputs bind;
     CarryPush carry;
+    TakePush take;
     EmitPush push;
     TrianglesPush triangles;
 };
