@@ -62,10 +62,13 @@ void putLeaf(WideLeaves& wide, uint32_t i, const LeafDraft& draft) {
 
 // Reads a node and, unless the one before it has it already, its chunk. runs: chunks so far.
 void readStem(const ExpandEnv& env, FinishRoom& room, uint32_t i, uint32_t index, uint32_t& runs) {
-    const Node node = readNode(env, index);
-    if (i == 0 || node.chunk != room.stems[i - 1].node.chunk) room.chunks[runs++] = stemChunk(env, node.chunk);
+    StemNode& stem = room.stems[i];
+    stem.index = index;
+    stem.node = readNode(env, index);
+    const uint32_t chunk = stem.node.chunk;
+    if (i == 0 || chunk != room.stems[i - 1].node.chunk) room.chunks[runs++] = stemChunk(env, chunk);
     room.chunkOf[i] = runs - 1;
-    room.stems[i] = stemNode(env, room.chunks[runs - 1].brief, node, index);
+    lookAround(env, room.chunks[runs - 1].brief, stem);
 }
 
 // Writes what is staged where there is room, each leaf chained to its node's last. Returns the place of the first, and

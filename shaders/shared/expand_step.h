@@ -145,7 +145,7 @@ FN Place placeOf(ExpandEnv env, WalkState w) {
 }
 
 // An item without its links: origin, branch, depth and step.
-FN WorkItem itemOf(WorkItem entry, GrowthSite site, u64 key, uint grammar, uint symbol, vec4 args, Walk walk) {
+FN WorkItem itemOf(WorkItem entry, GrowthSite site, u64 key, uint grammar, uint symbol, vec4 args, IN(Walk) walk) {
     WorkItem item;
     item.key = key;
     item.walk = walk;
@@ -217,9 +217,8 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
         u64 child = successorKey(key, successor, TABLE(at + 1u));
         uint symbol = successor & 0xFFFFu;
         bool branches = (successor & kPackedContinues) == 0u;
-        Walk walk = g.at.walk;
-        walk.arc = 0.0f;
-        WorkItem item = itemOf(entry, site, child, g.grammar, symbol, args, walk);
+        WorkItem item = itemOf(entry, site, child, g.grammar, symbol, args, g.at.walk);
+        item.walk.arc = 0.0f;
         item.origin = g.count == 0u ? kNoIndex : g.count - 1u;
         item.branch = kNoIndex;
         item.depth = entry.depth + 0x10001u;

@@ -249,10 +249,10 @@ struct StemNode {
     uint leader, follower;   // kNoIndex: it is a foot, a tip
     vec3 before, after;      // their places; its own where there is none
 };
-FN StemNode stemNode(ExpandEnv env, ChunkBrief chunk, Node node, uint index) {
-    StemNode s;
-    s.index = index;
-    s.node = node;
+// Of s its node and index are given; finds the rest. In place: where a copy is read as soon as it is written, processors
+// wait for it.
+FN void lookAround(ExpandEnv env, IN(ChunkBrief) chunk, INOUT(StemNode) s) {
+    uint index = s.index;
     uint local = index - chunk.firstNode;
     uint next = chunk.next;
     bool last = local + 1u >= chunkNodes(chunk.marks);
@@ -263,7 +263,6 @@ FN StemNode stemNode(ExpandEnv env, ChunkBrief chunk, Node node, uint index) {
     s.leader = local > 0u ? index - 1u : chunk.previousNode;
     s.before = readPosition(env, s.leader == kNoIndex ? index : s.leader);
     s.after = readPosition(env, s.follower == kNoIndex ? index : s.follower);
-    return s;
 }
 
 // The directions of the branches that leave a node, where the paper's average is asked for: it is over all adjacent
@@ -291,8 +290,8 @@ FN StemFrame stemFrame(vec3 before, vec3 at, vec3 after, vec3 branches, uint nor
 }
 
 // The node's radius, bark and leaves. It may run again on a node that was finished before.
-FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, StemChunk chunk, StemNode s, StemFrame frame,
-                         INOUT(uvec2) hash) {
+FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, IN(StemChunk) chunk, IN(StemNode) s,
+                         StemFrame frame, INOUT(uvec2) hash) {
     Node node = s.node;
     ChunkBrief brief = chunk.brief;
     uint local = s.index - brief.firstNode;
@@ -364,12 +363,14 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, StemChunk chu
 // All of it. hash: the sum of its leaves' hashes is added. Native code does the same for some nodes at a time
 // (native_finish.hpp).
 NodeFinish finishNode(ExpandEnv env, uint index, inout uvec2 hash) {
-    Node node = readNode(env, index);
-    StemChunk chunk = stemChunk(env, node.chunk);
-    StemNode s = stemNode(env, chunk.brief, node, index);
+    StemNode s;
+    s.index = index;
+    s.node = readNode(env, index);
+    StemChunk chunk = stemChunk(env, s.node.chunk);
+    lookAround(env, chunk.brief, s);
     vec3 branches = vec3(0.0f);
     if (joints(env)) branches = jointsAt(env, index);
-    StemFrame frame = stemFrame(s.before, node.position, s.after, branches, node.normal, headingOfNode(node));
+    StemFrame frame = stemFrame(s.before, s.node.position, s.after, branches, s.node.normal, headingOfNode(s.node));
     return finishStem(env, chunk, s, frame, hash);
 }
 #endif

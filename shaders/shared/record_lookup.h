@@ -24,7 +24,7 @@ struct NodeArc {
 };
 
 #ifdef __cplusplus
-inline Node readNode(ExpandEnv env, uint at) { return env.nodes.v[at]; }
+inline const Node& readNode(ExpandEnv env, uint at) { return env.nodes.v[at]; }
 inline vec3 readPosition(ExpandEnv env, uint at) { return env.nodes.v[at].position; }
 inline NodeArc readArc(ExpandEnv env, uint at) {
     const Node& node = env.nodes.v[at];
