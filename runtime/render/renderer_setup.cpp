@@ -5,6 +5,8 @@
 namespace espalier {
 namespace {
 
+constexpr uint32_t kSmallIndices = 12;  // leaves of no more are for few pixels, as those of the last LOD are
+
 GraphicsDesc fullscreen(const char* name, const char* fragment, VkFormat format) {
     GraphicsDesc desc;
     desc.name = name;
@@ -155,7 +157,11 @@ Status RendererImpl::setUp(TerminalData data) {
         const VariantRecord& variant = table.variants[v];
         const uint32_t last = variant.firstBucket + variant.lodCount - 1;
         const bool ribbon = table.buckets[last].vertexCount == 4;
-        small_[last] = last >= table.barkBuckets ? variant.lodCount > 1 : ribbon;
+        if (last < table.barkBuckets)
+            small_[last] = ribbon;
+        else if (variant.lodCount > 1)
+            for (uint32_t b = variant.firstBucket; b <= last; ++b)
+                small_[b] = b == last || table.buckets[b].indexCount <= kSmallIndices;
     }
     Result<Emit> emit = Emit::create(device_, terminals_);
     if (!emit) return emit.failure();

@@ -20,7 +20,8 @@ uint bucketOfLeaf(uint item, OUT(DrawnItem) o) {
         bool seen = leafIsKept(share, d.z) && !outside(view, origin, reach);
         if (seen && IS_GIVEN(view.tiles)) seen = !hidden(view, origin, reach);
         uint lod = table.variants[variant].lodCount - 1u;
-        while (lod > 0u && table.variants[variant].error[lod] * pixels > view.lodPixels) --lod;
+        float drawn = max(pixels, view.wholePixels);   // smaller ones are drawn as large as this
+        while (lod > 0u && table.variants[variant].error[lod] * drawn > view.lodPixels) --lod;
         bucket = seen ? bucket + lod : kNoBucket;
         o.bits = lod;
     }

@@ -7,7 +7,7 @@
 namespace espalier::content {
 
 inline constexpr int kLeafVariants = 3;
-inline constexpr int kLeafLods = 3;
+inline constexpr int kLeafLods = 4;
 inline constexpr int kBarkLods = 3;
 inline constexpr int kPebbleVariants = 2;
 inline constexpr int kPebbleLods = 2;

@@ -1,5 +1,5 @@
 // Leaf meshes that follow the lobes. In: variant and level of detail. Out: a folded, drooping blade on an arched
-// stalk, 35, 10 and 4 triangles.
+// stalk, 35, 10, 4 and 2 triangles.
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +30,7 @@ glm::vec3 shapeLeaf(int variant, float base, glm::vec2 p) {
 struct Flat {
     std::vector<glm::vec2> points;
     std::vector<std::array<uint32_t, 3>> triangles;
+    float stretch = 1;  // of x against the picture
 };
 
 float turn(glm::vec2 a, glm::vec2 b, glm::vec2 c) {
@@ -132,6 +133,14 @@ Flat farLeaf(const LeafShape& shape) {
     return flat;
 }
 
+// A kite of two triangles, folded at the midrib, about nearly all of the blade; wider by the share that it cuts off.
+Flat kiteLeaf(int variant) {
+    static const glm::vec2 kSide[] = {{0.55f, 0.30f}, {0.52f, 0.34f}, {0.50f, 0.19f}};
+    static const float kStretch[] = {1.05f, 1.01f, 1.03f};
+    const glm::vec2 side = kSide[variant];
+    return {{{0, 0.01f}, side, {0, 1.01f}, {-side.x, side.y}}, {{0, 1, 2}, {0, 2, 3}}, kStretch[variant]};
+}
+
 void addStalk(Mesh& mesh, int variant, const LeafShape& shape, uint32_t rings) {
     float half = kStalkHalfWidth * 1.6f;
     uint32_t first = static_cast<uint32_t>(mesh.positions.size());
@@ -163,12 +172,17 @@ void smoothNormals(Mesh& mesh) {
 
 Mesh makeLeaf(int variant, int lod) {
     LeafShape shape = leafShape(variant);
-    Flat flat = lod == 0 ? fineLeaf(shape) : lod == 1 ? middleLeaf(shape, 8) : farLeaf(shape);
+    Flat flat = lod == 0   ? fineLeaf(shape)
+                : lod == 1 ? middleLeaf(shape, 8)
+                : lod == 2 ? farLeaf(shape)
+                           : kiteLeaf(variant);
     Mesh mesh;
     for (glm::vec2 p : flat.points) {
-        mesh.positions.push_back(shapeLeaf(variant, shape.base, p));
+        mesh.positions.push_back(shapeLeaf(variant, shape.base, {p.x * flat.stretch, p.y}));
         mesh.uvs.push_back(leafUv(variant, p));
     }
+    if (lod == 3)
+        mesh.positions[0].z = shapeLeaf(variant, shape.base, {0, shape.base}).z;  // as the blade, not the stalk
     for (auto& t : flat.triangles)
         for (uint32_t v : t) mesh.indices.push_back(v);
     if (lod < 2) addStalk(mesh, variant, shape, lod == 0 ? 4 : 2);
