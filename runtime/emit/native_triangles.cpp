@@ -8,14 +8,8 @@
 #endif
 
 #include "runtime/core/jobs.hpp"
+#include "runtime/core/lanes.hpp"
 #include "shaders/emit/bark_ring.h"
-
-// Wider vectors where the machine has them; no fused operations, so the bits are the same.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define ESPALIER_LANES __attribute__((flatten, target_clones("avx2", "default")))
-#else
-#define ESPALIER_LANES __attribute__((flatten))
-#endif
 
 namespace espalier {
 namespace {

@@ -28,23 +28,16 @@ struct FinishRoom {
 };
 
 void putStem(FinishRoom& room, uint32_t i, vec3 branches) {
-    const auto put = [&](WideStems::Vectors& to, vec3 v) {
-        to.x[i] = v.x;
-        to.y[i] = v.y;
-        to.z[i] = v.z;
-    };
     const StemNode& stem = room.stems[i];
-    put(room.wide.before, stem.before);
-    put(room.wide.at, stem.node.position);
-    put(room.wide.after, stem.after);
-    put(room.wide.branches, branches);
+    put(room.wide.before, i, stem.before);
+    put(room.wide.at, i, stem.node.position);
+    put(room.wide.after, i, stem.after);
+    put(room.wide.branches, i, branches);
     room.wide.packedNormal[i] = stem.node.normal;
     room.wide.packedHeading[i] = headingOfNode(stem.node);
 }
 StemFrame frameIn(const WideStems& wide, uint32_t i) {
-    return {{wide.normal.x[i], wide.normal.y[i], wide.normal.z[i]},
-            {wide.heading.x[i], wide.heading.y[i], wide.heading.z[i]},
-            wide.tangent[i]};
+    return {vectorOf(wide.normal, i), vectorOf(wide.heading, i), wide.tangent[i]};
 }
 
 void putLeaf(WideLeaves& wide, uint32_t i, const LeafDraft& draft) {

@@ -4,26 +4,7 @@
 
 #include "shaders/shared/expand_terminals.h"
 
-// Wider vectors where the machine has them; no fused operations, so the bits are the same.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define ESPALIER_LANES __attribute__((flatten, target_clones("avx2", "default")))
-#else
-#define ESPALIER_LANES __attribute__((flatten))
-#endif
-
 namespace espalier {
-namespace {
-
-vec3 vectorOf(const WideStems::Vectors& v, uint32_t i) {
-    return {v.x[i], v.y[i], v.z[i]};
-}
-void put(WideStems::Vectors& to, uint32_t i, vec3 v) {
-    to.x[i] = v.x;
-    to.y[i] = v.y;
-    to.z[i] = v.z;
-}
-
-}  // namespace
 
 ESPALIER_LANES void frameStems(WideStems& l) {
     for (uint32_t i = 0; i < kNodeLanes; ++i) {

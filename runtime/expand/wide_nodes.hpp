@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "shaders/shared/language.h"
+#include "runtime/core/lanes.hpp"
 
 namespace espalier {
 
@@ -14,9 +14,7 @@ constexpr uint32_t kNodeLanes = 64, kLeafLanes = 64;
 struct alignas(64) WideStems {
     using Floats = float[kNodeLanes];
     using Words = uint32_t[kNodeLanes];
-    struct Vectors {
-        Floats x, y, z;
-    };
+    using Vectors = LaneVectors<kNodeLanes>;
 
     // In: as stemFrame takes them.
     Vectors before, at, after, branches;

@@ -15,14 +15,6 @@
 namespace espalier {
 namespace {
 
-vec3 vectorOf(const WideWalks::Vectors& v, uint32_t i) {
-    return {v.x[i], v.y[i], v.z[i]};
-}
-void put(WideWalks::Vectors& to, uint32_t i, vec3 v) {
-    to.x[i] = v.x;
-    to.y[i] = v.y;
-    to.z[i] = v.z;
-}
 void put(WideWalks::Vectors& to, WideWalks::Words& bits, uint32_t i, const Texel& t) {
     put(to, i, t.position);
     bits[i] = t.bits;
@@ -210,26 +202,16 @@ struct LaneLoops {
     void (*blendEnds)(WideWalks&);
     void (*land)(WideWalks&);
 };
-ESPALIER_AVX2 void setOutAvx2(WideWalks& l) {
-    setOut(l);
+template <void (*kLoop)(WideWalks&)>
+ESPALIER_AVX2 void withAvx2(WideWalks& l) {
+    kLoop(l);
 }
-ESPALIER_AVX2 void blendEndsAvx2(WideWalks& l) {
-    blendEnds(l);
+template <void (*kLoop)(WideWalks&)>
+ESPALIER_AVX512 void withAvx512(WideWalks& l) {
+    kLoop(l);
 }
-ESPALIER_AVX2 void landAvx2(WideWalks& l) {
-    land(l);
-}
-ESPALIER_AVX512 void setOutAvx512(WideWalks& l) {
-    setOut(l);
-}
-ESPALIER_AVX512 void blendEndsAvx512(WideWalks& l) {
-    blendEnds(l);
-}
-ESPALIER_AVX512 void landAvx512(WideWalks& l) {
-    land(l);
-}
-constexpr LaneLoops kLoopsAvx2 = {setOutAvx2, blendEndsAvx2, landAvx2},
-                    kLoopsAvx512 = {setOutAvx512, blendEndsAvx512, landAvx512};
+constexpr LaneLoops kLoopsAvx2 = {withAvx2<setOut>, withAvx2<blendEnds>, withAvx2<land>},
+                    kLoopsAvx512 = {withAvx512<setOut>, withAvx512<blendEnds>, withAvx512<land>};
 
 // visit(lane) for each bit.
 template <class Visit>

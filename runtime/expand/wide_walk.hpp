@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "runtime/core/lanes.hpp"
 #include "shaders/shared/walk.h"
 
 namespace espalier {
@@ -21,9 +22,7 @@ VectorKind widestVectors();
 struct alignas(64) WideWalks {
     using Floats = float[kWalkLanes];
     using Words = uint32_t[kWalkLanes];
-    struct Vectors {
-        Floats x, y, z;
-    };
+    using Vectors = LaneVectors<kWalkLanes>;
 
     VectorKind vectors;  // that this processor has
 
