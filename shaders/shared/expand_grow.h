@@ -286,8 +286,10 @@ FN void decide(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
     if ((kFeatures & kFeatureSurface) != 0u && c.site.sceneLayers != 0u) notePlace(c.g.reads, instance, c.g.trial.walk.uv);
     if (c.g.arrived) arrive(MACHINE env, c.map, c.site, c.g);
     uint lists = 0u;
-    if (c.g.phase == kPhaseDerive) do deriveRule(MACHINE env, c.map, c.site, c.item, c.g);
-        while (++lists <= kMaxListDepth && c.g.phase == kPhaseDerive);
+    if (c.g.phase != kPhaseDerive) return;
+    do {
+        deriveRule(MACHINE env, c.map, c.site, c.item, c.g);
+    } while (++lists <= kMaxListDepth && c.g.phase == kPhaseDerive);
 }
 // what comes after it,
 FN void endTrip(INOUT(Grower) g) {

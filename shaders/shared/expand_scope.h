@@ -57,7 +57,6 @@ FN void notePlace(INOUT(ReadSet) r, uint instance, vec2 uv) {
     uint x = uint(limited(uv.x * 256.0f, 0.0f, 255.0f));
     uint y = uint(limited(uv.y * 256.0f, 0.0f, 255.0f));
     uint place = ((instance & 0xFFFFu) << 16u) | (y << 8u) | x;
-    // A loop, since software devices skip only those.
     for (bool again = place != r.last; again;) {
         r.last = place;
         bool same = r.instance == kNoIndex || r.instance == instance;

@@ -187,19 +187,21 @@ FN TableBases basesOf(ExpandEnv env, uint grammar) {
 FN void runTable(MACHINE_PARAM ExpandEnv env, TableBases map, uint pair) {
     uint at = map.code + 2u * (pair & 0xFFFFu);
     uint end = at + 2u * (pair >> 16u);
-    if (at < end) do {   // software devices go through a body once more where the test comes first
-            uint bits = TABLE(at);
-            uint immediate = TABLE(at + 1u);
-            runWord(MACHINE bits, uintBitsToFloat(immediate));
-            at += 2u;
-        } while (at < end);
+    if (at >= end) return;
+    do {   // software devices go through a body once more where the test comes first
+        uint bits = TABLE(at);
+        uint immediate = TABLE(at + 1u);
+        runWord(MACHINE bits, uintBitsToFloat(immediate));
+        at += 2u;
+    } while (at < end);
 }
 FN void drawTable(MACHINE_PARAM ExpandEnv env, TableBases map, uint first, uint count, u64 key, u64 instanceKey) {
     uint j = 0u;
-    if (count != 0u) do {
-            uint site = TABLE(map.sites + first + j);
-            SLOT(kSlotDraw + j) = drawSite(site, key, instanceKey);
-        } while (++j < count);
+    if (count == 0u) return;
+    do {
+        uint site = TABLE(map.sites + first + j);
+        SLOT(kSlotDraw + j) = drawSite(site, key, instanceKey);
+    } while (++j < count);
 }
 
 // A value as the tables hold it.

@@ -7,7 +7,6 @@
 
 ESPALIER_BEGIN
 
-
 // The point of a -> b that is nearest to uv.
 FN vec2 nearestOnEdge(vec2 a, vec2 b, vec2 uv) {
     vec2 e = b - a;
