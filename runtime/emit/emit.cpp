@@ -15,9 +15,6 @@ constexpr float kWholePixels = 8, kLeastShare = 0.12f;
 uint32_t tilesAlong(const EmitView& view, uint32_t pixels) {
     return (pixels + view.tilePixels - 1) / view.tilePixels;
 }
-uint32_t tilesOf(const EmitView& view) {
-    return tilesAlong(view, view.width) * tilesAlong(view, view.height);
-}
 
 }  // namespace
 
@@ -237,6 +234,10 @@ EmitStats Emit::stats() const {
     stats.bound = state.boundItems;
     stats.buckets.assign(state.counts, state.counts + kMaxBuckets);
     return stats;
+}
+
+uint32_t tilesOf(const EmitView& view) {
+    return tilesAlong(view, view.width) * tilesAlong(view, view.height);
 }
 
 EmitView perspectiveView(const glm::mat4& viewProjection, glm::vec3 eye, float pixelScale, float lodPixels) {

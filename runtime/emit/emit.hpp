@@ -183,5 +183,7 @@ EmitView perspectiveView(const glm::mat4& viewProjection, glm::vec3 eye, float p
 // spans that follow each other may be drawn as one.
 void thinOut(EmitView& view, float leafPixels);
 EmitView parallelView(const glm::mat4& viewProjection, float pixelsPerMetre, float lodPixels);
+// How many tiles of tilePixels the picture has.
+uint32_t tilesOf(const EmitView& view);
 
 }  // namespace espalier

@@ -159,7 +159,7 @@ EmitInputs RendererImpl::emitInputs(const DrawInputs& inputs) const {
 Status RendererImpl::findTiles(Commands& commands, EmitView& view) {
     DepthTiles& to = *std::min_element(tiles_.begin(), tiles_.end(),
                                        [](const DepthTiles& a, const DepthTiles& b) { return a.serial < b.serial; });
-    const uint32_t count = ((view.width + kDepthTile - 1) / kDepthTile) * ((view.height + kDepthTile - 1) / kDepthTile);
+    const uint32_t count = tilesOf(view);
     if (!to.buffer || to.buffer.size() < count * sizeof(float)) {
         Result<Buffer> made = Buffer::create(device_, "depth tiles", count * sizeof(float));
         if (!made) return made.failure();

@@ -54,7 +54,6 @@ class RendererImpl final : public Renderer {
     };
     Status makeScene(ScenePrograms& programs, Shading shading, Blend blend) const;
     Status pickScene(ViewMode shown, bool quick);
-    // rest: what draws edges, where there is one sample a pixel.
     Result<const Program*> resolveProgram(VkFormat format);
     // Uploads the record to frame_.
     Status upload(Commands& commands, const FrameRecord& frame);

@@ -99,7 +99,7 @@ CONST_UINT(kMaxCells, 4096u);
 CONST_UINT(kLeafClass, 6u);    // classes below: of spans
 CONST_UINT(kAllCells, 28672u);
 CONST_UINT(kCellBins, 64u);
-CONST_UINT(kCellTiles, 9u);    // what reaches more tiles along a side, less one, isn't asked whether it is hidden
+CONST_UINT(kReachTiles, 9u);   // what reaches more tiles along a side, less one, isn't asked whether it is hidden
 CONST_UINT(kSortLanes, 8u);    // that put a cell's bins in order
 CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
 

@@ -40,7 +40,7 @@ FN bool hidden(IN(EmitView) view, vec3 center, float sphere) {
     vec2 edge = abs(vec2(clip));
     if (min(view.drift, max(edge.x, edge.y) - clip.w) > 0.0f) return false;
     Reach tiles = reachOf(view, clip, nearest, radius);
-    if (any(greaterThan(tiles.high - tiles.low, ivec2(int(kCellTiles))))) return false;
+    if (any(greaterThan(tiles.high - tiles.low, ivec2(int(kReachTiles))))) return false;
     float depth = clip.z / nearest;   // clip.z is the near plane's distance everywhere
     for (int y = tiles.low.y; y <= tiles.high.y; ++y)
         for (int x = tiles.low.x; x <= tiles.high.x; ++x)

@@ -14,7 +14,8 @@ CONST_UINT(kViewDepth, 5u);
 CONST_UINT(kViewOverdraw, 6u);
 
 // Constants of programs: do they draw another view than the shaded one? Do textures hold square roots of colours? Are
-// they for pictures of what moves, which have to be cheap? Do they draw the rest that a simpler program left out?
+// they for pictures of what moves, which have to be cheap? Do they draw the rest, too:
+// meadow on the feet of models, hills before the sky?
 CONST_UINT(kExplains, 0u);
 CONST_UINT(kRooted, 1u);
 CONST_UINT(kQuick, 2u);
