@@ -10,6 +10,7 @@ using namespace espalier;
 namespace {
 
 struct Gpu : test::EmitPipeline {
+    using EmitPipeline::EmitPipeline;
     EmitState cull(const test::Plant& plant, const EmitView& view) { return EmitPipeline::cull(plant.inputs(), view); }
 
     // What the last cull left, in the order of drawing, at the sizes that it asked for.
@@ -194,6 +195,34 @@ TEST_CASE("levels of detail fall with distance, and far canopies keep their area
         CHECK(area == doctest::Approx(nearArea).epsilon(distance < 40 ? 0.15 : 0.3));
     }
     CHECK(before * 20 < gpu.cull(plant, fullDetail()).drawnTriangles);
+}
+
+TEST_CASE("cut-out leaves of two triangles are for pictures of what moves") {
+    TerminalData meshes = test::simpleTerminals();
+    meshes.materials.emplace_back().alphaCutoff = 0.5f;
+    meshes.variants[1].lods.clear();
+    for (uint32_t quads : {4u, 2u, 1u}) test::addSquare(meshes, meshes.variants[1], quads, 0, 1);
+    meshes.variants.erase(meshes.variants.begin() + 2);  // the other leaf
+    measureTerminalErrors(meshes);
+    Gpu gpu(test::validatedDevice(), meshes);
+    const test::Plant plant = test::upload(*gpu.device, test::wallIvy(8, 2, 1.5f));
+    const auto kites = [&](float distance, float lodPixels) {
+        const glm::vec3 eye(0, 0.7f, distance);
+        const EmitState state =
+            gpu.cull(plant, perspectiveView(lookAt(eye, {0, 0.7f, 0}, 0.9f, 1.6f), eye, 745, lodPixels));
+        REQUIRE(state.leafCount > 50);
+        const uint32_t first = gpu.terminals.table().variants[1].firstBucket;
+        REQUIRE(gpu.terminals.lodOfBucket(first + 2).indexCount == 6);
+        CHECK(state.counts[first] + state.counts[first + 1] + state.counts[first + 2] == state.leafCount);
+        return double(state.counts[first + 2]) / state.leafCount;
+    };
+    for (float distance : {2.0f, 12.0f, 60.0f}) {
+        CAPTURE(distance);
+        CHECK(kites(distance, 1) == 0);     // what rests
+        CHECK(kites(distance, 1.2f) == 0);  // and its shadows
+    }
+    CHECK(kites(1, 4) < 0.1);
+    CHECK(kites(12, 4) > 0.9);
 }
 
 TEST_CASE("leaves stand off the wall") {

@@ -202,6 +202,26 @@ inline void addBlade(TerminalData& data, TerminalVariant& variant, uint32_t rows
     variant.lods.push_back(lod);
 }
 
+// A unit square of quads × quads, whose columns of vertices stand `height` above and below it in turn.
+inline void addSquare(TerminalData& data, TerminalVariant& variant, uint32_t quads, float height = 0,
+                      uint32_t material = 0) {
+    TerminalLod lod;
+    lod.firstVertex = uint32_t(data.vertices.size());
+    lod.firstIndex = uint32_t(data.indices.size());
+    lod.material = material;
+    for (uint32_t y = 0; y <= quads; ++y)
+        for (uint32_t x = 0; x <= quads; ++x)
+            data.vertices.push_back(
+                {{float(x) / float(quads), float(y) / float(quads), x % 2 ? height : -height}, 0, {}});
+    for (uint32_t i = 0; i < quads * quads; ++i) {
+        const uint32_t a = i / quads * (quads + 1) + i % quads, c = a + quads + 1;
+        for (uint32_t k : {a, a + 1, c + 1, a, c + 1, c}) data.indices.push_back(k);
+    }
+    lod.vertexCount = uint32_t(data.vertices.size()) - lod.firstVertex;
+    lod.indexCount = uint32_t(data.indices.size()) - lod.firstIndex;
+    variant.lods.push_back(lod);
+}
+
 inline TerminalData simpleTerminals() {
     TerminalData data;
     data.kinds = standardTerminalKinds();

@@ -23,8 +23,9 @@ struct EmitPipeline {
     Terminals terminals;
     Emit emit;
 
-    explicit EmitPipeline(std::shared_ptr<Device> on = validatedDevice()) : device(std::move(on)) {
-        Result<Terminals> t = Terminals::create(*device, simpleTerminals());
+    explicit EmitPipeline(std::shared_ptr<Device> on = validatedDevice(), TerminalData meshes = simpleTerminals())
+        : device(std::move(on)) {
+        Result<Terminals> t = Terminals::create(*device, std::move(meshes));
         REQUIRE(t);
         terminals = std::move(*t);
         Result<Emit> e = Emit::create(*device, terminals);

@@ -9,6 +9,7 @@
 
 #include "runtime/core/glb.hpp"
 #include "runtime/emit/terminals.hpp"
+#include "tests/emit/fixture.hpp"
 
 using namespace espalier;
 
@@ -53,29 +54,12 @@ TEST_CASE("terminals are read by their names") {
 }
 
 TEST_CASE("a LOD's error is its distance to the finest mesh, of large meshes too") {
-    // Two unit squares of n × n quads: a flat one, and one whose columns of vertices stand .1 above and below it in
-    // turn.
     const uint32_t n = 160;
     TerminalData data;
     data.materials.emplace_back();
-    auto grid = [&](uint32_t quads, float height) {
-        TerminalLod lod;
-        lod.firstVertex = uint32_t(data.vertices.size());
-        lod.firstIndex = uint32_t(data.indices.size());
-        for (uint32_t y = 0; y <= quads; ++y)
-            for (uint32_t x = 0; x <= quads; ++x)
-                data.vertices.push_back(
-                    {{float(x) / float(quads), float(y) / float(quads), x % 2 ? height : -height}, 0, {}});
-        for (uint32_t i = 0; i < quads * quads; ++i) {
-            const uint32_t a = i / quads * (quads + 1) + i % quads, c = a + quads + 1;
-            for (uint32_t k : {a, a + 1, c + 1, a, c + 1, c}) data.indices.push_back(k);
-        }
-        lod.vertexCount = uint32_t(data.vertices.size()) - lod.firstVertex;
-        lod.indexCount = uint32_t(data.indices.size()) - lod.firstIndex;
-        return lod;
-    };
     TerminalVariant variant;
-    variant.lods = {grid(n, 0), grid(n, .1f)};
+    test::addSquare(data, variant, n);
+    test::addSquare(data, variant, n, .1f);
     data.variants.push_back(variant);
     // From the flat one's vertices the slopes are half a quad away, almost level with them.
     const double slope = .2 * n, there = .5 / n * slope / std::sqrt(1 + slope * slope), back = .1;
@@ -85,6 +69,23 @@ TEST_CASE("a LOD's error is its distance to the finest mesh, of large meshes too
     data.materials[0].alphaCutoff = .5f;  // a cut-out is judged from the finest mesh only
     measureTerminalErrors(data);
     CHECK(data.variants[0].lods[1].error == doctest::Approx(there).epsilon(1e-4));
+}
+
+TEST_CASE("a cut-out of two triangles is far off, however near the finest mesh it lies") {
+    TerminalData data;
+    data.materials.emplace_back();
+    TerminalVariant variant;
+    for (uint32_t quads : {4u, 2u, 1u}) test::addSquare(data, variant, quads);
+    data.variants.push_back(variant);
+    const auto errors = [&](float alphaCutoff) {
+        data.materials[0].alphaCutoff = alphaCutoff;
+        measureTerminalErrors(data);
+        return glm::vec2(data.variants[0].lods[1].error, data.variants[0].lods[2].error);
+    };
+    CHECK(errors(0).x < .01f);
+    CHECK(errors(0).y < .01f);
+    CHECK(errors(.5f).x < .01f);
+    CHECK(errors(.5f).y > .15f);
 }
 
 TEST_CASE("a missing file is named") {
