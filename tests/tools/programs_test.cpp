@@ -171,3 +171,23 @@ TEST_CASE("the runtime's folders include each other in one direction") {
     CHECK(bad.code == 1);
     CHECK(contains(bad.output, "runtime/core/a.cpp:1:"));
 }
+
+TEST_CASE("the compiler makes vectors of loops over lanes") {
+    const std::string check = std::string("tools/lib/check_vectors ") + ESPALIER_BUILD;
+    const Ran good = run(check);
+    CHECK_MESSAGE(good.code == 0, good.output);
+    if (!good.output.empty()) {
+        MESSAGE(good.output);
+        return;
+    }
+    // And the check finds what it is for: a loop that may end early.
+    const std::string file = "runtime/expand/wide_nodes.cpp", end = "l.packedTint[i] = leaf.tint;\n";
+    std::string text = readAll(file);
+    const size_t at = text.find(end);
+    REQUIRE(at != std::string::npos);
+    text.insert(at + end.size(), "if (leaf.tint == 7) return;\n");
+    const Folder folder;
+    const Ran bad = run(check + " " + file + " " + folder.write("early.cpp", text));
+    CHECK(bad.code == 1);
+    CHECK_MESSAGE(contains(bad.output, "early.cpp:"), bad.output);
+}
