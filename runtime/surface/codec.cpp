@@ -23,7 +23,8 @@ using Bytes = std::vector<uint8_t>;
 constexpr uint32_t kBandRows = 64;
 constexpr int kEffort = 9;  // zstd's level
 constexpr uint8_t kRaw = 128, kPlaced = 64;
-constexpr uint32_t kFromLeft = 0, kFromAbove = 1, kFromAboveLeft = 2, kFromAboveRight = 3, kNamed = 4;
+// Whose triangle a texel's is: a neighbour's, or one that is named.
+enum Whose : uint32_t { kFromLeft, kFromAbove, kFromAboveLeft, kFromAboveRight, kNamed };
 constexpr size_t kPlanes = 7;  // clearance, curvature, normal's x and y by bytes, crossings
 
 Bytes pack(const Bytes& plain) {
