@@ -28,10 +28,10 @@ vec3 cardNormal(float code) {
     if (n.y < 0.0) n.xz = (1.0 - abs(n.zx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.z < 0.0 ? -1.0 : 1.0);
     return normalize(n);
 }
-// As meadow.glsl: green, in places dry; u is how far up the blade.
+// As meadow.glsl: green, in places dry; u is how far up the blade, whose foot has the ground's colour.
 vec3 grassColor(PropVertex v) {
-    vec3 green = frame.grassColor * (0.30 + 1.25 * v.uv.x);
-    vec3 dry = frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.45 + 1.05 * v.uv.x);
+    vec3 green = frame.grassColor * (0.78 + 0.62 * v.uv.x);
+    vec3 dry = frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.70 + 0.75 * v.uv.x);
     return mix(green, dry, 0.65 * v.tint);
 }
 
@@ -42,23 +42,25 @@ void main() {
     v.uv.y -= card ? floor(v.uv.y) : 0.0;
     vec3 eye = normalize(frame.eye - v.position);
     shown = card ? smoothstep(0.06, 0.42, abs(dot(turned(v, cardNormal(code)), eye))) : 1.0;
-    float open = grass ? 0.45 + 0.55 * v.uv.x : floor(v.uv.x) * 0.125;
+    float open = grass ? 0.72 + 0.28 * v.uv.x : floor(v.uv.x) * 0.125;
     float side = dot(v.normal, frame.sunDirection);
     // Light gets some way into a crown.
     float into = grass ? 0.0 : 0.9 * frame.unit;
-    float visible = mix(grass ? 0.0 : 0.22, 1.0, sunVisibility(v.position + frame.sunDirection * into, v.normal));
+    float visible = mix(grass ? 0.0 : 0.30, 1.0, sunVisibility(v.position + frame.sunDirection * into, v.normal));
     // Leaves turn every way: what falls on a crown's far side comes through, the more the thinner it is.
-    float facing = clamp(0.34 + 0.66 * side, 0.14, 1.0);
+    float facing = clamp(0.40 + 0.60 * side, 0.20, 1.0);
     vec3 tone = grass ? grassColor(v) : foliageColor(v, code);
     vec3 direct = frame.sunColor * (visible * facing * (0.45 + 0.55 * open));
     // Against the sun, leaves glow.
     if (!grass) direct *= 1.0 + vec3(0.9, 0.7, 0.1) * pow(max(dot(-eye, frame.sunDirection), 0.0), 3.0);
-    vec3 ambient = skyLight(v.normal) * (grass ? open : 0.56 + 0.44 * open * open);
+    // They see the sky past each other from wherever they are, and what comes through them is yellower.
+    vec3 ambient = grass ? skyLight(v.normal) * open
+                         : skyLight(0.55 * v.normal + vec3(0.0, 0.25, 0.0)) * vec3(1.12, 1.10, 0.84) * (0.50 + 0.50 * open);
     const vec3 weights = vec3(0.3, 0.6, 0.1);
     light = tone * (direct + ambient) * frame.exposure;
     // What lets light through darkens what is behind it less than distances tell.
     float share = dot(ambient, weights) / max(dot(direct + ambient, weights), 1e-5);
-    uvShare = vec3(v.uv, share * (grass ? 0.3 : 0.7));
+    uvShare = vec3(v.uv, share * (grass ? 0.15 : 0.7));
     fade = v.fade;
     gl_Position = frame.viewProjection * vec4(v.position, 1.0);
 }

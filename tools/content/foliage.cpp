@@ -14,56 +14,68 @@ constexpr float kPi = 3.14159265f;
 
 struct Species {
     float length, width;    // of a leaf, in cells
-    int sprigs, leaves;     // on a twig; on a sprig
+    int sprigs;             // on a twig
+    float spread;           // radians that its sprigs stand off
     glm::vec3 dark, light;  // linear
     float serrated;         // of its edge
 };
 // Rows of the atlas: lime, apple, birch, shrub.
-const Species kSpecies[] = {{0.078f, 0.056f, 29, 8, {0.026f, 0.050f, 0.016f}, {0.094f, 0.136f, 0.040f}, 0.05f},
-                            {0.072f, 0.042f, 33, 8, {0.030f, 0.050f, 0.024f}, {0.100f, 0.128f, 0.058f}, 0.03f},
-                            {0.056f, 0.044f, 33, 8, {0.042f, 0.066f, 0.018f}, {0.130f, 0.156f, 0.046f}, 0.06f},
-                            {0.064f, 0.042f, 36, 8, {0.028f, 0.050f, 0.020f}, {0.092f, 0.122f, 0.044f}, 0.02f}};
+const Species kSpecies[] = {{0.080f, 0.058f, 18, 1.25f, {0.026f, 0.050f, 0.015f}, {0.098f, 0.138f, 0.036f}, 0.05f},
+                            {0.074f, 0.042f, 19, 1.20f, {0.030f, 0.050f, 0.022f}, {0.104f, 0.130f, 0.054f}, 0.03f},
+                            {0.056f, 0.044f, 19, 1.10f, {0.034f, 0.060f, 0.017f}, {0.112f, 0.152f, 0.044f}, 0.06f},
+                            {0.066f, 0.042f, 20, 1.15f, {0.028f, 0.050f, 0.019f}, {0.096f, 0.126f, 0.042f}, 0.02f}};
 
 struct Leaf {
     glm::vec2 foot, along;
     float length, width, bright, lie;
 };
 
-// Sprigs spread from about the cell's middle and leave gaps between their tips; leaves stand on them in turn to both
-// sides. What is farther out lies over the rest and is lighter. scale: of leaves and sprigs.
-std::vector<Leaf> twigLeaves(const Species& s, uint32_t salt, float scale) {
+// A twig rises through the cell, sprigs leave it to both sides, the longest in its middle, and leaves stand on these in
+// turn. What is farther out lies over the rest and is lighter. Far off many twigs are one: short sprigs all over the
+// cell.
+std::vector<Leaf> twigLeaves(const Species& s, uint32_t salt, bool far) {
     std::vector<Leaf> leaves;
-    const int sprigs = int(float(s.sprigs) / (scale * scale));
+    const float scale = far ? 0.5f : 0.75f;  // of leaves
+    const int sprigs = far ? 5 * s.sprigs : 4 * s.sprigs / 3;
+    const float sway = 0.16f * (random01(salt, 7) - 0.5f);
     for (int k = 0; k < sprigs; ++k) {
         const auto ofSprig = [&](uint32_t which) { return random01(salt + 97, uint32_t(k), which); };
-        const float angle = 2.399963f * float(k) + 0.9f * (ofSprig(0) - 0.5f), bend = 1.6f * (ofSprig(1) - 0.5f);
-        const float reach = scale * (0.10f + 0.14f * ofSprig(2)),
-                    from = (0.44f - 0.24f * scale) * std::sqrt(ofSprig(3));
-        const glm::vec2 root = glm::vec2(0.5f) + from * glm::vec2(std::cos(angle), std::sin(angle));
-        for (int i = 0; i < s.leaves; ++i) {
-            const auto random = [&](uint32_t which) { return random01(salt, uint32_t(k * s.leaves + i), which); };
-            const bool tip = i + 1 == s.leaves;
-            const float t = std::sqrt((float(i) + 0.3f + 0.7f * random(0)) / float(s.leaves)),
-                        heading = angle + bend * t;
-            const glm::vec2 at = root + reach * t * glm::vec2(std::cos(heading), std::sin(heading));
-            const float turn = heading + bend * t + (tip ? 0 : (i % 2 ? 0.95f : -0.95f) + 0.7f * (random(1) - 0.5f));
-            const float size = scale * (0.8f + 0.4f * random(2) - 0.2f * t);
-            leaves.push_back({at,
-                              {std::cos(turn), std::sin(turn)},
-                              s.length * size,
-                              s.width * size * (0.6f + 0.4f * random(3)),
-                              glm::clamp(0.75f * random(4) + 2.2f * (from + reach * t) - 0.45f, 0.0f, 1.0f),
-                              from + reach * t + 0.15f * random(5)});
+        const bool top = k + 1 == sprigs;
+        const float t = float(k) / float(sprigs - 1), side = k % 2 ? 1.0f : -1.0f;
+        const float wide = 0.30f * std::sqrt(ofSprig(4)), about = 2.399963f * float(k);
+        const glm::vec2 root = far ? 0.5f + wide * glm::vec2(std::cos(about), std::sin(about))
+                                   : glm::vec2(0.5f + sway * std::sin(kPi * t), 0.84f - 0.50f * t);
+        const float away =
+            far ? 0.8f * std::atan2(root.x - 0.5f, 0.9f - root.y) : side * s.spread * (1.25f - 0.65f * t);
+        const float heading = top ? 0 : away + 0.9f * (ofSprig(0) - 0.5f);
+        const float bend = -side * 0.5f * ofSprig(1);
+        const float longest = far ? 0.22f : 0.22f + 0.22f * std::sin(kPi * (0.20f + 0.55f * t));
+        const float reach = longest * (0.55f + 0.60f * ofSprig(2));
+        const int count = std::max(3, int(2.5f * reach / (scale * s.length) + 0.5f));
+        for (int i = 0; i < count; ++i) {
+            const auto random = [&](uint32_t which) { return random01(salt + uint32_t(k) * 7919, uint32_t(i), which); };
+            const bool last = i + 1 == count;
+            const float u = (float(i) + 0.6f * random(0) + 0.4f) / float(count), angle = heading + bend * u;
+            const glm::vec2 at = root + reach * u * glm::vec2(std::sin(angle), -std::cos(angle));
+            const float turn = angle + (last ? 0 : (i % 2 ? 0.9f : -0.9f) + 0.9f * (random(1) - 0.5f));
+            const float size = scale * (0.8f + 0.45f * random(2) - 0.15f * u);
+            const glm::vec2 along(std::sin(turn), -std::cos(turn)), tip = at + s.length * size * along;
+            if (glm::any(glm::greaterThan(glm::abs(tip - 0.5f), glm::vec2(0.48f)))) continue;
+            const float out = reach * u;
+            leaves.push_back(
+                {at, along, s.length * size, s.width * size * (0.6f + 0.4f * random(3)),
+                 glm::clamp(0.42f * random(4) + 0.75f * (ofSprig(3) - 0.4f) + 0.45f * u * u + 0.1f, 0.0f, 1.0f),
+                 0.7f * out + 0.25f * ofSprig(3) + 0.08f * random(5)});
         }
     }
     std::stable_sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.lie < b.lie; });
     return leaves;
 }
 
-// Distance to a leaf's edge, positive inside, in cells; along and across: where in the leaf, -1 to 1 across.
-float leafEdge(const Leaf& leaf, const Species& s, glm::vec2 p, float& along, float& across) {
+// Distance to a leaf's edge, positive inside, in cells; across: where in the leaf, -1 to 1.
+float leafEdge(const Leaf& leaf, const Species& s, glm::vec2 p, float& across) {
     const glm::vec2 d = p - leaf.foot;
-    along = glm::dot(d, leaf.along) / leaf.length;
+    const float along = glm::dot(d, leaf.along) / leaf.length;
     const float side = leaf.along.x * d.y - leaf.along.y * d.x;
     if (along < -0.3f || along > 1.3f) return -1;
     const float t = glm::clamp(along, 0.0f, 1.0f);
@@ -74,28 +86,34 @@ float leafEdge(const Leaf& leaf, const Species& s, glm::vec2 p, float& along, fl
     return std::min(half - std::abs(side), -beyond);
 }
 
-void paintTwig(Picture& picture, int x0, int y0, int side, const Species& s, uint32_t salt, float scale) {
-    const std::vector<Leaf> leaves = twigLeaves(s, salt, scale);
-    const glm::vec3 mean = 0.5f * (s.dark + s.light);
+glm::vec3 leafColor(const Leaf& leaf, const Species& s, float edge, float across) {
+    glm::vec3 color = glm::mix(s.dark, s.light, leaf.bright);
+    color *= 0.86f + 0.20f * across * (leaf.bright > 0.5f ? 1.0f : -1.0f);  // one half towards the light
+    color = glm::mix(color, s.light * 1.25f, 0.35f * ramp(0.16f, 0.03f, std::abs(across)));
+    return color * (0.72f + 0.28f * ramp(0.0f, 0.010f, edge));  // the next leaf's shadow
+}
+
+void paintTwig(Picture& picture, int x0, int y0, int side, const Species& s, uint32_t salt, bool far) {
+    std::vector<glm::vec3> colors(size_t(side) * size_t(side), 0.35f * (s.dark + s.light));
+    std::vector<float> edges(colors.size(), -1.0f);
+    for (const Leaf& leaf : twigLeaves(s, salt, far)) {
+        const float reach = 1.4f * leaf.length;
+        const auto texelOf = [&](float p) { return std::clamp(int(p * float(side)), 0, side - 1); };
+        for (int y = texelOf(leaf.foot.y - reach); y <= texelOf(leaf.foot.y + reach); ++y)
+            for (int x = texelOf(leaf.foot.x - reach); x <= texelOf(leaf.foot.x + reach); ++x) {
+                float across = 0;
+                const float edge = leafEdge(leaf, s, (glm::vec2(x, y) + 0.5f) / float(side), across);
+                const size_t at = size_t(y) * size_t(side) + size_t(x);
+                edges[at] = std::max(edges[at], edge);
+                if (edge >= 0) colors[at] = leafColor(leaf, s, edge, across);
+            }
+    }
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
-            const glm::vec2 p = (glm::vec2(x, y) + 0.5f) / float(side);
-            glm::vec3 color = mean * 0.7f;
-            float edge = -1;
-            for (const Leaf& leaf : leaves) {
-                if (glm::distance(p, leaf.foot) > 1.4f * leaf.length) continue;
-                float along = 0, across = 0;
-                const float e = leafEdge(leaf, s, p, along, across);
-                edge = std::max(edge, e);
-                if (e < 0) continue;
-                color = glm::mix(s.dark, s.light, leaf.bright);
-                color *= 0.86f + 0.20f * across * (leaf.bright > 0.5f ? 1.0f : -1.0f);  // one half towards the light
-                color = glm::mix(color, s.light * 1.25f, 0.35f * ramp(0.16f, 0.03f, std::abs(across)));
-                color *= 0.72f + 0.28f * ramp(0.0f, 0.010f, e);  // the next leaf's shadow
-            }
+            const size_t at = size_t(y) * size_t(side) + size_t(x);
             uint8_t* texel = picture.at(x0 + x, y0 + y);
-            for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(toSrgb(color[k])) * 255 + 0.5f);
-            texel[3] = uint8_t(saturate(0.5f + edge * float(side) / 10) * 255 + 0.5f);
+            for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(toSrgb(colors[at][k])) * 255 + 0.5f);
+            texel[3] = uint8_t(saturate(0.5f + edges[at] * float(side) / 10) * 255 + 0.5f);
         }
 }
 
@@ -130,7 +148,7 @@ Picture paintFoliage(int size) {
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 3; ++column)
             paintTwig(picture, first + column * side, row * side, side, kSpecies[row],
-                      450u + uint32_t(row) * 8 + uint32_t(column), column < kFarColumn ? 0.75f : 0.5f);
+                      450u + uint32_t(row) * 8 + uint32_t(column), column == kFarColumn);
     return picture;
 }
 

@@ -31,8 +31,8 @@ struct Habit {
     bool birch;
 };
 const Habit kHabits[] = {
-    {"lime_a", 0, 21, 1.9f, 9.6f, 3.5f, 0.42f, 0.45f, 13, {400, 104, 30}, 1.02f, 0.30f, 9, false},
-    {"lime_b", 0, 22, 2.2f, 11.2f, 3.9f, 0.40f, 0.45f, 15, {450, 115, 32}, 1.10f, 0.36f, 10, false},
+    {"lime_a", 0, 21, 1.9f, 9.6f, 3.5f, 0.42f, 0.45f, 13, {400, 104, 30}, 0.98f, 0.30f, 9, false},
+    {"lime_b", 0, 22, 2.2f, 11.2f, 3.9f, 0.40f, 0.45f, 15, {450, 115, 32}, 1.06f, 0.36f, 10, false},
     {"apple_a", 1, 23, 1.3f, 4.3f, 2.1f, 0.45f, 0.35f, 8, {210, 60, 18}, 0.78f, 0.14f, 7, false},
     {"apple_b", 1, 24, 1.2f, 4.9f, 2.4f, 0.50f, 0.35f, 9, {230, 64, 19}, 0.82f, 0.15f, 7, false},
     {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, 13, {300, 80, 22}, 0.80f, 0.13f, 6, true},
@@ -128,8 +128,8 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
         const float angle = 2.399963f * float(k) + 0.6f * random(1), wide = crownRadius(h, t);
         const float most = (bush ? 0.44f : 0.26f) * tall;
         const float broad = h.birch ? 0.72f * std::max(wide, 0.4f * h.radius) : (bush ? 0.66f : 0.50f) * h.radius;
-        const float radius = std::min(broad * (0.85f + 0.3f * random(2)), most);
-        const float r = top ? 0 : std::max(wide - 0.75f * radius, 0.25f * wide);
+        const float radius = std::min(broad * (bush ? 0.8f + 0.4f * random(2) : 0.62f + 0.62f * random(2)), most);
+        const float r = top ? 0 : std::max(wide * (0.9f + 0.25f * random(3)) - 0.75f * radius, 0.25f * wide);
         const glm::vec3 out(std::cos(angle), 0, std::sin(angle));
         lobes.push_back({r * out + glm::vec3(0, h.crownFoot + tall * t, 0) + lean * (0.4f * tall * t),
                          glm::normalize(top ? glm::vec3(0, 1, 0) : out + glm::vec3(0, 0.5f * t, 0)), radius});
@@ -181,14 +181,18 @@ Mesh makeTree(const Habit& h, int lod) {
         glm::vec3 dir(flat * std::cos(angle), up, flat * std::sin(angle));
         dir -= std::min(glm::dot(dir, lobe.away) + 0.25f, 0.0f) * 1.6f * lobe.away;
         dir = glm::normalize(dir);
-        const float deep = glm::mix(h.hollow, 1.0f, std::pow(random(2), 0.40f));
-        const glm::vec3 at = lobe.at + dir * glm::vec3(1, 0.8f, 1) * (lobe.radius * deep);
+        // Every sixth fills the lobe, so that no sky is seen through a crown's middle.
+        const float deep = i % 6 == 5 ? h.hollow * random(2) : glm::mix(h.hollow, 1.0f, std::pow(random(2), 0.40f));
+        glm::vec3 at = lobe.at + dir * glm::vec3(1, 0.8f, 1) * (lobe.radius * deep);
+        at.y = std::max(at.y, 0.3f * side);  // a bush's stand on the ground
         const glm::vec3 away = glm::normalize((at - middle) / squash);
         const glm::vec3 tilt(random(3) - 0.5f, random(4) - 0.35f, random(5) - 0.5f);
         glm::vec3 out = glm::normalize(0.5f * away + dir + 0.9f * tilt);
         // Seen from the ground, a card that lies flat is a line.
         out = glm::normalize(glm::vec3(out.x, 0.55f * out.y, out.z));
-        const glm::vec3 twig = glm::normalize(glm::vec3(random(6) - 0.5f, h.birch ? -0.8f : 0.6f, random(7) - 0.5f));
+        // Twigs lead out of their lobe, up to the light; a birch's hang.
+        const glm::vec3 twig =
+            glm::normalize(glm::vec3(random(6) - 0.5f, h.birch ? -0.9f : 0.35f, random(7) - 0.5f) + 0.6f * dir);
         const glm::vec2 cell = cellOf(lod, h.row, random(8));
         // Dark inside and below, of the crown and of each lobe; open above.
         const float t = (at.y - h.crownFoot) / tall;
