@@ -21,9 +21,9 @@ LeafTint leafTint(vec3 baseColor, uint tint, uint hash, float patchTone) {
     float strong = max(wanted.x, max(wanted.y, wanted.z)) - min(wanted.x, min(wanted.y, wanted.z));
     float turn = 0.5 * min(1.0, 3.0 * strong);
     // From old, dark and bluish to young, light and yellow.
-    const vec3 young = vec3(1.20, 1.08, 0.55);
-    const vec3 old = vec3(0.42, 0.56, 0.60);
-    vec3 grown = mix(old, young, clamp(0.10 + 0.45 * age + 0.5 * (a - 0.5) + 0.30 * patchTone, 0.0, 1.0)) * (0.80 + 0.40 * b);
+    const vec3 young = vec3(1.16, 1.08, 0.60);
+    const vec3 old = vec3(0.42, 0.54, 0.56);
+    vec3 grown = mix(old, young, clamp(0.04 + 0.46 * age + 0.7 * (a - 0.5) + 0.30 * patchTone, 0.0, 1.0)) * (0.72 + 0.56 * b);
     LeafTint o;
     o.own = baseColor * grown * (1.0 - turn);
     o.turned = grown * turn * wanted / max(dot(wanted, kLeafWeights), 1e-3) * dot(baseColor, kLeafWeights);
@@ -41,7 +41,7 @@ LeafLight leafLight(vec3 face, vec3 eye, float open, float visible, bool leaf, b
     vec3 sun = frame.sunDirection;
     float side = dot(face, sun);
     float facing = max(side, 0.0);
-    vec3 falling = frame.sunColor * visible * (0.30 + 0.70 * open);
+    vec3 falling = frame.sunColor * visible * (0.16 + 0.84 * open);
     LeafLight o;
     o.sun = falling * facing;
     o.sunMirror = vec3(0.0);
@@ -52,12 +52,12 @@ LeafLight leafLight(vec3 face, vec3 eye, float open, float visible, bool leaf, b
         const vec3 through = vec3(1.5, 1.35, 0.45);
         o.sun += falling * through * (max(-side, 0.0) * 0.65 + 0.10);
         o.sunMirror = falling * (gloss(face, eye, sun, 0.42) * facing * (back ? 0.3 : 1.0));
-        o.sky += 0.45 * through * skyLight(-face);
+        o.sky += 0.60 * through * skyLight(-face);
     }
     // In the shade the sky's mirror image on the wax is what tells leaves apart.
     float edge = 1.0 - max(dot(face, eye), 0.0);
-    float wax = (0.03 + 0.14 * edge * edge * edge) * (back || !leaf ? 0.3 : 1.0);
-    float reached = open * (0.35 + 0.65 * open);
+    float wax = (0.04 + 0.20 * edge * edge * edge) * (back || !leaf ? 0.3 : 1.0);
+    float reached = open * (0.60 + 0.40 * open);
     o.sky *= reached;
     o.skyMirror = skyLight(reflect(-eye, face)) * wax * reached;
     return o;

@@ -275,8 +275,8 @@ void paintMap(const Plan& plan, const std::vector<glm::vec3>& shades, Site& site
             const float paved = plan.paved(p), house = plan.toHouse(p), court = Plan::toCourt(p);
             // The court's own paving goes on where the path comes to it.
             const float uneven = noise(p / 1.3f, 71) + 0.6f * noise(p / 0.5f, 72);
-            float earth = 0.75f * ramp(-0.9f - 0.5f * uneven, -0.15f, paved);         // beside kerbs
-            earth = std::max(earth, 0.8f * ramp(1.5f + 0.6f * uneven, 0.3f, house));  // around houses
+            float earth = 0.62f * ramp(-0.55f - 0.4f * uneven, -0.05f, paved);        // beside kerbs
+            earth = std::max(earth, 0.7f * ramp(1.1f + 0.6f * uneven, 0.2f, house));  // around houses
             earth = std::max(earth, 0.16f * ramp(0.9f + uneven, 0.0f, court));
             float open = 1 - 0.55f * std::exp(-std::max(house, 0.0f) / 0.9f);
             for (glm::vec3 s : shades) {
