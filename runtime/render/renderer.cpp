@@ -315,9 +315,10 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
     push.ground = inputs.ground.drawn && !hosted_ ? 1 : 0;
     // Some devices do a pass' work when the next one needs it: only the whole is a true time.
     Pass whole(commands, "draw");
-    // Where pictures begin or end to be quick, nobody sees one mesh replace another.
+    // While all moves, and where that begins or ends, nobody sees one mesh replace another: two at a time would cost
+    // such a picture half as much again.
     models_.choose(frame.eye, frame.pixelScale, allowedModelError(inputs.look, grows_),
-                   inputs.look.quick != quickBefore_);
+                   inputs.look.quick || quickBefore_);
     quickBefore_ = inputs.look.quick;
     if (Status s = drawModels(commands, inputs, target, push); !s) return s;
     if (grows_ || roofed_)

@@ -193,6 +193,37 @@ TEST_CASE("where a level takes over, no frame's mean changes by more than a fift
     }
 }
 
+TEST_CASE("in a moving picture another level takes over at once, and the mean changes by less than one in 255") {
+    const SurfaceData data = closedModel();
+    Stage stage;
+    stage.inputs.look.quick = true;
+    for (size_t level = 0; level < data.coarser.size(); ++level) {
+        CAPTURE(level);
+        const float error = data.coarser[level].error;
+        stage.look(data, 2.4f);
+        stage.allow(1);
+        stage.look(data, std::clamp(1 + 1.4f * stage.inputs.look.lodPixels * error, 2.4f, 60.0f));
+        stage.place(data);
+        stage.allow(error * 0.999f);
+        const Pixels before = stage.frame();
+        stage.allow(error * 1.001f);
+        const Pixels after = stage.frame();
+        CHECK(stage.stats().modelsFading == 0);
+        CHECK(stage.stats().modelTriangles == data.coarser[level].indices.size() / 3);
+        CHECK(meanDifference(before, after) < 1);
+        // Nor does one that has begun go on.
+        stage.inputs.look.quick = false;
+        stage.frame();
+        stage.allow(error * 0.999f);
+        stage.frame();
+        CHECK(stage.stats().modelsFading == 1);
+        stage.inputs.look.quick = true;
+        stage.frame();
+        CHECK(stage.stats().modelsFading == 0);
+        stage.clear();
+    }
+}
+
 TEST_CASE("what a model hides is not drawn while one of its levels takes over, either") {
     Stage stage;
     const test::Plant ivy = test::upload(stage.device(), test::wallIvy(8, 2, 1.5f));
