@@ -98,7 +98,7 @@ TEST_CASE("layers painted over an earlier surface are carried to the new one, an
     CAPTURE(r.output);
     REQUIRE(r.run("cube.glb -o old/s.glb --resolution 64 --images old"));  // any picture will do as a layer
     CHECK(r.run("cube.glb -o new/s.glb --resolution 128 --from old/s.glb --layer old/charts.png --report new/r.json"));
-    CHECK(r.says("old/charts.png: warning: carried: 0 m² of new ground"));
+    CHECK(r.says("old/charts.png: carried: 0 m² of new ground"));
     CHECK(r.has("new/charts.png"));
     CHECK(!r.run("cube.glb -o old/t.glb --from old/s.glb --layer old/charts.png"));
     CHECK(r.says("would overwrite"));
@@ -124,7 +124,10 @@ TEST_CASE("seeds whose ground a change takes away are listed, by scenes of one s
     REQUIRE(r.run("higher.glb -o new/cube.glb --resolution 64 --from cube.glb --seeds one.json"));
     CHECK(r.says("grammars[0].seeds[1] at 0, 1, 0 has lost its ground"));
     CHECK(!r.says("seeds[0]"));
-    CHECK(r.says("1 of 2 seeds"));
+    CHECK(r.says("one.json: warning: 1 of 2 seeds"));
+    REQUIRE(r.run("cube.glb -o new/same.glb --resolution 64 --from cube.glb --seeds one.json"));
+    CHECK(r.says("one.json: all 2 seeds on this surface keep their ground"));
+    CHECK(!r.says("warning: "));
     // Turned by 90° and twice as large, the side towards +x looks to -z; the third seed is of the other surface.
     write("two.json",
           R"({"surfaces": [{"file": "other.glb"}, {"file": "cube.glb", "position": [9, 0, 0], "turn": 90, "scale": 2}],

@@ -109,7 +109,7 @@ Result<std::vector<CarriedFile>> carryLayers(const CarryArguments& arguments, co
                       "carried: %.3g m² of new ground have no value yet, %.3g m² of what was "
                       "painted are gone",
                       carried.fresh, carried.lost);
-        notes.push_back({path, 0, 0, {}, text, true});
+        notes.push_back({path, 0, 0, {}, text, carried.fresh > 0 || carried.lost > 0});
         files.push_back({target.string(), encodePng(carried.layer)});
     }
     return files;

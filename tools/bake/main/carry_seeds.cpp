@@ -128,13 +128,11 @@ Status findLostSeeds(const SeedsArguments& arguments, const SurfaceData& before,
                       seed.name.c_str(), seed.position.x, seed.position.y, seed.position.z);
         notes.push_back({file, 0, 0, {}, note, true});
     }
-    notes.push_back(
-        {file,
-         0,
-         0,
-         {},
-         std::to_string(gone) + " of " + std::to_string(count) + " seeds on this surface have lost their ground",
-         true});
+    const std::string all = std::to_string(count) + " seeds on this surface ";
+    if (gone == 0)
+        notes.push_back({file, 0, 0, {}, "all " + all + "keep their ground"});
+    else
+        notes.push_back({file, 0, 0, {}, std::to_string(gone) + " of " + all + "have lost their ground", true});
     return Done{};
 }
 
