@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -102,6 +103,11 @@ class Reporter {
         failed_ = failed_ || !warning;
         if (full()) return;
         std::string file = place.file < module_.files.size() ? module_.files[place.file] : std::string();
+        // An expression that is used for several things is compiled for each.
+        const bool told = std::ranges::any_of(all_, [&](const Diagnostic& d) {
+            return d.line == place.line && d.column == place.column && d.message == message && d.file == file;
+        });
+        if (told) return;
         all_.push_back({file, place.line, place.column, rule, std::move(message), warning});
     }
     Module& module_;

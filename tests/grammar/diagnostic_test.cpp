@@ -124,6 +124,16 @@ TEST_CASE("several mistakes are reported in one go, those behind a broken statem
         CHECK(text.find(part) != std::string::npos);
 }
 
+TEST_CASE("a mistake in what several rules use is told once") {
+    const std::string text = failureText(
+        "A -> Branch(2) {B, C}\nB -> Marching(0.1, 0, true) {B, L}\nC -> Marching(0.1, 0, true) {C, L}\n"
+        "L -> S(m) Shape(\"leaf\")\n");
+    INFO(text);
+    const size_t first = text.find("'m' is not known");
+    REQUIRE(first != std::string::npos);
+    CHECK(text.find("'m' is not known", first + 1) == std::string::npos);
+}
+
 TEST_CASE("what is never used is warned of") {
     RuleMap map = compiled(
         "param p = 1\ncontext c\nlet l = 2\nA -> Marching(0.1, 0, true) {A}\nA -> NULL\nL -> S(1) Shape(\"leaf\")\nM : "
