@@ -338,6 +338,14 @@ typedef struct EspPathSample {
 ESP_API EspResult espBranchPath(EspContext* context, uint64_t branch, EspPathSample* samples, uint32_t* count);
 ESP_API EspResult espPlantNodes(EspContext* context, EspSeed seed, uint32_t* nodes);
 
+typedef struct EspBranchInfo {
+    EspSeed seed;
+    uint64_t parent;          /* the branch that it leaves from; at depth 0 the branch itself */
+    uint32_t depth;           /* as in EspPlantHit */
+} EspBranchInfo;
+/* ESP_INVALID_ARGUMENT if no branch of this key has grown. */
+ESP_API EspResult espBranchInfo(EspContext* context, uint64_t branch, EspBranchInfo* out);
+
 /* Cuts a branch away with all that grows from it (pruned 1), or lets it grow again (0): the plant is then the same to
  * the bit as if it had never been cut. branch: a key as in EspPlantHit; depth 0 is the whole plant but for its seed.
  * It stays cut through every regrowth, and where no branch has this key (any more), the key waits for one. Takes

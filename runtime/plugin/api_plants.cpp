@@ -24,6 +24,11 @@ const Plants* readPlants(EspContext& context) {
 
 namespace {
 
+EspSeed seedOf(const EspContext& context, const Plants& plants, uint32_t branch) {
+    const uint32_t seed = plants.seedOf(branch);
+    return {seed < context.grownSeeds.size() ? context.grownSeeds[seed] : 0};
+}
+
 EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, EspPlantHit* out) {
     const Plants* plants = readPlants(context);
     if (!plants) return gpuCode(context);
@@ -36,12 +41,21 @@ EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, 
     // Not logged: a ray that meets nothing is an answer.
     if (!hit) return ESP_INVALID_ARGUMENT;
     *out = EspPlantHit{};
-    const uint32_t seed = plants->seedOf(hit->branch);
-    if (seed < context.grownSeeds.size()) out->seed.id = context.grownSeeds[seed];
+    out->seed = seedOf(context, *plants, hit->branch);
     out->branch = plants->keyOf(hit->branch);
     out->depth = plants->depthOf(hit->branch);
     out->distance = hit->distance;
     for (int i = 0; i < 3; ++i) out->position[i] = hit->position[i];
+    return ESP_OK;
+}
+
+EspResult branchInfo(EspContext& context, uint64_t branch, EspBranchInfo* out) {
+    const Plants* plants = readPlants(context);
+    if (!plants) return gpuCode(context);
+    const auto index = plants->findBranch(branch);
+    if (!index) return fail(&context, ESP_INVALID_ARGUMENT, "espBranchInfo: no such branch has grown");
+    const uint32_t parent = plants->parentOf(*index).value_or(*index);
+    *out = {seedOf(context, *plants, *index), plants->keyOf(parent), plants->depthOf(*index)};
     return ESP_OK;
 }
 
@@ -91,6 +105,13 @@ EspResult espBranchPath(EspContext* context, uint64_t branch, EspPathSample* sam
     return guarded(context, [&] {
         if (!count) return fail(context, ESP_INVALID_ARGUMENT, "espBranchPath: null pointer");
         return branchPath(*context, branch, samples, count);
+    });
+}
+
+EspResult espBranchInfo(EspContext* context, uint64_t branch, EspBranchInfo* out) {
+    return guarded(context, [&] {
+        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espBranchInfo: null pointer");
+        return branchInfo(*context, branch, out);
     });
 }
 

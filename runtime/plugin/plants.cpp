@@ -47,6 +47,12 @@ Plants::Plants(GrowthRecords records, std::span<const glm::mat4> toWorld) : reco
     }
 }
 
+std::optional<uint32_t> Plants::parentOf(uint32_t branch) const {
+    const uint32_t from = firstChunk(branch).previousNode;
+    if (from == kNoIndex) return std::nullopt;
+    return records_.chunks[records_.nodes[from].chunk].branch;
+}
+
 std::vector<uint32_t> Plants::nodesOf(uint32_t branch) const {
     std::vector<uint32_t> nodes;
     const Chunk& first = firstChunk(branch);

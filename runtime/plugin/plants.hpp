@@ -34,6 +34,8 @@ class Plants {
     uint64_t keyOf(uint32_t branch) const { return firstChunk(branch).key; }
     uint32_t seedOf(uint32_t branch) const { return records_.branches[branch].seed; }
     uint32_t depthOf(uint32_t branch) const { return firstChunk(branch).depth & 0xFFFFu; }
+    // The branch that it leaves from; nothing: it is a seed's own.
+    std::optional<uint32_t> parentOf(uint32_t branch) const;
     // Its nodes in order, beginning with the one that it leaves from, if any.
     std::vector<uint32_t> nodesOf(uint32_t branch) const;
     const Node& node(uint32_t index) const { return records_.nodes[index]; }

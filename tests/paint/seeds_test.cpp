@@ -177,6 +177,28 @@ TEST_CASE("a branch is picked where it grew, its path leads along it") {
     CHECK(nearest < .05f);
     CHECK(length > 1.3f);   // two metres, or seven tenths of that
     CHECK(crossings >= 1);  // the face is 1.8 m high above the foot
+    // From a side branch to the seed's own, each leaves from its parent's way.
+    EspPlantHit side{};
+    for (float y = -.7f; y < 1 && side.depth < 1; y += .02f)
+        for (float z = -.5f; z < .5f && side.depth < 1; z += .02f) (void)pick(painting, {4, y, z}, {1, y, z}, &side);
+    REQUIRE(side.depth >= 1);
+    uint64_t branch = side.branch;
+    for (uint32_t depth = side.depth;; --depth) {
+        EspBranchInfo info{};
+        painting.ok(espBranchInfo(painting.context, branch, &info));
+        CHECK(info.seed.id == seed.id);
+        REQUIRE(info.depth == depth);
+        CHECK((info.parent == branch) == (depth == 0));
+        if (depth == 0) break;
+        const EspPathSample foot = pathOf(painting, branch).front();
+        CHECK(std::ranges::any_of(pathOf(painting, info.parent), [&](const EspPathSample& sample) {
+            return std::equal(foot.position, foot.position + 3, sample.position);
+        }));
+        branch = info.parent;
+    }
+    EspBranchInfo info{};
+    CHECK(espBranchInfo(painting.context, 12345, &info) == ESP_INVALID_ARGUMENT);
+    CHECK(espBranchInfo(painting.context, branch, nullptr) == ESP_INVALID_ARGUMENT);
     uint32_t count = 0;
     CHECK(espBranchPath(painting.context, 12345, nullptr, &count) == ESP_INVALID_ARGUMENT);
     uint32_t nodes = 0;
