@@ -120,6 +120,32 @@ void App::noteTimes(bool grew) {
     if (work_.history.size() > kHistory) work_.history.erase(work_.history.begin());
 }
 
+// A run's next step in place of what the user does, who can only end it. False: no run is on.
+bool App::replay(std::vector<PointerEvent>& pointer, std::vector<KeyEvent>& keys) {
+    if (!replay_.on()) return false;
+    const bool ends = std::ranges::any_of(keys, [](const KeyEvent& key) { return key.key == GLFW_KEY_ESCAPE; });
+    pointer.clear();
+    keys.clear();
+    int& flags = ImGui::GetIO().ConfigFlags;
+    flags |= ImGuiConfigFlags_NoMouse;
+    if (ends) replay_.stop(work_);
+    if (!ends && replay_.step(work_, glfwGetTime())) return true;
+    flags &= ~ImGuiConfigFlags_NoMouse;
+    session_.endReplay(work_);
+    return true;
+}
+
+// The window's own button asks as Ctrl+Q does. Clicked twice it ends at once, and what isn't saved is kept.
+bool App::closing() {
+    if (session_.quit) return true;
+    if (!glfwWindowShouldClose(window_.get())) return false;
+    if (asksToLeave() || options_.frames || !session_.modified(work_)) return true;
+    glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
+    controls_->askToQuit();
+    wake();
+    return false;
+}
+
 // What the user did, what follows from it, and the picture of that.
 bool App::frame(float seconds) {
     using Clock = std::chrono::steady_clock;
@@ -135,11 +161,16 @@ bool App::frame(float seconds) {
     std::vector<PointerEvent> pointer;
     float wheel = 0;
     input_->take(pointer, wheel);
-    controls_->take(pointer, keys, wheel);
-    const bool moved = controls_->step(*input_, seconds);
+    const bool replays = replay(pointer, keys);
+    if (!replays) controls_->take(pointer, keys, wheel);
+    const bool moved = !replays && controls_->step(*input_, seconds);
     if (moved || frames_ == 0) {
         const EspCamera camera = work_.camera.camera(0);
         work_.perform(SetCamera{array(vec(camera.eye)), array(vec(camera.target)), camera.fovY});
+    }
+    if (const std::string file = input_->takeDropped(); !file.empty() && !replays) {
+        if (!work_.editing) controls_->setEditing(true);  // where it can be asked about
+        askToLeave(work_, session_, file);
     }
     showUi();
     const bool grew = update();
@@ -152,7 +183,7 @@ bool App::frame(float seconds) {
     noteTimes(grew);
     const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || toolTipWaits() || controls_->turning() ||
                       input_->gui.waiting();
-    if (moved || held || wheel != 0 || !pointer.empty() || !keys.empty() || grew)
+    if (moved || held || replays || wheel != 0 || !pointer.empty() || !keys.empty() || grew)
         wake();
     else if (awake_ > 0)
         --awake_;
@@ -161,8 +192,7 @@ bool App::frame(float seconds) {
 
 bool App::loop() {
     double before = glfwGetTime();
-    while (!glfwWindowShouldClose(window_.get()) && !session_.quit &&
-           !(options_.frames && frames_ >= options_.frames)) {
+    while (!closing() && !(options_.frames && frames_ >= options_.frames)) {
         // Asleep until the user does something, or it is time to look at the grammars' files.
         if (awake_ > 0 || options_.frames) {
             glfwPollEvents();

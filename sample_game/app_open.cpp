@@ -155,8 +155,12 @@ bool App::open() {
     if (!ui_->create()) return fail(ui_->error());
     std::string error;
     if (!showOpening(options_.request.file)) return false;
+    const bool run = Replay::names(options_.request.file);
+    if (run && !replay_.read(options_.request.file, error)) return fail(error);
+    if (run) options_.request.file = replay_.scene();
     if (!openDocument(options_.request, error)) return fail(error);
     work_.editing = options_.editor;
+    if (run) beginReplay();
     session_.autosaveEvery = options_.autosave;
     if (!options_.record.empty() &&
         !session_.startRecording(work_, options_.record, uint32_t(options_.width), uint32_t(options_.height)))
@@ -224,8 +228,22 @@ bool App::openNext() {
     const std::string file = std::exchange(session_.openNext, {});
     if (!showOpening(file)) return false;
     work_.error.clear();
-    if (!openDocument({file, {}, {}, {}}, work_.error)) askToOpen(file);
+    const bool run = Replay::names(file);
+    if ((!run || replay_.read(file, work_.error)) &&
+        openDocument({run ? replay_.scene() : file, {}, {}, {}}, work_.error)) {
+        if (run) beginReplay();
+        return true;
+    }
+    replay_.forget();
+    session_.givesUp = false;
+    askToOpen(file);
     return true;
+}
+
+void App::beginReplay() {
+    session_.replays();
+    controls_->setEditing(true);
+    replay_.begin(glfwGetTime());
 }
 
 }  // namespace sample

@@ -6,6 +6,7 @@
 #include "sample_game/app.hpp"
 #include "sample_game/atlas_view.hpp"
 #include "sample_game/controls.hpp"
+#include "sample_game/replay.hpp"
 #include "sample_game/scene_image.hpp"
 #include "sample_game/ui_renderer.hpp"
 #include "tools/scene/moving.hpp"
@@ -37,6 +38,9 @@ class App {
     bool drawFrame(bool moving, bool last);
     void screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height);
     bool openNext();
+    void beginReplay();
+    bool replay(std::vector<PointerEvent>& pointer, std::vector<KeyEvent>& keys);
+    bool closing();
     bool reload();
     bool frame(float seconds);
     void noteTimes(bool grew);
@@ -54,6 +58,7 @@ class App {
 
     Workspace work_;
     Session session_;
+    Replay replay_;
     std::unique_ptr<Controls> controls_;
 
     static constexpr int kFramesAfterChange = 3;  // ImGui settles within two

@@ -149,7 +149,7 @@ void AtlasView::controls(Workspace& work) {
                              ImGuiSliderFlags_AlwaysClamp))
             wanted_.surface = uint32_t(surface);
         toolTip("Which of the scene's surfaces");
-        ImGui::SameLine();
+        sameLineIfRoom(room * 7);
     }
     EspSurfaceInfo info{};
     (void)espSurfaceInfo(work.context.get(), scene.surfaces[wanted_.surface].id, &info);
@@ -159,13 +159,13 @@ void AtlasView::controls(Workspace& work) {
     if (ImGui::SliderInt("##level", &level, 0, int(info.levels) - 1, "Level %d", ImGuiSliderFlags_AlwaysClamp))
         wanted_.level = uint32_t(level);
     toolTip("0 is the finest; dark charts are too small to be walked on a coarse one");
-    ImGui::SameLine();
+    sameLineIfRoom(room * 5);
     ImGui::Checkbox("Charts", &wanted_.charts);
     toolTip("Each chart in a colour of its own");
-    ImGui::SameLine();
+    sameLineIfRoom(room * 5);
     ImGui::Checkbox("Links", &wanted_.links);
     toolTip("Borders, and at the mouse where they lead");
-    ImGui::SameLine();
+    sameLineIfRoom(room * 6);
     ImGui::SetNextItemWidth(room * 6);
     if (ImGui::BeginCombo("##layer", wanted_.layer.empty() ? "No layer" : wanted_.layer.c_str())) {
         if (ImGui::Selectable("No layer", wanted_.layer.empty())) wanted_.layer.clear();
@@ -174,9 +174,9 @@ void AtlasView::controls(Workspace& work) {
         ImGui::EndCombo();
     }
     if (!wanted_.layer.empty()) {
-        ImGui::SameLine();
+        sameLineIfRoom(room * 5);
         ImGui::SetNextItemWidth(room * 5);
-        ImGui::SliderFloat("##opacity", &wanted_.opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+        slider("##opacity", &wanted_.opacity, 0, 1, "%.2f");
         toolTip("Opacity of the layer");
     }
     if (wanted_.links)
@@ -185,7 +185,7 @@ void AtlasView::controls(Workspace& work) {
                 std::any_of(links_.begin(), links_.end(), [&](const EspLink& l) { return l.kind == kind; });
             if (!any) continue;
             ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kLinks[kind]), "%s", kLinkNames[kind]);
-            ImGui::SameLine();
+            sameLineIfRoom(room * 12);
         }
     if (size_)
         ImGui::TextDisabled("%u x %u, %u charts", size_, size_, info.charts);
@@ -279,8 +279,10 @@ void AtlasView::tellAt(const View& view) const {
 void AtlasView::show(Workspace& work) {
     if (!work.layout.atlas || work.scene().surfaces.empty()) return;
     const float s = work.scale;
-    if (!beginWindow(work, "Atlas", &work.layout.atlas, {work.window.x - 500 * s, work.window.y - 590 * s},
-                     {480 * s, 540 * s}, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
+    // The first time at the lower right, below the figures if there is room.
+    const float high = std::clamp(work.window.y - 400 * s, 320 * s, 540 * s), wide = std::max(high - 60 * s, 300 * s);
+    if (!beginWindow(work, "Atlas", &work.layout.atlas, {work.window.x - wide - 12 * s, work.window.y - high - 44 * s},
+                     {wide, high}, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
         return ImGui::End();
     if (wanted_.surface >= work.scene().surfaces.size()) wanted_.surface = 0;
     controls(work);

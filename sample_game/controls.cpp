@@ -29,6 +29,11 @@ void Controls::setEditing(bool editing) {
     work_.redraw = true;
 }
 
+void Controls::askToQuit() {
+    if (session_.modified(work_) && !work_.editing) setEditing(true);
+    askToLeave(work_, session_);
+}
+
 void Controls::chooseTool(Tool tool) {
     brush_.cancel(work_);
     seeds_.cancel(work_);
@@ -46,7 +51,7 @@ void Controls::takeKey(const KeyEvent& event) {
     if (key == GLFW_KEY_F12) work_.screenshot = true, work_.message.clear();  // the last one's isn't in the picture
     if (control && takeViewKey(event)) return;
     if (control) {
-        if (key == GLFW_KEY_Q) session_.quit = true;
+        if (key == GLFW_KEY_Q) askToQuit();
         if (key == GLFW_KEY_S) askToSave(work_, session_);
         if (key == GLFW_KEY_O) askToOpen();
         if (key == GLFW_KEY_E && !work_.brush.layer.empty()) askForLayer(work_.brush.layer, false);
@@ -126,6 +131,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
     }
     const bool removes = key == GLFW_KEY_DELETE || key == GLFW_KEY_X;
     if (work_.tool == Tool::branch && removes) work_.prune();
+    if (work_.tool == Tool::branch && key == GLFW_KEY_LEFT_BRACKET) work_.pickParent();
     if (work_.tool == Tool::houses && removes) houses_.removeCorner(work_);
     if (work_.tool == Tool::seeds) {
         if (removes) seeds_.remove(work_);
@@ -142,10 +148,8 @@ void Controls::takeToolKey(const KeyEvent& event) {
         }
         work_.perform(change);
     }
-    if (key == GLFW_KEY_V && !work_.brush.layer.empty() && !work_.townLayer(work_.brush.layer)) {
-        const bool seen = work_.scene().look.view == ESP_VIEW_LAYER;
-        work_.perform(SetView{seen ? "shaded" : "layer", seen ? "" : work_.brush.layer});
-    }
+    if (key == GLFW_KEY_V && !work_.brush.layer.empty() && !work_.townLayer(work_.brush.layer))
+        work_.showLayer(work_.scene().look.view != ESP_VIEW_LAYER);
     for (size_t i = 0; i < std::size(kViews); ++i)
         if (key == GLFW_KEY_1 + int(i)) work_.perform(SetView{espalier::scene::nameOf(kViews[i]), ""});
 }

@@ -24,6 +24,7 @@ class Controls {
     void showTool(int mods);
 
     void setEditing(bool editing);
+    void askToQuit();  // see askToLeave
     bool caught() const { return navigation_.caught; }
     bool flying() const { return navigation_.flying(); }
     bool painting() const { return brush_.painting(); }

@@ -43,6 +43,9 @@ Input::Input(GLFWwindow* window) : window_(window) {
         ImGui_ImplGlfw_ScrollCallback(w, x, y);
         of(w).wheel_ += float(y);
     });
+    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+        if (count > 0) of(w).dropped_ = paths[0];
+    });
 }
 
 void Input::take(std::vector<PointerEvent>& pointer, float& wheel) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "sample_game/gui_events.hpp"
@@ -27,7 +29,9 @@ class Input {
     // What came since the last call.
     void take(std::vector<PointerEvent>& pointer, float& wheel);
     // Something came that the frames haven't seen yet.
-    bool pending() const { return !pointer_.empty() || wheel_ != 0 || gui.waiting(); }
+    bool pending() const { return !pointer_.empty() || !dropped_.empty() || wheel_ != 0 || gui.waiting(); }
+    // A file or folder that was dropped onto the window since the last call; empty: none was.
+    std::string takeDropped() { return std::exchange(dropped_, {}); }
     bool down(int key) const;
     int mods() const;
     // Keys, and the mouse once more on its way to ImGui.
@@ -37,6 +41,7 @@ class Input {
     static Input& of(GLFWwindow* window);
     GLFWwindow* window_;
     std::vector<PointerEvent> pointer_;
+    std::string dropped_;
     float wheel_ = 0;
     float x_ = 0, y_ = 0;
 };

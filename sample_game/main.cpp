@@ -13,9 +13,10 @@ int main(int argc, char** argv) {
     std::vector<std::string> layers;
     std::string size = "1280x720";
     long long seed = -1;
-    cli.add_option("FILE", options.request.file,
-                   "a scene (SCENE.json), a project's folder or what espalier-bake wrote (SURFACE.glb); default: the "
-                   "sample scene");
+    cli.add_option(
+        "FILE", options.request.file,
+        "a scene (SCENE.json), a project's folder, what espalier-bake wrote (SURFACE.glb), or a recorded run "
+        "(RUN.jsonl) to see again; default: the sample scene");
     cli.add_option("--layer", layers, "NAME=FILE: a picture drawn in the model's UVs");
     cli.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
     cli.add_option("--seed", seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
@@ -25,7 +26,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     cli.add_option("--screenshot", options.screenshot, "writes the last of --frames as PNG");
     cli.add_flag("--editor", options.editor, "begins in the editor (Tab)");
-    cli.add_option("--record", options.record, "records what is done into this file, for espalier-capture --replay");
+    cli.add_option("--record", options.record, "records what is done into this file (RUN.jsonl)");
     cli.add_option("--autosave", options.autosave, "seconds between two autosaves of what isn't saved")
         ->capture_default_str()
         ->check(CLI::Range(1., 86400.));

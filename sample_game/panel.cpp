@@ -15,19 +15,18 @@ namespace {
 using namespace espalier::document;
 using espalier::scene::Seed;
 
-constexpr float kTipDelay = .5f;  // seconds
-
 void toolButtons(Workspace& work) {
     struct Entry {
         const char *label, *key;
         Tool tool;
         const char* tip;
     };
-    const Entry entries[] = {{"Look", "Q", Tool::look, "Turn around the scene by dragging"},
-                             {"Paint", "B", Tool::paint, "Paint a layer, such as where ivy grows"},
-                             {"Seeds", "S", Tool::seeds, "Plant, choose, move and turn seeds"},
-                             {"Walk", "P", Tool::branch, "Pick a branch: see how it walked, prune it"},
-                             {"Roofs", "H", Tool::houses, "Choose a house: its roof, its outline"}};
+    const Entry entries[] = {
+        {"Look", "Q", Tool::look, "Turn around the scene by dragging"},
+        {"Paint", "B", Tool::paint, "Paint a layer, such as where ivy grows"},
+        {"Seeds", "S", Tool::seeds, "Plant, choose, move and turn seeds"},
+        {"Branch", "P", Tool::branch, "Pick a branch: prune it, freeze its plant, see how it walked"},
+        {"Roofs", "H", Tool::houses, "Choose a house: its roof, its outline"}};
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * work.scale, ImGui::GetStyle().FramePadding.y});
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     // Only scenes with a town have roofs.
@@ -48,16 +47,6 @@ void toolButtons(Workspace& work) {
     ImGui::PopStyleVar();
 }
 
-bool slider(const char* label, float* value, float low, float high, const char* format, bool byRatio = false) {
-    rowLabel(label);
-    ImGui::PushID(label);
-    const bool changed =
-        ImGui::SliderFloat("##value", value, low, high, format,
-                           ImGuiSliderFlags_AlwaysClamp | (byRatio ? ImGuiSliderFlags_Logarithmic : 0));
-    ImGui::PopID();
-    return changed;
-}
-
 void limits(Brush& brush) {
     ImGui::Checkbox("Only some slopes and heights", &brush.limited);
     toolTip("Paint fades out where the surface is steeper or flatter, higher or lower");
@@ -72,7 +61,7 @@ void limits(Brush& brush) {
         brush.height[1] = shown[1] >= 100 ? 1e6f : shown[1];
     }
     toolTip("From the lowest to the highest point that takes paint; at -100 m and 100 m there is no limit");
-    slider("Softness", &brush.softness, 0, 1, "%.2f");
+    labelledSlider("Softness", &brush.softness, 0, 1, "%.2f");
     toolTip("0: the limits are edges, 1: paint fades out over a wide band");
 }
 
@@ -92,7 +81,7 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
         uint32_t gesture = 0;
         if (has && !changed) {
             ImGui::SetNextItemWidth(-1);
-            changed = ImGui::SliderFloat("##own", &value, info.low, info.high, "%.3g", ImGuiSliderFlags_AlwaysClamp);
+            changed = slider("##own", &value, info.low, info.high, "%.3g");
             gesture = widgetGesture(work);
         }
         ImGui::PopID();
@@ -112,7 +101,7 @@ void chosenSeeds(Workspace& work) {
     for (const Seed& seed : work.scene().seeds)
         if (work.selected.count(seed.key)) chosen.push_back(work.document->recordOf(seed));
     if (chosen.empty()) {
-        ImGui::TextDisabled("None chosen");
+        ImGui::TextDisabled("No seed is chosen");
         return;
     }
     if (chosen.size() == 1)
@@ -127,7 +116,7 @@ void chosenSeeds(Workspace& work) {
                  : "Nothing grows from it: it may be that a layer is empty here. B shows what is painted.");
     bool changed = false;
     uint32_t number = chosen[0].number;
-    rowLabel("Number");
+    rowLabel("Random no.");
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
     if (ImGui::InputScalar("##number", ImGuiDataType_U32, &number)) {
         for (SeedRecord& seed : chosen) seed.number = number++;
@@ -139,6 +128,7 @@ void chosenSeeds(Workspace& work) {
         for (SeedRecord& seed : chosen) seed.number = seed.number * 747796405u + 2891336453u;
         changed = true;
     }
+    toolTip("Another random number: another plant from the same seed");
     if (work.scene().grammars.size() > 1) {
         const uint32_t now = chosen[0].grammar;
         rowLabel("Grammar");
@@ -195,49 +185,6 @@ const char* viewTitle(EspView view) {
     return "Layer";
 }
 
-bool toolTipWaits() {
-    const ImGuiContext& gui = *ImGui::GetCurrentContext();
-    return gui.HoveredId != 0 && gui.HoveredIdNotActiveTimer < kTipDelay;
-}
-
-void toolTip(const char* text) {
-    if (ImGui::IsItemHovered() && !ImGui::IsItemActive() && !toolTipWaits()) ImGui::SetTooltip("%s", text);
-}
-
-bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2 at, glm::vec2 size, int flags) {
-    const float top = ImGui::GetFrameHeight(), bottom = work.window.y - ImGui::GetFrameHeight() - 4 * work.scale;
-    const glm::vec2 least = 120.f * glm::vec2(work.scale), room = glm::max({work.window.x, bottom - top}, least);
-    ImGui::SetNextWindowSizeConstraints({least.x, least.y}, {room.x, room.y});
-    ImGui::SetNextWindowPos({at.x, at.y}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({size.x, size.y}, ImGuiCond_FirstUseEver);
-    const bool shown = ImGui::Begin(title, open, flags | kQuiet);
-    const ImVec2 is = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
-    const ImVec2 wanted{std::max(0.f, std::min(is.x, work.window.x - extent.x)),
-                        std::max(top, std::min(is.y, bottom - extent.y))};
-    if (!ImGui::IsMouseDown(0) && (wanted.x != is.x || wanted.y != is.y)) ImGui::SetWindowPos(wanted);
-    return shown;
-}
-
-void hint(const char* text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, {1, .8f, .45f, 1});
-    ImGui::TextWrapped("%s", text);
-    ImGui::PopStyleColor();
-}
-
-void rowLabel(const char* text) {
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(text);
-    ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
-    ImGui::SetNextItemWidth(-1);
-}
-
-uint32_t widgetGesture(Workspace& work) {
-    static_assert(sizeof(ImGuiID) == sizeof(uint32_t));
-    // A new one each time that a widget is taken up; kept while it is held.
-    if (ImGui::IsItemActivated() || !ImGui::IsItemActive()) return work.newGesture();
-    return work.gesture();
-}
-
 std::string grammarName(const espalier::scene::Scene& scene, size_t index) {
     std::string name = std::filesystem::path(scene.grammars[index].file).stem().string();
     size_t before = 0;
@@ -247,15 +194,15 @@ std::string grammarName(const espalier::scene::Scene& scene, size_t index) {
 
 void brushPanel(Workspace& work) {
     Brush& b = work.brush;
-    slider("Radius", &work.brushRadius(), .01f, 20, "%.2f m", true);
+    labelledSlider("Radius", &work.brushRadius(), .01f, 20, "%.2f m", true);
     toolTip("[ and ], or F and a move of the mouse");
-    slider("Strength", &b.strength, .01f, 1, "%.2f");
+    labelledSlider("Strength", &b.strength, .01f, 1, "%.2f");
     toolTip("How much one dab changes, or Shift+F and a move of the mouse");
-    slider("Hardness", &b.hardness, 0, 1, "%.2f");
+    labelledSlider("Hardness", &b.hardness, 0, 1, "%.2f");
     toolTip("0: soft from the centre, 1: a hard edge");
-    slider("Value", &b.value, 0, 1, "%.2f");
+    labelledSlider("Value", &b.value, 0, 1, "%.2f");
     toolTip("What is painted: 1 is all, 0 is nothing");
-    slider("Spacing", &b.spacing, .05f, 1, "%.2f");
+    labelledSlider("Spacing", &b.spacing, .05f, 1, "%.2f");
     toolTip("Between two dabs, of the radius");
     limits(b);
     ImGui::Checkbox("Only what faces as the centre does", &b.frontOnly);
@@ -305,11 +252,11 @@ void lightPanel(Workspace& work) {
         const int minutes = int(std::lround(light.hour * 60)) % 1440;
         char text[16];
         std::snprintf(text, sizeof text, "%d:%02d", minutes / 60, minutes % 60);
-        changed |= slider("Time", &light.hour, 0, 24, text);
+        changed |= labelledSlider("Time", &light.hour, 0, 24, text);
         toolTip("Time of the day");
     }
     const uint32_t gesture = changed ? widgetGesture(work) : 0;
-    bool exposed = slider("Exposure", &light.exposure, -4, 4, "%.1f stops");
+    bool exposed = labelledSlider("Exposure", &light.exposure, -4, 4, "%.1f stops");
     const uint32_t second = exposed ? widgetGesture(work) : 0;
     toolTip("One stop more is twice as bright");
     exposed |= ImGui::Checkbox("Shadows", &light.shadows);
@@ -329,7 +276,7 @@ void lightPanel(Workspace& work) {
     }
     toolTip("What is shown of the scene  (1 to 6)");
     if (layer) {
-        if (slider("Opacity", &work.layout.layerOpacity, .05f, 1, "%.2f")) work.redraw = true;
+        if (labelledSlider("Opacity", &work.layout.layerOpacity, .05f, 1, "%.2f")) work.redraw = true;
         toolTip("Of the painted layer over the model");
     }
     bool paper = work.grow.walk == ESP_WALK_PAPER;

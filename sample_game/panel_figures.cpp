@@ -93,7 +93,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         for (int i = 0; i < 3 && !brief; ++i) row(kStages[i], ms(times[i]), kColours[i]);
         row("Frame", ms(work.frameMs));
         if (!brief) graph(work);
-        if (!brief) row("Grown so far", grouped(stats.expansions));
+        if (!brief) row("Times grown", grouped(stats.expansions));
         row("GPU memory", grouped(stats.totalBytes >> 20) + " MiB");
         if (!brief)
             row("Undo", grouped(work.document->undoSteps()) + (work.document->undoSteps() == 1 ? " step" : " steps"));

@@ -66,9 +66,7 @@ bool editParam(const EspParamInfo& param, float* value) {
     }
     // Ranges over several decades, such as 0.02 to 20, get a slider by ratio.
     const bool wide = param.low > 0 && param.high / param.low > 200;
-    const ImGuiSliderFlags flags =
-        ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-    return ImGui::SliderFloat("##value", value, param.low, param.high, formatOf(param).c_str(), flags);
+    return slider("##value", value, param.low, param.high, formatOf(param).c_str(), wide);
 }
 
 void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
@@ -82,7 +80,7 @@ void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
     std::memcpy(value, param.value, sizeof value);
     bool changed = editParam(param, value);
     uint32_t gesture = changed ? widgetGesture(work) : 0;
-    toolTip((std::string(param.name) + "\nCtrl+click to type a value").c_str());
+    toolTip((std::string(param.name) + "\nDouble click or Ctrl+click to type a value").c_str());
     if (!isInitial(param)) {
         ImGui::SameLine();
         if (ImGui::Button("\u21ba", {button, button})) {

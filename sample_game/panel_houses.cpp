@@ -40,7 +40,7 @@ void pitch(Workspace& work, Edit& edit, const char* label, float& slope) {
         float degrees = std::atan(slope) * kDegrees;
         ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
         ImGui::SetNextItemWidth(-1);
-        const bool moved = ImGui::SliderFloat("##degrees", &degrees, 5, 80, "%.0f\u00b0", ImGuiSliderFlags_AlwaysClamp);
+        const bool moved = slider("##degrees", &degrees, 5, 80, "%.0f\u00b0");
         edit.note(work, moved);
         if (moved) slope = std::tan(degrees / kDegrees);
     }
@@ -100,8 +100,7 @@ void housesPanel(Workspace& work) {
         ImGui::EndCombo();
     }
     toolTip("Of the whole house; a chosen edge may differ");
-    rowLabel("Walls");
-    edit.note(work, ImGui::SliderFloat("##walls", &house.eaveHeight, 2, 20, "%.1f m", ImGuiSliderFlags_AlwaysClamp));
+    edit.note(work, labelledSlider("Walls", &house.eaveHeight, 2, 20, "%.1f m"));
     toolTip("Height of the eaves above the house's foot");
     pitch(work, edit, "Pitch", house.slope);
     if (work.houseEdge && *work.houseEdge < house.corners.size()) {

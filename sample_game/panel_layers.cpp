@@ -62,10 +62,10 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     if (button("Fill", "Fills the whole layer with the brush's value"))
         work.perform(FillLayer{layer.name, work.brush.value});
     if (button("Import", layer.town ? "A picture (.png, .exr) of the town from above, north up, as Export writes it"
-                                    : "A picture (.png, .exr) in the surface's walk UVs, as Export writes it"))
+                                    : "A picture (.png, .exr) over the surface's atlas (F5), as Export writes it"))
         askForLayer(layer.name, true);
     if (button("Export", layer.town ? "Writes the layer as it is seen from above, north up"
-                                    : "Writes the layer over the surface's walk UVs"))
+                                    : "Writes the layer as a picture over the surface's atlas (F5)"))
         askForLayer(layer.name, false);
     if (!layer.town) {
         const bool seen = scene.look.view == ESP_VIEW_LAYER && scene.viewLayer == layer.name;

@@ -37,6 +37,17 @@ void prunedRow(Workspace& work) {
     ImGui::EndDisabled();
 }
 
+void branchButtons(Workspace& work, bool hasParent) {
+    const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    ImGui::BeginDisabled(!hasParent);
+    if (ImGui::Button("Its parent  [", {half, 0})) work.pickParent();
+    toolTip("Picks the branch that this one grows from");
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (ImGui::Button("Atlas  F5", {-1, 0})) work.layout.atlas = !work.layout.atlas;
+    toolTip("The same walk over the charts of the surface");
+}
+
 // seed: of the picked branch; null: none is picked.
 void plantButtons(Workspace& work, const espalier::scene::Seed* seed) {
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
@@ -57,18 +68,23 @@ void plantButtons(Workspace& work, const espalier::scene::Seed* seed) {
 // All rows are always there, so that nothing moves away from under the mouse.
 void branchPanel(Workspace& work) {
     const bool picked = work.branch && !work.path.empty();
+    const EspBranchInfo& info = work.branchInfo;
     const espalier::scene::Seed* seed = nullptr;
     for (const auto& planted : work.scene().seeds)
-        if (picked && planted.planted.id == work.branch->seed.id) seed = &planted;
+        if (picked && planted.planted.id == info.seed.id) seed = &planted;
     if (picked) {
         size_t crossings = 0;
         for (size_t i = 0; i + 1 < work.path.size(); ++i) crossings += jumps(work.path[i], work.path[i + 1]);
-        ImGui::Text("Depth %u, %zu samples, %zu crossings", work.branch->depth, work.path.size(), crossings);
-        ImGui::TextDisabled("Key %016llx", static_cast<unsigned long long>(work.branch->branch));
+        ImGui::Text("Depth %u, %zu samples, %zu crossings", info.depth, work.path.size(), crossings);
+        char tip[160];
+        std::snprintf(tip, sizeof tip,
+                      "Branches between it and its seed, steps of its walk,\njumps to another chart. Its key: %016llx",
+                      static_cast<unsigned long long>(*work.branch));
+        toolTip(tip);
     } else {
-        ImGui::TextUnformatted("Click a branch");
-        ImGui::TextDisabled("to see how it walked, to prune or freeze it");
+        ImGui::TextDisabled("Click a branch");
     }
+    branchButtons(work, picked && info.depth > 0);
     plantButtons(work, seed);
     prunedRow(work);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sample_game/session.hpp"
+#include "sample_game/widgets.hpp"
 #include "sample_game/workspace.hpp"
 
 namespace sample {
@@ -20,9 +21,15 @@ void showHelp(Workspace& work);                                    // over all: 
 void showGrowing(const Workspace& work);                           // while growth takes longer than a blink
 
 // Ctrl+S and Ctrl+O: at once, or by a dialogue.
-void askToSave(Workspace& work, Session& session);
+void askToSave(Workspace& work, Session& session, bool elsewhere = false);
 void askToOpen(const std::string& refused = {});  // refused: what couldn't be opened; Workspace::error says why
-bool closeMenus();                                // those that are open, not dialogues; false: there are none
+void askToRecord();
+void askToReplay();
+// The end of the program, or another file to open: at once, or when the user has said what becomes of what isn't saved.
+// False: that is asked, which only frames with showDialogues() do.
+bool askToLeave(Workspace& work, Session& session, const std::string& next = {});
+bool asksToLeave();
+bool closeMenus();  // those that are open, not dialogues; false: there are none
 // In frames without showDialogues(): ImGui can't do with a dialogue that is open and isn't laid out.
 void closeDialogues();
 // A dialogue has been asked for, or is open, whose text can't be typed into yet: it can within some frames.
@@ -40,24 +47,9 @@ void lightPanel(Workspace& work);
 
 // A grammar's file, told apart from others of the same file by its place.
 std::string grammarName(const espalier::scene::Scene& scene, size_t index);
-// The number that belongs to the widget that is being dragged or typed into: what it does is one step of undo.
-uint32_t widgetGesture(Workspace& work);
-// Of every window that may appear while a dialogue is open: taking the focus from it then ends ImGui 1.86 in an
-// assertion.
-constexpr int kQuiet = 1 << 12;  // ImGuiWindowFlags_NoFocusOnAppearing
 // Views that need no layer, in the order of their keys 1, 2 ...
 constexpr EspView kViews[] = {ESP_VIEW_SHADED, ESP_VIEW_CHARTS, ESP_VIEW_NORMALS,
                               ESP_VIEW_LOD,    ESP_VIEW_DEPTH,  ESP_VIEW_OVERDRAW};
 const char* viewTitle(EspView view);
-// The words before a widget, which takes the rest of the row.
-// ImGui::Begin of a window that the user may move, with where and how large it is the first time. It stays between the
-// bars at the top and bottom, whatever the size of window and letters becomes.
-bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2 at, glm::vec2 size, int flags = 0);
-void hint(const char* text);  // what keeps the user from seeing anything happen
-void rowLabel(const char* text);
-// Shown when the mouse rests on the last widget.
-void toolTip(const char* text);
-// Whether the pointer rests on something that will show its tip in a moment.
-bool toolTipWaits();
 
 }  // namespace sample

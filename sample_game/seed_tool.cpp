@@ -25,7 +25,7 @@ SeedRecord SeedTool::newSeed(Workspace& work, const EspHit& hit) const {
 }
 
 void SeedTool::plant(Workspace& work, const SeedRecord& seed, uint32_t gesture) {
-    if (work.perform(AddSeeds{{seed}, {uint32_t(work.scene().seeds.size())}}, gesture)) work.selected = {seed.key};
+    if (work.perform(AddSeeds{{seed}, {uint32_t(work.scene().seeds.size())}}, gesture)) work.selected.insert(seed.key);
 }
 
 uint32_t SeedTool::seedAt(const Workspace& work, glm::vec2 at) const {
@@ -76,8 +76,13 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
         drag_ = Drag::turn;
         return;
     }
+    if (event.mods & GLFW_MOD_SHIFT) {
+        drag_ = Drag::box;
+        return;
+    }
+    work.selected.clear();
     const auto hit = work.pick(at);
-    if (!hit) return work.selected.clear();
+    if (!hit) return;
     pending_ = newSeed(work, *hit);
     drag_ = event.mods & GLFW_MOD_CONTROL ? Drag::row : Drag::direction;
     if (drag_ != Drag::row) return;
@@ -87,6 +92,10 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
 
 void SeedTool::follow(Workspace& work, glm::vec2 at) {
     moved_ = moved_ || glm::distance(at, from_) > 4 * work.scale;
+    if (drag_ == Drag::box) {
+        last_ = at;
+        return;
+    }
     const auto hit = work.pick(at);
     if (!moved_ || !hit) return;
     const glm::vec3 point = vec(hit->position);
@@ -133,6 +142,7 @@ bool SeedTool::take(Workspace& work, const PointerEvent& event) {
         follow(work, at);
     } else if (event.kind == Kind::release && left) {
         if (drag_ == Drag::direction) plant(work, pending_, gesture_);
+        if (drag_ == Drag::box) selectBox(work);
         drag_ = Drag::none;
     }
     return true;
@@ -166,6 +176,14 @@ void SeedTool::remove(Workspace& work) {
         if (work.selected.count(seed.key)) action.keys.push_back(seed.key);
     if (!action.keys.empty()) work.perform(action);
     work.selected.clear();
+}
+
+void SeedTool::selectBox(Workspace& work) const {
+    const glm::vec2 low = glm::min(from_, last_), high = glm::max(from_, last_);
+    for (const Seed& seed : work.scene().seeds) {
+        const auto at = work.place(vec(seed.position));
+        if (at && glm::clamp(*at, low, high) == *at && work.visible(vec(seed.position))) work.selected.insert(seed.key);
+    }
 }
 
 void SeedTool::selectAll(Workspace& work) {
@@ -202,6 +220,10 @@ void SeedTool::draw(const Workspace& work) const {
         list.AddCircleFilled({at->x, at->y}, 5.5f * s, IM_COL32(0, 0, 0, 0) | (alpha / 2 & 0xFF000000));
         list.AddCircleFilled({at->x, at->y}, 4 * s, colour);
         if (seed.frozen) list.AddCircle({at->x, at->y}, 7 * s, IM_COL32(120, 200, 255, 0) | alpha, 0, 2 * s);
+    }
+    if (drag_ == Drag::box) {
+        list.AddRectFilled({from_.x, from_.y}, {last_.x, last_.y}, IM_COL32(255, 190, 60, 30));
+        list.AddRect({from_.x, from_.y}, {last_.x, last_.y}, IM_COL32(255, 190, 60, 200), 0, 0, s);
     }
     if (drag_ == Drag::direction)
         arrow(vec(pending_.position), vec(pending_.direction), IM_COL32(255, 190, 60, 255), 2.5f * s);

@@ -6,8 +6,8 @@
 namespace sample {
 
 // Seeds: a click plants one that grows upward, a drag gives the direction. A click on a seed chooses it (Shift: one
-// more), a drag of a chosen one moves all that are, a drag of its arrow turns them. Ctrl and a drag plant along the
-// way.
+// more), Shift and a drag those that it goes around; a drag of a chosen one moves all that are, a drag of its arrow
+// turns them. Ctrl and a drag plant along the way.
 class SeedTool {
   public:
     bool take(Workspace& work, const PointerEvent& event);
@@ -20,13 +20,14 @@ class SeedTool {
     void draw(const Workspace& work) const;
 
   private:
-    enum class Drag { none, direction, move, turn, row };
+    enum class Drag { none, direction, move, turn, row, box };
     espalier::document::SeedRecord newSeed(Workspace& work, const EspHit& hit) const;
     void plant(Workspace& work, const espalier::document::SeedRecord& seed, uint32_t gesture);
     uint32_t seedAt(const Workspace& work, glm::vec2 at) const;
     bool arrowAt(const Workspace& work, glm::vec2 at) const;  // of a chosen one
     void press(Workspace& work, const PointerEvent& event);
     void follow(Workspace& work, glm::vec2 at);
+    void selectBox(Workspace& work) const;  // from where the drag began to where it is, besides what is chosen
     void finish(Workspace& work);
     // The chosen ones, as `change` leaves them.
     template <class Change>

@@ -55,7 +55,7 @@ void Session::begin(Workspace& work, const std::string& file) {
     grammarTimes_.clear();
     for (const auto& grammar : work.scene().grammars) grammarTimes_.push_back(newestGrammar(grammar.file));
     modelTimes_ = modelTimes(work, {});
-    reload = false;
+    reload = givesUp = replayed_ = false;
     work.document->listen([this](const Action& action, uint32_t gesture) { recorder_.note(action, gesture); });
 }
 
@@ -65,6 +65,7 @@ std::string Session::name(const Workspace& work) const {
 }
 
 std::string Session::autosaveFolder() const {
+    if (replayed_) return {};
     if (!folder_.empty()) return folder_;
     if (!recoveredFrom_.empty()) return recoveredFrom_;
     // Of what was never saved, beside the user's settings, by the file that it was opened from.
@@ -117,17 +118,32 @@ bool Session::watchGrammars(Workspace& work) {
 
 void Session::end(Workspace& work) {
     if (recording()) stopRecording(work);
-    if (modified(work) && recovery_.empty() && !autosaveFolder().empty())
+    if (autosaveFolder().empty() || !recovery_.empty()) return;
+    if (givesUp)
+        dropKept();
+    else if (modified(work))
         autosave(*work.document, autosaveFolder(), work.error);
+}
+
+void Session::dropKept() const {
+    std::error_code ignored;
+    if (!folder_.empty())
+        dropAutosave(folder_);
+    else
+        fs::remove_all(autosaveFolder(), ignored);
+}
+
+void Session::replays() {
+    replayed_ = true;
+    folder_.clear();
+    recovery_.clear();
 }
 
 void Session::save(Workspace& work, const std::string& folder) {
     work.error.clear();
     if (!saveProject(*work.document, folder, work.error)) return;
-    if (folder_.empty() && !autosaveFolder().empty()) {
-        std::error_code ignored;
-        fs::remove_all(autosaveFolder(), ignored);
-    }
+    if (folder_.empty() && !autosaveFolder().empty()) dropKept();
+    replayed_ = false;
     folder_ = fs::absolute(folder).lexically_normal().string();
     savedRevision_ = autosavedRevision_ = work.document->revision();
     recovery_.clear();
@@ -143,7 +159,7 @@ bool Session::startRecording(Workspace& work, const std::string& path, uint32_t 
     work.error.clear();
     std::string from = file_;
     // What was edited since is part of what the run begins with.
-    if (work.document->revision() != 0) {
+    if (work.document->revision() != 0 || replayed_) {
         from = path + ".project";
         if (!saveProject(*work.document, from, work.error)) return false;
     }

@@ -17,7 +17,7 @@ class Session {
     // Once a frame, with the seconds since the program's start: looks at grammars' files and autosaves in time.
     // True: something has changed.
     bool step(Workspace& work, double now);
-    // The end of the program: what wasn't saved stays as an autosave.
+    // The end of what is open: what wasn't saved stays as an autosave, unless it is given up.
     void end(Workspace& work);
 
     const std::string& file() const { return file_; }  // that was opened, with its whole path
@@ -30,6 +30,10 @@ class Session {
     // Of an earlier run that ended without saving; empty: there is none. Asked until answered.
     const std::string& recovery() const { return recovery_; }
     void forgetRecovery(bool deleteIt);
+    // What is done in the document from now on is a recorded run's: it is kept nowhere, until the user saves it.
+    void replays();
+    // What follows is the user's.
+    void endReplay(const Workspace& work) { savedRevision_ = work.document->revision(); }
 
     // What to open next; the application does it.
     std::string openNext;
@@ -44,6 +48,7 @@ class Session {
     Origin origin(const Workspace& work) const { return {file_, folder_, modified(work)}; }
     void setOrigin(const Workspace& work, const Origin& origin);
     bool quit = false;
+    bool givesUp = false;       // what isn't saved at the end of what is open
     double autosaveEvery = 60;  // seconds
 
     bool recording() const { return recorder_.on(); }
@@ -54,11 +59,13 @@ class Session {
 
   private:
     std::string autosaveFolder() const;
+    void dropKept() const;  // the autosave
     bool watchGrammars(Workspace& work);
     bool watchModels(const Workspace& work);
 
     std::string file_, folder_, recovery_, recordingTo_;
     std::string recoveredFrom_;  // the autosave's folder of what was never saved; it goes on there
+    bool replayed_ = false;
     uint64_t savedRevision_ = 0, autosavedRevision_ = 0;
     double nextAutosave_ = 0, nextLook_ = 0;
     std::vector<std::filesystem::file_time_type> grammarTimes_, modelTimes_;

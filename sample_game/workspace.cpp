@@ -62,7 +62,8 @@ void Workspace::frameChosen() {
     if (points.empty()) return lookFrom(espFrameAll(context.get()));
     glm::vec3 low = points[0], high = points[0];
     for (const glm::vec3& point : points) low = glm::min(low, point), high = glm::max(high, point);
-    camera.frame((low + high) * .5f, std::max(glm::distance(low, high) / 2, .12f * reach()));
+    // A seed is a point: some of what grows around it is seen with it.
+    camera.frame((low + high) * .5f, std::max(glm::distance(low, high) / 2, std::min(1.f, .12f * reach())));
     redraw = true;
 }
 
@@ -80,7 +81,6 @@ void Workspace::choose(Tool chosen) {
         !townLayer(brush.layer))
         perform(SetView{"layer", brush.layer});
     if (chosen != Tool::paint && tool == Tool::paint && layer) perform(SetView{"shaded", ""});
-    if (chosen == Tool::branch && tool != Tool::branch) layout.atlas = true;
     tool = chosen;
 }
 
@@ -107,6 +107,10 @@ void Workspace::chooseLayer(const std::string& name) {
         perform(SetView{"layer", name});
 }
 
+void Workspace::showLayer(bool seen) {
+    perform(espalier::document::SetView{seen ? "layer" : "shaded", seen ? brush.layer : ""});
+}
+
 Ray Workspace::rayThrough(glm::vec2 at) const {
     return camera.ray(at / window, window.x / window.y, shift());
 }
@@ -122,14 +126,24 @@ void Workspace::pickBranch(glm::vec2 at) {
     const Ray ray = rayThrough(at);
     EspPlantHit found;
     branch.reset();
-    if (espPickPlant(context.get(), &ray.origin.x, &ray.direction.x, &found) == ESP_OK) branch = found;
+    message.clear();
+    if (espPickPlant(context.get(), &ray.origin.x, &ray.direction.x, &found) == ESP_OK)
+        branch = found.branch;
+    else
+        message = "No branch there: click a stem or a leaf";
+    readPath();
+}
+
+void Workspace::pickParent() {
+    if (!branch || path.empty()) return;
+    branch = branchInfo.parent;
     readPath();
 }
 
 void Workspace::prune() {
     if (!branch) return;
     char key[20];
-    std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(branch->branch));
+    std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(*branch));
     if (!perform(espalier::document::PruneBranch{key, true})) return;
     branch.reset();
     path.clear();
@@ -144,9 +158,11 @@ void Workspace::freeze(const std::vector<uint32_t>& keys, bool frozen) {
 void Workspace::readPath() {
     uint32_t count = 0;
     path.clear();
-    if (!branch || espBranchPath(context.get(), branch->branch, nullptr, &count) != ESP_OK) return;
+    if (!branch || espBranchPath(context.get(), *branch, nullptr, &count) != ESP_OK) return;
     path.resize(count);
-    if (espBranchPath(context.get(), branch->branch, path.data(), &count) != ESP_OK) path.clear();
+    if (espBranchPath(context.get(), *branch, path.data(), &count) != ESP_OK ||
+        espBranchInfo(context.get(), *branch, &branchInfo) != ESP_OK)
+        path.clear();
 }
 
 bool Workspace::barren(uint32_t key) {

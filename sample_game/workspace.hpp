@@ -56,8 +56,9 @@ struct Workspace {
     Tool tool = Tool::look;
     Brush brush;
     std::set<uint32_t> selected;        // keys of seeds
-    std::optional<EspPlantHit> branch;  // that was picked
+    std::optional<uint64_t> branch;     // key of the one that was picked
     std::vector<EspPathSample> path;    // its walk; what grows anew may have lost it
+    EspBranchInfo branchInfo{};         // while there is a path
     std::optional<uint32_t> house;      // of the town, that was chosen
     std::optional<uint32_t> houseEdge;  // of its outer ring
     uint32_t plantGrammar = 0;
@@ -95,6 +96,7 @@ struct Workspace {
     // A layer that lies over the town, seen from above, and over no surface.
     bool townLayer(const std::string& name) const;
     void chooseLayer(const std::string& name);  // for the brush
+    void showLayer(bool seen);                  // the brush's, on the model
     float& brushRadius() { return townLayer(brush.layer) ? brush.townRadius : brush.radius; }
     float brushRadius() const { return townLayer(brush.layer) ? brush.townRadius : brush.radius; }
 
@@ -103,6 +105,7 @@ struct Workspace {
     // What the brush goes over: surfaces; with a layer of the town also houses and ground.
     std::optional<EspHit> aim(glm::vec2 at) const;
     void pickBranch(glm::vec2 at);
+    void pickParent();  // the branch that the picked one leaves from
     std::optional<HouseHit> meetHouse(const Ray& ray, float before) const;
     std::optional<uint32_t> pickHouse(glm::vec2 at) const;
     // What stops who walks: surfaces, houses and the ground; see Meets.

@@ -55,11 +55,20 @@ TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are plan
     // A path that was typed as soon as its dialogue was asked for, and Return.
     CHECK(std::filesystem::exists(folder.path / "saved/project.json"));
 
-    // What was done and not saved was kept.
-    bool kept = false;
+    // What was done and not saved was kept until it was saved.
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path))
-        kept = kept || entry.path().filename() == "autosave.json";
-    CHECK(kept);
+        CHECK(entry.path().filename() != "autosave.json");
+
+    // Replayed in a window it is the same run.
+    Run again;
+    REQUIRE_MESSAGE(readRun(folder.file("again.jsonl"), again, error), error);
+    const auto actions = [](const Run& run) {
+        std::vector<std::string> all;
+        for (const RunLine& line : run.lines)
+            if (!std::holds_alternative<SetCamera>(line.action)) all.push_back(toJson({0, 0, line.action}));
+        return all;
+    };
+    CHECK(actions(again) == actions(recorded));
     const Ran replayed = run(program("espalier-capture") + " --replay " + folder.file("run.jsonl") +
                              " --size 160x90 --every 100000 -o " + folder.file("frames"));
     CHECK_MESSAGE(replayed.code == 0, replayed.output);

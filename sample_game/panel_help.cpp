@@ -1,0 +1,76 @@
+// All keys, over everything: F1.
+#include <imgui.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "sample_game/panels.hpp"
+
+namespace sample {
+
+void showHelp(Workspace& work) {
+    if (!work.layout.help) return;
+    struct Row {
+        const char *keys, *what;
+    };
+    const Row camera[] = {{"Tab", "between the game and the editor"},
+                          {"W A S D, mouse", "walk and look (game); G flies, Space jumps, Shift runs"},
+                          {"Middle drag, Alt+drag", "turn around; with Shift sideways"},
+                          {"Right drag", "look around; with W A S D Q E fly"},
+                          {"Wheel", "nearer, further"},
+                          {"Home, F or numpad .", "show everything, what is chosen"},
+                          {"Numpad 1 3 7", "from the front, the right, above; Ctrl: the other side"}};
+    const Row paint[] = {{"B, then drag", "paint the chosen layer"},
+                         {"Ctrl+drag, Shift+drag", "erase, smooth"},
+                         {"[ and ]", "smaller, larger brush"},
+                         {"F, Shift+F, then move", "radius, strength; click to keep it"},
+                         {"V", "show or hide what is painted"}};
+    const Row seeds[] = {{"S, then click", "plant; drag gives the direction"},
+                         {"Ctrl+drag", "plant a row"},
+                         {"Click, Shift+click, Shift+drag", "choose one, one more, several"},
+                         {"Drag a seed, its arrow", "move, turn what is chosen"},
+                         {"G, R", "move, turn the chosen seeds; a click ends it, Esc takes it back"},
+                         {"A, X or Del", "choose all, remove"},
+                         {"Shift+R", "other random numbers for all"},
+                         {"P, then click", "a branch; [ picks its parent, Del prunes it"},
+                         {"H, then click", "a house; drag its corners, choose its edges"}};
+    const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z", "undo, redo: of everything"},
+                       {"Ctrl+S, Ctrl+O, Ctrl+E", "save, open, export the layer"},
+                       {"1 2 3 4 5 6", "shaded, charts, normals, levels of detail, depth, overdraw"},
+                       {"F2 F3 F4 F5", "panel, figures, grammar, atlas"},
+                       {"F12", "write a screenshot"},
+                       {"Esc", "puts the tool away"}};
+    ImGui::SetNextWindowPos({work.window.x / 2, work.window.y / 2}, ImGuiCond_Always, {.5f, .5f});
+    ImGui::SetNextWindowSize({std::min(680 * work.scale, work.window.x), 0});
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize | kQuiet;
+    if (ImGui::Begin("Keys and mouse", &work.layout.help, flags)) {
+        ImGui::TextWrapped(
+            "A path of ivy up a wall: B, Clear the mask, drag up the wall; then S and a "
+            "click at the foot of what you painted.");
+        const auto table = [&](const char* title, const Row* rows, size_t count) {
+            ImGui::Spacing();
+            ImGui::TextColored({.62f, .85f, .5f, 1}, "%s", title);
+            if (!ImGui::BeginTable(title, 2)) return;
+            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 230 * work.scale);
+            ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+            for (size_t i = 0; i < count; ++i) {
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(rows[i].keys);
+                ImGui::TableNextColumn();
+                ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+                ImGui::TextWrapped("%s", rows[i].what);
+                ImGui::PopStyleColor();
+            }
+            ImGui::EndTable();
+        };
+        table("Camera", camera, std::size(camera));
+        table("Painting", paint, std::size(paint));
+        table("Seeds", seeds, std::size(seeds));
+        table("Everything", all, std::size(all));
+    }
+    ImGui::End();
+}
+
+}  // namespace sample

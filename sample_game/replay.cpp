@@ -1,0 +1,48 @@
+// Lines of a run -> actions of the document, each when its frame is due.
+#include "sample_game/replay.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace sample {
+
+using namespace espalier::document;
+
+bool Replay::read(const std::string& path, std::string& error) {
+    Run run;
+    if (!readRun(path, run, error)) return false;
+    path_ = path;
+    run_ = std::move(run);
+    began_ = -1;
+    next_ = 0;
+    return true;
+}
+
+bool Replay::step(Workspace& work, double now) {
+    const auto due = uint32_t(std::min((now - began_) / run_->head.step, double(run_->frames())));
+    for (; next_ < run_->lines.size() && run_->lines[next_].frame <= due; ++next_) {
+        const RunLine& line = run_->lines[next_];
+        if (line.gesture != theirs_) ours_ = line.gesture ? work.newGesture() : 0;
+        theirs_ = line.gesture;
+        if (!work.perform(line.action, ours_)) {
+            work.error = path_ + ":" + std::to_string(next_ + 2) + ": " + work.error;
+            return stop(work), false;
+        }
+        if (std::holds_alternative<SetCamera>(line.action)) work.lookFrom(work.scene().camera);
+    }
+    const std::string name = std::filesystem::path(path_).filename().string(), all = std::to_string(run_->frames());
+    status_ = "Replaying " + name + ": frame " + std::to_string(due) + " of " + all + "   Esc: stop";
+    work.underWay = status_.c_str();
+    if (next_ < run_->lines.size()) return true;
+    stop(work);
+    work.message = "Replayed: " + name + ", " + all + " frames";
+    return false;
+}
+
+void Replay::stop(Workspace& work) {
+    if (work.document->stroking()) work.perform(StrokeEnd{}, ours_);
+    work.underWay = nullptr;
+    forget();
+}
+
+}  // namespace sample

@@ -1,0 +1,34 @@
+#pragma once
+
+// What the panels are put together from, besides ImGui's own widgets.
+
+#include "sample_game/workspace.hpp"
+
+namespace sample {
+
+// Of every window that may appear while a dialogue is open: taking the focus from it then ends ImGui 1.86 in an
+// assertion.
+constexpr int kQuiet = 1 << 12;  // ImGuiWindowFlags_NoFocusOnAppearing
+
+// ImGui::Begin of a window that the user may move, with where and how large it is the first time. It stays between the
+// bars at the top and bottom, whatever the size of window and letters becomes.
+bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2 at, glm::vec2 size, int flags = 0);
+
+// A value between two others as a bar, with the number over it. A double click, or Ctrl and a click, types it. True: it
+// has changed. byRatio: each part of the way multiplies it; low > 0.
+bool slider(const char* id, float* value, float low, float high, const char* format, bool byRatio = false);
+// After its label, to the end of the row.
+bool labelledSlider(const char* label, float* value, float low, float high, const char* format, bool byRatio = false);
+void rowLabel(const char* text);  // the words before a widget, which takes the rest of the row
+// ImGui::SameLine if something so wide still fits in the row.
+void sameLineIfRoom(float width);
+void hint(const char* text);  // what keeps the user from seeing anything happen
+// Shown when the mouse rests on the last widget.
+void toolTip(const char* text);
+// Whether the pointer rests on something that will show its tip in a moment.
+bool toolTipWaits();
+
+// The number that belongs to the widget that is being dragged or typed into: what it does is one step of undo.
+uint32_t widgetGesture(Workspace& work);
+
+}  // namespace sample
