@@ -12,7 +12,7 @@ namespace {
 
 vec3 randomUnit(std::mt19937& random) {
     std::normal_distribution<float> n;
-    return glm::normalize(vec3(n(random), n(random), n(random)));
+    return glm::normalize(vec3{n(random), n(random), n(random)});  // braces: in one order with every compiler
 }
 
 }  // namespace
@@ -72,7 +72,9 @@ TEST_CASE("frames are orthonormal, agree at joints and follow the surface") {
             Frame f = spanFrame(s, u, n0, n1);
             CHECK(length3(f.along) == doctest::Approx(1).epsilon(1e-4));
             CHECK(length3(f.out1) == doctest::Approx(1).epsilon(1e-4));
-            CHECK(std::abs(dot3(f.along, f.out1)) < 1e-4f);
+            // Of normals whose blend lies almost along the curve few digits are left.
+            const float left = length3(cross3(f.along, n0 * (1 - u) + n1 * u));
+            CHECK(std::abs(dot3(f.along, f.out1)) < (left > 0.01f ? 2e-5f : 3e-4f));
             CHECK(length3(cross3(f.along, f.out1) - f.side) < 1e-5f);
         }
     }
