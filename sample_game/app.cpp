@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
@@ -25,6 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr double kSlowGrowthMs = 500;
 constexpr double kLookEvery = .3;  // seconds
+constexpr double kTidyAfter = 2;   // seconds without a frame
 constexpr size_t kHistory = 240;   // frames in the graph
 
 }  // namespace
@@ -190,6 +192,14 @@ bool App::frame(float seconds) {
     return true;
 }
 
+// What work has left free in the heap's pieces goes back to the system. Not at once: the next frame would ask for it
+// again.
+void App::rest(double now) {
+    if (tidy_ || now - lastFrame_ < kTidyAfter) return;
+    (void)malloc_trim(0);
+    tidy_ = true;
+}
+
 bool App::loop() {
     double before = glfwGetTime();
     while (!closing() && !(options_.frames && frames_ >= options_.frames)) {
@@ -205,8 +215,13 @@ bool App::loop() {
         const float seconds = float(std::min(now - before, .5));
         before = now;
         if (session_.step(work_, now)) wake();
-        if (awake_ == 0 && !options_.frames) continue;
+        if (awake_ == 0 && !options_.frames) {
+            rest(now);
+            continue;
+        }
         if (!frame(seconds)) return false;
+        lastFrame_ = glfwGetTime();
+        tidy_ = false;
     }
     session_.end(work_);
     if (!layoutFile_.empty()) writeLayout(work_.layout, work_.brush);

@@ -3,7 +3,6 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
-#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -124,7 +123,6 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     if (work_.document) session_.end(work_);
     work_.document = std::move(document);
     work_.context = std::move(context);
-    (void)malloc_trim(0);
     work_.selected.clear();
     work_.branch.reset();
     work_.path.clear();

@@ -44,6 +44,7 @@ class App {
     bool reload();
     bool frame(float seconds);
     void noteTimes(bool grew);
+    void rest(double now);
     void wake() { awake_ = kFramesAfterChange; }
 
     AppOptions options_;
@@ -64,6 +65,8 @@ class App {
     static constexpr int kFramesAfterChange = 3;  // ImGui settles within two
     int awake_ = kFramesAfterChange;
     uint64_t frames_ = 0;
+    double lastFrame_ = 0;  // glfwGetTime's
+    bool tidy_ = false;     // nothing was drawn since memory was given back
     espalier::scene::MovingPicture moving_;
     bool growing_ = false;
     float themeScale_ = 0;
