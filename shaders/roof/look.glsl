@@ -65,7 +65,7 @@ vec3 mirrored(vec3 n, vec3 position) {
     float crest = 0.02 + 0.30 * noise3(vec3(5.0 * ray.xz, 0.5)) + 0.08 * noise3(vec3(21.0 * ray.xz, 7.5));
     vec3 across = mix(frame.groundColor * 0.30, frame.skyColor * vec3(0.13, 0.16, 0.10), clamp(8.0 * ray.y + 0.5, 0.0, 1.0));
     vec3 seen = mix(across, skyColor(ray), smoothstep(-0.03, 0.03, ray.y - crest));
-    return seen * (0.12 + 0.88 * (c * c) * (c * c) * c);
+    return seen * (0.18 + 0.82 * (c * c) * (c * c) * c);
 }
 // from: what is mirrored besides.
 vec4 shade(vec3 base, vec3 n, vec3 position, float roughness, vec3 from) {

@@ -131,6 +131,57 @@ glm::vec3 barkColor(glm::vec2 p, bool birch) {
     return ridge * (1 + 0.4f * fine);
 }
 
+struct Blossom {
+    glm::vec3 petals, middle;  // linear
+    float radius;              // in cells
+    int count;
+};
+// Daisies, geraniums, cornflowers.
+const Blossom kBlossoms[kFlowers] = {{{0.72f, 0.70f, 0.62f}, {0.62f, 0.40f, 0.03f}, 0.055f, 11},
+                                     {{0.56f, 0.045f, 0.035f}, {0.30f, 0.02f, 0.02f}, 0.085f, 10},
+                                     {{0.20f, 0.19f, 0.52f}, {0.12f, 0.07f, 0.30f}, 0.060f, 15}};
+
+// A clump of narrow leaves about its foot, blossoms on stems above them.
+void paintFlowers(Picture& picture, int x0, int y0, int side, const Blossom& b, uint32_t salt) {
+    const Species green{0.30f, 0.055f, 0, 0, {0.030f, 0.055f, 0.018f}, {0.090f, 0.130f, 0.040f}, 0};
+    std::vector<Leaf> leaves;
+    for (uint32_t i = 0; i < 46; ++i) {
+        const auto random = [&](uint32_t which) { return random01(salt, i, which); };
+        const float turn = 2.2f * (random(1) - 0.5f), size = 0.7f + 0.6f * random(2);
+        const glm::vec2 foot(0.5f + 0.5f * (random(3) - 0.5f), 0.97f - 0.25f * random(4));
+        leaves.push_back(
+            {foot, {std::sin(turn), -std::cos(turn)}, green.length * size, green.width * size, random(5), 0});
+    }
+    std::vector<glm::vec2> blossoms;
+    for (uint32_t i = 0; i < uint32_t(b.count); ++i) {
+        const glm::vec2 at(0.12f + 0.76f * random01(salt + 31, i, 0), 0.10f + 0.48f * random01(salt + 31, i, 1));
+        const glm::vec2 foot(glm::mix(0.5f, at.x, 0.35f), 0.9f);
+        blossoms.push_back(at);
+        leaves.push_back({foot, glm::normalize(at - foot), glm::distance(at, foot), 0.03f, 0.3f, 0});
+    }
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const glm::vec2 p = (glm::vec2(x, y) + 0.5f) / float(side);
+            glm::vec3 color = green.dark;
+            float edge = -1;
+            for (const Leaf& leaf : leaves) {
+                float across = 0;
+                const float e = leafEdge(leaf, green, p, across);
+                edge = std::max(edge, e);
+                if (e >= 0) color = leafColor(leaf, green, e, across);
+            }
+            for (glm::vec2 at : blossoms) {
+                const glm::vec2 d = (p - at) / b.radius;
+                const float far = glm::length(d), e = 1 + 0.18f * std::cos(8 * std::atan2(d.y, d.x)) - far;
+                edge = std::max(edge, e * b.radius);
+                if (e >= 0) color = (far < 0.35f ? b.middle : b.petals) * (0.92f - 0.2f * d.y);
+            }
+            uint8_t* texel = picture.at(x0 + x, y0 + y);
+            for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(toSrgb(color[k])) * 255 + 0.5f);
+            texel[3] = uint8_t(saturate(0.5f + edge * float(side) / 10) * 255 + 0.5f);
+        }
+}
+
 }  // namespace
 
 Picture paintFoliage(int size) {
@@ -149,6 +200,9 @@ Picture paintFoliage(int size) {
         for (int column = 0; column < 3; ++column)
             paintTwig(picture, first + column * side, row * side, side, kSpecies[row],
                       450u + uint32_t(row) * 8 + uint32_t(column), column == kFarColumn);
+    const int flowers = int(float(size) * kFlowerSide);
+    for (int kind = 0; kind < kFlowers; ++kind)
+        paintFlowers(picture, size - flowers, kind * flowers, flowers, kBlossoms[kind], 490u + uint32_t(kind));
     return picture;
 }
 

@@ -7,14 +7,18 @@ namespace {
 
 using glm::vec3;
 
-// Two leaves with a bar each.
+// Two leaves with two bars each.
 Mesh casement(int lod) {
     Solid s;
     constexpr float kRim = 0.07f;
     s.box({0, 0, 0}, {1, 0.06f, 1}).box({0, 0.95f, 0}, {1, 1, 1});
     s.box({0, 0.06f, 0}, {kRim, 0.95f, 1}).box({1 - kRim, 0.06f, 0}, {1, 0.95f, 1});
     s.box({0.46f, 0.06f, 0}, {0.54f, 0.95f, 0.8f});
-    if (lod == 0) s.box({kRim, 0.62f, 0}, {0.46f, 0.65f, 0.6f}).box({0.54f, 0.62f, 0}, {1 - kRim, 0.65f, 0.6f});
+    for (float y : {0.34f, 0.64f})
+        if (lod == 0)
+            s.box({kRim, y, 0}, {0.46f, y + 0.025f, 0.6f}).box({0.54f, y, 0}, {1 - kRim, y + 0.025f, 0.6f});
+        else
+            s.quad({kRim, y, 0.6f}, {1 - kRim, y, 0.6f}, {1 - kRim, y + 0.025f, 0.6f}, {kRim, y + 0.025f, 0.6f});
     return s.mesh;
 }
 
@@ -26,10 +30,11 @@ Mesh surround() {
     return s.box({-0.17f, -0.07f, 0}, {1.17f, 0, 2.4f}, 0.95f).mesh;
 }
 
-// A pane with curtains behind it, gathered half-way down. They lie on it, all but flat: nobody sees how deep a room is.
+// A pane with curtains behind it, drawn aside a little more below than above. They lie on it, all but flat: nobody sees
+// how deep a room is.
 Mesh curtains(int lod) {
     const int rows = lod == 0 ? 6 : 2, folds = lod == 0 ? 5 : 1;
-    const auto edge = [](float y) { return 0.17f + (y > 0.45f ? 0.44f * (y - 0.45f) : 0.27f * (0.45f - y)); };
+    const auto edge = [](float y) { return 0.19f + 0.17f * y * y; };
     Solid s;
     for (int row = 0; row < rows; ++row) {
         const float y = float(row) / float(rows), top = float(row + 1) / float(rows);
@@ -67,12 +72,12 @@ Mesh door(int lod) {
     Solid s;
     s.box({-0.09f, 0, 0}, {0, 1.05f, 1}, 1.15f).box({1, 0, 0}, {1.09f, 1.05f, 1}, 1.15f);
     s.box({0, 1, 0}, {1, 1.05f, 1}, 1.15f);
-    const float face = 0.55f, deep = 0.25f;
+    const float face = 0.85f, deep = 0.62f;  // before the plinth
     if (lod > 0) return s.quad({0, 0, face}, {1, 0, face}, {1, 1, face}, {0, 1, face}).mesh;
     for (float x : {0.0f, 0.44f, 0.88f}) s.box({x, 0, 0}, {x + 0.12f, 1, face});
     for (float y : {0.0f, 0.46f, 0.92f}) s.box({0.12f, y, 0}, {0.88f, y + 0.08f, face * 0.98f});
     s.quad({0.1f, 0, deep}, {0.9f, 0, deep}, {0.9f, 1, deep}, {0.1f, 1, deep}, 0.75f);
-    return s.box({0.9f, 0.47f, 0}, {0.94f, 0.53f, 0.9f}, 1.6f).mesh;
+    return s.box({0.9f, 0.47f, 0}, {0.94f, 0.53f, 1.15f}, 1.6f).mesh;
 }
 
 }  // namespace

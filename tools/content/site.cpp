@@ -105,6 +105,7 @@ class Layout {
         feature();
         gardens();
         trees();
+        beds();
         shrubs();
         tufts();
     }
@@ -209,6 +210,40 @@ class Layout {
                                 : pick < 0.75f ? "lime_b"
                                                : "birch_a";
             tree(model, p, 0.8f + 0.5f * random01(i, 47), tall ? 3.2f : 1.6f, i + 500);
+        }
+    }
+    // Beds along a house's walls, between its corners and what may be a door: flowers of one kind, a bush at the
+    // corner. Daisies in the meadow about the court.
+    void beds() {
+        const char* kinds[] = {"flowers_b", "flowers_a", "flowers_c"};
+        for (uint32_t h = 0; h < plan_.houses.size(); ++h) {
+            const Outline& o = plan_.houses[h];
+            for (uint32_t side = 0; side < o.size(); ++side) {
+                const auto random = [&](uint32_t i, uint32_t which) { return random01(h * 16 + side, i, which); };
+                const vec2 a = o[side], b = o[(side + 1) % o.size()], along = glm::normalize(b - a);
+                const float bed = 0.5f * glm::distance(a, b) - 1.6f;
+                vec2 out(along.y, -along.x);
+                if (plan_.toHouse(0.5f * (a + b) + 0.5f * out) < 0) out = -out;
+                for (uint32_t end : {0u, 1u}) {
+                    if (bed < 0.8f || random(end, 81) < 0.35f) continue;
+                    const vec2 from = end ? b : a, way = end ? -along : along;
+                    const vec2 corner = from + 0.7f * way + 0.75f * out;
+                    if (random(end, 82) < 0.6f && clear(corner, 0.6f, 0.5f))
+                        put("bush_b", corner, 360 * random(end, 83), 0.55f + 0.3f * random(end, 84), 0.04f);
+                    for (float x = 1.4f; x < bed; x += 0.38f) {
+                        const uint32_t i = uint32_t(x * 100) * 2 + end;
+                        const vec2 p = from + (x + 0.2f * random(i, 85)) * way + (0.36f + 0.25f * random(i, 86)) * out;
+                        if (random(i, 87) < 0.8f && clear(p, 0.15f, 0.25f))
+                            put(kinds[h % 3], p, 360 * random(i, 88), 0.8f + 0.5f * random(i, 89), 0.02f);
+                    }
+                }
+            }
+        }
+        for (uint32_t i = 0; i < 1500; ++i) {
+            const float angle = 2 * kPi * random01(i, 91), r = 18 * std::sqrt(random01(i, 92));
+            const vec2 p = kCourt + r * vec2(std::cos(angle), std::sin(angle));
+            if (noise(p / 2.1f, 93) + 0.4f * noise(p / 0.6f, 94) > 0.38f && clear(p, 0.2f, 0.5f))
+                put("flowers_a", p, 360 * random01(i, 95), 0.4f + 0.3f * random01(i, 96), 0.02f);
         }
     }
     void shrubs() {

@@ -87,8 +87,14 @@ float facingCode(glm::vec3 n) {
     return float(at.x + kSide * at.y);
 }
 
+// Of the atlas.
+struct Cell {
+    glm::vec2 low;
+    float side = kCellSide;
+};
+
 // Two triangles about `at`, facing `out`; its twig points along `up`.
-void addCard(Mesh& mesh, glm::vec3 at, glm::vec3 out, glm::vec3 up, float side, glm::vec2 cell, float open,
+void addCard(Mesh& mesh, glm::vec3 at, glm::vec3 out, glm::vec3 up, float side, Cell cell, float open,
              const Round& round) {
     const glm::vec3 x = glm::normalize(glm::cross(up, out)), y = glm::cross(out, x);
     const uint32_t first = uint32_t(mesh.positions.size());
@@ -98,16 +104,16 @@ void addCard(Mesh& mesh, glm::vec3 at, glm::vec3 out, glm::vec3 up, float side, 
         const glm::vec3 p = at + side * ((c.x - 0.5f) * x + (c.y - 0.5f) * y);
         mesh.positions.push_back(p);
         mesh.normals.push_back(glm::normalize(round.normal(p) + 0.35f * out));
-        mesh.uvs.push_back(glm::vec2(std::round(open * 8), -1 - facing) + cell +
-                           kCellSide * (0.02f + 0.96f * glm::vec2(c.x, 1 - c.y)));
+        mesh.uvs.push_back(glm::vec2(std::round(open * 8), -1 - facing) + cell.low +
+                           cell.side * (0.02f + 0.96f * glm::vec2(c.x, 1 - c.y)));
     }
     for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
 }
 
 // chance: 0 to 1, picks among the twigs of a species.
-glm::vec2 cellOf(int lod, int row, float chance) {
+Cell cellOf(int lod, int row, float chance) {
     const int column = lod > 0 ? kFarColumn : std::min(int(float(kFarColumn) * chance), kFarColumn - 1);
-    return {kFirstCell + kCellSide * float(column), kCellSide * float(row)};
+    return {{kFirstCell + kCellSide * float(column), kCellSide * float(row)}};
 }
 
 struct Lobe {
@@ -193,7 +199,7 @@ Mesh makeTree(const Habit& h, int lod) {
         // Twigs lead out of their lobe, up to the light; a birch's hang.
         const glm::vec3 twig =
             glm::normalize(glm::vec3(random(6) - 0.5f, h.birch ? -0.9f : 0.35f, random(7) - 0.5f) + 0.6f * dir);
-        const glm::vec2 cell = cellOf(lod, h.row, random(8));
+        const Cell cell = cellOf(lod, h.row, random(8));
         // Dark inside and below, of the crown and of each lobe; open above.
         const float t = (at.y - h.crownFoot) / tall;
         const float open = glm::clamp(0.36f + 0.28f * (deep - h.hollow) / (1 - h.hollow) + 0.24f * dir.y +
@@ -212,7 +218,7 @@ Mesh makeHedge(int lod) {
     const auto card = [&](glm::vec3 at, glm::vec3 out, uint32_t i) {
         const auto random = [&](uint32_t which) { return random01(911u + uint32_t(lod), i, which); };
         const glm::vec3 turned = glm::normalize(out + 0.7f * (glm::vec3(random(0), random(1), random(2)) - 0.5f));
-        const glm::vec2 cell = cellOf(lod, 3, random(3));
+        const Cell cell = cellOf(lod, 3, random(3));
         addCard(mesh, at + 0.08f * (glm::vec3(random(4), random(5), random(6)) - 0.5f), turned,
                 std::abs(out.y) > 0.5f ? glm::vec3(0.3f, 0, 1) : glm::vec3(0.2f * (random(7) - 0.5f), 1, 0), side, cell,
                 glm::clamp(0.35f + 0.5f * at.y / high, 0.0f, 1.0f), {at - out, glm::vec3(1), at - out});
@@ -228,6 +234,21 @@ Mesh makeHedge(int lod) {
         }
         card({x, high, 0.14f}, {0, 1, 0.2f}, ++i);
         card({x, high, -0.14f}, {0, 1, -0.2f}, ++i);
+    }
+    return mesh;
+}
+
+// A clump that stands upright on cards.
+Mesh makeFlowers(int kind, int lod) {
+    Mesh mesh;
+    const int count = lod == 0 ? 6 : lod == 1 ? 3 : 1;
+    const float side = lod == 0 ? 0.34f : lod == 1 ? 0.40f : 0.5f;
+    const Cell cell{{1 - kFlowerSide, kFlowerSide * float(kind)}, kFlowerSide};
+    for (int i = 0; i < count; ++i) {
+        const float angle = 2.399963f * float(i), r = lod < 2 ? 0.16f * std::sqrt(float(i) / float(count)) : 0;
+        const glm::vec3 at(r * std::cos(angle), 0.47f * side, r * std::sin(angle));
+        const glm::vec3 out = glm::normalize(glm::vec3(std::cos(2 * angle), 0.25f, std::sin(2 * angle)));
+        addCard(mesh, at, out, {0, 1, 0}, side, cell, 0.9f, {at - glm::vec3(0, 1, 0), glm::vec3(1), at - out});
     }
     return mesh;
 }
@@ -274,6 +295,8 @@ void addTrees(PropMeshes& out) {
         for (int lod = 0; lod < kLods; ++lod) out.add(h.name, lod, makeTree(h, lod), PropMeshes::kFoliage);
     for (int lod = 0; lod < kLods; ++lod) out.add("hedge", lod, makeHedge(lod), PropMeshes::kFoliage);
     for (int lod = 0; lod < kLods; ++lod) {
+        for (int kind = 0; kind < kFlowers; ++kind)
+            out.add("flowers_" + std::string(1, char('a' + kind)), lod, makeFlowers(kind, lod), PropMeshes::kFoliage);
         out.add("tuft_a", lod, makeTuft(31, 18, 0.20f, 0.13f, lod), PropMeshes::kGrass);
         out.add("tuft_b", lod, makeTuft(32, 26, 0.32f, 0.20f, lod), PropMeshes::kGrass);
         out.add("tuft_c", lod, makeTuft(33, 14, 0.12f, 0.12f, lod), PropMeshes::kGrass);
