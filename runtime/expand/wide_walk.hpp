@@ -15,7 +15,7 @@ constexpr uint32_t kWalkLanes = 16;
 
 // Vectors of eight floats, AVX2's, or of 16, AVX-512's. Narrower ones don't pay: walks go one by one.
 enum class VectorKind { narrow, avx2, avx512 };
-// The widest that this processor has.
+// The widest that this processor has and the compiler makes use of.
 VectorKind widestVectors();
 
 // What lanes compute with. Lanes that were never put are zero, or hold what another walk left there.

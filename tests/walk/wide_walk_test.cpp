@@ -1,6 +1,7 @@
 // Walks side by side in the processor's vectors against the same walks one by one.
 #include <bit>
 #include <cstring>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -115,7 +116,7 @@ TEST_CASE("walks side by side come to the bit where one by one they come, and mo
     for (const VectorKind vectors : {VectorKind::avx2, VectorKind::avx512}) {
         const bool wide = vectors == VectorKind::avx512;
         if (vectors > widestVectors()) {
-            MESSAGE("this processor has no " << (wide ? "AVX-512" : "AVX2"));
+            MESSAGE("this processor, or a build by this compiler, has no " << std::string(wide ? "AVX-512" : "AVX2"));
             continue;
         }
         CAPTURE(wide);
