@@ -81,7 +81,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 2 * s});
         const EspStats& stats = work.stats;
         // Where letters are large and the window isn't, the scene comes first.
-        const bool brief = work.window.x - work.panelUnits() < 2.5f * 235 * s;
+        const bool brief = work.window.x - work.panelUnits() < 3 * 235 * s;
         if (!brief) row("Seeds", grouped(stats.seeds));
         if (!brief) row("Branches", grouped(stats.branches));
         row("Nodes", grouped(stats.nodes));
