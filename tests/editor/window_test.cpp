@@ -29,7 +29,8 @@ TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are plan
     CHECK(count(StrokeEnd{}) == 2);
     CHECK(count(StrokeDabs{}) >= 2);
     CHECK(count(AddSeeds{}) == 1);
-    CHECK(count(Undo{}) == 1);
+    CHECK(count(RemoveSeeds{}) == 1);
+    CHECK(count(Undo{}) == 2);
     CHECK(count(Redo{}) == 1);
     // Only the last drag is one of a grammar's slider: it ends where the mouse was let go.
     size_t redone = 0, slid = recorded.lines.size();
