@@ -132,6 +132,7 @@ Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
 Status Emit::cull(Commands& commands, const EmitInputs& inputs, const EmitView& view, std::string_view passName,
                   bool counted) {
     if (Status s = bind(commands, inputs); !s) return s;
+    usedBy_ = commands.serial();
     const bool known = bound_ == culled_ && std::memcmp(&view, &view_, sizeof view) == 0 && (counted_ || !counted);
     if (known && culledNative()) natives_[native_].serial = commands.serial();
     if (known) return Done{};

@@ -110,6 +110,7 @@ class Emit {
         TexelView spanTexels, leafTexels;  // of these; after them
         uint32_t leafBase = 0;             // number of the first leaf among items
 
+        uint64_t numbers() const { return leafBase + leaves.size() / sizeof(LeafInstance); }
         bool fits(uint32_t nodeCount, uint32_t leafCount) const {
             return spans && spans.size() / sizeof(SpanInstance) >= nodeCount &&
                    leaves.size() / sizeof(LeafInstance) >= leafCount;
@@ -117,7 +118,8 @@ class Emit {
     };
 
     // emit_bind.cpp
-    Result<Held> makeHeld(const GrowthView& growth, uint32_t leaves);
+    Result<Held> makeHeld(const GrowthView& growth, uint32_t leaves);  // but for the order
+    Status makeOrder(Buffer& order, const Held& held);
     void hold(Held held);
     Status reserve();
     Status viewTexels(TexelView& texels, const Buffer& buffer);
@@ -126,7 +128,8 @@ class Emit {
     // emit_carry.cpp
     bool nearlyCrowded() const;
     Status makeCarrying(bool moved);
-    Status carry(Commands& commands, const GrowthView& growth, uint32_t leaves, Bound& bound);
+    Status carryByKernels(Commands& commands, const CarryPush& push, bool all);
+    Status carry(Commands& commands, const EmitInputs& inputs, uint32_t leaves, Bound& bound);
 
     // What native code has left for a recording to draw.
     struct Native {
@@ -154,6 +157,7 @@ class Emit {
     Program barkVertices_, barkIndices_, looseTriangles_;
     std::array<Buffer, 8> views_, binds_;  // that recordings in flight may still read
     Held held_;
+    Buffer spareOrder_;    // that the last carrying left
     Buffer cells_, bins_;  // bound growth, too
     Buffer flags_, list_;
     Buffer state_, seen_, rows_, notes_, drawn_, readback_;  // of a view
@@ -161,8 +165,8 @@ class Emit {
     Buffer noTexels_;
     TexelView nodeRecords_, chunkRecords_, leafRecords_, touchedRecords_;
     EmitGrid grid_{};
-    Bound bound_, culled_;  // and what the last view was of
-    uint64_t boundBy_ = 0;  // the recording
+    Bound bound_, culled_;               // and what the last view was of
+    uint64_t boundBy_ = 0, usedBy_ = 0;  // the recordings that bound it and that looked at it last
     NativeCull nativeCull_;
     std::array<Native, 6> natives_;
     size_t native_ = ~size_t(0);  // of these, the last view's; beyond: shaders have culled it

@@ -50,14 +50,22 @@ Result<Emit::Held> Emit::makeHeld(const GrowthView& growth, uint32_t leaves) {
     for (Status& s : instances)
         if (!s) return s.failure();
     held.leafBase = uint32_t(held.spans.size() / sizeof(SpanInstance));
-    const uint64_t numbers = held.leafBase + held.leaves.size() / sizeof(LeafInstance);
-    Status rest[] = {make(held.keys, "emit keys", numbers * 4),
-                     make(held.order, "emit order", (numbers + numbers / 2 + 32 * kAllCells) * 4),
+    Status rest[] = {make(held.keys, "emit keys", held.numbers() * 4),
                      make(held.leafHeads, "emit leaf heads", held.leafBase * 4ull),
                      make(held.leafNext, "emit next leaves", held.leaves.size() / sizeof(LeafInstance) * 4)};
     for (Status& s : rest)
         if (!s) return s.failure();
     return held;
+}
+
+// For the items of `held`, with room for cells that outgrow theirs.
+Status Emit::makeOrder(Buffer& order, const Held& held) {
+    const uint64_t bytes = (held.numbers() + held.numbers() / 2 + 32 * kAllCells) * 4;
+    if (order && order.size() >= bytes) return Done{};
+    Result<Buffer> made = Buffer::create(*device_, "emit order", bytes);
+    if (!made) return made.failure();
+    order = std::move(*made);
+    return Done{};
 }
 
 void Emit::hold(Held held) {
@@ -75,7 +83,7 @@ Status Emit::viewTexels(TexelView& texels, const Buffer& buffer) {
 
 // Room for what kernels leave to each other, as much as held_ has.
 Status Emit::reserve() {
-    const uint64_t numbers = held_.leafBase + held_.leaves.size() / sizeof(LeafInstance);
+    const uint64_t numbers = held_.numbers();
     const auto hold = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
         if (buffer && buffer.size() >= bytes) return Done{};
         if (texels) *texels = {};
@@ -155,16 +163,16 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     const bool partly = staysBound(wanted, growth);
     Bound before = bound_;
     bound_ = culled_ = {};
-    boundBy_ = commands.serial();
     if (!partly) {
         ++wholeBindings_;
         if (!held_.fits(nodes, leaves)) {
             Result<Held> made = makeHeld(growth, leaves);
             if (!made) return made.failure();
+            if (Status s = makeOrder(made->order, *made); !s) return s;
             hold(std::move(*made));
         }
     } else if (before.number < growth.renewed || !held_.fits(nodes, leaves) || nearlyCrowded()) {
-        if (Status s = carry(commands, growth, leaves, before); !s) return s;
+        if (Status s = carry(commands, inputs, leaves, before); !s) return s;
     }
     if (Status s = reserve(); !s) return s;
     if (Status s = viewRecords(growth, before.nodeCount); !s) return s;
@@ -244,6 +252,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     pass.dispatchItems(bindSort_, kAllCells * kSortLanes, {}, {held_.spanTexels, held_.leafTexels, in});
     pass.barrier(Use::compute, Use::compute | Use::vertex);
     bound_ = wanted;
+    boundBy_ = usedBy_ = commands.serial();
     return Done{};
 }
 

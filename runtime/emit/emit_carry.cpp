@@ -1,7 +1,9 @@
 // Enters: bound growth, and where growth has moved its nodes and leaves since, if it has. Leaves: the same bound growth
-// in buffers with new room, by the numbers that growth's records have now. A copy: what binding all anew would cost ten
+// by the numbers that growth's records have now, in an order of items with new room. Native code moves it in place
+// on software devices; kernels copy it to other buffers, which have new room, too. Binding all anew would cost ten
 // times.
 #include "runtime/emit/emit.hpp"
+#include "runtime/emit/native_carry.hpp"
 
 namespace espalier {
 namespace {
@@ -34,49 +36,75 @@ Status Emit::makeCarrying(bool moved) {
     return Done{};
 }
 
-Status Emit::carry(Commands& commands, const GrowthView& growth, uint32_t leaves, Bound& bound) {
-    const bool moved = bound.number < growth.renewed;
-    const GrowthMove& move = growth.moved;
+// all: instances too, and not the order alone.
+Status Emit::carryByKernels(Commands& commands, const CarryPush& push, bool all) {
+    const bool moved = IS_GIVEN(push.nodesWent);
     if (Status s = makeCarrying(moved); !s) return s;
-    Result<Held> to = makeHeld(growth, leaves);
-    if (!to) return to.failure();
-
-    CarryPush push{};
-    if (moved) {
-        push.nodesWent = words(*move.nodes);
-        push.leavesWent = words(*move.leaves);
-    }
-    push.cells.v = reinterpret_cast<EmitCell*>(cells_.address());
-    push.order = words(held_.order);
-    push.orderTo = words(to->order);
-    push.keys = words(held_.keys);
-    push.keysTo = words(to->keys);
-    push.leafHeads = words(held_.leafHeads);
-    push.leafHeadsTo = words(to->leafHeads);
-    push.leafNext = words(held_.leafNext);
-    push.leafNextTo = words(to->leafNext);
-    push.spansTo.v = reinterpret_cast<SpanInstance*>(to->spans.address());
-    push.leavesTo.v = reinterpret_cast<LeafInstance*>(to->leaves.address());
-    push.nodeCount = bound.nodeCount;
-    push.leafCount = bound.leafCount;
-    push.leafBase = held_.leafBase;
-    push.leafBaseTo = to->leafBase;
-
     Pass pass(commands, "bind");
     commands.barrier(Use::compute | Use::vertex, Use::transfer | Use::compute);
     commands.fill(cells_, 0, kAllCells * sizeof(EmitCell) + offsetof(EmitCell, count), sizeof(uint32_t));
     commands.barrier(Use::transfer, Use::compute);
     const Carrying& programs = carrying_[moved];
-    pass.dispatchItems(programs.spans, bound.nodeCount, push, {held_.spanTexels});
-    pass.dispatchItems(programs.leaves, bound.leafCount, push, {held_.leafTexels});
+    if (all) {
+        pass.dispatchItems(programs.spans, push.nodeCount, push, {held_.spanTexels});
+        pass.dispatchItems(programs.leaves, push.leafCount, push, {held_.leafTexels});
+    }
     pass.dispatchItems(programs.cells, kAllCells, push);
     pass.barrier(Use::compute, Use::compute | Use::transfer);
-    hold(std::move(*to));
+    return Done{};
+}
+
+Status Emit::carry(Commands& commands, const EmitInputs& inputs, uint32_t leaves, Bound& bound) {
+    const GrowthView& growth = inputs.growth;
+    const bool moved = bound.number < growth.renewed;
+    const bool fits = held_.fits(growth.nodeCount, leaves);
+    const bool native = fits && inputs.native && sharesMemory() && device_->finished(usedBy_);
+    const bool stays = fits && (!moved || native);
+    Held other;
+    if (!stays) {
+        Result<Held> made = makeHeld(growth, leaves);
+        if (!made) return made.failure();
+        other = std::move(*made);
+    }
+    const Held& to = stays ? held_ : other;
+    if (Status s = makeOrder(spareOrder_, to); !s) return s;
+
+    CarryPush push{};
+    if (moved) {
+        push.nodesWent = words(*growth.moved.nodes);
+        push.leavesWent = words(*growth.moved.leaves);
+    }
+    push.cells.v = reinterpret_cast<EmitCell*>(cells_.address());
+    push.order = words(held_.order);
+    push.orderTo = words(spareOrder_);
+    push.keys = words(held_.keys);
+    push.keysTo = words(to.keys);
+    push.leafHeads = words(held_.leafHeads);
+    push.leafHeadsTo = words(to.leafHeads);
+    push.leafNext = words(held_.leafNext);
+    push.leafNextTo = words(to.leafNext);
+    push.spansTo.v = reinterpret_cast<SpanInstance*>(to.spans.address());
+    push.leavesTo.v = reinterpret_cast<LeafInstance*>(to.leaves.address());
+    push.nodeCount = bound.nodeCount;
+    push.leafCount = bound.leafCount;
+    push.leafBase = held_.leafBase;
+    push.leafBaseTo = to.leafBase;
+    if (native) {
+        carryNative(push);
+    } else if (Status s = carryByKernels(commands, push, !stays); !s) {
+        return s;
+    }
+
+    std::swap(held_.order, spareOrder_);
+    if (!stays) {
+        other.order = std::move(held_.order);
+        hold(std::move(other));
+    }
     reinterpret_cast<EmitState*>(readback_.mapped())->ordered = 0;  // until the next count comes back
     if (moved) {
         bound.number = growth.renewed;
-        bound.nodeCount = move.nodesAfter;
-        bound.leafCount = move.leavesAfter;
+        bound.nodeCount = growth.moved.nodesAfter;
+        bound.leafCount = growth.moved.leavesAfter;
     }
     ++carries_;
     return Done{};

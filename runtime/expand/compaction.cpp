@@ -1,35 +1,114 @@
-// Closing the gaps that edits have left. In: what is drawn. Out: its nodes and leaves without gaps in the other set of
-// buffers, which is drawn from then on: a copy where all anew would be ten times the work. Chunks and branches keep
-// their places.
+// Closing the gaps that edits have left. In: what is drawn. Out: its nodes and leaves without gaps, where all anew
+// would be ten times the work. Chunks and branches keep their places. Native code moves nodes and leaves up in place;
+// kernels copy them to the other set of buffers, which is drawn from then on.
 #include "runtime/core/check.hpp"
 #include "runtime/expand/gpu_growth.hpp"
-#include "shaders/expand/compact.h"
 
 namespace espalier {
 
-bool GpuGrowth::gappy() const {
-    constexpr uint32_t kMostGapsOf = 3;
-    const auto wide = [](uint32_t taken, uint32_t live) { return taken - std::min(taken, live) > taken / kMostGapsOf; };
+// Native code closes gaps before room runs out, of which there is half as much again as what has grown; kernels copy
+// all, which is the better the later.
+bool GpuGrowth::gappy(const GrowthInputs& inputs) const {
+    const uint32_t mostGapsOf = runsNative(inputs) ? 4 : 3;
+    const auto wide = [&](uint32_t taken, uint32_t live) { return taken - std::min(taken, live) > taken / mostGapsOf; };
     return wide(view_.nodeCount, stats_.nodes) || wide(view_.leafCount, stats_.leaves);
 }
 
-Status GpuGrowth::makeCompactRoom(bool native) {
+Status GpuGrowth::compact(const GrowthInputs& inputs) {
+    dropViews();
+    if (Status ok = ensure(nodesWent_, "growth where nodes went", capacityOf<Node>(*view_.nodeBuffer) * 4ull); !ok)
+        return ok;
+    if (Status ok = ensure(leavesWent_, "growth where leaves went", capacityOf<Leaf>(*view_.leafBuffer) * 4ull); !ok)
+        return ok;
+    Status closed = runsNative(inputs) ? closeGaps() : copyTogether();
+    stats_.reservedBytes = reserved();
+    return closed;
+}
+
+// Nodes and leaves are so many now.
+void GpuGrowth::showMoved(uint32_t nodes, uint32_t leaves) {
+    requireEqual(nodes, stats_.nodes, "nodes that stay when gaps are closed");
+    requireEqual(leaves, stats_.leaves, "leaves that stay when gaps are closed");
+    const GrowthMove moved{&nodesWent_, &leavesWent_, view_.nodeCount, view_.leafCount, nodes, leaves};
+    GrowStatus status{};
+    status.nodes = nodes;
+    status.leaves = leaves;
+    status.chunks = view_.chunkCount;
+    status.branches = view_.branchCount;
+    show(status, true);
+    view_.moved = moved;
+    view_.touched = &touched_;  // what it says of earlier growths is of no account any more
+}
+
+Status GpuGrowth::closeGaps() {
+    Result<Commands> commands = Commands::begin(device_, "before gaps are closed");
+    if (!commands) return commands.failure();
+    if (Status finished = commands->finish(); !finished) return finished;
+    GapClosing closing;
+    closing.nodes = view_.nodes.v;
+    closing.leaves = view_.leaves.v;
+    closing.chunks = view_.chunks.v;
+    if (chained_) {
+        closing.firstLeaves = addressOf<UintBuf, uint32_t>(firstLeaves_).v;
+        closing.nextLeaves = addressOf<UintBuf, uint32_t>(nextLeaves_).v;
+    }
+    closing.nodesWent = addressOf<UintBuf, uint32_t>(nodesWent_).v;
+    closing.leavesWent = addressOf<UintBuf, uint32_t>(leavesWent_).v;
+    closing.chunkCount = view_.chunkCount;
+    closing.nodeCount = view_.nodeCount;
+    closing.leafCount = view_.leafCount;
+    closeGapsNative(closing, kAllThreads);
+    showMoved(closing.nodeCount, closing.leafCount);
+    return enlarge();
+}
+
+// For all that there is, and half as much again.
+Status GpuGrowth::makePlantRoom(Plants& plants) {
+    const auto roomy = [](uint32_t taken, uint32_t live, uint32_t room) {
+        return std::max<uint64_t>({taken, live + live / 2ull, room});
+    };
+    const uint64_t nodes = roomy(view_.nodeCount, stats_.nodes, room_.nodes);
+    if (Status ok = ensure(plants.nodes, "growth nodes", wholeTexels(nodes * sizeof(Node))); !ok) return ok;
+    return ensure(plants.leaves, "growth leaves", roomy(view_.leafCount, stats_.leaves, room_.leaves) * sizeof(Leaf));
+}
+
+// Where what has grown leaves too little room: the same in the other set of buffers, with more.
+Status GpuGrowth::enlarge() {
+    const Plants& now = plants_[frontPlants_];
+    const auto suffices = [](uint64_t capacity, uint32_t live, uint32_t room) {
+        return capacity >= std::max<uint64_t>(live + live / 4ull, room);
+    };
+    if (suffices(capacityOf<Node>(now.nodes), stats_.nodes, room_.nodes) &&
+        suffices(capacityOf<Leaf>(now.leaves), stats_.leaves, room_.leaves))
+        return Done{};
+    Plants& to = plants_[1 - frontPlants_];
+    if (Status ok = makePlantRoom(to); !ok) return ok;
+    Result<Commands> commands = Commands::begin(device_, "enlarge growth");
+    if (!commands) return commands.failure();
+    commands->copy(now.nodes, to.nodes, view_.nodeCount * sizeof(Node));
+    commands->copy(now.leaves, to.leaves, view_.leafCount * sizeof(Leaf));
+    if (Status finished = commands->finish(); !finished) return finished;
+    frontPlants_ = 1 - frontPlants_;
+    view_.nodes = addressOf<NodeBuf, Node>(to.nodes);
+    view_.leaves = addressOf<LeafBuf, Leaf>(to.leaves);
+    view_.nodeBuffer = &to.nodes;
+    view_.leafBuffer = &to.leaves;
+    return Done{};
+}
+
+Status GpuGrowth::makeCopyRoom() {
     Plants& plants = plants_[1 - frontPlants_];
     Links& links = links_[1 - frontLinks_];
     const Links& linksNow = links_[frontLinks_];
-    const auto roomy = [](uint32_t live, uint32_t room) { return std::max<uint64_t>(live + live / 2ull, room); };
     Status steps[] = {
-        ensure(plants.nodes, "growth nodes", wholeTexels(roomy(stats_.nodes, room_.nodes) * sizeof(Node))),
-        ensure(plants.leaves, "growth leaves", roomy(stats_.leaves, room_.leaves) * sizeof(Leaf)),
+        makePlantRoom(plants),
         ensure(links.chunks, "growth chunks",
                std::max<uint64_t>(linksNow.chunks.size(), room_.chunks * uint64_t(sizeof(Chunk)))),
         ensure(links.branches, "growth branches",
                std::max<uint64_t>(linksNow.branches.size(), room_.branches * uint64_t(sizeof(BranchRecord)))),
-        ensure(nodesWent_, "growth where nodes went", std::max(view_.nodeCount, 1u) * 4ull),
-        ensure(leavesWent_, "growth where leaves went", std::max(view_.leafCount, 1u) * 4ull),
-        native ? Status(Done{}) : load(compactPlaces_, "expand/compact_places.comp", {}),
-        native ? Status(Done{}) : load(compactNodes_, "expand/compact_nodes.comp", {}),
-        native ? Status(Done{}) : load(compactLeaves_, "expand/compact_leaves.comp", {})};
+        load(compactPlaces_, "expand/compact_places.comp", {}),
+        load(compactNodes_, "expand/compact_nodes.comp", {}),
+        load(compactLeaves_, "expand/compact_leaves.comp", {})};
     for (Status& step : steps)
         if (!step) return step;
     return Done{};
@@ -51,10 +130,8 @@ CompactEnv GpuGrowth::compactEnvironment() const {
     return env;
 }
 
-Status GpuGrowth::compact(const GrowthInputs& inputs) {
-    const bool native = runsNative(inputs);
-    dropViews();
-    if (Status room = makeCompactRoom(native); !room) return room;
+Status GpuGrowth::copyTogether() {
+    if (Status room = makeCopyRoom(); !room) return room;
     const Links &links = links_[1 - frontLinks_], &linksNow = links_[frontLinks_];
     Result<Commands> commands = Commands::begin(device_, "close gaps");
     if (!commands) return commands.failure();
@@ -63,7 +140,7 @@ Status GpuGrowth::compact(const GrowthInputs& inputs) {
     commands->copy(linksNow.branches, links.branches, view_.branchCount * sizeof(BranchRecord));
     commands->fill(nodesWent_, kNoIndex);
     commands->barrier(Use::transfer, Use::compute);
-    if (!native) {
+    {
         Pass pass(*commands, "expand compact");
         const CompactEnv env = compactEnvironment();
         const std::array<uint32_t, 3> groups = spreadGroups();
@@ -76,20 +153,12 @@ Status GpuGrowth::compact(const GrowthInputs& inputs) {
     commands->copy(status_, readback_, sizeof(GrowStatus));
     commands->barrier(Use::transfer, Use::host);
     if (Status finished = commands->finish(); !finished) return finished;
-    if (native) compactNative(compactEnvironment(), kAllThreads);
     GrowStatus status;
-    std::memcpy(&status, native ? status_.mapped() : readback_.mapped(), sizeof status);
-    requireEqual(status.nodes, stats_.nodes, "nodes that stay when gaps are closed");
-    requireEqual(status.leaves, stats_.leaves, "leaves that stay when gaps are closed");
-    status.chunks = view_.chunkCount;
-    status.branches = view_.branchCount;
-    const GrowthMove moved{&nodesWent_, &leavesWent_, view_.nodeCount, view_.leafCount, status.nodes, status.leaves};
+    std::memcpy(&status, readback_.mapped(), sizeof status);
     frontPlants_ = 1 - frontPlants_;
+    frontLinks_ = 1 - frontLinks_;
     chained_ = false;
-    showLinks(status, true);
-    view_.moved = moved;
-    view_.touched = &touched_;  // what it says of earlier growths is of no account any more
-    stats_.reservedBytes = reserved();
+    showMoved(status.nodes, status.leaves);
     return Done{};
 }
 

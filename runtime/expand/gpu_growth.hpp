@@ -17,6 +17,7 @@
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/program.hpp"
+#include "shaders/expand/compact.h"
 #include "shaders/shared/expand_again.h"
 #include "shaders/shared/expand_tables.h"
 
@@ -94,8 +95,8 @@ class GpuGrowth final : public Growth {
                      uint32_t last);
     Outcome readOutcome(uint32_t last);
     void remember(const GrowthInputs& inputs);
-    // all: nodes aren't where they were.
-    void showLinks(const GrowStatus& status, bool all);
+    // What lies in front is drawn from now on. all: nodes aren't where they were.
+    void show(const GrowStatus& status, bool all);
     uint64_t reserved() const;
     // Whether growth runs as native code.
     bool runsNative(const GrowthInputs& inputs) const {
@@ -149,10 +150,15 @@ class GpuGrowth final : public Growth {
     Result<bool> putIn(const GrowthInputs& inputs);
 
     // Gaps that edits have left: compaction.cpp.
-    bool gappy() const;
-    Status makeCompactRoom(bool native);
-    CompactEnv compactEnvironment() const;
+    bool gappy(const GrowthInputs& inputs) const;
+    Status makePlantRoom(Plants& plants);
     Status compact(const GrowthInputs& inputs);
+    Status closeGaps();
+    Status enlarge();
+    Status copyTogether();
+    Status makeCopyRoom();
+    CompactEnv compactEnvironment() const;
+    void showMoved(uint32_t nodes, uint32_t leaves);
 
     Device& device_;
     GrowthRoom room_;            // of a full growth, beside frozen plants

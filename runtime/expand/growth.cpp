@@ -198,8 +198,9 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptShaders(const GrowthInputs& inputs,
 
 void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome) {
     frontPlants_ = 1 - frontPlants_;
+    frontLinks_ = 1 - frontLinks_;
     chained_ = frozen.records.nodes.empty();
-    showLinks(outcome.status, true);
+    show(outcome.status, true);
     stats_.seeds = uint32_t(inputs.seeds.size() + inputs.frozen.size());
     takeCounters(outcome.status, stats_);
     stats_.derived = stats_.nodes - uint32_t(frozen.records.nodes.size());
@@ -220,11 +221,13 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     if (!put) return put.failure();
     if (*put) {
         const std::optional<SeedChanges> seeds = seedChanges(from_, inputs);
-        if (seeds && gappy())
+        const bool closes = seeds && gappy(inputs);
+        if (closes)
             if (Status closed = compact(inputs); !closed) return closed;
         Result<Regrown> done = seeds ? regrow(inputs, *seeds) : Result<Regrown>(Regrown::tooMuch);
         if (done && *done == Regrown::noRoom) {
-            if (Status closed = compact(inputs); !closed) return closed;
+            const Status closed = closes && runsNative(inputs) ? enlarge() : compact(inputs);
+            if (!closed) return closed;
             done = regrow(inputs, *seeds);
         }
         dropViews();

@@ -222,9 +222,7 @@ GpuGrowth::Outcome GpuGrowth::readOutcome(uint32_t last) {
     return outcome;
 }
 
-// The links that were written are those of what is drawn from now on.
-void GpuGrowth::showLinks(const GrowStatus& status, bool all) {
-    frontLinks_ = 1 - frontLinks_;
+void GpuGrowth::show(const GrowStatus& status, bool all) {
     const Plants& plants = plants_[frontPlants_];
     const Links& links = links_[frontLinks_];
     view_.nodes = addressOf<NodeBuf, Node>(plants.nodes);

@@ -9,7 +9,6 @@
 #include <array>
 
 #include "runtime/expand/growth.hpp"
-#include "shaders/expand/compact.h"
 #include "shaders/shared/expand_env.h"
 
 namespace espalier {
@@ -37,7 +36,17 @@ void findNative(ExpandEnv env, unsigned threads);
 uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads);
 void finishAgainNative(ExpandEnv env, unsigned threads);
 
-// Closes gaps: env.status counts what there is then.
-void compactNative(CompactEnv env, unsigned threads);
+// What is drawn, and has gaps.
+struct GapClosing {
+    Node* nodes = nullptr;
+    Leaf* leaves = nullptr;
+    Chunk* chunks = nullptr;
+    uint32_t *firstLeaves = nullptr, *nextLeaves = nullptr;  // as GrowStatus's; null: leaves aren't chained
+    uint32_t *nodesWent = nullptr, *leavesWent = nullptr;    // out: GrowthMove::nodes, ::leaves
+    uint32_t chunkCount = 0;
+    uint32_t nodeCount = 0, leafCount = 0;  // in: with the gaps; out: without
+};
+// In place: nodes move up in their order, leaves from the end come into the gaps. None goes to a higher number.
+void closeGapsNative(GapClosing& closing, unsigned threads);
 
 }  // namespace espalier

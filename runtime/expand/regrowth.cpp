@@ -272,7 +272,8 @@ void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome,
     const GrowStatus& s = outcome.status;
     GrowthStats delta;
     takeCounters(s, delta);
-    showLinks(s, false);
+    frontLinks_ = 1 - frontLinks_;
+    show(s, false);
     stats_.seeds = uint32_t(inputs.seeds.size() + inputs.frozen.size());
     stats_.derived = s.nodes - state.nodeCount;
     stats_.nodes += stats_.derived - state.goneNodes;

@@ -1,5 +1,5 @@
 // Closing the gaps that edits leave among nodes and leaves, in three passes one after another: places, nodes, leaves.
-// Chunks and branches keep their places. What the compact_*.comp kernels and native_compact.cpp share.
+// Chunks and branches keep their places. What the compact_*.comp kernels share.
 #ifndef ESPALIER_EXPAND_COMPACT_H
 #define ESPALIER_EXPAND_COMPACT_H
 #include "shaders/shared/expand_env.h"

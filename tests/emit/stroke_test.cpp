@@ -21,7 +21,7 @@ TEST_CASE("however long a stroke, everything is bound once") {
         const Buffer surfaces = std::move(*makeBuffer(*device, "surfaces", test::PlantData().surfaces));
         const auto inputs = [&] {
             EmitInputs given{s.growth->view(), {}, 1};
-            given.native = false;
+            given.native = native;
             given.surfaces.v = reinterpret_cast<SurfaceRef*>(surfaces.address());
             return given;
         };

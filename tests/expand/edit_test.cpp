@@ -118,27 +118,31 @@ Bark -> S(0.01) Shape("bark", C1)
 }
 
 TEST_CASE("gaps are closed in passing: however many edits, none grows everything anew") {
-    Session s(flatSquare(), GrowthRoom{64, 256, 64, 256, 64});
-    s.scene.plantMany(60, 0, 1);
-    s.check();
-    const uint64_t hash = s.growth->stats().hash;
-    uint32_t derived = 0;
-    for (int i = 0; i < 24; ++i) {
-        const glm::vec2 at(0.3f + 0.02f * float(i), 0.5f);
-        s.dab(0, at, 0.1f, 0);
-        s.grow();
-        s.dab(0, at, 0.1f, 1);
-        s.grow();
-        derived += s.growth->stats().derived;
-        CHECK(s.growth->view().nodeCount < 2 * s.growth->stats().nodes);
-        CHECK(s.growth->view().leafCount < 2 * s.growth->stats().leaves);
+    for (const bool native : {false, true}) {
+        CAPTURE(native);
+        Session s(flatSquare(), GrowthRoom{64, 256, 64, 256, 64});
+        s.scene.native = native;
+        s.scene.plantMany(60, 0, 1);
+        s.check();
+        const uint64_t hash = s.growth->stats().hash;
+        uint32_t derived = 0;
+        for (int i = 0; i < 24; ++i) {
+            const glm::vec2 at(0.3f + 0.02f * float(i), 0.5f);
+            s.dab(0, at, 0.1f, 0);
+            s.grow();
+            s.dab(0, at, 0.1f, 1);
+            s.grow();
+            derived += s.growth->stats().derived;
+            CHECK(s.growth->view().nodeCount < 2 * s.growth->stats().nodes);
+            CHECK(s.growth->view().leafCount < 2 * s.growth->stats().leaves);
+        }
+        CHECK(derived > 2 * s.growth->stats().nodes);
+        CHECK(s.growth->stats().regrowths == 48);
+        s.check();
+        CHECK(s.growth->stats().hash == hash);
+        s.changes.everything = true;
+        s.check();
     }
-    CHECK(derived > 2 * s.growth->stats().nodes);
-    CHECK(s.growth->stats().regrowths == 48);
-    s.check();
-    CHECK(s.growth->stats().hash == hash);
-    s.changes.everything = true;
-    s.check();
 }
 
 TEST_CASE("nothing changed: nothing is done") {

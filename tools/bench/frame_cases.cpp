@@ -23,6 +23,7 @@ namespace {
 
 constexpr uint32_t kNodes = 500'000;
 constexpr uint32_t kTexels = 1024;                         // of the mask
+constexpr int kDabs = 64;                                  // in which growth has to close its gaps
 constexpr double kMoving = 2e3 / 15, kPainting = 2e3 / 8;  // CPU ms of a frame on two cores: 15 and 8 frames/s
 constexpr DrawTarget kFull{.width = 1280, .height = 720}, kHalf{.width = 640, .height = 360};
 
@@ -39,12 +40,12 @@ struct Film {
     bool coarse = false;  // as `detail` says, which follows the frames' time
 
     // Milliseconds of CPU time a frame, the camera turned by `degrees` for each, once levels of detail have settled;
-    // with `edit` done in each frame, over sixteen. 0: it can't be drawn.
+    // with `edit` done in each frame, over kDabs. 0: it can't be drawn.
     FrameTimes cost(const DrawTarget& target, float degrees, const std::function<void(int)>& edit = {}) {
         const Camera start = inputs.camera;
         const Look look = inputs.look;
         std::vector<double> times;
-        for (int frame = -9; frame < (edit ? 16 : repeats); ++frame) {
+        for (int frame = -9; frame < (edit ? kDabs : repeats); ++frame) {
             const float a = degrees * float(frame) * 0.0174533f;
             const glm::vec3 d = start.eye - start.target;
             inputs.camera.eye = start.target + glm::vec3(std::cos(a) * d.x + std::sin(a) * d.z, d.y,
@@ -187,8 +188,8 @@ void frameCases(Bench& bench) {
         {"frame/moving/full", "CPU time of a frame, full size", "ms", moving, "15 frames/s on two cores", kMoving});
     for (const auto& [stage, ms] : stages)
         bench.add({"frame/moving/full/" + stage, "time of the stage", "ms", ms, "the whole frame", whole});
-    bench.add({"frame/painting", "CPU time of a dab and its frame, half size, mean of 16", "ms", painting.mean,
-               "8 frames/s on two cores", kPainting});
+    bench.add({"frame/painting", "CPU time of a dab and its frame, half size, mean of " + std::to_string(kDabs), "ms",
+               painting.mean, "8 frames/s on two cores", kPainting});
     bench.add(
         {"frame/painting/median", "the same, median", "ms", painting.median, "8 frames/s on two cores", kPainting});
     bench.add({"frame/painting/worst", "the same, worst", "ms", painting.worst, "8 frames/s on two cores", kPainting});
