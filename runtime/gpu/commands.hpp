@@ -148,6 +148,8 @@ class DrawPass : public Pass {
 
     void setScissor(int32_t x, int32_t y, uint32_t width, uint32_t height);
     void setViewport(const VkViewport& viewport);
+    // Whether triangles' backs are drawn too; at first they are.
+    void drawBacks(bool drawn);
     // For programs with GraphicsDesc::inputs.
     void setVertices(const Buffer& vertices, uint64_t offset = 0);
     void setIndices(const Buffer& indices, VkIndexType type = VK_INDEX_TYPE_UINT32, uint64_t offset = 0);

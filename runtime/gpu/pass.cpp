@@ -142,6 +142,11 @@ DrawPass::~DrawPass() {
 void DrawPass::start(VkExtent2D extent) {
     setViewport({0, 0, float(extent.width), float(extent.height), 0, 1});
     setScissor(0, 0, extent.width, extent.height);
+    drawBacks(true);
+}
+
+void DrawPass::drawBacks(bool drawn) {
+    vk_.vkCmdSetCullMode(cmd_, drawn ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
 }
 
 void DrawPass::setScissor(int32_t x, int32_t y, uint32_t width, uint32_t height) {

@@ -85,7 +85,6 @@ struct FixedFunctions {
         assembly.topology = d.topology;
         viewport.viewportCount = viewport.scissorCount = 1;
         raster.depthClampEnable = d.depthClamp;
-        raster.cullMode = d.cull;
         raster.frontFace = d.front;
         raster.lineWidth = 1;
         raster.depthBiasEnable = d.depthBiasConstant != 0 || d.depthBiasSlope != 0;
@@ -112,7 +111,8 @@ struct FixedFunctions {
     }
     FixedFunctions(const FixedFunctions&) = delete;
 
-    static constexpr VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    static constexpr VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                                       VK_DYNAMIC_STATE_CULL_MODE};
     VkPipelineVertexInputStateCreateInfo vertexInput{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
     VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};

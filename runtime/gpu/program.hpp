@@ -44,7 +44,6 @@ struct GraphicsDesc {
     bool depthClamp = false;
     Blend blend = Blend::none;
     bool alphaToCoverage = false;
-    VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkFrontFace front = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     uint32_t samples = 1;

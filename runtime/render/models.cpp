@@ -3,9 +3,11 @@
 #include "runtime/render/models.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "runtime/gpu/color_texture.hpp"
+#include "runtime/render/solid.hpp"
 
 namespace espalier {
 namespace {
@@ -31,6 +33,10 @@ glm::vec4 shownColor(const Material& material) {
     const bool lost =
         material.baseColorImage < 0 && (std::max({c.x, c.y, c.z}) < 1e-4f || std::min({c.x, c.y, c.z}) > 0.999f);
     return lost ? glm::vec4(0.30f, 0.285f, 0.26f, c.w) : c;
+}
+
+const Material& materialOf(const std::vector<Material>& materials, const DrawRange& range) {
+    return materials[std::min<size_t>(range.material, materials.size() - 1)];
 }
 
 constexpr float kMeadowReach = 0.0895f;  // units above the ground to which model.frag's addMeadow() has an effect
@@ -96,10 +102,15 @@ Models::Storeys Models::intoStoreys(const Model& model, std::span<const DrawVert
     return ends;
 }
 
+// Its up is as it was when triangles were put in order.
+bool Models::standsAs(const Model& model) {
+    const glm::vec3 up(model.toWorld[0].y, model.toWorld[1].y, model.toWorld[2].y);
+    return glm::length(up - model.up) <= 1e-5f * glm::length(up);
+}
+
 uint32_t Models::footOf(const Model& model, const Mesh& mesh, size_t range, float groundLevel, float unit) {
     const uint32_t all = mesh.ranges[range].indexCount;
-    const glm::vec3 up(model.toWorld[0].y, model.toWorld[1].y, model.toWorld[2].y);
-    if (glm::length(up - model.up) > 1e-5f * glm::length(up)) return all;  // it was turned over since
+    if (!standsAs(model)) return all;
     const float reach = groundLevel + kMeadowReach * unit - model.toWorld[3].y;
     const float storeys = std::floor((reach - model.lowest) / model.storey + 0.01f);
     if (storeys < 0) return 0;
@@ -118,10 +129,17 @@ Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& mode
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
     raise(data, model);
-    for (Mesh& mesh : model.meshes)
-        for (const DrawRange& range : mesh.ranges)
-            mesh.storeys.push_back(intoStoreys(model, std::span(vertices).subspan(size_t(mesh.firstVertex)),
-                                               std::span(indices).subspan(range.firstIndex, range.indexCount)));
+    for (Mesh& mesh : model.meshes) {
+        const auto from = std::span(vertices).subspan(size_t(mesh.firstVertex));
+        std::vector<uint32_t> opaque;
+        for (const DrawRange& range : mesh.ranges) {
+            const auto corners = std::span(indices).subspan(range.firstIndex, range.indexCount);
+            mesh.storeys.push_back(intoStoreys(model, from, corners));
+            if (materialOf(model.materials, range).alphaCutoff == 0)
+                opaque.insert(opaque.end(), corners.begin(), corners.end());
+        }
+        mesh.solidAbove = solidAbove(from, opaque, model.up);
+    }
     Result<Buffer> vertexBuffer = makeBuffer(device, "model vertices", vertices);
     if (!vertexBuffer) return vertexBuffer.failure();
     model.vertices = std::move(*vertexBuffer);
@@ -132,8 +150,6 @@ Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& mode
 }
 
 Status Models::uploadPictures(Device& device, const SurfaceData& data, Model& model) {
-    model.materials = data.materials;
-    if (model.materials.empty()) model.materials.emplace_back();
     model.colors.resize(data.images.size());
     model.normals.resize(data.images.size());
     for (const Material& material : model.materials) {
@@ -175,6 +191,8 @@ Status Models::set(Device& device, uint32_t index, const SurfaceData& data, cons
     model.objectLow = data.boundsMin;
     model.objectHigh = data.boundsMax;
     model.place(toWorld);
+    model.materials = data.materials;
+    if (model.materials.empty()) model.materials.emplace_back();
     if (Status s = uploadMeshes(device, data, model); !s) return s;
     if (Status s = uploadPictures(device, data, model); !s) return s;
     models_.insert_or_assign(index, std::move(model));
@@ -197,13 +215,23 @@ void Models::place(uint32_t index, const glm::mat4& toWorld) {
     ++revision_;
 }
 
+bool Models::showsBacks(const Model& model, const Mesh& mesh, const Material& material) const {
+    if (material.alphaCutoff > 0 || glm::determinant(glm::mat3(model.toWorld)) <= 0) return true;
+    // Who means them to be seen has the eye inside.
+    if (material.doubleSided && glm::clamp(eye_, model.low, model.high) == eye_) return true;
+    if (mesh.solidAbove < -std::numeric_limits<float>::max()) return false;
+    return !standsAs(model) || eye_.y <= groundLevel_ || mesh.solidAbove >= groundLevel_ - model.toWorld[3].y;
+}
+
 uint32_t Models::simplest(const Model& model, float error) {
     uint32_t mesh = 0;
     while (mesh + 1 < model.meshes.size() && model.meshes[mesh + 1].error <= error) ++mesh;
     return mesh;
 }
 
-void Models::choose(glm::vec3 eye, float pixelScale, float pixels, bool atOnce) {
+void Models::choose(glm::vec3 eye, float groundLevel, float pixelScale, float pixels, bool atOnce) {
+    eye_ = eye;
+    groundLevel_ = groundLevel;
     for (auto& [index, model] : models_) {
         if (model.groundOnly) {
             model.step = kFadeFrames;
@@ -261,10 +289,10 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
             const Mesh& mesh = model.meshes[which];
             for (size_t r = 0; r < mesh.ranges.size(); ++r) {
                 const DrawRange& range = mesh.ranges[r];
-                const Material& material =
-                    model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
+                const Material& material = materialOf(model.materials, range);
                 ModelPush push = pushOf(model, which, material, with.walkData ? index : kNoIndex);
                 push.fade = fade;
+                pass.drawBacks(showsBacks(model, mesh, material));
                 const uint32_t foot = footOf(model, mesh, r, with.groundLevel, with.unit);
                 const auto drawPart = [&](const Program& program, uint32_t first, uint32_t count) {
                     if (count == 0) return;
@@ -283,6 +311,7 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
         };
         overShown(model, drawMesh);
     }
+    pass.drawBacks(true);
 }
 
 void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame) const {
@@ -293,16 +322,17 @@ void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fadi
         overShown(model, [&](uint32_t which, float fade) {
             const Mesh& mesh = model.meshes[which];
             for (const DrawRange& range : mesh.ranges) {
-                const Material& material =
-                    model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
+                const Material& material = materialOf(model.materials, range);
                 if (material.alphaCutoff > 0) continue;
                 ModelPush push = pushOf(model, which, material, index);
                 push.fade = fade;
+                pass.drawBacks(showsBacks(model, mesh, material));
                 pass.drawIndexed(fade < 1 ? fading : whole, {range.indexCount, range.firstIndex, mesh.firstVertex},
                                  push, {frame});
             }
         });
     }
+    pass.drawBacks(true);
 }
 
 void Models::drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const {
@@ -312,7 +342,7 @@ void Models::drawDepth(DrawPass& pass, const Program& program, const Buffer& fra
         pass.setIndices(model.indices);
         const uint32_t mesh = simplest(model, error);
         for (const DrawRange& range : model.meshes[mesh].ranges) {
-            const Material& material = model.materials[std::min<size_t>(range.material, model.materials.size() - 1)];
+            const Material& material = materialOf(model.materials, range);
             pass.drawIndexed(program, {range.indexCount, range.firstIndex, model.meshes[mesh].firstVertex},
                              pushOf(model, mesh, material, index), {frame});
         }

@@ -27,8 +27,9 @@ class Models {
 
     // Picks for each model the simplest mesh whose error is at most `pixels` where the model is nearest. Once before a
     // frame's draw: when the pick changes, the one mesh takes over from the other within the next kFadeFrames,
-    // or at once.
-    void choose(glm::vec3 eye, float pixelScale, float pixels, bool atOnce = false);
+    // or at once. Of meshes that are solid (solid.hpp) above groundLevel, below which nothing is seen, draws leave out
+    // what turns its back to the eye.
+    void choose(glm::vec3 eye, float groundLevel, float pixelScale, float pixels, bool atOnce = false);
     static constexpr uint32_t kFadeFrames = 8;
 
     // Draws all of them as chosen, but for those that are ground only if `drawnOnly`: triangles that the meadow at
@@ -68,6 +69,7 @@ class Models {
         std::vector<DrawRange> ranges;
         std::vector<Storeys> storeys;  // [range]
         float error = 0;               // metres in the world
+        float solidAbove = 0;          // as of solid.hpp, along Model::up; of what has no cut-outs
     };
     struct Model {
         Buffer vertices, indices;
@@ -91,6 +93,9 @@ class Models {
     Status uploadMeshes(Device& device, const SurfaceData& data, Model& model);
     Status uploadPictures(Device& device, const SurfaceData& data, Model& model);
     ModelPush pushOf(const Model& model, uint32_t mesh, const Material& material, uint32_t surface) const;
+    static bool standsAs(const Model& model);
+    // Where `eye` is, the mesh's backs may be seen.
+    bool showsBacks(const Model& model, const Mesh& mesh, const Material& material) const;
     static uint32_t simplest(const Model& model, float error);
     template <class Each>
     static void overShown(const Model& model, const Each& each);
@@ -99,6 +104,8 @@ class Models {
     Image white_, flat_;
     Sampler sampler_, quickSampler_;
     uint64_t revision_ = 1;
+    glm::vec3 eye_{0};  // as chosen for
+    float groundLevel_ = 0;
 };
 
 }  // namespace espalier

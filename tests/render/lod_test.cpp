@@ -224,6 +224,43 @@ TEST_CASE("in a moving picture another level takes over at once, and the mean ch
     }
 }
 
+TEST_CASE("backs of a solid model's faces aren't drawn, and nobody sees it") {
+    const SurfaceData solid = closedModel();
+    // The same with a sliver in its middle that nobody sees, but by which it isn't closed.
+    SurfaceData open = solid;
+    const glm::vec3 middle = (solid.boundsMin + solid.boundsMax) * 0.5f;
+    const auto first = uint32_t(open.vertices.size());
+    for (int i = 0; i < 3; ++i) {
+        DrawVertex v = open.vertices[0];
+        v.position = middle;
+        v.position[i] += 1e-3f;
+        open.vertices.push_back(v);
+        open.indices.push_back(first + uint32_t(i));
+    }
+    open.ranges.back().indexCount += 3;
+    Stage stage;
+    stage.inputs.look.lodPixels = 0;
+    const auto drawn = [&](const SurfaceData& data, ViewMode view) {
+        stage.place(data);
+        stage.inputs.look.view = view;
+        return stage.frame();
+    };
+    for (float radii : {2.4f, 6.0f}) {
+        stage.look(solid, radii);
+        CHECK(drawn(solid, ViewMode::shaded) == drawn(open, ViewMode::shaded));
+        CHECK(drawn(solid, ViewMode::overdraw) != drawn(open, ViewMode::overdraw));
+    }
+    // Who means them to be seen sees them from within.
+    stage.look(solid, 2.4f);
+    std::swap(stage.inputs.camera.eye, stage.inputs.camera.target);
+    const Pixels through = drawn(solid, ViewMode::shaded);
+    SurfaceData twoSided = solid;
+    for (Material& material : twoSided.materials) material.doubleSided = true;
+    const Pixels within = drawn(twoSided, ViewMode::shaded);
+    CHECK(within == drawn(open, ViewMode::shaded));
+    CHECK(meanDifference(within, through) > 50);
+}
+
 TEST_CASE("what a model hides is not drawn while one of its levels takes over, either") {
     Stage stage;
     const test::Plant ivy = test::upload(stage.device(), test::wallIvy(8, 2, 1.5f));
