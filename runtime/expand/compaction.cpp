@@ -57,7 +57,7 @@ Status GpuGrowth::closeGaps() {
     closing.chunkCount = view_.chunkCount;
     closing.nodeCount = view_.nodeCount;
     closing.leafCount = view_.leafCount;
-    closeGapsNative(closing, kAllThreads);
+    closeGapsNative(closing, crew_);
     showMoved(closing.nodeCount, closing.leafCount);
     return enlarge();
 }

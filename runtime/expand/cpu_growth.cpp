@@ -52,13 +52,14 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     env.phase = lastWave(cut);
     std::vector<WorkItem> even = itemsOfSeeds(inputs.seeds), odd(room.items);
     even.resize(room.items);
-    env.wave = marchNative(env, {even.data(), odd.data()}, uint32_t(a.waves.size()) - 1, 1, false);
+    Crew alone(1);
+    env.wave = marchNative(env, {even.data(), odd.data()}, uint32_t(a.waves.size()) - 1, alone, false);
     a.waves.resize(env.wave + 1);
     const bool sums = inputs.limits.leafDensityCap > 0 || inputs.limits.tangents == TangentMode::paper;
     std::vector<uint32_t> density(sums ? kDensityCells + 3 * size_t(a.status.nodes) : 0);
     env.density = {density.data()};
-    terminalsNative(env, inputs.limits, 1);
-    fitNative(env, 1);
+    terminalsNative(env, inputs.limits, alone);
+    fitNative(env, alone);
     return a;
 }
 

@@ -33,8 +33,6 @@ inline uint64_t wholeTexels(uint64_t bytes) {
     return (bytes + 15) / 16 * 16;
 }
 
-constexpr unsigned kAllThreads = 0;  // of parallelFor
-
 // Wall time of work().
 template <class Work>
 double millisecondsOf(const Work& work) {
@@ -161,6 +159,7 @@ class GpuGrowth final : public Growth {
     void showMoved(uint32_t nodes, uint32_t leaves);
 
     Device& device_;
+    Crew crew_;                  // of native code; its threads sleep between growths
     GrowthRoom room_;            // of a full growth, beside frozen plants
     uint32_t likelyWaves_ = 24;  // recorded in the first submission
     // Made when first asked for; [1] reads tables by address, see kUniformTableWords.

@@ -147,9 +147,9 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptNative(const GrowthInputs& inputs, 
     Outcome outcome;
     env.phase = lastWave(cut);
     outcome.marchMs = millisecondsOf(
-        [&] { env.wave = marchNative(env, itemQueues(), inputs.limits.maxDepth + 1, kAllThreads, true); });
-    outcome.terminalsMs = millisecondsOf([&] { terminalsNative(env, inputs.limits, kAllThreads); });
-    outcome.fitMs = millisecondsOf([&] { fitNative(env, kAllThreads); });
+        [&] { env.wave = marchNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_, true); });
+    outcome.terminalsMs = millisecondsOf([&] { terminalsNative(env, inputs.limits, crew_); });
+    outcome.fitMs = millisecondsOf([&] { fitNative(env, crew_); });
     outcome.status = status_.mappedAs<GrowStatus>()[0];
     outcome.waves.assign(env.waves.v, env.waves.v + env.wave + 1);
     return outcome;

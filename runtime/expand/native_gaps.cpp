@@ -70,8 +70,7 @@ void relink(const GapClosing& closing, uint32_t leavesBefore, Crew& crew) {
 
 }  // namespace
 
-void closeGapsNative(GapClosing& closing, unsigned threads) {
-    Crew crew(threads);
+void closeGapsNative(GapClosing& closing, Crew& crew) {
     const uint32_t leavesBefore = closing.leafCount;
     crew.overRange(2, 1, [&](size_t part, size_t) { part == 0 ? moveNodes(closing) : moveLeaves(closing); });
     relink(closing, leavesBefore, crew);

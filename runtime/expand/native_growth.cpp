@@ -35,14 +35,13 @@ void packTablesNative(ExpandEnv env, uint32_t grammars) {
     for (uint32_t i = 0; i < grammars; ++i) packGrammar(env.grammars, env.tables, i, 0, 1);
 }
 
-uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads, bool wide) {
-    return march(env, queues, most, threads, wide);
+uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide) {
+    return march(env, queues, most, crew, wide);
 }
 
-void terminalsNative(ExpandEnv env, const GrowthLimits& limits, unsigned threads) {
+void terminalsNative(ExpandEnv env, const GrowthLimits& limits, Crew& crew) {
     if (!complete(env)) return;
     const GrowStatus& s = env.status.v[0];
-    Crew crew(threads);
     if (limits.tangents == TangentMode::paper)
         overRange(s.frozenBranches, s.branches, kBranchesAtOnce, crew, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) sumJoint(env, uint32_t(i));
@@ -55,10 +54,9 @@ void terminalsNative(ExpandEnv env, const GrowthLimits& limits, unsigned threads
     }
 }
 
-void fitNative(ExpandEnv env, unsigned threads) {
+void fitNative(ExpandEnv env, Crew& crew) {
     if (!complete(env)) return;
     const GrowStatus& s = env.status.v[0];
-    Crew crew(threads);
     overRange(s.frozenBranches, s.branches, kBranchesAtOnce, crew, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) env.branches.v[i].thickness = thicknessOf(env, uint32_t(i));
     });

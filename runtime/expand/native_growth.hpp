@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include "runtime/core/jobs.hpp"
 #include "runtime/expand/growth.hpp"
 #include "shaders/shared/expand_env.h"
 
@@ -20,21 +21,22 @@ using ItemQueues = std::array<WorkItem*, 2>;
 void packTablesNative(ExpandEnv env, uint32_t grammars);
 
 // Grows waves from env.wave on until one is empty or the next would be `most`, env.phase being the last that may be
-// grown. Returns the first wave that didn't run. threads: 0: as many as the machine has. wide: chunks are grown side by
-// side, their walks in the processor's vectors (wide_walk.hpp); the CPU reference grows them one by one.
-uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads, bool wide);
+// grown. Returns the first wave that didn't run. wide: chunks are grown side by side, their walks in the processor's
+// vectors (wide_walk.hpp); the CPU reference grows them one by one.
+uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide);
 
 // The passes after wave env.wave: terminals, fit and the structure's hash. Nothing, unless growth is complete.
 // env.density must be zero where limits ask for it.
-void terminalsNative(ExpandEnv env, const GrowthLimits& limits, unsigned threads);
-void fitNative(ExpandEnv env, unsigned threads);
+void terminalsNative(ExpandEnv env, const GrowthLimits& limits, Crew& crew);
+void fitNative(ExpandEnv env, Crew& crew);
 
-// A regrowth's: which chunks are to be grown again, the first wave to come into env.items;
-void findNative(ExpandEnv env, unsigned threads);
+// A regrowth's: the links that are drawn are copied to env's, chunks found that are to be grown again, and the first
+// wave put into env.items;
+void findNative(ExpandEnv env, Crew& crew);
 // its waves, as marchNative; and all that follows after wave env.wave: nothing, unless what was grown is whole and
 // fits.
-uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads);
-void finishAgainNative(ExpandEnv env, unsigned threads);
+uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew);
+void finishAgainNative(ExpandEnv env, Crew& crew);
 
 // What is drawn, and has gaps.
 struct GapClosing {
@@ -47,6 +49,6 @@ struct GapClosing {
     uint32_t nodeCount = 0, leafCount = 0;  // in: with the gaps; out: without
 };
 // In place: nodes move up in their order, leaves from the end come into the gaps. None goes to a higher number.
-void closeGapsNative(GapClosing& closing, unsigned threads);
+void closeGapsNative(GapClosing& closing, Crew& crew);
 
 }  // namespace espalier

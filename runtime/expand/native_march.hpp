@@ -120,8 +120,7 @@ void overRange(uint32_t first, uint32_t last, size_t grain, Crew& crew, const Bo
 }
 
 // See marchNative.
-uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads, bool wide) {
-    Crew crew(threads);
+uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide) {
     wide = wide && widestVectors() != VectorKind::narrow && !PAPER_WALK(env);
     uint32_t w = env.wave;
     for (; w < most && env.waves.v[w].count > 0; ++w) {

@@ -19,13 +19,14 @@
 namespace espalier {
 namespace {
 
-constexpr size_t kChunksAtOnce = 4096, kEntriesAtOnce = 64, kWorkAtOnce = 512;
+constexpr size_t kChunksAtOnce = 1024, kEntriesAtOnce = 64, kWorkAtOnce = 512;
 
 void finishWork(ExpandEnv env, size_t begin, size_t end) {
-    const UintBuf results = AGAIN.results;
+    const UintBuf results = AGAIN.results, firstLeaves = env.status.v[0].firstLeaves;
+    const uint32_t capacity = AGAIN.resultCapacity;
     const uvec2 hash = finishEach(
         env, begin, end, [&](size_t i) { return workNode(results, uint32_t(i)); },
-        [&](size_t i, const NodeFinish& finish) { keepAgain(results, uint32_t(i), finish); });
+        [&](size_t i, const NodeFinish& finish) { keepAgain(env, results, capacity, uint32_t(i), firstLeaves, finish); });
     addHash(env, uint32_t(begin / kWorkAtOnce), hash);
 }
 
@@ -48,7 +49,7 @@ void apply(ExpandEnv env, Crew& crew) {
             takeOut(env, chains, was, lane, tally);
     };
     takeEach(env, AGAIN.counts[kListWork], kWorkAtOnce, crew,
-             [&](uint32_t i, GoneTally& tally) { applyResult(env, chains, AGAIN.results, i, tally); });
+             [&](uint32_t i, GoneTally& tally) { applyResult(env, chains, AGAIN.results, AGAIN.resultCapacity, i, tally); });
     takeEach(env, listed(env, kListGrown), kEntriesAtOnce, crew, [&](uint32_t i, GoneTally& tally) {
         const uint32_t chunk = listEntry(env, kListGrown, i);
         if ((AGAIN_MARKS.v[chunk].bits & kMarkAgain) != 0) takeChunk(chunk, tally);
@@ -84,10 +85,11 @@ void overList(ExpandEnv env, uint32_t list, Crew& crew, const Each& each) {
 
 }  // namespace
 
-void findNative(ExpandEnv env, unsigned threads) {
-    Crew crew(threads);
+void findNative(ExpandEnv env, Crew& crew) {
     const EditHead head = editHead(env);
+    std::copy_n(AGAIN.branchesBefore.v, AGAIN.branchCount, env.branches.v);
     overRange(0, AGAIN.chunkCount, kChunksAtOnce, crew, [&](size_t begin, size_t end) {
+        std::copy(AGAIN.chunksBefore.v + begin, AGAIN.chunksBefore.v + end, env.chunks.v + begin);
         for (size_t c = begin; c < end; ++c) findChunk(env, head, uint32_t(c));
     });
     const UintBuf first = env.status.v[0].firstLeaves, next = env.status.v[0].nextLeaves;
@@ -95,13 +97,12 @@ void findNative(ExpandEnv env, unsigned threads) {
     overList(env, kListDirty, crew, [&](uint32_t i) { startAgain(env, i); });
 }
 
-uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, unsigned threads) {
-    return march(env, queues, most, threads, true);
+uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew) {
+    return march(env, queues, most, crew, true);
 }
 
-void finishAgainNative(ExpandEnv env, unsigned threads) {
+void finishAgainNative(ExpandEnv env, Crew& crew) {
     if (!complete(env)) return;
-    Crew crew(threads);
     overList(env, kListGrown, crew, [&](uint32_t i) { settleAgain(env, AGAIN.chunksBefore, i); });
     overList(env, kListBranches, crew, [&](uint32_t i) { workAgain(env, i); });
     const uint32_t work = AGAIN.counts[kListWork];

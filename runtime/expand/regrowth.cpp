@@ -67,7 +67,7 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
                 {&marks_, "regrowth marks", chunks * sizeof(AgainMark)},
                 {&lists_, "regrowth lists", chunks * kLists * 4},
                 {&edits_, "regrowth edits", std::max<uint64_t>(editWords * 4, 16384)},
-                {&results_, "regrowth results", chunks / 4 * kChunkNodes * kResultWords * 4}};
+                {&results_, "regrowth results", chunks / 4 * kChunkNodes * (1 + kResultWords) * 4}};
     if (Status ok = ensureChains(plants_[frontPlants_]); !ok) return ok;
     // Regrowths of the same nodes find the same room: nothing that is noted there gets lost.
     const uint64_t touched = capacityOf<Node>(plants_[frontPlants_].nodes) * 4ull;
@@ -82,14 +82,17 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
     return makeAgainKernels();
 }
 
-// Copies the links, and uploads counters, edits and the seeds that are planted anew as the first wave.
+// Copies the links, unless native code does as it looks at them, and uploads counters, edits and the seeds that are
+// planted anew as the first wave.
 Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
                               const std::vector<uint32_t>& edits) {
     const Links& from = links_[frontLinks_];
     const Links& to = links_[1 - frontLinks_];
     const Plants& plants = plants_[frontPlants_];
-    commands.copy(from.chunks, to.chunks, view_.chunkCount * sizeof(Chunk));
-    commands.copy(from.branches, to.branches, view_.branchCount * sizeof(BranchRecord));
+    if (!runsNative(inputs)) {
+        commands.copy(from.chunks, to.chunks, view_.chunkCount * sizeof(Chunk));
+        commands.copy(from.branches, to.branches, view_.branchCount * sizeof(BranchRecord));
+    }
     commands.fill(marks_, 0);
     if (!chained_) commands.fill(firstLeaves_, kNoIndex);
     if (touchedIsNew_) commands.fill(touched_, 0);
@@ -120,7 +123,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     a.number = view_.number + 1;
     a.chainedLeaves = chained_ ? view_.leafCount : 0;
     a.listCapacity = s.chunkCapacity;
-    a.resultCapacity = uint32_t(results_.size() / (kResultWords * 4));
+    a.resultCapacity = uint32_t(results_.size() / ((1 + kResultWords) * 4));
     a.chunkCount = view_.chunkCount;
     a.nodeCount = view_.nodeCount;
     a.branchCount = view_.branchCount;
@@ -159,7 +162,7 @@ Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedCh
     if (runsNative(inputs)) {
         if (Status finished = commands->finish(); !finished) return finished.failure();
         packTablesNative(env, uint32_t(inputs.grammars.size()));
-        findNative(env, kAllThreads);
+        findNative(env, crew_);
         return again_.mappedAs<AgainState>()[0];
     }
     {
@@ -205,8 +208,8 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
 void GpuGrowth::growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
     env.phase = lastWave(noCut(inputs.limits));
     outcome.marchMs = millisecondsOf(
-        [&] { env.wave = marchAgainNative(env, itemQueues(), inputs.limits.maxDepth + 1, kAllThreads); });
-    outcome.terminalsMs = millisecondsOf([&] { finishAgainNative(env, kAllThreads); });
+        [&] { env.wave = marchAgainNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_); });
+    outcome.terminalsMs = millisecondsOf([&] { finishAgainNative(env, crew_); });
     outcome.status = status_.mappedAs<GrowStatus>()[0];
     outcome.waves.assign(env.waves.v, env.waves.v + env.wave + 1);
     state = again_.mappedAs<AgainState>()[0];

@@ -58,7 +58,8 @@ FN float bareRadius(ExpandEnv env, uint index) {
     float radius = env.nodes.v[index].radius;
     uint chunk = env.nodes.v[index].chunk;
     bool fresh = ((AGAIN_MARKS.v[chunk].nodes >> ((env.nodes.v[index].flags >> 8u) & 31u)) & 1u) != 0u;
-    return fresh ? radius : roundRadius(divExact(radius, AGAIN.branchesBefore.v[env.chunks.v[chunk].branch].thickness));
+    if (fresh) return radius;
+    return roundRadius(divExact(radius, AGAIN.branchesBefore.v[env.chunks.v[chunk].branch].thickness));
 }
 
 FN bool startsBranch(ChunkBuf chunks, uint chunk) {

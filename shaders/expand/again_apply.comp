@@ -19,7 +19,8 @@ void main() {
     GoneTally tally = nothingGone();
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     uint count = AGAIN.counts[kListWork];
-    for (uint i = gl_GlobalInvocationID.x; i < count; i += lanes) applyResult(env, chains, results, i, tally);
+    uint capacity = AGAIN.resultCapacity;
+    for (uint i = gl_GlobalInvocationID.x; i < count; i += lanes) applyResult(env, chains, results, capacity, i, tally);
     count = listed(env, kListGrown);
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint chunk = listEntry(env, kListGrown, i);

@@ -1,4 +1,4 @@
-// A regrowth that holds is published: terminals' results come to their nodes, nodes that are gone are taken out
+// A regrowth that holds is published: terminals' results come to the nodes that stay, nodes that are gone are taken out
 // with their leaves. What was counted in the structure's hash is taken out of it.
 #ifndef ESPALIER_EXPAND_AGAIN_APPLY_H
 #define ESPALIER_EXPAND_AGAIN_APPLY_H
@@ -66,18 +66,17 @@ FN void takeOut(ExpandEnv env, LeafChains chains, ChunkBefore was, uint lane, IN
     }
 }
 
-// Brings item i of the terminals' results to its node.
-FN void applyResult(ExpandEnv env, LeafChains chains, UintBuf results, uint i, INOUT(GoneTally) t) {
-    uint at = kResultWords * i;
-    uint index = results.v[at];
+// Brings item i of the terminals' results to its node, if that was drawn before; fitAgain notes it as touched.
+FN void applyResult(ExpandEnv env, LeafChains chains, UintBuf results, uint capacity, uint i, INOUT(GoneTally) t) {
+    if ((results.v[i] & kResultKept) == 0u) return;
+    uint index = results.v[i] & ~kResultKept;
+    uint at = capacity + kResultWords * i;
     Node node = readNode(env, index);
-    if ((AGAIN_MARKS.v[node.chunk].bits & kMarkGrown) == 0u)
-        unhash(env, chains, index, readKey(env, node.chunk), node, t);
-    env.nodes.v[index].tangent = results.v[at + 1u];
-    env.nodes.v[index].flags = results.v[at + 2u];
-    env.nodes.v[index].radius = uintBitsToFloat(results.v[at + 3u]);
-    chains.first.v[index] = results.v[at + 4u];
-    AGAIN.touched.v[index] = AGAIN.number;
+    unhash(env, chains, index, readKey(env, node.chunk), node, t);
+    env.nodes.v[index].tangent = results.v[at];
+    env.nodes.v[index].flags = results.v[at + 1u];
+    env.nodes.v[index].radius = uintBitsToFloat(results.v[at + 2u]);
+    chains.first.v[index] = results.v[at + 3u];
 }
 
 ESPALIER_END

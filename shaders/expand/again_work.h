@@ -38,9 +38,10 @@ FN void listWork(ExpandEnv env, uint branch, uint first) {
         if (nodes != 0u) {
             AGAIN_MARKS.v[chunk].nodes = nodes;
             uint firstNode = env.chunks.v[chunk].firstNode;
+            uint kept = grown ? 0u : kResultKept;
             uint at = atomicAdd(AGAIN.counts[kListWork], countBits(nodes));
             for (uint left = nodes; left != 0u && at < capacity; left = left & (left - 1u)) {
-                results.v[kResultWords * at] = firstNode + lowestBit(left);
+                results.v[at] = (firstNode + lowestBit(left)) | kept;
                 at = at + 1u;
             }
         }

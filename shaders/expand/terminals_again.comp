@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Terminals of a regrowth's nodes: leaves as pending ones, the rest aside, since it may yet prove too much.
+// Terminals of a regrowth's nodes: see keepAgain.
 #define ESPALIER_TABLES
 #define ESPALIER_RECORD_FETCH
 #include "shaders/shared/extensions.glsl"
@@ -13,16 +13,18 @@ layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 void main() {
     openAgain(env);
     uint count = complete(env) ? AGAIN.counts[kListWork] : 0u;
-    if (count > AGAIN.resultCapacity) {
+    uint capacity = AGAIN.resultCapacity;
+    if (count > capacity) {
         AGAIN.overrun = 1u;
         return;
     }
     UintBuf results = AGAIN.results;
+    UintBuf firstLeaves = env.status.v[0].firstLeaves;
     nextLeavesAtHand = env.status.v[0].nextLeaves;
     uvec2 hash = uvec2(0u);
     for (uint k = 0u; nodeOfTrip(k) < count; ++k) {
         uint i = nodeOfTrip(k);
-        keepAgain(results, i, finishNode(env, workNode(results, i), hash));
+        keepAgain(env, results, capacity, i, firstLeaves, finishNode(env, workNode(results, i), hash));
     }
     addHash(env, gl_WorkGroupID.x, hash);
 }

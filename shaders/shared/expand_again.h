@@ -49,7 +49,8 @@ struct AgainState {
     AgainMarkBuf marks;
     UintBuf lists;           // [list * listCapacity + i]
     UintBuf edits;           // see below
-    UintBuf results;         // kResultWords a node of kListWork: its index, NodeFinish
+    UintBuf results;         // [i]: node i of kListWork, with kResultKept where its chunk wasn't grown; and of such a
+                             // one, [resultCapacity + kResultWords * i]: NodeFinish
     UintBuf touched;         // GrowthView::touched
     uint listCapacity, resultCapacity;   // chunks, nodes
     uint chunkCount, nodeCount, branchCount, leafCount;   // before, with the gaps among them
@@ -89,7 +90,8 @@ FN uint dirtyGrid(uint level) {
 
 CONST_UINT(kCellWords, kLayerCells * kLayerCells / 32u);
 
-CONST_UINT(kResultWords, 5u);
+CONST_UINT(kResultWords, 4u);
+CONST_UINT(kResultKept, 1u << 31u);
 CONST_UINT(kMostVisited, 16384u);   // chunks that one invocation goes through, see kMaxTrips
 
 ESPALIER_END
