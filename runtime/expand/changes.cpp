@@ -16,10 +16,11 @@ void GrowthChanges::markTexels(uint32_t instance, uint32_t layer, uint32_t size,
         found->instance = instance;
         found->layer = layer;
     }
-    // A read takes in the centres of texels less than a texel away; nodes keep their place to half a 65,535th.
-    const double each = double(kLayerCells) / size, reach = 0.5 + size / 65536.0;
-    const auto first = [&](uint32_t t) { return uint32_t(std::max(0.0, std::floor((t - reach) * each))); };
-    const auto end = [&](uint32_t t) { return uint32_t(std::min<double>(kLayerCells, std::ceil((t + reach) * each))); };
+    // A read takes in texels that are less than half a texel away. Where that is more than half a cell, which who looks
+    // at cells allows for (kCellReach), the rest is marked.
+    const double each = double(kLayerCells) / size, rest = std::max(0.0, 0.5 * each - 0.5);
+    const auto first = [&](uint32_t t) { return uint32_t(std::max(0.0, std::floor(t * each - rest))); };
+    const auto end = [&](uint32_t t) { return uint32_t(std::min<double>(kLayerCells, std::ceil(t * each + rest))); };
     for (uint32_t y = first(y0); y < end(y1); ++y)
         for (uint32_t x = first(x0); x < end(x1); ++x) found->bits[(y * kLayerCells + x) / 32] |= 1u << (x % 32);
 }

@@ -11,7 +11,8 @@
 
 namespace espalier {
 
-// Cells of one layer of one surface instance where reads have changed. They cover its UV, whatever size it has.
+// Cells of one layer of one surface instance where texels have changed: a bilinear read may have changed that is no
+// farther than kCellReach from one. They cover its UV, whatever size it has.
 struct DirtyCells {
     uint32_t instance = 0, layer = 0;  // layer: the scene's number, below kMaxLayers
     std::vector<uint32_t> bits = std::vector<uint32_t>(kLayerCells * kLayerCells / 32);  // bit y * kLayerCells + x
@@ -25,8 +26,8 @@ struct GrowthChanges {
     std::vector<uint64_t> seeds{};   // keys of seeds whose plants grow anew: what they stand on has moved
     std::vector<uint64_t> frozen{};  // keys of frozen plants that aren't what grew there: their records are put in
 
-    // Texels [x0, x1) × [y0, y1) of a layer of `size` texels a side have other values. Marks the places whose bilinear
-    // read takes one of them in. All texels, when a layer comes, goes or changes its size.
+    // Texels [x0, x1) × [y0, y1) of a layer of `size` texels a side have other values. All of them, when a layer comes,
+    // goes or changes its size.
     void markTexels(uint32_t instance, uint32_t layer, uint32_t size, uint32_t x0, uint32_t y0, uint32_t x1,
                     uint32_t y1);
     void markLayer(uint32_t instance, uint32_t layer, uint32_t size) {

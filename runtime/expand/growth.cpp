@@ -146,8 +146,8 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptNative(const GrowthInputs& inputs, 
     packTablesNative(env, uint32_t(inputs.grammars.size()));
     Outcome outcome;
     env.phase = lastWave(cut);
-    outcome.marchMs = millisecondsOf(
-        [&] { env.wave = marchNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_, true); });
+    outcome.marchMs =
+        millisecondsOf([&] { env.wave = marchNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_, true); });
     outcome.terminalsMs = millisecondsOf([&] { terminalsNative(env, inputs.limits, crew_); });
     outcome.fitMs = millisecondsOf([&] { fitNative(env, crew_); });
     outcome.status = status_.mappedAs<GrowStatus>()[0];

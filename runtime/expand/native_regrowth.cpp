@@ -26,7 +26,9 @@ void finishWork(ExpandEnv env, size_t begin, size_t end) {
     const uint32_t capacity = AGAIN.resultCapacity;
     const uvec2 hash = finishEach(
         env, begin, end, [&](size_t i) { return workNode(results, uint32_t(i)); },
-        [&](size_t i, const NodeFinish& finish) { keepAgain(env, results, capacity, uint32_t(i), firstLeaves, finish); });
+        [&](size_t i, const NodeFinish& finish) {
+            keepAgain(env, results, capacity, uint32_t(i), firstLeaves, finish);
+        });
     addHash(env, uint32_t(begin / kWorkAtOnce), hash);
 }
 
@@ -48,8 +50,9 @@ void apply(ExpandEnv env, Crew& crew) {
         for (uint32_t lane = 0; lane < std::max(1u, chunkNodes(was.marks)); ++lane)
             takeOut(env, chains, was, lane, tally);
     };
-    takeEach(env, AGAIN.counts[kListWork], kWorkAtOnce, crew,
-             [&](uint32_t i, GoneTally& tally) { applyResult(env, chains, AGAIN.results, AGAIN.resultCapacity, i, tally); });
+    takeEach(env, AGAIN.counts[kListWork], kWorkAtOnce, crew, [&](uint32_t i, GoneTally& tally) {
+        applyResult(env, chains, AGAIN.results, AGAIN.resultCapacity, i, tally);
+    });
     takeEach(env, listed(env, kListGrown), kEntriesAtOnce, crew, [&](uint32_t i, GoneTally& tally) {
         const uint32_t chunk = listEntry(env, kListGrown, i);
         if ((AGAIN_MARKS.v[chunk].bits & kMarkAgain) != 0) takeChunk(chunk, tally);

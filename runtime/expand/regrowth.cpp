@@ -207,8 +207,8 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
 
 void GpuGrowth::growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
     env.phase = lastWave(noCut(inputs.limits));
-    outcome.marchMs = millisecondsOf(
-        [&] { env.wave = marchAgainNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_); });
+    outcome.marchMs =
+        millisecondsOf([&] { env.wave = marchAgainNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_); });
     outcome.terminalsMs = millisecondsOf([&] { finishAgainNative(env, crew_); });
     outcome.status = status_.mappedAs<GrowStatus>()[0];
     outcome.waves.assign(env.waves.v, env.waves.v + env.wave + 1);

@@ -12,6 +12,23 @@
 namespace espalier {
 namespace {
 
+// Cells within one of a marked one: whole ones that hold all reads of its texels.
+std::vector<uint32_t> readersOf(const std::vector<uint32_t>& cells) {
+    constexpr uint32_t kRow = kLayerCells / 32;
+    std::vector<uint32_t> wide(cells), readers(cells.size());
+    for (uint32_t i = 0; i < cells.size(); ++i) {
+        wide[i] |= cells[i] << 1 | cells[i] >> 1;
+        if (i % kRow > 0) wide[i] |= cells[i - 1] >> 31;
+        if (i % kRow + 1 < kRow) wide[i] |= cells[i + 1] << 31;
+    }
+    for (uint32_t i = 0; i < cells.size(); ++i) {
+        readers[i] = wide[i];
+        if (i >= kRow) readers[i] |= wide[i - kRow];
+        if (i + kRow < cells.size()) readers[i] |= wide[i + kRow];
+    }
+    return readers;
+}
+
 // Grids of tiles, the finest first, and the cells, from these.
 std::vector<uint32_t> gridsOf(const std::vector<uint32_t>& cells) {
     std::vector<uint32_t> grid(dirtyGrid(kMaxReadLevel + 1));
@@ -23,7 +40,7 @@ std::vector<uint32_t> gridsOf(const std::vector<uint32_t>& cells) {
             to[above / 32] |= 1u << (above % 32);
         }
     };
-    add(cells.data(), kLayerCells, kLayerCells / kLayerTiles, grid.data());
+    add(readersOf(cells).data(), kLayerCells, kLayerCells / kLayerTiles, grid.data());
     for (uint32_t level = 0; level < kMaxReadLevel; ++level)
         add(&grid[dirtyGrid(level)], kLayerTiles >> level, 2, &grid[dirtyGrid(level + 1)]);
     grid.insert(grid.end(), cells.begin(), cells.end());

@@ -10,13 +10,6 @@ FN bool dirtyTile(UintBuf edits, uint grid, uint level, uint x, uint y) {
     uint bit = y * (kLayerTiles >> level) + x;
     return ((edits.v[grid + dirtyGrid(level) + (bit >> 5u)] >> (bit & 31u)) & 1u) != 0u;
 }
-FN bool dirtyPlace(UintBuf edits, uint grid, vec2 uv) {
-    float side = float(kLayerCells);
-    uint x = uint(limited(uv.x * side, 0.0f, side - 1.0f));
-    uint y = uint(limited(uv.y * side, 0.0f, side - 1.0f));
-    uint bit = y * kLayerCells + x;
-    return ((edits.v[grid + dirtyGrid(kMaxReadLevel + 1u) + (bit >> 5u)] >> (bit & 31u)) & 1u) != 0u;
-}
 
 // What a chunk has read, and its marks.
 struct ChunkReads {
@@ -75,9 +68,10 @@ FN bool readsDirty(ExpandEnv env, UintBuf edits, uint chunk, ChunkReads r, uint 
         dirty = dirtyTile(edits, grid, level, tile & 255u, tile >> 8u);
     }
     if (!dirty || (r.marks & kChunkBeyond) != 0u) return dirty;
-    dirty = dirtyPlace(edits, grid, env.chunks.v[chunk].entry.uv);
+    uint cells = grid + dirtyGrid(kMaxReadLevel + 1u);
+    dirty = readsCells(edits, cells, env.chunks.v[chunk].entry.uv);
     uint first = readFirstNode(env, chunk);
-    for (uint i = 0u; i < chunkNodes(r.marks) && !dirty; ++i) dirty = dirtyPlace(edits, grid, unpackUv(env.nodes.v[first + i].uv));
+    for (uint i = 0u; i < chunkNodes(r.marks) && !dirty; ++i) dirty = readsCells(edits, cells, unpackUv(env.nodes.v[first + i].uv));
     return dirty;
 }
 

@@ -70,7 +70,8 @@ BUFFER(AgainStateBuf, AgainState)
 // kNoIndex: gone), 2 first word of the masks of changed parameters, one a grammar (0: none), 3 first word of the
 // branches that are cut away or grow again (0: none): their number, then their keys as isAmong() takes them; then one
 // word for each of 256 instances: where its dirty tiles begin (0: none). These are bits y * side + x of grids of side
-// 256, 128, … 1, each beginning with a new word, and then of cells, of side kLayerCells. The word before them is the box
+// 256, 128, … 1, each beginning with a new word, where reads may have changed; and then cells whose texels have, of side
+// kLayerCells. The word before them is the box
 // around the dirty ones of side 256: bits 7..0 least x, 15..8 least y, 23..16 most x, 31..24 most y.
 CONST_UINT(kEditLayers, 0u);
 CONST_UINT(kEditSeeds, 1u);
@@ -89,6 +90,27 @@ FN uint dirtyGrid(uint level) {
 }
 
 CONST_UINT(kCellWords, kLayerCells * kLayerCells / 32u);
+// Half a cell, and half a 65,535th of the UV, to which nodes keep their place.
+CONST_FLOAT(kCellReach, 0.508f);
+FN uint cellAt(float at) {
+    float last = float(kLayerCells - 1u);
+    return uint(at < 0.0f ? 0.0f : at > last ? last : at);
+}
+// Whether a cell is marked that a read at `uv` may take texels from. at: first word of the cells.
+FN bool readsCells(UintBuf words, uint at, vec2 uv) {
+    float x = uv.x * float(kLayerCells);
+    float y = uv.y * float(kLayerCells);
+    uint endX = cellAt(x + kCellReach);
+    uint endY = cellAt(y + kCellReach);
+    bool marked = false;
+    for (uint cy = cellAt(y - kCellReach); cy <= endY; ++cy) {
+        for (uint cx = cellAt(x - kCellReach); cx <= endX; ++cx) {
+            uint bit = cy * kLayerCells + cx;
+            marked = marked || ((words.v[at + (bit >> 5u)] >> (bit & 31u)) & 1u) != 0u;
+        }
+    }
+    return marked;
+}
 
 CONST_UINT(kResultWords, 4u);
 CONST_UINT(kResultKept, 1u << 31u);
