@@ -43,6 +43,7 @@ Result<bool> GpuGrowth::putIn(const GrowthInputs& inputs) {
     view_.chunkCount += uint32_t(r.chunks.size());
     view_.branchCount += uint32_t(r.branches.size());
     view_.revision += 1;
+    chained_ = false;  // what has come isn't
     stats_.nodes += uint32_t(r.nodes.size());
     stats_.leaves += uint32_t(r.leaves.size());
     stats_.chunks += uint32_t(r.chunks.size());

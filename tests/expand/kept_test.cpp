@@ -144,6 +144,34 @@ TEST_CASE("a frozen plant stands as it was through every edit, and grows from wh
     CHECK(s.growth->stats().regrowths == 1);
 }
 
+TEST_CASE("a plant that is put in and taken out, over and over, leaves nothing behind") {
+    for (const bool native : {false, true}) {
+        CAPTURE(native);
+        Session s(ball());
+        s.scene.native = native;
+        s.scene.plantMany(12, 0, 1);
+        s.check();
+        const GrowthStats whole = s.growth->stats();
+        Result<GrowthRecords> records = s.growth->read();
+        REQUIRE(records);
+        const std::vector<Seed> all = s.scene.seeds();
+        const std::vector<FrozenPlant> plant = {{all[3].key, std::make_shared<PlantRecords>(plantOf(*records, 3))}};
+        for (int round = 0; round < 4; ++round) {
+            s.scene.seeds().erase(s.scene.seeds().begin() + 3);
+            s.scene.frozen = plant;
+            s.changes.frozen = {all[3].key};  // what stands there isn't asked
+            s.grow();
+            CHECK(s.growth->stats().hash == whole.hash);
+            CHECK(s.growth->stats().leaves == whole.leaves);
+            s.scene.seeds() = all;
+            s.scene.frozen.clear();
+            s.check();
+            CHECK(s.growth->stats().hash == whole.hash);
+        }
+        CHECK(s.growth->stats().regrowths == 8);
+    }
+}
+
 TEST_CASE("bytes that aren't a plant are refused") {
     Session s(flatSquare());
     s.scene.plantMany(4, 0, 1);
