@@ -20,7 +20,8 @@ void main() {
         return;
     }
     if (explains) {
-        vec3 shown = view == kViewLayer ? layerColour(push.env.v[0], position) : lodColor(5u);
+        vec3 shown = view == kViewLayer ? layerColour(push.env.v[0], position) :
+                     view == kViewLod ? lodColor(5u) : vec3(0.5);
         color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(shown, n);
         return;
     }

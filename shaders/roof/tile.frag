@@ -21,7 +21,7 @@ void main() {
         return;
     }
     if (explains) {
-        vec3 shown = view == kViewLod ? lodColor(look.z) : hashColor(look.y);
+        vec3 shown = view == kViewLod ? lodColor(look.z) : view == kViewCharts ? hashColor(look.y) : vec3(0.5);
         if (view == kViewLayer) shown = layerColour(push.env.v[0], position);
         color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(shown, n);
         return;
