@@ -13,7 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace espalier::document;
 
-constexpr double kLookEvery = .3;  // seconds
+constexpr double kLookEvery = .3;   // seconds
+constexpr uint64_t kNever = ~1ull;  // was saved: no document has this state
 
 // The newest change among the grammars of a folder: an included file counts too.
 fs::file_time_type newestGrammar(const fs::path& file) {
@@ -49,8 +50,8 @@ void Session::begin(Workspace& work, const std::string& file) {
     if (place.filename() == "project.json" || recovered) place = place.parent_path();
     folder_ = fs::exists(place / "project.json", ignored) ? place.string() : "";
     recoveredFrom_ = recovered && folder_.empty() ? place.string() : "";
-    savedRevision_ = recovered ? ~0ull : work.document->revision();
-    autosavedRevision_ = work.document->revision();
+    savedState_ = recovered ? kNever : work.document->state();
+    autosavedState_ = work.document->state();
     recovery_ = recovered ? "" : recoverable(autosaveFolder());
     grammarTimes_.clear();
     for (const auto& grammar : work.scene().grammars) grammarTimes_.push_back(newestGrammar(grammar.file));
@@ -77,10 +78,7 @@ std::string Session::autosaveFolder() const {
 bool Session::step(Workspace& work, double now) {
     if (now >= nextAutosave_) {
         nextAutosave_ = now + autosaveEvery;
-        const uint64_t revision = work.document->revision();
-        if (recovery_.empty() && modified(work) && revision != autosavedRevision_ && !autosaveFolder().empty() &&
-            autosave(*work.document, autosaveFolder(), work.error))
-            autosavedRevision_ = revision;
+        keep(work);
     }
     if (now < nextLook_) return false;
     nextLook_ = now + kLookEvery;
@@ -98,7 +96,7 @@ bool Session::watchModels(const Workspace& work) {
 void Session::setOrigin(const Workspace& work, const Origin& origin) {
     file_ = origin.file;
     folder_ = origin.folder;
-    savedRevision_ = origin.modified ? ~0ull : work.document->revision();
+    savedState_ = autosavedState_ = origin.modified ? kNever : work.document->state();
 }
 
 bool Session::watchGrammars(Workspace& work) {
@@ -121,8 +119,18 @@ void Session::end(Workspace& work) {
     if (autosaveFolder().empty() || !recovery_.empty()) return;
     if (givesUp)
         dropKept();
-    else if (modified(work))
-        autosave(*work.document, autosaveFolder(), work.error);
+    else
+        keep(work);
+}
+
+void Session::keep(Workspace& work) {
+    const uint64_t state = work.document->state();
+    if (autosaveFolder().empty() || !recovery_.empty() || state == autosavedState_) return;
+    if (!modified(work))
+        dropKept();
+    else if (!autosave(*work.document, autosaveFolder(), work.error))
+        return;
+    autosavedState_ = state;
 }
 
 void Session::dropKept() const {
@@ -145,7 +153,7 @@ void Session::save(Workspace& work, const std::string& folder) {
     if (folder_.empty() && !autosaveFolder().empty()) dropKept();
     replayed_ = false;
     folder_ = fs::absolute(folder).lexically_normal().string();
-    savedRevision_ = autosavedRevision_ = work.document->revision();
+    savedState_ = autosavedState_ = work.document->state();
     recovery_.clear();
     work.message = "Saved: " + folder_;
 }

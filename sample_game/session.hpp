@@ -25,7 +25,7 @@ class Session {
     const std::string& folder() const { return folder_; }
     // As the title says it.
     std::string name(const Workspace& work) const;
-    bool modified(const Workspace& work) const { return work.document->revision() != savedRevision_; }
+    bool modified(const Workspace& work) const { return work.document->state() != savedState_; }
     void save(Workspace& work, const std::string& folder);
     // Of an earlier run that ended without saving; empty: there is none. Asked until answered.
     const std::string& recovery() const { return recovery_; }
@@ -33,7 +33,7 @@ class Session {
     // What is done in the document from now on is a recorded run's: it is kept nowhere, until the user saves it.
     void replays();
     // What follows is the user's.
-    void endReplay(const Workspace& work) { savedRevision_ = work.document->revision(); }
+    void endReplay(const Workspace& work) { savedState_ = work.document->state(); }
 
     // What to open next; the application does it.
     std::string openNext;
@@ -59,14 +59,15 @@ class Session {
 
   private:
     std::string autosaveFolder() const;
-    void dropKept() const;  // the autosave
+    void keep(Workspace& work);  // what isn't saved, as an autosave; what is, needs none
+    void dropKept() const;       // the autosave
     bool watchGrammars(Workspace& work);
     bool watchModels(const Workspace& work);
 
     std::string file_, folder_, recovery_, recordingTo_;
     std::string recoveredFrom_;  // the autosave's folder of what was never saved; it goes on there
     bool replayed_ = false;
-    uint64_t savedRevision_ = 0, autosavedRevision_ = 0;
+    uint64_t savedState_ = 0, autosavedState_ = 0;  // see Document::state
     double nextAutosave_ = 0, nextLook_ = 0;
     std::vector<std::filesystem::file_time_type> grammarTimes_, modelTimes_;
     espalier::document::Recorder recorder_;

@@ -100,6 +100,29 @@ TEST_CASE("a gesture is one step, and a new edit forgets what was undone") {
     CHECK(editing.document->redoName() == nullptr);
 }
 
+TEST_CASE("undone or done again to where it was, a document is in the state that it was in") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const auto set = [&](float reach, uint32_t gesture) {
+        REQUIRE(editing.perform(SetParam{0, {"reach", {reach}}}, gesture));
+        return editing.document->state();
+    };
+    const uint64_t opened = editing.document->state();
+    const uint64_t begun = set(1.2f, 1), dragged = set(1.3f, 1), other = set(1.4f, 2);
+    CHECK(std::set<uint64_t>{opened, begun, dragged, other}.size() == 4);
+    CHECK(editing.perform(SetView{"lod", ""}));
+    CHECK(editing.document->state() == other);
+    CHECK(editing.perform(Undo{}));
+    CHECK(editing.document->state() == dragged);
+    CHECK(editing.perform(Redo{}));
+    CHECK(editing.document->state() == other);
+    for (int i = 0; i < 2; ++i) CHECK(editing.perform(Undo{}));
+    CHECK(editing.document->state() == opened);
+    // The same value by another way is told apart; nobody compares what is in the two.
+    const uint64_t again = set(1.3f, 3);
+    CHECK(std::set<uint64_t>{opened, begun, dragged, other, again}.size() == 5);
+}
+
 TEST_CASE("what can't be done changes nothing") {
     const Folder folder;
     Editing editing(smallScene(folder));

@@ -126,13 +126,14 @@ void Document::remember(const Action& action, std::vector<Action> back, uint32_t
     undone_.clear();
     if (gesture && !done_.empty() && done_.back().gesture == gesture) {
         Step& step = done_.back();
+        step.state = ++lastState_;
         for (Action& inverse : back) {
             const bool known = !step.back.empty() && overwrites(step.back.back(), inverse);
             if (!known) step.back.push_back(std::move(inverse));
         }
         return;
     }
-    done_.push_back({nameOf(action), gesture, std::move(back)});
+    done_.push_back({nameOf(action), gesture, ++lastState_, std::move(back)});
     forgetOldest();
 }
 
@@ -149,6 +150,7 @@ void Document::forgetOldest() {
     auto keep = done_.begin();
     for (; keep + 1 < done_.end() && (over > kMaxHistoryBytes || size_t(done_.end() - keep) > kMaxSteps); ++keep)
         for (const Action& action : keep->back) over -= keptBytes(action);
+    if (keep != done_.begin()) bottom_ = (keep - 1)->state;
     done_.erase(done_.begin(), keep);
 }
 
@@ -159,9 +161,12 @@ bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string&
     }
     Step step = std::move(from.back());
     from.pop_back();
-    Step opposite{step.name, 0, {}};
+    Step opposite{step.name, 0, step.state, {}};
     for (auto action = step.back.rbegin(); action != step.back.rend(); ++action)
-        if (!carryOut(*action, opposite.back, error)) return false;
+        if (!carryOut(*action, opposite.back, error)) {
+            (done_.empty() ? bottom_ : done_.back().state) = ++lastState_;  // halfway
+            return false;
+        }
     to.push_back(std::move(opposite));
     return true;
 }

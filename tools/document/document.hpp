@@ -37,6 +37,8 @@ class Document {
 
     // Rises with every action that changes what a project holds; undoing one is a change too.
     uint64_t revision() const { return revision_; }
+    // Of what a project holds as it is now: undone and done again it is the same state.
+    uint64_t state() const { return stroking() ? ~0ull : done_.empty() ? bottom_ : done_.back().state; }
 
     // Called with every action that was asked for and done, after it.
     using Listener = std::function<void(const Action&, uint32_t gesture)>;
@@ -60,6 +62,7 @@ class Document {
     struct Step {
         std::string name;
         uint32_t gesture = 0;
+        uint64_t state = 0;        // Document::state() after it
         std::vector<Action> back;  // performed from the last to the first, they take the step back
     };
     // Does an action and tells what takes it back.
@@ -103,6 +106,7 @@ class Document {
     EspStroke stroke_{};  // open
     bool strokeHasDabs_ = false;
     uint64_t revision_ = 0;
+    uint64_t bottom_ = 0, lastState_ = 0;  // bottom: before the oldest step that is kept
     uint32_t lastKey_ = 0;
     Listener listener_;
 };
