@@ -123,11 +123,13 @@ void App::noteTimes(bool grew) {
 }
 
 // A run's next step in place of what the user does, who can only end it. False: no run is on.
-bool App::replay(std::vector<PointerEvent>& pointer, std::vector<KeyEvent>& keys) {
+bool App::replay(std::vector<InputEvent>& events) {
     if (!replay_.on()) return false;
-    const bool ends = std::ranges::any_of(keys, [](const KeyEvent& key) { return key.key == GLFW_KEY_ESCAPE; });
-    pointer.clear();
-    keys.clear();
+    const bool ends = std::ranges::any_of(events, [](const InputEvent& event) {
+        const auto* key = std::get_if<KeyEvent>(&event);
+        return key && key->key == GLFW_KEY_ESCAPE;
+    });
+    events.clear();
     int& flags = ImGui::GetIO().ConfigFlags;
     flags |= ImGuiConfigFlags_NoMouse;
     if (ends) replay_.stop(work_);
@@ -155,16 +157,14 @@ bool App::frame(float seconds) {
     if (!session_.openNext.empty() && !openNext()) return false;
     if (session_.reload && !reload()) return false;
     if (!rescale()) return false;
-    std::vector<KeyEvent> keys;
+    std::vector<InputEvent> events;
     ImGui_ImplGlfw_NewFrame();
-    input_->gui.feed(keys);
+    input_->gui.feed(events);
     ImGui::NewFrame();
     work_.window = {ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};
-    std::vector<PointerEvent> pointer;
-    float wheel = 0;
-    input_->take(pointer, wheel);
-    const bool replays = replay(pointer, keys);
-    if (!replays) controls_->take(pointer, keys, wheel);
+    const float wheel = input_->takeWheel();
+    const bool replays = replay(events);
+    if (!replays) controls_->take(events, wheel);
     const bool moved = !replays && controls_->step(*input_, seconds);
     if (moved || frames_ == 0) {
         const EspCamera camera = work_.camera.camera(0);
@@ -185,7 +185,7 @@ bool App::frame(float seconds) {
     noteTimes(grew);
     const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || toolTipWaits() || controls_->turning() ||
                       input_->gui.waiting();
-    if (moved || held || replays || wheel != 0 || !pointer.empty() || !keys.empty() || grew)
+    if (moved || held || replays || wheel != 0 || !events.empty() || grew)
         wake();
     else if (awake_ > 0)
         --awake_;
@@ -212,6 +212,7 @@ bool App::loop() {
             if (input_->pending() || glfwGetTime() - asleep < .9 * kLookEvery) wake();
         }
         const double now = glfwGetTime();
+        input_->gui.polled(now);
         const float seconds = float(std::min(now - before, .5));
         before = now;
         if (session_.step(work_, now)) wake();

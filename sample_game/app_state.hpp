@@ -39,7 +39,7 @@ class App {
     void screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height);
     bool openNext();
     void beginReplay();
-    bool replay(std::vector<PointerEvent>& pointer, std::vector<KeyEvent>& keys);
+    bool replay(std::vector<InputEvent>& events);
     bool closing();
     bool reload();
     bool frame(float seconds);

@@ -123,8 +123,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
         float& radius = work_.brushRadius();
         if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, .005f);
         if (key == GLFW_KEY_RIGHT_BRACKET) radius = std::min(radius * 1.15f, 20.f);
-        const ImVec2 mouse = ImGui::GetIO().MousePos;
-        if (key == GLFW_KEY_F) brush_.startSizing(work_, {mouse.x, mouse.y}, event.mods & GLFW_MOD_SHIFT);
+        if (key == GLFW_KEY_F) brush_.startSizing(work_, {event.x, event.y}, event.mods & GLFW_MOD_SHIFT);
     } else if (key == GLFW_KEY_F) {
         work_.frameChosen();
         navigation_.moved();
@@ -137,8 +136,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
         if (removes) seeds_.remove(work_);
         if (key == GLFW_KEY_A) seeds_.selectAll(work_);
         const bool turns = key == GLFW_KEY_R && !(event.mods & GLFW_MOD_SHIFT);
-        const ImVec2 mouse = ImGui::GetIO().MousePos;
-        if (key == GLFW_KEY_G || turns) seeds_.grab(work_, {mouse.x, mouse.y}, turns);
+        if (key == GLFW_KEY_G || turns) seeds_.grab(work_, {event.x, event.y}, turns);
     }
     if (key == GLFW_KEY_R && (event.mods & GLFW_MOD_SHIFT)) {
         ChangeSeeds change;
@@ -185,20 +183,25 @@ void Controls::takePointer(const PointerEvent& event) {
     if (toolFirst) navigation_.follow({event.x, event.y});
 }
 
-void Controls::take(const std::vector<PointerEvent>& pointer, const std::vector<KeyEvent>& keys, float wheel) {
-    for (const KeyEvent& key : keys) {
-        const bool functionKey = key.key >= GLFW_KEY_F1 && key.key <= GLFW_KEY_F12;
-        const bool control = key.mods & GLFW_MOD_CONTROL;
-        const bool file = control && (key.key == GLFW_KEY_S || key.key == GLFW_KEY_O || key.key == GLFW_KEY_E ||
-                                      key.key == GLFW_KEY_Q);
-        // What WantTextInput says is a frame late: nothing is active any more once a dialogue has closed.
-        const bool typing = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
-        if (key.key == GLFW_KEY_ESCAPE && closeMenus()) continue;
-        if (!ImGui::GetCurrentContext()->OpenPopupStack.empty() && !functionKey) continue;
-        if (typing && !functionKey && !file) continue;
-        takeKey(key);
+bool Controls::panelTakes(const KeyEvent& event) {
+    const bool functionKey = event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F12;
+    if (event.key == GLFW_KEY_ESCAPE && closeMenus()) return true;
+    if (functionKey) return false;
+    if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) return true;
+    const bool file = (event.mods & GLFW_MOD_CONTROL) && (event.key == GLFW_KEY_S || event.key == GLFW_KEY_O ||
+                                                          event.key == GLFW_KEY_E || event.key == GLFW_KEY_Q);
+    // What WantTextInput says is a frame late: nothing is active any more once a dialogue has closed.
+    return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive() && !file;
+}
+
+void Controls::take(const std::vector<InputEvent>& events, float wheel) {
+    for (const InputEvent& event : events) {
+        if (const auto* key = std::get_if<KeyEvent>(&event)) {
+            if (!panelTakes(*key)) takeKey(*key);
+        } else {
+            takePointer(std::get<PointerEvent>(event));
+        }
     }
-    for (const PointerEvent& event : pointer) takePointer(event);
     brush_.flush(work_);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (!overPanel(mouse.x, mouse.y)) navigation_.wheel(work_, wheel);

@@ -17,7 +17,7 @@ class Controls {
   public:
     Controls(Workspace& work, Session& session, GLFWwindow* window) : work_(work), session_(session), window_(window) {}
 
-    void take(const std::vector<PointerEvent>& pointer, const std::vector<KeyEvent>& keys, float wheel);
+    void take(const std::vector<InputEvent>& events, float wheel);
     // Keys that are held move the camera. True: it moved.
     bool step(const Input& input, float seconds);
     // What the mouse points at, and the tool's own marks over the picture.
@@ -37,6 +37,7 @@ class Controls {
     void takePointer(const PointerEvent& event);
     bool toolBusy() const;
     bool panelTakes(const PointerEvent& event);
+    static bool panelTakes(const KeyEvent& event);
     void catchMouse(bool caught);
     void chooseTool(Tool tool);
     void hover();

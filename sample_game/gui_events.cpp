@@ -9,12 +9,15 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <iterator>
 
 #include "sample_game/panels.hpp"
 
 namespace sample {
 namespace {
+
+constexpr double kDoubleClick = .3;  // seconds
 
 // Keys that only write needn't be seen going down: their letter comes by itself.
 bool writes(int key, int mods) {
@@ -38,75 +41,77 @@ bool overPanel(float x, float y) {
     return false;
 }
 
-void GuiEvents::key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-    keys_.push_back({window, false, key, scancode, action, mods});
+void GuiEvents::key(const KeyEvent& event, int scancode, int action) {
+    events_.push_back(Key{event, scancode, action});
 }
 
-void GuiEvents::letter(GLFWwindow* window, unsigned code) {
-    keys_.push_back({window, true, int(code), 0, 0, 0});
+void GuiEvents::letter(unsigned code) {
+    events_.push_back(Letter{code});
 }
 
-void GuiEvents::move(float x, float y) {
-    if (!mouse_.empty() && mouse_.back().button < 0) mouse_.pop_back();
-    mouse_.push_back({-1, false, x, y});
+// Of two presses it is known between which times each has happened: they are one double click if they can be.
+void GuiEvents::pointer(const PointerEvent& event) {
+    if (event.button < 0 || event.button >= int(std::size(buttons_))) return;
+    bool again = false;
+    if (event.kind == PointerEvent::Kind::press) {
+        again = pressed_ && pressed_->first == event.button && polled_ - pressed_->second < kDoubleClick;
+        pressed_ = {event.button, glfwGetTime()};
+    }
+    events_.push_back(Pointer{event, again});
 }
 
-void GuiEvents::button(int button, bool down) {
-    if (button >= 0 && button < int(std::size(buttons_))) mouse_.push_back({button, down, 0, 0});
-}
-
-// True: a button changed that a panel is to see, or is about to. Clicks beside them needn't be told apart, so that none
-// of them waits.
-bool GuiEvents::feedMouse() {
-    bool changed = false, moved = false;
-    for (; !mouse_.empty() && !changed; mouse_.pop_front()) {
-        const Mouse& e = mouse_.front();
-        if (e.button < 0) {
-            x_ = e.x;
-            y_ = e.y;
-            placed_ = moved = true;
-            continue;
-        }
+bool GuiEvents::tell(const Pointer& pointer, Told& told, std::vector<InputEvent>& taken) {
+    if (told.clicked) return false;
+    const PointerEvent& e = pointer.event;
+    const bool press = e.kind == PointerEvent::Kind::press;
+    if (e.kind != PointerEvent::Kind::move) {
+        const bool panels = press ? overPanel(e.x, e.y) : ofPanel_[e.button];
         // A slider looks where the mouse is only while its button is down: the end of a fast drag is a frame of its
         // own.
-        if (moved && !e.down && ofPanel_[e.button]) return true;
-        buttons_[e.button] = e.down;
-        if (e.down) ofPanel_[e.button] = overPanel(x_, y_);
-        changed = ofPanel_[e.button];
+        if (panels && ((told.moved && !press) || (told.typing && (told.keyed || told.wrote)))) return false;
+        // Clicks beside panels needn't be told apart, so that none of them waits.
+        buttons_[e.button] = press;
+        ofPanel_[e.button] = told.clicked = panels;
+        if (press) ImGui::GetIO().MouseDoubleClickTime = pointer.again ? FLT_MAX : 0;
     }
-    return changed;
+    told.moved = told.moved || x_ != e.x || y_ != e.y;
+    x_ = e.x;
+    y_ = e.y;
+    placed_ = true;
+    taken.push_back(e);
+    return true;
 }
 
-void GuiEvents::feedKeys(bool typing, std::vector<KeyEvent>& pressed) {
-    if (awaitsText()) return;
-    bool keyed = false, wrote = false;
-    for (bool asked = false; !keys_.empty() && !asked; keys_.pop_front()) {
-        const Key& e = keys_.front();
-        if (e.letter) {
-            if (keyed) break;
-            ImGui_ImplGlfw_CharCallback(e.window, unsigned(e.code));
-            wrote = true;
-            continue;
-        }
-        const bool shifts = e.code >= GLFW_KEY_LEFT_SHIFT && e.code <= GLFW_KEY_RIGHT_SUPER;
-        const bool told = typing && !writes(e.code, e.mods) && !(shifts && e.action == GLFW_PRESS);
-        if (told && (keyed || wrote)) break;
-        ImGui_ImplGlfw_KeyCallback(e.window, e.code, e.scancode, e.action, e.mods);
-        keyed = keyed || told;
-        if (e.action == GLFW_RELEASE) continue;
-        pressed.push_back({e.code, e.mods});
-        asked = asks(e.code, e.mods);
-    }
+bool GuiEvents::tell(const Letter& letter, Told& told, std::vector<InputEvent>&) {
+    if (told.awaited || told.clicked || told.keyed || told.asks) return false;
+    ImGui_ImplGlfw_CharCallback(window_, letter.code);
+    return told.wrote = true;
 }
 
-void GuiEvents::feed(std::vector<KeyEvent>& pressed) {
+bool GuiEvents::tell(const Key& key, Told& told, std::vector<InputEvent>& taken) {
+    if (told.awaited || told.clicked || told.asks) return false;
+    const auto& [code, mods, x, y] = key.event;
+    const bool shifts = code >= GLFW_KEY_LEFT_SHIFT && code <= GLFW_KEY_RIGHT_SUPER;
+    const bool apart = told.typing && !writes(code, mods) && !(shifts && key.action == GLFW_PRESS);
+    if (apart && (told.keyed || told.wrote)) return false;
+    ImGui_ImplGlfw_KeyCallback(window_, code, key.scancode, key.action, mods);
+    told.keyed = told.keyed || apart;
+    if (key.action == GLFW_RELEASE) return true;
+    taken.push_back(key.event);
+    told.asks = asks(code, mods);
+    return true;
+}
+
+void GuiEvents::feed(std::vector<InputEvent>& taken) {
     ImGuiIO& io = ImGui::GetIO();
-    const bool typing = io.WantTextInput || !ImGui::GetCurrentContext()->OpenPopupStack.empty();
-    const bool changed = feedMouse();
-    // A click may end the typing, or begin it elsewhere.
-    if (!changed || !typing) feedKeys(typing, pressed);
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    Told told{.typing = gui.WantTextInputNextFrame > 0 || !gui.OpenPopupStack.empty(), .awaited = awaitsText()};
+    // A dialogue whose list is held takes no text before it is let go, which may come behind a key.
+    if (std::ranges::count(buttons_, true) > 0) told.awaited = false;
+    const auto next = [&](const auto& event) { return tell(event, told, taken); };
+    while (!events_.empty() && std::visit(next, events_.front())) events_.pop_front();
     // The backend has put in how things are by now, which is later than what ImGui is told.
-    if (placed_ && (changed || !mouse_.empty()) && ImGui::IsMousePosValid()) io.MousePos = {x_, y_};
+    if (placed_ && (told.clicked || waiting()) && ImGui::IsMousePosValid()) io.MousePos = {x_, y_};
     std::copy(std::begin(buttons_), std::end(buttons_), io.MouseDown);
 }
 

@@ -1,11 +1,9 @@
-// GLFW's callbacks -> lists of events.
+// GLFW's callbacks -> one list of events.
 #define GLFW_INCLUDE_NONE
 #include "sample_game/input.hpp"
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
-
-#include <utility>
 
 namespace sample {
 
@@ -13,31 +11,30 @@ Input& Input::of(GLFWwindow* window) {
     return *static_cast<Input*>(glfwGetWindowUserPointer(window));
 }
 
-Input::Input(GLFWwindow* window) : window_(window) {
+Input::Input(GLFWwindow* window) : gui(window), window_(window) {
     glfwSetWindowUserPointer(window, this);
     double startX = 0, startY = 0;
     glfwGetCursorPos(window, &startX, &startY);
     x_ = float(startX);
     y_ = float(startY);
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-        of(w).gui.key(w, key, scancode, action, mods);
+        Input& in = of(w);
+        in.gui.key({key, mods, in.x_, in.y_}, scancode, action);
     });
-    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned code) { of(w).gui.letter(w, code); });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned code) { of(w).gui.letter(code); });
     glfwSetWindowFocusCallback(window, ImGui_ImplGlfw_WindowFocusCallback);
     glfwSetCursorEnterCallback(window, ImGui_ImplGlfw_CursorEnterCallback);
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
         Input& in = of(w);
         in.x_ = float(x);
         in.y_ = float(y);
-        in.gui.move(in.x_, in.y_);
-        in.pointer_.push_back({PointerEvent::Kind::move, 0, in.mods(), in.x_, in.y_});
+        in.gui.pointer({PointerEvent::Kind::move, 0, in.mods(), in.x_, in.y_});
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
         Input& in = of(w);
-        in.gui.button(button, action == GLFW_PRESS);
         // Where the last move ended: what GLFW could tell now is where the mouse is by now, which may be elsewhere.
         const auto kind = action == GLFW_PRESS ? PointerEvent::Kind::press : PointerEvent::Kind::release;
-        in.pointer_.push_back({kind, button, mods, in.x_, in.y_});
+        in.gui.pointer({kind, button, mods, in.x_, in.y_});
     });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
         ImGui_ImplGlfw_ScrollCallback(w, x, y);
@@ -46,11 +43,6 @@ Input::Input(GLFWwindow* window) : window_(window) {
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
         if (count > 0) of(w).dropped_ = paths[0];
     });
-}
-
-void Input::take(std::vector<PointerEvent>& pointer, float& wheel) {
-    pointer = std::exchange(pointer_, {});
-    wheel = std::exchange(wheel_, 0.f);
 }
 
 bool Input::down(int key) const {

@@ -6,11 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sample {
 namespace {
 
 constexpr float kTipDelay = .5f;  // seconds
+
+// The slider that has been taken up and hasn't changed anything yet.
+ImGuiID& untouched() {
+    static ImGuiID id = 0;
+    return id;
+}
 
 // From the low end to where the value is, below a slider that is about to be laid out here.
 void drawBar(float width, float share) {
@@ -55,6 +62,8 @@ bool slider(const char* id, float* value, float low, float high, const char* for
     ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, 1);
     const bool changed = ImGui::SliderFloat(
         id, value, low, high, format, ImGuiSliderFlags_AlwaysClamp | (byRatio ? ImGuiSliderFlags_Logarithmic : 0));
+    // A double click's second press goes on with what the first has begun.
+    if (ImGui::IsItemActivated() && !ImGui::IsMouseDoubleClicked(0)) untouched() = ImGui::GetItemID();
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) ImGui::SetKeyboardFocusHere(-1);
     ImGui::PopStyleVar();
     ImGui::PopStyleColor(typing ? 4 : 5);
@@ -99,7 +108,8 @@ void rowLabel(const char* text) {
 uint32_t widgetGesture(Workspace& work) {
     static_assert(sizeof(ImGuiID) == sizeof(uint32_t));
     // A new one each time that a widget is taken up; kept while it is held.
-    if (ImGui::IsItemActivated() || !ImGui::IsItemActive()) return work.newGesture();
+    const bool begins = std::exchange(untouched(), 0) == ImGui::GetItemID();
+    if (begins || ImGui::IsItemActivated() || !ImGui::IsItemActive()) return work.newGesture();
     return work.gesture();
 }
 

@@ -1,5 +1,6 @@
 // The editor in a real window, driven by mouse and keys; judged by the run that it records, which is then replayed.
 #include <algorithm>
+#include <utility>
 
 #include "tests/editor/editing.hpp"
 #include "tools/document/run.hpp"
@@ -32,22 +33,25 @@ TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are plan
     CHECK(count(RemoveSeeds{}) == 1);
     CHECK(count(Undo{}) == 2);
     CHECK(count(Redo{}) == 1);
-    // Only the last drag is one of a grammar's slider: it ends where the mouse was let go.
+    // Only the last drag is one of a grammar's slider: it ends where the mouse was let go. Then its number is typed
+    // twice.
     size_t redone = 0, slid = recorded.lines.size();
+    std::vector<std::pair<uint32_t, float>> scales;  // gestures, and what each ends with
     for (size_t i = 0; i < recorded.lines.size(); ++i) {
         if (std::holds_alternative<Redo>(recorded.lines[i].action)) redone = i;
         if (const auto* set = std::get_if<SetParam>(&recorded.lines[i].action)) {
             slid = std::min(slid, i);
             CHECK(set->param.name == "scale");
+            if (scales.empty() || scales.back().first != recorded.lines[i].gesture)
+                scales.emplace_back(recorded.lines[i].gesture, 0);
+            scales.back().second = set->param.value.at(0);
         }
     }
     CHECK(slid > redone);
-    REQUIRE(count(SetParam{}) >= 1);
-    for (size_t i = recorded.lines.size(); i-- > slid;)
-        if (const auto* set = std::get_if<SetParam>(&recorded.lines[i].action)) {
-            CHECK(set->param.value.at(0) == doctest::Approx(3.3).epsilon(0.3));
-            break;
-        }
+    REQUIRE(scales.size() >= 3);
+    CHECK(scales.front().second == doctest::Approx(3.3).epsilon(0.3));
+    CHECK(scales[scales.size() - 2].second == 1.25f);  // after a double click
+    CHECK(scales.back().second == 2.5f);               // after Ctrl and a click
     std::vector<std::string> modes;
     for (const RunLine& line : recorded.lines)
         if (const auto* stroke = std::get_if<StrokeBegin>(&line.action)) modes.push_back(stroke->mode);
