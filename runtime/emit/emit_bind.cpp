@@ -31,7 +31,8 @@ EmitGrid gridOver(glm::vec3 low, glm::vec3 high) {
 
 }  // namespace
 
-// With room for all that growth has room for.
+// With room for all that growth has room for, and for as much again where memory that isn't touched costs nothing: what
+// outgrows its room is copied whole.
 Result<Emit::Held> Emit::makeHeld(const GrowthView& growth, uint32_t leaves) {
     Held held;
     const auto make = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
@@ -40,8 +41,9 @@ Result<Emit::Held> Emit::makeHeld(const GrowthView& growth, uint32_t leaves) {
         buffer = std::move(*made);
         return texels ? viewTexels(*texels, buffer) : Status(Done{});
     };
-    const auto room = [](const Buffer* records, uint64_t bytes, uint32_t count) {
-        return std::max<uint64_t>(records ? records->size() / bytes : 0, count);
+    const uint64_t spare = sharesMemory() ? 2 : 1;
+    const auto room = [&](const Buffer* records, uint64_t bytes, uint32_t count) {
+        return spare * std::max<uint64_t>(records ? records->size() / bytes : 0, count);
     };
     const uint64_t spans = room(growth.nodeBuffer, sizeof(Node), growth.nodeCount);
     const uint64_t loose = std::min<uint64_t>(room(growth.leafBuffer, sizeof(Leaf), leaves), kMostLeaves);
@@ -214,7 +216,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     commands.barrier(Use::compute | Use::vertex, Use::transfer | Use::compute);
     if (Status s = commands.upload(in, std::as_bytes(std::span(&given, 1))); !s) return s;
     if (partly) {
-        commands.fill(flags_, 0);
+        commands.fill(flags_, 0, 0, std::max(nodes, before.nodeCount) * 4ull);
         commands.fill(cells_, 0, kAllCells * sizeof(EmitCell) + offsetof(EmitCell, changed),
                       sizeof(EmitCell) - offsetof(EmitCell, changed));
     } else {
