@@ -37,13 +37,14 @@ void main() {
     n = normalize(vec3(n.xy / max(g.size, vec2(1e-4)), n.z / max(g.thickness, 1e-4)));
     normal = g.axisX * n.x + g.axisY * n.y + cross(g.axisX, g.axisY) * n.z;
     // Cells are lit as their pattern is long before they give way to it: at a low sun the relief of some among others
-    // without would be a mosaic of streaks.
+    // without would be a mosaic of streaks. Smaller pictures, of what moves, keep it for longer: near roofs would lose
+    // it when the camera sets off.
     float clear = 1.0;
     if (g.firstRow != kNoIndex) {
         vec3 face = cross(g.axisX, g.axisY);
         vec3 ray = frame.eye - position;
         float far = max(length(ray), 0.05);
-        clear = smoothstep(1.0, kReliefEnd, cellClarity(env, g, frame.pixelScale / far, abs(dot(face, ray)) / far));
+        clear = smoothstep(1.0, quick ? kFadeEnd : kReliefEnd, cellClarity(env, g, frame.pixelScale / far, abs(dot(face, ray)) / far));
         normal = mix(face, normal, clear);
     }
     float tint = push.roughness < kRoughnessOfGlass ? -1.0 : float(g.colour >> 24u) * (1.0 / 255.0);
