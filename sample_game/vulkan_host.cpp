@@ -23,6 +23,8 @@ bool layerInstalled(const char* name) {
                        [&](const VkLayerProperties& layer) { return !std::strcmp(layer.layerName, name); });
 }
 
+constexpr int kSoftware = 3;
+
 int preference(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device, &properties);
@@ -34,7 +36,7 @@ int preference(VkPhysicalDevice device) {
         case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
             return 2;
         default:
-            return 3;
+            return kSoftware;
     }
 }
 
@@ -156,6 +158,7 @@ bool VulkanHost::makeDevice(const void* features, const char* const* extensions,
             // A device that lacks something says so, and the next one is tried.
             if (vkCreateDevice(candidate, &info, nullptr, &device_) != VK_SUCCESS) break;
             physicalDevice_ = candidate;
+            overlaps_ = preference(candidate) < kSoftware;
             queueFamily_ = family;
             volkLoadDevice(device_);
             vkGetDeviceQueue(device_, family, 0, &queue_);
@@ -278,9 +281,10 @@ std::optional<Frame> VulkanHost::begin() {
     if (stale_ && !makeSwapchain()) return std::nullopt;
     if (stale_) return std::nullopt;
     Slot& slot = slots_[(frameNumber_ + 1) % kFramesInFlight];
-    if (!check(vkWaitForFences(device_, 1, &slot.done, VK_TRUE, UINT64_MAX), "waiting for the GPU"))
+    const Slot& awaited = overlaps_ ? slot : slots_[frameNumber_ % kFramesInFlight];
+    if (!check(vkWaitForFences(device_, 1, &awaited.done, VK_TRUE, UINT64_MAX), "waiting for the GPU"))
         return std::nullopt;
-    finished_ = std::max(finished_, slot.number);
+    finished_ = std::max(finished_, awaited.number);
     const VkResult acquired =
         vkAcquireNextImageKHR(device_, swapchain_, UINT64_MAX, slot.acquired, VK_NULL_HANDLE, &target_);
     if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {

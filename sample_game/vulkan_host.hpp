@@ -40,8 +40,8 @@ class VulkanHost {
     bool create(GLFWwindow* window, bool validation, const void* features, const char* const* extensions,
                 uint32_t extensionCount);
 
-    // Waits for the slot's earlier frame and takes the next image. Nothing: the window has no area, or the
-    // swapchain was made anew; try again after events. error() is not empty after a failure.
+    // Waits for the slot's earlier frame, on software devices for the last one, and takes the next image. Nothing: the
+    // window has no area, or the swapchain was made anew; try again after events. error() is not empty after a failure.
     std::optional<Frame> begin();
     // Ends, submits and shows what was recorded. The image must be in COLOR_ATTACHMENT_OPTIMAL. `picture`: if not
     // null it is given the frame's pixels, RGBA, rows top to bottom (the call waits for the GPU then).
@@ -107,6 +107,9 @@ class VulkanHost {
     uint32_t target_ = 0;
     uint64_t frameNumber_ = 0;
     uint64_t finished_ = 0;
+    // Whether a frame is recorded while the last is drawn. Not on software devices: both want the same cores, and
+    // native code changes in place what no frame under way reads.
+    bool overlaps_ = true;
     VkBuffer pictureBuffer_ = VK_NULL_HANDLE;  // of the latest copyPicture
     VkDeviceMemory pictureMemory_ = VK_NULL_HANDLE;
     void* pictureBytes_ = nullptr;
