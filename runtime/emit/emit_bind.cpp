@@ -41,12 +41,15 @@ Result<Emit::Held> Emit::makeHeld(const GrowthView& growth, uint32_t leaves) {
         buffer = std::move(*made);
         return texels ? viewTexels(*texels, buffer) : Status(Done{});
     };
-    const uint64_t spare = sharesMemory() ? 2 : 1;
-    const auto room = [&](const Buffer* records, uint64_t bytes, uint32_t count) {
-        return spare * std::max<uint64_t>(records ? records->size() / bytes : 0, count);
+    const DeviceInfo& info = device_->info();
+    const uint64_t most = std::min<uint64_t>(info.maxBufferBytes, 16ull * info.limits.maxTexelBufferElements);
+    const auto room = [&](const Buffer* records, uint64_t recordBytes, uint32_t count, uint64_t instanceBytes) {
+        const uint64_t wanted = std::max<uint64_t>(records ? records->size() / recordBytes : 0, count);
+        return sharesMemory() ? std::max(wanted, std::min(2 * wanted, most / instanceBytes)) : wanted;
     };
-    const uint64_t spans = room(growth.nodeBuffer, sizeof(Node), growth.nodeCount);
-    const uint64_t loose = std::min<uint64_t>(room(growth.leafBuffer, sizeof(Leaf), leaves), kMostLeaves);
+    const uint64_t spans = room(growth.nodeBuffer, sizeof(Node), growth.nodeCount, sizeof(SpanInstance));
+    const uint64_t loose =
+        std::min<uint64_t>(room(growth.leafBuffer, sizeof(Leaf), leaves, sizeof(LeafInstance)), kMostLeaves);
     Status instances[] = {make(held.spans, "span instances", spans * sizeof(SpanInstance), &held.spanTexels),
                           make(held.leaves, "leaf instances", loose * sizeof(LeafInstance), &held.leafTexels)};
     for (Status& s : instances)
