@@ -106,6 +106,7 @@ class Layout {
         gardens();
         trees();
         beds();
+        daisies();
         shrubs();
         tufts();
     }
@@ -213,7 +214,7 @@ class Layout {
         }
     }
     // Beds along a house's walls, between its corners and what may be a door: flowers of one kind, a bush at the
-    // corner. Daisies in the meadow about the court.
+    // corner.
     void beds() {
         const char* kinds[] = {"flowers_b", "flowers_a", "flowers_c"};
         for (uint32_t h = 0; h < plan_.houses.size(); ++h) {
@@ -239,6 +240,9 @@ class Layout {
                 }
             }
         }
+    }
+    // In the meadow about the court.
+    void daisies() {
         for (uint32_t i = 0; i < 1500; ++i) {
             const float angle = 2 * kPi * random01(i, 91), r = 18 * std::sqrt(random01(i, 92));
             const vec2 p = kCourt + r * vec2(std::cos(angle), std::sin(angle));
