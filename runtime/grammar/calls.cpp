@@ -80,7 +80,7 @@ Node Expressions::function(const FunctionInfo& info, const Expr& e, Env& env) {
     if (info.kind == Function::angleTo) return angleTo(e, env);
     if (info.kind == Function::facing) {
         Node d[3];
-        if (!direction(e, env, d)) return g.zero();
+        if (!direction(e, env, d)) return g.mistake();
         Node sum = g.zero();
         for (uint32_t i = 0; i < 3; ++i) sum = g.add(g.mul(g.leaf(Leaf::slot, kSlotNormal + i), d[i]), sum);
         return sum;
@@ -140,6 +140,7 @@ Node Expressions::function(const FunctionInfo& info, const Expr& e, Env& env) {
 
 Node Expressions::power(Node x, const Expr& e, Env& env) {
     Node exponent = lower(e.kids[1], env);
+    if (graph_.isMistaken(exponent)) return exponent;
     float n = graph_[exponent].value;
     bool whole = graph_.isConstant(exponent) && n >= 0 && n <= 8 && n == floorExact(n);
     if (!whole) return fail(e.place, env, "pow's exponent must be a constant whole number from 0 to 8");
@@ -179,7 +180,7 @@ bool Expressions::direction(const Expr& e, Env& env, Node (&xyz)[3]) {
 
 Node Expressions::angleTo(const Expr& e, Env& env) {
     Node d[3];
-    if (!direction(e, env, d)) return graph_.zero();
+    if (!direction(e, env, d)) return graph_.mistake();
     for (Node n : d)
         if (!graph_.isConstant(n) && !graph_[n].uniform)
             return fail(e.place, env, "angleTo's direction may use numbers and parameters only");

@@ -108,6 +108,7 @@ class Emitter {
             reads_.params |= g.params;
             return all_.uniform(n);
         }
+        if (g.leaf == Leaf::mistake) return {kSlotZero, 0};  // of a map that is refused
         if (g.leaf == Leaf::param) return {kSlotParam + g.op, 0};
         if (g.leaf == Leaf::draw) return {kSlotDraw + drawSlot(g.op), 0};
         if (g.leaf == Leaf::slot) {

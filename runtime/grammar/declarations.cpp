@@ -24,7 +24,8 @@ float Expressions::constantOf(ExprId expr, const std::string& rule, float otherw
     env.rule = rule;
     Node node = lower(expr, env);
     if (graph_.isConstant(node)) return graph_[node].value;
-    reporter_.error(module_.exprs[expr].place, rule, "a declaration's numbers must be constants");
+    if (!graph_.isMistaken(node))
+        reporter_.error(module_.exprs[expr].place, rule, "a declaration's numbers must be constants");
     return otherwise;
 }
 

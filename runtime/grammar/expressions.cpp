@@ -23,7 +23,7 @@ bool Expressions::withinBudget(const Place& place, const std::string& rule) {
 
 Node Expressions::fail(const Place& place, const Env& env, const std::string& message) {
     reporter_.error(place, env.rule, message);
-    return graph_.zero();
+    return graph_.mistake();
 }
 
 Node Expressions::unknown(const std::string& name, const Place& place, const Env& env) {
@@ -64,11 +64,8 @@ Node Expressions::lowerName(const std::string& name, const Place& place, Env& en
         used_.insert(name);
         if (activeLets_.size() >= kMaxLets) return fail(place, env, "more than 64 lets are nested in each other");
         if (!activeLets_.insert(name).second) return fail(place, env, "'" + name + "' is defined by itself");
-        // A let sees the declarations, not the arguments of the rule that uses it.
-        std::vector<std::pair<std::string, Node>> args;
-        args.swap(env.args);
+        const LetScope scope(env, name);
         Node node = lower(module_.lets[found->second].value, env);
-        args.swap(env.args);
         activeLets_.erase(name);
         return node;
     }
@@ -110,7 +107,7 @@ Node Expressions::lower(ExprId id, Env& env) {
 
 Node Expressions::lowerTree(ExprId id, Env& env) {
     const Expr& e = module_.exprs[id];
-    if (!withinBudget(e.place, env.rule)) return graph_.zero();
+    if (!withinBudget(e.place, env.rule)) return graph_.mistake();
     switch (e.kind) {
         case ExprKind::number:
             return graph_.constant(e.value);

@@ -22,6 +22,24 @@ struct Env {
     uint32_t nextSite = 0;
 };
 
+// While a let is lowered: it sees the declarations, not the arguments of the rule that uses it, and its mistakes are
+// its own.
+class LetScope {
+  public:
+    LetScope(Env& env, std::string name) : env_(env), rule_(std::move(name)) { swap(); }
+    ~LetScope() { swap(); }
+    LetScope(const LetScope&) = delete;
+
+  private:
+    void swap() {
+        env_.rule.swap(rule_);
+        env_.args.swap(args_);
+    }
+    Env& env_;
+    std::string rule_;
+    std::vector<std::pair<std::string, Node>> args_;
+};
+
 // Turns expressions into graph nodes; knows the declarations.
 class Expressions {
   public:
@@ -30,7 +48,7 @@ class Expressions {
     // Reads params, contexts and lets of the module; reports what is wrong with them.
     void declare();
 
-    // Mistakes are reported; the node is 0 then.
+    // Mistakes are reported; the node is Graph::mistake() then.
     Node lower(ExprId expr, Env& env);
     Node lowerName(const std::string& name, const Place& place, Env& env);
     // Grammars of roofs have accessors of their own, and vectors. To be said before declare().

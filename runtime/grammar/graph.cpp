@@ -38,7 +38,8 @@ Node Graph::leaf(Leaf kind, uint32_t number) {
     GraphNode node;
     node.leaf = kind;
     node.op = number;
-    node.uniform = kind == Leaf::param;
+    node.mistaken = kind == Leaf::mistake;
+    node.uniform = kind == Leaf::param || node.mistaken;
     node.params = kind == Leaf::param ? 1u << number : 0u;
     return intern(node);
 }
@@ -127,6 +128,7 @@ Node Graph::make(uint32_t op, Node x, Node y, Node z) {
         const GraphNode& kid = nodes_[kids[i]];
         node.kids[i] = kids[i];
         node.params |= kid.params;
+        node.mistaken = node.mistaken || kid.mistaken;
         node.depth = std::max(node.depth, kid.depth + 1);
         bool kidConstant = kid.leaf == Leaf::constant;
         constant = constant && kidConstant;

@@ -13,18 +13,19 @@ namespace espalier::grammar {
 
 using Node = uint32_t;
 
-enum class Leaf : uint32_t { operation, constant, param, slot, draw };
+enum class Leaf : uint32_t { operation, constant, param, slot, draw, mistake };
 
 struct GraphNode {
     Leaf leaf = Leaf::operation;
     uint32_t op = 0;  // operation: kOp...; param: its slot; slot: the machine's; draw: its site
     Node kids[3] = {};
     uint32_t kidCount = 0;
-    float value = 0;       // constant
-    uint32_t params = 0;   // parameter slots below
-    uint32_t depth = 0;    // operations from here to the farthest leaf
-    bool uniform = false;  // parameters and constants only, at least one parameter
-    bool boolean = false;  // 0 or 1
+    float value = 0;        // constant
+    uint32_t params = 0;    // parameter slots below
+    uint32_t depth = 0;     // operations from here to the farthest leaf
+    bool uniform = false;   // parameters and constants only, at least one parameter
+    bool boolean = false;   // 0 or 1
+    bool mistaken = false;  // a mistake is below
 };
 
 class Graph {
@@ -38,6 +39,9 @@ class Graph {
 
     Node zero() const { return 0; }
     Node one() const { return 1; }
+    // What stands for an expression that was reported. No number is known of it, and it may stand wherever what is
+    // fixed may, so that it isn't reported again for what it is used for.
+    Node mistake() { return leaf(Leaf::mistake, 0); }
     Node add(Node x, Node y) { return make(kOpAdd, x, y); }
     Node sub(Node x, Node y) { return make(kOpSub, x, y); }
     Node mul(Node x, Node y) { return make(kOpMul, x, y); }
@@ -53,6 +57,7 @@ class Graph {
     bool isConstant(Node n) const { return nodes_[n].leaf == Leaf::constant; }
     bool isConstant(Node n, float value) const { return isConstant(n) && nodes_[n].value == value; }
     bool isFixed(Node n) const { return isConstant(n) || nodes_[n].uniform; }
+    bool isMistaken(Node n) const { return nodes_[n].mistaken; }
     size_t size() const { return nodes_.size(); }
 
     static constexpr Node kNone = 0xFFFFFFFFu;

@@ -76,7 +76,7 @@ class GrowthLowering {
             Env env;
             env.rule = rule;
             Node n = c_.expressions.lower(e.args[0], env);
-            if (!c_.graph.isConstant(n, static_cast<float>(e.items.size())))
+            if (!c_.graph.isMistaken(n) && !c_.graph.isConstant(n, static_cast<float>(e.items.size())))
                 c_.reporter.error(e.place, rule,
                                   "Branch's number must be that of its successors, " + std::to_string(e.items.size()));
         }

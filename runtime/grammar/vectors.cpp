@@ -54,10 +54,8 @@ bool Expressions::vectorTree(const Expr& e, Env& env, Node (&xyz)[3], int& size)
             used_.insert(name);
             if (!activeLets_.insert(name).second)
                 return fail(e.place, env, "'" + name + "' is defined by itself"), false;
-            std::vector<std::pair<std::string, Node>> args;
-            args.swap(env.args);
+            const LetScope scope(env, name);
             bool good = lowerVector(module_.lets[let->second].value, env, xyz, size);
-            args.swap(env.args);
             activeLets_.erase(name);
             return good;
         }

@@ -134,6 +134,22 @@ TEST_CASE("a mistake in what several rules use is told once") {
     CHECK(text.find("'m' is not known", first + 1) == std::string::npos);
 }
 
+TEST_CASE("a mistake is told where it is, not where it is used") {
+    const auto told = [](const char* text) {
+        Result<RuleMap> map = compileGrammar(text);
+        REQUIRE(!map);
+        return map.failure().text();
+    };
+    // By a let: once, under the let's name, whatever stands in need of a number.
+    CHECK(told("let l = 2 * m\nA -> Marching(l, 0, true) {B} : l\nA -> Marching(l, 1 / l, l) {B} : l\n"
+               "B -> Branch(l) {A, A}\nwidth l") == "grammar:1:13: l: 'm' is not known");
+    CHECK(told("let k = m\nlet l = k\nA -> Marching(0.1, pow(2, l) + angleTo(l, 0, 1) + facing(0, l, 0), true) {A}") ==
+          "grammar:1:9: k: 'm' is not known");
+    CHECK(told("param p = m [0 .. 1]\nA -> Marching(0.1, 0, true) {A}") == "grammar:1:11: p: 'm' is not known");
+    // An argument of the rule isn't the let's, before it and after it.
+    CHECK(told("let l = n\nA(n) -> Marching(0.1, l, n < 3) {A(n + 1)}") == "grammar:1:9: l: 'n' is not known");
+}
+
 TEST_CASE("what is never used is warned of") {
     RuleMap map = compiled(
         "param p = 1\ncontext c\nlet l = 2\nA -> Marching(0.1, 0, true) {A}\nA -> NULL\nL -> S(1) Shape(\"leaf\")\nM : "
