@@ -53,14 +53,16 @@ bool isInitial(const EspParamInfo& param) {
 bool editParam(const EspParamInfo& param, float* value) {
     if (param.kind == ESP_PARAM_BOOL) {
         bool on = value[0] != 0;
-        const bool changed = ImGui::Checkbox("##value", &on);
+        const bool changed = ImGui::Checkbox(param.label, &on);
         value[0] = on;
         return changed;
     }
     if (param.kind == ESP_PARAM_COLOUR) {
         float shown[3];
         for (int i = 0; i < 3; ++i) shown[i] = encodeSrgb(value[i]);
-        if (!ImGui::ColorEdit3("##value", shown, ImGuiColorEditFlags_Float)) return false;
+        // As the grammar's text writes it; a click on the field at its end opens the picker.
+        if (!ImGui::ColorEdit3("##value", shown, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_DisplayHex))
+            return false;
         for (int i = 0; i < 3; ++i) value[i] = decodeSrgb(shown[i]);
         return true;
     }
@@ -72,7 +74,7 @@ bool editParam(const EspParamInfo& param, float* value) {
 void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
                         {ImGui::GetStyle().ItemSpacing.x, ImGui::GetStyle().ItemSpacing.y / 3});
-    ImGui::TextUnformatted(param.label);
+    if (param.kind != ESP_PARAM_BOOL) ImGui::TextUnformatted(param.label);
     ImGui::PopStyleVar();
     const float button = ImGui::GetFrameHeight();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
@@ -80,7 +82,8 @@ void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
     std::memcpy(value, param.value, sizeof value);
     bool changed = editParam(param, value);
     uint32_t gesture = changed ? widgetGesture(work) : 0;
-    toolTip((std::string(param.name) + "\nDouble click or Ctrl+click to type a value").c_str());
+    const bool number = param.kind == ESP_PARAM_FLOAT || param.kind == ESP_PARAM_INT;
+    toolTip((param.name + std::string(number ? "\nDouble click or Ctrl+click to type a value" : "")).c_str());
     if (!isInitial(param)) {
         ImGui::SameLine();
         if (ImGui::Button("\u21ba", {button, button})) {
@@ -165,8 +168,8 @@ std::vector<std::pair<int, std::string>> mistakes(const espalier::scene::LoadedG
 }
 
 struct TextState {
-    uint32_t grammar = ~0u;
-    std::string shown;  // what the widget holds
+    std::string shown;                     // what the widget holds
+    const std::string* outside = nullptr;  // what it is to hold instead
     int cursorLine = 0, scrolledLine = -1;
     float cursorX = 0, scrolledX = -1;  // within the line
     float changedAt = -1e9f;
@@ -179,12 +182,33 @@ int onEdit(ImGuiInputTextCallbackData* data) {
         state.shown.resize(size_t(data->BufTextLen));
         data->Buf = state.shown.data();
     } else {
+        if (state.outside) {
+            // The cursor stays where it is, or with what stands behind the change.
+            const std::string& now = *state.outside;
+            const auto change = std::mismatch(now.begin(), now.end(), data->Buf, data->Buf + data->BufTextLen).first;
+            const int before = int(change - now.begin()), cursor = data->CursorPos;
+            const int moved = std::max(before, cursor + int(now.size()) - data->BufTextLen);
+            data->DeleteChars(0, data->BufTextLen);
+            data->InsertChars(0, state.outside->c_str());
+            data->CursorPos = cursor <= before ? cursor : moved;
+            data->ClearSelection();
+        }
         const char *text = data->Buf, *cursor = text + data->CursorPos, *begin = cursor;
         while (begin > text && begin[-1] != '\n') --begin;
         state.cursorLine = int(std::count(text, cursor, '\n'));
         state.cursorX = ImGui::CalcTextSize(begin, cursor).x;
     }
     return 0;
+}
+
+// The document's undo, in the text as everywhere: the widget has none of its own.
+void takeUndoKeys(Workspace& work, TextState& state) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (!io.KeyCtrl) return;
+    const bool z = ImGui::IsKeyPressedMap(ImGuiKey_Z), y = ImGui::IsKeyPressedMap(ImGuiKey_Y);
+    if (z && !io.KeyShift && work.document->undoName()) work.perform(Undo{});
+    if ((y || (z && io.KeyShift)) && work.document->redoName()) work.perform(Redo{});
+    if (z || y) state.gesture = 0;  // what is typed next is a step of its own
 }
 
 void lineNumbers(int lines, const std::vector<std::pair<int, std::string>>& wrong, float width, float height) {
@@ -199,7 +223,7 @@ void lineNumbers(int lines, const std::vector<std::pair<int, std::string>>& wron
             list.AddRectFilled({at.x, place.y}, {at.x + width - 2, place.y + line}, IM_COL32(150, 40, 30, 255), 2);
             if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows |
                                        ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
-                ImGui::IsMouseHoveringRect({at.x, place.y}, {at.x + width + 600, place.y + line}))
+                ImGui::IsMouseHoveringRect({at.x, place.y}, {at.x + width, place.y + line}))
                 ImGui::SetTooltip("%s", found->second.c_str());
         }
         list.AddText(place, ImGui::GetColorU32(found != wrong.end() ? ImGuiCol_Text : ImGuiCol_TextDisabled),
@@ -250,11 +274,10 @@ void showGrammarWindow(Workspace& work) {
     const std::string title = grammarName(work.scene(), work.openGrammar) + "###grammar";
     if (beginWindow(work, title.c_str(), &work.layout.grammar, {work.window.x - 600 * s, 60 * s}, {580 * s, 520 * s})) {
         const auto wrong = mistakes(grammar);
-        const bool another = state.grammar != work.openGrammar;
-        const bool active = ImGui::GetActiveID() && state.gesture && ImGui::GetTime() - state.changedAt < 1;
-        // Undo and files change the text from outside.
-        if (another || (!active && state.shown != grammar.text)) state.shown = grammar.text;
-        state.grammar = work.openGrammar;
+        // Undo and files change the text from outside, also while the cursor is in it: the widget has a copy then.
+        const std::string outside = grammar.text;
+        state.outside = state.shown != outside ? &outside : nullptr;
+        state.shown = outside;
         const int lines = 1 + int(std::count(state.shown.begin(), state.shown.end(), '\n'));
         const float below =
             ImGui::GetFontSize() * (1.6f + (wrong.empty() ? 0 : 1.4f * float(std::min<size_t>(wrong.size(), 4))));
@@ -268,9 +291,11 @@ void showGrammarWindow(Workspace& work) {
             ImGui::SameLine(0, 0);
             const ImGuiInputTextFlags flags = ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CallbackResize |
                                               ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo;
+            ImGui::PushID(int(work.openGrammar));
             const bool changed = ImGui::InputTextMultiline("##grammar", state.shown.data(), state.shown.size() + 1,
                                                            {std::max(whole, ImGui::GetContentRegionAvail().x), height},
                                                            flags, onEdit, &state);
+            ImGui::PopID();
             if (ImGui::IsItemActive() && (state.cursorLine != state.scrolledLine || state.cursorX != state.scrolledX)) {
                 state.scrolledLine = state.cursorLine;
                 state.scrolledX = state.cursorX;
@@ -281,7 +306,10 @@ void showGrammarWindow(Workspace& work) {
                 if (state.cursorX < ImGui::GetScrollX()) ImGui::SetScrollX(state.cursorX);
                 if (x + 2 * line > ImGui::GetScrollX() + wide) ImGui::SetScrollX(x + 2 * line - wide);
             }
-            if (changed && state.shown != grammar.text) {
+            // Escape leaves the text. ImGui would take back all that was typed since it was clicked at.
+            const bool left = ImGui::IsItemDeactivated() && ImGui::IsKeyPressedMap(ImGuiKey_Escape);
+            if (ImGui::IsItemActive()) takeUndoKeys(work, state);
+            if (changed && !left && state.shown != grammar.text) {
                 // A pause ends a step of undo.
                 if (ImGui::GetTime() - state.changedAt > 1.5 || !state.gesture) state.gesture = work.newGesture();
                 state.changedAt = float(ImGui::GetTime());

@@ -16,16 +16,6 @@ using namespace espalier::document;
 constexpr double kLookEvery = .3;   // seconds
 constexpr uint64_t kNever = ~1ull;  // was saved: no document has this state
 
-// The newest change among the grammars of a folder: an included file counts too.
-fs::file_time_type newestGrammar(const fs::path& file) {
-    fs::file_time_type newest = fs::file_time_type::min();
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(file.parent_path().empty() ? "." : file.parent_path(), ignored))
-        if (entry.path().extension() == ".grammar" || entry.path() == file)
-            newest = std::max(newest, entry.last_write_time(ignored));
-    return newest;
-}
-
 // Of surfaces and town. A file that isn't there at the moment counts as it was: `before`.
 std::vector<fs::file_time_type> modelTimes(const Workspace& work, const std::vector<fs::file_time_type>& before) {
     std::vector<std::string> files;
@@ -53,8 +43,7 @@ void Session::begin(Workspace& work, const std::string& file) {
     savedState_ = recovered ? kNever : work.document->state();
     autosavedState_ = work.document->state();
     recovery_ = recovered ? "" : recoverable(autosaveFolder());
-    grammarTimes_.clear();
-    for (const auto& grammar : work.scene().grammars) grammarTimes_.push_back(newestGrammar(grammar.file));
+    grammarFiles_.begin(work.scene());
     modelTimes_ = modelTimes(work, {});
     reload = givesUp = replayed_ = false;
     work.document->listen([this](const Action& action, uint32_t gesture) { recorder_.note(action, gesture); });
@@ -100,18 +89,14 @@ void Session::setOrigin(const Workspace& work, const Origin& origin) {
 }
 
 bool Session::watchGrammars(Workspace& work) {
-    bool changed = false;
-    grammarTimes_.resize(work.scene().grammars.size(), fs::file_time_type::min());
-    for (uint32_t i = 0; i < work.scene().grammars.size(); ++i) {
-        const std::string file = work.scene().grammars[i].file;
-        const fs::file_time_type time = newestGrammar(file);
-        if (time == grammarTimes_[i]) continue;
-        grammarTimes_[i] = time;
-        std::string text;
-        if (espalier::scene::readText(file, text, work.error)) work.perform(work.document->withText(i, text));
-        changed = true;
+    const std::vector<GrammarFiles::Change> changes = grammarFiles_.look(work.scene());
+    for (const GrammarFiles::Change& change : changes) {
+        if (!work.perform(work.document->withText(change.grammar, change.text))) continue;
+        const fs::path file = work.scene().grammars[change.grammar].file;
+        work.message = "Read again: " + file.filename().string() +
+                       (change.replaces ? "; Ctrl+Z brings back what was typed here" : "");
     }
-    return changed;
+    return !changes.empty();
 }
 
 void Session::end(Workspace& work) {

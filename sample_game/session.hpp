@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sample_game/grammar_files.hpp"
 #include "sample_game/workspace.hpp"
 #include "tools/document/run.hpp"
 
@@ -69,7 +70,8 @@ class Session {
     bool replayed_ = false;
     uint64_t savedState_ = 0, autosavedState_ = 0;  // see Document::state
     double nextAutosave_ = 0, nextLook_ = 0;
-    std::vector<std::filesystem::file_time_type> grammarTimes_, modelTimes_;
+    GrammarFiles grammarFiles_;
+    std::vector<std::filesystem::file_time_type> modelTimes_;
     espalier::document::Recorder recorder_;
 };
 

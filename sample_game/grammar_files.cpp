@@ -1,0 +1,83 @@
+// Times of files -> texts that differ from those seen last. A text is taken over only if its own file has changed: what
+// was typed stays when another grammar of the folder is saved.
+#include "sample_game/grammar_files.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "tools/scene/picture.hpp"
+
+namespace sample {
+namespace {
+
+namespace fs = std::filesystem;
+using espalier::scene::readText;
+
+fs::path folderOf(const fs::path& file) {
+    return file.parent_path().empty() ? "." : file.parent_path();
+}
+
+// The newest change among the grammars of a folder: an included file counts too.
+fs::file_time_type newest(const fs::path& file) {
+    fs::file_time_type time = fs::file_time_type::min();
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folderOf(file), ignored))
+        if (entry.path().extension() == ".grammar" || entry.path() == file)
+            time = std::max(time, entry.last_write_time(ignored));
+    return time;
+}
+
+// All that a text includes, each file once: `names` are those that are there already.
+std::string included(const fs::path& folder, const std::string& text, std::vector<std::string>& names) {
+    std::string all;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::string word, name, content, error;
+        std::istringstream words(line);
+        if (!(words >> word) || word != "include" || !std::getline(words, name, '"') || !std::getline(words, name, '"'))
+            continue;
+        if (std::ranges::find(names, name) != names.end()) continue;
+        names.push_back(name);
+        if (!readText((folder / name).string(), content, error)) continue;
+        all += content + included(folder, content, names);
+    }
+    return all;
+}
+
+std::string included(const std::string& file, const std::string& text) {
+    std::vector<std::string> names;
+    return included(folderOf(file), text, names);
+}
+
+}  // namespace
+
+void GrammarFiles::begin(const espalier::scene::Scene& scene) {
+    seen_.clear();
+    for (const auto& grammar : scene.grammars) {
+        std::string text, error;
+        const fs::file_time_type time = newest(grammar.file);
+        if (!readText(grammar.file, text, error)) text = grammar.text;
+        seen_.push_back({time, text, included(grammar.file, text)});
+    }
+}
+
+std::vector<GrammarFiles::Change> GrammarFiles::look(const espalier::scene::Scene& scene) {
+    std::vector<Change> changes;
+    for (uint32_t i = 0; i < seen_.size() && i < scene.grammars.size(); ++i) {
+        const auto& grammar = scene.grammars[i];
+        Seen& seen = seen_[i];
+        const fs::file_time_type time = newest(grammar.file);
+        Seen now{time, {}, {}};
+        std::string error;
+        if (time == seen.time || !readText(grammar.file, now.text, error)) continue;
+        now.included = included(grammar.file, now.text);
+        if (now.text != seen.text)
+            changes.push_back({i, now.text, grammar.text != seen.text && grammar.text != now.text});
+        else if (now.included != seen.included)
+            changes.push_back({i, grammar.text, false});
+        seen = std::move(now);
+    }
+    return changes;
+}
+
+}  // namespace sample

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/scene/scene.hpp"
+
+namespace sample {
+
+// What other programs write into the grammars' files while these are open.
+class GrammarFiles {
+  public:
+    struct Change {
+        uint32_t grammar = 0;
+        std::string text;       // that it is to have: the file's, or its own again if only what it includes has changed
+        bool replaces = false;  // what was typed and isn't in the file
+    };
+
+    // Files as they are now count as seen.
+    void begin(const espalier::scene::Scene& scene);
+    // Since begin() or the last call. A file that can't be read counts as it was.
+    std::vector<Change> look(const espalier::scene::Scene& scene);
+
+  private:
+    struct Seen {
+        std::filesystem::file_time_type time;  // of the folder's newest grammar
+        std::string text, included;
+    };
+    std::vector<Seen> seen_;  // by grammar
+};
+
+}  // namespace sample

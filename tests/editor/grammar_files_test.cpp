@@ -1,0 +1,85 @@
+// What another program writes into grammars' files, beside what is typed.
+#include "sample_game/grammar_files.hpp"
+
+#include <chrono>
+
+#include "tests/editor/editing.hpp"
+
+using sample::GrammarFiles;
+
+namespace {
+
+// Two grammars of one folder, the first of which includes a third file.
+struct Texts {
+    Folder folder;
+    espalier::scene::Scene scene;
+    GrammarFiles files;
+    int writes = 0;
+
+    Texts() {
+        write("parts.grammar", "// parts");
+        write("deep.grammar", "include \"parts.grammar\"\n");
+        for (const char* name : {"a.grammar", "b.grammar"}) {
+            const std::string text = name[0] == 'a' ? "  include \"deep.grammar\" // and more\nA -> NULL" : "B -> NULL";
+            write(name, text);
+            espalier::scene::LoadedGrammar& grammar = scene.grammars.emplace_back();
+            grammar.file = folder.file(name);
+            grammar.text = grammar.grows = text;
+        }
+        files.begin(scene);
+    }
+    // At a time of its own, whatever the file system's clock tells apart.
+    void write(const std::string& name, const std::string& text) {
+        folder.write(name.c_str(), text);
+        std::filesystem::last_write_time(
+            folder.path / name, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(++writes));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a grammar that is saved elsewhere is taken over, and no other one of its folder") {
+    Texts t;
+    CHECK(t.files.look(t.scene).empty());
+    t.scene.grammars[0].text = "typed";
+    t.write("b.grammar", "B -> C");
+    auto changes = t.files.look(t.scene);
+    REQUIRE(changes.size() == 1);
+    CHECK(changes[0].grammar == 1);
+    CHECK(changes[0].text == "B -> C");
+    CHECK(!changes[0].replaces);
+    t.scene.grammars[1].text = changes[0].text;
+    CHECK(t.files.look(t.scene).empty());
+
+    t.write("a.grammar", "A -> B");
+    changes = t.files.look(t.scene);
+    REQUIRE(changes.size() == 1);
+    CHECK(changes[0].text == "A -> B");
+    CHECK_MESSAGE(changes[0].replaces, "what was typed is told of");
+    t.scene.grammars[0].text = changes[0].text;
+
+    t.scene.grammars[0].text = "typed and saved elsewhere, too";
+    t.write("a.grammar", t.scene.grammars[0].text);
+    changes = t.files.look(t.scene);
+    REQUIRE(changes.size() == 1);
+    CHECK(!changes[0].replaces);
+
+    t.write("a.grammar", t.scene.grammars[0].text);
+    CHECK_MESSAGE(t.files.look(t.scene).empty(), "the same text again is no change");
+    std::filesystem::remove(t.folder.path / "a.grammar");
+    t.write("c.grammar", "");
+    CHECK_MESSAGE(t.files.look(t.scene).empty(), "a file that has gone counts as it was");
+}
+
+TEST_CASE("what is typed stays when a file that it includes has changed, and is compiled anew") {
+    Texts t;
+    t.scene.grammars[0].text = "typed";
+    t.write("parts.grammar", "// other parts");
+    const auto changes = t.files.look(t.scene);
+    REQUIRE(changes.size() == 1);
+    CHECK(changes[0].grammar == 0);
+    CHECK(changes[0].text == "typed");
+    CHECK(!changes[0].replaces);
+    t.write("deep.grammar", "include \"deep.grammar\"\ninclude \"a.grammar\"\n");  // a circle ends
+    CHECK(t.files.look(t.scene).size() == 1);
+}
