@@ -68,21 +68,32 @@ void limits(Brush& brush) {
 // Values that the chosen seeds have in place of their grammar's.
 void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
     if (!ImGui::TreeNode("Values of their own")) return;
+    std::erase_if(chosen, [grammar = chosen[0].grammar](const SeedRecord& seed) { return seed.grammar != grammar; });
     const EspGrammar grammar = work.scene().grammars[chosen[0].grammar].id;
     for (uint32_t i = 0; i < espParamCount(work.context.get(), grammar); ++i) {
         EspParamInfo info;
         if (espParamInfo(work.context.get(), grammar, i, &info) != ESP_OK || info.kind == ESP_PARAM_COLOUR) continue;
         const auto named = [&](const Param& param) { return param.name == info.name; };
-        const auto own = std::find_if(chosen[0].params.begin(), chosen[0].params.end(), named);
-        bool has = own != chosen[0].params.end();
-        float value = has ? own->value[0] : info.value[0];
+        std::vector<float> own;  // of those that have one
+        for (const SeedRecord& seed : chosen)
+            if (const auto param = std::ranges::find_if(seed.params, named); param != seed.params.end())
+                own.push_back(param->value[0]);
+        bool has = !own.empty();
+        float value = has ? own[0] : info.value[0];
+        const bool several = std::ranges::any_of(own, [&](float other) { return other != value; });
+        const bool some = has && own.size() < chosen.size();
         ImGui::PushID(int(i));
+        ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, some);
         bool changed = ImGui::Checkbox(info.label, &has);
+        ImGui::PopItemFlag();
+        toolTip("A value of their own in place of the grammar's");
+        has = has || some;  // those that had none get it, too
         uint32_t gesture = 0;
         if (has && !changed) {
+            info.label = "On";
             ImGui::SetNextItemWidth(-1);
-            changed = slider("##own", &value, info.low, info.high, "%.3g");
-            gesture = widgetGesture(work);
+            changed = editParam(info, &value, several);
+            gesture = changed ? widgetGesture(work) : 0;
         }
         ImGui::PopID();
         if (!changed) continue;
@@ -122,7 +133,8 @@ void chosenSeeds(Workspace& work) {
         for (SeedRecord& seed : chosen) seed.number = number++;
         changed = true;
     }
-    toolTip("Its random number: another one grows another plant");
+    toolTip(chosen.size() == 1 ? "Its random number: another one grows another plant"
+                               : "The first one's random number; the others get those that follow it");
     ImGui::SameLine();
     if (ImGui::Button("Another", {-1, 0})) {
         for (SeedRecord& seed : chosen) seed.number = seed.number * 747796405u + 2891336453u;

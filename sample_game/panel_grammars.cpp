@@ -49,11 +49,14 @@ bool isInitial(const EspParamInfo& param) {
     return true;
 }
 
-// One row. True: the value changed.
-bool editParam(const EspParamInfo& param, float* value) {
+}  // namespace
+
+bool editParam(const EspParamInfo& param, float* value, bool several) {
     if (param.kind == ESP_PARAM_BOOL) {
         bool on = value[0] != 0;
+        ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, several);
         const bool changed = ImGui::Checkbox(param.label, &on);
+        ImGui::PopItemFlag();
         value[0] = on;
         return changed;
     }
@@ -68,8 +71,10 @@ bool editParam(const EspParamInfo& param, float* value) {
     }
     // Ranges over several decades, such as 0.02 to 20, get a slider by ratio.
     const bool wide = param.low > 0 && param.high / param.low > 200;
-    return slider("##value", value, param.low, param.high, formatOf(param).c_str(), wide);
+    return slider("##value", value, param.low, param.high, several ? "several" : formatOf(param).c_str(), wide);
 }
+
+namespace {
 
 void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,

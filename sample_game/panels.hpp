@@ -45,6 +45,9 @@ void branchPanel(Workspace& work);
 void housesPanel(Workspace& work);
 void lightPanel(Workspace& work);
 
+// A slider, check box (with its label) or colour. True: the value has changed. several: it stands for values that
+// differ.
+bool editParam(const EspParamInfo& param, float* value, bool several = false);
 // A grammar's file, told apart from others of the same file by its place.
 std::string grammarName(const espalier::scene::Scene& scene, size_t index);
 // Views that need no layer, in the order of their keys 1, 2 ...

@@ -69,6 +69,7 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
         if (more && work.selected.erase(key)) return;
         if (!more && !work.selected.count(key)) work.selected.clear();
         work.selected.insert(key);
+        alone_ = more ? 0 : key;
         drag_ = Drag::move;
         return;
     }
@@ -143,6 +144,7 @@ bool SeedTool::take(Workspace& work, const PointerEvent& event) {
     } else if (event.kind == Kind::release && left) {
         if (drag_ == Drag::direction) plant(work, pending_, gesture_);
         if (drag_ == Drag::box) selectBox(work);
+        if (drag_ == Drag::move && !moved_ && alone_) work.selected = {alone_};
         drag_ = Drag::none;
     }
     return true;

@@ -36,6 +36,7 @@ class SeedTool {
     Drag drag_ = Drag::none;
     glm::vec2 from_{0}, last_{0};
     bool moved_ = false, changed_ = false;
+    uint32_t alone_ = 0;  // the seed that a click without a move leaves as the only one chosen; 0: none
     bool byKey_ = false;  // no button is held
     uint32_t gesture_ = 0;
     espalier::document::SeedRecord pending_;  // planted on release
