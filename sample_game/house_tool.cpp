@@ -53,9 +53,9 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
         const std::vector<glm::vec2> points = outline(work, house);
         for (size_t i = 0; i < points.size() && !insert; ++i)
             if (glm::distance(points[i], at) < kCornerReach * work.scale) {
-                corner_ = i;
                 work.houseEdge = uint32_t(i);
                 gesture_ = work.newGesture();
+                beginDrag(std::move(house), i);
                 return;
             }
         for (size_t i = 0; i < points.size(); ++i) {
@@ -69,7 +69,7 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
                                  {a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share});
             renumber(house, uint32_t(i) + 1, 1);
             gesture_ = work.newGesture();
-            if (work.perform(SetHouse{house}, gesture_)) corner_ = i + 1;
+            if (work.perform(SetHouse{house}, gesture_)) beginDrag(std::move(house), i + 1);
             return;
         }
     }
@@ -77,19 +77,26 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
     work.houseEdge.reset();
 }
 
+void HouseTool::beginDrag(House house, size_t corner) {
+    corner_ = corner;
+    dragged_ = std::move(house);
+}
+
 void HouseTool::dragTo(Workspace& work, glm::vec2 at) {
-    House house = houseNow(work.context.get(), *work.house);
     EspHouseInfo info;
-    if (*corner_ >= house.corners.size() || espHouseInfo(work.context.get(), house.index, &info) != ESP_OK) return;
+    if (espHouseInfo(work.context.get(), dragged_.index, &info) != ESP_OK) return;
     const Ray ray = work.rayThrough(at);
     const float along = (info.eaveHeight - ray.origin.y) / ray.direction.y;
     // Towards the horizon a pixel is many metres: nobody means that.
-    const auto& corner = house.corners[*corner_];
+    auto& corner = dragged_.corners[*corner_];
     const float now = glm::distance(ray.origin, {corner[0], info.eaveHeight, corner[1]});
     if (!(along > 0 && along < 2 * now + 2)) return;
     const glm::vec3 to = ray.origin + along * ray.direction;
-    house.corners[*corner_] = {to.x, to.z};
-    work.perform(SetHouse{house}, gesture_);
+    corner = {to.x, to.z};
+    if (!work.perform(SetHouse{dragged_}, gesture_)) return;
+    const auto& corners = houseNow(work.context.get(), dragged_.index).corners;
+    const auto away = [&](const auto& c) { return glm::distance(glm::vec2(c[0], c[1]), glm::vec2(to.x, to.z)); };
+    work.houseEdge = uint32_t(std::ranges::min_element(corners, {}, away) - corners.begin());
 }
 
 bool HouseTool::take(Workspace& work, const PointerEvent& event) {
@@ -136,7 +143,7 @@ void HouseTool::draw(const Workspace& work) const {
     }
     for (size_t i = 0; i < points.size(); ++i) {
         list.AddCircleFilled({points[i].x, points[i].y}, 6 * s, IM_COL32(0, 0, 0, 160));
-        list.AddCircleFilled({points[i].x, points[i].y}, 4.5f * s, corner_ == i ? kChosen : kOutline);
+        list.AddCircleFilled({points[i].x, points[i].y}, 4.5f * s, corner_ && work.houseEdge == i ? kChosen : kOutline);
     }
 }
 

@@ -16,9 +16,13 @@ class HouseTool {
 
   private:
     void press(Workspace& work, glm::vec2 at, bool insert);
+    void beginDrag(espalier::scene::House house, size_t corner);
     void dragTo(Workspace& work, glm::vec2 at);
 
-    std::optional<size_t> corner_;  // of the outer ring, being dragged
+    // The corner of the outer ring that is being dragged, and its house as it is asked for: what stands may have its
+    // corners in another order, or fewer of them.
+    std::optional<size_t> corner_;
+    espalier::scene::House dragged_;
     uint32_t gesture_ = 0;
 };
 
