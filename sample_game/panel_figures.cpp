@@ -17,6 +17,7 @@ std::string grouped(uint64_t value) {
 }
 
 std::string ms(double value) {
+    if (value == 0) return "-";  // it hasn't run, or isn't told before the next one does
     char text[32];
     std::snprintf(text, sizeof text, value < 10 ? "%.2f ms" : "%.0f ms", value);
     return text;
@@ -82,14 +83,20 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         const EspStats& stats = work.stats;
         // Where letters are large and the window isn't, the scene comes first.
         const bool brief = work.window.x - work.panelUnits() < 3 * 235 * s;
-        if (!brief) row("Seeds", grouped(stats.seeds));
-        if (!brief) row("Branches", grouped(stats.branches));
-        row("Nodes", grouped(stats.nodes));
-        row("Leaves", grouped(stats.leaves));
-        if (!brief) row("Triangles drawn", grouped(stats.drawnPolygons));
-        if (!brief) row("at full detail", grouped(stats.polygons));
+        EspRoofStats roofs{};
+        if (espHouseCount(work.context.get())) (void)espReadRoofStats(work.context.get(), &roofs);
+        const bool plants = stats.seeds || !roofs.houses;
+        if (!brief && plants) row("Seeds", grouped(stats.seeds));
+        if (!brief && plants) row("Branches", grouped(stats.branches));
+        if (plants) row("Nodes", grouped(stats.nodes));
+        if (plants) row("Leaves", grouped(stats.leaves));
+        if (!brief && plants) row("Plants' triangles", grouped(stats.drawnPolygons));
+        if (!brief && plants) row("at full detail", grouped(stats.polygons));
+        if (roofs.houses) row("Houses", grouped(roofs.houses));
+        if (roofs.houses) row("Tiles and parts", grouped(roofs.tiles));
+        if (!brief && roofs.houses) row("Houses' triangles", grouped(roofs.drawnTriangles));
         ImGui::Spacing();
-        const double times[] = {stats.expandMs, stats.emitMs, stats.drawMs};
+        const double times[] = {plants ? stats.expandMs : roofs.expandMs, stats.emitMs, stats.drawMs};
         for (int i = 0; i < 3 && !brief; ++i) row(kStages[i], ms(times[i]), kColours[i]);
         row("Frame", ms(work.frameMs));
         if (!brief) graph(work);

@@ -19,7 +19,8 @@ void showHelp(Workspace& work) {
                           {"Right drag", "look around; with W A S D Q E fly"},
                           {"Wheel", "nearer, further"},
                           {"Home, F or numpad .", "show everything, what is chosen"},
-                          {"Numpad 1 3 7", "from the front, the right, above; Ctrl: the other side"}};
+                          {"Numpad 1 3 7", "from the front, the right, above; Ctrl: the other side"},
+                          {"Numpad 2 4 6 8, + -", "turn by 15 degrees, nearer, further"}};
     const Row paint[] = {{"B, then drag", "paint the chosen layer"},
                          {"Ctrl+drag, Shift+drag", "erase, smooth"},
                          {"[ and ]", "smaller, larger brush"},
@@ -33,15 +34,19 @@ void showHelp(Workspace& work) {
                          {"A, X or Del", "choose all, remove"},
                          {"Shift+R", "other random numbers for all"},
                          {"P, then click", "a branch; [ picks its parent, Del prunes it"},
-                         {"H, then click", "a house; drag its corners, choose its edges"}};
-    const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z", "undo, redo: of everything"},
-                       {"Ctrl+S, Ctrl+O, Ctrl+E", "save, open, export the layer"},
+                         {"H, then click", "a house; drag its corners, choose its edges"},
+                         {"Ctrl+drag, Del", "a new corner in an edge, the chosen edge's corner goes"}};
+    const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y", "undo, redo: of everything"},
+                       {"Ctrl+S, Ctrl+O, Ctrl+E, Ctrl+Q", "save, open, export the layer, quit"},
                        {"1 2 3 4 5 6", "shaded, charts, normals, levels of detail, depth, overdraw"},
                        {"F2 F3 F4 F5", "panel, figures, grammar, atlas"},
                        {"F12", "write a screenshot"},
-                       {"Esc", "puts the tool away"}};
+                       {"Esc, Q", "puts the tool away"}};
     ImGui::SetNextWindowPos({work.window.x / 2, work.window.y / 2}, ImGuiCond_Always, {.5f, .5f});
-    ImGui::SetNextWindowSize({std::min(680 * work.scale, work.window.x), 0});
+    // Two tables side by side where there is room, so that all is seen at once; else it may have to be scrolled.
+    const bool wide = work.window.x > 1040 * work.scale;
+    ImGui::SetNextWindowSize({std::min((wide ? 1040 : 640) * work.scale, work.window.x), 0});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {work.window.x, work.window.y});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize | kQuiet;
     if (ImGui::Begin("Keys and mouse", &work.layout.help, flags)) {
@@ -52,7 +57,7 @@ void showHelp(Workspace& work) {
             ImGui::Spacing();
             ImGui::TextColored({.62f, .85f, .5f, 1}, "%s", title);
             if (!ImGui::BeginTable(title, 2)) return;
-            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 230 * work.scale);
+            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 205 * work.scale);
             ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
             for (size_t i = 0; i < count; ++i) {
                 ImGui::TableNextRow();
@@ -65,10 +70,20 @@ void showHelp(Workspace& work) {
             }
             ImGui::EndTable();
         };
-        table("Camera", camera, std::size(camera));
-        table("Painting", paint, std::size(paint));
-        table("Seeds", seeds, std::size(seeds));
-        table("Everything", all, std::size(all));
+        if (wide && ImGui::BeginTable("halves", 2, ImGuiTableFlags_SizingStretchSame)) {
+            ImGui::TableNextColumn();
+            table("Camera", camera, std::size(camera));
+            table("Everything", all, std::size(all));
+            ImGui::TableNextColumn();
+            table("Painting", paint, std::size(paint));
+            table("Seeds, branches, roofs", seeds, std::size(seeds));
+            ImGui::EndTable();
+        } else if (!wide) {
+            table("Camera", camera, std::size(camera));
+            table("Painting", paint, std::size(paint));
+            table("Seeds, branches, roofs", seeds, std::size(seeds));
+            table("Everything", all, std::size(all));
+        }
     }
     ImGui::End();
 }

@@ -75,7 +75,8 @@ void branchPanel(Workspace& work) {
     if (picked) {
         size_t crossings = 0;
         for (size_t i = 0; i + 1 < work.path.size(); ++i) crossings += jumps(work.path[i], work.path[i + 1]);
-        ImGui::Text("Depth %u, %zu samples, %zu crossings", info.depth, work.path.size(), crossings);
+        ImGui::Text("Depth %u, %zu samples, %zu crossing%s", info.depth, work.path.size(), crossings,
+                    crossings == 1 ? "" : "s");
         char tip[160];
         std::snprintf(tip, sizeof tip,
                       "Branches between it and its seed, steps of its walk,\njumps to another chart. Its key: %016llx",

@@ -107,6 +107,37 @@ void paint(Editing& editing, const char* layer, uint32_t house, float value) {
 
 }  // namespace
 
+TEST_CASE("a corner may go through its house, out on the other side: the outline is then read the other way round") {
+    Editing editing(content("town.json"));
+    uint32_t index = 0;
+    EspHouseInfo info;  // of a house with four corners and no yard
+    while (espHouseInfo(editing.context.get(), index, &info) == ESP_OK && info.cornerCount != 4) ++index;
+    REQUIRE(index < espHouseCount(editing.context.get()));
+    const House before = houseOf(editing, index);
+    const auto area = [](const House& house) {
+        float twice = 0;
+        for (size_t i = 0; i < house.corners.size(); ++i) {
+            const auto &a = house.corners[i], &b = house.corners[(i + 1) % house.corners.size()];
+            twice += a[0] * b[1] - a[1] * b[0];
+        }
+        return twice / 2;
+    };
+    House through = before;
+    for (int axis = 0; axis < 2; ++axis)
+        through.corners[0][axis] = before.corners[2][axis] + .5f * (before.corners[2][axis] - before.corners[0][axis]);
+    REQUIRE(area(through) * area(before) < 0);
+    REQUIRE_MESSAGE(editing.perform(SetHouse{through}, 7), editing.error);
+    const House now = houseOf(editing, index);
+    CHECK(now.corners.size() == 4);
+    CHECK(now.corners.size() == 4);
+    CHECK(area(now) == doctest::Approx(-area(through)).epsilon(1e-3));
+    // The drag goes on from what was asked for: back where it began, the house is as it was.
+    through.corners[0] = before.corners[0];
+    REQUIRE_MESSAGE(editing.perform(SetHouse{through}, 7), editing.error);
+    CHECK(area(houseOf(editing, index)) == doctest::Approx(area(before)).epsilon(1e-3));
+    CHECK(editing.document->undoSteps() == 1);
+}
+
 TEST_CASE("layers painted over a town are saved to the bit, reopened, undone") {
     const Folder folder;
     Editing editing(content("town.json"));
