@@ -26,7 +26,6 @@ namespace fs = std::filesystem;
 
 constexpr double kSlowGrowthMs = 500;
 constexpr double kLookEvery = .3;  // seconds
-constexpr double kTidyAfter = 2;   // seconds without a frame
 constexpr size_t kHistory = 240;   // frames in the graph
 
 }  // namespace
@@ -192,14 +191,6 @@ bool App::frame(float seconds) {
     return true;
 }
 
-// What work has left free in the heap's pieces goes back to the system. Not at once: the next frame would ask for it
-// again.
-void App::rest(double now) {
-    if (tidy_ || now - lastFrame_ < kTidyAfter) return;
-    (void)malloc_trim(0);
-    tidy_ = true;
-}
-
 bool App::loop() {
     double before = glfwGetTime();
     while (!closing() && !(options_.frames && frames_ >= options_.frames)) {
@@ -217,12 +208,11 @@ bool App::loop() {
         before = now;
         if (session_.step(work_, now)) wake();
         if (awake_ == 0 && !options_.frames) {
-            rest(now);
+            if (rest_.due(now)) (void)malloc_trim(0);
             continue;
         }
         if (!frame(seconds)) return false;
-        lastFrame_ = glfwGetTime();
-        tidy_ = false;
+        rest_.drew(glfwGetTime());
     }
     session_.end(work_);
     if (!layoutFile_.empty()) writeLayout(work_.layout, work_.brush);

@@ -7,6 +7,7 @@
 #include "sample_game/atlas_view.hpp"
 #include "sample_game/controls.hpp"
 #include "sample_game/replay.hpp"
+#include "sample_game/rest.hpp"
 #include "sample_game/scene_image.hpp"
 #include "sample_game/ui_renderer.hpp"
 #include "tools/scene/moving.hpp"
@@ -44,7 +45,6 @@ class App {
     bool reload();
     bool frame(float seconds);
     void noteTimes(bool grew);
-    void rest(double now);
     void wake() { awake_ = kFramesAfterChange; }
 
     AppOptions options_;
@@ -65,8 +65,7 @@ class App {
     static constexpr int kFramesAfterChange = 3;  // ImGui settles within two
     int awake_ = kFramesAfterChange;
     uint64_t frames_ = 0;
-    double lastFrame_ = 0;  // glfwGetTime's
-    bool tidy_ = false;     // nothing was drawn since memory was given back
+    Rest rest_;
     espalier::scene::MovingPicture moving_;
     bool growing_ = false;
     float themeScale_ = 0;

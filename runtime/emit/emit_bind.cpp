@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/emit/emit.hpp"
+#include "runtime/emit/instance_room.hpp"
 
 namespace espalier {
 namespace {
@@ -31,8 +32,7 @@ EmitGrid gridOver(glm::vec3 low, glm::vec3 high) {
 
 }  // namespace
 
-// With room for all that growth has room for, and for as much again where memory that isn't touched costs nothing: what
-// outgrows its room is copied whole.
+// With room for all that growth has room for, and for as much again on software devices.
 Result<Emit::Held> Emit::makeHeld(const GrowthView& growth, uint32_t leaves) {
     Held held;
     const auto make = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
@@ -44,8 +44,8 @@ Result<Emit::Held> Emit::makeHeld(const GrowthView& growth, uint32_t leaves) {
     const DeviceInfo& info = device_->info();
     const uint64_t most = std::min<uint64_t>(info.maxBufferBytes, 16ull * info.limits.maxTexelBufferElements);
     const auto room = [&](const Buffer* records, uint64_t recordBytes, uint32_t count, uint64_t instanceBytes) {
-        const uint64_t wanted = std::max<uint64_t>(records ? records->size() / recordBytes : 0, count);
-        return sharesMemory() ? std::max(wanted, std::min(2 * wanted, most / instanceBytes)) : wanted;
+        const uint64_t there = std::max<uint64_t>(records ? records->size() / recordBytes : 0, count);
+        return instanceRoom(there, instanceBytes, most, sharesMemory());
     };
     const uint64_t spans = room(growth.nodeBuffer, sizeof(Node), growth.nodeCount, sizeof(SpanInstance));
     const uint64_t loose =

@@ -2,6 +2,7 @@
 // that has never seen the growth before.
 #include <doctest/doctest.h>
 
+#include "runtime/emit/instance_room.hpp"
 #include "tests/emit/edited.hpp"
 #include "tests/emit/pipeline.hpp"
 
@@ -53,4 +54,42 @@ TEST_CASE("an edit binds what it concerns, and leaves what binding everything le
         often.cull(plant.inputs(), view);
         CHECK(often.emit.stats().bound == plant.view.nodeCount + plant.view.leafCount);
     }
+}
+
+TEST_CASE("room is kept for twice what is bound where that costs nothing, up to what a buffer holds") {
+    CHECK(instanceRoom(1000, 96, 1 << 30, false) == 1000);
+    CHECK(instanceRoom(1000, 96, 1 << 30, true) == 2000);
+    CHECK(instanceRoom(1000, 96, 96 * 1500 + 95, true) == 1500);
+    CHECK(instanceRoom(1000, 96, 96 * 1000, true) == 1000);
+    CHECK(instanceRoom(1000, 96, 96 * 500, true) == 1000);  // what is there comes first; the buffer says why not
+    CHECK(instanceRoom(0, 96, 1 << 30, true) == 0);
+    CHECK(instanceRoom(3'000'000'000, 96, ~0ull, true) == 6'000'000'000);
+}
+
+TEST_CASE("on software devices an edit that adds to a plant stays within the room of what is bound") {
+    const std::shared_ptr<Device> device = test::validatedDevice();
+    test::Edited e = test::edited();
+    test::Plant plant = test::upload(*device, e.last);
+    const Buffer touched = std::move(*makeBuffer(*device, "touched", e.touchedLast));
+    plant.view.touched = &touched;
+    test::EmitPipeline pipeline(device);
+    const Emit& emit = pipeline.emit;
+    const EmitView view = parallelView(glm::mat4(1), 120, 1);
+    test::rewrite(*device, plant, touched, e.before, e.touched);
+    plant.view.number = plant.view.renewed = 1;
+    pipeline.cull(plant.inputs(), view);
+    const uint64_t spare = device->info().cpu ? 2 : 1;
+    constexpr uint64_t kLeast = 65536;  // bytes of any buffer
+    REQUIRE(plant.view.nodeCount * sizeof(SpanInstance) > kLeast);
+    REQUIRE(2 * plant.view.leafCount * sizeof(LeafInstance) > kLeast);
+    CHECK(emit.spanInstances().size() == spare * plant.view.nodeCount * sizeof(SpanInstance));
+    CHECK(emit.leafInstances().size() == std::max(kLeast, spare * plant.view.leafCount * sizeof(LeafInstance)));
+    const uint64_t bound = emit.spanInstances().address();
+    test::rewrite(*device, plant, touched, e.after, e.touched);
+    REQUIRE(e.after.nodes.size() > e.before.nodes.size());
+    plant.view.number += 1;
+    pipeline.cull(plant.inputs(), view);
+    CHECK(emit.wholeBindings() == 1);
+    CHECK(emit.carries() == (spare == 2 ? 0 : 1));
+    CHECK((emit.spanInstances().address() == bound) == (spare == 2));
 }

@@ -57,6 +57,28 @@ TEST_CASE("memory is pooled, aligned, disjoint and comes back") {
     CHECK(memory.bytesReserved() == reserved + (40ull << 20));
 }
 
+TEST_CASE("of memory that nothing lies in any more no more is kept than was said") {
+    TestDevice t;
+    VkPhysicalDeviceMemoryProperties properties;
+    const auto ask = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
+        t.device.getInstanceProcAddr()(t.device.instance(), "vkGetPhysicalDeviceMemoryProperties"));
+    REQUIRE(bool(ask));
+    ask(t.device.physicalDevice(), &properties);
+    constexpr uint64_t kPiece = 20ull << 20, kKept = 60ull << 20;
+    const auto memory = makePooledMemory(t.device.vk(), t.device.handle(), properties, kKept);
+    MemoryRequest request;
+    request.requirements = {kPiece, 64, ~0u};
+    request.use = BufferUse::upload;
+    request.name = "large";
+    std::vector<MemoryBlock> pieces;
+    for (int i = 0; i < 8; ++i) pieces.push_back(must(memory->allocate(request)));
+    CHECK(memory->bytesUsed() == 8 * kPiece);
+    CHECK(memory->bytesReserved() == 8 * kPiece);
+    for (const MemoryBlock& piece : pieces) memory->free(piece);
+    CHECK(memory->bytesUsed() == 0);
+    CHECK(memory->bytesReserved() == kKept);
+}
+
 TEST_CASE("the retire queue waits for every recording that was begun before") {
     RetireQueue queue;
     int destroyed = 0;

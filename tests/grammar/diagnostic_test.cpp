@@ -1,6 +1,6 @@
 // What wrong grammars are answered with: place, rule, message and hint; several at once; limits; no bytes that
 // crash or hang the compiler.
-#include <chrono>
+#include <ctime>
 
 #include "tests/grammar/support.hpp"
 
@@ -173,9 +173,9 @@ TEST_CASE("; may be left out, → and π may be written, rules may span lines") 
 TEST_CASE("limits are reported, not met") {
     const std::string march = "A -> Marching(0.1, 0, true) {A}\n";
     auto expect = [](const std::string& text, const char* part) {
-        auto begin = std::chrono::steady_clock::now();
+        const std::clock_t begin = std::clock();
         std::string failure = failureText(text);
-        double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
         INFO(failure);
         CHECK(failure.find(part) != std::string::npos);
         CHECK(seconds < 5.0);
@@ -230,7 +230,7 @@ TEST_CASE("5,000 damaged grammars: a map or a message, quickly") {
     std::mt19937 random(7);
     std::string free = contentsOf("content/grammars/ivy_free.grammar");
     int compiledCount = 0;
-    auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     for (int i = 0; i < 5000; ++i) {
         std::string text = i % 10 == 0 ? free : kGood;
         int flips = 1 + static_cast<int>(random() % 4);
@@ -255,8 +255,8 @@ TEST_CASE("5,000 damaged grammars: a map or a message, quickly") {
         compiledCount += map ? 1 : 0;
         if (!map) CHECK_FALSE(map.failure().text().empty());
     }
-    double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    MESSAGE(compiledCount << " of 5000 still compile; " << seconds << " s");
+    const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
+    MESSAGE(compiledCount << " of 5000 still compile; " << seconds << " s of CPU time");
     CHECK(compiledCount > 100);
     CHECK(compiledCount < 4500);
     CHECK(seconds < 60.0);

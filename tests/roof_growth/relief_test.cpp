@@ -1,0 +1,92 @@
+// How tiles are lit as they get smaller in the picture. They lean here, so that under an overhead sun a roof with its
+// relief is darker than one that is lit as its face.
+#include <cmath>
+
+#include "runtime/render/renderer.hpp"
+#include "tests/emit/fixture.hpp"
+#include "tests/roof_growth/grow_support.hpp"
+
+using namespace roof_test;
+
+namespace {
+
+// A quad over its cell with normals that lean by `lean` radians, of a cell of kSlates.
+TerminalData leaning(float lean) {
+    TerminalData data;
+    data.kinds = {"slate", "ridge", "panel"};
+    data.materials.resize(1);
+    const glm::vec3 normal = glm::normalize(glm::vec3(0.25f * std::sin(lean), 0, std::cos(lean)));
+    for (uint32_t i = 0; i < 4; ++i)
+        data.vertices.push_back({{float(i & 1), float(i >> 1), 0}, packOct(normal), {1, 1}});
+    data.indices = {0, 1, 3, 0, 3, 2};
+    for (uint32_t kind = 0; kind < 3; ++kind)
+        data.variants.push_back({data.kinds[kind], kind, {TerminalLod{0, 4, 0, 6, 0, 0}}});
+    return data;
+}
+
+// A slated roof seen from straight above: nothing else is in the picture.
+struct Above {
+    Device& device;
+    std::unique_ptr<Renderer> renderer;
+    std::vector<RoofMesh> bounds;
+    Roofs slated = roofs({footprint({{0, 0}, {20, 0}, {20, 12}, {0, 12}}, RoofShape::hip, 0.1)}, kSlates);
+    std::unique_ptr<RoofGrowth> growth;
+
+    Above(Device& on, float lean) : device(on) {
+        renderer = std::move(*Renderer::create(device, test::simpleTerminals()));
+        bounds = std::move(*renderer->loadRoofMeshes(leaning(lean)));
+        growth = std::move(*RoofGrowth::create(device));
+        RoofInputs inputs = slated.inputs();
+        inputs.meshes = bounds;
+        REQUIRE(growth->grow(inputs));
+    }
+    // How light a picture of the roof is, 0 to 255, from `metres` above its slope.
+    double light(uint32_t pixels, float metres, bool quick) {
+        const RoofHouse& house = slated.structure.houses[0];
+        const RoofView view = growth->view();
+        DrawInputs inputs;
+        inputs.roofs = &view;
+        inputs.camera.target = glm::vec3(10, float(house.eaveHeight) + 0.4f, -3.5f);
+        inputs.camera.eye = inputs.camera.target + glm::vec3(0, metres, 0);
+        inputs.camera.up = {0, 0, -1};
+        inputs.look.shadows = false;
+        inputs.look.sunDirection = {0, 1, 0};
+        inputs.look.exposure = -3;
+        inputs.look.quick = quick;
+        DrawTarget target;
+        target.width = target.height = pixels;
+        Result<Commands> commands = Commands::begin(device, "roof from above");
+        REQUIRE(commands);
+        REQUIRE(renderer->draw(*commands, inputs, target));
+        REQUIRE(commands->finish());
+        device.collect();
+        CHECK(renderer->stats().roofs.tiles > 50);
+        const std::vector<uint8_t> rgba = *renderer->readPixels();
+        double sum = 0;
+        for (size_t i = 0; i < rgba.size(); i += 4) sum += double(rgba[i]) + rgba[i + 1] + rgba[i + 2];
+        return sum / (3.0 * pixels * pixels);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("near roofs keep their tiles' relief in the smaller pictures of what moves") {
+    DeviceOptions options;
+    options.validation = true;
+    Result<std::unique_ptr<Device>> device = Device::create(options);
+    REQUIRE(device);
+    {
+        Above relief(**device, 1.0f), flat(**device, 0.0f);
+        // A slate is 17 pixels high in the settled picture, and half of that in the moving one.
+        const double settled = relief.light(240, 3.9f, false), unlit = flat.light(240, 3.9f, false);
+        REQUIRE(settled < 0.9 * unlit);
+        const double far = relief.light(240, 9, false);
+        CHECK(far > settled + 0.5 * (unlit - settled));  // settled pictures take it away earlier
+        if ((*device)->info().cpu) {
+            const double moving = relief.light(120, 3.9f, true);
+            MESSAGE("settled " << settled << ", moving " << moving << ", far " << far << ", without relief " << unlit);
+            CHECK(std::abs(moving - settled) < 0.2 * (unlit - settled));
+        }
+    }
+    CHECK((*device)->validationMessages() == 0);
+}

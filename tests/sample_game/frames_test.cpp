@@ -1,0 +1,69 @@
+// The window's frames as its GPU sees them: how far recording runs ahead of drawing.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <doctest/doctest.h>
+
+#include <memory>
+
+#include "plugin_api/espalier.h"
+#include "sample_game/vulkan_host.hpp"
+#include "tests/tools/program.hpp"
+
+using namespace sample;
+
+namespace {
+
+// This test case again where there is a display. False: there is none to be had.
+bool runOnDisplay(const std::string& name) {
+    if (run("command -v xvfb-run").code != 0) return false;
+    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+    const Ran ran = run("xvfb-run -a -s '-screen 0 320x240x24' " + self + " -tc='" + name + "'");
+    CHECK_MESSAGE(ran.code == 0, ran.output);
+    return true;
+}
+
+struct Glfw {
+    const bool up = glfwInit() == GLFW_TRUE;
+    ~Glfw() {
+        if (up) glfwTerminate();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("on software devices a frame is done before the next is recorded, on others the one before it") {
+    if (!std::getenv("DISPLAY")) {
+        if (!runOnDisplay("on software devices a frame is done*")) MESSAGE("xvfb-run isn't installed; skipped");
+        return;
+    }
+    const Glfw glfw;
+    REQUIRE(glfw.up);
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    const std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)> window(glfwCreateWindow(160, 90, "test", nullptr, nullptr),
+                                                                    glfwDestroyWindow);
+    REQUIRE(window);
+    VulkanHost host;
+    uint32_t count = 0;
+    const char* const* extensions = espRequiredExtensions(&count);
+    REQUIRE_MESSAGE(host.create(window.get(), true, espRequiredFeatures(), extensions, count), host.error());
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(host.physicalDevice(), &properties);
+    const bool software = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    uint64_t shown = 0;
+    for (int tries = 0; shown < 8 && tries < 50; ++tries) {
+        glfwPollEvents();
+        const std::optional<Frame> frame = host.begin();
+        REQUIRE_MESSAGE(host.error().empty(), host.error());
+        if (!frame) continue;  // the window took another size
+        CAPTURE(frame->number);
+        const uint64_t ahead = software ? 1 : kFramesInFlight;
+        CHECK(frame->number == shown + 1);
+        CHECK(frame->finished == (frame->number > ahead ? frame->number - ahead : 0));
+        imageBarrier(frame->commands, frame->image, VK_IMAGE_LAYOUT_UNDEFINED,
+                     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+        REQUIRE_MESSAGE(host.end(*frame), host.error());
+        shown = frame->number;
+    }
+    CHECK(shown == 8);
+    CHECK(host.validationMessages() == 0);
+}
