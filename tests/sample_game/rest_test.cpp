@@ -38,7 +38,7 @@ TEST_CASE("a window that is left alone holds less memory afterwards, and gives i
         folder.write("watched", "HOME=" + folder.path.string() + " XDG_CONFIG_HOME=" + folder.file("config") +
                                     " LD_PRELOAD=" ESPALIER_NOTE_TRIM " NOTE_TRIM=" + note + " " +
                                     program("espalier-sample") + " " + content("sample.json") + R"( --size 480x320 &
-for i in $(seq 600); do
+for i in $(seq 1500); do
     [ -s )" + note + R"( ] && break
     kill -0 $! 2>/dev/null || exit 9
     sleep .2
