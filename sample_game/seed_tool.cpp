@@ -108,9 +108,8 @@ void SeedTool::follow(Workspace& work, glm::vec2 at) {
         towards(pending_);
     } else if (drag_ == Drag::turn) {
         changeChosen(work, towards);
-    } else if (drag_ == Drag::row && lastInRow_ && glm::distance(point, *lastInRow_) > kRowStep) {
-        plant(work, newSeed(work, *hit), gesture_);
-        lastInRow_ = point;
+    } else if (drag_ == Drag::row) {
+        plantRow(work, at);
     } else if (drag_ == Drag::move) {
         const auto before = work.pick(last_);
         if (!before) return;
@@ -121,6 +120,17 @@ void SeedTool::follow(Workspace& work, glm::vec2 at) {
         });
     }
     last_ = at;
+}
+
+// As evenly as the step says, however far the mouse has gone since the last frame.
+void SeedTool::plantRow(Workspace& work, glm::vec2 at) {
+    const int parts = 1 + int(glm::distance(last_, at) / (4 * work.scale));
+    for (int i = 1; i <= parts; ++i) {
+        const auto hit = work.pick(glm::mix(last_, at, float(i) / float(parts)));
+        if (!hit || !lastInRow_ || glm::distance(vec(hit->position), *lastInRow_) < kRowStep) continue;
+        plant(work, newSeed(work, *hit), gesture_);
+        lastInRow_ = vec(hit->position);
+    }
 }
 
 bool SeedTool::take(Workspace& work, const PointerEvent& event) {

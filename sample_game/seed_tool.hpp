@@ -27,7 +27,8 @@ class SeedTool {
     bool arrowAt(const Workspace& work, glm::vec2 at) const;  // of a chosen one
     void press(Workspace& work, const PointerEvent& event);
     void follow(Workspace& work, glm::vec2 at);
-    void selectBox(Workspace& work) const;  // from where the drag began to where it is, besides what is chosen
+    void plantRow(Workspace& work, glm::vec2 at);  // from where the mouse was
+    void selectBox(Workspace& work) const;         // from where the drag began to where it is, besides what is chosen
     void finish(Workspace& work);
     // The chosen ones, as `change` leaves them.
     template <class Change>
