@@ -19,7 +19,7 @@
 namespace espalier {
 namespace {
 
-constexpr size_t kChunksAtOnce = 1024, kEntriesAtOnce = 64, kWorkAtOnce = 512;
+constexpr size_t kChunksAtOnce = 1024, kEntriesAtOnce = 64, kWorkAtOnce = 512, kCacheLine = 64, kAhead = 4;
 
 void finishWork(ExpandEnv env, size_t begin, size_t end) {
     const UintBuf results = AGAIN.results, firstLeaves = env.status.v[0].firstLeaves;
@@ -32,44 +32,86 @@ void finishWork(ExpandEnv env, size_t begin, size_t end) {
     addHash(env, uint32_t(begin / kWorkAtOnce), hash);
 }
 
-// each(i, tally) for what is taken out, from [0, count).
-template <class Each>
-void takeEach(ExpandEnv env, uint32_t count, size_t grain, Crew& crew, const Each& each) {
-    overRange(0, count, grain, crew, [&](size_t begin, size_t end) {
-        GoneTally tally = nothingGone();
-        for (size_t i = begin; i < end; ++i) each(uint32_t(i), tally);
-        addGone(env, uint32_t(begin / grain), tally);
-    });
+// Records of an edit's chunks lie far apart: they are asked for some chunks before they are looked at.
+template <class Record>
+void fetch(const Record* records, size_t count) {
+    const char* at = reinterpret_cast<const char*>(records);
+    for (const char* end = at + count * sizeof(Record); at < end; at += kCacheLine) __builtin_prefetch(at, 1);
+}
+void fetchLeaves(const ExpandEnv& env, const LeafChains& chains, const ChunkBefore& was) {
+    for (uint32_t lane = 0; lane < chunkNodes(was.marks); ++lane) {
+        const uint32_t leaf = chains.first.v[was.firstNode + lane];
+        if (leaf == kNoIndex) continue;
+        fetch(&env.leaves.v[leaf], 1);
+        fetch(&chains.next.v[leaf], 1);
+    }
+}
+void fetchNodes(const ExpandEnv& env, const LeafChains& chains, const ChunkBefore& was) {
+    const uint32_t first = was.firstNode, count = chunkNodes(was.marks);
+    fetch(env.nodes.v + first, count);
+    fetch(chains.first.v + first, count);
+    fetch(AGAIN.touched.v + first, count);
+}
+
+size_t piecesOf(size_t count, size_t grain) {
+    return (count + grain - 1) / grain;
+}
+
+// Takes out what the chunks of a piece of a list were, as far as they aren't any more.
+void takeChunks(ExpandEnv env, const LeafChains& chains, uint32_t list, size_t piece, GoneTally& tally) {
+    ChunkBefore were[kEntriesAtOnce];
+    size_t count = 0;
+    const size_t begin = piece * kEntriesAtOnce, end = std::min<size_t>(begin + kEntriesAtOnce, listed(env, list));
+    for (size_t i = begin; i < end; ++i) {
+        const uint32_t chunk = listEntry(env, list, uint32_t(i));
+        if (list == kListGone) env.chunks.v[chunk].marks = 0;
+        if (list == kListGone || (AGAIN_MARKS.v[chunk].bits & kMarkAgain) != 0)
+            were[count++] = readBefore(AGAIN.chunksBefore, chunk);
+    }
+    for (size_t i = 0; i < count + 2 * kAhead; ++i) {
+        if (i < count) fetchNodes(env, chains, were[i]);
+        if (i - kAhead < count) fetchLeaves(env, chains, were[i - kAhead]);
+        if (i < 2 * kAhead) continue;
+        const ChunkBefore& was = were[i - 2 * kAhead];
+        for (uint32_t lane = 0; lane < std::max(1u, chunkNodes(was.marks)); ++lane)
+            takeOut(env, chains, was, lane, tally);
+    }
+}
+
+void applyResults(ExpandEnv env, const LeafChains& chains, size_t piece, GoneTally& tally) {
+    const size_t begin = piece * kWorkAtOnce, end = std::min<size_t>(begin + kWorkAtOnce, AGAIN.counts[kListWork]);
+    for (size_t i = begin; i < end; ++i)
+        applyResult(env, chains, AGAIN.results, AGAIN.resultCapacity, uint32_t(i), tally);
 }
 
 void apply(ExpandEnv env, Crew& crew) {
     const LeafChains chains = {env.status.v[0].firstLeaves, env.status.v[0].nextLeaves};
-    const ChunkBuf before = AGAIN.chunksBefore;
-    const auto takeChunk = [&](uint32_t chunk, GoneTally& tally) {
-        const ChunkBefore was = readBefore(before, chunk);
-        for (uint32_t lane = 0; lane < std::max(1u, chunkNodes(was.marks)); ++lane)
-            takeOut(env, chains, was, lane, tally);
-    };
-    takeEach(env, AGAIN.counts[kListWork], kWorkAtOnce, crew, [&](uint32_t i, GoneTally& tally) {
-        applyResult(env, chains, AGAIN.results, AGAIN.resultCapacity, i, tally);
-    });
-    takeEach(env, listed(env, kListGrown), kEntriesAtOnce, crew, [&](uint32_t i, GoneTally& tally) {
-        const uint32_t chunk = listEntry(env, kListGrown, i);
-        if ((AGAIN_MARKS.v[chunk].bits & kMarkAgain) != 0) takeChunk(chunk, tally);
-    });
-    takeEach(env, listed(env, kListGone), kEntriesAtOnce, crew, [&](uint32_t i, GoneTally& tally) {
-        const uint32_t chunk = listEntry(env, kListGone, i);
-        takeChunk(chunk, tally);
-        env.chunks.v[chunk].marks = 0;
+    const size_t gone = piecesOf(listed(env, kListGone), kEntriesAtOnce),
+                 grown = gone + piecesOf(listed(env, kListGrown), kEntriesAtOnce),
+                 all = grown + piecesOf(AGAIN.counts[kListWork], kWorkAtOnce);
+    crew.overRange(all, 1, [&](size_t piece, size_t) {
+        GoneTally tally = nothingGone();
+        if (piece < gone)
+            takeChunks(env, chains, kListGone, piece, tally);
+        else if (piece < grown)
+            takeChunks(env, chains, kListGrown, piece - gone, tally);
+        else
+            applyResults(env, chains, piece - grown, tally);
+        addGone(env, uint32_t(piece), tally);
     });
 }
 
 void fit(ExpandEnv env, Crew& crew) {
     overRange(0, listed(env, kListFit), kEntriesAtOnce, crew, [&](size_t begin, size_t end) {
+        ChunkBrief briefs[kEntriesAtOnce];
+        const size_t count = end - begin;
+        for (size_t i = 0; i < count; ++i) briefs[i] = readBrief(env, listEntry(env, kListFit, uint32_t(begin + i)));
         uvec2 hash(0, 0);
-        for (size_t i = begin; i < end; ++i) {
-            const uint32_t chunk = listEntry(env, kListFit, uint32_t(i));
-            const ChunkBrief brief = readBrief(env, chunk);
+        for (size_t i = 0; i < count + kAhead; ++i) {
+            if (i < count) fetch(env.nodes.v + briefs[i].firstNode, chunkNodes(briefs[i].marks));
+            if (i < kAhead) continue;
+            const ChunkBrief& brief = briefs[i - kAhead];
+            const uint32_t chunk = listEntry(env, kListFit, uint32_t(begin + i - kAhead));
             for (uint32_t lane = 0; lane < chunkNodes(brief.marks); ++lane)
                 fitAgain(env, AGAIN.branchesBefore, chunk, brief, lane, hash);
         }
@@ -97,7 +139,7 @@ void findNative(ExpandEnv env, Crew& crew) {
     });
     const UintBuf first = env.status.v[0].firstLeaves, next = env.status.v[0].nextLeaves;
     for (uint32_t i = AGAIN.chainedLeaves; i < AGAIN.leafCount; ++i) chainAgain(env, first, next, i);
-    overList(env, kListDirty, crew, [&](uint32_t i) { startAgain(env, i); });
+    for (uint32_t i = 0; i < listed(env, kListDirty); ++i) startAgain(env, i);  // sooner done than shared out
 }
 
 uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew) {

@@ -33,11 +33,15 @@ std::vector<uint32_t> readersOf(const std::vector<uint32_t>& cells) {
 std::vector<uint32_t> gridsOf(const std::vector<uint32_t>& cells) {
     std::vector<uint32_t> grid(dirtyGrid(kMaxReadLevel + 1));
     const auto add = [&](const uint32_t* from, uint32_t side, uint32_t shrink, uint32_t* to) {
-        for (uint32_t bit = 0; bit < side * side; ++bit) {
-            if (bit % 32 == 0 && from[bit / 32] == 0) bit += 31;
-            if ((from[bit / 32] >> (bit % 32) & 1) == 0) continue;
-            const uint32_t above = bit / side / shrink * (side / shrink) + bit % side / shrink;
-            to[above / 32] |= 1u << (above % 32);
+        const uint32_t leftmost = 0xFFFFFFFF / ((1u << shrink) - 1);  // of each `shrink` bits of a row
+        for (uint32_t word = 0; word < (side * side + 31) / 32; ++word) {
+            uint32_t bits = from[word];
+            for (uint32_t far = 1; far < shrink; far *= 2) bits |= bits >> far;
+            for (bits &= leftmost; bits != 0; bits &= bits - 1) {
+                const uint32_t bit = word * 32 + lowestBit(bits);
+                const uint32_t above = bit / side / shrink * (side / shrink) + bit % side / shrink;
+                to[above / 32] |= 1u << (above % 32);
+            }
         }
     };
     add(readersOf(cells).data(), kLayerCells, kLayerCells / kLayerTiles, grid.data());
