@@ -52,7 +52,7 @@ LeafLight leafLight(vec3 face, vec3 eye, float open, float visible, bool leaf, b
         const vec3 through = vec3(1.5, 1.35, 0.45);
         o.sun += falling * through * (max(-side, 0.0) * 0.65 + 0.10);
         o.sunMirror = falling * (gloss(face, eye, sun, 0.42) * facing * (back ? 0.3 : 1.0));
-        o.sky += 0.60 * through * skyLight(-face);
+        o.sky += 0.95 * through * skyLight(-face);
     }
     // In the shade the sky's mirror image on the wax is what tells leaves apart.
     float edge = 1.0 - max(dot(face, eye), 0.0);

@@ -110,7 +110,9 @@ TEST_CASE("nothing stands in a house or on a street, and streets lead past no wa
     auto houses = readOutlines("content/street.json");
     REQUIRE(houses);
     REQUIRE(houses->size() == 15);
-    const Site site = makeSite(*houses, 256);
+    auto doors = findDoors("content/street.json", "content/grammars/town.grammar");
+    REQUIRE(doors);
+    const Site site = makeSite(*houses, *doors, 256);
     CHECK(site.props.at("well").size() == 1);
     size_t trees = 0;
     for (const auto& [model, places] : site.props)

@@ -155,7 +155,9 @@ Status writeProps(const Options& options) {
 Status writeSite(const Options& options) {
     Result<std::vector<Outline>> houses = readOutlines(options.town);
     if (!houses) return houses.failure();
-    const Site site = makeSite(*houses, 512);
+    Result<std::vector<Door>> doors = findDoors(options.town, options.grammar);
+    if (!doors) return doors.failure();
+    const Site site = makeSite(*houses, *doors, 512);
     if (Status s = writeBytes(options.directory + "/site.png", encodePng(site.map, 3)); !s) return s;
     const std::string text = siteJson(site);
     return writeBytes(options.directory + "/site.json", {text.begin(), text.end()});

@@ -15,6 +15,7 @@ struct Options {
     int textureSize = 2048;        // of the ruin, a power of two
     std::string only = "";         // "ruin", "roofs", "terminals" or "props"; empty: all
     std::string town = "";         // houses that the site is laid out around; empty: no site.json and site.png
+    std::string grammar = "";      // of these houses: where their doors are
 };
 
 Status generate(const Options& options);

@@ -74,7 +74,7 @@ Detail groundDetail(glm::vec2 st) {
 
     float cloud = fractal(xz * 1.3f, 751, 3);
     glm::vec3 earth =
-        glm::mix(glm::vec3(0.085f, 0.060f, 0.038f), glm::vec3(0.150f, 0.112f, 0.074f), saturate(0.5f + 0.6f * cloud));
+        glm::mix(glm::vec3(0.072f, 0.058f, 0.037f), glm::vec3(0.144f, 0.118f, 0.079f), saturate(0.5f + 0.6f * cloud));
     earth *= 1 + 0.35f * grit + 0.25f * clods;
     earth =
         glm::mix(earth, glm::vec3(0.165f, 0.148f, 0.122f) * (0.6f + 0.8f * random01(pebble.id, 2)), 0.8f * isPebble);
@@ -82,11 +82,14 @@ Detail groundDetail(glm::vec2 st) {
     float grass = ramp(0.05f, 0.5f,
                        fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f + 0.55f * rim);
     float blades = 0.5f + 0.5f * fractal(glm::vec2(xz.x * 60.0f, xz.y * 34.0f), 765, 2);
+    out.height += 0.010f * grass * blades * (1 - stone);
+    // Where nobody treads, grass has closed over the heaps, too.
+    const float trodden = ramp(0.66f, 0.36f, outward(xz) + 0.14f * fractal(xz * 1.1f, 767, 3));
+    grass = std::max(grass, 0.95f * (1 - trodden) * ramp(-0.45f, 0.05f, fractal(xz * 2.3f, 769, 3)));
     earth = glm::mix(earth,
                      glm::mix(glm::mix(glm::vec3(0.034f, 0.044f, 0.014f), glm::vec3(0.092f, 0.106f, 0.036f), blades),
                               glm::vec3(0.088f, 0.102f, 0.038f) * (0.50f + 0.7f * blades), 0.8f * rim),
                      0.85f * grass);
-    out.height += 0.010f * grass * blades * (1 - stone);
     glm::vec3 slab =
         glm::mix(glm::vec3(0.175f, 0.165f, 0.145f), glm::vec3(0.245f, 0.215f, 0.168f), random01(flag.id, 2));
     slab *= 0.85f + 0.3f * random01(flag.id, 3);

@@ -1,5 +1,5 @@
 // espalier-content OUT_DIR: generates Espalier's own sample content. In: nothing but options. Out: ruin.glb,
-// mask.png, ivy.png, terminals.glb, roofs.glb, props.glb; with --town FILE, site.json and site.png; with --preview DIR,
+// mask.png, ivy.png, terminals.glb, roofs.glb, props.glb; with --town FILE and --grammar FILE, site.json and site.png; with --preview DIR,
 // pictures.
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,8 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember({256, 512, 1024, 2048, 4096}));
     app.add_option("--only", options.only, "makes one of ruin, roofs, terminals, props instead of all")
         ->check(CLI::IsMember({"ruin", "roofs", "terminals", "props"}));
-    app.add_option("--town", options.town, "houses that the site is laid out around");
+    app.add_option("--town", options.town, "houses that the site is laid out around")
+        ->needs(app.add_option("--grammar", options.grammar, "of these houses, for where their doors are"));
     app.set_version_flag("--version", "espalier-content " ESPALIER_VERSION);
     CLI11_PARSE(app, argc, argv);
     Status status = content::generate(options);

@@ -40,10 +40,19 @@ const Street kStreets[] = {
 };
 constexpr vec2 kSquare{-0.8f, -46.0f};  // before the school, with the well
 constexpr float kSquareRadius = 4.8f;
+constexpr float kPiece = 1.9f, kHalfGate = 0.75f;      // of a yard's fence
+constexpr float kHalfPath = 0.62f, kLongestPath = 17;  // from a door to its street
 
 float segmentDistance(vec2 p, vec2 a, vec2 b) {
     const vec2 d = b - a;
     return glm::distance(p, a + d * saturate(glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-9f)));
+}
+
+// Metres from an outline's sides.
+float outlineDistance(const Outline& o, vec2 p) {
+    float d = 1e9f;
+    for (size_t i = 0, j = o.size() - 1; i < o.size(); j = i++) d = std::min(d, segmentDistance(p, o[i], o[j]));
+    return d;
 }
 
 // A Catmull-Rom curve through the points, in pieces of half a metre or so.
@@ -66,6 +75,7 @@ std::vector<vec2> curve(const Street& s) {
 struct Plan {
     std::vector<Outline> houses;
     std::vector<std::pair<std::vector<vec2>, float>> streets;  // line and half width
+    std::vector<Door> fronts;                                  // doors that a path leads to
 
     // Metres into a street, negative beside it.
     float paved(vec2 p) const {
@@ -80,16 +90,34 @@ struct Plan {
         float nearest = 1e9f;
         for (const Outline& o : houses) {
             bool inside = false;
-            float d = 1e9f;
-            for (size_t i = 0, j = o.size() - 1; i < o.size(); j = i++) {
-                d = std::min(d, segmentDistance(p, o[i], o[j]));
+            const float d = outlineDistance(o, p);
+            for (size_t i = 0, j = o.size() - 1; i < o.size(); j = i++)
                 if ((o[i].y > p.y) != (o[j].y > p.y) &&
                     p.x < (o[j].x - o[i].x) * (p.y - o[i].y) / (o[j].y - o[i].y) + o[i].x)
                     inside = !inside;
-            }
             nearest = std::min(nearest, inside ? -d : d);
         }
         return nearest;
+    }
+    vec2 nearestStreet(vec2 p) const {
+        vec2 best(1e9f);
+        for (const auto& [line, half] : streets)
+            for (vec2 q : line)
+                if (glm::distance(p, q) < glm::distance(p, best)) best = q;
+        return best;
+    }
+    // From each door that faces a street near by, straight out and then over to it.
+    void layPaths(const std::vector<Door>& doors) {
+        std::vector<std::pair<std::vector<vec2>, float>> paths;
+        for (const Door& door : doors) {
+            const vec2 from = door.at + 0.8f * door.out, bend = door.at + 2.2f * door.out, to = nearestStreet(bend);
+            if (glm::distance(bend, to) > kLongestPath || glm::dot(to - bend, door.out) < 0) continue;
+            const std::vector<vec2> line = curve({{from, bend, glm::mix(bend, to, 0.6f) + 0.6f * door.out, to}, 0});
+            if (std::any_of(line.begin(), line.end(), [&](vec2 p) { return toHouse(p) < 0.7f; })) continue;
+            paths.emplace_back(line, kHalfPath);
+            fronts.push_back(door);
+        }
+        streets.insert(streets.end(), paths.begin(), paths.end());
     }
     static float toCourt(vec2 p) {
         const vec2 d = glm::abs(p - kCourt) - kCourtHalf;
@@ -103,6 +131,7 @@ class Layout {
 
     void lay() {
         feature();
+        yards();
         gardens();
         trees();
         beds();
@@ -143,6 +172,8 @@ class Layout {
         put("rubble", {6.9f, 0.4f}, 20, 1, 0.03f);
         put("rubble", {-5.4f, 5.9f}, 130, 0.8f, 0.04f);
         put("bench", {-3.1f, -8.3f}, 62, 1);
+        tree("apple_b", {-6.4f, -37.2f}, 0.9f, 1.7f, 9);
+        put("bench", {-5.3f, -31.0f}, 29, 1);
         put("well", kSquare + vec2(0.2f, 0.4f), 25, 1);
         taken_.push_back({kSquare, 2});
     }
@@ -161,6 +192,43 @@ class Layout {
         if (piece == "wall")
             for (vec2 end : {a, b})
                 if (plan_.paved(end) < -0.3f && plan_.toHouse(end) > 0.3f) put("pier", end, degrees, 1);
+    }
+    // A yard before each door that a path leads to: fenced towards the street on both sides of the gate and back to the
+    // wall, in pieces of one length.
+    void yards() {
+        const char* kinds[] = {"hedge", "fence", "wall"};
+        for (uint32_t i = 0; i < plan_.fronts.size(); ++i) {
+            const Door& door = plan_.fronts[i];
+            const Outline& o = *std::min_element(plan_.houses.begin(), plan_.houses.end(),
+                                                 [&](const Outline& a, const Outline& b) {
+                                                     return outlineDistance(a, door.at) < outlineDistance(b, door.at);
+                                                 });
+            const char* kind = kinds[uint32_t(&o - plan_.houses.data()) % 3];
+            int deep = 2;
+            while (deep > 0 && plan_.paved(door.at + (kPiece * float(deep) + 0.4f) * door.out + 1.6f * glm::vec2(-door.out.y, door.out.x)) > 0) --deep;
+            if (deep == 0) continue;
+            // To the wall's corners, or as far as there's room before the street.
+            const float out = kPiece * float(deep);
+            const auto end = [&](vec2 along, int pieces) {
+                return door.at + out * door.out + (kHalfGate + kPiece * float(pieces)) * along;
+            };
+            const vec2 ways[2] = {{-door.out.y, door.out.x}, {door.out.y, -door.out.x}};
+            int pieces[2];
+            for (int k = 0; k < 2; ++k) {
+                float reach = 0;
+                for (vec2 corner : o)
+                    if (std::abs(glm::dot(corner - door.at, door.out)) < 0.2f)
+                        reach = std::max(reach, glm::dot(corner - door.at, ways[k]));
+                pieces[k] = int((reach - kHalfGate - 0.2f) / kPiece);
+                while (pieces[k] > 0 && plan_.paved(end(ways[k], pieces[k])) > -0.4f) --pieces[k];
+            }
+            if (std::min(pieces[0], pieces[1]) < 1) continue;
+            for (int k = 0; k < 2; ++k) {
+                const vec2 corner = end(ways[k], pieces[k]);
+                row(kind, end(ways[k], 0), corner);
+                row(kind, corner, corner - out * door.out);
+            }
+        }
     }
     // Each house has a garden at the side away from the street, fenced in one of three ways.
     void gardens() {
@@ -350,13 +418,14 @@ Result<std::vector<Outline>> readOutlines(const std::string& path) {
     return outlines;
 }
 
-Site makeSite(const std::vector<Outline>& houses, int mapSize) {
+Site makeSite(const std::vector<Outline>& houses, const std::vector<Door>& doors, int mapSize) {
     Site site;
     site.low = vec2(-kHalfMap);
     site.high = vec2(kHalfMap);
     site.map = Picture(mapSize, mapSize);
-    Plan plan{houses, {}};
+    Plan plan{houses, {}, {}};
     for (const Street& s : kStreets) plan.streets.emplace_back(curve(s), s.half);
+    plan.layPaths(doors);
     Layout layout(plan, site);
     layout.lay();
     paintMap(plan, layout.shades_, site);

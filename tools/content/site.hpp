@@ -1,11 +1,12 @@
 #pragma once
 
-// How the sample's site is laid out: streets, trodden earth, where props stand. From the houses' outlines, so that
-// nothing stands in a wall or on a street.
+// How the sample's site is laid out: streets, paths to doors, trodden earth, where props stand. From the houses' outlines,
+// so that nothing stands in a wall or on a street.
 
 #include <map>
 
 #include "runtime/core/result.hpp"
+#include "tools/content/doors.hpp"
 #include "tools/content/model.hpp"
 
 namespace espalier::content {
@@ -25,7 +26,7 @@ struct Site {
 
 // The outlines of a town's file in plan metres, its y being north.
 Result<std::vector<Outline>> readOutlines(const std::string& path);
-Site makeSite(const std::vector<Outline>& houses, int mapSize);
+Site makeSite(const std::vector<Outline>& houses, const std::vector<Door>& doors, int mapSize);
 // What `scene::furnish` reads: site.json, which names props.glb and site.png beside it.
 std::string siteJson(const Site& site);
 

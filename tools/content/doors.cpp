@@ -1,0 +1,77 @@
+// In: footprints and a grammar. Out: the doors among the terminals that it grows from them.
+
+#include "tools/content/doors.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "runtime/core/file.hpp"
+#include "runtime/roof/roof_growth.hpp"
+#include "runtime/roof/shapes.hpp"
+#include "tools/content/roof_mesh.hpp"
+
+namespace espalier::content {
+namespace {
+
+// By the numbers that a grammar gets for them.
+struct Terminals {
+    std::vector<std::string> names;
+    std::vector<RoofMesh> bounds;
+};
+Terminals roofTerminals() {
+    Terminals out;
+    for (const RoofMeshes::Entry& e : makeRoofMeshes().all) {
+        const std::string name = e.name.substr(0, e.name.find("_lod"));
+        if (std::find(out.names.begin(), out.names.end(), name) != out.names.end()) continue;
+        RoofMesh bounds{glm::vec3(1e9f), glm::vec3(-1e9f)};
+        for (glm::vec3 p : e.mesh.positions) {
+            bounds.low = glm::min(bounds.low, p);
+            bounds.high = glm::max(bounds.high, p);
+        }
+        out.names.push_back(name);
+        out.bounds.push_back(bounds);
+    }
+    return out;
+}
+
+Result<RuleMap> compileFile(const std::string& path, const std::vector<std::string>& terminals) {
+    Result<std::string> text = readTextFile(path);
+    if (!text) return text.failure();
+    const std::filesystem::path file(path);
+    CompileOptions options;
+    options.fileName = file.filename().string();
+    for (const std::string& name : terminals) options.roofMeshes.push_back({name, false});
+    options.readInclude = [&](const std::string& name) -> std::optional<std::string> {
+        Result<std::string> included = readTextFile((file.parent_path() / name).string());
+        return included ? std::optional<std::string>(std::move(*included)) : std::nullopt;
+    };
+    return compileGrammar(*text, options);
+}
+
+}  // namespace
+
+Result<std::vector<Door>> findDoors(const std::string& town, const std::string& grammar) {
+    const Terminals terminals = roofTerminals();
+    Result<RuleMap> map = compileFile(grammar, terminals.names);
+    if (!map) return map.failure();
+    Result<Town> read = readFootprints(town);
+    if (!read) return read.failure();
+    const RoofTables tables = makeAtoms(roofsOf(read->footprints, read->diagnostics));
+    RoofInputs inputs;
+    inputs.town = &tables;
+    inputs.grammar = &*map;
+    inputs.meshes = terminals.bounds;
+    std::vector<Door> doors;
+    for (const RoofGrid& g : growRoofsOnCpu(inputs).records.grids) {
+        if (terminals.names[g.mesh & 255u] != "door") continue;
+        const glm::vec3 x(g.axisX), out = glm::cross(x, glm::vec3(g.axisY)), sill = glm::vec3(g.origin) + x * (g.size.x / 2);
+        doors.push_back({{sill.x, sill.z}, glm::normalize(glm::vec2(out.x, out.z))});
+    }
+    // Growth knows no order.
+    std::sort(doors.begin(), doors.end(), [](const Door& a, const Door& b) {
+        return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.y < b.at.y;
+    });
+    return doors;
+}
+
+}  // namespace espalier::content
