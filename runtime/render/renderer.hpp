@@ -26,8 +26,8 @@ enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, l
 struct Look {
     glm::vec3 sunDirection{0.45f, 0.62f, 0.64f};  // towards the sun
     glm::vec3 sunColor{2.9f, 2.5f, 1.95f};
-    glm::vec3 skyColor{0.60f, 0.74f, 0.96f};
-    glm::vec3 groundColor{0.32f, 0.28f, 0.21f};
+    glm::vec3 skyColor{0.72f, 0.84f, 1.02f};
+    glm::vec3 groundColor{0.44f, 0.39f, 0.28f};
     float exposure = 0;                         // stops
     glm::vec3 background{0.17f, 0.36f, 0.72f};  // at the zenith
     glm::vec3 horizon{0.66f, 0.77f, 0.88f};

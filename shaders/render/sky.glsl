@@ -19,6 +19,6 @@ vec3 skyColor(vec3 ray) {
 vec3 farLand(vec3 ray, float range) {
     vec3 haze = skyColor(normalize(vec3(ray.x, 0.0, ray.z)));
     float mist = exp2(-max(ray.y, 0.0) * (110.0 - 25.0 * range)) * (range > 0.0 ? 0.28 - 0.04 * range : 0.10);
-    return mix(frame.skyColor * vec3(0.11, 0.14, 0.07), haze, 0.16 + 0.20 * range + mist);
+    return mix(frame.skyColor * vec3(0.11, 0.14, 0.07), haze, 0.25 + 0.17 * range + mist);
 }
 #endif

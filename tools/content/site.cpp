@@ -172,7 +172,6 @@ class Layout {
         put("rubble", {6.9f, 0.4f}, 20, 1, 0.03f);
         put("rubble", {-5.4f, 5.9f}, 130, 0.8f, 0.04f);
         put("bench", {-3.1f, -8.3f}, 62, 1);
-        tree("apple_b", {-6.4f, -37.2f}, 0.9f, 1.7f, 9);
         put("bench", {-5.3f, -31.0f}, 29, 1);
         put("well", kSquare + vec2(0.2f, 0.4f), 25, 1);
         taken_.push_back({kSquare, 2});
