@@ -64,13 +64,13 @@ Result<std::vector<Door>> findDoors(const std::string& town, const std::string& 
     std::vector<Door> doors;
     for (const RoofGrid& g : growRoofsOnCpu(inputs).records.grids) {
         if (terminals.names[g.mesh & 255u] != "door") continue;
-        const glm::vec3 x(g.axisX), out = glm::cross(x, glm::vec3(g.axisY)), sill = glm::vec3(g.origin) + x * (g.size.x / 2);
+        const glm::vec3 x(g.axisX), out = glm::cross(x, glm::vec3(g.axisY)),
+                                    sill = glm::vec3(g.origin) + x * (g.size.x / 2);
         doors.push_back({{sill.x, sill.z}, glm::normalize(glm::vec2(out.x, out.z))});
     }
     // Growth knows no order.
-    std::sort(doors.begin(), doors.end(), [](const Door& a, const Door& b) {
-        return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.y < b.at.y;
-    });
+    std::sort(doors.begin(), doors.end(),
+              [](const Door& a, const Door& b) { return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.y < b.at.y; });
     return doors;
 }
 

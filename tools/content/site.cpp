@@ -198,13 +198,15 @@ class Layout {
         const char* kinds[] = {"hedge", "fence", "wall"};
         for (uint32_t i = 0; i < plan_.fronts.size(); ++i) {
             const Door& door = plan_.fronts[i];
-            const Outline& o = *std::min_element(plan_.houses.begin(), plan_.houses.end(),
-                                                 [&](const Outline& a, const Outline& b) {
-                                                     return outlineDistance(a, door.at) < outlineDistance(b, door.at);
-                                                 });
+            const Outline& o =
+                *std::min_element(plan_.houses.begin(), plan_.houses.end(), [&](const Outline& a, const Outline& b) {
+                    return outlineDistance(a, door.at) < outlineDistance(b, door.at);
+                });
             const char* kind = kinds[uint32_t(&o - plan_.houses.data()) % 3];
             int deep = 2;
-            while (deep > 0 && plan_.paved(door.at + (kPiece * float(deep) + 0.4f) * door.out + 1.6f * glm::vec2(-door.out.y, door.out.x)) > 0) --deep;
+            while (deep > 0 && plan_.paved(door.at + (kPiece * float(deep) + 0.4f) * door.out +
+                                           1.6f * glm::vec2(-door.out.y, door.out.x)) > 0)
+                --deep;
             if (deep == 0) continue;
             // To the wall's corners, or as far as there's room before the street.
             const float out = kPiece * float(deep);

@@ -1,7 +1,7 @@
 #pragma once
 
-// How the sample's site is laid out: streets, paths to doors, trodden earth, where props stand. From the houses' outlines,
-// so that nothing stands in a wall or on a street.
+// How the sample's site is laid out: streets, paths to doors, trodden earth, where props stand. From the houses'
+// outlines, so that nothing stands in a wall or on a street.
 
 #include <map>
 

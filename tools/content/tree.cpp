@@ -135,7 +135,8 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
         const float most = (bush ? 0.44f : 0.26f) * tall;
         const float broad = h.birch ? 0.78f * std::max(wide, 0.6f * h.radius) : (bush ? 0.66f : 0.56f) * h.radius;
         const float radius = std::min(broad * (bush ? 0.8f + 0.4f * random(2) : 0.70f + 0.50f * random(2)), most);
-        const float r = top ? 0 : std::max(wide * ((bush ? 0.9f : 0.84f) + 0.22f * random(3)) - 0.75f * radius, 0.25f * wide);
+        const float r =
+            top ? 0 : std::max(wide * ((bush ? 0.9f : 0.84f) + 0.22f * random(3)) - 0.75f * radius, 0.25f * wide);
         const glm::vec3 out(std::cos(angle), 0, std::sin(angle));
         lobes.push_back({r * out + glm::vec3(0, h.crownFoot + tall * t, 0) + lean * (0.4f * tall * t),
                          glm::normalize(top ? glm::vec3(0, 1, 0) : out + glm::vec3(0, 0.5f * t, 0)), radius});
