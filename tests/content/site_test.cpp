@@ -2,6 +2,7 @@
 // and asks the painted map, not the layout's own distances.
 
 #include <doctest/doctest.h>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -139,6 +140,30 @@ TEST_CASE("nothing stands in a house or on a street, and streets lead past no wa
         }
     CHECK(paved > 800);
     CHECK(siteJson(site).find("\"map\":\"site.png\"") != std::string::npos);
+}
+
+TEST_CASE("doors stand in walls, face out of them, and have a path if a street is near") {
+    auto houses = readOutlines("content/street.json");
+    auto doors = findDoors("content/street.json", "content/grammars/town.grammar");
+    REQUIRE(houses);
+    REQUIRE(doors);
+    REQUIRE(doors->size() > 15);
+    const Site bare = makeSite(*houses, {}, 512), site = makeSite(*houses, *doors, 512);
+    int reached = 0;
+    for (const Door& door : *doors) {
+        CAPTURE(door.at.x);
+        CAPTURE(door.at.y);
+        const auto inside = [&](glm::vec2 p) {
+            return std::any_of(houses->begin(), houses->end(), [&](const Outline& o) { return within(o, p); });
+        };
+        CHECK(glm::length(door.out) == doctest::Approx(1));
+        CHECK(inside(door.at - 0.4f * door.out));
+        CHECK_FALSE(inside(door.at + 0.4f * door.out));
+        const glm::vec2 before = door.at + 1.2f * door.out;
+        reached += mapAt(site, before)[0] > 128 && mapAt(bare, before)[0] < 128;
+    }
+    CHECK(reached > 8);
+    CHECK_FALSE(findDoors("content/street.json", "content/grammars/none.grammar"));
 }
 
 TEST_CASE("a town that is none is told by name") {

@@ -187,7 +187,7 @@ TEST_CASE("leaves are green, the wall casts shadows, the sky is above") {
     CHECK(int(grown[2]) > int(grown[0]));  // the first pixel is sky: bluish
     studio.inputs.look.shadows = false;
     const std::vector<uint8_t> flat = studio.draw(320, 180);
-    auto dark = [](int r, int g, int b) { return r + g + b < 240; };
+    auto dark = [](int r, int g, int b) { return r + g + b < 270; };
     CHECK(share(grown, dark) > share(flat, dark) + 0.01);
     studio.inputs.look.shadows = true;
     studio.inputs.growth = {};
