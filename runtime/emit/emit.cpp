@@ -27,15 +27,15 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
         const char* shader;
         std::vector<SpecConstant> constants;
         bool exact = false;
-    } programs[] = {{emit.bindSpans_[0], "emit/bind_spans.comp", {{3, 1}}},
-                    {emit.bindSpans_[1], "emit/bind_spans.comp", {{3, 0}}},
-                    {emit.bindLeaves_[0], "emit/bind_leaves.comp", {{3, 1}}},
-                    {emit.bindLeaves_[1], "emit/bind_leaves.comp", {{3, 0}}},
+    } programs[] = {{emit.bindSpans_[0], "emit/bind_spans.comp", {{3, 1}}, true},
+                    {emit.bindSpans_[1], "emit/bind_spans.comp", {{3, 0}}, true},
+                    {emit.bindLeaves_[0], "emit/bind_leaves.comp", {{3, 1}}, true},
+                    {emit.bindLeaves_[1], "emit/bind_leaves.comp", {{3, 0}}, true},
                     {emit.bindTouch_[0], "emit/bind_touch.comp", {{3, 1}}},
                     {emit.bindTouch_[1], "emit/bind_touch.comp", {{3, 0}}},
-                    {emit.bindStretches_, "emit/bind_stretches.comp", {}},
+                    {emit.bindStretches_, "emit/bind_stretches.comp", {}, true},
                     {emit.bindKeep_, "emit/bind_keep.comp", {}},
-                    {emit.bindCount_, "emit/bind_count.comp", {}},
+                    {emit.bindCount_, "emit/bind_count.comp", {}, true},
                     {emit.bindCells_, "emit/bind_cells.comp", {}},
                     {emit.bindOrder_, "emit/bind_order.comp", {}},
                     {emit.bindSort_, "emit/bind_sort.comp", {}},
@@ -196,6 +196,7 @@ Status Emit::watch(Commands& commands, const EmitView& view) {
         if (!made) return made.failure();
         takenTiles_ = std::move(*made);
     }
+    usedBy_ = commands.serial();
     EmitView watched = view;
     watched.tiles.v = reinterpret_cast<float*>(watchTiles_.address());
     commands.barrier(Use::compute, Use::transfer);
@@ -209,6 +210,7 @@ Status Emit::watch(Commands& commands, const EmitView& view) {
 }
 
 EmitView Emit::takeChanges(Commands& commands, uint32_t mostTiles) {
+    usedBy_ = commands.serial();
     EmitView view = watched_;
     view.tiles.v = reinterpret_cast<float*>(takenTiles_.address());
     TakePush push{};

@@ -17,9 +17,10 @@ struct EmitInputs {
     uint64_t surfacesRevision = 0;  // another one when a surface stands elsewhere
     // Where things grow, more or less: space is divided there. What lies elsewhere costs more, no more than that.
     glm::vec3 low{-4}, high{4};
-    // True: on a software device whose addresses are the process's own, native code culls what stands already when a
-    // view is recorded (native_cull.hpp), gathers what is to be written as triangles, and writes bark's
-    // (native_triangles.hpp). False: shaders do there too.
+    // True: on a software device whose addresses are the process's own, native code binds growth if no recording that
+    // looks at what was bound is in flight (native_bind.hpp), culls what stands already when a view is recorded
+    // (native_cull.hpp), gathers what is to be written as triangles, and writes bark's (native_triangles.hpp). False:
+    // shaders do there too.
     bool native = true;
 };
 
@@ -125,6 +126,7 @@ class Emit {
     Status viewTexels(TexelView& texels, const Buffer& buffer);
     Status viewRecords(const GrowthView& growth, uint32_t nodesBefore);
     bool staysBound(const Bound& wanted, const GrowthView& growth) const;
+    Status bindByKernels(Commands& commands, const GrowthView& growth, const BindInputs& given);
     // emit_carry.cpp
     bool nearlyCrowded() const;
     Status makeCarrying(bool moved);

@@ -6,6 +6,7 @@
 
 #include "runtime/emit/emit.hpp"
 #include "runtime/emit/instance_room.hpp"
+#include "runtime/emit/native_bind.hpp"
 
 namespace espalier {
 namespace {
@@ -180,7 +181,6 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
         if (Status s = carry(commands, inputs, leaves, before); !s) return s;
     }
     if (Status s = reserve(); !s) return s;
-    if (Status s = viewRecords(growth, before.nodeCount); !s) return s;
     grid_ = gridOver(inputs.low, inputs.high);
     overflow_ = growth.leafCount - leaves;
 
@@ -213,13 +213,30 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     given.nodesBefore = partly ? before.nodeCount : 0;
     given.leavesBefore = partly ? before.leafCount : 0;
 
+    // What stands then may be culled by native code at once.
+    const bool native = inputs.native && sharesMemory() && device_->finished(usedBy_);
+    if (native) {
+        bindNative(given, terminals_->table(), watched_);
+    } else if (Status s = bindByKernels(commands, growth, given); !s) {
+        return s;
+    }
+    bound_ = wanted;
+    boundBy_ = native ? 0 : commands.serial();
+    usedBy_ = commands.serial();
+    return Done{};
+}
+
+Status Emit::bindByKernels(Commands& commands, const GrowthView& growth, const BindInputs& given) {
+    if (Status s = viewRecords(growth, given.nodesBefore); !s) return s;
+    const bool partly = given.partly != 0;
+    const uint32_t nodes = given.nodeCount, leaves = given.leafCount;
     const Buffer& table = terminals_->tableBuffer();
     const Buffer& in = binds_[bindSlot_++ % binds_.size()];
     Pass pass(commands, "bind");
     commands.barrier(Use::compute | Use::vertex, Use::transfer | Use::compute);
     if (Status s = commands.upload(in, std::as_bytes(std::span(&given, 1))); !s) return s;
     if (partly) {
-        commands.fill(flags_, 0, 0, std::max(nodes, before.nodeCount) * 4ull);
+        commands.fill(flags_, 0, 0, std::max(nodes, given.nodesBefore) * 4ull);
         commands.fill(cells_, 0, kAllCells * sizeof(EmitCell) + offsetof(EmitCell, changed),
                       sizeof(EmitCell) - offsetof(EmitCell, changed));
     } else {
@@ -256,8 +273,6 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     pass.barrier(Use::compute, Use::compute);
     pass.dispatchItems(bindSort_, kAllCells * kSortLanes, {}, {held_.spanTexels, held_.leafTexels, in});
     pass.barrier(Use::compute, Use::compute | Use::vertex);
-    bound_ = wanted;
-    boundBy_ = usedBy_ = commands.serial();
     return Done{};
 }
 

@@ -91,8 +91,9 @@ Status Emit::carry(Commands& commands, const EmitInputs& inputs, uint32_t leaves
     push.leafBaseTo = to.leafBase;
     if (native) {
         carryNative(push);
-    } else if (Status s = carryByKernels(commands, push, !stays); !s) {
-        return s;
+    } else {
+        if (Status s = carryByKernels(commands, push, !stays); !s) return s;
+        usedBy_ = commands.serial();
     }
 
     std::swap(held_.order, spareOrder_);

@@ -13,6 +13,8 @@ layout(set = 0, binding = 0, scalar) uniform TableBlock { EmitTable table; };
 layout(set = 0, binding = 1) uniform usamplerBuffer leafTexels;
 layout(set = 0, binding = 2) uniform usamplerBuffer spanTexels;
 
+void addTriangles(uint count) { atomicAdd(HEAD.first, count); }
+SpanInstance spanInstance(uint i) { return SPAN_INSTANCE(spanTexels, i); }
 Leaf readLeaf(uint i) {
     if (kRecordsByAddress != 0u) return push.leaves.v[i];
     uvec4 t = TEXEL(leafTexels, i);
@@ -31,61 +33,7 @@ void writeLeaf(uint i, LeafInstance o) {
     to.v[7] = pairOf(o.hash, o.bits);
 }
 
-LoadedSpan spanUnder(SpanInstance o) {
-    LoadedSpan s;
-    s.span = Span(o.p0, o.b1, o.b2, o.p3);
-    s.normal0 = unpackOct(o.normal0);
-    s.normal1 = unpackOct(o.normal1);
-    s.radius0 = o.radius0;
-    s.radius1 = o.radius1;
-    return s;
-}
-
-uint variantOf(uint bits, uint hash) {
-    KindRecord kind = table.kinds[(bits >> 8u) & 255u];
-    return kind.firstVariant + (hash >> 3u) % kind.variantCount;
-}
-uint trianglesOf(uint variant) { return table.buckets[table.variants[variant].firstBucket].indexCount / 3u; }
-
-void takeLeaf(uint i) {
-    uint bits = push.leafInstances.v[i].bits;
-    uint variant = variantOf(bits, push.leafInstances.v[i].hash);
-    atomicAdd(HEAD.first, 0u - trianglesOf(variant));
-    noteLeaf(push.leafInstances.v[i].origin, decodeLeafSize(bits & 255u), table.variants[variant].extent);
-}
-
-void bindLeaf(uint i) {
-    Leaf record = readLeaf(i);
-    uint item = push.leafBase + i;
-    if (takeKey(item, i < push.leavesBefore)) takeLeaf(i);
-    LeafPose pose = unpackLeaf(record.place, record.pose, record.tint);
-    bool known = record.node < push.nodeCount && pose.mesh < table.kindCount &&
-                 table.kinds[pose.mesh].variantCount > 0u && table.kinds[pose.mesh].bark == 0u;
-    if (known) {
-        push.leafNext.v[i] = atomicExchange(push.leafHeads.v[record.node], i);
-        SpanInstance under = SPAN_INSTANCE(spanTexels, record.node);
-        uint hash = leafHash(record);
-        KindRecord kind = table.kinds[pose.mesh];
-        uint v = kind.firstVariant + (hash >> 3u) % kind.variantCount;
-        if (under.reach >= 0.0) {
-            PlacedLeaf leaf = placeLeaf(spanUnder(under), pose, hash, table.variants[v].extent);
-            LeafInstance o;
-            o.origin = leaf.origin;
-            o.axisX = leaf.axisX * leaf.size;
-            o.axisY = leaf.axisY * leaf.size;
-            o.axisZ = leaf.axisZ * leaf.size;
-            o.normal = packOct(leaf.normal);
-            o.tint = record.tint;
-            o.hash = hash;
-            float height = clamp(leaf.height / max(1.1 * leaf.size, 1e-6), 0.0, 1.0);
-            o.bits = (record.place & 0xFFFFu) | (((under.bits >> 7u) & 31u) << 16u) | (uint(height * 2047.0 + 0.5) << 21u);
-            writeLeaf(i, o);
-            giveKey(item, kLeafClass, o.origin, (hash >> 8u) / (0x1000000u / kCellBins));
-            atomicAdd(HEAD.first, trianglesOf(v));
-            noteLeaf(o.origin, decodeLeafSize(o.bits & 255u), table.variants[v].extent);
-        }
-    }
-}
+#include "shaders/emit/bind_leaf.h"
 
 // All of them; or those on nodes whose spans were bound anew, and those that there weren't before.
 void main() {

@@ -1,48 +1,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-// Eight bins of a cell each: their few items by where they are in the world, so that every run draws in the same order.
+// Eight bins of a cell each.
 #include "shaders/emit/bind.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform usamplerBuffer spanTexels;
 layout(set = 0, binding = 1) uniform usamplerBuffer leafTexels;
 
-// Differs between instances and is the same in every run: of the end of a span, or of a leaf's place and turn.
-uint rankOf(uint item, uint kind) {
-    uvec4 t = kind < kLeafClass ? texelFetch(spanTexels, int(6u * item + 2u))
-                         : texelFetch(leafTexels, int(4u * (item - push.leafBase)));
-    uint h = t.x * 0x9E3779B1u ^ t.y * 0x85EBCA77u ^ t.z * 0xC2B2AE3Du ^ t.w * 0x27D4EB2Fu;
-    return (h ^ (h >> 15u)) * 0x2C1B3C6Du;
-}
-
-void sortRun(uint first, uint end, uint kind) {
-    for (uint i = first + 1u; i < end; ++i) {
-        uint item = push.order.v[i];
-        uint rank = rankOf(item, kind);
-        uint to = i;
-        while (to > first) {
-            uint other = push.order.v[to - 1u];
-            if (rankOf(other, kind) <= rank) break;
-            push.order.v[to] = other;
-            --to;
-        }
-        push.order.v[to] = item;
-    }
-}
+uvec4 spanTexel(uint i) { return texelFetch(spanTexels, int(i)); }
+uvec4 leafTexel(uint i) { return texelFetch(leafTexels, int(i)); }
+#include "shaders/emit/sort_bins.h"
 
 void main() {
     uint i = itemIndex();
     uint cell = i / kSortLanes;
     if (cell >= kAllCells || push.cells.v[cell].count == 0u) return;
-    if (push.partly != 0u && push.cells.v[cell].changed == 0u) return;
-    uint kind = cell / kMaxCells;
-    uint first = push.cells.v[cell].first;
-    uint bin = i * (kCellBins / kSortLanes);
-    uint begin = i % kSortLanes > 0u ? push.bins.v[bin - 1u] : 0u;
-    for (uint b = bin; b < bin + kCellBins / kSortLanes; ++b) {
-        uint end = push.bins.v[b];
-        sortRun(first + begin, first + end, kind);
-        begin = end;
-    }
+    if (push.partly == 0u || push.cells.v[cell].changed != 0u) sortBins(cell, i % kSortLanes);
 }

@@ -1,8 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-// A node each, where the last span of a stretch ends: a sphere around all of the stretch, and how far one ribbon from its
-// beginning to its end would be off, for each of its spans.
+// A node each.
 #include "shaders/emit/bind.glsl"
 #include "shaders/emit/sight.h"
 
@@ -10,94 +9,8 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) uniform TableBlock { EmitTable table; };
 layout(set = 0, binding = 1) uniform usamplerBuffer spanTexels;
 
-struct Curve {
-    vec3 p0, b1, b2, p3;
-};
-Curve curveOf(uint i) {
-    uvec4 a = texelFetch(spanTexels, int(6u * i));
-    uvec4 b = texelFetch(spanTexels, int(6u * i + 1u));
-    uvec4 c = texelFetch(spanTexels, int(6u * i + 2u));
-    return Curve(uintBitsToFloat(a.xyz), uintBitsToFloat(uvec3(a.w, b.xy)), uintBitsToFloat(uvec3(b.zw, c.x)),
-                 uintBitsToFloat(c.yzw));
-}
-
-float ribbonError(uint kind) {
-    VariantRecord variant = table.variants[table.kinds[kind].firstVariant];
-    return variant.error[variant.lodCount - 1u];
-}
-
-// A span's class and bin, by its stretch. order: of going.
-void settleClass(uint item, bool last, float error, uint order) {
-    uint key = push.keys.v[item];
-    uint cell = (key & ~kFresh) / kCellBins;
-    bool stood = !last && error < kNeverJoined;
-    uint kind = ((cell / kMaxCells) & ~1u) + (stood ? 1u : 0u);
-    uint bin = stood ? errorBin(push.grid, error) : order / (0x10000u / kCellBins);
-    uint moved = (kind * kMaxCells + cell % kMaxCells) * kCellBins + bin;
-    if (key != kNoIndex && (key & ~kFresh) != moved) {
-        push.keys.v[item] = moved | kFresh;
-        for (bool listed = push.partly != 0u; listed; listed = false) {
-            push.cells.v[moved / kCellBins].changed = 1u;
-            push.cells.v[cell].changed = 1u;
-            if (key < kFresh) push.list.v[atomicAdd(HEAD.changed, 1u)] = item;
-        }
-    }
-}
-
-// What stays in its cell may reach further now.
-void widen(uint item, vec3 center, float reach, float thick) {
-    uint key = push.keys.v[item];
-    if (key < kFresh) {
-        uint cell = key / kCellBins;
-        float away = distance(center, cellMiddle(push.grid, cell % kMaxCells)) + reach + 2.0 * thick;
-        atomicMax(push.cells.v[cell].reach, floatBitsToUint(away));
-    }
-}
-
-void bindStretch(uint end) {
-    uint bits = texelFetch(spanTexels, int(6u * end + 4u)).w;
-    if ((bits & 0x8000u) != 0u) {
-        uint kind = bits & 63u;
-        uint first = end - ((bits >> 12u) & 7u);
-        vec3 start = curveOf(first).p0;
-        vec3 stop = curveOf(end).p3;
-        vec3 along = stop - start;
-        along *= inversesqrt(max(dot(along, along), 1e-30));
-        vec3 center = (start + stop) * 0.5;
-        float reach = 0.0;
-        float thick = 0.0;
-        float bend = 0.0;
-        float off = 0.0;
-        bool sound = kind != kNoBark;
-        for (uint i = first; i <= end; ++i) {
-            Curve s = curveOf(i);
-            uvec4 d = texelFetch(spanTexels, int(6u * i + 3u));
-            uvec4 e = texelFetch(spanTexels, int(6u * i + 4u));
-            sound = sound && uintBitsToFloat(texelFetch(spanTexels, int(6u * i + 5u)).w) >= 0.0 && (e.w & 63u) == kind;
-            reach = max(max(reach, max(distance(center, s.p0), distance(center, s.p3))),
-                        max(distance(center, s.b1), distance(center, s.b2)));
-            thick = max(thick, max(uintBitsToFloat(d.z), uintBitsToFloat(d.w)));
-            bend = max(bend, unpackHalf2x16(e.z).x);
-            vec3 arm = s.p3 - start;
-            off = max(off, length(arm - along * dot(arm, along)));
-        }
-        float error = off + bend + (sound ? ribbonError(kind) * thick : 0.0);
-        sound = sound && error < kNeverJoined;
-        error = sound ? error : kNeverJoined;
-        for (uint i = first; i <= end; ++i) {
-            uvec4 own = texelFetch(spanTexels, int(6u * i + 4u));
-            push.spans.v[i].errors = packHalf2x16(vec2(unpackHalf2x16(own.z).x, error));
-            Curve s = curveOf(i);
-            vec4 sphere = sound ? vec4(center, reach) : spanSphere(s.p0, s.b1, s.b2, s.p3);
-            if (uintBitsToFloat(texelFetch(spanTexels, int(6u * i + 5u)).w) >= 0.0) {
-                push.spans.v[i].center = sphere.xyz;
-                push.spans.v[i].reach = sphere.w;
-            }
-            settleClass(i, i == end, error, own.w >> 16u);
-            for (bool part = push.partly != 0u; part; part = false) widen(i, sphere.xyz, sphere.w, thick);
-        }
-    }
-}
+uvec4 spanTexel(uint i) { return texelFetch(spanTexels, int(i)); }
+#include "shaders/emit/bind_stretch.h"
 
 void main() {
     uint count = nodesToBind();

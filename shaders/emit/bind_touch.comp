@@ -9,36 +9,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 3) const uint kRecordsByAddress = 1u;
 layout(set = 0, binding = 0) uniform usamplerBuffer touchedTexels;
 
-const uint kMostChildren = 4096u;
-
-// A node is listed when it is flagged first.
-void flagNode(uint node, uint flag) {
-    if (atomicOr(push.flags.v[node], flag) == 0u)
-        push.work.v[atomicAdd(HEAD.reach, 1u)] = node;
-}
-
-// Of a chunk's nodes from `first` on and before `end`: the span that ends at `node`, and those of its stretch.
-void flagStretch(uint first, uint end, uint node) {
-    flagNode(node, kFlagSpan);
-    uint from = node - (node - first) % kStretch;
-    for (uint i = from; i < min(from + kStretch, end); ++i) flagNode(i, kFlagStretch);
-}
-
-void flagFollowers(uint i) {
-    uint chunk = push.nodes.v[i].chunk;
-    uint first = push.chunks.v[chunk].firstNode;
-    uint end = first + chunkNodes(push.chunks.v[chunk].marks);
-    flagStretch(first, end, i);
-    if (i + 1u < end) flagStretch(first, end, i + 1u);
-    uint child = push.chunks.v[chunk].firstChild;
-    for (uint k = 0u; k < kMostChildren && child != kNoIndex; ++k) {
-        if (push.chunks.v[child].previousNode == i && chunkNodes(push.chunks.v[child].marks) > 0u)
-            flagStretch(push.chunks.v[child].firstNode,
-                        push.chunks.v[child].firstNode + chunkNodes(push.chunks.v[child].marks),
-                        push.chunks.v[child].firstNode);
-        child = push.chunks.v[child].nextSibling;
-    }
-}
+#include "shaders/emit/touch_node.h"
 
 uvec4 numbersOf(uint first) {
     if (kRecordsByAddress == 0u) return texelFetch(touchedTexels, int(first / 4u));
@@ -59,10 +30,7 @@ void main() {
         for (uint k = 0u; k < 4u; ++k) {
             uint i = first + k;
             bool wrote = i < push.nodeCount && (i >= push.nodesBefore || numbers[k] > push.since);
-            if (wrote) {
-                flagNode(i, kFlagSpan);
-                if (push.nodes.v[i].radius >= 0.0) flagFollowers(i);
-            }
+            if (wrote) touchNode(i);
         }
     }
 }

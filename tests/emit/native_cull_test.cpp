@@ -89,7 +89,7 @@ TEST_CASE("native code culls as shaders do, once growth is bound and depths stan
     const test::Plant plant = test::upload(*shaders.device, test::wallIvy(8, 2, 1.5f));
     const Buffer tiles = wallOnTheLeft(*shaders.device);
     const bool able = shaders.device->info().cpu;
-    CHECK(!look(native, plant, viewFrom(1, 8), true).native);  // it is bound in the same recording
+    look(native, plant, viewFrom(1, 8), false);  // by shaders, as the other
     for (float distance : {2.0f, 6.0f, 25.0f})
         for (float leafPixels : {4.0f, 30.0f}) {
             CAPTURE(distance);

@@ -1,0 +1,14 @@
+#pragma once
+
+// Growth bound as native code, in the memory that kernels use.
+
+#include "shaders/emit/emit_records.h"
+
+namespace espalier {
+
+// Leaves in all that `push` points to what the bind_*.comp kernels would: their own text compiled as C++, so roots and
+// divisions may differ in their last bits. watched: its tiles are noted, if push.watched. Nothing may use any of it
+// meanwhile. On up to `threads` threads (0: all cores); returns when done.
+void bindNative(const BindInputs& push, const EmitTable& table, const EmitView& watched, unsigned threads = 0);
+
+}  // namespace espalier

@@ -1,0 +1,36 @@
+// A share of a cell's bins, of kSortLanes of them: their few items by where they are in the world, so that every run draws
+// in the same order. The text of a kernel, and in C++ of a member: `push`, spanTexel() and leafTexel() are around it.
+
+// Differs between instances and is the same in every run: of the end of a span, or of a leaf's place and turn.
+uint rankOf(uint item, uint kind) {
+    uvec4 t = kind < kLeafClass ? spanTexel(6u * item + 2u) : leafTexel(4u * (item - push.leafBase));
+    uint h = t.x * 0x9E3779B1u ^ t.y * 0x85EBCA77u ^ t.z * 0xC2B2AE3Du ^ t.w * 0x27D4EB2Fu;
+    return (h ^ (h >> 15u)) * 0x2C1B3C6Du;
+}
+
+void sortRun(uint first, uint end, uint kind) {
+    for (uint i = first + 1u; i < end; ++i) {
+        uint item = push.order.v[i];
+        uint rank = rankOf(item, kind);
+        uint to = i;
+        while (to > first) {
+            uint other = push.order.v[to - 1u];
+            if (rankOf(other, kind) <= rank) break;
+            push.order.v[to] = other;
+            --to;
+        }
+        push.order.v[to] = item;
+    }
+}
+
+void sortBins(uint cell, uint share) {
+    uint kind = cell / kMaxCells;
+    uint first = push.cells.v[cell].first;
+    uint bin = cell * kCellBins + share * (kCellBins / kSortLanes);
+    uint begin = share > 0u ? push.bins.v[bin - 1u] : 0u;
+    for (uint b = bin; b < bin + kCellBins / kSortLanes; ++b) {
+        uint end = push.bins.v[b];
+        sortRun(first + begin, first + end, kind);
+        begin = end;
+    }
+}
