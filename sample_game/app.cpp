@@ -161,6 +161,7 @@ bool App::frame(float seconds) {
     input_->gui.feed(events);
     ImGui::NewFrame();
     work_.window = {ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};
+    beginGesture(work_);
     const float wheel = input_->takeWheel();
     const bool replays = replay(events);
     if (!replays) controls_->take(events, wheel);
@@ -179,12 +180,13 @@ bool App::frame(float seconds) {
     ++frames_;
     const bool hurried = moved || controls_->painting();
     if (!drawFrame(hurried, options_.frames && frames_ >= options_.frames)) return false;
+    const bool saved = session_.saveDue(work_);
     session_.nextFrame();
     work_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     noteTimes(grew);
-    const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || toolTipWaits() || controls_->turning() ||
-                      input_->gui.waiting();
-    if (moved || held || replays || wheel != 0 || !events.empty() || grew)
+    const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || toolTipWaits() || clickWaits() ||
+                      controls_->turning() || input_->gui.waiting();
+    if (moved || held || replays || wheel != 0 || !events.empty() || grew || saved)
         wake();
     else if (awake_ > 0)
         --awake_;

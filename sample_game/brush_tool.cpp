@@ -22,13 +22,8 @@ const char* modeOf(int mods) {
     return mods & GLFW_MOD_CONTROL ? "erase" : mods & GLFW_MOD_SHIFT ? "smooth" : "paint";
 }
 
-}  // namespace
-
-void BrushTool::begin(Workspace& work, int mods) {
-    if (work.brush.layer.empty()) {
-        work.error = "No grammar here reads a layer, so there is nothing to paint.";
-        return;
-    }
+StrokeBegin strokeOf(const Workspace& work, int mods) {
+    constexpr float kDegree = 3.14159265f / 180;
     const Brush& b = work.brush;
     StrokeBegin action;
     action.layer = b.layer;
@@ -38,13 +33,48 @@ void BrushTool::begin(Workspace& work, int mods) {
     action.hardness = b.hardness;
     action.value = b.value;
     if (b.limited) {
-        action.slope = {b.slope[0] * 3.14159265f / 180, b.slope[1] * 3.14159265f / 180};
+        action.slope = {b.slope[0] * kDegree, b.slope[1] * kDegree};
         action.height = {b.height[0], b.height[1]};
         action.softness = b.softness;
     }
     action.frontOnly = b.frontOnly;
+    return action;
+}
+
+// The circle of the brush, let down onto the surface where that is near; it hangs free over edges.
+struct Disc {
+    const Workspace& work;
+    glm::vec3 centre, normal, u, v;
+    float radius;
+    // At a place of the unit circle. False: no surface is near; met.position is where it hangs.
+    bool at(glm::vec2 place, EspHit& met) const {
+        const glm::vec3 p = centre + radius * (place.x * u + place.y * v);
+        const glm::vec3 from = p + radius * normal, down = -normal;
+        if (espPick(work.context.get(), &from.x, &down.x, &met) == ESP_OK && met.distance < 2 * radius) return true;
+        for (int i = 0; i < 3; ++i) met.position[i] = p[i];
+        return false;
+    }
+};
+
+// Beside a place of the window, legible on anything.
+void drawNote(const Workspace& work, glm::vec2 at, const char* text) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float s = work.scale;
+    const ImVec2 from{at.x + 14 * s, at.y - 8 * s}, size = ImGui::CalcTextSize(text);
+    list.AddRectFilled({from.x - 4 * s, from.y - 2 * s}, {from.x + size.x + 4 * s, from.y + size.y + 2 * s},
+                       IM_COL32(0, 0, 0, 150), 3 * s);
+    list.AddText(from, IM_COL32_WHITE, text);
+}
+
+}  // namespace
+
+void BrushTool::begin(Workspace& work, int mods) {
+    if (work.brush.layer.empty()) {
+        work.error = "No grammar here reads a layer, so there is nothing to paint.";
+        return;
+    }
     gesture_ = work.newGesture();
-    painting_ = work.perform(action, gesture_);
+    painting_ = work.perform(strokeOf(work, mods), gesture_);
     lastDab_.reset();
     dabs_.dabs.clear();
 }
@@ -120,50 +150,52 @@ void BrushTool::startSizing(Workspace& work, glm::vec2 at, bool strength) {
     sizingAt_ = work.hit;
 }
 
-void BrushTool::draw(const Workspace& work, int mods) const {
-    const auto& hit = sizing_ != Sizing::none ? sizingAt_ : work.hit;
-    if (!hit) return;
+void BrushTool::drawCircle(const Workspace& work, int mods, const EspHit& hit) const {
     const std::string mode = modeOf(mods);
     const ImU32 colour = mode == "erase"    ? IM_COL32(255, 120, 90, 255)
                          : mode == "smooth" ? IM_COL32(110, 180, 255, 255)
                                             : IM_COL32(160, 240, 120, 255);
-    const glm::vec3 centre = vec(hit->position), normal = glm::normalize(vec(hit->normal));
-    glm::vec3 u, v;
-    tangents(normal, u, v);
-    // The circle is let down onto the surface where that is near, and hangs free over edges.
+    Disc disc{work, vec(hit.position), glm::normalize(vec(hit.normal)), {}, {}, work.brushRadius()};
+    tangents(disc.normal, disc.u, disc.v);
     constexpr int kPoints = 48;
-    const auto ring = [&](float radius, ImVec2* points) {
+    const auto ring = [&](float share, ImVec2* points) {
         int count = 0;
         for (int i = 0; i < kPoints; ++i) {
             const float angle = 6.2831853f * float(i) / kPoints;
-            glm::vec3 p = centre + radius * (std::cos(angle) * u + std::sin(angle) * v);
-            const glm::vec3 from = p + radius * normal, down = -normal;
-            EspHit under;
-            if (espPick(work.context.get(), &from.x, &down.x, &under) == ESP_OK && under.distance < 2 * radius)
-                p = vec(under.position);
-            if (const auto at = work.place(p)) points[count++] = {at->x, at->y};
+            EspHit met;
+            (void)disc.at(share * glm::vec2(std::cos(angle), std::sin(angle)), met);
+            if (const auto at = work.place(vec(met.position))) points[count++] = {at->x, at->y};
         }
         return count;
     };
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImVec2 outer[kPoints], inner[kPoints];
-    const int count = ring(work.brushRadius(), outer);
+    const int count = ring(1, outer);
     if (count > 2) {
         list.AddPolyline(outer, count, IM_COL32(0, 0, 0, 160), ImDrawFlags_Closed, 4 * work.scale);
         list.AddPolyline(outer, count, colour, ImDrawFlags_Closed, 2 * work.scale);
     }
     if (work.brush.hardness > .05f) {
-        const int few = ring(work.brushRadius() * work.brush.hardness, inner);
+        const int few = ring(work.brush.hardness, inner);
         if (few > 2) list.AddPolyline(inner, few, (colour & 0xFFFFFF) | 0x70000000, ImDrawFlags_Closed, work.scale);
     }
-    if (const auto at = work.place(centre)) list.AddCircleFilled({at->x, at->y}, 2.5f * work.scale, colour);
-    if (sizing_ == Sizing::none) return;
-    char text[64];
-    if (sizing_ == Sizing::radius)
-        std::snprintf(text, sizeof text, "radius %.2f m", work.brushRadius());
-    else
-        std::snprintf(text, sizeof text, "strength %.2f", work.brush.strength);
-    if (const auto at = work.place(centre)) list.AddText({at->x + 12, at->y - 8}, IM_COL32_WHITE, text);
+    if (const auto at = work.place(disc.centre)) list.AddCircleFilled({at->x, at->y}, 2.5f * work.scale, colour);
+}
+
+void BrushTool::draw(const Workspace& work, int mods) const {
+    const bool sizing = sizing_ != Sizing::none;
+    const auto& hit = sizing ? sizingAt_ : work.hit;
+    if (hit) drawCircle(work, mods, *hit);
+    const std::optional<glm::vec2> middle = hit ? work.place(vec(hit->position)) : std::nullopt;
+    char text[64] = "";
+    if (sizing_ == Sizing::radius) std::snprintf(text, sizeof text, "radius %.2f m", work.brushRadius());
+    if (sizing_ == Sizing::strength) std::snprintf(text, sizeof text, "strength %.2f", work.brush.strength);
+    if (!sizing && !painting_ && hit && work.brush.limited) {
+        const glm::vec3 normal = glm::normalize(vec(hit->normal));
+        std::snprintf(text, sizeof text, "slope %.0f\u00b0, height %.1f m",
+                      std::acos(std::clamp(normal.y, -1.f, 1.f)) * 180 / 3.14159265f, hit->position[1]);
+    }
+    if (text[0] && (sizing || middle)) drawNote(work, middle.value_or(sizingFrom_), text);
 }
 
 }  // namespace sample

@@ -17,7 +17,7 @@ class BrushTool {
     void cancel(Workspace& work);
     bool painting() const { return painting_; }
     bool sizing() const { return sizing_ != Sizing::none; }
-    // The circle on the surface, in what the keys would do now.
+    // The circle on the surface, in what the keys would do now; with limits also the place's slope and height.
     void draw(const Workspace& work, int mods) const;
 
   private:
@@ -25,6 +25,7 @@ class BrushTool {
     void begin(Workspace& work, int mods);
     void end(Workspace& work);
     void moveTo(Workspace& work, glm::vec2 at);
+    void drawCircle(const Workspace& work, int mods, const EspHit& hit) const;
     void layDab(const Workspace& work, const EspHit& hit);
 
     bool painting_ = false;

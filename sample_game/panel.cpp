@@ -47,20 +47,28 @@ void toolButtons(Workspace& work) {
     ImGui::PopStyleVar();
 }
 
-void limits(Brush& brush) {
+void limits(const Workspace& work, Brush& brush) {
     ImGui::Checkbox("Only some slopes and heights", &brush.limited);
-    toolTip("Paint fades out where the surface is steeper or flatter, higher or lower");
+    toolTip(
+        "Paint fades out where the surface is steeper or flatter, higher or lower. The numbers beside\nthe brush say "
+        "what slope and height are there");
     if (!brush.limited) return;
     rowLabel("Slope");
-    ImGui::DragFloatRange2("##slope", &brush.slope[0], &brush.slope[1], 1, 0, 180, "%.0f\u00b0", "%.0f\u00b0");
+    ImGui::DragFloatRange2("##slope", &brush.slope[0], &brush.slope[1], 1, 0, 180, "%.0f\u00b0", "%.0f\u00b0",
+                           ImGuiSliderFlags_AlwaysClamp);
     toolTip("0\u00b0: floors, 90\u00b0: walls, 180\u00b0: ceilings");
-    float shown[2] = {std::max(brush.height[0], -100.f), std::min(brush.height[1], 100.f)};
+    // Beyond the scene there is nothing to limit.
+    const auto [low, high] = work.bounds();
+    const float least = std::floor(low.y), most = std::ceil(high.y);
+    float shown[2] = {std::clamp(brush.height[0], least, most), std::clamp(brush.height[1], least, most)};
     rowLabel("Height");
-    if (ImGui::DragFloatRange2("##height", &shown[0], &shown[1], .02f, -100, 100, "%.1f m", "%.1f m")) {
-        brush.height[0] = shown[0] <= -100 ? -1e6f : shown[0];
-        brush.height[1] = shown[1] >= 100 ? 1e6f : shown[1];
+    if (ImGui::DragFloatRange2("##height", &shown[0], &shown[1], .01f, least, most,
+                               shown[0] <= least ? "any" : "%.1f m", shown[1] >= most ? "any" : "%.1f m",
+                               ImGuiSliderFlags_AlwaysClamp)) {
+        brush.height[0] = shown[0] <= least ? -1e6f : shown[0];
+        brush.height[1] = shown[1] >= most ? 1e6f : shown[1];
     }
-    toolTip("From the lowest to the highest point that takes paint; at -100 m and 100 m there is no limit");
+    toolTip("From the lowest to the highest point that takes paint: drag, or double click to type");
     labelledSlider("Softness", &brush.softness, 0, 1, "%.2f");
     toolTip("0: the limits are edges, 1: paint fades out over a wide band");
 }
@@ -216,7 +224,7 @@ void brushPanel(Workspace& work) {
     toolTip("What is painted: 1 is all, 0 is nothing");
     labelledSlider("Spacing", &b.spacing, .05f, 1, "%.2f");
     toolTip("Between two dabs, of the radius");
-    limits(b);
+    limits(work, b);
     ImGui::Checkbox("Only what faces as the centre does", &b.frontOnly);
     toolTip("A brush on a thin wall leaves its back alone");
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
@@ -21,6 +22,7 @@ const ImVec4 kBad{1, .55f, .45f, 1};
 struct Dialogues {
     const char* open = nullptr;
     bool failed = false;  // the open one's last try
+    bool acts = false;    // what it was told is done in the next frame, when the user has seen that
     bool asks = false;    // one that asks for a path was open in the last frame
     char project[512] = "", file[512] = "", run[512] = "", picture[512] = "";
     std::string layer;                // of the picture
@@ -80,9 +82,14 @@ void askPath(Workspace& work, const char* title, const char* label, const char* 
     confirmed |= ImGui::Button(button);
     ImGui::SameLine();
     const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    if (confirmed && path[0]) {
+    const bool done = std::exchange(dialogues().acts, false);
+    if (done) {
         work.error.clear();
         dialogues().failed = !act(path);
+    } else if (confirmed && path[0]) {
+        dialogues().acts = true;
+        dialogues().failed = false;
+        ImGui::TextUnformatted("One moment ...");
     }
     if (dialogues().failed) {
         ImGui::PushTextWrapPos(ImGui::GetFontSize() * 32);
@@ -90,8 +97,8 @@ void askPath(Workspace& work, const char* title, const char* label, const char* 
         ImGui::PopTextWrapPos();
     }
     if (cancelled) dialogues().next.reset();
-    if (cancelled || (confirmed && !dialogues().failed)) {
-        dialogues().asks = false;
+    if (cancelled || (done && !dialogues().failed)) {
+        dialogues().asks = dialogues().acts = false;
         ImGui::CloseCurrentPopup();
     }
     ImGui::EndPopup();
@@ -122,10 +129,10 @@ void layerDialogues(Workspace& work) {
     askPath(work, "Import a layer", asked, "Import", d.picture, sizeof d.picture, {".png", ".exr"},
             [&](const char* file) {
                 if (town) return work.perform(LoadTownLayer{d.layer, file});
-                const uint32_t gesture = work.newGesture();
-                for (uint32_t i = 0; i < work.scene().surfaces.size(); ++i)
-                    if (!work.perform(LoadLayer{d.layer, pictureOf(*work.document, file, i), i}, gesture)) return false;
-                work.message = "Read: " + wholePath(file);
+                std::string note;
+                work.redraw = true;
+                if (!importLayer(*work.document, d.layer, file, work.newGesture(), note, work.error)) return false;
+                work.message = "Read: " + wholePath(file) + (note.empty() ? "" : " (" + note + ")");
                 return true;
             });
     askPath(work, "Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture,
@@ -167,7 +174,8 @@ void leavingDialogue(Workspace& work, Session& session) {
     ImGui::EndPopup();
     if (stays) dialogues().next.reset();
     if (!dialogues().next) return;
-    if (saves) askToSave(work, session);
+    if (saves && session.folder().empty()) askToSave(work, session);
+    if (saves && !session.folder().empty()) session.save(work, session.folder());
     session.givesUp = gives;
     if (gives || (saves && !session.modified(work)))
         leave(session);
@@ -178,7 +186,7 @@ void leavingDialogue(Workspace& work, Session& session) {
 }  // namespace
 
 void askToSave(Workspace& work, Session& session, bool elsewhere) {
-    if (!session.folder().empty() && !elsewhere) return session.save(work, session.folder());
+    if (!session.folder().empty() && !elsewhere) return session.saveSoon(work);
     put(dialogues().project, sizeof dialogues().project, session.folder());
     ask("Save the project");
 }
@@ -212,14 +220,14 @@ void askForLayer(const std::string& layer, bool import) {
 
 void closeDialogues() {
     dialogues().open = nullptr;
-    dialogues().asks = false;
+    dialogues().asks = dialogues().acts = false;
     dialogues().next.reset();
     if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) ImGui::ClosePopupToLevel(0, false);
 }
 
 bool awaitsText() {
     const Dialogues& d = dialogues();
-    return (d.open || d.asks) && !ImGui::GetIO().WantTextInput;
+    return d.acts || ((d.open || d.asks) && !ImGui::GetIO().WantTextInput);
 }
 
 bool closeMenus() {

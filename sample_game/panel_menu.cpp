@@ -82,7 +82,7 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
     else if (work.underWay)
         text = work.underWay;
     else if (work.tool == Tool::paint)
-        text = "Drag: paint " + work.brush.layer + "   Ctrl: erase   Shift: smooth   [ ]: size   " +
+        text = "Drag: paint " + work.brush.layer + "   Ctrl: erase   Shift: smooth   F: size   Shift+F: strength   " +
                (work.townLayer(work.brush.layer) ? "" : "V: show the layer   ") +
                "middle drag: turn   wheel: nearer   F1: all keys";
     else if (work.tool == Tool::seeds)

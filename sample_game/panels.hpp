@@ -32,7 +32,8 @@ bool asksToLeave();
 bool closeMenus();  // those that are open, not dialogues; false: there are none
 // In frames without showDialogues(): ImGui can't do with a dialogue that is open and isn't laid out.
 void closeDialogues();
-// A dialogue has been asked for, or is open, whose text can't be typed into yet: it can within some frames.
+// A dialogue has been asked for, or is open, whose text can't be typed into yet, or that is about to close: within some
+// frames keys can go on.
 bool awaitsText();
 void askForLayer(const std::string& layer, bool import);
 

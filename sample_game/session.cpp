@@ -2,6 +2,7 @@
 #include "sample_game/session.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "sample_game/settings.hpp"
 #include "tools/document/project.hpp"
@@ -141,6 +142,19 @@ void Session::save(Workspace& work, const std::string& folder) {
     savedState_ = autosavedState_ = work.document->state();
     recovery_.clear();
     work.message = "Saved: " + folder_;
+}
+
+void Session::saveSoon(Workspace& work) {
+    saveSoon_ = true;
+    work.error.clear();
+    work.message = "Saving ...";
+}
+
+bool Session::saveDue(Workspace& work) {
+    if (!std::exchange(saveSoon_, false)) return false;
+    work.message.clear();
+    save(work, folder_);
+    return true;
 }
 
 void Session::forgetRecovery(bool deleteIt) {

@@ -28,6 +28,9 @@ class Session {
     std::string name(const Workspace& work) const;
     bool modified(const Workspace& work) const { return work.document->state() != savedState_; }
     void save(Workspace& work, const std::string& folder);
+    // Into its folder, when the user has seen that it is being saved: by saveDue() at the end of the frame.
+    void saveSoon(Workspace& work);
+    bool saveDue(Workspace& work);  // false: nothing is
     // Of an earlier run that ended without saving; empty: there is none. Asked until answered.
     const std::string& recovery() const { return recovery_; }
     void forgetRecovery(bool deleteIt);
@@ -67,7 +70,7 @@ class Session {
 
     std::string file_, folder_, recovery_, recordingTo_;
     std::string recoveredFrom_;  // the autosave's folder of what was never saved; it goes on there
-    bool replayed_ = false;
+    bool replayed_ = false, saveSoon_ = false;
     uint64_t savedState_ = 0, autosavedState_ = 0;  // see Document::state
     double nextAutosave_ = 0, nextLook_ = 0;
     GrammarFiles grammarFiles_;

@@ -13,10 +13,42 @@ namespace {
 
 constexpr float kTipDelay = .5f;  // seconds
 
-// The slider that has been taken up and hasn't changed anything yet.
-ImGuiID& untouched() {
-    static ImGuiID id = 0;
-    return id;
+constexpr float kDragPixels = 3;
+constexpr double kSecondClick = .35;  // seconds after one click until another makes no double click with it
+
+// A slider that was pressed and not dragged, and where: it goes there unless a double click comes of it.
+struct Click {
+    ImGuiID slider = 0;
+    float value = 0;
+    double released = 0;  // when, on ImGui's clock; 0: it is still held
+    int seen = 0;         // the last frame in which the slider was laid out
+};
+
+Click& lastClick() {
+    static Click click;
+    return click;
+}
+
+// Of the slider that was just laid out, which would go to `wanted`. True: it goes somewhere, to *value.
+bool followMouse(float* value, float wanted, bool changed) {
+    Click& click = lastClick();
+    const ImGuiID slider = ImGui::GetItemID();
+    if (ImGui::IsItemActive() && ImGui::IsMouseDown(0) && !ImGui::IsMouseDragging(0, kDragPixels)) {
+        const bool begins = ImGui::IsItemActivated() && !ImGui::IsMouseDoubleClicked(0);
+        if (begins && changed) click = {slider, wanted};
+        if (click.slider == slider) click.seen = ImGui::GetFrameCount();
+        return false;
+    }
+    if (click.slider == slider && ImGui::IsItemActive()) click = {};  // dragged
+    if (click.slider == slider) {
+        click.seen = ImGui::GetFrameCount();
+        if (click.released == 0) click.released = ImGui::GetTime();
+        if (ImGui::GetTime() < click.released + kSecondClick) return false;
+        *value = std::exchange(click, {}).value;
+        return true;
+    }
+    if (changed) *value = wanted;
+    return changed;
 }
 
 // From the low end to where the value is, below a slider that is about to be laid out here.
@@ -60,11 +92,17 @@ bool slider(const char* id, float* value, float low, float high, const char* for
     ImGui::PushStyleColor(ImGuiCol_SliderGrab, none);
     ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, none);
     ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, 1);
-    const bool changed = ImGui::SliderFloat(
-        id, value, low, high, format, ImGuiSliderFlags_AlwaysClamp | (byRatio ? ImGuiSliderFlags_Logarithmic : 0));
-    // A double click's second press goes on with what the first has begun.
-    if (ImGui::IsItemActivated() && !ImGui::IsMouseDoubleClicked(0)) untouched() = ImGui::GetItemID();
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) ImGui::SetKeyboardFocusHere(-1);
+    float wanted = *value;
+    bool changed = ImGui::SliderFloat(id, &wanted, low, high, format,
+                                      ImGuiSliderFlags_AlwaysClamp | (byRatio ? ImGuiSliderFlags_Logarithmic : 0));
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
+        lastClick() = {};
+        ImGui::SetKeyboardFocusHere(-1);
+    }
+    if (typing)
+        *value = wanted;
+    else
+        changed = followMouse(value, wanted, changed);
     ImGui::PopStyleVar();
     ImGui::PopStyleColor(typing ? 4 : 5);
     return changed;
@@ -76,6 +114,10 @@ bool labelledSlider(const char* label, float* value, float low, float high, cons
     const bool changed = slider("##value", value, low, high, format, byRatio);
     ImGui::PopID();
     return changed;
+}
+
+bool clickWaits() {
+    return lastClick().slider != 0;
 }
 
 bool toolTipWaits() {
@@ -105,12 +147,17 @@ void rowLabel(const char* text) {
     ImGui::SetNextItemWidth(-1);
 }
 
+void beginGesture(Workspace& work) {
+    static ImGuiID before = 0;  // what was active as the last frame began
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    const bool tabbed = gui.ActiveId != 0 && gui.ActiveId != before && !gui.ActiveIdHasBeenEditedBefore;
+    if (ImGui::IsMouseClicked(0) || tabbed) work.newGesture();
+    before = gui.ActiveId;
+    if (lastClick().seen + 1 < ImGui::GetFrameCount()) lastClick() = {};  // its panel is gone
+}
+
 uint32_t widgetGesture(Workspace& work) {
-    static_assert(sizeof(ImGuiID) == sizeof(uint32_t));
-    // A new one each time that a widget is taken up; kept while it is held.
-    const bool begins = std::exchange(untouched(), 0) == ImGui::GetItemID();
-    if (begins || ImGui::IsItemActivated() || !ImGui::IsItemActive()) return work.newGesture();
-    return work.gesture();
+    return ImGui::IsAnyItemActive() ? work.gesture() : work.newGesture();
 }
 
 }  // namespace sample

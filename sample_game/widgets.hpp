@@ -14,8 +14,9 @@ constexpr int kQuiet = 1 << 12;  // ImGuiWindowFlags_NoFocusOnAppearing
 // bars at the top and bottom, whatever the size of window and letters becomes.
 bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2 at, glm::vec2 size, int flags = 0);
 
-// A value between two others as a bar, with the number over it. A double click, or Ctrl and a click, types it. True: it
-// has changed. byRatio: each part of the way multiplies it; low > 0.
+// A value between two others as a bar, with the number over it. A drag moves it, a click sets it a moment later, since
+// a double click types it, as does Ctrl and a click. True: it has changed. byRatio: each part of the way multiplies it;
+// low > 0.
 bool slider(const char* id, float* value, float low, float high, const char* format, bool byRatio = false);
 // After its label, to the end of the row.
 bool labelledSlider(const char* label, float* value, float low, float high, const char* format, bool byRatio = false);
@@ -28,6 +29,11 @@ void toolTip(const char* text);
 // Whether the pointer rests on something that will show its tip in a moment.
 bool toolTipWaits();
 
+// Whether a slider that was clicked waits for the click to be no double click.
+bool clickWaits();
+
+// Once a frame, before anything is laid out: what is taken up from here on is a step of undo of its own.
+void beginGesture(Workspace& work);
 // The number that belongs to the widget that is being dragged or typed into: what it does is one step of undo.
 uint32_t widgetGesture(Workspace& work);
 

@@ -31,17 +31,20 @@ float Workspace::shift() const {
     return panelUnits() / std::max(1.f, window.x);
 }
 
-float Workspace::reach() const {
-    float low[3] = {1e30f, 1e30f, 1e30f}, high[3] = {-1e30f, -1e30f, -1e30f};
+std::pair<glm::vec3, glm::vec3> Workspace::bounds() const {
+    glm::vec3 low(1e30f), high(-1e30f);
     for (const auto& surface : scene().surfaces) {
         EspSurfaceInfo info;
         if (espSurfaceInfo(context.get(), surface.id, &info) != ESP_OK) continue;
-        for (int i = 0; i < 3; ++i) {
-            low[i] = std::min(low[i], info.boundsMin[i]);
-            high[i] = std::max(high[i], info.boundsMax[i]);
-        }
+        low = glm::min(low, vec(info.boundsMin));
+        high = glm::max(high, vec(info.boundsMax));
     }
-    return low[0] > high[0] ? 1 : glm::distance(vec(low), vec(high));
+    return low.x > high.x ? std::pair(glm::vec3(0), glm::vec3(1)) : std::pair(low, high);
+}
+
+float Workspace::reach() const {
+    const auto [low, high] = bounds();
+    return glm::distance(low, high);
 }
 
 void Workspace::lookFrom(const EspCamera& from) {

@@ -1,9 +1,11 @@
 // Files of pictures and texts, in and out.
 #include "tools/scene/picture.hpp"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -34,33 +36,46 @@ bool moveInto(const std::string& from, const std::string& to, std::string& error
     return false;
 }
 
-template <class T>
-bool read(const std::string& path, int channels, OIIO::TypeDesc type, uint32_t& width, uint32_t& height,
-          std::vector<T>& texels, std::string& error) {
+std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path, std::string& error) {
+    std::error_code code;
+    if (std::filesystem::is_directory(path, code)) {
+        error = path + ": is a folder";
+        return nullptr;
+    }
     errno = 0;
     if (!std::ifstream(path, std::ios::binary)) {
         error = path + ": can't be read: " + systemReason();
-        return false;
+        return nullptr;
     }
     OIIO::ImageSpec config;
     config["oiio:UnassociatedAlpha"] = 1;  // red stays what was painted where alpha is not 1
     std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
     if (!input) {
         error = path + ": isn't a picture: " + OIIO::geterror();
-        return false;
+        return nullptr;
     }
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide) {
         error = path + ": " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
                 " texels; 1 to 8192 a side are allowed";
-        return false;
+        return nullptr;
     }
+    return input;
+}
+
+template <class T>
+bool read(const std::string& path, int channels, OIIO::TypeDesc type, uint32_t& width, uint32_t& height,
+          std::vector<T>& texels, std::string& error) {
+    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, error);
+    if (!input) return false;
+    const OIIO::ImageSpec& spec = input->spec();
     const int read = std::min(channels, spec.nchannels);
     width = uint32_t(spec.width);
     height = uint32_t(spec.height);
     texels.assign(size_t(width) * height * channels, T(channels == 4 ? 255 : 0));
     if (!input->read_image(0, 0, 0, read, type, texels.data(), channels * sizeof(T))) {
-        error = path + ": " + input->geterror();
+        const std::string why = input->geterror();
+        error = path + ": is damaged: " + why.substr(0, why.find('\n'));
         return false;
     }
     if (channels == 4 && read < 3)
@@ -71,7 +86,16 @@ bool read(const std::string& path, int channels, OIIO::TypeDesc type, uint32_t& 
 }  // namespace
 
 bool readGrey(const std::string& path, GreyPicture& out, std::string& error) {
-    return read(path, 1, OIIO::TypeDesc::FLOAT, out.width, out.height, out.texels, error);
+    if (!read(path, 1, OIIO::TypeDesc::FLOAT, out.width, out.height, out.texels, error)) return false;
+    for (float& texel : out.texels) texel = texel > 0 ? std::min(texel, 1.f) : 0;  // what is no number is 0, too
+    return true;
+}
+
+bool readShape(const std::string& path, PictureShape& out, std::string& error) {
+    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, error);
+    if (!input) return false;
+    out = {uint32_t(input->spec().width), uint32_t(input->spec().height), uint32_t(input->spec().nchannels)};
+    return true;
 }
 
 bool readColour(const std::string& path, ColourPicture& out, std::string& error) {
@@ -86,10 +110,20 @@ bool writeGrey(const std::string& path, const GreyPicture& picture, std::string&
     spec["png:compressionLevel"] = 1;
     spec["compression"] = "zips";
     spec.channelnames = {"Y"};
-    const bool good = output && output->open(path, spec) &&
+    // By way of memory: the picture library doesn't tell of a disk that is full.
+    OIIO::Filesystem::IOVecOutput bytes;
+    const bool good = output && output->set_ioproxy(&bytes) && output->open(path, spec) &&
                       output->write_image(OIIO::TypeDesc::FLOAT, picture.texels.data()) && output->close();
-    if (!good) error = path + ": can't be written: " + (output ? output->geterror() : OIIO::geterror());
-    return good;
+    if (!good) {
+        error = path + ": can't be written: " + (output ? output->geterror() : OIIO::geterror());
+        return false;
+    }
+    errno = 0;
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.buffer().data()), std::streamsize(bytes.buffer().size()));
+    file.close();
+    if (!file) error = path + ": can't be written: " + systemReason();
+    return bool(file);
 }
 
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error) {

@@ -10,14 +10,19 @@ struct GreyPicture {
     uint32_t width = 0, height = 0;
     std::vector<float> texels;  // rows top to bottom, as stored: no colour space is undone
 };
+struct PictureShape {
+    uint32_t width = 0, height = 0, channels = 0;
+};
 struct ColourPicture {
     uint32_t width = 0, height = 0;
     std::vector<uint8_t> rgba;  // rows top to bottom
 };
 
-// The first channel of a picture (of a grey one the only, of a coloured one red). `error` names file and cause.
-// Pictures of more than 8192 texels a side are refused.
+// The first channel of a picture (of a grey one the only, of a coloured one red), limited to [0, 1]. `error` names file
+// and cause. Pictures of more than 8192 texels a side are refused.
 bool readGrey(const std::string& path, GreyPicture& out, std::string& error);
+// What readGrey would find, from the file's beginning.
+bool readShape(const std::string& path, PictureShape& out, std::string& error);
 bool readColour(const std::string& path, ColourPicture& out, std::string& error);
 
 // Writes one channel: 16 bits as .png, floats as .exr.
