@@ -1,6 +1,7 @@
 #pragma once
 
-// The renderer behind renderer.hpp: renderer_setup.cpp makes it, renderer.cpp draws, renderer_shadows.cpp its shadows.
+// The renderer behind renderer.hpp: renderer_setup.cpp makes it, renderer.cpp draws, renderer_terminals.cpp what has
+// grown, renderer_shadows.cpp shadows.
 
 #include <array>
 #include <map>
