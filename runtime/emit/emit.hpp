@@ -81,6 +81,10 @@ class Emit {
     // Where the draws of the last cull lie; bucket b has the commands 2b and 2b + 1.
     const Buffer& state() const { return culledNative() ? natives_[native_].state : state_; }
     bool culledNative() const { return native_ < natives_.size(); }
+    // What it holds, once native code has culled the last view; null: shaders do, so nobody knows yet.
+    const EmitState* knownState() const {
+        return culledNative() ? reinterpret_cast<const EmitState*>(state().address()) : nullptr;
+    }
     // Which instances are drawn, as DrawnItem: bucket b's from EmitState::starts[b] on.
     const Buffer& drawn() const { return culledNative() ? natives_[native_].drawn : drawn_; }
     const Buffer& spanInstances() const { return held_.spans; }   // [node]

@@ -280,6 +280,8 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
     if (Status s = drawModels(commands, inputs, target, push); !s) return s;
     if (grows_ || roofed_)
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
+    if (grows_)
+        if (Status s = lightTerminals(commands); !s) return s;
     drawGrowth(commands, inputs, push);
     commands.transition(targets_.color, ImageState::sampled);
     drawOcclusion(commands, push);

@@ -52,6 +52,7 @@ class RendererImpl final : public Renderer {
     // The programs that draw what is lit: one set for each kind of shading, one for the view that counts fragments.
     struct ScenePrograms {
         Program model, modelFoot, bark, barkSmall, leaf, leafSmall;
+        Program barkLit, leafLit, lightBark, lightLeaves;  // of quick ones (lit.glsl)
     };
     Status makeScene(ScenePrograms& programs, Shading shading, Blend blend) const;
     Status pickScene(ViewMode shown, bool quick);
@@ -79,6 +80,8 @@ class RendererImpl final : public Renderer {
     Status findTiles(Commands& commands, EmitView& view);
     void lookBack(EmitView& view) const;
     void drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post);
+    Status lightTerminals(Commands& commands);
+    bool isLit(uint32_t bucket) const;
     void drawTerminals(DrawPass& pass, bool depthOnly);
     void drawOcclusion(Commands& commands, const PostPush& push);
     Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
@@ -102,6 +105,8 @@ class RendererImpl final : public Renderer {
     Program sky_[2];                                         // without and with hills
     std::map<std::pair<VkFormat, bool>, Program> resolves_;  // by format, whether the view counts
     std::array<bool, kMaxBuckets> small_{};                  // buckets that are lit at their vertices
+    Buffer litTerminals_;                                    // lit.glsl
+    TexelView litTexels_;                                    // of it; after it
     std::array<Buffer, kFrameSlots> frames_;
     const Buffer* frame_ = nullptr;  // the one of this recording
     // Of pictures drawn before: the farthest depths that models leave in their tiles. The picture of recording
@@ -127,6 +132,7 @@ class RendererImpl final : public Renderer {
     uint64_t shadowBindings_ = 0;  // whole bindings when the map was last drawn whole
     uint32_t shadowsWhole_ = 0, shadowsPartly_ = 0, shadowsTaken_ = 0;
     float groundLevel_ = 0, unit_ = 1;  // of this recording
+    bool lit_ = false;                  // what has four vertices has been lit ahead of this picture
     bool ahead_ = false;                // models' depths went ahead, they are shaded after growth
     bool hosted_ = false;               // this recording goes into a host's scene
     bool furnished_ = false;            // it draws props

@@ -107,8 +107,12 @@ Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading, Blend b
                 {programs.leafSmall, "small leaf", "render/leaf_small.vert",
                  one ? "render/leaf_small_single.frag" : "render/leaf_small.frag"},
                 {programs.model, "model", "render/model.vert", "render/model.frag"},
-                {programs.modelFoot, "model's foot", "render/model.vert", "render/model.frag", true}};
+                {programs.modelFoot, "model's foot", "render/model.vert", "render/model.frag", true},
+                {programs.barkLit, "lit bark", "render/bark_lit.vert", "render/bark_small_single.frag"},
+                {programs.leafLit, "lit leaf", "render/leaf_lit.vert", "render/leaf_lit.frag"}};
     for (const auto& row : rows) {
+        if (shading != Shading::quick && (&row.program == &programs.barkLit || &row.program == &programs.leafLit))
+            continue;
         GraphicsDesc desc;
         desc.name = row.name;
         desc.vertex = row.vertex;
@@ -123,6 +127,14 @@ Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading, Blend b
         Result<Program> made = Program::graphics(device_, desc);
         if (!made) return made.failure();
         row.program = std::move(*made);
+    }
+    if (shading != Shading::quick) return Done{};
+    for (const auto& [program, shader] : {std::pair(&programs.lightLeaves, "render/light_leaves.comp"),
+                                          std::pair(&programs.lightBark, "render/light_ribbons.comp")}) {
+        Result<Program> made =
+            Program::compute(device_, shader, {.constants = constantsOf(shading, holdsRoots(device_))});
+        if (!made) return made.failure();
+        *program = std::move(*made);
     }
     return Done{};
 }
@@ -156,7 +168,7 @@ Status RendererImpl::setUp(TerminalData data) {
     for (uint32_t v = 0; v < table.variantCount; ++v) {
         const VariantRecord& variant = table.variants[v];
         const uint32_t last = variant.firstBucket + variant.lodCount - 1;
-        const bool ribbon = table.buckets[last].vertexCount == 4;
+        const bool ribbon = table.buckets[last].vertexCount == kRibbonVertices;
         if (last < table.barkBuckets)
             small_[last] = ribbon;
         else if (variant.lodCount > 1)

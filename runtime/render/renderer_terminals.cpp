@@ -2,30 +2,77 @@
 #include "runtime/render/renderer_impl.hpp"
 
 namespace espalier {
+namespace {
+
+TerminalPush pushOf(const Terminals& terminals, uint32_t b) {
+    const BucketRecord& bucket = terminals.table().buckets[b];
+    const TerminalMaterial& material = terminals.data().materials[bucket.material];
+    TerminalPush push{};
+    push.bucket = b;
+    push.firstVertex = bucket.firstVertex;
+    push.vertexCount = bucket.vertexCount;
+    push.batch = bucket.batch;
+    push.baseColor = material.baseColor;
+    push.roughness = material.roughness;
+    push.alphaCutoff = material.alphaCutoff;
+    return push;
+}
+
+}  // namespace
+
+bool RendererImpl::isLit(uint32_t bucket) const {
+    return lit_ && small_[bucket] && terminals_.table().buckets[bucket].vertexCount == kLitVertices;
+}
+
+// In moving pictures on software devices, which shade vertices in one thread, what has four vertices is lit before it
+// is drawn, in all threads, and once instead of at each vertex.
+Status RendererImpl::lightTerminals(Commands& commands) {
+    const EmitState* known = emit_.knownState();
+    lit_ = shading_ == Shading::quick && known;
+    if (!lit_) return Done{};
+    const uint64_t bytes = std::max(known->spanCount + known->leafCount, 1u) * 8ull * kLitWords;
+    if (!litTerminals_ || litTerminals_.size() < bytes) {
+        litTexels_ = {};
+        Result<Buffer> made = Buffer::create(device_, "lit terminals", bytes + bytes / 4 / 16 * 16);
+        if (!made) return made.failure();
+        litTerminals_ = std::move(*made);
+        Result<TexelView> texels = TexelView::create(device_, litTerminals_, VK_FORMAT_R32G32B32A32_UINT);
+        if (!texels) return texels.failure();
+        litTexels_ = std::move(*texels);
+    }
+    commands.barrier(Use::vertex, Use::compute);
+    Pass pass(commands, "light");
+    const Binding shadow{shadowMap_, shadowSampler_};
+    for (uint32_t b = 0; b < terminals_.table().bucketCount; ++b) {
+        if (!isLit(b)) continue;
+        const bool bark = b < terminals_.table().barkBuckets;
+        LightPush push{pushOf(terminals_, b), {reinterpret_cast<uint64_t*>(litTerminals_.address())}};
+        const Binding instances(bark ? emit_.spanTexels() : emit_.leafTexels());
+        pass.dispatchItems(bark ? scene_->lightBark : scene_->lightLeaves, known->counts[b], push,
+                           {shadow, *frame_, emit_.state(), instances, terminals_.vertexTexels(), emit_.drawnTexels()});
+    }
+    pass.barrier(Use::compute, Use::vertex);
+    return Done{};
+}
 
 void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
     const EmitTable& table = terminals_.table();
     pass.setIndices(terminals_.batches());
     for (uint32_t i = 0; i < table.bucketCount; ++i) {
         const uint32_t b = (i + table.barkBuckets) % table.bucketCount;  // leaves first: much bark lies under them
-        const BucketRecord& bucket = table.buckets[b];
-        const TerminalMaterial& material = terminals_.data().materials[bucket.material];
-        TerminalPush push{};
-        push.bucket = b;
-        push.firstVertex = bucket.firstVertex;
-        push.vertexCount = bucket.vertexCount;
-        push.batch = bucket.batch;
-        push.baseColor = material.baseColor;
-        push.roughness = material.roughness;
-        push.alphaCutoff = material.alphaCutoff;
+        const uint32_t material = table.buckets[b].material;
+        const TerminalPush push = pushOf(terminals_, b);
         const uint64_t offset = offsetof(EmitState, draws) + 2ull * b * sizeof(DrawCommand);
-        const Binding color{terminals_.baseColor(bucket.material), textureSampler_};
-        const Binding normal{terminals_.normalMap(bucket.material), textureSampler_};
+        const Binding color{terminals_.baseColor(material), textureSampler_};
+        const Binding normal{terminals_.normalMap(material), textureSampler_};
         const Binding shadow{shadowMap_, shadowSampler_};
         const bool bark = b < table.barkBuckets;
         const Binding instances(bark ? emit_.spanTexels() : emit_.leafTexels()), meshes(terminals_.vertexTexels()),
             drawn(emit_.drawnTexels());
-        if (!depthOnly && bark)
+        if (!depthOnly && isLit(b))
+            pass.drawIndexedIndirect(bark ? scene_->barkLit : scene_->leafLit, emit_.state(), offset, 2, push,
+                                     {color, shadow, *frame_, emit_.state(), litTexels_});
+        else if (!depthOnly && bark)
             pass.drawIndexedIndirect(!explained_ && small_[b] ? scene_->barkSmall : scene_->bark, emit_.state(), offset,
                                      2, push, {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
         else if (!depthOnly && !explained_ && small_[b])
@@ -37,7 +84,7 @@ void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
         else if (bark)
             pass.drawIndexedIndirect(barkDepth_, emit_.state(), offset, 2, push,
                                      {*frame_, emit_.state(), instances, meshes, drawn});
-        else if (material.alphaCutoff > 0)
+        else if (push.alphaCutoff > 0)
             pass.drawIndexedIndirect(leafCutDepth_, emit_.state(), offset, 2, push,
                                      {color, *frame_, emit_.state(), instances, meshes, drawn});
         else

@@ -44,6 +44,7 @@ struct EmitView {
 };
 STATIC_SIZE(EmitView, 232);
 CONST_UINT(kDepthTile, 8u);
+CONST_UINT(kRibbonVertices, 4u);   // of bark drawn as a ribbon; no tube has so few
 // Bits of a tile that all depths lie behind, and of one that none does.
 CONST_UINT(kKeptTile, 0x7F000000u);
 CONST_UINT(kChangedTile, 0xFF000000u);

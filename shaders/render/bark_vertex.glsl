@@ -6,6 +6,12 @@
 #include "shaders/render/drawn.glsl"
 #include "shaders/render/frame.glsl"
 
+// Across a span at a place on it: the curve, what lies across, how thick it is.
+struct BarkRing {
+    vec3 center, side, up, tangent;   // the tangent isn't of unit length
+    float radius;
+};
+
 struct BarkVertex {
     SpanInstance span;
     vec3 position, normal;
@@ -13,14 +19,8 @@ struct BarkVertex {
     float radius;
 };
 
-BarkVertex barkVertex(TerminalPush push, uint vertex, uint drawn) {
-    uint instance = vertex / push.vertexCount;
-    uint local = vertex - instance * push.vertexCount;
-    instance += drawn * push.batch;
-    BarkVertex v;
-    SpanInstance o = drawnSpan(state.starts[push.bucket] + instance);
-    TerminalVertex mesh = drawnVertex(push.firstVertex + local);
-    float u = clamp(mesh.position.z, 0.0, 1.0);
+// u: along the span, 0 to 1. ribbon: across the view, its normal towards the eye.
+BarkRing barkRing(SpanInstance o, float u, bool ribbon) {
     float w = 1.0 - u;
     vec3 center = o.p0 * (w * w * w) + o.b1 * (3.0 * w * w * u) + o.b2 * (3.0 * w * u * u) + o.p3 * (u * u * u);
     vec3 tangent = (o.b1 - o.p0) * (w * w) + (o.b2 - o.b1) * (2.0 * w * u) + (o.p3 - o.b2) * (u * u);
@@ -29,8 +29,7 @@ BarkVertex barkVertex(TerminalPush push, uint vertex, uint drawn) {
     side *= inversesqrt(max(dot(side, side), 1e-30));
     up = cross(tangent, side);
     up *= inversesqrt(max(dot(up, up), 1e-30));
-    if (push.vertexCount == 4u) {
-        // A ribbon: across the view, its normal towards the eye.
+    if (ribbon) {
         vec3 toEye = frame.eye - center;
         side = cross(toEye, tangent);
         side *= inversesqrt(max(dot(side, side), 1e-30));
@@ -40,13 +39,25 @@ BarkVertex barkVertex(TerminalPush push, uint vertex, uint drawn) {
     float radius = o.radius0 * w + o.radius1 * u;
     center += up * (kBarkRise * radius);
     if ((o.bits & 256u) != 0u) radius = barkRadius(o.radius0, o.radius1, o.metres, true, u);
-    v.position = center + (side * mesh.position.x + up * mesh.position.y) * radius;
+    return BarkRing(center, side, up, tangent, radius);
+}
+
+BarkVertex barkVertex(TerminalPush push, uint vertex, uint drawn) {
+    uint instance = vertex / push.vertexCount;
+    uint local = vertex - instance * push.vertexCount;
+    instance += drawn * push.batch;
+    BarkVertex v;
+    SpanInstance o = drawnSpan(state.starts[push.bucket] + instance);
+    TerminalVertex mesh = drawnVertex(push.firstVertex + local);
+    float u = clamp(mesh.position.z, 0.0, 1.0);
+    BarkRing ring = barkRing(o, u, push.vertexCount == kRibbonVertices);
+    v.position = ring.center + (ring.side * mesh.position.x + ring.up * mesh.position.y) * ring.radius;
     vec3 n = octahedralToUnit(mesh.normal);
-    v.normal = side * n.x + up * n.y + normalize(tangent + vec3(1e-12)) * n.z;
+    v.normal = ring.side * n.x + ring.up * n.y + normalize(ring.tangent + vec3(1e-12)) * n.z;
     v.span = o;
     v.around = mesh.uv.x;
     v.metres = o.arc0 + o.metres * u;
-    v.radius = radius;
+    v.radius = ring.radius;
     return v;
 }
 

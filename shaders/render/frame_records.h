@@ -77,6 +77,17 @@ struct TerminalPush {
 };
 STATIC_SIZE(TerminalPush, 48);
 
+// Push data of the kernels that light what has four vertices before it is drawn (lit.glsl).
+struct LightPush {
+    TerminalPush draw;
+    U64Buf lit;
+};
+STATIC_SIZE(LightPush, 56);
+// 64-bit words of one instance there, and texels of four 32-bit words.
+CONST_UINT(kLitWords, 12u);
+CONST_UINT(kLitTexels, 6u);
+CONST_UINT(kLitVertices, 4u);
+
 struct PostPush {
     vec2 rcpSize;            // 1 / pixels
     uint ground;             // 1: ground is drawn, and hills at the horizon

@@ -1,4 +1,4 @@
-// Where a leaf's vertex stands.
+// Where a leaf's vertices stand.
 #ifndef ESPALIER_RENDER_LEAF_VERTEX_GLSL
 #define ESPALIER_RENDER_LEAF_VERTEX_GLSL
 #include "shaders/emit/triangle_vertex.glsl"
@@ -13,13 +13,8 @@ struct LeafVertex {
     float patchTone;   // -1 to 1
 };
 
-LeafVertex leafVertex(TerminalPush push, uint vertex, uint drawn) {
-    uint instance = vertex / push.vertexCount;
-    uint local = vertex - instance * push.vertexCount;
-    instance += drawn * push.batch;
+LeafVertex leafVertexOf(LeafInstance o, TerminalVertex mesh) {
     LeafVertex v;
-    LeafInstance o = drawnLeaf(state.starts[push.bucket] + instance);
-    TerminalVertex mesh = drawnVertex(push.firstVertex + local);
     vec3 arm = o.axisX * mesh.position.x + o.axisY * mesh.position.y + o.axisZ * mesh.position.z;
     float size = length(o.axisX);
     vec3 n = octahedralToUnit(mesh.normal);
@@ -35,5 +30,12 @@ LeafVertex leafVertex(TerminalPush push, uint vertex, uint drawn) {
     vec3 q = o.origin * (2.3 / frame.unit);
     v.patchTone = sin(q.x + 1.7 * sin(q.y * 0.8)) * sin(1.3 * q.y + 1.1 * q.z + 2.0 * sin(0.6 * q.x));
     return v;
+}
+
+LeafVertex leafVertex(TerminalPush push, uint vertex, uint drawn) {
+    uint instance = vertex / push.vertexCount;
+    uint local = vertex - instance * push.vertexCount;
+    instance += drawn * push.batch;
+    return leafVertexOf(drawnLeaf(state.starts[push.bucket] + instance), drawnVertex(push.firstVertex + local));
 }
 #endif
