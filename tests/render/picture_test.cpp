@@ -255,7 +255,7 @@ TEST_CASE("frames of a moving camera leave no memory behind") {
 }
 
 TEST_CASE("what a moving picture hides by the depths of the one before, it doesn't show") {
-    Studio moving, fresh;  // the latter knows no picture before
+    Studio moving, fresh;  // the latter knows no picture before, and hides nothing
     const bool looksBack = moving.device->info().cpu;
     const glm::mat4 before = glm::translate(glm::mat4(1), glm::vec3(0, 0, 1));
     for (Studio* in : {&moving, &fresh}) {
@@ -275,7 +275,7 @@ TEST_CASE("what a moving picture hides by the depths of the one before, it doesn
         if (frame > 0) fewer += moving.renderer->stats().emit.leaves * 10 < fresh.renderer->stats().emit.leaves * 9;
         if (frame == 1 && looksBack) CHECK(a == b);
     }
-    CHECK(double(different) < 2e-4 * double(pixels));
+    CHECK(double(different) < 3e-4 * double(pixels));
     CHECK(fewer == (looksBack ? 11 : 0));
 }
 
