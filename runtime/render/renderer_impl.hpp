@@ -96,7 +96,7 @@ class RendererImpl final : public Renderer {
     Ground ground_;
     Targets targets_;
     Image shadowMap_, standing_;  // the near half without growth; made when something grows
-    Sampler shadowSampler_, textureSampler_, plainSampler_, pointSampler_;
+    Sampler shadowSampler_, textureSampler_, quickSampler_, plainSampler_, pointSampler_;
     ScenePrograms scenes_[kShadings], counting_;  // each made when first asked for
     const ScenePrograms* scene_ = &scenes_[0];    // of this recording
     Shading shading_ = Shading::full;

@@ -200,6 +200,7 @@ Status RendererImpl::setUp(TerminalData data) {
           .mips = false,
           .shadowCompare = true}},
         {textureSampler_, {.name = "terminal textures", .anisotropy = anisotropy}},
+        {quickSampler_, {.name = "terminal textures", .blendMips = false}},
         {pointSampler_,
          {.name = "point",
           .filter = VK_FILTER_NEAREST,

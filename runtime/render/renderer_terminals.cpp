@@ -63,7 +63,7 @@ void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
         const uint32_t material = table.buckets[b].material;
         const TerminalPush push = pushOf(terminals_, b);
         const uint64_t offset = offsetof(EmitState, draws) + 2ull * b * sizeof(DrawCommand);
-        const Binding color{terminals_.baseColor(material), textureSampler_};
+        const Binding color{terminals_.baseColor(material), lit_ ? quickSampler_ : textureSampler_};
         const Binding normal{terminals_.normalMap(material), textureSampler_};
         const Binding shadow{shadowMap_, shadowSampler_};
         const bool bark = b < table.barkBuckets;

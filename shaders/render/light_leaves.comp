@@ -15,16 +15,20 @@ void main() {
     if (i >= state.counts[push.bucket]) return;
     uint drawn = state.starts[push.bucket] + i;
     LeafInstance leaf = drawnLeaf(drawn);
-    LeafVertex v[4], middle;
-    for (uint k = 0u; k < 4u; ++k) v[k] = leafVertexOf(leaf, drawnVertex(push.firstVertex + k));
-    middle = v[0];
-    middle.position = 0.25 * (v[0].position + v[1].position + v[2].position + v[3].position);
-    middle.normal = normalize(v[0].normal + v[1].normal + v[2].normal + v[3].normal);
-    middle.open = 0.25 * (v[0].open + v[1].open + v[2].open + v[3].open);
+    // Not an array: software devices would keep it in memory.
+    LeafVertex a = leafVertexOf(leaf, drawnVertex(push.firstVertex)), b = leafVertexOf(leaf, drawnVertex(push.firstVertex + 1u));
+    LeafVertex c = leafVertexOf(leaf, drawnVertex(push.firstVertex + 2u)), d = leafVertexOf(leaf, drawnVertex(push.firstVertex + 3u));
+    LeafVertex middle = a;
+    middle.position = 0.25 * (a.position + b.position + c.position + d.position);
+    middle.normal = normalize(a.normal + b.normal + c.normal + d.normal);
+    middle.open = 0.25 * (a.open + b.open + c.open + d.open);
     SmallLeaf light = smallLeaf(push, middle);
     uint at = kLitWords * drawn;
     writeLight(data.lit, at, 0u, vec4(light.own, light.turned.x), vec4(light.turned.yz, light.mirrored.xy));
     writeLight(data.lit, at, 1u, vec4(light.mirrored.z, light.share, 0.0, 0.0), vec4(0.0));
-    for (uint k = 0u; k < 4u; ++k)
-        writeLitVertex(data.lit, at, k, v[k].position, v[k].uv + vec2(0.0, light.pictured));
+    vec2 pictured = vec2(0.0, light.pictured);
+    writeLitVertex(data.lit, at, 0u, a.position, a.uv + pictured);
+    writeLitVertex(data.lit, at, 1u, b.position, b.uv + pictured);
+    writeLitVertex(data.lit, at, 2u, c.position, c.uv + pictured);
+    writeLitVertex(data.lit, at, 3u, d.position, d.uv + pictured);
 }

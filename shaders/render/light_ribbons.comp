@@ -11,23 +11,23 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Data { LightPush data; };
 
+// at: of the instance; end: 0 or 1; along: texture coordinate there.
+void lightEnd(uint at, SpanInstance span, uint end, float along) {
+    BarkRing ring = barkRing(span, float(end), true);
+    SmallBark light = smallBark(data.draw, ring.center, ring.up, ring.radius);
+    writeLight(data.lit, at, end, vec4(light.own, light.other.x), vec4(light.other.yz, light.share, barkFade(span)));
+    vec3 aside = ring.side * ring.radius;
+    writeLitVertex(data.lit, at, 2u * end, ring.center - aside, vec2(0.0, along));
+    writeLitVertex(data.lit, at, 2u * end + 1u, ring.center + aside, vec2(0.5, along));
+}
+
 void main() {
-    TerminalPush push = data.draw;
     uint i = itemIndex();
-    if (i >= state.counts[push.bucket]) return;
-    uint drawn = state.starts[push.bucket] + i;
+    if (i >= state.counts[data.draw.bucket]) return;
+    uint drawn = state.starts[data.draw.bucket] + i;
     SpanInstance span = drawnSpan(drawn);
-    float scale = smallBarkScale(span.radius0, span.radius1), fade = barkFade(span);
+    float scale = smallBarkScale(span.radius0, span.radius1);
     float start = fract(span.arc0 * scale);   // as small as it can be: it becomes a half
-    uint at = kLitWords * drawn;
-    for (uint end = 0u; end < 2u; ++end) {
-        BarkRing ring = barkRing(span, float(end), true);
-        SmallBark light = smallBark(push, ring.center, ring.up, ring.radius);
-        writeLight(data.lit, at, end, vec4(light.own, light.other.x), vec4(light.other.yz, light.share, fade));
-        float along = start + span.metres * scale * float(end);
-        for (uint k = 0u; k < 2u; ++k) {
-            float x = 2.0 * float(k) - 1.0;
-            writeLitVertex(data.lit, at, 2u * end + k, ring.center + ring.side * (x * ring.radius), vec2(0.5 * float(k), along));
-        }
-    }
+    lightEnd(kLitWords * drawn, span, 0u, start);
+    lightEnd(kLitWords * drawn, span, 1u, start + span.metres * scale);
 }
