@@ -102,11 +102,12 @@ class RendererImpl final : public Renderer {
     Shading shading_ = Shading::full;
     Program modelAhead_, modelAheadFading_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_,
         depthTiles_, shadowRestore_;
-    Program sky_[2];                                         // without and with hills
-    std::map<std::pair<VkFormat, bool>, Program> resolves_;  // by format, whether the view counts
-    std::array<bool, kMaxBuckets> small_{};                  // buckets that are lit at their vertices
-    Buffer litTerminals_;                                    // lit.glsl
-    TexelView litTexels_;                                    // of it; after it
+    Program sky_[2];                                       // without and with hills
+    using ResolveKind = std::tuple<VkFormat, bool, bool>;  // format, whether the view counts, whether it is quick
+    std::map<ResolveKind, Program> resolves_;
+    std::array<bool, kMaxBuckets> small_{};  // buckets that are lit at their vertices
+    Buffer litTerminals_;                    // lit.glsl
+    TexelView litTexels_;                    // of it; after it
     std::array<Buffer, kFrameSlots> frames_;
     const Buffer* frame_ = nullptr;  // the one of this recording
     // Of pictures drawn before: the farthest depths that models leave in their tiles. The picture of recording

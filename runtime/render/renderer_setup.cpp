@@ -149,13 +149,14 @@ Status RendererImpl::pickScene(ViewMode shown, bool quick) {
 }
 
 Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
-    if (auto it = resolves_.find({format, counts_}); it != resolves_.end()) return &it->second;
+    const ResolveKind kind{format, counts_, shading_ == Shading::quick};
+    if (auto it = resolves_.find(kind); it != resolves_.end()) return &it->second;
     const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
     GraphicsDesc desc = fullscreen("resolve", fragment, format);
-    desc.options.constants = {{kExplains, counts_ ? 1u : 0u}};
+    desc.options.constants = {{kExplains, counts_ ? 1u : 0u}, {kQuick, shading_ == Shading::quick ? 1u : 0u}};
     Result<Program> made = Program::graphics(device_, desc);
     if (!made) return made.failure();
-    return &(resolves_[{format, counts_}] = std::move(*made));
+    return &(resolves_[kind] = std::move(*made));
 }
 
 Status RendererImpl::setUp(TerminalData data) {

@@ -17,7 +17,7 @@ layout(location = 0) out vec4 color;
 const float kLeastContrast = 0.035;      // of the stored square roots
 const float kRelativeContrast = 0.12;
 const float kSpeckShare = 0.3;          // how far a lone pixel is drawn to its neighbours' mean
-const int kReach = 8;                    // pixels that an edge is followed
+const int kReach = quick ? 4 : 8;        // pixels that an edge is followed
 
 float brightness(vec3 c) { return dot(c, vec3(0.3, 0.6, 0.1)); }
 vec4 colorAt(ivec2 at) { return texelFetch(colorMap, clamp(at, ivec2(0), textureSize(colorMap, 0) - 1), 0); }
