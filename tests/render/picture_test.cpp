@@ -277,6 +277,8 @@ TEST_CASE("what a moving picture hides by the depths of the one before, it doesn
     }
     CHECK(double(different) < 3e-4 * double(pixels));
     CHECK(fewer == (looksBack ? 11 : 0));
+    // Kites and ribbons were lit before they were drawn.
+    CHECK((moving.device->milliseconds("light") > 0) == looksBack);
 }
 
 TEST_CASE("a frame that was recorded and never submitted leaves no trace, once it is forgotten") {
