@@ -435,8 +435,9 @@ typedef struct EspLook {
     int shadowsLag;              /* 1: while growth or houses change in every frame, shadows follow a few frames later,
                                     wholly and finely once all rests; default 0: each picture has its own */
     int quick;                   /* 1: for pictures of what moves: a software device takes fewer samples of shadows and textures,
-                                    and leaves out growth that models hid in the picture before; models' levels of
-                                    detail take over at once; default 0 */
+                                    leaves out growth that models hid in the picture before, and lights small leaves and
+                                    twigs once instead of at each vertex; models' levels of detail take over at once;
+                                    default 0 */
     EspView view;
     const char* viewLayer;       /* for ESP_VIEW_LAYER */
     float viewOpacity;           /* 0 to 1: of that layer over the model; default 1 */

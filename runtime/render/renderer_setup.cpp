@@ -99,7 +99,7 @@ Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading, Blend b
         const char* name;
         const char* vertex;
         const char* fragment;
-        bool rest = false;
+        bool rest = false, quick = false;  // draws the rest, too; is for quick pictures only
     } rows[] = {{programs.bark, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag"},
                 {programs.barkSmall, "small bark", "render/bark_small.vert",
                  one ? "render/bark_small_single.frag" : "render/bark_small.frag"},
@@ -108,11 +108,10 @@ Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading, Blend b
                  one ? "render/leaf_small_single.frag" : "render/leaf_small.frag"},
                 {programs.model, "model", "render/model.vert", "render/model.frag"},
                 {programs.modelFoot, "model's foot", "render/model.vert", "render/model.frag", true},
-                {programs.barkLit, "lit bark", "render/bark_lit.vert", "render/bark_small_single.frag"},
-                {programs.leafLit, "lit leaf", "render/leaf_lit.vert", "render/leaf_lit.frag"}};
+                {programs.barkLit, "lit bark", "render/bark_lit.vert", "render/bark_small_single.frag", false, true},
+                {programs.leafLit, "lit leaf", "render/leaf_lit.vert", "render/leaf_lit.frag", false, true}};
     for (const auto& row : rows) {
-        if (shading != Shading::quick && (&row.program == &programs.barkLit || &row.program == &programs.leafLit))
-            continue;
+        if (row.quick && shading != Shading::quick) continue;
         GraphicsDesc desc;
         desc.name = row.name;
         desc.vertex = row.vertex;
@@ -201,7 +200,7 @@ Status RendererImpl::setUp(TerminalData data) {
           .mips = false,
           .shadowCompare = true}},
         {textureSampler_, {.name = "terminal textures", .anisotropy = anisotropy}},
-        {quickSampler_, {.name = "terminal textures", .blendMips = false}},
+        {quickSampler_, {.name = "terminal textures, quick", .blendMips = false}},
         {pointSampler_,
          {.name = "point",
           .filter = VK_FILTER_NEAREST,

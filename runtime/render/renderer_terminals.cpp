@@ -1,4 +1,6 @@
-// Enters: what the last cull has left. Leaves: draws of leaves and bark in a pass.
+// Enters: what the last cull has left. Leaves: kites and ribbons lit, draws of leaves and bark in a pass.
+#include <algorithm>
+
 #include "runtime/render/renderer_impl.hpp"
 
 namespace espalier {
@@ -28,12 +30,14 @@ bool RendererImpl::isLit(uint32_t bucket) const {
 // is drawn, in all threads, and once instead of at each vertex.
 Status RendererImpl::lightTerminals(Commands& commands) {
     const EmitState* known = emit_.knownState();
-    lit_ = shading_ == Shading::quick && known;
+    const uint64_t bytes = known ? std::max(known->spanCount + known->leafCount, 1u) * 8ull * kLitWords : 0;
+    const DeviceInfo& info = device_.info();
+    const uint64_t room = bytes + bytes / 4 / 16 * 16, most = 16ull * info.limits.maxTexelBufferElements;
+    lit_ = shading_ == Shading::quick && known && room <= std::min<uint64_t>(info.maxBufferBytes, most);
     if (!lit_) return Done{};
-    const uint64_t bytes = std::max(known->spanCount + known->leafCount, 1u) * 8ull * kLitWords;
     if (!litTerminals_ || litTerminals_.size() < bytes) {
         litTexels_ = {};
-        Result<Buffer> made = Buffer::create(device_, "lit terminals", bytes + bytes / 4 / 16 * 16);
+        Result<Buffer> made = Buffer::create(device_, "lit terminals", room);
         if (!made) return made.failure();
         litTerminals_ = std::move(*made);
         Result<TexelView> texels = TexelView::create(device_, litTerminals_, VK_FORMAT_R32G32B32A32_UINT);

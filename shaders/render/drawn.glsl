@@ -4,8 +4,8 @@
 #define ESPALIER_RENDER_DRAWN_GLSL
 #include "shaders/emit/emit_records.h"
 #include "shaders/emit/instance_texels.glsl"
+#include "shaders/render/emit_state.glsl"
 
-layout(set = 0, binding = 9, scalar) uniform StateBlock { EmitState state; };
 layout(set = 0, binding = 10) uniform usamplerBuffer instances;   // four words a texel
 layout(set = 0, binding = 11) uniform usamplerBuffer meshes;      // two words a texel
 layout(set = 0, binding = 12) uniform usamplerBuffer drawn;       // a DrawnItem a texel

@@ -83,10 +83,9 @@ struct LightPush {
     U64Buf lit;
 };
 STATIC_SIZE(LightPush, 56);
-// 64-bit words of one instance there, and texels of four 32-bit words.
-CONST_UINT(kLitWords, 12u);
-CONST_UINT(kLitTexels, 6u);
 CONST_UINT(kLitVertices, 4u);
+CONST_UINT(kLitTexels, 2u + kLitVertices);   // of one instance there, each four 32-bit words
+CONST_UINT(kLitWords, 2u * kLitTexels);      // of 64 bits
 
 struct PostPush {
     vec2 rcpSize;            // 1 / pixels

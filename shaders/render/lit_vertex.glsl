@@ -1,9 +1,9 @@
 // Reads what a kernel has lit (lit.glsl).
 #ifndef ESPALIER_RENDER_LIT_VERTEX_GLSL
 #define ESPALIER_RENDER_LIT_VERTEX_GLSL
+#include "shaders/render/emit_state.glsl"
 #include "shaders/render/frame.glsl"
 
-layout(set = 0, binding = 9, scalar) uniform StateBlock { EmitState state; };
 layout(set = 0, binding = 13) uniform usamplerBuffer lit;   // four words a texel
 
 // The first texel of a vertex' instance.

@@ -117,7 +117,7 @@ SurfaceData closedModel() {
     } else {
         model = test::cube(32);
         for (glm::vec3& p : model.positions)
-            p = glm::normalize(p) * (1 + 0.1f * std::sin(7 * p.x) * std::sin(6 * p.y + p.z));
+            p = glm::normalize(p) * (1 + 0.08f * std::sin(7 * p.x) * std::sin(6 * p.y + p.z));
     }
     BakeOptions options;
     options.resolution = 256;
@@ -247,11 +247,7 @@ TEST_CASE("backs of a solid model's faces aren't drawn, and nobody sees it") {
     };
     for (float radii : {2.4f, 6.0f}) {
         stage.look(solid, radii);
-        // Where a front meets a back at the silhouette both may have one depth, and the later one is seen.
-        const Pixels without = drawn(solid, ViewMode::shaded), with = drawn(open, ViewMode::shaded);
-        size_t differing = 0;
-        for (size_t i = 0; i < with.size(); ++i) differing += with[i] != without[i];
-        CHECK(double(differing) < 1e-4 * double(with.size()));
+        CHECK(drawn(solid, ViewMode::shaded) == drawn(open, ViewMode::shaded));
         CHECK(drawn(solid, ViewMode::overdraw) != drawn(open, ViewMode::overdraw));
     }
     // Who means them to be seen sees them from within.

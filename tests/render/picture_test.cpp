@@ -187,8 +187,10 @@ TEST_CASE("leaves are green, the wall casts shadows, the sky is above") {
     CHECK(int(grown[2]) > int(grown[0]));  // the first pixel is sky: bluish
     studio.inputs.look.shadows = false;
     const std::vector<uint8_t> flat = studio.draw(320, 180);
-    auto dark = [](int r, int g, int b) { return r + g + b < 270; };
-    CHECK(share(grown, dark) > share(flat, dark) + 0.01);
+    size_t shaded = 0;  // pixels that lose three tenths of their brightness
+    for (size_t i = 0; i < flat.size(); i += 4)
+        shaded += 10 * (grown[i] + grown[i + 1] + grown[i + 2]) < 7 * (flat[i] + flat[i + 1] + flat[i + 2]);
+    CHECK(double(shaded) > 0.03 * double(flat.size() / 4));
     studio.inputs.look.shadows = true;
     studio.inputs.growth = {};
     const std::vector<uint8_t> bare = studio.draw(320, 180);
@@ -255,7 +257,7 @@ TEST_CASE("frames of a moving camera leave no memory behind") {
 }
 
 TEST_CASE("what a moving picture hides by the depths of the one before, it doesn't show") {
-    Studio moving, fresh;  // the latter knows no picture before, and hides nothing
+    Studio moving, fresh;  // the latter knows no picture before
     const bool looksBack = moving.device->info().cpu;
     const glm::mat4 before = glm::translate(glm::mat4(1), glm::vec3(0, 0, 1));
     for (Studio* in : {&moving, &fresh}) {
@@ -268,14 +270,14 @@ TEST_CASE("what a moving picture hides by the depths of the one before, it doesn
         CAPTURE(frame);
         for (Studio* in : {&moving, &fresh})
             if (frame > 1) in->inputs.camera.eye += glm::vec3(0.15f, 0.02f, frame < 6 ? -0.05f : 0.05f);
-        for (int other = 0; other < 4; ++other) fresh.draw(64, 36);  // as many depths as are kept, of no use here
+        fresh.renderer->forget();
         const std::vector<uint8_t> a = moving.draw(320, 180), b = fresh.draw(320, 180);
         for (size_t i = 0; i < a.size(); i += 4) different += std::abs(int(a[i + 1]) - int(b[i + 1])) > 8;
         pixels += a.size() / 4;
         if (frame > 0) fewer += moving.renderer->stats().emit.leaves * 10 < fresh.renderer->stats().emit.leaves * 9;
         if (frame == 1 && looksBack) CHECK(a == b);
     }
-    CHECK(double(different) < 3e-4 * double(pixels));
+    CHECK(double(different) < 2e-4 * double(pixels));
     CHECK(fewer == (looksBack ? 11 : 0));
     // Kites and ribbons were lit before they were drawn.
     CHECK((moving.device->milliseconds("light") > 0) == looksBack);
