@@ -1,5 +1,6 @@
 // Enters: what the last cull has left. Leaves: kites and ribbons lit, draws of leaves and bark in a pass.
 #include <algorithm>
+#include <optional>
 
 #include "runtime/render/renderer_impl.hpp"
 
@@ -61,16 +62,21 @@ Status RendererImpl::lightTerminals(Commands& commands) {
 
 void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
     const EmitTable& table = terminals_.table();
+    const EmitState* known = emit_.knownState();
     pass.setIndices(terminals_.batches());
     for (uint32_t i = 0; i < table.bucketCount; ++i) {
         const uint32_t b = (i + table.barkBuckets) % table.bucketCount;  // leaves first: much bark lies under them
+        if (known && known->counts[b] == 0) continue;
+        const bool bark = b < table.barkBuckets;
+        // A software device begins with what comes before a time stamp, in all threads, while one sets up the rest.
+        std::optional<Pass> part;
+        if (known && !depthOnly) part.emplace(pass.commands(), bark ? "draw bark" : "draw leaves");
         const uint32_t material = table.buckets[b].material;
         const TerminalPush push = pushOf(terminals_, b);
         const uint64_t offset = offsetof(EmitState, draws) + 2ull * b * sizeof(DrawCommand);
         const Binding color{terminals_.baseColor(material), lit_ ? quickSampler_ : textureSampler_};
         const Binding normal{terminals_.normalMap(material), textureSampler_};
         const Binding shadow{shadowMap_, shadowSampler_};
-        const bool bark = b < table.barkBuckets;
         const Binding instances(bark ? emit_.spanTexels() : emit_.leafTexels()), meshes(terminals_.vertexTexels()),
             drawn(emit_.drawnTexels());
         if (!depthOnly && isLit(b))
