@@ -10,14 +10,13 @@
 
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
+#include "sample_game/theme.hpp"
 #include "tools/document/layer_files.hpp"
 
 namespace sample {
 namespace {
 
 using namespace espalier::document;
-
-const ImVec4 kBad{1, .55f, .45f, 1};
 
 struct Dialogues {
     const char* open = nullptr;

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "sample_game/panels.hpp"
+#include "sample_game/theme.hpp"
 
 namespace sample {
 
@@ -55,7 +56,7 @@ void showHelp(Workspace& work) {
             "click at the foot of what you painted.");
         const auto table = [&](const char* title, const Row* rows, size_t count) {
             ImGui::Spacing();
-            ImGui::TextColored({.62f, .85f, .5f, 1}, "%s", title);
+            ImGui::TextColored(kGood, "%s", title);
             if (!ImGui::BeginTable(title, 2)) return;
             ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 205 * work.scale);
             ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);

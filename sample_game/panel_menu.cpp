@@ -4,13 +4,12 @@
 #include <algorithm>
 
 #include "sample_game/panels.hpp"
+#include "sample_game/theme.hpp"
 
 namespace sample {
 namespace {
 
 using namespace espalier::document;
-
-const ImVec4 kBad{1, .55f, .45f, 1}, kGood{.62f, .85f, .5f, 1};
 
 void fileMenu(Workspace& work, Session& session) {
     if (ImGui::MenuItem("Open ...", "Ctrl+O")) askToOpen();

@@ -42,6 +42,7 @@ void brushPanel(Workspace& work);
 void layersPanel(Workspace& work);
 void seedsPanel(Workspace& work);
 void grammarsPanel(Workspace& work);
+void presetsPanel(Workspace& work, uint32_t grammar);  // a combo that takes the rest of the row
 void branchPanel(Workspace& work);
 void housesPanel(Workspace& work);
 void lightPanel(Workspace& work);

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sample_game/theme.hpp"
+
 namespace sample {
 namespace {
 
@@ -135,7 +137,7 @@ void sameLineIfRoom(float width) {
 }
 
 void hint(const char* text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, {1, .8f, .45f, 1});
+    ImGui::PushStyleColor(ImGuiCol_Text, kWarning);
     ImGui::TextWrapped("%s", text);
     ImGui::PopStyleColor();
 }
