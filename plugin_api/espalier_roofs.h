@@ -67,7 +67,8 @@ typedef struct EspHouseEdge {
 
 typedef struct EspHouseInfo {
     const char* id;          /* the feature's; lives as long as the town */
-    EspRoofShape shape;
+    const char* note;        /* what couldn't be made as it was asked for, a line each; "": all was. Until the house changes */
+    EspRoofShape shape;      /* as it was asked for */
     float slope;             /* tangent of the pitch; 0: the shape's own */
     float baseHeight, eaveHeight, ridgeHeight;   /* metres above the ground */
     uint32_t cornerCount;    /* of all rings */
@@ -78,16 +79,18 @@ typedef struct EspHouseInfo {
 
 ESP_API uint32_t espHouseCount(const EspContext* context);
 ESP_API EspResult espHouseInfo(const EspContext* context, uint32_t house, EspHouseInfo* out);
-/* Corners in the plan, two floats each: world x and z. Room for EspHouseInfo::cornerCount pairs, edgeCount edges; either
+/* What stands: needless corners are gone, outer rings run counterclockwise seen from above, and edges count over these rings.
+ * Corners in the plan, two floats each: world x and z. Room for EspHouseInfo::cornerCount pairs, edgeCount edges; either
  * may be NULL. */
 ESP_API EspResult espHouseShape(const EspContext* context, uint32_t house, float* corners, EspHouseEdge* edges);
 
-/* Changes one house; it alone grows anew in the next espUpdate. */
+/* Changes one house; it alone grows anew in the next espUpdate. An outline that crosses itself or has no area is refused with
+ * ESP_INVALID_CONTENT, and the house stands as it did. */
 typedef struct EspHouseDef {
     EspRoofShape shape;
     float slope;             /* 0: the shape's own */
     float eaveHeight;        /* metres above the house's base; 0: as it is */
-    const EspHouseEdge* edges;
+    const EspHouseEdge* edges;   /* of the corners below, then of the other rings as espHouseShape gives them */
     uint32_t edgeCount;
     const float* corners;    /* of the outer ring, as espHouseShape gives them; NULL: as they are */
     uint32_t cornerCount;

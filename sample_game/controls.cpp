@@ -21,9 +21,14 @@ void Controls::catchMouse(bool caught) {
                             : io.ConfigFlags & ~(ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange);
 }
 
-void Controls::setEditing(bool editing) {
+void Controls::cancelTools() {
     brush_.cancel(work_);
     seeds_.cancel(work_);
+    houses_.cancel(work_);
+}
+
+void Controls::setEditing(bool editing) {
+    cancelTools();
     catchMouse(false);
     work_.editing = editing;
     work_.redraw = true;
@@ -35,8 +40,7 @@ void Controls::askToQuit() {
 }
 
 void Controls::chooseTool(Tool tool) {
-    brush_.cancel(work_);
-    seeds_.cancel(work_);
+    cancelTools();
     work_.choose(tool);
 }
 
@@ -71,6 +75,8 @@ void Controls::takeKey(const KeyEvent& event) {
             brush_.cancel(work_);
         else if (seeds_.dragging())
             seeds_.cancel(work_);
+        else if (houses_.dragging())
+            houses_.cancel(work_);
         else
             chooseTool(Tool::look);
     }
@@ -81,7 +87,7 @@ void Controls::takeKey(const KeyEvent& event) {
         return;
     }
     if (takeViewKey(event) || navigation_.dragging()) return;  // letters fly
-    if (!seeds_.dragging()) takeToolKey(event);
+    if (!seeds_.dragging() && !houses_.dragging()) takeToolKey(event);
 }
 
 // The views of Blender's number pad.

@@ -40,6 +40,7 @@ class Controls {
     static bool panelTakes(const KeyEvent& event);
     void catchMouse(bool caught);
     void chooseTool(Tool tool);
+    void cancelTools();  // what they are about, as if it hadn't been
     void hover();
 
     Workspace& work_;

@@ -54,6 +54,7 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
         for (size_t i = 0; i < points.size() && !insert; ++i)
             if (glm::distance(points[i], at) < kCornerReach * work.scale) {
                 work.houseEdge = uint32_t(i);
+                changed_ = false;
                 gesture_ = work.newGesture();
                 beginDrag(std::move(house), i);
                 return;
@@ -69,7 +70,8 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
                                  {a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share});
             renumber(house, uint32_t(i) + 1, 1);
             gesture_ = work.newGesture();
-            if (work.perform(SetHouse{house}, gesture_)) beginDrag(std::move(house), i + 1);
+            changed_ = work.perform(SetHouse{house}, gesture_);
+            if (changed_) beginDrag(std::move(house), i + 1);
             return;
         }
     }
@@ -94,6 +96,7 @@ void HouseTool::dragTo(Workspace& work, glm::vec2 at) {
     const glm::vec3 to = ray.origin + along * ray.direction;
     corner = {to.x, to.z};
     if (!work.perform(SetHouse{dragged_}, gesture_)) return;
+    changed_ = true;
     const auto& corners = houseNow(work.context.get(), dragged_.index).corners;
     const auto away = [&](const auto& c) { return glm::distance(glm::vec2(c[0], c[1]), glm::vec2(to.x, to.z)); };
     work.houseEdge = uint32_t(std::ranges::min_element(corners, {}, away) - corners.begin());
@@ -114,11 +117,20 @@ bool HouseTool::take(Workspace& work, const PointerEvent& event) {
     return true;
 }
 
+void HouseTool::cancel(Workspace& work) {
+    if (corner_ && changed_) work.perform(Undo{});
+    corner_.reset();
+}
+
 void HouseTool::removeCorner(Workspace& work) {
     if (!work.house || !work.houseEdge) return;
     House house = houseNow(work.context.get(), *work.house);
     const uint32_t corner = *work.houseEdge;
-    if (corner >= house.corners.size() || house.corners.size() < 4) return;
+    if (corner >= house.corners.size()) return;
+    if (house.corners.size() < 4) {
+        work.message = "An outline has at least three corners";
+        return;
+    }
     house.corners.erase(house.corners.begin() + corner);
     std::erase_if(house.edges, [&](const House::Edge& edge) { return edge.edge == corner; });
     renumber(house, corner + 1, -1);

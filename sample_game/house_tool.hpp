@@ -11,6 +11,7 @@ class HouseTool {
   public:
     bool take(Workspace& work, const PointerEvent& event);
     void removeCorner(Workspace& work);  // where the chosen edge begins
+    void cancel(Workspace& work);        // a drag, as if it hadn't been
     bool dragging() const { return corner_.has_value(); }
     void draw(const Workspace& work) const;
 
@@ -23,6 +24,7 @@ class HouseTool {
     // corners in another order, or fewer of them.
     std::optional<size_t> corner_;
     espalier::scene::House dragged_;
+    bool changed_ = false;  // by this drag
     uint32_t gesture_ = 0;
 };
 

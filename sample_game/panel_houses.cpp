@@ -100,7 +100,9 @@ void housesPanel(Workspace& work) {
         ImGui::EndCombo();
     }
     toolTip("Of the whole house; a chosen edge may differ");
-    edit.note(work, labelledSlider("Walls", &house.eaveHeight, 2, 20, "%.1f m"));
+    if (info.note[0]) hint(info.note);
+    edit.note(work, labelledSlider("Walls", &house.eaveHeight, std::min(2.f, house.eaveHeight),
+                                   std::max(20.f, house.eaveHeight), "%.1f m"));
     toolTip("Height of the eaves above the house's foot");
     pitch(work, edit, "Pitch", house.slope);
     if (work.houseEdge && *work.houseEdge < house.corners.size()) {

@@ -25,7 +25,9 @@ SeedRecord SeedTool::newSeed(Workspace& work, const EspHit& hit) const {
 }
 
 void SeedTool::plant(Workspace& work, const SeedRecord& seed, uint32_t gesture) {
-    if (work.perform(AddSeeds{{seed}, {uint32_t(work.scene().seeds.size())}}, gesture)) work.selected.insert(seed.key);
+    if (!work.perform(AddSeeds{{seed}, {uint32_t(work.scene().seeds.size())}}, gesture)) return;
+    work.selected.insert(seed.key);
+    changed_ = true;
 }
 
 uint32_t SeedTool::seedAt(const Workspace& work, glm::vec2 at) const {
@@ -51,12 +53,16 @@ bool SeedTool::arrowAt(const Workspace& work, glm::vec2 at) const {
 template <class Change>
 void SeedTool::changeChosen(Workspace& work, Change&& change) {
     ChangeSeeds action;
+    bool frozen = false;
     for (uint32_t key : work.selected)
-        if (const Seed* seed = work.document->seed(key)) {
+        if (const Seed* seed = work.document->seed(key); seed && !seed->frozen) {
             action.seeds.push_back(work.document->recordOf(*seed));
             change(action.seeds.back());
+        } else {
+            frozen = frozen || seed;
         }
     if (!action.seeds.empty() && work.perform(action, gesture_)) changed_ = true;
+    if (frozen) work.message = "A frozen plant stays where it is: thaw it to move or turn it";
 }
 
 void SeedTool::press(Workspace& work, const PointerEvent& event) {
@@ -111,13 +117,14 @@ void SeedTool::follow(Workspace& work, glm::vec2 at) {
     } else if (drag_ == Drag::row) {
         plantRow(work, at);
     } else if (drag_ == Drag::move) {
+        // A single one follows the mouse onto whatever surface is under it, several stand to each other as they did.
         const auto before = work.pick(last_);
-        if (!before) return;
-        const glm::vec3 by = point - vec(before->position);
-        // A single one follows the mouse onto whatever surface is under it.
-        changeChosen(work, [&](SeedRecord& seed) {
-            seed.position = array(work.selected.size() == 1 ? point : vec(seed.position) + by);
-        });
+        if (work.selected.size() == 1)
+            changeChosen(work, [&](SeedRecord& seed) { seed.position = array(point); });
+        else if (before)
+            changeChosen(work, [&, by = point - vec(before->position)](SeedRecord& seed) {
+                seed.position = array(vec(seed.position) + by);
+            });
     }
     last_ = at;
 }

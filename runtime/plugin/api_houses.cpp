@@ -24,7 +24,20 @@ bool finiteDef(const EspHouseDef& def) {
     return true;
 }
 
-// The footprint with the changes of `def`; world x and z are plan x and -y.
+const Footprint& footprintOf(const LoadedTown& town, uint32_t house) {
+    const auto changed = town.changedHouses.find(house);
+    return changed == town.changedHouses.end() ? town.footprints[town.footprintOf[house]] : changed->second;
+}
+
+// Which it is of the houses that its footprint, as it was loaded, makes.
+size_t partOf(const LoadedTown& town, uint32_t house) {
+    size_t part = 0;
+    while (house > part && town.footprintOf[house - part - 1] == town.footprintOf[house]) ++part;
+    return part;
+}
+
+// The house's footprint with the changes of `def`. Its outline is the one that stands, by which callers count edges;
+// world x and z are plan x and -y.
 Footprint changed(const Footprint& from, const RoofHouse& house, const EspHouseDef& def) {
     Footprint f = from;
     f.shape = RoofShape(def.shape);
@@ -44,6 +57,9 @@ Footprint changed(const Footprint& from, const RoofHouse& house, const EspHouseD
         if (def.edges[i].slope > 0) e.slope = def.edges[i].slope;
         f.edges.push_back(e);
     }
+    f.rings.clear();
+    for (const auto& ring : house.rings)
+        for (f.rings.emplace_back(); glm::vec2 p : ring) f.rings.back().push_back(house.origin + glm::dvec2(p));
     if (def.corners) {
         f.rings.front().clear();
         for (uint32_t i = 0; i < def.cornerCount; ++i)
@@ -52,36 +68,50 @@ Footprint changed(const Footprint& from, const RoofHouse& house, const EspHouseD
     return f;
 }
 
-// Another footprint for the house, and for what else was made of the same one.
-EspResult rebuild(EspContext& context, uint32_t index, const Footprint& footprint) {
-    LoadedTown& town = *context.town;
-    const uint32_t number = town.footprintOf[index];
-    std::vector<uint32_t> siblings;
-    for (uint32_t i = 0; i < town.footprintOf.size(); ++i)
-        if (town.footprintOf[i] == number) siblings.push_back(i);
+// Why a footprint makes no house, without what follows for one that is loaded ("...: left out").
+std::string causeOf(const std::vector<Diagnostic>& diagnostics) {
+    const auto error = std::ranges::find(diagnostics, false, &Diagnostic::warning);
+    if (error == diagnostics.end()) return "no roof could be made";
+    return error->message.substr(0, error->message.rfind(": "));
+}
+
+void replaceHouse(LoadedTown& town, uint32_t index, const RoofStructure& made, size_t part) {
+    RoofStructure one;
+    one.faces = made.faces;
+    one.segments = made.segments;
+    one.houses = {made.houses[part]};
+    replaceAtoms(town.tables, index, one);
+    RoofHouse& house = town.structure.houses[index];
+    const uint32_t firstFace = house.firstFace, faceCount = house.faceCount;
+    house = made.houses[part];
+    house.firstFace = firstFace;  // the town's faces are what it was loaded with; atoms hold what counts
+    house.faceCount = faceCount;
+    town.changed.push_back(index);
+}
+
+EspResult setHouse(EspContext& context, uint32_t index, const Footprint& footprint) {
     RoofStructure made;
     std::vector<Diagnostic> diagnostics;
     appendRoof(footprint, made, diagnostics);
-    if (made.houses.size() > siblings.size())
+    if (made.houses.empty())
+        return fail(&context, ESP_INVALID_CONTENT,
+                    footprint.id + ": " + causeOf(diagnostics) + "; it stands as it did");
+    if (made.houses.size() > 1)
         return fail(&context, ESP_INVALID_CONTENT,
                     footprint.id + ": the outline crosses or touches itself, so that the house would fall into " +
                         std::to_string(made.houses.size()) + " parts; it stands as it did");
-    if (made.houses.size() < siblings.size()) return fail(&context, ESP_INVALID_CONTENT, toString(diagnostics));
-    town.planned.try_emplace(number, town.footprints[number]);
-    town.footprints[number] = footprint;
-    for (size_t i = 0; i < siblings.size(); ++i) {
-        RoofStructure one;
-        one.faces = made.faces;
-        one.segments = made.segments;
-        one.houses = {made.houses[i]};
-        replaceAtoms(town.tables, siblings[i], one);
-        RoofHouse& house = town.structure.houses[siblings[i]];
-        const uint32_t firstFace = house.firstFace, faceCount = house.faceCount;
-        house = made.houses[i];
-        house.firstFace = firstFace;  // the town's faces are what it was loaded with; atoms hold what counts
-        house.faceCount = faceCount;
-        town.changed.push_back(siblings[i]);
-    }
+    context.town->changedHouses.insert_or_assign(index, footprint);
+    replaceHouse(*context.town, index, made, 0);
+    return ESP_OK;
+}
+
+EspResult resetHouse(EspContext& context, uint32_t index) {
+    LoadedTown& town = *context.town;
+    if (town.changedHouses.erase(index) == 0) return ESP_OK;
+    RoofStructure made;
+    std::vector<Diagnostic> ignored;  // told when the town was loaded
+    appendRoof(footprintOf(town, index), made, ignored);
+    replaceHouse(town, index, made, partOf(town, index));
     return ESP_OK;
 }
 
@@ -100,15 +130,16 @@ EspResult espHouseInfo(const EspContext* context, uint32_t index, EspHouseInfo* 
     return guarded(context, [&] {
         const RoofHouse* house = houseOf(context, index);
         if (!house || !out) return fail(context, ESP_INVALID_ARGUMENT, "espHouseInfo: no such house, or null");
-        const Footprint& footprint = context->town->footprints[context->town->footprintOf[index]];
+        const Footprint& footprint = footprintOf(*context->town, index);
         *out = EspHouseInfo{};
         out->id = house->id.c_str();
-        out->shape = EspRoofShape(house->shape);
+        out->note = house->note.c_str();
+        out->shape = EspRoofShape(footprint.shape);
         out->slope = footprint.slope ? float(*footprint.slope) : 0;
         out->baseHeight = house->baseHeight;
         out->eaveHeight = house->eaveHeight;
         out->ridgeHeight = house->ridgeHeight;
-        out->edgeCount = uint32_t(footprint.edges.size());
+        out->edgeCount = uint32_t(house->edges.size());
         out->outerCorners = uint32_t(house->rings.front().size());
         glm::vec2 low(1e30f), high(-1e30f);
         for (const auto& ring : house->rings)
@@ -135,7 +166,7 @@ EspResult espHouseShape(const EspContext* context, uint32_t index, float* corner
                 *corners++ = float(house->origin.x + p.x);
                 *corners++ = float(-house->origin.y - p.y);
             }
-        for (const EdgeRoof& e : context->town->footprints[context->town->footprintOf[index]].edges)
+        for (const EdgeRoof& e : house->edges)
             if (edges) *edges++ = {e.edge, e.gable ? int(*e.gable) : -1, e.slope ? float(*e.slope) : 0};
         return ESP_OK;
     });
@@ -149,16 +180,15 @@ EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* de
             (def->corners && def->cornerCount < 3) || def->cornerCount > kMostCorners ||
             def->edgeCount > kMostCorners || !finiteDef(*def))
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: a value out of its range");
-        const Footprint& now = context->town->footprints[context->town->footprintOf[index]];
-        return rebuild(*context, index, changed(now, *houseOf(context, index), *def));
+        const Footprint& now = footprintOf(*context->town, index);
+        return setHouse(*context, index, changed(now, *houseOf(context, index), *def));
     });
 }
 
 EspResult espResetHouse(EspContext* context, uint32_t index) {
     return guarded(context, [&] {
         if (!houseOf(context, index)) return fail(context, ESP_INVALID_ARGUMENT, "espResetHouse: no such house");
-        const auto planned = context->town->planned.find(context->town->footprintOf[index]);
-        return planned == context->town->planned.end() ? ESP_OK : rebuild(*context, index, Footprint(planned->second));
+        return resetHouse(*context, index);
     });
 }
 

@@ -152,9 +152,9 @@ struct PaintStroke {
 // A town and what has been made of it.
 struct LoadedTown {
     std::string name;
-    std::vector<Footprint> footprints;
-    std::vector<uint32_t> footprintOf;      // [house]
-    std::map<uint32_t, Footprint> planned;  // footprints as they were loaded, of those that were changed
+    std::vector<Footprint> footprints;            // as they were loaded
+    std::vector<uint32_t> footprintOf;            // [house]; an outline that crosses itself makes several
+    std::map<uint32_t, Footprint> changedHouses;  // [house]: what a designer has made of it, one house each
     RoofStructure structure;
     RoofTables tables;
     uint32_t grammar = 0;           // id; 0: none yet

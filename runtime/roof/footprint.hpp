@@ -29,19 +29,12 @@ enum class RoofMaterial : uint32_t {
     grass
 };
 
-// What one edge of the outline has of its own.
-struct EdgeRoof {
-    uint32_t edge;                // running number over the rings as given
-    std::optional<bool> gable;    // a wall up to the roof instead of an eave
-    std::optional<double> slope;  // tangent of the pitch, > 0
-};
-
 enum class RidgeOrientation : uint32_t { along, across };
 
 struct Footprint {
     std::string id;
     std::vector<std::vector<glm::dvec2>> rings;  // plan metres, not closed; outer ring first, any orientation
-    std::vector<EdgeRoof> edges;
+    std::vector<EdgeRoof> edges;                 // numbers over the rings as given
     RoofShape shape = RoofShape::hip;
     bool part = false;                 // building:part: stands for its share of an outline
     std::optional<double> roofHeight;  // metres from eave to ridge; else slope counts

@@ -26,6 +26,19 @@ class HouseMaker {
           diagnostics_(diagnostics) {}
 
     bool append(RoofStructure& out) {
+        const size_t said = diagnostics_.size();
+        if (!appendAny(out)) return false;
+        RoofHouse& house = out.houses.back();
+        house.edges = ownEdges();
+        for (size_t i = said; i < diagnostics_.size(); ++i)
+            if (house.note.find(diagnostics_[i].message) == std::string::npos)
+                house.note += (house.note.empty() ? "" : "\n") + diagnostics_[i].message;
+        return true;
+    }
+
+  private:
+    // As asked, or as near to it as passes the check.
+    bool appendAny(RoofStructure& out) {
         RoofShape shape = footprint_.shape;
         if (make(shape, false, out)) return true;
         if (shape != RoofShape::hip && shape != RoofShape::flat) {
@@ -43,7 +56,15 @@ class HouseMaker {
         return false;
     }
 
-  private:
+    // By their numbers in the outline that was mended.
+    std::vector<EdgeRoof> ownEdges() const {
+        std::vector<EdgeRoof> own;
+        for (uint32_t e = 0; e < outline_.sourceEdges.size(); ++e)
+            for (const EdgeRoof& given : footprint_.edges)
+                if (given.edge == outline_.sourceEdges[e]) own.push_back({e, given.gable, given.slope});
+        return own;
+    }
+
     bool make(RoofShape shape, bool plain, RoofStructure& out) {
         if (shape == RoofShape::shed) {
             Facets facets = shedFacets(outline_.rings, footprint_.direction, planner_.slopeOf(shape));

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,13 @@ struct RoofFace {
     bool detached;
 };
 
+// What one edge of an outline has of its own.
+struct EdgeRoof {
+    uint32_t edge;                // running number over rings
+    std::optional<bool> gable;    // a wall up to the roof instead of an eave
+    std::optional<double> slope;  // tangent of the pitch, > 0
+};
+
 struct RoofHouse {
     std::string id;                             // the feature's
     glm::dvec2 origin;                          // plan, metres east and north of the town's origin
@@ -68,6 +76,8 @@ struct RoofHouse {
     float parapetHeight;                        // above eaveHeight; 0: none. Walls go up to it on flat roofs
     RoofShape shape;
     std::vector<std::vector<glm::vec2>> rings;  // repaired footprint: outer ring, holes
+    std::vector<EdgeRoof> edges;                // of these rings, as was asked for
+    std::string note;                           // what couldn't be made as asked, a line each
     uint32_t firstFace, faceCount;
     uint32_t material;  // RoofMaterial of footprint.hpp
     uint32_t colour;    // 0xAABBGGRR; alpha 0: not given

@@ -1,4 +1,7 @@
 // Houses that a designer changes: judged by what the plugin says of them, and by the roofs of the whole town.
+#include <algorithm>
+#include <glm/glm.hpp>
+
 #include "tests/editor/editing.hpp"
 #include "tools/document/project.hpp"
 
@@ -136,6 +139,115 @@ TEST_CASE("a corner may go through its house, out on the other side: the outline
     REQUIRE_MESSAGE(editing.perform(SetHouse{through}, 7), editing.error);
     CHECK(area(houseOf(editing, index)) == doctest::Approx(area(before)).epsilon(1e-3));
     CHECK(editing.document->undoSteps() == 1);
+}
+
+namespace {
+
+// A town of one plan, grown by the library's grammar.
+std::string plan(const Folder& folder, const std::string& buildings) {
+    return folder.write("plan.json", "{\"buildings\": [" + buildings + "]}");
+}
+
+// Where the only gable stands: the middle of its edge.
+glm::vec2 gableOf(const House& house) {
+    REQUIRE(house.edges.size() == 1);
+    REQUIRE(house.edges[0].end == "gable");
+    const size_t edge = house.edges[0].edge;
+    REQUIRE(edge < house.corners.size());
+    const auto &a = house.corners[edge], &b = house.corners[(edge + 1) % house.corners.size()];
+    return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
+}
+
+}  // namespace
+
+TEST_CASE("an edge keeps what it has of its own when corners are needless, merge, or run the other way round") {
+    const Folder folder;
+    // Clockwise, with a corner that doesn't turn: the west side is its last edge.
+    Editing editing(plan(folder, R"({"id": "a", "outer": [[0,8],[6,8],[12,8],[12,0],[0,0]],
+                                     "edges": [{"edge": 4, "gable": true}]})"));
+    House house = houseOf(editing, 0);
+    CHECK(house.corners.size() == 4);
+    const glm::vec2 west(0, -4);
+    CHECK(glm::distance(gableOf(house), west) < .01f);
+    const uint64_t planned = roofs(editing);
+    house.shape = "hip";
+    REQUIRE_MESSAGE(editing.perform(SetHouse{house}), editing.error);
+    CHECK(roofs(editing) == planned);  // nothing was asked for
+
+    // A corner is dragged onto the one before it: the edge between them is gone, the others have other numbers.
+    House merged = house;
+    const uint32_t far = (house.edges[0].edge + 2) % 4;
+    merged.corners[(far + 1) % 4] = merged.corners[far];
+    REQUIRE_MESSAGE(editing.perform(SetHouse{merged}), editing.error);
+    CHECK(houseOf(editing, 0).corners.size() == 3);
+    CHECK(glm::distance(gableOf(houseOf(editing, 0)), west) < .01f);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(roofs(editing) == planned);
+
+    // Given the other way round, and with a new corner in the first edge.
+    House turned = houseOf(editing, 0);
+    std::ranges::reverse(turned.corners);
+    turned.edges[0].edge = uint32_t(turned.corners.size() - 2 - turned.edges[0].edge) % 4;
+    REQUIRE_MESSAGE(editing.perform(SetHouse{turned}), editing.error);
+    CHECK(glm::distance(gableOf(houseOf(editing, 0)), west) < .01f);
+    CHECK(roofs(editing) == planned);
+    REQUIRE(editing.perform(ResetHouse{0}));
+    CHECK(roofs(editing) == planned);
+}
+
+TEST_CASE("houses that one outline falls into are changed one by one") {
+    const Folder folder;
+    Editing editing(plan(folder, R"({"id": "bow", "outer": [[0,0],[12,12],[12,0],[0,12]]},
+                                    {"id": "b", "outer": [[20,0],[30,0],[30,8],[20,8]]})"));
+    REQUIRE(espHouseCount(editing.context.get()) == 3);
+    const uint64_t planned = roofs(editing);
+    const House first = houseOf(editing, 0), second = houseOf(editing, 1);
+    House wider = second;
+    wider.slope = 1.2f;
+    wider.corners[0][0] += wider.corners[0][0] > 6 ? 1 : -1;
+    REQUIRE_MESSAGE(editing.perform(SetHouse{wider}), editing.error);
+    CHECK(houseOf(editing, 1).slope == doctest::Approx(1.2));
+    CHECK(houseOf(editing, 0) == first);
+    const uint64_t changed = roofs(editing);
+    CHECK(changed != planned);
+    REQUIRE(editing.perform(ResetHouse{1}));
+    CHECK(houseOf(editing, 1) == second);
+    CHECK(roofs(editing) == planned);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(roofs(editing) == changed);
+}
+
+TEST_CASE("outlines without area are refused, and roofs that can't be as asked say so and remember what was asked") {
+    const Folder folder;
+    Editing editing(plan(folder, R"({"id": "l", "outer": [[0,0],[20,0],[20,4],[4,4],[4,20],[0,20]]})"));
+    const auto note = [&] {
+        EspHouseInfo info;
+        REQUIRE(espHouseInfo(editing.context.get(), 0, &info) == ESP_OK);
+        return std::string(info.note);
+    };
+    const uint64_t planned = roofs(editing);
+    const House before = houseOf(editing, 0);
+    CHECK(note().empty());
+    for (const int axis : {0, 1}) {
+        House flat = before;
+        for (auto& corner : flat.corners) corner[size_t(axis)] = 3;
+        CHECK(!editing.perform(SetHouse{flat}));
+        CHECK_MESSAGE(editing.error == "l: the outline has no area that could carry a roof; it stands as it did",
+                      editing.error);
+    }
+    CHECK(roofs(editing) == planned);
+    CHECK(editing.document->undoSteps() == 0);
+
+    House pyramid = before;
+    pyramid.shape = "pyramid";
+    REQUIRE_MESSAGE(editing.perform(SetHouse{pyramid}), editing.error);
+    CHECK_MESSAGE(contains(note(), "hip roof instead"), note());
+    House now = houseOf(editing, 0);
+    CHECK(now.shape == "pyramid");
+    now.corners = {{0, 0}, {10, 0}, {10, -10}, {0, -10}};
+    REQUIRE_MESSAGE(editing.perform(SetHouse{now}), editing.error);
+    CHECK_MESSAGE(note().empty(), note());
+    CHECK(houseOf(editing, 0).shape == "pyramid");
 }
 
 TEST_CASE("layers painted over a town are saved to the bit, reopened, undone") {
