@@ -182,6 +182,9 @@ typedef struct EspParamInfo {
 ESP_API EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGrammar* out);
 /* Replaces the text; parameters keep their values by name. On failure the last good grammar keeps growing. */
 ESP_API EspResult espRecompileGrammar(EspContext* context, EspGrammar grammar, const EspGrammarDef* def);
+/* What isn't wrong in the text that grows, but may not be meant: lines "file:line:column: warning: rule: message", "" if there
+ * are none. Lives as long as the grammar and until it is compiled anew. */
+ESP_API const char* espGrammarWarnings(const EspContext* context, EspGrammar grammar);
 ESP_API EspResult espDestroyGrammar(EspContext* context, EspGrammar grammar);   /* its seeds go with it */
 ESP_API uint32_t espParamCount(const EspContext* context, EspGrammar grammar);
 ESP_API EspResult espParamInfo(const EspContext* context, EspGrammar grammar, uint32_t index, EspParamInfo* out);

@@ -85,7 +85,7 @@ void App::openUi() {
     if (!layoutFile_.empty()) {
         std::error_code ignored;
         fs::create_directories(configFolder(), ignored);
-        readLayout(work_.layout, work_.brush);
+        readLayout(work_.layout, work_.brush, layoutError_);
     }
     ImGui::GetIO().IniFilename = layoutFile_.empty() ? nullptr : layoutFile_.c_str();
     input_ = std::make_unique<Input>(window_.get());
@@ -157,6 +157,7 @@ bool App::open() {
     if (run && !replay_.read(options_.request.file, error)) return fail(error);
     if (run) options_.request.file = replay_.scene();
     if (!openDocument(options_.request, error)) return fail(error);
+    if (!layoutError_.empty()) work_.error = layoutError_;
     work_.editing = options_.editor;
     if (run) beginReplay();
     session_.autosaveEvery = options_.autosave;
@@ -170,6 +171,7 @@ bool App::open() {
 bool App::rescale() {
     float scale = 1, y = 1;
     glfwGetWindowContentScale(window_.get(), &scale, &y);
+    if (options_.uiScale > 0) scale = options_.uiScale;
     scale = std::max(scale, .5f) * work_.layout.sizeOfAll;
     if (scale == themeScale_ || (themeScale_ > 0 && ImGui::IsMouseDown(0))) return true;
     themeScale_ = work_.scale = scale;

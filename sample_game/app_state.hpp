@@ -55,7 +55,8 @@ class App {
     std::unique_ptr<UiRenderer> ui_;
     std::unique_ptr<AtlasView> atlas_;
     std::unique_ptr<Input> input_;
-    std::string layoutFile_;  // of ImGui's windows
+    std::string layoutFile_;   // of ImGui's windows
+    std::string layoutError_;  // why what was remembered can't be taken
 
     Workspace work_;
     Session session_;

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
+#include <utility>
 
 #include "sample_game/panels.hpp"
+#include "sample_game/remarks.hpp"
 #include "sample_game/theme.hpp"
 
 namespace sample {
@@ -14,28 +15,12 @@ namespace {
 
 using namespace espalier::document;
 
-// Of "file:line:column: rule: message" lines, those of this file by their line.
-std::vector<std::pair<int, std::string>> mistakes(const espalier::scene::LoadedGrammar& grammar) {
-    std::vector<std::pair<int, std::string>> found;
-    std::istringstream lines(grammar.error);
-    for (std::string line; std::getline(lines, line);) {
-        int number = 0;
-        std::string text = line;
-        if (line.rfind(grammar.file + ":", 0) == 0) {
-            const std::string rest = line.substr(grammar.file.size() + 1);
-            number = std::atoi(rest.c_str());
-            text = "line " + rest;
-        }
-        found.push_back({number, text});
-    }
-    return found;
-}
-
 struct TextState {
     std::string shown;                     // what the widget holds
     const std::string* outside = nullptr;  // what it is to hold instead
     int cursorLine = 0, scrolledLine = -1;
     float cursorX = 0, scrolledX = -1;  // within the line
+    int wantedLine = 0;                 // is to be seen; from 1, 0: none
     float changedAt = -1e9f;
     uint32_t gesture = 0;
 };
@@ -75,25 +60,48 @@ void takeUndoKeys(Workspace& work, TextState& state) {
     if (z || y) state.gesture = 0;  // what is typed next is a step of its own
 }
 
-void lineNumbers(int lines, const std::vector<std::pair<int, std::string>>& wrong, float width, float height) {
+constexpr ImU32 kBadLine = IM_COL32(150, 40, 30, 255), kWarningLine = IM_COL32(125, 90, 15, 255);
+
+void lineNumbers(int lines, const std::vector<Remark>& remarks, float width, float height) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float line = ImGui::GetFontSize(), pad = ImGui::GetStyle().FramePadding.y;
     for (int i = 1; i <= lines; ++i) {
-        const auto found = std::find_if(wrong.begin(), wrong.end(), [&](const auto& w) { return w.first == i; });
+        const auto found = std::ranges::find(remarks, i, &Remark::line);  // a mistake, if there is one
         const std::string text = std::to_string(i);
         const ImVec2 place{at.x + width - ImGui::CalcTextSize(text.c_str()).x - 6, at.y + pad + line * float(i - 1)};
-        if (found != wrong.end()) {
-            list.AddRectFilled({at.x, place.y}, {at.x + width - 2, place.y + line}, IM_COL32(150, 40, 30, 255), 2);
+        if (found != remarks.end()) {
+            list.AddRectFilled({at.x, place.y}, {at.x + width - 2, place.y + line},
+                               found->warning ? kWarningLine : kBadLine, 2);
             if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows |
                                        ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
                 ImGui::IsMouseHoveringRect({at.x, place.y}, {at.x + width, place.y + line}))
-                ImGui::SetTooltip("%s", found->second.c_str());
+                tip(found->text.c_str());
         }
-        list.AddText(place, ImGui::GetColorU32(found != wrong.end() ? ImGuiCol_Text : ImGuiCol_TextDisabled),
+        list.AddText(place, ImGui::GetColorU32(found != remarks.end() ? ImGuiCol_Text : ImGuiCol_TextDisabled),
                      text.c_str());
     }
     ImGui::Dummy({width, height});
+}
+
+// Below the text: whether it compiles, and what is to be said of it; a click on that goes to its line.
+void showRemarks(const espalier::scene::LoadedGrammar& grammar, const std::vector<Remark>& remarks, int lines,
+                 TextState& state) {
+    const std::string file = std::filesystem::path(grammar.file).filename().string();
+    if (!grammar.error.empty())
+        ImGui::TextColored(kBad, "It has mistakes; what grew last goes on growing.");
+    else
+        ImGui::TextDisabled("It compiles. %d lines, %s", lines, file.c_str());
+    toolTip(grammar.file.c_str());
+    if (remarks.empty()) return;
+    ImGui::BeginChild("remarks");
+    for (const Remark& remark : remarks) {
+        ImGui::PushStyleColor(ImGuiCol_Text, remark.warning ? kWarning : kBad);
+        ImGui::TextWrapped("%s", remark.text.c_str());
+        ImGui::PopStyleColor();
+        if (remark.line > 0 && ImGui::IsItemClicked()) state.wantedLine = remark.line;
+    }
+    ImGui::EndChild();
 }
 
 }  // namespace
@@ -106,21 +114,22 @@ void showGrammarWindow(Workspace& work) {
     const float s = work.scale;
     const std::string title = grammarName(work.scene(), work.openGrammar) + "###grammar";
     if (beginWindow(work, title.c_str(), &work.layout.grammar, {work.window.x - 600 * s, 60 * s}, {580 * s, 520 * s})) {
-        const auto wrong = mistakes(grammar);
+        const std::vector<Remark> remarks = remarksOf(grammar);
         // Undo and files change the text from outside, also while the cursor is in it: the widget has a copy then.
         const std::string outside = grammar.text;
         state.outside = state.shown != outside ? &outside : nullptr;
         state.shown = outside;
         const int lines = 1 + int(std::count(state.shown.begin(), state.shown.end(), '\n'));
-        const float below =
-            ImGui::GetFontSize() * (1.6f + (wrong.empty() ? 0 : 1.4f * float(std::min<size_t>(wrong.size(), 4))));
+        const float shown = 1.4f * float(std::min<size_t>(remarks.size(), 4));  // more are scrolled to
+        const float below = ImGui::GetFontSize() * (1.6f + shown);
         ImGui::PushFont(textFont());
         const float line = ImGui::GetFontSize();
         const float height = line * float(lines + 1) + 2 * ImGui::GetStyle().FramePadding.y;
         if (ImGui::BeginChild("text", {0, -below}, false, ImGuiWindowFlags_HorizontalScrollbar)) {
             const float margin = ImGui::CalcTextSize("0000").x + 8;
             const float whole = ImGui::CalcTextSize(state.shown.c_str()).x + 2 * line;
-            lineNumbers(lines, wrong, margin, height);
+            if (state.wantedLine) ImGui::SetScrollY(line * float(std::max(0, std::exchange(state.wantedLine, 0) - 3)));
+            lineNumbers(lines, remarks, margin, height);
             ImGui::SameLine(0, 0);
             const ImGuiInputTextFlags flags = ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CallbackResize |
                                               ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo;
@@ -151,15 +160,7 @@ void showGrammarWindow(Workspace& work) {
         }
         ImGui::EndChild();
         ImGui::PopFont();
-        if (wrong.empty()) {
-            ImGui::TextDisabled("It compiles. %d lines, %s", lines,
-                                std::filesystem::path(grammar.file).filename().c_str());
-            toolTip(grammar.file.c_str());
-        } else {
-            ImGui::PushStyleColor(ImGuiCol_Text, kBad);
-            for (size_t i = 0; i < wrong.size() && i < 4; ++i) ImGui::TextWrapped("%s", wrong[i].second.c_str());
-            ImGui::PopStyleColor();
-        }
+        showRemarks(grammar, remarks, lines, state);
     }
     ImGui::End();
 }

@@ -22,6 +22,8 @@ int main(int argc, char** argv) {
     cli.add_option("--seed", seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
         ->check(CLI::Range(0ll, 4294967295ll));
     cli.add_option("--size", size, "WIDTHxHEIGHT of the window")->capture_default_str();
+    cli.add_option("--ui-scale", options.uiScale, "of letters and panels, 0.5 to 4; default: as the display says")
+        ->check(CLI::Range(.5, 4.));
     cli.add_option("--frames", options.frames, "ends after so many frames; 0: when the window is closed")
         ->capture_default_str();
     cli.add_option("--screenshot", options.screenshot, "writes the last of --frames as PNG");

@@ -27,24 +27,31 @@ void toolButtons(Workspace& work) {
         {"Seeds", "S", Tool::seeds, "Plant, choose, move and turn seeds"},
         {"Branch", "P", Tool::branch, "Pick a branch: prune it, freeze its plant, see how it walked"},
         {"Roofs", "H", Tool::houses, "Choose a house: its roof, its outline"}};
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * work.scale, ImGui::GetStyle().FramePadding.y});
-    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float pad = 2 * work.scale, gap = ImGui::GetStyle().ItemSpacing.x / 2;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {pad, ImGui::GetStyle().FramePadding.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {gap, ImGui::GetStyle().ItemSpacing.y});
     // Only scenes with a town have roofs.
-    const size_t count = std::size(entries) - (espHouseCount(work.context.get()) ? 0 : 1);
-    const float width = (ImGui::GetContentRegionAvail().x - gap * float(count - 1)) / float(count);
+    const std::span shown(entries, std::size(entries) - (espHouseCount(work.context.get()) ? 0 : 1));
     const auto full = [](const Entry& entry) { return std::string(entry.label) + " " + entry.key; };
-    const bool fit = std::ranges::all_of(std::span(entries, count), [&](const Entry& entry) {
-        return ImGui::CalcTextSize(full(entry).c_str()).x + 4 * work.scale < width;
-    });
-    for (const Entry& entry : std::span(entries, count)) {
+    // What is left of the row besides its words, the same for each.
+    const auto spare = [&](auto&& textOf) {
+        float room = ImGui::GetContentRegionAvail().x - gap * float(shown.size() - 1);
+        for (const Entry& entry : shown) room -= ImGui::CalcTextSize(std::string(textOf(entry)).c_str()).x;
+        return room / float(shown.size());
+    };
+    const bool fit = spare(full) > 2 * pad;
+    const float more = fit ? spare(full) : spare([](const Entry& entry) { return entry.label; });
+    for (const Entry& entry : shown) {
         const bool on = work.tool == entry.tool;
+        const std::string text = fit ? full(entry) : entry.label;
+        const float width = ImGui::CalcTextSize(text.c_str()).x + more;
         if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        if (ImGui::Button(fit ? full(entry).c_str() : entry.label, {width, 0})) work.choose(entry.tool);
+        if (ImGui::Button(text.c_str(), {width, 0})) work.choose(entry.tool);
         if (on) ImGui::PopStyleColor();
         toolTip((std::string(entry.tip) + "  (" + entry.key + ")").c_str());
-        if (&entry != entries + count - 1) ImGui::SameLine();
+        if (&entry != &shown.back()) ImGui::SameLine();
     }
-    ImGui::PopStyleVar();
+    ImGui::PopStyleVar(2);
 }
 
 void limits(const Workspace& work, Brush& brush) {

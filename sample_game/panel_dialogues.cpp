@@ -40,6 +40,16 @@ bool beginDialogue(const char* title) {
     return true;
 }
 
+float dialogueWidth() {
+    return std::min(ImGui::GetFontSize() * 32, ImGui::GetIO().DisplaySize.x - 4 * ImGui::GetStyle().WindowPadding.x);
+}
+
+void say(const std::string& text, ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_Text)) {
+    ImGui::PushTextWrapPos(dialogueWidth());
+    ImGui::TextColored(colour, "%s", text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
 // What lies in the folder of `path`, to be clicked. True: a file or project was clicked twice.
 bool showFolder(char* path, size_t size, const std::vector<std::string>& endings) {
     static struct {
@@ -51,8 +61,11 @@ bool showFolder(char* path, size_t size, const std::vector<std::string>& endings
         shown = {path, ImGui::GetTime(), listFolder(path, endings)};
     bool taken = false;
     const std::string whole = wholePath(std::string(path).substr(0, std::string(path).rfind('/') + 1));
-    ImGui::TextDisabled("In %s", whole.c_str());
-    if (ImGui::BeginChild("folder", {ImGui::GetFontSize() * 32, ImGui::GetTextLineHeightWithSpacing() * 8}, true))
+    say("In " + whole, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    // What else the dialogue shows is some seven rows high.
+    const float line = ImGui::GetTextLineHeightWithSpacing(), display = ImGui::GetIO().DisplaySize.y;
+    const float height = std::clamp(display - 7 * ImGui::GetFrameHeightWithSpacing(), 3 * line, 8 * line);
+    if (ImGui::BeginChild("folder", {dialogueWidth(), height}, true))
         for (const FolderEntry& entry : shown.entries) {
             const bool known = entry.kind == FolderEntry::project;
             const std::string text = known ? entry.name + "   project" : entry.name;
@@ -73,8 +86,8 @@ void askPath(Workspace& work, const char* title, const char* label, const char* 
     bool confirmed = false;
     if (!beginDialogue(title)) return;
     dialogues().asks = true;
-    ImGui::TextUnformatted(label);
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 32);
+    say(label);
+    ImGui::SetNextItemWidth(dialogueWidth());
     if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // it is all that one can type into
     confirmed = ImGui::InputText("##path", path, size, ImGuiInputTextFlags_EnterReturnsTrue);
     confirmed |= showFolder(path, size, endings);
@@ -90,11 +103,7 @@ void askPath(Workspace& work, const char* title, const char* label, const char* 
         dialogues().failed = false;
         ImGui::TextUnformatted("One moment ...");
     }
-    if (dialogues().failed) {
-        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 32);
-        ImGui::TextColored(kBad, "%s", work.error.c_str());
-        ImGui::PopTextWrapPos();
-    }
+    if (dialogues().failed) say(work.error, kBad);
     if (cancelled) dialogues().next.reset();
     if (cancelled || (done && !dialogues().failed)) {
         dialogues().asks = dialogues().acts = false;
@@ -145,7 +154,7 @@ void layerDialogues(Workspace& work) {
 void recoveryDialogue(Session& session) {
     if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");
     if (beginDialogue("Unsaved work")) {
-        ImGui::TextUnformatted("The last session ended without saving. What it had changed was kept.");
+        say("The last session ended without saving. What it had changed was kept.");
         if (session.recovery().empty()) ImGui::CloseCurrentPopup();
         if (ImGui::Button("Open it") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) {
             session.openNext = session.recovery();
@@ -163,7 +172,7 @@ void recoveryDialogue(Session& session) {
 
 void leavingDialogue(Workspace& work, Session& session) {
     if (!beginDialogue("Unsaved changes")) return;
-    ImGui::Text("%s has changes that aren't saved.", session.name(work).c_str());
+    say(session.name(work) + " has changes that aren't saved.");
     const bool saves = ImGui::Button("Save") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
     ImGui::SameLine();
     const bool gives = ImGui::Button("Give them up");

@@ -58,9 +58,12 @@ void graph(const Workspace& work) {
 
 void showFigures(const Workspace& work, uint32_t validationMessages, bool validation) {
     if (!work.layout.figures) return;
-    const float s = work.scale, margin = 12 * s;
+    // Where letters are large and the window isn't, the scene comes first.
+    const float s = work.scale, margin = 12 * s, room = work.window.x - work.panelUnits() - 2 * margin;
+    const bool brief = room < 3 * 235 * s - 2 * margin, narrow = room < 235 * s;
+    if (room < 120 * s) return;
     ImGui::SetNextWindowPos({work.window.x - margin, margin + ImGui::GetFrameHeight()}, ImGuiCond_Always, {1, 0});
-    ImGui::SetNextWindowSize({235 * s, 0});
+    ImGui::SetNextWindowSize({std::min(235 * s, room), 0});
     ImGui::SetNextWindowBgAlpha(.72f);
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
@@ -81,8 +84,6 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         };
         ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 2 * s});
         const EspStats& stats = work.stats;
-        // Where letters are large and the window isn't, the scene comes first.
-        const bool brief = work.window.x - work.panelUnits() < 3 * 235 * s;
         EspRoofStats roofs{};
         if (espHouseCount(work.context.get())) (void)espReadRoofStats(work.context.get(), &roofs);
         const bool plants = stats.seeds || !roofs.houses;
@@ -93,7 +94,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         if (!brief && plants) row("Plants' triangles", grouped(stats.drawnPolygons));
         if (!brief && plants) row("at full detail", grouped(stats.polygons));
         if (roofs.houses) row("Houses", grouped(roofs.houses));
-        if (roofs.houses) row("Tiles and parts", grouped(roofs.tiles));
+        if (!narrow && roofs.houses) row("Tiles and parts", grouped(roofs.tiles));
         if (!brief && roofs.houses) row("Houses' triangles", grouped(roofs.drawnTriangles));
         ImGui::Spacing();
         const double times[] = {plants ? stats.expandMs : roofs.expandMs, stats.emitMs, stats.drawMs};
@@ -101,7 +102,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         row("Frame", ms(work.frameMs));
         if (!brief) graph(work);
         if (!brief) row("Times grown", grouped(stats.expansions));
-        row("GPU memory", grouped(stats.totalBytes >> 20) + " MiB");
+        row(narrow ? "Memory" : "GPU memory", grouped(stats.totalBytes >> 20) + " MiB");
         if (!brief)
             row("Undo", grouped(work.document->undoSteps()) + (work.document->undoSteps() == 1 ? " step" : " steps"));
         if (stats.overflow) row("Ran out of room", grouped(stats.overflow));
@@ -125,12 +126,15 @@ void showLegend(const Workspace& work) {
                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize;
     if (ImGui::Begin("legend", nullptr, flags)) {
         const bool layer = view == ESP_VIEW_LAYER, levels = view == ESP_VIEW_LOD;
+        const float room = work.window.x - work.panelUnits() - 24 * s - 2 * ImGui::GetStyle().WindowPadding.x;
+        const float width = std::min((layer ? 120 : 260) * s, room), height = ImGui::GetFontSize();
+        ImGui::PushTextWrapPos(std::max(width, std::min(260 * s, room)));
         ImGui::TextUnformatted(layer                    ? work.scene().viewLayer.c_str()
                                : levels                 ? "Level of detail: 0 is the model itself"
                                : view == ESP_VIEW_DEPTH ? "Branches between a stem and its seed"
                                                         : "Fragments shaded for a pixel");
+        ImGui::PopTextWrapPos();
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float width = (layer ? 120 : 260) * s, height = ImGui::GetFontSize();
         const float steps = levels ? most + 1 : 64;
         for (float i = 0; i < steps; ++i) {
             (void)espViewColour(view, levels ? i : most * (i + .5f) / steps, rgb, &most);

@@ -118,6 +118,10 @@ void grammarsPanel(Workspace& work) {
                 ImGui::TextWrapped("The text has mistakes; what grew last goes on growing.");
                 ImGui::PopStyleColor();
             }
+            if (!grammar.warnings.empty()) {
+                hint("The text has warnings: F4");
+                if (ImGui::IsItemClicked()) work.layout.grammar = true, work.openGrammar = i;
+            }
             for (uint32_t p = 0; p < espParamCount(work.context.get(), grammar.id); ++p) {
                 EspParamInfo info;
                 if (espParamInfo(work.context.get(), grammar.id, p, &info) != ESP_OK) continue;

@@ -125,7 +125,7 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
         if (!line.empty()) {
             if (fits) ImGui::SameLine(work.window.x - width - 12 * work.scale);
             ImGui::TextColored(bad ? kBad : kGood, "%s", line.c_str());
-            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", news.c_str());
+            if (ImGui::IsItemHovered()) tip(news.c_str());
         }
     }
     ImGui::End();

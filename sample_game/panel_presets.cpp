@@ -1,6 +1,10 @@
 // Values of a grammar's parameters that the user keeps under names.
 #include <imgui.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
 #include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
 
@@ -9,58 +13,117 @@ namespace {
 
 using namespace espalier::document;
 
-std::vector<Param> values(const Workspace& work, EspGrammar grammar) {
+struct Names {
+    char kept[64] = "";    // of the preset that is being saved
+    char wanted[64] = "";  // in place of `renamed`
+    std::string renamed;   // which one gets another name; empty: none
+    bool begins = false;   // that was asked for in the last frame
+};
+
+std::vector<Param> values(const Workspace& work, EspGrammar grammar, bool initial) {
     std::vector<Param> all;
     for (uint32_t i = 0; i < espParamCount(work.context.get(), grammar); ++i) {
         EspParamInfo info;
-        if (espParamInfo(work.context.get(), grammar, i, &info) == ESP_OK)
-            all.push_back({info.name, {info.value, info.value + (info.kind == ESP_PARAM_COLOUR ? 3 : 1)}});
+        if (espParamInfo(work.context.get(), grammar, i, &info) != ESP_OK) continue;
+        const float* value = initial ? info.initial : info.value;
+        all.push_back({info.name, {value, value + (info.kind == ESP_PARAM_COLOUR ? 3 : 1)}});
     }
     return all;
+}
+
+// One step of undo. What the grammar has lost since is told, and the rest taken.
+void apply(Workspace& work, uint32_t index, const std::vector<Param>& params) {
+    const uint32_t gesture = work.newGesture();
+    std::string lost;
+    for (const Param& param : params)
+        if (!work.perform(SetParam{index, param}, gesture)) lost += (lost.empty() ? "" : ", ") + param.name;
+    work.error.clear();
+    if (!lost.empty()) work.message = "The grammar has no parameter any more that is called: " + lost;
+}
+
+void renameRow(Workspace& work, const std::string& grammar, Names& names) {
+    ImGui::SetNextItemWidth(-1);
+    if (std::exchange(names.begins, false)) ImGui::SetKeyboardFocusHere();
+    const bool entered = ImGui::InputText("##wanted", names.wanted, sizeof names.wanted,
+                                          ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    toolTip("Return: it is called so");
+    if (!entered || !names.wanted[0]) return;
+    if (renamePreset(grammar, names.renamed, names.wanted, work.error)) names.renamed.clear();
+}
+
+// True: its values are wanted.
+bool presetRow(Workspace& work, const std::string& grammar, const std::string& name, Names& names) {
+    const float gap = ImGui::GetStyle().ItemSpacing.x, pad = 2 * ImGui::GetStyle().FramePadding.x;
+    const float buttons = ImGui::CalcTextSize("Rename\u00d7").x + 2 * pad + 2 * gap;
+    const float room = std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 18);
+    const bool chosen = ImGui::Selectable(name.c_str(), false, 0, {room - buttons, 0});
+    toolTip("Takes these values, as one step of undo");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Rename")) {
+        names.renamed = name;
+        names.begins = true;
+        std::snprintf(names.wanted, sizeof names.wanted, "%s", name.c_str());
+    }
+    ImGui::SameLine();
+    if (ImGui::SmallButton("\u00d7") && removePreset(grammar, name, work.error)) work.message = "Removed: " + name;
+    toolTip("Removes it; the last one that was removed can be brought back");
+    return chosen;
+}
+
+void presetRows(Workspace& work, uint32_t index, const std::string& grammar, Names& names) {
+    const std::vector<std::string> all = presetNames(grammar);
+    for (const std::string& name : all) {
+        ImGui::PushID(name.c_str());
+        std::vector<Param> params;
+        if (name == names.renamed)
+            renameRow(work, grammar, names);
+        else if (presetRow(work, grammar, name, names) && readPreset(grammar, name, params, work.error))
+            apply(work, index, params);
+        ImGui::PopID();
+    }
+    const std::string removed = removedPreset(grammar);
+    if (removed.empty() || std::ranges::find(all, removed) != all.end()) return;
+    if (ImGui::Selectable(("Bring back: " + removed).c_str(), false, ImGuiSelectableFlags_DontClosePopups) &&
+        restorePreset(grammar, work.error))
+        work.message = "It is back: " + removed;
+    toolTip("The preset that was removed last");
+}
+
+void keepRow(Workspace& work, uint32_t index, const std::string& grammar, Names& names) {
+    const std::vector<std::string> all = presetNames(grammar);
+    const bool taken = std::ranges::find(all, std::string(names.kept)) != all.end();
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    bool keeps = ImGui::InputTextWithHint("##name", "name for these values", names.kept, sizeof names.kept,
+                                          ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!names.kept[0]);
+    keeps |= ImGui::Button(taken ? "Replace" : "Keep");
+    ImGui::EndDisabled();
+    toolTip("Keeps the values as they are now under this name, for this grammar in any scene");
+    const std::vector<Param> params = values(work, work.scene().grammars[index].id, false);
+    if (!keeps || !names.kept[0] || !writePreset(grammar, names.kept, params, work.error)) return;
+    work.message = std::string(taken ? "Replaced: " : "Kept: ") + names.kept;
+    names.kept[0] = 0;
+    ImGui::CloseCurrentPopup();
 }
 
 }  // namespace
 
 void presetsPanel(Workspace& work, uint32_t index) {
-    const auto& grammar = work.scene().grammars[index];
-    static char name[64] = "";  // of the preset that is being saved
+    static Names names;
+    const std::string grammar = grammarName(work.scene(), index);
     ImGui::SetNextItemWidth(-1);
-    const bool open = ImGui::BeginCombo("##presets", "Presets");
-    if (!open) toolTip("Values kept under a name, and those that the grammar says");
-    if (!open) return;
-    const auto apply = [&](const std::vector<Param>& params) {
-        const uint32_t gesture = work.newGesture();
-        for (const Param& param : params) work.perform(SetParam{index, param}, gesture);
-    };
-    if (ImGui::Selectable("As the grammar says")) {
-        std::vector<Param> initial = values(work, grammar.id);
-        for (uint32_t i = 0; i < initial.size(); ++i) {
-            EspParamInfo info;
-            if (espParamInfo(work.context.get(), grammar.id, i, &info) == ESP_OK)
-                initial[i].value.assign(info.initial, info.initial + initial[i].value.size());
-        }
-        apply(initial);
+    if (!ImGui::BeginCombo("##presets", "Presets")) {
+        toolTip("Values kept under a name, and those that the grammar says");
+        return;
     }
-    for (const std::string& preset : presetNames(grammarName(work.scene(), index)))
-        if (ImGui::Selectable(preset.c_str())) {
-            std::vector<Param> params;
-            if (readPreset(grammarName(work.scene(), index), preset, params, work.error)) apply(params);
-        }
+    if (ImGui::IsWindowAppearing()) names.renamed.clear();
+    if (ImGui::Selectable("As the grammar says"))
+        apply(work, index, values(work, work.scene().grammars[index].id, true));
+    presetRows(work, index, grammar, names);
     ImGui::Separator();
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
-    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    bool keeps = ImGui::InputTextWithHint("##name", "name for these values", name, sizeof name,
-                                          ImGuiInputTextFlags_EnterReturnsTrue);
-    ImGui::SameLine();
-    ImGui::BeginDisabled(!name[0]);
-    keeps |= ImGui::Button("Keep");
-    ImGui::EndDisabled();
-    toolTip("Keeps the values as they are now under this name, for this grammar in any scene");
-    if (keeps && name[0] && writePreset(grammarName(work.scene(), index), name, values(work, grammar.id), work.error)) {
-        work.message = std::string("Kept: ") + name;
-        name[0] = 0;
-        ImGui::CloseCurrentPopup();
-    }
+    keepRow(work, index, grammar, names);
     ImGui::EndCombo();
 }
 

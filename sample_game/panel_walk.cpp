@@ -56,7 +56,7 @@ void plantButtons(Workspace& work, const espalier::scene::Seed* seed) {
     toolTip("Cuts the branch away with all that grows from it, for good");
     ImGui::SameLine();
     const bool frozen = seed && seed->frozen;
-    const bool freezes = ImGui::Button(frozen ? "Thaw the plant" : "Freeze the plant", {-1, 0});
+    const bool freezes = ImGui::Button(frozen ? "Thaw plant" : "Freeze plant", {-1, 0});
     toolTip("A frozen plant stands as it is: neither paint nor sliders change it");
     ImGui::EndDisabled();
     if (prunes) work.prune();

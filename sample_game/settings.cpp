@@ -56,6 +56,7 @@ template <class Record>
 bool read(const std::string& path, Record& record, std::string& error) {
     std::string text;
     scene::Json json;
+    error.clear();
     if (!scene::readText(path, text, error)) return false;
     if (scene::readJson(text, json, error)) {
         document::FieldReader reader(json, error);
@@ -66,8 +67,38 @@ bool read(const std::string& path, Record& record, std::string& error) {
     return error.empty();
 }
 
-std::string presetFolder(const std::string& grammar) {
+constexpr const char* kKept = ".json";
+constexpr const char* kRemoved = ".removed";
+
+fs::path presetFolder(const std::string& grammar) {
     return configFolder() + "/presets/" + grammar;
+}
+
+// A name is one of a file: it can't lead elsewhere.
+fs::path presetFile(const std::string& grammar, std::string name, const char* extension = kKept) {
+    std::replace(name.begin(), name.end(), '/', '-');
+    return presetFolder(grammar) / (name + extension);
+}
+
+std::vector<std::string> presetsWith(const std::string& grammar, const char* extension) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    if (configFolder().empty()) return names;
+    for (const auto& entry : fs::directory_iterator(presetFolder(grammar), ignored))
+        if (entry.path().extension() == extension) names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool moveFile(const fs::path& from, const fs::path& to, std::string& error) {
+    std::error_code code;
+    if (fs::exists(to, code)) {
+        error = to.string() + ": is there already";
+        return false;
+    }
+    fs::rename(from, to, code);
+    if (code) error = from.string() + ": " + code.message();
+    return !code;
 }
 
 }  // namespace
@@ -79,10 +110,16 @@ std::string cacheFolder() {
     return below("XDG_CACHE_HOME", "/.cache");
 }
 
-void readLayout(Layout& layout, Brush& brush) {
+void readLayout(Layout& layout, Brush& brush, std::string& error) {
     LayoutRecord record{layout, brush};
-    std::string ignored;
-    if (configFolder().empty() || !read(configFolder() + "/layout.json", record, ignored)) return;
+    const std::string file = configFolder() + "/layout.json";
+    std::error_code code;
+    if (configFolder().empty() || !fs::exists(file, code)) return;
+    if (!read(file, record, error)) {
+        fs::copy_file(file, file + ".damaged", fs::copy_options::overwrite_existing, code);
+        error += "; panels are as in the beginning, and it is kept as " + file + ".damaged";
+        return;
+    }
     layout = record.layout;
     layout.panelWidth = std::clamp(layout.panelWidth, 200.f, 800.f);
     layout.layerOpacity = std::clamp(layout.layerOpacity, .05f, 1.f);
@@ -100,19 +137,13 @@ void writeLayout(const Layout& layout, const Brush& brush) {
 }
 
 std::vector<std::string> presetNames(const std::string& grammar) {
-    std::vector<std::string> names;
-    std::error_code ignored;
-    if (configFolder().empty()) return names;
-    for (const auto& entry : fs::directory_iterator(presetFolder(grammar), ignored))
-        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
+    return presetsWith(grammar, kKept);
 }
 
 bool readPreset(const std::string& grammar, const std::string& name, std::vector<document::Param>& params,
                 std::string& error) {
     Preset preset;
-    if (!read(presetFolder(grammar) + "/" + name + ".json", preset, error)) return false;
+    if (!read(presetFile(grammar, name).string(), preset, error)) return false;
     params = preset.params;
     return true;
 }
@@ -123,9 +154,33 @@ bool writePreset(const std::string& grammar, const std::string& name, const std:
         error = "neither XDG_CONFIG_HOME nor HOME is set: there is no place for presets";
         return false;
     }
-    std::string file = name;
-    std::replace(file.begin(), file.end(), '/', '-');
-    return write(presetFolder(grammar) + "/" + file + ".json", Preset{params}, error);
+    return write(presetFile(grammar, name).string(), Preset{params}, error);
+}
+
+bool renamePreset(const std::string& grammar, const std::string& name, const std::string& wanted, std::string& error) {
+    const fs::path from = presetFile(grammar, name), to = presetFile(grammar, wanted);
+    return from == to || moveFile(from, to, error);
+}
+
+bool removePreset(const std::string& grammar, const std::string& name, std::string& error) {
+    const fs::path from = presetFile(grammar, name), to = presetFile(grammar, name, kRemoved);
+    std::error_code code;
+    fs::rename(from, to, code);
+    if (code) error = from.string() + ": " + code.message();
+    if (code) return false;
+    for (const std::string& before : presetsWith(grammar, kRemoved))
+        if (const fs::path file = presetFile(grammar, before, kRemoved); file != to) fs::remove(file, code);
+    return true;
+}
+
+std::string removedPreset(const std::string& grammar) {
+    const std::vector<std::string> names = presetsWith(grammar, kRemoved);
+    return names.empty() ? "" : names.back();
+}
+
+bool restorePreset(const std::string& grammar, std::string& error) {
+    const std::string name = removedPreset(grammar);
+    return moveFile(presetFile(grammar, name, kRemoved), presetFile(grammar, name), error);
 }
 
 }  // namespace sample

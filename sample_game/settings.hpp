@@ -12,15 +12,23 @@ namespace sample {
 std::string configFolder();
 std::string cacheFolder();
 
-// What doesn't exist or can't be read leaves the layout as it is.
-void readLayout(Layout& layout, Brush& brush);
+// What doesn't exist or can't be read leaves the layout as it is. What is damaged is told in `error`, and kept beside
+// the file, since writeLayout() takes its place.
+void readLayout(Layout& layout, Brush& brush, std::string& error);
 void writeLayout(const Layout& layout, const Brush& brush);
 
 // Values of a grammar's parameters under a name.
 std::vector<std::string> presetNames(const std::string& grammar);
 bool readPreset(const std::string& grammar, const std::string& name, std::vector<espalier::document::Param>& params,
                 std::string& error);
+// Takes the place of one of the same name.
 bool writePreset(const std::string& grammar, const std::string& name,
                  const std::vector<espalier::document::Param>& params, std::string& error);
+// A name that another one has is refused.
+bool renamePreset(const std::string& grammar, const std::string& name, const std::string& wanted, std::string& error);
+// The one that was removed last is kept aside: what it was called, empty if there is none, and its way back.
+bool removePreset(const std::string& grammar, const std::string& name, std::string& error);
+std::string removedPreset(const std::string& grammar);
+bool restorePreset(const std::string& grammar, std::string& error);
 
 }  // namespace sample

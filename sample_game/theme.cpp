@@ -74,6 +74,9 @@ void applyTheme(float scale) {
     c[ImGuiCol_CheckMark] = greenBright;
     c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, .45f};
     c[ImGuiCol_Separator] = grey(.24f);
+    c[ImGuiCol_ResizeGrip] = grey(.28f);
+    c[ImGuiCol_ResizeGripHovered] = c[ImGuiCol_ResizeGripActive] = greenBright;
+    c[ImGuiCol_TextSelectedBg] = {green.x, green.y, green.z, .55f};
     c[ImGuiCol_ScrollbarBg] = grey(.10f, 0);
     c[ImGuiCol_ScrollbarGrab] = grey(.28f);
     style.ScaleAllSizes(scale);

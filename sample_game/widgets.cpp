@@ -127,8 +127,17 @@ bool toolTipWaits() {
     return gui.HoveredId != 0 && gui.HoveredIdNotActiveTimer < kTipDelay;
 }
 
+void tip(const char* text) {
+    const float room = ImGui::GetIO().DisplaySize.x - 2 * ImGui::GetStyle().WindowPadding.x;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(std::min(ImGui::GetFontSize() * 45, room));
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
 void toolTip(const char* text) {
-    if (ImGui::IsItemHovered() && !ImGui::IsItemActive() && !toolTipWaits()) ImGui::SetTooltip("%s", text);
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive() && !toolTipWaits()) tip(text);
 }
 
 void sameLineIfRoom(float width) {

@@ -26,6 +26,7 @@ void sameLineIfRoom(float width);
 void hint(const char* text);  // what keeps the user from seeing anything happen
 // Shown when the mouse rests on the last widget.
 void toolTip(const char* text);
+void tip(const char* text);  // at the mouse, now; no wider than the window
 // Whether the pointer rests on something that will show its tip in a moment.
 bool toolTipWaits();
 

@@ -71,8 +71,8 @@ void Workspace::frameChosen() {
 }
 
 bool Workspace::perform(const espalier::document::Action& action, uint32_t gesture) {
-    error.clear();
-    if (!std::holds_alternative<espalier::document::SetCamera>(action)) message.clear();
+    // News stands while one looks around.
+    if (!std::holds_alternative<espalier::document::SetCamera>(action)) error.clear(), message.clear();
     redraw = true;
     return document->perform(action, error, gesture);
 }

@@ -39,6 +39,7 @@ Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, con
     grammar.name = def.name ? def.name : "grammar";
     grammar.map = std::move(*map);
     grammar.revision = ++context.grammarRevisions;
+    grammar.warnings = toString(grammar.map.warnings());
     for (const Diagnostic& warning : grammar.map.warnings()) context.log(Severity::warning, toString(warning));
     if (old)
         for (const ParamInfo& param : old->map.params())
@@ -140,6 +141,11 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
         old->edition = ++context->revision;
         return ESP_OK;
     });
+}
+
+const char* espGrammarWarnings(const EspContext* context, EspGrammar id) {
+    const LoadedGrammar* grammar = find(context, id);
+    return grammar ? grammar->warnings.c_str() : "";
 }
 
 EspResult espDestroyGrammar(EspContext* context, EspGrammar id) {

@@ -75,7 +75,8 @@ struct PaintedLayer {
 struct LoadedGrammar {
     std::string name;
     RuleMap map;
-    Buffer words;  // uploaded from the map when stale
+    std::string warnings;  // of the map, as text
+    Buffer words;          // uploaded from the map when stale
     bool stale = true;
     uint64_t revision = 0;          // of rules and parameters, unlike any other grammar's
     std::vector<uint32_t> layerOf;  // scene layer of each of the map's contexts

@@ -15,6 +15,7 @@ void badArguments(EspContext* context) {
     REFUSED(espCreate(NULL, NULL));
     CHECK(espUpdate(NULL) == ESP_INVALID_ARGUMENT && espDraw(NULL, NULL) == ESP_INVALID_ARGUMENT);
     CHECK(espParamCount(NULL, grammar) == 0 && espLayerName(context, noGrammar, 0)[0] == 0);
+    CHECK(espGrammarWarnings(context, noGrammar)[0] == 0 && espGrammarWarnings(NULL, grammar)[0] == 0);
     CHECK(espReadStats(context, NULL) == ESP_INVALID_ARGUMENT && espLastError(context)[0] != 0);
     REFUSED(espLoadSurface(context, NULL, NULL, &surface));
     REFUSED(espLoadGround(context, NULL, NULL, &surface));

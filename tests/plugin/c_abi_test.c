@@ -162,9 +162,20 @@ static uint64_t wholeLife(EspContext* context) {
     OK(context, espUpdate(context));
     CHECK(stats(context).hash == grown.hash);
     CHECK(espParamCount(context, grammar) == 2);
+    CHECK(espGrammarWarnings(context, grammar)[0] == 0);
     OK(context, espRecompileGrammar(context, grammar, &def));
     OK(context, espUpdate(context));
     CHECK(stats(context).hash == grown.hash);
+
+    /* What may not be meant is told and grows. */
+    char idle[4096];
+    CHECK(snprintf(idle, sizeof idle, "%.*sparam idle = 1\n", (int)def.length, def.text) < (int)sizeof idle);
+    EspGrammarDef warned = {"idle.grammar", idle, strlen(idle)};
+    OK(context, espRecompileGrammar(context, grammar, &warned));
+    CHECK(strstr(espGrammarWarnings(context, grammar), "idle.grammar:") != NULL);
+    CHECK(strstr(espGrammarWarnings(context, grammar), "warning: idle: ") != NULL);
+    OK(context, espRecompileGrammar(context, grammar, &def));
+    CHECK(espGrammarWarnings(context, grammar)[0] == 0);
 
     /* Triangles on request. */
     EspTriangles triangles;

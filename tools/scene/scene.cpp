@@ -30,6 +30,7 @@ bool compile(EspContext* context, LoadedGrammar& grammar, const std::string& tex
     const EspGrammarDef def{grammar.file.c_str(), text.data(), text.size()};
     if (!fromContext(context, espCompileGrammar(context, &def, &grammar.id), error)) return false;
     grammar.text = grammar.grows = text;
+    grammar.warnings = espGrammarWarnings(context, grammar.id);
     return true;
 }
 
@@ -388,9 +389,11 @@ bool plantAll(EspContext* context, Scene& scene, std::string& error) {
 bool setText(EspContext* context, LoadedGrammar& grammar, const std::string& text) {
     grammar.text = text;
     grammar.error.clear();
+    grammar.warnings.clear();
     const EspGrammarDef def{grammar.file.c_str(), text.data(), text.size()};
     if (!fromContext(context, espRecompileGrammar(context, grammar.id, &def), grammar.error)) return false;
     grammar.grows = text;
+    grammar.warnings = espGrammarWarnings(context, grammar.id);
     return true;
 }
 

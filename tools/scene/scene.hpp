@@ -58,10 +58,11 @@ struct ParamValue {
 };
 
 struct LoadedGrammar {
-    std::string file;   // where it came from; what it includes lies beside it
-    std::string text;   // as it stands in the editor; it may have mistakes
-    std::string grows;  // the text that was compiled last and grows
-    std::string error;  // of `text`; empty: it grows
+    std::string file;      // where it came from; what it includes lies beside it
+    std::string text;      // as it stands in the editor; it may have mistakes
+    std::string grows;     // the text that was compiled last and grows
+    std::string error;     // of `text`; empty: it grows
+    std::string warnings;  // of `text` while it grows, a line each
     EspGrammar id{};
 };
 
