@@ -11,7 +11,9 @@
 namespace espalier {
 namespace {
 
-constexpr float kGrownPixels = 0.25f;  // error of models with growth on them: bark that is seen isn't buried
+// Errors of models with growth on them, so that bark that is seen isn't buried: pixels, and in moving pictures times
+// what they allow elsewhere.
+constexpr float kGrownPixels = 0.25f, kQuickGrown = 0.5f;
 
 DrawTargets onto(VkExtent2D extent, VkImageView view) {
     DrawTargets targets;
@@ -24,7 +26,7 @@ DrawTargets onto(VkExtent2D extent, VkImageView view) {
 // Pixels. Views of the walk's UV square want the mesh that has it everywhere.
 float allowedModelError(const Look& look, bool grows) {
     if (look.view == ViewMode::charts || look.view == ViewMode::layer) return 0;
-    const float grown = look.quick ? kGrownPixels * std::max(look.lodPixels, 1.0f) : kGrownPixels;
+    const float grown = look.quick ? kQuickGrown * look.lodPixels : kGrownPixels;
     return grows ? std::min(look.lodPixels, grown) : look.lodPixels;
 }
 

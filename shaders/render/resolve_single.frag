@@ -19,7 +19,8 @@ const float kRelativeContrast = 0.12;
 const float kSpeckShare = 0.3;          // how far a lone pixel is drawn to its neighbours' mean
 const int kReach = quick ? 4 : 8;        // pixels that an edge is followed
 
-float brightness(vec3 c) { return dot(c, vec3(0.3, 0.6, 0.1)); }
+// Moving pictures take green alone for it, which spares them half of what a fetch costs software devices.
+float brightness(vec3 c) { return quick ? c.g : dot(c, vec3(0.3, 0.6, 0.1)); }
 vec4 colorAt(ivec2 at) { return texelFetch(colorMap, clamp(at, ivec2(0), textureSize(colorMap, 0) - 1), 0); }
 float fetch(ivec2 at) { return brightness(colorAt(at).rgb); }
 
