@@ -128,7 +128,7 @@ void showLegend(const Workspace& work) {
         const bool layer = view == ESP_VIEW_LAYER, levels = view == ESP_VIEW_LOD;
         const float room = work.window.x - work.panelUnits() - 24 * s - 2 * ImGui::GetStyle().WindowPadding.x;
         const float width = std::min((layer ? 120 : 260) * s, room), height = ImGui::GetFontSize();
-        ImGui::PushTextWrapPos(std::max(width, std::min(260 * s, room)));
+        ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + std::min(260 * s, room));
         ImGui::TextUnformatted(layer                    ? work.scene().viewLayer.c_str()
                                : levels                 ? "Level of detail: 0 is the model itself"
                                : view == ESP_VIEW_DEPTH ? "Branches between a stem and its seed"
