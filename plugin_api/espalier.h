@@ -515,7 +515,7 @@ typedef struct EspStats {
     double expandMs, emitMs, drawMs, compileMs;   /* GPU time of the latest run of each stage */
     uint64_t nodeBytes, leafBytes, chunkBytes, surfaceBytes, layerBytes, totalBytes;
     uint64_t hash;               /* canonical: of positions, radii and all terminals, in no order */
-    uint64_t modelTriangles;     /* triangles of the surfaces' meshes in the last frame */
+    uint64_t modelTriangles;     /* triangles drawn of the surfaces' meshes in the last frame */
     uint32_t modelsFading;       /* surfaces that change their level of detail: the next frames will look different */
     uint32_t contacts;           /* crossings from surface to surface */
     double contactMs;            /* on the CPU: finding them when surfaces last came, went or moved */

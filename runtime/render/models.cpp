@@ -8,6 +8,7 @@
 
 #include "runtime/gpu/color_texture.hpp"
 #include "runtime/render/solid.hpp"
+#include "runtime/render/view_sides.hpp"
 
 namespace espalier {
 namespace {
@@ -229,17 +230,19 @@ uint32_t Models::simplest(const Model& model, float error) {
     return mesh;
 }
 
-void Models::choose(glm::vec3 eye, float groundLevel, float pixelScale, float pixels, bool atOnce) {
-    eye_ = eye;
-    groundLevel_ = groundLevel;
+void Models::choose(const FrameRecord& frame, float pixels, bool atOnce) {
+    eye_ = frame.eye;
+    groundLevel_ = frame.groundLevel;
+    const ViewSides sides(frame.viewProjection);
     for (auto& [index, model] : models_) {
+        model.seen = !sides.misses(model.low, model.high);
         if (model.groundOnly) {
             model.step = kFadeFrames;
             continue;
         }
-        const float distance = glm::length(eye - glm::clamp(eye, model.low, model.high));
-        const uint32_t wanted = simplest(model, pixels * distance / pixelScale);
-        if (model.step == 0 || atOnce) {  // where nothing was seen before, too
+        const float distance = glm::length(eye_ - glm::clamp(eye_, model.low, model.high));
+        const uint32_t wanted = simplest(model, pixels * distance / frame.pixelScale);
+        if (model.step == 0 || !model.seen || atOnce) {  // where nothing was seen before, too
             model.shown = wanted;
             model.step = kFadeFrames;
         } else if (model.step < kFadeFrames && wanted == model.before) {
@@ -282,7 +285,7 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
     const bool quick = with.shading == Shading::quick;
     const Sampler& sampler = quick ? quickSampler_ : sampler_;
     for (const auto& [index, model] : models_) {
-        if (with.drawnOnly && model.groundOnly) continue;
+        if (!model.seen || (with.drawnOnly && model.groundOnly)) continue;
         pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
         const auto drawMesh = [&](uint32_t which, float fade) {
@@ -316,7 +319,7 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
 
 void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame) const {
     for (const auto& [index, model] : models_) {
-        if (model.groundOnly) continue;
+        if (!model.seen || model.groundOnly) continue;
         pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
         overShown(model, [&](uint32_t which, float fade) {
@@ -355,7 +358,7 @@ uint64_t Models::triangles() const {
         for (const DrawRange& range : mesh.ranges) sum += range.indexCount / 3;
     };
     for (const auto& [index, model] : models_) {
-        if (model.groundOnly) continue;
+        if (!model.seen || model.groundOnly) continue;
         add(model.meshes[model.shown]);
         if (model.step < kFadeFrames) add(model.meshes[model.before]);
     }

@@ -27,9 +27,9 @@ class Models {
 
     // Picks for each model the simplest mesh whose error is at most `pixels` where the model is nearest. Once before a
     // frame's draw: when the pick changes, the one mesh takes over from the other within the next kFadeFrames,
-    // or at once. Of meshes that are solid (solid.hpp) above groundLevel, below which nothing is seen, draws leave out
-    // what turns its back to the eye.
-    void choose(glm::vec3 eye, float groundLevel, float pixelScale, float pixels, bool atOnce = false);
+    // or at once. Models beyond the sides of the view aren't drawn. Of meshes that are solid (solid.hpp) above the
+    // ground's level, below which nothing is seen, draws leave out what turns its back to the eye.
+    void choose(const FrameRecord& frame, float pixels, bool atOnce = false);
     static constexpr uint32_t kFadeFrames = 8;
 
     // Draws all of them as chosen, but for those that are ground only if `drawnOnly`: triangles that the meadow at
@@ -51,7 +51,7 @@ class Models {
     // The simplest meshes with an error of at most `error` metres.
     void drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const;
 
-    uint64_t triangles() const;                      // as chosen
+    uint64_t triangles() const;                      // that are drawn, as chosen
     uint32_t fading() const;                         // models of which two meshes are drawn
     uint64_t revision() const { return revision_; }  // grows with every change
     bool empty() const { return models_.empty(); }
@@ -77,6 +77,7 @@ class Models {
         uint32_t shown = 0, before = 0;
         uint32_t step = 0;  // of kFadeFrames from `before` to `shown`; 0: never drawn
         bool groundOnly = false;
+        bool seen = true;  // some of it may lie in the view
         std::vector<Material> materials;
         std::vector<Image> colors, normals;  // one a picture of the file; empty where unused in that role
         glm::vec3 objectLow{0}, objectHigh{0};

@@ -7,6 +7,7 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/gpu/color_texture.hpp"
+#include "runtime/render/view_sides.hpp"
 
 namespace espalier {
 namespace {
@@ -16,20 +17,6 @@ constexpr float kFoliagePixels = 6;                       // of foliage, which i
 constexpr float kFadeZone = 0.15f, kFoliageZone = 0.05f;  // shares of the distance over which a level takes over
 constexpr float kLeastPixels = 2;                         // radius below which a prop isn't drawn
 constexpr float kGrassReach = 24, kGrassShrinks = 10;     // metres from the eye; over which it sinks into the meadow
-
-// Distances of a sphere's centre from the sides of the view; the far side is at infinity.
-struct Sides {
-    glm::vec4 planes[5];
-    explicit Sides(const glm::mat4& m) {
-        const auto row = [&](int r) { return glm::vec4(m[0][r], m[1][r], m[2][r], m[3][r]); };
-        const glm::vec4 found[5] = {row(3) + row(0), row(3) - row(0), row(3) + row(1), row(3) - row(1), row(3)};
-        for (int i = 0; i < 5; ++i) planes[i] = found[i] / std::max(glm::length(glm::vec3(found[i])), 1e-12f);
-    }
-    bool misses(glm::vec3 centre, float radius) const {
-        return std::any_of(std::begin(planes), std::end(planes),
-                           [&](glm::vec4 p) { return glm::dot(p, glm::vec4(centre, 1)) < -radius; });
-    }
-};
 
 }  // namespace
 
@@ -118,7 +105,7 @@ Status Props::choose(Commands& commands, const FrameRecord& frame) {
     if (chosenFor_ == frame.viewProjection) return Done{};
     const EmitTable& table = terminals_.table();
     std::vector<Level> levels(table.bucketCount);
-    const Sides sides(frame.viewProjection);
+    const ViewSides sides(frame.viewProjection);
     for (size_t i = 0; i < places_.size(); ++i) {
         const VariantRecord& variant = table.variants[places_[i].variant];
         const TerminalMaterial& material = terminals_.data().materials[table.buckets[variant.firstBucket].material];

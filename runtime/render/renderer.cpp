@@ -276,8 +276,7 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
     Pass whole(commands, "draw");
     // While all moves, and where that begins or ends, nobody sees one mesh replace another: two at a time would cost
     // such a picture half as much again.
-    models_.choose(frame.eye, frame.groundLevel, frame.pixelScale, allowedModelError(inputs.look, grows_),
-                   inputs.look.quick || quickBefore_);
+    models_.choose(frame, allowedModelError(inputs.look, grows_), inputs.look.quick || quickBefore_);
     quickBefore_ = inputs.look.quick;
     if (Status s = drawModels(commands, inputs, target, push); !s) return s;
     if (grows_ || roofed_)

@@ -193,6 +193,35 @@ TEST_CASE("where a level takes over, no frame's mean changes by more than a fift
     }
 }
 
+TEST_CASE("a model beside or behind the view isn't drawn, one that reaches into it is, and comes back as it was") {
+    const SurfaceData data = closedModel();
+    const float radius = glm::length(data.boundsMax - data.boundsMin) / 2;
+    Stage stage;
+    stage.look(data, 2.4f);
+    stage.allow(0);
+    stage.place(data);
+    const Camera front = stage.inputs.camera;
+    const glm::vec3 forward = glm::normalize(front.target - front.eye);
+    const glm::vec3 right = glm::normalize(glm::cross(forward, front.up)), up = glm::cross(right, forward);
+    const Pixels before = stage.frame();
+    const auto triangles = [&](glm::vec3 aside) {
+        stage.inputs.camera = {front.eye + aside, front.target + aside, front.up};
+        stage.inputs.camera.nearPlane = front.nearPlane;
+        (void)stage.frame();
+        return stage.stats().modelTriangles;
+    };
+    for (glm::vec3 to : {right, -right, up, -up}) {
+        CAPTURE(to.x);
+        CHECK(triangles(to * (10 * radius)) == 0);
+        // Half of it is in the view where the eye has gone by half of the view's width there.
+        CHECK(triangles(to * (radius * 2.4f * std::tan(front.fovY / 2))) == data.indices.size() / 3);
+    }
+    CHECK(triangles(forward * (4.8f * radius)) == 0);
+    stage.inputs.camera = front;
+    CHECK(stage.frame() == before);
+    CHECK(stage.stats().modelsFading == 0);
+}
+
 TEST_CASE("in a moving picture another level takes over at once, and the mean changes by less than one in 255") {
     const SurfaceData data = closedModel();
     Stage stage;
