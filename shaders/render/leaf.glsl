@@ -42,4 +42,5 @@ void main() {
     vec3 eye = normalize(frame.eye - position);
     LeafLight light = leafLight(face, eye, uvOpen.z, visible, leaf, back);
     color = lit(base * light.sun + light.sunMirror, base * light.sky + light.skyMirror);
+    color.a *= kLeafShade;
 }

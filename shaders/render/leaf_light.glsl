@@ -22,14 +22,18 @@ LeafTint leafTint(vec3 baseColor, uint tint, uint hash, float patchTone) {
     float turn = 0.5 * min(1.0, 3.0 * strong);
     // From old, dark and bluish to young, light and yellow.
     const vec3 young = vec3(1.16, 1.08, 0.60);
-    const vec3 old = vec3(0.42, 0.54, 0.56);
-    vec3 grown = mix(old, young, clamp(0.04 + 0.46 * age + 0.7 * (a - 0.5) + 0.30 * patchTone, 0.0, 1.0)) * (0.72 + 0.56 * b);
+    const vec3 old = vec3(0.46, 0.57, 0.52);
+    vec3 grown = mix(old, young, clamp(0.08 + 0.46 * age + 0.8 * (a - 0.5) + 0.38 * patchTone, 0.0, 1.0)) * (0.68 + 0.64 * b);
     LeafTint o;
     o.own = baseColor * grown * (1.0 - turn);
     o.turned = grown * turn * wanted / max(dot(wanted, kLeafWeights), 1e-3) * dot(baseColor, kLeafWeights);
     return o;
 }
 vec3 leafColor(LeafTint tint, vec3 texel) { return texel * tint.own + dot(texel, kLeafWeights) * tint.turned; }
+
+// So much of a leaf's light from the sky is dimmed by occlusion: what lets light through darkens what is behind it less
+// than distances tell.
+const float kLeafShade = 0.7;
 
 // Light that the leaf's colour scales, and light that its wax mirrors, from the sun and from the sky.
 struct LeafLight {
@@ -45,14 +49,15 @@ LeafLight leafLight(vec3 face, vec3 eye, float open, float visible, bool leaf, b
     LeafLight o;
     o.sun = falling * facing;
     o.sunMirror = vec3(0.0);
-    vec3 above = skyLight(face);
-    o.sky = above;
+    o.sky = skyLight(face);
     if (leaf) {
         // What falls on the other side comes through yellower, of the sun's light and of the sky's.
         const vec3 through = vec3(1.5, 1.35, 0.45);
         o.sun += falling * through * (max(-side, 0.0) * 0.65 + 0.10);
         o.sunMirror = falling * (gloss(face, eye, sun, 0.42) * facing * (back ? 0.3 : 1.0));
         o.sky += 0.95 * through * skyLight(-face);
+        // Leaves about it are lit, too, and throw back what is green and warm; what looks up sees less of them.
+        o.sky *= vec3(1.22, 1.16, 0.92) * (0.86 + 0.42 * face.y);
     }
     // In the shade the sky's mirror image on the wax is what tells leaves apart.
     float edge = 1.0 - max(dot(face, eye), 0.0);

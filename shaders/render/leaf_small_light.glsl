@@ -25,7 +25,7 @@ SmallLeaf smallLeaf(TerminalPush push, LeafVertex v) {
     o.own = tint.own * all;
     o.turned = tint.turned * all;
     o.mirrored = (light.sunMirror + light.skyMirror) * frame.exposure;
-    o.share = dot(light.sky, kLeafWeights) / max(dot(light.sun + light.sky, kLeafWeights), 1e-5);
+    o.share = kLeafShade * dot(light.sky, kLeafWeights) / max(dot(light.sun + light.sky, kLeafWeights), 1e-5);
     o.pictured = leaf && back ? 0.5 : 0.0;
     return o;
 }

@@ -1,10 +1,10 @@
-// What is built on the site: garden walls, fences, a well, a bench, a trough. In: nothing. Out: meshes whose texture
+// What is built on the site: garden walls, fences, a well, a bench, rubble. In: nothing. Out: meshes whose texture
 // coordinates pick colours of the palette.
 
 #include <cmath>
 
+#include "tools/content/builder.hpp"
 #include "tools/content/noise.hpp"
-#include "tools/content/props.hpp"
 
 namespace espalier::content {
 namespace {
@@ -12,47 +12,19 @@ namespace {
 using glm::vec3;
 constexpr float kPi = 3.14159265f;
 
-class Builder {
-  public:
-    Mesh mesh;
-
-    // Counterclockwise from outside.
-    void quad(vec3 a, vec3 b, vec3 c, vec3 d, Paint paint, float bright) {
-        const vec3 n = glm::normalize(glm::cross(c - a, d - b));
-        const uint32_t first = uint32_t(mesh.positions.size());
-        for (vec3 p : {a, b, c, d}) {
-            mesh.positions.push_back(p);
-            mesh.normals.push_back(n);
-            mesh.uvs.push_back(paletteUv(paint, bright));
-        }
-        for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
-    }
-    // A box whose upper side is drawn in by `taper`.
-    void box(vec3 low, vec3 high, Paint paint, float bright, float taper = 0) {
-        const auto at = [&](int x, int y, int z) {
-            const float in = y ? taper : 0;
-            return vec3(x ? high.x - in : low.x + in, y ? high.y : low.y, z ? high.z - in : low.z + in);
-        };
-        quad(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1), paint, bright);
-        quad(at(1, 0, 0), at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), paint, bright);
-        quad(at(1, 0, 1), at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), paint, bright);
-        quad(at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0), paint, bright);
-        quad(at(0, 1, 1), at(1, 1, 1), at(1, 1, 0), at(0, 1, 0), paint, bright * 1.04f);
-    }
-    // A stone in a wall's face: its front drawn in towards the joints. The face is the plane z = depth, seen from side.
-    void stone(float x0, float x1, float y0, float y1, float depth, float side, float bright) {
-        const float in = 0.022f, out = depth + 0.014f;
-        const auto at = [&](float x, float y, float z) { return vec3(x * side, y, z * side); };
-        const vec3 a = at(x0, y0, depth), b = at(x1, y0, depth), c = at(x1, y1, depth), d = at(x0, y1, depth);
-        const vec3 e = at(x0 + in, y0 + in, out), f = at(x1 - in, y0 + in, out), g = at(x1 - in, y1 - in, out),
-                   h = at(x0 + in, y1 - in, out);
-        quad(e, f, g, h, Paint::stone, bright);
-        quad(a, b, f, e, Paint::stone, bright * 0.75f);
-        quad(b, c, g, f, Paint::stone, bright * 0.9f);
-        quad(c, d, h, g, Paint::stone, bright);
-        quad(d, a, e, h, Paint::stone, bright * 0.9f);
-    }
-};
+// A stone in a wall's face: its front drawn in towards the joints. The face is the plane z = depth, seen from side.
+void addStone(Builder& builder, float x0, float x1, float y0, float y1, float depth, float side, float bright) {
+    const float in = 0.022f, out = depth + 0.014f;
+    const auto at = [&](float x, float y, float z) { return vec3(x * side, y, z * side); };
+    const vec3 a = at(x0, y0, depth), b = at(x1, y0, depth), c = at(x1, y1, depth), d = at(x0, y1, depth);
+    const vec3 e = at(x0 + in, y0 + in, out), f = at(x1 - in, y0 + in, out), g = at(x1 - in, y1 - in, out),
+               h = at(x0 + in, y1 - in, out);
+    builder.quad(e, f, g, h, Paint::stone, bright);
+    builder.quad(a, b, f, e, Paint::stone, bright * 0.75f);
+    builder.quad(b, c, g, f, Paint::stone, bright * 0.9f);
+    builder.quad(c, d, h, g, Paint::stone, bright);
+    builder.quad(d, a, e, h, Paint::stone, bright * 0.9f);
+}
 
 // Courses of rubble under slabs, from -1 to 1 m.
 Mesh wall(int lod) {
@@ -69,8 +41,8 @@ Mesh wall(int lod) {
                 for (uint32_t i = 0; x < 0.98f; ++i) {
                     float x1 = x + 0.20f + 0.30f * random01(62, salt, i);
                     if (x1 > 0.82f) x1 = 1;
-                    b.stone(x + 0.008f, x1 - 0.008f, y + 0.008f, y1 - 0.008f, kHalf, side,
-                            0.30f + 0.45f * random01(63, salt, i));
+                    addStone(b, x + 0.008f, x1 - 0.008f, y + 0.008f, y1 - 0.008f, kHalf, side,
+                             0.30f + 0.45f * random01(63, salt, i));
                     x = x1;
                 }
                 y = y1;
@@ -192,7 +164,7 @@ Picture paintPalette() {
         {{0.085f, 0.075f, 0.058f}, {0.46f, 0.42f, 0.345f}},  {{0.05f, 0.042f, 0.032f}, {0.30f, 0.27f, 0.22f}},
         {{0.050f, 0.038f, 0.026f}, {0.34f, 0.275f, 0.195f}}, {{0.020f, 0.014f, 0.009f}, {0.115f, 0.080f, 0.050f}},
         {{0.25f, 0.24f, 0.22f}, {0.80f, 0.78f, 0.72f}},      {{0.010f, 0.011f, 0.012f}, {0.12f, 0.12f, 0.125f}},
-        {{0.070f, 0.026f, 0.014f}, {0.34f, 0.135f, 0.075f}}};
+        {{0.070f, 0.026f, 0.014f}, {0.34f, 0.135f, 0.075f}}, {{0.150f, 0.105f, 0.040f}, {0.58f, 0.45f, 0.21f}}};
     static_assert(std::size(ends) == size_t(Paint::count));
     Picture picture(64, 64);
     for (int y = 0; y < 64; ++y)
@@ -220,6 +192,7 @@ PropMeshes makePropMeshes() {
     PropMeshes out;
     addTrees(out);
     addFurniture(out);
+    addYard(out);
     return out;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Props that the sample's site is furnished with: trees and bushes of leaves on cards, grass, walls, fences, a well, a
-// bench. Metres, y up, origin on the ground.
+// Props that the sample's site is furnished with: trees and bushes of leaves on cards, grass, walls, fences, a well,
+// what stands about in yards. Metres, y up, origin on the ground.
 
 #include "tools/content/model.hpp"
 
@@ -22,6 +22,7 @@ struct PropMeshes {
 PropMeshes makePropMeshes();
 void addTrees(PropMeshes& out);
 void addFurniture(PropMeshes& out);
+void addYard(PropMeshes& out);
 
 // Twigs full of leaves, cut out along a distance ramp, and bark. Cells are a quarter of the picture wide, from u = 1/8;
 // bark fills the strip before them, birch its right half, and repeats along v. Cells of the last column are for the
@@ -31,7 +32,7 @@ constexpr int kFarColumn = 2, kFlowers = 3;
 Picture paintFoliage(int size);
 
 // Built props' colours: u is how bright, v picks the material.
-enum class Paint { stone, mortar, wood, darkWood, white, iron, clay, count };
+enum class Paint { stone, mortar, wood, darkWood, white, iron, clay, straw, count };
 Picture paintPalette();
 inline glm::vec2 paletteUv(Paint paint, float bright) {
     return {0.05f + 0.9f * glm::clamp(bright, 0.0f, 1.0f), (float(paint) + 0.5f) / 8};

@@ -17,6 +17,7 @@ void Layout::lay() {
     feature();
     yards();
     gardens();
+    walls();
     trees();
     beds();
     daisies();
@@ -58,6 +59,10 @@ void Layout::feature() {
     put("rubble", {-5.4f, 5.9f}, 130, 0.8f, 0.04f);
     put("bench", {-3.1f, -8.3f}, 62, 1);
     put("bench", {-5.3f, -31.0f}, 29, 1);
+    tree("apple_b", {-7.6f, -33.6f}, 0.85f, 1.6f, 9);
+    put("cart", {6.4f, -42.2f}, 118, 1);
+    taken_.push_back({6.4f, -42.2f, 1.6f});
+    put("trough", kSquare + vec2(2.5f, 1.3f), 62, 1);
     put("well", kSquare + vec2(0.2f, 0.4f), 25, 1);
     taken_.push_back({kSquare, 2});
 }
@@ -81,16 +86,19 @@ void Layout::trees() {
     }
 }
 
-// In the meadow about the court.
+// In the meadow about the court, and in patches wherever the village's grass isn't mown.
 void Layout::daisies() {
-    for (uint32_t i = 0; i < 1500; ++i) {
-        const float angle = 2 * kPi * random01(i, 91), r = 18 * std::sqrt(random01(i, 92));
-        const vec2 p = kCourt + r * vec2(std::cos(angle), std::sin(angle));
-        if (noise(p / 2.1f, 93) + 0.4f * noise(p / 0.6f, 94) > 0.38f && clear(p, 0.2f, 0.5f))
-            put("flowers_a", p, 360 * random01(i, 95), 0.4f + 0.3f * random01(i, 96), 0.02f);
-    }
+    const auto flower = [&](const char* kind, vec2 p, uint32_t i, float least) {
+        if (noise(p / 2.1f, 93) + 0.4f * noise(p / 0.6f, 94) > least && clear(p, 0.2f, 0.5f))
+            put(kind, p, 360 * random01(i, 95), 0.4f + 0.3f * random01(i, 96), 0.02f);
+    };
+    const auto within = [](uint32_t i, float radius) {
+        const float angle = 2 * kPi * random01(i, 91), r = radius * std::sqrt(random01(i, 92));
+        return r * vec2(std::cos(angle), std::sin(angle));
+    };
+    for (uint32_t i = 0; i < 1500; ++i) flower("flowers_a", kCourt + within(i, 18), i, 0.38f);
+    for (uint32_t i = 2000; i < 7000; ++i) flower("flowers_a", within(i, 60), i, 0.52f);
 }
-
 void Layout::shrubs() {
     for (uint32_t i = 0; i < 2600; ++i) {
         const vec2 p = kHalfMap * 0.9f * (2.0f * vec2(random01(i, 51), random01(i, 52)) - 1.0f);
@@ -123,7 +131,7 @@ void Layout::tufts() {
         if (rank > 0.06f) tuft(p, 0.75f + 0.4f * saturate(rank - 0.3f));
     }
     const std::map<std::string, std::vector<SitePlace>> built = site_.props;
-    for (const char* foot : {"wall", "pier", "fence", "rubble", "bench"}) {
+    for (const char* foot : {"wall", "pier", "fence", "rubble", "bench", "boards", "cart", "hives", "barrel"}) {
         const auto found = built.find(foot);
         if (found == built.end()) continue;
         for (const SitePlace& place : found->second)

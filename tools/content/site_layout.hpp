@@ -22,9 +22,28 @@ class Layout {
     // A row of pieces of two metres along a line; a piece is left out for each gate.
     void row(const std::string& piece, glm::vec2 a, glm::vec2 b, int gate = -1);
 
+    // Turns a prop's front, +z, to `out` and takes its circle, if there's room for it.
+    bool place(const std::string& model, glm::vec2 at, glm::vec2 out, float radius, float fromHouse);
+    // Against a wall of a house, away from its doors, `depth` metres from the wall to its middle.
+    void leanOnWall(const std::string& model, const Outline& house, float radius, float depth, uint32_t salt);
+
+    // Away from a house whose wall lies from a to b.
+    glm::vec2 outOf(glm::vec2 a, glm::vec2 b) const;
+    // Behind a house, whose wall lies along a to b.
+    struct Garden {
+        glm::vec2 a, b, along, out;
+        float deep;
+        glm::vec2 at(float across, float depth) const { return glm::mix(a, b, across) + out * (depth * deep); }
+    };
+    Garden gardenOf(const Outline& house, uint32_t salt) const;
+
     void feature();
     void yards();
     void gardens();
+    void walls();
+    void furnish(const Garden& garden, uint32_t salt);
+    void plantBed(glm::vec2 at, glm::vec2 along, glm::vec2 out, uint32_t salt);
+    void steps(const Garden& garden, glm::vec2 gate);
     void trees();
     void beds();
     void daisies();

@@ -13,6 +13,11 @@ using glm::vec2;
 constexpr float kPi = 3.14159265f;
 constexpr float kPiece = 1.9f, kHalfGate = 0.75f;  // of a yard's fence
 
+vec2 Layout::outOf(vec2 a, vec2 b) const {
+    const vec2 along = glm::normalize(b - a), out(along.y, -along.x);
+    return plan_.toHouse(0.5f * (a + b) + 0.5f * out) < 0 ? -out : out;
+}
+
 void Layout::row(const std::string& piece, vec2 a, vec2 b, int gate) {
     const float length = glm::distance(a, b);
     const int count = std::max(1, int(std::round(length / 2)));
@@ -21,7 +26,7 @@ void Layout::row(const std::string& piece, vec2 a, vec2 b, int gate) {
         const vec2 at = glm::mix(a, b, (float(i) + 0.5f) / float(count));
         if (i == gate || plan_.paved(at) > -0.3f || plan_.toHouse(at) < 0.25f) continue;
         put(piece, at, degrees, scale, 0);
-        taken_.push_back({at, 1.0f});
+        taken_.push_back({at, piece == "hedge" ? 1.3f : 1.0f});
     }
     if (piece == "wall")
         for (vec2 end : {a, b})
@@ -65,36 +70,39 @@ void Layout::yards() {
     }
 }
 
-// Each house has a garden at the side away from the street, fenced in one of three ways.
+Layout::Garden Layout::gardenOf(const Outline& o, uint32_t salt) const {
+    // The widest side whose middle lies farthest from streets.
+    float best = 1e9f;
+    size_t side = 0;
+    for (size_t i = 0; i < o.size(); ++i) {
+        const vec2 a = o[i], b = o[(i + 1) % o.size()];
+        if (glm::distance(a, b) < 5) continue;
+        const float score = plan_.paved(0.5f * (a + b)) - 0.2f * glm::distance(a, b);
+        if (score < best) best = score, side = i;
+    }
+    const vec2 a = o[side], b = o[(side + 1) % o.size()], along = glm::normalize(b - a);
+    return {a - along * 1.5f, b + along * 1.5f, along, outOf(a, b), 7 + 3 * random01(salt, 31)};
+}
+
+// Each house has a garden at the side away from the street, fenced in one of three ways, a gate in its side. All fences
+// come first: gardens lie close to each other.
 void Layout::gardens() {
     const char* kinds[] = {"fence", "wall", "hedge"};
-    for (size_t h = 0; h < plan_.houses.size(); ++h) {
-        const Outline& o = plan_.houses[h];
-        // The widest side whose middle lies farthest from streets.
-        float best = 1e9f;
-        size_t side = 0;
-        for (size_t i = 0; i < o.size(); ++i) {
-            const vec2 a = o[i], b = o[(i + 1) % o.size()];
-            if (glm::distance(a, b) < 5) continue;
-            const float score = plan_.paved(0.5f * (a + b)) - 0.2f * glm::distance(a, b);
-            if (score < best) best = score, side = i;
-        }
-        const vec2 a = o[side], b = o[(side + 1) % o.size()], along = glm::normalize(b - a);
-        vec2 out(along.y, -along.x);
-        if (plan_.toHouse(0.5f * (a + b) + 0.5f * out) < 0) out = -out;
-        const float deep = 7 + 3 * random01(uint32_t(h), 31);
-        const vec2 a1 = a - along * 1.5f, b1 = b + along * 1.5f, c = b1 + out * deep, d = a1 + out * deep;
+    std::vector<Garden> gardens;
+    for (uint32_t h = 0; h < plan_.houses.size(); ++h) {
+        const Garden& g = gardens.emplace_back(gardenOf(plan_.houses[h], h));
         const char* kind = kinds[h % 3];
-        row(kind, b1, c, 1);
+        const vec2 a = g.at(0, 0), b = g.at(1, 0), c = g.at(1, 1), d = g.at(0, 1);
+        row(kind, b, c, 1);
         row(kind, c, d);
-        row(kind, d, a1);
+        row(kind, d, a);
+    }
+    for (uint32_t h = 0; h < gardens.size(); ++h) {
+        furnish(gardens[h], h);
         for (uint32_t i = 0; i < 3; ++i) {
-            const vec2 p =
-                glm::mix(glm::mix(a1, b1, random01(uint32_t(h), i, 32)), glm::mix(d, c, random01(uint32_t(h), i, 32)),
-                         0.35f + 0.4f * random01(uint32_t(h), i, 33));
+            const vec2 p = gardens[h].at(random01(h, i, 32), 0.35f + 0.4f * random01(h, i, 33));
             if (clear(p, 1.8f, 2.6f))
-                tree(i % 2 ? "apple_a" : "apple_b", p, 0.8f + 0.35f * random01(uint32_t(h), i, 34), 1.9f,
-                     uint32_t(h) * 8 + i);
+                tree(i % 2 ? "apple_a" : "apple_b", p, 0.8f + 0.35f * random01(h, i, 34), 1.9f, h * 8 + i);
         }
     }
 }
@@ -109,8 +117,7 @@ void Layout::beds() {
             const auto random = [&](uint32_t i, uint32_t which) { return random01(h * 16 + side, i, which); };
             const vec2 a = o[side], b = o[(side + 1) % o.size()], along = glm::normalize(b - a);
             const float bed = 0.5f * glm::distance(a, b) - 1.6f;
-            vec2 out(along.y, -along.x);
-            if (plan_.toHouse(0.5f * (a + b) + 0.5f * out) < 0) out = -out;
+            const vec2 out = outOf(a, b);
             for (uint32_t end : {0u, 1u}) {
                 if (bed < 0.8f || random(end, 81) < 0.35f) continue;
                 const vec2 from = end ? b : a, way = end ? -along : along;

@@ -1,0 +1,141 @@
+// What stands in yards and gardens. In: meshes, the sample's site. The judge lays a rectangle about each thing, as wide
+// as its mesh, and asks whether two overlap, or one a house; the layout goes by circles.
+
+#include <doctest/doctest.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "tools/content/props.hpp"
+#include "tools/content/site.hpp"
+
+using namespace espalier::content;
+using glm::vec2;
+
+namespace {
+
+constexpr float kMeadow = -0.06f, kPi = 3.14159265f;
+const std::set<std::string> kThings{"woodpile", "barrel",  "tub",    "seat", "trough", "cart",
+                                    "hives",    "washing", "boards", "step", "bench",  "well"};
+const std::set<std::string> kFences{"fence", "wall", "hedge"};
+
+struct Bounds {
+    glm::vec3 low{1e9f}, high{-1e9f};
+};
+std::map<std::string, Bounds> boundsOfProps() {
+    std::map<std::string, Bounds> all;
+    for (const PropMeshes::Entry& e : makePropMeshes().all) {
+        if (!e.name.ends_with("_lod0")) continue;
+        Bounds& b = all[e.name.substr(0, e.name.rfind("_lod"))];
+        for (glm::vec3 p : e.mesh.positions) b.low = glm::min(b.low, p), b.high = glm::max(b.high, p);
+    }
+    return all;
+}
+
+struct Footprint {
+    std::string model;
+    std::vector<vec2> corners;
+};
+// Rectangles; stones to step on are round.
+Footprint footprint(const std::string& model, const SitePlace& p, const Bounds& b) {
+    const float a = p.degrees * kPi / 180, c = std::cos(a), s = std::sin(a);
+    const vec2 low(b.low.x, b.low.z), high(b.high.x, b.high.z);
+    Footprint f{model, {}};
+    const auto add = [&](vec2 share) {
+        const vec2 local = p.scale * glm::mix(low, high, share);
+        f.corners.push_back(vec2(p.position.x, p.position.z) +
+                            vec2(c * local.x + s * local.y, c * local.y - s * local.x));
+    };
+    if (model == "step")
+        for (int k = 0; k < 12; ++k)
+            add(0.5f + 0.5f * vec2(std::cos(kPi / 6 * float(k)), std::sin(kPi / 6 * float(k))));
+    else
+        for (vec2 share : {vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1)}) add(share);
+    return f;
+}
+// Is there a side of `a` that all of `b` lies beyond?
+template <class A, class B>
+bool parted(const A& a, const B& b) {
+    for (size_t i = 0; i < a.size(); ++i) {
+        const vec2 d = a[(i + 1) % a.size()] - a[i], n(d.y, -d.x);
+        const auto most = [&](const auto& shape) {
+            float low = 1e9f, high = -1e9f;
+            for (vec2 p : shape) low = std::min(low, glm::dot(p, n)), high = std::max(high, glm::dot(p, n));
+            return std::pair(low, high);
+        };
+        const auto [low, high] = most(a);
+        const auto [low2, high2] = most(b);
+        if (high <= low2 || high2 <= low) return true;
+    }
+    return false;
+}
+template <class A, class B>
+bool overlap(const A& a, const B& b) {
+    return !parted(a, b) && !parted(b, a);
+}
+
+Site sampleSite() {
+    auto houses = readOutlines("content/street.json");
+    auto doors = findDoors("content/street.json", "content/grammars/town.grammar");
+    REQUIRE(houses);
+    REQUIRE(doors);
+    return makeSite(*houses, *doors, 256);
+}
+
+}  // namespace
+
+TEST_CASE("what stands in yards stands on the ground, and flowers above it in a tub") {
+    const auto bounds = boundsOfProps();
+    const Site site = sampleSite();
+    for (const std::string& thing : kThings) {
+        CAPTURE(thing);
+        REQUIRE(bounds.count(thing));
+        CHECK(bounds.at(thing).low.y <= 0.001f);
+        REQUIRE(site.props.count(thing));
+        for (const SitePlace& p : site.props.at(thing)) CHECK(p.position.y <= kMeadow + 0.001f);
+    }
+    for (const auto& [model, places] : site.props)
+        for (const SitePlace& p : places) {
+            if (p.position.y <= kMeadow + 0.001f) continue;
+            CAPTURE(model);
+            const auto& tubs = site.props.at("tub");
+            const bool held = std::any_of(tubs.begin(), tubs.end(), [&](const SitePlace& tub) {
+                const glm::vec3 up = p.position - tub.position;
+                return glm::length(vec2(up.x, up.z)) < 0.01f && up.y < bounds.at("tub").high.y;
+            });
+            CHECK(held);
+        }
+}
+
+TEST_CASE("nothing in a yard stands in a wall, a fence or another thing") {
+    const auto bounds = boundsOfProps();
+    const Site site = sampleSite();
+    auto houses = readOutlines("content/street.json");
+    REQUIRE(houses);
+    std::vector<Footprint> things, fences;
+    for (const auto& [model, places] : site.props)
+        for (const SitePlace& p : places) {
+            if (kThings.count(model)) things.push_back(footprint(model, p, bounds.at(model)));
+            if (kFences.count(model)) fences.push_back(footprint(model, p, bounds.at(model)));
+        }
+    CHECK(things.size() > 100);
+    for (size_t i = 0; i < things.size(); ++i) {
+        const Footprint& f = things[i];
+        CAPTURE(f.model);
+        CAPTURE(f.corners[0].x);
+        CAPTURE(f.corners[0].y);
+        // Houses needn't be convex: each of their walls is asked.
+        for (const Outline& o : *houses)
+            for (size_t k = 0; k < o.size(); ++k)
+                CHECK_FALSE(overlap(f.corners, std::array<vec2, 2>{o[k], o[(k + 1) % o.size()]}));
+        for (size_t k = 0; k < i; ++k) {
+            CAPTURE(things[k].model);
+            CHECK_FALSE(overlap(f.corners, things[k].corners));
+        }
+        for (const Footprint& fence : fences) {
+            CAPTURE(fence.model);
+            CHECK_FALSE(overlap(f.corners, fence.corners));
+        }
+    }
+}
