@@ -444,6 +444,8 @@ typedef struct EspLook {
     EspView view;
     const char* viewLayer;       /* for ESP_VIEW_LAYER */
     float viewOpacity;           /* 0 to 1: of that layer over the model; default 1 */
+    const EspBrush* viewBrush;   /* for ESP_VIEW_LAYER: where its slopes and heights let no paint pass the surfaces are hatched, and
+                                    the more faintly the more passes; NULL: nowhere */
     uint32_t viewLevel;          /* for ESP_VIEW_CHARTS: the level whose charts and links are shown */
     float windowLodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
     float leafPixels;            /* leaves of at least so many pixels are all drawn, of smaller ones fewer and larger;

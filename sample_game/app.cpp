@@ -31,9 +31,7 @@ constexpr size_t kHistory = 240;   // frames in the graph
 }  // namespace
 
 void App::showUi() {
-    const auto& layers = work_.scene().layers;
-    if (std::find(layers.begin(), layers.end(), work_.brush.layer) == layers.end())
-        work_.brush.layer = layers.empty() ? "" : layers.front();
+    work_.followLayers();
     if (!work_.editing) closeDialogues();
     if (work_.editing) {
         controls_->showTool(input_->mods());
@@ -91,6 +89,12 @@ bool App::drawFrame(bool moving, bool last) {
     draw.look.viewLayer = work_.scene().viewLayer.c_str();
     draw.look.viewOpacity = work_.layout.layerOpacity;
     draw.look.viewLevel = work_.viewLevel;
+    EspBrush brush;
+    if (std::optional limiting = limitingStroke(work_); limiting_ != limiting) {
+        limiting_ = std::move(limiting);
+        work_.redraw = true;
+    }
+    if (limiting_ && brushOf(*limiting_, brush, work_.error)) draw.look.viewBrush = &brush;
     // While the camera moves, or a stroke goes on, on a slow device, less detail.
     const float scale = moving_.prepare(draw, moving && !last, work_.stats.drawMs, work_.layout.halfWhileMoving);
     if (!image_->show(work_.context.get(), *frame, draw, scale, work_.redraw)) return fail(image_->error());

@@ -66,6 +66,7 @@ class App {
     static constexpr int kFramesAfterChange = 3;  // ImGui settles within two
     int awake_ = kFramesAfterChange;
     uint64_t frames_ = 0;
+    std::optional<espalier::document::StrokeBegin> limiting_;  // whose limits the scene's picture shows
     Rest rest_;
     espalier::scene::MovingPicture moving_;
     bool growing_ = false;

@@ -32,7 +32,7 @@ StrokeBegin strokeOf(const Workspace& work, int mods) {
     action.strength = b.strength;
     action.hardness = b.hardness;
     action.value = b.value;
-    if (b.limited) {
+    if (work.brushLimited()) {
         action.slope = {b.slope[0] * kDegree, b.slope[1] * kDegree};
         action.height = {b.height[0], b.height[1]};
         action.softness = b.softness;
@@ -68,6 +68,13 @@ void drawNote(const Workspace& work, glm::vec2 at, const char* text) {
 
 }  // namespace
 
+std::optional<StrokeBegin> limitingStroke(const Workspace& work) {
+    const bool seen = work.editing && work.tool == Tool::paint && work.scene().look.view == ESP_VIEW_LAYER;
+    const StrokeBegin stroke = strokeOf(work, 0), open;
+    const bool limits = stroke.slope != open.slope || stroke.height != open.height;
+    return seen && limits ? std::optional(stroke) : std::nullopt;
+}
+
 void BrushTool::begin(Workspace& work, int mods) {
     if (work.brush.layer.empty()) {
         work.error = "No grammar here reads a layer, so there is nothing to paint.";
@@ -97,18 +104,29 @@ void BrushTool::cancel(Workspace& work) {
     end(work);
 }
 
-void BrushTool::layDab(const Workspace& work, const EspHit& hit) {
-    const glm::vec3 at = vec(hit.position);
+void BrushTool::takeBack(Workspace& work) {
+    end(work);
+    if (!lastDab_) return;
+    work.perform(Undo{});
+    work.message = "The stroke is taken back";
+}
+
+// Nothing is painted that isn't seen: beneath a panel or outside the window.
+void BrushTool::layDab(const Workspace& work, glm::vec2 place) {
+    const bool outside = place.x < 0 || place.y < 0 || place.x > work.window.x || place.y > work.window.y;
+    if (outside || overPanel(place.x, place.y)) return;
+    const std::optional<EspHit> hit = work.aim(place);
+    if (!hit) return;
+    const glm::vec3 at = vec(hit->position);
     if (lastDab_ && glm::distance(at, *lastDab_) < work.brush.spacing * work.brushRadius()) return;
     lastDab_ = at;
-    dabs_.dabs.push_back({at.x, at.y, at.z, hit.normal[0], hit.normal[1], hit.normal[2], 1});
+    dabs_.dabs.push_back({at.x, at.y, at.z, hit->normal[0], hit->normal[1], hit->normal[2], 1});
 }
 
 void BrushTool::moveTo(Workspace& work, glm::vec2 at) {
     const float length = glm::distance(at, last_);
     const int steps = std::clamp(int(length / kPixelsBetweenPicks), 1, 400);
-    for (int i = 1; i <= steps; ++i)
-        if (const auto hit = work.aim(glm::mix(last_, at, float(i) / float(steps)))) layDab(work, *hit);
+    for (int i = 1; i <= steps; ++i) layDab(work, glm::mix(last_, at, float(i) / float(steps)));
     last_ = at;
 }
 
@@ -133,7 +151,7 @@ bool BrushTool::take(Workspace& work, const PointerEvent& event) {
     if (event.kind == Kind::press && event.button == GLFW_MOUSE_BUTTON_LEFT) {
         begin(work, event.mods);
         last_ = at;
-        if (const auto hit = work.aim(at); painting_ && hit) layDab(work, *hit);
+        if (painting_) layDab(work, at);
         return true;
     }
     if (!painting_) return false;
@@ -190,7 +208,7 @@ void BrushTool::draw(const Workspace& work, int mods) const {
     char text[64] = "";
     if (sizing_ == Sizing::radius) std::snprintf(text, sizeof text, "radius %.2f m", work.brushRadius());
     if (sizing_ == Sizing::strength) std::snprintf(text, sizeof text, "strength %.2f", work.brush.strength);
-    if (!sizing && !painting_ && hit && work.brush.limited) {
+    if (!sizing && !painting_ && hit && work.brushLimited()) {
         const glm::vec3 normal = glm::normalize(vec(hit->normal));
         std::snprintf(text, sizeof text, "slope %.0f\u00b0, height %.1f m",
                       std::acos(std::clamp(normal.y, -1.f, 1.f)) * 180 / 3.14159265f, hit->position[1]);

@@ -5,6 +5,9 @@
 
 namespace sample {
 
+// The stroke that would begin now, while its limits are to be seen on the model: with the layer, and if there are any.
+std::optional<espalier::document::StrokeBegin> limitingStroke(const Workspace& work);
+
 // Painting: a drag with the left button lays dabs along the way of the mouse over whatever surfaces lie under it.
 // Ctrl erases, Shift smooths, for as long as the stroke lasts. F, then a move sets the radius, with Shift the strength.
 class BrushTool {
@@ -15,6 +18,8 @@ class BrushTool {
     void flush(Workspace& work);
     void startSizing(Workspace& work, glm::vec2 at, bool strength);
     void cancel(Workspace& work);
+    // Ends the stroke and undoes it.
+    void takeBack(Workspace& work);
     bool painting() const { return painting_; }
     bool sizing() const { return sizing_ != Sizing::none; }
     // The circle on the surface, in what the keys would do now; with limits also the place's slope and height.
@@ -26,7 +31,7 @@ class BrushTool {
     void end(Workspace& work);
     void moveTo(Workspace& work, glm::vec2 at);
     void drawCircle(const Workspace& work, int mods, const EspHit& hit) const;
-    void layDab(const Workspace& work, const EspHit& hit);
+    void layDab(const Workspace& work, glm::vec2 at);
 
     bool painting_ = false;
     glm::vec2 last_{0};

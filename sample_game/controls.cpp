@@ -55,10 +55,13 @@ void Controls::takeKey(const KeyEvent& event) {
     if (key == GLFW_KEY_F12) work_.screenshot = true, work_.message.clear();  // the last one's isn't in the picture
     if (control && takeViewKey(event)) return;
     if (control) {
+        // A stroke ends before what it has painted is saved, written or left.
+        if (key == GLFW_KEY_Q || key == GLFW_KEY_S || key == GLFW_KEY_O || key == GLFW_KEY_E) brush_.cancel(work_);
         if (key == GLFW_KEY_Q) askToQuit();
         if (key == GLFW_KEY_S) askToSave(work_, session_);
         if (key == GLFW_KEY_O) askToOpen();
         if (key == GLFW_KEY_E && !work_.brush.layer.empty()) askForLayer(work_.brush.layer, false);
+        if (key == GLFW_KEY_Z && brush_.painting()) return brush_.takeBack(work_);
         if (toolBusy()) return;
         if (key == GLFW_KEY_Z && !shift && work_.document->undoName()) work_.perform(Undo{});
         if (((key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y) && work_.document->redoName()) work_.perform(Redo{});
@@ -73,6 +76,8 @@ void Controls::takeKey(const KeyEvent& event) {
             work_.layout.help = false;
         else if (brush_.sizing())
             brush_.cancel(work_);
+        else if (brush_.painting())
+            brush_.takeBack(work_);
         else if (seeds_.dragging())
             seeds_.cancel(work_);
         else if (houses_.dragging())
@@ -221,7 +226,7 @@ void Controls::hover() {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     work_.hit.reset();
     if (!work_.editing || work_.tool != Tool::paint || !ImGui::IsMousePosValid(&mouse)) return;
-    if (!brush_.painting() && overPanel(mouse.x, mouse.y)) return;
+    if (overPanel(mouse.x, mouse.y)) return;
     work_.hit = work_.aim({mouse.x, mouse.y});
 }
 

@@ -57,8 +57,9 @@ void toolButtons(Workspace& work) {
 void limits(const Workspace& work, Brush& brush) {
     ImGui::Checkbox("Only some slopes and heights", &brush.limited);
     toolTip(
-        "Paint fades out where the surface is steeper or flatter, higher or lower. The numbers beside\nthe brush say "
-        "what slope and height are there");
+        "Paint fades out where the surface is steeper or flatter, higher or lower: there it is hatched\nwhile the "
+        "layer is "
+        "shown (V). The numbers beside the brush say what slope and height are there");
     if (!brush.limited) return;
     rowLabel("Slope");
     ImGui::DragFloatRange2("##slope", &brush.slope[0], &brush.slope[1], 1, 0, 180, "%.0f\u00b0", "%.0f\u00b0",
@@ -231,6 +232,7 @@ void brushPanel(Workspace& work) {
     toolTip("What is painted: 1 is all, 0 is nothing");
     labelledSlider("Spacing", &b.spacing, .05f, 1, "%.2f");
     toolTip("Between two dabs, of the radius");
+    if (work.townLayer(b.layer)) return;
     limits(work, b);
     ImGui::Checkbox("Only what faces as the centre does", &b.frontOnly);
     toolTip("A brush on a thin wall leaves its back alone");

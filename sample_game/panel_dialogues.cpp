@@ -10,6 +10,7 @@
 
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
+#include "sample_game/replay.hpp"
 #include "sample_game/theme.hpp"
 #include "tools/document/layer_files.hpp"
 
@@ -249,9 +250,10 @@ bool closeMenus() {
 
 void askToOpen(const std::string& refused) {
     Dialogues& d = dialogues();
-    d.open = "Open";
+    const bool run = Replay::names(refused);
+    d.open = run ? "Replay a run" : "Open";
     d.failed = !refused.empty();
-    put(d.file, sizeof d.file, refused);
+    put(run ? d.run : d.file, sizeof d.file, refused);
 }
 
 void showDialogues(Workspace& work, Session& session) {
@@ -279,12 +281,15 @@ void showDialogues(Workspace& work, Session& session) {
             });
     askPath(work, "Replay a run", "A run that was recorded:", "Replay", d.run, sizeof d.run, {".jsonl"},
             [&](const char* file) {
+                Run run;  // before anything is given up for it
+                if (!readRun(file, run, work.error)) return false;
                 askToLeave(work, session, file);
                 return true;
             });
-    askPath(work, "Record a run", "File for what is done from now on:", "Record", d.run, sizeof d.run, {".jsonl"},
-            [&](const char* file) {
-                return session.startRecording(work, file, uint32_t(work.window.x), uint32_t(work.window.y));
+    askPath(work, "Record a run", "File for what is done from now on (.jsonl):", "Record", d.run, sizeof d.run,
+            {".jsonl"}, [&](const char* file) {
+                const std::string path = Replay::names(file) ? file : std::string(file) + ".jsonl";
+                return session.startRecording(work, path, uint32_t(work.window.x), uint32_t(work.window.y));
             });
     layerDialogues(work);
     recoveryDialogue(session);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sample_game/brush_tool.hpp"
 #include "sample_game/panels.hpp"
 
 namespace sample {
@@ -52,6 +53,21 @@ void graph(const Workspace& work) {
     }
     list.AddText({at.x + 4, at.y + 2}, ImGui::GetColorU32(ImGuiCol_TextDisabled), ms(highest).c_str());
     ImGui::Dummy({width, height});
+}
+
+// Stripes as the model has them, and what they mean.
+void hatchedRow(float scale) {
+    const float side = ImGui::GetFontSize(), step = side / 2.5f;
+    const ImVec2 at = ImGui::GetCursorScreenPos(), end{at.x + 2 * side, at.y + side};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, end, IM_COL32(80, 85, 97, 255));
+    list.PushClipRect(at, end, true);
+    for (float x = 0; x < 3 * side; x += step)
+        list.AddLine({at.x + x, at.y}, {at.x + x - side, end.y}, IM_COL32(15, 16, 18, 255), 2.5f * scale);
+    list.PopClipRect();
+    ImGui::Dummy({2 * side, side});
+    ImGui::SameLine();
+    ImGui::TextUnformatted("beyond the limits");
 }
 
 }  // namespace
@@ -148,6 +164,7 @@ void showLegend(const Workspace& work) {
         const std::string last = std::to_string(int(most)) + (layer ? "" : " and more");
         ImGui::SameLine(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(last.c_str()).x);
         ImGui::TextDisabled("%s", last.c_str());
+        if (limitingStroke(work)) hatchedRow(s);
     }
     ImGui::End();
 }

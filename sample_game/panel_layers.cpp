@@ -103,12 +103,15 @@ void layersPanel(Workspace& work) {
         ImGui::PushID(layer.name.c_str());
         const bool chosen = work.brush.layer == layer.name;
         if (ImGui::RadioButton(layer.name.c_str(), chosen)) work.chooseLayer(layer.name);
-        const std::string tip = (layer.label.empty() ? "" : layer.label + "\n") + "Read by " + layer.readers;
+        const std::string tip = layer.readers.empty()
+                                    ? "Painted, but no grammar reads it now"
+                                    : (layer.label.empty() ? "" : layer.label + "\n") + "Read by " + layer.readers;
         toolTip(tip.c_str());
         ImGui::SameLine(ImGui::GetFontSize() * 7);
-        const char* end = layer.label.data() + std::min(layer.label.find(':'), layer.label.size());
+        const std::string what =
+            layer.readers.empty() ? "no grammar reads it" : layer.label.substr(0, layer.label.find(':'));
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-        ImGui::TextUnformatted(layer.label.data(), end);
+        ImGui::TextUnformatted(what.c_str());
         ImGui::PopStyleColor();
         if (chosen) chosenLayer(work, layer);
         ImGui::PopID();

@@ -114,6 +114,17 @@ void Workspace::showLayer(bool seen) {
     perform(espalier::document::SetView{seen ? "layer" : "shaded", seen ? brush.layer : ""});
 }
 
+void Workspace::followLayers() {
+    const auto& layers = scene().layers;
+    const auto there = [&](const std::string& name) { return std::ranges::find(layers, name) != layers.end(); };
+    if (!there(brush.layer)) brush.layer = layers.empty() ? "" : layers.front();
+    if (scene().look.view != ESP_VIEW_LAYER || there(scene().viewLayer)) return;
+    const bool seen = tool == Tool::paint && !brush.layer.empty() && !townLayer(brush.layer);
+    const espalier::document::SetView view{seen ? "layer" : "shaded", seen ? brush.layer : ""};
+    redraw = true;
+    (void)document->perform(view, error);  // what was said of the text stays
+}
+
 Ray Workspace::rayThrough(glm::vec2 at) const {
     return camera.ray(at / window, window.x / window.y, shift());
 }

@@ -98,8 +98,11 @@ struct Workspace {
     bool townLayer(const std::string& name) const;
     void chooseLayer(const std::string& name);  // for the brush
     void showLayer(bool seen);                  // the brush's, on the model
+    void followLayers();  // a grammar's text may have lost the one in hand, or that is seen, and gained others
     float& brushRadius() { return townLayer(brush.layer) ? brush.townRadius : brush.radius; }
     float brushRadius() const { return townLayer(brush.layer) ? brush.townRadius : brush.radius; }
+    // Paint that falls straight down on a town knows neither slopes nor heights.
+    bool brushLimited() const { return brush.limited && !townLayer(brush.layer); }
 
     Ray rayThrough(glm::vec2 at) const;
     std::optional<EspHit> pick(glm::vec2 at) const;  // a surface

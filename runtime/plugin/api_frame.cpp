@@ -61,6 +61,11 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     look.leafPixels = from.leafPixels;
     look.layerOpacity = from.viewOpacity;
     look.level = from.viewLevel;
+    if (from.viewBrush) {
+        if (const char* mistake = mistakeIn(*from.viewBrush))
+            return fail(&context, ESP_INVALID_ARGUMENT, std::string("espDraw: viewBrush: ") + mistake);
+        look.limits = limitsOf(*from.viewBrush);
+    }
     if (from.view < ESP_VIEW_SHADED || from.view > ESP_VIEW_OVERDRAW)
         return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no such view");
     if (from.view == ESP_VIEW_LAYER) {

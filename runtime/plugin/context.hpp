@@ -332,6 +332,10 @@ const Plants* readPlants(EspContext& context);
 // Makes the variants that seeds ask for, and brings up to date those whose grammar has changed.
 Status refreshVariants(EspContext& context);
 
+// What is wrong with a brush; null: nothing.
+const char* mistakeIn(const EspBrush& brush);
+BrushLimits limitsOf(const EspBrush& brush);
+
 // The number of the layer that a grammar's context reads; made if need be, from one that no grammar reads any more and
 // that isn't among `kept` where there are kMaxLayers already. Nothing: all of those are read.
 std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill,

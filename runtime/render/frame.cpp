@@ -71,6 +71,7 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.groundColor = look.groundColor;
     frame.layer = look.view == ViewMode::charts ? look.level : std::min(look.layer, kMaxLayers - 1);
     frame.layerOpacity = std::clamp(look.layerOpacity, 0.0f, 1.0f);
+    frame.limits = look.limits;
     frame.background = look.background;
     frame.shadows = look.shadows ? 1 : 0;
     frame.horizon = look.horizon;

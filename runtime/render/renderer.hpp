@@ -10,6 +10,7 @@
 #include "runtime/render/props.hpp"
 #include "runtime/render/roof_draw.hpp"
 #include "runtime/surface/surface.hpp"
+#include "shaders/paint/brush.h"
 
 namespace espalier {
 
@@ -21,6 +22,8 @@ struct Camera {
 };
 
 enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, layer = 4, depth = 5, overdraw = 6 };
+
+inline constexpr BrushLimits kNoLimits{-1e30f, 1e30f, 1, -1e30f, 1e30f, 1};
 
 // Colours are linear.
 struct Look {
@@ -37,8 +40,9 @@ struct Look {
     ViewMode view = ViewMode::shaded;
     uint32_t layer = 0;  // for ViewMode::layer: index into DrawInputs::layers' 16 a surface
     float layerOpacity = 1;
-    uint32_t level = 0;    // for ViewMode::charts
-    float lodPixels = 1;   // error allowed when choosing LOD, pixels
+    BrushLimits limits = kNoLimits;  // that layer is hatched beyond them
+    uint32_t level = 0;              // for ViewMode::charts
+    float lodPixels = 1;             // error allowed when choosing LOD, pixels
     float leafPixels = 8;  // leaves of at least so many are all drawn, of smaller ones fewer and larger; beyond 8 also
                            // fewer twigs
 };

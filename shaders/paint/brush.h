@@ -17,15 +17,20 @@ CONST_UINT(kBrushSlope, 1u);
 CONST_UINT(kBrushHeight, 2u);
 CONST_UINT(kBrushFront, 4u);    // only texels that face the way the dab does
 
-// 64 bytes. A limit passes fully within [low, high] and fades to nothing over 1 / per... beyond it.
+// Where on a surface a brush paints. A limit passes fully within [low, high] and fades to nothing over 1 / per... beyond it.
+struct BrushLimits {
+    float slopeLow, slopeHigh, perSlope;      // radians from the upward
+    float heightLow, heightHigh, perHeight;   // metres
+};
+STATIC_SIZE(BrushLimits, 24);
+
 struct BrushRecord {
     float perRadius;           // 1 / radius
     float hardness;            // share of the radius that is painted fully
     float perSoft;             // 1 / (1 - hardness), large where that is nothing
     float target;              // what texels are painted towards
     float strength;
-    float slopeLow, slopeHigh, perSlope;      // radians from the upward
-    float heightLow, heightHigh, perHeight;   // metres
+    BrushLimits limits;
     uint flags;
     uint dabs;                 // of this dispatch
     uint gutters;              // smoothing: 0 inner texels, 1 the gutters
@@ -66,17 +71,19 @@ FN float limitWeight(float v, float low, float high, float per) {
     return t * t * (3.0f - 2.0f * t);
 }
 
+FN float slopeWeight(BrushLimits l, vec3 n) {
+    return limitWeight(atan2Exact(sqrtExact(n.x * n.x + n.z * n.z), n.y), l.slopeLow, l.slopeHigh, l.perSlope);
+}
+FN float heightWeight(BrushLimits l, vec3 p) { return limitWeight(p.y, l.heightLow, l.heightHigh, l.perHeight); }
+
 // The share of a texel's way to the target that one dab makes it go, 0 to 1. n: unit; both in world space.
 FN float dabWeight(BrushRecord b, DabRecord d, vec3 p, vec3 n) {
     vec3 offset = p - d.position;
     float x = sqrtExact(dot3(offset, offset)) * b.perRadius;
     float t = limited((x - b.hardness) * b.perSoft, 0.0f, 1.0f);
     float w = x < 1.0f ? 1.0f - t * t * (3.0f - 2.0f * t) : 0.0f;
-    if ((b.flags & kBrushSlope) != 0u) {
-        float slope = atan2Exact(sqrtExact(n.x * n.x + n.z * n.z), n.y);
-        w = w * limitWeight(slope, b.slopeLow, b.slopeHigh, b.perSlope);
-    }
-    if ((b.flags & kBrushHeight) != 0u) w = w * limitWeight(p.y, b.heightLow, b.heightHigh, b.perHeight);
+    if ((b.flags & kBrushSlope) != 0u) w = w * slopeWeight(b.limits, n);
+    if ((b.flags & kBrushHeight) != 0u) w = w * heightWeight(b.limits, p);
     // Over the last degrees to a right angle the weight falls to nothing, so that the edge isn't ragged.
     if ((b.flags & kBrushFront) != 0u) w = w * limited(dot3(n, d.normal) * 8.0f, 0.0f, 1.0f);
     return limited(w * b.strength * d.pressure, 0.0f, 1.0f);

@@ -2,6 +2,7 @@
 #ifndef ESPALIER_RENDER_FRAME_RECORDS_H
 #define ESPALIER_RENDER_FRAME_RECORDS_H
 #include "shaders/emit/emit_records.h"
+#include "shaders/paint/brush.h"
 
 ESPALIER_BEGIN
 
@@ -50,11 +51,12 @@ struct FrameRecord {
     SurfaceBuf surfaces;
     LayerBuf layers;
     float layerOpacity;      // over the model
+    BrushLimits limits;      // of a brush: the layer is hatched where they let less paint pass
     vec3 grassColor;         // of the ground that is drawn
     vec2 siteLow, siteRcp;   // the site's map: its corner, 1 / its size; world, metres; 0: there is none
     vec3 wideScale, wideOffset;   // coordinates in the near shadow map -> in the wide one
 };
-STATIC_SIZE(FrameRecord, 360);
+STATIC_SIZE(FrameRecord, 384);
 
 struct ModelPush {
     vec4 toWorld[3];         // rows

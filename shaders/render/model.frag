@@ -17,6 +17,8 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 uvs;
 layout(location = 0) out vec4 color;
 
+const float kHatching = 0.012;   // between stripes, of the distance
+
 uint walkTexel(uint size) {
     uvec2 at = min(uvec2(clamp(uvs.zw, 0.0, 1.0) * float(size)), uvec2(size - 1u));
     return texelIndex(size, at.x, at.y);
@@ -27,6 +29,16 @@ vec3 withBuried(vec3 shown, SurfaceLevel level) {
     uint at = walkTexel(level.size);
     bool buried = texelClass(level.texels.v[at].bits) == kTexelLink && (level.crossingHead.v[at] & 255u) == 0u;
     return buried ? shown * 0.3 : shown;
+}
+
+// Darkens stripes of what the limits of the brush in hand keep paint from, by the normals that it goes by.
+float hatching() {
+    SurfaceRef surface = frame.surfaces.v[push.surface];
+    vec3 n = unpackOct(surface.levels[0].aux.v[walkTexel(surface.levels[0].size)].normal);
+    n = normalize(vec3(dot(surface.toWorld[0].xyz, n), dot(surface.toWorld[1].xyz, n), dot(surface.toWorld[2].xyz, n)));
+    float kept = 1.0 - slopeWeight(frame.limits, n) * heightWeight(frame.limits, position);
+    float across = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (kHatching * frame.pixelScale)) - 0.5);
+    return 1.0 - 0.7 * kept * smoothstep(0.25, 0.35, across);
 }
 
 vec4 otherView(vec3 n) {
@@ -110,8 +122,10 @@ void main() {
         color = oneFragment();
         return;
     }
+    bool hatched = view == kViewLayer && push.surface != kNoIndex;
     if (explains && !under) {
         color = otherView(bumped);
+        if (hatched) color.rgb *= hatching();
         return;
     }
     vec2 texels = vec2(textureSize(colorMap, 0));
@@ -125,4 +139,5 @@ void main() {
                   (base.rgb * facing + gloss(bumped, eye, sun, max(push.roughness, 0.35)) * facing);
     color = lit(direct, base.rgb * skyLight(bumped));
     if (under) color = mix(color, otherView(bumped), frame.layerOpacity);
+    if (under && hatched) color.rgb *= hatching();
 }

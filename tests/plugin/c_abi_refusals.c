@@ -83,6 +83,10 @@ void badArguments(EspContext* context) {
     draw.look.view = ESP_VIEW_LAYER;
     draw.look.viewLayer = "no such layer";
     REFUSED(espDraw(context, &draw));
+    draw = espDefaultDrawDef();
+    EspBrush nameless = espDefaultBrush();
+    draw.look.viewBrush = &nameless;
+    REFUSED(espDraw(context, &draw));
     uint8_t pixel[4];
     REFUSED(espReadPixels(context, pixel, sizeof pixel));
     EspGrowDef grow = espDefaultGrowDef();

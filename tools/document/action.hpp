@@ -147,6 +147,7 @@ struct StrokeBegin {
         v("hardness", hardness), v("slope", slope), v("height", height), v("softness", softness);
         v("front_only", frontOnly);
     }
+    bool operator==(const StrokeBegin&) const = default;
 };
 struct StrokeDabs {
     static constexpr const char* kName = "dabs";

@@ -113,6 +113,8 @@ class Document {
 
 // The words for an action in menus, such as "Plant seeds".
 const char* nameOf(const Action& action);
+// The brush of a stroke; the layer's name stays the stroke's. False: there is no such mode.
+bool brushOf(const StrokeBegin& stroke, EspBrush& brush, std::string& error);
 // Whether undo takes it back, and a project holds what it changes.
 bool isEdit(const Action& action);
 

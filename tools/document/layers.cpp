@@ -17,6 +17,24 @@ bool modeNamed(const std::string& name, EspBrushMode& mode) {
 
 }  // namespace
 
+bool brushOf(const StrokeBegin& stroke, EspBrush& brush, std::string& error) {
+    brush = espDefaultBrush();
+    brush.layer = stroke.layer.c_str();
+    if (!modeNamed(stroke.mode, brush.mode)) {
+        error = "there is no brush that does '" + stroke.mode + "'";
+        return false;
+    }
+    brush.radius = stroke.radius;
+    brush.value = stroke.value;
+    brush.strength = stroke.strength;
+    brush.hardness = stroke.hardness;
+    std::copy(stroke.slope.begin(), stroke.slope.end(), brush.slopeRange);
+    std::copy(stroke.height.begin(), stroke.height.end(), brush.heightRange);
+    brush.limitSoftness = stroke.softness;
+    brush.frontOnly = stroke.frontOnly;
+    return true;
+}
+
 size_t keptBytes(const Action& action) {
     if (const auto* swap = std::get_if<SwapStroke>(&action))
         return size_t(espStrokeBytes(swap->stroke->context, swap->stroke->stroke));
@@ -47,20 +65,8 @@ bool Document::readTownLayer(const std::string& layer, scene::GreyPicture& out, 
 }
 
 bool Document::carryOut(const StrokeBegin& action, std::vector<Action>&, std::string& error) {
-    EspBrush brush = espDefaultBrush();
-    brush.layer = action.layer.c_str();
-    if (!modeNamed(action.mode, brush.mode)) {
-        error = "there is no brush that does '" + action.mode + "'";
-        return false;
-    }
-    brush.radius = action.radius;
-    brush.value = action.value;
-    brush.strength = action.strength;
-    brush.hardness = action.hardness;
-    std::copy(action.slope.begin(), action.slope.end(), brush.slopeRange);
-    std::copy(action.height.begin(), action.height.end(), brush.heightRange);
-    brush.limitSoftness = action.softness;
-    brush.frontOnly = action.frontOnly;
+    EspBrush brush;
+    if (!brushOf(action, brush, error)) return false;
     strokeHasDabs_ = false;
     return !failed(espBeginStroke(context_, &brush, &stroke_), error);
 }

@@ -40,10 +40,6 @@ bool compileFile(EspContext* context, LoadedGrammar& grammar, std::string& error
 }
 
 bool layLayer(EspContext* context, const Scene& scene, const SceneLayer& layer, std::string& error) {
-    if (std::find(scene.layers.begin(), scene.layers.end(), layer.name) == scene.layers.end()) {
-        error = layer.file + ": no grammar of this scene reads a layer '" + layer.name + "'";
-        return false;
-    }
     GreyPicture picture;
     if (!readGrey(layer.file, picture, error)) return false;
     if (layer.surface == SceneLayer::kTown)
@@ -290,8 +286,13 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
     if (!out.site.empty() && !furnish(context, out.site, error)) return false;
     noteLayers(context, out);
     for (const SceneLayer& layer : file.layers) {
-        // A scene may paint layers that only some grammar, given in place of its own, doesn't read.
-        if (std::find(out.layers.begin(), out.layers.end(), layer.name) == out.layers.end()) continue;
+        // What was painted before a grammar's text lost its layer stays in a project; a scene may paint layers that
+        // only some grammar, given in place of its own, doesn't read.
+        const bool read = std::ranges::find(out.layers, layer.name) != out.layers.end();
+        const bool town = layer.surface == SceneLayer::kTown;
+        if (!read && file.project && town)
+            out.notes.push_back("the town's grammar reads no layer '" + layer.name + "': what was painted is left out");
+        if (!read && (!file.project || town)) continue;
         if (!layLayer(context, out, layer, error)) return false;
     }
     out.camera = espFrameAll(context);
@@ -320,12 +321,12 @@ EspTransform Placing::transform() const {
 
 void noteLayers(const EspContext* context, Scene& scene) {
     scene.layers.clear();
+    const auto note = [&](const std::string& name) {
+        if (std::ranges::find(scene.layers, name) == scene.layers.end()) scene.layers.push_back(name);
+    };
     for (const LoadedGrammar& grammar : scene.grammars)
-        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i) {
-            const std::string name = espLayerName(context, grammar.id, i);
-            if (std::find(scene.layers.begin(), scene.layers.end(), name) == scene.layers.end())
-                scene.layers.push_back(name);
-        }
+        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i) note(espLayerName(context, grammar.id, i));
+    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i) note(espPaintedLayerName(context, i));
 }
 
 bool openScene(EspContext* context, const Request& asked, Scene& out, std::string& error) {
@@ -341,8 +342,13 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     const auto open = isTown(request.file) ? openTown : described ? openDescription : openSurface;
     if (!open(context, request, out, error)) return false;
     noteLayers(context, out);
-    for (const auto& [name, picture] : request.layers)
+    for (const auto& [name, picture] : request.layers) {
+        if (std::ranges::find(out.layers, name) == out.layers.end()) {
+            error = picture + ": no grammar of this scene reads a layer '" + name + "'";
+            return false;
+        }
         if (!layLayer(context, out, {name, picture, -1}, error)) return false;
+    }
     out.look = out.ownLook;
     if (out.hour != kOwnSun) applyDaylight(out.hour, out.look);
     uint32_t key = 0;

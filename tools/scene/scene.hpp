@@ -89,9 +89,9 @@ struct Scene {
     std::vector<LoadedGrammar> grammars;
     std::vector<Seed> seeds;
     std::optional<SceneTown> town;
-    std::string site;  // file of what furnishes it; empty: nothing does
-    std::vector<std::string> layers;
-    std::vector<std::string> notes;  // what of the file couldn't be kept, a line each
+    std::string site;                 // file of what furnishes it; empty: nothing does
+    std::vector<std::string> layers;  // that grammars read; then those that are painted and that none reads any more
+    std::vector<std::string> notes;   // what of the file couldn't be kept, a line each
     EspCamera camera{};
     EspLook ownLook{};      // as the file says
     EspLook look{};         // that, with the light of the hour
@@ -118,7 +118,7 @@ bool setText(EspContext* context, LoadedGrammar& grammar, const std::string& tex
 // Values that aren't the grammar's own.
 std::vector<ParamValue> changedParams(const EspContext* context, EspGrammar grammar);
 
-// The names of all layers that the grammars read, into scene.layers.
+// The names of all layers that the grammars read, or that surfaces are painted with, into scene.layers.
 void noteLayers(const EspContext* context, Scene& scene);
 
 // The folder with the content that is installed beside the running program.

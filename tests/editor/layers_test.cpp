@@ -1,0 +1,156 @@
+// Layers that come and go with a grammar's text, and where a brush's limits are seen.
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/editor/editing.hpp"
+#include "tools/document/project.hpp"
+#include "tools/scene/picture.hpp"
+
+using namespace espalier::document;
+using espalier::scene::GreyPicture;
+
+namespace {
+
+constexpr const char* kAutumn = "context autumn = 0 \"Turned leaves\"\n";
+
+bool lists(const Editing& editing, const char* name) {
+    const auto& layers = editing.document->scene().layers;
+    return std::ranges::find(layers, name) != layers.end();
+}
+
+std::vector<float> texelsOf(Editing& editing, const char* layer) {
+    GreyPicture picture;
+    REQUIRE_MESSAGE(editing.document->readLayer(0, layer, picture, editing.error), editing.error);
+    return picture.texels;
+}
+
+void setText(Editing& editing, const std::string& text) {
+    REQUIRE_MESSAGE(editing.perform(editing.document->withText(0, text)), editing.error);
+    REQUIRE_MESSAGE(editing.document->scene().grammars[0].error.empty(), editing.document->scene().grammars[0].error);
+}
+
+void paint(Editing& editing, const char* layer) {
+    StrokeBegin stroke;
+    stroke.layer = layer;
+    stroke.strength = stroke.hardness = 1;
+    stroke.radius = .8f;
+    REQUIRE_MESSAGE(editing.perform(stroke), editing.error);
+    REQUIRE(editing.perform(StrokeDabs{{{.1f, 1, .36f, 0, 0, 1, 1}}}));
+    REQUIRE(editing.perform(StrokeEnd{}));
+}
+
+constexpr uint32_t kWidth = 160, kHeight = 90;
+
+// The scene's picture with its mask shown, hatched by the brush's limits if there is one.
+std::vector<uint8_t> masked(Editing& editing, const EspBrush* brush, float opacity) {
+    EspDrawDef draw = espDefaultDrawDef();
+    draw.width = kWidth;
+    draw.height = kHeight;
+    draw.camera = editing.document->scene().camera;
+    draw.look = editing.document->scene().look;
+    draw.look.view = ESP_VIEW_LAYER;
+    draw.look.viewLayer = "mask";
+    draw.look.viewOpacity = opacity;
+    draw.look.viewBrush = brush;
+    REQUIRE_MESSAGE(espDraw(editing.context.get(), &draw) == ESP_OK, espLastError(editing.context.get()));
+    std::vector<uint8_t> rgba(size_t(kWidth) * kHeight * 4);
+    REQUIRE(espReadPixels(editing.context.get(), rgba.data(), rgba.size()) == ESP_OK);
+    return rgba;
+}
+
+// What of the picture is darker than before: where the surface is beyond the limits, and where it is within them.
+struct Hatched {
+    float beyond = 0, within = 0;
+};
+template <class Within>
+Hatched hatched(Editing& editing, const EspBrush& brush, float opacity, Within&& within) {
+    const std::vector<uint8_t> plain = masked(editing, nullptr, opacity), limited = masked(editing, &brush, opacity);
+    const EspCamera& camera = editing.document->scene().camera;
+    const auto vec = [](const float* v) { return glm::vec3(v[0], v[1], v[2]); };
+    const glm::vec3 eye = vec(camera.eye), forward = glm::normalize(vec(camera.target) - eye);
+    const glm::vec3 right = glm::normalize(glm::cross(forward, vec(camera.up))), up = glm::cross(right, forward);
+    const float tangent = std::tan(camera.fovY / 2);
+    float darker[2] = {0, 0}, count[2] = {0, 0};
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x) {
+            const glm::vec2 at((2 * x + 1.f) / kWidth - 1, 1 - (2 * y + 1.f) / kHeight);
+            const glm::vec3 ray = forward + tangent * (at.x * float(kWidth) / float(kHeight) * right + at.y * up);
+            EspHit hit;
+            if (espPick(editing.context.get(), &eye.x, &ray.x, &hit) != ESP_OK) continue;
+            const int side = within(hit);  // 0 beyond, 1 within, else too near to say
+            if (side != 0 && side != 1) continue;
+            const size_t i = 4 * (size_t(y) * kWidth + x) + 1;
+            darker[side] += limited[i] + 4 < plain[i];
+            ++count[side];
+        }
+    REQUIRE(count[0] > 500);
+    REQUIRE(count[1] > 500);
+    return {darker[0] / count[0], darker[1] / count[1]};
+}
+
+}  // namespace
+
+TEST_CASE("what is painted on a layer that a grammar's text has lost stays, is listed and saved, and is read again") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const std::string text = editing.document->scene().grammars[0].text;
+    CHECK(!lists(editing, "autumn"));
+    setText(editing, kAutumn + text);
+    CHECK(lists(editing, "autumn"));
+    setText(editing, text);
+    CHECK(!lists(editing, "autumn"));  // nothing was painted on it
+    setText(editing, kAutumn + text);
+    paint(editing, "autumn");
+    const std::vector<float> painted = texelsOf(editing, "autumn");
+    CHECK(*std::ranges::max_element(painted) == 1);
+
+    setText(editing, text);
+    CHECK(lists(editing, "autumn"));
+    CHECK(texelsOf(editing, "autumn") == painted);
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("saved"), editing.error), editing.error);
+    Editing again(folder.file("saved"));
+    CHECK(lists(again, "autumn"));
+    CHECK(texelsOf(again, "autumn") == painted);
+    setText(again, kAutumn + text);
+    CHECK(texelsOf(again, "autumn") == painted);
+
+    // Back over the text to the stroke, and over it.
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(texelsOf(editing, "autumn") == painted);
+    REQUIRE(editing.perform(Undo{}));
+    const std::vector<float> cleared = texelsOf(editing, "autumn");
+    CHECK(*std::ranges::max_element(cleared) == 0);
+}
+
+TEST_CASE("a layer is hatched where the brush's limits let no paint pass, and nowhere else") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    StrokeBegin stroke;
+    stroke.layer = "mask";
+    EspBrush brush;
+    const auto ready = [&] { REQUIRE_MESSAGE(brushOf(stroke, brush, editing.error), editing.error); };
+    ready();
+    CHECK(masked(editing, &brush, .75f) == masked(editing, nullptr, .75f));
+    for (const float opacity : {.05f, 1.f}) {
+        stroke.height = {1, 1e6f};
+        stroke.slope = StrokeBegin{}.slope;
+        ready();
+        const Hatched high = hatched(editing, brush, opacity, [](const EspHit& hit) {
+            return hit.position[1] > 1.05f ? 1 : hit.position[1] < .95f ? 0 : -1;
+        });
+        CHECK(high.beyond > .2f);
+        CHECK(high.within < .01f);  // silhouettes
+        stroke.height = StrokeBegin{}.height;
+        stroke.slope = {0, .785f};
+        ready();
+        const Hatched flat = hatched(editing, brush, opacity, [](const EspHit& hit) {
+            return hit.normal[1] > .95f ? 1 : hit.normal[1] < .3f ? 0 : -1;
+        });
+        CHECK(flat.beyond > .2f);
+        CHECK(flat.within < .1f);  // normals of edges lean
+    }
+    stroke.mode = "scrub";
+    CHECK(!brushOf(stroke, brush, editing.error));
+}
