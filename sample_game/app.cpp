@@ -49,6 +49,7 @@ void App::showUi() {
 
 // Growth that takes longer than a blink is announced one frame before.
 bool App::update() {
+    grownMs_ = 0;
     const bool changed = work_.document->revision() != work_.grownRevision || controls_->painting();
     if (changed && !growing_ && !controls_->painting() && frames_ > 0 && work_.stats.expandMs > kSlowGrowthMs) {
         growing_ = true;
@@ -57,14 +58,16 @@ bool App::update() {
         return false;
     }
     growing_ = false;
-    const uint32_t before = work_.stats.expansions;
+    const uint32_t expansions = work_.stats.expansions;
+    const uint64_t housesGrown = work_.roofs.housesGrown;
     if (espUpdate(work_.context.get()) != ESP_OK) work_.error = espLastError(work_.context.get());
     work_.grownRevision = work_.document->revision();
-    if (espReadStats(work_.context.get(), &work_.stats) != ESP_OK) work_.error = espLastError(work_.context.get());
-    const bool grew = work_.stats.expansions != before;
-    if (grew && work_.branch) work_.readPath();
-    work_.redraw = work_.redraw || grew;
-    return grew;
+    if (!work_.readStats()) return false;
+    const bool plants = work_.stats.expansions != expansions, houses = work_.roofs.housesGrown != housesGrown;
+    if (plants && work_.branch) work_.readPath();
+    grownMs_ = (plants ? work_.stats.expandMs : 0) + (houses ? work_.roofs.expandMs : 0);
+    work_.redraw |= plants || houses;
+    return plants || houses;
 }
 
 void App::screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height) {
@@ -99,8 +102,7 @@ bool App::drawFrame(bool moving, bool last) {
     const float scale = moving_.prepare(draw, moving && !last, work_.stats.drawMs, work_.layout.halfWhileMoving);
     if (!image_->show(work_.context.get(), *frame, draw, scale, work_.redraw)) return fail(image_->error());
     if (image_->drew()) {
-        const bool read = espReadStats(work_.context.get(), &work_.stats) == ESP_OK;
-        work_.redraw = read && work_.stats.modelsFading > 0;
+        work_.redraw = work_.readStats() && work_.stats.modelsFading > 0;
         moving_.drew(work_.frameMs, uint32_t(work_.stats.drawnLeaves));
     }
     ImGui::Render();
@@ -118,9 +120,9 @@ bool App::drawFrame(bool moving, bool last) {
     return host_->end(*frame, take) || fail(host_->error());
 }
 
-void App::noteTimes(bool grew) {
+void App::noteTimes() {
     const bool drew = image_->drew();
-    work_.history.push_back({grew ? float(work_.stats.expandMs) : 0, drew ? float(work_.stats.emitMs) : 0,
+    work_.history.push_back({float(grownMs_), drew ? float(work_.stats.emitMs) : 0,
                              drew ? float(work_.stats.drawMs) : 0, float(work_.frameMs)});
     if (work_.history.size() > kHistory) work_.history.erase(work_.history.begin());
 }
@@ -187,7 +189,7 @@ bool App::frame(float seconds) {
     const bool saved = session_.saveDue(work_);
     session_.nextFrame();
     work_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    noteTimes(grew);
+    noteTimes();
     const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || toolTipWaits() || clickWaits() ||
                       controls_->turning() || input_->gui.waiting();
     if (moved || held || replays || wheel != 0 || !events.empty() || grew || saved)

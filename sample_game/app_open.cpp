@@ -132,6 +132,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.plantGrammar = work_.openGrammar = 0;
     work_.brush.layer = work_.scene().layers.empty() ? "" : work_.scene().layers.front();
     work_.stats = {};
+    work_.roofs = {};
     work_.redraw = true;
     work_.grownRevision = ~0ull;
     espSetGrow(made, &work_.grow);

@@ -44,7 +44,7 @@ class App {
     bool closing();
     bool reload();
     bool frame(float seconds);
-    void noteTimes(bool grew);
+    void noteTimes();
     void wake() { awake_ = kFramesAfterChange; }
 
     AppOptions options_;
@@ -69,6 +69,7 @@ class App {
     std::optional<espalier::document::StrokeBegin> limiting_;  // whose limits the scene's picture shows
     Rest rest_;
     espalier::scene::MovingPicture moving_;
+    double grownMs_ = 0;  // what growth took in this frame
     bool growing_ = false;
     float themeScale_ = 0;
 };

@@ -100,8 +100,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         };
         ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 2 * s});
         const EspStats& stats = work.stats;
-        EspRoofStats roofs{};
-        if (espHouseCount(work.context.get())) (void)espReadRoofStats(work.context.get(), &roofs);
+        const EspRoofStats& roofs = work.roofs;
         const bool plants = stats.seeds || !roofs.houses;
         if (!brief && plants) row("Seeds", grouped(stats.seeds));
         if (!brief && plants) row("Branches", grouped(stats.branches));
@@ -113,7 +112,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         if (!narrow && roofs.houses) row("Tiles and parts", grouped(roofs.tiles));
         if (!brief && roofs.houses) row("Houses' triangles", grouped(roofs.drawnTriangles));
         ImGui::Spacing();
-        const double times[] = {plants ? stats.expandMs : roofs.expandMs, stats.emitMs, stats.drawMs};
+        const double times[] = {stats.expandMs + roofs.expandMs, stats.emitMs, stats.drawMs};
         for (int i = 0; i < 3 && !brief; ++i) row(kStages[i], ms(times[i]), kColours[i]);
         row("Frame", ms(work.frameMs));
         if (!brief) graph(work);

@@ -87,6 +87,12 @@ void Workspace::choose(Tool chosen) {
     tool = chosen;
 }
 
+bool Workspace::readStats() {
+    if (espReadStats(context.get(), &stats) == ESP_OK && espReadRoofStats(context.get(), &roofs) == ESP_OK) return true;
+    error = espLastError(context.get());
+    return false;
+}
+
 bool Workspace::townLayer(const std::string& name) const {
     EspGrammar town{};
     if (espHouseCount(context.get()) == 0 || espTownGrammar(context.get(), &town) != ESP_OK) return false;

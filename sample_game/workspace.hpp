@@ -71,6 +71,7 @@ struct Workspace {
     uint64_t grownRevision = 0;      // of the document that stats tell of
     const char* underWay = nullptr;  // what the next click does, while a tool follows the mouse without one
     EspStats stats{};
+    EspRoofStats roofs{};
     double frameMs = 0;
     std::vector<std::array<float, 4>> history;  // expand, emit, draw, frame; milliseconds of the latest frames
 
@@ -121,6 +122,8 @@ struct Workspace {
     void readPath();  // of the branch, from the last growth
     // A seed that the last growth got no further than. Reads growth back, once after each.
     bool barren(uint32_t key);
+    // False: `error` says why.
+    bool readStats();
     // Where a point of the scene is in the window; nothing: behind the camera.
     std::optional<glm::vec2> place(glm::vec3 point) const;
     // Nothing of the scene is before the point.
