@@ -15,7 +15,7 @@ using namespace espalier::document;
 using espalier::scene::House;
 using espalier::scene::houseNow;
 
-constexpr float kCornerReach = 11, kEdgeReach = 8;  // pixels at 96 dpi
+constexpr float kCornerReach = 11, kEdgeReach = 8, kMergeReach = 6;  // pixels at 96 dpi
 constexpr ImU32 kOutline = IM_COL32(255, 255, 255, 230), kChosen = IM_COL32(255, 170, 50, 255),
                 kGable = IM_COL32(250, 220, 90, 255), kEave = IM_COL32(110, 210, 255, 255);
 
@@ -95,6 +95,13 @@ void HouseTool::dragTo(Workspace& work, glm::vec2 at) {
     if (!(along > 0 && along < 2 * now + 2)) return;
     const glm::vec3 to = ray.origin + along * ray.direction;
     corner = {to.x, to.z};
+    // So near to the next corner or the one before, it is meant to be one with it.
+    const size_t count = dragged_.corners.size();
+    for (size_t other : {*corner_ + 1, *corner_ + count - 1}) {
+        const auto& next = dragged_.corners[other % count];
+        const auto place = work.place({next[0], info.eaveHeight, next[1]});
+        if (place && glm::distance(*place, at) < kMergeReach * work.scale) corner = next;
+    }
     if (!work.perform(SetHouse{dragged_}, gesture_)) return;
     changed_ = true;
     const auto& corners = houseNow(work.context.get(), dragged_.index).corners;
