@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "shaders/emit/emit_records.h"
 #include "tools/content/props.hpp"
 #include "tools/content/site.hpp"
 
@@ -50,6 +51,8 @@ TEST_CASE("props' meshes are sound and get coarser level by level") {
         finer[model] = m.indices.size();
         CHECK(m.indices.size() / 3 < 1500);
     }
+    CHECK(props.all.size() <= espalier::kMaxBuckets);
+    CHECK(finer.size() <= espalier::kMaxVariants);
 }
 
 TEST_CASE("a card's texture coordinates stay in one cell of the foliage") {

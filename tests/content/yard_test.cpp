@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "tools/content/props.hpp"
@@ -106,6 +107,17 @@ TEST_CASE("what stands in yards stands on the ground, and flowers above it in a 
             });
             CHECK(held);
         }
+}
+
+TEST_CASE("what stands in many yards is simple from afar") {
+    std::map<std::string, size_t> triangles;  // of the farthest level
+    for (const PropMeshes::Entry& e : makePropMeshes().all)
+        triangles[e.name.substr(0, e.name.rfind("_lod"))] = e.mesh.indices.size() / 3;
+    const Site site = sampleSite();
+    for (const std::string& thing : kThings) {
+        CAPTURE(thing);
+        CHECK(triangles.at(thing) * site.props.at(thing).size() < 2500);
+    }
 }
 
 TEST_CASE("nothing in a yard stands in a wall, a fence or another thing") {

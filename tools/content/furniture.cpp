@@ -94,15 +94,15 @@ Mesh fence(int lod) {
 }
 
 // A ring of stones, two posts with a windlass, a small roof of shingles.
-Mesh well(int lod) {
+Mesh well(int) {
     Builder b;
-    const int around = lod == 0 ? 14 : 8, courses = lod == 0 ? 3 : 1;
+    constexpr int around = 14, courses = 3, rows = 5;
     const auto at = [](float a, float r, float y) { return vec3(r * std::cos(a), y, r * std::sin(a)); };
     for (int c = 0; c < courses; ++c)
         for (int i = 0; i < around; ++i) {
             const float a0 = 2 * kPi * (float(i) + 0.5f * float(c % 2)) / float(around),
                         a1 = a0 + 2 * kPi / float(around);
-            const float g = lod == 0 ? 0.012f : 0, y0 = 0.80f * float(c) / float(courses) - (c == 0 ? 0.1f : 0),
+            const float g = 0.012f, y0 = 0.80f * float(c) / float(courses) - (c == 0 ? 0.1f : 0),
                         y1 = 0.80f * float(c + 1) / float(courses) - g;
             b.quad(at(a1 - g, 0.95f, y0), at(a0 + g, 0.95f, y0), at(a0 + g, 0.95f, y1), at(a1 - g, 0.95f, y1),
                    Paint::stone, 0.35f + 0.35f * random01(81, uint32_t(c), uint32_t(i)));
@@ -121,7 +121,6 @@ Mesh well(int lod) {
     for (float x : {-0.84f, 0.84f}) b.box({x - 0.07f, 0.9f, -0.07f}, {x + 0.07f, 2.1f, 0.07f}, Paint::darkWood, 0.5f);
     b.box({-0.9f, 1.42f, -0.09f}, {0.9f, 1.58f, 0.09f}, Paint::wood, 0.45f);
     b.box({-0.16f, 0.98f, -0.14f}, {0.16f, 1.22f, 0.14f}, Paint::darkWood, 0.55f, -0.03f);
-    const int rows = lod == 0 ? 5 : 1;
     for (int i = 0; i < rows; ++i)
         for (float side : {1.0f, -1.0f}) {
             const auto p = [&](float x, float t, float lift) {
@@ -183,7 +182,7 @@ void addFurniture(PropMeshes& out) {
         Mesh (*make)(int lod);
         int lods;
     } rows[] = {{"wall", wall, 2}, {"pier", pier, 2},   {"fence", fence, 2},
-                {"well", well, 2}, {"bench", bench, 1}, {"rubble", rubble, 1}};
+                {"well", well, 1}, {"bench", bench, 1}, {"rubble", rubble, 1}};
     for (const auto& row : rows)
         for (int lod = 0; lod < row.lods; ++lod) out.add(row.name, lod, row.make(lod), PropMeshes::kBuilt);
 }

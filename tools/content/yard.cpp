@@ -14,12 +14,14 @@ using glm::vec3;
 constexpr float kPi = 3.14159265f;
 const vec3 kUp(0, 1, 0);
 
-// Split logs in courses between two posts, under boards; what lies behind their ends is in the dark.
-Mesh woodpile() {
+// Split logs in courses between two posts, under boards; what lies behind their ends is in the dark. From afar only
+// the ends are there, close before the dark.
+Mesh woodpile(int lod) {
     Builder b;
     constexpr float kHalf = 0.98f, kFront = 0.24f, kLog = 0.195f, kRow = 0.18f;
     constexpr int kRows = 5;
-    b.box({-kHalf, -0.05f, -0.22f}, {kHalf, kRow * kRows, kFront - 0.09f}, Paint::darkWood, 0.35f);
+    const float dark = kFront - (lod == 0 ? 0.09f : 0.05f);
+    b.box({-kHalf, -0.05f, -0.22f}, {kHalf, kRow * kRows, dark}, Paint::darkWood, 0.35f);
     for (float x : {-kHalf, kHalf})
         b.box({x - 0.045f, -0.1f, kFront - 0.13f}, {x + 0.045f, 1.02f, kFront - 0.04f}, Paint::wood, 0.28f);
     for (int row = 0; row < kRows; ++row) {
@@ -29,10 +31,16 @@ Mesh woodpile() {
             const float wide = kLog * (0.80f + 0.45f * random(0));
             const vec3 at(x + 0.5f * wide, kRow * (float(row) + 0.5f), kFront - 0.05f * random(1));
             const float bright = 0.50f + 0.42f * random(2), turn = 2 * kPi * random(3);
-            const Builder::Axis axis{{at.x, at.y, 0}, {0, 0, 1}, {std::cos(turn), std::sin(turn), 0}};
             const float r = 0.60f * std::min(wide, kRow);
-            b.turn(axis, {{r, kFront - 0.1f}, {r, at.z}}, 4, Paint::darkWood, 0.75f, 0.4f);
-            b.turn(axis, {{r, at.z}, {0, at.z}}, 4, Paint::wood, bright);
+            const vec3 side(std::cos(turn), std::sin(turn), 0), up(-side.y, side.x, 0);
+            if (lod == 0) {
+                const Builder::Axis axis{{at.x, at.y, 0}, {0, 0, 1}, side};
+                b.turn(axis, {{r, kFront - 0.1f}, {r, at.z}}, 4, Paint::darkWood, 0.75f, 0.4f);
+                b.turn(axis, {{r, at.z}, {0, at.z}}, 4, Paint::wood, bright);
+            } else {
+                const vec3 end(at.x, at.y, dark + 0.015f);
+                b.quad(end + r * side, end + r * up, end - r * side, end - r * up, Paint::wood, bright);
+            }
             x += wide;
         }
     }
@@ -43,33 +51,39 @@ Mesh woodpile() {
     return b.mesh;
 }
 
-// Staves held by hoops, `high` metres, filled almost to the brim.
-void addBarrel(Builder& b, float high, float radius, int sides, Paint content) {
+// Staves held by hoops, `high` metres, filled almost to the brim; from afar to the brim.
+void addBarrel(Builder& b, float high, float radius, int sides, Paint content, int lod) {
     const auto at = [&](float t, float over) {
         return Builder::Ring{radius * (0.84f + 0.62f * t * (1 - t)) + over, high * t};
     };
-    b.turn({}, {at(0, 0), at(0.3f, 0), at(0.7f, 0), at(1, 0)}, sides, Paint::wood, 0.40f, 0.35f);
     const Builder::Ring rim = at(1, 0);
-    const float inside = rim.radius - 0.03f, filled = high - 0.06f;
-    b.turn({}, {rim, {inside, high + 0.001f}, {inside, filled}}, sides, Paint::wood, 0.32f);
-    b.turn({}, {{inside, filled}, {0, filled + 0.001f}}, sides, content, 0.12f);
+    if (lod == 0) {
+        b.turn({}, {at(0, 0), at(0.3f, 0), at(0.7f, 0), rim}, sides, Paint::wood, 0.40f, 0.35f);
+        const float inside = rim.radius - 0.03f, filled = high - 0.06f;
+        b.turn({}, {rim, {inside, high + 0.001f}, {inside, filled}}, sides, Paint::wood, 0.32f);
+        b.turn({}, {{inside, filled}, {0, filled + 0.001f}}, sides, content, 0.12f);
+    } else {
+        sides /= 2;
+        b.turn({}, {at(0, 0), at(0.5f, 0), rim}, sides, Paint::wood, 0.40f, 0.35f);
+        b.turn({}, {rim, {0, high}}, sides, content, 0.14f);
+    }
     for (float t : {0.12f, 0.86f})
         b.turn({}, {at(t - 0.03f, 0.007f), at(t + 0.03f, 0.007f)}, sides, Paint::iron, 0.45f);
 }
-Mesh barrel() {
+Mesh barrel(int lod) {
     Builder b;
-    addBarrel(b, 0.88f, 0.33f, 12, Paint::iron);
+    addBarrel(b, 0.88f, 0.33f, 12, Paint::iron, lod);
     return b.mesh;
 }
 // Half a barrel full of earth, for flowers.
-Mesh tub() {
+Mesh tub(int lod) {
     Builder b;
-    addBarrel(b, 0.36f, 0.27f, 10, Paint::mortar);
+    addBarrel(b, 0.36f, 0.27f, 10, Paint::mortar, lod);
     return b.mesh;
 }
 
 // A seat with a back, of boards.
-Mesh seat() {
+Mesh seat(int) {
     Builder b;
     for (float x : {-0.68f, 0.68f}) {
         b.box({x - 0.035f, -0.05f, 0.12f}, {x + 0.035f, 0.43f, 0.19f}, Paint::wood, 0.36f);
@@ -88,7 +102,7 @@ Mesh seat() {
 }
 
 // A stone trough, full.
-Mesh trough() {
+Mesh trough(int) {
     Builder b;
     constexpr float kLong = 0.95f, kWide = 0.36f, kHigh = 0.52f, kThick = 0.10f;
     b.box({-kLong, -0.1f, -kWide}, {kLong, 0.40f, kWide}, Paint::stone, 0.46f, 0.01f);
@@ -117,7 +131,7 @@ void addWheel(Builder& b, vec3 at) {
 }
 
 // Two wheels, a bed of boards with rails, shafts that rest on the ground; hay in it.
-Mesh cart() {
+Mesh cart(int) {
     Builder b;
     for (float side : {-1.0f, 1.0f}) {
         addWheel(b, {0.60f * side, 0.40f, -0.05f});
@@ -136,7 +150,7 @@ Mesh cart() {
 }
 
 // Coils of straw, one on the other, on a board with legs.
-Mesh hives() {
+Mesh hives(int) {
     Builder b;
     for (float x : {-0.72f, 0.72f})
         for (float z : {-0.16f, 0.16f})
@@ -172,7 +186,7 @@ void addCloth(Builder& b, vec3 left, vec3 right, float length, float bright, uin
         }
 }
 // Lines between two posts, washing on one.
-Mesh washing() {
+Mesh washing(int) {
     Builder b;
     constexpr float kHigh = 1.86f, kArm = 0.22f;
     for (float x : {-1.9f, 1.9f}) {
@@ -190,7 +204,7 @@ Mesh washing() {
 }
 
 // Boards about a bed of dug earth, 2.6 m by 1.3 m.
-Mesh boards() {
+Mesh boards(int) {
     Builder b;
     constexpr float kLong = 1.3f, kWide = 0.65f, kHigh = 0.17f;
     for (float side : {-1.0f, 1.0f}) {
@@ -207,7 +221,7 @@ Mesh boards() {
 }
 
 // A stone to step on, almost level with the grass.
-Mesh step() {
+Mesh step(int) {
     Builder b;
     constexpr int kSides = 7;
     vec3 rim[kSides];
@@ -232,15 +246,17 @@ Mesh step() {
 
 }  // namespace
 
-// One level each: the table of props' levels is short, and these have few triangles.
+// The table of props' levels is short: what stands often has a far one.
 void addYard(PropMeshes& out) {
     const struct {
         const char* name;
-        Mesh (*make)();
-    } rows[] = {{"woodpile", woodpile}, {"barrel", barrel}, {"tub", tub},     {"seat", seat},
-                {"trough", trough},     {"cart", cart},     {"hives", hives}, {"washing", washing},
-                {"boards", boards},     {"step", step}};
-    for (const auto& row : rows) out.add(row.name, 0, row.make(), PropMeshes::kBuilt);
+        Mesh (*make)(int lod);
+        int lods;
+    } rows[] = {{"woodpile", woodpile, 2}, {"barrel", barrel, 2}, {"tub", tub, 2},     {"seat", seat, 1},
+                {"trough", trough, 1},     {"cart", cart, 1},     {"hives", hives, 1}, {"washing", washing, 1},
+                {"boards", boards, 1},     {"step", step, 1}};
+    for (const auto& row : rows)
+        for (int lod = 0; lod < row.lods; ++lod) out.add(row.name, lod, row.make(lod), PropMeshes::kBuilt);
 }
 
 }  // namespace espalier::content
