@@ -82,11 +82,11 @@ void picture(DrawingHost& host, Grown& grown) {
     std::fclose(file);
 }
 
-// Whether a pixel or one beside it is among those marked.
-bool near(const std::vector<bool>& marked, size_t pixel) {
+// Whether a pixel or one within reach of it is among those marked.
+bool near(const std::vector<bool>& marked, size_t pixel, int reach = 1) {
     const int x = int(pixel % kWidth), y = int(pixel / kWidth);
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, int(kHeight) - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, int(kWidth) - 1); ++u)
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, int(kHeight) - 1); ++v)
+        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, int(kWidth) - 1); ++u)
             if (marked[size_t(v) * kWidth + size_t(u)]) return true;
     return false;
 }
@@ -184,8 +184,8 @@ void otherFormats(DrawingHost& host, Grown& grown) {
         const Picture drawn = host.draw(camera, kBoxes, grown.context);
         size_t inside = 0, unlike = 0;
         for (size_t i = 0; i < kPixels; ++i) {
-            if (near(other, i))
-                continue;  // edges hold some of the box behind them, which isn't the same in both formats
+            // Edges hold some of the box behind them, which isn't the same in both formats.
+            if (near(other, i, 2)) continue;
             ++inside;
             for (size_t channel = 0; channel < 3; ++channel)
                 if (std::abs(int(drawn.rgba[4 * i + channel]) - int(plain.rgba[4 * i + channel])) > 2) {
@@ -194,7 +194,7 @@ void otherFormats(DrawingHost& host, Grown& grown) {
                 }
         }
         CHECK(inside > 4000);
-        CHECK(unlike < inside / 200);  // smoothing follows edges over some pixels, to boxes too
+        CHECK(unlike < inside / 500);  // smoothing follows some edges further, to boxes too
     }
 }
 
