@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <span>
+#include <utility>
 
 #include "sample_game/panels.hpp"
 
@@ -325,7 +326,9 @@ void showPanel(Workspace& work) {
     ImGui::SetNextWindowSize({work.panelUnits(), work.window.y - top - bottom});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | kQuiet;
+    static Tool shown = work.tool;
     if (ImGui::Begin("Espalier", nullptr, flags)) {
+        if (std::exchange(shown, work.tool) != work.tool) ImGui::SetScrollY(0);  // what it has stands first
         toolButtons(work);
         if (work.tool == Tool::paint) {
             layersPanel(work);

@@ -63,9 +63,9 @@ bool showFolder(char* path, size_t size, const std::vector<std::string>& endings
     bool taken = false;
     const std::string whole = wholePath(std::string(path).substr(0, std::string(path).rfind('/') + 1));
     say("In " + whole, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    // What else the dialogue shows is some seven rows high.
+    const float others = dialogues().failed ? 9 : 7;  // rows, about, of what else the dialogue shows
     const float line = ImGui::GetTextLineHeightWithSpacing(), display = ImGui::GetIO().DisplaySize.y;
-    const float height = std::clamp(display - 7 * ImGui::GetFrameHeightWithSpacing(), 3 * line, 8 * line);
+    const float height = std::clamp(display - others * ImGui::GetFrameHeightWithSpacing(), 3 * line, 8 * line);
     if (ImGui::BeginChild("folder", {dialogueWidth(), height}, true))
         for (const FolderEntry& entry : shown.entries) {
             const bool known = entry.kind == FolderEntry::project;
