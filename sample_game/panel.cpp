@@ -33,18 +33,20 @@ void toolButtons(Workspace& work) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {gap, ImGui::GetStyle().ItemSpacing.y});
     // Only scenes with a town have roofs.
     const std::span shown(entries, std::size(entries) - (espHouseCount(work.context.get()) ? 0 : 1));
-    const auto full = [](const Entry& entry) { return std::string(entry.label) + " " + entry.key; };
+    const auto textOf = [](const Entry& entry, bool keys) {
+        return keys ? std::string(entry.label) + " " + entry.key : entry.label;
+    };
     // What is left of the row besides its words, the same for each.
-    const auto spare = [&](auto&& textOf) {
+    const auto spare = [&](bool keys) {
         float room = ImGui::GetContentRegionAvail().x - gap * float(shown.size() - 1);
-        for (const Entry& entry : shown) room -= ImGui::CalcTextSize(std::string(textOf(entry)).c_str()).x;
+        for (const Entry& entry : shown) room -= ImGui::CalcTextSize(textOf(entry, keys).c_str()).x;
         return room / float(shown.size());
     };
-    const bool fit = spare(full) > 2 * pad;
-    const float more = fit ? spare(full) : spare([](const Entry& entry) { return entry.label; });
+    const bool keys = spare(true) > 2 * pad;
+    const float more = spare(keys);
     for (const Entry& entry : shown) {
         const bool on = work.tool == entry.tool;
-        const std::string text = fit ? full(entry) : entry.label;
+        const std::string text = textOf(entry, keys);
         const float width = ImGui::CalcTextSize(text.c_str()).x + more;
         if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
         if (ImGui::Button(text.c_str(), {width, 0})) work.choose(entry.tool);
