@@ -302,8 +302,7 @@ void lightPanel(Workspace& work) {
             if (ImGui::Selectable(viewTitle(view), scene.look.view == view))
                 work.perform(SetView{espalier::scene::nameOf(view), ""});
         for (const std::string& name : scene.layers)
-            if (!work.townLayer(name) &&
-                ImGui::Selectable(("Layer: " + name).c_str(), layer && scene.viewLayer == name))
+            if (ImGui::Selectable(("Layer: " + name).c_str(), layer && scene.viewLayer == name))
                 work.perform(SetView{"layer", name});
         ImGui::EndCombo();
     }
