@@ -25,8 +25,8 @@ using namespace espalier::document;
 namespace fs = std::filesystem;
 
 constexpr double kSlowGrowthMs = 500;
-constexpr double kLookEvery = .3;  // seconds
-constexpr size_t kHistory = 240;   // frames in the graph
+constexpr double kLookEvery = .3, kLookAtWorkEvery = .05;  // seconds
+constexpr size_t kHistory = 240;                           // frames in the graph
 
 }  // namespace
 
@@ -43,6 +43,7 @@ void App::showUi() {
         showFigures(work_, host_->validationMessages(), host_->validation());
     }
     showStatus(work_, controls_->caught(), controls_->flying());
+    showBackground(work_, session_.background());
     showHelp(work_);
     if (work_.editing) showDialogues(work_, session_);
 }
@@ -159,8 +160,8 @@ bool App::closing() {
 bool App::frame(float seconds) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
-    if (!session_.openNext.empty() && !openNext()) return false;
-    if (session_.reload && !reload()) return false;
+    if (!session_.openNext.empty() && session_.idle() && !openNext()) return false;
+    if (session_.reload && session_.idle() && !reload()) return false;
     if (!rescale()) return false;
     std::vector<InputEvent> events;
     ImGui_ImplGlfw_NewFrame();
@@ -186,13 +187,12 @@ bool App::frame(float seconds) {
     ++frames_;
     const bool hurried = moved || controls_->painting();
     if (!drawFrame(hurried, options_.frames && frames_ >= options_.frames)) return false;
-    const bool saved = session_.saveDue(work_);
     session_.nextFrame();
     work_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     noteTimes();
     const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || toolTipWaits() || clickWaits() ||
                       controls_->turning() || input_->gui.waiting();
-    if (moved || held || replays || wheel != 0 || !events.empty() || grew || saved)
+    if (moved || held || replays || wheel != 0 || !events.empty() || grew)
         wake();
     else if (awake_ > 0)
         --awake_;
@@ -206,9 +206,9 @@ bool App::loop() {
         if (awake_ > 0 || options_.frames) {
             glfwPollEvents();
         } else {
-            const double asleep = glfwGetTime();
-            glfwWaitEventsTimeout(kLookEvery);
-            if (input_->pending() || glfwGetTime() - asleep < .9 * kLookEvery) wake();
+            const double asleep = glfwGetTime(), most = session_.background().busy() ? kLookAtWorkEvery : kLookEvery;
+            glfwWaitEventsTimeout(most);
+            if (input_->pending() || glfwGetTime() - asleep < .9 * most) wake();
         }
         const double now = glfwGetTime();
         input_->gui.polled(now);

@@ -212,8 +212,8 @@ bool App::reload() {
     const fs::path folder = fs::temp_directory_path() / ("espalier-reload-" + std::to_string(getpid()));
     const fs::path kept = folder / work_.scene().name;
     work_.error.clear();
-    if (!saveProject(*work_.document, kept.string(), work_.error)) return true;
     if (!showOpening(origin.file)) return false;
+    if (!saveProject(*work_.document, kept.string(), work_.error)) return true;
     if (openDocument({kept.string(), {}, {}, {}}, work_.error)) {
         work_.perform(view);
         session_.setOrigin(work_, origin);
@@ -237,7 +237,7 @@ bool App::openNext() {
     }
     replay_.forget();
     session_.givesUp = false;
-    askToOpen(file);
+    askToOpen(file, work_.error);
     return true;
 }
 

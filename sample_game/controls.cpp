@@ -35,7 +35,7 @@ void Controls::setEditing(bool editing) {
 }
 
 void Controls::askToQuit() {
-    if (session_.modified(work_) && !work_.editing) setEditing(true);
+    if ((session_.modified(work_) || !session_.idle()) && !work_.editing) setEditing(true);
     askToLeave(work_, session_);
 }
 

@@ -1,5 +1,5 @@
-// Times of files -> texts that differ from those seen last. A text is taken over only if its own file has changed: what
-// was typed stays when another grammar of the folder is saved.
+// Stamps of files -> texts that differ from those seen last. A text is taken over only if its own file has changed:
+// what was typed stays when another grammar of the folder is saved.
 #include "sample_game/grammar_files.hpp"
 
 #include <algorithm>
@@ -17,14 +17,15 @@ fs::path folderOf(const fs::path& file) {
     return file.parent_path().empty() ? "." : file.parent_path();
 }
 
-// The newest change among the grammars of a folder: an included file counts too.
-fs::file_time_type newest(const fs::path& file) {
-    fs::file_time_type time = fs::file_time_type::min();
+std::vector<FileStamp> stampsAround(const fs::path& file) {
+    std::vector<fs::path> files{file};
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folderOf(file), ignored))
-        if (entry.path().extension() == ".grammar" || entry.path() == file)
-            time = std::max(time, entry.last_write_time(ignored));
-    return time;
+        if (entry.path().extension() == ".grammar") files.push_back(entry.path());
+    std::ranges::sort(files);
+    std::vector<FileStamp> stamps;
+    for (const fs::path& each : files) stamps.push_back(stampOf(each));
+    return stamps;
 }
 
 // All that a text includes, each file once: `names` are those that are there already.
@@ -55,9 +56,9 @@ void GrammarFiles::begin(const espalier::scene::Scene& scene) {
     seen_.clear();
     for (const auto& grammar : scene.grammars) {
         std::string text, error;
-        const fs::file_time_type time = newest(grammar.file);
+        std::vector<FileStamp> stamps = stampsAround(grammar.file);
         if (!readText(grammar.file, text, error)) text = grammar.text;
-        seen_.push_back({time, text, included(grammar.file, text)});
+        seen_.push_back({std::move(stamps), text, included(grammar.file, text)});
     }
 }
 
@@ -66,10 +67,9 @@ std::vector<GrammarFiles::Change> GrammarFiles::look(const espalier::scene::Scen
     for (uint32_t i = 0; i < seen_.size() && i < scene.grammars.size(); ++i) {
         const auto& grammar = scene.grammars[i];
         Seen& seen = seen_[i];
-        const fs::file_time_type time = newest(grammar.file);
-        Seen now{time, {}, {}};
+        Seen now{stampsAround(grammar.file), {}, {}};
         std::string error;
-        if (time == seen.time || !readText(grammar.file, now.text, error)) continue;
+        if (now.stamps == seen.stamps || !readText(grammar.file, now.text, error)) continue;
         now.included = included(grammar.file, now.text);
         if (now.text != seen.text)
             changes.push_back({i, now.text, grammar.text != seen.text && grammar.text != now.text});

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "sample_game/file_watch.hpp"
 #include "tools/scene/scene.hpp"
 
 namespace sample {
@@ -24,7 +24,7 @@ class GrammarFiles {
 
   private:
     struct Seen {
-        std::filesystem::file_time_type time;  // of the folder's newest grammar
+        std::vector<FileStamp> stamps;  // of the folder's grammars: an included one counts too
         std::string text, included;
     };
     std::vector<Seen> seen_;  // by grammar

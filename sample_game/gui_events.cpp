@@ -89,8 +89,9 @@ bool GuiEvents::tell(const Letter& letter, Told& told, std::vector<InputEvent>&)
 }
 
 bool GuiEvents::tell(const Key& key, Told& told, std::vector<InputEvent>& taken) {
-    if (told.awaited || told.clicked || told.asks) return false;
     const auto& [code, mods, x, y] = key.event;
+    const bool cancels = code == GLFW_KEY_ESCAPE && dialogueWaits();
+    if ((told.awaited && !cancels) || told.clicked || told.asks) return false;
     const bool shifts = code >= GLFW_KEY_LEFT_SHIFT && code <= GLFW_KEY_RIGHT_SUPER;
     const bool apart = told.typing && !writes(code, mods) && !(shifts && key.action == GLFW_PRESS);
     if (apart && (told.keyed || told.wrote)) return false;

@@ -21,9 +21,12 @@ using namespace espalier::document;
 
 struct Dialogues {
     const char* open = nullptr;
-    bool failed = false;  // the open one's last try
-    bool acts = false;    // what it was told is done in the next frame, when the user has seen that
+    // Of the open one. acts: what it was told is done in the next frame, when the user has seen that; waits: for work
+    // beside the frames; done: it closes; failed: it stays, with `why`.
+    enum class Turn { asks, acts, waits, done, failed } turn = Turn::asks;
+    std::string why;
     bool asks = false;    // one that asks for a path was open in the last frame
+    bool leaves = false;  // for what is next, as soon as nothing is under way
     char project[512] = "", file[512] = "", run[512] = "", picture[512] = "";
     std::string layer;                // of the picture
     std::optional<std::string> next;  // what is opened once this is saved or given up; "": nothing, the program ends
@@ -63,7 +66,8 @@ bool showFolder(char* path, size_t size, const std::vector<std::string>& endings
     bool taken = false;
     const std::string whole = wholePath(std::string(path).substr(0, std::string(path).rfind('/') + 1));
     say("In " + whole, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    const float others = dialogues().failed ? 9 : 7;  // rows, about, of what else the dialogue shows
+    // Rows, about, of what else the dialogue shows.
+    const float others = dialogues().turn == Dialogues::Turn::failed ? 9 : 7;
     const float line = ImGui::GetTextLineHeightWithSpacing(), display = ImGui::GetIO().DisplaySize.y;
     const float height = std::clamp(display - others * ImGui::GetFrameHeightWithSpacing(), 3 * line, 8 * line);
     if (ImGui::BeginChild("folder", {dialogueWidth(), height}, true))
@@ -80,41 +84,74 @@ bool showFolder(char* path, size_t size, const std::vector<std::string>& endings
     return taken;
 }
 
-// A dialogue that asks for a path, and stays with what went wrong until `act`, which is given the path, returns true.
+using Turn = Dialogues::Turn;
+
+Turn turnOf(const Workspace& work, bool good) {
+    dialogues().why = work.error;
+    return good ? Turn::done : Turn::failed;
+}
+
+// The end of what a dialogue waits for. Cancelled, it asks again.
+void endWait(const Workspace& work, bool good) {
+    const bool cancelled = !good && work.error.empty();
+    if (dialogues().turn == Turn::waits) dialogues().turn = cancelled ? Turn::asks : turnOf(work, good);
+}
+
+// How far it is; true: it is told to act.
+bool showTurn(Background& background, bool confirmed) {
+    Dialogues& d = dialogues();
+    if (d.turn == Turn::waits && background.slow()) {
+        say(background.title());
+        ImGui::ProgressBar(background.progress(), {dialogueWidth(), 0});
+    }
+    if (d.turn == Turn::failed) say(d.why, kBad);
+    if (d.turn == Turn::acts) return true;
+    if (confirmed && d.turn != Turn::waits && d.turn != Turn::done) {
+        d.turn = Turn::acts;
+        ImGui::TextUnformatted("One moment ...");
+    }
+    return false;
+}
+
+// A dialogue that asks for a path, and stays with what went wrong until `act`, which is given the path, or the work
+// that it began, is done.
 template <class Act>
-void askPath(Workspace& work, const char* title, const char* label, const char* button, char* path, size_t size,
-             const std::vector<std::string>& endings, Act&& act) {
+void askPath(Workspace& work, Session& session, const char* title, const char* label, const char* button, char* path,
+             size_t size, const std::vector<std::string>& endings, Act&& act) {
+    Dialogues& d = dialogues();
     bool confirmed = false;
     if (!beginDialogue(title)) return;
-    dialogues().asks = true;
+    d.asks = true;
     say(label);
     ImGui::SetNextItemWidth(dialogueWidth());
     if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // it is all that one can type into
-    confirmed = ImGui::InputText("##path", path, size, ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool waits = d.turn == Turn::waits;
+    confirmed = ImGui::InputText("##path", path, size,
+                                 ImGuiInputTextFlags_EnterReturnsTrue | (waits ? ImGuiInputTextFlags_ReadOnly : 0));
+    ImGui::BeginDisabled(waits);
     confirmed |= showFolder(path, size, endings);
     confirmed |= ImGui::Button(button);
+    ImGui::EndDisabled();
     ImGui::SameLine();
     const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    const bool done = std::exchange(dialogues().acts, false);
-    if (done) {
+    if (showTurn(session.background(), confirmed && path[0])) {
         work.error.clear();
-        dialogues().failed = !act(path);
-    } else if (confirmed && path[0]) {
-        dialogues().acts = true;
-        dialogues().failed = false;
-        ImGui::TextUnformatted("One moment ...");
+        d.turn = Turn::waits;
+        act(path);
     }
-    if (dialogues().failed) say(work.error, kBad);
-    if (cancelled) dialogues().next.reset();
-    if (cancelled || (done && !dialogues().failed)) {
-        dialogues().asks = dialogues().acts = false;
+    if (cancelled && waits) {
+        session.background().cancelLast();
+    } else if (cancelled || d.turn == Turn::done) {
+        if (cancelled) d.next.reset();
+        d.asks = false;
+        d.turn = Turn::asks;
         ImGui::CloseCurrentPopup();
     }
     ImGui::EndPopup();
 }
 void ask(const char* title) {
     dialogues().open = title;
-    dialogues().failed = false;
+    dialogues().turn = Turn::asks;
 }
 
 // What is open is saved, or may be given up.
@@ -130,25 +167,37 @@ void put(char* to, size_t size, const std::string& text) {
     std::snprintf(to, size, "%s", text.c_str());
 }
 
-void layerDialogues(Workspace& work) {
+// Pictures of layers, out and in, beside the frames.
+void layerDialogues(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
     const bool town = work.townLayer(d.layer);
+    const auto told = [&work](const Work& over, const std::string& message) {
+        work.redraw = true;
+        work.error = over.error();
+        work.message = over.state() == Work::State::done ? message : "";
+        endWait(work, over.state() == Work::State::done);
+    };
     const char* asked = town ? "Picture of the town from above, north up (.png, .exr):"
                              : "Picture in the surface's walk UVs, as Export writes it (.png, .exr):";
-    askPath(work, "Import a layer", asked, "Import", d.picture, sizeof d.picture, {".png", ".exr"},
-            [&](const char* file) {
-                if (town) return work.perform(LoadTownLayer{d.layer, file});
-                std::string note;
-                work.redraw = true;
-                if (!importLayer(*work.document, d.layer, file, work.newGesture(), note, work.error)) return false;
-                work.message = "Read: " + wholePath(file) + (note.empty() ? "" : " (" + note + ")");
-                return true;
+    askPath(work, session, "Import a layer", asked, "Import", d.picture, sizeof d.picture, {".png", ".exr"},
+            [&](const std::string& file) {
+                const uint32_t gesture = work.newGesture();
+                session.background().ask({"Importing " + file,
+                                          [&work, layer = d.layer, town, file, gesture] {
+                                              return importing(*work.document, layer, town, file, gesture);
+                                          },
+                                          [told, file](const Work& over) {
+                                              const std::string note = over.note();
+                                              told(over, "Read: " + wholePath(file) +
+                                                             (note.empty() ? "" : " (" + note + ")"));
+                                          }});
             });
-    askPath(work, "Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture,
-            sizeof d.picture, {".png", ".exr"}, [&](const char* file) {
-                if (!(town ? exportTownLayer : exportLayer)(*work.document, d.layer, file, work.error)) return false;
-                work.message = "Written: " + wholePath(file);
-                return true;
+    askPath(work, session, "Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture,
+            sizeof d.picture, {".png", ".exr"}, [&](const std::string& file) {
+                session.background().ask(
+                    {"Exporting " + d.layer,
+                     [&work, layer = d.layer, town, file] { return exporting(*work.document, layer, town, file); },
+                     [told, file](const Work& over) { told(over, "Written: " + wholePath(file)); }});
             });
 }
 
@@ -173,31 +222,40 @@ void recoveryDialogue(Session& session) {
 
 void leavingDialogue(Workspace& work, Session& session) {
     if (!beginDialogue("Unsaved changes")) return;
+    Dialogues& d = dialogues();
     say(session.name(work) + " has changes that aren't saved.");
     const bool saves = ImGui::Button("Save") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
     ImGui::SameLine();
     const bool gives = ImGui::Button("Give them up");
     ImGui::SameLine();
     const bool stays = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    if (saves || gives || stays || !dialogues().next) ImGui::CloseCurrentPopup();
+    if (saves || gives || stays || !d.next) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
-    if (stays) dialogues().next.reset();
-    if (!dialogues().next) return;
-    if (saves && session.folder().empty()) askToSave(work, session);
-    if (saves && !session.folder().empty()) session.save(work, session.folder());
+    if (stays) d.next.reset();
+    if (!d.next) return;
     session.givesUp = gives;
-    if (gives || (saves && !session.modified(work)))
-        leave(session);
-    else if (saves && !dialogues().open)
-        dialogues().next.reset();  // it couldn't be saved
+    if (gives) leave(session);
+    if (saves) {
+        askToSave(work, session);
+        d.leaves = !session.folder().empty();  // else the dialogue goes on with it
+    }
 }
 
 }  // namespace
 
+// What can't be saved asks for another place, and nothing is left before that.
 void askToSave(Workspace& work, Session& session, bool elsewhere) {
-    if (!session.folder().empty() && !elsewhere) return session.saveSoon(work);
     put(dialogues().project, sizeof dialogues().project, session.folder());
-    ask("Save the project");
+    if (session.folder().empty() || elsewhere) return ask("Save the project");
+    session.save(work, session.folder(), [&work](bool good) {
+        if (good) return;
+        Dialogues& d = dialogues();
+        d.leaves = false;
+        if (work.error.empty()) return d.next.reset();  // cancelled
+        if (d.asks || d.open) return;
+        ask("Save the project");
+        d.turn = turnOf(work, false);
+    });
 }
 
 void askToRecord() {
@@ -208,7 +266,10 @@ void askToReplay() {
 }
 
 bool askToLeave(Workspace& work, Session& session, const std::string& next) {
-    dialogues().next = next;
+    Dialogues& d = dialogues();
+    d.next = next;
+    d.leaves = !session.idle();
+    if (d.leaves) return false;
     if (session.modified(work))
         ask("Unsaved changes");
     else
@@ -229,14 +290,19 @@ void askForLayer(const std::string& layer, bool import) {
 
 void closeDialogues() {
     dialogues().open = nullptr;
-    dialogues().asks = dialogues().acts = false;
+    dialogues().asks = false;
+    if (dialogues().turn != Turn::waits) dialogues().turn = Turn::asks;
     dialogues().next.reset();
     if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) ImGui::ClosePopupToLevel(0, false);
 }
 
 bool awaitsText() {
     const Dialogues& d = dialogues();
-    return d.acts || ((d.open || d.asks) && !ImGui::GetIO().WantTextInput);
+    return d.turn == Turn::acts || d.turn == Turn::waits || ((d.open || d.asks) && !ImGui::GetIO().WantTextInput);
+}
+
+bool dialogueWaits() {
+    return dialogues().turn == Turn::waits;
 }
 
 bool closeMenus() {
@@ -248,11 +314,11 @@ bool closeMenus() {
     return true;
 }
 
-void askToOpen(const std::string& refused) {
+void askToOpen(const std::string& refused, const std::string& why) {
     Dialogues& d = dialogues();
     const bool run = Replay::names(refused);
-    d.open = run ? "Replay a run" : "Open";
-    d.failed = !refused.empty();
+    ask(run ? "Replay a run" : "Open");
+    if (!refused.empty()) d.turn = Turn::failed, d.why = why;
     put(run ? d.run : d.file, sizeof d.file, refused);
 }
 
@@ -267,33 +333,38 @@ void showDialogues(Workspace& work, Session& session) {
         ImGui::OpenPopup(d.open);
         d.open = nullptr;
     }
-    askPath(work, "Save the project", "Folder of the project:", "Save", d.project, sizeof d.project, {},
+    askPath(work, session, "Save the project", "Folder of the project:", "Save", d.project, sizeof d.project, {},
             [&](const char* folder) {
-                session.save(work, folder);
-                if (work.error.empty() && d.next) leave(session);
-                return work.error.empty();
+                session.save(work, folder, [&work](bool good) {
+                    endWait(work, good);
+                    dialogues().leaves = good;
+                });
             });
     // What can't be opened asks again, see askToOpen.
-    askPath(work, "Open", "A project's folder, a scene (.json) or a baked surface (.glb):", "Open", d.file,
-            sizeof d.file, {".json", ".glb"}, [&](const char* file) {
-                askToLeave(work, session, file);
-                return true;
-            });
-    askPath(work, "Replay a run", "A run that was recorded:", "Replay", d.run, sizeof d.run, {".jsonl"},
+    const auto open = [&](const char* file) {
+        askToLeave(work, session, file);
+        d.turn = Turn::done;
+    };
+    askPath(work, session, "Open", "A project's folder, a scene (.json) or a baked surface (.glb):", "Open", d.file,
+            sizeof d.file, {".json", ".glb"}, open);
+    askPath(work, session, "Replay a run", "A run that was recorded:", "Replay", d.run, sizeof d.run, {".jsonl"},
             [&](const char* file) {
                 Run run;  // before anything is given up for it
-                if (!readRun(file, run, work.error)) return false;
-                askToLeave(work, session, file);
-                return true;
+                if (readRun(file, run, work.error))
+                    open(file);
+                else
+                    d.turn = turnOf(work, false);
             });
-    askPath(work, "Record a run", "File for what is done from now on (.jsonl):", "Record", d.run, sizeof d.run,
+    askPath(work, session, "Record a run", "File for what is done from now on (.jsonl):", "Record", d.run, sizeof d.run,
             {".jsonl"}, [&](const char* file) {
                 const std::string path = Replay::names(file) ? file : std::string(file) + ".jsonl";
-                return session.startRecording(work, path, uint32_t(work.window.x), uint32_t(work.window.y));
+                d.turn =
+                    turnOf(work, session.startRecording(work, path, uint32_t(work.window.x), uint32_t(work.window.y)));
             });
-    layerDialogues(work);
+    layerDialogues(work, session);
     recoveryDialogue(session);
     leavingDialogue(work, session);
+    if (d.leaves && d.next && session.idle()) askToLeave(work, session, std::string(*d.next));
 }
 
 }  // namespace sample

@@ -132,12 +132,36 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
     ImGui::PopStyleVar(2);
 }
 
+namespace {
+
+// Over the picture, near its foot: `row` 0 is the lowest.
+bool beginNotice(const Workspace& work, const char* name, int row, int flags) {
+    ImGui::SetNextWindowPos(
+        {(work.window.x + work.panelUnits()) / 2, work.window.y - float(90 + 60 * row) * work.scale}, ImGuiCond_Always,
+        {.5f, .5f});
+    return ImGui::Begin(name, nullptr,
+                        flags | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings |
+                            ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize | kQuiet);
+}
+
+}  // namespace
+
 void showGrowing(const Workspace& work) {
-    ImGui::SetNextWindowPos({(work.window.x + work.panelUnits()) / 2, work.window.y - 90 * work.scale},
-                            ImGuiCond_Always, {.5f, .5f});
-    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize | kQuiet;
-    if (ImGui::Begin("growing", nullptr, flags)) ImGui::TextUnformatted("Growing ...");
+    if (beginNotice(work, "growing", 0, ImGuiWindowFlags_NoInputs)) ImGui::TextUnformatted("Growing ...");
+    ImGui::End();
+}
+
+void showBackground(const Workspace& work, Background& background) {
+    if (!background.slow() || dialogueWaits()) return;
+    if (beginNotice(work, "background", 1, 0)) {
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(background.title().c_str());
+        ImGui::SameLine();
+        ImGui::ProgressBar(background.progress(), {ImGui::GetFontSize() * 12, 0});
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel")) background.cancel();
+        toolTip("What is on the disk stays as it was");
+    }
     ImGui::End();
 }
 

@@ -14,22 +14,24 @@ void showDialogues(Workspace& work, Session& session);
 void showPanel(Workspace& work);          // at the left: the tool, layers, seeds, grammars, light
 void showGrammarWindow(Workspace& work);  // the text, with mistakes at their lines
 void showFigures(const Workspace& work, uint32_t validationMessages, bool validation);
-void showLegend(const Workspace& work);                            // of a view that shows amounts
-void showStatus(const Workspace& work, bool caught, bool flying);  // at the bottom: what keys and buttons do now
-void showWalk(const Workspace& work);                              // of the picked branch, on the model
-void showHelp(Workspace& work);                                    // over all: F1
-void showGrowing(const Workspace& work);                           // while growth takes longer than a blink
+void showLegend(const Workspace& work);                              // of a view that shows amounts
+void showStatus(const Workspace& work, bool caught, bool flying);    // at the bottom: what keys and buttons do now
+void showWalk(const Workspace& work);                                // of the picked branch, on the model
+void showHelp(Workspace& work);                                      // over all: F1
+void showGrowing(const Workspace& work);                             // while growth takes longer than a blink
+void showBackground(const Workspace& work, Background& background);  // what takes long of it, unless a dialogue does
 
 // Ctrl+S and Ctrl+O: at once, or by a dialogue.
 void askToSave(Workspace& work, Session& session, bool elsewhere = false);
-void askToOpen(const std::string& refused = {});  // refused: what couldn't be opened; Workspace::error says why
+void askToOpen(const std::string& refused = {}, const std::string& why = {});  // refused: what couldn't be opened
 void askToRecord();
 void askToReplay();
 // The end of the program, or another file to open: at once, or when the user has said what becomes of what isn't saved.
 // False: that is asked, which only frames with showDialogues() do.
 bool askToLeave(Workspace& work, Session& session, const std::string& next = {});
 bool asksToLeave();
-bool closeMenus();  // those that are open, not dialogues; false: there are none
+bool closeMenus();     // those that are open, not dialogues; false: there are none
+bool dialogueWaits();  // for work that it began
 // In frames without showDialogues(): ImGui can't do with a dialogue that is open and isn't laid out.
 void closeDialogues();
 // A dialogue has been asked for, or is open, whose text can't be typed into yet, or that is about to close: within some

@@ -1,9 +1,11 @@
-// Saves and autosaves by tools/document, grammars' files by their times, runs by the document's listener.
+// Saves and autosaves by tools/document, files of others by what they hold, runs by the document's listener.
 #include "sample_game/session.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
+#include "sample_game/folder_list.hpp"
 #include "sample_game/settings.hpp"
 #include "tools/document/project.hpp"
 #include "tools/scene/picture.hpp"
@@ -17,18 +19,11 @@ using namespace espalier::document;
 constexpr double kLookEvery = .3;   // seconds
 constexpr uint64_t kNever = ~1ull;  // was saved: no document has this state
 
-// Of surfaces and town. A file that isn't there at the moment counts as it was: `before`.
-std::vector<fs::file_time_type> modelTimes(const Workspace& work, const std::vector<fs::file_time_type>& before) {
+std::vector<std::string> modelFiles(const espalier::scene::Scene& scene) {
     std::vector<std::string> files;
-    for (const auto& surface : work.scene().surfaces) files.push_back(surface.file);
-    if (work.scene().town) files.push_back(work.scene().town->file);
-    std::vector<fs::file_time_type> times;
-    for (size_t i = 0; i < files.size(); ++i) {
-        std::error_code missing;
-        times.push_back(fs::last_write_time(files[i], missing));
-        if (missing) times.back() = i < before.size() ? before[i] : fs::file_time_type::min();
-    }
-    return times;
+    for (const auto& surface : scene.surfaces) files.push_back(surface.file);
+    if (scene.town) files.push_back(scene.town->file);
+    return files;
 }
 
 }  // namespace
@@ -45,8 +40,9 @@ void Session::begin(Workspace& work, const std::string& file) {
     autosavedState_ = work.document->state();
     recovery_ = recovered ? "" : recoverable(autosaveFolder());
     grammarFiles_.begin(work.scene());
-    modelTimes_ = modelTimes(work, {});
+    models_.begin(modelFiles(work.scene()));
     reload = givesUp = replayed_ = false;
+    work.document->beforeEdits([this] { background_.settle(); });
     work.document->listen([this](const Action& action, uint32_t gesture) { recorder_.note(action, gesture); });
 }
 
@@ -66,21 +62,22 @@ std::string Session::autosaveFolder() const {
 }
 
 bool Session::step(Workspace& work, double now) {
-    if (now >= nextAutosave_) {
+    // A stroke is one step: it is saved when it has ended.
+    const bool moved = (background_.started() || !work.document->stroking()) && background_.step();
+    if (now >= nextAutosave_ && !background_.busy()) {
         nextAutosave_ = now + autosaveEvery;
-        keep(work);
+        keepSoon(work);
     }
-    if (now < nextLook_) return false;
+    if (now < nextLook_ || background_.busy()) return moved;
     nextLook_ = now + kLookEvery;
-    const bool models = watchModels(work), grammars = watchGrammars(work);
-    return models || grammars;
+    const bool models = models_.changed(), grammars = watchGrammars(work);
+    reload = reload || models;
+    return moved || models || grammars;
 }
 
-bool Session::watchModels(const Workspace& work) {
-    std::vector<fs::file_time_type> times = modelTimes(work, modelTimes_);
-    if (times == modelTimes_) return false;
-    modelTimes_ = std::move(times);
-    return reload = true;
+bool Session::idle() {
+    background_.giveWay();
+    return !background_.busy();
 }
 
 void Session::setOrigin(const Workspace& work, const Origin& origin) {
@@ -102,21 +99,43 @@ bool Session::watchGrammars(Workspace& work) {
 
 void Session::end(Workspace& work) {
     if (recording()) stopRecording(work);
+    background_.giveWay();
+    background_.finish();
+    work.document->beforeEdits({});
     if (autosaveFolder().empty() || !recovery_.empty()) return;
     if (givesUp)
         dropKept();
     else
-        keep(work);
+        keepNow(work);
 }
 
-void Session::keep(Workspace& work) {
-    const uint64_t state = work.document->state();
-    if (autosaveFolder().empty() || !recovery_.empty() || state == autosavedState_) return;
+bool Session::keeps(const Workspace& work) const {
+    return !autosaveFolder().empty() && recovery_.empty() && work.document->state() != autosavedState_;
+}
+
+void Session::keepNow(Workspace& work) {
+    if (!keeps(work)) return;
     if (!modified(work))
         dropKept();
     else if (!autosave(*work.document, autosaveFolder(), work.error))
         return;
-    autosavedState_ = state;
+    autosavedState_ = work.document->state();
+}
+
+void Session::keepSoon(Workspace& work) {
+    if (!keeps(work)) return;
+    if (!modified(work)) return keepNow(work);
+    const auto state = std::make_shared<uint64_t>();
+    background_.ask({"",
+                     [this, &work, state] {
+                         *state = work.document->state();
+                         return autosaving(*work.document, autosaveFolder());
+                     },
+                     [this, &work, state](const Work& over) {
+                         if (over.state() == Work::State::done) autosavedState_ = *state;
+                         if (over.state() == Work::State::failed)
+                             work.error = "What isn't saved couldn't be kept: " + over.error();
+                     }});
 }
 
 void Session::dropKept() const {
@@ -133,28 +152,30 @@ void Session::replays() {
     recovery_.clear();
 }
 
-void Session::save(Workspace& work, const std::string& folder) {
-    work.error.clear();
-    if (!saveProject(*work.document, folder, work.error)) return;
-    if (folder_.empty() && !autosaveFolder().empty()) dropKept();
-    replayed_ = false;
-    folder_ = fs::absolute(folder).lexically_normal().string();
-    savedState_ = autosavedState_ = work.document->state();
-    recovery_.clear();
-    work.message = "Saved: " + folder_;
-}
-
-void Session::saveSoon(Workspace& work) {
-    saveSoon_ = true;
+void Session::save(Workspace& work, const std::string& folder, Ended ended) {
+    const auto state = std::make_shared<uint64_t>();
     work.error.clear();
     work.message = "Saving ...";
+    background_.ask({"Saving " + fs::path(wholePath(folder)).filename().string(),
+                     [&work, state, folder] {
+                         *state = work.document->state();
+                         return saving(*work.document, folder);
+                     },
+                     [this, &work, state, folder, ended](const Work& over) {
+                         const bool good = over.state() == Work::State::done;
+                         work.message = good ? "Saved: " + wholePath(folder) : "Not saved";
+                         work.error = over.error();
+                         if (good) saved(folder, *state);
+                         ended(good);
+                     }});
 }
 
-bool Session::saveDue(Workspace& work) {
-    if (!std::exchange(saveSoon_, false)) return false;
-    work.message.clear();
-    save(work, folder_);
-    return true;
+void Session::saved(const std::string& folder, uint64_t state) {
+    if (folder_.empty() && !autosaveFolder().empty()) dropKept();
+    replayed_ = false;
+    folder_ = wholePath(folder);
+    savedState_ = autosavedState_ = state;
+    recovery_.clear();
 }
 
 void Session::forgetRecovery(bool deleteIt) {

@@ -1,9 +1,11 @@
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "sample_game/background.hpp"
+#include "sample_game/file_watch.hpp"
 #include "sample_game/grammar_files.hpp"
 #include "sample_game/workspace.hpp"
 #include "tools/document/run.hpp"
@@ -15,8 +17,8 @@ class Session {
   public:
     // After the document was opened from `file`.
     void begin(Workspace& work, const std::string& file);
-    // Once a frame, with the seconds since the program's start: looks at grammars' files and autosaves in time.
-    // True: something has changed.
+    // Once a frame, with the seconds since the program's start: goes on with what is under way, looks at files that
+    // others write, and autosaves in time. True: something has changed.
     bool step(Workspace& work, double now);
     // The end of what is open: what wasn't saved stays as an autosave, unless it is given up.
     void end(Workspace& work);
@@ -27,10 +29,14 @@ class Session {
     // As the title says it.
     std::string name(const Workspace& work) const;
     bool modified(const Workspace& work) const { return work.document->state() != savedState_; }
-    void save(Workspace& work, const std::string& folder);
-    // Into its folder, when the user has seen that it is being saved: by saveDue() at the end of the frame.
-    void saveSoon(Workspace& work);
-    bool saveDue(Workspace& work);  // false: nothing is
+    // The document as it is when its turn comes; what is done to it meanwhile isn't part of it. `ended` is told whether
+    // that is on the disk: if not, the project is as it was, and Workspace::error says why unless it was cancelled.
+    using Ended = std::function<void(bool good)>;
+    void save(Workspace& work, const std::string& folder, Ended ended);
+    // Saves, exports and imports that are under way.
+    Background& background() { return background_; }
+    // Nothing that was asked for is: what is open may go.
+    bool idle();
     // Of an earlier run that ended without saving; empty: there is none. Asked until answered.
     const std::string& recovery() const { return recovery_; }
     void forgetRecovery(bool deleteIt);
@@ -63,19 +69,22 @@ class Session {
 
   private:
     std::string autosaveFolder() const;
-    void keep(Workspace& work);  // what isn't saved, as an autosave; what is, needs none
-    void dropKept() const;       // the autosave
+    bool keeps(const Workspace& work) const;  // what isn't saved is to become an autosave
+    void keepSoon(Workspace& work);
+    void keepNow(Workspace& work);
+    void dropKept() const;  // the autosave
+    void saved(const std::string& folder, uint64_t state);
     bool watchGrammars(Workspace& work);
-    bool watchModels(const Workspace& work);
 
     std::string file_, folder_, recovery_, recordingTo_;
     std::string recoveredFrom_;  // the autosave's folder of what was never saved; it goes on there
-    bool replayed_ = false, saveSoon_ = false;
+    bool replayed_ = false;
     uint64_t savedState_ = 0, autosavedState_ = 0;  // see Document::state
     double nextAutosave_ = 0, nextLook_ = 0;
     GrammarFiles grammarFiles_;
-    std::vector<std::filesystem::file_time_type> modelTimes_;
+    FileWatch models_;  // of surfaces and town
     espalier::document::Recorder recorder_;
+    Background background_;
 };
 
 }  // namespace sample

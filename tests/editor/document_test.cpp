@@ -313,7 +313,8 @@ TEST_CASE("killed at any moment of a save, the project opens as it was or as it 
     REQUIRE(gather(*editing.document, data, editing.error));
     data.layers[0].picture = {64, 64, std::vector<float>(64 * 64)};
     data.file.hour = 0;
-    REQUIRE(writeProject(data, garden, editing.error));
+    Progress progress;
+    REQUIRE(writeProject(data, garden, progress, editing.error));
     // How long two saves of a child take here and now, with its beginning.
     const auto begin = std::chrono::steady_clock::now();
     const pid_t first = fork();
@@ -323,7 +324,7 @@ TEST_CASE("killed at any moment of a save, the project opens as it was or as it 
             std::string error;
             data.file.hour = version;
             std::fill(data.layers[0].picture.texels.begin(), data.layers[0].picture.texels.end(), version);
-            if (!writeProject(data, garden, error)) _exit(1);
+            if (!writeProject(data, garden, progress, error)) _exit(1);
         }
         _exit(0);
     }
@@ -344,7 +345,7 @@ TEST_CASE("killed at any moment of a save, the project opens as it was or as it 
                 std::string error;
                 data.file.hour = version / 100;
                 std::fill(data.layers[0].picture.texels.begin(), data.layers[0].picture.texels.end(), version / 100);
-                if (!writeProject(data, garden, error)) _exit(1);
+                if (!writeProject(data, garden, progress, error)) _exit(1);
             }
         }
         usleep(useconds_t(random() % std::min<uint64_t>(uint64_t(longest), 400000)));

@@ -66,6 +66,13 @@ TEST_CASE("a grammar that is saved elsewhere is taken over, and no other one of 
 
     t.write("a.grammar", t.scene.grammars[0].text);
     CHECK_MESSAGE(t.files.look(t.scene).empty(), "the same text again is no change");
+    // Restored with a time that is older than the other grammars'.
+    t.folder.write("a.grammar", "A -> C");
+    std::filesystem::last_write_time(t.folder.path / "a.grammar",
+                                     std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+    changes = t.files.look(t.scene);
+    REQUIRE(changes.size() == 1);
+    CHECK(changes[0].text == "A -> C");
     std::filesystem::remove(t.folder.path / "a.grammar");
     t.write("c.grammar", "");
     CHECK_MESSAGE(t.files.look(t.scene).empty(), "a file that has gone counts as it was");

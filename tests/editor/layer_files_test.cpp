@@ -157,18 +157,20 @@ TEST_CASE("on a full disk neither an export nor a save harms what was there") {
         REQUIRE(exportLayer(*editing.document, kLayer, folder.file(name), editing.error));
     const std::string exr = readAll(folder.file("mask.exr")), png = readAll(folder.file("mask.png"));
     const std::vector<float> saved = layerOf(editing);
+    const size_t files = folder.count();
     REQUIRE(editing.perform(LoadLayer{kLayer, folder.file("mask.png"), 0}));  // of slightly other values
     {
         const FullDisk full;
         for (const char* name : {"mask.exr", "mask.png"}) {
             editing.error.clear();
             CHECK_FALSE(exportLayer(*editing.document, kLayer, folder.file(name), editing.error));
-            CHECK_MESSAGE(contains(editing.error, "can't be written"), editing.error);
+            CHECK_MESSAGE(contains(editing.error, folder.file(name) + ": can't be written"), editing.error);
         }
         editing.error.clear();
         CHECK_FALSE(saveProject(*editing.document, project, editing.error));
         CHECK_MESSAGE(contains(editing.error, "can't be written"), editing.error);
     }
+    CHECK_MESSAGE(folder.count() == files, "what was begun takes no room");
     CHECK(readAll(folder.file("mask.exr")) == exr);
     CHECK(readAll(folder.file("mask.png")) == png);
     CHECK(readAll(project + "/project.json") == before);

@@ -171,11 +171,14 @@ struct FillLayer {
         v("layer", layer), v("value", value);
     }
 };
+// What a file holds, if it was read already; no part of a run.
+using Picture = std::shared_ptr<const scene::GreyPicture>;
 // From a picture in the surface's walk UVs.
 struct LoadLayer {
     static constexpr const char* kName = "load_layer";
     std::string layer, file;
     uint32_t surface = 0;
+    Picture picture = nullptr;
     template <class V>
     void fields(V&& v) {
         v("layer", layer), v("file", file), v("surface", surface);
@@ -185,6 +188,7 @@ struct LoadLayer {
 struct LoadTownLayer {
     static constexpr const char* kName = "load_town_layer";
     std::string layer, file;
+    Picture picture = nullptr;
     template <class V>
     void fields(V&& v) {
         v("layer", layer), v("file", file);

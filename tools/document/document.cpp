@@ -106,14 +106,15 @@ SeedRecord Document::recordOf(const Seed& seed) const {
 bool Document::perform(const Action& action, std::string& error, uint32_t gesture) {
     std::vector<Action> back;
     const bool strokes = std::holds_alternative<StrokeDabs>(action) || std::holds_alternative<StrokeEnd>(action);
-    if (stroking() && !strokes &&
-        (isEdit(action) || std::holds_alternative<Undo>(action) || std::holds_alternative<Redo>(action))) {
+    const bool changes = isEdit(action) || std::holds_alternative<Undo>(action) || std::holds_alternative<Redo>(action);
+    if (stroking() && !strokes && changes) {
         error = "a stroke isn't ended yet";
         return false;
     }
+    if (changes && settle_) settle_();
     if (!carryOut(action, back, error)) return false;
     if (!back.empty()) remember(action, std::move(back), gesture);
-    if (isEdit(action) || std::holds_alternative<Undo>(action) || std::holds_alternative<Redo>(action)) ++revision_;
+    if (changes) ++revision_;
     if (listener_) listener_(action, gesture);
     return true;
 }

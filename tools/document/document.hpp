@@ -43,6 +43,8 @@ class Document {
     // Called with every action that was asked for and done, after it.
     using Listener = std::function<void(const Action&, uint32_t gesture)>;
     void listen(Listener listener) { listener_ = std::move(listener); }
+    // Called before anything changes what a project holds: who reads the document bit by bit reads the rest of it.
+    void beforeEdits(std::function<void()> settle) { settle_ = std::move(settle); }
 
     const scene::Scene& scene() const { return scene_; }
     EspContext* context() const { return context_; }
@@ -109,6 +111,7 @@ class Document {
     uint64_t bottom_ = 0, lastState_ = 0;  // bottom: before the oldest step that is kept
     uint32_t lastKey_ = 0;
     Listener listener_;
+    std::function<void()> settle_;
 };
 
 // The words for an action in menus, such as "Plant seeds".

@@ -25,18 +25,32 @@ bool flush(const std::string& path, int flags, std::string& error) {
 
 const char* const kUnfinished = ".unfinished-";
 
-bool writeDurably(const std::string& path, const std::function<bool(const std::string&, std::string&)>& write,
-                  std::string& error) {
+Unfinished::Unfinished(const std::string& path) : path_(path) {
     const fs::path place(path), folder = place.has_parent_path() ? place.parent_path() : ".";
-    const std::string beside =
-        (folder / (kUnfinished + std::to_string(::getpid()) + "-" + place.filename().string())).string();
-    bool good = write(beside, error) && flush(beside, O_RDONLY, error);
-    if (good && std::rename(beside.c_str(), path.c_str()) != 0) {
-        error = path + ": can't be written: " + std::strerror(errno);
-        good = false;
-    }
-    if (!good) ::unlink(beside.c_str());
-    return good && flush(folder.string(), O_RDONLY | O_DIRECTORY, error);
+    folder_ = folder.string();
+    beside_ = (folder / (kUnfinished + std::to_string(::getpid()) + "-" + place.filename().string())).string();
+}
+
+Unfinished::~Unfinished() {
+    if (!taken_) ::unlink(beside_.c_str());
+}
+
+bool Unfinished::write(const WriteFile& make, std::string& error) {
+    if (make(beside_, error) && flush(beside_, O_RDONLY, error)) return true;
+    // The user knows the file by its own name.
+    if (error.starts_with(beside_)) error.replace(0, beside_.size(), path_);
+    return false;
+}
+
+bool Unfinished::take(std::string& error) {
+    taken_ = std::rename(beside_.c_str(), path_.c_str()) == 0;
+    if (!taken_) error = path_ + ": can't be written: " + std::strerror(errno);
+    return taken_ && flush(folder_, O_RDONLY | O_DIRECTORY, error);
+}
+
+bool writeDurably(const std::string& path, const WriteFile& make, std::string& error) {
+    Unfinished file(path);
+    return file.write(make, error) && file.take(error);
 }
 
 bool writeTextDurably(const std::string& path, const std::string& text, std::string& error) {

@@ -5,11 +5,28 @@
 
 namespace espalier::document {
 
-// Makes a file whole or not at all, whenever the program or the machine stops: it is written beside its place, flushed
-// to the disk, and then takes its place. `write` makes the file of the name it is given, which has the ending of
-// `path`. False: `error` tells file and cause, what stood at `path` stands there still.
-bool writeDurably(const std::string& path, const std::function<bool(const std::string&, std::string&)>& write,
-                  std::string& error);
+using WriteFile = std::function<bool(const std::string& path, std::string& error)>;
+
+// A file that becomes whole or not at all, whenever the program or the machine stops: it is written beside its place,
+// flushed to the disk, and then takes its place. What doesn't come so far is removed.
+class Unfinished {
+  public:
+    explicit Unfinished(const std::string& path);
+    ~Unfinished();
+    Unfinished(const Unfinished&) = delete;
+    // `make` makes the file of the name that it is given, which has the ending of the path. False: `error` tells file
+    // and cause.
+    bool write(const WriteFile& make, std::string& error);
+    // False: what stood there stands there still, or the new file does and the folder can't be flushed.
+    bool take(std::string& error);
+
+  private:
+    std::string path_, folder_, beside_;
+    bool taken_ = false;
+};
+
+// Both.
+bool writeDurably(const std::string& path, const WriteFile& make, std::string& error);
 bool writeTextDurably(const std::string& path, const std::string& text, std::string& error);
 
 // Names of files that an interrupted write left behind begin with this.

@@ -1,6 +1,8 @@
 // Layers out of a document into pictures, and back.
 #include "tools/document/layer_files.hpp"
 
+#include <algorithm>
+#include <deque>
 #include <filesystem>
 
 #include "tools/document/durable.hpp"
@@ -18,69 +20,133 @@ std::string pictureOf(const Document& document, const std::string& path, size_t 
 
 namespace {
 
-// Whole or not at all: what was there before stays if the disk is full.
-bool writePicture(const std::string& path, const scene::GreyPicture& picture, std::string& error) {
-    const std::string ending = fs::path(path).extension().string();
-    if (ending != ".png" && ending != ".exr") {
-        error = path + ": layers are written as .png or .exr";
-        return false;
+struct Exported {
+    std::string path;
+    scene::GreyPicture picture;
+};
+
+// All of them or, before the first is whole, none.
+bool writePictures(std::vector<Exported> pictures, Progress& progress, std::string& error) {
+    std::deque<Unfinished> files;
+    const float each = 1 / float(pictures.size());
+    for (Exported& e : pictures) {
+        const scene::GreyPicture picture = std::move(e.picture);
+        const float written = float(files.size());
+        const auto goOn = [&](float part) { return progress.at((written + part) * each); };
+        const auto write = [&](const std::string& beside, std::string& why) {
+            return writeGrey(beside, picture, why, goOn);
+        };
+        if (!goOn(0) || !files.emplace_back(e.path).write(write, error)) return false;
     }
-    return writeDurably(
-        path, [&](const std::string& beside, std::string& why) { return writeGrey(beside, picture, why); }, error);
+    return progress.at(1) && std::ranges::all_of(files, [&](Unfinished& file) { return file.take(error); });
+}
+
+struct Imported {
+    std::string path;
+    scene::PictureShape shape;
+    std::shared_ptr<const scene::GreyPicture> picture;  // null: its surface keeps its layer
+};
+
+// Texels a side.
+uint32_t sideOf(const Document& document, const std::string& layer, bool town, size_t surface) {
+    uint32_t side = 0;
+    if (town)
+        (void)espReadTownLayer(document.context(), layer.c_str(), nullptr, &side);
+    else
+        (void)espReadLayer(document.context(), document.scene().surfaces[surface].id, layer.c_str(), nullptr, &side);
+    return side;
 }
 
 // What of a picture isn't taken as it is.
-std::string describe(const std::string& path, const scene::PictureShape& shape, uint32_t side) {
+std::string describe(const Imported& p, uint32_t side) {
+    const std::string name = fs::path(p.path).filename().string();
+    if (!p.picture) return name + " isn't there: its surface is left as it was";
     std::string text;
-    if (shape.width != side || shape.height != side)
-        text = std::to_string(shape.width) + " x " + std::to_string(shape.height) + ", resampled to " +
+    if (p.shape.width != side || p.shape.height != side)
+        text = std::to_string(p.shape.width) + " x " + std::to_string(p.shape.height) + ", resampled to " +
                std::to_string(side) + " x " + std::to_string(side);
-    if (shape.channels > 2) text += std::string(text.empty() ? "" : "; ") + "of its colours the red";
-    return text.empty() ? text : fs::path(path).filename().string() + " is " + text;
+    if (p.shape.channels > 2) text += std::string(text.empty() ? "" : "; ") + "of its colours the red";
+    return text.empty() ? text : name + " is " + text;
+}
+
+bool readPictures(std::vector<Imported>& pictures, Progress& progress, std::string& error) {
+    for (size_t i = 0; i < pictures.size(); ++i) {
+        Imported& p = pictures[i];
+        std::error_code ignored;
+        if (!progress.at(float(i) / float(pictures.size()))) return false;
+        if (i > 0 && !fs::exists(p.path, ignored)) continue;
+        const auto picture = std::make_shared<scene::GreyPicture>();
+        if (!readShape(p.path, p.shape, error) || !readGrey(p.path, *picture, error)) return false;
+        p.picture = picture;
+    }
+    return progress.at(1);
 }
 
 }  // namespace
 
-bool exportLayer(const Document& document, const std::string& layer, const std::string& path, std::string& error) {
-    for (size_t i = 0; i < document.scene().surfaces.size(); ++i) {
-        scene::GreyPicture picture;
-        if (!document.readLayer(i, layer, picture, error) ||
-            !writePicture(pictureOf(document, path, i), picture, error))
+Work::Plan exporting(const Document& document, const std::string& layer, bool town, const std::string& path) {
+    Work::Plan plan;
+    const std::string ending = fs::path(path).extension().string();
+    if (ending != ".png" && ending != ".exr") {
+        plan.before.push_back([path](std::string& error) {
+            error = path + ": layers are written as .png or .exr";
             return false;
+        });
+        return plan;
     }
-    return true;
+    const auto pictures = std::make_shared<std::vector<Exported>>(town ? 1 : document.scene().surfaces.size());
+    for (size_t i = 0; i < pictures->size(); ++i) {
+        Exported& e = (*pictures)[i];
+        e.path = town ? path : pictureOf(document, path, i);
+        plan.before.push_back([&document, &e, layer, town, i](std::string& error) {
+            return town ? document.readTownLayer(layer, e.picture, error)
+                        : document.readLayer(i, layer, e.picture, error);
+        });
+    }
+    plan.beside = [pictures](Progress& progress, std::string& error) {
+        return writePictures(std::move(*pictures), progress, error);
+    };
+    return plan;
 }
 
-bool exportTownLayer(const Document& document, const std::string& layer, const std::string& path, std::string& error) {
-    scene::GreyPicture picture;
-    return document.readTownLayer(layer, picture, error) && writePicture(path, picture, error);
+bool exportLayer(const Document& document, const std::string& layer, const std::string& path, std::string& error) {
+    return Work(exporting(document, layer, false, path)).finish(error);
+}
+
+Work::Plan importing(Document& document, const std::string& layer, bool town, const std::string& path,
+                     uint32_t gesture) {
+    Work::Plan plan;
+    const auto pictures = std::make_shared<std::vector<Imported>>(town ? 1 : document.scene().surfaces.size());
+    const auto note = plan.note = std::make_shared<std::string>();
+    plan.beside = [pictures](Progress& progress, std::string& error) {
+        return readPictures(*pictures, progress, error);
+    };
+    for (uint32_t i = 0; i < pictures->size(); ++i) {
+        Imported& p = (*pictures)[i];
+        p.path = town ? path : pictureOf(document, path, i);
+        plan.after.push_back([&document, &p, note, layer, town, gesture, i](std::string& error) {
+            const Action load =
+                town ? Action(LoadTownLayer{layer, p.path, p.picture}) : Action(LoadLayer{layer, p.path, i, p.picture});
+            if (p.picture && !document.perform(load, error, gesture)) return false;
+            const std::string said = describe(p, sideOf(document, layer, town, i));
+            p.picture.reset();
+            *note += (note->empty() || said.empty() ? "" : "\n") + said;
+            return true;
+        });
+    }
+    plan.takeBack = [&document] {
+        std::string unheard;
+        (void)document.perform(Undo{}, unheard);
+    };
+    return plan;
 }
 
 bool importLayer(Document& document, const std::string& layer, const std::string& path, uint32_t gesture,
                  std::string& note, std::string& error) {
-    note.clear();
-    bool begun = false;
-    for (uint32_t i = 0; i < document.scene().surfaces.size(); ++i) {
-        const std::string file = pictureOf(document, path, i);
-        std::error_code ignored;
-        std::string said;
-        if (i > 0 && !fs::exists(file, ignored)) {
-            said = fs::path(file).filename().string() + " isn't there: its surface is left as it was";
-        } else {
-            scene::PictureShape shape;
-            uint32_t side = 0;
-            (void)espReadLayer(document.context(), document.scene().surfaces[i].id, layer.c_str(), nullptr, &side);
-            if (!readShape(file, shape, error) || !document.perform(LoadLayer{layer, file, i}, error, gesture)) {
-                std::string unheard;
-                if (begun) (void)document.perform(Undo{}, unheard);
-                return false;
-            }
-            begun = true;
-            said = describe(file, shape, side);
-        }
-        if (!said.empty()) note += (note.empty() ? "" : "\n") + said;
-    }
-    return true;
+    Work work(importing(document, layer, false, path, gesture));
+    const bool good = work.finish(error);
+    note = work.note();
+    return good;
 }
 
 }  // namespace espalier::document

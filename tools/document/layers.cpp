@@ -15,6 +15,12 @@ bool modeNamed(const std::string& name, EspBrushMode& mode) {
     return found != std::end(kModes);
 }
 
+Picture pictureIn(const Picture& known, const std::string& file, std::string& error) {
+    if (known) return known;
+    const auto read = std::make_shared<scene::GreyPicture>();
+    return readGrey(file, *read, error) ? read : nullptr;
+}
+
 }  // namespace
 
 bool brushOf(const StrokeBegin& stroke, EspBrush& brush, std::string& error) {
@@ -113,11 +119,11 @@ bool Document::carryOut(const LoadLayer& action, std::vector<Action>& back, std:
         error = "there is no surface " + std::to_string(action.surface);
         return false;
     }
-    scene::GreyPicture picture;
-    if (!readGrey(action.file, picture, error)) return false;
+    const Picture picture = pictureIn(action.picture, action.file, error);
+    if (!picture) return false;
     EspLayerDef def;
     EspStroke stroke{};
-    if (failed(scene::walkLayer(context_, scene_.surfaces[action.surface].id, action.layer, picture, def), error) ||
+    if (failed(scene::walkLayer(context_, scene_.surfaces[action.surface].id, action.layer, *picture, def), error) ||
         failed(espImportLayer(context_, &def, &stroke), error))
         return false;
     back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, stroke)});
@@ -125,12 +131,11 @@ bool Document::carryOut(const LoadLayer& action, std::vector<Action>& back, std:
 }
 
 bool Document::carryOut(const LoadTownLayer& action, std::vector<Action>& back, std::string& error) {
-    scene::GreyPicture picture;
+    const Picture picture = pictureIn(action.picture, action.file, error);
     EspStroke stroke{};
-    if (!readGrey(action.file, picture, error) ||
-        failed(espSetTownLayer(context_, action.layer.c_str(), picture.texels.data(), picture.width, picture.height,
-                               &stroke),
-               error))
+    if (!picture || failed(espSetTownLayer(context_, action.layer.c_str(), picture->texels.data(), picture->width,
+                                           picture->height, &stroke),
+                           error))
         return false;
     back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, stroke)});
     return true;

@@ -2,11 +2,12 @@
 // project.json, which names them, is replaced in one step.
 #include "tools/document/project.hpp"
 
+#include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 
 #include "tools/document/durable.hpp"
+#include "tools/scene/hash.hpp"
 #include "tools/scene/picture.hpp"
 
 namespace espalier::document {
@@ -19,6 +20,7 @@ constexpr const char* kProject = "project.json";
 constexpr const char* kAutosave = "autosave.json";
 constexpr const char* kLayers = "layers";
 constexpr const char* kPlants = "plants";
+constexpr size_t kHashDigits = 16;
 constexpr float kDegrees = 180 / 3.14159265f;
 
 std::array<float, 3> three(const float* v) {
@@ -44,18 +46,17 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
 }
 
 // A name for what these bytes are.
-std::string hashOf(const void* data, size_t size) {
-    uint64_t hash = 1469598103934665603ull ^ size;
-    const char* bytes = static_cast<const char*>(data);
-    for (size_t i = 0; i < size; i += sizeof(uint32_t)) {
-        uint32_t bits = 0;
-        std::memcpy(&bits, bytes + i, std::min(size - i, sizeof bits));
-        hash = (hash ^ bits) * 1099511628211ull;
-        hash ^= hash >> 29;
-    }
-    char text[20];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+std::string nameFor(const void* data, size_t size) {
+    char text[kHashDigits + 1];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(scene::hashOf(data, size)));
     return text;
+}
+
+bool makeFolder(const std::string& folder, std::string& error) {
+    std::error_code code;
+    fs::create_directories(folder, code);
+    if (code) error = folder + ": can't be made: " + code.message();
+    return !code;
 }
 
 // Each frozen plant into a file, likewise.
@@ -65,30 +66,33 @@ bool writePlants(const fs::path& folder, SceneFile& out, std::string& error) {
             seed.frozenFile.clear();
             if (!seed.frozen) continue;
             const std::string bytes(reinterpret_cast<const char*>(seed.frozen->data()), seed.frozen->size());
-            const fs::path path = folder / kPlants / (hashOf(bytes.data(), bytes.size()) + ".plant");
+            const fs::path path = folder / kPlants / (nameFor(bytes.data(), bytes.size()) + ".plant");
             seed.frozenFile = path.string();
-            std::error_code code;
-            fs::create_directories(path.parent_path(), code);
-            if (!fs::exists(path, code) && !writeTextDurably(path.string(), bytes, error)) return false;
+            std::error_code none;
+            if (!makeFolder(path.parent_path().string(), error)) return false;
+            if (!fs::exists(path, none) && !writeTextDurably(path.string(), bytes, error)) return false;
         }
     return true;
 }
 
 // Each layer into a file, unless a file holds just that already.
-bool writeLayers(const ProjectData& data, const fs::path& folder, SceneFile& out, std::string& error) {
-    for (const ProjectData::Layer& layer : data.layers) {
+bool writeLayers(ProjectData& data, const fs::path& folder, Progress& progress, std::string& error) {
+    float written = 0;
+    for (ProjectData::Layer& layer : data.layers) {
+        const scene::GreyPicture picture = std::move(layer.picture);
         const bool town = layer.surface == scene::SceneLayer::kTown;
         const std::string file = layer.name + "-" + (town ? "town" : std::to_string(layer.surface)) + "-" +
-                                 hashOf(layer.picture.texels.data(), layer.picture.texels.size() * sizeof(float)) +
-                                 ".exr";
+                                 nameFor(picture.texels.data(), picture.texels.size() * sizeof(float)) + ".exr";
         const fs::path path = folder / kLayers / file;
-        std::error_code code;
-        fs::create_directories(path.parent_path(), code);
+        std::error_code none;
+        if (!makeFolder(path.parent_path().string(), error)) return false;
+        const auto goOn = [&](float part) { return progress.at((written + part) / float(data.layers.size())); };
         const auto write = [&](const std::string& beside, std::string& why) {
-            return writeGrey(beside, layer.picture, why);
+            return writeGrey(beside, picture, why, goOn);
         };
-        if (!fs::exists(path, code) && !writeDurably(path.string(), write, error)) return false;
-        out.layers.push_back({layer.name, path.string(), layer.surface});
+        if (!goOn(0) || (!fs::exists(path, none) && !writeDurably(path.string(), write, error))) return false;
+        data.file.layers.push_back({layer.name, path.string(), layer.surface});
+        ++written;
     }
     return true;
 }
@@ -118,73 +122,95 @@ SceneFile describe(const Document& document) {
     return out;
 }
 
-bool makeFolder(const std::string& folder, std::string& error) {
-    std::error_code code;
-    fs::create_directories(folder, code);
-    if (code) error = folder + ": can't be made: " + code.message();
-    return !code;
+// NAME-SURFACE-HASH.exr or HASH.plant: whoever keeps files of his own in such a folder keeps them.
+bool named(const fs::path& file) {
+    const std::string stem = file.stem().string(), ending = file.extension().string();
+    const std::string hash = stem.substr(stem.size() < kHashDigits ? 0 : stem.size() - kHashDigits);
+    return (ending == ".exr" || ending == ".plant") && hash.size() == kHashDigits &&
+           hash.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// What interrupted saves have left behind, and layers that no file of the project names.
+// What interrupted saves have left behind, and layers and plants that no file of the project names.
 void sweep(const fs::path& folder) {
     std::error_code ignored;
-    std::string named, text, error;
-    for (const char* file : {kProject, kAutosave})
-        if (scene::readText((folder / file).string(), text, error)) named += text;
+    std::string wanted, text, error;
+    for (const char* file : {kProject, kAutosave}) {
+        if (!fs::exists(folder / file, ignored)) continue;
+        if (!scene::readText((folder / file).string(), text, error)) return;  // who knows what it names
+        wanted += text;
+    }
     for (const fs::path& place : {folder, folder / kLayers, folder / kPlants})
         for (const auto& entry : fs::directory_iterator(place, ignored)) {
             const std::string name = entry.path().filename().string();
-            const bool unnamed = place != folder && named.find(name) == std::string::npos;
-            if (name.rfind(kUnfinished, 0) == 0 || unnamed) fs::remove(entry.path(), ignored);
+            const bool unwanted = place != folder && named(name) && wanted.find(name) == std::string::npos;
+            if (name.starts_with(kUnfinished) || unwanted) fs::remove(entry.path(), ignored);
         }
 }
 
-bool write(const ProjectData& data, const std::string& folder, const char* name, std::string& error) {
+// What isn't complete in the end leaves no files: a disk that was full has room again.
+bool write(ProjectData data, const std::string& folder, const char* name, Progress& progress, std::string& error) {
     const std::string path = (fs::path(folder) / name).string();
-    SceneFile file = data.file;
-    return makeFolder(folder, error) && writeLayers(data, folder, file, error) && writePlants(folder, file, error) &&
-           writeTextDurably(path, writeSceneText(path, file), error);
+    const bool good = makeFolder(folder, error) && writeLayers(data, folder, progress, error) &&
+                      writePlants(folder, data.file, error) && progress.at(1) &&
+                      writeTextDurably(path, writeSceneText(path, data.file), error);
+    if (good && name == kProject) dropAutosave(folder);
+    sweep(folder);
+    return good;
+}
+
+// All but the layers' texels.
+ProjectData outline(const Document& document) {
+    ProjectData out{describe(document), {}};
+    EspContext* context = document.context();
+    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i)
+        for (size_t surface = 0; surface < document.scene().surfaces.size(); ++surface)
+            out.layers.push_back({espPaintedLayerName(context, i), int(surface), {}});
+    for (uint32_t i = 0; i < espTownLayerCount(context); ++i)
+        out.layers.push_back({espTownLayerName(context, i), scene::SceneLayer::kTown, {}});
+    return out;
+}
+
+bool read(const Document& document, ProjectData::Layer& layer, std::string& error) {
+    if (layer.surface == scene::SceneLayer::kTown) return document.readTownLayer(layer.name, layer.picture, error);
+    return document.readLayer(size_t(layer.surface), layer.name, layer.picture, error);
+}
+
+Work::Plan writing(const Document& document, const std::string& folder, const char* name) {
+    Work::Plan plan;
+    const auto data = std::make_shared<ProjectData>(outline(document));
+    for (ProjectData::Layer& layer : data->layers)
+        plan.before.push_back([&document, &layer](std::string& error) { return read(document, layer, error); });
+    plan.beside = [data, folder, name](Progress& progress, std::string& error) {
+        return write(std::move(*data), folder, name, progress, error);
+    };
+    return plan;
 }
 
 }  // namespace
 
 bool gather(const Document& document, ProjectData& out, std::string& error) {
-    out = {describe(document), {}};
-    EspContext* context = document.context();
-    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i) {
-        const std::string name = espPaintedLayerName(context, i);
-        for (size_t surface = 0; surface < document.scene().surfaces.size(); ++surface) {
-            ProjectData::Layer& layer = out.layers.emplace_back();
-            layer.name = name;
-            layer.surface = int(surface);
-            if (!document.readLayer(surface, name, layer.picture, error)) return false;
-        }
-    }
-    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) {
-        const std::string name = espTownLayerName(context, i);
-        ProjectData::Layer& layer = out.layers.emplace_back();
-        layer.name = name;
-        layer.surface = scene::SceneLayer::kTown;
-        if (!document.readTownLayer(name, layer.picture, error)) return false;
-    }
-    return true;
+    out = outline(document);
+    return std::ranges::all_of(out.layers, [&](ProjectData::Layer& layer) { return read(document, layer, error); });
 }
 
-bool writeProject(const ProjectData& data, const std::string& folder, std::string& error) {
-    if (!write(data, folder, kProject, error)) return false;
-    dropAutosave(folder);
-    sweep(folder);
-    return true;
+bool writeProject(ProjectData data, const std::string& folder, Progress& progress, std::string& error) {
+    return write(std::move(data), folder, kProject, progress, error);
+}
+
+Work::Plan saving(const Document& document, const std::string& folder) {
+    return writing(document, folder, kProject);
 }
 
 bool saveProject(const Document& document, const std::string& folder, std::string& error) {
-    ProjectData data;
-    return gather(document, data, error) && writeProject(data, folder, error);
+    return Work(saving(document, folder)).finish(error);
+}
+
+Work::Plan autosaving(const Document& document, const std::string& folder) {
+    return writing(document, folder, kAutosave);
 }
 
 bool autosave(const Document& document, const std::string& folder, std::string& error) {
-    ProjectData data;
-    return gather(document, data, error) && write(data, folder, kAutosave, error);
+    return Work(autosaving(document, folder)).finish(error);
 }
 
 std::string recoverable(const std::string& folder) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/document/document.hpp"
+#include "tools/document/work.hpp"
 #include "tools/scene/scene_file.hpp"
 
 namespace espalier::document {
@@ -24,12 +25,16 @@ struct ProjectData {
     std::vector<Layer> layers;
 };
 bool gather(const Document& document, ProjectData& out, std::string& error);
-bool writeProject(const ProjectData& data, const std::string& folder, std::string& error);
+// False: `error` tells file and cause, and the project is as it was. Texels are given back as they are written.
+bool writeProject(ProjectData data, const std::string& folder, Progress& progress, std::string& error);
 
-// Both. False: `error` tells file and cause, and the project is as it was.
+// Both, as work beside whatever else is done: what is saved is the document as it was when this was called, so its next
+// edit is to come after Work::settle (Document::beforeEdits). Cancelled, the project is as it was.
+Work::Plan saving(const Document& document, const std::string& folder);
 bool saveProject(const Document& document, const std::string& folder, std::string& error);
 
-// The same into autosave.json of the folder, which leaves project.json alone; saveProject removes it.
+// The same into autosave.json of the folder, which leaves project.json alone; saving removes it.
+Work::Plan autosaving(const Document& document, const std::string& folder);
 bool autosave(const Document& document, const std::string& folder, std::string& error);
 // The autosave of a folder that is younger than its project, empty if there is none: a program has ended without
 // saving. It is opened as any scene file.

@@ -102,7 +102,24 @@ bool readColour(const std::string& path, ColourPicture& out, std::string& error)
     return read(path, 4, OIIO::TypeDesc::UINT8, out.width, out.height, out.rgba, error);
 }
 
-bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error) {
+namespace {
+
+bool writeRows(OIIO::ImageOutput& output, const GreyPicture& picture, const std::function<bool(float)>& goOn) {
+    constexpr uint32_t kRows = 256;
+    for (uint32_t y = 0; y < picture.height; y += kRows) {
+        if (goOn && !goOn(float(y) / float(picture.height))) return false;
+        const uint32_t end = std::min(y + kRows, picture.height);
+        if (!output.write_scanlines(int(y), int(end), 0, OIIO::TypeDesc::FLOAT,
+                                    &picture.texels[size_t(y) * picture.width]))
+            return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error,
+               const std::function<bool(float)>& goOn) {
     const bool floats = std::filesystem::path(path).extension() == ".exr";
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path);
     OIIO::ImageSpec spec(int(picture.width), int(picture.height), 1,
@@ -113,7 +130,7 @@ bool writeGrey(const std::string& path, const GreyPicture& picture, std::string&
     // By way of memory: the picture library doesn't tell of a disk that is full.
     OIIO::Filesystem::IOVecOutput bytes;
     const bool good = output && output->set_ioproxy(&bytes) && output->open(path, spec) &&
-                      output->write_image(OIIO::TypeDesc::FLOAT, picture.texels.data()) && output->close();
+                      writeRows(*output, picture, goOn) && output->close();
     if (!good) {
         error = path + ": can't be written: " + (output ? output->geterror() : OIIO::geterror());
         return false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,10 @@ bool readGrey(const std::string& path, GreyPicture& out, std::string& error);
 bool readShape(const std::string& path, PictureShape& out, std::string& error);
 bool readColour(const std::string& path, ColourPicture& out, std::string& error);
 
-// Writes one channel: 16 bits as .png, floats as .exr.
-bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error);
+// Writes one channel: 16 bits as .png, floats as .exr. `goOn` is told now and then how much of it is encoded, 0 to 1;
+// when it returns false the picture isn't written.
+bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error,
+               const std::function<bool(float)>& goOn = {});
 
 // Writes a PNG beside `path` first and renames it, so that a failure leaves nothing half-written.
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error);

@@ -1,0 +1,58 @@
+// Stamps at each look, bytes when a stamp has changed and stands still.
+#include "sample_game/file_watch.hpp"
+
+#include <fstream>
+#include <optional>
+#include <utility>
+
+#include "tools/scene/hash.hpp"
+
+namespace sample {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of all bytes; nothing if they can't be read.
+std::optional<uint64_t> contentOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::vector<char> piece(size_t(1) << 20);
+    uint64_t hash = 0;
+    while (file) {
+        file.read(piece.data(), std::streamsize(piece.size()));
+        hash = espalier::scene::hashOf(piece.data(), size_t(file.gcount()), hash);
+    }
+    return file.eof() ? std::optional(hash) : std::nullopt;
+}
+
+}  // namespace
+
+FileStamp stampOf(const fs::path& file) {
+    std::error_code noTime, noSize;
+    const FileStamp stamp{fs::last_write_time(file, noTime), fs::file_size(file, noSize)};
+    return noTime || noSize ? FileStamp{} : stamp;
+}
+
+void FileWatch::begin(std::vector<std::string> files) {
+    files_.clear();
+    for (std::string& path : files) {
+        const FileStamp stamp = stampOf(path);
+        const uint64_t hash = contentOf(path).value_or(0);
+        files_.push_back({std::move(path), stamp, stamp, hash});
+    }
+}
+
+bool FileWatch::changed() {
+    bool any = false;
+    for (File& file : files_) {
+        const FileStamp now = stampOf(file.path), before = std::exchange(file.last, now);
+        if (now == file.seen || now != before || now == FileStamp{}) continue;
+        const std::optional<uint64_t> hash = contentOf(file.path);
+        if (!hash) continue;
+        any = any || *hash != file.hash;
+        file.seen = now;
+        file.hash = *hash;
+    }
+    return any;
+}
+
+}  // namespace sample

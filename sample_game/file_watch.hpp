@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sample {
+
+// What tells cheaply that a file may have changed. One that isn't there: nothing but zeros.
+struct FileStamp {
+    std::filesystem::file_time_type time{};
+    uintmax_t size = 0;
+    bool operator==(const FileStamp&) const = default;
+};
+FileStamp stampOf(const std::filesystem::path& file);
+
+// Files that other programs may write. They are read only when their stamps change, and only other bytes count.
+class FileWatch {
+  public:
+    // As they are now they count as seen.
+    void begin(std::vector<std::string> files);
+    // Whether one of them holds other bytes than at begin() or when this last was true. One that is being written, so
+    // that its stamp isn't the last look's, waits; one that can't be read counts as it was.
+    bool changed();
+
+  private:
+    struct File {
+        std::string path;
+        FileStamp seen, last;  // that the hash is of; of the last look
+        uint64_t hash = 0;
+    };
+    std::vector<File> files_;
+};
+
+}  // namespace sample
