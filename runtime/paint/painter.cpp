@@ -338,11 +338,11 @@ Result<std::vector<uint64_t>> Painter::swap(const Canvas& canvas, BlockRecord& r
     return changed;
 }
 
-Status Painter::close(const Canvas& canvas, BlockRecord& record) {
+Result<std::vector<uint64_t>> Painter::close(const Canvas& canvas, BlockRecord& record) {
     record.slots_ = {};
     record.places_ = {};
     Result<std::vector<uint64_t>> changed = differences(canvas, record);
-    if (!changed) return changed.failure();
+    if (!changed) return changed;
 
     std::vector<uint32_t> blocks, from;
     for (uint32_t i = 0; i < changed->size(); ++i)
@@ -350,15 +350,16 @@ Status Painter::close(const Canvas& canvas, BlockRecord& record) {
             blocks.push_back(record.blocks_[i]);
             from.push_back(i);
         }
+    std::erase(*changed, 0u);
     if (blocks.empty()) {
         record = {};
-        return Done{};
+        return changed;
     }
     Result<Buffer> packed = Buffer::create(device_, "stroke record", blocks.size() * kBlockBytes);
     Result<Commands> packing = Commands::begin(device_, "paint pack");
     if (!packed || !packing) return (packed ? packing.failure() : packed.failure());
     Status uploaded = upload(*packing, from);
-    if (!uploaded) return uploaded;
+    if (!uploaded) return uploaded.failure();
     packing->barrier(Use::transfer, Use::compute);
     {
         Pass pass(*packing, "paint pack");
@@ -370,7 +371,7 @@ Status Painter::close(const Canvas& canvas, BlockRecord& record) {
     if (!submitted) return submitted.failure();
     record.texels_ = std::move(*packed);
     record.blocks_ = std::move(blocks);
-    return Done{};
+    return changed;
 }
 
 }  // namespace espalier

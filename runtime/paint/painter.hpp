@@ -66,8 +66,8 @@ class Painter {
     // Sets all texels of one canvas: size² floats in texelIndex order. The job's blocks are those to be kept.
     Status replace(PaintJob& job, std::span<const float> texels);
     // Drops from a record the blocks that are as they were, and gives back the room it doesn't need; from then on it
-    // takes no more dabs. Waits for the GPU.
-    Status close(const Canvas& canvas, BlockRecord& record);
+    // takes no more dabs. Gives of each block that is left the texels that changed, bit 8 y + x. Waits for the GPU.
+    Result<std::vector<uint64_t>> close(const Canvas& canvas, BlockRecord& record);
     // Exchanges the layer's blocks with the record's, bit for bit: twice is as before. Gives of each block the texels
     // that change by it, bit 8 y + x. Waits for what was submitted before.
     Result<std::vector<uint64_t>> swap(const Canvas& canvas, BlockRecord& record);

@@ -208,13 +208,17 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
     return ESP_OK;
 }
 
-EspResult end(EspContext& context, PaintStroke& stroke) {
+// `changed` is told of each part's blocks that aren't as they were, and which of their texels.
+template <class Changed>
+EspResult end(EspContext& context, PaintStroke& stroke, Changed&& changed) {
     stroke.open = false;
     closeTown(context, stroke);
     for (PaintStroke::Part& part : stroke.parts) {
         if (!paintedLayer(context, part.surface, stroke.layer)) continue;
-        Status closed = context.painter->close(canvasOf(context, part.surface, stroke.layer), part.record);
-        if (!closed) return failGpu(&context, closed.failure());
+        Result<std::vector<uint64_t>> texels =
+            context.painter->close(canvasOf(context, part.surface, stroke.layer), part.record);
+        if (!texels) return failGpu(&context, texels.failure());
+        changed(part, *texels);
     }
     std::erase_if(stroke.parts, [](const PaintStroke::Part& part) { return part.record.blocks().empty(); });
     return ESP_OK;
@@ -235,9 +239,10 @@ EspResult swap(EspContext& context, PaintStroke& stroke) {
 
 // Ends a stroke that painted in one go, and gives it an id.
 EspResult keepEnded(EspContext& context, PaintStroke stroke, EspStroke* out) {
-    if (EspResult bad = end(context, stroke)) return bad;
-    for (const PaintStroke::Part& part : stroke.parts)
-        layerChanged(context, part.surface, stroke.layer, part.record.blocks());
+    const auto changed = [&](const PaintStroke::Part& part, const std::vector<uint64_t>& texels) {
+        layerChanged(context, part.surface, stroke.layer, part.record.blocks(), texels);
+    };
+    if (EspResult bad = end(context, stroke, changed)) return bad;
     out->id = context.strokes.insert(std::move(stroke));
     return out->id ? ESP_OK : fail(&context, ESP_OUT_OF_MEMORY, "painting: no ids left");
 }
@@ -346,7 +351,7 @@ EspResult espEndStroke(EspContext* context, EspStroke id) {
         PaintStroke* stroke = context->strokes.find(id.id);
         if (!stroke || !stroke->open)
             return fail(context, ESP_INVALID_ARGUMENT, "espEndStroke: no such stroke, or it has been ended before");
-        return end(*context, *stroke);
+        return end(*context, *stroke, [](const auto&, const auto&) {});  // its dabs have told
     });
 }
 

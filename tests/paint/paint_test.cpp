@@ -298,6 +298,20 @@ TEST_CASE("a dab beside a plant costs no growth, nor does its undoing, and dabs 
     for (const EspStroke& stroke : beside) painting.ok(espSwapStroke(painting.context, stroke));
     CHECK(painting.grown().expansions == free.expansions);
     CHECK(painting.layer("mask") == layer);
+    // Likewise what fills the layer, or is read into it, and changes just these texels.
+    EspStroke filled{}, imported{};
+    painting.ok(espFillLayer(painting.context, "mask", 1, &filled));
+    CHECK(painting.layer("mask") != layer);
+    CHECK(painting.grown().expansions == free.expansions);
+    EspLayerDef def = espDefaultLayerDef();
+    def.surface = painting.surface;
+    def.name = "mask";
+    def.space = ESP_LAYER_TEXELS;
+    def.texels = layer.data();
+    def.width = def.height = painting.size();
+    painting.ok(espImportLayer(painting.context, &def, &imported));
+    CHECK(painting.layer("mask") == layer);
+    CHECK(painting.grown().expansions == free.expansions);
     // Across it, one after the other; it goes round them.
     EspBrush wide = brush;
     wide.radius = .09f;
