@@ -8,15 +8,17 @@
 namespace espalier::document {
 namespace {
 
-// Many large layers may be more than there is memory for.
+// Many large layers may be more than there is memory for, and folders may change while they are read.
 template <class F>
 bool guarded(F&& part, std::string& error) {
     try {
         return part();
     } catch (const std::bad_alloc&) {
         error = "memory has run out";
-        return false;
+    } catch (const std::exception& e) {
+        error = e.what();
     }
+    return false;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <future>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ class Progress {
 };
 
 // Work on files that takes long and holds nobody up: what needs the document is done on its thread, a part a step; what
-// lies between, encoding and decoding and the disk, in a thread of its own.
+// lies between, encoding and decoding and the disk, in a thread of its own. Calls come on the document's thread.
 class Work {
   public:
     using Part = std::function<bool(std::string& error)>;
