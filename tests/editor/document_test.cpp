@@ -140,6 +140,20 @@ TEST_CASE("what can't be done changes nothing") {
     CHECK(editing.hash() == before);
 }
 
+TEST_CASE("what can't be undone stays, to be tried again") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    REQUIRE(editing.perform(SetParam{0, {"reach", {1.3f}}}));
+    const uint64_t state = editing.document->state();
+    REQUIRE(espDestroyGrammar(editing.context.get(), editing.document->scene().grammars[0].id) == ESP_OK);
+    for (int i = 0; i < 2; ++i) {
+        CHECK(!editing.perform(Undo{}));
+        CHECK(editing.document->undoSteps() == 1);
+        CHECK(editing.document->state() == state);
+    }
+    CHECK(editing.document->redoName() == nullptr);
+}
+
 TEST_CASE("a text with mistakes stands with its message while the last good one grows") {
     const Folder folder;
     Editing editing(smallScene(folder));
@@ -193,6 +207,12 @@ TEST_CASE("a project of a newer program is refused by name, a mangled one with i
     CHECK(contains(newer.output, "newer.json:1:"));
     CHECK(contains(newer.output, "newer Espalier"));
     CHECK(!contains(newer.output, "unheard"));
+    folder.write("elsewhere.json",
+                 "{\"surfaces\": [], \"grammars\": [],\n \"layers\": {\n \"../../mask\": \"mask.exr\"}}");
+    const Ran elsewhere = run(capture + folder.file("elsewhere.json"));
+    CHECK(elsewhere.code > 0);
+    CHECK(contains(elsewhere.output, "elsewhere.json:3:"));
+    CHECK(contains(elsewhere.output, "no layer's name"));
     const Ran mangled = run(capture + folder.file("mangled.json"));
     CHECK(mangled.code > 0);
     CHECK(contains(mangled.output, "mangled.json:2:"));

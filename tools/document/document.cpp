@@ -163,13 +163,15 @@ bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string&
     Step step = std::move(from.back());
     from.pop_back();
     Step opposite{step.name, 0, step.state, {}};
-    for (auto action = step.back.rbegin(); action != step.back.rend(); ++action)
-        if (!carryOut(*action, opposite.back, error)) {
-            (done_.empty() ? bottom_ : done_.back().state) = ++lastState_;  // halfway
-            return false;
-        }
-    to.push_back(std::move(opposite));
-    return true;
+    while (!step.back.empty() && carryOut(step.back.back(), opposite.back, error)) step.back.pop_back();
+    const bool whole = step.back.empty(), begun = !opposite.back.empty();
+    // What couldn't be done stays to be tried again; what was done before it can be taken back by itself.
+    if (!whole) {
+        if (begun) (&from == &done_ ? step : opposite).state = ++lastState_;
+        from.push_back(std::move(step));
+    }
+    if (whole || begun) to.push_back(std::move(opposite));
+    return whole;
 }
 
 const char* Document::undoName() const {

@@ -4,9 +4,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <vector>
 
 namespace espalier::document {
 namespace {
@@ -69,6 +71,18 @@ bool writeTextDurably(const std::string& path, const std::string& text, std::str
         return good && why.empty();
     };
     return writeDurably(path, write, error);
+}
+
+bool makeFolderDurably(const std::string& folder, std::string& error) {
+    std::vector<fs::path> missing;
+    std::error_code code;
+    for (fs::path at = fs::absolute(folder); at.has_relative_path() && !fs::exists(at, code); at = at.parent_path())
+        missing.push_back(at);
+    fs::create_directories(folder, code);
+    if (code) error = folder + ": can't be made: " + code.message();
+    return !code && std::ranges::all_of(missing, [&](const fs::path& made) {
+        return flush(made.parent_path().string(), O_RDONLY | O_DIRECTORY, error);
+    });
 }
 
 }  // namespace espalier::document

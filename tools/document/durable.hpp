@@ -29,6 +29,9 @@ class Unfinished {
 bool writeDurably(const std::string& path, const WriteFile& make, std::string& error);
 bool writeTextDurably(const std::string& path, const std::string& text, std::string& error);
 
+// With all folders on the way to it, each known to the disk. False: `error` tells folder and cause.
+bool makeFolderDurably(const std::string& folder, std::string& error);
+
 // Names of files that an interrupted write left behind begin with this.
 extern const char* const kUnfinished;
 

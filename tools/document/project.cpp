@@ -52,13 +52,6 @@ std::string nameFor(const void* data, size_t size) {
     return text;
 }
 
-bool makeFolder(const std::string& folder, std::string& error) {
-    std::error_code code;
-    fs::create_directories(folder, code);
-    if (code) error = folder + ": can't be made: " + code.message();
-    return !code;
-}
-
 // Each frozen plant into a file, likewise.
 bool writePlants(const fs::path& folder, SceneFile& out, std::string& error) {
     for (scene::SceneGrammar& grammar : out.grammars)
@@ -69,7 +62,7 @@ bool writePlants(const fs::path& folder, SceneFile& out, std::string& error) {
             const fs::path path = folder / kPlants / (nameFor(bytes.data(), bytes.size()) + ".plant");
             seed.frozenFile = path.string();
             std::error_code none;
-            if (!makeFolder(path.parent_path().string(), error)) return false;
+            if (!makeFolderDurably(path.parent_path().string(), error)) return false;
             if (!fs::exists(path, none) && !writeTextDurably(path.string(), bytes, error)) return false;
         }
     return true;
@@ -85,7 +78,7 @@ bool writeLayers(ProjectData& data, const fs::path& folder, Progress& progress, 
                                  nameFor(picture.texels.data(), picture.texels.size() * sizeof(float)) + ".exr";
         const fs::path path = folder / kLayers / file;
         std::error_code none;
-        if (!makeFolder(path.parent_path().string(), error)) return false;
+        if (!makeFolderDurably(path.parent_path().string(), error)) return false;
         const auto goOn = [&](float part) { return progress.at((written + part) / float(data.layers.size())); };
         const auto write = [&](const std::string& beside, std::string& why) {
             return writeGrey(beside, picture, why, goOn);
@@ -150,7 +143,7 @@ void sweep(const fs::path& folder) {
 // What isn't complete in the end leaves no files: a disk that was full has room again.
 bool write(ProjectData data, const std::string& folder, const char* name, Progress& progress, std::string& error) {
     const std::string path = (fs::path(folder) / name).string();
-    const bool good = makeFolder(folder, error) && writeLayers(data, folder, progress, error) &&
+    const bool good = makeFolderDurably(folder, error) && writeLayers(data, folder, progress, error) &&
                       writePlants(folder, data.file, error) && progress.at(1) &&
                       writeTextDurably(path, writeSceneText(path, data.file), error);
     if (good && name == kProject) dropAutosave(folder);

@@ -191,6 +191,10 @@ bool readText(const std::string& path, std::string& text, std::string& error) {
         error = path + ": is a folder";
         return false;
     }
+    if (std::filesystem::is_character_file(path, code) || std::filesystem::is_block_file(path, code)) {
+        error = path + ": is a device, not a file";
+        return false;
+    }
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     std::ostringstream all;

@@ -2,6 +2,8 @@
 // passed over.
 #include "tools/scene/scene_file.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -174,7 +176,11 @@ class Reader {
                 out_.pruned.push_back(value);
         }
     }
+    // Projects name files by their layers, so that a name must be no path.
     void readLayer(const std::string& name, const Json& json) {
+        const auto part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+        if (name.empty() || !std::ranges::all_of(name, part))
+            fail(json, "'" + name + "' is no layer's name: a grammar's are of letters, digits and _");
         if (json.kind != Json::Kind::list) return out_.layers.push_back({name, file(json), -1});
         for (const Json& picture : json.items) {
             if (!isObject(picture, "a layer's picture", {"surface", "town", "file"})) continue;
