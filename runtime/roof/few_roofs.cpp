@@ -125,6 +125,8 @@ Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<
         if (Status sent = commands->upload(generations_, generations.subspan(house * 4, 4), house * 4); !sent)
             return sent.failure();
     if (Result<uint64_t> sent = commands->submit(); !sent) return sent.failure();
+    outcome.grids = std::move(made.records.grids);
+    outcome.runs = std::move(made.records.runs);
     outcome.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return outcome;
 }

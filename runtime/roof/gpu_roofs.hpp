@@ -1,7 +1,11 @@
 #pragma once
 
 // RoofGrowth on the GPU: its buffers and kernels. roof_growth.cpp expands, roof_upload.cpp sends what that reads,
-// few_roofs.cpp grows a few houses on the CPU.
+// few_roofs.cpp grows a few houses on the CPU, house_cells.cpp counts what houses have drawn.
+
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/program.hpp"
@@ -47,6 +51,17 @@ class GpuRoofs final : public RoofGrowth {
         uint32_t waves = 0, widest = 0;
         bool complete = false;  // no shape waits for a wave that wasn't recorded
         double ms = 0;
+        // Of a few houses, as they are sent.
+        std::vector<RoofGrid> grids;
+        std::vector<RoofRun> runs;
+    };
+    // Cells of grids, as in RoofStatus.
+    struct Cells {
+        uint64_t touched = 0, whole = 0, terminals = 0;
+        Cells& operator+=(const Cells& c) {
+            touched += c.touched, whole += c.whole, terminals += c.terminals;
+            return *this;
+        }
     };
     // Records as the kernels of one expansion fetch them.
     struct Texels {
@@ -108,6 +123,11 @@ class GpuRoofs final : public RoofGrowth {
     // houses: that have grown, none: all.
     void publish(const RoofInputs& inputs, const Outcome& outcome, std::span<const uint32_t> houses);
     void measure(const RoofTables& t, uint32_t house);
+    static Cells cellsOf(const RoofGrid& grid, std::span<const RoofRun> runs);
+    // Of all houses, while all that is published is drawn.
+    Status countHouses();
+    // These have grown anew: their grids, and the runs from `last_` on.
+    Status recount(std::span<const uint32_t> houses, Outcome& outcome);
 
     Device& device_;
     Program derive_;
@@ -128,7 +148,9 @@ class GpuRoofs final : public RoofGrowth {
     bool startsSent_ = false;                // `starts_` holds these
     uint32_t startCount_ = 0;                // of the expansion that is being recorded
     std::vector<uint32_t> generationOf_, reads_;
-    std::vector<Box> boxes_;  // [house]
+    std::vector<Box> boxes_;         // [house]
+    std::vector<Cells> houseCells_;  // [house], of what is drawn; empty: not counted since all have grown
+    Cells replaced_;                 // of grids that aren't drawn any more
     RoofStatus last_{};
     RoofView view_;
     RoofStats stats_;

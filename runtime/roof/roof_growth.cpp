@@ -211,9 +211,10 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     stats_.houses = uint32_t(t.houses.size());
     stats_.atoms = uint32_t(t.atoms.size());
     stats_.grids = last_.grids;
-    stats_.terminals = last_.terminals;
-    stats_.tiles = last_.touched;
-    stats_.clipped = last_.touched - last_.whole;
+    if (houses.empty()) houseCells_.clear(), replaced_ = {};
+    stats_.terminals = uint32_t(last_.terminals - replaced_.terminals);
+    stats_.tiles = last_.touched - replaced_.touched;
+    stats_.clipped = stats_.tiles - (last_.whole - replaced_.whole);
     stats_.waves = outcome.waves;
     stats_.stopped = last_.stopped;
     stats_.expansions += 1;
@@ -276,6 +277,7 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
         possible = possible && house < generationOf_.size() && generationOf_[house] < 255;
     }
     if (!possible) return grow(inputs);
+    if (Status counted = countHouses(); !counted) return counted;
     for (uint32_t house : houses) generationOf_[house] += 1;
     Set& set = sets_[front_];
     const bool few = houses.size() <= kFewHouses;
@@ -284,6 +286,7 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
     const RoofStatus& s = outcome->status;
     const bool held = outcome->complete && fits(s, set) && outcome->widest <= room_.scopes;
     if (!held) return grow(inputs);
+    if (Status counted = recount(houses, *outcome); !counted) return counted;
     publish(inputs, *outcome, houses);
     stats_.housesGrown += houses.size();
     return Done{};

@@ -59,7 +59,7 @@ struct RoofView {
 
 struct RoofStats {
     uint32_t houses = 0, atoms = 0;
-    uint32_t grids = 0, terminals = 0;  // records; those of one cell
+    uint32_t grids = 0, terminals = 0;  // records, also of houses that grew anew since; drawn ones of one cell
     uint64_t tiles = 0, clipped = 0;    // cells that are drawn; those of them that an outline crosses
     uint32_t waves = 0, stopped = 0;    // of the latest expansion; shapes that a limit ended
     uint32_t expansions = 0, overflow = 0;

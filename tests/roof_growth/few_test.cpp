@@ -1,5 +1,6 @@
 // A few houses grow on the CPU, more on the GPU: records are those of all houses grown anew, to the bit.
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <set>
 
@@ -80,6 +81,11 @@ TEST_CASE("houses grown on the CPU or the GPU leave the records of a town grown 
     REQUIRE(whole);
     const Contents before = drawn(*whole, generations);
     CHECK(before.size() == growth.stats().grids);
+    const auto counts = [&] {
+        const RoofStats stats = growth.stats();
+        return std::array<uint64_t, 3>{stats.tiles, stats.clipped, stats.terminals};
+    };
+    const auto planned = counts();
     // One house, several, and so many that the GPU grows them.
     for (uint32_t count : {1u, 7u, 40u}) {
         std::vector<uint32_t> houses;
@@ -92,6 +98,7 @@ TEST_CASE("houses grown on the CPU or the GPU leave the records of a town grown 
         const Contents now = drawn(*patched, generations);
         CHECK(now.size() == before.size());
         CHECK(now == before);
+        CHECK(counts() == planned);  // what is drawn, not what has been replaced
     }
     CHECK(growth.stats().expansions == 4);
     // A house of another shape, by either way.
@@ -106,10 +113,13 @@ TEST_CASE("houses grown on the CPU or the GPU leave the records of a town grown 
         REQUIRE(patched);
         const Contents now = drawn(*patched, generations);
         CHECK(now != before);
+        const auto patchedCounts = counts();
+        CHECK(patchedCounts != planned);
         REQUIRE(growth.grow(inputs));  // the town's tables stay where they are, what was added is sent
         std::fill(generations.begin(), generations.end(), 0u);
         Result<RoofRecords> anew = growth.read();
         REQUIRE(anew);
         CHECK(drawn(*anew, generations) == now);
+        CHECK(counts() == patchedCounts);
     }
 }
