@@ -68,11 +68,14 @@ Footprint changed(const Footprint& from, const RoofHouse& house, const EspHouseD
     return f;
 }
 
-// Why a footprint makes no house, without what follows for one that is loaded ("...: left out").
+// Why a footprint makes no house, without what becomes of one that is loaded.
 std::string causeOf(const std::vector<Diagnostic>& diagnostics) {
+    constexpr std::string_view kLeftOut = ": left out";
     const auto error = std::ranges::find(diagnostics, false, &Diagnostic::warning);
     if (error == diagnostics.end()) return "no roof could be made";
-    return error->message.substr(0, error->message.rfind(": "));
+    std::string cause = error->message;
+    if (cause.ends_with(kLeftOut)) cause.resize(cause.size() - kLeftOut.size());
+    return cause;
 }
 
 void replaceHouse(LoadedTown& town, uint32_t index, const RoofStructure& made, size_t part) {
