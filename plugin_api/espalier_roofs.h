@@ -34,7 +34,8 @@ ESP_API EspResult espTownGrammar(const EspContext* context, EspGrammar* out);
  * to south, each from west (least x) to east. Grammars of roofs read them as name(texCoord) where a shape stands, or
  * name(house), the mean over a house; Drop(name) takes tiles away by them and Moss(name) covers tiles. Houses that read
  * what changed grow anew in the next espUpdate; what is dropped or covered costs no growth.
- * The strokes above paint them too, those that the town's grammar reads, straight down whatever the height, and undo it. */
+ * The strokes above paint them too, those that the town's grammar reads or that were painted or set before, straight down
+ * whatever the height, and undo it. */
 typedef struct EspTownInfo {
     uint32_t houses;
     float layerLow[2];       /* world x and z of the square's north-western corner */
@@ -44,7 +45,7 @@ typedef struct EspTownInfo {
 } EspTownInfo;
 ESP_API EspResult espTownInfo(const EspContext* context, EspTownInfo* out);
 /* Replaces the whole layer, resampled from height rows of width floats in [0,1], 1 to 8192 each. out: an ended stroke to
- * undo it by, or NULL. ESP_INVALID_ARGUMENT if the town's grammar reads no such layer. */
+ * undo it by, or NULL. One that the town's grammar doesn't read is kept until it does. */
 ESP_API EspResult espSetTownLayer(EspContext* context, const char* name, const float* texels, uint32_t width,
                                   uint32_t height, EspStroke* out);
 /* As espReadLayer. */
@@ -101,9 +102,9 @@ ESP_API EspResult espResetHouse(EspContext* context, uint32_t house);
 
 typedef struct EspRoofStats {
     uint32_t houses, eaves;
-    uint64_t tiles;              /* cells of all grids */
+    uint64_t tiles;              /* cells of all grids that stand */
     uint64_t clippedTiles;       /* those of them that an outline crosses */
-    uint32_t grids;              /* records that they are kept in */
+    uint32_t grids;              /* records; those of houses that grew anew are kept until the whole town grows */
     uint32_t drawnTiles, drawnRectangles;   /* instances in the last frame; rectangles stand for far cells */
     uint64_t drawnTriangles;
     uint32_t stopped;            /* shapes that a limit ended */

@@ -66,7 +66,8 @@ void Workspace::frameChosen() {
     glm::vec3 low = points[0], high = points[0];
     for (const glm::vec3& point : points) low = glm::min(low, point), high = glm::max(high, point);
     // A seed is a point: some of what grows around it is seen with it.
-    camera.frame((low + high) * .5f, std::max(glm::distance(low, high) / 2, std::min(1.f, .12f * reach())));
+    camera.frame((low + high) * .5f, std::max(glm::distance(low, high) / 2, std::min(1.f, .12f * reach())),
+                 (window.x - panelUnits()) / window.y);
     redraw = true;
 }
 
@@ -96,14 +97,12 @@ bool Workspace::readStats() {
 bool Workspace::townLayer(const std::string& name) const {
     EspGrammar town{};
     if (espHouseCount(context.get()) == 0 || espTownGrammar(context.get(), &town) != ESP_OK) return false;
-    bool reads = false;
     for (const auto& grammar : scene().grammars)
-        for (uint32_t i = 0; i < espLayerCount(context.get(), grammar.id); ++i) {
-            if (name != espLayerName(context.get(), grammar.id, i)) continue;
-            if (grammar.id.id != town.id) return false;
-            reads = true;
-        }
-    return reads;
+        for (uint32_t i = 0; grammar.id.id != town.id && i < espLayerCount(context.get(), grammar.id); ++i)
+            if (name == espLayerName(context.get(), grammar.id, i)) return false;
+    // Also one that was painted and that the town's grammar has lost.
+    const auto layers = espalier::scene::townLayers(context.get());
+    return std::ranges::find(layers, name, &espalier::scene::TownLayer::name) != layers.end();
 }
 
 // What is painted is seen on surfaces by its view, on roofs by what it does to them.

@@ -20,7 +20,7 @@ void note(LoadedTown& town, const std::string& name, const PlanRect& rect) {
     town.painted.push_back({name, rect});
 }
 
-// The layer, made if it is one that the town's grammar reads; else null.
+// The layer that strokes reach, made if it is one that the town's grammar reads; else null.
 PlanLayer* townLayer(EspContext& context, const std::string& name) {
     const LoadedGrammar* grammar = grammarOf(context);
     if (!grammar) return nullptr;
@@ -151,18 +151,16 @@ EspResult espSetTownLayer(EspContext* context, const char* name, const float* te
     return guarded(context, [&] {
         if (!name || !*name || !texels || width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
             return fail(context, ESP_INVALID_ARGUMENT, "espSetTownLayer: null, or not 1 to 8192 texels a side");
+        if (!context->town) return fail(context, ESP_INVALID_ARGUMENT, "espSetTownLayer: there is no town");
+        LoadedTown& town = *context->town;
         PaintStroke stroke;
         stroke.layer = name;
-        PlanLayer* layer = townLayer(*context, name);
-        if (!layer)
-            return fail(context, ESP_INVALID_ARGUMENT,
-                        std::string("espSetTownLayer: no town, or its grammar reads no layer '") + name + "'");
-        LoadedTown& town = *context->town;
         stroke.town = town.number;
         stroke.open = false;
+        PlanLayer& layer = town.layers.make(name, declaredFill(*context, name).value_or(0));
         const std::vector<float> values = resampled(texels, width, height, town.layers.site().size);
-        note(town, name, town.layers.replace(*layer, values, stroke.plan));
-        town.layers.close(*layer, stroke.plan);
+        note(town, name, town.layers.replace(layer, values, stroke.plan));
+        town.layers.close(layer, stroke.plan);
         if (!out) return ESP_OK;
         out->id = context->strokes.insert(std::move(stroke));
         return out->id ? ESP_OK : fail(context, ESP_OUT_OF_MEMORY, "espSetTownLayer: no ids left");

@@ -304,7 +304,49 @@ TEST_CASE("layers painted over a town are saved to the bit, reopened, undone") {
     CHECK(texels(editing, "moss") == clean);
     CHECK(roofs(editing) == planned);
 
-    CHECK(!editing.perform(LoadTownLayer{"no such", folder.file("decay.exr")}));
-    CHECK(contains(editing.error, "no such"));
     CHECK(!editing.perform(LoadTownLayer{"moss", folder.file("missing.png")}));
+}
+
+TEST_CASE("what is painted over a town stays when its grammar loses the layer, in projects too, and is read again") {
+    const Folder folder;
+    Editing editing(content("town.json"));
+    const auto town = [](const Editing& of) {
+        EspGrammar grammar{};
+        REQUIRE(espTownGrammar(of.context.get(), &grammar) == ESP_OK);
+        const auto& grammars = of.document->scene().grammars;
+        const auto found = std::ranges::find(grammars, grammar.id, [](const auto& g) { return g.id.id; });
+        REQUIRE(found != grammars.end());
+        return uint32_t(found - grammars.begin());
+    };
+    const auto setText = [&](Editing& of, const std::string& text) {
+        REQUIRE_MESSAGE(of.perform(of.document->withText(town(of), text)), of.error);
+        const std::string& mistake = of.document->scene().grammars[town(of)].error;
+        REQUIRE_MESSAGE(mistake.empty(), mistake);
+    };
+    const auto lists = [](const Editing& of, const char* name) {
+        return std::ranges::count(of.document->scene().layers, name) == 1;
+    };
+    const std::string without = editing.document->scene().grammars[town(editing)].text;
+    const std::string with = "context lichen = 0\n" + without;
+    setText(editing, with);
+    paint(editing, "lichen", 0, .8f);
+    const std::vector<float> painted = texels(editing, "lichen");
+    CHECK(*std::ranges::max_element(painted) > .5f);
+    setText(editing, without);
+    CHECK(lists(editing, "lichen"));
+    CHECK(texels(editing, "lichen") == painted);
+    paint(editing, "lichen", 1, .5f);  // the brush still reaches it
+    const std::vector<float> more = texels(editing, "lichen");
+    CHECK(more != painted);
+
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("saved"), editing.error), editing.error);
+    Editing again(folder.file("saved"));
+    CHECK(again.document->scene().notes.empty());
+    CHECK(lists(again, "lichen"));
+    CHECK(texels(again, "lichen") == more);
+    setText(again, with);
+    CHECK(lists(again, "lichen"));
+    CHECK(texels(again, "lichen") == more);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(texels(editing, "lichen") == painted);
 }

@@ -151,7 +151,14 @@ static void layers(EspContext* context) {
     OK(context, espSwapStroke(context, set));
     OK(context, espUpdate(context));
     CHECK(drawnTiles(context) == fewer);
-    REFUSED(espSetTownLayer(context, "no such", picture, 2, 2, NULL));
+    /* One that no grammar reads is kept, for one that will. */
+    OK(context, espSetTownLayer(context, "nobody's", picture, 2, 2, NULL));
+    side = 2048;
+    OK(context, espReadTownLayer(context, "nobody's", texels, &side));
+    CHECK(texels[0] == 0 && texels[side - 1] == 1);
+    OK(context, espUpdate(context));
+    CHECK(drawnTiles(context) == fewer);
+    REFUSED(espSetTownLayer(context, "", picture, 2, 2, NULL));
     REFUSED(espSetTownLayer(context, "decay", NULL, 2, 2, NULL));
     side = 4;
     REFUSED(espReadTownLayer(context, "decay", texels, &side));

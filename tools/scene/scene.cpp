@@ -289,10 +289,7 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         // What was painted before a grammar's text lost its layer stays in a project; a scene may paint layers that
         // only some grammar, given in place of its own, doesn't read.
         const bool read = std::ranges::find(out.layers, layer.name) != out.layers.end();
-        const bool town = layer.surface == SceneLayer::kTown;
-        if (!read && file.project && town)
-            out.notes.push_back("the town's grammar reads no layer '" + layer.name + "': what was painted is left out");
-        if (!read && (!file.project || town)) continue;
+        if (!read && !file.project) continue;
         if (!layLayer(context, out, layer, error)) return false;
     }
     out.camera = espFrameAll(context);
@@ -327,6 +324,7 @@ void noteLayers(const EspContext* context, Scene& scene) {
     for (const LoadedGrammar& grammar : scene.grammars)
         for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i) note(espLayerName(context, grammar.id, i));
     for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i) note(espPaintedLayerName(context, i));
+    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) note(espTownLayerName(context, i));
 }
 
 bool openScene(EspContext* context, const Request& asked, Scene& out, std::string& error) {

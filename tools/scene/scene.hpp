@@ -118,7 +118,7 @@ bool setText(EspContext* context, LoadedGrammar& grammar, const std::string& tex
 // Values that aren't the grammar's own.
 std::vector<ParamValue> changedParams(const EspContext* context, EspGrammar grammar);
 
-// The names of all layers that the grammars read, or that surfaces are painted with, into scene.layers.
+// The names of all layers that the grammars read, or that surfaces or the town are painted with, into scene.layers.
 void noteLayers(const EspContext* context, Scene& scene);
 
 // The folder with the content that is installed beside the running program.
