@@ -85,7 +85,7 @@ void Controls::takeKey(const KeyEvent& event) {
         else
             chooseTool(Tool::look);
     }
-    if (key == GLFW_KEY_HOME) work_.lookFrom(espFrameAll(work_.context.get())), navigation_.moved();
+    if (key == GLFW_KEY_HOME) work_.frameAll(), navigation_.moved();
     if (!work_.editing) {
         if (key == GLFW_KEY_G) navigation_.toggleFlying();
         if (key == GLFW_KEY_SPACE) navigation_.jump();
@@ -168,16 +168,16 @@ bool Controls::toolBusy() const {
 }
 
 bool Controls::panelTakes(const PointerEvent& event) {
+    const uint32_t button = 1u << event.button;
+    // Whatever has begun since by a key: what went down over a panel goes up there.
+    if (event.kind == PointerEvent::Kind::release && (panelButtons_ & button)) {
+        panelButtons_ &= ~button;
+        return true;
+    }
     if (navigation_.caught || navigation_.dragging() || toolBusy()) return false;
-    if (event.kind == PointerEvent::Kind::press && (panelButtons_ > 0 || overPanel(event.x, event.y))) {
-        ++panelButtons_;
-        return true;
-    }
-    if (event.kind == PointerEvent::Kind::release && panelButtons_ > 0) {
-        --panelButtons_;
-        return true;
-    }
-    return false;
+    if (event.kind != PointerEvent::Kind::press || (!panelButtons_ && !overPanel(event.x, event.y))) return false;
+    panelButtons_ |= button;
+    return true;
 }
 
 void Controls::takePointer(const PointerEvent& event) {

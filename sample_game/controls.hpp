@@ -50,7 +50,7 @@ class Controls {
     BrushTool brush_;
     SeedTool seeds_;
     HouseTool houses_;
-    int panelButtons_ = 0;  // that were pressed over a panel and are down
+    uint32_t panelButtons_ = 0;  // bits: those that were pressed over a panel and are down
 };
 
 }  // namespace sample

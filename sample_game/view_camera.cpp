@@ -54,8 +54,12 @@ void ViewCamera::pan(float x, float y) {
 }
 
 void ViewCamera::zoom(float steps) {
+    stepBack(std::pow(.88f, steps));
+}
+
+void ViewCamera::stepBack(float times) {
     const glm::vec3 target = eye_ + distance_ * ahead();
-    distance_ = std::clamp(distance_ * std::pow(.88f, steps), reach_ * 1e-3f, reach_ * 50);
+    distance_ = std::clamp(distance_ * times, reach_ * 1e-3f, reach_ * 50);
     eye_ = target - distance_ * ahead();
 }
 
@@ -70,8 +74,9 @@ void ViewCamera::turnBy(float yaw, float pitch) {
     turnTo(yaw_ + yaw, pitch_ + pitch);
 }
 
-void ViewCamera::frame(glm::vec3 centre, float radius) {
-    distance_ = std::max(1.2f * radius / std::sin(fovY_ / 2), reach_ * 1e-3f);
+void ViewCamera::frame(glm::vec3 centre, float radius, float aspect) {
+    const float half = std::atan(std::tan(fovY_ / 2) * std::clamp(aspect, .1f, 1.f));  // the narrower way
+    distance_ = std::max(1.2f * radius / std::sin(half), reach_ * 1e-3f);
     eye_ = centre - distance_ * ahead();
 }
 

@@ -25,10 +25,12 @@ class ViewCamera {
     // ---- Editor. Moves of the mouse by fractions of the window's height; x to the right, y down.
     void orbit(float x, float y);
     void pan(float x, float y);
-    void zoom(float steps);                      // positive: nearer
-    void turnTo(float yaw, float pitch);         // about what is looked at; 0, 0: from the front, +z
-    void turnBy(float yaw, float pitch);         // likewise, radians
-    void frame(glm::vec3 centre, float radius);  // so that the ball fills the view, from where it is seen now
+    void zoom(float steps);               // positive: nearer
+    void turnTo(float yaw, float pitch);  // about what is looked at; 0, 0: from the front, +z
+    void turnBy(float yaw, float pitch);  // likewise, radians
+    // So that the ball fills the view, from where it is seen now. aspect: width by height of what nothing lies over.
+    void frame(glm::vec3 centre, float radius, float aspect);
+    void stepBack(float times);  // as far again from what is looked at; 2: twice as far
     // ---- Both
     void look(float x, float y);
     // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`.

@@ -26,6 +26,10 @@ float Workspace::panelUnits() const {
     return editing && layout.panel ? std::min(layout.panelWidth * scale, window.x * .6f) : 0;
 }
 
+float Workspace::freeAspect() const {
+    return std::max(1.f, window.x - panelUnits()) / std::max(1.f, window.y);
+}
+
 // So that what is looked at stands in the middle of what the panel leaves free.
 float Workspace::shift() const {
     return panelUnits() / std::max(1.f, window.x);
@@ -52,6 +56,12 @@ void Workspace::lookFrom(const EspCamera& from) {
     redraw = true;
 }
 
+void Workspace::frameAll() {
+    constexpr float kFramed = 4 / 3.f;  // that espFrameAll makes room for
+    lookFrom(espFrameAll(context.get()));
+    camera.stepBack(std::max(1.f, kFramed / freeAspect()));
+}
+
 void Workspace::frameChosen() {
     std::vector<glm::vec3> points;
     if (tool == Tool::seeds)
@@ -62,12 +72,12 @@ void Workspace::frameChosen() {
     EspHouseInfo info;
     if (tool == Tool::houses && house && espHouseInfo(context.get(), *house, &info) == ESP_OK)
         points = {vec(info.boundsMin), vec(info.boundsMax)};
-    if (points.empty()) return lookFrom(espFrameAll(context.get()));
+    if (points.empty()) return frameAll();
     glm::vec3 low = points[0], high = points[0];
     for (const glm::vec3& point : points) low = glm::min(low, point), high = glm::max(high, point);
     // A seed is a point: some of what grows around it is seen with it.
     camera.frame((low + high) * .5f, std::max(glm::distance(low, high) / 2, std::min(1.f, .12f * reach())),
-                 (window.x - panelUnits()) / window.y);
+                 freeAspect());
     redraw = true;
 }
 

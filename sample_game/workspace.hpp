@@ -85,10 +85,16 @@ struct Workspace {
     std::pair<glm::vec3, glm::vec3> bounds() const;  // of the surfaces, world; a metre's cube if there are none
     float reach() const;                             // how large the scene is, metres
     void lookFrom(const EspCamera& from);
+    void frameAll();
     void frameChosen();        // what is chosen with the tool in hand fills the view; everything, if nothing is
     float panelUnits() const;  // what the panel takes at the left, in ImGui's units
+    float freeAspect() const;  // width by height of what it leaves
     // A message appears where it fails.
     bool perform(const espalier::document::Action& action, uint32_t gesture = 0);
+    // What was told isn't so any more.
+    void remedied(const std::string& told) {
+        if (error == told) error.clear();
+    }
     // Painting shows what is painted, everything else the scene.
     void choose(Tool chosen);
     // A number for the actions that belong together from now on.

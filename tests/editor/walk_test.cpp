@@ -99,3 +99,32 @@ TEST_CASE("who is let go of in the air comes down on the ground") {
     REQUIRE(world.walker.eye().z < -4);
     CHECK(world.go({0, 0}, 4).y == doctest::Approx(kEyes).epsilon(.01));
 }
+
+TEST_CASE("what is framed lies in what a panel leaves free of the window, however narrow that is") {
+    for (const float panel : {0.f, 320.f, 640.f}) {
+        const glm::vec2 window(1280, 800);
+        const float shift = panel / window.x, aspect = window.x / window.y;
+        CAPTURE(panel);
+        sample::ViewCamera camera;
+        camera.turnTo(.4f, -.3f);
+        const glm::vec3 centre(3, 2, -5);
+        constexpr float kRadius = 4;
+        camera.frame(centre, kRadius, (window.x - panel) / window.y);
+        glm::vec2 low(1e9f), high(-1e9f);
+        for (int axis = 0; axis < 3; ++axis)
+            for (const float side : {-kRadius, kRadius}) {
+                glm::vec3 point = centre;
+                point[axis] += side;
+                glm::vec2 at;
+                REQUIRE(camera.project(point, aspect, shift, at));
+                low = glm::min(low, at * window);
+                high = glm::max(high, at * window);
+            }
+        CHECK(low.x >= panel);
+        CHECK(low.y >= 0);
+        CHECK(high.x <= window.x);
+        CHECK(high.y <= window.y);
+        const glm::vec2 filled = (high - low) / glm::vec2(window.x - panel, window.y);
+        CHECK(std::max(filled.x, filled.y) > .6f);
+    }
+}
