@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <utility>
 
 #include "sample_game/app_state.hpp"
 #include "sample_game/folder_list.hpp"
@@ -32,6 +33,7 @@ constexpr size_t kHistory = 240;                           // frames in the grap
 
 void App::showUi() {
     work_.followLayers();
+    if (!work_.editing && dialogueAsked()) controls_->setEditing(true);  // where it can be answered
     if (!work_.editing) closeDialogues();
     if (work_.editing) {
         controls_->showTool(input_->mods());
@@ -61,7 +63,8 @@ bool App::update() {
     growing_ = false;
     const uint32_t expansions = work_.stats.expansions;
     const uint64_t housesGrown = work_.roofs.housesGrown;
-    if (espUpdate(work_.context.get()) != ESP_OK) work_.error = espLastError(work_.context.get());
+    work_.remedied(std::exchange(growthError_, {}));
+    if (espUpdate(work_.context.get()) != ESP_OK) work_.error = growthError_ = espLastError(work_.context.get());
     work_.grownRevision = work_.document->revision();
     if (!work_.readStats()) return false;
     const bool plants = work_.stats.expansions != expansions, houses = work_.roofs.housesGrown != housesGrown;
@@ -161,7 +164,8 @@ bool App::frame(float seconds) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     if (!session_.openNext.empty() && session_.idle() && !openNext()) return false;
-    if (session_.reload && session_.idle() && !reload()) return false;
+    if (session_.reload && session_.idle()) reload();
+    if (!reloading_.kept.empty() && session_.idle()) openReloaded();
     if (!rescale()) return false;
     std::vector<InputEvent> events;
     ImGui_ImplGlfw_NewFrame();

@@ -19,8 +19,8 @@ namespace sample {
 
 namespace fs = std::filesystem;
 using espalier::document::Document;
-using espalier::document::saveProject;
 using espalier::document::SetView;
+using espalier::document::Work;
 
 void WindowCloser::operator()(GLFWwindow* window) const {
     glfwDestroyWindow(window);
@@ -121,6 +121,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     if (!document->open(request, error)) return false;
     host_->waitIdle();
     if (work_.document) session_.end(work_);
+    reloading_ = {};
     work_.document = std::move(document);
     work_.context = std::move(context);
     work_.selected.clear();
@@ -162,10 +163,12 @@ bool App::open() {
     work_.editing = options_.editor;
     if (run) beginReplay();
     session_.autosaveEvery = options_.autosave;
-    if (!options_.record.empty() &&
-        !session_.startRecording(work_, options_.record, uint32_t(options_.width), uint32_t(options_.height)))
-        return fail(work_.error);
-    return true;
+    if (options_.record.empty()) return true;
+    bool records = false;
+    session_.startRecording(work_, options_.record, uint32_t(options_.width), uint32_t(options_.height),
+                            [&](bool good) { records = good; });
+    session_.background().finish();
+    return records || fail(work_.error);
 }
 
 // The display's scale, or the size of letters, has changed.
@@ -203,25 +206,44 @@ bool App::showOpening(const std::string& file) {
            (host_->end(*frame) || fail(host_->error()));
 }
 
-// By way of a project, so that everything that was done stands; only undo doesn't reach behind it.
-bool App::reload() {
-    if (work_.document->stroking()) return true;
+// By way of a project, so that everything that was done stands; only undo doesn't reach behind it. It is saved beside
+// the frames; what is done meanwhile isn't in it, so it is then saved again.
+void App::reload() {
     session_.reload = false;
+    const fs::path folder = fs::temp_directory_path() / ("espalier-reload-" + std::to_string(getpid()));
+    const std::string kept = (folder / work_.scene().name).string();
+    const auto state = std::make_shared<uint64_t>();
+    session_.background().ask({"Reloading " + fs::path(session_.file()).filename().string(),
+                               [this, kept, state] {
+                                   *state = work_.document->state();
+                                   return saving(*work_.document, kept);
+                               },
+                               [this, kept, state](const Work& over) {
+                                   const bool done = over.state() == Work::State::done;
+                                   std::error_code ignored;
+                                   if (done)
+                                       reloading_ = {kept, *state};
+                                   else
+                                       fs::remove_all(fs::path(kept).parent_path(), ignored);
+                                   if (!over.error().empty()) work_.error = "Not reloaded: " + over.error();
+                               }});
+}
+
+void App::openReloaded() {
+    const auto [kept, state] = std::exchange(reloading_, {});
     const Session::Origin origin = session_.origin(work_);
     const SetView view{espalier::scene::nameOf(work_.scene().look.view), work_.scene().viewLayer};
-    const fs::path folder = fs::temp_directory_path() / ("espalier-reload-" + std::to_string(getpid()));
-    const fs::path kept = folder / work_.scene().name;
+    session_.reload = state != work_.document->state();
+    session_.goesOn = !session_.reload;
     work_.error.clear();
-    if (!showOpening(origin.file)) return false;
-    if (!saveProject(*work_.document, kept.string(), work_.error)) return true;
-    if (openDocument({kept.string(), {}, {}, {}}, work_.error)) {
+    if (session_.goesOn && showOpening(origin.file) && openDocument({kept, {}, {}, {}}, work_.error)) {
         work_.perform(view);
         session_.setOrigin(work_, origin);
         work_.message = "Its model has changed on disk: " + fs::path(origin.file).filename().string() + " was reloaded";
     }
+    session_.goesOn = false;
     std::error_code ignored;
-    fs::remove_all(folder, ignored);
-    return true;
+    fs::remove_all(fs::path(kept).parent_path(), ignored);
 }
 
 // Asked for by a dialogue or dropped onto the window: what can't be opened leaves the old document.

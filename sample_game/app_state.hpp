@@ -42,7 +42,8 @@ class App {
     void beginReplay();
     bool replay(std::vector<InputEvent>& events);
     bool closing();
-    bool reload();
+    void reload();
+    void openReloaded();
     bool frame(float seconds);
     void noteTimes();
     void wake() { awake_ = kFramesAfterChange; }
@@ -60,6 +61,10 @@ class App {
 
     Workspace work_;
     Session session_;
+    struct {
+        std::string kept;    // the project that it was saved to; empty: none
+        uint64_t state = 0;  // of the document then
+    } reloading_;
     Replay replay_;
     std::unique_ptr<Controls> controls_;
 
@@ -69,7 +74,8 @@ class App {
     std::optional<espalier::document::StrokeBegin> limiting_;  // whose limits the scene's picture shows
     Rest rest_;
     espalier::scene::MovingPicture moving_;
-    double grownMs_ = 0;  // what growth took in this frame
+    double grownMs_ = 0;       // what growth took in this frame
+    std::string growthError_;  // of the last frame
     bool growing_ = false;
     float themeScale_ = 0;
 };

@@ -91,7 +91,8 @@ bool GuiEvents::tell(const Letter& letter, Told& told, std::vector<InputEvent>&)
 bool GuiEvents::tell(const Key& key, Told& told, std::vector<InputEvent>& taken) {
     const auto& [code, mods, x, y] = key.event;
     const bool cancels = code == GLFW_KEY_ESCAPE && dialogueWaits();
-    if ((told.awaited && !cancels) || told.clicked || told.asks) return false;
+    const bool ends = key.action == GLFW_RELEASE && !told.held;  // it has gone down before anything was held back
+    if ((told.awaited && !cancels && !ends) || told.clicked || told.asks) return false;
     const bool shifts = code >= GLFW_KEY_LEFT_SHIFT && code <= GLFW_KEY_RIGHT_SUPER;
     const bool apart = told.typing && !writes(code, mods) && !(shifts && key.action == GLFW_PRESS);
     if (apart && (told.keyed || told.wrote)) return false;
@@ -110,7 +111,16 @@ void GuiEvents::feed(std::vector<InputEvent>& taken) {
     // A dialogue whose list is held takes no text before it is let go, which may come behind a key.
     if (std::ranges::count(buttons_, true) > 0) told.awaited = false;
     const auto next = [&](const auto& event) { return tell(event, told, taken); };
-    while (!events_.empty() && std::visit(next, events_.front())) events_.pop_front();
+    for (auto event = events_.begin(); event != events_.end();) {
+        if (std::visit(next, *event)) {
+            event = events_.erase(event);
+        } else if (dialogueWaits() && told.awaited && !std::holds_alternative<Pointer>(*event)) {
+            told.held = true;  // for when it has closed: its Cancel is clicked now
+            ++event;
+        } else {
+            break;
+        }
+    }
     // The backend has put in how things are by now, which is later than what ImGui is told.
     if (placed_ && (told.clicked || waiting()) && ImGui::IsMousePosValid()) io.MousePos = {x_, y_};
     std::copy(std::begin(buttons_), std::end(buttons_), io.MouseDown);

@@ -66,6 +66,7 @@ class GuiEvents {
         bool typing, awaited;                             // something is typed into; a dialogue isn't there yet
         bool moved = false, clicked = false;              // clicked: a panel's button has changed
         bool keyed = false, wrote = false, asks = false;  // asks: for a dialogue
+        bool held = false;                                // keys have been passed over, by what comes behind them
     };
     // False: the event has to wait for the next frame.
     bool tell(const Key& key, Told& told, std::vector<InputEvent>& taken);

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "sample_game/panels.hpp"
 #include "sample_game/theme.hpp"
@@ -151,13 +152,21 @@ void showGrowing(const Workspace& work) {
     ImGui::End();
 }
 
+// When all is written the disk is waited for, which may take as long again.
+void progressBar(const Background& background, float width) {
+    const float part = background.progress();
+    char text[16];
+    std::snprintf(text, sizeof text, "%.0f%%", 100 * part);
+    ImGui::ProgressBar(part, {width, 0}, part < .995f ? text : "Finishing ...");
+}
+
 void showBackground(const Workspace& work, Background& background) {
     if (!background.slow() || dialogueWaits()) return;
     if (beginNotice(work, "background", 1, 0)) {
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(background.title().c_str());
         ImGui::SameLine();
-        ImGui::ProgressBar(background.progress(), {ImGui::GetFontSize() * 12, 0});
+        progressBar(background, ImGui::GetFontSize() * 12);
         ImGui::SameLine();
         if (ImGui::Button("Cancel")) background.cancel();
         toolTip("What is on the disk stays as it was");

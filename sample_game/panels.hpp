@@ -20,6 +20,7 @@ void showWalk(const Workspace& work);                                // of the p
 void showHelp(Workspace& work);                                      // over all: F1
 void showGrowing(const Workspace& work);                             // while growth takes longer than a blink
 void showBackground(const Workspace& work, Background& background);  // what takes long of it, unless a dialogue does
+void progressBar(const Background& background, float width);         // of what is under way
 
 // Ctrl+S and Ctrl+O: at once, or by a dialogue.
 void askToSave(Workspace& work, Session& session, bool elsewhere = false);
@@ -32,6 +33,8 @@ bool askToLeave(Workspace& work, Session& session, const std::string& next = {})
 bool asksToLeave();
 bool closeMenus();     // those that are open, not dialogues; false: there are none
 bool dialogueWaits();  // for work that it began
+// One opens in the next frame with showDialogues().
+bool dialogueAsked();
 // In frames without showDialogues(): ImGui can't do with a dialogue that is open and isn't laid out.
 void closeDialogues();
 // A dialogue has been asked for, or is open, whose text can't be typed into yet, or that is about to close: within some

@@ -38,10 +38,14 @@ void Session::begin(Workspace& work, const std::string& file) {
     recoveredFrom_ = recovered && folder_.empty() ? place.string() : "";
     savedState_ = recovered ? kNever : work.document->state();
     autosavedState_ = work.document->state();
+    cannotKeep_.clear();
+    toldKept_.clear();
+    missing_ = false;
     recovery_ = recovered ? "" : recoverable(autosaveFolder());
+    if (recovery_.empty() && !recovered && !folder_.empty()) recovery_ = recoverable(unsavedFolder());
     grammarFiles_.begin(work.scene());
     models_.begin(modelFiles(work.scene()));
-    reload = givesUp = replayed_ = false;
+    reload = givesUp = goesOn = replayed_ = false;
     work.document->beforeEdits([this] { background_.settle(); });
     work.document->listen([this](const Action& action, uint32_t gesture) { recorder_.note(action, gesture); });
 }
@@ -53,10 +57,13 @@ std::string Session::name(const Workspace& work) const {
 
 std::string Session::autosaveFolder() const {
     if (replayed_) return {};
-    if (!folder_.empty()) return folder_;
-    if (!recoveredFrom_.empty()) return recoveredFrom_;
-    // Of what was never saved, beside the user's settings, by the file that it was opened from.
-    std::string name = file_;
+    if (!folder_.empty() && cannotKeep_.empty()) return folder_;
+    return recoveredFrom_.empty() ? unsavedFolder() : recoveredFrom_;
+}
+
+// By what it was opened from, or is the project of.
+std::string Session::unsavedFolder() const {
+    std::string name = folder_.empty() ? file_ : folder_;
     std::replace(name.begin(), name.end(), '/', '-');
     return configFolder().empty() ? "" : configFolder() + "/unsaved/" + name;
 }
@@ -70,9 +77,23 @@ bool Session::step(Workspace& work, double now) {
     }
     if (now < nextLook_ || background_.busy()) return moved;
     nextLook_ = now + kLookEvery;
+    noticeLoss(work);
     const bool models = models_.changed(), grammars = watchGrammars(work);
     reload = reload || models;
     return moved || models || grammars;
+}
+
+// Whoever deletes or moves a project's folder while it is open: what is open is all that is left of it.
+void Session::noticeLoss(Workspace& work) {
+    std::error_code ignored;
+    const bool there = folder_.empty() || fs::exists(fs::path(folder_) / "project.json", ignored);
+    const bool missed = std::exchange(missing_, !there);  // at two looks: others may be writing it anew
+    if (there || !missed || savedState_ == kNever) return;
+    savedState_ = autosavedState_ = kNever;
+    const std::string news = folder_ + " holds no project any more: Ctrl+S saves it there anew";
+    (void)keepElsewhere(news);
+    tellKept(work, news);
+    nextAutosave_ = 0;
 }
 
 bool Session::idle() {
@@ -83,6 +104,7 @@ bool Session::idle() {
 void Session::setOrigin(const Workspace& work, const Origin& origin) {
     file_ = origin.file;
     folder_ = origin.folder;
+    cannotKeep_ = origin.cannotKeep;
     savedState_ = autosavedState_ = origin.modified ? kNever : work.document->state();
 }
 
@@ -102,7 +124,7 @@ void Session::end(Workspace& work) {
     background_.giveWay();
     background_.finish();
     work.document->beforeEdits({});
-    if (autosaveFolder().empty() || !recovery_.empty()) return;
+    if (goesOn || autosaveFolder().empty() || !recovery_.empty()) return;
     if (givesUp)
         dropKept();
     else
@@ -114,12 +136,18 @@ bool Session::keeps(const Workspace& work) const {
 }
 
 void Session::keepNow(Workspace& work) {
+    std::string why;
     if (!keeps(work)) return;
-    if (!modified(work))
+    if (!modified(work)) {
         dropKept();
-    else if (!autosave(*work.document, autosaveFolder(), work.error))
-        return;
-    autosavedState_ = work.document->state();
+        autosavedState_ = work.document->state();
+    } else if (autosave(*work.document, autosaveFolder(), why)) {
+        kept(work, work.document->state());
+    } else if (keepElsewhere(why)) {
+        keepNow(work);
+    } else {
+        notKept(work, why);
+    }
 }
 
 void Session::keepSoon(Workspace& work) {
@@ -132,18 +160,41 @@ void Session::keepSoon(Workspace& work) {
                          return autosaving(*work.document, autosaveFolder());
                      },
                      [this, &work, state](const Work& over) {
-                         if (over.state() == Work::State::done) autosavedState_ = *state;
-                         if (over.state() == Work::State::failed)
-                             work.error = "What isn't saved couldn't be kept: " + over.error();
+                         if (over.state() == Work::State::done) return kept(work, *state);
+                         if (over.state() == Work::State::cancelled) return;
+                         keepElsewhere(over.error()) ? keepSoon(work) : notKept(work, over.error());
                      }});
 }
 
-void Session::dropKept() const {
+void Session::kept(Workspace& work, uint64_t state) {
+    autosavedState_ = state;
+    tellKept(work, cannotKeep_.empty() ? "" : cannotKeep_ + "; what isn't saved is kept in " + autosaveFolder());
+}
+
+void Session::notKept(Workspace& work, const std::string& why) {
+    toldKept_.clear();  // told each time
+    tellKept(work, "What isn't saved couldn't be kept: " + why);
+}
+
+bool Session::keepElsewhere(std::string why) {
+    if (folder_.empty() || !cannotKeep_.empty() || unsavedFolder().empty()) return false;
+    cannotKeep_ = std::move(why);
+    return true;
+}
+
+// Once, while it is the same; what is mended isn't an error any more.
+void Session::tellKept(Workspace& work, const std::string& news) {
+    const std::string before = std::exchange(toldKept_, news);
+    if (news == before) return;
+    work.remedied(before);
+    if (!news.empty()) work.error = news;
+}
+
+void Session::dropKept() {
     std::error_code ignored;
-    if (!folder_.empty())
-        dropAutosave(folder_);
-    else
-        fs::remove_all(autosaveFolder(), ignored);
+    if (!folder_.empty()) dropAutosave(folder_);
+    if (folder_.empty() || !cannotKeep_.empty()) fs::remove_all(autosaveFolder(), ignored);
+    cannotKeep_.clear();
 }
 
 void Session::replays() {
@@ -171,27 +222,42 @@ void Session::save(Workspace& work, const std::string& folder, Ended ended) {
 }
 
 void Session::saved(const std::string& folder, uint64_t state) {
-    if (folder_.empty() && !autosaveFolder().empty()) dropKept();
-    replayed_ = false;
+    if (!autosaveFolder().empty()) dropKept();
+    recoveredFrom_.clear();
+    toldKept_.clear();
+    missing_ = replayed_ = false;
     folder_ = wholePath(folder);
     savedState_ = autosavedState_ = state;
     recovery_.clear();
 }
 
 void Session::forgetRecovery(bool deleteIt) {
-    if (deleteIt) dropAutosave(fs::path(recovery_).parent_path().string());
+    std::error_code ignored;
+    const fs::path place = fs::path(recovery_).parent_path();
+    if (deleteIt && place == folder_)
+        dropAutosave(folder_);
+    else if (deleteIt)
+        fs::remove_all(place, ignored);
     recovery_.clear();
 }
 
-bool Session::startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height) {
+void Session::startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height, Ended ended) {
     work.error.clear();
-    std::string from = file_;
+    const RunHead head{1, file_, width, height, 1 / 30.f};
     // What was edited since is part of what the run begins with.
-    if (work.document->revision() != 0 || replayed_) {
-        from = path + ".project";
-        if (!saveProject(*work.document, from, work.error)) return false;
-    }
-    if (!recorder_.begin(path, {1, from, width, height, 1 / 30.f}, work.error)) return false;
+    if (work.document->revision() == 0 && !replayed_) return ended(record(work, path, head));
+    RunHead edited = head;
+    edited.scene = path + ".project";
+    background_.ask({"Saving what the run begins with",
+                     [&work, edited] { return saving(*work.document, edited.scene); },
+                     [this, &work, path, edited, ended](const Work& over) {
+                         work.error = over.error();
+                         ended(over.state() == Work::State::done && record(work, path, edited));
+                     }});
+}
+
+bool Session::record(Workspace& work, const std::string& path, RunHead head) {
+    if (!recorder_.begin(path, std::move(head), work.error)) return false;
     recordingTo_ = path;
     const EspCamera camera = work.camera.camera(0);
     return work.perform(SetCamera{array(vec(camera.eye)), array(vec(camera.target)), camera.fovY});

@@ -52,32 +52,44 @@ class Session {
 
     // Where the document belongs, over a reload of what it is in now.
     struct Origin {
-        std::string file, folder;
+        std::string file, folder, cannotKeep;
         bool modified = false;
     };
-    Origin origin(const Workspace& work) const { return {file_, folder_, modified(work)}; }
+    Origin origin(const Workspace& work) const { return {file_, folder_, cannotKeep_, modified(work)}; }
     void setOrigin(const Workspace& work, const Origin& origin);
     bool quit = false;
     bool givesUp = false;       // what isn't saved at the end of what is open
+    bool goesOn = false;        // it is opened again as it is: its autosave stays what it is
     double autosaveEvery = 60;  // seconds
 
     bool recording() const { return recorder_.on(); }
-    // Of what was opened; the run's file names it.
-    bool startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height);
+    // Of what was opened, or of how it is now, which is saved beside the run first; the run's file names it. `ended` is
+    // told whether it records, as save()'s; nothing is to edit the document before that.
+    void startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height, Ended ended);
     void stopRecording(Workspace& work);
     void nextFrame() { recorder_.nextFrame(); }
 
   private:
     std::string autosaveFolder() const;
+    std::string unsavedFolder() const;        // beside the user's settings, for what has no folder or can't write to it
     bool keeps(const Workspace& work) const;  // what isn't saved is to become an autosave
     void keepSoon(Workspace& work);
     void keepNow(Workspace& work);
-    void dropKept() const;  // the autosave
+    void kept(Workspace& work, uint64_t state);
+    void notKept(Workspace& work, const std::string& why);
+    bool keepElsewhere(std::string why);  // false: there is no other place
+    void tellKept(Workspace& work, const std::string& news);
+    void noticeLoss(Workspace& work);
+    void dropKept();  // the autosave
+    bool record(Workspace& work, const std::string& path, espalier::document::RunHead head);
     void saved(const std::string& folder, uint64_t state);
     bool watchGrammars(Workspace& work);
 
     std::string file_, folder_, recovery_, recordingTo_;
     std::string recoveredFrom_;  // the autosave's folder of what was never saved; it goes on there
+    std::string cannotKeep_;     // why the project's folder takes no autosave; empty: it does
+    std::string toldKept_;       // the last news of autosaves; empty: all is well
+    bool missing_ = false;       // the project, at the last look
     bool replayed_ = false;
     uint64_t savedState_ = 0, autosavedState_ = 0;  // see Document::state
     double nextAutosave_ = 0, nextLook_ = 0;

@@ -71,6 +71,7 @@ void applyTheme(float scale) {
     c[ImGuiCol_HeaderActive] = grey(.30f);
     c[ImGuiCol_SliderGrab] = green;
     c[ImGuiCol_SliderGrabActive] = greenBright;
+    c[ImGuiCol_PlotHistogram] = green;  // bars of progress
     c[ImGuiCol_CheckMark] = greenBright;
     c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, .45f};
     c[ImGuiCol_Separator] = grey(.24f);

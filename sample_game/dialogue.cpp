@@ -1,0 +1,145 @@
+// A dialogue that asks for a path: what is typed or clicked, how far what follows from it is, and what went wrong.
+#include "sample_game/dialogue.hpp"
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "sample_game/folder_list.hpp"
+#include "sample_game/panels.hpp"
+#include "sample_game/theme.hpp"
+
+namespace sample {
+
+using Turn = Dialogues::Turn;
+
+Dialogues& dialogues() {
+    static Dialogues state;
+    return state;
+}
+
+void ask(const char* title) {
+    dialogues().open = title;
+    dialogues().turn = Turn::asks;
+}
+
+void put(PathText& to, const std::string& text) {
+    std::snprintf(to.data(), to.size(), "%s", text.c_str());
+}
+
+// Windows that appear for the first time would lie over it.
+bool beginDialogue(const char* title) {
+    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return false;
+    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+    return true;
+}
+
+namespace {
+
+float dialogueWidth() {
+    return std::min(ImGui::GetFontSize() * 32, ImGui::GetIO().DisplaySize.x - 4 * ImGui::GetStyle().WindowPadding.x);
+}
+
+// What lies in the folder of `path`, to be clicked. True: a file or project was clicked twice.
+bool showFolder(PathText& path, const std::vector<std::string>& endings) {
+    static struct {
+        std::string typed;
+        double read = -1;
+        std::vector<FolderEntry> entries;
+    } shown;
+    const std::string typed = path.data();
+    if (shown.typed != typed || ImGui::GetTime() > shown.read + 2)
+        shown = {typed, ImGui::GetTime(), listFolder(typed, endings)};
+    bool taken = false;
+    const std::string whole = wholePath(typed.substr(0, typed.rfind('/') + 1));
+    say("In " + whole, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    // Rows, about, of what else the dialogue shows.
+    const float others = dialogues().turn == Turn::failed ? 9 : 7;
+    const float line = ImGui::GetTextLineHeightWithSpacing(), display = ImGui::GetIO().DisplaySize.y;
+    const float height = std::clamp(display - others * ImGui::GetFrameHeightWithSpacing(), 3 * line, 8 * line);
+    if (ImGui::BeginChild("folder", {dialogueWidth(), height}, true))
+        for (const FolderEntry& entry : shown.entries) {
+            const bool known = entry.kind == FolderEntry::project;
+            const std::string text = known ? entry.name + "   project" : entry.name;
+            const ImGuiSelectableFlags flags =
+                ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
+            if (!ImGui::Selectable(text.c_str(), entry.path == typed, flags)) continue;
+            put(path, entry.path);
+            taken = entry.kind != FolderEntry::folder && ImGui::IsMouseDoubleClicked(0);
+        }
+    ImGui::EndChild();
+    return taken;
+}
+
+// How far it is; true: it is told to act.
+bool showTurn(Background& background, bool confirmed) {
+    Dialogues& d = dialogues();
+    if (d.turn == Turn::waits && background.slow()) {
+        say(background.title());
+        progressBar(background, dialogueWidth());
+    }
+    if (d.turn == Turn::failed) say(d.why, kBad);
+    if (d.turn == Turn::acts) return true;
+    if (confirmed && d.turn != Turn::waits && d.turn != Turn::done) {
+        d.turn = Turn::acts;
+        ImGui::TextUnformatted("One moment ...");
+    }
+    return false;
+}
+
+}  // namespace
+
+void say(const std::string& text, ImVec4 colour) {
+    ImGui::PushTextWrapPos(dialogueWidth());
+    ImGui::TextColored(colour, "%s", text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+Turn turnOf(const Workspace& work, bool good) {
+    dialogues().why = work.error;
+    return good ? Turn::done : Turn::failed;
+}
+
+void endWait(const Workspace& work, bool good) {
+    const bool cancelled = !good && work.error.empty();
+    if (dialogues().turn == Turn::waits) dialogues().turn = cancelled ? Turn::asks : turnOf(work, good);
+}
+
+void askPath(Workspace& work, Session& session, const PathQuestion& question,
+             const std::function<void(const char* path)>& act) {
+    Dialogues& d = dialogues();
+    if (!beginDialogue(question.title)) return;
+    PathText& path = question.path;
+    d.asks = true;
+    say(question.label);
+    ImGui::SetNextItemWidth(dialogueWidth());
+    if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // it is all that one can type into
+    const bool waits = d.turn == Turn::waits;
+    const ImGuiInputTextFlags flags = waits ? ImGuiInputTextFlags_ReadOnly : 0;
+    bool confirmed = ImGui::InputText("##path", path.data(), path.size(), ImGuiInputTextFlags_EnterReturnsTrue | flags);
+    ImGui::BeginDisabled(waits);
+    confirmed |= showFolder(path, question.endings);
+    confirmed |= ImGui::Button(question.button);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if (showTurn(session.background(), confirmed && path[0])) {
+        work.error.clear();
+        d.turn = Turn::waits;
+        act(path.data());
+    }
+    if (cancelled && waits) {
+        session.background().cancelLast();
+    } else if (cancelled || d.turn == Turn::done) {
+        if (cancelled) d.next.reset();
+        if (cancelled && d.turn == Turn::failed)
+            work.remedied(d.why);  // it was read here, and nobody wants it any more
+        d.asks = false;
+        d.turn = Turn::asks;
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+}  // namespace sample

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <imgui.h>
+
+#include "sample_game/session.hpp"
+#include "sample_game/workspace.hpp"
+
+namespace sample {
+
+using PathText = std::array<char, 512>;  // that is typed
+
+// Which dialogue is open, and what was typed into each. One thread; one of them at a time.
+struct Dialogues {
+    const char* open = nullptr;  // asked for: it opens in the next frame
+    // Of the open one. acts: what it was told is done in the next frame, when the user has seen that; waits: for work
+    // beside the frames; done: it closes; failed: it stays, with `why`.
+    enum class Turn { asks, acts, waits, done, failed } turn = Turn::asks;
+    std::string why;
+    bool asks = false;    // one that asks for a path was open in the last frame
+    bool leaves = false;  // for what is next, as soon as nothing is under way
+    PathText project{}, file{}, run{}, picture{};
+    std::string layer;                // of the picture
+    std::optional<std::string> next;  // what is opened once this is saved or given up; "": nothing, the program ends
+};
+Dialogues& dialogues();
+
+// One that asks for a path.
+struct PathQuestion {
+    const char *title, *label, *button;
+    PathText& path;
+    std::vector<std::string> endings;  // of the files that are listed
+};
+
+void ask(const char* title);
+void put(PathText& to, const std::string& text);
+bool beginDialogue(const char* title);  // false: it isn't open
+void say(const std::string& text, ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_Text));
+// Stays with what went wrong until `act`, which is given the path, or the work that it began, is done.
+void askPath(Workspace& work, Session& session, const PathQuestion& question,
+             const std::function<void(const char* path)>& act);
+// What became of what it was told: with Workspace::error, if it failed.
+Dialogues::Turn turnOf(const Workspace& work, bool good);
+// The end of what a dialogue waits for. Cancelled, it asks again.
+void endWait(const Workspace& work, bool good);
+
+// Each laid out while it is open.
+void projectDialogues(Workspace& work, Session& session);  // save, open, leave, recover
+void layerDialogues(Workspace& work, Session& session);    // pictures of layers, out and in
+void runDialogues(Workspace& work, Session& session);      // record, replay
+
+}  // namespace sample

@@ -1,0 +1,62 @@
+// Pictures of layers, out and in, beside the frames.
+#include "sample_game/dialogue.hpp"
+#include "sample_game/folder_list.hpp"
+#include "sample_game/panels.hpp"
+#include "tools/document/layer_files.hpp"
+
+namespace sample {
+namespace {
+
+using namespace espalier::document;
+
+// The end of the work, for the dialogue and the line at the bottom.
+void tell(Workspace& work, const Work& over, const std::string& message) {
+    work.redraw = true;
+    work.error = over.error();
+    work.message = over.state() == Work::State::done ? message : "";
+    endWait(work, over.state() == Work::State::done);
+}
+
+void importFrom(Workspace& work, Session& session, bool town, const std::string& file) {
+    const uint32_t gesture = work.newGesture();
+    session.background().ask({"Importing " + file,
+                              [&work, layer = dialogues().layer, town, file, gesture] {
+                                  return importing(*work.document, layer, town, file, gesture);
+                              },
+                              [&work, file](const Work& over) {
+                                  const std::string note = over.note();
+                                  tell(work, over,
+                                       "Read: " + wholePath(file) + (note.empty() ? "" : " (" + note + ")"));
+                              }});
+}
+
+void exportTo(Workspace& work, Session& session, bool town, const std::string& file) {
+    const std::string layer = dialogues().layer;
+    session.background().ask({"Exporting " + layer,
+                              [&work, layer, town, file] { return exporting(*work.document, layer, town, file); },
+                              [&work, file](const Work& over) { tell(work, over, "Written: " + wholePath(file)); }});
+}
+
+}  // namespace
+
+void layerDialogues(Workspace& work, Session& session) {
+    Dialogues& d = dialogues();
+    const bool town = work.townLayer(d.layer);
+    const char* asked = town ? "Picture of the town from above, north up (.png, .exr):"
+                             : "Picture in the surface's walk UVs, as Export writes it (.png, .exr):";
+    const std::vector<std::string> endings{".png", ".exr"};
+    askPath(work, session, {"Import a layer", asked, "Import", d.picture, endings},
+            [&](const char* file) { importFrom(work, session, town, file); });
+    askPath(work, session,
+            {"Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture, endings},
+            [&](const char* file) { exportTo(work, session, town, file); });
+}
+
+void askForLayer(const std::string& layer, bool import) {
+    Dialogues& d = dialogues();
+    if (d.layer != layer) put(d.picture, layer + ".exr");
+    d.layer = layer;
+    ask(import ? "Import a layer" : "Export a layer");
+}
+
+}  // namespace sample

@@ -1,0 +1,123 @@
+// Where a project is saved, what is opened, and what becomes of work that isn't saved.
+#include "sample_game/dialogue.hpp"
+#include "sample_game/panels.hpp"
+#include "sample_game/replay.hpp"
+
+namespace sample {
+namespace {
+
+using Turn = Dialogues::Turn;
+
+void recoveryDialogue(Session& session) {
+    if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");
+    if (beginDialogue("Unsaved work")) {
+        say("The last session ended without saving. What it had changed was kept.");
+        if (session.recovery().empty()) ImGui::CloseCurrentPopup();
+        if (ImGui::Button("Open it") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) {
+            session.openNext = session.recovery();
+            session.forgetRecovery(false);
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::SameLine();
+        if (ImGui::Button("Throw it away")) {
+            session.forgetRecovery(true);
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::EndPopup();
+    }
+}
+
+// What is open is saved, or may be given up.
+void leave(Session& session) {
+    if (dialogues().next->empty())
+        session.quit = true;
+    else
+        session.openNext = *dialogues().next;
+    dialogues().next.reset();
+}
+
+void leavingDialogue(Workspace& work, Session& session) {
+    if (!beginDialogue("Unsaved changes")) return;
+    Dialogues& d = dialogues();
+    say(session.name(work) + " has changes that aren't saved.");
+    const bool saves = ImGui::Button("Save") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+    ImGui::SameLine();
+    const bool gives = ImGui::Button("Give them up");
+    ImGui::SameLine();
+    const bool stays = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if (saves || gives || stays || !d.next) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    if (stays) d.next.reset();
+    if (!d.next) return;
+    session.givesUp = gives;
+    if (gives) leave(session);
+    if (saves) {
+        askToSave(work, session);
+        d.leaves = !session.folder().empty();  // else the dialogue goes on with it
+    }
+}
+
+}  // namespace
+
+// What can't be saved asks for another place, and nothing is left before that.
+void askToSave(Workspace& work, Session& session, bool elsewhere) {
+    put(dialogues().project, session.folder());
+    if (session.folder().empty() || elsewhere) return ask("Save the project");
+    session.save(work, session.folder(), [&work](bool good) {
+        if (good) return;
+        Dialogues& d = dialogues();
+        d.leaves = false;
+        if (work.error.empty()) return d.next.reset();  // cancelled
+        if (d.asks || d.open) return;
+        ask("Save the project");
+        d.turn = turnOf(work, false);
+    });
+}
+
+bool askToLeave(Workspace& work, Session& session, const std::string& next) {
+    Dialogues& d = dialogues();
+    d.next = next;
+    d.leaves = !session.idle();
+    if (d.leaves) return false;
+    if (session.modified(work))
+        ask("Unsaved changes");
+    else
+        leave(session);
+    return !session.modified(work);
+}
+
+bool asksToLeave() {
+    return dialogues().next.has_value();
+}
+
+void askToOpen(const std::string& refused, const std::string& why) {
+    Dialogues& d = dialogues();
+    const bool run = Replay::names(refused);
+    ask(run ? "Replay a run" : "Open");
+    if (!refused.empty()) d.turn = Turn::failed, d.why = why;
+    put(run ? d.run : d.file, refused);
+}
+
+void projectDialogues(Workspace& work, Session& session) {
+    Dialogues& d = dialogues();
+    askPath(work, session, {"Save the project", "Folder of the project:", "Save", d.project, {}},
+            [&](const char* folder) {
+                session.save(work, folder, [&work](bool good) {
+                    endWait(work, good);
+                    dialogues().leaves = good;
+                });
+            });
+    // What can't be opened asks again, see askToOpen.
+    askPath(
+        work, session,
+        {"Open", "A project's folder, a scene (.json) or a baked surface (.glb):", "Open", d.file, {".json", ".glb"}},
+        [&](const char* file) {
+            askToLeave(work, session, file);
+            d.turn = Turn::done;
+        });
+    recoveryDialogue(session);
+    leavingDialogue(work, session);
+    if (d.leaves && d.next && session.idle()) askToLeave(work, session, std::string(*d.next));
+}
+
+}  // namespace sample
