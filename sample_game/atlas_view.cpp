@@ -106,7 +106,9 @@ uint32_t AtlasView::colourOf(uint32_t x, uint32_t y) const {
     if (texel >> 18 & 1u) colour = mixed(colour, kEmpty, .75f);
     if (kind != ESP_TEXEL_INNER) return mixed(colour, kEmpty, .6f);
     if (shown_.layer.empty()) return colour;
-    const size_t u = size_t(x) * layerSize_ / size_, v = size_t(y) * layerSize_ / size_;
+    // At the texel's middle: around a chart the layer holds what nobody has painted.
+    const auto middle = [&](uint32_t i) { return (2 * size_t(i) + 1) * layerSize_ / (2 * size_); };
+    const size_t u = middle(x), v = middle(y);
     return mixed(colour, layerColour(layer_[v * layerSize_ + u]), shown_.opacity);
 }
 
@@ -170,7 +172,8 @@ void AtlasView::controls(Workspace& work) {
     if (ImGui::BeginCombo("##layer", wanted_.layer.empty() ? "No layer" : wanted_.layer.c_str())) {
         if (ImGui::Selectable("No layer", wanted_.layer.empty())) wanted_.layer.clear();
         for (const std::string& layer : scene.layers)
-            if (ImGui::Selectable(layer.c_str(), layer == wanted_.layer)) wanted_.layer = layer;
+            if (!work.townLayer(layer) && ImGui::Selectable(layer.c_str(), layer == wanted_.layer))
+                wanted_.layer = layer;
         ImGui::EndCombo();
     }
     if (!wanted_.layer.empty()) {
@@ -257,7 +260,7 @@ void AtlasView::tellAt(const View& view) const {
     if (kind != ESP_TEXEL_EMPTY)
         used += std::snprintf(text + used, sizeof text - size_t(used), "   chart %u%s", texel & 0xFFFFu,
                               kind == ESP_TEXEL_INNER ? "" : " (gutter)");
-    if (!shown_.layer.empty() && kind != ESP_TEXEL_EMPTY) {
+    if (!shown_.layer.empty() && kind == ESP_TEXEL_INNER) {
         const size_t i = size_t(v * float(layerSize_)) * layerSize_ + size_t(u * float(layerSize_));
         std::snprintf(text + used, sizeof text - size_t(used), "   %.30s %.2f", shown_.layer.c_str(), layer_[i]);
     }
