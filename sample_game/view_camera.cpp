@@ -54,12 +54,8 @@ void ViewCamera::pan(float x, float y) {
 }
 
 void ViewCamera::zoom(float steps) {
-    stepBack(std::pow(.88f, steps));
-}
-
-void ViewCamera::stepBack(float times) {
     const glm::vec3 target = eye_ + distance_ * ahead();
-    distance_ = std::clamp(distance_ * times, reach_ * 1e-3f, reach_ * 50);
+    distance_ = std::clamp(distance_ * std::pow(.88f, steps), reach_ * 1e-3f, reach_ * 50);
     eye_ = target - distance_ * ahead();
 }
 

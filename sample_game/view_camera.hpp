@@ -30,7 +30,6 @@ class ViewCamera {
     void turnBy(float yaw, float pitch);  // likewise, radians
     // So that the ball fills the view, from where it is seen now. aspect: width by height of what nothing lies over.
     void frame(glm::vec3 centre, float radius, float aspect);
-    void stepBack(float times);  // as far again from what is looked at; 2: twice as far
     // ---- Both
     void look(float x, float y);
     // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`.

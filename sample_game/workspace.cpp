@@ -58,8 +58,10 @@ void Workspace::lookFrom(const EspCamera& from) {
 
 void Workspace::frameAll() {
     constexpr float kFramed = 4 / 3.f;  // that espFrameAll makes room for
-    lookFrom(espFrameAll(context.get()));
-    camera.stepBack(std::max(1.f, kFramed / freeAspect()));
+    EspCamera all = espFrameAll(context.get());
+    const float times = std::max(1.f, kFramed / freeAspect());
+    for (int i = 0; i < 3; ++i) all.eye[i] = all.target[i] + times * (all.eye[i] - all.target[i]);
+    lookFrom(all);
 }
 
 void Workspace::frameChosen() {
