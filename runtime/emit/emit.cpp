@@ -162,9 +162,9 @@ Result<bool> Emit::cullNative(const EmitInputs& inputs, const EmitView& view, ui
         std::find_if(natives_.begin(), natives_.end(), [&](const Native& n) { return device_->finished(n.serial); });
     if (free == natives_.end()) return false;
     const EmitPush push = cullPush();
-    const uint32_t seen =
-        nativeCull_.look(push, view, terminals_->table(), reinterpret_cast<const SpanInstance*>(held_.spans.address()),
-                         reinterpret_cast<const LeafInstance*>(held_.leaves.address()));
+    const uint32_t seen = nativeCull_.look(push, view, terminals_->kernelTable(),
+                                           reinterpret_cast<const SpanInstance*>(held_.spans.address()),
+                                           reinterpret_cast<const LeafInstance*>(held_.leaves.address()));
     const uint64_t bytes = std::max<uint64_t>(seen, 1) * sizeof(DrawnItem);
     if (!free->drawn || free->drawn.size() < bytes) {
         Result<Buffer> made = Buffer::create(*device_, "drawn instances, native", bytes + bytes / 4 / 16 * 16);
@@ -178,7 +178,7 @@ Result<bool> Emit::cullNative(const EmitInputs& inputs, const EmitView& view, ui
         if (!made) return made.failure();
         free->state = std::move(*made);
     }
-    nativeCull_.write(push, terminals_->table(), reinterpret_cast<DrawnItem*>(free->drawn.address()),
+    nativeCull_.write(push, terminals_->kernelTable(), reinterpret_cast<DrawnItem*>(free->drawn.address()),
                       *reinterpret_cast<EmitState*>(free->state.address()));
     free->serial = recording;
     native_ = size_t(free - natives_.begin());

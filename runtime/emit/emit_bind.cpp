@@ -216,7 +216,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     // What stands then may be culled by native code at once.
     const bool native = inputs.native && sharesMemory() && device_->finished(usedBy_);
     if (native) {
-        bindNative(given, terminals_->table(), watched_);
+        bindNative(given, terminals_->kernelTable(), watched_);
     } else if (Status s = bindByKernels(commands, growth, given); !s) {
         return s;
     }

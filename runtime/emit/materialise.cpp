@@ -28,11 +28,11 @@ struct Block {
 };
 
 // Where each loose bucket's triangles go, behind the bark. Index blocks begin at even numbers.
-std::vector<Block> layOut(const EmitState& state, const EmitTable& table, uint64_t& vertices, uint64_t& indices) {
+std::vector<Block> layOut(const EmitState& state, const TerminalTable& table, uint64_t& vertices, uint64_t& indices) {
     vertices = uint64_t(state.spanCount) * kBarkVertices;
     indices = uint64_t(state.spanCount) * kBarkIndices;
     std::vector<Block> blocks;
-    for (uint32_t b = table.barkBuckets; b < table.bucketCount; ++b) {
+    for (uint32_t b = table.barkBuckets; b < table.buckets.size(); ++b) {
         if (state.counts[b] == 0) continue;
         blocks.push_back({b, state.counts[b], vertices, indices});
         vertices += uint64_t(state.counts[b]) * table.buckets[b].vertexCount;
@@ -59,9 +59,9 @@ Result<EmitState> Emit::gather(const EmitInputs& inputs, bool native, double& mi
     if (native) {
         const Clock::time_point start = Clock::now();
         const EmitPush push = cullPush();
-        nativeCull_.look(push, view, terminals_->table(), at<SpanInstance>(held_.spans),
+        nativeCull_.look(push, view, terminals_->kernelTable(), at<SpanInstance>(held_.spans),
                          at<LeafInstance>(held_.leaves));
-        nativeCull_.write(push, terminals_->table(), at<DrawnItem>(drawn_), state);
+        nativeCull_.write(push, terminals_->kernelTable(), at<DrawnItem>(drawn_), state);
         counted.crowded = state.crowded;
         culled_ = {};
         milliseconds = millisecondsSince(start);
@@ -78,7 +78,7 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
     Result<EmitState> gathered = gather(inputs, native, out.gatherMilliseconds);
     if (!gathered) return gathered.failure();
     const EmitState& state = *gathered;
-    const EmitTable& table = terminals_->table();
+    const TerminalTable& table = terminals_->table();
     const std::vector<Block> blocks = layOut(state, table, out.vertexCount, out.indexCount);
     if (overflow_ > 0 || out.vertexCount > 0x7FFFFFFFu || out.indexCount > 0xFFFFFFFFu)
         return Failure("growth", "it has too many triangles to be written at once");

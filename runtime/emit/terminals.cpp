@@ -121,11 +121,13 @@ void addRibbons(TerminalData& data) {
     }
 }
 
-Result<Terminals> Terminals::create(Device& device, TerminalData data) {
+Result<Terminals> Terminals::create(Device& device, TerminalData data, TerminalChoice choice) {
     Terminals terminals;
     terminals.data_ = std::move(data);
     addRibbons(terminals.data_);
     if (Status s = terminals.makeTable(device); !s) return s.failure();
+    if (choice == TerminalChoice::kernels)
+        if (Status s = terminals.makeKernelTable(device); !s) return s.failure();
     if (Status s = terminals.makePictures(device); !s) return s.failure();
     return terminals;
 }
@@ -133,36 +135,31 @@ Result<Terminals> Terminals::create(Device& device, TerminalData data) {
 Status Terminals::makeTable(Device& device) {
     std::stable_sort(data_.variants.begin(), data_.variants.end(),
                      [](const TerminalVariant& a, const TerminalVariant& b) { return a.kind < b.kind; });
-    if (data_.kinds.size() > kMaxTerminalKinds || data_.variants.size() > kMaxVariants)
-        return Failure("terminals", "more than 16 kinds or 32 variants of terminal meshes");
+    table_.kinds.resize(data_.kinds.size());
     std::vector<uint32_t> batches;
     for (const TerminalVariant& variant : data_.variants) {
         require(variant.kind < data_.kinds.size() && !variant.lods.empty(), "a terminal variant has a kind and a LOD");
         KindRecord& kind = table_.kinds[variant.kind];
-        if (kind.variantCount++ == 0) kind.firstVariant = table_.variantCount;
+        if (kind.variantCount++ == 0) kind.firstVariant = uint32_t(table_.variants.size());
         kind.bark = variant.kind == 0;
-        VariantRecord& record = table_.variants[table_.variantCount++];
-        record.firstBucket = table_.bucketCount;
+        VariantRecord& record = table_.variants.emplace_back();
+        record.firstBucket = uint32_t(table_.buckets.size());
         record.lodCount = uint32_t(std::min<size_t>(variant.lods.size(), kMaxLods));
         for (uint32_t l = 0; l < record.lodCount; ++l) {
             const TerminalLod& lod = variant.lods[l];
-            if (table_.bucketCount == kMaxBuckets)
-                return Failure("terminals", "more than 64 levels of detail of terminal meshes altogether");
             record.error[l] = lod.error;
             record.segments[l] = kind.bark ? barkSegments(data_, lod) : 1;
             for (uint32_t i = 0; i < lod.vertexCount; ++i)
                 record.extent = std::max(record.extent, glm::length(data_.vertices[lod.firstVertex + i].position));
-            BucketRecord& bucket = table_.buckets[table_.bucketCount++];
-            bucket = {lod.firstVertex,          lod.vertexCount,
-                      lod.indexCount,           std::max(1u, kBatchVertices / lod.vertexCount),
-                      uint32_t(batches.size()), lod.material};
-            for (uint32_t b = 0; b < bucket.batch; ++b)
+            const uint32_t batch = std::max(1u, kBatchVertices / lod.vertexCount);
+            table_.buckets.push_back(
+                {lod.firstVertex, lod.vertexCount, lod.indexCount, batch, uint32_t(batches.size()), lod.material});
+            for (uint32_t b = 0; b < batch; ++b)
                 for (uint32_t i = 0; i < lod.indexCount; ++i)
                     batches.push_back(b * lod.vertexCount + data_.indices[lod.firstIndex + i]);
         }
-        if (kind.bark) table_.barkBuckets = table_.bucketCount;
+        if (kind.bark) table_.barkBuckets = uint32_t(table_.buckets.size());
     }
-    table_.kindCount = uint32_t(data_.kinds.size());
 
     auto make = [&](Buffer& buffer, const char* name, const auto& values) -> Status {
         auto made = makeBuffer(device, name, values);
@@ -170,7 +167,6 @@ Status Terminals::makeTable(Device& device) {
         buffer = std::move(*made);
         return Done{};
     };
-    if (Status s = make(tableBuffer_, "terminal table", std::vector<EmitTable>{table_}); !s) return s;
     if (Status s = make(vertices_, "terminal vertices", data_.vertices); !s) return s;
     if (!data_.vertices.empty()) {
         Result<TexelView> texels = TexelView::create(device, vertices_, VK_FORMAT_R32G32_UINT);
@@ -179,6 +175,25 @@ Status Terminals::makeTable(Device& device) {
     }
     if (Status s = make(indices_, "terminal indices", data_.indices); !s) return s;
     return make(batches_, "terminal batches", batches);
+}
+
+Status Terminals::makeKernelTable(Device& device) {
+    if (table_.kinds.size() > kMaxTerminalKinds || table_.variants.size() > kMaxVariants ||
+        table_.buckets.size() > kMaxBuckets)
+        return Failure("terminals", "more than " + std::to_string(kMaxTerminalKinds) + " kinds, " +
+                                        std::to_string(kMaxVariants) + " variants or " + std::to_string(kMaxBuckets) +
+                                        " levels of detail of terminal meshes");
+    std::ranges::copy(table_.kinds, kernelTable_.kinds);
+    std::ranges::copy(table_.variants, kernelTable_.variants);
+    std::ranges::copy(table_.buckets, kernelTable_.buckets);
+    kernelTable_.kindCount = uint32_t(table_.kinds.size());
+    kernelTable_.variantCount = uint32_t(table_.variants.size());
+    kernelTable_.bucketCount = uint32_t(table_.buckets.size());
+    kernelTable_.barkBuckets = table_.barkBuckets;
+    Result<Buffer> made = makeBuffer(device, "terminal table", std::vector<EmitTable>{kernelTable_});
+    if (!made) return made.failure();
+    tableBuffer_ = std::move(*made);
+    return Done{};
 }
 
 Status Terminals::makePictures(Device& device) {
@@ -219,7 +234,7 @@ Status Terminals::makePictures(Device& device) {
 }
 
 const TerminalLod& Terminals::lodOfBucket(uint32_t bucket) const {
-    for (uint32_t v = 0; v < table_.variantCount; ++v) {
+    for (size_t v = 0; v < table_.variants.size(); ++v) {
         const VariantRecord& record = table_.variants[v];
         if (bucket >= record.firstBucket && bucket < record.firstBucket + record.lodCount)
             return data_.variants[v].lods[bucket - record.firstBucket];

@@ -54,13 +54,26 @@ Result<TerminalData> readTerminals(const std::filesystem::path& path,
 // Fills each LOD's error by measuring its distance to the finest one.
 void measureTerminalErrors(TerminalData& data);
 
+// What the records say of the meshes that are on the GPU; of any number of them.
+struct TerminalTable {
+    std::vector<KindRecord> kinds;
+    std::vector<VariantRecord> variants;
+    std::vector<BucketRecord> buckets;
+    uint32_t barkBuckets = 0;
+};
+
+// Who picks levels of detail: kernels, whose table has room for kMaxBuckets of them, or the CPU, for any number.
+enum class TerminalChoice { kernels, cpu };
+
 // Terminal meshes on the GPU.
 class Terminals {
   public:
-    static Result<Terminals> create(Device& device, TerminalData data);
+    static Result<Terminals> create(Device& device, TerminalData data, TerminalChoice choice = TerminalChoice::kernels);
 
     const TerminalData& data() const { return data_; }
-    const EmitTable& table() const { return table_; }
+    const TerminalTable& table() const { return table_; }
+    // The same for kernels; empty where the CPU picks.
+    const EmitTable& kernelTable() const { return kernelTable_; }
     const Buffer& tableBuffer() const { return tableBuffer_; }
     const Buffer& vertices() const { return vertices_; }
     const TexelView& vertexTexels() const { return vertexTexels_; }  // of two words
@@ -73,10 +86,12 @@ class Terminals {
 
   private:
     Status makeTable(Device& device);
+    Status makeKernelTable(Device& device);
     Status makePictures(Device& device);
 
     TerminalData data_;
-    EmitTable table_{};
+    TerminalTable table_;
+    EmitTable kernelTable_{};
     Buffer tableBuffer_, vertices_, indices_, batches_;
     TexelView vertexTexels_;
     std::vector<Image> colors_, normals_;  // one a picture; those unused in a role stay empty

@@ -22,7 +22,7 @@ constexpr float kGrassReach = 24, kGrassShrinks = 10;     // metres from the eye
 
 Result<Props> Props::create(Device& device, TerminalData models, VkFormat color, VkFormat depth, uint32_t samples) {
     Props props;
-    Result<Terminals> terminals = Terminals::create(device, std::move(models));
+    Result<Terminals> terminals = Terminals::create(device, std::move(models), TerminalChoice::cpu);
     if (!terminals) return terminals.failure();
     props.terminals_ = std::move(*terminals);
     Result<Sampler> sampler =
@@ -103,8 +103,8 @@ void Props::bounds(glm::vec3& low, glm::vec3& high) const {
 
 Status Props::choose(Commands& commands, const FrameRecord& frame) {
     if (chosenFor_ == frame.viewProjection) return Done{};
-    const EmitTable& table = terminals_.table();
-    std::vector<Level> levels(table.bucketCount);
+    const TerminalTable& table = terminals_.table();
+    std::vector<Level> levels(table.buckets.size());
     const ViewSides sides(frame.viewProjection);
     for (size_t i = 0; i < places_.size(); ++i) {
         const VariantRecord& variant = table.variants[places_[i].variant];
@@ -141,7 +141,7 @@ Status Props::choose(Commands& commands, const FrameRecord& frame) {
         levels[variant.firstBucket + level - 1].seen.emplace_back(distance, instance);
     }
     triangles_ = 0;
-    for (uint32_t b = 0; b < table.bucketCount; ++b)
+    for (uint32_t b = 0; b < table.buckets.size(); ++b)
         triangles_ += levels[b].seen.size() * (table.buckets[b].indexCount / 3);
     if (Status s = upload(commands, levels, inView_); !s) return s;
     chosenFor_ = frame.viewProjection;
@@ -149,8 +149,8 @@ Status Props::choose(Commands& commands, const FrameRecord& frame) {
 }
 
 Status Props::chooseCasters(Commands& commands, const glm::mat4& sunClip) {
-    const EmitTable& table = terminals_.table();
-    std::vector<Level> levels(table.bucketCount);
+    const TerminalTable& table = terminals_.table();
+    std::vector<Level> levels(table.buckets.size());
     for (size_t i = 0; i < places_.size(); ++i) {
         const VariantRecord& variant = table.variants[places_[i].variant];
         const TerminalMaterial& material = terminals_.data().materials[table.buckets[variant.firstBucket].material];
@@ -189,7 +189,7 @@ PropPush Props::pushOf(uint32_t bucket, uint32_t first) const {
 
 void Props::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Binding* shadow,
                      Shading shading) const {
-    const EmitTable& table = terminals_.table();
+    const TerminalTable& table = terminals_.table();
     pass.setIndices(terminals_.batches());
     for (const Run& run : chosen.runs) {
         const BucketRecord& bucket = table.buckets[run.bucket];

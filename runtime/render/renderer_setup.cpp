@@ -164,8 +164,8 @@ Status RendererImpl::setUp(TerminalData data) {
     Result<Terminals> terminals = Terminals::create(device_, std::move(data));
     if (!terminals) return terminals.failure();
     terminals_ = std::move(*terminals);
-    const EmitTable& table = terminals_.table();
-    for (uint32_t v = 0; v < table.variantCount; ++v) {
+    const TerminalTable& table = terminals_.table();
+    for (uint32_t v = 0; v < table.variants.size(); ++v) {
         const VariantRecord& variant = table.variants[v];
         const uint32_t last = variant.firstBucket + variant.lodCount - 1;
         const bool ribbon = table.buckets[last].vertexCount == kRibbonVertices;

@@ -48,7 +48,7 @@ Status RendererImpl::lightTerminals(Commands& commands) {
     commands.barrier(Use::vertex, Use::compute);
     Pass pass(commands, "light");
     const Binding shadow{shadowMap_, shadowSampler_};
-    for (uint32_t b = 0; b < terminals_.table().bucketCount; ++b) {
+    for (uint32_t b = 0; b < terminals_.table().buckets.size(); ++b) {
         if (!isLit(b)) continue;
         const bool bark = b < terminals_.table().barkBuckets;
         LightPush push{pushOf(terminals_, b), {reinterpret_cast<uint64_t*>(litTerminals_.address())}};
@@ -61,11 +61,12 @@ Status RendererImpl::lightTerminals(Commands& commands) {
 }
 
 void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
-    const EmitTable& table = terminals_.table();
+    const TerminalTable& table = terminals_.table();
     const EmitState* known = emit_.knownState();
     pass.setIndices(terminals_.batches());
-    for (uint32_t i = 0; i < table.bucketCount; ++i) {
-        const uint32_t b = (i + table.barkBuckets) % table.bucketCount;  // leaves first: much bark lies under them
+    const uint32_t count = uint32_t(table.buckets.size());
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t b = (i + table.barkBuckets) % count;  // leaves first: much bark lies under them
         if (known && known->counts[b] == 0) continue;
         const bool bark = b < table.barkBuckets;
         // A software device begins with what comes before a time stamp, in all threads, while one sets up the rest.

@@ -36,8 +36,8 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
     Result<Terminals> terminals = Terminals::create(device, std::move(meshes));
     if (!terminals) return terminals.failure();
     out->terminals_ = std::move(*terminals);
-    const EmitTable& table = out->terminals_.table();
-    out->flatShades_.assign(table.bucketCount, kShadeOfTiles);
+    const TerminalTable& table = out->terminals_.table();
+    out->flatShades_.assign(table.buckets.size(), kShadeOfTiles);
     for (size_t kind = 0; kind < out->bounds_.size(); ++kind) {
         if (out->bounds_[kind].high.z >= 0) continue;
         const KindRecord& record = table.kinds[kind];
@@ -193,7 +193,7 @@ Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView&
 
 void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap, const Sampler* shadowSampler,
                     Shading shading) {
-    const EmitTable& table = terminals_.table();
+    const TerminalTable& table = terminals_.table();
     const bool depthOnly = shadowMap == nullptr;
     RoofDrawPush push{};
     push.env.v = reinterpret_cast<RoofDrawEnv*>(env_);
@@ -206,7 +206,7 @@ void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap,
         pass.drawIndirect(rectangle_[size_t(shading)], state_, rectangles, 1, push,
                           {{*shadowMap, *shadowSampler}, frame});
     pass.setIndices(terminals_.batches());
-    for (uint32_t b = 0; b < table.bucketCount; ++b) {
+    for (uint32_t b = 0; b < table.buckets.size(); ++b) {
         const BucketRecord& bucket = table.buckets[b];
         push.bucket = b;
         push.firstVertex = bucket.firstVertex;

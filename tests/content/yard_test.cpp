@@ -19,7 +19,7 @@ namespace {
 constexpr float kMeadow = -0.06f, kPi = 3.14159265f;
 const std::set<std::string> kThings{"woodpile", "barrel",  "tub",    "seat", "trough", "cart",
                                     "hives",    "washing", "boards", "step", "bench",  "well"};
-const std::set<std::string> kFences{"fence", "wall", "hedge"};
+const std::set<std::string> kFences{"fence", "wall", "hedge", "rails"};
 
 struct Bounds {
     glm::vec3 low{1e9f}, high{-1e9f};
@@ -107,6 +107,20 @@ TEST_CASE("what stands in yards stands on the ground, and flowers above it in a 
             });
             CHECK(held);
         }
+}
+
+TEST_CASE("a woodpile's logs lie between its posts") {
+    size_t ends = 0;
+    for (const PropMeshes::Entry& e : makePropMeshes().all) {
+        if (!e.name.starts_with("woodpile")) continue;
+        CAPTURE(e.name);
+        for (glm::vec3 p : e.mesh.positions) {
+            if (p.y > 0.91f || p.z < 0.201f) continue;  // boards, posts and what lies behind their fronts
+            ++ends;
+            CHECK(std::abs(p.x) < 0.936f);
+        }
+    }
+    CHECK(ends > 200);
 }
 
 TEST_CASE("what stands in many yards is simple from afar") {

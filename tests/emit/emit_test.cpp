@@ -197,6 +197,25 @@ TEST_CASE("levels of detail fall with distance, and far canopies keep their area
     CHECK(before * 20 < gpu.cull(plant, fullDetail()).drawnTriangles);
 }
 
+TEST_CASE("kernels have room for so many levels of detail, the CPU picks among any number") {
+    TerminalData meshes = test::simpleTerminals();
+    for (uint32_t v = 0; v < kMaxBuckets / 4; ++v) {
+        TerminalVariant& variant = meshes.variants.emplace_back(TerminalVariant{"model_" + std::to_string(v), 1, {}});
+        for (uint32_t quads : {5u, 3u, 2u, 1u}) test::addSquare(meshes, variant, quads);
+    }
+    const std::shared_ptr<Device> device = test::validatedDevice();
+    const Result<Terminals> refused = Terminals::create(*device, meshes);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.failure().text().find("64 levels of detail") != std::string::npos);
+    const Result<Terminals> held = Terminals::create(*device, meshes, TerminalChoice::cpu);
+    REQUIRE(held);
+    const TerminalTable& table = held->table();
+    REQUIRE(table.buckets.size() > kMaxBuckets);
+    CHECK(table.variants.back().firstBucket + table.variants.back().lodCount == table.buckets.size());
+    CHECK(table.buckets.back().indexCount == 6);
+    CHECK(held->kernelTable().bucketCount == 0);
+}
+
 TEST_CASE("cut-out leaves of two triangles are for pictures of what moves") {
     TerminalData meshes = test::simpleTerminals();
     meshes.materials.emplace_back().alphaCutoff = 0.5f;
@@ -230,10 +249,10 @@ TEST_CASE("leaves stand off the wall") {
     const test::PlantData data = test::wallIvy(8, 2, 1.5f);
     const test::Plant plant = test::upload(*gpu.device, data);
     const EmitState state = gpu.cull(plant, fullDetail());
-    const EmitTable& table = gpu.terminals.table();
+    const TerminalTable& table = gpu.terminals.table();
     const auto leaves = gpu.leaves(plant, state);
     uint32_t sunk = 0, facing = 0;
-    for (uint32_t b = table.barkBuckets; b < table.bucketCount; ++b)
+    for (uint32_t b = table.barkBuckets; b < table.buckets.size(); ++b)
         for (uint32_t i = 0; i < state.counts[b]; ++i) {
             const LeafInstance& leaf = leaves[state.starts[b] - state.spanCount + i];
             const float size = glm::length(leaf.axisY);
@@ -315,7 +334,7 @@ TEST_CASE("written triangles are those of a loop on the CPU") {
         CHECK(worst < 2e-6);
         uint64_t wanted = 0;
         const EmitState state = gpu.cull(plant, fullDetail());
-        for (uint32_t b = gpu.terminals.table().barkBuckets; b < gpu.terminals.table().bucketCount; ++b)
+        for (uint32_t b = gpu.terminals.table().barkBuckets; b < gpu.terminals.table().buckets.size(); ++b)
             wanted += uint64_t(state.counts[b]) * gpu.terminals.table().buckets[b].indexCount / 3;
         CHECK(loose == wanted);
         // Bark faces outward: each triangle's normal agrees with its vertices'.

@@ -21,17 +21,18 @@ Mesh woodpile(int lod) {
     constexpr float kHalf = 0.98f, kFront = 0.24f, kLog = 0.195f, kRow = 0.18f;
     constexpr int kRows = 5;
     const float dark = kFront - (lod == 0 ? 0.09f : 0.05f);
+    const float free = kHalf - 0.045f;  // between the posts
     b.box({-kHalf, -0.05f, -0.22f}, {kHalf, kRow * kRows, dark}, Paint::darkWood, 0.35f);
     for (float x : {-kHalf, kHalf})
         b.box({x - 0.045f, -0.1f, kFront - 0.13f}, {x + 0.045f, 1.02f, kFront - 0.04f}, Paint::wood, 0.28f);
     for (int row = 0; row < kRows; ++row) {
-        float x = -kHalf + 0.05f - (row % 2 ? 0.5f * kLog : 0);
-        for (uint32_t i = 0; x < kHalf - 0.08f; ++i) {
+        float x = -free - (row % 2 ? 0.3f * kLog : 0);
+        for (uint32_t i = 0; x < free - 0.55f * kLog; ++i) {
             const auto random = [&](uint32_t which) { return random01(uint32_t(row) * 64 + i, which, 101); };
             const float wide = kLog * (0.80f + 0.45f * random(0));
-            const vec3 at(x + 0.5f * wide, kRow * (float(row) + 0.5f), kFront - 0.05f * random(1));
             const float bright = 0.50f + 0.42f * random(2), turn = 2 * kPi * random(3);
-            const float r = 0.60f * std::min(wide, kRow);
+            const float r = 0.60f * std::min(wide, kRow), middle = glm::clamp(x + 0.5f * wide, r - free, free - r);
+            const vec3 at(middle, kRow * (float(row) + 0.5f), kFront - 0.05f * random(1));
             const vec3 side(std::cos(turn), std::sin(turn), 0), up(-side.y, side.x, 0);
             if (lod == 0) {
                 const Builder::Axis axis{{at.x, at.y, 0}, {0, 0, 1}, side};
@@ -117,8 +118,17 @@ Mesh trough(int) {
     return b.mesh;
 }
 
-void addWheel(Builder& b, vec3 at) {
+// From afar a flat ring with two spokes across.
+void addWheel(Builder& b, vec3 at, int lod) {
     constexpr float kRadius = 0.44f, kRim = 0.055f, kThick = 0.05f;
+    if (lod > 0) {
+        b.turn({at, {1, 0, 0}, kUp}, {{kRadius, 0}, {kRadius - kRim, 0.001f}}, 8, Paint::darkWood, 0.85f);
+        for (const vec3 out : {vec3(0, 0.7f, 0.7f), vec3(0, 0.7f, -0.7f)}) {
+            const vec3 end = kRadius * out, wide = 0.025f * vec3(0, -out.z, out.y);
+            b.quad(at - end - wide, at + end - wide, at + end + wide, at - end + wide, Paint::wood, 0.45f);
+        }
+        return;
+    }
     const Builder::Axis axis{at - vec3(0.5f * kThick, 0, 0), {1, 0, 0}, kUp};
     b.turn(axis, {{kRadius - kRim, 0}, {kRadius, 0}, {kRadius, kThick}, {kRadius - kRim, kThick}, {kRadius - kRim, 0}},
            12, Paint::darkWood, 0.80f);
@@ -131,42 +141,46 @@ void addWheel(Builder& b, vec3 at) {
 }
 
 // Two wheels, a bed of boards with rails, shafts that rest on the ground; hay in it.
-Mesh cart(int) {
+Mesh cart(int lod) {
     Builder b;
     for (float side : {-1.0f, 1.0f}) {
-        addWheel(b, {0.60f * side, 0.40f, -0.05f});
+        addWheel(b, {0.60f * side, 0.40f, -0.05f}, lod);
         const float x = 0.44f * side;
-        b.pole({x, 0.50f, -0.85f}, {x, 0.50f, 0.80f}, 0.04f, 4, Paint::wood, 0.38f);
-        b.pole({x, 0.50f, 0.75f}, {0.30f * side, -0.02f, 1.75f}, 0.032f, 4, Paint::wood, 0.42f);
+        b.pole({x, 0.50f, 0.75f}, {0.30f * side, -0.02f, 1.75f}, 0.032f, lod == 0 ? 4 : 3, Paint::wood, 0.42f);
         b.box({x - 0.02f, 0.78f, -0.85f}, {x + 0.02f, 0.86f, 0.80f}, Paint::wood, 0.44f);
+        if (lod > 0) continue;
+        b.pole({x, 0.50f, -0.85f}, {x, 0.50f, 0.80f}, 0.04f, 4, Paint::wood, 0.38f);
         for (float z : {-0.80f, -0.28f, 0.24f, 0.74f})
             b.box({x - 0.022f, 0.5f, z - 0.022f}, {x + 0.022f, 0.90f, z + 0.022f}, Paint::wood, 0.38f);
     }
-    b.pole({-0.62f, 0.40f, -0.05f}, {0.62f, 0.40f, -0.05f}, 0.035f, 4, Paint::iron, 0.4f);
+    if (lod == 0) b.pole({-0.62f, 0.40f, -0.05f}, {0.62f, 0.40f, -0.05f}, 0.035f, 4, Paint::iron, 0.4f);
     b.box({-0.46f, 0.54f, -0.86f}, {0.46f, 0.575f, 0.82f}, Paint::wood, 0.40f);
     b.box({-0.42f, 0.575f, -0.82f}, {0.42f, 0.84f, 0.76f}, Paint::straw, 0.45f, -0.03f);
     b.box({-0.40f, 0.84f, -0.72f}, {0.40f, 1.06f, 0.66f}, Paint::straw, 0.60f, 0.20f);
     return b.mesh;
 }
 
-// Coils of straw, one on the other, on a board with legs.
-Mesh hives(int) {
+// Coils of straw, one on the other, on a board with legs; from afar smooth.
+Mesh hives(int lod) {
     Builder b;
     for (float x : {-0.72f, 0.72f})
         for (float z : {-0.16f, 0.16f})
             b.box({x - 0.03f, -0.1f, z - 0.03f}, {x + 0.03f, 0.5f, z + 0.03f}, Paint::wood, 0.34f);
     b.box({-0.88f, 0.48f, -0.25f}, {0.88f, 0.53f, 0.25f}, Paint::wood, 0.45f);
-    constexpr int kCoils = 4;
+    const int coils = lod == 0 ? 4 : 2, sides = lod == 0 ? 8 : 6;
     for (float x : {-0.56f, 0.0f, 0.56f}) {
         const auto radius = [&](float t) { return 0.225f * std::sqrt(std::max(1 - t * t, 0.0f)); };
-        for (int c = 0; c < kCoils; ++c) {
-            const float low = float(c) / float(kCoils), high = float(c + 1) / float(kCoils);
-            const float r0 = radius(low), r1 = c + 1 == kCoils ? 0.0f : radius(high);
-            const float y0 = 0.53f + 0.42f * low, y1 = 0.53f + 0.42f * high;
-            b.turn({{x, 0, 0}, kUp, {1, 0, 0}}, {{r0, y0}, {0.5f * (r0 + r1) + 0.016f, 0.5f * (y0 + y1)}, {r1, y1}}, 8,
-                   Paint::straw, 0.42f + 0.16f * random01(121, uint32_t(c)), 0.15f);
+        for (int c = 0; c < coils; ++c) {
+            const float low = float(c) / float(coils), high = float(c + 1) / float(coils);
+            const float r0 = radius(low), r1 = c + 1 == coils ? 0.0f : radius(high);
+            const Builder::Ring foot{r0, 0.53f + 0.42f * low}, head{r1, 0.53f + 0.42f * high};
+            const Builder::Ring belly{0.5f * (r0 + r1) + 0.016f, 0.5f * (foot.height + head.height)};
+            const std::vector<Builder::Ring> rings =
+                lod == 0 ? std::vector{foot, belly, head} : std::vector{foot, head};
+            b.turn({{x, 0, 0}, kUp, {1, 0, 0}}, rings, sides, Paint::straw, 0.42f + 0.16f * random01(121, uint32_t(c)),
+                   0.15f);
         }
-        b.box({x - 0.05f, 0.53f, 0.20f}, {x + 0.05f, 0.575f, 0.235f}, Paint::darkWood, 0.05f);
+        if (lod == 0) b.box({x - 0.05f, 0.53f, 0.20f}, {x + 0.05f, 0.575f, 0.235f}, Paint::darkWood, 0.05f);
     }
     return b.mesh;
 }
@@ -246,14 +260,14 @@ Mesh step(int) {
 
 }  // namespace
 
-// The table of props' levels is short: what stands often has a far one.
+// What stands often, or is of many triangles, has a far level.
 void addYard(PropMeshes& out) {
     const struct {
         const char* name;
         Mesh (*make)(int lod);
         int lods;
     } rows[] = {{"woodpile", woodpile, 2}, {"barrel", barrel, 2}, {"tub", tub, 2},     {"seat", seat, 1},
-                {"trough", trough, 1},     {"cart", cart, 1},     {"hives", hives, 1}, {"washing", washing, 1},
+                {"trough", trough, 1},     {"cart", cart, 2},     {"hives", hives, 2}, {"washing", washing, 1},
                 {"boards", boards, 1},     {"step", step, 1}};
     for (const auto& row : rows)
         for (int lod = 0; lod < row.lods; ++lod) out.add(row.name, lod, row.make(lod), PropMeshes::kBuilt);
