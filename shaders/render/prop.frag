@@ -27,10 +27,10 @@ void main() {
     vec3 base = texelColor(texture(colorMap, uv).rgb) * push.baseColor.rgb * (0.88 + 0.24 * tintFade.x);
     // What stands on the ground is dark and damp at its foot.
     float foot = clamp((position.y - frame.groundLevel) * 4.0 / frame.unit, 0.0, 1.0);
-    base *= 0.62 + 0.38 * foot;
+    base *= 0.72 + 0.28 * foot;
     vec3 sun = frame.sunDirection;
     float facing = max(dot(n, sun), 0.0);
     float visible = facingSunVisibility(facing, position, n);
     vec3 direct = frame.sunColor * visible * facing * (base + gloss(n, eye, sun, max(push.roughness, 0.35)));
-    color = lit(direct, base * skyLight(n) * (0.55 + 0.45 * foot));
+    color = lit(direct, base * skyLight(n) * (0.75 + 0.25 * foot));
 }

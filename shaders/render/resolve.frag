@@ -5,6 +5,7 @@
 #include "shaders/render/frame.glsl"
 #include "shaders/render/encode.glsl"
 #include "shaders/render/heat.h"
+#include "shaders/render/open.glsl"
 #include "shaders/render/tone.glsl"
 
 layout(push_constant, scalar) uniform Data { PostPush push; };
@@ -16,7 +17,7 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 c = (texelFetch(colorMap, at, 0) + texelFetch(colorMap, at, 1) + texelFetch(colorMap, at, 2) +
               texelFetch(colorMap, at, 3)) * 0.25;
-    float open = texture(openMap, gl_FragCoord.xy * push.rcpSize).x;
+    float open = openAt(openMap, gl_FragCoord.xy);
     if (explains && frame.view == kViewOverdraw) c = stored(heatColor(c.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
     color = pictureColor(c, open, push.encode != 0u, at);
 }

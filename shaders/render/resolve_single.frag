@@ -7,6 +7,7 @@
 #include "shaders/render/frame.glsl"
 #include "shaders/render/encode.glsl"
 #include "shaders/render/heat.h"
+#include "shaders/render/open.glsl"
 #include "shaders/render/tone.glsl"
 
 layout(push_constant, scalar) uniform Data { PostPush push; };
@@ -90,7 +91,7 @@ vec4 smoothed(ivec2 at, vec4 middle) {
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 shown = smoothed(at, texelFetch(colorMap, at, 0));
-    float open = textureLod(openMap, gl_FragCoord.xy * push.rcpSize, 0.0).x;
+    float open = openAt(openMap, gl_FragCoord.xy);
     if (explains && frame.view == kViewOverdraw) shown = stored(heatColor(shown.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
     color = pictureColor(shown, open, push.encode != 0u, at);
 }
