@@ -61,6 +61,24 @@ TEST_CASE("coverings leave no gap, laid straight or in bond") {
         }
 }
 
+TEST_CASE("caps are closed at both ends: their neighbours may have faded into a pattern") {
+    const RoofMeshes all = makeRoofMeshes();
+    for (const char* name : {"ridge_lod0", "ridge_lod1"}) {
+        CAPTURE(name);
+        const Mesh& cap = meshNamed(all, name);
+        double ends[2] = {0, 0};  // areas that face along the joint
+        for (size_t i = 0; i < cap.indices.size(); i += 3) {
+            glm::vec3 p[3];
+            for (size_t k = 0; k < 3; ++k) p[k] = cap.positions[cap.indices[i + k]];
+            if (p[0].x != p[1].x || p[1].x != p[2].x) continue;
+            const float along = 0.5f * glm::cross(p[1] - p[0], p[2] - p[0]).x;
+            ends[along > 0] += std::abs(along);
+        }
+        CHECK(ends[0] > 0.4);
+        CHECK(ends[1] > 0.4);
+    }
+}
+
 TEST_CASE("the next course lies on the head of the one below") {
     const RoofMeshes all = makeRoofMeshes();
     for (const char* name : {"plain", "pan", "barrel"}) {

@@ -34,7 +34,8 @@ Mesh slate(int lod) {
     return m;
 }
 
-// A cap over a joint: edges at z = 0 and y = -0.5 and 0.5, the crown at z = 1. It reaches over the next one.
+// A cap over a joint: edges at z = 0 and y = -0.5 and 0.5, the crown at z = 1. It reaches over the next one. From afar
+// its neighbours may have faded into a pattern, so both its ends are closed.
 Mesh ridge(int lod) {
     const int steps = lod == 0 ? 6 : 2;
     auto at = [&](int i, float x, float swell) {
@@ -46,6 +47,10 @@ Mesh ridge(int lod) {
         addQuad(m, at(i, 0, 1.08f), at(i, 1.06f, 1.0f), at(i + 1, 1.06f, 1.0f), at(i + 1, 0, 1.08f));
     for (int i = 0; i < steps && lod == 0; ++i)
         addQuad(m, at(i + 1, 0, 1.08f), at(i + 1, 0, 0.9f), at(i, 0, 0.9f), at(i, 0, 1.08f));
+    for (int i = 0, k = steps; i < k; ++i, --k) {
+        addQuad(m, at(i, 0, 0.9f), at(i + 1, 0, 0.9f), at(k - 1, 0, 0.9f), at(k, 0, 0.9f));
+        addQuad(m, at(k, 1.06f, 1), at(k - 1, 1.06f, 1), at(i + 1, 1.06f, 1), at(i, 1.06f, 1));
+    }
     return m;
 }
 
