@@ -51,8 +51,9 @@ TEST_CASE("props' meshes are sound and get coarser level by level") {
         finer[model] = m.indices.size();
         CHECK(m.indices.size() / 3 < 1500);
     }
-    CHECK(props.all.size() <= espalier::kMaxBuckets);
-    CHECK(finer.size() <= espalier::kMaxVariants);
+    std::set<std::string> kinds;
+    for (const auto& [model, triangles] : finer) kinds.insert(model.substr(0, model.find('_')));
+    CHECK(kinds.size() < espalier::kMaxTerminalKinds);  // the first is none
 }
 
 TEST_CASE("a card's texture coordinates stay in one cell of the foliage") {
@@ -93,6 +94,33 @@ TEST_CASE("the whole part of a card's v tells how it faces") {
         }
     }
     CHECK(cards > 2000);
+}
+
+TEST_CASE("no twig of a tree hangs in the air by itself") {
+    size_t cards = 0;
+    for (const PropMeshes::Entry& e : makePropMeshes().all) {
+        const bool tree = e.name.starts_with("lime") || e.name.starts_with("apple") || e.name.starts_with("birch");
+        if (!tree || e.name.ends_with("_lod2")) continue;
+        CAPTURE(e.name);
+        std::vector<glm::vec4> twigs;  // middle and side
+        for (size_t v = 0; v + 3 < e.mesh.positions.size();) {
+            if (e.mesh.uvs[v].y >= 0) {  // bark
+                ++v;
+                continue;
+            }
+            const glm::vec3 a = e.mesh.positions[v], c = e.mesh.positions[v + 2];
+            twigs.push_back({0.5f * (a + c), glm::distance(a, e.mesh.positions[v + 1])});
+            v += 4;
+        }
+        cards += twigs.size();
+        for (const glm::vec4& t : twigs) {
+            CAPTURE(t.y);
+            CHECK(std::count_if(twigs.begin(), twigs.end(), [&](const glm::vec4& other) {
+                      return glm::distance(glm::vec3(t), glm::vec3(other)) < 1.2f * t.w;
+                  }) >= 4);
+        }
+    }
+    CHECK(cards > 1500);
 }
 
 TEST_CASE("twigs have gaps and leaves, and no leaf is black") {

@@ -182,6 +182,54 @@ void paintFlowers(Picture& picture, int x0, int y0, int side, const Blossom& b, 
         }
 }
 
+struct Bloom {
+    glm::vec2 at;
+    float radius;
+    glm::vec3 color;
+};
+// Blades and stems that lean apart and end in ears, in places yellow; between them, if it blooms, a few poppies and
+// buttercups.
+void paintMeadow(Picture& picture, int x0, int y0, int side, bool blooms, uint32_t salt) {
+    const Species grass{1, 1, 0, 0, {0.058f, 0.072f, 0.024f}, {0.165f, 0.160f, 0.064f}, 0};
+    const glm::vec3 poppy(0.46f, 0.040f, 0.024f), buttercup(0.56f, 0.42f, 0.04f);
+    std::vector<Leaf> leaves;
+    std::vector<Bloom> flowers;
+    for (uint32_t i = 0; i < 74; ++i) {
+        const auto random = [&](uint32_t which) { return random01(salt, i, which); };
+        const bool stem = i % 4 == 3;
+        const float aside = 2 * random(3) - 1, turn = 0.42f * aside + 0.5f * (random(1) - 0.5f);
+        const float length =
+            (stem ? 0.50f + 0.42f * random(2) : 0.26f + 0.40f * random(2)) * (1 - 0.35f * aside * aside);
+        const glm::vec2 foot(0.5f + 0.30f * aside, 1.0f), along(std::sin(turn), -std::cos(turn));
+        const glm::vec2 tip = foot + length * along;
+        leaves.push_back({foot, along, length, stem ? 0.020f : 0.034f, random(5), 0});
+        if (stem && blooms && i % 20 == 3)
+            flowers.push_back({tip, i % 40 == 3 ? 0.042f : 0.030f, i % 40 == 3 ? poppy : buttercup});
+        else if (stem)  // an ear
+            leaves.push_back({tip - 0.05f * along, along, 0.14f, 0.034f, 0.6f + 0.4f * random(6), 0});
+    }
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const glm::vec2 p = (glm::vec2(x, y) + 0.5f) / float(side);
+            glm::vec3 color = grass.dark;
+            float edge = -1;
+            for (const Leaf& leaf : leaves) {
+                float across = 0;
+                const float e = leafEdge(leaf, grass, p, across);
+                edge = std::max(edge, e);
+                if (e >= 0) color = leafColor(leaf, grass, e, across) * (0.75f + 0.25f * ramp(1.0f, 0.5f, p.y));
+            }
+            for (const Bloom& b : flowers) {
+                const float e = b.radius - glm::length((p - b.at) * glm::vec2(1, 1.2f));
+                edge = std::max(edge, e);
+                if (e >= 0) color = b.color * (0.95f - 2.5f * (p.y - b.at.y));
+            }
+            uint8_t* texel = picture.at(x0 + x, y0 + y);
+            for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(toSrgb(color[k])) * 255 + 0.5f);
+            texel[3] = uint8_t(saturate(0.5f + edge * float(side) / 10) * 255 + 0.5f);
+        }
+}
+
 }  // namespace
 
 Picture paintFoliage(int size) {
@@ -203,6 +251,8 @@ Picture paintFoliage(int size) {
     const int flowers = int(float(size) * kFlowerSide);
     for (int kind = 0; kind < kFlowers; ++kind)
         paintFlowers(picture, size - flowers, kind * flowers, flowers, kBlossoms[kind], 490u + uint32_t(kind));
+    for (int kind = 0; kind < kMeadows; ++kind)
+        paintMeadow(picture, size - flowers, (kFlowers + kind) * flowers, flowers, kind == 1, 500u + uint32_t(kind));
     return picture;
 }
 

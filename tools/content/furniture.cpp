@@ -93,6 +93,23 @@ Mesh fence(int lod) {
     return b.mesh;
 }
 
+// Two rails between posts, from -1 to 1 m; from afar flat.
+Mesh rails(int lod) {
+    Builder b;
+    const auto board = [&](vec3 low, vec3 high, float bright) {
+        if (lod == 0)
+            b.box(low, high, Paint::wood, bright, 0.004f);
+        else
+            b.quad({low.x, low.y, 0}, {high.x, low.y, 0}, {high.x, high.y, 0}, {low.x, high.y, 0}, Paint::wood, bright);
+    };
+    board({-1.055f, -0.2f, -0.055f}, {-0.945f, 1.02f, 0.055f}, 0.40f);
+    for (int i = 0; i < 2; ++i) {
+        const float y = 0.42f + 0.38f * float(i);
+        board({-1.0f, y, 0.03f}, {1.0f, y + 0.10f, 0.07f}, 0.48f + 0.14f * random01(75, uint32_t(i)));
+    }
+    return b.mesh;
+}
+
 // A ring of stones, two posts with a windlass, a small roof of shingles.
 Mesh well(int) {
     Builder b;
@@ -181,7 +198,7 @@ void addFurniture(PropMeshes& out) {
         const char* name;
         Mesh (*make)(int lod);
         int lods;
-    } rows[] = {{"wall", wall, 2}, {"pier", pier, 2},   {"fence", fence, 2},
+    } rows[] = {{"wall", wall, 2}, {"pier", pier, 2},   {"fence", fence, 2},  {"rails", rails, 2},
                 {"well", well, 1}, {"bench", bench, 1}, {"rubble", rubble, 1}};
     for (const auto& row : rows)
         for (int lod = 0; lod < row.lods; ++lod) out.add(row.name, lod, row.make(lod), PropMeshes::kBuilt);

@@ -18,7 +18,19 @@ using glm::vec2;
 using Json = nlohmann::ordered_json;
 constexpr float kReach = 1;  // as kSiteReach of the shaders
 
+// Where people stand and work: circles, as shades.
+std::vector<glm::vec3> wornPlaces(const Site& site) {
+    std::vector<glm::vec3> worn;
+    for (const char* model : {"bench", "seat", "trough", "woodpile", "cart", "washing", "hives"}) {
+        const auto found = site.props.find(model);
+        if (found == site.props.end()) continue;
+        for (const SitePlace& p : found->second) worn.push_back({p.position.x, p.position.z, 1.1f});
+    }
+    return worn;
+}
+
 void paintMap(const Plan& plan, const std::vector<glm::vec3>& shades, Site& site) {
+    const std::vector<glm::vec3> worn = wornPlaces(site);
     for (int y = 0; y < site.map.height; ++y)
         for (int x = 0; x < site.map.width; ++x) {
             const vec2 p = glm::mix(site.low, site.high, (vec2(x, y) + 0.5f) / vec2(site.map.width, site.map.height));
@@ -28,6 +40,9 @@ void paintMap(const Plan& plan, const std::vector<glm::vec3>& shades, Site& site
             float earth = 0.62f * ramp(-0.55f - 0.4f * uneven, -0.05f, paved);        // beside kerbs
             earth = std::max(earth, 0.7f * ramp(1.1f + 0.6f * uneven, 0.2f, house));  // around houses
             earth = std::max(earth, 0.16f * ramp(0.9f + uneven, 0.0f, court));
+            earth = std::max(earth, 0.95f * ramp(-0.40f - 0.25f * uneven, 0.10f, plan.trodden(p)));
+            for (glm::vec3 w : worn)
+                earth = std::max(earth, 0.55f * ramp(1.2f + 0.4f * uneven, 0.3f, glm::distance(p, vec2(w)) / w.z));
             float open = 1 - 0.55f * std::exp(-std::max(house, 0.0f) / 0.9f);
             for (glm::vec3 s : shades) {
                 const float d = glm::distance(p, vec2(s)) / s.z;

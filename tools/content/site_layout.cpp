@@ -1,5 +1,4 @@
-// What the village and its meadow are strewn with. In: the plan. Out: trees, shrubs, flowers and tufts, and what
-// pictures are composed with.
+// What the village is strewn with. In: the plan. Out: trees and shrubs, and what pictures are composed with.
 
 #include "tools/content/site_layout.hpp"
 
@@ -15,6 +14,7 @@ constexpr float kPi = 3.14159265f;
 
 void Layout::lay() {
     feature();
+    paddocks();
     yards();
     gardens();
     walls();
@@ -22,6 +22,7 @@ void Layout::lay() {
     beds();
     daisies();
     shrubs();
+    tallGrass();
     tufts();
 }
 
@@ -31,6 +32,7 @@ void Layout::put(const std::string& model, vec2 at, float degrees, float scale, 
 
 bool Layout::clear(vec2 p, float radius, float fromHouse) const {
     if (plan_.paved(p) > -radius || plan_.toHouse(p) < fromHouse || Plan::toCourt(p) < radius + 0.5f) return false;
+    if (plan_.trodden(p) > -0.5f * radius) return false;
     return std::all_of(taken_.begin(), taken_.end(),
                        [&](glm::vec3 t) { return glm::distance(p, vec2(t)) > radius + t.z; });
 }
@@ -86,19 +88,6 @@ void Layout::trees() {
     }
 }
 
-// In the meadow about the court, and in patches wherever the village's grass isn't mown.
-void Layout::daisies() {
-    const auto flower = [&](const char* kind, vec2 p, uint32_t i, float least) {
-        if (noise(p / 2.1f, 93) + 0.4f * noise(p / 0.6f, 94) > least && clear(p, 0.2f, 0.5f))
-            put(kind, p, 360 * random01(i, 95), 0.4f + 0.3f * random01(i, 96), 0.02f);
-    };
-    const auto within = [](uint32_t i, float radius) {
-        const float angle = 2 * kPi * random01(i, 91), r = radius * std::sqrt(random01(i, 92));
-        return r * vec2(std::cos(angle), std::sin(angle));
-    };
-    for (uint32_t i = 0; i < 1500; ++i) flower("flowers_a", kCourt + within(i, 18), i, 0.38f);
-    for (uint32_t i = 2000; i < 7000; ++i) flower("flowers_a", within(i, 60), i, 0.52f);
-}
 void Layout::shrubs() {
     for (uint32_t i = 0; i < 2600; ++i) {
         const vec2 p = kHalfMap * 0.9f * (2.0f * vec2(random01(i, 51), random01(i, 52)) - 1.0f);
@@ -109,39 +98,6 @@ void Layout::shrubs() {
         put(random01(i, 55) < 0.5f ? "bush_a" : "bush_b", p, 360 * random01(i, 56), 0.6f + 0.6f * random01(i, 57),
             0.05f);
         taken_.push_back({p, 0.7f});
-    }
-}
-
-// Grass stands higher where nobody mows or treads: at feet of walls and stones, along kerbs, around the court.
-void Layout::tufts() {
-    uint32_t index = 0;
-    const auto tuft = [&](vec2 p, float most) {
-        const uint32_t i = ++index;
-        if (plan_.paved(p) > -0.12f || plan_.toHouse(p) < 0.1f || Plan::toCourt(p) < 0.15f) return;
-        const float pick = random01(i, 61);
-        put(pick < 0.4f    ? "tuft_a"
-            : pick < 0.62f ? "tuft_b"
-                           : "tuft_c",
-            p, 360 * random01(i, 62), most * (0.7f + 0.6f * random01(i, 63)));
-    };
-    for (uint32_t i = 0; i < 24000; ++i) {
-        const float angle = 2 * kPi * random01(i, 64), r = 22 * std::sqrt(random01(i, 65));
-        const vec2 p = kCourt + r * vec2(std::cos(angle), std::sin(angle));
-        const float rank = noise(p / 1.7f, 66) + 0.5f * noise(p / 5.0f, 67) + 0.9f * ramp(1.8f, 0.3f, Plan::toCourt(p));
-        if (rank > 0.06f) tuft(p, 0.75f + 0.4f * saturate(rank - 0.3f));
-    }
-    const std::map<std::string, std::vector<SitePlace>> built = site_.props;
-    for (const char* foot : {"wall", "pier", "fence", "rubble", "bench", "boards", "cart", "hives", "barrel"}) {
-        const auto found = built.find(foot);
-        if (found == built.end()) continue;
-        for (const SitePlace& place : found->second)
-            for (uint32_t i = 0; i < 5; ++i) {
-                const float turn = place.degrees * kPi / 180, x = 2 * random01(index, i, 68) - 1,
-                            side = (random01(index, i, 69) < 0.5f ? -1.0f : 1.0f) * 0.34f;
-                tuft(vec2(place.position.x, place.position.z) + x * vec2(std::cos(turn), -std::sin(turn)) +
-                         side * vec2(std::sin(turn), std::cos(turn)),
-                     1.0f);
-            }
     }
 }
 

@@ -38,6 +38,7 @@ class Layout {
     Garden gardenOf(const Outline& house, uint32_t salt) const;
 
     void feature();
+    void paddocks();
     void yards();
     void gardens();
     void walls();
@@ -48,6 +49,7 @@ class Layout {
     void beds();
     void daisies();
     void shrubs();
+    void tallGrass();
     void tufts();
 
     const Plan& plan_;

@@ -29,6 +29,13 @@ const Street kStreets[] = {
     {{{-6, -27}, {-7.5f, -20}, {-4.5f, -13}, {-0.2f, -8}, {0.6f, -3.2f}, {0.6f, -0.6f}}, 1.05f},
 };
 
+// Short ways over the grass: from the south to the court and round it, and from the path to the street's bends.
+const Line kTracks[] = {{{3, 43}, {6.5f, 30}, {4.5f, 20}, {2.6f, 12.5f}, {1.0f, 7.4f}, {0.7f, 5.6f}},
+                        {{2.0f, 10.6f}, {5.6f, 8.2f}, {7.4f, 4.5f}, {7.2f, -1.0f}, {4.2f, -4.9f}, {0.6f, -6.6f}},
+                        {{-6.3f, -15.2f}, {-12, -14.2f}, {-20, -16.6f}, {-29, -19.6f}},
+                        {{-2.2f, -10.4f}, {5, -11.4f}, {13, -18}, {23, -23.6f}, {34, -27.5f}}};
+constexpr float kHalfTrack = 0.36f;
+
 float segmentDistance(vec2 p, vec2 a, vec2 b) {
     const vec2 d = b - a;
     return glm::distance(p, a + d * glm::clamp(glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-9f), 0.0f, 1.0f));
@@ -60,6 +67,7 @@ Line curve(const Line& points, bool closed) {
 
 Plan::Plan(const std::vector<Outline>& of, const std::vector<Door>& with) : houses(of), doors(with) {
     for (const Street& s : kStreets) streets.emplace_back(curve(s.points, s.closed), s.half);
+    for (const Line& track : kTracks) tracks.push_back(curve(track));
     layPaths();
 }
 
@@ -68,6 +76,14 @@ float Plan::paved(vec2 p) const {
     for (const auto& [line, half] : streets)
         for (size_t i = 0; i + 1 < line.size(); ++i)
             inside = std::max(inside, half - segmentDistance(p, line[i], line[i + 1]));
+    return inside;
+}
+
+float Plan::trodden(vec2 p) const {
+    float inside = -1e9f;
+    for (const Line& line : tracks)
+        for (size_t i = 0; i + 1 < line.size(); ++i)
+            inside = std::max(inside, kHalfTrack - segmentDistance(p, line[i], line[i + 1]));
     return inside;
 }
 

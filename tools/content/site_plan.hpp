@@ -26,11 +26,14 @@ struct Plan {
     std::vector<std::pair<Line, float>> streets;  // line and half width
     std::vector<Door> doors;
     std::vector<Door> fronts;  // doors that a path leads to
+    std::vector<Line> tracks;  // trodden over the grass
 
     Plan(const std::vector<Outline>& of, const std::vector<Door>& with);
 
     // Metres into a street, negative beside it.
     float paved(glm::vec2 p) const;
+    // Metres into a track, negative beside it.
+    float trodden(glm::vec2 p) const;
     // Metres from the nearest house, negative within.
     float toHouse(glm::vec2 p) const;
     const Outline& nearestHouse(glm::vec2 p) const;

@@ -144,6 +144,46 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
     return lobes;
 }
 
+// Where a card lies in its lobe.
+struct Twig {
+    const Lobe* lobe;
+    glm::vec3 at, dir;  // dir: from the lobe's middle, unit
+    float deep;         // 1: on the lobe's outside
+};
+
+// Even over the lobes; what would lie inside the crown comes round to its outside. None hangs below the crown's foot.
+std::vector<Twig> twigsOf(const Habit& h, const std::vector<Lobe>& lobes, int lod, float side) {
+    std::vector<Twig> twigs;
+    const int cards = h.cards[lod], count = (cards + h.lobes - 1) / h.lobes;
+    for (int i = 0; i < cards; ++i) {
+        const auto random = [&](uint32_t which) { return random01(h.salt * 7 + uint32_t(lod), uint32_t(i), which); };
+        const Lobe& lobe = lobes[size_t(i) % lobes.size()];
+        const int which = i / h.lobes;
+        const float up = 1 - 2 * glm::clamp((float(which) + random(0)) / float(count), 0.0f, 1.0f);
+        const float angle = 2.399963f * float(which) + 6.28f * random(1), flat = std::sqrt(1 - up * up);
+        glm::vec3 dir(flat * std::cos(angle), up, flat * std::sin(angle));
+        dir -= std::min(glm::dot(dir, lobe.away) + 0.25f, 0.0f) * 1.6f * lobe.away;
+        dir = glm::normalize(dir);
+        // Every sixth fills the lobe, so that no sky is seen through a crown's middle.
+        const float deep = i % 6 == 5 ? h.hollow * random(2) : glm::mix(h.hollow, 1.0f, std::pow(random(2), 0.40f));
+        glm::vec3 at = lobe.at + dir * glm::vec3(1, 0.8f, 1) * (lobe.radius * deep);
+        at.y = std::max(at.y, h.crownFoot + (h.trunk > 0 ? 0.5f : 0.3f) * side);
+        twigs.push_back({&lobe, at, dir, deep});
+    }
+    return twigs;
+}
+
+// One that would hang in the air by itself moves in to its lobe's middle until others are near.
+void gather(std::vector<Twig>& twigs, float side) {
+    constexpr int kCompany = 4;
+    for (Twig& twig : twigs)
+        for (int step = 0; step < 4; ++step) {
+            const auto near = [&](const Twig& other) { return glm::distance(other.at, twig.at) < 0.8f * side; };
+            if (std::count_if(twigs.begin(), twigs.end(), near) > kCompany) break;  // itself, too
+            twig.at = glm::mix(twig.at, twig.lobe->at, 0.25f);
+        }
+}
+
 Mesh makeTree(const Habit& h, int lod) {
     Mesh mesh;
     const float tall = h.crownTop - h.crownFoot, bark = h.birch ? 0.0625f : 0.0f;
@@ -178,20 +218,12 @@ Mesh makeTree(const Habit& h, int lod) {
     const float side = h.side * std::pow(float(h.cards[0]) / float(cards), 0.46f);
     const glm::vec3 squash(h.radius, tall * 0.5f, h.radius);
     const std::vector<Lobe> lobes = lobesOf(h, lean);
+    std::vector<Twig> twigs = twigsOf(h, lobes, lod, side);
+    gather(twigs, side);
     for (int i = 0; i < cards; ++i) {
         const auto random = [&](uint32_t which) { return random01(h.salt * 7 + uint32_t(lod), uint32_t(i), which); };
-        const Lobe& lobe = lobes[size_t(i) % lobes.size()];
-        // Even over the lobe; what would lie inside the crown comes round to its outside.
-        const int which = i / h.lobes, count = (cards + h.lobes - 1) / h.lobes;
-        const float up = 1 - 2 * glm::clamp((float(which) + random(0)) / float(count), 0.0f, 1.0f);
-        const float angle = 2.399963f * float(which) + 6.28f * random(1), flat = std::sqrt(1 - up * up);
-        glm::vec3 dir(flat * std::cos(angle), up, flat * std::sin(angle));
-        dir -= std::min(glm::dot(dir, lobe.away) + 0.25f, 0.0f) * 1.6f * lobe.away;
-        dir = glm::normalize(dir);
-        // Every sixth fills the lobe, so that no sky is seen through a crown's middle.
-        const float deep = i % 6 == 5 ? h.hollow * random(2) : glm::mix(h.hollow, 1.0f, std::pow(random(2), 0.40f));
-        glm::vec3 at = lobe.at + dir * glm::vec3(1, 0.8f, 1) * (lobe.radius * deep);
-        at.y = std::max(at.y, 0.3f * side);  // a bush's stand on the ground
+        const auto& [on, at, dir, deep] = twigs[size_t(i)];
+        const Lobe& lobe = *on;
         const glm::vec3 away = glm::normalize((at - middle) / squash);
         const glm::vec3 tilt(random(3) - 0.5f, random(4) - 0.35f, random(5) - 0.5f);
         glm::vec3 out = glm::normalize(0.5f * away + dir + 0.9f * tilt);
@@ -254,6 +286,22 @@ Mesh makeFlowers(int kind, int lod) {
     return mesh;
 }
 
+// Grass as tall as one's knees, on upright cards that are lit as the ground is.
+Mesh makeMeadow(int kind, int lod) {
+    Mesh mesh;
+    const int count = lod == 0 ? 5 : lod == 1 ? 3 : 2;
+    const float side = lod == 0 ? 0.74f : lod == 1 ? 0.82f : 0.95f;
+    const Cell cell{{1 - kFlowerSide, kFlowerSide * float(kFlowers + kind)}, kFlowerSide};
+    for (int i = 0; i < count; ++i) {
+        const float angle = 2.399963f * float(i), r = lod < 2 ? 0.30f * std::sqrt(float(i) / float(count)) : 0;
+        const glm::vec3 at(r * std::cos(angle), 0.48f * side, r * std::sin(angle)), below = at - glm::vec3(0, 1, 0);
+        const float turn = lod < 2 ? 1.9f * angle : 0.5f * kPi * float(i);
+        addCard(mesh, at, {std::cos(turn), 0, std::sin(turn)}, {0, 1, 0}, side, cell, 0.8f,
+                {below, glm::vec3(1), below});
+    }
+    return mesh;
+}
+
 // Blades of grass, their roots together. u is how far up the blade.
 Mesh makeTuft(uint32_t salt, int blades, float tall, float spread, int lod) {
     Mesh mesh;
@@ -298,6 +346,8 @@ void addTrees(PropMeshes& out) {
     for (int lod = 0; lod < kLods; ++lod) {
         for (int kind = 0; kind < kFlowers; ++kind)
             out.add("flowers_" + std::string(1, char('a' + kind)), lod, makeFlowers(kind, lod), PropMeshes::kFoliage);
+        for (int kind = 0; kind < kMeadows; ++kind)
+            out.add("meadow_" + std::string(1, char('a' + kind)), lod, makeMeadow(kind, lod), PropMeshes::kFoliage);
         out.add("tuft_a", lod, makeTuft(31, 18, 0.20f, 0.13f, lod), PropMeshes::kGrass);
         out.add("tuft_b", lod, makeTuft(32, 26, 0.32f, 0.20f, lod), PropMeshes::kGrass);
         out.add("tuft_c", lod, makeTuft(33, 14, 0.12f, 0.12f, lod), PropMeshes::kGrass);
