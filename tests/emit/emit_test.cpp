@@ -204,15 +204,14 @@ TEST_CASE("kernels have room for so many levels of detail, the CPU picks among a
         for (uint32_t quads : {5u, 3u, 2u, 1u}) test::addSquare(meshes, variant, quads);
     }
     const std::shared_ptr<Device> device = test::validatedDevice();
-    const Result<Terminals> refused = Terminals::create(*device, meshes);
+    Result<Terminals> refused = Terminals::create(*device, meshes);
     REQUIRE_FALSE(refused);
     CHECK(refused.failure().text().find("64 levels of detail") != std::string::npos);
-    const Result<Terminals> held = Terminals::create(*device, meshes, TerminalChoice::cpu);
+    Result<Terminals> held = Terminals::create(*device, meshes, TerminalChoice::cpu);
     REQUIRE(held);
     const TerminalTable& table = held->table();
     REQUIRE(table.buckets.size() > kMaxBuckets);
     CHECK(table.variants.back().firstBucket + table.variants.back().lodCount == table.buckets.size());
-    CHECK(table.buckets.back().indexCount == 6);
     CHECK(held->kernelTable().bucketCount == 0);
 }
 
