@@ -29,6 +29,7 @@ void main() {
     float pixels = clamp(reach * frame.pixelScale * 0.5 / z, 2.0, 48.0);
     float metres = pixels * z / (frame.pixelScale * 0.5);
     vec2 turn = kTurns[(at.x & 1) + 2 * (at.y & 1)];
+    float perReach = 0.5 / (length(turn) * metres);
     float sum = 0.0;
     for (int i = 0; i < 6; ++i) {
         vec2 tap = vec2(kTaps[i].x * turn.x - kTaps[i].y * turn.y, kTaps[i].x * turn.y + kTaps[i].y * turn.x);
@@ -41,8 +42,7 @@ void main() {
         float db = max(z * z / b - z, -3.0 * metres);
         da = min(da, max(2.5 * metres - 1.5 * da, 0.25 * metres));
         db = min(db, max(2.5 * metres - 1.5 * db, 0.25 * metres));
-        float r = length(tap) * metres;
-        sum += clamp((da + db) * 0.5 / r - 0.06, 0.0, 1.0);
+        sum += clamp((da + db) * perReach / length(kTaps[i]) - 0.06, 0.0, 1.0);
     }
     open = clamp(1.0 - 0.34 * sum, kLeastOpen, 1.0);
 }

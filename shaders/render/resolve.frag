@@ -17,7 +17,7 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 c = (texelFetch(colorMap, at, 0) + texelFetch(colorMap, at, 1) + texelFetch(colorMap, at, 2) +
               texelFetch(colorMap, at, 3)) * 0.25;
-    float open = openAt(openMap, gl_FragCoord.xy);
+    float open = openAt(openMap, gl_FragCoord.xy, 2.0 * push.rcpSize);
     if (explains && frame.view == kViewOverdraw) c = stored(heatColor(c.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
     color = pictureColor(c, open, push.encode != 0u, at);
 }

@@ -91,7 +91,7 @@ vec4 smoothed(ivec2 at, vec4 middle) {
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 shown = smoothed(at, texelFetch(colorMap, at, 0));
-    float open = openAt(openMap, gl_FragCoord.xy);
+    float open = openAt(openMap, gl_FragCoord.xy, 2.0 * push.rcpSize);
     if (explains && frame.view == kViewOverdraw) shown = stored(heatColor(shown.x / (kOverdrawStep * kHottestOverdraw)), 0.0);
     color = pictureColor(shown, open, push.encode != 0u, at);
 }

@@ -122,10 +122,10 @@ Mesh trough(int) {
 void addWheel(Builder& b, vec3 at, int lod) {
     constexpr float kRadius = 0.44f, kRim = 0.055f, kThick = 0.05f;
     if (lod > 0) {
-        b.turn({at, {1, 0, 0}, kUp}, {{kRadius, 0}, {kRadius - kRim, 0.001f}}, 8, Paint::darkWood, 0.85f);
+        b.turn({at, {1, 0, 0}, kUp}, {{kRadius, 0}, {kRadius - 1.5f * kRim, 0.001f}}, 10, Paint::darkWood, 0.25f);
         for (const vec3 out : {vec3(0, 0.7f, 0.7f), vec3(0, 0.7f, -0.7f)}) {
             const vec3 end = kRadius * out, wide = 0.025f * vec3(0, -out.z, out.y);
-            b.quad(at - end - wide, at + end - wide, at + end + wide, at - end + wide, Paint::wood, 0.45f);
+            b.quad(at - end - wide, at + end - wide, at + end + wide, at - end + wide, Paint::wood, 0.15f);
         }
         return;
     }
