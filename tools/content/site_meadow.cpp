@@ -40,7 +40,7 @@ void Layout::daisies() {
 // Where nobody mows: on both sides of tracks and rails, about trunks and what has been left lying, and in islands. Not
 // before the court, where pictures are taken from.
 void Layout::tallGrass() {
-    constexpr float kCell = 0.72f, kReach = 44;
+    constexpr float kCell = 0.72f, kReach = 38;
     const vec2 middle(0, -12), before(1.8f, 8.5f);
     const std::vector<SitePlace> rails = site_.props["rails"];
     const auto nearest = [](vec2 p, const auto& all, auto at) {
@@ -58,7 +58,7 @@ void Layout::tallGrass() {
             if (track < 0.25f) continue;
             const float rail = nearest(p, rails, [](const SitePlace& r) { return vec2(r.position.x, r.position.z); });
             const float trunk = nearest(p, shades_, [](glm::vec3 s) { return vec2(s); });
-            float wild = noise(p / 6.5f, 173) + 0.5f * noise(p / 2.1f, 174) - 0.70f;
+            float wild = noise(p / 6.5f, 173) + 0.5f * noise(p / 2.1f, 174) - 0.80f;
             wild += 0.45f * ramp(1.2f, 0.5f, track) + 0.75f * ramp(1.3f, 0.4f, rail) + 0.7f * ramp(1.3f, 0.5f, trunk) +
                     0.25f * ramp(1.6f, 0.5f, kerb);
             if (wild < 0) continue;
