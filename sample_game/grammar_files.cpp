@@ -37,6 +37,8 @@ std::string included(const fs::path& folder, const std::string& text, std::vecto
         std::istringstream words(line);
         if (!(words >> word) || word != "include" || !std::getline(words, name, '"') || !std::getline(words, name, '"'))
             continue;
+        // What the compiler refuses isn't read here, either: an include names a file beside its own.
+        if (name.empty() || fs::path(name).filename() != name || name == "..") continue;
         if (std::ranges::find(names, name) != names.end()) continue;
         names.push_back(name);
         if (!readText((folder / name).string(), content, error)) continue;

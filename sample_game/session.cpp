@@ -264,8 +264,8 @@ bool Session::record(Workspace& work, const std::string& path, RunHead head) {
 }
 
 void Session::stopRecording(Workspace& work) {
-    work.message = "Recorded: " + recordingTo_ + ", " + std::to_string(recorder_.frame() + 1) + " frames";
-    recorder_.end();
+    const std::string frames = std::to_string(recorder_.frame() + 1) + " frames";
+    if (recorder_.end(work.error)) work.message = "Recorded: " + recordingTo_ + ", " + frames;
 }
 
 }  // namespace sample

@@ -74,6 +74,17 @@ TEST_CASE("mistakes in runs are told with their line") {
     refused(head + "{\"frame\": 2, \"undo\": {}}\n{\"frame\": 1, \"redo\": {}}", "3:", "later");
 }
 
+TEST_CASE("a recording that the disk has no room for says so in the end") {
+    Recorder recorder;
+    std::string error;
+    REQUIRE(recorder.begin("/dev/full", {1, "scene.json", 96, 54, .1f}, error));
+    recorder.note(Undo{}, 0);
+    CHECK(!recorder.end(error));
+    CHECK(contains(error, "/dev/full: "));
+    CHECK(contains(error, "No space left"));
+    CHECK(!recorder.on());
+}
+
 TEST_CASE("a recorded run is replayed to the same pictures and the growth that was there") {
     const Folder folder;
     const std::string scene = smallScene(folder), path = folder.file("run.jsonl");
@@ -101,7 +112,7 @@ TEST_CASE("a recorded run is replayed to the same pictures and the growth that w
         done(RemoveSeeds{{1}});
         done(Undo{});
         grown = editing.hash();
-        recorder.end();
+        CHECK_MESSAGE(recorder.end(editing.error), editing.error);
     }
     const std::string capture = program("espalier-capture") + " --max-nodes 20000 --replay " + path + " --stats " +
                                 folder.file("stats.json") + " -o ";

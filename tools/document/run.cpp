@@ -91,21 +91,29 @@ bool Recorder::begin(const std::string& path, RunHead head, std::string& error) 
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     head.fields(FieldWriter(json));
     frame_ = 0;
-    std::fprintf(file_.get(), "%s\n", json.dump().c_str());
-    std::fflush(file_.get());
+    path_ = path;
+    failed_ = 0;
+    write(json.dump());
     return true;
+}
+
+void Recorder::write(const std::string& line) {
+    errno = 0;
+    const bool good = std::fprintf(file_.get(), "%s\n", line.c_str()) > 0 && std::fflush(file_.get()) == 0;
+    if (!good && failed_ == 0) failed_ = errno != 0 ? errno : EIO;
 }
 
 void Recorder::note(const Action& action, uint32_t gesture) {
     if (!file_) return;
     if (std::holds_alternative<SetCamera>(action)) camera_ = action;
-    std::fprintf(file_.get(), "%s\n", toJson(RunLine{frame_, gesture, action}).c_str());
-    std::fflush(file_.get());
+    write(toJson(RunLine{frame_, gesture, action}));
 }
 
-void Recorder::end() {
+bool Recorder::end(std::string& error) {
     if (file_ && std::holds_alternative<SetCamera>(camera_)) note(Action(camera_), 0);
     file_.reset();
+    if (failed_ != 0) error = path_ + ": not all of the run could be written: " + std::strerror(failed_);
+    return failed_ == 0;
 }
 
 }  // namespace espalier::document

@@ -40,8 +40,9 @@ class Recorder {
     // Frame 0 comes first.
     void nextFrame() { ++frame_; }
     void note(const Action& action, uint32_t gesture);
-    // The frame in which the last action stands goes on to the present one, so that the replay is as long.
-    void end();
+    // The frame in which the last action stands goes on to the present one, so that the replay is as long. False:
+    // `error` tells that some of the run isn't in the file.
+    bool end(std::string& error);
     bool on() const { return file_ != nullptr; }
     uint32_t frame() const { return frame_; }
 
@@ -49,7 +50,11 @@ class Recorder {
     struct Closer {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
+    void write(const std::string& line);
+
     std::unique_ptr<std::FILE, Closer> file_;
+    std::string path_;
+    int failed_ = 0;  // errno of the first line that couldn't be written
     uint32_t frame_ = 0;
     Action camera_;  // of the latest frame
 };

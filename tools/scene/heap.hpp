@@ -16,6 +16,9 @@ inline void keepHeap() {
     // frame.
     (void)mallopt(M_TRIM_THRESHOLD, 64 << 20);
     (void)mallopt(M_TOP_PAD, 4 << 20);
+    // One heap for all threads: what one of them frees others find, and malloc_trim gives back its end, too, which it
+    // doesn't of threads' own heaps. Frames ask for little, and take no longer for it.
+    (void)mallopt(M_ARENA_MAX, 1);
 }
 
 }  // namespace espalier::scene
