@@ -164,7 +164,7 @@ bool App::frame(float seconds) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     if (!session_.openNext.empty() && session_.idle() && !openNext()) return false;
-    if (session_.reload && session_.idle()) reload();
+    if (session_.reload && session_.recovery().empty() && session_.idle()) reload();
     if (!reloading_.kept.empty() && session_.idle()) openReloaded();
     if (!rescale()) return false;
     std::vector<InputEvent> events;
@@ -226,13 +226,14 @@ bool App::loop() {
         if (!frame(seconds)) return false;
         rest_.drew(glfwGetTime());
     }
+    const std::string shown = std::exchange(work_.error, {});
     session_.end(work_);
     if (!layoutFile_.empty()) writeLayout(work_.layout, work_.brush);
     if (host_->validationMessages())
         return fail(std::to_string(host_->validationMessages()) + " messages of the validation layer");
-    // A user has seen the message; a script sees the exit code.
-    if (options_.frames && !work_.error.empty()) return fail(work_.error);
-    return true;
+    // What the end itself says nobody sees in the window; what was shown there a script hasn't seen.
+    const std::string& told = work_.error.empty() && options_.frames ? shown : work_.error;
+    return told.empty() || fail(told);
 }
 
 int runApp(const AppOptions& options) {

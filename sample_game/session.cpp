@@ -1,13 +1,14 @@
 // Saves and autosaves by tools/document, files of others by what they hold, runs by the document's listener.
 #include "sample_game/session.hpp"
 
-#include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <utility>
 
 #include "sample_game/folder_list.hpp"
 #include "sample_game/settings.hpp"
 #include "tools/document/project.hpp"
+#include "tools/scene/hash.hpp"
 #include "tools/scene/picture.hpp"
 
 namespace sample {
@@ -24,6 +25,20 @@ std::vector<std::string> modelFiles(const espalier::scene::Scene& scene) {
     for (const auto& surface : scene.surfaces) files.push_back(surface.file);
     if (scene.town) files.push_back(scene.town->file);
     return files;
+}
+
+// Where folders of what was never saved lie; empty: nowhere.
+fs::path allUnsaved() {
+    return configFolder().empty() ? "" : fs::path(configFolder()) / "unsaved";
+}
+
+// An autosave that isn't needed any more. A folder that isn't one of ours is left but for that.
+void removeKept(const fs::path& folder) {
+    std::error_code ignored;
+    if (!allUnsaved().empty() && folder.parent_path() == allUnsaved())
+        fs::remove_all(folder, ignored);
+    else
+        dropAutosave(folder.string());
 }
 
 }  // namespace
@@ -61,11 +76,13 @@ std::string Session::autosaveFolder() const {
     return recoveredFrom_.empty() ? unsavedFolder() : recoveredFrom_;
 }
 
-// By what it was opened from, or is the project of.
+// By what it was opened from, or is the project of: its name, and a number for where that is.
 std::string Session::unsavedFolder() const {
-    std::string name = folder_.empty() ? file_ : folder_;
-    std::replace(name.begin(), name.end(), '/', '-');
-    return configFolder().empty() ? "" : configFolder() + "/unsaved/" + name;
+    const std::string& of = folder_.empty() ? file_ : folder_;
+    char number[20];
+    std::snprintf(number, sizeof number, "-%016llx",
+                  static_cast<unsigned long long>(espalier::scene::hashOf(of.data(), of.size())));
+    return allUnsaved().empty() ? "" : (allUnsaved() / (fs::path(of).filename().string() + number)).string();
 }
 
 bool Session::step(Workspace& work, double now) {
@@ -75,7 +92,7 @@ bool Session::step(Workspace& work, double now) {
         nextAutosave_ = now + autosaveEvery;
         keepSoon(work);
     }
-    if (now < nextLook_ || background_.busy()) return moved;
+    if (now < nextLook_ || background_.busy() || work.document->stroking()) return moved;
     nextLook_ = now + kLookEvery;
     noticeLoss(work);
     const bool models = models_.changed(), grammars = watchGrammars(work);
@@ -105,6 +122,7 @@ void Session::setOrigin(const Workspace& work, const Origin& origin) {
     file_ = origin.file;
     folder_ = origin.folder;
     cannotKeep_ = origin.cannotKeep;
+    recoveredFrom_ = origin.recoveredFrom;
     savedState_ = autosavedState_ = origin.modified ? kNever : work.document->state();
 }
 
@@ -191,9 +209,8 @@ void Session::tellKept(Workspace& work, const std::string& news) {
 }
 
 void Session::dropKept() {
-    std::error_code ignored;
     if (!folder_.empty()) dropAutosave(folder_);
-    if (folder_.empty() || !cannotKeep_.empty()) fs::remove_all(autosaveFolder(), ignored);
+    if (folder_.empty() || !cannotKeep_.empty()) removeKept(autosaveFolder());
     cannotKeep_.clear();
 }
 
@@ -232,12 +249,7 @@ void Session::saved(const std::string& folder, uint64_t state) {
 }
 
 void Session::forgetRecovery(bool deleteIt) {
-    std::error_code ignored;
-    const fs::path place = fs::path(recovery_).parent_path();
-    if (deleteIt && place == folder_)
-        dropAutosave(folder_);
-    else if (deleteIt)
-        fs::remove_all(place, ignored);
+    if (deleteIt) removeKept(fs::path(recovery_).parent_path());
     recovery_.clear();
 }
 
@@ -245,7 +257,7 @@ void Session::startRecording(Workspace& work, const std::string& path, uint32_t 
     work.error.clear();
     const RunHead head{1, file_, width, height, 1 / 30.f};
     // What was edited since is part of what the run begins with.
-    if (work.document->revision() == 0 && !replayed_) return ended(record(work, path, head));
+    if (work.document->revision() == 0 && !modified(work) && !replayed_) return ended(record(work, path, head));
     RunHead edited = head;
     edited.scene = path + ".project";
     background_.ask({"Saving what the run begins with",

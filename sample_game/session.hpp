@@ -52,10 +52,10 @@ class Session {
 
     // Where the document belongs, over a reload of what it is in now.
     struct Origin {
-        std::string file, folder, cannotKeep;
+        std::string file, folder, cannotKeep, recoveredFrom;
         bool modified = false;
     };
-    Origin origin(const Workspace& work) const { return {file_, folder_, cannotKeep_, modified(work)}; }
+    Origin origin(const Workspace& work) const { return {file_, folder_, cannotKeep_, recoveredFrom_, modified(work)}; }
     void setOrigin(const Workspace& work, const Origin& origin);
     bool quit = false;
     bool givesUp = false;       // what isn't saved at the end of what is open

@@ -5,6 +5,7 @@
 
 #include "sample_game/session.hpp"
 #include "tests/editor/editing.hpp"
+#include "tools/document/project.hpp"
 
 using namespace espalier::document;
 namespace fs = std::filesystem;
@@ -95,6 +96,7 @@ TEST_CASE(
     "what a project's folder can't take is kept elsewhere, found when it is opened again, and told until remedied") {
     const Folder folder;
     const std::string garden = folder.file("garden"), layers = garden + "/layers";
+    fs::path place;  // of what is kept
     {
         Window window(folder, smallScene(folder));
         window.fill(.25f);
@@ -122,19 +124,68 @@ TEST_CASE(
         CHECK(keptIn(folder) == "");
         window.fill(.75f);
         window.wait();
-        fs::copy(fs::path(keptIn(folder)).parent_path(), folder.file("copy"), fs::copy_options::recursive);
+        place = fs::path(keptIn(folder)).parent_path();
+        fs::copy(place, folder.file("copy"), fs::copy_options::recursive);
     }
     // As if it had ended there.
     fs::remove(folder.file("other/layers"));
     fs::rename(folder.file("aside2"), folder.file("other/layers"));
-    std::string name = folder.file("other");
-    std::ranges::replace(name, '/', '-');
-    fs::copy(folder.file("copy"), folder.file("config/espalier/unsaved/" + name), fs::copy_options::recursive);
+    fs::copy(folder.file("copy"), place, fs::copy_options::recursive);
     Window again(folder, folder.file("other"));
     REQUIRE(again.session.recovery() == keptIn(folder));
     CHECK(maskOf(again.session.recovery()) == .75f);
     again.session.forgetRecovery(true);
     CHECK(keptIn(folder) == "");
+}
+
+TEST_CASE(
+    "an autosave that was copied somewhere to rescue it takes nothing else there with it when it is saved or given "
+    "up") {
+    const Folder folder;
+    const std::string scene = smallScene(folder), rescued = folder.file("rescued");
+    {
+        Window window(folder, scene);
+        window.fill(.25f);
+        window.wait();
+        fs::copy(fs::path(keptIn(folder)).parent_path(), rescued, fs::copy_options::recursive);
+    }
+    folder.write("rescued/notes.txt", "not ours");
+    for (const bool saves : {true, false}) {
+        fs::copy_file(rescued + "/autosave.json", folder.file("again.json"), fs::copy_options::overwrite_existing);
+        {
+            Window window(folder, rescued + "/autosave.json");
+            window.fill(saves ? .5f : .75f);
+            if (saves) CHECK_MESSAGE(window.save(folder.file("garden")), window.work.error);
+        }
+        CHECK(fs::exists(rescued + "/notes.txt"));
+        CHECK(!fs::exists(rescued + "/autosave.json"));
+        fs::copy_file(folder.file("again.json"), rescued + "/autosave.json");
+    }
+    CHECK(maskOf(folder.file("garden")) == .5f);
+}
+
+TEST_CASE("what is opened again over itself goes on where it was kept, and a recording of it has what wasn't saved") {
+    const Folder folder;
+    const std::string rescued = folder.file("rescued"), run = folder.file("run.jsonl");
+    {
+        Editing editing(smallScene(folder));
+        REQUIRE(editing.perform(FillLayer{"mask", .25f}));
+        REQUIRE_MESSAGE(autosave(*editing.document, rescued, editing.error), editing.error);
+    }
+    Window window(folder, rescued + "/autosave.json");
+    const sample::Session::Origin origin = window.session.origin(window.work);
+    REQUIRE(saveProject(*window.work.document, folder.file("reload"), window.work.error));
+    Window reloaded(folder, folder.file("reload"));
+    reloaded.session.setOrigin(reloaded.work, origin);
+    reloaded.session.startRecording(reloaded.work, run, 64, 64, [](bool good) { CHECK(good); });
+    reloaded.session.background().finish();
+    reloaded.session.stopRecording(reloaded.work);
+    Run read;
+    REQUIRE_MESSAGE(readRun(run, read, reloaded.work.error), reloaded.work.error);
+    CHECK(contains(read.head.scene, "run.jsonl.project"));
+    reloaded.fill(.5f);
+    reloaded.wait();
+    CHECK(maskOf(rescued + "/autosave.json") == .5f);
 }
 
 TEST_CASE(
