@@ -1,36 +1,24 @@
 // A surface's charts and links as its walks read them (Buron 2015 §4), read back from the GPU for those who look
 // inside.
-#include <cstring>
+#include <algorithm>
 
 #include "runtime/plugin/context.hpp"
 
 namespace espalier {
 namespace {
 
-// `count` records that a surface's buffer holds at `address`.
-template <class T>
-Result<std::vector<T>> readPart(const EspContext& context, const Buffer& data, const T* address, size_t count) {
-    const uint64_t offset = reinterpret_cast<uint64_t>(address) - data.address();
-    Result<std::vector<std::byte>> bytes = readBuffer(*context.device, data, offset, count * sizeof(T));
-    if (!bytes) return bytes.failure();
-    std::vector<T> values(count);
-    std::memcpy(static_cast<void*>(values.data()), bytes->data(), bytes->size());
-    return values;
-}
-
 EspResult readAtlas(EspContext& context, uint32_t id, uint32_t level, uint32_t* out, uint32_t* size) {
     const PlacedSurface* surface = context.surfaces.find(id);
     if (!surface || level >= surface->info.levels)
         return fail(&context, ESP_INVALID_ARGUMENT, "espReadAtlas: no such surface or level");
-    const SurfaceLevel from = surface->gpu.ref().levels[level];
-    const uint32_t side = from.size, room = *size;
+    const uint32_t side = surface->gpu.ref().levels[level].size, room = *size;
     *size = side;
     if (!out || room == 0) return ESP_OK;
     if (room < side)
         return fail(&context, ESP_INVALID_ARGUMENT,
                     "espReadAtlas: the level has " + std::to_string(side) + " texels a side, there is room for " +
                         std::to_string(room));
-    Result<std::vector<Texel>> texels = readPart(context, surface->gpu.data(), from.texels.v, size_t(side) * side);
+    Result<std::vector<Texel>> texels = surface->gpu.readTexels(*context.device, level);
     if (!texels) return failGpu(&context, texels.failure());
     const std::vector<Chart>& charts = surface->data.charts;
     for (uint32_t y = 0; y < side; ++y)
@@ -45,12 +33,10 @@ EspResult readAtlas(EspContext& context, uint32_t id, uint32_t level, uint32_t* 
 EspResult readLinks(EspContext& context, uint32_t id, EspLink* out, uint32_t* count) {
     const PlacedSurface* surface = context.surfaces.find(id);
     if (!surface) return fail(&context, ESP_INVALID_ARGUMENT, "espReadLinks: no such surface");
-    const SurfaceRef from = surface->gpu.ref();
     const uint32_t room = out ? *count : 0;
-    *count = from.crossingCount;
-    if (room == 0 || from.crossingCount == 0) return ESP_OK;
-    Result<std::vector<Crossing>> crossings =
-        readPart(context, surface->gpu.data(), from.crossings.v, std::min(room, from.crossingCount));
+    *count = surface->gpu.ref().crossingCount;
+    if (room == 0 || *count == 0) return ESP_OK;
+    Result<std::vector<Crossing>> crossings = surface->gpu.readCrossings(*context.device, std::min(room, *count));
     if (!crossings) return failGpu(&context, crossings.failure());
     const auto set = [](float to[2], glm::vec2 uv) { to[0] = uv.x, to[1] = uv.y; };
     for (const Crossing& crossing : *crossings) {

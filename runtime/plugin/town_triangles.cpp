@@ -20,10 +20,12 @@ void append(std::vector<std::byte>& bytes, const T& value) {
 
 EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices, std::vector<std::byte>& indices) {
     if (!context.town || !context.roofs || context.town->view.gridCount == 0) return ESP_OK;
+    const LoadedGrammar* grammar = context.grammars.find(context.town->grammar);
+    if (!grammar) return ESP_OK;  // destroyed: the roofs go with the next espUpdate
     Result<RoofRecords> records = context.roofs->read();
     if (!records) return failGpu(&context, records.failure());
     RoofInputs inputs;
-    inputs.grammar = &context.grammars.find(context.town->grammar)->map;
+    inputs.grammar = &grammar->map;
     std::vector<uint32_t> newest(context.town->structure.houses.size());
     for (const RoofGrid& g : records->grids) newest[g.house & 0xFFFFFFu] = g.house >> 24;  // later grids stand behind
     RoofLayer layers[kRoofLayers] = {};

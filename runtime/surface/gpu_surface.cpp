@@ -26,6 +26,18 @@ uint64_t addressOf(const Buf& buffer) {
     return address;
 }
 
+// `count` records that the buffer holds at an array's address.
+template <class T, class Buf>
+Result<std::vector<T>> readArray(Device& device, const Buffer& holder, const Buf& array, size_t count) {
+    std::vector<T> values(count);
+    if (count == 0) return values;
+    const uint64_t offset = addressOf(array) - holder.address();
+    Result<std::vector<std::byte>> bytes = readBuffer(device, holder, offset, count * sizeof(T));
+    if (!bytes) return bytes.failure();
+    std::memcpy(static_cast<void*>(values.data()), bytes->data(), bytes->size());
+    return values;
+}
+
 // No less than what the arrays take together.
 size_t sizeOf(const SurfaceData& data) {
     size_t sum = data.crossings.size() * sizeof(Crossing) + data.charts.size() * sizeof(Chart) +
@@ -135,16 +147,22 @@ SurfaceRef GpuSurface::ref(const glm::mat4& toWorld) const {
     return ref;
 }
 
+Result<std::vector<Texel>> GpuSurface::readTexels(Device& device, size_t level) const {
+    const SurfaceLevel& from = ref_.levels[level];
+    return readArray<Texel>(device, data_, from.texels, size_t(from.size) * from.size);
+}
+
+Result<std::vector<Crossing>> GpuSurface::readCrossings(Device& device, size_t count) const {
+    return lists_ ? readArray<Crossing>(device, lists_, listed_.crossings, count)
+                  : readArray<Crossing>(device, data_, ref_.crossings, count);
+}
+
 Status GpuSurface::readBack(Device& device, SurfaceData& out) const {
     auto read = [&](auto& values, auto buffer, size_t count) -> Status {
         using T = typename std::decay_t<decltype(values)>::value_type;
-        values.clear();
-        if (count == 0) return Done{};
-        Result<std::vector<std::byte>> bytes =
-            readBuffer(device, data_, addressOf(buffer) - data_.address(), count * sizeof(T));
-        if (!bytes) return bytes.failure();
-        values.resize(count);
-        std::memcpy(static_cast<void*>(values.data()), bytes->data(), bytes->size());
+        Result<std::vector<T>> got = readArray<T>(device, data_, buffer, count);
+        if (!got) return got.failure();
+        values = std::move(*got);
         return Done{};
     };
     out.levels.resize(ref_.levelCount);

@@ -20,6 +20,10 @@ class GpuSurface {
     // toWorld must move, turn and scale evenly.
     SurfaceRef ref(const glm::mat4& toWorld = glm::mat4(1)) const;
 
+    // The texels of a level as walks read them now, what others bury included (texelIndex order); waits for the GPU.
+    Result<std::vector<Texel>> readTexels(Device& device, size_t level) const;
+    // The first `count` crossings as walks read them now: those of the file, then what was added. Waits for the GPU.
+    Result<std::vector<Crossing>> readCrossings(Device& device, size_t count) const;
     // What was uploaded of levels (without aux) and crossings; waits for the GPU.
     Status readBack(Device& device, SurfaceData& out) const;
     // Adds crossings to those of the file in place of the ones added before, and buries texels in place of those

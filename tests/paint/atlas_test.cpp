@@ -112,3 +112,42 @@ TEST_CASE("links lead to the same place of the model, and every face of a cube t
     }
     CHECK(pairs.size() == painting.data.charts.size() * 4);
 }
+
+TEST_CASE("links of surfaces that touch are read with those between them, and without once they stand apart") {
+    const Painting painting;
+    const auto linksOf = [&](EspSurface surface) {
+        uint32_t count = 0;
+        painting.ok(espReadLinks(painting.context, surface, nullptr, &count));
+        std::vector<EspLink> links(count);
+        painting.ok(espReadLinks(painting.context, surface, links.data(), &count));
+        return links;
+    };
+    const std::vector<EspLink> alone = linksOf(painting.surface);
+    const glm::vec3 offset(1.5f, .3f, .3f);
+    EspTransform over = espIdentity(), away = espIdentity();
+    for (int i = 0; i < 3; ++i) over.rows[i][3] = offset[i];
+    away.rows[0][3] = 5;
+    EspSurface second{};
+    painting.ok(espLoadSurface(painting.context, painting.path.c_str(), &over, &second));
+    painting.ok(espUpdate(painting.context));
+    const float texel = 4.f / float(painting.size());
+    for (EspSurface surface : {painting.surface, second}) {
+        const std::vector<EspLink> links = linksOf(surface);
+        REQUIRE(links.size() > alone.size());
+        const auto placed = [&](const float a[2], const float b[2], uint32_t chart, uint32_t on) {
+            const glm::vec3 place = placeNear(painting, (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, chart);
+            return on == second.id ? place + offset : place;
+        };
+        size_t across = 0;
+        for (const EspLink& link : links) {
+            across += link.toSurface.id != surface.id;
+            const glm::vec3 here = placed(link.a, link.b, link.chart, surface.id);
+            const glm::vec3 there = placed(link.toA, link.toB, link.toChart, link.toSurface.id);
+            CHECK(glm::distance(here, there) < 8 * texel);
+        }
+        CHECK(across == links.size() - alone.size());
+    }
+    painting.ok(espMoveSurface(painting.context, second, &away));
+    painting.ok(espUpdate(painting.context));
+    CHECK(linksOf(painting.surface).size() == alone.size());
+}

@@ -193,6 +193,19 @@ static void triangles(EspContext* context) {
     CHECK(fabs(walls - 6 * (kHouses * 36.0 + 4)) < 25);
 }
 
+/* A town whose grammar was destroyed has no triangles, before the update that takes its roofs away and after it. */
+static void grammarGone(EspContext* context, EspGrammar grammar) {
+    EspTriangles t;
+    OK(context, espMaterialise(context, &t));
+    CHECK(t.indexCount > 1000);
+    OK(context, espDestroyGrammar(context, grammar));
+    for (int i = 0; i < 2; ++i) {
+        OK(context, espMaterialise(context, &t));
+        CHECK(t.vertexCount == 0 && t.indexCount == 0);
+        OK(context, espUpdate(context));
+    }
+}
+
 int main(void) {
     EspContext* context = NULL;
     EspContextDef def = espDefaultContextDef();
@@ -257,6 +270,7 @@ int main(void) {
     OK(context, espHouseInfo(context, 7, &house));
     CHECK(fabsf(house.boundsMin[0] - 92) < 1e-2f && fabsf(house.boundsMin[2] + 150) < 1e-2f && house.baseHeight == 5);
     OK(context, espUpdate(context));
+    grammarGone(context, grammar);
     OK(context, espRemoveTown(context));
     CHECK(espHouseCount(context) == 0);
     OK(context, espUpdate(context));
