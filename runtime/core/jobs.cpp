@@ -2,7 +2,7 @@
 #include "runtime/core/jobs.hpp"
 
 #include <algorithm>
-#include <exception>
+#include <utility>
 
 namespace espalier {
 
@@ -24,8 +24,17 @@ void Crew::gather() {
 }
 
 void Crew::takePieces() {
-    for (size_t piece = next_++; piece < pieces_; piece = next_++)
-        (*body_)(piece * grain_, std::min(count_, (piece + 1) * grain_));
+    try {
+        for (size_t piece = next_++; piece < pieces_; piece = next_++)
+            (*body_)(piece * grain_, std::min(count_, (piece + 1) * grain_));
+    } catch (...) {
+        next_ = pieces_;
+        if (!thrown_.exchange(true)) exception_ = std::current_exception();
+    }
+}
+
+void Crew::rethrow() {
+    if (thrown_.exchange(false)) std::rethrow_exception(std::exchange(exception_, nullptr));
 }
 
 void Crew::workOn() {
@@ -44,13 +53,17 @@ void Crew::overRange(size_t count, size_t grain, const Body& body) {
     pieces_ = count / grain_ + (count % grain_ != 0);
     body_ = &body;
     next_ = 0;
-    if (threads_ == 1 || pieces_ < 2) return takePieces();
+    if (threads_ == 1 || pieces_ < 2) {
+        takePieces();
+        return rethrow();
+    }
     gather();
     atWork_ = unsigned(others_.size());
     range_.fetch_add(1, std::memory_order_release);
     range_.notify_all();
     takePieces();
     for (unsigned busy = atWork_; busy > 0; busy = atWork_) atWork_.wait(busy);
+    rethrow();
 }
 
 void parallelFor(size_t count, size_t grain, const Crew::Body& body, unsigned threads) {

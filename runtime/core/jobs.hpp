@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -10,7 +11,8 @@ namespace espalier {
 
 // Calls body(begin, end) over [0, count) in pieces of at most `grain`, on up to `threads` threads (0: as many as
 // the machine has), the calling one among them, and returns when all pieces are done. The cut into pieces doesn't
-// depend on the number of threads; their order does. body must not throw.
+// depend on the number of threads; their order does. What the body throws is thrown here, the first of it, when all
+// threads have ended their pieces; pieces that weren't begun by then are left out.
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body,
                  unsigned threads = 0);
 
@@ -33,6 +35,7 @@ class Crew {
     void gather();
     void workOn();
     void takePieces();
+    void rethrow();
 
     unsigned threads_;
     std::vector<std::jthread> others_;
@@ -41,6 +44,8 @@ class Crew {
     size_t count_ = 0, grain_ = 1, pieces_ = 0;
     std::atomic<size_t> next_ = 0;
     std::atomic<unsigned> range_ = 0, atWork_ = 0;
+    std::atomic<bool> thrown_ = false;
+    std::exception_ptr exception_;  // the first of the range, read when all have ended it
 };
 
 }  // namespace espalier

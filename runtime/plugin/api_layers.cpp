@@ -39,13 +39,12 @@ EspResult readLayer(EspContext& context, uint32_t surface, const char* name, flo
     return ESP_OK;
 }
 
-// Names of all painted layers, each once, in the order in which they came.
-std::vector<const char*> paintedNames(const EspContext& context) {
-    std::vector<const char*> names;
+// Calls tell(name) for all painted layers, each once, in the order in which they came. Takes no memory.
+template <class Tell>
+void forEachPaintedName(const EspContext& context, Tell&& tell) {
     for (const PaintedLayer& layer : context.layers)
-        if (std::ranges::none_of(names, [&](const char* name) { return layer.name == name; }))
-            names.push_back(layer.name.c_str());
-    return names;
+        if (&*std::ranges::find(context.layers, layer.name, &PaintedLayer::name) == &layer)
+            tell(layer.name);
 }
 
 }  // namespace
@@ -125,13 +124,19 @@ using namespace espalier;
 extern "C" {
 
 uint32_t espPaintedLayerCount(const EspContext* context) {
-    return context ? uint32_t(paintedNames(*context).size()) : 0;
+    uint32_t count = 0;
+    if (context) forEachPaintedName(*context, [&](const std::string&) { ++count; });
+    return count;
 }
 
 const char* espPaintedLayerName(const EspContext* context, uint32_t index) {
-    if (!context) return "";
-    const std::vector<const char*> names = paintedNames(*context);
-    return index < names.size() ? names[index] : "";
+    const char* found = "";
+    uint32_t number = 0;
+    if (context)
+        forEachPaintedName(*context, [&](const std::string& name) {
+            if (number++ == index) found = name.c_str();
+        });
+    return found;
 }
 
 EspResult espReadLayer(EspContext* context, EspSurface surface, const char* layer, float* texels, uint32_t* size) {

@@ -114,3 +114,28 @@ TEST_CASE("a crew goes from range to range") {
         }
     }
 }
+
+TEST_CASE("what a body throws reaches the caller when all threads are done, and the crew goes on") {
+    for (unsigned threads : {1u, 2u, 5u}) {
+        Crew crew(threads);
+        for (size_t count : {16u, 1000u})
+            for (size_t bad : {size_t(0), count / 2, count - 1}) {
+                std::atomic<int> within = 0;
+                const auto body = [&](size_t begin, size_t end) {
+                    ++within;
+                    std::this_thread::yield();
+                    --within;
+                    if (begin <= bad && bad < end) throw std::bad_alloc();
+                };
+                CHECK_THROWS_AS(crew.overRange(count, 16, body), std::bad_alloc);
+                CHECK(within == 0);
+                std::atomic<size_t> visits = 0;
+                crew.overRange(count, 16, [&](size_t begin, size_t end) { visits += end - begin; });
+                CHECK(visits == count);
+            }
+    }
+    // All of them at once: one exception is told.
+    CHECK_THROWS_AS(parallelFor(
+                        64, 1, [](size_t, size_t) { throw std::bad_alloc(); }, 4),
+                    std::bad_alloc);
+}
