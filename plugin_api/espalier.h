@@ -71,7 +71,7 @@ typedef struct EspContextDef {
     EspLogFn log;                /* NULL: warnings and errors go to stderr */
     void* logUser;
     const char* terminals;       /* path of the terminal meshes (terminals.glb); NULL: beside the library's content */
-    const char* cacheFolder;     /* compiled rule maps are cached here; NULL: no cache on disk */
+    const char* cacheFolder;     /* compiled rule maps are cached here, the 256 used last; NULL: no cache on disk */
 } EspContextDef;
 
 ESP_API EspContextDef espDefaultContextDef(void);

@@ -1,9 +1,8 @@
 // Text -> rule map: parse, declare, analyse, lower, assemble, verify. And the same from a file, with a cache.
-#include <system_error>
-
 #include "runtime/core/file.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/grammar/parser.hpp"
+#include "runtime/grammar/rule_map_cache.hpp"
 #include "runtime/grammar/rule_map_layout.hpp"
 
 namespace espalier {
@@ -92,24 +91,17 @@ Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& opti
     parse(text, p);
     if (cacheFolder.empty() || p.compilation.reporter.failed()) return compile(p);
 
-    char name[32];
-    std::snprintf(name, sizeof name, "%016llx.rulemap", static_cast<unsigned long long>(p.contentHash));
-    std::filesystem::path cached = cacheFolder / name;
-    std::error_code code;
-    if (std::filesystem::exists(cached, code)) {
-        Result<std::vector<std::byte>> bytes = readFile(cached);
-        if (bytes) {
-            Result<RuleMap> map = RuleMap::load({reinterpret_cast<const uint8_t*>(bytes->data()), bytes->size()}, name);
-            if (map && map->contentHash() == p.contentHash) return map;
-        }
-    }
+    const RuleMapCache cache(cacheFolder);
+    if (std::optional<RuleMap> known = cache.find(p.contentHash)) return std::move(*known);
     Result<RuleMap> map = compile(p);
     if (!map) return map;
-    std::vector<uint8_t> bytes = map->save();
-    Status written = writeFile(cached, std::as_bytes(std::span(bytes)));
-    if (!written)
-        RuleMapAccess::warnings(*map).push_back(
-            {cached.string(), 0, 0, {}, "the compiled grammar can't be cached: " + written.failure().text(), true});
+    if (Status kept = cache.keep(*map); !kept)
+        RuleMapAccess::warnings(*map).push_back({cacheFolder.string(),
+                                                 0,
+                                                 0,
+                                                 {},
+                                                 "the compiled grammar can't be cached: " + kept.failure().text(),
+                                                 true});
     return map;
 }
 

@@ -138,12 +138,13 @@ uint64_t seedKey(const PlantedSeed& seed) {
 }
 
 bool TwinTable::take(uint32_t number, uint32_t wanted, uint32_t& twin) {
+    if (wanted > kMaxTwin) return false;
     Uses& uses = numbers_[number];
     if (wanted == 0) {
         while (uses.firstFree < uses.taken.size() && uses.taken[uses.firstFree]) ++uses.firstFree;
         wanted = uses.firstFree + 1;
+        if (wanted > kMaxTwin) return false;
     }
-    if (wanted > kMaxTwin) return false;
     if (wanted > uses.taken.size()) uses.taken.resize(wanted);
     if (uses.taken[wanted - 1]) return false;
     uses.taken[wanted - 1] = true;
@@ -155,6 +156,8 @@ void TwinTable::release(uint32_t number, uint32_t twin) {
     Uses& uses = numbers_[number];
     uses.taken[twin - 1] = false;
     uses.firstFree = std::min(uses.firstFree, twin - 1);
+    while (!uses.taken.empty() && !uses.taken.back()) uses.taken.pop_back();
+    if (uses.taken.empty()) numbers_.erase(number);
 }
 
 void removeSeed(EspContext& context, uint32_t id) {

@@ -125,6 +125,7 @@ class TwinTable {
     bool take(uint32_t number, uint32_t wanted, uint32_t& twin);
     void release(uint32_t number, uint32_t twin);
 
+    size_t numbers() const { return numbers_.size(); }  // that are planted
   private:
     static constexpr uint32_t kMaxTwin = 1u << 20;
     struct Uses {

@@ -1,7 +1,11 @@
 // Saved rule maps: the same when loaded, refused when damaged, harmless when forged; the cache on disk.
+#include <chrono>
+#include <cstdio>
 #include <cstring>
+#include <iterator>
 
 #include "runtime/core/hash.hpp"
+#include "runtime/grammar/rule_map_cache.hpp"
 #include "tests/grammar/support.hpp"
 
 using namespace grammar_test;
@@ -193,6 +197,36 @@ TEST_CASE("compiled grammars are kept by content and compiled again when the tex
     Result<RuleMap> uncached = compileGrammarFile(folder.path / "a.grammar", folder.path / "blocked");
     REQUIRE(uncached);
     CHECK(toString(uncached->warnings()).find("can't be cached") != std::string::npos);
+}
+
+TEST_CASE("the cache holds the grammars used last, and leaves other files alone") {
+    TemporaryFolder folder;
+    const std::filesystem::path cache = folder.path / "cache";
+    std::filesystem::create_directories(cache);
+    write(cache / "notes.rulemap", "x");
+    const auto compile = [&](size_t i) {
+        Result<RuleMap> map =
+            compileGrammar("param p = " + std::to_string(i) + " [0 .. 1000]\nA -> Marching(p, 0, true) {A}\n", {}, cache);
+        if (!map) FAIL(map.failure().text());
+        return map->contentHash();
+    };
+    const auto fileOf = [&](uint64_t hash) {
+        char name[32];
+        std::snprintf(name, sizeof name, "%016llx.rulemap", static_cast<unsigned long long>(hash));
+        return cache / name;
+    };
+    const uint64_t used = compile(0), typed = compile(1);
+    // As if these had been written long ago.
+    const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+    for (uint64_t hash : {used, typed}) std::filesystem::last_write_time(fileOf(hash), old);
+    for (size_t i = 2; i < RuleMapCache::kMost; ++i) compile(i);
+    CHECK(compile(0) == used);
+    compile(RuleMapCache::kMost);
+    CHECK(std::filesystem::exists(fileOf(used)));
+    CHECK_FALSE(std::filesystem::exists(fileOf(typed)));
+    CHECK(std::filesystem::exists(cache / "notes.rulemap"));
+    const std::filesystem::directory_iterator files(cache);
+    CHECK(std::distance(begin(files), end(files)) == std::ptrdiff_t(RuleMapCache::kMost) + 1);
 }
 
 TEST_CASE("files: a missing one is named, includes stay in their folder") {
