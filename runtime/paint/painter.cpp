@@ -50,19 +50,13 @@ Status ensure(Device& device, Buffer& buffer, const char* name, uint64_t bytes) 
     return Done{};
 }
 
-// Room for so many items, of which the first `kept` stay.
-Status makeRoom(Commands& commands, Buffer& buffer, const char* name, size_t kept, size_t items, uint64_t itemBytes) {
-    Buffer before = std::move(buffer);
-    if (before && before.size() >= items * itemBytes) {
-        buffer = std::move(before);
-        return Done{};
-    }
-    Status made = ensure(commands.device(), buffer, name, std::max(items * itemBytes, 2 * before.size()));
-    if (!made) {
-        buffer = std::move(before);
-        return made;
-    }
-    if (kept) commands.copy(before, buffer, kept * itemBytes);
+// A buffer with room for so many items that holds the first `kept` of `before`; none if `before` has that room.
+Result<Buffer> roomier(Commands& commands, const Buffer& before, const char* name, size_t kept, size_t items,
+                       uint64_t itemBytes) {
+    if (before && before.size() >= items * itemBytes) return Buffer();
+    Result<Buffer> made =
+        Buffer::create(commands.device(), name, std::max<uint64_t>(items * itemBytes, 2 * before.size()));
+    if (made && kept) commands.copy(before, *made, kept * itemBytes);
     return made;
 }
 
@@ -94,44 +88,34 @@ Status Painter::upload(Commands& commands, const std::vector<uint32_t>& words) {
     return room ? commands.upload(words_, words) : room;
 }
 
-// Blocks that were not kept after all.
-void Painter::forgetLast(BlockRecord& record, uint32_t count) {
-    for (; count > 0; --count) {
-        record.slots_[record.blocks_.back()] = kNoSlot;
-        record.blocks_.pop_back();
-    }
-}
-
 Result<std::vector<Painter::Placed>> Painter::begin(Commands& commands, std::span<PaintJob> jobs) {
     std::vector<uint32_t> words;
     std::vector<Placed> placed(jobs.size());
-    Status room = Done{};
     const auto put = [&](std::span<const uint32_t> list) {
         words.insert(words.end(), list.begin(), list.end());
         return (words.size() - list.size()) * sizeof(uint32_t);
     };
     for (size_t j = 0; j < jobs.size(); ++j) {
         BlockRecord& record = *jobs[j].record;
+        Placed& p = placed[j];
         const uint32_t side = jobs[j].canvas.surface.levels[0].size / 8;
         record.slots_.resize(size_t(side) * side, kNoSlot);
-        const uint32_t known = uint32_t(record.blocks_.size());
+        const size_t known = record.blocks_.size();
         std::vector<uint32_t> slots;
         for (uint32_t block : jobs[j].blocks) {
-            if (record.slots_[block] == kNoSlot) {
-                record.slots_[block] = uint32_t(record.blocks_.size());
-                record.blocks_.push_back(block);
-            }
-            slots.push_back(record.slots_[block]);
+            const bool fresh = record.slots_[block] == kNoSlot;
+            slots.push_back(fresh ? uint32_t(known + p.freshBlocks.size()) : record.slots_[block]);
+            if (fresh) p.freshBlocks.push_back(block);
         }
-        if (room) room = makeRoom(commands, record.texels_, "stroke record", known, record.blocks_.size(), kBlockBytes);
-        placed[j] = {put(jobs[j].blocks), put(slots), put(std::span(record.blocks_).subspan(known)),
-                     uint32_t(record.blocks_.size()) - known};
+        Result<Buffer> room =
+            roomier(commands, record.texels_, "stroke record", known, known + p.freshBlocks.size(), kBlockBytes);
+        if (!room) return room.failure();
+        p.texels = std::move(*room);
+        p.blocks = put(jobs[j].blocks);
+        p.slots = put(slots);
+        p.fresh = put(p.freshBlocks);
     }
-    if (room) room = upload(commands, words);
-    if (!room) {
-        for (size_t j = 0; j < jobs.size(); ++j) forgetLast(*jobs[j].record, placed[j].freshCount);
-        return room.failure();
-    }
+    if (Status sent = upload(commands, words); !sent) return sent.failure();
     commands.barrier(Use::transfer, Use::compute);
 
     Pass pass(commands, "paint save");
@@ -139,18 +123,35 @@ Result<std::vector<Painter::Placed>> Painter::begin(Commands& commands, std::spa
         Placed& p = placed[j];
         for (uint64_t* list : {&p.blocks, &p.slots, &p.fresh}) *list += words_.address();
         const BlockRecord& record = *jobs[j].record;
-        if (p.freshCount)
+        if (!p.freshBlocks.empty())
             move(pass, {wordsOf(*jobs[j].canvas.layer),
-                        wordsOf(record.texels_),
+                        wordsOf(p.texels ? p.texels : record.texels_),
                         at<UintBuf, uint32_t>(p.fresh),
                         {},
-                        p.freshCount,
-                        uint32_t(record.blocks_.size()) - p.freshCount,
+                        uint32_t(p.freshBlocks.size()),
+                        uint32_t(record.blocks_.size()),
                         kBlocksSave,
                         0});
     }
     pass.barrier(Use::compute, Use::compute);
     return placed;
+}
+
+Status Painter::submit(Commands& commands, std::span<PaintJob> jobs, std::vector<Placed> placed) {
+    for (size_t j = 0; j < jobs.size(); ++j)  // the rest doesn't fail once the GPU has been told
+        jobs[j].record->blocks_.reserve(jobs[j].record->blocks_.size() + placed[j].freshBlocks.size());
+    Result<uint64_t> submitted = commands.submit();
+    if (!submitted) return submitted.failure();
+    for (size_t j = 0; j < jobs.size(); ++j) {
+        BlockRecord& record = *jobs[j].record;
+        if (placed[j].texels) record.texels_ = std::move(placed[j].texels);
+        if (placed[j].places) record.places_ = std::move(placed[j].places);
+        for (uint32_t block : placed[j].freshBlocks) {
+            record.slots_[block] = uint32_t(record.blocks_.size());
+            record.blocks_.push_back(block);
+        }
+    }
+    return Done{};
 }
 
 Status Painter::dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs) {
@@ -173,8 +174,7 @@ Status Painter::dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<cons
                                environment(jobs[j].canvas, (*placed)[j].blocks, jobs[j].blocks.size()), {stroke_});
         pass.barrier(Use::compute, Use::compute | Use::transfer);
     }
-    Result<uint64_t> submitted = commands->submit();
-    return submitted ? Status(Done{}) : submitted.failure();
+    return submit(*commands, jobs, std::move(*placed));
 }
 
 Status Painter::fill(std::span<PaintJob> jobs, float value) {
@@ -194,8 +194,7 @@ Status Painter::fill(std::span<PaintJob> jobs, float value) {
                         kBlocksFill,
                         floatBitsToUint(value)});
     }
-    Result<uint64_t> submitted = commands->submit();
-    return submitted ? Status(Done{}) : submitted.failure();
+    return submit(*commands, jobs, std::move(*placed));
 }
 
 Status Painter::makeSmoothing() {
@@ -229,7 +228,7 @@ Status Painter::smooth(PaintJob& job, Reach reach, BrushRecord brush, std::span<
     PaintEnv env = environment(job.canvas, placed->front().blocks, count);
     env.result = at<FloatBuf, float>(result_.address());
     env.slots = at<UintBuf, uint32_t>(placed->front().slots);
-    env.places = wordsOf(job.record->places_);
+    env.places = wordsOf(placed->front().places ? placed->front().places : job.record->places_);
     brush.fine = reach.texels < kLeastReach;
     brush.dabs = 1;
     for (const DabRecord& dab : dabs)
@@ -247,36 +246,39 @@ Status Painter::smooth(PaintJob& job, Reach reach, BrushRecord brush, std::span<
             move(pass, {wordsOf(*job.canvas.layer), wordsOf(result_), env.blocks, {}, count, 0, kBlocksTake, 0});
             pass.barrier(Use::compute, Use::compute | Use::transfer);
         }
-    Result<uint64_t> submitted = commands->submit();
-    return submitted ? Status(Done{}) : submitted.failure();
+    return submit(*commands, {&job, 1}, std::move(*placed));
 }
 
-Status Painter::findPlaces(Commands& commands, const PaintJob& job, const Placed& placed, Reach reach) {
-    if (!placed.freshCount) return Done{};
-    BlockRecord& record = *job.record;
-    const size_t blocks = record.blocks_.size(), known = blocks - placed.freshCount;
-    Status room = makeRoom(commands, record.places_, "places of smoothing", known, blocks, kPlacesBytes);
-    if (room) room = ensure(device_, walkers_, "texels that walk", 4 + placed.freshCount * kBlockBytes);
-    if (!room) return room;
+Status Painter::findPlaces(Commands& commands, const PaintJob& job, Placed& placed, Reach reach) {
+    const uint32_t fresh = uint32_t(placed.freshBlocks.size());
+    if (fresh == 0) return Done{};
+    const BlockRecord& record = *job.record;
+    const size_t known = record.blocks_.size();
+    Result<Buffer> room =
+        roomier(commands, record.places_, "places of smoothing", known, known + fresh, kPlacesBytes);
+    if (!room) return room.failure();
+    placed.places = std::move(*room);
+    Status walkers = ensure(device_, walkers_, "texels that walk", 4 + fresh * kBlockBytes);
+    if (!walkers) return walkers;
     commands.fill(walkers_, 0, 0, 4);
     commands.barrier(Use::transfer, Use::compute);
     PlacesEnv env{};
     env.texels = job.canvas.surface.levels[0].texels;
     env.blocks = at<UintBuf, uint32_t>(placed.fresh);
-    env.places = at<UintBuf, uint32_t>(record.places_.address() + known * kPlacesBytes);
+    env.places = at<UintBuf, uint32_t>((placed.places ? placed.places : record.places_).address() + known * kPlacesBytes);
     env.walkers = wordsOf(walkers_);
     env.surfaces = job.canvas.surfaces;
     env.perScale = 1 / job.canvas.surface.scale;
     env.reach = reach.metres;
     env.quads = reach.texels >= kQuadReach;
-    env.count = placed.freshCount;
+    env.count = fresh;
     env.instance = job.canvas.instance;
     env.size = job.canvas.surface.levels[0].size;
     Pass pass(commands, "paint places");
-    pass.dispatchItems(places_, placed.freshCount * kBlockTexels, env);
+    pass.dispatchItems(places_, fresh * kBlockTexels, env);
     pass.barrier(Use::compute, Use::compute);
     // As many as there may be: those beyond the list end at once.
-    pass.dispatchItems(walk_, placed.freshCount * kBlockTexels, env);
+    pass.dispatchItems(walk_, fresh * kBlockTexels, env);
     pass.barrier(Use::compute, Use::compute | Use::transfer);
     return Done{};
 }
@@ -289,8 +291,7 @@ Status Painter::replace(PaintJob& job, std::span<const float> texels) {
     commands->barrier(Use::compute, Use::transfer);
     Status uploaded = commands->upload(*job.canvas.layer, std::as_bytes(texels));
     if (!uploaded) return uploaded;
-    Result<uint64_t> submitted = commands->submit();
-    return submitted ? Status(Done{}) : submitted.failure();
+    return submit(*commands, {&job, 1}, std::move(*placed));
 }
 
 Result<std::vector<uint64_t>> Painter::differences(const Canvas& canvas, const BlockRecord& record) {

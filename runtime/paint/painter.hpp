@@ -77,15 +77,17 @@ class Painter {
     // Where a job's lists lie on the GPU: addresses of numbers of blocks, and of their places in the record.
     struct Placed {
         uint64_t blocks = 0, slots = 0;
-        uint64_t fresh = 0;  // those that are new to the record, its last
-        uint32_t freshCount = 0;
+        uint64_t fresh = 0;  // those that are new to the record, and become its last
+        std::vector<uint32_t> freshBlocks;
+        Buffer texels, places;  // roomier ones, where the record's don't suffice
     };
-    // Puts the jobs' blocks on the GPU, and keeps those that are new to their records.
+    // Puts the jobs' blocks on the GPU, and records that those are kept that are new to their records. These know of it
+    // only once all is submitted: what is dropped before has kept nothing.
     Result<std::vector<Placed>> begin(Commands& commands, std::span<PaintJob> jobs);
-    static void forgetLast(BlockRecord& record, uint32_t count);
+    static Status submit(Commands& commands, std::span<PaintJob> jobs, std::vector<Placed> placed);
     Status makeSmoothing();
     // The same for all dabs of a stroke: where texels of the new blocks look.
-    Status findPlaces(Commands& commands, const PaintJob& job, const Placed& placed, Reach reach);
+    Status findPlaces(Commands& commands, const PaintJob& job, Placed& placed, Reach reach);
     // Of each block of a record the texels that differ from the layer's, bit 8 y + x. Waits for the GPU.
     Result<std::vector<uint64_t>> differences(const Canvas& canvas, const BlockRecord& record);
     Status upload(Commands& commands, const std::vector<uint32_t>& words);

@@ -200,12 +200,11 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
     Status painted =
         stroke.smooths ? smooth(context, jobs, stroke, records) : context.painter->dabs(jobs, stroke.brush, records);
-    if (!painted) return failGpu(&context, painted.failure());
-    for (const auto& [id, blocks] : touched) {
+    for (const auto& [id, blocks] : touched) {  // smoothing that failed may have come to some of the surfaces
         const PlacedSurface& surface = *context.surfaces.find(id);
         layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, records, stroke.radius));
     }
-    return ESP_OK;
+    return painted ? ESP_OK : failGpu(&context, painted.failure());
 }
 
 // `changed` is told of each part's blocks that aren't as they were, and which of their texels.
