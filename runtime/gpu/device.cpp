@@ -64,6 +64,10 @@ void Device::hostFrameDone(uint64_t frame) {
     collect();
 }
 
+void Device::hostSubmitted() {
+    retireQueue_->hostSubmitted(submitted_ + 1);
+}
+
 bool Device::finished(uint64_t recording) const {
     return recording < retireQueue_->oldestPending();
 }

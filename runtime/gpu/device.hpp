@@ -100,6 +100,9 @@ class Device {
     void collect();
     // The host's GPU work up to this frame number is done (see Commands::into).
     void hostFrameDone(uint64_t frame);
+    // The host has submitted all its recordings to our queue: they are done when our next submission is, even if it
+    // says no more of its frames.
+    void hostSubmitted();
     // Whether the recording of this number (Commands::serial()), and all before it, are known to have finished.
     bool finished(uint64_t recording) const;
     // Objects dropped, but still waiting for the GPU.

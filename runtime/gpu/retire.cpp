@@ -10,7 +10,7 @@
 namespace espalier {
 
 uint64_t RetireQueue::beginRecording() {
-    recordings_.push_back({++lastSerial_, Recording::open, 0});
+    recordings_.push_back({.serial = ++lastSerial_, .stage = Recording::open, .value = 0});
     return lastSerial_;
 }
 
@@ -21,15 +21,20 @@ RetireQueue::Recording& RetireQueue::find(uint64_t serial) {
 }
 
 void RetireQueue::recordingSubmitted(uint64_t serial, uint64_t timelineValue) {
-    find(serial) = {serial, Recording::submitted, timelineValue};
+    find(serial) = {.serial = serial, .stage = Recording::submitted, .value = timelineValue};
 }
 
 void RetireQueue::recordingIntoHost(uint64_t serial, uint64_t frame) {
-    find(serial) = {serial, Recording::host, frame};
+    find(serial) = {.serial = serial, .stage = Recording::host, .value = frame};
 }
 
 void RetireQueue::recordingDiscarded(uint64_t serial) {
     std::erase_if(recordings_, [&](const Recording& r) { return r.serial == serial; });
+}
+
+void RetireQueue::hostSubmitted(uint64_t timelineValue) {
+    for (Recording& r : recordings_)
+        if (r.stage == Recording::host) r.following = std::min(r.following, timelineValue);
 }
 
 void RetireQueue::add(std::function<void()> destroy) {
@@ -39,7 +44,7 @@ void RetireQueue::add(std::function<void()> destroy) {
 void RetireQueue::collect(uint64_t timelineValue, uint64_t hostFrame) {
     std::erase_if(recordings_, [&](const Recording& r) {
         return (r.stage == Recording::submitted && r.value <= timelineValue) ||
-               (r.stage == Recording::host && r.value <= hostFrame);
+               (r.stage == Recording::host && (r.value <= hostFrame || r.following <= timelineValue));
     });
     const uint64_t oldest = oldestPending();
     while (!entries_.empty() && entries_.front().serial < oldest) {

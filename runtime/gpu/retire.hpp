@@ -19,6 +19,9 @@ class RetireQueue {
     void recordingSubmitted(uint64_t serial, uint64_t timelineValue);
     void recordingIntoHost(uint64_t serial, uint64_t frame);
     void recordingDiscarded(uint64_t serial);
+    // The host has submitted all that it had recorded, so a submission of ours that follows it on the queue, with this
+    // value, finishes no earlier.
+    void hostSubmitted(uint64_t timelineValue);
 
     void add(std::function<void()> destroy);
     // All work up to these points is done.
@@ -33,7 +36,8 @@ class RetireQueue {
     struct Recording {
         uint64_t serial;
         enum { open, submitted, host } stage;
-        uint64_t value;  // of the timeline, or the host's frame
+        uint64_t value;              // of the timeline, or the host's frame
+        uint64_t following = ~0ull;  // of the timeline: a submission behind the host's frame
     };
     struct Entry {
         uint64_t serial;  // the newest recording that may use it

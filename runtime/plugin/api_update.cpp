@@ -149,6 +149,7 @@ EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
 
 EspResult espUpdate(EspContext* context) {
     return guarded(context, [&] {
+        context->device->hostSubmitted();  // as espalier.h asks for; a host that draws no more tells no more of frames
         if (EspResult bad = updateTown(*context)) return bad;
         return update(*context);
     });

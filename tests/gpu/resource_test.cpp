@@ -100,6 +100,30 @@ TEST_CASE("the retire queue waits for every recording that was begun before") {
     CHECK(destroyed == 2);  // nothing runs
 }
 
+TEST_CASE("a host's frame has finished when what was submitted behind it has") {
+    RetireQueue queue;
+    int destroyed = 0;
+    const uint64_t first = queue.beginRecording();
+    queue.recordingIntoHost(first, 1);
+    queue.add([&] { ++destroyed; });
+    queue.collect(4, 0);  // what was submitted before says nothing
+    CHECK(destroyed == 0);
+    queue.hostSubmitted(5);
+    const uint64_t second = queue.beginRecording();
+    queue.recordingIntoHost(second, 2);  // isn't submitted yet
+    queue.add([&] { ++destroyed; });
+    queue.collect(4, 0);
+    CHECK(destroyed == 0);
+    queue.collect(5, 0);
+    CHECK(destroyed == 1);
+    queue.hostSubmitted(7);
+    queue.hostSubmitted(9);  // the first that follows it counts
+    queue.collect(6, 1);
+    CHECK(destroyed == 1);
+    queue.collect(7, 1);
+    CHECK(destroyed == 2);
+}
+
 TEST_CASE("objects dropped in mid-flight live until the GPU is done") {
     TestDevice t;
     Buffer kept = must(Buffer::create(t.device, "kept", 4096 * 4));

@@ -270,3 +270,28 @@ TEST_CASE("growth in a host's scene") {
     refusals(host, grown);
     picture(host, grown);
 }
+
+TEST_CASE("a host that draws no more, but paints and updates, takes no more memory for it") {
+    DrawingHost host;
+    Grown grown(host);
+    host.draw(cameraAt(1.3f, .9f, 1.9f), kBoxes, grown.context);
+    EspBrush brush = espDefaultBrush();
+    brush.layer = "mask";
+    brush.radius = .3f;
+    const auto bytesAfter = [&](int updates) {
+        for (int i = 0; i < updates; ++i) {
+            const EspDab dab = {{.5f, .5f, 0}, {0, 0, 1}, 1};
+            EspStroke stroke{};
+            REQUIRE(espBeginStroke(grown.context, &brush, &stroke) == ESP_OK);
+            REQUIRE(espStrokeDabs(grown.context, stroke, &dab, 1) == ESP_OK);
+            REQUIRE(espEndStroke(grown.context, stroke) == ESP_OK);
+            REQUIRE(espDestroyStroke(grown.context, stroke) == ESP_OK);
+            REQUIRE(espUpdate(grown.context) == ESP_OK);
+        }
+        EspStats stats{};
+        REQUIRE(espReadStats(grown.context, &stats) == ESP_OK);
+        return stats.totalBytes;
+    };
+    const uint64_t settled = bytesAfter(8);
+    CHECK(bytesAfter(64) <= settled + (64 << 10));
+}
