@@ -412,7 +412,10 @@ typedef struct EspGrowDef {
 ESP_API EspGrowDef espDefaultGrowDef(void);
 ESP_API EspResult espSetGrow(EspContext* context, const EspGrowDef* def);
 
-/* Grows what changed since the last call. Does nothing, and costs nothing, if nothing did. */
+/* Grows what changed since the last call. Does nothing, and costs nothing, if nothing did. A town and plants grow each for
+ * itself: where one fails the other grows, what stood of it stands, and the town's failure is given first. What has failed
+ * is told by each call until its inputs change; for want of memory (ESP_OUT_OF_MEMORY) it is tried again after 1, 2, 4 ...
+ * calls, at most 1,024. */
 ESP_API EspResult espUpdate(EspContext* context);
 
 typedef struct EspCamera {

@@ -111,6 +111,7 @@ class GpuGrowth final : public Growth {
 
     // All anew: growth.cpp.
     Status growAll(const GrowthInputs& inputs);
+    Status growWhole(const GrowthInputs& inputs);
     Result<Outcome> attempt(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
     Result<Outcome> attemptShaders(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
     Result<Outcome> attemptNative(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);

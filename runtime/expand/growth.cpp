@@ -237,7 +237,15 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     return growAll(inputs);
 }
 
+// What has failed leaves the room that it asked for to nobody: later growth may need far less.
 Status GpuGrowth::growAll(const GrowthInputs& inputs) {
+    const GrowthRoom before = room_;
+    Status grown = growWhole(inputs);
+    if (!grown) room_ = before;
+    return grown;
+}
+
+Status GpuGrowth::growWhole(const GrowthInputs& inputs) {
     room_.items = std::max(room_.items, uint32_t(inputs.seeds.size()));
     const FrozenSum frozen = sumOf(inputs.frozen, uint32_t(inputs.seeds.size()));
     GrowthLimits limits = inputs.limits;  // for the rest

@@ -328,8 +328,7 @@ EspResult espMaterialise(EspContext* context, EspTriangles* out) {
         inputs.growth = context->growth->view();
         inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context->surfaceTable.address());
         inputs.surfacesRevision = context->tablesRevision;
-        context->vertices.clear();
-        context->indices.clear();
+        context->dropTriangles();
         if (inputs.growth.nodeCount > 0) {
             Result<EmittedTriangles> triangles = context->renderer->materialise(inputs);
             if (!triangles) return failGpu(context, triangles.failure());

@@ -90,6 +90,7 @@ void replaceHouse(LoadedTown& town, uint32_t index, const RoofStructure& made, s
     house.firstFace = firstFace;  // the town's faces are what it was loaded with; atoms hold what counts
     house.faceCount = faceCount;
     town.changed.push_back(index);
+    town.revision += 1;
 }
 
 EspResult setHouse(EspContext& context, uint32_t index, const Footprint& footprint) {

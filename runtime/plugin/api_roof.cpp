@@ -6,6 +6,7 @@
 
 #include "runtime/emit/terminals.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/roof/house_tables.hpp"
 #include "runtime/roof/shapes.hpp"
 
 namespace espalier {
@@ -76,22 +77,19 @@ Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
         if (d.file.empty()) d.file = town.name;
     tell(context, diagnostics);
     if (town.structure.houses.empty()) return Failure(town.name, "holds no building whose roof could be made");
-    town.number = ++context.towns;
+    town.number = town.tablesNumber = ++context.towns;
     town.layers = PlanLayers(town.structure);
     town.ground = groundUnder(town.structure, def);
     return town;
 }
 
-}  // namespace
-
-EspResult updateTown(EspContext& context) {
-    if (!context.town || context.town->grammar == 0) return ESP_OK;
+// Grows what the town's inputs ask for.
+EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
     LoadedTown& town = *context.town;
-    const LoadedGrammar* grammar = context.grammars.find(town.grammar);
-    if (!grammar) {  // destroyed: nothing grows any more
-        town.grammar = 0;
-        town.view = {};
-        return ESP_OK;
+    if (!town.changed.empty() && mostlyUnused(town.tables)) {
+        town.tables = withoutUnused(town.tables);
+        town.tablesNumber = ++context.towns;
+        town.stale = true;
     }
     if (context.roofBounds.empty()) {
         Result<std::vector<RoofMesh>> bounds = context.renderer->loadRoofMeshes(TerminalData(*context.roofMeshes));
@@ -105,26 +103,46 @@ EspResult updateTown(EspContext& context) {
     }
     RoofInputs inputs;
     inputs.town = &town.tables;
-    inputs.townRevision = town.number;
-    inputs.grammar = &grammar->map;
-    inputs.grammarRevision = grammar->revision;
+    inputs.townRevision = town.tablesNumber;
+    inputs.grammar = &grammar.map;
+    inputs.grammarRevision = grammar.revision;
     inputs.meshes = context.roofBounds;
-    const bool painted = bindTownLayers(context, inputs);
+    bindTownLayers(context, inputs);
     Status grown = Done{};
-    if (town.stale || town.grammarRevision != grammar->revision)
+    if (town.stale || town.grammarRevision != grammar.revision)
         grown = context.roofs->grow(inputs);
     else if (!town.changed.empty())
         grown = context.roofs->growHouses(inputs, town.changed);
-    else if (painted)
+    else if (!town.painted.empty())
         grown = context.roofs->showLayers(inputs);
     if (!grown && grown.failure().diagnostics.front().file == "roofs")
         return fail(&context, ESP_INVALID_CONTENT, grown.failure().text());
     if (!grown) return failGpu(&context, grown.failure());
+    const RoofView view = context.roofs->view();
+    if (view.revision != town.view.revision) context.dropTriangles();
     town.stale = false;
     town.changed.clear();
-    town.grammarRevision = grammar->revision;
-    town.view = context.roofs->view();
+    town.painted.clear();
+    town.grammarRevision = grammar.revision;
+    town.view = view;
     return ESP_OK;
+}
+
+}  // namespace
+
+EspResult updateTown(EspContext& context) {
+    if (!context.town || context.town->grammar == 0) return ESP_OK;
+    LoadedTown& town = *context.town;
+    const LoadedGrammar* grammar = context.grammars.find(town.grammar);
+    if (!grammar) {  // destroyed: nothing grows any more
+        town.grammar = 0;
+        town.view = {};
+        return ESP_OK;
+    }
+    const FailedInputs::Revision inputs = {town.revision, grammar->revision};
+    if (!context.device->lost() && town.failed.known(inputs)) return town.failed.tell(context.error);
+    const EspResult grown = growTown(context, *grammar);
+    return grown == ESP_OK ? town.failed.forget() : town.failed.note(inputs, grown, context.error);
 }
 
 }  // namespace espalier
@@ -152,6 +170,7 @@ EspResult espSetTownGrammar(EspContext* context, EspGrammar id) {
                         grammar->name + ": makes no roofs; a town needs a grammar with Extrude, Join, Split ...");
         context->town->grammar = id.id;
         context->town->stale = true;
+        context->town->revision += 1;
         return ESP_OK;
     });
 }

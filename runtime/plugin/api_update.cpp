@@ -16,13 +16,7 @@ void noteMoved(EspContext& context) {
     });
 }
 
-EspResult update(EspContext& context) {
-    if (context.grownRevision == context.revision) return ESP_OK;
-    // What failed fails again; trying it anew in each frame would only cost.
-    if (context.failedRevision == context.revision && !context.device->lost()) {
-        context.error = context.failure;
-        return ESP_INVALID_CONTENT;
-    }
+EspResult growPlants(EspContext& context) {
     Status tables = context.refreshTables();
     if (!tables) return failGpu(&context, tables.failure());
     noteMoved(context);
@@ -100,18 +94,24 @@ EspResult update(EspContext& context) {
         context.changes.everything = true;
     inputs.changes = &context.changes;
     Status grown = context.growth->grow(inputs);
-    if (!grown && grown.failure().diagnostics.front().file == "growth") {
-        context.failedRevision = context.revision;
-        context.failure = grown.failure().text();
-        return fail(&context, ESP_INVALID_CONTENT, context.failure);
-    }
+    if (!grown && grown.failure().diagnostics.front().file == "growth")
+        return fail(&context, ESP_INVALID_CONTENT, grown.failure().text());
     if (!grown) return failGpu(&context, grown.failure());
     context.grownRevision = context.revision;
     context.grownGrammars = std::move(ids);
     context.grownSeeds = std::move(seedIds);
     context.changes = {.everything = false, .cells = {}, .params = {}, .grammars = {}};
     context.moved.clear();
+    context.dropTriangles();
     return ESP_OK;
+}
+
+EspResult updatePlants(EspContext& context) {
+    if (context.grownRevision == context.revision) return ESP_OK;
+    if (!context.device->lost() && context.failed.known({context.revision, 0}))
+        return context.failed.tell(context.error);
+    const EspResult grown = growPlants(context);  // contacts that it finds may raise the revision
+    return grown == ESP_OK ? context.failed.forget() : context.failed.note({context.revision, 0}, grown, context.error);
 }
 
 }  // namespace
@@ -150,8 +150,12 @@ EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
 EspResult espUpdate(EspContext* context) {
     return guarded(context, [&] {
         context->device->hostSubmitted();  // as espalier.h asks for; a host that draws no more tells no more of frames
-        if (EspResult bad = updateTown(*context)) return bad;
-        return update(*context);
+        const EspResult town = updateTown(*context);
+        const std::string why = context->error;
+        const EspResult plants = updatePlants(*context);
+        if (town == ESP_OK) return plants;
+        context->error = why;
+        return town;
     });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <filesystem>
@@ -124,8 +125,8 @@ class TwinTable {
     // wanted: 0 for the first that is free. False: it is taken, or beyond 2^20.
     bool take(uint32_t number, uint32_t wanted, uint32_t& twin);
     void release(uint32_t number, uint32_t twin);
-
     size_t numbers() const { return numbers_.size(); }  // that are planted
+
   private:
     static constexpr uint32_t kMaxTwin = 1u << 20;
     struct Uses {
@@ -151,6 +152,38 @@ struct PaintStroke {
     PlanRecord plan;
 };
 
+// Inputs that couldn't be grown, and why. What failed fails again, and trying it anew in each frame would only cost; but
+// memory may have come back, so growth that found too little is tried again after 1, 2, 4 ... calls, at most 1,024.
+class FailedInputs {
+  public:
+    using Revision = std::array<uint64_t, 2>;
+
+    // Whether these inputs are known to fail and aren't to be tried by this call.
+    bool known(Revision inputs) {
+        if (result_ == ESP_OK || inputs != inputs_) return false;
+        return result_ != ESP_OUT_OF_MEMORY || ++calls_ < wait_;
+    }
+    EspResult tell(std::string& error) const {
+        error = why_;
+        return result_;
+    }
+    EspResult note(Revision inputs, EspResult result, const std::string& why) {
+        const bool again = result_ == ESP_OUT_OF_MEMORY && inputs == inputs_;
+        wait_ = again ? std::min(2 * wait_, 1024u) : 1;
+        calls_ = 0;
+        inputs_ = inputs;
+        why_ = why;
+        return result_ = result;
+    }
+    EspResult forget() { return result_ = ESP_OK; }
+
+  private:
+    EspResult result_ = ESP_OK;
+    Revision inputs_{};
+    uint32_t wait_ = 1, calls_ = 0;
+    std::string why_;
+};
+
 // A town and what has been made of it.
 struct LoadedTown {
     std::string name;
@@ -163,8 +196,11 @@ struct LoadedTown {
     bool stale = true;              // all of it has to grow
     std::vector<uint32_t> changed;  // houses that have to, if not all
     uint64_t grammarRevision = 0;   // what the roofs were grown from
+    uint64_t revision = 1;          // of houses, layers and the choice of a grammar
+    FailedInputs failed;
     GroundLook ground;
-    uint64_t number = 0;  // unlike any other town's of the context, from 1
+    uint64_t number = 0;        // unlike any other town's of the context, from 1
+    uint64_t tablesNumber = 0;  // of `tables`, likewise
     PlanLayers layers;
     std::vector<std::pair<std::string, PlanRect>> painted;  // layers that changed since the roofs last grew
     std::vector<float> means;                               // [house * kRoofLayers + layer of the grammar]
@@ -218,8 +254,7 @@ struct EspContext {
     std::vector<uint32_t> grownGrammars;  // ids, in the order of growth's indices
     uint64_t revision = 1;                // of everything that growth depends on
     uint64_t grownRevision = 0;           // what the growth was made from
-    uint64_t failedRevision = 0;          // inputs that can't be grown, and why
-    std::string failure;
+    espalier::FailedInputs failed;
     bool contactsStale = false;  // surfaces came, went or moved
     std::vector<bool> moved;     // [instance]: plants on it may stand on what has moved since the last growth
     std::vector<espalier::SurfacePair> pairs;
@@ -238,13 +273,15 @@ struct EspContext {
 
     bool hasPicture = false;
     uint32_t pictureWidth = 0, pictureHeight = 0;
-    std::vector<std::byte> vertices, indices;  // of the last espMaterialise
+    std::vector<std::byte> vertices, indices;  // of the last espMaterialise, until something grows
 
     // An input of growth changed in a way that only a full growth answers.
     void touch() {
         changes.everything = true;
         ++revision;
     }
+    // The arrays of espMaterialise.
+    void dropTriangles() { vertices = {}, indices = {}; }
     // The index by which growth and GrowthChanges know a grammar.
     uint32_t grammarIndex(uint32_t id) const;
     uint32_t surfaceSlots() const;
@@ -257,7 +294,7 @@ namespace espalier {
 EspResult fail(const EspContext* context, EspResult code, std::string message);
 // Names of the meshes that grammars of roofs may ask for; reads their file the first time.
 Status knowRoofMeshes(EspContext& context);
-// Grows what has changed of the town.
+// Grows what has changed of the town; on failure the last roofs stand, and what changed waits.
 EspResult updateTown(EspContext& context);
 // What strokes do to layers of the town; those that its grammar doesn't read are left alone.
 void paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs);
@@ -265,8 +302,7 @@ void fillTown(EspContext& context, PaintStroke& stroke, float value);
 void closeTown(EspContext& context, PaintStroke& stroke);
 void swapTown(EspContext& context, PaintStroke& stroke);
 // Gives roofs the town's layers, and adds to LoadedTown::changed the houses that have read what was painted since.
-// True: something was.
-bool bindTownLayers(EspContext& context, RoofInputs& inputs);
+void bindTownLayers(EspContext& context, RoofInputs& inputs);
 // Adds the town's roofs to what espMaterialise gives: TriangleVertex, uint32_t.
 EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices, std::vector<std::byte>& indices);
 // The number by which the town's grammar knows the layer; kNoIndex.

@@ -15,6 +15,7 @@ const LoadedGrammar* grammarOf(const EspContext& context) {
 }
 
 void note(LoadedTown& town, const std::string& name, const PlanRect& rect) {
+    town.revision += 1;
     for (auto& [known, changed] : town.painted)
         if (known == name) return changed.add(rect);
     town.painted.push_back({name, rect});
@@ -83,7 +84,7 @@ void swapTown(EspContext& context, PaintStroke& stroke) {
         note(*context.town, stroke.layer, context.town->layers.swap(*layer, stroke.plan));
 }
 
-bool bindTownLayers(EspContext& context, RoofInputs& inputs) {
+void bindTownLayers(EspContext& context, RoofInputs& inputs) {
     LoadedTown& town = *context.town;
     const LoadedGrammar& grammar = *grammarOf(context);
     const auto& houses = town.structure.houses;
@@ -114,9 +115,6 @@ bool bindTownLayers(EspContext& context, RoofInputs& inputs) {
     inputs.means = town.means;
     std::ranges::sort(town.changed);
     town.changed.erase(std::unique(town.changed.begin(), town.changed.end()), town.changed.end());
-    const bool painted = !town.painted.empty();
-    town.painted.clear();
-    return painted;
 }
 
 uint32_t shownTownLayer(const EspContext& context, const char* name) {

@@ -5,60 +5,13 @@
 #include <chrono>
 
 #include "runtime/roof/gpu_roofs.hpp"
+#include "runtime/roof/house_tables.hpp"
 
 namespace espalier {
 namespace {
 
-// Houses of a town as a town of their own.
-struct FewHouses {
-    RoofTables tables;
-    std::vector<uint32_t> houses, atoms, regions;  // [of ours]: the town's numbers
-
-    explicit FewHouses(const RoofTables& town, std::span<const uint32_t> which) : houses(which.begin(), which.end()) {
-        for (uint32_t house : houses) {
-            const RoofTables::House& range = town.houses[house];
-            const uint32_t first = uint32_t(tables.atoms.size());
-            tables.houses.push_back({first, range.atomCount});
-            for (uint32_t i = 0; i < range.atomCount; ++i) {
-                atoms.push_back(range.firstAtom + i);
-                addAtom(town, town.atoms[range.firstAtom + i], first - range.firstAtom);
-            }
-        }
-        // Kernels read a region in any case.
-        if (tables.regions.empty()) tables.regions.push_back({}), regions.push_back(0);
-    }
-
-  private:
-    // shift: from the town's numbers of atoms to ours, modulo 2^32.
-    void addAtom(const RoofTables& town, RoofAtom atom, uint32_t shift) {
-        const auto pieces = std::span(town.pieces).subspan(atom.firstPiece, atom.pieceCount);
-        atom.firstPiece = uint32_t(tables.pieces.size());
-        atom.house = uint32_t(tables.houses.size() - 1);
-        for (RoofPiece piece : pieces) {
-            if (piece.upper != kNoIndex) piece.upper += shift;
-            tables.pieces.push_back(piece);
-        }
-        if (atom.region != kNoIndex) atom.region = addRegion(town, atom.region);
-        tables.atoms.push_back(atom);
-    }
-    uint32_t addRegion(const RoofTables& town, uint32_t number) {
-        RoofRegion region = town.regions[number];
-        const auto parts = std::span(town.parts).subspan(region.firstPart, region.partCount);
-        region.firstPart = uint32_t(tables.parts.size());
-        for (RoofPart part : parts) {
-            const auto planes = std::span(town.planes).subspan(part.firstPlane, part.counts & 255u);
-            part.firstPlane = uint32_t(tables.planes.size());
-            tables.planes.insert(tables.planes.end(), planes.begin(), planes.end());
-            tables.parts.push_back(part);
-        }
-        regions.push_back(number);
-        tables.regions.push_back(region);
-        return uint32_t(tables.regions.size() - 1);
-    }
-};
-
 // Records numbered as those behind `last`, and only what was made.
-void renumber(RoofRecords& made, const FewHouses& few, const RoofStatus& last, std::span<const uint32_t> generationOf) {
+void renumber(RoofRecords& made, const HouseTables& few, const RoofStatus& last, std::span<const uint32_t> generationOf) {
     const uint32_t ownRegions = uint32_t(few.tables.regions.size()), ownParts = uint32_t(few.tables.parts.size()),
                    ownPlanes = uint32_t(few.tables.planes.size());
     made.regions.erase(made.regions.begin(), made.regions.begin() + ownRegions);
@@ -80,7 +33,8 @@ void renumber(RoofRecords& made, const FewHouses& few, const RoofStatus& last, s
 
 Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<const uint32_t> houses) {
     const auto begin = std::chrono::steady_clock::now();
-    const FewHouses few(*inputs.town, houses);
+    HouseTables few(*inputs.town, houses);
+    if (few.tables.regions.empty()) few.tables.regions.emplace_back(), few.regions.push_back(0);  // kernels read one
     std::vector<float> means;
     for (uint32_t house : houses)
         for (float mean : inputs.meansOf(house)) means.push_back(mean);
@@ -122,7 +76,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<
     for (Status& step : steps)
         if (!step) return step.failure();
     for (uint32_t house : houses)
-        if (Status sent = commands->upload(generations_, generations.subspan(house * 4, 4), house * 4); !sent)
+        if (Status sent = commands->upload(set.generations, generations.subspan(house * 4, 4), house * 4); !sent)
             return sent.failure();
     if (Result<uint64_t> sent = commands->submit(); !sent) return sent.failure();
     outcome.grids = std::move(made.records.grids);

@@ -41,9 +41,9 @@ class GpuRoofs final : public RoofGrowth {
         Buffer buffer;
         uint32_t held = 0;
     };
-    // Regions, parts and planes that Join makes stand behind the town's.
+    // Regions, parts and planes that Join makes stand behind the town's. generations: [house], RoofView's.
     struct Set {
-        Buffer grids, runs;
+        Buffer grids, runs, generations;
         Table regions, parts, planes;
     };
     struct Outcome {
@@ -105,9 +105,10 @@ class GpuRoofs final : public RoofGrowth {
     Status uploadStarts(Commands& commands, const RoofTables& t, std::span<const uint32_t> houses);
     Status uploadGrammar(Commands& commands, const RoofInputs& inputs);
     Status uploadLayers(Commands& commands, const RoofInputs& inputs);
-    Status uploadHouses(Commands& commands, const RoofInputs& inputs, std::span<const uint32_t> houses);
+    Status uploadHouses(Commands& commands, const RoofInputs& inputs, const Set& set, std::span<const uint32_t> houses);
     RoofEnv environment(const RoofInputs& inputs, const Set& set) const;
 
+    Status growAll(const RoofInputs& inputs);
     // houses: those to grow, none: all. Goes through at most `waves` waves.
     Result<Outcome> expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses, RoofStatus status,
                            uint32_t waves);
@@ -136,8 +137,8 @@ class GpuRoofs final : public RoofGrowth {
     Set sets_[2];
     uint32_t front_ = 0;
     Table atoms_, pieces_;
-    Buffer starts_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, generations_, houseReads_,
-        means_, layerTable_, readback_;
+    Buffer starts_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, houseReads_, means_,
+        layerTable_, readback_;
     Buffer layers_[kRoofLayers];
     uint64_t grammarRevision_ = 0;
     uint32_t wavesAhead_ = 4;
@@ -148,6 +149,7 @@ class GpuRoofs final : public RoofGrowth {
     bool startsSent_ = false;                // `starts_` holds these
     uint32_t startCount_ = 0;                // of the expansion that is being recorded
     std::vector<uint32_t> generationOf_, reads_;
+    bool stands_ = false;            // what is published goes with the members above: no growth has failed since
     std::vector<Box> boxes_;         // [house]
     std::vector<Cells> houseCells_;  // [house], of what is drawn; empty: not counted since all have grown
     Cells replaced_;                 // of grids that aren't drawn any more

@@ -70,7 +70,7 @@ RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set) const {
     env.meshes = addressOf<RoofMeshBuf>(meshes_);
     env.status = addressOf<RoofStatusBuf>(status_);
     env.waves = addressOf<RoofWaveBuf>(waves_);
-    env.generations = addressOf<UintBuf>(generations_);
+    env.generations = addressOf<UintBuf>(set.generations);
     env.layers = addressOf<RoofLayerBuf>(layerTable_);
     env.means = addressOf<FloatBuf>(means_);
     env.reads = addressOf<UintBuf>(houseReads_);
@@ -128,7 +128,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, s
     if (Status s = uploadGrammar(*commands, inputs); !s) return s.failure();
     if (Status s = uploadTables(*commands, *inputs.town, set); !s) return s.failure();
     if (Status s = uploadStarts(*commands, *inputs.town, houses); !s) return s.failure();
-    if (Status s = uploadHouses(*commands, inputs, houses); !s) return s.failure();
+    if (Status s = uploadHouses(*commands, inputs, set, houses); !s) return s.failure();
     if (Status s = uploadLayers(*commands, inputs); !s) return s.failure();
     room_.scopes = std::max(room_.scopes, startCount_);
     for (Buffer& scopes : scopes_)
@@ -191,7 +191,7 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     view_.parts = addressOf<RoofPartBuf>(set.parts.buffer);
     view_.planes = addressOf<Vec4Buf>(set.planes.buffer);
     view_.meshes = addressOf<RoofMeshBuf>(meshes_);
-    view_.generations = addressOf<UintBuf>(generations_);
+    view_.generations = addressOf<UintBuf>(set.generations);
     view_.layers = addressOf<RoofLayerBuf>(layerTable_);
     view_.site = inputs.site;
     view_.gridCount = last_.grids;
@@ -225,9 +225,9 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
                    (last_.planes - own_.planes) * sizeof(vec4);
     stats_.reservedBytes = 0;
     for (const Set& s : sets_)
-        stats_.reservedBytes +=
-            s.grids.size() + s.runs.size() + s.regions.buffer.size() + s.parts.buffer.size() + s.planes.buffer.size();
-    for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1], &generations_})
+        stats_.reservedBytes += s.grids.size() + s.runs.size() + s.generations.size() + s.regions.buffer.size() +
+                                s.parts.buffer.size() + s.planes.buffer.size();
+    for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1]})
         stats_.reservedBytes += b->size();
 }
 
@@ -237,7 +237,16 @@ bool GpuRoofs::fits(const RoofStatus& s, const Set& set) {
            s.parts <= set.parts.buffer.size() / sizeof(RoofPart) && s.planes <= set.planes.buffer.size() / sizeof(vec4);
 }
 
+// What has failed leaves the room that it asked for to nobody: later growth may need far less.
 Status GpuRoofs::grow(const RoofInputs& inputs) {
+    const RoofRoom before = room_;
+    Status grown = growAll(inputs);
+    stands_ = bool(grown);
+    if (!grown) room_ = before;
+    return grown;
+}
+
+Status GpuRoofs::growAll(const RoofInputs& inputs) {
     const RoofTables& t = *inputs.town;
     noticeTown(inputs);
     generationOf_.assign(t.houses.size(), 0);
@@ -269,7 +278,7 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
     const RoofTables& t = *inputs.town;
     if (houses.empty()) return Done{};
     // A generation has eight bits, and what has gone is swept out by growing all anew when room runs out.
-    bool possible = view_.revision != 0 && generationOf_.size() == t.houses.size() && own_.holds(Counts::of(t)) &&
+    bool possible = stands_ && generationOf_.size() == t.houses.size() && own_.holds(Counts::of(t)) &&
                     town_ == inputs.townRevision && grammarRevision_ == inputs.grammarRevision &&
                     houses.size() * 2 < t.houses.size() + 2;
     for (uint32_t house : houses) {

@@ -47,7 +47,7 @@ Status GpuRoofs::makeRoom(Set& set) {
                 {status_, "roof status", sizeof(RoofStatus)},
                 {waves_, "roof waves", kRoofWaves * sizeof(RoofWave)},
                 {env_, "roof environment", sizeof(RoofEnv)},
-                {generations_, "roof generations", houses * 4},
+                {set.generations, "roof generations", houses * 4},
                 {houseReads_, "what roofs read", houses * 4},
                 {means_, "roof layers' means", houses * kRoofLayers * 4}};
     for (const auto& r : rows)
@@ -160,18 +160,19 @@ Status GpuRoofs::showLayers(const RoofInputs& inputs) {
 }
 
 // What is kept of each house that grows. Layers are known to grammars that declare them only.
-Status GpuRoofs::uploadHouses(Commands& commands, const RoofInputs& inputs, std::span<const uint32_t> houses) {
+Status GpuRoofs::uploadHouses(Commands& commands, const RoofInputs& inputs, const Set& set,
+                              std::span<const uint32_t> houses) {
     const auto generations = std::as_bytes(std::span(generationOf_));
     const bool layered = !inputs.grammar->contexts().empty();
     if (houses.empty() && !generationOf_.empty()) {
         commands.fill(houseReads_, 0, 0, generations.size());
-        if (Status s = commands.upload(generations_, generations); !s) return s;
+        if (Status s = commands.upload(set.generations, generations); !s) return s;
         return layered ? commands.upload(means_, inputs.filledMeans(generationOf_.size())) : Status(Done{});
     }
     for (uint32_t house : houses) {
         const RoofInputs::Means means = inputs.meansOf(house);
         commands.fill(houseReads_, 0, house * 4, 4);
-        if (Status s = commands.upload(generations_, generations.subspan(house * 4, 4), house * 4); !s) return s;
+        if (Status s = commands.upload(set.generations, generations.subspan(house * 4, 4), house * 4); !s) return s;
         if (layered)
             if (Status s = commands.upload(means_, std::as_bytes(std::span(means)), house * sizeof(means)); !s)
                 return s;

@@ -26,6 +26,12 @@ struct Plan {
 
 // What this call gives instead of the driver's answer, or VK_SUCCESS.
 VkResult verdict(const char* name, FailingDevice::Failure kind) {
+    if (plan.how == FailingDevice::Failure::Full && plan.armed) {
+        if (std::strcmp(name, "vkAllocateMemory")) return VK_SUCCESS;
+        plan.calls += 1;
+        plan.failed = name;
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
     if (plan.lost && kind == FailingDevice::Failure::Lost) return VK_ERROR_DEVICE_LOST;
     if (kind != plan.how) return VK_SUCCESS;
     if (plan.calls++ != plan.at || !plan.armed) return VK_SUCCESS;

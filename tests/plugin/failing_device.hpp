@@ -12,6 +12,7 @@ class FailingDevice {
   public:
     enum class Failure {
         OutOfMemory,  // one call gives VK_ERROR_OUT_OF_DEVICE_MEMORY and does nothing; later calls are as ever
+        Full,         // the GPU's memory is all taken: no call of vkAllocateMemory works from now on
         Lost,         // this call and all after it give VK_ERROR_DEVICE_LOST, as after a crash of the GPU
     };
 
@@ -21,7 +22,7 @@ class FailingDevice {
 
     EspHostDevice host() const;
 
-    // Fails the call number `at` from now on (0: the next one). Counts from 0 again.
+    // Fails the call number `at` from now on (0: the next one; without meaning for Full). Counts from 0 again.
     void failAt(uint32_t at, Failure how);
     // Nothing fails any more.
     void heal();

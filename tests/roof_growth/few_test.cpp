@@ -4,6 +4,7 @@
 #include <cstring>
 #include <set>
 
+#include "runtime/roof/house_tables.hpp"
 #include "tests/roof_growth/grow_support.hpp"
 
 using namespace roof_test;
@@ -122,4 +123,36 @@ TEST_CASE("houses grown on the CPU or the GPU leave the records of a town grown 
         CHECK(drawn(*anew, generations) == now);
         CHECK(counts() == patchedCounts);
     }
+}
+
+TEST_CASE("tables that houses were replaced in become those of a town made anew, and grow the same") {
+    std::vector<Footprint> all;
+    for (uint32_t i = 0; i < 6; ++i) {
+        std::vector<glm::dvec2> plan = i % 2 ? kEll : kRectangle;
+        for (glm::dvec2& p : plan) p.x += 20 * i;
+        all.push_back(footprint(plan, i % 3 ? RoofShape::hip : RoofShape::mansard));
+        all.back().id = "house " + std::to_string(i);
+    }
+    Roofs r = roofs(all, kBalconies);
+    CHECK_FALSE(mostlyUnused(r.tables));
+    const auto sizes = [](const RoofTables& t) {
+        return std::array{t.houses.size(), t.atoms.size(), t.pieces.size(),
+                          t.regions.size(), t.parts.size(), t.planes.size()};
+    };
+    CHECK(sizes(withoutUnused(r.tables)) == sizes(r.tables));
+    for (uint32_t edit = 0; edit < 200; ++edit) {
+        const uint32_t house = edit * 5 % 6;
+        all[house].shape = edit % 4 < 2 ? RoofShape::gable : RoofShape::hip;
+        replaceAtoms(r.tables, house, structureOf({all[house]}), {0});
+    }
+    CHECK(mostlyUnused(r.tables));
+    const RoofTables kept = withoutUnused(r.tables);
+    const Roofs anew = roofs(all, kBalconies);
+    CHECK(sizes(kept) == sizes(anew.tables));
+    CHECK_FALSE(mostlyUnused(kept));
+    r.tables = kept;
+    const CpuRoofs grown = growRoofsOnCpu(r.inputs()), wanted = growRoofsOnCpu(anew.inputs());
+    CHECK(grown.status.grids > 50);
+    const std::vector<uint32_t> first(all.size(), 0);
+    CHECK(drawn(grown.records, first) == drawn(wanted.records, first));
 }

@@ -1,0 +1,177 @@
+// What too little memory costs a context: growth that doesn't fit is seldom tried again and leaves nothing behind, a town
+// and plants fail each for itself, undo takes back what was painted and no more.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "tests/plugin/life.hpp"
+
+using namespace espalier;
+using Failure = FailingDevice::Failure;
+
+namespace {
+
+constexpr const char* kThicket =
+    "param leaves = 1 [1 .. 64]\n"
+    "Ivy -> Branch(8) {Stem, Stem, Stem, Stem, Stem, Stem, Stem, Stem}\n"
+    "Stem : arc >= 0.9 -> NULL\n"
+    "Stem -> Marching(0.002, rand(-0.3, 0.3), true) {Stem, Foliage}\n"
+    "Foliage -> Repeat(leaves) {S(0.06) T(rand(), 0.02) Shape(\"leaf\")}\n";
+
+constexpr const char* kTown =
+    "{\"buildings\": [{\"id\": \"h\", \"outer\": [[0,0],[10,0],[10,8],[0,8]]},"
+    " {\"id\": \"i\", \"outer\": [[20,0],[30,0],[30,8],[20,8]]}]}";
+constexpr const char* kRoofs =
+    "context decay = 0\n"
+    "House -> Extrude(wallHeight) {NULL, Top}\n"
+    "Top -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, Top}\n"
+    "Cover -> Repeat(XY, vec2(0.3, 0.25), bond) {Tile}\n"
+    "Tile -> Drop(decay) Shape(\"slate\")\n";
+
+EspGrammar compiled(EspContext* context, const char* name, const char* text) {
+    const EspGrammarDef def{name, text, std::strlen(text)};
+    EspGrammar grammar{};
+    REQUIRE_MESSAGE(espCompileGrammar(context, &def, &grammar) == ESP_OK, espLastError(context));
+    return grammar;
+}
+
+// Next time all grows anew.
+void growAnew(EspContext* context, uint32_t maxDepth) {
+    EspGrowDef grow = espDefaultGrowDef();
+    grow.maxDepth = maxDepth;
+    REQUIRE(espSetGrow(context, &grow) == ESP_OK);
+}
+
+EspStroke begin(EspContext* context, const char* layer, EspBrushMode mode, float radius) {
+    EspBrush brush = espDefaultBrush();
+    brush.layer = layer;
+    brush.mode = mode;
+    brush.radius = radius;
+    brush.strength = brush.hardness = 1;
+    EspStroke stroke{};
+    REQUIRE(espBeginStroke(context, &brush, &stroke) == ESP_OK);
+    return stroke;
+}
+EspResult dab(EspContext* context, EspStroke stroke, float x, float y, float z) {
+    const EspDab at = {{x, y, z}, {0, 0, 1}, 1};
+    return espStrokeDabs(context, stroke, &at, 1);
+}
+
+uint32_t drawnTiles(Life& life) {
+    EspDrawDef def = espDefaultDrawDef();
+    def.width = def.height = 256;
+    const float eye[3] = {5, 20, -4}, target[3] = {5, 0, -4.1f};
+    std::memcpy(def.camera.eye, eye, sizeof eye);
+    std::memcpy(def.camera.target, target, sizeof target);
+    def.look.shadows = 0;
+    REQUIRE(espDraw(life.context, &def) == ESP_OK);
+    EspRoofStats stats{};
+    REQUIRE(espReadRoofStats(life.context, &stats) == ESP_OK);
+    return stats.drawnTiles;
+}
+
+}  // namespace
+
+TEST_CASE("growth too large for memory is tried ever less often, and what is small again grows") {
+    FailingDevice device;
+    Life life;
+    REQUIRE((life.create(device) && life.load()));
+    life.grammar = compiled(life.context, "thicket", kThicket);
+    for (uint32_t number = 1; number < 9; ++number) REQUIRE(life.plant(number));
+    REQUIRE(life.update());
+    growAnew(life.context, 4000);
+    REQUIRE(life.update());  // both sets of buffers are there now
+    const uint64_t hash = life.stats().hash;
+
+    device.failAt(0, Failure::Full);
+    const float many = 64, few = 1;
+    REQUIRE(espSetParam(life.context, life.grammar, "leaves", &many, 1) == ESP_OK);
+    growAnew(life.context, 4096);
+    REQUIRE_FALSE(life.update());
+    CHECK(life.result == ESP_OUT_OF_MEMORY);
+    const uint32_t once = device.calls();
+    REQUIRE(once > 0);
+    for (int frame = 0; frame < 31; ++frame) {
+        REQUIRE_FALSE(life.update());
+        CHECK(life.result == ESP_OUT_OF_MEMORY);
+        CHECK(std::string(espLastError(life.context)).find("memory") != std::string::npos);
+    }
+    CHECK(device.calls() > once);      // memory might have come back
+    CHECK(device.calls() <= 8 * once);  // after 1, 2, 4, 8, 16 calls
+    CHECK(life.stats().hash == hash);   // the last good growth stands
+
+    REQUIRE(espSetParam(life.context, life.grammar, "leaves", &few, 1) == ESP_OK);
+    growAnew(life.context, 4000);
+    CHECK_MESSAGE(life.update(), espLastError(life.context));
+    CHECK(life.stats().hash == hash);
+}
+
+TEST_CASE("plants grow where the town fails, and what was painted on it isn't lost") {
+    FailingDevice device;
+    Life life;
+    REQUIRE(life.all(device));
+    const float longer = 3;
+    const EspGrammar roofs = compiled(life.context, "roofs", kRoofs);
+    EspTownDef town = espDefaultTownDef();
+    town.text = kTown;
+    town.length = std::strlen(kTown);
+    town.grammar = roofs;
+    REQUIRE(espLoadTown(life.context, &town) == ESP_OK);
+    const uint64_t before = life.stats().hash;
+    REQUIRE(espSetParam(life.context, life.grammar, "reach", &longer, 1) == ESP_OK);
+    device.failAt(0, Failure::OutOfMemory);
+    CHECK_FALSE(life.update());
+    CHECK(life.result == ESP_OUT_OF_MEMORY);
+    CHECK(std::string(espLastError(life.context)).find("memory") != std::string::npos);
+    CHECK(life.stats().hash != before);
+    REQUIRE(life.update());
+    const uint32_t whole = drawnTiles(life);
+    REQUIRE(whole > 500);
+
+    const EspStroke stroke = begin(life.context, "decay", ESP_BRUSH_PAINT, 2);
+    REQUIRE(dab(life.context, stroke, 5, 40, -4) == ESP_OK);
+    device.failAt(0, Failure::OutOfMemory);
+    CHECK_FALSE(life.update());
+    REQUIRE(life.update());
+    CHECK(drawnTiles(life) < whole - 50);
+    REQUIRE(espEndStroke(life.context, stroke) == ESP_OK);
+}
+
+TEST_CASE("a dab that memory ran short for is no part of what undo takes back") {
+    FailingDevice device;
+    Life life;
+    REQUIRE((life.create(device) && life.load()));
+    const auto layer = [&] {
+        uint32_t side = 0;
+        REQUIRE(espReadLayer(life.context, life.surface, "mask", nullptr, &side) == ESP_OK);
+        std::vector<float> texels(size_t(side) * side);
+        REQUIRE(espReadLayer(life.context, life.surface, "mask", texels.data(), &side) == ESP_OK);
+        return texels;
+    };
+    for (EspBrushMode mode : {ESP_BRUSH_PAINT, ESP_BRUSH_SMOOTH}) {
+        CAPTURE(mode);
+        const EspStroke spots = begin(life.context, "mask", ESP_BRUSH_PAINT, .1f);
+        for (float x : {.2f, .5f, .8f}) REQUIRE(dab(life.context, spots, x, .5f, 0) == ESP_OK);
+        REQUIRE(espEndStroke(life.context, spots) == ESP_OK);
+        const std::vector<float> before = layer();
+        uint32_t failures = 0;
+        for (uint32_t at = 0; at < 100; ++at) {
+            CAPTURE(at);
+            const EspStroke stroke = begin(life.context, "mask", mode, .25f);
+            REQUIRE(dab(life.context, stroke, .15f, .45f, 0) == ESP_OK);
+            device.failAt(at, Failure::OutOfMemory);
+            const EspResult result = dab(life.context, stroke, .85f, .55f, 0);
+            const bool failed = !device.failed().empty();
+            device.heal();
+            CHECK(result == (failed ? ESP_OUT_OF_MEMORY : ESP_OK));
+            REQUIRE(espEndStroke(life.context, stroke) == ESP_OK);
+            REQUIRE(layer() != before);
+            REQUIRE(espSwapStroke(life.context, stroke) == ESP_OK);
+            REQUIRE(layer() == before);
+            if (!failed) break;
+            failures += 1;
+        }
+        CHECK(failures > 3);
+    }
+}
