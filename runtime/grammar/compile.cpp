@@ -96,12 +96,8 @@ Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& opti
     Result<RuleMap> map = compile(p);
     if (!map) return map;
     if (Status kept = cache.keep(*map); !kept)
-        RuleMapAccess::warnings(*map).push_back({cacheFolder.string(),
-                                                 0,
-                                                 0,
-                                                 {},
-                                                 "the compiled grammar can't be cached: " + kept.failure().text(),
-                                                 true});
+        RuleMapAccess::warnings(*map).push_back(
+            {cacheFolder.string(), 0, 0, {}, "the compiled grammar can't be cached: " + kept.failure().text(), true});
     return map;
 }
 

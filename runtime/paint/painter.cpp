@@ -254,8 +254,7 @@ Status Painter::findPlaces(Commands& commands, const PaintJob& job, Placed& plac
     if (fresh == 0) return Done{};
     const BlockRecord& record = *job.record;
     const size_t known = record.blocks_.size();
-    Result<Buffer> room =
-        roomier(commands, record.places_, "places of smoothing", known, known + fresh, kPlacesBytes);
+    Result<Buffer> room = roomier(commands, record.places_, "places of smoothing", known, known + fresh, kPlacesBytes);
     if (!room) return room.failure();
     placed.places = std::move(*room);
     Status walkers = ensure(device_, walkers_, "texels that walk", 4 + fresh * kBlockBytes);
@@ -265,7 +264,8 @@ Status Painter::findPlaces(Commands& commands, const PaintJob& job, Placed& plac
     PlacesEnv env{};
     env.texels = job.canvas.surface.levels[0].texels;
     env.blocks = at<UintBuf, uint32_t>(placed.fresh);
-    env.places = at<UintBuf, uint32_t>((placed.places ? placed.places : record.places_).address() + known * kPlacesBytes);
+    env.places =
+        at<UintBuf, uint32_t>((placed.places ? placed.places : record.places_).address() + known * kPlacesBytes);
     env.walkers = wordsOf(walkers_);
     env.surfaces = job.canvas.surfaces;
     env.perScale = 1 / job.canvas.surface.scale;

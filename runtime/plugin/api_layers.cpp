@@ -43,8 +43,7 @@ EspResult readLayer(EspContext& context, uint32_t surface, const char* name, flo
 template <class Tell>
 void forEachPaintedName(const EspContext& context, Tell&& tell) {
     for (const PaintedLayer& layer : context.layers)
-        if (&*std::ranges::find(context.layers, layer.name, &PaintedLayer::name) == &layer)
-            tell(layer.name);
+        if (&*std::ranges::find(context.layers, layer.name, &PaintedLayer::name) == &layer) tell(layer.name);
 }
 
 }  // namespace

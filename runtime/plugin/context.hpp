@@ -152,8 +152,8 @@ struct PaintStroke {
     PlanRecord plan;
 };
 
-// Inputs that couldn't be grown, and why. What failed fails again, and trying it anew in each frame would only cost; but
-// memory may have come back, so growth that found too little is tried again after 1, 2, 4 ... calls, at most 1,024.
+// Inputs that couldn't be grown, and why. What failed fails again, and trying it anew in each frame would only cost;
+// but memory may have come back, so growth that found too little is tried again after 1, 2, 4 ... calls, at most 1,024.
 class FailedInputs {
   public:
     using Revision = std::array<uint64_t, 2>;

@@ -11,7 +11,8 @@ namespace espalier {
 namespace {
 
 // Records numbered as those behind `last`, and only what was made.
-void renumber(RoofRecords& made, const HouseTables& few, const RoofStatus& last, std::span<const uint32_t> generationOf) {
+void renumber(RoofRecords& made, const HouseTables& few, const RoofStatus& last,
+              std::span<const uint32_t> generationOf) {
     const uint32_t ownRegions = uint32_t(few.tables.regions.size()), ownParts = uint32_t(few.tables.parts.size()),
                    ownPlanes = uint32_t(few.tables.planes.size());
     made.regions.erase(made.regions.begin(), made.regions.begin() + ownRegions);

@@ -1,5 +1,5 @@
-// In: a town's tables, in which houses that were replaced leave their old atoms behind. Out: tables of some houses, or of
-// all, that hold only what these use.
+// In: a town's tables, in which houses that were replaced leave their old atoms behind. Out: tables of some houses, or
+// of all, that hold only what these use.
 #include "runtime/roof/house_tables.hpp"
 
 #include <numeric>
@@ -46,11 +46,15 @@ uint32_t HouseTables::addRegion(const RoofTables& town, uint32_t number) {
     return uint32_t(tables.regions.size() - 1);
 }
 
+uint32_t usedAtoms(const RoofTables& town) {
+    uint32_t used = 0;
+    for (const RoofTables::House& house : town.houses) used += house.atomCount;
+    return used;
+}
+
 bool mostlyUnused(const RoofTables& town) {
     constexpr size_t kLittle = 512;  // atoms: some 70 KiB with what belongs to them
-    size_t used = 0;
-    for (const RoofTables::House& house : town.houses) used += house.atomCount;
-    return town.atoms.size() > 2 * used + kLittle;
+    return town.atoms.size() > 2 * size_t(usedAtoms(town)) + kLittle;
 }
 
 RoofTables withoutUnused(const RoofTables& town) {

@@ -20,6 +20,8 @@ struct HouseTables {
     uint32_t addRegion(const RoofTables& town, uint32_t number);
 };
 
+// Atoms that houses use.
+uint32_t usedAtoms(const RoofTables& town);
 // Whether more atoms are left unused by replaceAtoms() than a town of its size is worth taking apart for.
 bool mostlyUnused(const RoofTables& town);
 // The same houses under the same numbers, without what is left unused. All else has other numbers then.

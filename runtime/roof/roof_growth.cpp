@@ -8,6 +8,7 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/roof/gpu_roofs.hpp"
+#include "runtime/roof/house_tables.hpp"
 #include "shaders/shared/roof_tables.h"
 
 namespace espalier {
@@ -209,7 +210,7 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     view_.low = all.low;
     view_.high = all.high;
     stats_.houses = uint32_t(t.houses.size());
-    stats_.atoms = uint32_t(t.atoms.size());
+    stats_.atoms = usedAtoms(t);
     stats_.grids = last_.grids;
     if (houses.empty()) houseCells_.clear(), replaced_ = {};
     stats_.terminals = uint32_t(last_.terminals - replaced_.terminals);

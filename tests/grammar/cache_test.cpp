@@ -205,8 +205,8 @@ TEST_CASE("the cache holds the grammars used last, and leaves other files alone"
     std::filesystem::create_directories(cache);
     write(cache / "notes.rulemap", "x");
     const auto compile = [&](size_t i) {
-        Result<RuleMap> map =
-            compileGrammar("param p = " + std::to_string(i) + " [0 .. 1000]\nA -> Marching(p, 0, true) {A}\n", {}, cache);
+        Result<RuleMap> map = compileGrammar(
+            "param p = " + std::to_string(i) + " [0 .. 1000]\nA -> Marching(p, 0, true) {A}\n", {}, cache);
         if (!map) FAIL(map.failure().text());
         return map->contentHash();
     };

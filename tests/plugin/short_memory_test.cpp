@@ -1,5 +1,5 @@
-// What too little memory costs a context: growth that doesn't fit is seldom tried again and leaves nothing behind, a town
-// and plants fail each for itself, undo takes back what was painted and no more.
+// What too little memory costs a context: growth that doesn't fit is seldom tried again and leaves nothing behind, a
+// town and plants fail each for itself, undo takes back what was painted and no more.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -97,7 +97,7 @@ TEST_CASE("growth too large for memory is tried ever less often, and what is sma
         CHECK(life.result == ESP_OUT_OF_MEMORY);
         CHECK(std::string(espLastError(life.context)).find("memory") != std::string::npos);
     }
-    CHECK(device.calls() > once);      // memory might have come back
+    CHECK(device.calls() > once);       // memory might have come back
     CHECK(device.calls() <= 8 * once);  // after 1, 2, 4, 8, 16 calls
     CHECK(life.stats().hash == hash);   // the last good growth stands
 

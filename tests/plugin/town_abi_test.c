@@ -171,6 +171,25 @@ static void layers(EspContext* context) {
     OK(context, espUpdate(context));
 }
 
+/* However often a house is changed, the town is as large as it is. */
+static void manyEdits(EspContext* context) {
+    const EspRoofStats before = stats(context);
+    uint64_t settled = 0;
+    for (int i = 0; i < 1500; ++i) {
+        EspHouseDef change = {ESP_ROOF_HIP, i % 2 ? 1.f : 1.1f, 0, NULL, 0, NULL, 0};
+        EspStats all;
+        OK(context, espSetHouse(context, 5, &change));
+        OK(context, espUpdate(context));
+        OK(context, espReadStats(context, &all));
+        if (i < 700 && all.totalBytes > settled) settled = all.totalBytes;
+        CHECK(i < 700 || all.totalBytes <= settled);
+    }
+    CHECK(stats(context).eaves == before.eaves && stats(context).houses == kHouses);
+    OK(context, espResetHouse(context, 5));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).eaves == before.eaves);
+}
+
 /* What is upright below the eaves are walls. */
 static void triangles(EspContext* context) {
     EspTriangles t;
@@ -245,6 +264,7 @@ int main(void) {
     houses(context);
     layers(context);
     triangles(context);
+    manyEdits(context);
 
     /* Furnishing: what can't stand is refused by name, and the last that stood goes on. */
     EspPropPlace place = {"bench", {1, 0, 1}, 0, 1};

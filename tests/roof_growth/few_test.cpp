@@ -136,7 +136,7 @@ TEST_CASE("tables that houses were replaced in become those of a town made anew,
     Roofs r = roofs(all, kBalconies);
     CHECK_FALSE(mostlyUnused(r.tables));
     const auto sizes = [](const RoofTables& t) {
-        return std::array{t.houses.size(), t.atoms.size(), t.pieces.size(),
+        return std::array{t.houses.size(),  t.atoms.size(), t.pieces.size(),
                           t.regions.size(), t.parts.size(), t.planes.size()};
     };
     CHECK(sizes(withoutUnused(r.tables)) == sizes(r.tables));
