@@ -296,7 +296,9 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
     const RoofStatus& s = outcome->status;
     const bool held = outcome->complete && fits(s, set) && outcome->widest <= room_.scopes;
     if (!held) return grow(inputs);
-    if (Status counted = recount(houses, *outcome); !counted) return counted;
+    Status counted = recount(houses, *outcome);
+    stands_ = bool(counted);
+    if (!counted) return counted;
     publish(inputs, *outcome, houses);
     stats_.housesGrown += houses.size();
     return Done{};
