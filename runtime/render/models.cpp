@@ -52,6 +52,11 @@ void takeModelVertices(GraphicsDesc& desc) {
                    {3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(DrawVertex, uv)}};  // and walkUv
 }
 
+void takeModelPositions(GraphicsDesc& desc) {
+    takeModelVertices(desc);
+    desc.inputs.resize(1);
+}
+
 Result<Models> Models::create(Device& device) {
     Models models;
     const uint8_t white[4] = {255, 255, 255, 255}, flat[4] = {128, 128, 255, 255};

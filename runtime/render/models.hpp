@@ -12,8 +12,9 @@
 
 namespace espalier {
 
-// What render/model.vert reads of a vertex.
+// What render/model.vert reads of a vertex, and what render/model_depth.vert does.
 void takeModelVertices(GraphicsDesc& desc);
+void takeModelPositions(GraphicsDesc& desc);
 
 // The drawn meshes of the surfaces on the GPU, with their textures.
 class Models {

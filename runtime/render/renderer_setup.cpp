@@ -29,7 +29,7 @@ Status RendererImpl::makePrograms() {
         desc.depth = kDepthFormat;
         desc.depthBiasConstant = 2;
         desc.depthBiasSlope = 1.8f;
-        if (&program == &modelDepth_) takeModelVertices(desc);
+        if (&program == &modelDepth_) takeModelPositions(desc);
         Result<Program> made = Program::graphics(device_, desc);
         if (!made) return made.failure();
         program = std::move(*made);
@@ -37,11 +37,11 @@ Status RendererImpl::makePrograms() {
     };
     GraphicsDesc ahead;
     ahead.name = "model ahead";
-    ahead.vertex = "render/model.vert";
+    ahead.vertex = "render/model_depth.vert";
     ahead.depth = kDepthFormat;
     ahead.samples = targets_.samples;
     ahead.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    takeModelVertices(ahead);
+    takeModelPositions(ahead);
     for (Program* program : {&modelAhead_, &modelAheadFading_}) {
         if (program == &modelAheadFading_) ahead.fragment = "render/model_fade.frag";
         Result<Program> made = Program::graphics(device_, ahead);
@@ -80,7 +80,7 @@ Status RendererImpl::makePrograms() {
         return Done{};
     };
     const Status all[] = {
-        shadow(modelDepth_, "model shadow", "render/model.vert", ""),
+        shadow(modelDepth_, "model shadow", "render/model_depth.vert", ""),
         shadow(barkDepth_, "bark shadow", "render/bark.vert", ""),
         shadow(leafDepth_, "leaf shadow", "render/leaf.vert", ""),
         shadow(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag"),
