@@ -142,14 +142,17 @@ TEST_CASE(
     "an autosave that was copied somewhere to rescue it takes nothing else there with it when it is saved or given "
     "up") {
     const Folder folder;
-    const std::string scene = smallScene(folder), rescued = folder.file("rescued");
+    // As deep as where it was kept: it names the scene's files by their way from there.
+    const std::string scene = smallScene(folder), rescued = folder.file("config/espalier/rescued/work");
     {
         Window window(folder, scene);
         window.fill(.25f);
         window.wait();
-        fs::copy(fs::path(keptIn(folder)).parent_path(), rescued, fs::copy_options::recursive);
+        const fs::path kept = fs::path(keptIn(folder)).parent_path();
+        fs::create_directories(fs::path(rescued).parent_path());
+        fs::copy(kept, rescued, fs::copy_options::recursive);
     }
-    folder.write("rescued/notes.txt", "not ours");
+    folder.write("config/espalier/rescued/work/notes.txt", "not ours");
     for (const bool saves : {true, false}) {
         fs::copy_file(rescued + "/autosave.json", folder.file("again.json"), fs::copy_options::overwrite_existing);
         {
