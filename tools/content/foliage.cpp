@@ -93,6 +93,25 @@ glm::vec3 leafColor(const Leaf& leaf, const Species& s, float edge, float across
     return color * (0.72f + 0.28f * ramp(0.0f, 0.010f, edge));  // the next leaf's shadow
 }
 
+// edge: how far inside what is painted, in cells; beside it, negative.
+void putTexel(uint8_t* texel, glm::vec3 color, float edge, int side) {
+    for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(toSrgb(color[k])) * 255 + 0.5f);
+    texel[3] = uint8_t(saturate(0.5f + edge * float(side) / 10) * 255 + 0.5f);
+}
+
+// Lays leaves over what has this edge and colour at p, each over those before it. True: one of them covers it.
+bool overLeaves(const std::vector<Leaf>& leaves, const Species& s, glm::vec2 p, float& edge, glm::vec3& color) {
+    bool covered = false;
+    for (const Leaf& leaf : leaves) {
+        float across = 0;
+        const float e = leafEdge(leaf, s, p, across);
+        edge = std::max(edge, e);
+        covered = covered || e >= 0;
+        if (e >= 0) color = leafColor(leaf, s, e, across);
+    }
+    return covered;
+}
+
 void paintTwig(Picture& picture, int x0, int y0, int side, const Species& s, uint32_t salt, bool far) {
     std::vector<glm::vec3> colors(size_t(side) * size_t(side), 0.35f * (s.dark + s.light));
     std::vector<float> edges(colors.size(), -1.0f);
@@ -111,9 +130,7 @@ void paintTwig(Picture& picture, int x0, int y0, int side, const Species& s, uin
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             const size_t at = size_t(y) * size_t(side) + size_t(x);
-            uint8_t* texel = picture.at(x0 + x, y0 + y);
-            for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(toSrgb(colors[at][k])) * 255 + 0.5f);
-            texel[3] = uint8_t(saturate(0.5f + edges[at] * float(side) / 10) * 255 + 0.5f);
+            putTexel(picture.at(x0 + x, y0 + y), colors[at], edges[at], side);
         }
 }
 
@@ -164,21 +181,14 @@ void paintFlowers(Picture& picture, int x0, int y0, int side, const Blossom& b, 
             const glm::vec2 p = (glm::vec2(x, y) + 0.5f) / float(side);
             glm::vec3 color = green.dark;
             float edge = -1;
-            for (const Leaf& leaf : leaves) {
-                float across = 0;
-                const float e = leafEdge(leaf, green, p, across);
-                edge = std::max(edge, e);
-                if (e >= 0) color = leafColor(leaf, green, e, across);
-            }
+            overLeaves(leaves, green, p, edge, color);
             for (glm::vec2 at : blossoms) {
                 const glm::vec2 d = (p - at) / b.radius;
                 const float far = glm::length(d), e = 1 + 0.18f * std::cos(8 * std::atan2(d.y, d.x)) - far;
                 edge = std::max(edge, e * b.radius);
                 if (e >= 0) color = (far < 0.35f ? b.middle : b.petals) * (0.92f - 0.2f * d.y);
             }
-            uint8_t* texel = picture.at(x0 + x, y0 + y);
-            for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(toSrgb(color[k])) * 255 + 0.5f);
-            texel[3] = uint8_t(saturate(0.5f + edge * float(side) / 10) * 255 + 0.5f);
+            putTexel(picture.at(x0 + x, y0 + y), color, edge, side);
         }
 }
 
@@ -213,20 +223,13 @@ void paintMeadow(Picture& picture, int x0, int y0, int side, bool blooms, uint32
             const glm::vec2 p = (glm::vec2(x, y) + 0.5f) / float(side);
             glm::vec3 color = grass.dark;
             float edge = -1;
-            for (const Leaf& leaf : leaves) {
-                float across = 0;
-                const float e = leafEdge(leaf, grass, p, across);
-                edge = std::max(edge, e);
-                if (e >= 0) color = leafColor(leaf, grass, e, across) * (0.75f + 0.25f * ramp(1.0f, 0.5f, p.y));
-            }
+            if (overLeaves(leaves, grass, p, edge, color)) color *= 0.75f + 0.25f * ramp(1.0f, 0.5f, p.y);
             for (const Bloom& b : flowers) {
                 const float e = b.radius - glm::length((p - b.at) * glm::vec2(1, 1.2f));
                 edge = std::max(edge, e);
                 if (e >= 0) color = b.color * (0.95f - 2.5f * (p.y - b.at.y));
             }
-            uint8_t* texel = picture.at(x0 + x, y0 + y);
-            for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(toSrgb(color[k])) * 255 + 0.5f);
-            texel[3] = uint8_t(saturate(0.5f + edge * float(side) / 10) * 255 + 0.5f);
+            putTexel(picture.at(x0 + x, y0 + y), color, edge, side);
         }
 }
 
