@@ -1,7 +1,6 @@
 // Saves and autosaves by tools/document, files of others by what they hold, runs by the document's listener.
 #include "sample_game/session.hpp"
 
-#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -79,10 +78,8 @@ std::string Session::autosaveFolder() const {
 // By what it was opened from, or is the project of: its name, and a number for where that is.
 std::string Session::unsavedFolder() const {
     const std::string& of = folder_.empty() ? file_ : folder_;
-    char number[20];
-    std::snprintf(number, sizeof number, "-%016llx",
-                  static_cast<unsigned long long>(espalier::scene::hashOf(of.data(), of.size())));
-    return allUnsaved().empty() ? "" : (allUnsaved() / (fs::path(of).filename().string() + number)).string();
+    const std::string name = fs::path(of).filename().string() + "-" + espalier::scene::hashName(of.data(), of.size());
+    return allUnsaved().empty() ? "" : (allUnsaved() / name).string();
 }
 
 bool Session::step(Workspace& work, double now) {

@@ -143,7 +143,7 @@ TEST_CASE(
     "up") {
     const Folder folder;
     // As deep as where it was kept: it names the scene's files by their way from there.
-    const std::string scene = smallScene(folder), rescued = folder.file("config/espalier/rescued/work");
+    const std::string scene = smallScene(folder), rescued = folder.file("config/espalier/rescued/copy");
     {
         Window window(folder, scene);
         window.fill(.25f);
@@ -152,7 +152,7 @@ TEST_CASE(
         fs::create_directories(fs::path(rescued).parent_path());
         fs::copy(kept, rescued, fs::copy_options::recursive);
     }
-    folder.write("config/espalier/rescued/work/notes.txt", "not ours");
+    folder.write("config/espalier/rescued/copy/notes.txt", "not ours");
     for (const bool saves : {true, false}) {
         fs::copy_file(rescued + "/autosave.json", folder.file("again.json"), fs::copy_options::overwrite_existing);
         {

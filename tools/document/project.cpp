@@ -14,13 +14,13 @@ namespace espalier::document {
 namespace {
 
 namespace fs = std::filesystem;
+using scene::kHashDigits;
 using scene::SceneFile;
 
 constexpr const char* kProject = "project.json";
 constexpr const char* kAutosave = "autosave.json";
 constexpr const char* kLayers = "layers";
 constexpr const char* kPlants = "plants";
-constexpr size_t kHashDigits = 16;
 constexpr float kDegrees = 180 / 3.14159265f;
 
 std::array<float, 3> three(const float* v) {
@@ -45,13 +45,6 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
     out.fov = scene.camera.fovY * kDegrees;
 }
 
-// A name for what these bytes are.
-std::string nameFor(const void* data, size_t size) {
-    char text[kHashDigits + 1];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(scene::hashOf(data, size)));
-    return text;
-}
-
 // Each frozen plant into a file, likewise.
 bool writePlants(const fs::path& folder, SceneFile& out, std::string& error) {
     for (scene::SceneGrammar& grammar : out.grammars)
@@ -59,7 +52,7 @@ bool writePlants(const fs::path& folder, SceneFile& out, std::string& error) {
             seed.frozenFile.clear();
             if (!seed.frozen) continue;
             const std::string bytes(reinterpret_cast<const char*>(seed.frozen->data()), seed.frozen->size());
-            const fs::path path = folder / kPlants / (nameFor(bytes.data(), bytes.size()) + ".plant");
+            const fs::path path = folder / kPlants / (scene::hashName(bytes.data(), bytes.size()) + ".plant");
             seed.frozenFile = path.string();
             std::error_code none;
             if (!makeFolderDurably(path.parent_path().string(), error)) return false;
@@ -75,7 +68,7 @@ bool writeLayers(ProjectData& data, const fs::path& folder, Progress& progress, 
         const scene::GreyPicture picture = std::move(layer.picture);
         const bool town = layer.surface == scene::SceneLayer::kTown;
         const std::string file = layer.name + "-" + (town ? "town" : std::to_string(layer.surface)) + "-" +
-                                 nameFor(picture.texels.data(), picture.texels.size() * sizeof(float)) + ".exr";
+                                 scene::hashName(picture.texels.data(), picture.texels.size() * sizeof(float)) + ".exr";
         const fs::path path = folder / kLayers / file;
         std::error_code none;
         if (!makeFolderDurably(path.parent_path().string(), error)) return false;

@@ -2,6 +2,7 @@
 #include "tools/scene/hash.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 
 namespace espalier::scene {
@@ -16,6 +17,12 @@ uint64_t hashOf(const void* data, size_t size, uint64_t seed) {
         hash ^= hash >> 29;
     }
     return hash;
+}
+
+std::string hashName(const void* data, size_t size) {
+    char text[kHashDigits + 1];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hashOf(data, size)));
+    return text;
 }
 
 }  // namespace espalier::scene

@@ -2,11 +2,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace espalier::scene {
 
 // Tells contents of files apart: for their names, and whether they have changed. `seed` chains parts:
 // hashOf(b, m, hashOf(a, n)). Not for secrets.
 uint64_t hashOf(const void* data, size_t size, uint64_t seed = 0);
+
+// The same as kHashDigits hexadecimal digits: a name for what these bytes are.
+constexpr size_t kHashDigits = 16;
+std::string hashName(const void* data, size_t size);
 
 }  // namespace espalier::scene
