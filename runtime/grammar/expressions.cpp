@@ -6,16 +6,18 @@ namespace espalier::grammar {
 namespace {
 
 constexpr uint64_t kMaxWork = 300'000;
-constexpr size_t kMaxLets = 64;      // that use each other in a row
-constexpr uint32_t kMaxGraph = 256;  // operations that use each other in a row: later stages recurse over them
+constexpr size_t kMaxLets = 64;  // that use each other in a row
+constexpr size_t kMaxNodes = 1'000'000;
 
 }  // namespace
 
 Expressions::Expressions(Module& module, Reporter& reporter, Graph& graph)
     : module_(module), reporter_(reporter), graph_(graph) {}
 
-bool Expressions::withinBudget(const Place& place, const std::string& rule) {
-    if (++work_ == kMaxWork)
+bool Expressions::withinBudget(const Place& place, const std::string& rule, uint64_t work) {
+    if (work_ >= kMaxWork) return false;
+    work_ += graph_.size() < kMaxNodes ? work : kMaxWork;
+    if (work_ >= kMaxWork)
         reporter_.error(place, rule,
                         "the grammar unfolds into too much; are lets or successors nested in each other many times?");
     return work_ < kMaxWork;
@@ -43,6 +45,18 @@ Node Expressions::accessor(const AccessorInfo& info, const Place& place, const E
     return graph_.leaf(Leaf::slot, info.slot);
 }
 
+// False: it is reported that the let can't be entered.
+bool Expressions::enterLet(const std::string& name, const Place& place, const Env& env) {
+    used_.insert(name);
+    if (activeLets_.size() >= kMaxLets) return fail(place, env, "more than 64 lets are nested in each other"), false;
+    if (activeLets_.insert(name).second) return true;
+    return fail(place, env, "'" + name + "' is defined by itself"), false;
+}
+
+Node Expressions::failTooDeep(const Place& place, const Env& env) {
+    return fail(place, env, "the expression unfolds into more than 256 operations in a row");
+}
+
 Node Expressions::lowerName(const std::string& name, const Place& place, Env& env) {
     for (const auto& [arg, node] : env.args)
         if (arg == name) return node;
@@ -61,9 +75,7 @@ Node Expressions::lowerName(const std::string& name, const Place& place, Env& en
                                                 : "'" + name + "' has no parts");
     }
     if (auto found = letByName_.find(name); found != letByName_.end()) {
-        used_.insert(name);
-        if (activeLets_.size() >= kMaxLets) return fail(place, env, "more than 64 lets are nested in each other");
-        if (!activeLets_.insert(name).second) return fail(place, env, "'" + name + "' is defined by itself");
+        if (!enterLet(name, place, env)) return graph_.mistake();
         const LetScope scope(env, name);
         Node node = lower(module_.lets[found->second].value, env);
         activeLets_.erase(name);
@@ -102,7 +114,7 @@ Node Expressions::lower(ExprId id, Env& env) {
         --nesting_;
         if (graph_[node].depth <= kMaxGraph) return node;
     }
-    return fail(module_.exprs[id].place, env, "the expression unfolds into more than 256 operations in a row");
+    return failTooDeep(module_.exprs[id].place, env);
 }
 
 Node Expressions::lowerTree(ExprId id, Env& env) {

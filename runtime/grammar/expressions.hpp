@@ -65,8 +65,9 @@ class Expressions {
     static Node siteNode(Graph& graph, const Env& env, uint32_t ordinal);
 
     bool known(const std::string& name) const;
-    // False once the whole compilation has done more than a grammar could need; reports it the first time.
-    bool withinBudget(const Place& place, const std::string& rule);
+    // Takes note of so much work. False once the whole compilation has done more than a grammar could need; reports it
+    // the first time.
+    bool withinBudget(const Place& place, const std::string& rule, uint64_t work = 1);
     void warnUnused();
 
     std::vector<ParamInfo> params;
@@ -74,11 +75,16 @@ class Expressions {
     std::vector<Node> directions;  // three nodes each
 
   private:
+    // Operations that use each other in a row: later stages recurse over them.
+    static constexpr uint32_t kMaxGraph = 256;
+
     Node lowerTree(ExprId expr, Env& env);
     bool vectorTree(const Expr& e, Env& env, Node (&xyz)[3], int& size);
     bool vectorCall(const Expr& e, Env& env, Node (&xyz)[3], int& size);
     float constantOf(ExprId expr, const std::string& rule, float otherwise);
     void declareParam(const ParamDeclaration& p, uint32_t& slots);
+    bool enterLet(const std::string& name, const Place& place, const Env& env);
+    Node failTooDeep(const Place& place, const Env& env);
     bool takeName(const std::string& name, const Place& place);
     Node fail(const Place& place, const Env& env, const std::string& message);
     Node unknown(const std::string& name, const Place& place, const Env& env);
@@ -98,7 +104,7 @@ class Expressions {
     std::set<std::string> names_, used_, activeLets_;
     uint64_t work_ = 0;
     bool roofs_ = false;
-    uint32_t nesting_ = 0;  // calls of lower under way
+    uint32_t nesting_ = 0;  // calls of lower and lowerVector under way
 };
 
 }  // namespace espalier::grammar

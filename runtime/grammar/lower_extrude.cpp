@@ -201,6 +201,8 @@ class ExtrudeLowering {
         }
         Node chosen = c_.chooseRule(symbol, envs);
         for (uint32_t i = 0; i < symbol.rules.size(); ++i) {
+            // That the choice is rule i is asked of each of its alternatives.
+            if (!c_.expressions.withinBudget(e.place, env.rule, symbol.rules.size())) return;
             Node mine = g_.make(kOpEqual, chosen, g_.constant(static_cast<float>(i)));
             Node inner = g_.both(gate, mine);
             if (g_.isConstant(inner, 0.0f)) continue;

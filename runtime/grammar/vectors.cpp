@@ -1,5 +1,7 @@
 // Vectors of grammars of roofs -> three nodes each (Buron 2013 §3.2, §3.4: targets and axes are vectors). They live at
 // compile time only: the machine knows numbers.
+#include <algorithm>
+
 #include "runtime/grammar/expressions.hpp"
 
 namespace espalier::grammar {
@@ -9,7 +11,13 @@ bool Expressions::lowerVector(ExprId id, Env& env, Node (&xyz)[3], int& size) {
     for (Node& n : xyz) n = graph_.zero();
     size = 3;
     if (!withinBudget(e.place, env.rule)) return false;
-    return vectorTree(e, env, xyz, size);
+    if (nesting_ < kMaxGraph) {  // as in lower()
+        ++nesting_;
+        const bool good = vectorTree(e, env, xyz, size);
+        --nesting_;
+        if (!good || std::ranges::all_of(xyz, [&](Node n) { return graph_[n].depth <= kMaxGraph; })) return good;
+    }
+    return failTooDeep(e.place, env), false;
 }
 
 // Whether an expression is a vector, by its look alone; nested too deeply to tell: no.
@@ -51,9 +59,7 @@ bool Expressions::vectorTree(const Expr& e, Env& env, Node (&xyz)[3], int& size)
     if (e.kind == ExprKind::name || (e.kind == ExprKind::call && e.kids.empty())) {
         const std::string& name = e.text;
         if (auto let = letByName_.find(name); e.kind == ExprKind::name && let != letByName_.end()) {
-            used_.insert(name);
-            if (!activeLets_.insert(name).second)
-                return fail(e.place, env, "'" + name + "' is defined by itself"), false;
+            if (!enterLet(name, e.place, env)) return false;
             const LetScope scope(env, name);
             bool good = lowerVector(module_.lets[let->second].value, env, xyz, size);
             activeLets_.erase(name);

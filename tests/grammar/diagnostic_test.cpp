@@ -221,6 +221,18 @@ TEST_CASE("limits are reported, not met") {
     for (int i = 0; i < 1100; ++i) many += "R" + std::to_string(i) + " -> Marching(0.1, 0, true) {NULL}\n";
     expect(many, "more than 1,000 rules");
     expect(repeated("%", 100000), "expected a rule or a declaration");
+    const std::string roof = "House -> Join(1, v, roofPos2) {A, A}\nA -> NULL\n";
+    std::string vectors = "let v0 = currentPos0()\n";
+    for (int i = 1; i < 49000; ++i) vectors += "let v" + std::to_string(i) + " = v" + std::to_string(i - 1) + "\n";
+    expect(vectors + "let v = v48999\n" + roof, "more than 64 lets");
+    vectors = "let v0 = currentPos0()\n";
+    for (int i = 1; i < 60; ++i)
+        vectors += "let v" + std::to_string(i) + " = " + repeated("unit(", 60) + "v" + std::to_string(i - 1) +
+                   repeated(")", 60) + "\n";
+    expect(vectors + "let v = v59\n" + roof, "more than 256 operations in a row");
+    std::string choices = "A -> Marching(0.1, 0, true) {A, " + repeated("D(rand()) ", 100) + "}\nE -> NULL\n";
+    for (int i = 0; i < 900; ++i) choices += "D(n) : arc * n > " + std::to_string(i) + " -> E\n";
+    expect(choices, "unfolds into too much");
     std::string shapes = repeated("S(1) Shape(\"leaf\") ", 40);
     expect("A -> Marching(0.1, 0, true) {A, " + shapes + "}", "more than 32 shapes");
 }
