@@ -100,8 +100,9 @@ class GpuGrowth final : public Growth {
     bool runsNative(const GrowthInputs& inputs) const {
         return inputs.native && device_.info().cpu && status_ && uintptr_t(status_.mapped()) == status_.address();
     }
-    uint64_t densityWords(const GrowthLimits& limits) const {
-        if (limits.tangents == TangentMode::paper) return kDensityCells + 3ull * room_.nodes;
+    // ExpandEnv::density; frozen: nodes that stand before those for which there is room.
+    uint64_t densityWords(const GrowthLimits& limits, uint64_t frozen) const {
+        if (limits.tangents == TangentMode::paper) return kDensityCells + 3 * (room_.nodes + frozen);
         return limits.leafDensityCap > 0 ? kDensityCells : 1;
     }
     uint32_t marchNumber() const { return (fetches_ ? 2 : 0) + (byAddress_ ? 1 : 0); }

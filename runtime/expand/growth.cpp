@@ -140,7 +140,7 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptNative(const GrowthInputs& inputs, 
         Result<Commands> commands = Commands::begin(device_, "expand inputs");
         if (!commands) return commands.failure();
         if (Status uploaded = uploadInputs(*commands, inputs, frozen, cut); !uploaded) return uploaded.failure();
-        if (densityWords(inputs.limits) > 1) commands->fill(density_, 0);
+        if (densityWords(inputs.limits, 0) > 1) commands->fill(density_, 0);
         if (Status finished = commands->finish(); !finished) return finished.failure();
     }
     packTablesNative(env, uint32_t(inputs.grammars.size()));

@@ -142,7 +142,7 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
         {&plants.leaves, "growth leaves", (room_.leaves + frozen.leaves.size()) * sizeof(Leaf)},
         {&links.chunks, "growth chunks", (room_.chunks + frozen.chunks.size()) * sizeof(Chunk)},
         {&links.branches, "growth branches", (room_.branches + frozen.branches.size()) * sizeof(BranchRecord)},
-        {&density_, "growth density", densityWords(inputs.limits) * 4}};
+        {&density_, "growth density", densityWords(inputs.limits, frozen.nodes.size()) * 4}};
     for (const Row& row : rows) {
         Status ok = ensure(*row.buffer, row.name, row.bytes);
         if (!ok) return ok;

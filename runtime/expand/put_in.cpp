@@ -1,19 +1,20 @@
 // Frozen plants that come from elsewhere. In: their records, what is drawn. Out: both together. The regrowth that
 // follows takes them for plants that have always been there, and away what their seeds had grown instead.
 #include <algorithm>
+#include <set>
 
 #include "runtime/expand/gpu_growth.hpp"
 
 namespace espalier {
 
 Result<bool> GpuGrowth::putIn(const GrowthInputs& inputs) {
-    const std::vector<uint64_t>& keys = inputs.changes->frozen;
+    if (inputs.changes->frozen.empty()) return true;
+    const std::set<uint64_t> keys(inputs.changes->frozen.begin(), inputs.changes->frozen.end());
+    std::set<std::pair<uint64_t, const PlantRecords*>> standing;
+    for (const FrozenPlant& plant : from_.frozen) standing.emplace(plant.key, plant.records.get());
     std::vector<FrozenPlant> fresh;
-    for (const FrozenPlant& plant : inputs.frozen) {
-        const auto same = [&](const FrozenPlant& p) { return p.key == plant.key && p.records == plant.records; };
-        if (std::ranges::find(keys, plant.key) != keys.end() && std::ranges::none_of(from_.frozen, same))
-            fresh.push_back(plant);
-    }
+    for (const FrozenPlant& plant : inputs.frozen)
+        if (keys.contains(plant.key) && !standing.contains({plant.key, plant.records.get()})) fresh.push_back(plant);
     if (fresh.empty()) return true;
     FrozenSum sum = sumOf(fresh, uint32_t(from_.seeds.size() + from_.frozen.size()));
     GrowthRecords& r = sum.records;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iterator>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "shaders/shared/expand_again.h"
 
@@ -87,13 +88,14 @@ std::optional<SeedChanges> seedChanges(const GrownFrom& before, const GrowthInpu
     };
     bool anyOther = !now.changes->grammars.empty();
     for (uint32_t g = 0; g < std::max(before.widths.size(), now.widths.size()); ++g) anyOther = anyOther || other(g);
-    const auto among = [](const std::vector<uint64_t>& keys, uint64_t key) {
-        return std::find(keys.begin(), keys.end(), key) != keys.end();
-    };
-    const std::vector<uint64_t>&anew = now.changes->seeds, &putIn = now.changes->frozen;
-    if (!anyOther && anew.empty() && sameSeeds(before.seeds, now.seeds) && sameFrozen(before.frozen, now.frozen))
+    if (!anyOther && now.changes->seeds.empty() && sameSeeds(before.seeds, now.seeds) &&
+        sameFrozen(before.frozen, now.frozen))
         return out;
 
+    const auto setOf = [](const std::vector<uint64_t>& keys) {
+        return std::unordered_set<uint64_t>(keys.begin(), keys.end());
+    };
+    const std::unordered_set<uint64_t> anew = setOf(now.changes->seeds), putIn = setOf(now.changes->frozen);
     std::unordered_map<uint64_t, uint32_t> indices;
     const uint32_t seeds = uint32_t(now.seeds.size()), all = seeds + uint32_t(now.frozen.size());
     for (uint32_t i = 0; i < all; ++i)
@@ -105,12 +107,12 @@ std::optional<SeedChanges> seedChanges(const GrownFrom& before, const GrowthInpu
         const auto found = indices.find(key);
         bool same = found != indices.end() && !stays[found->second];
         if (same && found->second < seeds)
-            same = seed && !among(anew, key) && std::memcmp(seed, &now.seeds[found->second], sizeof(Seed)) == 0 &&
+            same = seed && !anew.contains(key) && std::memcmp(seed, &now.seeds[found->second], sizeof(Seed)) == 0 &&
                    !other(seed->grammar);
         else if (same && plant)
             same = plant->records == now.frozen[found->second - seeds].records;
         else if (same)
-            same = !among(putIn, key);
+            same = !putIn.contains(key);
         if (same) stays[found->second] = true;
         out.to.push_back(same ? found->second : kNoIndex);
     };

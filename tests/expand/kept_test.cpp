@@ -144,6 +144,35 @@ TEST_CASE("a frozen plant stands as it was through every edit, and grows from wh
     CHECK(s.growth->stats().regrowths == 1);
 }
 
+TEST_CASE("plants with the paper's tangents grow beside frozen ones as they would alone") {
+    for (const bool native : {false, true}) {
+        CAPTURE(native);
+        Session s(ball());
+        s.scene.native = native;
+        s.scene.plantMany(60, 0, 1);
+        s.grow();
+        Result<GrowthRecords> records = s.growth->read();
+        REQUIRE(records);
+        std::vector<Seed>& seeds = s.scene.seeds();
+        for (uint32_t i = 0; i < 55; ++i)
+            s.scene.frozen.push_back({seeds[i].key, std::make_shared<PlantRecords>(plantOf(*records, i))});
+        const FrozenSum kept = sumOf(s.scene.frozen, 0);
+        seeds.erase(seeds.begin(), seeds.begin() + 55);
+        s.scene.limits.tangents = TangentMode::paper;
+        Result<CpuGrowth> alone = s.scene.growOnCpu();
+        REQUIRE(alone);
+        REQUIRE(kept.records.nodes.size() > 4 * alone->stats.nodes);
+        s.growth = s.gpu.growth({64, alone->stats.nodes, 64, 64, 64});
+        for (int round = 0; round < 3; ++round) {
+            s.changes.everything = true;
+            s.grow();
+            const uint64_t low = uint32_t(alone->stats.hash) + kept.hash[0],
+                           high = (alone->stats.hash >> 32) + kept.hash[1];
+            CHECK(s.growth->stats().hash == ((high << 32) | uint32_t(low)));
+        }
+    }
+}
+
 TEST_CASE("a plant that is put in and taken out, over and over, leaves nothing behind") {
     for (const bool native : {false, true}) {
         CAPTURE(native);
