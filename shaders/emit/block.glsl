@@ -8,6 +8,7 @@ shared uint laneBuckets[64];
 shared uint laneRanks[64];
 shared uint bucketCounts[64];
 
+// Of a class; groups that are spread over y overhang its blocks.
 #define groupIndex() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)
 
 // All invocations of the group call it. Leaves the note of what this lane has found, and the block's counts. count: items

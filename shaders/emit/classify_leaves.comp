@@ -14,6 +14,7 @@ uvec4 leafTexel(uint i) { return texelFetch(leafTexels, int(i)); }
 #include "shaders/emit/classify_leaf.h"
 
 void main() {
+    if (groupIndex() >= push.state.v[0].blocks[1]) return;
     uint count = min(push.state.v[0].listed[1] - groupIndex() * kBlockItems, kBlockItems);
     uint block = push.state.v[0].blocks[0] + groupIndex();
     uint lane = gl_LocalInvocationID.x;

@@ -14,6 +14,7 @@ uvec4 spanTexel(uint i) { return texelFetch(spanTexels, int(i)); }
 
 void main() {
     uint block = groupIndex();
+    if (block >= push.state.v[0].blocks[0]) return;
     uint count = min(push.state.v[0].listed[0] - block * kBlockItems, kBlockItems);
     uint lane = gl_LocalInvocationID.x;
     DrawnItem o = DrawnItem(0u, 0u, 0.0, 0u);
