@@ -27,6 +27,7 @@ class Reader {
         if (!feature.is_object()) return say("feature " + std::to_string(number), "is not an object: left out");
         const json& tags = feature.contains("properties") ? feature["properties"] : feature;
         std::string id = idOf(feature, tags, number);
+        tellUnknownTags(tags, file_, id, town.diagnostics);
         if (metres_) return plan(feature, id);
         if (!feature.contains("geometry")) return say(id, "has no geometry: left out");
         geometry(feature["geometry"], tags, id);

@@ -68,6 +68,8 @@ constexpr std::pair<const char*, uint32_t> kColours[] = {
 constexpr const char* kCompass[] = {"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
                                     "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
 
+constexpr size_t kLongest = 100;  // bytes of a text that may mean something: each polygon of a feature looks at it
+
 std::string lower(std::string s) {
     for (char& c : s) c = char(std::tolower(static_cast<unsigned char>(c)));
     return s;
@@ -105,7 +107,6 @@ class Tags {
         material();
         colour();
         edges();
-        unknown();
     }
 
   private:
@@ -119,7 +120,7 @@ class Tags {
     std::optional<std::string> text(const char* key) {
         const json* value = find(key);
         if (!value) return {};
-        if (value->is_string()) return value->get<std::string>();
+        if (value->is_string()) return value->get_ref<const std::string&>().substr(0, kLongest);
         warn(key, "is not a text");
         return {};
     }
@@ -130,6 +131,7 @@ class Tags {
         if (value.is_number()) return value.get<double>();
         if (!value.is_string()) return {};
         const std::string& s = value.get_ref<const std::string&>();
+        if (s.size() > kLongest) return {};
         double d = 0;
         auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), d);
         if (error != std::errc()) return {};
@@ -177,7 +179,7 @@ class Tags {
         std::optional<double> degrees = parse(*value);
         if (!degrees && value->is_string())
             for (int i = 0; i < 16; i++)
-                if (lower(value->get<std::string>()) == lower(kCompass[i])) degrees = 22.5 * i;
+                if (lower(*text("roof:direction")) == lower(kCompass[i])) degrees = 22.5 * i;
         if (!degrees || !std::isfinite(*degrees))
             return warn("roof:direction", "is neither degrees nor a compass point");
         f_.direction = glm::radians(std::fmod(*degrees, 360));
@@ -222,7 +224,9 @@ class Tags {
         size_t count = 0;
         for (const auto& ring : f_.rings) count += ring.size();
         if (!list->is_array()) return warn("edges", "is not a list");
+        size_t left = count;  // an entry an edge: more would be gone through for each polygon of a feature
         for (const json& entry : *list) {
+            if (left-- == 0) return warn("edges", "has more entries than there are edges: those behind them");
             if (!entry.is_object() || !entry.contains("edge") || !entry["edge"].is_number_unsigned()) {
                 warn("edges", "has an entry without the number of its edge");
                 continue;
@@ -245,15 +249,6 @@ class Tags {
         }
     }
 
-    void unknown() {
-        static constexpr std::array known{"roof:shape",     "roof:height",      "roof:angle",
-                                          "roof:direction", "roof:orientation", "roof:material",
-                                          "roof:colour",    "roof:color",       "roof:levels"};
-        for (const auto& [key, value] : tags_.items())
-            if (key.rfind("roof:", 0) == 0 && std::find(known.begin(), known.end(), key) == known.end())
-                warn(key.substr(0, 40), "is not known");
-    }
-
     const json& tags_;
     const std::string& file_;
     Footprint& f_;
@@ -264,6 +259,17 @@ class Tags {
 
 void applyTags(const json& tags, const std::string& file, Footprint& footprint, std::vector<Diagnostic>& diagnostics) {
     if (tags.is_object()) Tags(tags, file, footprint, diagnostics).apply();
+}
+
+void tellUnknownTags(const json& tags, const std::string& file, const std::string& id,
+                     std::vector<Diagnostic>& diagnostics) {
+    static constexpr std::array known{"roof:shape",     "roof:height",      "roof:angle",
+                                      "roof:direction", "roof:orientation", "roof:material",
+                                      "roof:colour",    "roof:color",       "roof:levels"};
+    if (!tags.is_object()) return;
+    for (const auto& [key, value] : tags.items())
+        if (key.rfind("roof:", 0) == 0 && std::find(known.begin(), known.end(), key) == known.end())
+            diagnostics.push_back({file, 0, 0, id, key.substr(0, 40) + " is not known: ignored", true});
 }
 
 }  // namespace espalier

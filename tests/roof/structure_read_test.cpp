@@ -174,6 +174,17 @@ TEST_CASE("multipolygons, holes and outlines too large") {
     CHECK(holed.footprints[0].rings.size() == 2);
     CHECK(says(holed.diagnostics, "hole 2 has fewer than three corners: filled"));
 
+    // What a feature says is looked at for each of its polygons.
+    std::string triangles = "[[[0,0],[1e-4,0],[0,1e-4]]]", keys = R"("edges":[{"edge":0})";
+    for (int i = 1; i < 20000; i++) triangles += ",[[[0,0],[1e-4,0],[0,1e-4]]]", keys += R"(,{"edge":0})";
+    keys += R"(],"roof:shape":")" + std::string(500000, 'x') + R"(","roof:angle":")" + std::string(500000, '7') + '"';
+    for (int i = 0; i < 20000; i++) keys += R"(,"roof:x)" + std::to_string(i) + R"(":1)";
+    Town heavy = town(feature(keys, "[" + triangles + "]", "MultiPolygon"));
+    CHECK(heavy.footprints.size() == 20000);
+    CHECK(heavy.diagnostics.size() == 20000 + 3 * heavy.footprints.size());
+    CHECK(says(heavy.diagnostics, "way/7: roof:x7 is not known"));
+    CHECK(says(heavy.diagnostics, "way/7#9: edges has more entries than there are edges"));
+
     std::string many;
     for (int i = 0; i < 100000; i++)
         many += (i ? ",[" : "[") + std::to_string(100 * std::cos(i * 6.2831853e-5)) + "," +
