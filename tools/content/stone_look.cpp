@@ -67,8 +67,8 @@ Detail stoneDetail(const StonePlace& place, const StoneLook& look) {
     addLichen(color, look, id);
     glm::vec3 lime = glm::vec3(0.25f, 0.22f, 0.17f) * (1 + 0.35f * fractal(look.block * 50.0f, 341, 2));
     float open = ramp(0.55f, 0.98f, inJoint);
-    color = glm::mix(color, lime * 0.62f, open);
-    color *= 1 - 0.45f * ramp(0.05f, 0.9f, inJoint);     // the joint's own shade
+    color = glm::mix(color, lime * 0.82f, open);
+    color *= 1 - 0.28f * ramp(0.05f, 0.9f, inJoint);     // the joint's own shade
     color *= 1 + 0.22f * roundDrop(place.edge / 0.03f);  // worn edges are paler
     float streak = ramp(0.0f, 0.7f, fractal(glm::vec2(look.st.x * 7.0f, look.st.y * 0.55f), 351, 3));
     color *= 1 - 0.55f * streak * ramp(2.2f, 0.0f, look.belowCrest);

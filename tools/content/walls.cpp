@@ -91,13 +91,39 @@ float frontIvy(glm::vec2 p, const Elevation& wall) {
     return bare * glm::mix(0.5f, 0.85f, over);
 }
 
-// On the back it keeps to paths: one that winds up to the crest, one by the corner, and what is beside the arch.
+// A tongue of ivy up a wall, as wide as `foot` where it begins and ever narrower.
+struct Tongue {
+    std::vector<glm::vec2> line;
+    float foot, tip;  // half widths, metres
+};
+
+// Metres from the tongue's border, negative inside.
+float tongueDistance(glm::vec2 p, const Tongue& tongue) {
+    float best = 1e9f;
+    const float pieces = static_cast<float>(tongue.line.size() - 1);
+    for (size_t i = 0; i + 1 < tongue.line.size(); ++i) {
+        glm::vec2 d = tongue.line[i + 1] - tongue.line[i];
+        float t = saturate(glm::dot(p - tongue.line[i], d) / glm::dot(d, d));
+        float along = (static_cast<float>(i) + t) / pieces;
+        best = std::min(best, glm::distance(p, tongue.line[i] + d * t) - glm::mix(tongue.foot, tongue.tip, along));
+    }
+    return best;
+}
+
+// On the back it keeps to tongues: one that winds up to the crest, one by the corner, those beside the arch. They thin
+// out towards ragged borders.
 float backIvy(glm::vec2 p) {
-    float d = strokeDistance(
-        p, {{-1.6f, -0.2f}, {-1.45f, 0.7f}, {-1.85f, 1.5f}, {-1.65f, 2.3f}, {-2.05f, 3.0f}, {-2.1f, 3.7f}});
-    d = std::min(d, strokeDistance(p, {{-3.1f, -0.2f}, {-3.25f, 1.9f}}) + 0.05f);
-    d = std::min(d, strokeDistance(p, {{2.3f, -0.2f}, {2.1f, 1.0f}, {1.75f, 2.2f}, {1.1f, 2.75f}}) - 0.1f);
-    return 0.62f * ramp(0.38f, 0.30f, d + 0.04f * fractal(p * 4.0f, 489, 2));
+    static const Tongue kTongues[] = {
+        {{{-1.6f, -0.2f}, {-1.45f, 0.7f}, {-1.85f, 1.5f}, {-1.65f, 2.3f}, {-2.05f, 3.0f}, {-2.1f, 3.7f}}, 0.44f, 0.24f},
+        {{{-1.5f, 0.8f}, {-1.15f, 1.5f}, {-0.95f, 2.2f}}, 0.34f, 0.08f},
+        {{{-3.2f, -0.2f}, {-3.3f, 0.9f}, {-3.15f, 1.8f}, {-3.3f, 2.9f}}, 0.42f, 0.10f},
+        {{{-3.1f, 0.6f}, {-2.75f, 1.3f}, {-2.6f, 2.1f}}, 0.26f, 0.02f},
+        {{{2.3f, -0.2f}, {2.1f, 1.0f}, {1.75f, 2.2f}, {1.1f, 2.75f}, {0.4f, 2.9f}}, 0.50f, 0.12f},
+        {{{-0.25f, 0.1f}, {-0.3f, 1.2f}, {-0.5f, 2.1f}}, 0.20f, 0.05f}};
+    float d = 1e9f;
+    for (const Tongue& tongue : kTongues) d = std::min(d, tongueDistance(p, tongue));
+    d += 0.16f * fractal(p * 2.4f, 489, 3) + 0.06f * fractal(p * 9.0f, 490, 2);
+    return 0.66f * ramp(0.06f, -0.16f, d);
 }
 
 // A face of a wall lies in a vertical plane: a point (along, y) of the elevation is at block(along, y).
