@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "tools/scene/picture.hpp"
+#include "tools/scene/text_file.hpp"
 
 namespace sample {
 namespace {

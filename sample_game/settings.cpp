@@ -7,7 +7,7 @@
 
 #include "tools/document/durable.hpp"
 #include "tools/document/fields.hpp"
-#include "tools/scene/picture.hpp"
+#include "tools/scene/text_file.hpp"
 
 namespace sample {
 namespace {

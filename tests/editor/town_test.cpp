@@ -4,6 +4,7 @@
 
 #include "tests/editor/editing.hpp"
 #include "tools/document/project.hpp"
+#include "tools/scene/text_file.hpp"
 
 using namespace espalier::document;
 using espalier::scene::House;

@@ -17,12 +17,13 @@ void surface(Bytes bytes);  // the surface reader; its hashes are not compared i
 void grammar(Bytes bytes);  // the grammar compiler, and loading what it made
 void roof(Bytes bytes);     // the reader of footprints, and the roofs over them
 void plant(Bytes bytes);    // the reader of frozen plants
+void scene(Bytes bytes);    // the reader of scene files, and reading what it wrote
 
 struct Target {
     const char* name;
     void (*run)(Bytes);
 };
-inline constexpr Target kTargets[] = {{"gltf", gltf},       {"obj", obj},   {"ply", ply},    {"surface", surface},
-                                      {"grammar", grammar}, {"roof", roof}, {"plant", plant}};
+inline constexpr Target kTargets[] = {{"gltf", gltf},       {"obj", obj},   {"ply", ply},     {"surface", surface},
+                                      {"grammar", grammar}, {"roof", roof}, {"plant", plant}, {"scene", scene}};
 
 }  // namespace espalier::fuzz

@@ -1,6 +1,10 @@
 // The programs with what users get wrong: each ends with a message that names file and cause, a code that isn't 0,
 // and nothing half-written.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <random>
 
 #include "tests/tools/program.hpp"
 
@@ -77,6 +81,20 @@ TEST_CASE("scenes with mistakes tell the place of each") {
     refuses(capture + folder.write("f.json", std::string(100000, '[')) + out, folder, {"f.json:1:"});
     refuses(capture + folder.write("g.json", sceneOf("none.glb", "x")) + out, folder, {"none.glb"});
     refuses(capture + folder.write("h.json", "{\"surface\": 1e999}") + out, folder, {"h.json:1:"});
+    refuses(
+        capture + folder.write("i.json", R"({"town": {"file": "t", "grammar": 0.5, "houses": [
+        {"house": 0, "shape": "hip", "edges": {}, "corners": 5}, {"house": 1, "shape": "hip", "corners": [[1, 1e300]]}]},
+        "layers": {"mask": [{"surface": 0.5, "file": "m"}]},
+        "grammars": [{"file": "g", "params": [], "seeds": [{"position": [0, 0, 0], "params": 7}]}]})") +
+            out,
+        folder,
+        {"i.json:1:", "'grammar' must be a place", "i.json:2:", "'edges' must be a list", "'corners' must be a list",
+         "two numbers", "'surface' must be a place", "i.json:4:", "'params' must be an object"});
+    std::string keys = "{\"k\": 1";
+    for (int i = 0; i < 150'000; ++i) keys += ", \"k" + std::to_string(i) + "\": 1";
+    const auto start = std::chrono::steady_clock::now();
+    refuses(capture + folder.write("j.json", keys + ", \"k\": 2}") + out, folder, {"j.json:1:", "'k' comes twice"});
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
 }
 
 TEST_CASE("grammars, layers and options with mistakes") {
@@ -138,6 +156,37 @@ TEST_CASE("a comparison says alike, not alike, or why it can't tell") {
     CHECK(std::filesystem::exists(folder.file("diff.png")));
     CHECK(run(compare + a + folder.file("small.png")).code == 1);
     CHECK(run(compare + a + folder.file("none.png")).code == 2);
+}
+
+TEST_CASE("what is written is whole, what a link leads to, and no device is replaced") {
+    const Folder folder;
+    std::string noise = "P6 600 600 255\n", other = noise;
+    std::mt19937 random(1);
+    for (int i = 0; i < 600 * 600 * 3; ++i) {
+        noise += char(random());
+        other += char(random());
+    }
+    const std::string compare = program("espalier-compare") + " " + folder.write("a.ppm", noise) + " " +
+                                folder.write("b.ppm", other) + " --diff ";
+    const std::string diff = folder.write("diff.png", "what was there");
+    const size_t files = folder.count();
+    // A file of 64 KiB is as full a disk.
+    const Ran full = run("trap '' XFSZ; ulimit -f 64; " + compare + diff);
+    CHECK(full.code == 2);
+    CHECK_MESSAGE(contains(full.output, "diff.png: can't be written"), full.output);
+    CHECK(readAll(diff) == "what was there");
+    CHECK(folder.count() == files);
+
+    std::filesystem::create_symlink("diff.png", folder.path / "link.png");
+    CHECK(run(compare + folder.file("link.png")).code == 1);
+    CHECK(std::filesystem::is_symlink(folder.path / "link.png"));
+    CHECK(readAll(diff).substr(1, 3) == "PNG");
+
+    const std::string pipe = folder.file("pipe");
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    run("timeout 20 cat " + pipe + " > " + folder.file("got") + " & " + compare + pipe + "; wait");
+    CHECK(std::filesystem::is_fifo(pipe));
+    CHECK(readAll(folder.file("got")) == readAll(diff));
 }
 
 TEST_CASE("the program in docs/embedding.md is the one that is compiled and run") {

@@ -15,6 +15,7 @@
 #include "tools/document/run.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene.hpp"
+#include "tools/scene/text_file.hpp"
 
 using namespace espalier::scene;
 using espalier::document::Document;

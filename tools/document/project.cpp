@@ -9,6 +9,7 @@
 #include "tools/document/durable.hpp"
 #include "tools/scene/hash.hpp"
 #include "tools/scene/picture.hpp"
+#include "tools/scene/text_file.hpp"
 
 namespace espalier::document {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "tools/document/fields.hpp"
-#include "tools/scene/picture.hpp"
+#include "tools/scene/text_file.hpp"
 
 namespace espalier::document {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 
 namespace espalier::scene {
 namespace {
@@ -64,7 +65,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
     bool key(string_t& name) override {
-        if (open_.back()->find(name)) return fail(read_, "'" + name + "' comes twice");
+        if (!keys_.back().insert(name).second) return fail(read_, "'" + name + "' comes twice");
         key_ = name;
         return true;
     }
@@ -107,10 +108,12 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     bool open(Json* json) {
         if (open_.size() >= kMaxDepth) return fail(read_, "nested too deeply");
         open_.push_back(json);
+        keys_.emplace_back();
         return true;
     }
     bool close() {
         open_.pop_back();
+        keys_.pop_back();
         return true;
     }
     bool fail(size_t offset, const std::string& message) {
@@ -127,6 +130,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     int line_ = 1;
     // Pointers stay good: while a value is open, nothing is added beside it.
     std::vector<Json*> open_;
+    std::vector<std::unordered_set<std::string>> keys_;  // of each
 };
 
 }  // namespace

@@ -1,16 +1,16 @@
-// Files of pictures and texts, in and out.
+// Files of pictures, in and out.
 #include "tools/scene/picture.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+
+#include "tools/scene/text_file.hpp"
 
 namespace espalier::scene {
 namespace {
@@ -19,21 +19,6 @@ constexpr int kMaxSide = 8192;
 
 std::string systemReason() {
     return std::strerror(errno ? errno : EIO);
-}
-
-// A name beside `path` that nobody else uses, with its ending, which tells the picture library the format.
-std::string temporaryBeside(const std::string& path) {
-    const std::filesystem::path file(path);
-    return (file.parent_path() / ("." + std::to_string(getpid()) + "-" + file.filename().string())).string();
-}
-
-bool moveInto(const std::string& from, const std::string& to, std::string& error) {
-    std::error_code code;
-    std::filesystem::rename(from, to, code);
-    if (!code) return true;
-    error = to + ": can't be written: " + code.message();
-    std::filesystem::remove(from, code);
-    return false;
 }
 
 std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path, std::string& error) {
@@ -144,67 +129,17 @@ bool writeGrey(const std::string& path, const GreyPicture& picture, std::string&
 }
 
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error) {
-    const std::string temporary = temporaryBeside(path);
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-    if (!output) {
-        error = path + ": can't write PNG: " + OIIO::geterror();
-        return false;
-    }
     OIIO::ImageSpec spec(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
     spec["png:compressionLevel"] = 1;
-    errno = 0;
-    bool good = output->open(temporary, spec);
-    if (!good && errno)
-        error = path + ": can't be written: " + systemReason();
-    else if (!good)
-        error = path + ": can't be written: " + output->geterror();
-    if (good) {
-        good = output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, OIIO::stride_t(width) * 4) && output->close();
-        if (!good) error = path + ": can't be written: " + output->geterror();
-    }
+    OIIO::Filesystem::IOVecOutput bytes;  // as in writeGrey
+    const bool good = output && output->set_ioproxy(&bytes) && output->open(path, spec) &&
+                      output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, OIIO::stride_t(width) * 4) && output->close();
     if (!good) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
+        error = path + ": can't be written: " + (output ? output->geterror() : OIIO::geterror());
         return false;
     }
-    return moveInto(temporary, path, error);
-}
-
-bool writeText(const std::string& path, const std::string& text, std::string& error) {
-    const std::string temporary = temporaryBeside(path);
-    errno = 0;
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) {
-        error = path + ": can't be written: " + systemReason();
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        return false;
-    }
-    return moveInto(temporary, path, error);
-}
-
-bool readText(const std::string& path, std::string& text, std::string& error) {
-    std::error_code code;
-    if (std::filesystem::is_directory(path, code)) {
-        error = path + ": is a folder";
-        return false;
-    }
-    if (std::filesystem::is_character_file(path, code) || std::filesystem::is_block_file(path, code)) {
-        error = path + ": is a device, not a file";
-        return false;
-    }
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream all;
-    if (file) all << file.rdbuf();
-    if (!file) {
-        error = path + ": can't be read: " + systemReason();
-        return false;
-    }
-    text = all.str();
-    return true;
+    return writeText(path, {reinterpret_cast<const char*>(bytes.buffer().data()), bytes.buffer().size()}, error);
 }
 
 }  // namespace espalier::scene

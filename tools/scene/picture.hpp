@@ -31,11 +31,7 @@ bool readColour(const std::string& path, ColourPicture& out, std::string& error)
 bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error,
                const std::function<bool(float)>& goOn = {});
 
-// Writes a PNG beside `path` first and renames it, so that a failure leaves nothing half-written.
+// Writes a PNG as writeText does (text_file.hpp).
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error);
-
-// Likewise for a text.
-bool writeText(const std::string& path, const std::string& text, std::string& error);
-bool readText(const std::string& path, std::string& text, std::string& error);
 
 }  // namespace espalier::scene

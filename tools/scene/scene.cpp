@@ -12,6 +12,7 @@
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene_file.hpp"
 #include "tools/scene/site.hpp"
+#include "tools/scene/text_file.hpp"
 
 namespace espalier::scene {
 namespace {

@@ -10,7 +10,7 @@
 #include <initializer_list>
 
 #include "tools/scene/json_tree.hpp"
-#include "tools/scene/picture.hpp"
+#include "tools/scene/text_file.hpp"
 
 namespace espalier::scene {
 namespace {
@@ -97,7 +97,7 @@ class Reader {
         }
     }
     void readPlace(const Json& json, Placing& placing) {
-        if (const Json* at = json.find("position"); at && !threeNumbers(*at, placing.position))
+        if (const Json* at = json.find("position"); at && !numbers(*at, placing.position))
             fail(*at, "'position' must be three numbers");
         float degrees = 0;
         number(json, "turn", -360, 360, degrees);
@@ -108,25 +108,28 @@ class Reader {
         SceneTown& town = out_.town.emplace();
         if (const Json* name = need(json, "file")) town.file = file(*name);
         readPlace(json, town.placing);
-        if (const Json* grammar = json.find("grammar")) {
-            float index = -1;
-            number(json, "grammar", 0, float(out_.grammars.size()) - 1, index);
-            if (index != std::floor(index)) fail(*grammar, "'grammar' must be a place in the list of grammars, from 0");
-            town.grammar = int(index);
-        }
-        if (const Json* houses = json.find("houses")) {
-            if (houses->kind != Json::Kind::list) fail(*houses, "'houses' must be a list");
+        index(json, "grammar", out_.grammars.size(), town.grammar);
+        if (const Json* houses = list(json, "houses"))
             for (const Json& house : houses->items) readHouse(house, town.houses.emplace_back());
-        }
         const Json* ground = json.find("ground");
         if (!ground) return;
         std::array<float, 3> colour{};
         if (ground->kind == Json::Kind::flag)
             town.ground = ground->flag;
-        else if (threeNumbers(*ground, colour))
+        else if (numbers(*ground, colour))
             town.groundColour = colour;
         else
             fail(*ground, "'ground' must be true, false or a colour of three numbers");
+    }
+    // A place in a list of so many, from 0.
+    void index(const Json& json, const char* name, size_t count, int& out) {
+        const Json* found = json.find(name);
+        if (!found) return;
+        const double number = found->kind == Json::Kind::number ? found->number : -1;
+        if (number >= 0 && number < double(count) && number == std::floor(number))
+            out = int(number);
+        else
+            fail(*found, std::string("'") + name + "' must be a place in the list of " + name + "s, from 0");
     }
     void whole(const Json& json, const char* name, uint32_t& out) {
         float value = 0;
@@ -147,7 +150,7 @@ class Reader {
         if (!shapeNamed(house.shape, known)) fail(json, "there is no roof of the kind '" + house.shape + "'");
         number(json, "slope", 0, 100, house.slope);
         number(json, "eave_height", 0, 1000, house.eaveHeight);
-        if (const Json* edges = json.find("edges"))
+        if (const Json* edges = list(json, "edges"))
             for (const Json& edge : edges->items) {
                 if (!isObject(edge, "an edge", {"edge", "end", "slope"})) continue;
                 House::Edge& own = house.edges.emplace_back();
@@ -155,14 +158,9 @@ class Reader {
                 word(edge, "end", own.end);
                 number(edge, "slope", 0, 100, own.slope);
             }
-        if (const Json* corners = json.find("corners"))
-            for (const Json& corner : corners->items) {
-                const bool pair = corner.kind == Json::Kind::list && corner.items.size() == 2 &&
-                                  corner.items[0].kind == Json::Kind::number &&
-                                  corner.items[1].kind == Json::Kind::number;
-                if (!pair) return fail(corner, "a corner must be two numbers");
-                house.corners.push_back({float(corner.items[0].number), float(corner.items[1].number)});
-            }
+        if (const Json* corners = list(json, "corners"))
+            for (const Json& corner : corners->items)
+                if (!numbers(corner, house.corners.emplace_back())) fail(corner, "a corner must be two numbers");
     }
     // Keys have 64 bits, more than a number of JSON holds.
     void readPruned(const Json& json) {
@@ -184,15 +182,15 @@ class Reader {
         if (json.kind != Json::Kind::list) return out_.layers.push_back({name, file(json), -1});
         for (const Json& picture : json.items) {
             if (!isObject(picture, "a layer's picture", {"surface", "town", "file"})) continue;
-            float index = 0;
+            int surface = 0;
             bool town = false;
             flag(picture, "town", town);
             if (town)
-                index = SceneLayer::kTown;
+                surface = SceneLayer::kTown;
             else
-                number(picture, "surface", 0, float(out_.surfaces.size()) - 1, index);
+                index(picture, "surface", out_.surfaces.size(), surface);
             if (town && !out_.town) fail(picture, "the scene has no town");
-            if (const Json* on = need(picture, "file")) out_.layers.push_back({name, file(*on), int(index)});
+            if (const Json* on = need(picture, "file")) out_.layers.push_back({name, file(*on), surface});
         }
     }
     // A text is a list of its lines.
@@ -255,19 +253,35 @@ class Reader {
         else
             out = float(found->number);
     }
-    bool threeNumbers(const Json& json, std::array<float, 3>& out) {
-        if (json.kind != Json::Kind::list || json.items.size() != 3) return false;
-        for (int i = 0; i < 3; ++i) {
+    template <size_t N>
+    bool numbers(const Json& json, std::array<float, N>& out) {
+        if (json.kind != Json::Kind::list || json.items.size() != N) return false;
+        for (size_t i = 0; i < N; ++i) {
             if (json.items[i].kind != Json::Kind::number || !std::isfinite(float(json.items[i].number))) return false;
             out[i] = float(json.items[i].number);
         }
         return true;
     }
+    // Null: there is none.
+    const Json* list(const Json& json, const char* name) {
+        const Json* found = json.find(name);
+        if (found && found->kind != Json::Kind::list) fail(*found, std::string("'") + name + "' must be a list");
+        return found;
+    }
+    void params(const Json& json, std::vector<SceneParam>& out) {
+        const Json* found = json.find("params");
+        if (!found) return;
+        if (found->kind != Json::Kind::object) fail(*found, "'params' must be an object");
+        for (const auto& [name, value] : found->members) {
+            SceneParam param;
+            if (readParam(name, value, param)) out.push_back(param);
+        }
+    }
     bool vector(const Json& json, const char* name, std::optional<std::array<float, 3>>& out) {
         const Json* found = json.find(name);
         if (!found) return false;
         std::array<float, 3> value{};
-        if (!threeNumbers(*found, value)) {
+        if (!numbers(*found, value)) {
             fail(*found, std::string("'") + name + "' must be three numbers");
             return false;
         }
@@ -281,17 +295,9 @@ class Reader {
         if (const Json* name = need(json, "file")) grammar.file = file(*name);
         lines(json, "text", grammar.text);
         if (lines(json, "grows", grammar.grows) && !grammar.text) fail(json, "'grows' needs a 'text'");
-        if (const Json* params = json.find("params")) {
-            if (params->kind != Json::Kind::object) fail(*params, "'params' must be an object");
-            for (const auto& [name, value] : params->members) {
-                SceneParam param;
-                if (readParam(name, value, param)) grammar.params.push_back(param);
-            }
-        }
-        if (const Json* seeds = json.find("seeds")) {
-            if (seeds->kind != Json::Kind::list) fail(*seeds, "'seeds' must be a list");
+        params(json, grammar.params);
+        if (const Json* seeds = list(json, "seeds"))
             for (const Json& seed : seeds->items) readSeed(grammar, seed);
-        }
     }
     bool readParam(const std::string& name, const Json& value, SceneParam& param) {
         param.value.name = name;
@@ -300,7 +306,7 @@ class Reader {
             param.value.value[0] = float(value.number);
         else if (value.kind == Json::Kind::flag)
             param.value.value[0] = value.flag;
-        else if (threeNumbers(value, param.value.value))
+        else if (numbers(value, param.value.value))
             param.value.count = 3;
         else
             fail(value, "'" + name + "' must be a number, true, false or three numbers");
@@ -310,9 +316,9 @@ class Reader {
         if (!isObject(json, "a seed", {"position", "direction", "seed", "params", "frozen"})) return;
         Seed seed;
         seed.number = uint32_t(grammar.seeds.size() + 1);
-        if (const Json* position = need(json, "position"); position && !threeNumbers(*position, seed.position))
+        if (const Json* position = need(json, "position"); position && !numbers(*position, seed.position))
             fail(*position, "'position' must be three numbers");
-        if (const Json* direction = json.find("direction"); direction && !threeNumbers(*direction, seed.direction))
+        if (const Json* direction = json.find("direction"); direction && !numbers(*direction, seed.direction))
             fail(*direction, "'direction' must be three numbers");
         if (const Json* n = json.find("seed")) {
             if (n->kind != Json::Kind::number || n->number < 0 || n->number > 4294967295.0 ||
@@ -322,11 +328,9 @@ class Reader {
                 seed.number = uint32_t(n->number);
         }
         if (const Json* frozen = json.find("frozen")) seed.frozenFile = file(*frozen);
-        if (const Json* params = json.find("params"))
-            for (const auto& [name, value] : params->members) {
-                SceneParam param;
-                if (readParam(name, value, param)) seed.params.push_back(param.value);
-            }
+        std::vector<SceneParam> own;
+        params(json, own);
+        for (const SceneParam& param : own) seed.params.push_back(param.value);
         grammar.seeds.push_back(seed);
     }
     void readCamera(const Json& json) {

@@ -6,6 +6,7 @@
 
 #include "tools/scene/json_tree.hpp"
 #include "tools/scene/picture.hpp"
+#include "tools/scene/text_file.hpp"
 
 namespace espalier::scene {
 namespace {

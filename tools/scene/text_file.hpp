@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace espalier::scene {
+
+// Files whole, in and out, of any bytes. `error` names file and cause.
+
+// Written beside `path` first and renamed, so that a failure leaves what was there. What a link leads to is replaced,
+// not the link; devices and pipes are written to as they are.
+bool writeText(const std::string& path, std::string_view text, std::string& error);
+
+// Folders and devices are refused.
+bool readText(const std::string& path, std::string& text, std::string& error);
+
+}  // namespace espalier::scene
