@@ -102,6 +102,7 @@ CONST_UINT(kAllCells, 28672u);
 CONST_UINT(kCellBins, 64u);
 CONST_UINT(kReachTiles, 9u);   // what reaches more tiles along a side, less one, isn't asked whether it is hidden
 CONST_UINT(kSortLanes, 8u);    // that put a cell's bins in order
+CONST_UINT(kLongRun, 64u);     // items of a bin from which on that takes a heap
 CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
 
 // A cell's spans of one class, or its leaves. reach: of any of them from the cell's middle, metres; largest: thickest

@@ -1,4 +1,4 @@
-// A share of a cell's bins, of kSortLanes of them: their few items by where they are in the world, so that every run draws
+// A share of a cell's bins, of kSortLanes of them: their items by where they are in the world, so that every run draws
 // in the same order. The text of a kernel, and in C++ of a member: `push`, spanTexel() and leafTexel() are around it.
 
 // Differs between instances and is the same in every run: of the end of a span, or of a leaf's place and turn.
@@ -8,7 +8,40 @@ uint rankOf(uint item, uint kind) {
     return (h ^ (h >> 15u)) * 0x2C1B3C6Du;
 }
 
+// Of a heap of `count` items from `first` on, the greatest rank on top: `item` finds its place below `at`.
+void sift(uint first, uint count, uint at, uint item, uint kind) {
+    uint rank = rankOf(item, kind);
+    uint child = 2u * at + 1u;
+    while (child < count) {
+        uint next = push.order.v[first + child];
+        uint nextRank = rankOf(next, kind);
+        if (child + 1u < count) {
+            uint other = push.order.v[first + child + 1u];
+            uint otherRank = rankOf(other, kind);
+            if (otherRank > nextRank) {
+                next = other;
+                nextRank = otherRank;
+                ++child;
+            }
+        }
+        if (nextRank <= rank) break;
+        push.order.v[first + at] = next;
+        at = child;
+        child = 2u * at + 1u;
+    }
+    push.order.v[first + at] = item;
+}
+
 void sortRun(uint first, uint end, uint kind) {
+    // Where cells are coarse for what grows in them, bins are long: by a heap.
+    uint heap = end - first > kLongRun ? end - first : 0u;
+    for (uint at = heap / 2u; at > 0u; --at) sift(first, heap, at - 1u, push.order.v[first + at - 1u], kind);
+    for (uint last = heap; last > 1u; --last) {
+        uint item = push.order.v[first + last - 1u];
+        push.order.v[first + last - 1u] = push.order.v[first];
+        sift(first, last - 1u, 0u, item, kind);
+    }
+    end = heap > 0u ? first : end;
     for (uint i = first + 1u; i < end; ++i) {
         uint item = push.order.v[i];
         uint rank = rankOf(item, kind);
