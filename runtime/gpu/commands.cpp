@@ -11,6 +11,8 @@ namespace espalier {
 namespace {
 
 constexpr uint64_t kInlineBytes = 4096;  // uploads up to this go through the command buffer
+// Reads of uniform blocks aren't among SHADER_READ.
+constexpr VkAccessFlags2 kShaderReads = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT;
 
 struct Access {
     VkPipelineStageFlags2 stages = 0;
@@ -27,12 +29,13 @@ Access accessOf(Use use) {
     add(Use::host, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, 0);
     add(Use::transfer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
         VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    add(Use::compute, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-        VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT, VK_ACCESS_2_SHADER_WRITE_BIT);
+    add(Use::compute, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kShaderReads, VK_ACCESS_2_SHADER_WRITE_BIT);
     add(Use::indirect, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0);
-    add(Use::vertex, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
-        VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT, 0);
-    add(Use::fragment, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT, 0);
+    add(Use::vertex,
+        VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT |
+            VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT,
+        kShaderReads | VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, 0);
+    add(Use::fragment, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, kShaderReads, 0);
     add(Use::all, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT);
     return a;
 }
@@ -129,6 +132,8 @@ Result<Commands> Commands::begin(Device& device, std::string_view name) {
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     if (!ESPALIER_VK(device, name, device.vk().vkBeginCommandBuffer(c.handle_, &info)))
         return gpuFailure(device, name, "beginning to record");
+    // Ours end with a barrier, a host's don't: what its last frame still reads, this one may write.
+    if (device.retireQueue().knowsHost()) c.barrier(Use::all, Use::all);
     return c;
 }
 

@@ -20,7 +20,7 @@ enum class Use : uint32_t {
     transfer = 2,   // fill, copy, upload
     compute = 4,    // reads and writes of compute shaders
     indirect = 8,   // arguments of indirect dispatches and draws, and their counts
-    vertex = 16,    // reads of vertex shaders, index fetch
+    vertex = 16,    // reads of vertex shaders, index and vertex fetch
     fragment = 32,  // reads of fragment shaders
     all = 64        // everything, for what is out of our sight
 };
@@ -29,8 +29,8 @@ constexpr Use operator|(Use a, Use b) {
 }
 
 // A recording: either a command buffer of ours, which submit() sends off, or one that a host has begun. One of ours
-// sees all that recordings submitted before it did, and the CPU sees what it did once it is done; within a recording,
-// and between a host's, ask for barriers.
+// waits for all that was submitted before it, a host's too, and sees what that did; the CPU sees what it did once it is
+// done. Within a recording, and between a host's, ask for barriers.
 // Dropping an unsubmitted recording of ours discards it.
 class Commands {
   public:

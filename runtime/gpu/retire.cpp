@@ -26,6 +26,7 @@ void RetireQueue::recordingSubmitted(uint64_t serial, uint64_t timelineValue) {
 
 void RetireQueue::recordingIntoHost(uint64_t serial, uint64_t frame) {
     find(serial) = {.serial = serial, .stage = Recording::host, .value = frame};
+    knowsHost_ = true;
 }
 
 void RetireQueue::recordingDiscarded(uint64_t serial) {

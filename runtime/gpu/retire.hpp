@@ -29,6 +29,8 @@ class RetireQueue {
     // Nothing runs any more.
     void flush();
     size_t size() const { return entries_.size(); }
+    // Whether anything was ever recorded for a host to submit.
+    bool knowsHost() const { return knowsHost_; }
     // Recordings before this one have finished.
     uint64_t oldestPending() const { return recordings_.empty() ? lastSerial_ + 1 : recordings_.front().serial; }
 
@@ -46,6 +48,7 @@ class RetireQueue {
     Recording& find(uint64_t serial);
 
     uint64_t lastSerial_ = 0;
+    bool knowsHost_ = false;
     std::vector<Recording> recordings_;  // not known to be finished, by serial
     std::deque<Entry> entries_;          // by serial
 };

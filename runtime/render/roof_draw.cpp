@@ -165,13 +165,14 @@ Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView&
     fresh.rowGroups[1] = fresh.rowGroups[2] = 1;
 
     Pass pass(commands, passName);
-    pass.barrier(Use::compute | Use::vertex | Use::indirect | Use::transfer, Use::transfer | Use::compute);
+    pass.barrier(Use::compute | Use::vertex | Use::fragment | Use::indirect | Use::transfer,
+                 Use::transfer | Use::compute);
     Status uploads[] = {commands.upload(views_, std::as_bytes(std::span(&view, 1)), slot * sizeof(EmitView)),
                         commands.upload(envs_, std::as_bytes(std::span(&env, 1)), slot * sizeof(RoofDrawEnv)),
                         commands.upload(state_, std::as_bytes(std::span(&fresh, 1)))};
     for (Status& s : uploads)
         if (!s) return s;
-    pass.barrier(Use::transfer, Use::compute | Use::vertex);
+    pass.barrier(Use::transfer, Use::compute | Use::vertex | Use::fragment);
     RoofCullPush push{};
     push.env = addressOf<RoofDrawEnvBuf>(envs_, slot * sizeof(RoofDrawEnv));
     pass.dispatchItems(cullGrids_, roofs.gridCount, push);

@@ -4,8 +4,10 @@
 #include <cstdlib>
 
 #include "tests/gpu/gpu_test.hpp"
+#include "tests/support/driver_between.hpp"
 
 using namespace espalier;
+using test::hostOf;
 
 namespace {
 
@@ -28,19 +30,6 @@ class Environment {
     std::string old_;
     bool had_ = false;
 };
-
-// What a game would do to hand its device in: here by way of a Device of ours, whose handles we borrow.
-HostDevice hostOf(Device& device) {
-    HostDevice host;
-    host.getInstanceProcAddr = device.getInstanceProcAddr();
-    host.instance = device.instance();
-    host.physicalDevice = device.physicalDevice();
-    host.device = device.handle();
-    host.queue = device.queue();
-    host.queueFamily = device.info().queueFamily;
-    host.debugUtils = true;
-    return host;
-}
 
 class CountingMemory : public MemorySource {
   public:
@@ -184,4 +173,18 @@ TEST_CASE("two devices live side by side, one without validation") {
     Buffer inB = must(makeBuffer(*b, "b", std::vector<uint32_t>{4, 5, 6}));
     CHECK(must(readVector<uint32_t>(a.device, inA, 0, 3)) == std::vector<uint32_t>{1, 2, 3});
     CHECK(must(readVector<uint32_t>(*b, inB, 0, 3)) == std::vector<uint32_t>{4, 5, 6});
+}
+
+TEST_CASE("missing barriers are noticed") {
+    DeviceOptions options = validated();
+    options.log = [](Severity, std::string_view) {};
+    std::unique_ptr<Device> device = must(Device::create(options));
+    Buffer buffer = must(Buffer::create(*device, "written twice", 64));
+    Commands commands = must(Commands::begin(*device, "wrong"));
+    commands.fill(buffer, 1);
+    commands.barrier(Use::transfer, Use::transfer);
+    commands.fill(buffer, 2);
+    CHECK(device->validationMessages() == 0);
+    commands.fill(buffer, 3);
+    CHECK(device->validationMessages() == 1);
 }
