@@ -57,6 +57,10 @@ Result<Buffer> Buffer::create(Device& device, std::string_view name, uint64_t si
 }
 
 Result<TexelView> TexelView::create(Device& device, const Buffer& buffer, VkFormat format) {
+    const uint64_t texels = buffer.size() / texelBytes(format), most = device.info().limits.maxTexelBufferElements;
+    if (texels > most)
+        return Failure(buffer.name(), std::to_string(texels) + " texels are more than the GPU reads of a buffer (" +
+                                          std::to_string(most) + ")");
     VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     info.buffer = buffer.handle();
     info.format = format;

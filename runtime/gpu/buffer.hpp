@@ -42,7 +42,8 @@ class Buffer {
 };
 
 // A buffer read as texels of one format by texelFetch: on software devices several times faster than by address, since
-// a texel comes in one piece. At most DeviceInfo::limits.maxTexelBufferElements of them. The buffer must outlive it.
+// a texel comes in one piece. Fails beyond DeviceInfo::limits.maxTexelBufferElements of them, and when memory has run
+// out. The buffer must outlive it.
 class TexelView {
   public:
     TexelView() = default;

@@ -35,8 +35,11 @@ Device::~Device() {
 
 uint64_t Device::completed() {
     uint64_t value = 0;
-    const bool known = ESPALIER_VK(*this, "timeline", vk_.vkGetSemaphoreCounterValue(device_, timeline_, &value));
-    return known ? value : submitted_;  // a lost device runs nothing any more
+    if (ESPALIER_VK(*this, "timeline", vk_.vkGetSemaphoreCounterValue(device_, timeline_, &value)))
+        completed_ = value;
+    else if (lost_)
+        completed_ = submitted_;  // it runs nothing any more
+    return completed_;
 }
 
 Status Device::wait(uint64_t value) {

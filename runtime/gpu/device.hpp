@@ -150,6 +150,7 @@ class Device {
     VkQueue queue_ = VK_NULL_HANDLE;
     VkSemaphore timeline_ = VK_NULL_HANDLE;
     uint64_t submitted_ = 0;
+    uint64_t completed_ = 0;  // as last known
     uint64_t hostFrame_ = 0;
     DeviceInfo info_;
     std::unique_ptr<ValidationLog> validation_;

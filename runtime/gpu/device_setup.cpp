@@ -60,6 +60,17 @@ int graphicsFamily(const InstanceFunctions& vk, VkPhysicalDevice device) {
     return it == families.end() ? -1 : int(it - families.begin());
 }
 
+// What marching and roofs ask of subgroups: no feature says so.
+bool sharesInSubgroups(const InstanceFunctions& vk, VkPhysicalDevice device) {
+    constexpr VkSubgroupFeatureFlags need =
+        VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+    VkPhysicalDeviceVulkan11Properties v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES};
+    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &v11, {}};
+    vk.vkGetPhysicalDeviceProperties2(device, &all);
+    return (v11.subgroupSupportedOperations & need) == need &&
+           (v11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT);
+}
+
 struct Candidate {
     VkPhysicalDevice device = VK_NULL_HANDLE;
     std::string name;
@@ -81,6 +92,7 @@ Candidate examine(const InstanceFunctions& vk, VkPhysicalDevice device) {
         Features have;
         vk.vkGetPhysicalDeviceFeatures2(device, &have.core);
         missing = missingFeatures(have);
+        if (!sharesInSubgroups(vk, device)) missing.push_back("votes, ballots and arithmetic of subgroups in compute");
     }
     if (!hasExtension(deviceExtensions(vk, device), VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME))
         missing.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
