@@ -46,7 +46,7 @@ void main() {
     float side = dot(v.normal, frame.sunDirection);
     // Light gets some way into a crown.
     float into = grass ? 0.0 : 0.9 * frame.unit;
-    float visible = mix(grass ? 0.0 : 0.30, 1.0, sunVisibility(v.position + frame.sunDirection * into, v.normal));
+    float visible = mix(grass ? 0.0 : 0.14 + 0.30 * open, 1.0, sunVisibility(v.position + frame.sunDirection * into, v.normal));
     // Leaves turn every way: what falls on a crown's far side comes through, the more the thinner it is.
     float facing = clamp(0.40 + 0.60 * side, 0.20, 1.0);
     vec3 tone = grass ? grassColor(v) : foliageColor(v, code);

@@ -109,6 +109,33 @@ TEST_CASE("what stands in yards stands on the ground, and flowers above it in a 
         }
 }
 
+TEST_CASE("a stone of a heap lies in the ground or on another") {
+    const PropMeshes props = makePropMeshes();
+    const auto found = std::find_if(props.all.begin(), props.all.end(),
+                                    [](const PropMeshes::Entry& e) { return e.name == "rubble_lod0"; });
+    REQUIRE(found != props.all.end());
+    constexpr size_t kVertices = 18 * 4 + 8 * 3;  // of one stone: faces and edges, corners
+    const auto& points = found->mesh.positions;
+    REQUIRE(points.size() % kVertices == 0);
+    std::vector<Bounds> stones(points.size() / kVertices);
+    for (size_t i = 0; i < points.size(); ++i) {
+        Bounds& b = stones[i / kVertices];
+        b.low = glm::min(b.low, points[i]), b.high = glm::max(b.high, points[i]);
+    }
+    CHECK(stones.size() > 4);
+    for (const Bounds& a : stones) {
+        CAPTURE(&a - stones.data());
+        const bool sunk = a.low.y < -0.03f;
+        const bool borne = std::any_of(stones.begin(), stones.end(), [&](const Bounds& b) {
+            return &a != &b && b.low.y < -0.03f && a.low.y < b.high.y - 0.01f &&
+                   0.5f * (a.low.y + a.high.y) > b.high.y && a.low.x < b.high.x && b.low.x < a.high.x &&
+                   a.low.z < b.high.z && b.low.z < a.high.z;
+        });
+        const bool rests = sunk || borne;
+        CHECK(rests);
+    }
+}
+
 TEST_CASE("a woodpile's logs lie between its posts") {
     size_t ends = 0;
     for (const PropMeshes::Entry& e : makePropMeshes().all) {

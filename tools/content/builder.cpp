@@ -22,6 +22,16 @@ void Builder::quad(vec3 a, vec3 b, vec3 c, vec3 d, Paint paint, float bright) {
     for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
 }
 
+void Builder::triangle(vec3 a, vec3 b, vec3 c, Paint paint, float bright) {
+    const vec3 n = glm::normalize(glm::cross(b - a, c - a));
+    for (vec3 p : {a, b, c}) {
+        mesh.indices.push_back(uint32_t(mesh.positions.size()));
+        mesh.positions.push_back(p);
+        mesh.normals.push_back(n);
+        mesh.uvs.push_back(paletteUv(paint, bright));
+    }
+}
+
 void Builder::box(vec3 low, vec3 high, Paint paint, float bright, float taper) {
     const auto at = [&](int x, int y, int z) {
         const float in = y ? taper : 0;

@@ -14,6 +14,7 @@ class Builder {
 
     // Counterclockwise from outside.
     void quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, Paint paint, float bright);
+    void triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, Paint paint, float bright);
     // A box whose upper side is drawn in by `taper`.
     void box(glm::vec3 low, glm::vec3 high, Paint paint, float bright, float taper = 0);
 

@@ -200,7 +200,7 @@ struct Bloom {
 // Blades and stems that lean apart and end in ears, in places yellow; between them, if it blooms, a few poppies and
 // buttercups.
 void paintMeadow(Picture& picture, int x0, int y0, int side, bool blooms, uint32_t salt) {
-    const Species grass{1, 1, 0, 0, {0.058f, 0.072f, 0.024f}, {0.165f, 0.160f, 0.064f}, 0};
+    const Species grass{1, 1, 0, 0, {0.050f, 0.066f, 0.022f}, {0.145f, 0.152f, 0.056f}, 0};
     const glm::vec3 poppy(0.46f, 0.040f, 0.024f), buttercup(0.56f, 0.42f, 0.04f);
     std::vector<Leaf> leaves;
     std::vector<Bloom> flowers;

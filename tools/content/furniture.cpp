@@ -2,6 +2,7 @@
 // coordinates pick colours of the palette.
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "tools/content/builder.hpp"
 #include "tools/content/noise.hpp"
@@ -161,15 +162,63 @@ Mesh bench(int) {
     return b.mesh;
 }
 
-// A heap of hewn stones, left over.
-Mesh rubble(int) {
-    Builder b;
-    for (uint32_t i = 0; i < 7; ++i) {
-        const float a = 2.4f * float(i), r = 0.16f * float(i), s = 0.16f + 0.14f * random01(91, i);
-        const vec3 at(r * std::cos(a), i < 3 ? 0.18f : -0.05f, r * std::sin(a));
-        b.box(at - vec3(s, 0.05f, s * 0.7f), at + vec3(s, 0.10f + 0.18f * random01(92, i), s * 0.7f), Paint::stone,
-              0.3f + 0.4f * random01(93, i), 0.035f);
+// A hewn stone, its edges broken by `bevel` and its corners uneven.
+struct Hewn {
+    vec3 middle, half;  // metres
+    float turn, tilt;   // about the vertical, then about its own x
+};
+void addHewn(Builder& b, const Hewn& stone, float bevel, uint32_t salt) {
+    const float bright = 0.24f + 0.24f * random01(salt, 93);
+    const glm::mat3 pose = glm::mat3(glm::rotate(glm::mat4(1), stone.turn, vec3(0, 1, 0)) *
+                                     glm::rotate(glm::mat4(1), stone.tilt, vec3(1, 0, 0)));
+    // Of the corner with these signs, what lies on the face across `axis`.
+    const auto at = [&](glm::ivec3 sign, int axis) {
+        const uint32_t corner = uint32_t(sign.x + 1) * 9 + uint32_t(sign.y + 1) * 3 + uint32_t(sign.z + 1);
+        vec3 p = stone.half *
+                 (1.0f - 0.20f * vec3(random01(salt, corner, 1), random01(salt, corner, 2), random01(salt, corner, 3)));
+        for (int k = 0; k < 3; ++k) p[k] -= k == axis ? 0 : bevel;
+        return stone.middle + pose * (vec3(sign) * p);
+    };
+    const auto outward = [&](vec3 p, vec3 q, vec3 r, vec3 s, float shade) {
+        const bool turned = glm::dot(glm::cross(r - p, s - q), 0.25f * (p + q + r + s) - stone.middle) < 0;
+        turned ? b.quad(s, r, q, p, Paint::stone, bright * shade) : b.quad(p, q, r, s, Paint::stone, bright * shade);
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const auto corner = [&](int a, int su, int sv) {
+            glm::ivec3 sign;
+            sign[axis] = a, sign[u] = su, sign[v] = sv;
+            return sign;
+        };
+        for (int a : {-1, 1}) {
+            const float shade = axis == 1 && a > 0 ? 1.06f : 0.94f + 0.1f * random01(salt, uint32_t(3 * axis + a), 4);
+            outward(at(corner(a, -1, -1), axis), at(corner(a, 1, -1), axis), at(corner(a, 1, 1), axis),
+                    at(corner(a, -1, 1), axis), shade);
+        }
+        for (int su : {-1, 1})  // edges along the axis, paler as they are worn
+            for (int sv : {-1, 1})
+                outward(at(corner(-1, su, sv), u), at(corner(1, su, sv), u), at(corner(1, su, sv), v),
+                        at(corner(-1, su, sv), v), 1.07f);
     }
+    for (int k = 0; k < 8; ++k) {
+        const glm::ivec3 sign(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+        const vec3 p = at(sign, 0), q = at(sign, 1), r = at(sign, 2);
+        const bool turned = glm::dot(glm::cross(q - p, r - p), p - stone.middle) < 0;
+        b.triangle(p, turned ? r : q, turned ? q : r, Paint::stone, bright * 1.07f);
+    }
+}
+
+// A heap of hewn stones, left over: some sunk into the ground, one on two others.
+Mesh rubble(int) {
+    const Hewn stones[] = {{{0, 0.13f, 0}, {0.34f, 0.21f, 0.25f}, 0.3f, 0.05f},
+                           {{0.60f, 0.09f, 0.10f}, {0.27f, 0.18f, 0.23f}, 1.2f, -0.10f},
+                           {{0.10f, 0.07f, -0.50f}, {0.28f, 0.16f, 0.20f}, 2.3f, 0.16f},
+                           {{0.30f, 0.40f, 0.04f}, {0.30f, 0.14f, 0.20f}, 0.2f, 0.06f},
+                           {{-0.60f, 0.04f, 0.30f}, {0.22f, 0.13f, 0.16f}, 0.9f, 0.30f},
+                           {{0.78f, 0.03f, -0.52f}, {0.16f, 0.10f, 0.13f}, 2.8f, -0.24f},
+                           {{-0.26f, 0.02f, 0.68f}, {0.13f, 0.09f, 0.11f}, 1.7f, 0.20f}};
+    Builder b;
+    for (const Hewn& stone : stones) addHewn(b, stone, 0.028f, 91 + uint32_t(&stone - stones));
     return b.mesh;
 }
 

@@ -64,9 +64,24 @@ void Layout::feature() {
     tree("apple_b", {-7.6f, -33.6f}, 0.85f, 1.6f, 9);
     put("cart", {6.4f, -42.2f}, 118, 1);
     taken_.push_back({6.4f, -42.2f, 1.6f});
+    lawnBefore({9.4f, -40.9f}, glm::normalize(vec2(6.1f, 6.0f)));
+    lawnBefore({-5.2f, -38.4f}, glm::normalize(vec2(5.2f, 6.1f)));
     put("trough", kSquare + vec2(2.5f, 1.3f), 62, 1);
     put("well", kSquare + vec2(0.2f, 0.4f), 25, 1);
     taken_.push_back({kSquare, 2});
+}
+
+// A bed of flowers and shrubs on a lawn before a wall that faces `out`.
+void Layout::lawnBefore(vec2 at, vec2 out) {
+    const vec2 along(out.y, -out.x);
+    if (place("boards", at, out, 1.48f, 1.48f)) plantBed(at, along, out, 7);
+    for (uint32_t i = 0; i < 5; ++i) {
+        const vec2 p =
+            at + (1.9f + 0.8f * float(i)) * (i % 2 ? along : -along) + (1.2f * random01(i, 201) - 0.2f) * out;
+        if (!clear(p, 0.7f, 0.9f)) continue;
+        put(i % 2 ? "bush_b" : "bush_a", p, 360 * random01(i, 202), 0.5f + 0.35f * random01(i, 203), 0.05f);
+        taken_.push_back({p, 0.6f});
+    }
 }
 
 void Layout::trees() {

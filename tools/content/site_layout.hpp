@@ -38,6 +38,7 @@ class Layout {
     Garden gardenOf(const Outline& house, uint32_t salt) const;
 
     void feature();
+    void lawnBefore(glm::vec2 at, glm::vec2 out);
     void paddocks();
     void yards();
     void gardens();

@@ -35,14 +35,24 @@ void Layout::daisies() {
     };
     for (uint32_t i = 0; i < 1500; ++i) flower("flowers_a", kCourt + within(i, 18), i, 0.38f);
     for (uint32_t i = 2000; i < 7000; ++i) flower("flowers_a", within(i, 60), i, 0.52f);
+    // Lawns before houses: more of them, here and there blue ones.
+    for (uint32_t i = 7000; i < 17000; ++i) {
+        const vec2 p = within(i, 60);
+        const float house = plan_.toHouse(p);
+        if (house < 1 || house > 9) continue;
+        flower(noise(p / 2.9f, 97) > 0.30f ? "flowers_c" : "flowers_a", p, i, 0.27f);
+    }
 }
 
-// Where nobody mows: on both sides of tracks and rails, about trunks and what has been left lying, and in islands. Not
-// before the court, where pictures are taken from.
+// Where nobody mows: on both sides of tracks and rails, about trunks and what has been left lying or fenced in, and in
+// islands. Not before the court, where pictures are taken from.
 void Layout::tallGrass() {
-    constexpr float kCell = 0.72f, kReach = 38;
+    constexpr float kCell = 0.72f, kReach = 46;
     const vec2 middle(0, -12), before(1.8f, 8.5f);
-    const std::vector<SitePlace> rails = site_.props["rails"];
+    std::vector<SitePlace> rails = site_.props["rails"], left;
+    for (const char* model : {"fence", "wall", "hedge", "cart", "bench", "rubble"})
+        left.insert(left.end(), site_.props[model].begin(), site_.props[model].end());
+    const auto placeOf = [](const SitePlace& p) { return vec2(p.position.x, p.position.z); };
     const auto nearest = [](vec2 p, const auto& all, auto at) {
         float best = 1e9f;
         for (const auto& one : all) best = std::min(best, glm::distance(p, at(one)));
@@ -56,14 +66,15 @@ void Layout::tallGrass() {
             if (glm::distance(p, middle) > kReach || glm::distance(p, before) < 6.5f || !clear(p, 0.3f, 0.9f)) continue;
             const float track = -plan_.trodden(p), kerb = -plan_.paved(p);
             if (track < 0.25f) continue;
-            const float rail = nearest(p, rails, [](const SitePlace& r) { return vec2(r.position.x, r.position.z); });
+            const float rail = nearest(p, rails, placeOf), lying = nearest(p, left, placeOf);
             const float trunk = nearest(p, shades_, [](glm::vec3 s) { return vec2(s); });
             float wild = noise(p / 6.5f, 173) + 0.5f * noise(p / 2.1f, 174) - 0.80f;
             wild += 0.45f * ramp(1.2f, 0.5f, track) + 0.75f * ramp(1.3f, 0.4f, rail) + 0.7f * ramp(1.3f, 0.5f, trunk) +
-                    0.25f * ramp(1.6f, 0.5f, kerb);
+                    0.7f * ramp(2.0f, 0.9f, lying) + 0.25f * ramp(1.6f, 0.5f, kerb);
             if (wild < 0) continue;
             const char* model = noise(p / 3.1f, 175) > 0.22f ? "meadow_b" : "meadow_a";
-            put(model, p, 360 * random01(i, 176), 0.62f + 0.3f * random01(i, 177) + 0.25f * saturate(wild), 0.03f);
+            put(model, p, 360 * random01(i, 176), 0.52f + 0.3f * random01(i, 177) + 0.45f * saturate(1.5f * wild),
+                0.03f);  // lower towards the border
         }
 }
 

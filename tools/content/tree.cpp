@@ -235,9 +235,10 @@ Mesh makeTree(const Habit& h, int lod) {
         const Cell cell = cellOf(lod, h.row, random(8));
         // Dark inside and below, of the crown and of each lobe; open above.
         const float t = (at.y - h.crownFoot) / tall;
-        const float open = glm::clamp(0.36f + 0.28f * (deep - h.hollow) / (1 - h.hollow) + 0.24f * dir.y +
-                                          0.16f * glm::dot(dir, lobe.away) + 0.25f * (t - 0.4f),
-                                      0.2f, 1.0f);
+        float open = glm::clamp(0.36f + 0.28f * (deep - h.hollow) / (1 - h.hollow) + 0.24f * dir.y +
+                                    0.16f * glm::dot(dir, lobe.away) + 0.25f * (t - 0.4f),
+                                0.2f, 1.0f);
+        if (h.birch) open = glm::mix(open, 0.95f, 0.6f);  // light gets through
         addCard(mesh, at, out, twig, side * (0.8f + 0.4f * random(9)), cell, open, {middle, squash, lobe.at});
     }
     return mesh;
@@ -286,18 +287,22 @@ Mesh makeFlowers(int kind, int lod) {
     return mesh;
 }
 
-// Grass as tall as one's knees, on upright cards that are lit as the ground is.
+// Grass as tall as one's knees, on cards that lean apart, so that it is seen from above, too; lit as the ground is.
 Mesh makeMeadow(int kind, int lod) {
+    constexpr float kLean = 0.40f;  // radians
     Mesh mesh;
-    const int count = lod == 0 ? 5 : lod == 1 ? 3 : 2;
+    const int count = 5 - lod;
     const float side = lod == 0 ? 0.74f : lod == 1 ? 0.82f : 0.95f;
     const Cell cell{{1 - kFlowerSide, kFlowerSide * float(kFlowers + kind)}, kFlowerSide};
     for (int i = 0; i < count; ++i) {
-        const float angle = 2.399963f * float(i), r = lod < 2 ? 0.30f * std::sqrt(float(i) / float(count)) : 0;
-        const glm::vec3 at(r * std::cos(angle), 0.48f * side, r * std::sin(angle)), below = at - glm::vec3(0, 1, 0);
-        const float turn = lod < 2 ? 1.9f * angle : 0.5f * kPi * float(i);
-        addCard(mesh, at, {std::cos(turn), 0, std::sin(turn)}, {0, 1, 0}, side, cell, 0.8f,
-                {below, glm::vec3(1), below});
+        const float angle = 2.399963f * float(i), r = lod < 2 ? 0.34f * std::sqrt(float(i) / float(count)) : 0.08f;
+        const float turn = lod < 2 ? 1.9f * angle : 2.09f * float(i) + 0.4f;
+        const glm::vec3 foot(r * std::cos(angle), 0, r * std::sin(angle)), level(std::cos(turn), 0, std::sin(turn));
+        const float lean = glm::dot(level, foot) < 0 ? -kLean : kLean;
+        const glm::vec3 up = glm::vec3(0, std::cos(lean), 0) + std::sin(lean) * level;
+        const glm::vec3 out = std::cos(lean) * level - glm::vec3(0, std::sin(lean), 0);
+        const glm::vec3 at = foot + 0.48f * side * up, below = at - glm::vec3(0, 1, 0);
+        addCard(mesh, at, out, up, side, cell, 0.8f, {below, glm::vec3(1), below});
     }
     return mesh;
 }
