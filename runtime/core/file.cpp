@@ -65,6 +65,14 @@ int makeNeighbour(const std::filesystem::path& path, std::string& name) {
     }
 }
 
+// What a link leads to, or else the path itself.
+std::filesystem::path behindLinks(const std::filesystem::path& path) {
+    std::error_code error;
+    if (!std::filesystem::is_symlink(path, error)) return path;
+    const std::filesystem::path target = std::filesystem::canonical(path, error);
+    return error ? path : target;
+}
+
 int writeAll(int fd, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         ssize_t put = ::write(fd, bytes.data(), bytes.size());
@@ -99,12 +107,13 @@ Status writeFile(const std::filesystem::path& path, std::span<const std::byte> b
         return failed ? Status(systemFailure(path, "cannot be written", failed)) : Status(Done{});
     }
 
+    const std::filesystem::path target = behindLinks(path);
     std::string partial;
-    Descriptor file(makeNeighbour(path, partial));
+    Descriptor file(makeNeighbour(target, partial));
     if (file.get() < 0) return systemFailure(path, "cannot be written", errno);
     int reason = writeAll(file.get(), bytes);
     if (file.close() != 0 && !reason) reason = errno;
-    if (!reason && ::rename(partial.c_str(), path.c_str()) != 0) reason = errno;
+    if (!reason && ::rename(partial.c_str(), target.c_str()) != 0) reason = errno;
     if (!reason) return Done{};
     ::unlink(partial.c_str());
     return systemFailure(path, "cannot be written", reason);

@@ -9,6 +9,12 @@
 
 namespace espalier {
 
+// How many texels decodePicture would make of it, by its first bytes alone; else why it would make none.
+Result<uint64_t> texelsOf(std::span<const std::byte> bytes, std::string_view file);
+
+// Whether it begins as PNG or JPEG does. The library that decodes reads further formats, by code that nobody hardens.
+bool isPicture(std::span<const std::byte> bytes);
+
 // Decodes a PNG or JPEG of 1 to 16384 texels a side; `encoded` stays empty. A failure names `file` and the cause: other
 // formats, damage, want of memory, more than maxTexels. Never throws; may be called from any thread.
 Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view file,

@@ -95,9 +95,23 @@ std::span<const std::byte> Container::view(uint64_t index, const std::string& pl
     return binary_.subspan(offset, length);
 }
 
+namespace {
+
+void takeOf(uint64_t& taken, uint64_t bytes, uint64_t allowed, const std::string& place) {
+    taken += bytes;
+    if (taken > allowed) fail(place, "absurdly much for the file's size");
+}
+
+constexpr uint64_t kMultiple = 256;  // of a file's bytes: what decoding it may allocate
+
+}  // namespace
+
 void Container::take(uint64_t bytes, const std::string& place) {
-    taken_ += bytes;
-    if (taken_ > (uint64_t(256) << 20) + uint64_t(file_.size()) * 256) fail(place, "absurdly much for the file's size");
+    takeOf(taken_, bytes, (uint64_t(256) << 20) + file_.size() * kMultiple, place);
+}
+
+void Container::takePicture(uint64_t bytes, const std::string& place) {
+    takeOf(pictures_, bytes, (uint64_t(1) << 30) + file_.size() * kMultiple, place);
 }
 
 }  // namespace espalier::surface_file

@@ -27,8 +27,13 @@ void readPictures(Container& file, SurfaceData& data) {
     data.images.resize(images.size());
     if (file.partial()) return;  // they stand at the end
     std::vector<std::span<const std::byte>> bytes;
-    for (size_t i = 0; i < images.size(); ++i)
-        bytes.push_back(file.view(whole(images[i], "bufferView", indexed("images", i), 1 << 20), indexed("images", i)));
+    for (size_t i = 0; i < images.size(); ++i) {
+        const std::string place = indexed("images", i);
+        bytes.push_back(file.view(whole(images[i], "bufferView", place, 1 << 20), place));
+        const Result<uint64_t> texels = texelsOf(bytes.back(), "");
+        if (!texels) fail(place, texels.failure().diagnostics.front().message);
+        file.takePicture(texels.value() * 4 + bytes.back().size(), place);
+    }
     std::vector<Result<Picture>> decoded(images.size(), Picture{});
     parallelFor(images.size(), 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) decoded[i] = decodePicture(bytes[i], "");

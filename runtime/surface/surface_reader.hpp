@@ -49,13 +49,15 @@ class Container {
     std::span<const std::byte> view(uint64_t index, const std::string& place) const;
     // What several fields refer to is decoded for each: together they are bounded by the file's size.
     void take(uint64_t bytes, const std::string& place);
+    // Likewise of pictures, of which some are one colour and small for what they hold.
+    void takePicture(uint64_t bytes, const std::string& place);
 
   private:
     std::vector<std::byte> file_;
     std::span<const std::byte> binary_;
     json root_;
     bool partial_;
-    uint64_t taken_ = 0;  // bytes decoded so far
+    uint64_t taken_ = 0, pictures_ = 0;  // bytes decoded so far
 };
 
 // Reads what a walk needs, from level `finest` on, all of it validated: every index that a kernel would follow.

@@ -136,7 +136,9 @@ TEST_CASE("seeds whose ground a change takes away are listed, by scenes of one s
     REQUIRE(r.run("higher.glb -o new/cube.glb --resolution 64 --from cube.glb --seeds two.json"));
     CHECK(r.says("grammars[0].seeds[0] at 9, 2, 0 has lost its ground"));
     CHECK(r.says("1 of 2 seeds"));
-    for (const char* wrong : {"[]", "{",
+    const std::string deep = R"({"surface": "cube.glb", "grammars": )" + std::string(1'000'000, '[');
+    const std::string nested = deep + std::string(1'000'000, ']') + "}";
+    for (const char* wrong : {nested.c_str(), "[]", "{",
                               R"({"surface": "cube.glb", "grammars": [)"
                               R"({"seeds": [{"position": [1, 2]}]}]})",
                               R"({"surfaces": [{"file": "cube.glb", "scale": 0}]})", R"({"surfaces": [7, 7]})"}) {

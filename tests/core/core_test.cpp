@@ -58,6 +58,12 @@ TEST_CASE("files are replaced whole, folders are made") {
     CHECK(readTextFile(path).value() == "short");
     REQUIRE(writeFile(path, ""));
     CHECK(readFile(path).value().empty());
+    const fs::path link = scratch.path / "link.txt";
+    fs::create_symlink("a/b/text.txt", link);
+    REQUIRE(writeFile(link, "by a link"));
+    CHECK(fs::is_symlink(link));
+    CHECK(readTextFile(path).value() == "by a link");
+    CHECK(filesIn(scratch.path) == 2);
     CHECK(filesIn(path.parent_path()) == 1);
     CHECK_FALSE(readTextFile("/proc/self/status").value().empty());  // has no size to trust
 }

@@ -146,6 +146,19 @@ TEST_CASE("a material is bare if its extras say so, whatever else they hold") {
         CHECK(!bareWith(std::string(other)));
 }
 
+TEST_CASE("pictures that hold more than a file of its size can are refused before they are decoded") {
+    Folder folder;
+    SurfaceData data = sample();
+    const uint8_t begins[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D', 'R', 0,
+                              0,    64,  0,   0,   0,  64, 0,  1,  0, 0, 0, 0,  0,   0,   0,   0};  // 16384 a side
+    data.images[0].encoded.assign(std::begin(begins), std::end(begins));
+    data.images.push_back(data.images[0]);
+    REQUIRE(writeSurface(data, folder.file("s.glb")));
+    Result<SurfaceData> read = readSurface(folder.file("s.glb"));
+    REQUIRE_FALSE(read);
+    CHECK(read.failure().text().find("images[1]: absurdly much for the file's size") != std::string::npos);
+}
+
 TEST_CASE("a truncated file is refused wherever it ends") {
     Folder folder;
     REQUIRE(writeSurface(sample(), folder.file("a.glb")));

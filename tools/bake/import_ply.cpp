@@ -92,11 +92,9 @@ class PlyFile {
 
   private:
     std::string_view nextLine() {
-        size_t end = text_.find('\n', at_);
         // Old Macintosh files end their lines with a carriage return alone.
-        size_t alone = text_.find('\r', at_);
-        if (alone != text_.npos && alone + 1 < end && (alone + 1 >= text_.size() || text_[alone + 1] != '\n'))
-            end = alone;
+        size_t end = text_.find_first_of("\r\n", at_);
+        if (end != text_.npos && text_.substr(end, 2) == "\r\n") ++end;
         std::string_view line = text_.substr(at_, end == text_.npos ? end : end - at_);
         at_ = end == text_.npos ? text_.size() : end + 1;
         ++line_;

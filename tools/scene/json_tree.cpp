@@ -93,7 +93,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
             if (parent.kind == Json::Kind::list)
                 json = &parent.items.emplace_back();
             else
-                json = &parent.members.emplace_back(key_, Json{}).second;
+                json = &parent.members.emplace_back(Json::Member{key_, {}}).value;
         }
         json->kind = kind;
         std::tie(json->line, json->column) = place(read_ ? read_ - 1 : 0);

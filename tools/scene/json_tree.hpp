@@ -2,7 +2,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace espalier::scene {
@@ -16,9 +15,14 @@ struct Json {
     double number = 0;
     std::string text;
     std::vector<Json> items;
-    std::vector<std::pair<std::string, Json>> members;
+    struct Member;
+    std::vector<Member> members;
 
     const Json* find(std::string_view name) const;
+};
+struct Json::Member {
+    std::string name;
+    Json value;
 };
 
 // False: `error` is "line:column: what is wrong". Names that come twice in an object are an error.

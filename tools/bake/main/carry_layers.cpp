@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "runtime/core/file.hpp"
+#include "runtime/surface/picture.hpp"
 #include "tools/bake/carry.hpp"
 #include "tools/bake/main/carry_seeds.hpp"
 
@@ -68,6 +69,7 @@ Result<PaintedLayer> readLayer(const std::string& path) {
     if (!bytes) return std::move(bytes.failure());
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes->data());
     int width = 0, height = 0, channels = 0;
+    if (!isPicture(*bytes)) return Failure(path, "is no picture that can be read (PNG can)");
     if (!stbi_info_from_memory(data, int(bytes->size()), &width, &height, &channels))
         return Failure(path, std::string("is no picture that can be read (PNG can): ") + stbi_failure_reason());
     if (width > kMostSide || height > kMostSide)

@@ -28,6 +28,13 @@ struct Placed {
     }
 };
 
+// Not copied: a copy recurses, however deep a file nests. Of what isn't there: null.
+const json& memberOf(const json& object, const char* key) {
+    static const json none;
+    const auto found = object.find(key);
+    return found == object.end() ? none : *found;
+}
+
 bool readPoint(const json& list, glm::dvec3& out) {
     if (!list.is_array() || list.size() != 3) return false;
     for (size_t k = 0; k < 3; ++k) {
@@ -42,23 +49,23 @@ Result<std::vector<Placed>> readPlacements(const json& scene, const SeedsArgumen
                                            const std::string& file) {
     std::vector<Placed> out;
     if (scene.contains("surface")) return std::vector<Placed>{Placed{}};
-    const json list = scene.value("surfaces", json::array());
-    if (!list.is_array()) return Failure(file, "'surfaces' is no list");
+    const json& list = memberOf(scene, "surfaces");
+    if (!list.is_array() && !list.is_null()) return Failure(file, "'surfaces' is no list");
     auto nameOf = [](const std::string& path) { return std::filesystem::path(path).filename(); };
     for (size_t i = 0; i < list.size(); ++i) {
         const std::string at = "surfaces[" + std::to_string(i) + "]";
         const json& entry = list[i];
-        if (!entry.is_object() || !entry.value("file", json()).is_string()) return Failure(file, at + " names no file");
+        if (!entry.is_object() || !memberOf(entry, "file").is_string()) return Failure(file, at + " names no file");
         const auto name = nameOf(entry["file"].get<std::string>());
         if (list.size() > 1 && name != nameOf(arguments.from) && name != nameOf(arguments.to)) continue;
-        const json turn = entry.value("turn", json(0)), scale = entry.value("scale", json(1));
+        const json &turn = memberOf(entry, "turn"), &scale = memberOf(entry, "scale");
         Placed placed;
         if (entry.contains("position") && !readPoint(entry["position"], placed.position))
             return Failure(file, at + ".position is not three numbers");
-        if (!turn.is_number() || !scale.is_number() || !(scale.get<double>() > 0))
+        if (turn.is_number()) placed.turn = turn.get<double>() * kDegree;
+        if (scale.is_number()) placed.scale = scale.get<double>();
+        if (!(turn.is_number() || turn.is_null()) || !(scale.is_number() || scale.is_null()) || !(placed.scale > 0))
             return Failure(file, at + ": 'turn' has to be a number, 'scale' one above 0");
-        placed.turn = turn.get<double>() * kDegree;
-        placed.scale = scale.get<double>();
         out.push_back(placed);
     }
     if (out.empty()) return Failure(file, "places no surface of the name of " + arguments.from);
@@ -72,16 +79,16 @@ struct Seed {
 
 Result<std::vector<Seed>> readSeeds(const json& scene, const std::string& file) {
     std::vector<Seed> out;
-    const json grammars = scene.value("grammars", json::array());
-    if (!grammars.is_array()) return Failure(file, "'grammars' is no list");
+    const json& grammars = memberOf(scene, "grammars");
+    if (!grammars.is_array() && !grammars.is_null()) return Failure(file, "'grammars' is no list");
     for (size_t g = 0; g < grammars.size(); ++g) {
         const std::string at = "grammars[" + std::to_string(g) + "]";
         if (!grammars[g].is_object()) return Failure(file, at + " is no object");
-        const json seeds = grammars[g].value("seeds", json::array());
-        if (!seeds.is_array()) return Failure(file, at + ".seeds is no list");
+        const json& seeds = memberOf(grammars[g], "seeds");
+        if (!seeds.is_array() && !seeds.is_null()) return Failure(file, at + ".seeds is no list");
         for (size_t i = 0; i < seeds.size(); ++i) {
             Seed seed{at + ".seeds[" + std::to_string(i) + "]", {}};
-            if (!seeds[i].is_object() || !readPoint(seeds[i].value("position", json()), seed.position))
+            if (!seeds[i].is_object() || !readPoint(memberOf(seeds[i], "position"), seed.position))
                 return Failure(file, seed.name + ".position is not three numbers");
             out.push_back(seed);
         }
@@ -94,7 +101,8 @@ Result<std::vector<Seed>> readSeeds(const json& scene, const std::string& file) 
 Status findLostSeeds(const SeedsArguments& arguments, const SurfaceData& before, const SurfaceData& after,
                      std::vector<Diagnostic>& notes) {
     std::string file = arguments.scene;
-    if (std::filesystem::is_directory(file)) file = (std::filesystem::path(file) / "project.json").string();
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) file = (std::filesystem::path(file) / "project.json").string();
     auto text = readTextFile(file);
     if (!text) return std::move(text.failure());
     const json scene = json::parse(*text, nullptr, false);

@@ -223,5 +223,7 @@ int main(int argc, char** argv) {
                                                                        : runModel(arguments);
     } catch (const std::bad_alloc&) {
         return fail(Failure(arguments.model, "baking it at this resolution takes more memory than there is"));
+    } catch (const std::exception& e) {  // of the file system, say
+        return fail(Failure(arguments.model, e.what()));
     }
 }
