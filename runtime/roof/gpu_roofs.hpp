@@ -117,6 +117,8 @@ class GpuRoofs final : public RoofGrowth {
                                 RoofStatus status);
     // On the CPU, sent behind what the published set holds. Not complete: there is no room for it.
     Result<Outcome> growFew(const RoofInputs& inputs, std::span<const uint32_t> houses);
+    // These haven't grown.
+    void takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<uint32_t> generations);
     void record(Commands& commands, const Texels& texels, uint32_t waves);
     Outcome readBack();
     // Whether what a status tells has found room.

@@ -288,20 +288,36 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
     }
     if (!possible) return grow(inputs);
     if (Status counted = countHouses(); !counted) return counted;
+    std::vector<uint32_t> before = generationOf_;
     for (uint32_t house : houses) generationOf_[house] += 1;
     Set& set = sets_[front_];
     const bool few = houses.size() <= kFewHouses;
     Result<Outcome> outcome = few ? growFew(inputs, houses) : expandWhole(inputs, set, houses, last_);
-    if (!outcome) return outcome.failure();
-    const RoofStatus& s = outcome->status;
-    const bool held = outcome->complete && fits(s, set) && outcome->widest <= room_.scopes;
-    if (!held) return grow(inputs);
+    const bool held = outcome && outcome->complete && fits(outcome->status, set) && outcome->widest <= room_.scopes;
+    if (!held) {
+        Status grown = outcome ? grow(inputs) : Status(outcome.failure());
+        if (!grown) takeBack(set, houses, std::move(before));
+        return grown;
+    }
     Status counted = recount(houses, *outcome);
     stands_ = bool(counted);
     if (!counted) return counted;
     publish(inputs, *outcome, houses);
     stats_.housesGrown += houses.size();
     return Done{};
+}
+
+// Nothing has grown: what is drawn of these houses stays, though the GPU may have been told that it was replaced.
+void GpuRoofs::takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<uint32_t> generations) {
+    generationOf_ = std::move(generations);
+    forgetTables();  // some may have been noted as sent
+    Result<Commands> commands = Commands::begin(device_, "roofs as they were");
+    if (!commands) return;
+    commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
+    const auto all = std::as_bytes(std::span(generationOf_));
+    for (uint32_t house : houses)
+        if (!commands->upload(set.generations, all.subspan(house * 4, 4), house * 4)) return;
+    (void)commands->submit();  // without memory for this the next growth will show them
 }
 
 Result<RoofRecords> GpuRoofs::read() {

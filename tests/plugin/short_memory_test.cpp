@@ -138,6 +138,57 @@ TEST_CASE("plants grow where the town fails, and what was painted on it isn't lo
     REQUIRE(espEndStroke(life.context, stroke) == ESP_OK);
 }
 
+TEST_CASE("houses whose growth fails, and the whole town's after it, are drawn as they were") {
+    // Forty-five houses about the origin and fifty far away. Painted ones have a record for each cell, for which there
+    // is no room yet.
+    std::string town = "{\"buildings\": [";
+    for (int i = 0; i < 95; ++i) {
+        const int x = i % 7 * 14 + (i < 45 ? 0 : 1000), y = (i < 45 ? i : i - 45) / 7 * 14;
+        char house[160];
+        std::snprintf(house, sizeof house, "%s{\"id\": \"%d\", \"outer\": [[%d,%d],[%d,%d],[%d,%d],[%d,%d]]}",
+                      i > 0 ? "," : "", i, x, y, x + 10, y, x + 10, y + 8, x, y + 8);
+        town += house;
+    }
+    town += "]}";
+    constexpr const char* kCells =
+        "context decay = 0\n"
+        "House -> Extrude(wallHeight) {NULL, Top}\n"
+        "Top -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, Top}\n"
+        "Cover : decay(house) > 0.5 -> Repeat(XY, vec2(0.3, 0.25), fit) {Cell}\n"
+        "Cover -> Repeat(XY, vec2(0.3, 0.25), fit) {Tile}\n"
+        "Cell -> Tint(rand()) Shape(\"slate\")\n"
+        "Tile -> Shape(\"slate\")\n";
+    uint32_t calls = 0, failures = 0;
+    for (uint32_t at : {UINT32_MAX, 0u, 1u, 2u, 3u}) {
+        CAPTURE(at);
+        FailingDevice device;
+        Life life;
+        REQUIRE(life.create(device));
+        EspTownDef def = espDefaultTownDef();
+        def.text = town.c_str();
+        def.length = town.size();
+        def.grammar = compiled(life.context, "cells", kCells);
+        REQUIRE(espLoadTown(life.context, &def) == ESP_OK);
+        REQUIRE(life.update());
+        const uint32_t before = drawnTiles(life);
+        REQUIRE(before > 500);
+        const EspStroke stroke = begin(life.context, "decay", ESP_BRUSH_PAINT, 90);
+        REQUIRE(dab(life.context, stroke, 45, 40, -45) == ESP_OK);
+        device.failAt(at == UINT32_MAX ? at : (2 * at + 1) * calls / 8, Failure::OutOfMemory);
+        life.update();
+        if (at == UINT32_MAX) calls = device.calls();
+        const bool failed = !device.failed().empty();
+        failures += failed ? 1 : 0;
+        CHECK(failed == (life.result != ESP_OK));
+        device.heal();
+        CHECK(drawnTiles(life) > before - 50);
+        CHECK_MESSAGE(life.update(), espLastError(life.context));
+        CHECK(drawnTiles(life) > before - 50);
+        REQUIRE(espEndStroke(life.context, stroke) == ESP_OK);
+    }
+    CHECK(failures == 4);
+}
+
 TEST_CASE("a dab that memory ran short for is no part of what undo takes back") {
     FailingDevice device;
     Life life;

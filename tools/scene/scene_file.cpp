@@ -15,8 +15,6 @@
 namespace espalier::scene {
 namespace {
 
-constexpr float kRadians = 3.14159265f / 180;
-
 class Reader {
   public:
     Reader(std::string path, SceneFile& out) : path_(std::move(path)), out_(out) {}
@@ -101,7 +99,7 @@ class Reader {
             fail(*at, "'position' must be three numbers");
         float degrees = 0;
         number(json, "turn", -360, 360, degrees);
-        placing.turn = degrees * kRadians;
+        placing.turn = turnOfDegrees(degrees);
     }
     void readTown(const Json& json) {
         if (!isObject(json, "'town'", {"file", "grammar", "position", "turn", "ground", "houses"})) return;

@@ -59,6 +59,12 @@ struct SceneFile {
     void applyLook(EspLook& look) const;
 };
 
+// The angle that scene files state in degrees.
+inline float turnOfDegrees(float degrees) {
+    constexpr float kRadians = 3.14159265f / 180;
+    return degrees * kRadians;
+}
+
 // False: `error` holds a line "file:line:column: message" for every mistake found.
 bool readSceneFile(const std::string& path, SceneFile& out, std::string& error);
 
