@@ -16,6 +16,12 @@ uint32_t tilesAlong(const EmitView& view, uint32_t pixels) {
     return (pixels + view.tilePixels - 1) / view.tilePixels;
 }
 
+// Wherever their tiles lie: `scene` tells whether these say the same.
+bool sameView(const EmitView& a, EmitView b) {
+    if (IS_GIVEN(a.tiles) == IS_GIVEN(b.tiles)) b.tiles = a.tiles;
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
 }  // namespace
 
 Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
@@ -133,7 +139,7 @@ Status Emit::cull(Commands& commands, const EmitInputs& inputs, const EmitView& 
                   bool counted) {
     if (Status s = bind(commands, inputs); !s) return s;
     usedBy_ = commands.serial();
-    const bool known = bound_ == culled_ && std::memcmp(&view, &view_, sizeof view) == 0 && (counted_ || !counted);
+    const bool known = bound_ == culled_ && sameView(view, view_) && (counted_ || !counted);
     if (known && culledNative()) natives_[native_].serial = commands.serial();
     if (known) return Done{};
     culled_ = bound_;
@@ -167,11 +173,8 @@ Result<bool> Emit::cullNative(const EmitInputs& inputs, const EmitView& view, ui
                                            reinterpret_cast<const LeafInstance*>(held_.leaves.address()));
     const uint64_t bytes = std::max<uint64_t>(seen, 1) * sizeof(DrawnItem);
     if (!free->drawn || free->drawn.size() < bytes) {
-        Result<Buffer> made = Buffer::create(*device_, "drawn instances, native", bytes + bytes / 4 / 16 * 16);
+        Status made = makeRoom(free->drawn, "drawn instances, native", bytes + bytes / 4 / 16 * 16, &free->drawnTexels);
         if (!made) return made.failure();
-        free->drawnTexels = {};
-        free->drawn = std::move(*made);
-        if (Status s = viewTexels(free->drawnTexels, free->drawn); !s) return s.failure();
     }
     if (!free->state) {
         Result<Buffer> made = Buffer::create(*device_, "emit state, native", sizeof(EmitState));
@@ -189,12 +192,12 @@ Status Emit::watch(Commands& commands, const EmitView& view) {
     const uint64_t bytes = 4ull * tilesOf(view);
     watched_ = {};
     if (!watchTiles_ || watchTiles_.size() != bytes) {
-        Result<Buffer> made = Buffer::create(*device_, "watched tiles", bytes);
-        if (!made) return made.failure();
-        watchTiles_ = std::move(*made);
-        made = Buffer::create(*device_, "taken tiles", bytes + 4);
-        if (!made) return made.failure();
-        takenTiles_ = std::move(*made);
+        Result<Buffer> watched = Buffer::create(*device_, "watched tiles", bytes);
+        if (!watched) return watched.failure();
+        Result<Buffer> taken = Buffer::create(*device_, "taken tiles", bytes + 4);
+        if (!taken) return taken.failure();
+        watchTiles_ = std::move(*watched);
+        takenTiles_ = std::move(*taken);
     }
     usedBy_ = commands.serial();
     EmitView watched = view;
@@ -213,6 +216,7 @@ EmitView Emit::takeChanges(Commands& commands, uint32_t mostTiles) {
     usedBy_ = commands.serial();
     EmitView view = watched_;
     view.tiles.v = reinterpret_cast<float*>(takenTiles_.address());
+    view.scene = ++timesTaken_;  // others each time
     TakePush push{};
     push.watched = watched_.tiles;
     push.taken = view.tiles;

@@ -127,7 +127,7 @@ class Emit {
     Status makeOrder(Buffer& order, const Held& held);
     void hold(Held held);
     Status reserve();
-    Status viewTexels(TexelView& texels, const Buffer& buffer);
+    Status makeRoom(Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels);
     Status viewRecords(const GrowthView& growth, uint32_t nodesBefore);
     bool staysBound(const Bound& wanted, const GrowthView& growth) const;
     Status bindByKernels(Commands& commands, const GrowthView& growth, const BindInputs& given);
@@ -180,7 +180,7 @@ class Emit {
     Program takeTiles_;
     Buffer watch_, watchTiles_, takenTiles_;
     EmitView watched_{};  // and its tiles; width 0: none
-    uint64_t wholeBindings_ = 0, carries_ = 0;
+    uint64_t wholeBindings_ = 0, carries_ = 0, timesTaken_ = 0;
     bool counted_ = false;
     bool fetches_ = false, fetchesTouched_ = false;
     uint32_t overflow_ = 0;

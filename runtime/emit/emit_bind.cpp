@@ -37,10 +37,7 @@ EmitGrid gridOver(glm::vec3 low, glm::vec3 high) {
 Result<Emit::Held> Emit::makeHeld(const GrowthView& growth, uint32_t leaves) {
     Held held;
     const auto make = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
-        Result<Buffer> made = Buffer::create(*device_, name, std::max<uint64_t>(bytes, 65536) / 16 * 16);
-        if (!made) return made.failure();
-        buffer = std::move(*made);
-        return texels ? viewTexels(*texels, buffer) : Status(Done{});
+        return makeRoom(buffer, name, std::max<uint64_t>(bytes, 65536) / 16 * 16, texels);
     };
     const DeviceInfo& info = device_->info();
     const uint64_t most = std::min<uint64_t>(info.maxBufferBytes, 16ull * info.limits.maxTexelBufferElements);
@@ -80,10 +77,12 @@ void Emit::hold(Held held) {
     held_ = std::move(held);
 }
 
-Status Emit::viewTexels(TexelView& texels, const Buffer& buffer) {
-    Result<TexelView> view = TexelView::create(*device_, buffer, VK_FORMAT_R32G32B32A32_UINT);
-    if (!view) return view.failure();
-    texels = std::move(*view);
+// texels: null, or the view that goes with the buffer.
+Status Emit::makeRoom(Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels) {
+    if (texels) return makeTexels(*device_, name, bytes, VK_FORMAT_R32G32B32A32_UINT, buffer, *texels);
+    Result<Buffer> made = Buffer::create(*device_, name, bytes);
+    if (!made) return made.failure();
+    buffer = std::move(*made);
     return Done{};
 }
 
@@ -92,11 +91,7 @@ Status Emit::reserve() {
     const uint64_t numbers = held_.numbers();
     const auto hold = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
         if (buffer && buffer.size() >= bytes) return Done{};
-        if (texels) *texels = {};
-        Result<Buffer> made = Buffer::create(*device_, name, (bytes + 15) / 16 * 16);
-        if (!made) return made.failure();
-        buffer = std::move(*made);
-        return texels ? viewTexels(*texels, buffer) : Status(Done{});
+        return makeRoom(buffer, name, (bytes + 15) / 16 * 16, texels);
     };
     const uint64_t blocks = numbers / kBlockItems + 2;
     Status rest[] = {hold(flags_, "emit flags", held_.leafBase * 4ull),

@@ -52,8 +52,11 @@ Result<EmitState> Emit::gather(const EmitInputs& inputs, bool native, double& mi
     view.flags = kFullDetail;
     view.lodPixels = 1;
     Status recorded = native ? bind(*commands, inputs) : cull(*commands, inputs, view, "materialise gather", true);
-    if (!recorded) return recorded.failure();
-    if (Status s = commands->finish(); !s) return s.failure();
+    if (recorded) recorded = commands->finish();
+    if (!recorded) {
+        forget();
+        return recorded.failure();
+    }
     EmitState& counted = *reinterpret_cast<EmitState*>(readback_.mapped());
     EmitState state = counted;
     if (native) {

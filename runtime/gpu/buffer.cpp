@@ -73,6 +73,17 @@ Result<TexelView> TexelView::create(Device& device, const Buffer& buffer, VkForm
     return view;
 }
 
+Status makeTexels(Device& device, std::string_view name, uint64_t sizeBytes, VkFormat format, Buffer& buffer,
+                  TexelView& texels) {
+    Result<Buffer> made = Buffer::create(device, name, sizeBytes);
+    if (!made) return made.failure();
+    Result<TexelView> view = TexelView::create(device, *made, format);
+    if (!view) return view.failure();
+    texels = std::move(*view);  // first: no view outlives its buffer
+    buffer = std::move(*made);
+    return Done{};
+}
+
 Result<Buffer> makeBuffer(Device& device, std::string_view name, std::span<const std::byte> bytes) {
     Result<Buffer> buffer = Buffer::create(device, name, bytes.size());
     if (!buffer || bytes.empty()) return buffer;

@@ -55,6 +55,10 @@ class TexelView {
     Owned<VkBufferView> view_;
 };
 
+// A device buffer of so many bytes and its view as texels, in place of these. On failure both stay as they were.
+Status makeTexels(Device& device, std::string_view name, uint64_t sizeBytes, VkFormat format, Buffer& buffer,
+                  TexelView& texels);
+
 // A device buffer with these bytes in it, ready when the call returns. For loading; inside a frame use
 // Commands::upload.
 Result<Buffer> makeBuffer(Device& device, std::string_view name, std::span<const std::byte> bytes);

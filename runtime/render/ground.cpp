@@ -224,8 +224,9 @@ Status Ground::setSite(Device& device, const SiteMap& map) {
         desc.levels = 0;
         Result<Image> made = Image::create(device, desc);
         if (!made) return made.failure();
+        if (Status s = fillImage(device, *made, std::as_bytes(std::span(rgba))); !s) return s;
         image = std::move(*made);
-        return fillImage(device, image, std::as_bytes(std::span(rgba)));
+        return Done{};
     };
     if (!paving_)
         if (Status s = upload(paving_, "paving", kPavingSide, kPavingSide, pavingTile()); !s) return s;

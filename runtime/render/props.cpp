@@ -75,12 +75,10 @@ Status Props::place(Device& device, std::vector<PropPlace> places) {
     for (const PropPlace& p : places) require(p.variant < variants().size(), "a prop has a variant");
     // An instance stands twice where a level of detail takes over.
     for (Chosen* chosen : {&inView_, &casters_}) {
-        Result<Buffer> made =
-            Buffer::create(device, "props", std::max<size_t>(2 * places.size(), 1) * sizeof(PropInstance));
-        if (!made) return made.failure();
-        Result<TexelView> texels = TexelView::create(device, *made, VK_FORMAT_R32G32B32A32_UINT);
-        if (!texels) return texels.failure();
-        *chosen = {{}, std::move(*made), std::move(*texels)};
+        Status made = makeTexels(device, "props", std::max<size_t>(2 * places.size(), 1) * sizeof(PropInstance),
+                                 VK_FORMAT_R32G32B32A32_UINT, chosen->instances, chosen->texels);
+        if (!made) return made;
+        chosen->runs.clear();
     }
     places_ = std::move(places);
     instances_.clear();

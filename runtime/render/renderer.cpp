@@ -2,11 +2,13 @@
 // shadows has changed (renderer_shadows.cpp), cull, scene (in four samples, on a CPU in one), ambient occlusion at half
 // size, samples or smoothed edges to pixels.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "runtime/core/check.hpp"
 #include "runtime/render/host_formats.hpp"
 #include "runtime/render/renderer_impl.hpp"
+#include "shaders/shared/random.h"
 
 namespace espalier {
 namespace {
@@ -151,6 +153,17 @@ void RendererImpl::lookBack(EmitView& view) const {
     view.drift = std::max(glm::distance(view.eye, past->view.eye), 1e-6f);
 }
 
+// Of what hides growth: another one where tiles may say something else. A host's scene or a level that fades hides
+// something else in each frame.
+uint64_t RendererImpl::sceneOf(const DrawInputs& inputs) {
+    ++sceneNumber_;
+    if (hosted_ || models_.fading() > 0) return sceneNumber_ << 32;
+    const Look& look = inputs.look;
+    const uint64_t ground = inputs.ground.drawn ? std::bit_cast<uint32_t>(inputs.ground.height) : 1ull << 32;
+    return combineKeys(mix64(models_.revision() + (propsRevision_ << 32)),
+                       ground + (uint64_t(look.view) << 40) + (uint64_t(look.quick) << 33));
+}
+
 Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {
     EmitView view = perspectiveView(frame.viewProjection, frame.eye, frame.pixelScale, inputs.look.lodPixels);
     view.viewProjection = frame.viewProjection;
@@ -159,9 +172,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.tilePixels = kDepthTile;
     if (Status s = findTiles(commands, view); !s) return s;
     thinOut(view, inputs.look.leafPixels);
-    // A host's scene or a level that fades hides something else in each frame.
-    ++sceneNumber_;
-    view.scene = hosted_ || models_.fading() > 0 ? sceneNumber_ << 32 : models_.revision() + (propsRevision_ << 16);
+    view.scene = sceneOf(inputs);
     if (shading_ == Shading::quick && !hosted_) lookBack(view);
     if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;

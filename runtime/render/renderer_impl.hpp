@@ -76,6 +76,7 @@ class RendererImpl final : public Renderer {
     void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
     EmitInputs emitInputs(const DrawInputs& inputs) const;
+    uint64_t sceneOf(const DrawInputs& inputs);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
     Status findTiles(Commands& commands, EmitView& view);
     void lookBack(EmitView& view) const;

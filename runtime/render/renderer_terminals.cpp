@@ -37,13 +37,9 @@ Status RendererImpl::lightTerminals(Commands& commands) {
     lit_ = shading_ == Shading::quick && known && room <= std::min<uint64_t>(info.maxBufferBytes, most);
     if (!lit_) return Done{};
     if (!litTerminals_ || litTerminals_.size() < bytes) {
-        litTexels_ = {};
-        Result<Buffer> made = Buffer::create(device_, "lit terminals", room);
-        if (!made) return made.failure();
-        litTerminals_ = std::move(*made);
-        Result<TexelView> texels = TexelView::create(device_, litTerminals_, VK_FORMAT_R32G32B32A32_UINT);
-        if (!texels) return texels.failure();
-        litTexels_ = std::move(*texels);
+        Status made =
+            makeTexels(device_, "lit terminals", room, VK_FORMAT_R32G32B32A32_UINT, litTerminals_, litTexels_);
+        if (!made) return made;
     }
     commands.barrier(Use::vertex, Use::compute);
     Pass pass(commands, "light");
