@@ -19,4 +19,14 @@ float cellClarity(RoofDrawEnv env, EmitView view, RoofGrid g, vec3 at, float far
     float lying = view.parallel != 0u ? 1.0 : abs(dot(cross(g.axisX, g.axisY), normalize(view.eye - at)));
     return cellClarity(env, g, view.pixelScale / far, lying);
 }
+
+// A row of what lies astride its line is bent over it, as caps are: from afar two sides of a small roof stand for it. One
+// rectangle would hover, and be a line from the side.
+bool overRidge(RoofGrid g, RoofMesh mesh) {
+    return g.firstRow != kNoIndex && (g.cells >> 16u) == 1u && mesh.low.y < -0.4 && mesh.high.y > 0.4;
+}
+vec3 capNormal(RoofGrid g, RoofMesh mesh, float side) {
+    float wide = 0.5 * (mesh.high.y - mesh.low.y) * g.size.y;
+    return normalize(cross(g.axisX, g.axisY) * wide + g.axisY * (sign(side) * mesh.high.z * g.thickness));
+}
 #endif

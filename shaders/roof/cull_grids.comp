@@ -38,9 +38,12 @@ void main() {
             first = env.roofs.regions.v[g.region].firstPart;
             count = env.roofs.regions.v[g.region].partCount;
         }
+        bool caps = g.region == kNoIndex && overRidge(g, env.roofs.meshes.v[g.mesh & 255u]);
+        count = caps ? 2u : count;
         uint at = atomicAdd(env.state.v[0].rectangles, count);
         for (uint p = 0u; p < count && at + p < env.rectangleRoom; ++p)
-            env.rectangles.v[at + p] = RoofTile(below ? i | kRectangleBelow : i, g.region != kNoIndex ? first + p : kNoIndex);
+            env.rectangles.v[at + p] = RoofTile(below ? i | kRectangleBelow : i,
+                                                caps ? kCapLow + p : g.region != kNoIndex ? first + p : kNoIndex);
         if (pattern) return;
     }
     uint rows = g.cells >> 16u;

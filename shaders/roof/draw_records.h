@@ -33,6 +33,9 @@ struct RoofCutTile {
 };
 STATIC_SIZE(RoofCutTile, 16);
 
+// RoofTile::cell of a row of caps, which is drawn as two halves of a small roof.
+CONST_UINT(kCapLow, 0xFFFFFFFDu);
+CONST_UINT(kCapHigh, 0xFFFFFFFEu);
 CONST_UINT(kRectangleBelow, 1u << 31u);   // RoofTile::grid of a pattern that lies under cells
 
 struct RoofDrawState {

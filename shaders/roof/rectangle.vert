@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-// A far grid as one rectangle a part of its region.
+// A far grid as one rectangle a part of its region; a row of caps as the two sides of a small roof.
 #include "shaders/render/frame.glsl"
+#include "shaders/roof/clarity.glsl"
 #include "shaders/roof/place.glsl"
 
 layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
@@ -26,6 +27,7 @@ void main() {
     vec2 low = vec2(0.0);
     vec2 high = min(g.extent, g.step * vec2(cells));
     float lift = (env.flags & kRoofShadow) != 0u ? -0.04 : below ? 0.0 : 0.01;   // cells don't shade themselves; battens end 6 mm below
+    float base = lift;
     lift += 4.0 * min(mesh.high.z, 0.0);   // what lies below tiles stays there
     if (cells.y == 1u) {
         low.y = mesh.low.y * g.size.y;
@@ -37,12 +39,20 @@ void main() {
         high.x = mesh.high.x * g.size.x;
     }
     vec3 at = vec3(mix(low, high, share), lift);
-    position = gridPoint(g, at);
     normal = cross(g.axisX, g.axisY);
+    if (item.cell == kCapLow || item.cell == kCapHigh) {
+        bool inner = (share.y > 0.5) == (item.cell == kCapLow);
+        float edge = item.cell == kCapLow ? low.y : high.y;
+        // Its eaves go into the roof, so that nobody looks under it.
+        at.yz = (inner ? vec2(0.0, below ? 0.85 : 0.95) : vec2(edge, -0.3)) * vec2(1.0, mesh.high.z * g.thickness);
+        at.z += min(base, 0.0);
+        normal = capNormal(g, mesh, edge);
+    }
+    position = gridPoint(g, at);
     surface = vec4(at.xy / max(g.step, vec2(1e-3)), mesh.high.z < 0.0 && cells.y > 1u ? 1.0 : 0.0, float(g.colour >> 24u) * (1.0 / 255.0));
     look = uvec4(g.colour & 0xFFFFFFu, uint(g.key), (g.mesh & kGridBond) != 0u ? 1u : 0u, g.mesh);
     gl_Position = frame.viewProjection * vec4(position, 1.0);
-    uint count = item.cell == kNoIndex ? 0u : env.roofs.parts.v[item.cell].counts & 255u;
+    uint count = item.cell >= kCapLow ? 0u : env.roofs.parts.v[item.cell].counts & 255u;
     for (uint i = 0u; i < 8u; ++i)
         gl_ClipDistance[i] = i < count ? planeDistance(env, g, item.cell, i, position, at) : 1.0;
 }

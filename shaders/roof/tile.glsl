@@ -45,6 +45,8 @@ void main() {
         vec3 ray = frame.eye - position;
         float far = max(length(ray), 0.05);
         clear = smoothstep(1.0, quick ? kFadeEnd : kReliefEnd, cellClarity(env, g, frame.pixelScale / far, abs(dot(face, ray)) / far));
+        RoofMesh bounds = env.roofs.meshes.v[g.mesh & 255u];
+        if (overRidge(g, bounds)) face = capNormal(g, bounds, n.y);
         normal = mix(face, normal, clear);
     }
     float tint = push.roughness < kRoughnessOfGlass ? -1.0 : float(g.colour >> 24u) * (1.0 / 255.0);

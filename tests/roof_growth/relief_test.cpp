@@ -24,6 +24,55 @@ TerminalData leaning(float lean) {
     return data;
 }
 
+// Caps of black along the ridge of a white roof, 0.4 m long, 0.28 m wide and 0.3 m high.
+const std::string kCapped =
+    "House -> Extrude(wallHeight) {NULL, TopWall}\n"
+    "TopWall -> Join(roofHeight, roofPos1, roofPos2) {Cover, Joints, NULL}\n"
+    "Cover -> Colour(1, 1, 1) Shape(\"panel\")\n"
+    "Joints -> Explode() {NULL, NULL, Line, Line, Line}\n"
+    "Line : owner == 1 and joint == ridge -> Repeat(X, 0.4) {Cap}\n"
+    "Cap -> S(sizeX, 0.28, 0.3) Colour(0, 0, 0) Shape(\"ridge\")\n";
+
+// A panel, and a cap that is bent over its line.
+TerminalData bent() {
+    TerminalData data = leaning(0);
+    for (float y : {-0.5f, 0.0f, 0.5f})
+        for (float x : {0.0f, 1.0f})
+            data.vertices.push_back({{x, y, y == 0 ? 1.0f : 0.0f}, packOct({0, 0, 1}), {1, 1}});
+    for (uint32_t i : {0u, 1u, 3u, 0u, 3u, 2u, 2u, 3u, 5u, 2u, 5u, 4u}) data.indices.push_back(i);
+    data.variants[1].lods[0] = TerminalLod{4, 6, 6, 12, 0, 0};
+    return data;
+}
+
+// Dark pixels in a picture from the height of a capped ridge, so far away that a pattern stands for the caps.
+size_t darkAtRidge(Device& device) {
+    std::unique_ptr<Renderer> renderer = std::move(*Renderer::create(device, test::simpleTerminals()));
+    const std::vector<RoofMesh> bounds = std::move(*renderer->loadRoofMeshes(bent()));
+    const Roofs capped = roofs({footprint({{0, 0}, {20, 0}, {20, 12}, {0, 12}}, RoofShape::hip, 0.5)}, kCapped);
+    std::unique_ptr<RoofGrowth> growth = std::move(*RoofGrowth::create(device));
+    RoofInputs inputs = capped.inputs();
+    inputs.meshes = bounds;
+    REQUIRE(growth->grow(inputs));
+    const RoofView view = growth->view();
+    DrawInputs drawn;
+    drawn.roofs = &view;
+    drawn.camera.target = glm::vec3(10, float(capped.structure.houses[0].eaveHeight) + 3, -6);
+    drawn.camera.eye = drawn.camera.target + glm::vec3(0, 0, 40);
+    drawn.look.shadows = false;
+    DrawTarget target;
+    target.width = target.height = 240;
+    Result<Commands> commands = Commands::begin(device, "ridge from afar");
+    REQUIRE(commands);
+    REQUIRE(renderer->draw(*commands, drawn, target));
+    REQUIRE(commands->finish());
+    device.collect();
+    CHECK(renderer->stats().roofs.rectangles > 0);
+    const std::vector<uint8_t> rgba = *renderer->readPixels();
+    size_t dark = 0;
+    for (size_t i = 0; i < rgba.size(); i += 4) dark += rgba[i] + rgba[i + 1] + rgba[i + 2] < 150;
+    return dark;
+}
+
 // A slated roof seen from straight above: nothing else is in the picture.
 struct Above {
     Device& device;
@@ -88,5 +137,14 @@ TEST_CASE("near roofs keep their tiles' relief in the smaller pictures of what m
             CHECK(std::abs(moving - settled) < 0.2 * (unlit - settled));
         }
     }
+    CHECK((*device)->validationMessages() == 0);
+}
+
+TEST_CASE("a far ridge's caps are seen from the side") {
+    DeviceOptions options;
+    options.validation = true;
+    Result<std::unique_ptr<Device>> device = Device::create(options);
+    REQUIRE(device);
+    CHECK(darkAtRidge(**device) > 60);  // 8 m of it, 8 pixels a metre, 2 pixels high
     CHECK((*device)->validationMessages() == 0);
 }
