@@ -37,6 +37,7 @@ Result<Container> readWhole(const std::filesystem::path& path) {
     struct stat info {};
     if (::fstat(file.get(), &info) != 0) return systemFailure(path, "cannot be read", errno);
     if (S_ISDIR(info.st_mode)) return Failure(path.string(), "is a folder, not a file");
+    if (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode)) return Failure(path.string(), "is a device, not a file");
     try {
         Container bytes;
         bytes.resize(size_t(info.st_size));

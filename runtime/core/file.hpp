@@ -10,7 +10,7 @@
 
 namespace espalier {
 
-// The whole file. Fails with the path and the system's reason.
+// The whole file. Fails with the path and the system's reason; folders and devices, which may never end, are refused.
 Result<std::vector<std::byte>> readFile(const std::filesystem::path& path);
 Result<std::string> readTextFile(const std::filesystem::path& path);
 

@@ -163,6 +163,11 @@ TEST_CASE("--help and --version answer; mistakes end with a message, a code and 
     CHECK(r.says("resolution"));
     CHECK(!r.run("cube.glb -o s.glb --scene 5 --report r.json"));
     CHECK(r.says("scene 5 does not exist"));
+    for (const char* tolerance : {"nan", "1e300", "-1"})
+        CHECK(!r.run("cube.glb -o s.glb --report r.json --tolerance " + std::string(tolerance)));
+    CHECK(!r.run("cube.glb -o s.glb --report cube.glb"));
+    CHECK(!r.run("cube.glb -o s.glb --report ./s.glb"));
+    CHECK(r.says("would overwrite"));
     CHECK(!r.run("missing.glb -o s.glb --report r.json"));
     CHECK(r.says("missing.glb"));
     CHECK(!r.run("cube.glb -o cube.glb"));

@@ -37,6 +37,7 @@ TEST_CASE("files that cannot be read or written say which and why, and leave not
     REQUIRE_FALSE(none);
     CHECK(none.failure().text().find("none.txt: cannot be opened") != std::string::npos);
     CHECK_FALSE(readFile(scratch.path));
+    CHECK_FALSE(readFile("/dev/zero"));
     CHECK_FALSE(writeFile(scratch.path, "a folder"));
     REQUIRE(writeFile(scratch.path / "file", "x"));
     CHECK_FALSE(writeFile(scratch.path / "file" / "below.txt", "y"));

@@ -105,6 +105,7 @@ TEST_CASE("grammars, layers and options with mistakes") {
     refuses(capture + "--grammar " + folder.write("bad.grammar", "Ivy -> Marching(1,\nStem -> }"), folder,
             {"bad.grammar:2:"});
     refuses(capture + "--layer mask=" + folder.file("none.png"), folder, {"none.png", "No such file"});
+    refuses("timeout 20 " + capture + "--layer mask=/dev/zero", folder, {"/dev/zero: is a device"});
     refuses(capture + "--layer mask=" + folder.write("text.png", "not a picture"), folder, {"text.png"});
     refuses(capture + "--layer bark=" + content("mask.png"), folder, {"mask.png", "'bark'"});
     refuses(capture + "--layer mask", folder, {"NAME=FILE"});

@@ -22,11 +22,7 @@ std::string systemReason() {
 }
 
 std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path, std::string& error) {
-    std::error_code code;
-    if (std::filesystem::is_directory(path, code)) {
-        error = path + ": is a folder";
-        return nullptr;
-    }
+    if (refused(path, error)) return nullptr;
     errno = 0;
     if (!std::ifstream(path, std::ios::binary)) {
         error = path + ": can't be read: " + systemReason();

@@ -68,16 +68,17 @@ bool writeText(const std::string& path, std::string_view text, std::string& erro
     return fail(code.message());
 }
 
-bool readText(const std::string& path, std::string& text, std::string& error) {
+bool refused(const std::string& path, std::string& error) {
     std::error_code code;
-    if (std::filesystem::is_directory(path, code)) {
-        error = path + ": is a folder";
-        return false;
-    }
-    if (std::filesystem::is_character_file(path, code) || std::filesystem::is_block_file(path, code)) {
-        error = path + ": is a device, not a file";
-        return false;
-    }
+    const fs::file_type type = fs::status(path, code).type();
+    const bool folder = type == fs::file_type::directory;
+    const bool device = type == fs::file_type::character || type == fs::file_type::block;
+    if (folder || device) error = path + (folder ? ": is a folder" : ": is a device, not a file");
+    return folder || device;
+}
+
+bool readText(const std::string& path, std::string& text, std::string& error) {
+    if (refused(path, error)) return false;
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     std::ostringstream all;

@@ -11,7 +11,10 @@ namespace espalier::scene {
 // not the link; devices and pipes are written to as they are.
 bool writeText(const std::string& path, std::string_view text, std::string& error);
 
-// Folders and devices are refused.
+// Folders and devices, which may never end, are refused.
 bool readText(const std::string& path, std::string& text, std::string& error);
+
+// Whether it is one of these; `error` says so.
+bool refused(const std::string& path, std::string& error);
 
 }  // namespace espalier::scene

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -59,11 +60,21 @@ void showProgress(float done, const char* stage) {
     }
 }
 
+// Whether both lead to one file, be it there already or not.
+bool sameFile(const std::string& a, const std::string& b) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    const auto whole = [&](const std::string& path) { return fs::weakly_canonical(fs::absolute(path), ignored); };
+    return fs::equivalent(a, b, ignored) || whole(a) == whole(b);
+}
+
 int runModel(Arguments& arguments) {
     if (!arguments.quiet) showProgress(0, "read");
-    std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.model, arguments.output, ignored))
+    if (sameFile(arguments.model, arguments.output))
         return fail(Failure(arguments.output, "the surface would overwrite its model"));
+    if (!arguments.report.empty() &&
+        (sameFile(arguments.report, arguments.model) || sameFile(arguments.report, arguments.output)))
+        return fail(Failure(arguments.report, "the report would overwrite the model, or the surface the report"));
     auto model = importModel(arguments.model, arguments.importing);
     if (!model) return fail(model.failure());
     if (!arguments.quiet)
@@ -96,6 +107,7 @@ int runModel(Arguments& arguments) {
     }
     Status written = writeSurface(baked->surface, arguments.output);
     if (!written) {
+        std::error_code ignored;
         if (!arguments.report.empty()) std::filesystem::remove(arguments.report, ignored);
         return fail(written.failure());
     }
@@ -214,6 +226,7 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     if (from->count() > 0 && layer->count() + seeds->count() == 0)
         return fail(Failure("--from", "needs --layer or --seeds: what is to be carried"));
+    if (!std::isfinite(float(arguments.tolerance))) return fail(Failure("--tolerance", "is not a number of metres"));
     ::signal(SIGXFSZ, SIG_IGN);  // too large a file is an error like a full disk, with a message
     arguments.bake.nearestTolerance = float(arguments.tolerance);
     try {
