@@ -432,7 +432,7 @@ typedef enum EspView {
     ESP_VIEW_OVERDRAW = 6        /* fragments that were shaded for each pixel */
 } EspView;
 
-typedef struct EspLook {
+typedef struct EspLook {         /* all numbers finite */
     float sunDirection[3];       /* towards the sun */
     float sunColour[3], skyColour[3], groundColour[3];
     float exposure;              /* stops */
@@ -503,7 +503,8 @@ ESP_API EspResult espDraw(EspContext* context, const EspDrawDef* def);
  * lost, an error). The next frame relies on nothing of it and draws its shadows anew. Without this call pictures stay wrong
  * until growth or the view changes: what was recorded there counts as done. Its `frame` is done when framesDone says so. */
 ESP_API EspResult espDropFrame(EspContext* context);
-/* rgba: width * height * 4 bytes, rows top to bottom, sRGB, of the last espDraw into Espalier's own image. */
+/* rgba: width * height * 4 bytes, rows top to bottom, sRGB, of the last espDraw into Espalier's own image, unless one into
+ * a host's scene, of another size, or one that failed has taken its place since. */
 ESP_API EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes);
 
 /* A camera that shows all surfaces from the front right. */

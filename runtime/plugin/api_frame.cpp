@@ -17,12 +17,22 @@ glm::vec3 vec(const float v[3]) {
     return {v[0], v[1], v[2]};
 }
 
+bool finite(const EspLook& look) {
+    for (const float* v :
+         {look.sunDirection, look.sunColour, look.skyColour, look.groundColour, look.background, look.horizon})
+        if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2])) return false;
+    for (float v : {look.exposure, look.viewOpacity, look.windowLodPixels, look.leafPixels, look.groundLevel})
+        if (!std::isfinite(v)) return false;
+    return true;
+}
+
 EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
     if (def.width < 1 || def.height < 1 || def.width > kMaxSide || def.height > kMaxSide)
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a frame is 1 to 16384 pixels wide and high");
-    for (const float* v : {def.camera.eye, def.camera.target, def.camera.up, def.look.sunDirection})
+    for (const float* v : {def.camera.eye, def.camera.target, def.camera.up})
         if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
-            return fail(context, ESP_INVALID_ARGUMENT, "espDraw: camera or sun is not finite");
+            return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera is not finite");
+    if (!finite(def.look)) return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a number of the look is not finite");
     if (!(std::abs(def.camera.shift[0]) < 100) || !(std::abs(def.camera.shift[1]) < 100) ||
         !(def.camera.fovY > 0.001f && def.camera.fovY < 3.1f) || !(def.camera.nearPlane > 0) ||
         vec(def.camera.eye) == vec(def.camera.target))
@@ -115,6 +125,7 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     if (!def.commandBuffer) {
         Result<Commands> commands = Commands::begin(*context.device, "frame");
         if (!commands) return failGpu(&context, commands.failure());
+        context.hasPicture = false;
         Status drawn = context.renderer->draw(*commands, inputs, target);
         if (!drawn) return failGpu(&context, drawn.failure());
         Status finished = commands->finish();
@@ -135,6 +146,9 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     if (def.scene)
         target.host = {reinterpret_cast<VkImage>(def.scene->depthImage), VkFormat(def.scene->depthFormat),
                        def.scene->depthAtInfinity, def.scene->depthPerNearness, def.scene->surfaces != 0};
+    // Espalier's image is of the size drawn last, and what a scene is composed in.
+    if (def.scene || def.width != context.pictureWidth || def.height != context.pictureHeight)
+        context.hasPicture = false;
     Commands commands =
         Commands::into(*context.device, reinterpret_cast<VkCommandBuffer>(def.commandBuffer), def.frame);
     Status drawn = context.renderer->draw(commands, inputs, target);
@@ -261,7 +275,8 @@ EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes) {
     return guarded(context, [&] {
         if (!rgba) return fail(context, ESP_INVALID_ARGUMENT, "espReadPixels: null pointer");
         if (!context->hasPicture)
-            return fail(context, ESP_INVALID_ARGUMENT, "espReadPixels: nothing was drawn into Espalier's image yet");
+            return fail(context, ESP_INVALID_ARGUMENT,
+                        "espReadPixels: nothing was drawn into Espalier's image yet, or another frame took its place");
         const size_t needed = size_t(context->pictureWidth) * context->pictureHeight * 4;
         if (sizeBytes != needed)
             return fail(context, ESP_INVALID_ARGUMENT,

@@ -271,6 +271,34 @@ TEST_CASE("growth in a host's scene") {
     picture(host, grown);
 }
 
+TEST_CASE("a picture whose place a host's frame took isn't read back") {
+    DrawingHost host;
+    Grown grown(host);
+    const EspCamera camera = cameraAt(1.3f, .9f, 1.9f);
+    std::vector<uint8_t> pixels;
+    const auto drawn = [&](uint32_t times) {
+        EspDrawDef def = espDefaultDrawDef();
+        def.width = times * kWidth;
+        def.height = times * kHeight;
+        def.camera = camera;
+        REQUIRE(espDraw(grown.context, &def) == ESP_OK);
+        pixels.assign(size_t(def.width) * def.height * 4, 0);
+    };
+    const auto read = [&] { return espReadPixels(grown.context, pixels.data(), pixels.size()); };
+    for (uint32_t times : {1u, 2u}) {
+        drawn(times);
+        REQUIRE(read() == ESP_OK);
+        const std::vector<uint8_t> before = pixels;
+        host.drawAtOnce({camera}, grown.context);  // not into a scene
+        CHECK(read() == (times == 1 ? ESP_OK : ESP_INVALID_ARGUMENT));
+        if (times == 1) CHECK(pixels == before);
+        drawn(times);
+        host.draw(camera, kBoxes, grown.context);
+        CHECK(read() == ESP_INVALID_ARGUMENT);
+        CHECK(std::string(espLastError(grown.context)).find("took its place") != std::string::npos);
+    }
+}
+
 TEST_CASE("a host that draws no more, but paints and updates, takes no more memory for it") {
     DrawingHost host;
     Grown grown(host);
