@@ -71,15 +71,15 @@ void Layout::feature() {
     taken_.push_back({kSquare, 2});
 }
 
-// A bed of flowers and shrubs on a lawn before a wall that faces `out`.
+// A bed of flowers between two shrubs, on a lawn before a wall that faces `out`.
 void Layout::lawnBefore(vec2 at, vec2 out) {
     const vec2 along(out.y, -out.x);
-    if (place("boards", at, out, 1.48f, 1.48f)) plantBed(at, along, out, 7);
-    for (uint32_t i = 0; i < 5; ++i) {
-        const vec2 p =
-            at + (1.9f + 0.8f * float(i)) * (i % 2 ? along : -along) + (1.2f * random01(i, 201) - 0.2f) * out;
-        if (!clear(p, 0.7f, 0.9f)) continue;
-        put(i % 2 ? "bush_b" : "bush_a", p, 360 * random01(i, 202), 0.5f + 0.35f * random01(i, 203), 0.05f);
+    if (!place("boards", at, out, 1.48f, 1.48f)) return;
+    plantBed(at, along, out, 7);
+    for (uint32_t i : {0u, 1u}) {
+        const vec2 p = at + (i ? 2.2f : -2.2f) * along;
+        if (!clear(p, 0.6f, 0.9f)) continue;
+        put("bush_b", p, 360 * random01(i, 202), 0.45f + 0.2f * random01(i, 203), 0.05f);
         taken_.push_back({p, 0.6f});
     }
 }
