@@ -52,9 +52,14 @@ class RendererImpl final : public Renderer {
     // The programs that draw what is lit: one set for each kind of shading, one for the view that counts fragments.
     struct ScenePrograms {
         Program model, modelFoot, bark, barkSmall, leaf, leafSmall;
-        Program barkLit, leafLit, lightBark, lightLeaves;  // of quick ones (lit.glsl)
+        struct Lit {
+            Program light, draw;
+        };
+        Lit litBark, litLeaves[2];  // of quick ones (lit.glsl): leaves of three vertices, and of four, if there are any
     };
     Status makeScene(ScenePrograms& programs, Shading shading, Blend blend) const;
+    Status makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,
+                            std::vector<SpecConstant> constants, Blend blend) const;
     Status pickScene(ViewMode shown, bool quick);
     Result<const Program*> resolveProgram(VkFormat format);
     // Uploads the record to frame_.
@@ -82,7 +87,11 @@ class RendererImpl final : public Renderer {
     void lookBack(EmitView& view) const;
     void drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post);
     Status lightTerminals(Commands& commands);
-    bool isLit(uint32_t bucket) const;
+    // Whether what the bucket draws has few enough vertices, and pixels, to be lit ahead; whether it has been.
+    bool canBeLit(uint32_t bucket) const;
+    bool isLit(uint32_t bucket) const { return lit_ && canBeLit(bucket); }
+    ScenePrograms::Lit& litPrograms(ScenePrograms& programs, uint32_t bucket) const;
+    Status makeLit(ScenePrograms& programs) const;
     void drawTerminals(DrawPass& pass, bool depthOnly);
     void drawOcclusion(Commands& commands, const PostPush& push);
     Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
@@ -99,7 +108,7 @@ class RendererImpl final : public Renderer {
     Image shadowMap_, standing_;  // the near half without growth; made when something grows
     Sampler shadowSampler_, textureSampler_, quickSampler_, plainSampler_, pointSampler_;
     ScenePrograms scenes_[kShadings], counting_;  // each made when first asked for
-    const ScenePrograms* scene_ = &scenes_[0];    // of this recording
+    ScenePrograms* scene_ = &scenes_[0];          // of this recording
     Shading shading_ = Shading::full;
     Program modelAhead_, modelAheadFading_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_,
         depthTiles_, shadowRestore_;
@@ -134,7 +143,7 @@ class RendererImpl final : public Renderer {
     uint64_t shadowBindings_ = 0;  // whole bindings when the map was last drawn whole
     uint32_t shadowsWhole_ = 0, shadowsPartly_ = 0, shadowsTaken_ = 0;
     float groundLevel_ = 0, unit_ = 1;  // of this recording
-    bool lit_ = false;                  // what has four vertices has been lit ahead of this picture
+    bool lit_ = false;                  // what has few vertices has been lit ahead of this picture
     bool ahead_ = false;                // models' depths went ahead, they are shaded after growth
     bool hosted_ = false;               // this recording goes into a host's scene
     bool furnished_ = false;            // it draws props

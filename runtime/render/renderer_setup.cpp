@@ -91,49 +91,48 @@ Status RendererImpl::makePrograms() {
     return Done{};
 }
 
+Status RendererImpl::makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,
+                                      std::vector<SpecConstant> constants, Blend blend) const {
+    GraphicsDesc desc;
+    desc.name = name;
+    desc.vertex = vertex;
+    desc.fragment = fragment;
+    desc.colors = {kSceneFormat};
+    desc.depth = kDepthFormat;
+    desc.samples = targets_.samples;
+    desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    desc.blend = blend;
+    desc.options.constants = std::move(constants);
+    if (std::string_view(vertex) == "render/model.vert") takeModelVertices(desc);
+    Result<Program> made = Program::graphics(device_, desc);
+    if (!made) return made.failure();
+    program = std::move(*made);
+    return Done{};
+}
+
 Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading, Blend blend) const {
     if (programs.model) return Done{};
+    if (shading == Shading::quick)
+        if (Status lit = makeLit(programs); !lit) return lit;
     const bool one = targets_.samples == 1;
     const struct {
         Program& program;
         const char* name;
         const char* vertex;
         const char* fragment;
-        bool rest = false, quick = false;  // draws the rest, too; is for quick pictures only
+        bool rest = false;  // draws the rest, too
     } rows[] = {{programs.bark, "bark", "render/bark.vert", one ? "render/bark_single.frag" : "render/bark.frag"},
                 {programs.barkSmall, "small bark", "render/bark_small.vert",
                  one ? "render/bark_small_single.frag" : "render/bark_small.frag"},
                 {programs.leaf, "leaf", "render/leaf.vert", one ? "render/leaf_single.frag" : "render/leaf.frag"},
                 {programs.leafSmall, "small leaf", "render/leaf_small.vert",
                  one ? "render/leaf_small_single.frag" : "render/leaf_small.frag"},
-                {programs.model, "model", "render/model.vert", "render/model.frag"},
                 {programs.modelFoot, "model's foot", "render/model.vert", "render/model.frag", true},
-                {programs.barkLit, "lit bark", "render/bark_lit.vert", "render/bark_small_single.frag", false, true},
-                {programs.leafLit, "lit leaf", "render/leaf_lit.vert", "render/leaf_lit.frag", false, true}};
+                {programs.model, "model", "render/model.vert", "render/model.frag"}};  // last: then all are made
     for (const auto& row : rows) {
-        if (row.quick && shading != Shading::quick) continue;
-        GraphicsDesc desc;
-        desc.name = row.name;
-        desc.vertex = row.vertex;
-        desc.fragment = row.fragment;
-        desc.colors = {kSceneFormat};
-        desc.depth = kDepthFormat;
-        desc.samples = targets_.samples;
-        desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-        desc.blend = blend;
-        desc.options.constants = constantsOf(shading, holdsRoots(device_), row.rest);
-        if (&row.program == &programs.model || row.rest) takeModelVertices(desc);
-        Result<Program> made = Program::graphics(device_, desc);
-        if (!made) return made.failure();
-        row.program = std::move(*made);
-    }
-    if (shading != Shading::quick) return Done{};
-    for (const auto& [program, shader] : {std::pair(&programs.lightLeaves, "render/light_leaves.comp"),
-                                          std::pair(&programs.lightBark, "render/light_ribbons.comp")}) {
-        Result<Program> made =
-            Program::compute(device_, shader, {.constants = constantsOf(shading, holdsRoots(device_))});
-        if (!made) return made.failure();
-        *program = std::move(*made);
+        const Status made = makeSceneProgram(row.program, row.name, row.vertex, row.fragment,
+                                             constantsOf(shading, holdsRoots(device_), row.rest), blend);
+        if (!made) return made;
     }
     return Done{};
 }

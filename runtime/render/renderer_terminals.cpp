@@ -1,7 +1,8 @@
-// Enters: what the last cull has left. Leaves: kites and ribbons lit, draws of leaves and bark in a pass.
+// Enters: what the last cull has left. Leaves: leaves and ribbons lit, draws of leaves and bark in a pass.
 #include <algorithm>
 #include <optional>
 
+#include "runtime/gpu/color_texture.hpp"
 #include "runtime/render/renderer_impl.hpp"
 
 namespace espalier {
@@ -23,12 +24,40 @@ TerminalPush pushOf(const Terminals& terminals, uint32_t b) {
 
 }  // namespace
 
-bool RendererImpl::isLit(uint32_t bucket) const {
-    return lit_ && small_[bucket] && terminals_.table().buckets[bucket].vertexCount == kLitVertices;
+bool RendererImpl::canBeLit(uint32_t bucket) const {
+    const TerminalTable& table = terminals_.table();
+    const uint32_t corners = table.buckets[bucket].vertexCount;
+    return small_[bucket] && corners <= kLitVertices && corners >= (bucket < table.barkBuckets ? kRibbonVertices : 3u);
 }
 
-// In moving pictures on software devices, which shade vertices in one thread, what has four vertices is lit before it
-// is drawn, in all threads, and once instead of at each vertex.
+RendererImpl::ScenePrograms::Lit& RendererImpl::litPrograms(ScenePrograms& programs, uint32_t bucket) const {
+    const TerminalTable& table = terminals_.table();
+    return bucket < table.barkBuckets ? programs.litBark : programs.litLeaves[table.buckets[bucket].vertexCount - 3];
+}
+
+Status RendererImpl::makeLit(ScenePrograms& programs) const {
+    const TerminalTable& table = terminals_.table();
+    for (uint32_t b = 0; b < table.buckets.size(); ++b) {
+        if (!canBeLit(b) || litPrograms(programs, b).light) continue;
+        const bool bark = b < table.barkBuckets;
+        ScenePrograms::Lit& lit = litPrograms(programs, b);
+        std::vector<SpecConstant> constants = constantsOf(Shading::quick, holdsRoots(device_));
+        constants.push_back({kCorners, table.buckets[b].vertexCount});
+        const Status drawn = bark ? makeSceneProgram(lit.draw, "lit bark", "render/bark_lit.vert",
+                                                     "render/bark_small_single.frag", constants, Blend::none)
+                                  : makeSceneProgram(lit.draw, "lit leaf", "render/leaf_lit.vert",
+                                                     "render/leaf_lit.frag", constants, Blend::none);
+        if (!drawn) return drawn;
+        Result<Program> made = Program::compute(
+            device_, bark ? "render/light_ribbons.comp" : "render/light_leaves.comp", {.constants = constants});
+        if (!made) return made.failure();
+        lit.light = std::move(*made);
+    }
+    return Done{};
+}
+
+// In moving pictures on software devices, which shade vertices in one thread, what has three or four vertices is lit
+// before it is drawn, in all threads, and once instead of at each vertex.
 Status RendererImpl::lightTerminals(Commands& commands) {
     const EmitState* known = emit_.knownState();
     const uint64_t bytes = known ? std::max(known->spanCount + known->leafCount, 1u) * 8ull * kLitWords : 0;
@@ -49,7 +78,7 @@ Status RendererImpl::lightTerminals(Commands& commands) {
         const bool bark = b < terminals_.table().barkBuckets;
         LightPush push{pushOf(terminals_, b), {reinterpret_cast<uint64_t*>(litTerminals_.address())}};
         const Binding instances(bark ? emit_.spanTexels() : emit_.leafTexels());
-        pass.dispatchItems(bark ? scene_->lightBark : scene_->lightLeaves, known->counts[b], push,
+        pass.dispatchItems(litPrograms(*scene_, b).light, known->counts[b], push,
                            {shadow, *frame_, emit_.state(), instances, terminals_.vertexTexels(), emit_.drawnTexels()});
     }
     pass.barrier(Use::compute, Use::vertex);
@@ -77,7 +106,7 @@ void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
         const Binding instances(bark ? emit_.spanTexels() : emit_.leafTexels()), meshes(terminals_.vertexTexels()),
             drawn(emit_.drawnTexels());
         if (!depthOnly && isLit(b))
-            pass.drawIndexedIndirect(bark ? scene_->barkLit : scene_->leafLit, emit_.state(), offset, 2, push,
+            pass.drawIndexedIndirect(litPrograms(*scene_, b).draw, emit_.state(), offset, 2, push,
                                      {color, shadow, *frame_, emit_.state(), litTexels_});
         else if (!depthOnly && bark)
             pass.drawIndexedIndirect(!explained_ && small_[b] ? scene_->barkSmall : scene_->bark, emit_.state(), offset,

@@ -11,7 +11,7 @@ layout(location = 2) out vec3 other;
 layout(location = 3) flat out uint hash;
 
 void main() {
-    int at = litInstance(push), corner = int(litCorner());
+    int at = litInstance(push, kRibbonVertices), corner = litCorner(kRibbonVertices);
     uvec4 a = texelFetch(lit, at + corner / 2), vertex = texelFetch(lit, at + 2 + corner);
     vec2 p = unpackHalf2x16(a.x), q = unpackHalf2x16(a.y), r = unpackHalf2x16(a.z), s = unpackHalf2x16(a.w);
     uvFade = vec4(litUv(vertex), s.y, s.x);

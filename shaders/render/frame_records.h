@@ -21,6 +21,7 @@ CONST_UINT(kExplains, 0u);
 CONST_UINT(kRooted, 1u);
 CONST_UINT(kQuick, 2u);
 CONST_UINT(kRest, 3u);
+CONST_UINT(kCorners, 4u);   // of leaves that are lit ahead: 3 or 4
 
 CONST_FLOAT(kHighestHill, 0.075f);   // sine of its height over the horizon
 
@@ -85,8 +86,8 @@ struct LightPush {
     U64Buf lit;
 };
 STATIC_SIZE(LightPush, 56);
-CONST_UINT(kLitVertices, 4u);
-CONST_UINT(kLitTexels, 2u + kLitVertices);   // of one instance there, each four 32-bit words
+CONST_UINT(kLitVertices, 4u);                // at most, of one instance there
+CONST_UINT(kLitTexels, 2u + kLitVertices);   // each four 32-bit words
 CONST_UINT(kLitWords, 2u * kLitTexels);      // of 64 bits
 
 struct PostPush {

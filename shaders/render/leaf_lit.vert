@@ -4,6 +4,7 @@
 // Leaves that light_leaves.comp has lit.
 #include "shaders/render/lit_vertex.glsl"
 
+layout(constant_id = 4) const uint corners = 3;
 layout(push_constant, scalar) uniform Data { TerminalPush push; };
 layout(location = 0) out vec2 uv;
 layout(location = 1) flat out vec4 ownShare;
@@ -11,8 +12,8 @@ layout(location = 2) flat out vec3 turned;
 layout(location = 3) flat out vec3 mirrored;
 
 void main() {
-    int at = litInstance(push);
-    uvec4 a = texelFetch(lit, at), vertex = texelFetch(lit, at + 2 + int(litCorner()));
+    int at = litInstance(push, corners);
+    uvec4 a = texelFetch(lit, at), vertex = texelFetch(lit, at + 2 + litCorner(corners));
     uint b = texelFetch(lit, at + 1).x;
     vec2 p = unpackHalf2x16(a.x), q = unpackHalf2x16(a.y), r = unpackHalf2x16(a.z), s = unpackHalf2x16(a.w), t = unpackHalf2x16(b);
     uv = litUv(vertex);

@@ -6,6 +6,7 @@
 #include "shaders/render/lit.glsl"
 #include "shaders/shared/dispatch.glsl"
 
+layout(constant_id = 4) const uint corners = 3;
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Data { LightPush data; };
 
@@ -17,11 +18,12 @@ void main() {
     LeafInstance leaf = drawnLeaf(drawn);
     // Not an array: software devices would keep it in memory.
     LeafVertex a = leafVertexOf(leaf, drawnVertex(push.firstVertex)), b = leafVertexOf(leaf, drawnVertex(push.firstVertex + 1u));
-    LeafVertex c = leafVertexOf(leaf, drawnVertex(push.firstVertex + 2u)), d = leafVertexOf(leaf, drawnVertex(push.firstVertex + 3u));
-    LeafVertex middle = a;
-    middle.position = 0.25 * (a.position + b.position + c.position + d.position);
-    middle.normal = normalize(a.normal + b.normal + c.normal + d.normal);
-    middle.open = 0.25 * (a.open + b.open + c.open + d.open);
+    LeafVertex c = leafVertexOf(leaf, drawnVertex(push.firstVertex + 2u)), d = a, middle = a;
+    float fourth = corners == 4u ? 1.0 : 0.0, share = 1.0 / (3.0 + fourth);
+    if (corners == 4u) d = leafVertexOf(leaf, drawnVertex(push.firstVertex + 3u));
+    middle.position = share * (a.position + b.position + c.position + fourth * d.position);
+    middle.normal = normalize(a.normal + b.normal + c.normal + fourth * d.normal);
+    middle.open = share * (a.open + b.open + c.open + fourth * d.open);
     SmallLeaf light = smallLeaf(push, middle);
     uint at = kLitWords * drawn;
     writeLight(data.lit, at, 0u, vec4(light.own, light.turned.x), vec4(light.turned.yz, light.mirrored.xy));
@@ -30,5 +32,5 @@ void main() {
     writeLitVertex(data.lit, at, 0u, a.position, a.uv + pictured);
     writeLitVertex(data.lit, at, 1u, b.position, b.uv + pictured);
     writeLitVertex(data.lit, at, 2u, c.position, c.uv + pictured);
-    writeLitVertex(data.lit, at, 3u, d.position, d.uv + pictured);
+    if (corners == 4u) writeLitVertex(data.lit, at, 3u, d.position, d.uv + pictured);
 }

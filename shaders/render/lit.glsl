@@ -1,4 +1,4 @@
-// Leaves and ribbons of four vertices that a kernel has lit before they are drawn: what doesn't differ between vertices is
+// Leaves of three or four vertices and ribbons that a kernel has lit before they are drawn: what doesn't differ between vertices is
 // found once, and on all cores of devices that shade vertices on one. An instance is two texels of light and one for
 // each vertex, at its place in what is drawn.
 //   leaf     own.rgb turned.r | turned.gb mirrored.rg || mirrored.b share, rest unused    (halves, four 16-bit pairs a texel)

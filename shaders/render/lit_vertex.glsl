@@ -6,12 +6,12 @@
 
 layout(set = 0, binding = 13) uniform usamplerBuffer lit;   // four words a texel
 
-// The first texel of a vertex' instance.
-int litInstance(TerminalPush push) {
-    uint instance = uint(gl_VertexIndex) / kLitVertices + uint(gl_InstanceIndex) * push.batch;
+// The first texel of a vertex' instance; of the instance's vertices.
+int litInstance(TerminalPush push, uint corners) {
+    uint instance = uint(gl_VertexIndex) / corners + uint(gl_InstanceIndex) * push.batch;
     return int(kLitTexels * (state.starts[push.bucket] + instance));
 }
-uint litCorner() { return uint(gl_VertexIndex) % kLitVertices; }
+int litCorner(uint corners) { return int(uint(gl_VertexIndex) % corners); }
 vec2 litUv(uvec4 vertex) { return unpackHalf2x16(vertex.w); }
 vec4 litPosition(uvec4 vertex) {
     return vec4(uintBitsToFloat(vertex.xy), frame.nearPlane, uintBitsToFloat(vertex.z));

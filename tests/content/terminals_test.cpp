@@ -56,7 +56,7 @@ TEST_CASE("leaves have the stated counts, length and frame") {
             CAPTURE(variant);
             CAPTURE(lod);
             Mesh leaf = makeLeaf(variant, lod);
-            CHECK(triangles(leaf) == std::array<size_t, 4>{35, 10, 4, 2}[static_cast<size_t>(lod)]);
+            CHECK(triangles(leaf) == std::array<size_t, 4>{35, 10, 4, 1}[static_cast<size_t>(lod)]);
             float low = 1, high = 0, up = 0;
             for (size_t v = 0; v < leaf.positions.size(); ++v) {
                 low = std::min(low, leaf.positions[v].y);
@@ -78,7 +78,7 @@ TEST_CASE("a leaf's meshes hold its cut-out, and the finest wastes little") {
         CHECK(uncovered(makeLeaf(variant, 0), variant) < 0.002f);
         CHECK(uncovered(makeLeaf(variant, 1), variant) < 0.02f);
         CHECK(uncovered(makeLeaf(variant, 2), variant) < 0.25f);
-        CHECK(uncovered(makeLeaf(variant, 3), variant) < 0.06f);
+        CHECK(uncovered(makeLeaf(variant, 3), variant) < 0.09f);
         LeafShape shape = leafShape(variant);
         float area = 0;
         for (size_t i = 0; i < shape.outline.size(); ++i) {

@@ -279,7 +279,7 @@ TEST_CASE("what a moving picture hides by the depths of the one before, it doesn
     }
     CHECK(double(different) < 2e-4 * double(pixels));
     CHECK(fewer == (looksBack ? 11 : 0));
-    // Kites and ribbons were lit before they were drawn.
+    // Leaves of few vertices and ribbons were lit before they were drawn.
     CHECK((moving.device->milliseconds("light") > 0) == looksBack);
 }
 

@@ -13,6 +13,7 @@
 #include "tools/document/document.hpp"
 #include "tools/document/layer_files.hpp"
 #include "tools/document/run.hpp"
+#include "tools/scene/moving.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene.hpp"
 #include "tools/scene/text_file.hpp"
@@ -33,7 +34,7 @@ struct Options {
     long long seed = -1;
     uint32_t maxNodes = espDefaultGrowDef().maxNodes;
     float leafCap = 0;
-    bool shaders = false, validation = false;
+    bool shaders = false, validation = false, moving = false;
 };
 
 int fail(const std::string& message) {
@@ -72,6 +73,8 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--leaf-cap", options.leafCap, "leaves per square metre and seed at most, 0: no cap")
         ->capture_default_str();
     app.add_option("--cache", options.cache, "folder that keeps compiled grammars");
+    app.add_flag("--moving", options.moving,
+                 "drawn as a window does on a slow device while its camera moves: coarser, and sooner done");
     app.add_flag("--shaders", options.shaders, "growth by shaders on a software device too, not as native code");
     app.add_flag("--validation", options.validation, "with Vulkan's validation layer (also: ESPALIER_VALIDATION=1)");
 }
@@ -124,6 +127,7 @@ struct Film {
     EspContext* context;
     EspDrawDef draw = espDefaultDrawDef();
     std::string folder;
+    bool moving = false;
     std::vector<uint8_t> pixels;
 
     bool begin(std::string& error) {
@@ -134,7 +138,9 @@ struct Film {
         return !code;
     }
     bool take(uint32_t frame, std::string& error) {
-        if (espDraw(context, &draw) != ESP_OK || espReadPixels(context, pixels.data(), pixels.size()) != ESP_OK) {
+        EspDrawDef shown = draw;
+        if (moving) espalier::scene::MovingDetail().apply(shown.look);
+        if (espDraw(context, &shown) != ESP_OK || espReadPixels(context, pixels.data(), pixels.size()) != ESP_OK) {
             error = espLastError(context);
             return false;
         }
@@ -209,7 +215,7 @@ int run(Options options) {
     if (espUpdate(made) != ESP_OK) return fail(espLastError(made));
 
     Scene scene = document.scene();
-    Film film{made, espDefaultDrawDef(), options.folder, {}};
+    Film film{made, espDefaultDrawDef(), options.folder, options.moving, {}};
     film.draw.width = options.width;
     film.draw.height = options.height;
     film.draw.look = scene.look;

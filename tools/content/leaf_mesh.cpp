@@ -1,5 +1,5 @@
 // Leaf meshes that follow the lobes. In: variant and level of detail. Out: a folded, drooping blade on an arched
-// stalk, 35, 10, 4 and 2 triangles.
+// stalk, 35, 10, 4 triangles and one.
 
 #include <algorithm>
 #include <cmath>
@@ -133,12 +133,12 @@ Flat farLeaf(const LeafShape& shape) {
     return flat;
 }
 
-// A kite of two triangles, folded at the midrib, about nearly all of the blade; wider by the share that it cuts off.
-Flat kiteLeaf(int variant) {
-    static const glm::vec2 kSide[] = {{0.55f, 0.30f}, {0.52f, 0.34f}, {0.50f, 0.19f}};
-    static const float kStretch[] = {1.05f, 1.01f, 1.03f};
+// A triangle about nearly all of the blade, within its picture; wider by the share that it cuts off.
+Flat triangleLeaf(int variant) {
+    static const glm::vec2 kSide[] = {{0.55f, 0.14f}, {0.56f, 0.20f}, {0.53f, 0.09f}};
+    static const float kTip[] = {1.05f, 1.025f, 1.0f}, kStretch[] = {1.09f, 1.06f, 1.05f};
     const glm::vec2 side = kSide[variant];
-    return {{{0, 0.01f}, side, {0, 1.01f}, {-side.x, side.y}}, {{0, 1, 2}, {0, 2, 3}}, kStretch[variant]};
+    return {{{-side.x, side.y}, side, {0, kTip[variant]}}, {{0, 1, 2}}, kStretch[variant]};
 }
 
 void addStalk(Mesh& mesh, int variant, const LeafShape& shape, uint32_t rings) {
@@ -175,14 +175,12 @@ Mesh makeLeaf(int variant, int lod) {
     Flat flat = lod == 0   ? fineLeaf(shape)
                 : lod == 1 ? middleLeaf(shape, 8)
                 : lod == 2 ? farLeaf(shape)
-                           : kiteLeaf(variant);
+                           : triangleLeaf(variant);
     Mesh mesh;
     for (glm::vec2 p : flat.points) {
         mesh.positions.push_back(shapeLeaf(variant, shape.base, {p.x * flat.stretch, p.y}));
         mesh.uvs.push_back(leafUv(variant, p));
     }
-    if (lod == 3)
-        mesh.positions[0].z = shapeLeaf(variant, shape.base, {0, shape.base}).z;  // as the blade, not the stalk
     for (auto& t : flat.triangles)
         for (uint32_t v : t) mesh.indices.push_back(v);
     if (lod < 2) addStalk(mesh, variant, shape, lod == 0 ? 4 : 2);

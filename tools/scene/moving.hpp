@@ -19,6 +19,13 @@ class MovingDetail {
     // Times the pixels from which on all leaves are drawn: fewer and larger leaves, and fewer twigs.
     float leaf() const { return leaf_; }
 
+    // Makes a picture as coarse as that.
+    void apply(EspLook& look) const {
+        look.windowLodPixels *= kLod;
+        look.leafPixels *= leaf_;
+        look.quick = 1;
+    }
+
     // After each such frame: its time, and the leaves that it drew. Steps are small, so that nothing pops.
     void follow(double frameMs, uint32_t leaves) {
         if (leaves < kLeaves || frameMs < 0.7 * kFrameMs)
@@ -41,9 +48,7 @@ class MovingPicture {
     float prepare(EspDrawDef& draw, bool moving, double drawMs, bool half) {
         hurried_ = moving && (coarse_ || drawMs > kSlowDrawMs);
         if (!hurried_) return 1;
-        draw.look.windowLodPixels *= MovingDetail::kLod;
-        draw.look.leafPixels *= detail_.leaf();
-        draw.look.quick = 1;
+        detail_.apply(draw.look);
         return half ? 0.5f : 1.0f;
     }
 
