@@ -220,7 +220,8 @@ ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
 /* Painting happens in world space, on all surfaces at once: a dab reaches every texel whose point lies in its sphere,
  * so that seams don't show. A layer comes into being where it is first painted on; until then, and where nothing was
  * painted, it holds its fill: what the first grammar that declares it says, 0 if none does. Painting works for layers
- * that no grammar reads too.
+ * that no grammar reads too. A layer that a town's grammar reads, and no grammar of plants, is painted over the town, and on
+ * surfaces that have it already only.
  *
  * A stroke keeps what it painted over, in blocks of 8×8 texels. Once ended it is a record for undoing, until it is
  * destroyed. Strokes of one layer are to be swapped in the order in which a history goes: last done, first undone. */

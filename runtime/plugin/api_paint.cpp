@@ -111,6 +111,15 @@ std::vector<uint64_t> texelsWithin(const PlacedSurface& surface, std::span<const
     return within;
 }
 
+// Whether plants ask for the layer.
+bool plantsRead(const EspContext& context, const std::string& name) {
+    bool read = false;
+    context.grammars.forEach([&](uint32_t, const LoadedGrammar& grammar) {
+        read = read || (!grammar.map.roofs() && grammar.map.findContext(name));
+    });
+    return read;
+}
+
 BlockRecord& recordFor(PaintStroke& stroke, uint32_t surface) {
     for (PaintStroke::Part& part : stroke.parts)
         if (part.surface == surface) return part.record;
@@ -183,9 +192,11 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
                            {dab.normal[0], dab.normal[1], dab.normal[2]},
                            0});
     }
-    paintTown(context, stroke, records);
+    // What is for roofs alone makes no layers on surfaces that happen to be near.
+    const bool roofsOnly = paintTown(context, stroke, records) && !plantsRead(context, stroke.layer);
     Touched touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
+        if (roofsOnly && !paintedLayer(context, id, stroke.layer)) return;
         std::vector<uint32_t> blocks;
         for (const DabRecord& dab : records)
             boundsOf(surface).near(glm::vec3(surface.toObject * glm::vec4(dab.position, 1)),
@@ -251,10 +262,10 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     PaintStroke stroke;
     stroke.layer = name;
     const float fill = declaredFill(context, name).value_or(0);
-    fillTown(context, stroke, value);
+    const bool roofsOnly = fillTown(context, stroke, value) && !plantsRead(context, name);
     Touched touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
-        if (value == fill && !paintedLayer(context, id, name)) return;
+        if ((value == fill || roofsOnly) && !paintedLayer(context, id, name)) return;
         touched.push_back({id, {}});
         boundsOf(surface).all(touched.back().second);
     });

@@ -296,9 +296,10 @@ EspResult fail(const EspContext* context, EspResult code, std::string message);
 Status knowRoofMeshes(EspContext& context);
 // Grows what has changed of the town; on failure the last roofs stand, and what changed waits.
 EspResult updateTown(EspContext& context);
-// What strokes do to layers of the town; those that its grammar doesn't read are left alone.
-void paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs);
-void fillTown(EspContext& context, PaintStroke& stroke, float value);
+// What strokes do to layers of the town; those that its grammar doesn't read are left alone. True: it has one of this
+// name.
+bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs);
+bool fillTown(EspContext& context, PaintStroke& stroke, float value);
 void closeTown(EspContext& context, PaintStroke& stroke);
 void swapTown(EspContext& context, PaintStroke& stroke);
 // Gives roofs the town's layers, and adds to LoadedTown::changed the houses that have read what was painted since.

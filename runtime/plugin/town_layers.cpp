@@ -56,20 +56,22 @@ std::vector<float> resampled(const float* texels, uint32_t width, uint32_t heigh
 
 }  // namespace
 
-void paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs) {
+bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs) {
     PlanLayer* layer = townLayer(context, stroke.layer);
-    if (!layer) return;
+    if (!layer) return false;
     LoadedTown& town = *context.town;
     stroke.town = town.number;
     const PlanRect rect = town.layers.dabs(*layer, stroke.brush, stroke.smooths, dabs, stroke.plan);
     if (!rect.empty()) note(town, stroke.layer, rect);
+    return true;
 }
 
-void fillTown(EspContext& context, PaintStroke& stroke, float value) {
+bool fillTown(EspContext& context, PaintStroke& stroke, float value) {
     PlanLayer* layer = townLayer(context, stroke.layer);
-    if (!layer) return;
+    if (!layer) return false;
     stroke.town = context.town->number;
     note(*context.town, stroke.layer, context.town->layers.fill(*layer, value, stroke.plan));
+    return true;
 }
 
 void closeTown(EspContext& context, PaintStroke& stroke) {
