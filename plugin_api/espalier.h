@@ -483,9 +483,9 @@ typedef struct EspHostScene {
  * A2R10G10B10, all UNORM; linear in 8-bit SRGB, R16G16B16A16_SFLOAT and B10G11R11_UFLOAT, where what we draw is within [0, 1].
  * Another format is refused. One sample a pixel: a multisampled picture has to be resolved first.
  * What was recorded has to be submitted to EspHostDevice::queue before the next call that changes the context
- * (espUpdate, espLoadSurface ...): `frame` and `framesDone` tell Espalier how long it must keep what that frame reads. Where
- * no further espDraw tells, since nothing is drawn (a menu, a minimised window), work that a later espUpdate submits behind
- * it shows that the frame is done. */
+ * (espUpdate, espLoadSurface, espStrokeDabs ...): `frame` and `framesDone` tell Espalier how long it must keep what that
+ * frame reads. Where no further espDraw tells, since nothing is drawn (a menu, a minimised window), work that a later
+ * espUpdate or stroke submits behind it shows that the frame is done. */
 typedef struct EspDrawDef {
     uint32_t width, height;      /* 1 to 16384 */
     EspCamera camera;

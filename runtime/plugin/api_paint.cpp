@@ -130,6 +130,7 @@ using Touched = std::vector<std::pair<uint32_t, std::vector<uint32_t>>>;  // sur
 
 // Makes the layers that are missing, and what the painter asks for.
 EspResult jobsFor(EspContext& context, PaintStroke& stroke, float fill, Touched touched, std::vector<PaintJob>& jobs) {
+    context.device->hostSubmitted();  // as espUpdate does
     for (const auto& [surface, blocks] : touched)
         if (EspResult bad = ensureLayer(context, surface, stroke.layer, fill)) return bad;
     for (const auto& [surface, blocks] : touched) recordFor(stroke, surface);  // before any address is taken
@@ -221,6 +222,7 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
 // `changed` is told of each part's blocks that aren't as they were, and which of their texels.
 template <class Changed>
 EspResult end(EspContext& context, PaintStroke& stroke, Changed&& changed) {
+    context.device->hostSubmitted();
     stroke.open = false;
     closeTown(context, stroke);
     for (PaintStroke::Part& part : stroke.parts) {
@@ -236,6 +238,7 @@ EspResult end(EspContext& context, PaintStroke& stroke, Changed&& changed) {
 
 EspResult swap(EspContext& context, PaintStroke& stroke) {
     if (stroke.open) return fail(&context, ESP_INVALID_ARGUMENT, "espSwapStroke: the stroke has not been ended");
+    context.device->hostSubmitted();
     swapTown(context, stroke);
     for (PaintStroke::Part& part : stroke.parts) {
         if (!paintedLayer(context, part.surface, stroke.layer)) continue;
