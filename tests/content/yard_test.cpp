@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tools/content/props.hpp"
+#include "tools/content/ruin.hpp"
 #include "tools/content/site.hpp"
 
 using namespace espalier::content;
@@ -98,7 +99,9 @@ TEST_CASE("what stands in yards stands on the ground, and flowers above it in a 
     }
     for (const auto& [model, places] : site.props)
         for (const SitePlace& p : places) {
-            if (p.position.y <= kMeadow + 0.001f) continue;
+            const vec2 at(p.position.x, p.position.z);
+            const bool inCourt = model.starts_with("tuft") && std::abs(p.position.y - groundHeight(at)) < 0.02f;
+            if (p.position.y <= kMeadow + 0.001f || inCourt) continue;
             CAPTURE(model);
             const auto& tubs = site.props.at("tub");
             const bool held = std::any_of(tubs.begin(), tubs.end(), [&](const SitePlace& tub) {

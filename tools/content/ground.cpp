@@ -18,19 +18,6 @@ float boxDistance(glm::vec2 p, glm::vec2 low, glm::vec2 high) {
     return glm::length(glm::max(d, glm::vec2(0))) + std::min(std::max(d.x, d.y), 0.0f);
 }
 
-// Distance to what stands on the ground, roughly.
-float footDistance(glm::vec2 p) {
-    float d =
-        std::min({boxDistance(p, {-3.5f, -0.35f}, {-0.23f, 0.35f}), boxDistance(p, {1.33f, -0.35f}, {3.4f, 0.35f}),
-                  boxDistance(p, {-3.5f, 0.35f}, {-2.8f, 2.7f}), boxDistance(p, {3.9f, 1.0f}, {4.6f, 4.2f})});
-    for (glm::vec2 c :
-         {glm::vec2(2.3f, 1.95f), glm::vec2(-1.2f, 1.95f), glm::vec2(3.2f, 3.3f), glm::vec2(-0.75f, 3.55f)})
-        d = std::min(d, boxDistance(p, c - 0.44f, c + 0.44f));
-    for (glm::vec3 c : {glm::vec3(3.45f, 1.0f, 0.22f), glm::vec3(-2.2f, 2.75f, 0.25f), glm::vec3(0.15f, 2.95f, 0.18f)})
-        d = std::min(d, glm::distance(p, glm::vec2(c)) - c.z);
-    return std::max(d, 0.0f);
-}
-
 // The outline is a rounded rectangle that frays; angle in radians.
 glm::vec2 outlineAt(float angle) {
     glm::vec2 d(std::cos(angle), std::sin(angle));
@@ -45,19 +32,34 @@ float outward(glm::vec2 xz) {
     return std::pow(std::pow(d.x, 5.0f) + std::pow(d.y, 5.0f), 0.2f);
 }
 
-// How much of the court's paving is left.
-float paved(glm::vec2 xz) {
+}  // namespace
+
+float footDistance(glm::vec2 p) {
+    float d =
+        std::min({boxDistance(p, {-3.5f, -0.35f}, {-0.23f, 0.35f}), boxDistance(p, {1.33f, -0.35f}, {3.4f, 0.35f}),
+                  boxDistance(p, {-3.5f, 0.35f}, {-2.8f, 2.7f}), boxDistance(p, {3.9f, 1.0f}, {4.6f, 4.2f})});
+    for (glm::vec2 c :
+         {glm::vec2(2.3f, 1.95f), glm::vec2(-1.2f, 1.95f), glm::vec2(3.2f, 3.3f), glm::vec2(-0.75f, 3.55f)})
+        d = std::min(d, boxDistance(p, c - 0.44f, c + 0.44f));
+    for (glm::vec3 c : {glm::vec3(3.45f, 1.0f, 0.22f), glm::vec3(-2.2f, 2.75f, 0.25f), glm::vec3(0.15f, 2.95f, 0.18f)})
+        d = std::min(d, glm::distance(p, glm::vec2(c)) - c.z);
+    return std::max(d, 0.0f);
+}
+
+float pavedShare(glm::vec2 xz) {
     float way = std::max(1 - std::abs(xz.x - 0.55f) / 1.5f, 0.9f - glm::distance(xz, glm::vec2(0.6f, 2.3f)) / 3.2f);
     way -= 0.9f * ramp(0.72f, 0.95f, outward(xz));  // grass has taken the rim
     return ramp(0.02f, 0.22f, way + 0.55f * fractal(xz * 0.9f, 711, 3) - 0.12f);
 }
+
+namespace {
 
 Detail groundDetail(glm::vec2 st) {
     glm::vec2 xz(st.x, -st.y);
     glm::vec2 bent = xz + 0.05f * glm::vec2(fractal(xz * 2.2f, 721, 2), fractal(xz * 2.2f, 723, 2));
     Cells flag = cells(bent / 0.62f, 725);
     float joint = (flag.second - flag.nearest) * 0.31f;
-    float stone = paved(xz + 0.25f * (glm::vec2(random01(flag.id, 5), random01(flag.id, 6)) - 0.5f));
+    float stone = pavedShare(xz + 0.25f * (glm::vec2(random01(flag.id, 5), random01(flag.id, 6)) - 0.5f));
     stone *= random01(flag.id, 7) < 0.86f ? 1.0f : 0.0f;
     stone *= ramp(0.012f, 0.045f, joint) * ramp(0.02f, 0.12f, footDistance(xz));
     float clods = fractal(xz * 4.5f, 731, 4), grit = fractal(xz * 26.0f, 735, 3);
@@ -151,7 +153,7 @@ void addGround(std::vector<Chart>& charts, const std::vector<Loop>& footprints) 
             uint32_t h = hash32(static_cast<uint32_t>(static_cast<int>(x * 1000)),
                                 static_cast<uint32_t>(static_cast<int>(z * 1000)));
             glm::vec2 xz = glm::vec2(x, z) + 0.018f * glm::vec2(random01(h, 1), random01(h, 2));
-            bool detailed = paved(xz) > 0.3f || footDistance(xz) < 0.12f;
+            bool detailed = pavedShare(xz) > 0.3f || footDistance(xz) < 0.12f;
             (detailed ? fine : coarse).points.push_back({xz.x, -xz.y});
         }
     triangulate(chart, loops, {fine, coarse});

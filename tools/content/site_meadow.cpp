@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/content/noise.hpp"
+#include "tools/content/ruin.hpp"
 #include "tools/content/site_layout.hpp"
 
 namespace espalier::content {
@@ -95,6 +96,13 @@ void Layout::tufts() {
         const vec2 p = kCourt + r * vec2(std::cos(angle), std::sin(angle));
         const float rank = noise(p / 1.7f, 66) + 0.5f * noise(p / 5.0f, 67) + 0.9f * ramp(1.8f, 0.3f, Plan::toCourt(p));
         if (rank > 0.06f) tuft(p, 0.75f + 0.4f * saturate(rank - 0.3f));
+    }
+    for (uint32_t i = 0; i < 9000; ++i) {
+        const vec2 p = kCourt + 1.1f * kCourtHalf * (2.0f * vec2(random01(i, 181), random01(i, 182)) - 1.0f);
+        const float foot = footDistance(p);
+        if (foot < 0.02f || foot > 0.20f || pavedShare(p) > 0.2f || noise(p / 0.7f, 183) < -0.1f) continue;
+        put(random01(i, 184) < 0.35f ? "tuft_a" : "tuft_c", p, 360 * random01(i, 185), 0.6f + 0.5f * random01(i, 186),
+            kLevel - groundHeight(p) + 0.01f);
     }
     const std::map<std::string, std::vector<SitePlace>> built = site_.props;
     for (const char* foot : {"wall", "pier", "fence", "rubble", "bench", "boards", "cart", "hives", "barrel"}) {
