@@ -16,6 +16,12 @@ uint32_t tilesAlong(const EmitView& view, uint32_t pixels) {
     return (pixels + view.tilePixels - 1) / view.tilePixels;
 }
 
+// Lanes that list a cell's items: cells may be coarse for what grows in them, and then one alone takes a GPU long. A
+// software device pays for each that has nothing to do.
+uint32_t cellLanes(const Device& device) {
+    return device.info().cpu ? 1 : 64;
+}
+
 // Wherever their tiles lie: `scene` tells whether these say the same.
 bool sameView(const EmitView& a, EmitView b) {
     if (IS_GIVEN(a.tiles) == IS_GIVEN(b.tiles)) b.tiles = a.tiles;
@@ -47,7 +53,7 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
                     {emit.bindSort_, "emit/bind_sort.comp", {}},
                     {emit.cullCells_, "emit/cull_cells.comp", {}},
                     {emit.listBlocks_, "emit/list_blocks.comp", {}},
-                    {emit.listItems_, "emit/list_items.comp", {}},
+                    {emit.listItems_, "emit/list_items.comp", {{5, cellLanes(device)}}},
                     {emit.classifySpans_, "emit/classify_spans.comp", {}},
                     {emit.classifyLeaves_, "emit/classify_leaves.comp", {}},
                     {emit.scan_, "emit/scan.comp", {}},
@@ -123,7 +129,7 @@ Status Emit::record(Commands& commands, const EmitView& view, Pass& pass) {
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(listBlocks_, {1, 1, 1}, push);
     pass.barrier(Use::compute, Use::compute | Use::indirect);
-    pass.dispatchItems(listItems_, kAllCells, push);
+    pass.dispatchItems(listItems_, kAllCells * cellLanes(*device_), push);
     pass.barrier(Use::compute, Use::compute);
     const uint64_t groups = offsetof(EmitState, groups);
     pass.dispatchIndirect(classifySpans_, state_, groups, push, {table, shown, held_.spanTexels});
