@@ -228,7 +228,8 @@ void Session::save(Workspace& work, const std::string& folder, Ended ended) {
                      },
                      [this, &work, state, folder, ended](const Work& over) {
                          const bool good = over.state() == Work::State::done;
-                         work.message = good ? "Saved: " + wholePath(folder) : "Not saved";
+                         work.message =
+                             good ? "Saved: " + wholePath(folder) : "Saving was cancelled: on disk all is as it was";
                          work.error = over.error();
                          if (good) saved(folder, *state);
                          ended(good);

@@ -43,6 +43,13 @@ std::pair<glm::vec3, glm::vec3> Workspace::bounds() const {
         low = glm::min(low, vec(info.boundsMin));
         high = glm::max(high, vec(info.boundsMax));
     }
+    const uint32_t houses = low.x > high.x ? espHouseCount(context.get()) : 0;
+    for (uint32_t i = 0; i < houses; ++i) {
+        EspHouseInfo info;
+        if (espHouseInfo(context.get(), i, &info) != ESP_OK) continue;
+        low = glm::min(low, vec(info.boundsMin));
+        high = glm::max(high, vec(info.boundsMax));
+    }
     return low.x > high.x ? std::pair(glm::vec3(0), glm::vec3(1)) : std::pair(low, high);
 }
 

@@ -82,8 +82,9 @@ struct Workspace {
 
     const espalier::scene::Scene& scene() const { return document->scene(); }
     float shift() const;
-    std::pair<glm::vec3, glm::vec3> bounds() const;  // of the surfaces, world; a metre's cube if there are none
-    float reach() const;                             // how large the scene is, metres
+    std::pair<glm::vec3, glm::vec3> bounds()
+        const;            // of the surfaces, else of the houses, world; a metre's cube if there are none
+    float reach() const;  // how large the scene is, metres
     void lookFrom(const EspCamera& from);
     void frameAll();
     void frameChosen();        // what is chosen with the tool in hand fills the view; everything, if nothing is

@@ -64,6 +64,19 @@ std::string keptIn(const Folder& folder) {
 
 }  // namespace
 
+TEST_CASE("a town without surfaces is flown over and seen from afar by its own size") {
+    const Folder folder;
+    Window window(folder, content("town.json"));
+    REQUIRE(window.work.scene().surfaces.empty());
+    const auto [low, high] = window.work.bounds();
+    CHECK(glm::distance(low, high) > 50);
+    CHECK(glm::distance(low, high) < 2000);
+    window.work.frameAll();
+    const float before = window.work.camera.distance();
+    window.work.camera.zoom(-10);
+    CHECK(window.work.camera.distance() > 3 * before);
+}
+
 TEST_CASE("a project whose folder is deleted counts as not saved, is kept elsewhere and can be saved anew") {
     const Folder folder;
     const std::string garden = folder.file("garden");

@@ -7,15 +7,33 @@
 
 using namespace espalier::document;
 
-TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are planted, undone and done again") {
-    if (run("command -v xvfb-run && command -v xdotool").code != 0) {
-        MESSAGE("xvfb-run or xdotool isn't installed; skipped");
-        return;
-    }
+namespace {
+
+bool hasDisplay() {
+    const bool has = run("command -v xvfb-run && command -v xdotool").code == 0;
+    if (!has) MESSAGE("xvfb-run or xdotool isn't installed; skipped");
+    return has;
+}
+
+Ran drive(const std::string& script, const std::string& scene, const Folder& folder) {
+    return run("xvfb-run -a -s '-screen 0 900x560x24' tests/editor/" + script + " " + program("espalier-sample") + " " +
+               scene + " " + folder.path.string());
+}
+
+}  // namespace
+
+TEST_CASE("an editor that can't keep what isn't saved says so at its end, and by its exit code") {
+    if (!hasDisplay()) return;
     const Folder folder;
-    const std::string scene = smallScene(folder);
-    const Ran ran = run("xvfb-run -a -s '-screen 0 900x560x24' tests/editor/drive " + program("espalier-sample") + " " +
-                        scene + " " + folder.path.string());
+    const Ran ran = drive("drive_end", smallScene(folder), folder);
+    CHECK_MESSAGE(ran.code == 1, ran.output);
+    CHECK_MESSAGE(contains(ran.output, "couldn't be kept: " + folder.file("taken")), ran.output);
+}
+
+TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are planted, undone and done again") {
+    if (!hasDisplay()) return;
+    const Folder folder;
+    const Ran ran = drive("drive", smallScene(folder), folder);
     REQUIRE_MESSAGE(ran.code == 0, ran.output);
     CHECK_MESSAGE(!contains(ran.output, "alidation"), ran.output);
 
