@@ -30,8 +30,8 @@ void silent(void*, EspLogLevel, const char*) {}
 struct Grown {
     EspContext* context = nullptr;
 
-    explicit Grown(const DrawingHost& host) {
-        const EspHostDevice device = host.device();
+    explicit Grown(const DrawingHost& host) : Grown(host.device()) {}
+    explicit Grown(const EspHostDevice& device) {
         EspContextDef def = espDefaultContextDef();
         def.host = &device;
         def.log = silent;
@@ -53,6 +53,26 @@ struct Grown {
     }
     ~Grown() { espDestroy(context); }
 };
+
+// The host's device under the name of one that isn't software, on which more samples are drawn and no native code runs.
+PFN_vkGetInstanceProcAddr realFunction;
+PFN_vkGetPhysicalDeviceProperties2 realProperties;
+VKAPI_ATTR void VKAPI_CALL asDiscrete(VkPhysicalDevice device, VkPhysicalDeviceProperties2* all) {
+    realProperties(device, all);
+    all->properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+}
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL functionOfDiscrete(VkInstance instance, const char* name) {
+    const PFN_vkVoidFunction real = realFunction(instance, name);
+    if (std::string(name) != "vkGetPhysicalDeviceProperties2") return real;
+    realProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(real);
+    return reinterpret_cast<PFN_vkVoidFunction>(&asDiscrete);
+}
+EspHostDevice discrete(const DrawingHost& host) {
+    EspHostDevice device = host.device();
+    realFunction = reinterpret_cast<PFN_vkGetInstanceProcAddr>(device.getInstanceProcAddr);
+    device.getInstanceProcAddr = reinterpret_cast<void*>(&functionOfDiscrete);
+    return device;
+}
 
 EspCamera cameraAt(float x, float y, float z) {
     EspCamera camera = espDefaultDrawDef().camera;
@@ -269,6 +289,38 @@ TEST_CASE("growth in a host's scene") {
     droppedFrame(host, grown);
     refusals(host, grown);
     picture(host, grown);
+}
+
+TEST_CASE("growth in a host's scene, as drawn on devices that aren't software") {
+    DrawingHost host;
+    Grown grown(discrete(host)), plain(host);
+    const EspCamera camera = cameraAt(1.3f, .9f, 1.9f);
+    const Picture bare = host.draw(camera, kBoxes, nullptr), drawn = host.draw(camera, kBoxes, grown.context),
+                  other = host.draw(camera, kBoxes, plain.context);
+    size_t ours = 0, both = 0, either = 0;
+    for (size_t i = 0; i < kPixels; ++i) {
+        const bool here = drawn.depth[i] != bare.depth[i], there = other.depth[i] != bare.depth[i];
+        ours += here, both += here && there, either += here || there;
+    }
+    CHECK(ours > 2000);
+    CHECK(both > either * 3 / 4);  // they differ at edges
+    // A stroke, an edit and a move of the eye; and all that is drawn to explain.
+    for (EspView view : {ESP_VIEW_SHADED, ESP_VIEW_CHARTS, ESP_VIEW_LOD, ESP_VIEW_OVERDRAW}) {
+        EspDrawDef def = espDefaultDrawDef();
+        def.width = kWidth;
+        def.height = kHeight;
+        def.camera = cameraAt(.3f + .2f * float(view), .7f, 1.7f);
+        def.look.view = view;
+        CHECK(espDraw(grown.context, &def) == ESP_OK);
+        EspSeed seed{};
+        REQUIRE(espSeedAt(grown.context, 0, &seed) == ESP_OK);
+        const float position[3] = {.3f + .1f * float(view), .1f, 0}, direction[3] = {0, 1, 0};
+        REQUIRE(espMoveSeed(grown.context, seed, position, direction) == ESP_OK);
+        REQUIRE(espUpdate(grown.context) == ESP_OK);
+    }
+    EspTriangles triangles{};
+    CHECK(espMaterialise(grown.context, &triangles) == ESP_OK);
+    CHECK(triangles.indexCount > 10000);
 }
 
 TEST_CASE("a picture whose place a host's frame took isn't read back") {
