@@ -118,6 +118,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     }
     std::unique_ptr<EspContext, void (*)(EspContext*)> context(made, espDestroy);
     auto document = std::make_unique<Document>(made);
+    const fs::file_time_type read = fs::file_time_type::clock::now();
     if (!document->open(request, error)) return false;
     host_->waitIdle();
     if (work_.document) session_.end(work_);
@@ -139,7 +140,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     espSetGrow(made, &work_.grow);
     work_.message.clear();
     for (const std::string& note : work_.scene().notes) work_.message += (work_.message.empty() ? "" : "\n") + note;
-    session_.begin(work_, request.file);
+    session_.begin(work_, request.file, read);
     if (options_.frames) session_.forgetRecovery(false);
     work_.lookFrom(work_.scene().camera);
     glfwSetWindowTitle(window_.get(), ("Espalier \u2014 " + session_.name(work_)).c_str());

@@ -32,12 +32,13 @@ FileStamp stampOf(const fs::path& file) {
     return noTime || noSize ? FileStamp{} : stamp;
 }
 
-void FileWatch::begin(std::vector<std::string> files) {
+void FileWatch::begin(std::vector<std::string> files, fs::file_time_type read) {
     files_.clear();
     for (std::string& path : files) {
         const FileStamp stamp = stampOf(path);
-        const uint64_t hash = contentOf(path).value_or(0);
-        files_.push_back({std::move(path), stamp, stamp, hash});
+        const bool since = stamp.time >= read;
+        const uint64_t hash = since ? 0 : contentOf(path).value_or(0);
+        files_.push_back({std::move(path), since ? FileStamp{} : stamp, stamp, hash});
     }
 }
 

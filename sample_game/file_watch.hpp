@@ -15,11 +15,13 @@ struct FileStamp {
 };
 FileStamp stampOf(const std::filesystem::path& file);
 
+constexpr std::filesystem::file_time_type kNeverWritten = std::filesystem::file_time_type::max();
+
 // Files that other programs may write. They are read only when their stamps change, and only other bytes count.
 class FileWatch {
   public:
-    // As they are now they count as seen.
-    void begin(std::vector<std::string> files);
+    // As they are now they count as seen, but what was written since `read`, when whoever asks began to read them.
+    void begin(std::vector<std::string> files, std::filesystem::file_time_type read = kNeverWritten);
     // Whether one of them holds other bytes than at begin() or when this last was true. One that is being written, so
     // that its stamp isn't the last look's, waits; one that can't be read counts as it was.
     bool changed();

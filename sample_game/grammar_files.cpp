@@ -54,13 +54,16 @@ std::string included(const std::string& file, const std::string& text) {
 
 }  // namespace
 
-void GrammarFiles::begin(const espalier::scene::Scene& scene) {
+void GrammarFiles::begin(const espalier::scene::Scene& scene, fs::file_time_type read) {
     seen_.clear();
     for (const auto& grammar : scene.grammars) {
         std::string text, error;
         std::vector<FileStamp> stamps = stampsAround(grammar.file);
         if (!readText(grammar.file, text, error)) text = grammar.text;
-        seen_.push_back({std::move(stamps), text, included(grammar.file, text)});
+        Seen seen{std::move(stamps), text, included(grammar.file, text)};
+        if (std::ranges::any_of(seen.stamps, [&](const FileStamp& stamp) { return stamp.time >= read; }))
+            seen = {{}, grammar.text, {}};
+        seen_.push_back(std::move(seen));
     }
 }
 

@@ -17,8 +17,9 @@ class GrammarFiles {
         bool replaces = false;  // what was typed and isn't in the file
     };
 
-    // Files as they are now count as seen.
-    void begin(const espalier::scene::Scene& scene);
+    // Files as they are now count as seen; where one was written since `read`, when the scene began to be read, what
+    // the scene has of them does.
+    void begin(const espalier::scene::Scene& scene, std::filesystem::file_time_type read = kNeverWritten);
     // Since begin() or the last call. A file that can't be read counts as it was.
     std::vector<Change> look(const espalier::scene::Scene& scene);
 

@@ -42,7 +42,7 @@ void removeKept(const fs::path& folder) {
 
 }  // namespace
 
-void Session::begin(Workspace& work, const std::string& file) {
+void Session::begin(Workspace& work, const std::string& file, fs::file_time_type read) {
     file_ = fs::absolute(file).lexically_normal().string();
     fs::path place(file_);
     std::error_code ignored;
@@ -57,8 +57,8 @@ void Session::begin(Workspace& work, const std::string& file) {
     missing_ = false;
     recovery_ = recovered ? "" : recoverable(autosaveFolder());
     if (recovery_.empty() && !recovered && !folder_.empty()) recovery_ = recoverable(unsavedFolder());
-    grammarFiles_.begin(work.scene());
-    models_.begin(modelFiles(work.scene()));
+    grammarFiles_.begin(work.scene(), read);
+    models_.begin(modelFiles(work.scene()), read);
     reload = givesUp = goesOn = replayed_ = false;
     work.document->beforeEdits([this] { background_.settle(); });
     work.document->listen([this](const Action& action, uint32_t gesture) { recorder_.note(action, gesture); });

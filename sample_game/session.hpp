@@ -15,8 +15,8 @@ namespace sample {
 // The document's life on disk: saving, autosaves, what changes there from outside, and runs that are recorded.
 class Session {
   public:
-    // After the document was opened from `file`.
-    void begin(Workspace& work, const std::string& file);
+    // After the document was opened from `file`, which began at `read`: files written since count as changed.
+    void begin(Workspace& work, const std::string& file, std::filesystem::file_time_type read = kNeverWritten);
     // Once a frame, with the seconds since the program's start: goes on with what is under way, looks at files that
     // others write, and autosaves in time. True: something has changed.
     bool step(Workspace& work, double now);

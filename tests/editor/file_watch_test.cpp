@@ -51,6 +51,16 @@ TEST_CASE("a file counts as changed when it holds other bytes, not when it is to
     CHECK(!t.changed());
 }
 
+TEST_CASE("a file that was written while it was read counts as changed, once it stands still") {
+    const auto read = std::filesystem::file_time_type::clock::now();
+    Watched t;  // writes its files later
+    t.watch.begin({t.folder.file("model.glb")}, read);
+    CHECK(t.changed());
+    CHECK(!t.changed());
+    t.watch.begin({t.folder.file("model.glb")}, read + std::chrono::hours(1));
+    CHECK(!t.changed());
+}
+
 TEST_CASE("a file that is being written, or isn't there, counts as it was") {
     Watched t;
     t.write("model.glb", "b");

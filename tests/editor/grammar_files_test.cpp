@@ -38,6 +38,21 @@ struct Texts {
 
 }  // namespace
 
+TEST_CASE("a grammar that was saved while the scene was read is taken over") {
+    const auto read = std::filesystem::file_time_type::clock::now();
+    Texts t;  // saves its files later
+    t.files.begin(t.scene, read + std::chrono::hours(1));
+    t.scene.grammars[1].text = "typed";
+    CHECK(t.files.look(t.scene).empty());
+    t.scene.grammars[1].text = "B -> before";
+    t.files.begin(t.scene, read);
+    const auto changes = t.files.look(t.scene);
+    REQUIRE(changes.size() == 2);
+    CHECK(changes[0].text == t.scene.grammars[0].text);  // compiled again: what it includes may be newer
+    CHECK(changes[1].text == "B -> NULL");
+    CHECK(t.files.look(t.scene).empty());
+}
+
 TEST_CASE("a grammar that is saved elsewhere is taken over, and no other one of its folder") {
     Texts t;
     CHECK(t.files.look(t.scene).empty());
