@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <utility>
 
@@ -203,9 +204,24 @@ bool App::frame(float seconds) {
     return true;
 }
 
+namespace {
+
+// Who ends the program from outside, as a desktop does when its user logs out, loses nothing. A second time it ends at
+// once.
+volatile std::sig_atomic_t endAsked = 0;
+void heedEnd() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { endAsked = 1; };
+    action.sa_flags = SA_RESETHAND;
+    for (int signal : {SIGTERM, SIGINT, SIGHUP}) sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
 bool App::loop() {
+    heedEnd();
     double before = glfwGetTime();
-    while (!closing() && !(options_.frames && frames_ >= options_.frames)) {
+    while (!closing() && !endAsked && !(options_.frames && frames_ >= options_.frames)) {
         // Asleep until the user does something, or it is time to look at the grammars' files.
         if (awake_ > 0 || options_.frames) {
             glfwPollEvents();

@@ -15,9 +15,9 @@ bool hasDisplay() {
     return has;
 }
 
-Ran drive(const std::string& script, const std::string& scene, const Folder& folder) {
+Ran drive(const std::string& script, const std::string& scene, const Folder& folder, const std::string& way = "") {
     return run("xvfb-run -a -s '-screen 0 900x560x24' tests/editor/" + script + " " + program("espalier-sample") + " " +
-               scene + " " + folder.path.string());
+               scene + " " + folder.path.string() + " " + way);
 }
 
 }  // namespace
@@ -25,9 +25,20 @@ Ran drive(const std::string& script, const std::string& scene, const Folder& fol
 TEST_CASE("an editor that can't keep what isn't saved says so at its end, and by its exit code") {
     if (!hasDisplay()) return;
     const Folder folder;
-    const Ran ran = drive("drive_end", smallScene(folder), folder);
+    const Ran ran = drive("drive_end", smallScene(folder), folder, "full");
     CHECK_MESSAGE(ran.code == 1, ran.output);
     CHECK_MESSAGE(contains(ran.output, "couldn't be kept: " + folder.file("taken")), ran.output);
+}
+
+TEST_CASE("an editor that is told to end keeps what isn't saved") {
+    if (!hasDisplay()) return;
+    const Folder folder;
+    const Ran ran = drive("drive_end", smallScene(folder), folder, "term");
+    CHECK_MESSAGE(ran.code == 0, ran.output);
+    size_t kept = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path / "config"))
+        kept += entry.path().filename() == "autosave.json";
+    CHECK(kept == 1);
 }
 
 TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are planted, undone and done again") {
