@@ -86,8 +86,8 @@ struct Film {
         return {median(times), sum / count, *std::max_element(times.begin(), times.end()), wall / count};
     }
 
-    // The same by the clock, in rounds by turns: one frame recorded while the last is drawn, or each waited for. As
-    // coarse as a window makes it, by the time of frames.
+    // The same by the clock, in rounds by turns: each frame waited for, as coarse as a window makes it by the time that
+    // it takes; or one recorded while the last is drawn, as coarse as those were.
     FrameClock clock(const DrawTarget& target, float degrees) {
         using Clock = std::chrono::steady_clock;
         const Camera start = inputs.camera;
@@ -107,9 +107,10 @@ struct Film {
                 const Clock::time_point now = Clock::now();
                 const double took = std::chrono::duration<double, std::milli>(now - before).count();
                 before = now;
+                if (overlaps) continue;
                 const uint32_t drawn = renderer.stats().emit.leaves;
                 detail.follow(took, drawn);
-                if (frame >= 0 && !overlaps) leaves.push_back(drawn);
+                if (frame >= 0) leaves.push_back(drawn);
             }
             const double took = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
             (overlaps ? overlapped : waited).push_back(took / repeats);
