@@ -25,6 +25,7 @@ TEST_CASE("a scene shows ivy and houses, and a town without a surface is a scene
         << "{\"town\": {\"file\": \"town.json\", \"grammar\": 3, \"ground\": 1},\n \"grammars\": [{\"file\": \"a\"}]}";
     const Ran wrong = run(capture + " " + folder.file("wrong.json") + " -o " + folder.file("c"));
     CHECK(wrong.code != 0);
-    CHECK(wrong.output.find("wrong.json:1:44: 'grammar' must be a number from 0") != std::string::npos);
+    CHECK(wrong.output.find("wrong.json:1:44: 'grammar' must be a place in the list of grammars, from 0") !=
+          std::string::npos);
     CHECK(wrong.output.find("'ground' must be true, false or a colour") != std::string::npos);
 }

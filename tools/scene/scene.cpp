@@ -1,4 +1,4 @@
-// A scene file or a bare surface -> surface, grammars, layers in a context, and what to plant and how to look.
+// A scene file -> surfaces, grammars, layers in a context, and what to plant and how to look.
 #include "tools/scene/scene.hpp"
 
 #include <unistd.h>
@@ -7,18 +7,16 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <numbers>
 
 #include "tools/scene/daylight.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene_file.hpp"
+#include "tools/scene/scene_parts.hpp"
 #include "tools/scene/site.hpp"
 #include "tools/scene/text_file.hpp"
 
 namespace espalier::scene {
-namespace {
-
-constexpr float kPi = 3.14159265f;
-const char* kSurfaceExtension = "\"ESPALIER_";  // how docs/surface_format.md names it
 
 bool fromContext(const EspContext* context, EspResult result, std::string& error) {
     if (result == ESP_OK) return true;
@@ -40,147 +38,6 @@ bool compileFile(EspContext* context, LoadedGrammar& grammar, std::string& error
     return readText(grammar.file, text, error) && compile(context, grammar, text, error);
 }
 
-bool layLayer(EspContext* context, const Scene& scene, const SceneLayer& layer, std::string& error) {
-    GreyPicture picture;
-    if (!readGrey(layer.file, picture, error)) return false;
-    if (layer.surface == SceneLayer::kTown)
-        return fromContext(
-            context,
-            espSetTownLayer(context, layer.name.c_str(), picture.texels.data(), picture.width, picture.height, nullptr),
-            error);
-    for (size_t i = 0; i < scene.surfaces.size(); ++i) {
-        if (layer.surface >= 0 && size_t(layer.surface) != i) continue;
-        EspLayerDef def;
-        if (!fromContext(context, walkLayer(context, scene.surfaces[i].id, layer.name, picture, def), error))
-            return false;
-        if (layer.surface < 0) def.space = ESP_LAYER_MATERIAL_UV;
-        if (!fromContext(context, espSetLayer(context, &def), error)) return false;
-    }
-    return true;
-}
-
-// Numbers of 0 to 1 that are the same on every machine.
-float chance(uint32_t seed, uint32_t index) {
-    uint32_t x = seed * 747796405u + index * 2891336453u + 12345u;
-    x = ((x >> ((x >> 28) + 4)) ^ x) * 277803737u;
-    x = (x >> 22) ^ x;
-    return float(x >> 8) / 16777216.f;
-}
-
-// Seeds where rays from all around meet the model's lower part. They are aimed at places spread evenly over its ground
-// plan, so that of pieces that lie apart each gets its share; what leads through a gap is aimed at the middle.
-void plantAround(const EspContext* context, const EspSurfaceInfo& info, uint32_t number, Scene& scene) {
-    constexpr uint32_t kSeeds = 16;
-    constexpr float kPlanX = .7548777f, kPlanZ = .5698403f;  // of the evenest sequence of points in a square
-    float centre[3], size[3];
-    for (int i = 0; i < 3; ++i) {
-        centre[i] = (info.boundsMin[i] + info.boundsMax[i]) / 2;
-        size[i] = info.boundsMax[i] - info.boundsMin[i];
-    }
-    const float far = std::sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
-    for (uint32_t i = 0; i < kSeeds; ++i) {
-        const float angle = 2 * kPi * (float(i) + .7f * chance(number, 3 * i)) / kSeeds;
-        const float height = info.boundsMin[1] + size[1] * (.04f + .12f * chance(number, 3 * i + 1));
-        const float outX = std::sin(angle), outZ = std::cos(angle), inward[3] = {-outX, 0, -outZ};
-        const auto aimAt = [&](float x, float z, EspHit& hit) {
-            const float origin[3] = {x + far * outX, height, z + far * outZ};
-            return espPick(context, origin, inward, &hit) == ESP_OK;
-        };
-        const float planX = std::fmod(.5f + float(i) * kPlanX, 1.f) - .5f,
-                    planZ = std::fmod(.5f + float(i) * kPlanZ, 1.f) - .5f;
-        const float aside[3] = {centre[0] + .5f * size[0] * outX, height, centre[2] + .5f * size[2] * outZ};
-        EspHit hit;
-        if (!aimAt(centre[0] + size[0] * planX, centre[2] + size[2] * planZ, hit) &&
-            !aimAt(centre[0], centre[2], hit) && espNearest(context, aside, &hit) != ESP_OK)
-            continue;
-        Seed seed;
-        std::memcpy(seed.position.data(), hit.position, sizeof hit.position);
-        seed.direction = {chance(number, 3 * i + 2) - .5f, 1, 0};
-        seed.number = number + i;
-        scene.seeds.push_back(seed);
-    }
-}
-
-float largestSide(const EspSurfaceInfo& info) {
-    float size = 0;
-    for (int i = 0; i < 3; ++i) size = std::max(size, info.boundsMax[i] - info.boundsMin[i]);
-    return size;
-}
-
-constexpr float kSunken = .002f;  // of its size, that a model stands in the ground, so that no gap shows
-
-// Lengths of the default ivy suit a wall of some metres. What is smaller is a model of something large: its leaves are
-// smaller, never larger than life; and stems are to get half-way up whatever it is.
-void fitToModel(EspContext* context, const EspSurfaceInfo& info, const LoadedGrammar& grammar) {
-    const float scale = std::min(1.f, largestSide(info) / 12);
-    for (uint32_t i = 0; i < espParamCount(context, grammar.id); ++i) {
-        EspParamInfo param;
-        if (espParamInfo(context, grammar.id, i, &param) != ESP_OK) continue;
-        const float reach = .5f * (info.boundsMax[1] - info.boundsMin[1]) / scale;
-        if (!std::strcmp(param.name, "scale")) espSetParam(context, grammar.id, "scale", &scale, 1);
-        if (!std::strcmp(param.name, "reach") && reach > param.value[0]) {
-            const float most = std::min(reach, param.high);
-            espSetParam(context, grammar.id, "reach", &most, 1);
-        }
-    }
-}
-
-// A glTF model as modelling programs write it: what a user may well try first.
-bool isUnbakedModel(const std::string& path) {
-    std::string text, ignored;
-    const std::string ending = std::filesystem::path(path).extension().string();
-    if ((ending != ".glb" && ending != ".gltf") || !readText(path, text, ignored)) return false;
-    const bool model = text.rfind("glTF", 0) == 0 || text.find("\"asset\"") != std::string::npos;
-    return model && text.find(kSurfaceExtension) == std::string::npos;
-}
-
-// glTF's unit is the metre, but many scans come in another: a statue of a centimetre, or of a kilometre, is shown as
-// one of two metres, so that ivy on it is ivy.
-bool loadAtLivingSize(EspContext* context, LoadedSurface& surface, EspSurfaceInfo& info, std::string& error) {
-    constexpr float kSmallest = .1f, kLargest = 500, kUsual = 2;
-    for (int attempt = 0; attempt < 2; ++attempt) {
-        const EspTransform place = surface.placing.transform();
-        if (!fromContext(context, espLoadSurface(context, surface.file.c_str(), &place, &surface.id), error) ||
-            !fromContext(context, espSurfaceInfo(context, surface.id, &info), error))
-            return false;
-        const float size = largestSide(info);
-        if (attempt == 1 || (size >= kSmallest && size <= kLargest) || !(size > 0)) return true;
-        surface.placing.scale = kUsual / size;
-        if (!fromContext(context, espDestroySurface(context, surface.id), error)) return false;
-    }
-    return true;
-}
-
-// What stands alone gets something to stand on; the eye is not to be below it.
-void layGround(float level, Scene& scene) {
-    scene.ownLook.ground = 1;
-    scene.ownLook.groundLevel = level;
-    scene.camera.eye[1] = std::max(scene.camera.eye[1], level + .02f * std::abs(scene.camera.eye[2]));
-}
-
-bool openSurface(EspContext* context, const Request& request, Scene& out, std::string& error) {
-    if (isUnbakedModel(request.file)) {
-        error = request.file + ": isn't baked yet: espalier-bake " + request.file +
-                " -o SURFACE.glb (tools/run does it for you)";
-        return false;
-    }
-    EspSurfaceInfo info;
-    LoadedSurface& surface = out.surfaces.emplace_back();
-    surface.file = request.file;
-    if (!loadAtLivingSize(context, surface, info, error)) return false;
-    const char* standard = request.layers.empty() ? "ivy_free.grammar" : "ivy_guided.grammar";
-    LoadedGrammar grammar;
-    grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/" + standard : request.grammar;
-    if (!compileFile(context, grammar, error)) return false;
-    out.grammars.push_back(grammar);
-    fitToModel(context, info, grammar);
-    plantAround(context, info, request.seed.value_or(1), out);
-    out.camera = espFrameAll(context);
-    layGround(info.boundsMin[1] + kSunken * largestSide(info), out);
-    return true;
-}
-
-// Loads out.town, which grows by the grammar that it names or the first that makes roofs.
 bool loadTown(EspContext* context, Scene& out, std::string& error) {
     const SceneTown& town = *out.town;
     std::string text;
@@ -207,15 +64,24 @@ bool loadTown(EspContext* context, Scene& out, std::string& error) {
     return false;
 }
 
-// A town on its own, by the grammar of all kinds of roofs unless another is asked for.
-bool openTown(EspContext* context, const Request& request, Scene& out, std::string& error) {
-    LoadedGrammar grammar;
-    grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/town.grammar" : request.grammar;
-    if (!compileFile(context, grammar, error)) return false;
-    out.grammars.push_back(grammar);
-    out.town = SceneTown{request.file, -1, {}, true, {}};
-    if (!loadTown(context, out, error)) return false;
-    out.camera = espFrameAll(context);
+namespace {
+
+bool layLayer(EspContext* context, const Scene& scene, const SceneLayer& layer, std::string& error) {
+    GreyPicture picture;
+    if (!readGrey(layer.file, picture, error)) return false;
+    if (layer.surface == SceneLayer::kTown)
+        return fromContext(
+            context,
+            espSetTownLayer(context, layer.name.c_str(), picture.texels.data(), picture.width, picture.height, nullptr),
+            error);
+    for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+        if (layer.surface >= 0 && size_t(layer.surface) != i) continue;
+        EspLayerDef def;
+        if (!fromContext(context, walkLayer(context, scene.surfaces[i].id, layer.name, picture, def), error))
+            return false;
+        if (layer.surface < 0) def.space = ESP_LAYER_MATERIAL_UV;
+        if (!fromContext(context, espSetLayer(context, &def), error)) return false;
+    }
     return true;
 }
 
@@ -298,7 +164,7 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         std::copy(file.eye.begin(), file.eye.end(), out.camera.eye);
         std::copy(file.target.begin(), file.target.end(), out.camera.target);
     }
-    if (file.fov > 0) out.camera.fovY = file.fov * kPi / 180;
+    if (file.fov > 0) out.camera.fovY = file.fov * std::numbers::pi_v<float> / 180;
     file.applyLook(out.ownLook);
     out.hour = file.hour;
     return true;

@@ -1,0 +1,24 @@
+#pragma once
+
+// What scenes are opened with, between scene.cpp and bare_scene.cpp. Functions return false with what went wrong in
+// `error`.
+
+#include "tools/scene/scene.hpp"
+
+namespace espalier::scene {
+
+// Whether a call went well; its message otherwise.
+bool fromContext(const EspContext* context, EspResult result, std::string& error);
+
+// grammar.file names it in messages.
+bool compile(EspContext* context, LoadedGrammar& grammar, const std::string& text, std::string& error);
+bool compileFile(EspContext* context, LoadedGrammar& grammar, std::string& error);
+
+// Loads out.town, which grows by the grammar that it names or the first that makes roofs.
+bool loadTown(EspContext* context, Scene& out, std::string& error);
+
+// A surface, or a town, on its own: with standard grammars, seeds where they have a chance, ground and a camera.
+bool openSurface(EspContext* context, const Request& request, Scene& out, std::string& error);
+bool openTown(EspContext* context, const Request& request, Scene& out, std::string& error);
+
+}  // namespace espalier::scene
