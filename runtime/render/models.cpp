@@ -1,14 +1,11 @@
-// Enters: decoded meshes with materials. Leaves: their buffers and textures, for each frame the level of detail, and
-// draws, one a material range.
+// Enters: decoded meshes with materials. Leaves: their buffers and textures.
 #include "runtime/render/models.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "runtime/gpu/color_texture.hpp"
 #include "runtime/render/solid.hpp"
-#include "runtime/render/view_sides.hpp"
 
 namespace espalier {
 namespace {
@@ -22,25 +19,6 @@ Result<Image> makeNormals(Device& device, std::string_view name, uint32_t width,
     if (Status s = fillImage(device, *image, std::as_bytes(rgba)); !s) return s.failure();
     return image;
 }
-
-const Image& pictureOr(const std::vector<Image>& images, int index, const Image& other) {
-    return index >= 0 && size_t(index) < images.size() && images[size_t(index)] ? images[size_t(index)] : other;
-}
-
-// Nothing real is wholly black or wholly white, yet converters leave zero where they lost the material (FBX's Lambert)
-// and a file without materials means one. Such a surface is drawn as plaster, so that light and shadow show on it.
-glm::vec4 shownColor(const Material& material) {
-    const glm::vec4 c = material.baseColor;
-    const bool lost =
-        material.baseColorImage < 0 && (std::max({c.x, c.y, c.z}) < 1e-4f || std::min({c.x, c.y, c.z}) > 0.999f);
-    return lost ? glm::vec4(0.30f, 0.285f, 0.26f, c.w) : c;
-}
-
-const Material& materialOf(const std::vector<Material>& materials, const DrawRange& range) {
-    return materials[std::min<size_t>(range.material, materials.size() - 1)];
-}
-
-constexpr float kMeadowReach = 0.0895f;  // units above the ground to which model.frag's addMeadow() has an effect
 
 }  // namespace
 
@@ -108,21 +86,6 @@ Models::Storeys Models::intoStoreys(const Model& model, std::span<const DrawVert
     return ends;
 }
 
-// Its up is as it was when triangles were put in order.
-bool Models::standsAs(const Model& model) {
-    const glm::vec3 up(model.toWorld[0].y, model.toWorld[1].y, model.toWorld[2].y);
-    return glm::length(up - model.up) <= 1e-5f * glm::length(up);
-}
-
-uint32_t Models::footOf(const Model& model, const Mesh& mesh, size_t range, float groundLevel, float unit) {
-    const uint32_t all = mesh.ranges[range].indexCount;
-    if (!standsAs(model)) return all;
-    const float reach = groundLevel + kMeadowReach * unit - model.toWorld[3].y;
-    const float storeys = std::floor((reach - model.lowest) / model.storey + 0.01f);
-    if (storeys < 0) return 0;
-    return storeys < float(kStoreys) ? mesh.storeys[range][size_t(storeys)] : all;
-}
-
 Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& model) {
     std::vector<DrawVertex> vertices = data.vertices;
     std::vector<uint32_t> indices = data.indices;
@@ -141,8 +104,7 @@ Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& mode
         for (const DrawRange& range : mesh.ranges) {
             const auto corners = std::span(indices).subspan(range.firstIndex, range.indexCount);
             mesh.storeys.push_back(intoStoreys(model, from, corners));
-            if (materialOf(model.materials, range).alphaCutoff == 0)
-                opaque.insert(opaque.end(), corners.begin(), corners.end());
+            if (model.materialOf(range).alphaCutoff == 0) opaque.insert(opaque.end(), corners.begin(), corners.end());
         }
         mesh.solidAbove = solidAbove(from, opaque, model.up);
     }
@@ -219,161 +181,6 @@ void Models::place(uint32_t index, const glm::mat4& toWorld) {
     for (auto& mesh : model.meshes) mesh.error *= grows;
     model.place(toWorld);
     ++revision_;
-}
-
-bool Models::showsBacks(const Model& model, const Mesh& mesh, const Material& material) const {
-    if (material.alphaCutoff > 0 || glm::determinant(glm::mat3(model.toWorld)) <= 0) return true;
-    // Who means them to be seen has the eye inside.
-    if (material.doubleSided && glm::clamp(eye_, model.low, model.high) == eye_) return true;
-    if (mesh.solidAbove < -std::numeric_limits<float>::max()) return false;
-    return !standsAs(model) || eye_.y <= groundLevel_ || mesh.solidAbove >= groundLevel_ - model.toWorld[3].y;
-}
-
-uint32_t Models::simplest(const Model& model, float error) {
-    uint32_t mesh = 0;
-    while (mesh + 1 < model.meshes.size() && model.meshes[mesh + 1].error <= error) ++mesh;
-    return mesh;
-}
-
-void Models::choose(const FrameRecord& frame, float pixels, bool atOnce) {
-    eye_ = frame.eye;
-    groundLevel_ = frame.groundLevel;
-    const ViewSides sides(frame.viewProjection);
-    for (auto& [index, model] : models_) {
-        model.seen = !sides.misses(model.low, model.high);
-        if (model.groundOnly) {
-            model.step = kFadeFrames;
-            continue;
-        }
-        const float distance = glm::length(eye_ - glm::clamp(eye_, model.low, model.high));
-        const uint32_t wanted = simplest(model, pixels * distance / frame.pixelScale);
-        if (model.step == 0 || !model.seen || atOnce) {  // where nothing was seen before, too
-            model.shown = wanted;
-            model.step = kFadeFrames;
-        } else if (model.step < kFadeFrames && wanted == model.before) {
-            std::swap(model.shown, model.before);
-            model.step = kFadeFrames - model.step + 1;
-        } else if (model.step == kFadeFrames && wanted != model.shown) {
-            model.before = std::exchange(model.shown, wanted);
-            model.step = 1;
-        } else {
-            model.step = std::min(model.step + 1, kFadeFrames);
-        }
-    }
-}
-
-ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& material, uint32_t surface) const {
-    ModelPush push{};
-    for (int r = 0; r < 3; ++r)
-        push.toWorld[r] = {model.toWorld[0][r], model.toWorld[1][r], model.toWorld[2][r], model.toWorld[3][r]};
-    push.baseColor = shownColor(material);
-    push.normalScale = material.normalImage >= 0 ? material.normalScale : 0;
-    push.roughness = material.roughness;
-    push.alphaCutoff = material.alphaCutoff;
-    push.surface = surface;
-    push.lod = mesh;
-    push.fade = 1;
-    return push;
-}
-
-// each(mesh, fade): the mesh that is drawn, or the two that share the picture.
-template <class Each>
-void Models::overShown(const Model& model, const Each& each) {
-    if (model.step == kFadeFrames) return each(model.shown, 1.0f);
-    // Pixels go to the coarser one in one order and come back in the same.
-    const float share = float(model.step) / kFadeFrames, coarser = model.shown > model.before ? share : 1 - share;
-    each(std::max(model.shown, model.before), coarser);
-    each(std::min(model.shown, model.before), -coarser);
-}
-
-void Models::draw(DrawPass& pass, const Drawn& with) const {
-    const bool quick = with.shading == Shading::quick;
-    const Sampler& sampler = quick ? quickSampler_ : sampler_;
-    for (const auto& [index, model] : models_) {
-        if (!model.seen || (with.drawnOnly && model.groundOnly)) continue;
-        pass.setVertices(model.vertices);
-        pass.setIndices(model.indices);
-        const auto drawMesh = [&](uint32_t which, float fade) {
-            const Mesh& mesh = model.meshes[which];
-            for (size_t r = 0; r < mesh.ranges.size(); ++r) {
-                const DrawRange& range = mesh.ranges[r];
-                const Material& material = materialOf(model.materials, range);
-                ModelPush push = pushOf(model, which, material, with.walkData ? index : kNoIndex);
-                push.fade = fade;
-                pass.drawBacks(showsBacks(model, mesh, material));
-                const uint32_t foot = footOf(model, mesh, r, with.groundLevel, with.unit);
-                const auto drawPart = [&](const Program& program, uint32_t first, uint32_t count) {
-                    if (count == 0) return;
-                    pass.drawIndexed(program, {count, range.firstIndex + first, mesh.firstVertex}, push,
-                                     {{pictureOr(model.colors, material.baseColorImage, white_), sampler},
-                                      {pictureOr(model.normals, material.normalImage, flat_), sampler},
-                                      with.shadow,
-                                      with.ground.noiseBinding(quick),
-                                      with.ground.siteBinding(quick),
-                                      with.ground.pavingBinding(quick),
-                                      with.frame});
-                };
-                drawPart(with.foot, 0, foot);
-                drawPart(with.program, foot, range.indexCount - foot);
-            }
-        };
-        overShown(model, drawMesh);
-    }
-    pass.drawBacks(true);
-}
-
-void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame) const {
-    for (const auto& [index, model] : models_) {
-        if (!model.seen || model.groundOnly) continue;
-        pass.setVertices(model.vertices);
-        pass.setIndices(model.indices);
-        overShown(model, [&](uint32_t which, float fade) {
-            const Mesh& mesh = model.meshes[which];
-            for (const DrawRange& range : mesh.ranges) {
-                const Material& material = materialOf(model.materials, range);
-                if (material.alphaCutoff > 0) continue;
-                ModelPush push = pushOf(model, which, material, index);
-                push.fade = fade;
-                pass.drawBacks(showsBacks(model, mesh, material));
-                pass.drawIndexed(fade < 1 ? fading : whole, {range.indexCount, range.firstIndex, mesh.firstVertex},
-                                 push, {frame});
-            }
-        });
-    }
-    pass.drawBacks(true);
-}
-
-void Models::drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const {
-    for (const auto& [index, model] : models_) {
-        if (model.groundOnly) continue;
-        pass.setVertices(model.vertices);
-        pass.setIndices(model.indices);
-        const uint32_t mesh = simplest(model, error);
-        for (const DrawRange& range : model.meshes[mesh].ranges) {
-            const Material& material = materialOf(model.materials, range);
-            pass.drawIndexed(program, {range.indexCount, range.firstIndex, model.meshes[mesh].firstVertex},
-                             pushOf(model, mesh, material, index), {frame});
-        }
-    }
-}
-
-uint64_t Models::triangles() const {
-    uint64_t sum = 0;
-    const auto add = [&](const Mesh& mesh) {
-        for (const DrawRange& range : mesh.ranges) sum += range.indexCount / 3;
-    };
-    for (const auto& [index, model] : models_) {
-        if (!model.seen || model.groundOnly) continue;
-        add(model.meshes[model.shown]);
-        if (model.step < kFadeFrames) add(model.meshes[model.before]);
-    }
-    return sum;
-}
-
-uint32_t Models::fading() const {
-    uint32_t count = 0;
-    for (const auto& [index, model] : models_) count += model.step < kFadeFrames ? 1 : 0;
-    return count;
 }
 
 void Models::bounds(glm::vec3& low, glm::vec3& high) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <span>
@@ -87,6 +88,9 @@ class Models {
         glm::vec3 up{0};               // of the world, in object space, when triangles were put in order
         float lowest = 0, storey = 0;  // along `up`: where the first storey begins, how high each is
         void place(const glm::mat4& to);
+        const Material& materialOf(const DrawRange& range) const {
+            return materials[std::min<size_t>(range.material, materials.size() - 1)];
+        }
     };
     static void raise(const SurfaceData& data, Model& model);
     static Storeys intoStoreys(const Model& model, std::span<const DrawVertex> vertices, std::span<uint32_t> indices);
