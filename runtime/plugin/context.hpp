@@ -373,6 +373,8 @@ Status refreshVariants(EspContext& context);
 // What is wrong with a brush; null: nothing.
 const char* mistakeIn(const EspBrush& brush);
 BrushLimits limitsOf(const EspBrush& brush);
+// The numbers by which a kernel applies the brush; `fill` is the layer's.
+BrushRecord recordOf(const EspBrush& brush, float fill);
 
 // The number of the layer that a grammar's context reads; made if need be, from one that no grammar reads any more and
 // that isn't among `kept` where there are kMaxLayers already. Nothing: all of those are read.
