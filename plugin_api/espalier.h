@@ -53,8 +53,10 @@ typedef void (*EspLogFn)(void* user, EspLogLevel level, const char* message);
 /* ---- Context ------------------------------------------------------------------------------------------------ */
 
 /* A host's Vulkan objects; handles as they are in vulkan.h. The device must have been created with the features that
- * espRequiredFeatures chains into a VkDeviceCreateInfo. Espalier submits to `queue` only inside its functions; the
- * host keeps all objects alive until espDestroy has returned. */
+ * espRequiredFeatures chains into a VkDeviceCreateInfo; its subgroups must vote, ballot and do arithmetic in compute. What
+ * the physical device lacks is named in espCreate's error. Espalier submits to `queue` only inside its functions; what it
+ * submits waits for the frames before it that espDraw has recorded into, and later ones see what it wrote. The host keeps
+ * all objects alive until espDestroy has returned. */
 typedef struct EspHostDevice {
     void* getInstanceProcAddr;   /* PFN_vkGetInstanceProcAddr */
     void* instance;              /* VkInstance */
@@ -70,7 +72,8 @@ typedef struct EspContextDef {
     int validation;              /* own device only: 1 turns the validation layer on where it is installed */
     EspLogFn log;                /* NULL: warnings and errors go to stderr */
     void* logUser;
-    const char* terminals;       /* path of the terminal meshes (terminals.glb); NULL: beside the library's content */
+    const char* terminals;       /* path of the terminal meshes (terminals.glb), beside which towns look for roofs.glb; NULL:
+                                    in the library's content */
     const char* cacheFolder;     /* compiled rule maps are cached here, the 256 used last; NULL: no cache on disk */
 } EspContextDef;
 
@@ -105,7 +108,7 @@ typedef struct EspSurfaceInfo {
 
 /* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from
  * one to the other. What lies within another surface's solid body is no ground until one of them is elsewhere: nothing
- * grows there, and seeds there wait. */
+ * grows there, and seeds there wait. At most 255 surfaces a context. */
 ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
 /* Likewise, of ground that something else draws, such as the walls of a town's houses: of it only ESP_VIEW_CHARTS and
  * ESP_VIEW_LAYER show anything, and it casts no shadow. */
@@ -250,7 +253,7 @@ typedef struct EspDab {
     float pressure;              /* 0 to 1, scales the strength */
 } EspDab;
 
-ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre wide, half strength */
+ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre in radius, half strength */
 /* Several strokes may be open at a time, on unlike layers. */
 ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
 /* One pass on the GPU, applied in order; the next espUpdate and espDraw see it. */
@@ -508,7 +511,7 @@ ESP_API EspResult espDropFrame(EspContext* context);
  * a host's scene, of another size, or one that failed has taken its place since. */
 ESP_API EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes);
 
-/* A camera that shows all surfaces from the front right. */
+/* A camera that shows all surfaces and houses from the front right. */
 ESP_API EspCamera espFrameAll(const EspContext* context);
 
 typedef struct EspStats {

@@ -33,7 +33,8 @@ ESP_API EspResult espTownGrammar(const EspContext* context, EspGrammar* out);
 /* Layers of a town lie over a square of the plan around its houses, seen from above: rows of texels from north (least z)
  * to south, each from west (least x) to east. Grammars of roofs read them as name(texCoord) where a shape stands, or
  * name(house), the mean over a house; Drop(name) takes tiles away by them and Moss(name) covers tiles. Houses that read
- * what changed grow anew in the next espUpdate; what is dropped or covered costs no growth.
+ * what changed grow anew in the next espUpdate, and stay as they are where that fails; what is dropped or covered costs no
+ * growth.
  * The strokes above paint them too, those that the town's grammar reads or that were painted or set before, straight down
  * whatever the height, and undo it. */
 typedef struct EspTownInfo {

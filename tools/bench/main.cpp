@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
     CLI::App app("Espalier's benchmark: medians; every row names the other side and the ratio ours / other.");
     app.set_version_flag("--version", ESPALIER_VERSION);
     app.add_option("--filter", options.filter,
-                   "only cases whose name contains this: growth/, edit/, emit/, bake/, surface/, render/");
+                   "only cases whose name contains this: growth/, edit/, emit/, frame/, render/, paint/, bake/, "
+                   "surface/, contact/, roof/");
     app.add_option("--csv", csv, "also write the rows to this file");
     app.add_option("--data", options.dataFolder, "folder of further models")->capture_default_str();
     app.add_option("--modules", options.modulesFolder,
