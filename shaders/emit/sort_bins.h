@@ -8,7 +8,12 @@ uint rankOf(uint item, uint kind) {
     return (h ^ (h >> 15u)) * 0x2C1B3C6Du;
 }
 
-// Of a heap of `count` items from `first` on, the greatest rank on top: `item` finds its place below `at`.
+// Of those few whose ranks are the same, the one with the lower number is first.
+bool isBefore(uint item, uint rank, uint other, uint otherRank) {
+    return rank < otherRank || (rank == otherRank && item < other);
+}
+
+// Of a heap of `count` items from `first` on, the last in order on top: `item` finds its place below `at`.
 void sift(uint first, uint count, uint at, uint item, uint kind) {
     uint rank = rankOf(item, kind);
     uint child = 2u * at + 1u;
@@ -18,13 +23,13 @@ void sift(uint first, uint count, uint at, uint item, uint kind) {
         if (child + 1u < count) {
             uint other = push.order.v[first + child + 1u];
             uint otherRank = rankOf(other, kind);
-            if (otherRank > nextRank) {
+            if (isBefore(next, nextRank, other, otherRank)) {
                 next = other;
                 nextRank = otherRank;
                 ++child;
             }
         }
-        if (nextRank <= rank) break;
+        if (!isBefore(item, rank, next, nextRank)) break;
         push.order.v[first + at] = next;
         at = child;
         child = 2u * at + 1u;
@@ -48,7 +53,7 @@ void sortRun(uint first, uint end, uint kind) {
         uint to = i;
         while (to > first) {
             uint other = push.order.v[to - 1u];
-            if (rankOf(other, kind) <= rank) break;
+            if (!isBefore(item, rank, other, rankOf(other, kind))) break;
             push.order.v[to] = other;
             --to;
         }
