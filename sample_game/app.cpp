@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <utility>
 
@@ -29,6 +30,8 @@ namespace fs = std::filesystem;
 constexpr double kSlowGrowthMs = 500;
 constexpr double kLookEvery = .3, kLookAtWorkEvery = .05;  // seconds
 constexpr size_t kHistory = 240;                           // frames in the graph
+constexpr float kTurnDegrees = 2;                          // a frame
+constexpr uint64_t kSettling = 24;                         // frames in which the level of detail follows the time
 
 }  // namespace
 
@@ -132,6 +135,23 @@ void App::noteTimes() {
     if (work_.history.size() > kHistory) work_.history.erase(work_.history.begin());
 }
 
+// False: the view stays. The last frame is a whole picture, which nothing moves in.
+bool App::turn() {
+    if (!options_.turn || frames_ + 1 >= options_.frames) return false;
+    if (frames_ == kSettling) turnBegan_ = {std::chrono::steady_clock::now(), std::clock()};
+    work_.camera.turnBy(kTurnDegrees * 0.0174533f, 0);
+    return true;
+}
+
+void App::tellTurn() const {
+    const double frames = double(frames_ - kSettling);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - turnBegan_.at;
+    std::printf("%.1f frames/s: %.1f ms a frame, %.1f of CPU time; %llu leaves in the last\n",
+                1e3 * frames / took.count(), took.count() / frames,
+                double(std::clock() - turnBegan_.cpu) * 1e3 / CLOCKS_PER_SEC / frames,
+                static_cast<unsigned long long>(work_.stats.drawnLeaves));
+}
+
 // A run's next step in place of what the user does, who can only end it. False: no run is on.
 bool App::replay(std::vector<InputEvent>& events) {
     if (!replay_.on()) return false;
@@ -177,7 +197,7 @@ bool App::frame(float seconds) {
     const float wheel = input_->takeWheel();
     const bool replays = replay(events);
     if (!replays) controls_->take(events, wheel);
-    const bool moved = !replays && controls_->step(*input_, seconds);
+    const bool moved = !replays && (controls_->step(*input_, seconds) | turn());
     if (moved || frames_ == 0) {
         const EspCamera camera = work_.camera.camera(0);
         work_.perform(SetCamera{array(vec(camera.eye)), array(vec(camera.target)), camera.fovY});
@@ -239,6 +259,7 @@ bool App::loop() {
             if (rest_.due(now)) (void)malloc_trim(0);
             continue;
         }
+        if (options_.turn && frames_ + 1 == options_.frames) tellTurn();
         if (!frame(seconds)) return false;
         rest_.drew(glfwGetTime());
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <ctime>
 #include <memory>
 #include <string>
 
@@ -46,6 +48,8 @@ class App {
     void openReloaded();
     bool frame(float seconds);
     void noteTimes();
+    bool turn();
+    void tellTurn() const;
     void wake() { awake_ = kFramesAfterChange; }
 
     AppOptions options_;
@@ -74,6 +78,10 @@ class App {
     std::optional<espalier::document::StrokeBegin> limiting_;  // whose limits the scene's picture shows
     Rest rest_;
     espalier::scene::MovingPicture moving_;
+    struct {
+        std::chrono::steady_clock::time_point at;
+        std::clock_t cpu = 0;
+    } turnBegan_;              // once the level of detail has settled
     double grownMs_ = 0;       // what growth took in this frame
     std::string growthError_;  // of the last frame
     bool growing_ = false;

@@ -26,6 +26,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(.5, 4.));
     cli.add_option("--frames", options.frames, "ends after so many frames; 0: when the window is closed")
         ->capture_default_str();
+    cli.add_flag("--turn", options.turn,
+                 "turns the view by two degrees in each of --frames, as a drag does, and tells how long a frame takes");
     cli.add_option("--screenshot", options.screenshot, "writes the last of --frames as PNG");
     cli.add_flag("--editor", options.editor, "begins in the editor (Tab)");
     cli.add_option("--record", options.record, "records what is done into this file (RUN.jsonl)");
@@ -51,6 +53,8 @@ int main(int argc, char** argv) {
         if (sign == std::string::npos || sign == 0) return fail("--layer takes NAME=FILE, not '" + layer + "'");
         options.request.layers.push_back({layer.substr(0, sign), layer.substr(sign + 1)});
     }
+    if (options.turn && options.frames < sample::AppOptions::kLeastTurn)
+        return fail("--turn takes --frames of " + std::to_string(sample::AppOptions::kLeastTurn) + " or more");
     if (seed >= 0) options.request.seed = uint32_t(seed);
     if (options.request.file.empty()) options.request.file = espalier::scene::contentFolder() + "/sample.json";
     const char* wanted = std::getenv("ESPALIER_VALIDATION");

@@ -59,6 +59,7 @@ void growthCases(Bench& bench);
 void editCases(Bench& bench);
 void emitCases(Bench& bench);
 void frameCases(Bench& bench);
+void placeCases(Bench& bench);
 void bakeCases(Bench& bench);
 void atlasCases(Bench& bench);
 void contactCases(Bench& bench);

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     editCases(bench);
     emitCases(bench);
     frameCases(bench);
+    placeCases(bench);
     bakeCases(bench);
     atlasCases(bench);
     contactCases(bench);
