@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -94,7 +95,7 @@ bool App::drawFrame(bool moving, bool last) {
         return true;
     }
     EspDrawDef draw = espDefaultDrawDef();
-    draw.camera = work_.camera.camera(work_.shift());
+    draw.camera = work_.camera.camera();
     draw.look = work_.scene().look;
     draw.look.shadowsLag = 1;
     draw.look.viewLayer = work_.scene().viewLayer.c_str();
@@ -108,7 +109,8 @@ bool App::drawFrame(bool moving, bool last) {
     if (limiting_ && brushOf(*limiting_, brush, work_.error)) draw.look.viewBrush = &brush;
     // While the camera moves, or a stroke goes on, on a slow device, less detail.
     const float scale = moving_.prepare(draw, moving && !last, work_.stats.drawMs, work_.layout.halfWhileMoving);
-    if (!image_->show(work_.context.get(), *frame, draw, scale, work_.redraw)) return fail(image_->error());
+    const uint32_t left = uint32_t(std::lround(work_.shift() * float(frame->extent.width)));
+    if (!image_->show(work_.context.get(), *frame, draw, left, scale, work_.redraw)) return fail(image_->error());
     if (image_->drew()) {
         work_.redraw = work_.readStats() && work_.stats.modelsFading > 0;
         moving_.drew(work_.frameMs, uint32_t(work_.stats.drawnLeaves));
@@ -199,7 +201,7 @@ bool App::frame(float seconds) {
     if (!replays) controls_->take(events, wheel);
     const bool moved = !replays && (controls_->step(*input_, seconds) | turn());
     if (moved || frames_ == 0) {
-        const EspCamera camera = work_.camera.camera(0);
+        const EspCamera camera = work_.camera.camera();
         work_.perform(SetCamera{array(vec(camera.eye)), array(vec(camera.target)), camera.fovY});
     }
     if (const std::string file = input_->takeDropped(); !file.empty() && !replays) {

@@ -106,7 +106,7 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
     const float height = ImGui::GetFrameHeight() + 4 * work.scale;
     ImGui::SetNextWindowPos({0, work.window.y - height});
     ImGui::SetNextWindowSize({work.window.x, height});
-    ImGui::SetNextWindowBgAlpha(work.editing ? .96f : .55f);
+    ImGui::SetNextWindowBgAlpha(work.editing ? 1.f : .55f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12 * work.scale, 4 * work.scale});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |

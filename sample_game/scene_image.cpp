@@ -5,19 +5,20 @@
 
 namespace sample {
 
-bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, float scale, bool redraw) {
-    const bool sameWindow = window_.width == frame.extent.width && window_.height == frame.extent.height;
-    drew_ = redraw || !sameWindow || drawn_.width == 0;
+bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, uint32_t left, float scale,
+                      bool redraw) {
+    const VkExtent2D room{frame.extent.width - left, frame.extent.height};
+    drew_ = redraw || shown_.width != room.width || shown_.height != room.height || drawn_.width == 0;
     if (drew_) {
         if (!image_.make(host_.format(), frame.extent.width, frame.extent.height,
                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT)) {
             error_ = "the scene's image: " + image_.error();
             return false;
         }
-        window_ = frame.extent;
+        shown_ = room;
         // A smaller picture takes the image's corner.
-        drawn_.width = std::max(1u, uint32_t(float(frame.extent.width) * scale + .5f));
-        drawn_.height = std::max(1u, uint32_t(float(frame.extent.height) * scale + .5f));
+        drawn_.width = std::max(1u, uint32_t(float(room.width) * scale + .5f));
+        drawn_.height = std::max(1u, uint32_t(float(room.height) * scale + .5f));
         draw.width = drawn_.width;
         draw.height = drawn_.height;
         draw.commandBuffer = frame.commands;
@@ -37,6 +38,7 @@ bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, 
     VkImageBlit region{};
     region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.srcOffsets[1] = {int32_t(drawn_.width), int32_t(drawn_.height), 1};
+    region.dstOffsets[0] = {int32_t(left), 0, 0};
     region.dstOffsets[1] = {int32_t(frame.extent.width), int32_t(frame.extent.height), 1};
     vkCmdBlitImage(frame.commands, image_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, frame.image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);

@@ -269,7 +269,7 @@ void Session::startRecording(Workspace& work, const std::string& path, uint32_t 
 bool Session::record(Workspace& work, const std::string& path, RunHead head) {
     if (!recorder_.begin(path, std::move(head), work.error)) return false;
     recordingTo_ = path;
-    const EspCamera camera = work.camera.camera(0);
+    const EspCamera camera = work.camera.camera();
     return work.perform(SetCamera{array(vec(camera.eye)), array(vec(camera.target)), camera.fovY});
 }
 

@@ -56,7 +56,7 @@ void applyTheme(float scale) {
     ImVec4* c = style.Colors;
     c[ImGuiCol_Text] = grey(.90f);
     c[ImGuiCol_TextDisabled] = grey(.66f);
-    c[ImGuiCol_WindowBg] = grey(.105f, .96f);
+    c[ImGuiCol_WindowBg] = grey(.105f);  // there is no picture below the panel
     c[ImGuiCol_PopupBg] = grey(.13f, .98f);
     c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = grey(.17f);
     c[ImGuiCol_Border] = grey(.25f);

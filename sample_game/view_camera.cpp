@@ -126,9 +126,8 @@ void ViewCamera::walk(const Meets& meets, glm::vec2 rightAhead, float seconds, b
     eye_.y += fall_ * seconds;
 }
 
-EspCamera ViewCamera::camera(float shift) const {
+EspCamera ViewCamera::camera() const {
     EspCamera camera{};
-    camera.shift[0] = shift;
     const glm::vec3 target = eye_ + distance_ * ahead();
     for (int i = 0; i < 3; ++i) {
         camera.eye[i] = eye_[i];

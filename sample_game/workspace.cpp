@@ -23,14 +23,14 @@ void tangents(glm::vec3 normal, glm::vec3& u, glm::vec3& v) {
 }
 
 float Workspace::panelUnits() const {
-    return editing && layout.panel ? std::min(layout.panelWidth * scale, window.x * .6f) : 0;
+    return editing && layout.panel ? std::round(std::min(layout.panelWidth * scale, window.x * .6f)) : 0;
 }
 
 float Workspace::freeAspect() const {
     return std::max(1.f, window.x - panelUnits()) / std::max(1.f, window.y);
 }
 
-// So that what is looked at stands in the middle of what the panel leaves free.
+// What is looked at stands in the middle of what the panel leaves free.
 float Workspace::shift() const {
     return panelUnits() / std::max(1.f, window.x);
 }

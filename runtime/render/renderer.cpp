@@ -15,7 +15,7 @@ namespace {
 
 // Errors of models with growth on them, so that bark that is seen isn't buried: pixels, and in moving pictures times
 // what they allow elsewhere.
-constexpr float kGrownPixels = 0.25f, kQuickGrown = 0.5f;
+constexpr float kGrownPixels = 0.25f, kQuickGrown = 0.75f;
 
 DrawTargets onto(VkExtent2D extent, VkImageView view) {
     DrawTargets targets;
@@ -172,6 +172,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.tilePixels = kDepthTile;
     if (Status s = findTiles(commands, view); !s) return s;
     thinOut(view, inputs.look.leafPixels);
+    if (inputs.look.quick) view.flags |= kStretches;
     view.scene = sceneOf(inputs);
     if (shading_ == Shading::quick && !hosted_) lookBack(view);
     if (roofed_)

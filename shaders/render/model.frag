@@ -102,7 +102,7 @@ void addMeadow(vec3 plane, float metres, inout vec3 base, inout vec3 bumped) {
 }
 
 void main() {
-    if (push.fade != 1.0 && fadedOut(push.fade, gl_FragCoord.xy)) discard;
+    if (!quick && push.fade != 1.0 && fadedOut(push.fade, gl_FragCoord.xy)) discard;   // there one mesh replaces another at once
     vec3 n = normalize(normal);
     vec3 eye = normalize(frame.eye - position);
     if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;
