@@ -443,10 +443,12 @@ typedef struct EspLook {         /* all numbers finite */
     float background[3], horizon[3];
     int shadows;
     int shadowsLag;              /* 1: while growth or houses change in every frame, shadows follow a few frames later,
-                                    wholly and finely once all rests; default 0: each picture has its own */
+                                    and what of them is new in a quick picture is coarse; wholly and finely once all
+                                    rests; default 0: each picture has its own */
     int quick;                   /* 1: for pictures of what moves: a software device takes fewer samples of shadows and textures,
-                                    leaves out growth that models hid in the picture before, and lights small leaves and
-                                    twigs once instead of at each vertex; models' levels of detail take over at once;
+                                    leaves out growth that models hid in the picture before, draws twigs that follow each
+                                    other as one where windowLodPixels allows it, and lights small leaves and twigs once
+                                    instead of at each vertex; models' levels of detail take over at once;
                                     default 0 */
     EspView view;
     const char* viewLayer;       /* for ESP_VIEW_LAYER */

@@ -12,11 +12,11 @@ struct AppOptions {
     int width = 1280, height = 720;  // of the window, in screen coordinates
     float uiScale = 0;               // of letters and panels, 1: as for 96 dpi; 0: as the display says
     bool validation = false;
-    uint64_t frames = 0;     // ends after so many, 0: when the user closes the window
-    bool turn = false;       // turns the view in each of `frames`, and tells how long one takes
-    bool editor = false;     // begins in the editor
-    double autosave = 60;    // seconds between two autosaves
-    std::string record;      // begins with recording a run into this file
+    uint64_t frames = 0;   // ends after so many, 0: when the user closes the window
+    bool turn = false;     // turns the view in each of `frames`, and tells how long one takes
+    bool editor = false;   // begins in the editor
+    double autosave = 60;  // seconds between two autosaves
+    std::string record;    // begins with recording a run into this file
     static constexpr uint64_t kLeastTurn = 60;
     std::string screenshot;  // written after the last of `frames`
 };

@@ -39,8 +39,8 @@ class ViewCamera {
     bool falling() const { return fall_ < 0; }
 
     EspCamera camera() const;
-    // Through a point of the window, 0 to 1, the first at the left and top. shift: how far right of its middle the view's
-    // middle is, in halves of its width.
+    // Through a point of the window, 0 to 1, the first at the left and top. shift: how far right of its middle the
+    // view's middle is, in halves of its width.
     Ray ray(glm::vec2 at, float aspect, float shift) const;
     // Where a point is seen, as for ray(); false: behind the camera.
     bool project(glm::vec3 point, float aspect, float shift, glm::vec2& at) const;

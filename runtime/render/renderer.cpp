@@ -172,7 +172,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.tilePixels = kDepthTile;
     if (Status s = findTiles(commands, view); !s) return s;
     thinOut(view, inputs.look.leafPixels);
-    if (inputs.look.quick) view.flags |= kStretches;
+    if (inputs.look.quick && device_.info().cpu) view.flags |= kStretches;
     view.scene = sceneOf(inputs);
     if (shading_ == Shading::quick && !hosted_) lookBack(view);
     if (roofed_)

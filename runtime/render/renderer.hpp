@@ -35,8 +35,9 @@ struct Look {
     glm::vec3 background{0.17f, 0.36f, 0.72f};  // at the zenith
     glm::vec3 horizon{0.66f, 0.77f, 0.88f};
     bool shadows = true;
-    bool shadowsLag = false;  // while growth or houses change in every frame, shadows may follow late and coarsely
-    bool quick = false;       // on a software device fewer samples of shadows and textures, for pictures that move
+    bool shadowsLag = false;  // while growth or houses change in every frame, shadows may follow late and coarsely; in
+                              // quick pictures, too
+    bool quick = false;  // on a software device fewer samples and twigs, for pictures that move
     ViewMode view = ViewMode::shaded;
     uint32_t layer = 0;  // for ViewMode::layer: index into DrawInputs::layers' 16 a surface
     float layerOpacity = 1;

@@ -208,7 +208,8 @@ Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inp
     changes_ = key.growth == growthBefore_ ? 0 : changes_ + 1;
     growthBefore_ = key.growth;
     const bool stroke = inputs.look.shadowsLag && changes_ > 2;
-    const bool asKept = shadowDrawn_ && key == shadowKey_ && (!shadowCoarse_ || stroke);
+    const bool coarse = stroke || (inputs.look.shadowsLag && inputs.look.quick);  // they will do
+    const bool asKept = shadowDrawn_ && key == shadowKey_ && (!shadowCoarse_ || coarse);
     if (!inputs.look.shadows || asKept) {
         if (!shadowDrawn_ && !wideDrawn_)
             commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
@@ -226,10 +227,10 @@ Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inp
     }
     if (stroke && onlyGrown && turn != 0) return Done{};
     if (partly) ++shadowsPartly_;
-    if (Status s = partly ? redrawShadows(commands, inputs, sun, ~0u) : drawShadows(commands, inputs, sun, stroke); !s)
+    if (Status s = partly ? redrawShadows(commands, inputs, sun, ~0u) : drawShadows(commands, inputs, sun, coarse); !s)
         return s;
     shadowKey_ = key;
-    shadowCoarse_ = !partly && stroke;
+    shadowCoarse_ = !partly && coarse;
     shadowDrawn_ = true;
     return Done{};
 }

@@ -405,6 +405,20 @@ TEST_CASE("a quick picture looks like the settled one, which comes back to the b
     CHECK(studio.draw(160, 90) == settled);
 }
 
+TEST_CASE("a quick picture has its twigs joined even where no leaf is left out") {
+    Studio studio;
+    studio.inputs.look.lodPixels = 4;
+    studio.draw(160, 90);
+    const uint64_t settled = studio.renderer->stats().emit.spans;
+    studio.inputs.look.quick = true;
+    studio.draw(160, 90);
+    const RenderStats quick = studio.renderer->stats();
+    if (studio.device->info().cpu)
+        CHECK(quick.emit.spans * 2 < settled);
+    else
+        CHECK(quick.emit.spans == settled);
+}
+
 // A model that was turned over since its triangles were put in order is drawn by the program that knows the meadow.
 TEST_CASE("triangles that the meadow can't reach are drawn without it, to the same picture") {
     SurfaceData data = wall(4, 0.5f);

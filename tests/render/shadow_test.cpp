@@ -120,3 +120,24 @@ TEST_CASE("shadows that lag behind a stroke are right when it ends, without bein
     CHECK(often.renderer->stats().shadowsPartly == begun.shadowsPartly + 1);
     CHECK(device->validationMessages() == 0);
 }
+
+TEST_CASE("shadows that are new in a moving picture are coarse, if they may lag, and right when it rests") {
+    const std::shared_ptr<Device> device = test::validatedDevice();
+    Growing growing(*device);
+    Painter often(*device);
+    growing.inputs.look.shadowsLag = true;
+    often.draw(growing.inputs);
+    const auto whole = [&] { return often.renderer->stats().shadowsWhole; };
+    growing.inputs.look.quick = true;
+    often.draw(growing.inputs);
+    CHECK(whole() == 1);  // fine ones stay
+    growing.inputs.look.sunDirection.x *= -1;
+    for (int frame = 0; frame < 3; ++frame) often.draw(growing.inputs);
+    CHECK(whole() == 2);
+    growing.inputs.look.quick = false;
+    CHECK(often.draw(growing.inputs) == Painter(*device).draw(growing.inputs));
+    CHECK(whole() == 3);
+    often.draw(growing.inputs);
+    CHECK(whole() == 3);
+    CHECK(device->validationMessages() == 0);
+}
