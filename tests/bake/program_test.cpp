@@ -105,6 +105,17 @@ TEST_CASE("layers painted over an earlier surface are carried to the new one, an
     CHECK(!r.run("cube.glb -o new/t.glb --from cube.glb --layer log.txt"));
     CHECK(r.says("log.txt: "));
     CHECK(!r.has("new/t.glb"));
+    // Nothing of a bake stays whose surface has no place, and what it would have replaced does.
+    std::filesystem::create_directories(r.folder / "taken/s.glb");
+    const std::string bakes = "cube.glb -o taken/s.glb --resolution 64 --from old/s.glb --report taken/r.json --layer ";
+    REQUIRE(writeFile(r.file("taken/links.png"), "what was there"));
+    CHECK(!r.run(bakes + "old/charts.png --layer old/links.png"));
+    CHECK(r.says("taken/s.glb"));
+    CHECK(!r.has("taken/charts.png"));
+    CHECK(!r.has("taken/r.json"));
+    CHECK(readTextFile(r.file("taken/links.png")).value() == "what was there");
+    CHECK(!r.run("cube.glb -o new/u.glb --from old/s.glb --layer old/charts.png --layer taken/../old/charts.png"));
+    CHECK(r.says("two carried layers have this name"));
 }
 
 TEST_CASE("seeds whose ground a change takes away are listed, by scenes of one surface and of several") {

@@ -103,6 +103,8 @@ Result<std::vector<CarriedFile>> carryLayers(const CarryArguments& arguments, co
             return Failure(target.string(),
                            "the carried layer would overwrite the one that it comes from: bake into "
                            "another folder");
+        if (std::ranges::find(files, target.string(), &CarriedFile::path) != files.end())
+            return Failure(target.string(), "two carried layers have this name: one would overwrite the other");
         auto layer = readLayer(path);
         if (!layer) return std::move(layer.failure());
         const CarriedLayer carried = match.carry(*layer);

@@ -11,6 +11,7 @@
 
 #include "runtime/core/file.hpp"
 #include "tools/bake/bake.hpp"
+#include "tools/bake/main/beforehand.hpp"
 #include "tools/bake/main/carry_layers.hpp"
 #include "tools/bake/main/folder.hpp"
 #include "tools/bake/main/town.hpp"
@@ -96,21 +97,17 @@ int runModel(Arguments& arguments) {
     if (!layers) return fail(layers.failure());
     if (!arguments.quiet) showProgress(0.85f, "write");
     Uninterrupted writing;
-    for (const CarriedFile& layer : *layers) {
-        Status written = writeFile(layer.path, layer.bytes);
-        if (!written) return fail(written.failure());
-    }
-    // The report first: a surface that exists is one that is complete.
+    // The surface last: one that exists is one that is complete.
+    Beforehand others;
+    for (const CarriedFile& layer : *layers)
+        if (Status written = others.write(layer.path, layer.bytes); !written) return fail(written.failure());
     if (!arguments.report.empty()) {
-        Status written = writeFile(arguments.report, baked->report.json());
+        const std::string report = baked->report.json();
+        Status written = others.write(arguments.report, std::as_bytes(std::span(report)));
         if (!written) return fail(written.failure());
     }
-    Status written = writeSurface(baked->surface, arguments.output);
-    if (!written) {
-        std::error_code ignored;
-        if (!arguments.report.empty()) std::filesystem::remove(arguments.report, ignored);
-        return fail(written.failure());
-    }
+    if (Status written = writeSurface(baked->surface, arguments.output); !written) return fail(written.failure());
+    others.keep();
     if (!arguments.quiet) showProgress(1, "done");
     for (const Diagnostic& d : baked->report.warnings) std::fprintf(stderr, "%s\n", toString(d).c_str());
     return 0;
