@@ -82,8 +82,8 @@ struct Workspace {
 
     const espalier::scene::Scene& scene() const { return document->scene(); }
     float shift() const;
-    std::pair<glm::vec3, glm::vec3> bounds()
-        const;            // of the surfaces, else of the houses, world; a metre's cube if there are none
+    // Of the surfaces, else of the houses, world; a metre's cube if there are none.
+    std::pair<glm::vec3, glm::vec3> bounds() const;
     float reach() const;  // how large the scene is, metres
     void lookFrom(const EspCamera& from);
     void frameAll();

@@ -24,8 +24,8 @@ int main(int argc, char** argv) {
     app.add_option("--csv", csv, "also write the rows to this file");
     app.add_option("--data", options.dataFolder, "folder of further models")->capture_default_str();
     app.add_option("--modules", options.modulesFolder,
-                   "folder of node's modules: with watlas in it, bake/atlas is compared with xatlas")
-        ->capture_default_str();
+                   "folder of node's modules: with watlas in it, bake/atlas is compared with xatlas [default: "
+                   "xatlas/node_modules in the build's folder]");
     app.add_option("--repeats", options.repeats, "measured runs of each")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();

@@ -4,15 +4,14 @@
 
 #include "tools/document/document.hpp"
 #include "tools/document/layer_history.hpp"
+#include "tools/scene/named.hpp"
 
 namespace espalier::document {
 namespace {
 
 bool modeNamed(const std::string& name, EspBrushMode& mode) {
     constexpr const char* kModes[] = {"paint", "erase", "smooth"};
-    const auto found = std::find(std::begin(kModes), std::end(kModes), name);
-    mode = EspBrushMode(found - std::begin(kModes));
-    return found != std::end(kModes);
+    return scene::valueNamed(kModes, name, mode);
 }
 
 Picture pictureIn(const Picture& known, const std::string& file, std::string& error) {

@@ -1,7 +1,5 @@
 // Names of roofs' shapes, as scene files have them.
-#include <algorithm>
-#include <iterator>
-
+#include "tools/scene/named.hpp"
 #include "tools/scene/town.hpp"
 
 namespace espalier::scene {
@@ -12,10 +10,7 @@ constexpr const char* kShapes[] = {"hip", "gable", "half-hip", "pyramid", "shed"
 }  // namespace
 
 bool shapeNamed(const std::string& name, EspRoofShape& out) {
-    const auto found = std::find(std::begin(kShapes), std::end(kShapes), name);
-    if (found == std::end(kShapes)) return false;
-    out = EspRoofShape(found - std::begin(kShapes));
-    return true;
+    return valueNamed(kShapes, name, out);
 }
 
 const char* nameOf(EspRoofShape shape) {

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "tools/scene/daylight.hpp"
+#include "tools/scene/named.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene_file.hpp"
 #include "tools/scene/scene_parts.hpp"
@@ -285,10 +286,7 @@ constexpr const char* kViews[] = {"shaded", "charts", "normals", "lod", "layer",
 }
 
 bool viewNamed(const std::string& name, EspView& out) {
-    const auto found = std::find(std::begin(kViews), std::end(kViews), name);
-    if (found == std::end(kViews)) return false;
-    out = EspView(found - std::begin(kViews));
-    return true;
+    return valueNamed(kViews, name, out);
 }
 
 const char* nameOf(EspView view) {
