@@ -31,6 +31,14 @@ VKAPI_ATTR void VKAPI_CALL withoutBallots(VkPhysicalDevice device, VkPhysicalDev
                 VK_SUBGROUP_FEATURE_BASIC_BIT;
 }
 
+// A device whose barriers are noted.
+std::unique_ptr<Device> notingBarriers(Device& real) {
+    realBarrier = real.vk().vkCmdPipelineBarrier2;
+    test::DriverBetween driver(real);
+    driver.replace("vkCmdPipelineBarrier2", noteBarrier);
+    return must(Device::adopt(driver.host()));
+}
+
 // What was recorded at the beginning of a recording of ours.
 std::vector<VkMemoryBarrier2> barriersOfBeginning(Device& device) {
     barriers.clear();
@@ -42,10 +50,7 @@ std::vector<VkMemoryBarrier2> barriersOfBeginning(Device& device) {
 
 TEST_CASE("what we submit waits for a host's frames") {
     TestDevice t;
-    realBarrier = t.device.vk().vkCmdPipelineBarrier2;
-    test::DriverBetween driver(t.device);
-    driver.replace("vkCmdPipelineBarrier2", noteBarrier);
-    std::unique_ptr<Device> adopted = must(Device::adopt(driver.host()));
+    std::unique_ptr<Device> adopted = notingBarriers(t.device);
     CHECK(barriersOfBeginning(*adopted).empty());  // ours end with one
     Commands frame = must(Commands::begin(t.device, "host frame"));
     (void)Commands::into(*adopted, frame.handle(), 1);
@@ -63,10 +68,7 @@ TEST_CASE("what we submit waits for a host's frames") {
 
 TEST_CASE("barriers know of uniform blocks and of vertices") {
     TestDevice t;
-    realBarrier = t.device.vk().vkCmdPipelineBarrier2;
-    test::DriverBetween driver(t.device);
-    driver.replace("vkCmdPipelineBarrier2", noteBarrier);
-    std::unique_ptr<Device> adopted = must(Device::adopt(driver.host()));
+    std::unique_ptr<Device> adopted = notingBarriers(t.device);
     Commands commands = must(Commands::begin(*adopted, "barriers"));
     for (Use use : {Use::vertex, Use::fragment, Use::compute}) {
         barriers.clear();
