@@ -1,7 +1,7 @@
 #pragma once
 
 // RoofGrowth on the GPU: its buffers and kernels. roof_growth.cpp expands, roof_upload.cpp sends what that reads,
-// few_roofs.cpp grows a few houses on the CPU, house_cells.cpp counts what houses have drawn.
+// few_roofs.cpp grows a few houses on the CPU, house_sums.cpp counts what houses have drawn.
 
 #include <span>
 #include <utility>
@@ -55,11 +55,13 @@ class GpuRoofs final : public RoofGrowth {
         std::vector<RoofGrid> grids;
         std::vector<RoofRun> runs;
     };
-    // Cells of grids, as in RoofStatus.
-    struct Cells {
+    // What grids come to, as in RoofStatus.
+    struct Sums {
         uint64_t touched = 0, whole = 0, terminals = 0;
-        Cells& operator+=(const Cells& c) {
-            touched += c.touched, whole += c.whole, terminals += c.terminals;
+        uint32_t hash[2] = {0, 0};
+        Sums& operator+=(const Sums& s) {
+            touched += s.touched, whole += s.whole, terminals += s.terminals;
+            for (int i : {0, 1}) hash[i] += s.hash[i];
             return *this;
         }
     };
@@ -126,7 +128,7 @@ class GpuRoofs final : public RoofGrowth {
     // houses: that have grown, none: all.
     void publish(const RoofInputs& inputs, const Outcome& outcome, std::span<const uint32_t> houses);
     void measure(const RoofTables& t, uint32_t house);
-    static Cells cellsOf(const RoofGrid& grid, std::span<const RoofRun> runs);
+    static Sums sumsOf(const RoofGrid& grid, std::span<const RoofRun> runs);
     // Of all houses, while all that is published is drawn.
     Status countHouses();
     // These have grown anew: their grids, and the runs from `last_` on.
@@ -151,10 +153,10 @@ class GpuRoofs final : public RoofGrowth {
     bool startsSent_ = false;                // `starts_` holds these
     uint32_t startCount_ = 0;                // of the expansion that is being recorded
     std::vector<uint32_t> generationOf_, reads_;
-    bool stands_ = false;            // what is published goes with the members above: no growth has failed since
-    std::vector<Box> boxes_;         // [house]
-    std::vector<Cells> houseCells_;  // [house], of what is drawn; empty: not counted since all have grown
-    Cells replaced_;                 // of grids that aren't drawn any more
+    bool stands_ = false;          // what is published goes with the members above: no growth has failed since
+    std::vector<Box> boxes_;       // [house]
+    std::vector<Sums> houseSums_;  // [house], of what is drawn; empty: not counted since all have grown
+    Sums replaced_;                // of grids that aren't drawn any more
     RoofStatus last_{};
     RoofView view_;
     RoofStats stats_;

@@ -212,14 +212,14 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     stats_.houses = uint32_t(t.houses.size());
     stats_.atoms = usedAtoms(t);
     stats_.grids = last_.grids;
-    if (houses.empty()) houseCells_.clear(), replaced_ = {};
+    if (houses.empty()) houseSums_.clear(), replaced_ = {};
     stats_.terminals = uint32_t(last_.terminals - replaced_.terminals);
     stats_.tiles = last_.touched - replaced_.touched;
     stats_.clipped = stats_.tiles - (last_.whole - replaced_.whole);
     stats_.waves = outcome.waves;
     stats_.stopped = last_.stopped;
     stats_.expansions += 1;
-    stats_.hash = uint64_t(last_.hash[1]) << 32 | last_.hash[0];
+    stats_.hash = uint64_t(last_.hash[1] - replaced_.hash[1]) << 32 | (last_.hash[0] - replaced_.hash[0]);
     stats_.expandMs = outcome.ms;
     stats_.bytes = uint64_t(last_.grids) * sizeof(RoofGrid) + uint64_t(last_.rows) * sizeof(RoofRun) +
                    (last_.regions - own_.regions) * sizeof(RoofRegion) + (last_.parts - own_.parts) * sizeof(RoofPart) +

@@ -66,7 +66,7 @@ struct RoofStats {
     uint64_t housesGrown = 0;  // by all expansions together
     uint64_t bytes = 0;        // of grids, runs and the regions that Join made
     uint64_t reservedBytes = 0;
-    uint64_t hash = 0;    // of all grids, independent of their order; of the latest full growth
+    uint64_t hash = 0;    // of all grids that are drawn, independent of their order: what a growth of all would give
     double expandMs = 0;  // GPU time of the latest expansion; of a few houses that the CPU grows, its time
 };
 

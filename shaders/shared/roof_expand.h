@@ -104,6 +104,13 @@ FN void handOn(MACHINE_PARAM RoofEnv env, SuccessorRecord s, RoofScope parent, R
 
 FN uint quantised(float x) { return uint(int(floorExact(limited(x * 128.0f, -2e9f, 2e9f)))); }
 
+// The same whichever house grew with it, and wherever its records lie.
+FN u64 hashOfGrid(RoofGrid g) {
+    u64 hash = mix64(g.key + mix64((u64(g.cells) << 32) | u64(g.mesh)));
+    hash = mix64(hash + ((u64(quantised(g.origin.x)) << 32) | u64(quantised(g.origin.z))));
+    return mix64(hash + ((u64(quantised(g.origin.y)) << 32) | u64(quantised(g.size.x * 16.0f))));
+}
+
 // The shape becomes a grid record: one cell, or those that a Repeat has left together.
 FN void writeGrid(RoofEnv env, RoofScope shape, uint house, uint mesh, INOUT(RoofTally) tally) {
     if (shape.size.x < kLeastSide || shape.size.y < kLeastSide) return;
@@ -133,9 +140,7 @@ FN void writeGrid(RoofEnv env, RoofScope shape, uint house, uint mesh, INOUT(Roo
     g.house = house | (env.generations.v[house] << 24u);
     g.firstRow = many ? place.row : kNoIndex;
     writeGridRecord(env, place.grid, g);
-    u64 hash = mix64(shape.key + mix64((u64(shape.cells) << 32) | u64(g.mesh)));
-    hash = mix64(hash + ((u64(quantised(g.origin.x)) << 32) | u64(quantised(g.origin.z))));
-    hash = mix64(hash + ((u64(quantised(g.origin.y)) << 32) | u64(quantised(g.size.x * 16.0f))));
+    u64 hash = hashOfGrid(g);
     tally.hash = tally.hash + uvec2(uint(hash), uint(hash >> 32));
     uvec2 cells = uvec2(1u, 1u);
     if (many) cells = gridRuns(env, g);

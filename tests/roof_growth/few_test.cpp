@@ -84,7 +84,7 @@ TEST_CASE("houses grown on the CPU or the GPU leave the records of a town grown 
     CHECK(before.size() == growth.stats().grids);
     const auto counts = [&] {
         const RoofStats stats = growth.stats();
-        return std::array<uint64_t, 3>{stats.tiles, stats.clipped, stats.terminals};
+        return std::array{stats.tiles, stats.clipped, uint64_t(stats.terminals), stats.hash};
     };
     const auto planned = counts();
     // One house, several, and so many that the GPU grows them.
