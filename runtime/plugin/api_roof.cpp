@@ -68,7 +68,9 @@ Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
     town.footprints = std::move(read->footprints);
     for (uint32_t i = 0; i < town.footprints.size(); ++i) {
         place(town.footprints[i], def);
-        appendRoof(town.footprints[i], town.structure, diagnostics);
+        std::vector<Diagnostic> said;
+        appendRoof(town.footprints[i], town.structure, said);
+        addMessages(diagnostics, std::move(said));
         town.footprintOf.resize(town.structure.houses.size(), i);
     }
     town.tables = makeAtoms(town.structure);

@@ -57,6 +57,11 @@ struct Town {
     std::vector<Diagnostic> diagnostics;  // rule: the feature's id
 };
 
+// Adds what was said of a footprint or a file to what was said of the town. Beyond kMostMessages only one more, which
+// tells so: a file that says something wrong a million times may be meant to.
+constexpr size_t kMostMessages = 10000;
+void addMessages(std::vector<Diagnostic>& all, std::vector<Diagnostic> more);
+
 // Reads GeoJSON (coordinates in degrees; Polygon, MultiPolygon) or a plan in metres ({"buildings": [...]});
 // docs/roofs.md lists tags and keys. Fails only if the text is neither; a feature that can't be used is named in the
 // diagnostics.

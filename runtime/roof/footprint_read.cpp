@@ -27,7 +27,9 @@ class Reader {
         if (!feature.is_object()) return say("feature " + std::to_string(number), "is not an object: left out");
         const json& tags = feature.contains("properties") ? feature["properties"] : feature;
         std::string id = idOf(feature, tags, number);
-        tellUnknownTags(tags, file_, id, town.diagnostics);
+        std::vector<Diagnostic> said;
+        tellUnknownTags(tags, file_, id, said);
+        addMessages(town.diagnostics, std::move(said));
         if (metres_) return plan(feature, id);
         if (!feature.contains("geometry")) return say(id, "has no geometry: left out");
         geometry(feature["geometry"], tags, id);
@@ -78,7 +80,7 @@ class Reader {
     }
 
     void say(const std::string& id, const std::string& what) {
-        town.diagnostics.push_back({file_, 0, 0, id, what, false});
+        addMessages(town.diagnostics, {{file_, 0, 0, id, what, false}});
     }
 
   private:
@@ -127,7 +129,9 @@ class Reader {
         if (corners > kMostCorners)
             return say(id, "has " + std::to_string(corners) + " corners, more than " + std::to_string(kMostCorners) +
                                ": left out");
-        applyTags(tags, file_, f, town.diagnostics);
+        std::vector<Diagnostic> said;
+        applyTags(tags, file_, f, said);
+        addMessages(town.diagnostics, std::move(said));
         town.footprints.push_back(std::move(f));
     }
 
@@ -152,6 +156,16 @@ class Reader {
 };
 
 }  // namespace
+
+void addMessages(std::vector<Diagnostic>& all, std::vector<Diagnostic> more) {
+    for (Diagnostic& d : more) {
+        if (all.size() > kMostMessages) return;
+        if (all.size() == kMostMessages)
+            d = {d.file, 0, 0, {}, "more than " + std::to_string(kMostMessages) + " messages: the rest is left out",
+                 true};
+        all.push_back(std::move(d));
+    }
+}
 
 Result<Town> parseFootprints(const std::string& text, const std::string& file) {
     json document;

@@ -179,7 +179,7 @@ RoofStructure roofsOf(const std::vector<Footprint>& footprints, std::vector<Diag
             if (s.segment != kNoFace) s.segment += segment;
             out.segments.push_back(s);
         }
-        diagnostics.insert(diagnostics.end(), said[p].begin(), said[p].end());
+        addMessages(diagnostics, std::move(said[p]));
     }
     return out;
 }

@@ -174,16 +174,27 @@ TEST_CASE("multipolygons, holes and outlines too large") {
     CHECK(holed.footprints[0].rings.size() == 2);
     CHECK(says(holed.diagnostics, "hole 2 has fewer than three corners: filled"));
 
-    // What a feature says is looked at for each of its polygons.
-    std::string triangles = "[[[0,0],[1e-4,0],[0,1e-4]]]", keys = R"("edges":[{"edge":0})";
-    for (int i = 1; i < 20000; i++) triangles += ",[[[0,0],[1e-4,0],[0,1e-4]]]", keys += R"(,{"edge":0})";
-    keys += R"(],"roof:shape":")" + std::string(500000, 'x') + R"(","roof:angle":")" + std::string(500000, '7') + '"';
-    for (int i = 0; i < 20000; i++) keys += R"(,"roof:x)" + std::to_string(i) + R"(":1)";
-    Town heavy = town(feature(keys, "[" + triangles + "]", "MultiPolygon"));
-    CHECK(heavy.footprints.size() == 20000);
-    CHECK(heavy.diagnostics.size() == 20000 + 3 * heavy.footprints.size());
-    CHECK(says(heavy.diagnostics, "way/7: roof:x7 is not known"));
-    CHECK(says(heavy.diagnostics, "way/7#9: edges has more entries than there are edges"));
+    // What a feature says is looked at for each of its polygons; its messages are bounded.
+    for (size_t polygons : {2000, 20000}) {
+        std::string triangles = "[[[0,0],[1e-4,0],[0,1e-4]]]", keys = R"("edges":[{"edge":0})";
+        for (size_t i = 1; i < polygons; i++) triangles += ",[[[0,0],[1e-4,0],[0,1e-4]]]", keys += R"(,{"edge":0})";
+        keys +=
+            R"(],"roof:shape":")" + std::string(500000, 'x') + R"(","roof:angle":")" + std::string(500000, '7') + '"';
+        for (size_t i = 0; i < polygons; i++) keys += R"(,"roof:x)" + std::to_string(i) + R"(":1)";
+        Town heavy = town(feature(keys, "[" + triangles + "]", "MultiPolygon"));
+        CHECK(heavy.footprints.size() == polygons);
+        CHECK(heavy.diagnostics.size() == std::min(polygons + 3 * polygons, kMostMessages + 1));
+        CHECK(says(heavy.diagnostics, "way/7: roof:x1 is not known"));
+        const bool all = polygons < 10000;
+        CHECK(says(heavy.diagnostics, "way/7#9: edges has more entries than there are edges") == all);
+        CHECK(says(heavy.diagnostics, "more than 10000 messages: the rest is left out") == !all);
+    }
+    // So are those of what is made of footprints.
+    std::vector<Footprint> flat(kMostMessages + 100);
+    for (Footprint& f : flat) f.id = "flat", f.rings = {{{0, 0}, {9, 0}, {18, 0}}};
+    std::vector<Diagnostic> said;
+    CHECK(roofsOf(flat, said).houses.empty());
+    CHECK(said.size() == kMostMessages + 1);
 
     std::string many;
     for (int i = 0; i < 100000; i++)
