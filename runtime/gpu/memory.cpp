@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -56,7 +57,8 @@ auto bestHole(Block& block, VkDeviceSize size, VkDeviceSize alignment) {
     return best;
 }
 
-void addHole(Block& block, VkDeviceSize offset, VkDeviceSize size) {
+// Called where nothing may be thrown: without the host's memory for it the hole is forgotten until its block is empty.
+void addHole(Block& block, VkDeviceSize offset, VkDeviceSize size) noexcept {
     if (size == 0) return;
     auto next = block.holes.lower_bound(offset);
     if (next != block.holes.end() && offset + size == next->first) {
@@ -70,7 +72,10 @@ void addHole(Block& block, VkDeviceSize offset, VkDeviceSize size) {
             return;
         }
     }
-    block.holes.emplace(offset, size);
+    try {
+        block.holes.emplace(offset, size);
+    } catch (const std::bad_alloc&) {
+    }
 }
 
 class PooledMemory : public MemorySource {
@@ -99,13 +104,15 @@ class PooledMemory : public MemorySource {
         fresh.image = request.image;
         fresh.shared = shared;
         fresh.size = shared ? kBlockBytes : roundUp(need.size, 1 << 20);
-        if (!reserve(fresh)) return outOfMemory(request);
-        const uint64_t token = ++lastToken_;
-        Block& block = blocks_.emplace(token, std::move(fresh)).first->second;
-        return take(token, block, block.holes.begin(), need);
+        fresh.holes.emplace(0, fresh.size);
+        Blocks place;  // made before memory is taken, so that none is taken for nothing
+        place.emplace(++lastToken_, std::move(fresh));
+        if (!reserve(place.begin()->second)) return outOfMemory(request);
+        Block& block = blocks_.insert(place.extract(place.begin())).position->second;
+        return take(lastToken_, block, block.holes.begin(), need);
     }
 
-    void free(const MemoryBlock& piece) override {
+    void free(const MemoryBlock& piece) noexcept override {
         auto it = blocks_.find(piece.token);
         require(it != blocks_.end(), "memory is given back to a source that it isn't from");
         Block& block = it->second;
@@ -114,7 +121,8 @@ class PooledMemory : public MemorySource {
         used_ -= piece.size;
         if (block.used > 0) return;
         empty_ += block.size;
-        if (empty_ > keepBytes_) release(it);
+        const bool whole = block.holes.size() == 1 && block.holes.begin()->second == block.size;
+        if (empty_ > keepBytes_ || !whole) release(it);
     }
 
     uint64_t bytesUsed() const override { return used_; }
@@ -172,7 +180,6 @@ class PooledMemory : public MemorySource {
             askForLargePages(at, block.size);
             block.mapped = static_cast<std::byte*>(at);
         }
-        block.holes.emplace(0, block.size);
         reserved_ += block.size;
         empty_ += block.size;
         return true;

@@ -37,7 +37,7 @@ class MemorySource {
     virtual ~MemorySource() = default;
     // Fails when memory has run out.
     virtual Result<MemoryBlock> allocate(const MemoryRequest& request) = 0;
-    virtual void free(const MemoryBlock& block) = 0;
+    virtual void free(const MemoryBlock& block) noexcept = 0;
     // Bytes handed out, and bytes taken from Vulkan for that.
     virtual uint64_t bytesUsed() const = 0;
     virtual uint64_t bytesReserved() const = 0;

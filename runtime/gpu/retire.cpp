@@ -38,10 +38,6 @@ void RetireQueue::hostSubmitted(uint64_t timelineValue) {
         if (r.stage == Recording::host) r.following = std::min(r.following, timelineValue);
 }
 
-void RetireQueue::add(std::function<void()> destroy) {
-    entries_.push_back({lastSerial_, std::move(destroy)});
-}
-
 void RetireQueue::collect(uint64_t timelineValue, uint64_t hostFrame) {
     std::erase_if(recordings_, [&](const Recording& r) {
         return (r.stage == Recording::submitted && r.value <= timelineValue) ||

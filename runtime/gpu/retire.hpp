@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <functional>
+#include <new>
 #include <vector>
 
 #include "runtime/gpu/functions.hpp"
@@ -23,7 +24,16 @@ class RetireQueue {
     // value, finishes no earlier.
     void hostSubmitted(uint64_t timelineValue);
 
-    void add(std::function<void()> destroy);
+    // Called where nothing may be thrown. Without the host's memory for a place to wait in, what no recording can name
+    // is destroyed at once, and anything else never.
+    template <class Destroy>
+    void add(const Destroy& destroy) noexcept {
+        try {
+            entries_.push_back({lastSerial_, destroy});
+        } catch (const std::bad_alloc&) {
+            if (recordings_.empty()) destroy();
+        }
+    }
     // All work up to these points is done.
     void collect(uint64_t timelineValue, uint64_t hostFrame);
     // Nothing runs any more.

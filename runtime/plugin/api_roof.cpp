@@ -143,7 +143,7 @@ EspResult updateTown(EspContext& context) {
     }
     const FailedInputs::Revision inputs = {town.revision, grammar->revision};
     if (!context.device->lost() && town.failed.known(inputs)) return town.failed.tell(context.error);
-    const EspResult grown = growTown(context, *grammar);
+    const EspResult grown = grownOr(context, [&] { return growTown(context, *grammar); });
     return grown == ESP_OK ? town.failed.forget() : town.failed.note(inputs, grown, context.error);
 }
 

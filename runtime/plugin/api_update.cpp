@@ -110,7 +110,8 @@ EspResult updatePlants(EspContext& context) {
     if (context.grownRevision == context.revision) return ESP_OK;
     if (!context.device->lost() && context.failed.known({context.revision, 0}))
         return context.failed.tell(context.error);
-    const EspResult grown = growPlants(context);  // contacts that it finds may raise the revision
+    const EspResult grown =
+        grownOr(context, [&] { return growPlants(context); });  // contacts that it finds may raise the revision
     return grown == ESP_OK ? context.failed.forget() : context.failed.note({context.revision, 0}, grown, context.error);
 }
 

@@ -292,6 +292,7 @@ struct EspContext {
 namespace espalier {
 
 EspResult fail(const EspContext* context, EspResult code, std::string message);
+constexpr const char* kNoMemory = "out of memory";  // short enough to take none
 // Names of the meshes that grammars of roofs may ask for; reads their file the first time.
 Status knowRoofMeshes(EspContext& context);
 // Grows what has changed of the town; on failure the last roofs stand, and what changed waits.
@@ -315,6 +316,16 @@ EspResult failGpu(const EspContext* context, const Failure& failure);
 // OK, or IO_FAILED with the system's reason, for a file that is to be read.
 EspResult checkReadable(const EspContext* context, const char* path);
 
+// Runs what grows: want of the host's own memory is a failure like that of the GPU's.
+template <class F>
+EspResult grownOr(const EspContext& context, F&& body) {
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return fail(&context, ESP_OUT_OF_MEMORY, kNoMemory);
+    }
+}
+
 // Runs a function of the ABI. No exception leaves it.
 template <class F>
 EspResult guarded(const EspContext* context, F&& body) noexcept {
@@ -323,7 +334,7 @@ EspResult guarded(const EspContext* context, F&& body) noexcept {
         context->error.clear();
         return body();
     } catch (const std::bad_alloc&) {
-        return fail(context, ESP_OUT_OF_MEMORY, "out of memory");
+        return fail(context, ESP_OUT_OF_MEMORY, kNoMemory);
     } catch (const std::exception& e) {
         return fail(context, ESP_INVALID_CONTENT, e.what());
     } catch (...) {

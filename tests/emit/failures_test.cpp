@@ -30,7 +30,7 @@ class RefusingMemory : public MemorySource {
         if (refused == request.name) return Failure(request.name, "none left");
         return source_.allocate(request);
     }
-    void free(const MemoryBlock& block) override { source_.free(block); }
+    void free(const MemoryBlock& block) noexcept override { source_.free(block); }
     uint64_t bytesUsed() const override { return source_.bytesUsed(); }
     uint64_t bytesReserved() const override { return source_.bytesReserved(); }
     std::string refused;

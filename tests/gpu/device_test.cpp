@@ -38,7 +38,7 @@ class CountingMemory : public MemorySource {
         ++live;
         return source_.allocate(request);
     }
-    void free(const MemoryBlock& block) override {
+    void free(const MemoryBlock& block) noexcept override {
         --live;
         source_.free(block);
     }
