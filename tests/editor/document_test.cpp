@@ -10,6 +10,7 @@
 
 #include "tests/editor/editing.hpp"
 #include "tools/document/project.hpp"
+#include "tools/scene/scene_file.hpp"
 
 using namespace espalier::document;
 using espalier::scene::Scene;
@@ -172,6 +173,8 @@ TEST_CASE("a project opens as it was saved, in another context and from another 
     Editing editing(smallScene(folder));
     std::mt19937 random(11);
     for (int i = 0; i < 12; ++i) REQUIRE_MESSAGE(editing.perform(randomEdit(random, editing)), editing.error);
+    const float fov = espalier::scene::fovOfDegrees(38);
+    REQUIRE(editing.perform(SetCamera{{1, 2, 3}, {0, 1, 0}, fov}));
     const std::string good = editing.document->scene().grammars[0].grows;
     REQUIRE(editing.perform(editing.document->withText(0, good + "Unfinished -> Marching(\n")));
     REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("garden"), editing.error), editing.error);
@@ -191,10 +194,21 @@ TEST_CASE("a project opens as it was saved, in another context and from another 
         CHECK(a.seeds[i].params == b.seeds[i].params);
     }
     for (int i = 0; i < 3; ++i) CHECK(a.camera.eye[i] == b.camera.eye[i]);
+    CHECK(b.camera.fovY == fov);
 
     // Saving what was opened gives the same file.
     REQUIRE(saveProject(*again.document, folder.file("garden2"), again.error));
     CHECK(readAll(folder.file("garden2/project.json")) == readAll(folder.file("garden/project.json")));
+}
+
+TEST_CASE("angles are read from the degrees that are written of them, to the bit") {
+    using namespace espalier::scene;
+    for (int i = 0; i < 1700; ++i)
+        for (float (*read)(float) : {turnOfDegrees, fovOfDegrees}) {
+            const float angle = read(.1f * float(i));
+            CHECK(read(degreesOf(angle, read)) == angle);
+            CHECK(read(degreesOf(-angle, read)) == -angle);
+        }
 }
 
 TEST_CASE("a project of a newer program is refused by name, a mangled one with its place") {

@@ -22,7 +22,6 @@ constexpr const char* kProject = "project.json";
 constexpr const char* kAutosave = "autosave.json";
 constexpr const char* kLayers = "layers";
 constexpr const char* kPlants = "plants";
-constexpr float kDegrees = 180 / 3.14159265f;
 
 std::array<float, 3> three(const float* v) {
     return {v[0], v[1], v[2]};
@@ -43,7 +42,7 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
     out.hasCamera = true;
     out.eye = three(scene.camera.eye);
     out.target = three(scene.camera.target);
-    out.fov = scene.camera.fovY * kDegrees;
+    out.fov = scene::degreesOf(scene.camera.fovY, scene::fovOfDegrees);
 }
 
 // Each frozen plant into a file, likewise.

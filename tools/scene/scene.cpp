@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <numbers>
 
 #include "tools/scene/daylight.hpp"
 #include "tools/scene/named.hpp"
@@ -165,7 +164,7 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         std::copy(file.eye.begin(), file.eye.end(), out.camera.eye);
         std::copy(file.target.begin(), file.target.end(), out.camera.target);
     }
-    if (file.fov > 0) out.camera.fovY = file.fov * std::numbers::pi_v<float> / 180;
+    if (file.fov > 0) out.camera.fovY = fovOfDegrees(file.fov);
     file.applyLook(out.ownLook);
     out.hour = file.hour;
     return true;

@@ -59,11 +59,12 @@ struct SceneFile {
     void applyLook(EspLook& look) const;
 };
 
-// The angle that scene files state in degrees.
-inline float turnOfDegrees(float degrees) {
-    constexpr float kRadians = 3.14159265f / 180;
-    return degrees * kRadians;
-}
+// The angles that scene files state in degrees: of what is placed, and of the camera.
+float turnOfDegrees(float degrees);
+float fovOfDegrees(float degrees);
+// The degrees that one of these reads as this angle: what a division gives may be read as its neighbour, and all that
+// grows would be turned by a hair. An angle that no degrees give is that of the nearest.
+float degreesOf(float angle, float (*read)(float degrees));
 
 // False: `error` holds a line "file:line:column: message" for every mistake found.
 bool readSceneFile(const std::string& path, SceneFile& out, std::string& error);

@@ -1,5 +1,4 @@
 // SceneFile -> JSON, the inverse of scene_file.cpp.
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -11,20 +10,6 @@ namespace espalier::scene {
 namespace {
 
 using nlohmann::ordered_json;
-
-// The degrees that are read as this angle: what the division gives may be read as its neighbour, and all that grows
-// would be turned by a hair. An angle that no degrees give is that of the nearest.
-float degreesOfTurn(float turn) {
-    const float near = turn * (180 / 3.14159265f);
-    float low = near, high = near;
-    for (int i = 0; i < 4; ++i) {
-        for (float degrees : {low, high})
-            if (turnOfDegrees(degrees) == turn) return degrees;
-        low = std::nextafter(low, -1e9f);
-        high = std::nextafter(high, 1e9f);
-    }
-    return near;
-}
 
 ordered_json linesOf(const std::string& text) {
     ordered_json lines = ordered_json::array();
@@ -39,7 +24,7 @@ ordered_json linesOf(const std::string& text) {
 ordered_json placedJson(const std::string& file, const Placing& p) {
     ordered_json json{{"file", file}};
     if (p.position != std::array<float, 3>{}) json["position"] = shortestList(p.position);
-    if (p.turn != 0) json["turn"] = shortest(degreesOfTurn(p.turn));
+    if (p.turn != 0) json["turn"] = shortest(degreesOf(p.turn, turnOfDegrees));
     if (p.scale != 1) json["scale"] = shortest(p.scale);
     return json;
 }
