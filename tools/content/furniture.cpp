@@ -256,6 +256,7 @@ void addFurniture(PropMeshes& out) {
 PropMeshes makePropMeshes() {
     PropMeshes out;
     addTrees(out);
+    addSmallPlants(out);
     addFurniture(out);
     addYard(out);
     return out;

@@ -21,6 +21,7 @@ struct PropMeshes {
 };
 PropMeshes makePropMeshes();
 void addTrees(PropMeshes& out);
+void addSmallPlants(PropMeshes& out);
 void addFurniture(PropMeshes& out);
 void addYard(PropMeshes& out);
 

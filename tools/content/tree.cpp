@@ -1,11 +1,10 @@
 // Trees and bushes. In: how a species stands. Out: trunk and boughs as tubes, twigs as cards that lie about the lobes
-// of its crown, fewer and larger ones a level. A card's normals lead out of lobe and crown; the whole part of its u is
-// how open it lies, in eighths.
+// of its crown, fewer and larger ones a level.
 
 #include <algorithm>
 #include <cmath>
 
-#include "shaders/render/prop_records.h"
+#include "tools/content/card.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/props.hpp"
 
@@ -13,7 +12,6 @@ namespace espalier::content {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-constexpr int kLods = 3;
 
 struct Habit {
     const char* name;
@@ -24,7 +22,7 @@ struct Habit {
     float widest;               // 0 to 1, from its foot
     float hollow;               // share of a lobe's radius without twigs
     int lobes;
-    int cards[kLods];
+    int cards[kPlantLods];
     float side;   // of a card of the finest level, metres
     float trunk;  // radius at the foot; 0: boughs from the ground
     int boughs;
@@ -67,53 +65,6 @@ void addTube(Mesh& mesh, const std::vector<glm::vec3>& line, float r0, float r1,
             const uint32_t a = first + i * row + s;
             for (uint32_t k : {a, a + 1, a + row + 1, a, a + row + 1, a + row}) mesh.indices.push_back(k);
         }
-}
-
-// What a card's place tells of its normal: it leads out of the crown and of the lobe.
-struct Round {
-    glm::vec3 middle, squash, lobe;
-    glm::vec3 normal(glm::vec3 p) const {
-        return glm::normalize((p - middle) / squash) + 0.8f * glm::normalize(p - lobe);
-    }
-};
-
-// A direction, either way: its square of the octahedron, which foliage.vert reads.
-float facingCode(glm::vec3 n) {
-    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    glm::vec2 o(n.x, n.z);
-    if (n.y < 0) o = (1.0f - glm::vec2(std::abs(n.z), std::abs(n.x))) * glm::vec2(n.x < 0 ? -1 : 1, n.z < 0 ? -1 : 1);
-    constexpr int kSide = int(kFacingSide);
-    const glm::ivec2 at = glm::clamp(glm::ivec2((o * 0.5f + 0.5f) * float(kSide)), 0, kSide - 1);
-    return float(at.x + kSide * at.y);
-}
-
-// Of the atlas.
-struct Cell {
-    glm::vec2 low;
-    float side = kCellSide;
-};
-
-// Two triangles about `at`, facing `out`; its twig points along `up`.
-void addCard(Mesh& mesh, glm::vec3 at, glm::vec3 out, glm::vec3 up, float side, Cell cell, float open,
-             const Round& round) {
-    const glm::vec3 x = glm::normalize(glm::cross(up, out)), y = glm::cross(out, x);
-    const uint32_t first = uint32_t(mesh.positions.size());
-    const float facing = facingCode(glm::cross(x, y));
-    for (int k = 0; k < 4; ++k) {
-        const glm::vec2 c(k == 1 || k == 2 ? 1 : 0, k >= 2 ? 1 : 0);
-        const glm::vec3 p = at + side * ((c.x - 0.5f) * x + (c.y - 0.5f) * y);
-        mesh.positions.push_back(p);
-        mesh.normals.push_back(glm::normalize(round.normal(p) + 0.35f * out));
-        mesh.uvs.push_back(glm::vec2(std::round(open * 8), -1 - facing) + cell.low +
-                           cell.side * (0.02f + 0.96f * glm::vec2(c.x, 1 - c.y)));
-    }
-    for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
-}
-
-// chance: 0 to 1, picks among the twigs of a species.
-Cell cellOf(int lod, int row, float chance) {
-    const int column = lod > 0 ? kFarColumn : std::min(int(float(kFarColumn) * chance), kFarColumn - 1);
-    return {{kFirstCell + kCellSide * float(column), kCellSide * float(row)}};
 }
 
 struct Lobe {
@@ -244,119 +195,11 @@ Mesh makeTree(const Habit& h, int lod) {
     return mesh;
 }
 
-// A hedge, clipped: twigs lie on a box of 2 m by 1.25 m by 0.8 m.
-Mesh makeHedge(int lod) {
-    Mesh mesh;
-    const int along = lod == 0 ? 7 : lod == 1 ? 4 : 2;
-    const float side = 2.9f / float(along), high = 1.2f, half = 0.34f;
-    const auto card = [&](glm::vec3 at, glm::vec3 out, uint32_t i) {
-        const auto random = [&](uint32_t which) { return random01(911u + uint32_t(lod), i, which); };
-        const glm::vec3 turned = glm::normalize(out + 0.7f * (glm::vec3(random(0), random(1), random(2)) - 0.5f));
-        const Cell cell = cellOf(lod, 3, random(3));
-        addCard(mesh, at + 0.08f * (glm::vec3(random(4), random(5), random(6)) - 0.5f), turned,
-                std::abs(out.y) > 0.5f ? glm::vec3(0.3f, 0, 1) : glm::vec3(0.2f * (random(7) - 0.5f), 1, 0), side, cell,
-                glm::clamp(0.35f + 0.5f * at.y / high, 0.0f, 1.0f), {at - out, glm::vec3(1), at - out});
-    };
-    uint32_t i = 0;
-    const int rows = lod == 0 ? 4 : lod == 1 ? 2 : 1;
-    for (int a = 0; a < along; ++a) {
-        const float x = -1 + 2 * (float(a) + 0.5f) / float(along);
-        for (int r = 0; r < rows; ++r) {
-            const float y = high * (float(r) + 0.5f) / float(rows);
-            card({x, y, half}, {0, 0, 1}, ++i);
-            card({x, y, -half}, {0, 0, -1}, ++i);
-        }
-        card({x, high, 0.14f}, {0, 1, 0.2f}, ++i);
-        card({x, high, -0.14f}, {0, 1, -0.2f}, ++i);
-    }
-    return mesh;
-}
-
-// A clump that stands upright on cards.
-Mesh makeFlowers(int kind, int lod) {
-    Mesh mesh;
-    const int count = lod == 0 ? 6 : lod == 1 ? 3 : 1;
-    const float side = lod == 0 ? 0.34f : lod == 1 ? 0.40f : 0.5f;
-    const Cell cell{{1 - kFlowerSide, kFlowerSide * float(kind)}, kFlowerSide};
-    for (int i = 0; i < count; ++i) {
-        const float angle = 2.399963f * float(i), r = lod < 2 ? 0.16f * std::sqrt(float(i) / float(count)) : 0;
-        const glm::vec3 at(r * std::cos(angle), 0.47f * side, r * std::sin(angle));
-        const glm::vec3 out = glm::normalize(glm::vec3(std::cos(2 * angle), 0.25f, std::sin(2 * angle)));
-        addCard(mesh, at, out, {0, 1, 0}, side, cell, 0.9f, {at - glm::vec3(0, 1, 0), glm::vec3(1), at - out});
-    }
-    return mesh;
-}
-
-// Grass as tall as one's knees, on cards that lean apart, so that it is seen from above, too; lit as the ground is.
-Mesh makeMeadow(int kind, int lod) {
-    constexpr float kLean = 0.40f;  // radians
-    Mesh mesh;
-    const int count = 5 - lod;
-    const float side = lod == 0 ? 0.74f : lod == 1 ? 0.82f : 0.95f;
-    const Cell cell{{1 - kFlowerSide, kFlowerSide * float(kFlowers + kind)}, kFlowerSide};
-    for (int i = 0; i < count; ++i) {
-        const float angle = 2.399963f * float(i), r = lod < 2 ? 0.34f * std::sqrt(float(i) / float(count)) : 0.08f;
-        const float turn = lod < 2 ? 1.9f * angle : 2.09f * float(i) + 0.4f;
-        const glm::vec3 foot(r * std::cos(angle), 0, r * std::sin(angle)), level(std::cos(turn), 0, std::sin(turn));
-        const float lean = glm::dot(level, foot) < 0 ? -kLean : kLean;
-        const glm::vec3 up = glm::vec3(0, std::cos(lean), 0) + std::sin(lean) * level;
-        const glm::vec3 out = std::cos(lean) * level - glm::vec3(0, std::sin(lean), 0);
-        const glm::vec3 at = foot + 0.48f * side * up, below = at - glm::vec3(0, 1, 0);
-        addCard(mesh, at, out, up, side, cell, 0.8f, {below, glm::vec3(1), below});
-    }
-    return mesh;
-}
-
-// Blades of grass, their roots together. u is how far up the blade.
-Mesh makeTuft(uint32_t salt, int blades, float tall, float spread, int lod) {
-    Mesh mesh;
-    const int steps = lod == 0 ? 2 : 1, count = lod == 0 ? blades : lod == 1 ? blades / 2 : blades / 4;
-    for (int b = 0; b < count; ++b) {
-        const auto random = [&](uint32_t which) { return random01(salt, uint32_t(b), which); };
-        const float angle = 2.399963f * float(b) + random(0), high = tall * (0.55f + 0.45f * random(1));
-        const glm::vec3 out(std::cos(angle), 0, std::sin(angle)), across(-out.z, 0, out.x);
-        const glm::vec3 root = out * (spread * 0.35f * random(2));
-        const float half = (lod == 0   ? 0.0042f
-                            : lod == 1 ? 0.007f
-                                       : 0.014f) *
-                           (0.8f + 0.6f * random(3)),
-                    lean = spread * (0.35f + 0.9f * random(4));
-        const uint32_t first = uint32_t(mesh.positions.size());
-        for (int s = 0; s <= steps; ++s) {
-            const float t = float(s) / float(steps);
-            const glm::vec3 at = root + out * (lean * t * t) + glm::vec3(0, high * (t - 0.25f * t * t) - 0.02f, 0);
-            for (float side : {-1.0f, 1.0f}) {
-                if (s == steps && side > 0) continue;  // a tip
-                mesh.positions.push_back(at + across * (s == steps ? 0.0f : side * half * (1 - 0.4f * t)));
-                mesh.normals.push_back(glm::normalize(glm::vec3(0, 1, 0) + 0.45f * out));
-                mesh.uvs.push_back({t, 0.5f});
-            }
-        }
-        for (int s = 0; s < steps; ++s) {
-            const uint32_t a = first + 2 * uint32_t(s);
-            for (uint32_t k : {a, a + 1, a + 2}) mesh.indices.push_back(k);
-            if (s + 1 < steps)
-                for (uint32_t k : {a + 1, a + 3, a + 2}) mesh.indices.push_back(k);
-        }
-    }
-    return mesh;
-}
-
 }  // namespace
 
 void addTrees(PropMeshes& out) {
     for (const Habit& h : kHabits)
-        for (int lod = 0; lod < kLods; ++lod) out.add(h.name, lod, makeTree(h, lod), PropMeshes::kFoliage);
-    for (int lod = 0; lod < kLods; ++lod) out.add("hedge", lod, makeHedge(lod), PropMeshes::kFoliage);
-    for (int lod = 0; lod < kLods; ++lod) {
-        for (int kind = 0; kind < kFlowers; ++kind)
-            out.add("flowers_" + std::string(1, char('a' + kind)), lod, makeFlowers(kind, lod), PropMeshes::kFoliage);
-        for (int kind = 0; kind < kMeadows; ++kind)
-            out.add("meadow_" + std::string(1, char('a' + kind)), lod, makeMeadow(kind, lod), PropMeshes::kFoliage);
-        out.add("tuft_a", lod, makeTuft(31, 18, 0.20f, 0.13f, lod), PropMeshes::kGrass);
-        out.add("tuft_b", lod, makeTuft(32, 26, 0.32f, 0.20f, lod), PropMeshes::kGrass);
-        out.add("tuft_c", lod, makeTuft(33, 14, 0.12f, 0.12f, lod), PropMeshes::kGrass);
-    }
+        for (int lod = 0; lod < kPlantLods; ++lod) out.add(h.name, lod, makeTree(h, lod), PropMeshes::kFoliage);
 }
 
 }  // namespace espalier::content
