@@ -7,6 +7,7 @@
 #include "tools/content/masonry.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/ruin.hpp"
+#include "tools/content/wall_layers.hpp"
 
 namespace espalier::content {
 namespace {
@@ -53,77 +54,6 @@ Elevation eastWall() {
 
 float across(uint32_t i) {
     return glm::mix(-kHalf, kHalf, static_cast<float>(i) / static_cast<float>(kAcross));
-}
-
-float strokeDistance(glm::vec2 p, const std::vector<glm::vec2>& stroke) {
-    float best = 1e9f;
-    for (size_t i = 0; i + 1 < stroke.size(); ++i) {
-        glm::vec2 d = stroke[i + 1] - stroke[i];
-        float t = saturate(glm::dot(p - stroke[i], d) / glm::dot(d, d));
-        best = std::min(best, glm::distance(p, stroke[i] + d * t));
-    }
-    return best;
-}
-
-// The painted path: up the wall beside the arch, over its voussoirs, down on the other side; a second one to the crest.
-float mainMask(glm::vec2 p, const Elevation& wall) {
-    std::vector<glm::vec2> stroke{{-1.35f, -0.2f}, {-1.25f, 0.6f}, {-0.95f, 1.2f}};
-    const Arch& arch = wall.arch();
-    for (int k = 0; k <= 16; ++k) {
-        float a = 3.14159265f * static_cast<float>(k) / 16, r = arch.halfWidth + 0.22f;
-        stroke.push_back({arch.centre - r * std::cos(a), arch.spring + r * std::sin(a)});
-    }
-    stroke.push_back({1.85f, 0.9f});
-    stroke.push_back({2.0f, -0.2f});
-    float d = strokeDistance(p, stroke);
-    d = std::min(d, strokeDistance(p, {{-1.1f, 0.9f}, {-1.75f, 1.7f}, {-1.6f, 2.5f}, {-2.2f, 3.2f}}));
-    return ramp(0.26f, 0.20f, d + 0.05f * fractal(p * 4.0f, 481, 2));
-}
-
-// Where the sample wants ivy on the front: none round the tondo, plenty over the arch.
-constexpr glm::vec2 kTondo{-1.62f, 2.05f};
-float frontIvy(glm::vec2 p, const Elevation& wall) {
-    const Arch& arch = wall.arch();
-    float r = glm::distance(p, glm::vec2(arch.centre, arch.spring));
-    float over = ramp(0.34f, 0.18f, std::abs(r - arch.halfWidth - 0.25f)) * ramp(-0.1f, 0.3f, p.y - arch.spring);
-    float bare =
-        ramp(kTondoRadius + 0.02f, kTondoRadius + 0.10f, glm::distance(p, kTondo) + 0.03f * fractal(p * 5.0f, 487, 2));
-    return bare * glm::mix(0.5f, 0.85f, over);
-}
-
-// A tongue of ivy up a wall, as wide as `foot` where it begins and ever narrower.
-struct Tongue {
-    std::vector<glm::vec2> line;
-    float foot, tip;  // half widths, metres
-};
-
-// Metres from the tongue's border, negative inside.
-float tongueDistance(glm::vec2 p, const Tongue& tongue) {
-    float best = 1e9f;
-    const float pieces = static_cast<float>(tongue.line.size() - 1);
-    for (size_t i = 0; i + 1 < tongue.line.size(); ++i) {
-        glm::vec2 d = tongue.line[i + 1] - tongue.line[i];
-        float t = saturate(glm::dot(p - tongue.line[i], d) / glm::dot(d, d));
-        float along = (static_cast<float>(i) + t) / pieces;
-        best = std::min(best, glm::distance(p, tongue.line[i] + d * t) - glm::mix(tongue.foot, tongue.tip, along));
-    }
-    return best;
-}
-
-// On the back it keeps to tongues: one that winds up to the crest, one by the corner, those beside the arch. They thin
-// out towards ragged borders.
-float backIvy(glm::vec2 p) {
-    static const Tongue kTongues[] = {
-        {{{-1.6f, -0.2f}, {-1.45f, 0.7f}, {-1.85f, 1.5f}, {-1.65f, 2.3f}, {-2.05f, 3.0f}, {-2.1f, 3.7f}}, 0.44f, 0.24f},
-        {{{-1.5f, 0.8f}, {-1.15f, 1.5f}, {-0.95f, 2.2f}}, 0.34f, 0.08f},
-        {{{-3.2f, -0.2f}, {-3.3f, 0.9f}, {-3.15f, 1.8f}, {-3.3f, 2.9f}}, 0.42f, 0.10f},
-        {{{-3.1f, 0.6f}, {-2.75f, 1.3f}, {-2.6f, 2.1f}}, 0.26f, 0.02f},
-        {{{2.3f, -0.2f}, {2.1f, 1.0f}, {1.75f, 2.2f}, {1.1f, 2.75f}, {0.4f, 2.9f}}, 0.50f, 0.12f},
-        {{{-0.25f, 0.1f}, {-0.3f, 1.2f}, {-0.5f, 2.1f}}, 0.20f, 0.05f}};
-    float d = 1e9f;
-    for (const Tongue& tongue : kTongues) d = std::min(d, tongueDistance(p, tongue));
-    d += 0.16f * fractal(p * 2.4f, 489, 3) + 0.06f * fractal(p * 9.0f, 490, 2);
-    return 0.66f * ramp(0.06f, -0.16f, d);
 }
 
 // A face of a wall lies in a vertical plane: a point (along, y) of the elevation is at block(along, y).
