@@ -102,10 +102,11 @@ Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room) {
     room.items = std::max(room.items, uint32_t(inputs.seeds.size()));
     GrowthCut cut = noCut(inputs.limits);
     uint32_t overflow = 0, enlarged = 0;
+    Verdict verdict = Verdict::impossible;
     while (overflow + enlarged < 48) {
         Attempt a = attempt(inputs, room, cut);
-        Verdict verdict = judge(a.status, a.waves, inputs.limits, room, cut);
-        if (verdict == Verdict::impossible) break;
+        verdict = judge(a.status, a.waves, inputs.limits, room, cut);
+        if (verdict == Verdict::impossible || verdict == Verdict::tooManyLeaves) break;
         if (verdict != Verdict::complete) {
             (verdict == Verdict::cut ? overflow : enlarged) += 1;
             continue;
@@ -123,8 +124,7 @@ Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room) {
         out.stats.expansions = 1;
         return std::move(a.out);
     }
-    return Failure("growth",
-                   "the limit of " + std::to_string(inputs.limits.maxNodes) + " nodes leaves room for nothing");
+    return limitFailure(verdict, inputs.limits);
 }
 
 GrowthDifference compareGrowth(const GrowthRecords& a, const GrowthRecords& b) {

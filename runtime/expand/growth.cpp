@@ -23,7 +23,7 @@ GrowStatus withFrozen(GrowStatus status, const FrozenSum& frozen) {
     status.chunkCapacity += status.chunks;
     status.nodeCapacity += status.nodes;
     status.branchCapacity += status.branches;
-    status.leafCapacity += status.leaves;
+    status.leafCapacity = std::min(status.leafCapacity + status.leaves, status.mostLeaves);
     status.nodeGroups[0] = r.nodes.empty() ? 0 : 1;
     status.branchGroups[0] = r.branches.empty() ? 0 : 1;
     status.steps = frozen.steps;
@@ -251,14 +251,16 @@ Status GpuGrowth::growWhole(const GrowthInputs& inputs) {
     GrowthLimits limits = inputs.limits;  // for the rest
     const bool fits = frozen.records.nodes.size() < limits.maxNodes || inputs.seeds.empty();
     limits.maxNodes -= std::min(limits.maxNodes - 1, uint32_t(frozen.records.nodes.size()));
+    limits.maxLeaves -= std::min(limits.maxLeaves, uint32_t(frozen.records.leaves.size()));
     GrowthCut cut = noCut(inputs.limits);
+    Verdict verdict = Verdict::impossible;
     uint32_t overflow = 0, enlarged = 0;
     for (uint32_t i = 0; fits && i < kMostAttempts; ++i) {
         Result<Outcome> outcome = attempt(inputs, frozen, cut);
         dropViews();
         if (!outcome) return outcome.failure();
-        Verdict verdict = judge(withoutFrozen(outcome->status, frozen.records), outcome->waves, limits, room_, cut);
-        if (verdict == Verdict::impossible) break;
+        verdict = judge(withoutFrozen(outcome->status, frozen.records), outcome->waves, limits, room_, cut);
+        if (verdict == Verdict::impossible || verdict == Verdict::tooManyLeaves) break;
         if (verdict == Verdict::complete) {
             publish(inputs, frozen, *outcome);
             const GrowthCut none = noCut(inputs.limits);
@@ -271,8 +273,7 @@ Status GpuGrowth::growWhole(const GrowthInputs& inputs) {
         }
         (verdict == Verdict::cut ? overflow : enlarged) += 1;
     }
-    return Failure("growth",
-                   "the limit of " + std::to_string(inputs.limits.maxNodes) + " nodes leaves room for nothing");
+    return limitFailure(verdict, inputs.limits);
 }
 
 }  // namespace espalier

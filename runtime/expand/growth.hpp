@@ -26,8 +26,9 @@ struct GrowthLimits {
     // same plants in every run. It is counted in GrowthStats::overflow and ::stopped. Chunks are limited to half of
     // it (and 4,096).
     uint32_t maxNodes = 4'000'000;
-    uint32_t maxDepth = 4096;  // chunks one after another along one path, 1 to 65,534
-    float leafDensityCap = 0;  // leaves per m² and seed, 0: none
+    uint32_t maxDepth = 4096;       // chunks one after another along one path, 1 to 65,534
+    uint32_t maxLeaves = 1u << 30;  // with those of frozen plants, at most 2^31; growth that would have more fails
+    float leafDensityCap = 0;       // leaves per m² and seed, 0: none
 };
 
 // Everything that growth depends on. Addresses are device addresses (for growOnCpu: pointers) and stay valid during

@@ -61,6 +61,7 @@ Status checkInputs(const GrowthInputs& inputs) {
     if (uint32_t(inputs.limits.walk) > 1 || uint32_t(inputs.limits.tangents) > 1)
         return Failure("growth", "there are two walks and two kinds of tangents");
     if (inputs.limits.maxNodes < 1) return Failure("growth", "maxNodes must be at least 1");
+    if (inputs.limits.maxLeaves > 1u << 31) return Failure("growth", "maxLeaves must be at most 2^31");
     if (!(inputs.limits.leafDensityCap >= 0) || !std::isfinite(inputs.limits.leafDensityCap))
         return Failure("growth", "the density cap must be a finite number of leaves, 0 or more");
     if (!inputs.widths.empty() && inputs.widths.size() != inputs.grammars.size())
@@ -135,7 +136,8 @@ GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const
     s.chunkCapacity = room.chunks;
     s.nodeCapacity = room.nodes;
     s.branchCapacity = room.branches;
-    s.leafCapacity = room.leaves;
+    s.leafCapacity = std::min(room.leaves, limits.maxLeaves);
+    s.mostLeaves = limits.maxLeaves;
     s.nodeGroups[1] = s.nodeGroups[2] = 1;
     s.branchGroups[1] = s.branchGroups[2] = 1;
     // A share of one is the same as cutting before the next wave.
@@ -176,6 +178,7 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
         }
     }
     bool complete = itemsFit && chunksFit;
+    if (complete && status.leaves > limits.maxLeaves) return Verdict::tooManyLeaves;
     bool fits =
         complete && status.nodes <= room.nodes && status.branches <= room.branches && status.leaves <= room.leaves;
     if (fits) return Verdict::complete;
@@ -185,8 +188,14 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
     room.nodes = enlarged(room.nodes, status.nodes, complete, limits.maxNodes);
     room.branches = enlarged(room.branches, status.branches, complete, most);
     // Leaves are counted only when all else fitted.
-    room.leaves = enlarged(room.leaves, status.leaves, terminalsRan || status.leaves == 0, ~0u);
+    room.leaves = enlarged(room.leaves, status.leaves, terminalsRan || status.leaves == 0, limits.maxLeaves);
     return Verdict::tooSmall;
+}
+
+Failure limitFailure(Verdict verdict, const GrowthLimits& limits) {
+    if (verdict == Verdict::tooManyLeaves)
+        return Failure("growth", "the plants would have more than " + std::to_string(limits.maxLeaves) + " leaves");
+    return Failure("growth", "the limit of " + std::to_string(limits.maxNodes) + " nodes leaves room for nothing");
 }
 
 void countBytes(GrowthStats& stats) {

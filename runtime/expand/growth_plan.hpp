@@ -29,11 +29,14 @@ GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const
 uint32_t lastWave(const GrowthCut& cut);  // ExpandEnv::phase of the march
 Wave firstWave(uint32_t seeds, const GrowthRoom& room);
 
-enum class Verdict { complete, tooSmall, cut, impossible };
+enum class Verdict { complete, tooSmall, cut, impossible, tooManyLeaves };
 // Judges an attempt. waves: those that ran and the next. tooSmall: `room` was and has been enlarged; cut: a limit was
-// exceeded and `cut` has been moved. impossible: limits leave room for nothing.
+// exceeded and `cut` has been moved. impossible: limits leave room for nothing. tooManyLeaves: they can't be cut.
 Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
               GrowthCut& cut);
+
+// Why limits let nothing grow; verdict: one of the last two.
+Failure limitFailure(Verdict verdict, const GrowthLimits& limits);
 
 // Takes out what edits have left as gaps and renumbers the rest.
 void compactRecords(GrowthRecords& records);

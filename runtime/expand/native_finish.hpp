@@ -69,7 +69,8 @@ void readStem(const ExpandEnv& env, FinishRoom& room, uint32_t i, uint32_t index
 uint32_t writeLeaves(const ExpandEnv& env, FinishRoom& room, uvec2& hash) {
     const uint32_t count = uint32_t(room.staged.size());
     const uint32_t first = count > 0 ? atomicAdd(env.status.v[0].leaves, count) : 0;
-    const uint32_t capacity = env.status.v[0].leafCapacity;
+    const uint32_t capacity = env.status.v[0].leafCapacity, most = env.status.v[0].mostLeaves;
+    if (uint64_t(first) + count > most) atomicMin(env.status.v[0].leaves, most + 1);
     const UintBuf next = env.status.v[0].nextLeaves;
     for (uint32_t begin = 0; begin < count; begin += kLeafLanes) {
         const uint32_t lanes = std::min(count - begin, kLeafLanes);

@@ -16,7 +16,7 @@ constexpr uint32_t kMostDirtyOf = 2;
 
 bool sameLimits(const GrowthLimits& a, const GrowthLimits& b) {
     return a.walk == b.walk && a.tangents == b.tangents && a.maxNodes == b.maxNodes && a.maxDepth == b.maxDepth &&
-           a.leafDensityCap == b.leafDensityCap;
+           a.maxLeaves == b.maxLeaves && a.leafDensityCap == b.leafDensityCap;
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
         std::min({capacityOf<Chunk>(to.chunks), capacityOf<AgainMark>(marks_), uint32_t(lists_.size() / 4 / kLists)});
     s.nodeCapacity = std::min(capacityOf<Node>(plants.nodes), uint32_t(firstLeaves_.size() / 4));
     s.branchCapacity = capacityOf<BranchRecord>(to.branches);
-    s.leafCapacity = std::min(capacityOf<Leaf>(plants.leaves), uint32_t(nextLeaves_.size() / 4));
+    s.leafCapacity = std::min({capacityOf<Leaf>(plants.leaves), uint32_t(nextLeaves_.size() / 4), s.mostLeaves});
     s.again = again_.address();
 
     std::vector<AgainState> state(1);

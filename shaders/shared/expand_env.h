@@ -33,6 +33,8 @@ struct GrowStatus {
     uint limitKey;
     uint walkMode, tangentMode;
     float leafDensityCap;    // leaves per m² and seed, 0: none
+    uint mostLeaves;         // leafCapacity is no more; their count stays near it, lest it wrap
+    uint spare;
     uint prunedCount;        // branches that are cut away: a branch whose key is among these isn't grown
     UintBuf pruned;          // [2 * i]: low words, high words of their keys, ascending
     u64 again;               // address of a regrowth's AgainState
@@ -40,7 +42,7 @@ struct GrowStatus {
     UintBuf nextLeaves;      // of a leaf the next one on its node: kernels alone write these, for regrowths
     uint hash[128];          // [slot * 2]: low words, high words
 };
-STATIC_SIZE(GrowStatus, 656);
+STATIC_SIZE(GrowStatus, 664);
 BUFFER(GrowStatusBuf, GrowStatus)
 
 // One wave of the queue: how many items wait, and the indirect arguments that grow as they are pushed.
@@ -105,6 +107,11 @@ CONST_UINT(kItemsPerGroupAgain, 16u);   // of a regrowth: its few items shall no
 inline uint atomicAdd(uint& memory, uint value) { return __atomic_fetch_add(&memory, value, __ATOMIC_RELAXED); }
 inline uint atomicOr(uint& memory, uint value) { return __atomic_fetch_or(&memory, value, __ATOMIC_RELAXED); }
 inline uint atomicExchange(uint& memory, uint value) { return __atomic_exchange_n(&memory, value, __ATOMIC_RELAXED); }
+inline uint atomicMin(uint& memory, uint value) {
+    uint old = __atomic_load_n(&memory, __ATOMIC_RELAXED);
+    while (old > value && !__atomic_compare_exchange_n(&memory, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {}
+    return old;
+}
 inline uint atomicMax(uint& memory, uint value) {
     uint old = __atomic_load_n(&memory, __ATOMIC_RELAXED);
     while (old < value && !__atomic_compare_exchange_n(&memory, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {}

@@ -88,6 +88,8 @@ void takeLeaf(ExpandEnv env, inout NodeSite site, LeafDraft draft) {
         writeLeaf(env.leaves, at, leaf);
         nextLeavesAtHand.v[at] = site.lastLeaf;
         site.lastLeaf = at;
+    } else if (at >= env.status.v[0].mostLeaves) {
+        atomicMin(env.status.v[0].leaves, env.status.v[0].mostLeaves + 1u);
     }
     site.hash = site.hash + hashOfLeaf(site.chunkKey, site.flags, leaf);
 }

@@ -317,6 +317,36 @@ TEST_CASE("endless recursion ends at the limits, reported") {
     checkSound(*records);
 }
 
+TEST_CASE("as many leaves as the limit grow, one more is refused by name, and what grew before stands") {
+    TestDevice gpu;
+    Scene scene = Scene::baked(ball());
+    scene.addGrammar(kBranching);
+    scene.plantMany(6);
+    for (const bool native : {false, true}) {
+        CAPTURE(native);
+        scene.native = native;
+        scene.limits.maxLeaves = GrowthLimits().maxLeaves;
+        auto growth = gpu.growth(GrowthRoom{64, 64, 64, 64, 64});
+        mustGrow(scene, gpu, *growth);
+        const GrowthStats s = growth->stats();
+        REQUIRE(s.leaves > 100);
+        scene.limits.maxLeaves = s.leaves;
+        mustGrow(scene, gpu, *growth);
+        CHECK(growth->stats().hash == s.hash);
+        for (uint32_t most : {s.leaves - 1, 10u, 0u}) {
+            scene.limits.maxLeaves = most;
+            const Status refused = scene.grow(gpu.device(), *growth);
+            REQUIRE_FALSE(refused);
+            const std::string why = "would have more than " + std::to_string(most) + " leaves";
+            CHECK(refused.failure().text().find(why) != std::string::npos);
+            CHECK(growth->stats().hash == s.hash);
+            const Result<CpuGrowth> onCpu = scene.growOnCpu();
+            REQUIRE_FALSE(onCpu);
+            CHECK(onCpu.failure().text().find(why) != std::string::npos);
+        }
+    }
+}
+
 TEST_CASE("the paper's walk and the paper's tangents are modes") {
     TestDevice gpu;
     auto growth = gpu.growth();
