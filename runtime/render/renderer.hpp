@@ -37,7 +37,7 @@ struct Look {
     bool shadows = true;
     bool shadowsLag = false;  // while growth or houses change in every frame, shadows may follow late and coarsely; in
                               // quick pictures, too
-    bool quick = false;  // on a software device fewer samples and twigs, for pictures that move
+    bool quick = false;       // on a software device fewer samples and twigs, for pictures that move
     ViewMode view = ViewMode::shaded;
     uint32_t layer = 0;  // for ViewMode::layer: index into DrawInputs::layers' 16 a surface
     float layerOpacity = 1;
