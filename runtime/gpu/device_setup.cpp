@@ -246,7 +246,7 @@ struct DeviceSetup {
         describe();
         VkPhysicalDeviceMemoryProperties memory{};
         d.vkInstance_.vkGetPhysicalDeviceMemoryProperties(d.physicalDevice_, &memory);
-        if (!hostMemory) d.ownMemory_ = makePooledMemory(d.vk_, d.device_, memory);
+        if (!hostMemory) d.ownMemory_ = makePooledMemory(d.vk_, d.device_, memory, d.info_.cpu);
         d.memory_ = hostMemory ? hostMemory : d.ownMemory_.get();
         d.retireQueue_ = std::make_unique<RetireQueue>();
         d.timers_ = std::make_unique<TimerRing>(d);

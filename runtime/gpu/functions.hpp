@@ -22,7 +22,7 @@ namespace espalier {
     F(vkCreateDebugUtilsMessengerEXT) F(vkDestroyDebugUtilsMessengerEXT)
 #define ESPALIER_DEVICE_FUNCTIONS(F) \
     F(vkDestroyDevice) F(vkGetDeviceQueue) F(vkDeviceWaitIdle) F(vkQueueSubmit2) F(vkAllocateMemory) \
-    F(vkFreeMemory) F(vkMapMemory) F(vkCreateBuffer) F(vkDestroyBuffer) F(vkGetBufferMemoryRequirements) \
+    F(vkFreeMemory) F(vkMapMemory) F(vkUnmapMemory) F(vkCreateBuffer) F(vkDestroyBuffer) F(vkGetBufferMemoryRequirements) \
     F(vkBindBufferMemory) F(vkGetBufferDeviceAddress) F(vkCreateImage) F(vkDestroyImage) \
     F(vkGetImageMemoryRequirements) F(vkBindImageMemory) F(vkCreateImageView) F(vkDestroyImageView) \
     F(vkCreateBufferView) F(vkDestroyBufferView) F(vkCreateSampler) F(vkDestroySampler) F(vkCreateShaderModule) \

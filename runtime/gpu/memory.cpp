@@ -36,6 +36,17 @@ void askForLargePages([[maybe_unused]] void* at, [[maybe_unused]] VkDeviceSize s
 #endif
 }
 
+// What a software device hands out may have been used before: for all that the system knows its pages are still needed.
+// Dropped, they cost nothing until they are touched, as those of fresh memory do, so that room to spare is free.
+void dropPages([[maybe_unused]] void* at, [[maybe_unused]] VkDeviceSize size) {
+#ifdef __linux__
+    constexpr uintptr_t kPage = 4096;
+    const uintptr_t begin = reinterpret_cast<uintptr_t>(at);
+    const uintptr_t first = (begin + kPage - 1) / kPage * kPage, last = (begin + size) / kPage * kPage;
+    if (last > first) (void)madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
+#endif
+}
+
 struct Block {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize size = 0;
@@ -81,8 +92,8 @@ void addHole(Block& block, VkDeviceSize offset, VkDeviceSize size) noexcept {
 class PooledMemory : public MemorySource {
   public:
     PooledMemory(const DeviceFunctions& vk, VkDevice device, const VkPhysicalDeviceMemoryProperties& properties,
-                 uint64_t keepBytes)
-        : vk_(vk), device_(device), properties_(properties), keepBytes_(keepBytes) {}
+                 bool software, uint64_t keepBytes)
+        : vk_(vk), device_(device), properties_(properties), software_(software), keepBytes_(keepBytes) {}
 
     ~PooledMemory() override {
         for (auto& [token, block] : blocks_) vk_.vkFreeMemory(device_, block.memory, nullptr);
@@ -123,6 +134,10 @@ class PooledMemory : public MemorySource {
         empty_ += block.size;
         const bool whole = block.holes.size() == 1 && block.holes.begin()->second == block.size;
         if (empty_ > keepBytes_ || !whole) release(it);
+    }
+
+    void trim() override {
+        for (auto it = blocks_.begin(); it != blocks_.end();) it = it->second.used ? std::next(it) : release(it);
     }
 
     uint64_t bytesUsed() const override { return used_; }
@@ -166,22 +181,32 @@ class PooledMemory : public MemorySource {
         info.memoryTypeIndex = block.type;
         VkResult result = vk_.vkAllocateMemory(device_, &info, nullptr, &block.memory);
         if (result != VK_SUCCESS) {
-            for (auto it = blocks_.begin(); it != blocks_.end();) it = it->second.used ? std::next(it) : release(it);
+            trim();
             result = vk_.vkAllocateMemory(device_, &info, nullptr, &block.memory);
         }
         if (result != VK_SUCCESS) return false;
-        if (!block.image && (type.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) &&
-            (type.propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT)) {
-            void* at = nullptr;
-            if (vk_.vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &at) != VK_SUCCESS) {
-                vk_.vkFreeMemory(device_, block.memory, nullptr);
-                return false;
-            }
-            askForLargePages(at, block.size);
-            block.mapped = static_cast<std::byte*>(at);
+        const bool mappable = (type.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) &&
+                              (type.propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+        if (mappable && (software_ || !block.image) && !map(block)) {
+            vk_.vkFreeMemory(device_, block.memory, nullptr);
+            return false;
         }
         reserved_ += block.size;
         empty_ += block.size;
+        return true;
+    }
+
+    // For good, but an image's only to drop its pages.
+    bool map(Block& block) {
+        void* at = nullptr;
+        if (vk_.vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &at) != VK_SUCCESS) return false;
+        if (software_) dropPages(at, block.size);
+        if (block.image) {
+            vk_.vkUnmapMemory(device_, block.memory);
+        } else {
+            askForLargePages(at, block.size);
+            block.mapped = static_cast<std::byte*>(at);
+        }
         return true;
     }
 
@@ -213,6 +238,7 @@ class PooledMemory : public MemorySource {
     const DeviceFunctions& vk_;
     VkDevice device_;
     VkPhysicalDeviceMemoryProperties properties_;
+    bool software_;
     uint64_t keepBytes_;
     Blocks blocks_;
     uint64_t lastToken_ = 0;
@@ -224,8 +250,9 @@ class PooledMemory : public MemorySource {
 }  // namespace
 
 std::unique_ptr<MemorySource> makePooledMemory(const DeviceFunctions& vk, VkDevice device,
-                                               const VkPhysicalDeviceMemoryProperties& properties, uint64_t keepBytes) {
-    return std::make_unique<PooledMemory>(vk, device, properties, keepBytes);
+                                               const VkPhysicalDeviceMemoryProperties& properties, bool software,
+                                               uint64_t keepBytes) {
+    return std::make_unique<PooledMemory>(vk, device, properties, software, keepBytes);
 }
 
 }  // namespace espalier

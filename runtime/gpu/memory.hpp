@@ -38,6 +38,8 @@ class MemorySource {
     // Fails when memory has run out.
     virtual Result<MemoryBlock> allocate(const MemoryRequest& request) = 0;
     virtual void free(const MemoryBlock& block) noexcept = 0;
+    // Gives back to Vulkan what is only kept for later requests.
+    virtual void trim() {}
     // Bytes handed out, and bytes taken from Vulkan for that.
     virtual uint64_t bytesUsed() const = 0;
     virtual uint64_t bytesReserved() const = 0;
@@ -45,8 +47,9 @@ class MemorySource {
 
 // The default: blocks of 64 MiB a memory type, cut by a best-fit free list. Up to `keepBytes` of empty blocks stay
 // for reuse, since the first touch of fresh memory costs more than the work on it (1 to 1.6 GB/s on a CPU device).
+// software: memory is the process's own, and what nobody has touched since it was taken costs none.
 std::unique_ptr<MemorySource> makePooledMemory(const DeviceFunctions& vk, VkDevice device,
-                                               const VkPhysicalDeviceMemoryProperties& properties,
+                                               const VkPhysicalDeviceMemoryProperties& properties, bool software,
                                                uint64_t keepBytes = 1ull << 30);
 
 }  // namespace espalier

@@ -1,8 +1,30 @@
 // Memory, deferred destruction, uploads, images and drawing.
 #include "runtime/gpu/retire.hpp"
+
+#ifdef __linux__
+#include <malloc.h>
+#include <sys/mman.h>
+#endif
+
+#include <algorithm>
+#include <cstdlib>
+
 #include "tests/gpu/gpu_test.hpp"
 
 using namespace espalier;
+
+namespace {
+
+VkPhysicalDeviceMemoryProperties memoryOf(const Device& device) {
+    VkPhysicalDeviceMemoryProperties properties{};
+    const auto ask = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
+        device.getInstanceProcAddr()(device.instance(), "vkGetPhysicalDeviceMemoryProperties"));
+    REQUIRE(bool(ask));
+    ask(device.physicalDevice(), &properties);
+    return properties;
+}
+
+}  // namespace
 
 TEST_CASE("a buffer that is larger than the GPU is refused") {
     TestDevice t;
@@ -59,13 +81,9 @@ TEST_CASE("memory is pooled, aligned, disjoint and comes back") {
 
 TEST_CASE("of memory that nothing lies in any more no more is kept than was said") {
     TestDevice t;
-    VkPhysicalDeviceMemoryProperties properties;
-    const auto ask = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
-        t.device.getInstanceProcAddr()(t.device.instance(), "vkGetPhysicalDeviceMemoryProperties"));
-    REQUIRE(bool(ask));
-    ask(t.device.physicalDevice(), &properties);
+    const VkPhysicalDeviceMemoryProperties properties = memoryOf(t.device);
     constexpr uint64_t kPiece = 20ull << 20, kKept = 60ull << 20;
-    const auto memory = makePooledMemory(t.device.vk(), t.device.handle(), properties, kKept);
+    const auto memory = makePooledMemory(t.device.vk(), t.device.handle(), properties, false, kKept);
     MemoryRequest request;
     request.requirements = {kPiece, 64, ~0u};
     request.use = BufferUse::upload;
@@ -78,6 +96,87 @@ TEST_CASE("of memory that nothing lies in any more no more is kept than was said
     CHECK(memory->bytesUsed() == 0);
     CHECK(memory->bytesReserved() == kKept);
 }
+
+TEST_CASE("memory that nothing lies in is given back when asked for") {
+    TestDevice t;
+    const VkPhysicalDeviceMemoryProperties properties = memoryOf(t.device);
+    constexpr uint64_t kPiece = 20ull << 20;
+    const auto memory = makePooledMemory(t.device.vk(), t.device.handle(), properties, false);
+    MemoryRequest request;
+    request.requirements = {kPiece, 64, ~0u};
+    request.use = BufferUse::upload;
+    request.name = "large";
+    const MemoryBlock kept = must(memory->allocate(request)), other = must(memory->allocate(request));
+    request.requirements.size = 1 << 20;
+    const MemoryBlock small = must(memory->allocate(request));
+    memory->free(other);
+    memory->free(small);
+    CHECK(memory->bytesReserved() > 2 * kPiece);
+    memory->trim();
+    CHECK(memory->bytesUsed() == kPiece);
+    CHECK(memory->bytesReserved() == kPiece);
+    std::memset(kept.mapped, 1, kPiece);
+    memory->free(kept);
+    memory->trim();
+    CHECK(memory->bytesReserved() == 0);
+    (void)must(memory->allocate(request));
+}
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+namespace {
+
+using Malloced = std::unique_ptr<void, decltype(&std::free)>;
+
+// A hole in glibc's heap of pages that were in use, where the next large allocation goes. It ends at what is returned,
+// or it would be the heap's end and go.
+Malloced leaveHole(size_t bytes) {
+    constexpr size_t kPiece = 1 << 20;
+    (void)mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    std::vector<void*> pieces(bytes / kPiece);
+    for (void*& piece : pieces) std::memset(piece = std::malloc(kPiece), 1, kPiece);
+    Malloced after(std::malloc(kPiece), std::free);
+    for (void* piece : pieces) std::free(piece);
+    (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    return after;
+}
+
+size_t residentBytes(std::byte* from, size_t bytes) {
+    constexpr uintptr_t kPage = 4096;
+    const uintptr_t first = (reinterpret_cast<uintptr_t>(from) + kPage - 1) / kPage * kPage;
+    std::vector<unsigned char> pages((bytes - kPage) / kPage);
+    REQUIRE(mincore(reinterpret_cast<void*>(first), pages.size() * kPage, pages.data()) == 0);
+    return size_t(std::ranges::count_if(pages, [](unsigned char page) { return (page & 1) != 0; })) * kPage;
+}
+
+}  // namespace
+
+TEST_CASE("what a software device takes costs nothing until it is touched, whatever the process had there before") {
+    TestDevice t;
+    if (!t.device.info().cpu) {
+        MESSAGE("other devices' memory isn't the process's own");
+        return;
+    }
+    constexpr uint64_t kSize = 40ull << 20;
+    const auto memory = makePooledMemory(t.device.vk(), t.device.handle(), memoryOf(t.device), true);
+    const Malloced after = leaveHole(96 << 20);
+    for (bool image : {false, true}) {
+        CAPTURE(image);
+        MemoryRequest request;
+        request.requirements = {kSize, 64, ~0u};
+        request.image = image;
+        request.name = "room to spare";
+        const MemoryBlock block = must(memory->allocate(request));
+        void* at = block.mapped;
+        CHECK((at == nullptr) == image);
+        if (image)
+            REQUIRE(t.device.vk().vkMapMemory(t.device.handle(), block.memory, 0, VK_WHOLE_SIZE, 0, &at) == VK_SUCCESS);
+        CHECK(residentBytes(static_cast<std::byte*>(at), kSize) == 0);
+        std::memset(at, 1, kSize / 2);
+        CHECK(residentBytes(static_cast<std::byte*>(at), kSize) >= kSize / 2 - 4096);
+        memory->free(block);
+    }
+}
+#endif
 
 TEST_CASE("the retire queue waits for every recording that was begun before") {
     RetireQueue queue;
