@@ -81,6 +81,12 @@ ESP_API EspContextDef espDefaultContextDef(void);
 ESP_API EspResult espCreate(const EspContextDef* def, EspContext** out);
 ESP_API void espDestroy(EspContext* context);   /* NULL is allowed */
 
+/* Gives back to the device what GPU memory is only kept for what comes: by itself a context keeps up to 1 GiB of it, as asking
+ * for it again costs time. For when nothing is to come soon: a pause, a menu, a level that has been loaded, a window at
+ * rest. Waits for the GPU; what was recorded into the host's command buffers has to be submitted, as before espUpdate.
+ * What stands and is drawn stays. EspStats::reservedBytes tells what is left. */
+ESP_API EspResult espTrim(EspContext* context);
+
 /* The VkPhysicalDeviceFeatures2 chain that a host's device must be created with; static memory, don't free. */
 ESP_API const void* espRequiredFeatures(void);
 /* Names of the device extensions that it must have been created with besides. Static memory. */
@@ -536,6 +542,7 @@ typedef struct EspStats {
     uint64_t derivedNodes;       /* that the latest growth derived; the others stood as they were */
     uint64_t drawnLeaves;        /* of the growth in the last frame */
     uint32_t enlarged;           /* times that the latest growth ran out of room and was given more, until it had enough */
+    uint64_t reservedBytes;      /* taken from the device: totalBytes, and what is kept for what comes (espTrim) */
 } EspStats;
 ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
 

@@ -240,6 +240,12 @@ void heedEnd() {
 
 }  // namespace
 
+// Of the context first: what a software device is given back is the process's own memory.
+void App::giveBack() {
+    (void)espTrim(work_.context.get());
+    (void)malloc_trim(0);
+}
+
 bool App::loop() {
     heedEnd();
     double before = glfwGetTime();
@@ -258,7 +264,7 @@ bool App::loop() {
         before = now;
         if (session_.step(work_, now)) wake();
         if (awake_ == 0 && !options_.frames) {
-            if (rest_.due(now)) (void)malloc_trim(0);
+            if (rest_.due(now)) giveBack();
             continue;
         }
         if (options_.turn && frames_ + 1 == options_.frames) tellTurn();

@@ -50,6 +50,7 @@ class App {
     void noteTimes();
     bool turn();
     void tellTurn() const;
+    void giveBack();
     void wake() { awake_ = kFramesAfterChange; }
 
     AppOptions options_;

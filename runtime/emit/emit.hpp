@@ -78,6 +78,9 @@ class Emit {
         watched_ = {};
     }
 
+    // Drops what only the next growth or edit would use.
+    void trim() { spareOrder_ = {}; }
+
     // Where the draws of the last cull lie; bucket b has the commands 2b and 2b + 1.
     const Buffer& state() const { return culledNative() ? natives_[native_].state : state_; }
     bool culledNative() const { return native_ < natives_.size(); }

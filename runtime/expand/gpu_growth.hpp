@@ -48,13 +48,14 @@ uint32_t capacityOf(const Buffer& buffer) {
 
 class GpuGrowth final : public Growth {
   public:
-    GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), room_(room) {}
+    GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), least_(room), room_(room) {}
 
     Status setUp();
     Status grow(const GrowthInputs& inputs) override;
     GrowthView view() const override { return view_; }
     GrowthStats stats() const override { return stats_; }
     Result<GrowthRecords> read() override;
+    void trim() override;
 
   private:
     // What is drawn is in one of two sets. A full growth writes the other one of both; a regrowth adds to the nodes and
@@ -162,6 +163,7 @@ class GpuGrowth final : public Growth {
 
     Device& device_;
     Crew crew_;                  // of native code; its threads sleep between growths
+    const GrowthRoom least_;     // to begin with
     GrowthRoom room_;            // of a full growth, beside frozen plants
     uint32_t likelyWaves_ = 24;  // recorded in the first submission
     // Made when first asked for; [1] reads tables by address, see kUniformTableWords.

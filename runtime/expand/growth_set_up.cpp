@@ -274,6 +274,19 @@ Result<GrowthRecords> GpuGrowth::read() {
     return to;
 }
 
+// Links stay: every edit writes the other ones.
+void GpuGrowth::trim() {
+    plants_[1 - frontPlants_] = {};
+    const auto fit = [](uint32_t& room, uint32_t needed, uint32_t least) {
+        room = std::min<uint64_t>(room, std::max<uint64_t>(needed + needed / 2ull, least));
+    };
+    fit(room_.chunks, view_.chunkCount, least_.chunks);
+    fit(room_.nodes, view_.nodeCount, least_.nodes);
+    fit(room_.branches, view_.branchCount, least_.branches);
+    fit(room_.leaves, view_.leafCount, least_.leaves);
+    stats_.reservedBytes = reserved();
+}
+
 void GpuGrowth::remember(const GrowthInputs& inputs) {
     limits_ = inputs.limits;
     surfaceCount_ = inputs.surfaceCount;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/features.hpp"
 #include "runtime/plugin/context.hpp"
 
@@ -163,6 +164,21 @@ void espDestroy(EspContext* context) {
     // The GPU may still read what is about to be freed: a host's frames included.
     (void)context->device->waitIdle();
     delete context;
+}
+
+EspResult espTrim(EspContext* context) {
+    return guarded(context, [&] {
+        context->growth->trim();
+        context->renderer->trim();
+        // What was dropped goes once an empty submission behind all frames is done.
+        Device& device = *context->device;
+        device.hostSubmitted();
+        Result<Commands> commands = Commands::begin(device, "trim");
+        if (!commands) return failGpu(context, commands.failure());
+        if (Status finished = commands->finish(); !finished) return failGpu(context, finished.failure());
+        device.memory().trim();
+        return ESP_OK;
+    });
 }
 
 const void* espRequiredFeatures(void) {

@@ -183,6 +183,7 @@ EspStats gather(const EspContext& context) {
     context.surfaces.forEach([&](uint32_t, const PlacedSurface& s) { stats.surfaceBytes += s.gpu.sizeBytes(); });
     for (const PaintedLayer& layer : context.layers) stats.layerBytes += layer.texels.size();
     stats.totalBytes = context.device->memory().bytesUsed();
+    stats.reservedBytes = context.device->memory().bytesReserved();
     stats.hash = growth.hash;
     stats.modelTriangles = render.modelTriangles;
     stats.modelsFading = render.modelsFading;

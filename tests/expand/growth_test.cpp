@@ -447,6 +447,43 @@ TEST_CASE("the paper's ivy grammar grows") {
     checkAlike(scene, *growth);
 }
 
+TEST_CASE("what one large growth took is given back, and what is smaller grows on in less room") {
+    TestDevice gpu;
+    for (bool native : {false, true}) {
+        CAPTURE(native);
+        auto growth = gpu.growth({64, 1024, 64, 1024, 64});
+        Scene scene = Scene::baked(cube());
+        scene.native = native;
+        scene.addGrammar(kBranching);
+        scene.plantMany(300);
+        mustGrow(scene, gpu, *growth);
+        mustGrow(scene, gpu, *growth);  // into the other set of buffers
+        const GrowthStats large = growth->stats();
+        scene.clearSeeds();
+        scene.plantMany(3);
+        mustGrow(scene, gpu, *growth);
+        const uint64_t hash = growth->stats().hash, kept = growth->stats().reservedBytes;
+        CHECK(kept >= large.reservedBytes);
+
+        growth->trim();
+        CHECK(growth->stats().hash == hash);
+        CHECK(growth->stats().reservedBytes < kept);
+        checkAlike(scene, *growth);
+        mustGrow(scene, gpu, *growth);  // into new buffers
+        growth->trim();                 // which leaves those of the large growth
+        CHECK(growth->stats().hash == hash);
+        CHECK(growth->stats().nodes < large.nodes / 50);
+        MESSAGE("bytes of " << large.nodes << " nodes: " << kept << "; then " << growth->stats().reservedBytes);
+        CHECK(growth->stats().reservedBytes < kept / 2);
+        checkAlike(scene, *growth);
+
+        scene.plantMany(300);
+        mustGrow(scene, gpu, *growth);
+        CHECK(growth->stats().enlarged > 0);
+        checkAlike(scene, *growth);
+    }
+}
+
 TEST_CASE("inputs that can't be grown are refused and the last growth stands") {
     TestDevice gpu;
     auto growth = gpu.growth();

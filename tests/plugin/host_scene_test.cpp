@@ -380,3 +380,45 @@ TEST_CASE("a host that draws no more, but paints and updates, or only paints, ta
     const uint64_t settled = bytesAfter(8);
     CHECK(bytesAfter(64) <= settled + (64 << 10));
 }
+
+TEST_CASE("what is only kept for what comes is given back when the host asks, and nothing else") {
+    DrawingHost host;
+    Grown grown(host);
+    const EspCamera camera = cameraAt(1.3f, .9f, 1.9f);
+    const auto stats = [&] {
+        EspStats s{};
+        REQUIRE(espReadStats(grown.context, &s) == ESP_OK);
+        return s;
+    };
+    const auto growTo = [&](uint32_t depth) {
+        EspGrowDef grow = espDefaultGrowDef();
+        grow.maxDepth = depth;
+        REQUIRE(espSetGrow(grown.context, &grow) == ESP_OK);
+        REQUIRE(espUpdate(grown.context) == ESP_OK);
+    };
+    growTo(4000);  // both sets of buffers are there now
+    host.use(VK_FORMAT_R8G8B8A8_UNORM, {}, 8);
+    host.draw(camera, kBoxes, grown.context);  // so large pictures have memory of their own
+    host.use(VK_FORMAT_R8G8B8A8_UNORM, {});
+    const Picture before = host.draw(camera, kBoxes, grown.context);  // nobody says that this frame is done
+    const EspStats kept = stats();
+    CHECK(kept.reservedBytes >= kept.totalBytes);
+
+    REQUIRE_MESSAGE(espTrim(grown.context) == ESP_OK, espLastError(grown.context));
+    const EspStats left = stats();
+    MESSAGE("bytes reserved: " << kept.reservedBytes << ", then " << left.reservedBytes);
+    CHECK(left.totalBytes < kept.totalBytes);
+    CHECK(left.reservedBytes < kept.reservedBytes);
+    CHECK(left.hash == kept.hash);
+    CHECK(left.expansions == kept.expansions);
+    const Picture after = host.draw(camera, kBoxes, grown.context);
+    CHECK(after.rgba == before.rgba);
+    CHECK(after.depth == before.depth);
+
+    growTo(4096);
+    CHECK(stats().hash == kept.hash);
+    REQUIRE(espTrim(grown.context) == ESP_OK);
+    REQUIRE(espTrim(grown.context) == ESP_OK);
+    CHECK(stats().reservedBytes <= left.reservedBytes);
+    CHECK(host.draw(camera, kBoxes, grown.context).rgba == before.rgba);
+}

@@ -66,13 +66,14 @@ struct Life {
         uint8_t pixels[64 * 36 * 4];
         return step("read", espReadPixels(context, pixels, sizeof pixels));
     }
+    bool trim() { return step("trim", espTrim(context)); }
     EspStats stats() {
         EspStats s{};
         step("stats", espReadStats(context, &s));
         return s;
     }
     bool all(const FailingDevice& device) {
-        return create(device) && load() && compile() && plant(1) && update() && draw() && read();
+        return create(device) && load() && compile() && plant(1) && update() && draw() && read() && trim();
     }
 };
 

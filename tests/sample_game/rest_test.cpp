@@ -49,8 +49,9 @@ kill $!
     const Ran ran = run("xvfb-run -a -s '-screen 0 640x480x24' sh " + watched);
     CHECK_MESSAGE(ran.code == 0, ran.output);
     std::istringstream lines(readAll(note));
-    long before = 0, after = 0;
-    REQUIRE((lines >> before >> after));
+    long before = 0, after = 0, contexts = 0;
+    REQUIRE((lines >> before >> after >> contexts));
+    CHECK(contexts == 1);
     CHECK(after > 0);
     CHECK(after < before);
     MESSAGE("pages resident: " << before << ", then " << after);

@@ -1,5 +1,5 @@
 /* Preloaded into a program: notes each malloc_trim in the file NOTE_TRIM, as pages that were resident before and after
- * it. */
+ * it, and how often espTrim was called by then. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>
@@ -14,6 +14,14 @@ static long residentPages(void) {
     return resident;
 }
 
+static int contextsTrimmed;
+
+int espTrim(void* context) {
+    int (*real)(void*) = (int (*)(void*))dlsym(RTLD_NEXT, "espTrim");
+    ++contextsTrimmed;
+    return real ? real(context) : 0;
+}
+
 int malloc_trim(size_t pad) {
     int (*real)(size_t) = (int (*)(size_t))dlsym(RTLD_NEXT, "malloc_trim");
     const long before = residentPages();
@@ -21,7 +29,7 @@ int malloc_trim(size_t pad) {
     const char* name = getenv("NOTE_TRIM");
     FILE* file = name ? fopen(name, "a") : NULL;
     if (file) {
-        fprintf(file, "%ld %ld\n", before, residentPages());
+        fprintf(file, "%ld %ld %d\n", before, residentPages(), contextsTrimmed);
         fclose(file);
     }
     return released;
