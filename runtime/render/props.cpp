@@ -25,12 +25,32 @@ Result<Props> Props::create(Device& device, TerminalData models, VkFormat color,
     Result<Terminals> terminals = Terminals::create(device, std::move(models), TerminalChoice::cpu);
     if (!terminals) return terminals.failure();
     props.terminals_ = std::move(*terminals);
+    props.measure();
     Result<Sampler> sampler =
         Sampler::create(device, {.name = "prop textures", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
     if (!sampler) return sampler.failure();
     props.sampler_ = std::move(*sampler);
     if (Status s = props.makePrograms(device, color, depth, samples); !s) return s.failure();
     return props;
+}
+
+void Props::measure() {
+    for (const TerminalVariant& variant : variants()) {
+        Room& room = rooms_.emplace_back();
+        for (const TerminalLod& lod : variant.lods)
+            for (uint32_t i = 0; i < lod.vertexCount; ++i) {
+                const glm::vec3 at = terminals_.data().vertices[lod.firstVertex + i].position;
+                room.around = std::max(room.around, glm::length(glm::vec2(at.x, at.z)));
+                room.foot = std::min(room.foot, at.y);
+                room.top = std::max(room.top, at.y);
+            }
+    }
+}
+
+Props::Box Props::boxOf(const PropPlace& place) const {
+    const Room& room = rooms_[place.variant];
+    return {place.position + place.scale * glm::vec3(-room.around, room.foot, -room.around),
+            place.position + place.scale * glm::vec3(room.around, room.top, room.around)};
 }
 
 Status Props::makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
@@ -93,9 +113,9 @@ Status Props::place(Device& device, std::vector<PropPlace> places) {
 
 void Props::bounds(glm::vec3& low, glm::vec3& high) const {
     for (const PropPlace& p : places_) {
-        const float reach = terminals_.table().variants[p.variant].extent * p.scale;
-        low = glm::min(low, p.position - reach);
-        high = glm::max(high, p.position + reach);
+        const Box box = boxOf(p);
+        low = glm::min(low, box.low);
+        high = glm::max(high, box.high);
     }
 }
 
@@ -108,10 +128,10 @@ Status Props::choose(Commands& commands, const FrameRecord& frame) {
         const VariantRecord& variant = table.variants[places_[i].variant];
         const TerminalMaterial& material = terminals_.data().materials[table.buckets[variant.firstBucket].material];
         PropInstance instance = instances_[i];
-        const float radius = variant.extent * instance.scale;
-        if (sides.misses(instance.position, radius)) continue;
+        const Box box = boxOf(places_[i]);
+        if (sides.misses(box.low, box.high)) continue;
         const float distance = std::max(glm::length(instance.position - frame.eye), 1e-3f);
-        if (radius * frame.pixelScale < kLeastPixels * distance) continue;
+        if (variant.extent * instance.scale * frame.pixelScale < kLeastPixels * distance) continue;
         if (material.name == "grass") {
             instance.scale *= std::clamp((kGrassReach - distance / frame.unit) / kGrassShrinks, 0.0f, 1.0f);
             if (instance.scale <= 0) continue;

@@ -42,6 +42,13 @@ class Props {
     void forget() { chosenFor_ = glm::mat4(0); }       // the last recording won't be submitted
 
   private:
+    // What a variant takes up however it is turned: a cylinder about its origin's vertical.
+    struct Room {
+        float around = 0, foot = 0, top = 0;
+    };
+    struct Box {
+        glm::vec3 low, high;
+    };
     // Instances of one level of detail, one after another.
     struct Run {
         uint32_t bucket = 0, first = 0, count = 0;
@@ -54,6 +61,8 @@ class Props {
     struct Level {
         std::vector<std::pair<float, PropInstance>> seen;  // by distance
     };
+    void measure();
+    Box boxOf(const PropPlace& place) const;
     Status makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples);
     Status upload(Commands& commands, std::vector<Level>& levels, Chosen& out) const;
     void drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Binding* shadow,
@@ -62,6 +71,7 @@ class Props {
 
     Terminals terminals_;
     Sampler sampler_;
+    std::vector<Room> rooms_;  // [variant]
     std::vector<PropPlace> places_;
     std::vector<PropInstance> instances_;  // [place], whole
     Program built_[kShadings], foliage_[kShadings];

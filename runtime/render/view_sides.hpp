@@ -17,11 +17,7 @@ struct ViewSides {
         const glm::vec4 found[5] = {row(3) + row(0), row(3) - row(0), row(3) + row(1), row(3) - row(1), row(3)};
         for (int i = 0; i < 5; ++i) planes[i] = found[i] / std::max(glm::length(glm::vec3(found[i])), 1e-12f);
     }
-    // Whether a sphere, or a box, lies wholly behind one of them.
-    bool misses(glm::vec3 centre, float radius) const {
-        return std::any_of(std::begin(planes), std::end(planes),
-                           [&](glm::vec4 p) { return glm::dot(p, glm::vec4(centre, 1)) < -radius; });
-    }
+    // Whether a box lies wholly behind one of them.
     bool misses(glm::vec3 low, glm::vec3 high) const {
         return std::any_of(std::begin(planes), std::end(planes), [&](glm::vec4 p) {
             const glm::vec3 foremost = glm::mix(low, high, glm::greaterThan(glm::vec3(p), glm::vec3(0)));
