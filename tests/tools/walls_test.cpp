@@ -1,6 +1,7 @@
 // A town's walls as ground: judged against all that the same grammar makes, as triangles.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -105,4 +106,37 @@ TEST_CASE("walls as ground have none where windows and doors stand out, and stan
         run("cd " + folder.path.string() + " && " + program("espalier-bake") + " plan.json --walls -o x.glb");
     CHECK(bare.code == 1);
     CHECK(contains(bare.output, "--walls needs --grammar"));
+}
+
+TEST_CASE("walls as ground go up gables to a little below the verges") {
+    const Folder folder;
+    folder.write("plan.json", R"({"buildings": [
+ {"id": "gabled", "outer": [[0, 0], [8, 0], [8, 14], [0, 14]], "roof:shape": "gabled", "roof:angle": 45, "building:levels": 1}]})");
+    const Ran walls = run("cd " + folder.path.string() + " && " + program("espalier-bake") +
+                          " plan.json -q --grammar " + content("grammars/town.grammar") + " --walls -o walls.glb");
+    REQUIRE_MESSAGE(walls.code == 0, walls.output);
+    const std::vector<House> ground = readTown(folder.file("walls.glb"));
+    REQUIRE(ground.size() == 1);
+
+    // Both gables' ends, at z = 0 and z = -14: triangles 8 m wide and 4 m high on the eaves.
+    constexpr float kEave = 3, kRidge = kEave + 4, kFree = .3f;
+    float highest[2] = {};
+    double area[2] = {};
+    for (size_t i = 0; i + 2 < ground[0].corners.size(); i += 3) {
+        const Point &a = ground[0].corners[i], &b = ground[0].corners[i + 1], &c = ground[0].corners[i + 2];
+        for (const Point& p : {a, b, c}) CHECK(p[1] < kRidge - kFree - std::min(std::abs(p[0] - 4), 4.f) + .02f);
+        const bool far = a[2] < -7;
+        if (std::abs(a[2] - b[2]) > 1e-3f || std::abs(a[2] - c[2]) > 1e-3f) continue;
+        const float out = far ? -1 : 1;
+        CHECK(out * turn(a, b, c) > 0);
+        const float lowest = std::min({a[1], b[1], c[1]});
+        highest[far] = std::max({highest[far], a[1], b[1], c[1]});
+        if (lowest > kEave - kFree - 1e-3f) area[far] += .5 * out * turn(a, b, c);
+    }
+    for (int end : {0, 1}) {
+        CAPTURE(end);
+        CHECK(highest[end] > kRidge - kFree - .02f);
+        CHECK(area[end] > .8 * 4 * 4);  // a window may be in it
+        CHECK(area[end] < 4 * 4 + .1);
+    }
 }

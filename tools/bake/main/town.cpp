@@ -121,7 +121,7 @@ Status addTiles(const TownArguments& arguments, const RoofStructure& structure, 
     for (uint32_t h = 0; h < structure.houses.size(); ++h) {
         RoofTriangles mesh;
         if (arguments.walls)
-            appendWalls(env, gridsOf[h], structure.houses[h], mesh);
+            appendWalls(env, gridsOf[h], structure, h, mesh);
         else
             for (uint32_t g : gridsOf[h]) appendGrid(env, roofs.records.grids[g], *meshes, mesh);
         triangles += mesh.indices.size() / 3;

@@ -1,5 +1,5 @@
-// In: a house's outline and the grids of its walls. Out: triangles. All walls of a house are divided at the same
-// heights, so that they meet in equal corners; cells under an opening are left out.
+// In: a house's outline, its gables and the grids of its walls. Out: triangles. All walls of a house are divided at the
+// same heights, so that they meet in equal corners; cells under an opening are left out, those at a roof are cut.
 #include "tools/bake/main/town_walls.hpp"
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace {
 constexpr float kBefore = 0.01f;  // metres before the plaster
 constexpr float kStandsOut = 0.02f, kNear = 0.3f;
 constexpr float kMargin = 0.03f;    // left bare around an opening
-constexpr float kBelowEave = 0.3f;  // where leaves don't come through the tiles
+constexpr float kBelowRoof = 0.3f;  // where leaves don't come through the tiles
+constexpr float kLeast = 0.1f;      // height of a wall
 constexpr float kWhole = 0.9f;      // of a wall, that a plinth is long at least
 constexpr uint32_t kWallColour = 0xFF8FB0C4;
 
@@ -24,6 +25,7 @@ struct Rect {
 struct Wall {
     glm::vec3 foot, along, out;  // unit
     float length = 0;
+    std::vector<glm::vec2> top;  // from one end to the other, along the wall and up: a little below eave or verge
     std::vector<Rect> openings;
     float plinth = 0, plinthOut = 0;  // height and how far it stands out
 };
@@ -45,10 +47,16 @@ void boxOf(const RoofGrid& g, const RoofMesh& mesh, glm::vec2 corner, const Wall
     }
 }
 
+// Boards of a verge slope: walls end below them.
+bool slopes(const RoofGrid& g) {
+    const float up = std::abs(g.axisX.y) / glm::length(glm::vec3(g.axisX));
+    return up > 0.05f && up < 0.99f;
+}
+
 void takeCell(const RoofGrid& g, const RoofMesh& mesh, glm::vec2 corner, std::vector<Wall>& walls) {
     const glm::vec3 faces = glm::cross(glm::vec3(g.axisX), glm::vec3(g.axisY));
     for (Wall& wall : walls) {
-        if (glm::dot(faces, wall.out) < 0.99f * glm::length(faces)) continue;
+        if (glm::dot(faces, wall.out) < 0.99f * glm::length(faces) || slopes(g)) continue;
         glm::vec3 low, high;
         boxOf(g, mesh, corner, wall, low, high);
         if (low.z < -kNear || low.z > kNear || high.z < kStandsOut || high.x < 0 || low.x > wall.length) continue;
@@ -84,9 +92,39 @@ std::vector<float> cuts(std::vector<float> at, float end) {
     return kept;
 }
 
+float heightAt(const std::vector<glm::vec2>& line, float x) {
+    size_t i = 1;
+    while (i + 1 < line.size() && line[i].x < x) ++i;
+    const glm::vec2 a = line[i - 1], b = line[i];
+    return b.x > a.x ? a.y + (b.y - a.y) * std::clamp((x - a.x) / (b.x - a.x), 0.f, 1.f) : std::max(a.y, b.y);
+}
+
+// The part of a cell below the line from (low.x, left) to (high.x, right): counterclockwise, convex, may be empty.
+std::vector<glm::vec2> below(glm::vec2 low, glm::vec2 high, float left, float right) {
+    const glm::vec2 corners[] = {low, {high.x, low.y}, high, {low.x, high.y}};
+    const float tops[] = {left, right, right, left};
+    const auto crossing = [&](float y) { return low.x + (high.x - low.x) * ((y - left) / (right - left)); };
+    std::vector<glm::vec2> kept;
+    const auto keep = [&](glm::vec2 p) {
+        if (kept.empty() || (kept.back() != p && kept.front() != p)) kept.push_back(p);
+    };
+    for (int i = 0; i < 4; ++i) {
+        const int next = (i + 1) % 4;
+        const bool in = corners[i].y <= tops[i];
+        if (in) keep(corners[i]);
+        if (in == (corners[next].y <= tops[next])) continue;
+        if (i % 2)  // upright
+            keep({corners[i].x, tops[i]});
+        else
+            keep({crossing(corners[i].y), corners[i].y});
+    }
+    return kept;
+}
+
 class Builder {
   public:
-    Builder(const RoofHouse& house, RoofTriangles& out) : house_(house), out_(out) {}
+    Builder(const RoofStructure& structure, const RoofHouse& house, RoofTriangles& out)
+        : structure_(structure), house_(house), out_(out) {}
 
     void build(const RoofEnv& env, const std::vector<uint32_t>& grids) {
         std::vector<size_t> sizes;
@@ -94,15 +132,19 @@ class Builder {
             sizes.push_back(ring.size());
             for (size_t i = 0; i < ring.size(); ++i) walls_.push_back(wallFrom(ring[i], ring[(i + 1) % ring.size()]));
         }
+        for (uint32_t f = house_.firstFace; f < house_.firstFace + house_.faceCount; ++f)
+            if (structure_.faces[f].kind == FaceKind::gable) raise(structure_.faces[f]);
         for (uint32_t g : grids) takeGrid(env, env.grids.v[g], walls_);
         std::vector<float> heights;
+        float highest = 0;
         for (const Wall& wall : walls_) {
             plinth_ = std::max(plinth_, wall.plinth);
             plinthOut_ = std::max(plinthOut_, wall.plinthOut);
             for (const Rect& r : wall.openings) heights.insert(heights.end(), {r.low.y, r.high.y});
+            for (glm::vec2 p : wall.top) highest = std::max(highest, p.y);
         }
-        if (plinth_ > 0) heights.push_back(plinth_);
-        heights_ = cuts(std::move(heights), std::max(house_.eaveHeight - house_.baseHeight - kBelowEave, 0.1f));
+        heights.insert(heights.end(), {plinth_, eave()});
+        heights_ = cuts(std::move(heights), highest);
         size_t first = 0;
         for (size_t size : sizes) {
             for (size_t i = 0; i < size; ++i)
@@ -112,6 +154,18 @@ class Builder {
     }
 
   private:
+    float eave() const { return std::max(house_.eaveHeight - house_.baseHeight - kBelowRoof, kLeast); }
+    // The wall goes up to the verges of its gable.
+    void raise(const RoofFace& face) {
+        Wall& wall = walls_[face.edge];
+        wall.top.clear();
+        const auto add = [&](glm::vec3 p) {
+            const glm::vec3 at = p + glm::vec3(house_.origin.x, 0, -house_.origin.y) - wall.foot;
+            wall.top.push_back({glm::dot(at, wall.along), std::max(at.y - kBelowRoof, kLeast)});
+        };
+        for (uint32_t i = face.segmentCount; i-- > 0;) add(structure_.segments[face.firstSegment + i].to);
+        add(face.eave[1]);
+    }
     Wall wallFrom(glm::vec2 a, glm::vec2 b) const {
         Wall wall;
         const glm::vec2 to = (b - a) / glm::distance(a, b);
@@ -119,6 +173,7 @@ class Builder {
         wall.along = {to.x, 0, -to.y};
         wall.out = {to.y, 0, to.x};
         wall.length = glm::distance(a, b);
+        wall.top = {{0, eave()}, {wall.length, eave()}};
         return wall;
     }
     // Where the wall's column stands, `before` metres before the plaster; its ends are those of its neighbours.
@@ -129,13 +184,14 @@ class Builder {
     void write(const Wall& last, const Wall& wall, const Wall& next) {
         std::vector<float> along;
         for (const Rect& r : wall.openings) along.insert(along.end(), {r.low.x, r.high.x});
+        for (glm::vec2 p : wall.top) along.push_back(p.x);
         along = cuts(std::move(along), wall.length);
         const size_t columns = along.size() - 1, rows = heights_.size() - 1;
-        const auto at = [&](size_t column, float height, float before) {
-            glm::vec3 p = column == 0         ? corner(last, wall, before)
-                          : column == columns ? corner(wall, next, before)
-                                              : wall.foot + wall.along * along[column] + wall.out * before;
-            p.y += height;
+        const auto at = [&](glm::vec2 of, float before) {
+            glm::vec3 p = of.x == 0             ? corner(last, wall, before)
+                          : of.x == wall.length ? corner(wall, next, before)
+                                                : wall.foot + wall.along * of.x + wall.out * before;
+            p.y += of.y;
             return p;
         };
         const auto open = [&](size_t column, size_t row) {
@@ -148,24 +204,32 @@ class Builder {
         for (size_t row = 0; row < rows; ++row)
             for (size_t c = 0; c < columns; ++c) {
                 if (open(c, row)) continue;
-                const float low = heights_[row], high = heights_[row + 1], d = before(row);
-                quad(at(c, low, d), at(c + 1, low, d), at(c + 1, high, d), at(c, high, d));
+                const glm::vec2 low(along[c], heights_[row]), high(along[c + 1], heights_[row + 1]);
+                std::vector<glm::vec3> cell;
+                for (glm::vec2 p : below(low, high, heightAt(wall.top, low.x), heightAt(wall.top, high.x)))
+                    cell.push_back(at(p, before(row)));
+                fan(cell);
                 // The ledge from a plinth to the wall above it.
-                if (row + 1 < rows && before(row + 1) != d && !open(c, row + 1))
-                    quad(at(c, high, d), at(c + 1, high, d), at(c + 1, high, kBefore), at(c, high, kBefore));
+                if (row + 1 < rows && before(row + 1) != before(row) && !open(c, row + 1))
+                    fan({at({low.x, high.y}, before(row)), at(high, before(row)), at(high, kBefore),
+                         at({low.x, high.y}, kBefore)});
             }
     }
-    void quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
+    // A convex polygon, counterclockwise seen from outside.
+    void fan(const std::vector<glm::vec3>& points) {
+        if (points.size() < 3) return;
         const uint32_t first = uint32_t(out_.positions.size());
-        const glm::vec3 normal = glm::normalize(glm::cross(c - a, d - b));
-        for (glm::vec3 p : {a, b, c, d}) {
+        const glm::vec3 normal = glm::normalize(glm::cross(points[2] - points[0], points.back() - points[1]));
+        for (glm::vec3 p : points) {
             out_.positions.push_back(p);
             out_.normals.push_back(normal);
             out_.colours.push_back(kWallColour);
         }
-        for (uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) out_.indices.push_back(first + i);
+        for (uint32_t i = 2; i < points.size(); ++i)
+            for (uint32_t corner : {0u, i - 1, i}) out_.indices.push_back(first + corner);
     }
 
+    const RoofStructure& structure_;
     const RoofHouse& house_;
     RoofTriangles& out_;
     std::vector<Wall> walls_;
@@ -175,8 +239,9 @@ class Builder {
 
 }  // namespace
 
-void appendWalls(const RoofEnv& env, const std::vector<uint32_t>& grids, const RoofHouse& house, RoofTriangles& out) {
-    Builder(house, out).build(env, grids);
+void appendWalls(const RoofEnv& env, const std::vector<uint32_t>& grids, const RoofStructure& structure, uint32_t house,
+                 RoofTriangles& out) {
+    Builder(structure, structure.houses[house], out).build(env, grids);
 }
 
 }  // namespace espalier

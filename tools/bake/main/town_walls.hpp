@@ -6,9 +6,10 @@
 
 namespace espalier {
 
-// Walls of one house from foot to a little below the eave, a centimetre before the plaster. Where upright terminals of
-// `grids` (indices into env's, all of this house) stand out from the wall there is none: windows, shutters, doors; but
-// a board along the whole foot, a plinth, is gone around.
-void appendWalls(const RoofEnv& env, const std::vector<uint32_t>& grids, const RoofHouse& house, RoofTriangles& out);
+// Walls of one house from foot to a little below eaves and verges, a centimetre before the plaster. Where upright
+// terminals of `grids` (indices into env's, all of this house) stand out from the wall there is none: windows,
+// shutters, doors; but a board along the whole foot, a plinth, is gone around.
+void appendWalls(const RoofEnv& env, const std::vector<uint32_t>& grids, const RoofStructure& structure, uint32_t house,
+                 RoofTriangles& out);
 
 }  // namespace espalier
