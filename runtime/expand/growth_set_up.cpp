@@ -137,9 +137,13 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
         const char* name;
         uint64_t bytes;
     };
+    // Edits add nodes and leaves before gaps are closed. Where memory that isn't touched costs nothing, there is room
+    // for these at once: what outgrows its room is copied whole.
+    const bool spare = inputs.native && device_.info().cpu;
+    const auto withSpare = [&](uint64_t count) { return spare ? count + count / 2 : count; };
     const Row rows[] = {
-        {&plants.nodes, "growth nodes", wholeTexels((room_.nodes + frozen.nodes.size()) * sizeof(Node))},
-        {&plants.leaves, "growth leaves", (room_.leaves + frozen.leaves.size()) * sizeof(Leaf)},
+        {&plants.nodes, "growth nodes", wholeTexels(withSpare(room_.nodes + frozen.nodes.size()) * sizeof(Node))},
+        {&plants.leaves, "growth leaves", withSpare(room_.leaves + frozen.leaves.size()) * sizeof(Leaf)},
         {&links.chunks, "growth chunks", (room_.chunks + frozen.chunks.size()) * sizeof(Chunk)},
         {&links.branches, "growth branches", (room_.branches + frozen.branches.size()) * sizeof(BranchRecord)},
         {&density_, "growth density", densityWords(inputs.limits, frozen.nodes.size()) * 4}};

@@ -146,6 +146,33 @@ TEST_CASE("gaps are closed in passing: however many edits, none grows everything
     }
 }
 
+// Copying all that has grown into more room would be the longest wait of a stroke.
+TEST_CASE("native edits find the room that they need before gaps are closed") {
+    GrowthRoom barely{4096, 0, 4096, 0, 4096};
+    {
+        Session s(flatSquare());
+        s.scene.plantMany(60, 0, 1);
+        s.grow();
+        barely.nodes = s.growth->stats().nodes;
+        barely.leaves = s.growth->stats().leaves;
+    }
+    Session s(flatSquare(), barely);
+    s.scene.native = true;
+    s.scene.plantMany(60, 0, 1);
+    s.check();
+    CHECK(s.growth->stats().enlarged == 0);
+    const Buffer *nodes = s.growth->view().nodeBuffer, *leaves = s.growth->view().leafBuffer;
+    const uint32_t renewed = s.growth->view().renewed;
+    for (int i = 0; i < 48; ++i) {
+        s.dab(0, {0.3f + 0.01f * float(i), 0.5f}, 0.1f, float(i % 2));
+        s.grow();
+        CHECK(s.growth->view().nodeBuffer == nodes);
+        CHECK(s.growth->view().leafBuffer == leaves);
+    }
+    CHECK(s.growth->view().renewed > renewed);  // gaps were closed
+    s.check();
+}
+
 TEST_CASE("nothing changed: nothing is done") {
     Session s(cube());
     s.scene.plantMany(9, 0);
