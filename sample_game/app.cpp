@@ -19,7 +19,6 @@
 #include "sample_game/app_state.hpp"
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
-#include "sample_game/settings.hpp"
 #include "tools/scene/picture.hpp"
 
 namespace sample {
@@ -59,7 +58,8 @@ void App::showUi() {
 bool App::update() {
     grownMs_ = 0;
     const bool changed = work_.document->revision() != work_.grownRevision || controls_->painting();
-    if (changed && !growing_ && !controls_->painting() && frames_ > 0 && work_.stats.expandMs > kSlowGrowthMs) {
+    const double expected = work_.growsWide ? wholeGrowthMs_ : 0;
+    if (changed && !growing_ && !controls_->painting() && expected > kSlowGrowthMs) {
         growing_ = true;
         showGrowing(work_);
         wake();
@@ -71,9 +71,11 @@ bool App::update() {
     work_.remedied(std::exchange(growthError_, {}));
     if (espUpdate(work_.context.get()) != ESP_OK) work_.error = growthError_ = espLastError(work_.context.get());
     work_.grownRevision = work_.document->revision();
+    work_.growsWide = false;
     if (!work_.readStats()) return false;
     const bool plants = work_.stats.expansions != expansions, houses = work_.roofs.housesGrown != housesGrown;
     if (plants && work_.branch) work_.readPath();
+    if (plants && 2 * work_.stats.derivedNodes > work_.stats.nodes) wholeGrowthMs_ = work_.stats.expandMs;
     grownMs_ = (plants ? work_.stats.expandMs : 0) + (houses ? work_.roofs.expandMs : 0);
     work_.redraw |= plants || houses;
     return plants || houses;
@@ -85,8 +87,11 @@ void App::screenshot(const std::string& path, const std::vector<uint8_t>& rgba, 
     wake();
 }
 
-bool App::drawFrame(bool moving, bool last) {
-    const std::optional<Frame> frame = host_->begin();
+bool App::drawFrame(bool moving, bool grew, bool last) {
+    // Of a moving camera the next picture is recorded while the last is drawn, if the device is slow; a stroke's
+    // picture is of its own frame.
+    const bool overlaps = moving && moving_.coarse() && !grew && !last && !controls_->painting();
+    const std::optional<Frame> frame = host_->begin(overlaps);
     if (!frame) {
         if (!host_->error().empty()) return fail(host_->error());
         ImGui::EndFrame();
@@ -168,6 +173,7 @@ bool App::replay(std::vector<InputEvent>& events) {
     if (!ends && replay_.step(work_, glfwGetTime())) return true;
     flags &= ~ImGuiConfigFlags_NoMouse;
     session_.endReplay(work_);
+    if (options_.frames) session_.forgetRecovery(false);
     return true;
 }
 
@@ -188,7 +194,7 @@ bool App::frame(float seconds) {
     const auto begin = Clock::now();
     if (!session_.openNext.empty() && session_.idle() && !openNext()) return false;
     if (session_.reload && session_.recovery().empty() && session_.idle()) reload();
-    if (!reloading_.kept.empty() && session_.idle()) openReloaded();
+    if (!reloading_.kept.empty() && !work_.busy && session_.idle()) openReloaded();
     if (!rescale()) return false;
     std::vector<InputEvent> events;
     ImGui_ImplGlfw_NewFrame();
@@ -206,14 +212,16 @@ bool App::frame(float seconds) {
     }
     if (const std::string file = input_->takeDropped(); !file.empty() && !replays) {
         if (!work_.editing) controls_->setEditing(true);  // where it can be asked about
+        controls_->finishTools();
         askToLeave(work_, session_, file);
     }
     showUi();
+    retitle();
     const bool grew = update();
     if (moving_.coarse() && !moved && !controls_->painting()) work_.redraw = true;
     ++frames_;
     const bool hurried = moved || controls_->painting();
-    if (!drawFrame(hurried, options_.frames && frames_ >= options_.frames)) return false;
+    if (!drawFrame(hurried, grew, options_.frames && frames_ >= options_.frames)) return false;
     session_.nextFrame();
     work_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     noteTimes();
@@ -273,7 +281,7 @@ bool App::loop() {
     }
     const std::string shown = std::exchange(work_.error, {});
     session_.end(work_);
-    if (!layoutFile_.empty()) writeLayout(work_.layout, work_.brush);
+    keepLayout();
     if (host_->validationMessages())
         return fail(std::to_string(host_->validationMessages()) + " messages of the validation layer");
     // What the end itself says nobody sees in the window; what was shown there a script hasn't seen.
@@ -281,9 +289,21 @@ bool App::loop() {
     return told.empty() || fail(told);
 }
 
+void App::rescue() noexcept {
+    try {
+        if (work_.document) session_.end(work_);
+    } catch (...) {  // what ended the program is told
+    }
+}
+
 int runApp(const AppOptions& options) {
     App app(options);
-    return app.open() && app.loop() ? 0 : 1;
+    try {
+        return app.open() && app.loop() ? 0 : 1;
+    } catch (...) {
+        app.rescue();
+        throw;
+    }
 }
 
 }  // namespace sample

@@ -6,8 +6,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "sample_game/app_state.hpp"
 #include "sample_game/panels.hpp"
@@ -48,6 +51,9 @@ App::~App() {
 
 namespace {
 
+constexpr std::chrono::milliseconds kOpeningEvery{100};  // between two pictures of how far it is
+constexpr uint32_t kLeastWidth = 480, kLeastHeight = 320;
+
 // What was asked for, times the display's scale, may be more than the display has room for.
 void fitDisplay(GLFWwindow* window) {
     int x, y, most[2] = {0, 0}, size[2];
@@ -59,16 +65,45 @@ void fitDisplay(GLFWwindow* window) {
 
 }  // namespace
 
+// What the last session has left. Tests and scripts neither find nor leave anything.
+void App::recall() {
+    layoutFile_ = options_.frames || configFolder().empty() ? "" : configFolder() + "/windows.ini";
+    if (layoutFile_.empty()) return;
+    std::error_code ignored;
+    fs::create_directories(configFolder(), ignored);
+    readLayout(work_.layout, work_.brush, layoutError_);
+    const Layout& layout = work_.layout;
+    if (options_.sized || layout.windowWidth < kLeastWidth || layout.windowHeight < kLeastHeight) return;
+    options_.width = int(layout.windowWidth);
+    options_.height = int(layout.windowHeight);
+}
+
+void App::keepLayout() {
+    if (layoutFile_.empty()) return;
+    Layout& layout = work_.layout;
+    layout.maximised = glfwGetWindowAttrib(window_.get(), GLFW_MAXIMIZED);
+    if (!layout.maximised) {
+        float scale = 1, y = 1;
+        glfwGetWindowContentScale(window_.get(), &scale, &y);  // which a new window is made larger by
+        int width = 0, height = 0;
+        glfwGetWindowSize(window_.get(), &width, &height);
+        layout.windowWidth = uint32_t(std::lround(float(width) / scale));
+        layout.windowHeight = uint32_t(std::lround(float(height) / scale));
+    }
+    writeLayout(layout, work_.brush);
+}
+
 bool App::openWindow() {
     glfwSetErrorCallback([](int, const char* text) { std::fprintf(stderr, "espalier-sample: window: %s\n", text); });
     if (!glfwInit()) return fail("there is no display to open a window on; tools/run writes frames to out/ then");
     glfw_ = true;
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_MAXIMIZED, !options_.sized && work_.layout.maximised);
     window_.reset(glfwCreateWindow(options_.width, options_.height, "Espalier", nullptr, nullptr));
     if (!window_) return fail("the window can't be opened");
     fitDisplay(window_.get());
-    glfwSetWindowSizeLimits(window_.get(), 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwSetWindowSizeLimits(window_.get(), int(kLeastWidth), int(kLeastHeight), GLFW_DONT_CARE, GLFW_DONT_CARE);
     host_ = std::make_unique<VulkanHost>();
     uint32_t count = 0;
     const char* const* extensions = espRequiredExtensions(&count);
@@ -80,13 +115,6 @@ bool App::openWindow() {
 void App::openUi() {
     ImGui::CreateContext();
     imgui_ = true;
-    // Tests and scripts leave nothing behind.
-    layoutFile_ = options_.frames || configFolder().empty() ? "" : configFolder() + "/windows.ini";
-    if (!layoutFile_.empty()) {
-        std::error_code ignored;
-        fs::create_directories(configFolder(), ignored);
-        readLayout(work_.layout, work_.brush, layoutError_);
-    }
     ImGui::GetIO().IniFilename = layoutFile_.empty() ? nullptr : layoutFile_.c_str();
     input_ = std::make_unique<Input>(window_.get());
     controls_ = std::make_unique<Controls>(work_, session_, window_.get());
@@ -119,7 +147,13 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     std::unique_ptr<EspContext, void (*)(EspContext*)> context(made, espDestroy);
     auto document = std::make_unique<Document>(made);
     const fs::file_time_type read = fs::file_time_type::clock::now();
-    if (!document->open(request, error)) return false;
+    auto shown = std::chrono::steady_clock::now();
+    espalier::scene::Request told = request;
+    told.told = [&](const std::string& part, float share) {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - shown > kOpeningEvery && showOpening(request.file, part, share)) shown = now;
+    };
+    if (!document->open(told, error)) return false;
     host_->waitIdle();
     if (work_.document) session_.end(work_);
     reloading_ = {};
@@ -137,17 +171,25 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.roofs = {};
     work_.redraw = true;
     work_.grownRevision = ~0ull;
-    espSetGrow(made, &work_.grow);
+    wholeGrowthMs_ = 0;
     work_.message.clear();
     for (const std::string& note : work_.scene().notes) work_.message += (work_.message.empty() ? "" : "\n") + note;
-    session_.begin(work_, request.file, read);
+    const bool whole = request.layers.empty() && request.grammar.empty() && !request.seed;
+    session_.begin(work_, request.file, read, whole);
     if (options_.frames) session_.forgetRecovery(false);
     work_.lookFrom(work_.scene().camera);
-    glfwSetWindowTitle(window_.get(), ("Espalier \u2014 " + session_.name(work_)).c_str());
+    retitle();
     return true;
 }
 
+// By what is open, which another name may have been saved under.
+void App::retitle() {
+    const std::string title = "Espalier \u2014 " + session_.name(work_);
+    if (std::exchange(title_, title) != title) glfwSetWindowTitle(window_.get(), title.c_str());
+}
+
 bool App::open() {
+    recall();
     if (!openWindow()) return false;
     openUi();
     ui_ = std::make_unique<UiRenderer>(*host_);
@@ -185,7 +227,7 @@ bool App::rescale() {
     return !ui_ || ui_->updateFonts() || fail(ui_->error());
 }
 
-bool App::showOpening(const std::string& file) {
+bool App::showOpening(const std::string& file, const std::string& part, float share) {
     glfwPollEvents();
     const std::optional<Frame> frame = host_->begin();
     if (!frame) return host_->error().empty() || fail(host_->error());
@@ -194,8 +236,17 @@ bool App::showOpening(const std::string& file) {
     closeDialogues();
     const std::string text = "Opening " + fs::path(file).filename().string() + " ...";
     const ImVec2 size = ImGui::GetIO().DisplaySize, extent = ImGui::CalcTextSize(text.c_str());
-    ImGui::GetForegroundDrawList()->AddText({(size.x - extent.x) / 2, size.y / 2}, IM_COL32(220, 225, 215, 255),
-                                            text.c_str());
+    ImDrawList& list = *ImGui::GetForegroundDrawList();
+    const ImU32 light = IM_COL32(220, 225, 215, 255);
+    const float line = 1.5f * ImGui::GetFontSize();
+    list.AddText({(size.x - extent.x) / 2, size.y / 2}, light, text.c_str());
+    if (!part.empty()) {
+        const float left = size.x / 2 - 8 * line, top = size.y / 2 + line, high = .2f * line;
+        list.AddRectFilled({left, top}, {left + 16 * line, top + high}, IM_COL32(60, 64, 58, 255));
+        list.AddRectFilled({left, top}, {left + 16 * line * share, top + high}, IM_COL32(110, 160, 90, 255));
+        const float width = ImGui::CalcTextSize(part.c_str()).x;
+        list.AddText({(size.x - width) / 2, top + .5f * line}, IM_COL32(150, 155, 145, 255), part.c_str());
+    }
     ImGui::Render();
     imageBarrier(frame->commands, frame->image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     const VkClearColorValue dark{{.1f, .1f, .1f, 1}};
@@ -234,13 +285,17 @@ void App::openReloaded() {
     const auto [kept, state] = std::exchange(reloading_, {});
     const Session::Origin origin = session_.origin(work_);
     const SetView view{espalier::scene::nameOf(work_.scene().look.view), work_.scene().viewLayer};
+    const Workspace::Hands hands = work_.hands();
+    const bool recorded = session_.recording();
     session_.reload = state != work_.document->state();
     session_.goesOn = !session_.reload;
     work_.error.clear();
     if (session_.goesOn && showOpening(origin.file) && openDocument({kept, {}, {}, {}}, work_.error)) {
         work_.perform(view);
+        work_.takeUp(hands);
         session_.setOrigin(work_, origin);
-        work_.message = "Its model has changed on disk: " + fs::path(origin.file).filename().string() + " was reloaded";
+        work_.message = "Its model has changed on disk: " + fs::path(origin.file).filename().string() +
+                        " was reloaded" + (recorded ? "; the recording has ended" : "");
     }
     session_.goesOn = false;
     std::error_code ignored;
@@ -265,7 +320,7 @@ bool App::openNext() {
 }
 
 void App::beginReplay() {
-    session_.replays();
+    session_.replays(replay_.path());
     controls_->setEditing(true);
     replay_.begin(glfwGetTime());
 }

@@ -27,18 +27,23 @@ class App {
     ~App();
     bool open();
     bool loop();
+    // Of what can't go on: what isn't saved is kept.
+    void rescue() noexcept;
 
   private:
     bool fail(const std::string& message);  // false
+    void recall();
+    void keepLayout();
     bool openWindow();
     void openUi();
     bool openDocument(const espalier::scene::Request& request, std::string& error);
 
     bool rescale();
+    void retitle();
     void showUi();
     bool update();
-    bool showOpening(const std::string& file);
-    bool drawFrame(bool moving, bool last);
+    bool showOpening(const std::string& file, const std::string& part = {}, float share = 0);
+    bool drawFrame(bool moving, bool grew, bool last);
     void screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height);
     bool openNext();
     void beginReplay();
@@ -62,6 +67,7 @@ class App {
     std::unique_ptr<AtlasView> atlas_;
     std::unique_ptr<Input> input_;
     std::string layoutFile_;   // of ImGui's windows
+    std::string title_;        // of the window
     std::string layoutError_;  // why what was remembered can't be taken
 
     Workspace work_;
@@ -86,6 +92,7 @@ class App {
     double grownMs_ = 0;       // what growth took in this frame
     std::string growthError_;  // of the last frame
     bool growing_ = false;
+    double wholeGrowthMs_ = 0;  // what most of the plants took to grow, the last time
     float themeScale_ = 0;
 };
 

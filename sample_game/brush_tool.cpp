@@ -1,6 +1,6 @@
-// Moves of the mouse -> dabs: the way between two events is walked in steps of a few pixels, each is picked, and a
-// dab is laid wherever the last one is further away than the spacing, measured in the scene. So the paint doesn't
-// depend on how fast the frames come.
+// Moves of the mouse -> dabs: its way is walked in steps of a few pixels, whatever events it comes in, each is picked,
+// and a dab is laid wherever the last one is further away than the spacing, measured in the scene. So the paint doesn't
+// depend on how fast the mouse or the frames are.
 #define GLFW_INCLUDE_NONE
 #include "sample_game/brush_tool.hpp"
 
@@ -123,11 +123,12 @@ void BrushTool::layDab(const Workspace& work, glm::vec2 place) {
     dabs_.dabs.push_back({at.x, at.y, at.z, hit->normal[0], hit->normal[1], hit->normal[2], 1});
 }
 
+// In whole steps: what is left of the way is walked with the next event.
 void BrushTool::moveTo(Workspace& work, glm::vec2 at) {
     const float length = glm::distance(at, last_);
-    const int steps = std::clamp(int(length / kPixelsBetweenPicks), 1, 400);
-    for (int i = 1; i <= steps; ++i) layDab(work, glm::mix(last_, at, float(i) / float(steps)));
-    last_ = at;
+    const int steps = int(std::min(length / kPixelsBetweenPicks, 1e4f));
+    const glm::vec2 step = (at - last_) * (kPixelsBetweenPicks / std::max(length, 1e-6f));
+    for (int i = 0; i < steps; ++i) layDab(work, last_ += step);
 }
 
 bool BrushTool::take(Workspace& work, const PointerEvent& event) {

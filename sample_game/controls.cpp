@@ -25,6 +25,14 @@ void Controls::cancelTools() {
     brush_.cancel(work_);
     seeds_.cancel(work_);
     houses_.cancel(work_);
+    work_.busy = toolBusy();
+}
+
+void Controls::finishTools() {
+    brush_.cancel(work_);  // keeps what is painted
+    seeds_.finish(work_);
+    houses_.finish();
+    work_.busy = toolBusy();
 }
 
 void Controls::setEditing(bool editing) {
@@ -35,6 +43,7 @@ void Controls::setEditing(bool editing) {
 }
 
 void Controls::askToQuit() {
+    finishTools();
     if ((session_.modified(work_) || !session_.idle()) && !work_.editing) setEditing(true);
     askToLeave(work_, session_);
 }
@@ -55,10 +64,10 @@ void Controls::takeKey(const KeyEvent& event) {
     if (key == GLFW_KEY_F12) work_.screenshot = true, work_.message.clear();  // the last one's isn't in the picture
     if (control && takeViewKey(event)) return;
     if (control) {
-        // A stroke ends before what it has painted is saved, written or left.
-        if (key == GLFW_KEY_Q || key == GLFW_KEY_S || key == GLFW_KEY_O || key == GLFW_KEY_E) brush_.cancel(work_);
+        // A stroke, a drag or what G has begun ends before what it has done is saved, written or left.
+        if (key == GLFW_KEY_Q || key == GLFW_KEY_S || key == GLFW_KEY_O || key == GLFW_KEY_E) finishTools();
         if (key == GLFW_KEY_Q) askToQuit();
-        if (key == GLFW_KEY_S) askToSave(work_, session_);
+        if (key == GLFW_KEY_S) askToSave(work_, session_, shift);
         if (key == GLFW_KEY_O) askToOpen();
         if (key == GLFW_KEY_E && !work_.brush.layer.empty()) askForLayer(work_.brush.layer, false);
         if (key == GLFW_KEY_Z && brush_.painting()) return brush_.takeBack(work_);
@@ -106,6 +115,9 @@ bool Controls::takeViewKey(const KeyEvent& event) {
                                   {GLFW_KEY_KP_3, kQuarter, 0, -kQuarter, 0},
                                   {GLFW_KEY_KP_7, 0, -kQuarter, 0, kQuarter}};
     const auto view = std::ranges::find(kViewKeys, event.key, &View::key);
+    constexpr int kTurns[] = {GLFW_KEY_KP_2, GLFW_KEY_KP_4,   GLFW_KEY_KP_6,
+                              GLFW_KEY_KP_8, GLFW_KEY_KP_ADD, GLFW_KEY_KP_SUBTRACT};
+    if (view != std::end(kViewKeys) || std::ranges::find(kTurns, event.key) != std::end(kTurns)) navigation_.aim(work_);
     const bool other = event.mods & GLFW_MOD_CONTROL;
     if (view != std::end(kViewKeys))
         work_.camera.turnTo(other ? view->yawOther : view->yaw, other ? view->pitchOther : view->pitch);
@@ -149,14 +161,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
         const bool turns = key == GLFW_KEY_R && !(event.mods & GLFW_MOD_SHIFT);
         if (key == GLFW_KEY_G || turns) seeds_.grab(work_, {event.x, event.y}, turns);
     }
-    if (key == GLFW_KEY_R && (event.mods & GLFW_MOD_SHIFT)) {
-        ChangeSeeds change;
-        for (const auto& seed : work_.scene().seeds) {
-            change.seeds.push_back(work_.document->recordOf(seed));
-            change.seeds.back().number = seed.number * 747796405u + 2891336453u;
-        }
-        work_.perform(change);
-    }
+    if (key == GLFW_KEY_R && (event.mods & GLFW_MOD_SHIFT)) work_.renumberSeeds();
     if (key == GLFW_KEY_V && !work_.brush.layer.empty() && !work_.townLayer(work_.brush.layer))
         work_.showLayer(work_.scene().look.view != ESP_VIEW_LAYER);
     for (size_t i = 0; i < std::size(kViews); ++i)
@@ -184,7 +189,8 @@ void Controls::takePointer(const PointerEvent& event) {
     if (panelTakes(event)) return;
     const bool pressed = event.kind == PointerEvent::Kind::press && event.button == GLFW_MOUSE_BUTTON_LEFT;
     if (!work_.editing && pressed && !navigation_.caught) return catchMouse(true);
-    const bool toolFirst = toolBusy();
+    // Whoever has begun goes on until his button is let go.
+    const bool toolFirst = toolBusy() && !navigation_.dragging();
     if (!toolFirst && navigation_.take(work_, event)) return;
     if (!work_.editing || panelButtons_ > 0) return;
     if (work_.tool == Tool::paint) brush_.take(work_, event);
@@ -205,17 +211,30 @@ bool Controls::panelTakes(const KeyEvent& event) {
     return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive() && !file;
 }
 
+namespace {
+
+// A key that is held down is meant once, but where it goes on step by step.
+bool heeded(const KeyEvent& event) {
+    const int key = event.key;
+    const bool history = (event.mods & GLFW_MOD_CONTROL) && (key == GLFW_KEY_Z || key == GLFW_KEY_Y);
+    const bool numpad = key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_EQUAL;
+    return !event.repeated || history || numpad || key == GLFW_KEY_LEFT_BRACKET || key == GLFW_KEY_RIGHT_BRACKET;
+}
+
+}  // namespace
+
 void Controls::take(const std::vector<InputEvent>& events, float wheel) {
     for (const InputEvent& event : events) {
         if (const auto* key = std::get_if<KeyEvent>(&event)) {
-            if (!panelTakes(*key)) takeKey(*key);
+            if (heeded(*key) && !panelTakes(*key)) takeKey(*key);
         } else {
             takePointer(std::get<PointerEvent>(event));
         }
     }
     brush_.flush(work_);
+    work_.busy = toolBusy();
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    if (!overPanel(mouse.x, mouse.y)) navigation_.wheel(work_, wheel);
+    if (!overPanel(mouse.x, mouse.y)) navigation_.wheel(work_, wheel, {mouse.x, mouse.y});
 }
 
 bool Controls::step(const Input& input, float seconds) {

@@ -24,7 +24,8 @@ class Controls {
     void showTool(int mods);
 
     void setEditing(bool editing);
-    void askToQuit();  // see askToLeave
+    void askToQuit();    // see askToLeave
+    void finishTools();  // what they are about is done as it is
     bool caught() const { return navigation_.caught; }
     bool flying() const { return navigation_.flying(); }
     bool painting() const { return brush_.painting(); }

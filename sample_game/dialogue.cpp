@@ -28,6 +28,12 @@ void put(PathText& to, const std::string& text) {
     std::snprintf(to.data(), to.size(), "%s", text.c_str());
 }
 
+void doubt(const std::string& path, const std::string& why) {
+    dialogues().turn = Turn::confirms;
+    dialogues().doubted = path;
+    dialogues().why = why;
+}
+
 // Windows that appear for the first time would lie over it.
 bool beginDialogue(const char* title) {
     if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return false;
@@ -41,35 +47,50 @@ float dialogueWidth() {
     return std::min(ImGui::GetFontSize() * 32, ImGui::GetIO().DisplaySize.x - 4 * ImGui::GetStyle().WindowPadding.x);
 }
 
-// What lies in the folder of `path`, to be clicked. True: a file or project was clicked twice.
-bool showFolder(PathText& path, const std::vector<std::string>& endings) {
+// What lies in the folder of the path, to be clicked. True: what may be answered with was clicked twice.
+bool showFolder(const PathQuestion& question) {
     static struct {
         std::string typed;
         double read = -1;
         std::vector<FolderEntry> entries;
     } shown;
-    const std::string typed = path.data();
+    const std::string typed = expanded(question.path.data());
     if (shown.typed != typed || ImGui::GetTime() > shown.read + 2)
-        shown = {typed, ImGui::GetTime(), listFolder(typed, endings)};
+        shown = {typed, ImGui::GetTime(), listFolder(typed, question.endings)};
     bool taken = false;
     const std::string whole = wholePath(typed.substr(0, typed.rfind('/') + 1));
     say("In " + whole, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     // Rows, about, of what else the dialogue shows.
-    const float others = dialogues().turn == Turn::failed ? 9 : 7;
+    const float others = dialogues().turn == Turn::failed || dialogues().turn == Turn::confirms ? 9 : 7;
     const float line = ImGui::GetTextLineHeightWithSpacing(), display = ImGui::GetIO().DisplaySize.y;
     const float height = std::clamp(display - others * ImGui::GetFrameHeightWithSpacing(), 3 * line, 8 * line);
     if (ImGui::BeginChild("folder", {dialogueWidth(), height}, true))
         for (const FolderEntry& entry : shown.entries) {
             const bool known = entry.kind == FolderEntry::project;
-            const std::string text = known ? entry.name + "   project" : entry.name;
+            const std::string text = known ? entry.name + "/   project" : entry.name;
             const ImGuiSelectableFlags flags =
                 ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
             if (!ImGui::Selectable(text.c_str(), entry.path == typed, flags)) continue;
-            put(path, entry.path);
-            taken = entry.kind != FolderEntry::folder && ImGui::IsMouseDoubleClicked(0);
+            const bool enters = entry.kind == FolderEntry::folder || (known && !question.projects);
+            put(question.path, known && enters ? entry.path + "/" : entry.path);
+            taken = !enters && ImGui::IsMouseDoubleClicked(0);
         }
     ImGui::EndChild();
     return taken;
+}
+
+// Whether it is told to act after all: what would go by it is asked about once for each path.
+bool doubted(const PathQuestion& question, bool confirmed) {
+    Dialogues& d = dialogues();
+    const std::string path = expanded(question.path.data());
+    // A double click on the button isn't two answers.
+    const bool again = ImGui::IsMouseReleased(0) && ImGui::GetIO().MouseClickedLastCount[0] > 1;
+    if (d.turn == Turn::confirms && path == d.doubted) return confirmed && !again;
+    if (d.turn == Turn::confirms) d.turn = Turn::asks;
+    if (!confirmed || !question.replaces || (d.turn != Turn::asks && d.turn != Turn::failed)) return confirmed;
+    const std::string why = question.replaces(path);
+    if (!why.empty()) doubt(path, why);
+    return why.empty();
 }
 
 // How far it is; true: it is told to act.
@@ -80,6 +101,7 @@ bool showTurn(Background& background, bool confirmed) {
         progressBar(background, dialogueWidth());
     }
     if (d.turn == Turn::failed) say(d.why, kBad);
+    if (d.turn == Turn::confirms) say(d.why + " Replace it?", kWarning);
     if (d.turn == Turn::acts) return true;
     if (confirmed && d.turn != Turn::waits && d.turn != Turn::done) {
         d.turn = Turn::acts;
@@ -119,15 +141,16 @@ void askPath(Workspace& work, Session& session, const PathQuestion& question,
     const ImGuiInputTextFlags flags = waits ? ImGuiInputTextFlags_ReadOnly : 0;
     bool confirmed = ImGui::InputText("##path", path.data(), path.size(), ImGuiInputTextFlags_EnterReturnsTrue | flags);
     ImGui::BeginDisabled(waits);
-    confirmed |= showFolder(path, question.endings);
-    confirmed |= ImGui::Button(question.button);
+    confirmed |= showFolder(question);
+    confirmed |= ImGui::Button(d.turn == Turn::confirms ? "Replace" : question.button);
     ImGui::EndDisabled();
+    confirmed = doubted(question, confirmed && path[0]);
     ImGui::SameLine();
     const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    if (showTurn(session.background(), confirmed && path[0])) {
+    if (showTurn(session.background(), confirmed)) {
         work.error.clear();
         d.turn = Turn::waits;
-        act(path.data());
+        act(expanded(path.data()).c_str());
     }
     if (cancelled && waits) {
         session.background().cancelLast();

@@ -18,10 +18,12 @@ using PathText = std::array<char, 512>;  // that is typed
 // Which dialogue is open, and what was typed into each. One thread; one of them at a time.
 struct Dialogues {
     const char* open = nullptr;  // asked for: it opens in the next frame
-    // Of the open one. acts: what it was told is done in the next frame, when the user has seen that; waits: for work
-    // beside the frames; done: it closes; failed: it stays, with `why`.
-    enum class Turn { asks, acts, waits, done, failed } turn = Turn::asks;
+    // Of the open one. confirms: what lies at the path would go, see `why`, and is asked about; acts: what it was told
+    // is done in the next frame, when the user has seen that; waits: for work beside the frames; done: it closes;
+    // failed: it stays, with `why`.
+    enum class Turn { asks, confirms, acts, waits, done, failed } turn = Turn::asks;
     std::string why;
+    std::string doubted;  // the path that it confirms
     bool asks = false;    // one that asks for a path was open in the last frame
     bool leaves = false;  // for what is next, as soon as nothing is under way
     PathText project{}, file{}, run{}, picture{};
@@ -35,11 +37,15 @@ struct PathQuestion {
     const char *title, *label, *button;
     PathText& path;
     std::vector<std::string> endings;  // of the files that are listed
+    bool projects = false;             // may be answered with; else they are folders like others
+    // What would go by it, as a sentence; empty: nothing does.
+    std::function<std::string(const std::string& path)> replaces = {};
 };
 
 void ask(const char* title);
 void put(PathText& to, const std::string& text);
-bool beginDialogue(const char* title);  // false: it isn't open
+void doubt(const std::string& path, const std::string& why);  // of the one that was asked for: it begins by confirming
+bool beginDialogue(const char* title);                        // false: it isn't open
 void say(const std::string& text, ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_Text));
 // Stays with what went wrong until `act`, which is given the path, or the work that it began, is done.
 void askPath(Workspace& work, Session& session, const PathQuestion& question,

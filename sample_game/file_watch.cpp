@@ -32,11 +32,15 @@ FileStamp stampOf(const fs::path& file) {
     return noTime || noSize ? FileStamp{} : stamp;
 }
 
+bool writtenSince(const FileStamp& stamp, fs::file_time_type read) {
+    return stamp.time >= read && stamp.time <= fs::file_time_type::clock::now();
+}
+
 void FileWatch::begin(std::vector<std::string> files, fs::file_time_type read) {
     files_.clear();
     for (std::string& path : files) {
         const FileStamp stamp = stampOf(path);
-        const bool since = stamp.time >= read;
+        const bool since = writtenSince(stamp, read);
         const uint64_t hash = since ? 0 : contentOf(path).value_or(0);
         files_.push_back({std::move(path), since ? FileStamp{} : stamp, stamp, hash});
     }

@@ -16,6 +16,9 @@ struct FileStamp {
 FileStamp stampOf(const std::filesystem::path& file);
 
 constexpr std::filesystem::file_time_type kNeverWritten = std::filesystem::file_time_type::max();
+// Whether a file of that time was written since. What lies in the future was set so, or by another clock: it tells
+// nothing, and would for ever.
+bool writtenSince(const FileStamp& stamp, std::filesystem::file_time_type read);
 
 // Files that other programs may write. They are read only when their stamps change, and only other bytes count.
 class FileWatch {

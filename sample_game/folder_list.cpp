@@ -2,6 +2,7 @@
 #include "sample_game/folder_list.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <tuple>
 
@@ -21,7 +22,11 @@ std::vector<FolderEntry> listFolder(const std::string& typed, const std::vector<
         if (name.empty() || name[0] == '.') continue;
         if (at->is_directory(gone)) {
             const bool project = fs::exists(at->path() / "project.json", gone);
-            found.push_back({name + "/", before + name + "/", project ? FolderEntry::project : FolderEntry::folder});
+            // A project is answered with: the list stays, so that a second click finds it where the first did.
+            if (project)
+                found.push_back({name, before + name, FolderEntry::project});
+            else
+                found.push_back({name + "/", before + name + "/", FolderEntry::folder});
         } else if (std::any_of(endings.begin(), endings.end(), [&](const auto& e) { return name.ends_with(e); })) {
             found.push_back({name, before + name, FolderEntry::file});
         }
@@ -38,12 +43,28 @@ std::vector<FolderEntry> listFolder(const std::string& typed, const std::vector<
     return found;
 }
 
+std::string expanded(const std::string& typed) {
+    const char* home = std::getenv("HOME");
+    const bool own = typed == "~" || typed.starts_with("~/");
+    return own && home && *home ? home + typed.substr(1) : typed;
+}
+
 std::string wholePath(const std::string& path) {
     std::error_code failed;
     const fs::path whole = fs::absolute(path.empty() ? "." : path, failed).lexically_normal();
     return failed                                               ? path
            : whole.has_filename() || !whole.has_relative_path() ? whole.string()
                                                                 : whole.parent_path().string();
+}
+
+std::string freeName(const std::string& path, const std::string& ending) {
+    std::error_code ignored;
+    const bool ends = !ending.empty() && path.ends_with(ending);
+    const std::string stem = ends ? path.substr(0, path.size() - ending.size()) : path;
+    std::string name = path;
+    for (int i = 2; fs::exists(expanded(name), ignored); ++i)
+        name = stem + "-" + std::to_string(i) + (ends ? ending : "");
+    return name;
 }
 
 }  // namespace sample

@@ -10,7 +10,8 @@ namespace sample {
 struct FolderEntry {
     enum Kind { folder, project, file };
     std::string name;  // as it is shown; "..": the folder above
-    std::string path;  // as it would be typed: of folders with a slash at the end
+    std::string
+        path;  // as it would be typed: of folders with a slash at the end, which leads into them; not of projects
     Kind kind;
 };
 
@@ -19,7 +20,13 @@ struct FolderEntry {
 // A folder that can't be read has the one above it only.
 std::vector<FolderEntry> listFolder(const std::string& typed, const std::vector<std::string>& endings);
 
+// A path as a shell takes it: ~ and what begins with ~/ lie in the user's folder.
+std::string expanded(const std::string& typed);
+
 // With the current folder before it, as it is told to the user.
 std::string wholePath(const std::string& path);
+
+// The path, or else NAME-2, NAME-3 ... before the ending that it has: the first where nothing lies.
+std::string freeName(const std::string& path, const std::string& ending = {});
 
 }  // namespace sample

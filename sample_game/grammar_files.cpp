@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "tools/document/durable.hpp"
 #include "tools/scene/text_file.hpp"
 
 namespace sample {
@@ -52,6 +53,14 @@ std::string included(const std::string& file, const std::string& text) {
     return included(folderOf(file), text, names);
 }
 
+// One of the files that a text includes.
+bool includedSince(const std::string& file, const std::string& text, fs::file_time_type read) {
+    std::vector<std::string> names;
+    (void)included(folderOf(file), text, names);
+    return std::ranges::any_of(
+        names, [&](const std::string& name) { return writtenSince(stampOf(folderOf(file) / name), read); });
+}
+
 }  // namespace
 
 void GrammarFiles::begin(const espalier::scene::Scene& scene, fs::file_time_type read) {
@@ -61,8 +70,10 @@ void GrammarFiles::begin(const espalier::scene::Scene& scene, fs::file_time_type
         std::vector<FileStamp> stamps = stampsAround(grammar.file);
         if (!readText(grammar.file, text, error)) text = grammar.text;
         Seen seen{std::move(stamps), text, included(grammar.file, text)};
-        if (std::ranges::any_of(seen.stamps, [&](const FileStamp& stamp) { return stamp.time >= read; }))
-            seen = {{}, grammar.text, {}};
+        const bool own = writtenSince(stampOf(grammar.file), read), others = includedSince(grammar.file, text, read);
+        if (own || others) seen.stamps.clear();  // it is looked at again
+        if (own) seen.text = grammar.text;
+        if (others) seen.included.clear();
         seen_.push_back(std::move(seen));
     }
 }
@@ -76,13 +87,34 @@ std::vector<GrammarFiles::Change> GrammarFiles::look(const espalier::scene::Scen
         std::string error;
         if (now.stamps == seen.stamps || !readText(grammar.file, now.text, error)) continue;
         now.included = included(grammar.file, now.text);
-        if (now.text != seen.text)
-            changes.push_back({i, now.text, grammar.text != seen.text && grammar.text != now.text});
+        // What was written from here, or typed here too, is no news.
+        if (now.text != seen.text && now.text != grammar.text)
+            changes.push_back({i, now.text, grammar.text != seen.text});
         else if (now.included != seen.included)
             changes.push_back({i, grammar.text, false});
         seen = std::move(now);
     }
     return changes;
+}
+
+const std::string* FileText::of(const std::string& file) {
+    const FileStamp stamp = stampOf(file);
+    std::string ignored;
+    if (file != file_ || stamp != stamp_) good_ = readText(file, text_, ignored);
+    file_ = file;
+    stamp_ = stamp;
+    return good_ ? &text_ : nullptr;
+}
+
+bool sameText(const std::string& a, const std::string& b) {
+    const auto ended = [](const std::string& text) { return text.find_last_not_of('\n') + 1; };
+    return a.compare(0, ended(a), b, 0, ended(b)) == 0;
+}
+
+bool writeGrammar(const std::string& file, const std::string& text, std::string& error) {
+    std::error_code none;
+    const fs::path behind = fs::canonical(file, none);
+    return espalier::document::writeTextDurably(none ? file : behind.string(), text, error);
 }
 
 }  // namespace sample

@@ -31,4 +31,22 @@ class GrammarFiles {
     std::vector<Seen> seen_;  // by grammar
 };
 
+// The text in a grammar's file, read anew when that has changed.
+class FileText {
+  public:
+    // Null: it can't be read.
+    const std::string* of(const std::string& file);
+
+  private:
+    std::string file_, text_;
+    FileStamp stamp_;
+    bool good_ = false;
+};
+
+// But for empty lines at the end: a project doesn't keep whether the last line is ended.
+bool sameText(const std::string& a, const std::string& b);
+
+// Into the grammar's file, or what a link of its name leads to, whole or not at all.
+bool writeGrammar(const std::string& file, const std::string& text, std::string& error);
+
 }  // namespace sample

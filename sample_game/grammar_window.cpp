@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "sample_game/grammar_files.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/remarks.hpp"
 #include "sample_game/theme.hpp"
@@ -84,6 +85,23 @@ void lineNumbers(int lines, const std::vector<Remark>& remarks, float width, flo
     ImGui::Dummy({width, height});
 }
 
+// Above the text: its way to the file and back.
+void fileRow(Workspace& work, const std::string& file, const std::string* inFile) {
+    const auto& grammar = work.scene().grammars[work.openGrammar];
+    ImGui::BeginDisabled(inFile && sameText(*inFile, grammar.text));
+    if (ImGui::Button("Write to file") && writeGrammar(grammar.file, grammar.text, work.error))
+        work.message = "Written: " + grammar.file;
+    toolTip(("For all scenes with this grammar: " + grammar.file).c_str());
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!inFile);
+    if (ImGui::Button("Take from file") &&
+        work.perform(work.document->withText(work.openGrammar, *inFile), work.newGesture()))
+        work.message = "Read again: " + file + "; Ctrl+Z brings back what was typed here";
+    toolTip("Gives up what was typed here");
+    ImGui::EndDisabled();
+    ImGui::EndDisabled();
+}
+
 // Below the text: whether it compiles, and what is to be said of it; a click on that goes to its line.
 void showRemarks(const espalier::scene::LoadedGrammar& grammar, const std::vector<Remark>& remarks, int lines,
                  TextState& state) {
@@ -112,8 +130,14 @@ void showGrammarWindow(Workspace& work) {
     work.openGrammar = std::min(work.openGrammar, uint32_t(work.scene().grammars.size() - 1));
     const auto& grammar = work.scene().grammars[work.openGrammar];
     const float s = work.scale;
-    const std::string title = grammarName(work.scene(), work.openGrammar) + "###grammar";
+    static FileText files;
+    const std::string file = std::filesystem::path(grammar.file).filename().string();
+    const std::string* inFile = files.of(grammar.file);
+    const bool differs = !inFile || !sameText(*inFile, grammar.text);
+    const std::string title =
+        grammarName(work.scene(), work.openGrammar) + (differs ? "   differs from " + file : "") + "###grammar";
     if (beginWindow(work, title.c_str(), &work.layout.grammar, {work.window.x - 600 * s, 60 * s}, {580 * s, 520 * s})) {
+        fileRow(work, file, inFile);
         const std::vector<Remark> remarks = remarksOf(grammar);
         // Undo and files change the text from outside, also while the cursor is in it: the widget has a copy then.
         const std::string outside = grammar.text;

@@ -42,10 +42,17 @@ bool overPanel(float x, float y) {
 }
 
 void GuiEvents::key(const KeyEvent& event, int scancode, int action) {
-    events_.push_back(Key{event, scancode, action});
+    events_.push_back(Key{event, event.key, scancode, action});
+    std::get<Key>(events_.back()).event.repeated = action == GLFW_REPEAT;
 }
 
+// Brackets have no key of their own on many keyboards: what writes one together with AltGr is that bracket to tools.
 void GuiEvents::letter(unsigned code) {
+    Key* key = events_.empty() ? nullptr : std::get_if<Key>(&events_.back());
+    if (key && key->action != GLFW_RELEASE && (code == '[' || code == ']')) {
+        key->event.key = code == '[' ? GLFW_KEY_LEFT_BRACKET : GLFW_KEY_RIGHT_BRACKET;
+        key->event.mods &= ~(GLFW_MOD_CONTROL | GLFW_MOD_ALT);  // some systems' AltGr
+    }
     events_.push_back(Letter{code});
 }
 
@@ -89,18 +96,18 @@ bool GuiEvents::tell(const Letter& letter, Told& told, std::vector<InputEvent>&)
 }
 
 bool GuiEvents::tell(const Key& key, Told& told, std::vector<InputEvent>& taken) {
-    const auto& [code, mods, x, y] = key.event;
+    const int code = key.event.key, mods = key.event.mods;
     const bool cancels = code == GLFW_KEY_ESCAPE && dialogueWaits();
     const bool ends = key.action == GLFW_RELEASE && !told.held;  // it has gone down before anything was held back
     if ((told.awaited && !cancels && !ends) || told.clicked || told.asks) return false;
     const bool shifts = code >= GLFW_KEY_LEFT_SHIFT && code <= GLFW_KEY_RIGHT_SUPER;
     const bool apart = told.typing && !writes(code, mods) && !(shifts && key.action == GLFW_PRESS);
     if (apart && (told.keyed || told.wrote)) return false;
-    ImGui_ImplGlfw_KeyCallback(window_, code, key.scancode, key.action, mods);
+    ImGui_ImplGlfw_KeyCallback(window_, key.code, key.scancode, key.action, mods);
     told.keyed = told.keyed || apart;
     if (key.action == GLFW_RELEASE) return true;
     taken.push_back(key.event);
-    told.asks = asks(code, mods);
+    told.asks = !key.event.repeated && asks(code, mods);
     return true;
 }
 

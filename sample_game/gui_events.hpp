@@ -19,8 +19,9 @@ struct PointerEvent {
     float x = 0, y = 0;
 };
 struct KeyEvent {
-    int key = 0, mods = 0;
+    int key = 0, mods = 0;  // GLFW_KEY_...: what the layout makes of it, see keyNamed
     float x = 0, y = 0;
+    bool repeated = false;  // it is held, and was pressed before
 };
 using InputEvent = std::variant<PointerEvent, KeyEvent>;
 
@@ -51,7 +52,7 @@ class GuiEvents {
   private:
     struct Key {
         KeyEvent event;
-        int scancode, action;
+        int code, scancode, action;  // code: for ImGui, the same when it goes up
     };
     struct Letter {
         unsigned code;

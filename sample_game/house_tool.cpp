@@ -15,7 +15,7 @@ using namespace espalier::document;
 using espalier::scene::House;
 using espalier::scene::houseNow;
 
-constexpr float kCornerReach = 11, kEdgeReach = 8, kMergeReach = 6;  // pixels at 96 dpi
+constexpr float kCornerReach = 11, kEdgeReach = 8, kMergeReach = 6, kTremble = 4;  // pixels at 96 dpi
 constexpr ImU32 kOutline = IM_COL32(255, 255, 255, 230), kChosen = IM_COL32(255, 170, 50, 255),
                 kGable = IM_COL32(250, 220, 90, 255), kEave = IM_COL32(110, 210, 255, 255);
 
@@ -56,7 +56,7 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
                 work.houseEdge = uint32_t(i);
                 changed_ = false;
                 gesture_ = work.newGesture();
-                beginDrag(std::move(house), i);
+                beginDrag(work, std::move(house), i, at);
                 return;
             }
         for (size_t i = 0; i < points.size(); ++i) {
@@ -71,7 +71,7 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
             renumber(house, uint32_t(i) + 1, 1);
             gesture_ = work.newGesture();
             changed_ = work.perform(SetHouse{house}, gesture_);
-            if (changed_) beginDrag(std::move(house), i + 1);
+            if (changed_) beginDrag(work, std::move(house), i + 1, at);
             return;
         }
     }
@@ -79,12 +79,19 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
     work.houseEdge.reset();
 }
 
-void HouseTool::beginDrag(House house, size_t corner) {
+void HouseTool::beginDrag(Workspace& work, House house, size_t corner, glm::vec2 at) {
+    const std::vector<glm::vec2> points = outline(work, house);
     corner_ = corner;
     dragged_ = std::move(house);
+    from_ = at;
+    grip_ = corner < points.size() ? points[corner] - at : glm::vec2(0);
+    moved_ = false;
 }
 
-void HouseTool::dragTo(Workspace& work, glm::vec2 at) {
+void HouseTool::dragTo(Workspace& work, glm::vec2 mouse) {
+    moved_ = moved_ || glm::distance(mouse, from_) > kTremble * work.scale;
+    if (!moved_) return;
+    const glm::vec2 at = mouse + grip_;  // the corner doesn't jump to the mouse
     EspHouseInfo info;
     if (espHouseInfo(work.context.get(), dragged_.index, &info) != ESP_OK) return;
     const Ray ray = work.rayThrough(at);
@@ -125,7 +132,7 @@ bool HouseTool::take(Workspace& work, const PointerEvent& event) {
 }
 
 void HouseTool::cancel(Workspace& work) {
-    if (corner_ && changed_) work.perform(Undo{});
+    if (corner_ && changed_) work.takeBack(gesture_);
     corner_.reset();
 }
 

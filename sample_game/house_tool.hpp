@@ -12,19 +12,22 @@ class HouseTool {
     bool take(Workspace& work, const PointerEvent& event);
     void removeCorner(Workspace& work);  // where the chosen edge begins
     void cancel(Workspace& work);        // a drag, as if it hadn't been
+    void finish() { corner_.reset(); }   // it stays as it is by now
     bool dragging() const { return corner_.has_value(); }
     void draw(const Workspace& work) const;
 
   private:
     void press(Workspace& work, glm::vec2 at, bool insert);
-    void beginDrag(espalier::scene::House house, size_t corner);
-    void dragTo(Workspace& work, glm::vec2 at);
+    void beginDrag(Workspace& work, espalier::scene::House house, size_t corner, glm::vec2 at);
+    void dragTo(Workspace& work, glm::vec2 mouse);
 
     // The corner of the outer ring that is being dragged, and its house as it is asked for: what stands may have its
     // corners in another order, or fewer of them.
     std::optional<size_t> corner_;
     espalier::scene::House dragged_;
-    bool changed_ = false;  // by this drag
+    glm::vec2 from_{0}, grip_{0};  // where it was pressed; from there to where the corner was seen
+    bool moved_ = false;           // further than a hand trembles in a click
+    bool changed_ = false;         // by this drag
     uint32_t gesture_ = 0;
 };
 

@@ -5,7 +5,25 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 
+#include <cstring>
+
 namespace sample {
+
+int keyNamed(int key, const char* name) {
+    const bool digit = key >= GLFW_KEY_0 && key <= GLFW_KEY_9;
+    if (!name || !name[0] || name[1] || digit) return key;  // beyond ASCII, as where letters are Cyrillic: by its place
+    const char c = name[0];
+    if (c >= 'a' && c <= 'z') return GLFW_KEY_A + (c - 'a');
+    if (c >= 'A' && c <= 'Z') return GLFW_KEY_A + (c - 'A');
+    const bool punctuation = std::strchr("',-./;=[\\]`", c);
+    return punctuation ? c : key;  // GLFW's codes of these are ASCII's
+}
+
+int Input::meaning(int key, int scancode, int action) {
+    if (action != GLFW_PRESS && meant_.contains(key)) return meant_[key];
+    const bool writes = key > GLFW_KEY_SPACE && key <= GLFW_KEY_GRAVE_ACCENT;
+    return meant_[key] = writes ? keyNamed(key, glfwGetKeyName(key, scancode)) : key;
+}
 
 Input& Input::of(GLFWwindow* window) {
     return *static_cast<Input*>(glfwGetWindowUserPointer(window));
@@ -19,7 +37,7 @@ Input::Input(GLFWwindow* window) : gui(window), window_(window) {
     y_ = float(startY);
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
         Input& in = of(w);
-        in.gui.key({key, mods, in.x_, in.y_}, scancode, action);
+        in.gui.key({in.meaning(key, scancode, action), mods, in.x_, in.y_}, scancode, action);
     });
     glfwSetCharCallback(window, [](GLFWwindow* w, unsigned code) { of(w).gui.letter(code); });
     glfwSetWindowFocusCallback(window, ImGui_ImplGlfw_WindowFocusCallback);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 
@@ -8,6 +9,10 @@
 struct GLFWwindow;
 
 namespace sample {
+
+// What a key of the keyboard, GLFW_KEY_..., means in a layout that calls it `name`, as glfwGetKeyName does (null: it
+// has none): letters and brackets are where the user's layout has them. Digits stay: some layouts write them by Shift.
+int keyNamed(int key, const char* name);
 
 // What came in since the last frame. Frames may take long on a software device; asking at a frame's beginning what is
 // down, as ImGui does, would lose strokes and clicks in between.
@@ -23,6 +28,7 @@ class Input {
     bool pending() const { return !dropped_.empty() || wheel_ != 0 || gui.waiting(); }
     // A file or folder that was dropped onto the window since the last call; empty: none was.
     std::string takeDropped() { return std::exchange(dropped_, {}); }
+    // By where it is on a keyboard of the US: who flies by W A S D looks for a place, not for letters.
     bool down(int key) const;
     int mods() const;
     // Keys and the mouse, in order.
@@ -30,7 +36,10 @@ class Input {
 
   private:
     static Input& of(GLFWwindow* window);
+    int meaning(int key, int scancode, int action);
     GLFWwindow* window_;
+    std::map<int, int>
+        meant_;  // of keys that were pressed: they go up as the same, whatever layout is chosen meanwhile
     std::string dropped_;
     float wheel_ = 0;
     float x_ = 0, y_ = 0;

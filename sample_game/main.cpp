@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
     cli.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
     cli.add_option("--seed", seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
         ->check(CLI::Range(0ll, 4294967295ll));
-    cli.add_option("--size", size, "WIDTHxHEIGHT of the window")->capture_default_str();
+    cli.add_option("--size", size, "WIDTHxHEIGHT of the window; default: as it was last, at first 1280x720");
     cli.add_option("--ui-scale", options.uiScale, "of letters and panels, 0.5 to 4; default: as the display says")
         ->check(CLI::Range(.5, 4.));
     cli.add_option("--frames", options.frames, "ends after so many frames; 0: when the window is closed")
@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
     }
     if (options.turn && options.frames < sample::AppOptions::kLeastTurn)
         return fail("--turn takes --frames of " + std::to_string(sample::AppOptions::kLeastTurn) + " or more");
+    options.sized = cli.count("--size") > 0;
     if (seed >= 0) options.request.seed = uint32_t(seed);
     if (options.request.file.empty()) options.request.file = espalier::scene::contentFolder() + "/sample.json";
     const char* wanted = std::getenv("ESPALIER_VALIDATION");

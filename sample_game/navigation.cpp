@@ -3,6 +3,10 @@
 
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
 namespace sample {
 
 bool Navigation::take(Workspace& work, const PointerEvent& event) {
@@ -11,7 +15,8 @@ bool Navigation::take(Workspace& work, const PointerEvent& event) {
     last_ = at;
     known_ = true;
     using Kind = PointerEvent::Kind;
-    if (event.kind == Kind::press && drag_ == Drag::none && !caught) {
+    if (event.kind == Kind::press && drag_ != Drag::none) return true;
+    if (event.kind == Kind::press && !caught) {
         const bool left = event.button == GLFW_MOUSE_BUTTON_LEFT;
         const bool turns = event.button == GLFW_MOUSE_BUTTON_MIDDLE || (left && (event.mods & GLFW_MOD_ALT)) ||
                            (left && (work.tool == Tool::look || !work.editing));
@@ -19,13 +24,15 @@ bool Navigation::take(Workspace& work, const PointerEvent& event) {
             drag_ = event.mods & GLFW_MOD_SHIFT ? Drag::pan : work.editing ? Drag::orbit : Drag::look;
         else if (event.button == GLFW_MOUSE_BUTTON_RIGHT)
             drag_ = Drag::look;
+        if (drag_ == Drag::orbit) aim(work);
+        if (drag_ == Drag::pan) aimAt(work, at, false);
         button_ = event.button;
         return drag_ != Drag::none;
     }
     if (event.kind == Kind::release) {
-        if (drag_ == Drag::none || event.button != button_) return false;
-        drag_ = Drag::none;
-        return true;
+        const bool dragged = drag_ != Drag::none;
+        if (event.button == button_) drag_ = Drag::none;
+        return dragged;
     }
     if (event.kind != Kind::move || (drag_ == Drag::none && !caught)) return false;
     if (caught || drag_ == Drag::look)
@@ -34,13 +41,60 @@ bool Navigation::take(Workspace& work, const PointerEvent& event) {
         work.camera.pan(moved.x, moved.y);
     else
         work.camera.orbit(moved.x, moved.y);
+    if (caught || drag_ != Drag::orbit) strayed_ = true;
+    wheeled_.reset();
     moved_ = true;
     return true;
 }
 
-void Navigation::wheel(Workspace& work, float steps) {
+namespace {
+
+// How far ahead what lies there stands; nothing: the sky does, or it is so far away that nobody means it.
+std::optional<float> depthOf(const Workspace& work, const Ray& ray) {
+    EspHit hit;
+    const float most = 2 * std::max(work.reach(), work.camera.distance());
+    if (!work.meets(ray, most, hit)) return {};
+    return hit.distance * glm::dot(ray.direction, work.camera.ahead());
+}
+
+}  // namespace
+
+// After looking elsewhere or flying the distance is of what was there before. Nothing there: as far as usual.
+void Navigation::aim(Workspace& work) {
+    wheeled_.reset();
+    if (!std::exchange(strayed_, false)) return;
+    const auto middle = depthOf(work, {work.camera.eye(), work.camera.ahead()});
+    work.camera.focus(middle.value_or(std::max(work.camera.distance(), .1f * work.reach())));
+}
+
+void Navigation::aimAt(Workspace& work, glm::vec2 mouse, bool middleToo) {
+    // ImGui tells nothing of the mouse outside the window, or while the game has caught it.
+    const bool inside = glm::clamp(mouse, glm::vec2(0), work.window) == mouse;
+    const auto under = inside ? depthOf(work, work.rayThrough(mouse)) : std::nullopt;
+    std::optional<float> depth = under;
+    // Nearer things in the middle aren't passed through on the way ahead.
+    if (!under || middleToo) {
+        const auto middle = depthOf(work, {work.camera.eye(), work.camera.ahead()});
+        if (middle) depth = std::min(*middle, under.value_or(*middle));
+    }
+    if (!depth) return aim(work);
+    strayed_ = true;
+    work.camera.focus(*depth);
+}
+
+void Navigation::wheel(Workspace& work, float steps, glm::vec2 mouse) {
     if (steps == 0) return;
+    if (work.editing && drag_ == Drag::look) {
+        char text[48];
+        const float speed = work.camera.hurry(steps);
+        std::snprintf(text, sizeof text, "Flying at %.*f m/s", speed < 1 ? 2 : speed < 10 ? 1 : 0, speed);
+        work.message = text;
+        return;
+    }
+    // There and back again ends where it began.
+    if (wheeled_ != mouse) aimAt(work, mouse, true);
     work.camera.zoom(steps);
+    wheeled_ = mouse;
     moved_ = true;
 }
 
@@ -64,6 +118,7 @@ bool Navigation::step(Workspace& work, const Input& input, float seconds, bool t
             work.camera.walk(meets, {steps.x, steps.z}, std::min(left, kStep), fast, jump_);
     }
     jump_ = false;
+    if (before != work.camera.eye()) strayed_ = true, wheeled_.reset();
     const bool moved = moved_ || before != work.camera.eye();
     moved_ = false;
     return moved;

@@ -91,15 +91,22 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
     const EspGrammar grammar = work.scene().grammars[chosen[0].grammar].id;
     for (uint32_t i = 0; i < espParamCount(work.context.get(), grammar); ++i) {
         EspParamInfo info;
-        if (espParamInfo(work.context.get(), grammar, i, &info) != ESP_OK || info.kind == ESP_PARAM_COLOUR) continue;
+        if (espParamInfo(work.context.get(), grammar, i, &info) != ESP_OK) continue;
+        using Value = std::array<float, 3>;
+        const size_t count = info.kind == ESP_PARAM_COLOUR ? 3 : 1;
+        const auto valueOf = [&](const float* from) {
+            Value value{};
+            std::copy_n(from, count, value.begin());
+            return value;
+        };
         const auto named = [&](const Param& param) { return param.name == info.name; };
-        std::vector<float> own;  // of those that have one
+        std::vector<Value> own;  // of those that have one
         for (const SeedRecord& seed : chosen)
             if (const auto param = std::ranges::find_if(seed.params, named); param != seed.params.end())
-                own.push_back(param->value[0]);
+                own.push_back(valueOf(param->value.data()));
         bool has = !own.empty();
-        float value = has ? own[0] : info.value[0];
-        const bool several = std::ranges::any_of(own, [&](float other) { return other != value; });
+        Value value = has ? own[0] : valueOf(info.value);
+        const bool several = std::ranges::any_of(own, [&](const Value& other) { return other != value; });
         const bool some = has && own.size() < chosen.size();
         ImGui::PushID(int(i));
         ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, some);
@@ -111,14 +118,14 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
         if (has && !changed) {
             info.label = "On";
             ImGui::SetNextItemWidth(-1);
-            changed = editParam(info, &value, several);
+            changed = editParam(info, value.data(), several);
             gesture = changed ? widgetGesture(work) : 0;
         }
         ImGui::PopID();
         if (!changed) continue;
         for (SeedRecord& seed : chosen) {
             std::erase_if(seed.params, named);
-            if (has) seed.params.push_back({info.name, {value}});
+            if (has) seed.params.push_back({info.name, {value.begin(), value.begin() + count}});
         }
         work.perform(ChangeSeeds{chosen}, gesture);
     }
@@ -253,15 +260,13 @@ void seedsPanel(Workspace& work) {
         toolTip("What grows from the next seeds");
     }
     chosenSeeds(work);
+    labelledSlider("Row's step", &work.layout.rowStep, kLeastRowStep, kMostRowStep, "%.2f m", true);
+    toolTip("Between two seeds of a row: Ctrl and a drag plant one");
+    ImGui::Checkbox("A row's seeds look along it", &work.layout.rowAlong);
+    toolTip("Else they look upward");
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    if (ImGui::Button("All anew", {half, 0})) {
-        ChangeSeeds change;
-        for (const Seed& seed : scene.seeds) {
-            change.seeds.push_back(work.document->recordOf(seed));
-            change.seeds.back().number = seed.number * 747796405u + 2891336453u;
-        }
-        work.perform(change);
-    }
+    ImGui::BeginDisabled(scene.seeds.empty());
+    if (ImGui::Button("All anew", {half, 0})) work.renumberSeeds();
     toolTip("Other random numbers for all seeds  (Shift+R)");
     ImGui::SameLine();
     if (ImGui::Button("Remove all", {half, 0})) {
@@ -271,6 +276,7 @@ void seedsPanel(Workspace& work) {
         work.selected.clear();
     }
     toolTip("All seeds of the scene go; Ctrl+Z brings them back");
+    ImGui::EndDisabled();
 }
 
 void lightPanel(Workspace& work) {
@@ -284,8 +290,8 @@ void lightPanel(Workspace& work) {
         const int minutes = int(std::lround(light.hour * 60)) % 1440;
         char text[16];
         std::snprintf(text, sizeof text, "%d:%02d", minutes / 60, minutes % 60);
-        changed |= labelledSlider("Time", &light.hour, 0, 24, text);
-        toolTip("Time of the day");
+        changed |= labelledSlider("Time", &light.hour, 0, 24, text, false, hoursOf);
+        toolTip("Time of the day; typed, it may be 14:30");
     }
     const uint32_t gesture = changed ? widgetGesture(work) : 0;
     bool exposed = labelledSlider("Exposure", &light.exposure, -4, 4, "%.1f stops");
@@ -311,12 +317,9 @@ void lightPanel(Workspace& work) {
         if (labelledSlider("Opacity", &work.layout.layerOpacity, .05f, 1, "%.2f")) work.redraw = true;
         toolTip("Of the painted layer over the model");
     }
-    bool paper = work.grow.walk == ESP_WALK_PAPER;
-    if (ImGui::Checkbox("The paper's walk, to compare", &paper)) {
-        work.grow.walk = paper ? ESP_WALK_PAPER : ESP_WALK_INTRINSIC;
-        if (espSetGrow(work.context.get(), &work.grow) != ESP_OK) work.error = espLastError(work.context.get());
-        work.redraw = true;
-    }
+    bool paper = scene.grow.walk == ESP_WALK_PAPER;
+    if (ImGui::Checkbox("The paper's walk, to compare", &paper))
+        work.perform(SetWalk{espalier::scene::nameOf(paper ? ESP_WALK_PAPER : ESP_WALK_INTRINSIC)});
     toolTip("Plants walk from texel to texel, as Buron 2015 does: they turn at seams");
 }
 
@@ -325,10 +328,18 @@ void showPanel(Workspace& work) {
     const float top = ImGui::GetFrameHeight(), bottom = ImGui::GetFrameHeight() + 4 * work.scale;
     ImGui::SetNextWindowPos({0, top});
     ImGui::SetNextWindowSize({work.panelUnits(), work.window.y - top - bottom});
-    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+    const float high = work.window.y - top - bottom;
+    ImGui::SetNextWindowSizeConstraints({std::min(kLeastPanel * work.scale, work.panelUnits()), high},
+                                        {kMostPanel * work.scale, high});
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | kQuiet;
     static Tool shown = work.tool;
     if (ImGui::Begin("Espalier", nullptr, flags)) {
+        // A drag of its edge.
+        if (const float wide = ImGui::GetWindowWidth(); wide != work.panelUnits() && ImGui::IsMouseDown(0)) {
+            work.layout.panelWidth = std::clamp(wide / work.scale, kLeastPanel, kMostPanel);
+            work.redraw = true;
+        }
         if (std::exchange(shown, work.tool) != work.tool) ImGui::SetScrollY(0);  // what it has stands first
         toolButtons(work);
         if (work.tool == Tool::paint) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "sample_game/dialogue.hpp"
+#include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
 
 namespace sample {
@@ -45,7 +46,7 @@ void showDialogues(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
     d.asks = false;
     if (d.open) {
-        if (!d.project[0]) put(d.project, std::filesystem::path(session.name(work)).stem().string());
+        if (!d.project[0]) put(d.project, freeName(std::filesystem::path(session.name(work)).stem().string()));
         const std::string& place = session.folder().empty() ? session.file() : session.folder();
         if (!d.file[0]) put(d.file, std::filesystem::path(place).parent_path().string() + "/");
         if (!d.run[0]) put(d.run, "run.jsonl");

@@ -17,9 +17,9 @@ void showHelp(Workspace& work) {
     const Row camera[] = {{"Tab", "between the game and the editor"},
                           {"W A S D, mouse", "walk and look (game); G flies, Space jumps, Shift runs"},
                           {"Middle drag, Alt+drag", "turn around; with Shift sideways"},
-                          {"Right drag", "look around; with W A S D Q E fly"},
+                          {"Right drag", "look around; with W A S D Q E fly, the wheel sets how fast"},
                           {"Wheel", "nearer, further"},
-                          {"Home, F or numpad .", "show everything, what is chosen"},
+                          {"Home, F or numpad .", "show everything, what is chosen or the brush points at"},
                           {"Numpad 1 3 7", "from the front, the right, above; Ctrl: the other side"},
                           {"Numpad 2 4 6 8, + -", "turn by 15 degrees, nearer, further"}};
     const Row paint[] = {{"B, then drag", "paint the chosen layer"},
@@ -38,7 +38,8 @@ void showHelp(Workspace& work) {
                          {"H, then click", "a house; drag its corners, choose its edges"},
                          {"Ctrl+drag, Del", "a new corner in an edge, the chosen edge's corner goes"}};
     const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y", "undo, redo: of everything"},
-                       {"Ctrl+S, Ctrl+O, Ctrl+E, Ctrl+Q", "save, open, export the layer, quit"},
+                       {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
+                       {"Ctrl+O, Ctrl+E, Ctrl+Q", "open, export the layer, quit"},
                        {"1 2 3 4 5 6", "shaded, charts, normals, levels of detail, depth, overdraw"},
                        {"F2 F3 F4 F5", "panel, figures, grammar, atlas"},
                        {"F12", "write a screenshot"},

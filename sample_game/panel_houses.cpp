@@ -114,8 +114,11 @@ void housesPanel(Workspace& work) {
         ImGui::PopStyleColor();
     }
     if (edit.changed) work.perform(SetHouse{house}, edit.gesture);
+    const auto& town = work.scene().town;
+    ImGui::BeginDisabled(!town || !std::ranges::count(town->houses, *work.house, &House::index));
     if (ImGui::Button("As it was planned", {-1, 0})) work.perform(ResetHouse{*work.house});
     toolTip("Back to what the town's file says");
+    ImGui::EndDisabled();
     if (std::ranges::any_of(work.scene().surfaces, [](const auto& surface) { return !surface.drawn; })) {
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
         ImGui::TextWrapped("Plants keep to walls as they were baked: they don't follow an outline.");

@@ -1,4 +1,6 @@
 // Pictures of layers, out and in, beside the frames.
+#include <filesystem>
+
 #include "sample_game/dialogue.hpp"
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
@@ -47,14 +49,24 @@ void layerDialogues(Workspace& work, Session& session) {
     const std::vector<std::string> endings{".png", ".exr"};
     askPath(work, session, {"Import a layer", asked, "Import", d.picture, endings},
             [&](const char* file) { importFrom(work, session, town, file); });
+    const auto replaces = [&](const std::string& file) {
+        for (size_t i = 0; i < (town ? 1 : work.scene().surfaces.size()); ++i) {
+            const std::string each = town ? file : pictureOf(*work.document, file, i);
+            std::error_code ignored;
+            if (std::filesystem::exists(each, ignored)) return wholePath(each) + " is there already.";
+        }
+        return std::string();
+    };
     askPath(work, session,
-            {"Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture, endings},
+            {"Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture, endings,
+             false, replaces},
             [&](const char* file) { exportTo(work, session, town, file); });
 }
 
 void askForLayer(const std::string& layer, bool import) {
     Dialogues& d = dialogues();
-    if (d.layer != layer) put(d.picture, layer + ".exr");
+    const std::string name = layer + ".exr";
+    if (d.layer != layer) put(d.picture, import ? name : freeName(name, ".exr"));
     d.layer = layer;
     ask(import ? "Import a layer" : "Export a layer");
 }

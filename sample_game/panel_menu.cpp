@@ -15,7 +15,7 @@ using namespace espalier::document;
 void fileMenu(Workspace& work, Session& session) {
     if (ImGui::MenuItem("Open ...", "Ctrl+O")) askToOpen();
     if (ImGui::MenuItem("Save", "Ctrl+S")) askToSave(work, session);
-    if (ImGui::MenuItem("Save as ...")) askToSave(work, session, true);
+    if (ImGui::MenuItem("Save as ...", "Ctrl+Shift+S")) askToSave(work, session, true);
     ImGui::Separator();
     if (ImGui::MenuItem("Record a run ...", nullptr, false, !session.recording())) askToRecord();
     if (ImGui::MenuItem("End the recording", nullptr, false, session.recording())) session.stopRecording(work);

@@ -112,7 +112,7 @@ void keepRow(Workspace& work, uint32_t index, const std::string& grammar, Names&
 
 void presetsPanel(Workspace& work, uint32_t index) {
     static Names names;
-    const std::string grammar = grammarName(work.scene(), index);
+    const std::string grammar = presetsOf(work.scene().grammars[index].file);
     ImGui::SetNextItemWidth(-1);
     if (!ImGui::BeginCombo("##presets", "Presets")) {
         toolTip("Values kept under a name, and those that the grammar says");

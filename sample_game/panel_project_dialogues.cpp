@@ -1,5 +1,8 @@
 // Where a project is saved, what is opened, and what becomes of work that isn't saved.
+#include <filesystem>
+
 #include "sample_game/dialogue.hpp"
+#include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/replay.hpp"
 
@@ -7,6 +10,7 @@ namespace sample {
 namespace {
 
 using Turn = Dialogues::Turn;
+namespace fs = std::filesystem;
 
 void recoveryDialogue(Session& session) {
     if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");
@@ -25,6 +29,15 @@ void recoveryDialogue(Session& session) {
         }
         ImGui::EndPopup();
     }
+}
+
+// The project that would go if this one were saved there.
+std::string goneBySaving(const Session& session, const std::string& folder) {
+    std::error_code ignored;
+    const std::string place = wholePath(folder);
+    if (place == session.folder())
+        return session.changedByOthers() ? place + " has been saved by somebody else since it was opened." : "";
+    return fs::exists(fs::path(place) / "project.json", ignored) ? place + " is a project already." : "";
 }
 
 // What is open is saved, or may be given up.
@@ -51,18 +64,21 @@ void leavingDialogue(Workspace& work, Session& session) {
     if (!d.next) return;
     session.givesUp = gives;
     if (gives) leave(session);
-    if (saves) {
-        askToSave(work, session);
-        d.leaves = !session.folder().empty();  // else the dialogue goes on with it
-    }
+    if (saves) d.leaves = askToSave(work, session);  // else the dialogue goes on with it
 }
 
 }  // namespace
 
 // What can't be saved asks for another place, and nothing is left before that.
-void askToSave(Workspace& work, Session& session, bool elsewhere) {
-    put(dialogues().project, session.folder());
-    if (session.folder().empty() || elsewhere) return ask("Save the project");
+bool askToSave(Workspace& work, Session& session, bool elsewhere) {
+    const std::string& own = session.folder();
+    const std::string doubts = own.empty() ? "" : goneBySaving(session, own);
+    put(dialogues().project, elsewhere && !own.empty() ? freeName(own) : own);
+    if (own.empty() || elsewhere || !doubts.empty()) {
+        ask("Save the project");
+        if (!elsewhere && !doubts.empty()) doubt(own, doubts);
+        return false;
+    }
     session.save(work, session.folder(), [&work](bool good) {
         if (good) return;
         Dialogues& d = dialogues();
@@ -72,6 +88,7 @@ void askToSave(Workspace& work, Session& session, bool elsewhere) {
         ask("Save the project");
         d.turn = turnOf(work, false);
     });
+    return true;
 }
 
 bool askToLeave(Workspace& work, Session& session, const std::string& next) {
@@ -100,7 +117,14 @@ void askToOpen(const std::string& refused, const std::string& why) {
 
 void projectDialogues(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
-    askPath(work, session, {"Save the project", "Folder of the project:", "Save", d.project, {}},
+    askPath(work, session,
+            {"Save the project",
+             "Folder of the project:",
+             "Save",
+             d.project,
+             {},
+             true,
+             [&](const std::string& folder) { return goneBySaving(session, folder); }},
             [&](const char* folder) {
                 session.save(work, folder, [&work](bool good) {
                     endWait(work, good);
@@ -108,13 +132,17 @@ void projectDialogues(Workspace& work, Session& session) {
                 });
             });
     // What can't be opened asks again, see askToOpen.
-    askPath(
-        work, session,
-        {"Open", "A project's folder, a scene (.json) or a baked surface (.glb):", "Open", d.file, {".json", ".glb"}},
-        [&](const char* file) {
-            askToLeave(work, session, file);
-            d.turn = Turn::done;
-        });
+    askPath(work, session,
+            {"Open",
+             "A project's folder, a scene (.json) or a baked surface (.glb):",
+             "Open",
+             d.file,
+             {".json", ".glb"},
+             true},
+            [&](const char* file) {
+                askToLeave(work, session, file);
+                d.turn = Turn::done;
+            });
     recoveryDialogue(session);
     leavingDialogue(work, session);
     if (d.leaves && d.next && session.idle()) askToLeave(work, session, std::string(*d.next));

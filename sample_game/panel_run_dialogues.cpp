@@ -1,11 +1,18 @@
 // What is recorded, and what of it is seen again.
+#include <filesystem>
+
 #include "sample_game/dialogue.hpp"
+#include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/replay.hpp"
 
 namespace sample {
 
+namespace fs = std::filesystem;
+
 void askToRecord() {
+    PathText& run = dialogues().run;
+    put(run, freeName(run[0] ? run.data() : "run.jsonl", ".jsonl"));
     ask("Record a run");
 }
 void askToReplay() {
@@ -21,12 +28,18 @@ void runDialogues(Workspace& work, Session& session) {
                 if (good) askToLeave(work, session, file);  // what can't be opened asks again, see askToOpen
                 d.turn = turnOf(work, good);
             });
-    askPath(work, session, {"Record a run", "File for what is done from now on (.jsonl):", "Record", d.run, {".jsonl"}},
-            [&](const char* file) {
-                const std::string path = Replay::names(file) ? file : std::string(file) + ".jsonl";
-                session.startRecording(work, path, uint32_t(work.window.x), uint32_t(work.window.y),
-                                       [&work](bool good) { endWait(work, good); });
-            });
+    const auto named = [](const std::string& file) { return Replay::names(file) ? file : file + ".jsonl"; };
+    const auto replaces = [&](const std::string& file) {
+        std::error_code ignored;
+        return fs::exists(named(file), ignored) ? wholePath(named(file)) + " is there already." : "";
+    };
+    askPath(
+        work, session,
+        {"Record a run", "File for what is done from now on (.jsonl):", "Record", d.run, {".jsonl"}, false, replaces},
+        [&](const char* file) {
+            session.startRecording(work, named(file), uint32_t(work.window.x), uint32_t(work.window.y),
+                                   [&work](bool good) { endWait(work, good); });
+        });
 }
 
 }  // namespace sample

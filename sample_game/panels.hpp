@@ -22,8 +22,8 @@ void showGrowing(const Workspace& work);                             // while gr
 void showBackground(const Workspace& work, Background& background);  // what takes long of it, unless a dialogue does
 void progressBar(const Background& background, float width);         // of what is under way
 
-// Ctrl+S and Ctrl+O: at once, or by a dialogue.
-void askToSave(Workspace& work, Session& session, bool elsewhere = false);
+// Ctrl+S and Ctrl+O: at once, or by a dialogue. True: it is being saved; else that is asked first.
+bool askToSave(Workspace& work, Session& session, bool elsewhere = false);
 void askToOpen(const std::string& refused = {}, const std::string& why = {});  // refused: what couldn't be opened
 void askToRecord();
 void askToReplay();

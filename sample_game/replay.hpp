@@ -16,6 +16,7 @@ class Replay {
     // What the run begins with is to be opened next, then begin() is due. False: `error` tells file, place and cause.
     bool read(const std::string& path, std::string& error);
     const std::string& scene() const { return run_->head.scene; }
+    const std::string& path() const { return path_; }
     void begin(double now) { began_ = now; }
     void forget() { run_.reset(); }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 namespace sample {
 namespace {
@@ -14,9 +15,8 @@ namespace {
 using namespace espalier::document;
 using espalier::scene::Seed;
 
-constexpr float kReach = 11;      // pixels at 96 dpi around a seed's marker
-constexpr float kRowStep = .25f;  // metres between two seeds of a row
-constexpr float kArrow = .3f;     // metres
+constexpr float kReach = 11;   // pixels at 96 dpi around a seed's marker
+constexpr float kArrow = .3f;  // metres
 
 }  // namespace
 
@@ -95,6 +95,7 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
     if (drag_ != Drag::row) return;
     plant(work, pending_, gesture_);
     lastInRow_ = vec(hit->position);
+    firstInRow_ = true;
 }
 
 void SeedTool::follow(Workspace& work, glm::vec2 at) {
@@ -134,8 +135,14 @@ void SeedTool::plantRow(Workspace& work, glm::vec2 at) {
     const int parts = 1 + int(glm::distance(last_, at) / (4 * work.scale));
     for (int i = 1; i <= parts; ++i) {
         const auto hit = work.pick(glm::mix(last_, at, float(i) / float(parts)));
-        if (!hit || !lastInRow_ || glm::distance(vec(hit->position), *lastInRow_) < kRowStep) continue;
-        plant(work, newSeed(work, *hit), gesture_);
+        if (!hit || !lastInRow_ || glm::distance(vec(hit->position), *lastInRow_) < work.layout.rowStep) continue;
+        SeedRecord next = newSeed(work, *hit);
+        if (work.layout.rowAlong) next.direction = array(glm::normalize(vec(hit->position) - *lastInRow_));
+        if (work.layout.rowAlong && std::exchange(firstInRow_, false)) {  // only now it is known where the row goes
+            pending_.direction = next.direction;
+            work.perform(ChangeSeeds{{pending_}}, gesture_);
+        }
+        plant(work, next, gesture_);
         lastInRow_ = vec(hit->position);
     }
 }
@@ -179,7 +186,7 @@ void SeedTool::grab(Workspace& work, glm::vec2 at, bool turns) {
 }
 
 void SeedTool::cancel(Workspace& work) {
-    if (drag_ != Drag::none && changed_) work.perform(Undo{});
+    if (drag_ != Drag::none && changed_) work.takeBack(gesture_);
     finish(work);
 }
 

@@ -14,6 +14,7 @@ class SeedTool {
     // Without a button held: the chosen ones follow the mouse, or turn towards it, until a click.
     void grab(Workspace& work, glm::vec2 at, bool turns);
     void cancel(Workspace& work);     // what is under way, as if it hadn't been
+    void finish(Workspace& work);     // it stays as it is by now; what isn't planted yet, isn't
     void remove(Workspace& work);     // those that are chosen
     void selectAll(Workspace& work);  // or none, if all are
     bool dragging() const { return drag_ != Drag::none; }
@@ -29,7 +30,6 @@ class SeedTool {
     void follow(Workspace& work, glm::vec2 at);
     void plantRow(Workspace& work, glm::vec2 at);  // from where the mouse was
     void selectBox(Workspace& work) const;         // from where the drag began to where it is, besides what is chosen
-    void finish(Workspace& work);
     // The chosen ones, as `change` leaves them.
     template <class Change>
     void changeChosen(Workspace& work, Change&& change);
@@ -42,6 +42,7 @@ class SeedTool {
     uint32_t gesture_ = 0;
     espalier::document::SeedRecord pending_;  // planted on release
     std::optional<glm::vec3> lastInRow_;
+    bool firstInRow_ = false;  // the row has one seed yet
 };
 
 }  // namespace sample

@@ -2,6 +2,7 @@
 #include "sample_game/session.hpp"
 
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "sample_game/folder_list.hpp"
@@ -18,6 +19,10 @@ using namespace espalier::document;
 
 constexpr double kLookEvery = .3;   // seconds
 constexpr uint64_t kNever = ~1ull;  // was saved: no document has this state
+constexpr int kMostPlaces = 99;     // editors of one scene
+constexpr const char* kProject = "project.json";
+constexpr const char* kAutosave = "autosave.json";
+constexpr const char* kNoPlace = "neither XDG_CONFIG_HOME nor HOME is set";
 
 std::vector<std::string> modelFiles(const espalier::scene::Scene& scene) {
     std::vector<std::string> files;
@@ -42,24 +47,32 @@ void removeKept(const fs::path& folder) {
 
 }  // namespace
 
-void Session::begin(Workspace& work, const std::string& file, fs::file_time_type read) {
+void Session::begin(Workspace& work, const std::string& file, fs::file_time_type read, bool whole) {
     file_ = fs::absolute(file).lexically_normal().string();
     fs::path place(file_);
     std::error_code ignored;
-    const bool recovered = place.filename() == "autosave.json";
-    if (place.filename() == "project.json" || recovered) place = place.parent_path();
-    folder_ = fs::exists(place / "project.json", ignored) ? place.string() : "";
+    const bool recovered = place.filename() == kAutosave;
+    if (place.filename() == kProject || recovered) place = place.parent_path();
+    folder_ = fs::exists(place / kProject, ignored) ? place.string() : "";
     recoveredFrom_ = recovered && folder_.empty() ? place.string() : "";
     savedState_ = recovered ? kNever : work.document->state();
     autosavedState_ = work.document->state();
     cannotKeep_.clear();
     toldKept_.clear();
-    missing_ = false;
-    recovery_ = recovered ? "" : recoverable(autosaveFolder());
-    if (recovery_.empty() && !recovered && !folder_.empty()) recovery_ = recoverable(unsavedFolder());
+    unsaved_.clear();
+    run_.clear();
+    missing_ = replaying_ = saving_ = false;
+    whole_ = whole && !work.scene().project;
+    project_ = stampOf(fs::path(folder_) / kProject);
+    if (writtenSince(project_, read)) project_ = {};
+    unsavedLock_.release();
+    claim();
+    if (!cannotKeep_.empty()) work.message += (work.message.empty() ? "" : "\n") + cannotKeep_;
+    recovery_ = recovered || folder_.empty() || !cannotKeep_.empty() ? "" : recoverable(folder_);
+    if (recovery_.empty() && !recovered) recovery_ = leftBehind();
     grammarFiles_.begin(work.scene(), read);
     models_.begin(modelFiles(work.scene()), read);
-    reload = givesUp = goesOn = replayed_ = false;
+    reload = givesUp = goesOn = false;
     work.document->beforeEdits([this] { background_.settle(); });
     work.document->listen([this](const Action& action, uint32_t gesture) { recorder_.note(action, gesture); });
 }
@@ -70,26 +83,67 @@ std::string Session::name(const Workspace& work) const {
 }
 
 std::string Session::autosaveFolder() const {
-    if (replayed_) return {};
+    if (replaying_) return {};
     if (!folder_.empty() && cannotKeep_.empty()) return folder_;
-    return recoveredFrom_.empty() ? unsavedFolder() : recoveredFrom_;
+    if (!recoveredFrom_.empty()) return recoveredFrom_;
+    return unsaved_.empty() ? unsavedFolder() : unsaved_;
 }
 
 // By what it was opened from, or is the project of: its name, and a number for where that is.
-std::string Session::unsavedFolder() const {
-    const std::string& of = folder_.empty() ? file_ : folder_;
-    const std::string name = fs::path(of).filename().string() + "-" + espalier::scene::hashName(of.data(), of.size());
+std::string Session::unsavedFolder(int number) const {
+    const std::string& of = !run_.empty() ? run_ : folder_.empty() ? file_ : folder_;
+    std::string name = fs::path(of).filename().string() + "-" + espalier::scene::hashName(of.data(), of.size());
+    if (number > 1) name += "-" + std::to_string(number);
     return allUnsaved().empty() ? "" : (allUnsaved() / name).string();
 }
 
+// Two editors of one project, or of one autosave: the second keeps what is its own elsewhere.
+void Session::claim() {
+    lock_.release();
+    const std::string& own = folder_.empty() ? recoveredFrom_ : folder_;
+    if (own.empty() || lock_.take(own)) return;
+    if (folder_.empty())
+        recoveredFrom_.clear();
+    else
+        cannotKeep_ = folder_ + " is open in another editor";
+}
+
+void Session::takePlace() {
+    if (!unsaved_.empty() || autosaveFolder() != unsavedFolder()) return;
+    for (int i = 1; i <= kMostPlaces && !unsavedFolder().empty(); ++i) {
+        std::error_code failed;
+        const fs::path place = unsavedFolder(i);
+        fs::create_directories(place, failed);
+        if (failed) return;  // which saving there will tell
+        if (!unsavedLock_.take(place.string()) || fs::exists(place / kAutosave, failed)) continue;
+        unsaved_ = place.string();
+        return;
+    }
+}
+
+// The autosave of an editor that is gone.
+std::string Session::leftBehind() {
+    for (int i = 1; i <= kMostPlaces && !unsavedFolder().empty(); ++i)
+        if (const std::string kept = recoverable(unsavedFolder(i));
+            !kept.empty() && unsavedLock_.take(unsavedFolder(i)))
+            return kept;
+    return {};
+}
+
+bool Session::changedByOthers() const {
+    const FileStamp now = stampOf(fs::path(folder_) / kProject);
+    return !folder_.empty() && !saving_ && now != FileStamp{} && now != project_;
+}
+
 bool Session::step(Workspace& work, double now) {
-    // A stroke is one step: it is saved when it has ended.
-    const bool moved = (background_.started() || !work.document->stroking()) && background_.step();
+    // A stroke is one step, as is what any tool has in hand: it is saved when it has ended.
+    const bool moved = (background_.started() || !(work.document->stroking() || work.busy)) && background_.step();
     if (now >= nextAutosave_ && !background_.busy()) {
         nextAutosave_ = now + autosaveEvery;
         keepSoon(work);
     }
-    if (now < nextLook_ || background_.busy() || work.document->stroking()) return moved;
+    // What others write waits for a tool in use: its Esc takes back the latest step.
+    if (now < nextLook_ || background_.busy() || work.document->stroking() || work.busy) return moved;
     nextLook_ = now + kLookEvery;
     noticeLoss(work);
     const bool models = models_.changed(), grammars = watchGrammars(work);
@@ -100,7 +154,7 @@ bool Session::step(Workspace& work, double now) {
 // Whoever deletes or moves a project's folder while it is open: what is open is all that is left of it.
 void Session::noticeLoss(Workspace& work) {
     std::error_code ignored;
-    const bool there = folder_.empty() || fs::exists(fs::path(folder_) / "project.json", ignored);
+    const bool there = folder_.empty() || fs::exists(fs::path(folder_) / kProject, ignored);
     const bool missed = std::exchange(missing_, !there);  // at two looks: others may be writing it anew
     if (there || !missed || savedState_ == kNever) return;
     savedState_ = autosavedState_ = kNever;
@@ -115,11 +169,21 @@ bool Session::idle() {
     return !background_.busy();
 }
 
+Session::Origin Session::origin(const Workspace& work) const {
+    return {file_, folder_, cannotKeep_, recoveredFrom_, unsaved_, run_, project_, whole_, modified(work)};
+}
+
 void Session::setOrigin(const Workspace& work, const Origin& origin) {
     file_ = origin.file;
     folder_ = origin.folder;
     cannotKeep_ = origin.cannotKeep;
     recoveredFrom_ = origin.recoveredFrom;
+    unsaved_ = origin.unsaved;
+    run_ = origin.run;
+    project_ = origin.project;
+    whole_ = origin.whole;
+    claim();
+    if (!unsaved_.empty() && !unsavedLock_.take(unsaved_)) unsaved_.clear();
     savedState_ = autosavedState_ = origin.modified ? kNever : work.document->state();
 }
 
@@ -139,15 +203,18 @@ void Session::end(Workspace& work) {
     background_.giveWay();
     background_.finish();
     work.document->beforeEdits({});
-    if (goesOn || autosaveFolder().empty() || !recovery_.empty()) return;
-    if (givesUp)
-        dropKept();
-    else
-        keepNow(work);
+    if (!goesOn && !replaying_ && recovery_.empty()) {
+        if (givesUp)
+            dropKept();
+        else
+            keepNow(work);
+    }
+    lock_.release();
+    unsavedLock_.release();
 }
 
 bool Session::keeps(const Workspace& work) const {
-    return !autosaveFolder().empty() && recovery_.empty() && work.document->state() != autosavedState_;
+    return !replaying_ && recovery_.empty() && work.document->state() != autosavedState_;
 }
 
 void Session::keepNow(Workspace& work) {
@@ -156,6 +223,11 @@ void Session::keepNow(Workspace& work) {
     if (!modified(work)) {
         dropKept();
         autosavedState_ = work.document->state();
+        return;
+    }
+    takePlace();
+    if (autosaveFolder().empty()) {
+        notKept(work, kNoPlace);
     } else if (autosave(*work.document, autosaveFolder(), why)) {
         kept(work, work.document->state());
     } else if (keepElsewhere(why)) {
@@ -167,11 +239,12 @@ void Session::keepNow(Workspace& work) {
 
 void Session::keepSoon(Workspace& work) {
     if (!keeps(work)) return;
-    if (!modified(work)) return keepNow(work);
+    if (!modified(work) || autosaveFolder().empty()) return keepNow(work);
     const auto state = std::make_shared<uint64_t>();
     background_.ask({"",
                      [this, &work, state] {
                          *state = work.document->state();
+                         takePlace();
                          return autosaving(*work.document, autosaveFolder());
                      },
                      [this, &work, state](const Work& over) {
@@ -206,15 +279,29 @@ void Session::tellKept(Workspace& work, const std::string& news) {
 }
 
 void Session::dropKept() {
-    if (!folder_.empty()) dropAutosave(folder_);
-    if (folder_.empty() || !cannotKeep_.empty()) removeKept(autosaveFolder());
-    cannotKeep_.clear();
+    if (!folder_.empty() && lock_.held()) dropAutosave(folder_);
+    if (folder_.empty() && !recoveredFrom_.empty()) removeKept(recoveredFrom_);
+    if (!unsaved_.empty()) removeKept(unsaved_);
+    unsaved_.clear();
+    unsavedLock_.release();
+    if (folder_.empty() || lock_.held()) cannotKeep_.clear();
 }
 
-void Session::replays() {
-    replayed_ = true;
+void Session::replays(const std::string& run) {
+    replaying_ = true;
+    whole_ = false;
+    run_ = fs::absolute(run).lexically_normal().string();
     folder_.clear();
+    recoveredFrom_.clear();
     recovery_.clear();
+    lock_.release();
+    unsavedLock_.release();
+}
+
+void Session::endReplay(const Workspace& work) {
+    replaying_ = false;
+    savedState_ = autosavedState_ = work.document->state();
+    recovery_ = leftBehind();
 }
 
 void Session::save(Workspace& work, const std::string& folder, Ended ended) {
@@ -222,11 +309,13 @@ void Session::save(Workspace& work, const std::string& folder, Ended ended) {
     work.error.clear();
     work.message = "Saving ...";
     background_.ask({"Saving " + fs::path(wholePath(folder)).filename().string(),
-                     [&work, state, folder] {
+                     [this, &work, state, folder] {
                          *state = work.document->state();
+                         saving_ = true;
                          return saving(*work.document, folder);
                      },
                      [this, &work, state, folder, ended](const Work& over) {
+                         saving_ = false;
                          const bool good = over.state() == Work::State::done;
                          work.message =
                              good ? "Saved: " + wholePath(folder) : "Saving was cancelled: on disk all is as it was";
@@ -237,11 +326,15 @@ void Session::save(Workspace& work, const std::string& folder, Ended ended) {
 }
 
 void Session::saved(const std::string& folder, uint64_t state) {
-    if (!autosaveFolder().empty()) dropKept();
+    dropKept();
     recoveredFrom_.clear();
     toldKept_.clear();
-    missing_ = replayed_ = false;
+    run_.clear();
+    cannotKeep_.clear();
+    missing_ = replaying_ = whole_ = false;
     folder_ = wholePath(folder);
+    project_ = stampOf(fs::path(folder_) / kProject);
+    claim();
     savedState_ = autosavedState_ = state;
     recovery_.clear();
 }
@@ -249,20 +342,24 @@ void Session::saved(const std::string& folder, uint64_t state) {
 void Session::forgetRecovery(bool deleteIt) {
     if (deleteIt) removeKept(fs::path(recovery_).parent_path());
     recovery_.clear();
+    unsavedLock_.release();
 }
 
 void Session::startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height, Ended ended) {
     work.error.clear();
     const RunHead head{1, file_, width, height, 1 / 30.f};
-    // What was edited since is part of what the run begins with.
-    if (work.document->revision() == 0 && !modified(work) && !replayed_) return ended(record(work, path, head));
+    // What was edited since is part of what the run begins with, and a project may be saved while it is recorded.
+    const bool asOpened = whole_ && folder_.empty() && work.document->revision() == 0 && !modified(work);
+    if (asOpened) return ended(record(work, path, head));
     RunHead edited = head;
     edited.scene = path + ".project";
     background_.ask({"Saving what the run begins with",
                      [&work, edited] { return saving(*work.document, edited.scene); },
                      [this, &work, path, edited, ended](const Work& over) {
                          work.error = over.error();
-                         ended(over.state() == Work::State::done && record(work, path, edited));
+                         const bool good = over.state() == Work::State::done && record(work, path, edited);
+                         if (good) beginRun(work);
+                         ended(good);
                      }});
 }
 
@@ -270,7 +367,17 @@ bool Session::record(Workspace& work, const std::string& path, RunHead head) {
     if (!recorder_.begin(path, std::move(head), work.error)) return false;
     recordingTo_ = path;
     const EspCamera camera = work.camera.camera();
+    const auto& look = work.scene().look;
+    if (look.view != ESP_VIEW_SHADED) work.perform(SetView{espalier::scene::nameOf(look.view), work.scene().viewLayer});
     return work.perform(SetCamera{array(vec(camera.eye)), array(vec(camera.target)), camera.fovY});
+}
+
+// Who replays the run opens the project that it begins with: the document is made what that is.
+void Session::beginRun(Workspace& work) {
+    const std::vector<uint32_t> before = work.document->beginAnew();
+    const std::set<uint32_t> chosen = std::exchange(work.selected, {});
+    for (size_t i = 0; i < before.size(); ++i)
+        if (chosen.contains(before[i])) work.selected.insert(work.scene().seeds[i].key);
 }
 
 void Session::stopRecording(Workspace& work) {

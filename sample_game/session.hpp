@@ -6,6 +6,7 @@
 
 #include "sample_game/background.hpp"
 #include "sample_game/file_watch.hpp"
+#include "sample_game/folder_lock.hpp"
 #include "sample_game/grammar_files.hpp"
 #include "sample_game/workspace.hpp"
 #include "tools/document/run.hpp"
@@ -15,8 +16,10 @@ namespace sample {
 // The document's life on disk: saving, autosaves, what changes there from outside, and runs that are recorded.
 class Session {
   public:
-    // After the document was opened from `file`, which began at `read`: files written since count as changed.
-    void begin(Workspace& work, const std::string& file, std::filesystem::file_time_type read = kNeverWritten);
+    // After the document was opened from `file`, which began at `read`: files written since count as changed. `whole`:
+    // the file says all of it, and nothing was said besides.
+    void begin(Workspace& work, const std::string& file, std::filesystem::file_time_type read = kNeverWritten,
+               bool whole = true);
     // Once a frame, with the seconds since the program's start: goes on with what is under way, looks at files that
     // others write, and autosaves in time. True: something has changed.
     bool step(Workspace& work, double now);
@@ -33,6 +36,8 @@ class Session {
     // that is on the disk: if not, the project is as it was, and Workspace::error says why unless it was cancelled.
     using Ended = std::function<void(bool good)>;
     void save(Workspace& work, const std::string& folder, Ended ended);
+    // The project in its folder isn't the one that was opened or saved here: somebody else has saved it since.
+    bool changedByOthers() const;
     // Saves, exports and imports that are under way.
     Background& background() { return background_; }
     // Nothing that was asked for is: what is open may go.
@@ -40,10 +45,10 @@ class Session {
     // Of an earlier run that ended without saving; empty: there is none. Asked until answered.
     const std::string& recovery() const { return recovery_; }
     void forgetRecovery(bool deleteIt);
-    // What is done in the document from now on is a recorded run's: it is kept nowhere, until the user saves it.
-    void replays();
-    // What follows is the user's.
-    void endReplay(const Workspace& work) { savedState_ = work.document->state(); }
+    // What is done in the document from now on is a recorded run's, and isn't kept.
+    void replays(const std::string& run);
+    // What follows is the user's: it is kept by the run's name. What was so, when a session ended, is offered.
+    void endReplay(const Workspace& work);
 
     // What to open next; the application does it.
     std::string openNext;
@@ -52,10 +57,11 @@ class Session {
 
     // Where the document belongs, over a reload of what it is in now.
     struct Origin {
-        std::string file, folder, cannotKeep, recoveredFrom;
-        bool modified = false;
+        std::string file, folder, cannotKeep, recoveredFrom, unsaved, run;
+        FileStamp project;
+        bool whole = false, modified = false;
     };
-    Origin origin(const Workspace& work) const { return {file_, folder_, cannotKeep_, recoveredFrom_, modified(work)}; }
+    Origin origin(const Workspace& work) const;
     void setOrigin(const Workspace& work, const Origin& origin);
     bool quit = false;
     bool givesUp = false;       // what isn't saved at the end of what is open
@@ -63,15 +69,21 @@ class Session {
     double autosaveEvery = 60;  // seconds
 
     bool recording() const { return recorder_.on(); }
-    // Of what was opened, or of how it is now, which is saved beside the run first; the run's file names it. `ended` is
-    // told whether it records, as save()'s; nothing is to edit the document before that.
+    // Of a scene as it was opened, or of how it is now, which is saved beside the run first, and undo then begins
+    // there, as in the replay; the run's file names it. `ended` is told whether it records, as save()'s; nothing is to
+    // edit the document before that.
     void startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height, Ended ended);
     void stopRecording(Workspace& work);
     void nextFrame() { recorder_.nextFrame(); }
 
   private:
     std::string autosaveFolder() const;
-    std::string unsavedFolder() const;        // beside the user's settings, for what has no folder or can't write to it
+    // Beside the user's settings, for what has no folder or can't write to it: the first that editors of the same would
+    // take, or another of them. Empty: there is no place.
+    std::string unsavedFolder(int number = 1) const;
+    void claim();      // what it is kept in, before others do
+    void takePlace();  // one of those, if it is to be kept there
+    std::string leftBehind();
     bool keeps(const Workspace& work) const;  // what isn't saved is to become an autosave
     void keepSoon(Workspace& work);
     void keepNow(Workspace& work);
@@ -82,15 +94,23 @@ class Session {
     void noticeLoss(Workspace& work);
     void dropKept();  // the autosave
     bool record(Workspace& work, const std::string& path, espalier::document::RunHead head);
+    void beginRun(Workspace& work);
     void saved(const std::string& folder, uint64_t state);
     bool watchGrammars(Workspace& work);
 
     std::string file_, folder_, recovery_, recordingTo_;
     std::string recoveredFrom_;  // the autosave's folder of what was never saved; it goes on there
+    std::string unsaved_;        // the folder beside the user's settings that it is kept in; empty: none yet
+    std::string run_;            // that was replayed; empty: none was
     std::string cannotKeep_;     // why the project's folder takes no autosave; empty: it does
     std::string toldKept_;       // the last news of autosaves; empty: all is well
     bool missing_ = false;       // the project, at the last look
-    bool replayed_ = false;
+    bool replaying_ = false;
+    bool whole_ = false;  // file_ says all that was opened
+    bool saving_ = false;
+    FileStamp project_;                             // its file when it was opened or saved
+    FolderLock lock_;                               // of the project's folder, or of the recovered one
+    FolderLock unsavedLock_;                        // of unsaved_, or of what is offered
     uint64_t savedState_ = 0, autosavedState_ = 0;  // see Document::state
     double nextAutosave_ = 0, nextLook_ = 0;
     GrammarFiles grammarFiles_;

@@ -30,6 +30,8 @@ struct LayoutRecord {
         v("atlas", layout.atlas), v("layer_opacity", layout.layerOpacity);
         v("panel_width", layout.panelWidth), v("size", layout.sizeOfAll),
             v("half_while_moving", layout.halfWhileMoving);
+        v("window_width", layout.windowWidth), v("window_height", layout.windowHeight);
+        v("maximised", layout.maximised), v("row_step", layout.rowStep), v("row_along", layout.rowAlong);
         v("radius", brush.radius), v("strength", brush.strength), v("hardness", brush.hardness);
         v("spacing", brush.spacing), v("town_radius", brush.townRadius);
     }
@@ -49,7 +51,7 @@ bool write(const std::string& path, Record record, std::string& error) {
     fs::create_directories(fs::path(path).parent_path(), code);
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     record.fields(document::FieldWriter(json));
-    return document::writeTextDurably(path, json.dump(1) + "\n", error);
+    return document::writeTextDurably(path, scene::textOf(json, 1) + "\n", error);
 }
 
 template <class Record>
@@ -121,9 +123,11 @@ void readLayout(Layout& layout, Brush& brush, std::string& error) {
         return;
     }
     layout = record.layout;
-    layout.panelWidth = std::clamp(layout.panelWidth, 200.f, 800.f);
+    layout.panelWidth = std::clamp(layout.panelWidth, kLeastPanel, kMostPanel);
     layout.layerOpacity = std::clamp(layout.layerOpacity, .05f, 1.f);
     layout.sizeOfAll = std::clamp(layout.sizeOfAll, .5f, 3.f);
+    layout.rowStep = std::clamp(layout.rowStep, kLeastRowStep, kMostRowStep);
+    for (uint32_t* side : {&layout.windowWidth, &layout.windowHeight}) *side = std::min(*side, 16384u);
     brush.radius = std::clamp(record.brush.radius, .005f, 20.f);
     brush.townRadius = std::clamp(record.brush.townRadius, .005f, 20.f);
     brush.strength = std::clamp(record.brush.strength, .01f, 1.f);
@@ -134,6 +138,10 @@ void readLayout(Layout& layout, Brush& brush, std::string& error) {
 void writeLayout(const Layout& layout, const Brush& brush) {
     std::string ignored;
     if (!configFolder().empty()) write(configFolder() + "/layout.json", LayoutRecord{layout, brush}, ignored);
+}
+
+std::string presetsOf(const std::string& grammarFile) {
+    return fs::path(grammarFile).stem().string();
 }
 
 std::vector<std::string> presetNames(const std::string& grammar) {

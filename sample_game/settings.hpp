@@ -17,7 +17,8 @@ std::string cacheFolder();
 void readLayout(Layout& layout, Brush& brush, std::string& error);
 void writeLayout(const Layout& layout, const Brush& brush);
 
-// Values of a grammar's parameters under a name.
+// Values of a grammar's parameters under a name, for all grammars whose files have the same one.
+std::string presetsOf(const std::string& grammarFile);
 std::vector<std::string> presetNames(const std::string& grammar);
 bool readPreset(const std::string& grammar, const std::string& name, std::vector<espalier::document::Param>& params,
                 std::string& error);

@@ -70,6 +70,10 @@ void ViewCamera::turnBy(float yaw, float pitch) {
     turnTo(yaw_ + yaw, pitch_ + pitch);
 }
 
+void ViewCamera::focus(float distance) {
+    distance_ = std::clamp(distance, reach_ * 1e-3f, reach_ * 50);
+}
+
 void ViewCamera::frame(glm::vec3 centre, float radius, float aspect) {
     const float half = std::atan(std::tan(fovY_ / 2) * std::clamp(aspect, .1f, 1.f));  // the narrower way
     distance_ = std::max(1.2f * radius / std::sin(half), reach_ * 1e-3f);
@@ -77,9 +81,14 @@ void ViewCamera::frame(glm::vec3 centre, float radius, float aspect) {
 }
 
 void ViewCamera::fly(glm::vec3 steps, float seconds, bool fast) {
-    const float speed = std::clamp(reach_ * .2f, .3f, 12.f) * (fast ? 3.f : 1.f);
+    const float speed = hurry(0) * (fast ? 3.f : 1.f);
     eye_ += seconds * speed * (steps.x * right() + steps.y * glm::vec3(0, 1, 0) + steps.z * ahead());
     fall_ = 0;
+}
+
+float ViewCamera::hurry(float steps) {
+    haste_ = std::clamp(haste_ * std::pow(1.2f, steps), 1 / 32.f, 32.f);
+    return haste_ * std::clamp(reach_ * .2f, .3f, 12.f);
 }
 
 void ViewCamera::walk(const Meets& meets, glm::vec2 rightAhead, float seconds, bool fast, bool jump) {

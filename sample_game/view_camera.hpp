@@ -28,12 +28,15 @@ class ViewCamera {
     void zoom(float steps);               // positive: nearer
     void turnTo(float yaw, float pitch);  // about what is looked at; 0, 0: from the front, +z
     void turnBy(float yaw, float pitch);  // likewise, radians
+    // What is turned about, stays under the mouse and is gone nearer to lies that far ahead. The view stays.
+    void focus(float distance);
     // So that the ball fills the view, from where it is seen now. aspect: width by height of what nothing lies over.
     void frame(glm::vec3 centre, float radius, float aspect);
     // ---- Both
     void look(float x, float y);
     // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`.
     void fly(glm::vec3 steps, float seconds, bool fast);
+    float hurry(float steps);  // flies faster (positive) or slower from now on; returns how fast, metres a second
     // ---- Game: on the ground, with a body that walls stop and steps don't. Falls if there is nothing below.
     void walk(const Meets& meets, glm::vec2 rightAhead, float seconds, bool fast, bool jump);
     bool falling() const { return fall_ < 0; }
@@ -56,7 +59,8 @@ class ViewCamera {
 
     glm::vec3 eye_{0, 1.7f, 5};
     float yaw_ = 0, pitch_ = 0, distance_ = 5, fovY_ = .7f, reach_ = 1;
-    float fall_ = 0;  // metres a second upward
+    float fall_ = 0;   // metres a second upward
+    float haste_ = 1;  // of the speed that the scene's size makes usual
 };
 
 }  // namespace sample

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 namespace sample {
 namespace {
@@ -216,6 +217,7 @@ bool VulkanHost::makeSwapchain() {
         return false;
     }
     vkDeviceWaitIdle(device_);
+    held_.reset();
     if (!(can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT)) {
         error_ = "pictures can't be copied into the window";
         return false;
@@ -224,7 +226,7 @@ bool VulkanHost::makeSwapchain() {
     const VkSwapchainKHR old = swapchain_;
     VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
     info.surface = surface_;
-    info.minImageCount = std::max(3u, can.minImageCount);
+    info.minImageCount = std::max(3u, can.minImageCount + 1);  // one is held back while another is drawn
     if (can.maxImageCount) info.minImageCount = std::min(info.minImageCount, can.maxImageCount);
     info.imageFormat = usable->format;
     info.imageColorSpace = usable->colorSpace;
@@ -274,14 +276,16 @@ void VulkanHost::dropSwapchain() {
     swapchain_ = VK_NULL_HANDLE;
 }
 
-std::optional<Frame> VulkanHost::begin() {
+std::optional<Frame> VulkanHost::begin(bool overlaps) {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     if (uint32_t(width) != extent_.width || uint32_t(height) != extent_.height) stale_ = true;
     if (stale_ && !makeSwapchain()) return std::nullopt;
     if (stale_) return std::nullopt;
+    overlaps = overlaps && !overlaps_;
+    if (!overlaps && held_ && !show(*std::exchange(held_, {}))) return std::nullopt;
     Slot& slot = slots_[(frameNumber_ + 1) % kFramesInFlight];
-    const Slot& awaited = overlaps_ ? slot : slots_[frameNumber_ % kFramesInFlight];
+    const Slot& awaited = overlaps_ || overlaps ? slot : slots_[frameNumber_ % kFramesInFlight];
     if (!check(vkWaitForFences(device_, 1, &awaited.done, VK_TRUE, UINT64_MAX), "waiting for the GPU"))
         return std::nullopt;
     finished_ = std::max(finished_, awaited.number);
@@ -307,6 +311,7 @@ std::optional<Frame> VulkanHost::begin() {
     frame.view = targets_[target_].view;
     frame.extent = extent_;
     frame.finished = finished_;
+    frame.overlaps = overlaps;
     return frame;
 }
 
@@ -337,36 +342,16 @@ bool VulkanHost::copyPicture(const Frame& frame) {
 }
 
 bool VulkanHost::end(const Frame& frame, const TakePicture& picture) {
-    Slot& slot = slots_[frame.slot];
     const bool copies = picture && canCopy_ && copyPicture(frame);
     if (!copies)
         imageBarrier(frame.commands, frame.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                      VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
     if (!check(vkEndCommandBuffer(frame.commands), "ending a recording")) return false;
-    VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
-    commands.commandBuffer = frame.commands;
-    VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}, signal = wait;
-    wait.semaphore = slot.acquired;
-    wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    signal.semaphore = targets_[target_].drawn;
-    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-    submit.waitSemaphoreInfoCount = submit.signalSemaphoreInfoCount = submit.commandBufferInfoCount = 1;
-    submit.pWaitSemaphoreInfos = &wait;
-    submit.pSignalSemaphoreInfos = &signal;
-    submit.pCommandBufferInfos = &commands;
-    vkResetFences(device_, 1, &slot.done);
-    if (!check(vkQueueSubmit2(queue_, 1, &submit, slot.done), "submitting a frame")) return false;
-    slot.number = frame.number;
-    VkPresentInfoKHR present{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
-    present.waitSemaphoreCount = present.swapchainCount = 1;
-    present.pWaitSemaphores = &targets_[target_].drawn;
-    present.pSwapchains = &swapchain_;
-    present.pImageIndices = &target_;
-    const VkResult shown = vkQueuePresentKHR(queue_, &present);
-    if (shown == VK_SUBOPTIMAL_KHR || shown == VK_ERROR_OUT_OF_DATE_KHR)
-        stale_ = true;
-    else if (!check(shown, "showing a frame"))
+    if (held_ && !show(*std::exchange(held_, {}))) return false;
+    if (!submit(frame)) return false;
+    if (frame.overlaps && !copies)
+        held_ = target_;
+    else if (!show(target_))
         return false;
     if (copies) {
         waitIdle();
@@ -382,6 +367,40 @@ bool VulkanHost::end(const Frame& frame, const TakePicture& picture) {
     vkFreeMemory(device_, pictureMemory_, nullptr);
     pictureBuffer_ = VK_NULL_HANDLE;
     pictureMemory_ = VK_NULL_HANDLE;
+    return true;
+}
+
+bool VulkanHost::submit(const Frame& frame) {
+    Slot& slot = slots_[frame.slot];
+    VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    commands.commandBuffer = frame.commands;
+    VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}, signal = wait;
+    wait.semaphore = slot.acquired;
+    wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    signal.semaphore = targets_[target_].drawn;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    submit.waitSemaphoreInfoCount = submit.signalSemaphoreInfoCount = submit.commandBufferInfoCount = 1;
+    submit.pWaitSemaphoreInfos = &wait;
+    submit.pSignalSemaphoreInfos = &signal;
+    submit.pCommandBufferInfos = &commands;
+    vkResetFences(device_, 1, &slot.done);
+    if (!check(vkQueueSubmit2(queue_, 1, &submit, slot.done), "submitting a frame")) return false;
+    slot.number = frame.number;
+    return true;
+}
+
+bool VulkanHost::show(uint32_t target) {
+    VkPresentInfoKHR present{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    present.waitSemaphoreCount = present.swapchainCount = 1;
+    present.pWaitSemaphores = &targets_[target].drawn;
+    present.pSwapchains = &swapchain_;
+    present.pImageIndices = &target;
+    const VkResult shown = vkQueuePresentKHR(queue_, &present);
+    if (shown == VK_SUBOPTIMAL_KHR || shown == VK_ERROR_OUT_OF_DATE_KHR)
+        stale_ = true;
+    else if (!check(shown, "showing a frame"))
+        return false;
     return true;
 }
 

@@ -20,6 +20,7 @@ struct Frame {
     uint64_t number = 0;    // from 1, rising
     uint64_t finished = 0;  // frames up to this one are done on the GPU
     uint32_t slot = 0;      // below kFramesInFlight: what may be written anew for this frame
+    bool overlaps = false;  // it is drawn while the next is recorded, and shown when that is
 };
 
 constexpr uint32_t kFramesInFlight = 2;
@@ -40,9 +41,10 @@ class VulkanHost {
     bool create(GLFWwindow* window, bool validation, const void* features, const char* const* extensions,
                 uint32_t extensionCount);
 
-    // Waits for the slot's earlier frame, on software devices for the last one, and takes the next image. Nothing: the
-    // window has no area, or the swapchain was made anew; try again after events. error() is not empty after a failure.
-    std::optional<Frame> begin();
+    // Waits for the slot's earlier frame, on software devices for the last one unless it `overlaps`, and takes the next
+    // image. Nothing: the window has no area, or the swapchain was made anew; try again after events. error() is not
+    // empty after a failure.
+    std::optional<Frame> begin(bool overlaps = false);
     // Ends, submits and shows what was recorded. The image must be in COLOR_ATTACHMENT_OPTIMAL. `picture`: if not
     // null it is given the frame's pixels, RGBA, rows top to bottom (the call waits for the GPU then).
     using TakePicture = std::function<void(std::vector<uint8_t> rgba, uint32_t width, uint32_t height)>;
@@ -70,6 +72,8 @@ class VulkanHost {
     void dropSwapchain();
     bool check(VkResult result, const char* what);
     bool copyPicture(const Frame& frame);
+    bool submit(const Frame& frame);
+    bool show(uint32_t target);
     static VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                                     VkDebugUtilsMessageTypeFlagsEXT,
                                                     const VkDebugUtilsMessengerCallbackDataEXT* data, void* self);
@@ -105,10 +109,12 @@ class VulkanHost {
     Slot slots_[kFramesInFlight];
     std::vector<Target> targets_;
     uint32_t target_ = 0;
+    std::optional<uint32_t> held_;  // the target of a frame that isn't shown yet
     uint64_t frameNumber_ = 0;
     uint64_t finished_ = 0;
-    // Whether a frame is recorded while the last is drawn. Not on software devices: both want the same cores, and
-    // native code changes in place what no frame under way reads.
+    // Whether each frame is recorded while the last is drawn. On software devices only those that change nothing but
+    // the camera, since native code changes in place what no frame under way reads. Showing a frame waits there until
+    // it is drawn, so that is put off until the next has been recorded.
     bool overlaps_ = true;
     VkBuffer pictureBuffer_ = VK_NULL_HANDLE;  // of the latest copyPicture
     VkDeviceMemory pictureMemory_ = VK_NULL_HANDLE;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "sample_game/theme.hpp"
@@ -53,6 +54,20 @@ bool followMouse(float* value, float wanted, bool changed) {
     return changed;
 }
 
+// The field that a slider has become, where ImGui's own takes digits only. True: it says something else by now.
+bool typeInto(const char* id, float& value, float low, float high, const char* now, ReadTyped read) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%s", now);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImRect box(at, {at.x + ImGui::CalcItemWidth(), at.y + ImGui::GetFrameHeight()});
+    float typed = value;
+    if (!ImGui::TempInputText(box, ImGui::GetID(id), id, text, sizeof text, ImGuiInputTextFlags_AutoSelectAll) ||
+        !read(text, typed))
+        return false;
+    typed = std::clamp(typed, low, high);
+    return std::exchange(value, typed) != typed;
+}
+
 // From the low end to where the value is, below a slider that is about to be laid out here.
 void drawBar(float width, float share) {
     const ImGuiStyle& style = ImGui::GetStyle();
@@ -81,7 +96,7 @@ bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2
     return shown;
 }
 
-bool slider(const char* id, float* value, float low, float high, const char* format, bool byRatio) {
+bool slider(const char* id, float* value, float low, float high, const char* format, bool byRatio, ReadTyped read) {
     const float way = byRatio ? std::log(high / low) : high - low;
     const float share = way > 0 ? (byRatio ? std::log(*value / low) : *value - low) / way : 0;
     const bool typing = ImGui::TempInputIsActive(ImGui::GetID(id));
@@ -95,8 +110,9 @@ bool slider(const char* id, float* value, float low, float high, const char* for
     ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, none);
     ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, 1);
     float wanted = *value;
-    bool changed = ImGui::SliderFloat(id, &wanted, low, high, format,
-                                      ImGuiSliderFlags_AlwaysClamp | (byRatio ? ImGuiSliderFlags_Logarithmic : 0));
+    const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (byRatio ? ImGuiSliderFlags_Logarithmic : 0);
+    bool changed = typing && read ? typeInto(id, wanted, low, high, format, read)
+                                  : ImGui::SliderFloat(id, &wanted, low, high, format, flags);
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
         lastClick() = {};
         ImGui::SetKeyboardFocusHere(-1);
@@ -110,12 +126,22 @@ bool slider(const char* id, float* value, float low, float high, const char* for
     return changed;
 }
 
-bool labelledSlider(const char* label, float* value, float low, float high, const char* format, bool byRatio) {
+bool labelledSlider(const char* label, float* value, float low, float high, const char* format, bool byRatio,
+                    ReadTyped read) {
     rowLabel(label);
     ImGui::PushID(label);
-    const bool changed = slider("##value", value, low, high, format, byRatio);
+    const bool changed = slider("##value", value, low, high, format, byRatio, read);
     ImGui::PopID();
     return changed;
+}
+
+bool hoursOf(const char* text, float& hours) {
+    int hour = 0, minute = 0;
+    if (std::sscanf(text, "%d:%d", &hour, &minute) != 2)
+        return std::sscanf(text, "%f", &hours) == 1 && std::isfinite(hours);
+    if (hour < 0 || minute < 0 || minute > 59) return false;
+    hours = float(hour) + float(minute) / 60;
+    return true;
 }
 
 bool clickWaits() {

@@ -17,10 +17,15 @@ bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2
 // A value between two others as a bar, with the number over it. A drag moves it, a click sets it a moment later, since
 // a double click types it, as does Ctrl and a click. True: it has changed. byRatio: each part of the way multiplies it;
 // low > 0.
-bool slider(const char* id, float* value, float low, float high, const char* format, bool byRatio = false);
+// `read` understands what is typed where that is more than a number, as `format` then shows it; false: it doesn't.
+using ReadTyped = bool (*)(const char* text, float& value);
+bool slider(const char* id, float* value, float low, float high, const char* format, bool byRatio = false,
+            ReadTyped read = nullptr);
 // After its label, to the end of the row.
-bool labelledSlider(const char* label, float* value, float low, float high, const char* format, bool byRatio = false);
-void rowLabel(const char* text);  // the words before a widget, which takes the rest of the row
+bool labelledSlider(const char* label, float* value, float low, float high, const char* format, bool byRatio = false,
+                    ReadTyped read = nullptr);
+bool hoursOf(const char* text, float& hours);  // a ReadTyped: 14:30, or 14.5
+void rowLabel(const char* text);               // the words before a widget, which takes the rest of the row
 // ImGui::SameLine if something so wide still fits in the row.
 void sameLineIfRoom(float width);
 void hint(const char* text);  // what keeps the user from seeing anything happen

@@ -76,6 +76,10 @@ void Workspace::frameChosen() {
     if (tool == Tool::seeds)
         for (const auto& seed : scene().seeds)
             if (selected.count(seed.key)) points.push_back(vec(seed.position));
+    if (tool == Tool::paint && hit) {  // as much of it as the brush would paint
+        const glm::vec3 at = vec(hit->position), around(brushRadius());
+        points = {at - around, at + around};
+    }
     if (tool == Tool::branch)
         for (const EspPathSample& sample : path) points.push_back(vec(sample.position));
     EspHouseInfo info;
@@ -90,11 +94,30 @@ void Workspace::frameChosen() {
     redraw = true;
 }
 
+namespace {
+
+// Most plants may grow anew by it, and that may take long.
+bool reachesFar(const espalier::document::Action& action) {
+    using namespace espalier::document;
+    constexpr size_t kMany = 8;
+    const auto is = [&]<class... Kinds>() { return (std::holds_alternative<Kinds>(action) || ...); };
+    if (const auto* changed = std::get_if<ChangeSeeds>(&action)) return changed->seeds.size() >= kMany;
+    if (const auto* added = std::get_if<AddSeeds>(&action)) return added->seeds.size() >= kMany;
+    return is.operator()<SetParam, SetText, SetWalk, FillLayer, LoadLayer, Undo, Redo>();
+}
+
+}  // namespace
+
 bool Workspace::perform(const espalier::document::Action& action, uint32_t gesture) {
     // News stands while one looks around.
     if (!std::holds_alternative<espalier::document::SetCamera>(action)) error.clear(), message.clear();
     redraw = true;
+    growsWide |= reachesFar(action);
     return document->perform(action, error, gesture);
+}
+
+void Workspace::takeBack(uint32_t gesture) {
+    if (document->undoGesture() == gesture) perform(espalier::document::Undo{});
 }
 
 void Workspace::choose(Tool chosen) {
@@ -111,6 +134,16 @@ bool Workspace::readStats() {
     if (espReadStats(context.get(), &stats) == ESP_OK && espReadRoofStats(context.get(), &roofs) == ESP_OK) return true;
     error = espLastError(context.get());
     return false;
+}
+
+void Workspace::takeUp(const Hands& hands) {
+    if (std::ranges::find(scene().layers, hands.layer) != scene().layers.end()) brush.layer = hands.layer;
+    if (hands.plantGrammar < scene().grammars.size()) plantGrammar = hands.plantGrammar;
+    if (hands.openGrammar < scene().grammars.size()) openGrammar = hands.openGrammar;
+    EspHouseInfo info;
+    if (!hands.house || espHouseInfo(context.get(), *hands.house, &info) != ESP_OK) return;
+    house = hands.house;
+    if (hands.houseEdge && *hands.houseEdge < info.outerCorners) houseEdge = hands.houseEdge;
 }
 
 bool Workspace::townLayer(const std::string& name) const {
@@ -179,7 +212,7 @@ void Workspace::pickParent() {
 }
 
 void Workspace::prune() {
-    if (!branch) return;
+    if (!branch || path.empty()) return;
     char key[20];
     std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(*branch));
     if (!perform(espalier::document::PruneBranch{key, true})) return;
@@ -187,9 +220,16 @@ void Workspace::prune() {
     path.clear();
 }
 
+void Workspace::renumberSeeds() {
+    espalier::document::ChangeSeeds change;
+    for (const auto& seed : scene().seeds) {
+        change.seeds.push_back(document->recordOf(seed));
+        change.seeds.back().number = seed.number * 747796405u + 2891336453u;
+    }
+    if (!change.seeds.empty()) perform(change);
+}
+
 void Workspace::freeze(const std::vector<uint32_t>& keys, bool frozen) {
-    // As it is now: edits that haven't grown yet are part of it.
-    if (frozen && espUpdate(context.get()) != ESP_OK) error = espLastError(context.get());
     perform(espalier::document::FreezeSeeds{keys, frozen});
 }
 

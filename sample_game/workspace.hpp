@@ -28,13 +28,20 @@ struct Brush {
     bool frontOnly = false;
 };
 
+constexpr float kLeastPanel = 200, kMostPanel = 800;     // its width at 96 dpi
+constexpr float kLeastRowStep = .02f, kMostRowStep = 5;  // metres
+
 // What is remembered from one run to the next, besides the places of movable windows.
 struct Layout {
     bool panel = true, figures = true, grammar = false, atlas = false, help = false;
-    float panelWidth = 320;     // at 96 dpi
+    float panelWidth = 320;                      // at 96 dpi
+    uint32_t windowWidth = 0, windowHeight = 0;  // 0: never opened
+    bool maximised = false;
     float sizeOfAll = 1;        // of letters and panels, besides the display's own scale
     float layerOpacity = .75f;  // of the layer that is seen on the model
     bool halfWhileMoving = true;
+    float rowStep = .25f;   // metres between two seeds of a row
+    bool rowAlong = false;  // each looks along the row, else upward
 };
 
 struct HouseHit {
@@ -52,6 +59,7 @@ struct Workspace {
     glm::vec2 window{1280, 720};
     float scale = 1;
     bool editing = false;  // Tab: the editor is open
+    bool busy = false;     // a tool has begun what is to be one step: nothing else may come between
 
     Tool tool = Tool::look;
     Brush brush;
@@ -65,10 +73,10 @@ struct Workspace {
     uint32_t viewLevel = 0;    // whose charts are seen on the model
     uint32_t openGrammar = 0;  // in the grammar's window
     Layout layout;
-    EspGrowDef grow = espDefaultGrowDef();
 
     std::string message, error;      // the latest of each
     uint64_t grownRevision = 0;      // of the document that stats tell of
+    bool growsWide = false;          // since then something was done that may grow most plants anew
     const char* underWay = nullptr;  // what the next click does, while a tool follows the mouse without one
     EspStats stats{};
     EspRoofStats roofs{};
@@ -92,10 +100,19 @@ struct Workspace {
     float freeAspect() const;  // width by height of what it leaves
     // A message appears where it fails.
     bool perform(const espalier::document::Action& action, uint32_t gesture = 0);
+    void takeBack(uint32_t gesture);  // undoes it, if nothing else was done since
     // What was told isn't so any more.
     void remedied(const std::string& told) {
         if (error == told) error.clear();
     }
+    // What is in hand and open, over a reload of the scene; what isn't there any more is left.
+    struct Hands {
+        std::string layer;
+        uint32_t plantGrammar = 0, openGrammar = 0;
+        std::optional<uint32_t> house, houseEdge;
+    };
+    Hands hands() const { return {brush.layer, plantGrammar, openGrammar, house, houseEdge}; }
+    void takeUp(const Hands& hands);
     // Painting shows what is painted, everything else the scene.
     void choose(Tool chosen);
     // A number for the actions that belong together from now on.
@@ -122,8 +139,10 @@ struct Workspace {
     std::optional<uint32_t> pickHouse(glm::vec2 at) const;
     // What stops who walks: surfaces, houses and the ground; see Meets.
     bool meets(const Ray& ray, float reach, EspHit& met) const;
-    // Cuts the picked branch away.
+    // Cuts the picked branch away, if it is still there.
     void prune();
+    // All seeds get other random numbers.
+    void renumberSeeds();
     // Lets the chosen seeds' plants stand as they are, or grow again.
     void freeze(const std::vector<uint32_t>& keys, bool frozen);
     void readPath();  // of the branch, from the last growth

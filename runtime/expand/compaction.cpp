@@ -57,7 +57,9 @@ Status GpuGrowth::closeGaps() {
     closing.chunkCount = view_.chunkCount;
     closing.nodeCount = view_.nodeCount;
     closing.leafCount = view_.leafCount;
+    whole_ = false;  // as in regrow()
     closeGapsNative(closing, crew_);
+    whole_ = true;
     showMoved(closing.nodeCount, closing.leafCount);
     return enlarge();
 }

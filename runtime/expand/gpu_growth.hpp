@@ -66,6 +66,12 @@ class GpuGrowth final : public Growth {
     struct Links {
         Buffer chunks, branches;
     };
+    // What a growth was made from: all that the next one compares.
+    struct Origin : GrownFrom {
+        GrowthLimits limits;
+        uint32_t surfaceCount = 0;
+        std::vector<RuleMapRef> maps;
+    };
     struct Outcome {
         GrowStatus status;
         std::vector<Wave> waves;
@@ -84,6 +90,7 @@ class GpuGrowth final : public Growth {
     Status makeKernels(const GrowthInputs& inputs);
     Status makeQueues(const GrowthInputs& inputs);
     Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen);
+    Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen, bool spare);  // with room for edits
     // pack: by a kernel; else it is left to native code.
     Status uploadTables(Commands& commands, const GrowthInputs& inputs, bool pack);
     // Counters of an attempt, and the pruned branches that they lead to.
@@ -93,7 +100,7 @@ class GpuGrowth final : public Growth {
     void recordWaves(Pass& pass, const Program& march, bool fetching, const ExpandEnv& env, uint32_t first,
                      uint32_t last);
     Outcome readOutcome(uint32_t last);
-    void remember(const GrowthInputs& inputs);
+    static Origin originOf(const GrowthInputs& inputs);
     // What lies in front is drawn from now on. all: nodes aren't where they were.
     void show(const GrowStatus& status, bool all);
     uint64_t reserved() const;
@@ -120,12 +127,18 @@ class GpuGrowth final : public Growth {
     Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
     Status record(Commands& commands, const ExpandEnv& env, uint32_t first, uint32_t last, const GrowthLimits& limits);
     void recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits);
-    void publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome);
+    void publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome, Origin&& origin);
 
     // What an edit concerns: regrowth.cpp.
     bool canRegrow(const GrowthInputs& inputs) const;
     enum class Regrown { done, tooMuch, noRoom };
     Result<Regrown> regrow(const GrowthInputs& inputs, const SeedChanges& seeds);
+    static constexpr uint64_t kLeastEditBytes = 16384;
+    // Of the buffers of a regrowth of what these links hold.
+    struct AgainBytes {
+        uint64_t chunks, branches, marks, lists, results;
+    };
+    AgainBytes againBytes(const Links& from) const;
     Status makeAgainKernels();
     Status makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords);
     Status uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
@@ -135,7 +148,7 @@ class GpuGrowth final : public Growth {
     Status growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
     void growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
     void recordAgain(Commands& commands, ExpandEnv env);
-    void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state);
+    void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state, Origin&& origin);
     ItemQueues itemQueues() const {
         return {addressOf<WorkItemBuf, WorkItem>(items_[0]).v, addressOf<WorkItemBuf, WorkItem>(items_[1]).v};
     }
@@ -188,12 +201,9 @@ class GpuGrowth final : public Growth {
     bool chained_ = false;       // leaves on the nodes that are drawn are chained
     GrowthView view_;
     GrowthStats stats_;
-    // What the growth that is shown was made from.
-    bool whole_ = false;  // and no limit cut it
-    GrowthLimits limits_;
-    uint32_t surfaceCount_ = 0;
-    std::vector<RuleMapRef> maps_;
-    GrownFrom from_;
+    Origin origin_;        // of the growth that is shown
+    bool whole_ = false;   // no limit cut it, and no exception an edit of it: edits may grow only what they concern
+    uint32_t widest_ = 0;  // items of its widest wave
 };
 
 }  // namespace espalier

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "runtime/core/check.hpp"
+#include "runtime/core/undo.hpp"
 #include "runtime/expand/gpu_growth.hpp"
 
 namespace espalier {
@@ -196,7 +197,8 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptShaders(const GrowthInputs& inputs,
     }
 }
 
-void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome) {
+void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome, Origin&& origin) {
+    origin_ = std::move(origin);
     frontPlants_ = 1 - frontPlants_;
     frontLinks_ = 1 - frontLinks_;
     chained_ = frozen.records.nodes.empty();
@@ -207,6 +209,8 @@ void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, con
     auto empty = std::find_if(outcome.waves.begin(), outcome.waves.end(), [](const Wave& w) { return w.count == 0; });
     stats_.waves = uint32_t(empty - outcome.waves.begin());
     likelyWaves_ = stats_.waves + 2;
+    widest_ = 0;
+    for (const Wave& wave : outcome.waves) widest_ = std::max(widest_, wave.count);
     stats_.marchMs = outcome.marchMs;
     stats_.terminalsMs = outcome.terminalsMs;
     stats_.fitMs = outcome.fitMs;
@@ -220,7 +224,7 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     Result<bool> put = canRegrow(inputs) ? putIn(inputs) : Result<bool>(false);
     if (!put) return put.failure();
     if (*put) {
-        const std::optional<SeedChanges> seeds = seedChanges(from_, inputs);
+        const std::optional<SeedChanges> seeds = seedChanges(origin_, inputs);
         const bool closes = seeds && gappy(inputs);
         if (closes)
             if (Status closed = compact(inputs); !closed) return closed;
@@ -239,15 +243,17 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
 
 // What has failed leaves the room that it asked for to nobody: later growth may need far less.
 Status GpuGrowth::growAll(const GrowthInputs& inputs) {
-    const GrowthRoom before = room_;
+    Undo room([this, before = room_] { room_ = before; });
     Status grown = growWhole(inputs);
-    if (!grown) room_ = before;
+    if (grown) room.done();
     return grown;
 }
 
 Status GpuGrowth::growWhole(const GrowthInputs& inputs) {
     room_.items = std::max(room_.items, uint32_t(inputs.seeds.size()));
     const FrozenSum frozen = sumOf(inputs.frozen, uint32_t(inputs.seeds.size()));
+    if (frozen.records.leaves.size() > inputs.limits.maxLeaves)
+        return limitFailure(Verdict::tooManyLeaves, inputs.limits);
     GrowthLimits limits = inputs.limits;  // for the rest
     const bool fits = frozen.records.nodes.size() < limits.maxNodes || inputs.seeds.empty();
     limits.maxNodes -= std::min(limits.maxNodes - 1, uint32_t(frozen.records.nodes.size()));
@@ -262,13 +268,12 @@ Status GpuGrowth::growWhole(const GrowthInputs& inputs) {
         verdict = judge(withoutFrozen(outcome->status, frozen.records), outcome->waves, limits, room_, cut);
         if (verdict == Verdict::impossible || verdict == Verdict::tooManyLeaves) break;
         if (verdict == Verdict::complete) {
-            publish(inputs, frozen, *outcome);
+            publish(inputs, frozen, *outcome, originOf(inputs));
             const GrowthCut none = noCut(inputs.limits);
             whole_ = cut.wave == none.wave && cut.key == none.key;
             stats_.overflow = overflow;
             stats_.enlarged = enlarged;
             stats_.expansions += 1;
-            remember(inputs);
             return Done{};
         }
         (verdict == Verdict::cut ? overflow : enlarged) += 1;

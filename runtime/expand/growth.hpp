@@ -127,8 +127,8 @@ class Growth {
     virtual GrowthStats stats() const = 0;
     // Waits for the GPU and copies the published growth, without gaps: indices differ from those of view().
     virtual Result<GrowthRecords> read() = 0;
-    // Drops what only the next full growth would use, and makes its room what the last one needs, with half as much to
-    // spare. What stands is left as it is.
+    // Drops what only the next full growth would use, or edits of more than what stands, and makes its room what the
+    // last one needs, with half as much to spare. What stands is left as it is.
     virtual void trim() = 0;
 };
 

@@ -129,7 +129,18 @@ Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
     return loadKernels(inputs.limits.walk);
 }
 
+// Edits add nodes and leaves before gaps are closed. Where memory that isn't touched costs nothing, there is room for
+// these at once, if there is any: what outgrows its room is copied whole.
 Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen) {
+    if (inputs.native && device_.info().cpu) {
+        if (Status made = makeRoom(inputs, frozen, true); made) return made;
+        dropViews();
+        plants_[1 - frontPlants_] = {};
+    }
+    return makeRoom(inputs, frozen, false);
+}
+
+Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen, bool spare) {
     Plants& plants = plants_[1 - frontPlants_];
     Links& links = links_[1 - frontLinks_];
     struct Row {
@@ -137,13 +148,13 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
         const char* name;
         uint64_t bytes;
     };
-    // Edits add nodes and leaves before gaps are closed. Where memory that isn't touched costs nothing, there is room
-    // for these at once: what outgrows its room is copied whole.
-    const bool spare = inputs.native && device_.info().cpu;
-    const auto withSpare = [&](uint64_t count) { return spare ? count + count / 2 : count; };
+    const uint64_t most = device_.info().maxBufferBytes / 16 * 16;
+    const auto withSpare = [&](uint64_t bytes) {
+        return spare ? std::max(bytes, std::min(wholeTexels(bytes + bytes / 2), most)) : bytes;
+    };
     const Row rows[] = {
-        {&plants.nodes, "growth nodes", wholeTexels(withSpare(room_.nodes + frozen.nodes.size()) * sizeof(Node))},
-        {&plants.leaves, "growth leaves", withSpare(room_.leaves + frozen.leaves.size()) * sizeof(Leaf)},
+        {&plants.nodes, "growth nodes", withSpare(wholeTexels((room_.nodes + frozen.nodes.size()) * sizeof(Node)))},
+        {&plants.leaves, "growth leaves", withSpare((room_.leaves + frozen.leaves.size()) * sizeof(Leaf))},
         {&links.chunks, "growth chunks", (room_.chunks + frozen.chunks.size()) * sizeof(Chunk)},
         {&links.branches, "growth branches", (room_.branches + frozen.branches.size()) * sizeof(BranchRecord)},
         {&density_, "growth density", densityWords(inputs.limits, frozen.nodes.size()) * 4}};
@@ -278,9 +289,8 @@ Result<GrowthRecords> GpuGrowth::read() {
     return to;
 }
 
-// Links stay: every edit writes the other ones.
+// What every edit uses stays as large as edits of what stands ask for it.
 void GpuGrowth::trim() {
-    plants_[1 - frontPlants_] = {};
     const auto fit = [](uint32_t& room, uint32_t needed, uint32_t least) {
         room = std::min<uint64_t>(room, std::max<uint64_t>(needed + needed / 2ull, least));
     };
@@ -288,17 +298,43 @@ void GpuGrowth::trim() {
     fit(room_.nodes, view_.nodeCount, least_.nodes);
     fit(room_.branches, view_.branchCount, least_.branches);
     fit(room_.leaves, view_.leafCount, least_.leaves);
+    fit(room_.items, widest_, least_.items);
+    plants_[1 - frontPlants_] = {};
+    const Plants& plants = plants_[frontPlants_];
+    const Links& links = links_[frontLinks_];
+    const AgainBytes again = againBytes(links);
+    const struct {
+        Buffer* buffer;
+        uint64_t bytes;
+    } rows[] = {{&items_[0], room_.items * sizeof(WorkItem)},
+                {&items_[1], room_.items * sizeof(WorkItem)},
+                {&links_[1 - frontLinks_].chunks, again.chunks},
+                {&links_[1 - frontLinks_].branches, again.branches},
+                {&marks_, again.marks},
+                {&lists_, again.lists},
+                {&results_, again.results},
+                {&edits_, kLeastEditBytes},
+                {&firstLeaves_, capacityOf<Node>(plants.nodes) * 4ull},
+                {&nextLeaves_, capacityOf<Leaf>(plants.leaves) * 4ull},
+                {&touched_, view_.touched ? touched_.size() : 0},
+                {&nodesWent_, view_.moved.nodes ? nodesWent_.size() : 0},
+                {&leavesWent_, view_.moved.leaves ? leavesWent_.size() : 0}};
+    for (const auto& row : rows)
+        if (row.buffer->size() > row.bytes) *row.buffer = {};
+    chained_ = chained_ && firstLeaves_ && nextLeaves_;
     stats_.reservedBytes = reserved();
 }
 
-void GpuGrowth::remember(const GrowthInputs& inputs) {
-    limits_ = inputs.limits;
-    surfaceCount_ = inputs.surfaceCount;
-    maps_.assign(inputs.grammars.begin(), inputs.grammars.end());
-    from_.seeds.assign(inputs.seeds.begin(), inputs.seeds.end());
-    from_.frozen.assign(inputs.frozen.begin(), inputs.frozen.end());
-    from_.pruned.assign(inputs.pruned.begin(), inputs.pruned.end());
-    from_.widths.assign(inputs.widths.begin(), inputs.widths.end());
+GpuGrowth::Origin GpuGrowth::originOf(const GrowthInputs& inputs) {
+    Origin origin;
+    origin.seeds.assign(inputs.seeds.begin(), inputs.seeds.end());
+    origin.frozen.assign(inputs.frozen.begin(), inputs.frozen.end());
+    origin.pruned.assign(inputs.pruned.begin(), inputs.pruned.end());
+    origin.widths.assign(inputs.widths.begin(), inputs.widths.end());
+    origin.limits = inputs.limits;
+    origin.surfaceCount = inputs.surfaceCount;
+    origin.maps.assign(inputs.grammars.begin(), inputs.grammars.end());
+    return origin;
 }
 
 Result<std::unique_ptr<Growth>> Growth::create(Device& device, const GrowthRoom& room) {

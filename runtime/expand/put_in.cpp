@@ -11,13 +11,15 @@ Result<bool> GpuGrowth::putIn(const GrowthInputs& inputs) {
     if (inputs.changes->frozen.empty()) return true;
     const std::set<uint64_t> keys(inputs.changes->frozen.begin(), inputs.changes->frozen.end());
     std::set<std::pair<uint64_t, const PlantRecords*>> standing;
-    for (const FrozenPlant& plant : from_.frozen) standing.emplace(plant.key, plant.records.get());
+    for (const FrozenPlant& plant : origin_.frozen) standing.emplace(plant.key, plant.records.get());
     std::vector<FrozenPlant> fresh;
     for (const FrozenPlant& plant : inputs.frozen)
         if (keys.contains(plant.key) && !standing.contains({plant.key, plant.records.get()})) fresh.push_back(plant);
     if (fresh.empty()) return true;
-    FrozenSum sum = sumOf(fresh, uint32_t(from_.seeds.size() + from_.frozen.size()));
+    FrozenSum sum = sumOf(fresh, uint32_t(origin_.seeds.size() + origin_.frozen.size()));
     GrowthRecords& r = sum.records;
+    // With what their seeds had grown instead these may be too many leaves for a while: growing all anew tells.
+    if (stats_.leaves + r.leaves.size() > inputs.limits.maxLeaves) return false;
     shiftRecords(r, view_.nodeCount, view_.chunkCount, view_.branchCount);
 
     const Plants& plants = plants_[frontPlants_];
@@ -38,7 +40,7 @@ Result<bool> GpuGrowth::putIn(const GrowthInputs& inputs) {
     if (!fits) return false;
     if (Status finished = commands->finish(); !finished) return finished.failure();
 
-    from_.frozen.insert(from_.frozen.end(), fresh.begin(), fresh.end());
+    origin_.frozen.insert(origin_.frozen.end(), fresh.begin(), fresh.end());
     view_.nodeCount += uint32_t(r.nodes.size());
     view_.leafCount += uint32_t(r.leaves.size());
     view_.chunkCount += uint32_t(r.chunks.size());

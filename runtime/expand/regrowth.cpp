@@ -22,11 +22,12 @@ bool sameLimits(const GrowthLimits& a, const GrowthLimits& b) {
 }  // namespace
 
 bool GpuGrowth::canRegrow(const GrowthInputs& inputs) const {
-    if (!inputs.changes || inputs.changes->everything || !whole_ || !sameLimits(inputs.limits, limits_)) return false;
+    if (!inputs.changes || inputs.changes->everything || !whole_ || !sameLimits(inputs.limits, origin_.limits))
+        return false;
     // Counts of leaves by cell and directions at joints are sums over the whole plant.
     if (inputs.limits.walk == WalkMode::paper || inputs.limits.tangents == TangentMode::paper) return false;
-    if (inputs.limits.leafDensityCap > 0 || inputs.surfaceCount != surfaceCount_) return false;
-    return inputs.grammars.size() >= maps_.size();
+    if (inputs.limits.leafDensityCap > 0 || inputs.surfaceCount != origin_.surfaceCount) return false;
+    return inputs.grammars.size() >= origin_.maps.size();
 }
 
 Status GpuGrowth::makeAgainKernels() {
@@ -52,22 +53,33 @@ Status GpuGrowth::makeAgainKernels() {
                 {{0, address}, {2, features_}, {3, fetchesRecords_ ? 0u : 1u}});
 }
 
+// As much as before, unless that is more than twice what is of use.
+GpuGrowth::AgainBytes GpuGrowth::againBytes(const Links& from) const {
+    const auto roomOf = [](uint32_t count, uint32_t room, uint32_t capacity) -> uint64_t {
+        const uint64_t needed = std::max<uint64_t>(room, count + count / 2ull);
+        return needed < capacity / 2 ? needed : std::max(room, capacity);
+    };
+    const uint64_t chunks = roomOf(view_.chunkCount, room_.chunks, capacityOf<Chunk>(from.chunks));
+    const uint64_t branches = roomOf(view_.branchCount, room_.branches, capacityOf<BranchRecord>(from.branches));
+    return {chunks * sizeof(Chunk), branches * sizeof(BranchRecord), chunks * sizeof(AgainMark), chunks * kLists * 4,
+            chunks / 4 * kChunkNodes * (1 + kResultWords) * 4};
+}
+
 Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) {
     const Links& from = links_[frontLinks_];
     Links& to = links_[1 - frontLinks_];
-    const uint64_t chunks = std::max<uint64_t>(room_.chunks, capacityOf<Chunk>(from.chunks));
+    const AgainBytes again = againBytes(from);
     const struct {
         Buffer* buffer;
         const char* name;
         uint64_t bytes;
-    } rows[] = {{&to.chunks, "growth chunks", chunks * sizeof(Chunk)},
-                {&to.branches, "growth branches",
-                 std::max<uint64_t>(from.branches.size(), room_.branches * sizeof(BranchRecord))},
+    } rows[] = {{&to.chunks, "growth chunks", again.chunks},
+                {&to.branches, "growth branches", again.branches},
                 {&again_, "regrowth", sizeof(AgainState)},
-                {&marks_, "regrowth marks", chunks * sizeof(AgainMark)},
-                {&lists_, "regrowth lists", chunks * kLists * 4},
-                {&edits_, "regrowth edits", std::max<uint64_t>(editWords * 4, 16384)},
-                {&results_, "regrowth results", chunks / 4 * kChunkNodes * (1 + kResultWords) * 4}};
+                {&marks_, "regrowth marks", again.marks},
+                {&lists_, "regrowth lists", again.lists},
+                {&edits_, "regrowth edits", std::max<uint64_t>(editWords * 4, kLeastEditBytes)},
+                {&results_, "regrowth results", again.results}};
     if (Status ok = ensureChains(plants_[frontPlants_]); !ok) return ok;
     // Regrowths of the same nodes find the same room: nothing that is noted there gets lost.
     const uint64_t touched = capacityOf<Node>(plants_[frontPlants_].nodes) * 4ull;
@@ -96,7 +108,6 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     commands.fill(marks_, 0);
     if (!chained_) commands.fill(firstLeaves_, kNoIndex);
     if (touchedIsNew_) commands.fill(touched_, 0);
-    touchedIsNew_ = false;
 
     GrowStatus s = freshStatus(inputs.limits, room_, noCut(inputs.limits));
     s.chunks = view_.chunkCount;
@@ -144,10 +155,12 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     for (Status& step : steps)
         if (!step) return step;
     // Packed tables change with parameters, grammars and where their words lie.
+    const std::vector<RuleMapRef>& maps = origin_.maps;
+    const std::vector<float>& widths = origin_.widths;
     const bool same = inputs.changes->params.empty() && inputs.changes->grammars.empty() &&
-                      inputs.grammars.size() == maps_.size() && inputs.widths.size() == from_.widths.size() &&
-                      std::memcmp(inputs.grammars.data(), maps_.data(), maps_.size() * sizeof(RuleMapRef)) == 0 &&
-                      std::equal(from_.widths.begin(), from_.widths.end(), inputs.widths.begin());
+                      inputs.grammars.size() == maps.size() && inputs.widths.size() == widths.size() &&
+                      std::memcmp(inputs.grammars.data(), maps.data(), maps.size() * sizeof(RuleMapRef)) == 0 &&
+                      std::equal(widths.begin(), widths.end(), inputs.widths.begin());
     if (!same) return uploadTables(commands, inputs, !runsNative(inputs));
     commands.barrier(Use::transfer, Use::compute | Use::indirect);
     return Done{};
@@ -271,7 +284,9 @@ Result<GpuGrowth::Regrown> GpuGrowth::growAgain(const GrowthInputs& inputs, cons
     return whole && nodes <= state.mostNodes && chunks <= state.mostChunks ? Regrown::done : Regrown::tooMuch;
 }
 
-void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state) {
+void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state,
+                             Origin&& origin) {
+    origin_ = std::move(origin);
     const GrowStatus& s = outcome.status;
     GrowthStats delta;
     takeCounters(s, delta);
@@ -315,16 +330,20 @@ Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const S
     Result<AgainState> found = findDirty(inputs, seeds, env);
     if (!found) return found.failure();
     chained_ = true;
+    touchedIsNew_ = false;
     if (found->counts[kListDirty] > stats_.chunks / kMostDirtyOf) return Regrown::tooMuch;
     const bool nothing = found->counts[kListDirty] + found->counts[kListBranches] + found->counts[kListGone] == 0;
+    Origin origin = originOf(inputs);  // now, since nothing may fail between the change of what is drawn and the end
     if (nothing && !seeds.any) {
-        remember(inputs);
+        origin_ = std::move(origin);
         stats_.derived = 0;
         return Regrown::done;
     }
     Outcome outcome;
     AgainState state{};
+    whole_ = false;  // an exception may leave nodes that are drawn changed in part: then all grows anew
     Result<Regrown> grown = growAgain(inputs, env, outcome, state);
+    whole_ = true;
     if (!grown) return grown.failure();
     if (*grown == Regrown::noRoom) {
         room_.nodes = std::max(room_.nodes, stats_.nodes + stats_.nodes / 2);
@@ -333,8 +352,7 @@ Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const S
         room_.branches = std::max(room_.branches, view_.branchCount + view_.branchCount / 2);
     }
     if (*grown != Regrown::done) return grown;
-    publishAgain(inputs, outcome, state);
-    remember(inputs);
+    publishAgain(inputs, outcome, state, std::move(origin));
     return Regrown::done;
 }
 

@@ -88,7 +88,7 @@ std::optional<SeedChanges> seedChanges(const GrownFrom& before, const GrowthInpu
     };
     bool anyOther = !now.changes->grammars.empty();
     for (uint32_t g = 0; g < std::max(before.widths.size(), now.widths.size()); ++g) anyOther = anyOther || other(g);
-    if (!anyOther && now.changes->seeds.empty() && sameSeeds(before.seeds, now.seeds) &&
+    if (!anyOther && now.changes->seeds.empty() && now.changes->frozen.empty() && sameSeeds(before.seeds, now.seeds) &&
         sameFrozen(before.frozen, now.frozen))
         return out;
 

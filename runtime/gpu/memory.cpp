@@ -4,6 +4,7 @@
 
 #ifdef __linux__
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 #include <bit>
@@ -26,12 +27,19 @@ VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize step) {
     return (value + step - 1) / step * step;
 }
 
+#ifdef __linux__
+// madvise refuses what doesn't begin with a page.
+uintptr_t pageBytes() {
+    static const long size = sysconf(_SC_PAGESIZE);
+    return size > 0 ? uintptr_t(size) : 4096;
+}
+#endif
+
 // Memory of a software device is the process's own: asked to, the system backs it with large pages, which random reads
 // of it miss less often, and first writes wait for less. Mappings of another kind it leaves as they are.
 void askForLargePages([[maybe_unused]] void* at, [[maybe_unused]] VkDeviceSize size) {
 #ifdef MADV_HUGEPAGE
-    constexpr uintptr_t kPage = 4096;
-    const uintptr_t begin = reinterpret_cast<uintptr_t>(at), first = (begin + kPage - 1) / kPage * kPage;
+    const uintptr_t begin = reinterpret_cast<uintptr_t>(at), first = roundUp(begin, pageBytes());
     if (begin + size > first) (void)madvise(reinterpret_cast<void*>(first), begin + size - first, MADV_HUGEPAGE);
 #endif
 }
@@ -40,9 +48,8 @@ void askForLargePages([[maybe_unused]] void* at, [[maybe_unused]] VkDeviceSize s
 // Dropped, they cost nothing until they are touched, as those of fresh memory do, so that room to spare is free.
 void dropPages([[maybe_unused]] void* at, [[maybe_unused]] VkDeviceSize size) {
 #ifdef __linux__
-    constexpr uintptr_t kPage = 4096;
-    const uintptr_t begin = reinterpret_cast<uintptr_t>(at);
-    const uintptr_t first = (begin + kPage - 1) / kPage * kPage, last = (begin + size) / kPage * kPage;
+    const uintptr_t begin = reinterpret_cast<uintptr_t>(at), page = pageBytes();
+    const uintptr_t first = roundUp(begin, page), last = (begin + size) / page * page;
     if (last > first) (void)madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
 #endif
 }

@@ -52,8 +52,12 @@ void TimerRing::stop(VkCommandBuffer commands, uint32_t mark) {
 }
 
 void TimerRing::collect(uint64_t oldestPending) {
-    for (Pool& pool : pools_)
-        if (pool.serial != 0 && pool.serial < oldestPending) read(pool);
+    const bool atWork = std::ranges::any_of(pools_, [&](const Pool& pool) { return pool.serial >= oldestPending; });
+    for (Pool& pool : pools_) {
+        if (pool.serial == 0 || pool.serial >= oldestPending) continue;
+        if (!atWork || !device_.info().cpu) read(pool);
+        setFree(pool);
+    }
 }
 
 void TimerRing::read(Pool& pool) {
@@ -71,6 +75,9 @@ void TimerRing::read(Pool& pool) {
             record(pool.names[i], double(end.ticks - begin.ticks) * device_.info().timestampNanoseconds * 1e-6,
                    pool.serial);
     }
+}
+
+void TimerRing::setFree(Pool& pool) {
     pool.serial = 0;
     pool.names.clear();
 }

@@ -20,7 +20,8 @@ class TimerRing {
     // Writes the first timestamp and returns a mark for stop(). Without timestamps both do nothing.
     uint32_t start(VkCommandBuffer commands, uint64_t serial, std::string_view name);
     void stop(VkCommandBuffer commands, uint32_t mark);
-    // Reads the pools of all recordings before `oldestPending` and sets them free.
+    // Reads the pools of all recordings before `oldestPending` and sets them free. A software device that is at work
+    // lets nobody read before it is done: times are those of a recording that nothing was recorded beside, then.
     void collect(uint64_t oldestPending);
     const std::vector<PassTime>& times() const { return times_; }
 
@@ -33,6 +34,7 @@ class TimerRing {
     };
     uint32_t poolFor(uint64_t serial);
     void read(Pool& pool);
+    static void setFree(Pool& pool);
     void record(const std::string& name, double milliseconds, uint64_t serial);
 
     Device& device_;

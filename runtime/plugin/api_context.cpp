@@ -169,6 +169,7 @@ void espDestroy(EspContext* context) {
 EspResult espTrim(EspContext* context) {
     return guarded(context, [&] {
         context->growth->trim();
+        if (context->roofs) context->roofs->trim();
         context->renderer->trim();
         // What was dropped goes once an empty submission behind all frames is done.
         Device& device = *context->device;

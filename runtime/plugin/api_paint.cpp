@@ -47,8 +47,10 @@ EspResult ensureLayer(EspContext& context, uint32_t surface, const std::string& 
     // Grammars that want another value where nothing is painted read this one from now on.
     const PlacedSurface& placed = *context.surfaces.find(surface);
     for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
-        if (context.sceneLayers[layer].name == name && context.sceneLayers[layer].fill != fill)
+        if (context.sceneLayers[layer].name == name && context.sceneLayers[layer].fill != fill) {
             context.changes.markLayer(placed.instance, layer, size);
+            ++context.revision;
+        }
     return ESP_OK;
 }
 

@@ -98,6 +98,7 @@ EspResult setNumber(EspContext& context, PlantedSeed& seed, uint32_t number, uin
     context.twins.release(seed.number, seed.twin);
     seed.number = number;
     seed.twin = taken;
+    context.changes.frozen.push_back(seedKey(seed));  // what has grown under this number isn't its plant
     ++context.revision;
     return ESP_OK;
 }

@@ -30,6 +30,9 @@ Result<Props> Props::create(Device& device, TerminalData models, VkFormat color,
         Sampler::create(device, {.name = "prop textures", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
     if (!sampler) return sampler.failure();
     props.sampler_ = std::move(*sampler);
+    Result<Sampler> quick = Sampler::create(device, {.name = "prop textures, quick", .blendMips = false});
+    if (!quick) return quick.failure();
+    props.quickSampler_ = std::move(*quick);
     if (Status s = props.makePrograms(device, color, depth, samples); !s) return s.failure();
     return props;
 }
@@ -214,7 +217,8 @@ void Props::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, 
         const PropPush push = pushOf(run.bucket, run.first);
         // Patterns are for records; here each instance draws the first of its repetitions.
         const DrawPass::IndexRange range{bucket.indexCount, bucket.firstIndex, int32_t(bucket.firstVertex), run.count};
-        const Binding color{terminals_.baseColor(bucket.material), sampler_}, texels(chosen.texels),
+        const Sampler& sampler = shading == Shading::quick ? quickSampler_ : sampler_;
+        const Binding color{terminals_.baseColor(bucket.material), sampler}, texels(chosen.texels),
             meshes(terminals_.vertexTexels());
         if (!shadow)
             pass.drawIndexed(depth_, range, push, {color, frame, texels, meshes});

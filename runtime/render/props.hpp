@@ -70,7 +70,7 @@ class Props {
     PropPush pushOf(uint32_t bucket, uint32_t first) const;
 
     Terminals terminals_;
-    Sampler sampler_;
+    Sampler sampler_, quickSampler_;
     std::vector<Room> rooms_;  // [variant]
     std::vector<PropPlace> places_;
     std::vector<PropInstance> instances_;  // [place], whole

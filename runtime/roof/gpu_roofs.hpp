@@ -34,6 +34,7 @@ class GpuRoofs final : public RoofGrowth {
     RoofView view() const override { return view_; }
     RoofStats stats() const override { return stats_; }
     Result<RoofRecords> read() override;
+    void trim() override;
 
   private:
     // Records of the town's tables, which only grow, and how many of them the GPU has been sent.
@@ -102,6 +103,7 @@ class GpuRoofs final : public RoofGrowth {
     Result<Texels> viewRecords(const Set& set, bool fetches) const;
     bool mayFetch(const RoofInputs& inputs, const Set& set) const;
     void noticeTown(const RoofInputs& inputs);
+    // Nothing is known to have been sent of tables and layers.
     void forgetTables();
     Status uploadTables(Commands& commands, const RoofTables& t, Set& set);
     Status uploadStarts(Commands& commands, const RoofTables& t, std::span<const uint32_t> houses);
@@ -120,7 +122,7 @@ class GpuRoofs final : public RoofGrowth {
     // On the CPU, sent behind what the published set holds. Not complete: there is no room for it.
     Result<Outcome> growFew(const RoofInputs& inputs, std::span<const uint32_t> houses);
     // These haven't grown.
-    void takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<uint32_t> generations);
+    void takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<uint32_t>& generations) noexcept;
     void record(Commands& commands, const Texels& texels, uint32_t waves);
     Outcome readBack();
     // Whether what a status tells has found room.
@@ -128,6 +130,7 @@ class GpuRoofs final : public RoofGrowth {
     // houses: that have grown, none: all.
     void publish(const RoofInputs& inputs, const Outcome& outcome, std::span<const uint32_t> houses);
     void measure(const RoofTables& t, uint32_t house);
+    uint64_t reserved() const;
     static Sums sumsOf(const RoofGrid& grid, std::span<const RoofRun> runs);
     // Of all houses, while all that is published is drawn.
     Status countHouses();
@@ -144,8 +147,9 @@ class GpuRoofs final : public RoofGrowth {
     Buffer starts_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, houseReads_, means_,
         layerTable_, readback_;
     Buffer layers_[kRoofLayers];
+    bool layersSent_[kRoofLayers] = {};  // all rows of them
     uint64_t grammarRevision_ = 0;
-    uint32_t wavesAhead_ = 4;
+    uint32_t wavesAhead_ = 4, widest_ = 0;   // shapes of the widest wave, when all houses grew last
     Counts own_;                             // room for the town's tables
     uint64_t town_ = 0;                      // RoofInputs::townRevision
     std::vector<RoofTables::House> ranges_;  // of its houses, when what follows was made

@@ -5,8 +5,10 @@
 // their generation.
 #include <algorithm>
 #include <cstddef>
+#include <new>
 
 #include "runtime/core/check.hpp"
+#include "runtime/core/undo.hpp"
 #include "runtime/roof/gpu_roofs.hpp"
 #include "runtime/roof/house_tables.hpp"
 #include "shaders/shared/roof_tables.h"
@@ -163,8 +165,6 @@ Result<GpuRoofs::Outcome> GpuRoofs::expandWhole(const RoofInputs& inputs, Set& s
     if (outcome && !outcome->complete) outcome = expand(inputs, set, houses, status, kRoofWaves - 1);
     if (outcome)
         wavesAhead_ = std::min(houses.empty() ? outcome->waves : std::max(wavesAhead_, outcome->waves), kRoofWaves - 1);
-    else
-        forgetTables();
     return outcome;
 }
 
@@ -224,12 +224,32 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     stats_.bytes = uint64_t(last_.grids) * sizeof(RoofGrid) + uint64_t(last_.rows) * sizeof(RoofRun) +
                    (last_.regions - own_.regions) * sizeof(RoofRegion) + (last_.parts - own_.parts) * sizeof(RoofPart) +
                    (last_.planes - own_.planes) * sizeof(vec4);
-    stats_.reservedBytes = 0;
+    stats_.reservedBytes = reserved();
+}
+
+uint64_t GpuRoofs::reserved() const {
+    uint64_t bytes = 0;
     for (const Set& s : sets_)
-        stats_.reservedBytes += s.grids.size() + s.runs.size() + s.generations.size() + s.regions.buffer.size() +
-                                s.parts.buffer.size() + s.planes.buffer.size();
-    for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1]})
-        stats_.reservedBytes += b->size();
+        bytes += s.grids.size() + s.runs.size() + s.generations.size() + s.regions.buffer.size() +
+                 s.parts.buffer.size() + s.planes.buffer.size();
+    for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1]}) bytes += b->size();
+    return bytes;
+}
+
+void GpuRoofs::trim() {
+    const auto fit = [](uint32_t& room, uint32_t needed, uint32_t least) {
+        room = std::min<uint64_t>(room, std::max<uint64_t>(needed + needed / 2ull, least));
+    };
+    const RoofRoom least;
+    fit(room_.scopes, widest_, least.scopes);
+    fit(room_.grids, last_.grids, least.grids);
+    fit(room_.rows, last_.rows, least.rows);
+    fit(room_.regions, last_.regions, least.regions);
+    fit(room_.parts, last_.parts, least.parts);
+    fit(room_.planes, last_.planes, least.planes);
+    sets_[1 - front_] = {};
+    for (Buffer& scopes : scopes_) scopes = {};
+    stats_.reservedBytes = reserved();
 }
 
 bool GpuRoofs::fits(const RoofStatus& s, const Set& set) {
@@ -238,13 +258,20 @@ bool GpuRoofs::fits(const RoofStatus& s, const Set& set) {
            s.parts <= set.parts.buffer.size() / sizeof(RoofPart) && s.planes <= set.planes.buffer.size() / sizeof(vec4);
 }
 
-// What has failed leaves the room that it asked for to nobody: later growth may need far less.
+// What has failed leaves the room that it asked for to nobody: later growth may need far less. What was noted as sent
+// while it was recorded may not have been.
 Status GpuRoofs::grow(const RoofInputs& inputs) {
-    const RoofRoom before = room_;
+    Undo undo([this, before = room_] {
+        stands_ = false;
+        forgetTables();
+        grammarRevision_ = 0;
+        room_ = before;
+    });
     Status grown = growAll(inputs);
-    stands_ = bool(grown);
-    if (!grown) room_ = before;
-    return grown;
+    if (!grown) return grown;
+    undo.done();
+    stands_ = true;
+    return Done{};
 }
 
 Status GpuRoofs::growAll(const RoofInputs& inputs) {
@@ -266,6 +293,7 @@ Status GpuRoofs::growAll(const RoofInputs& inputs) {
         made.planes -= own_.planes;
         if (room_.hold(made, outcome->widest)) {
             front_ = 1 - front_;
+            widest_ = outcome->widest;
             publish(inputs, *outcome, {});
             stats_.housesGrown += t.houses.size();
             return Done{};
@@ -289,35 +317,39 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
     if (!possible) return grow(inputs);
     if (Status counted = countHouses(); !counted) return counted;
     std::vector<uint32_t> before = generationOf_;
-    for (uint32_t house : houses) generationOf_[house] += 1;
     Set& set = sets_[front_];
+    Undo undo([&] { takeBack(set, houses, before); });
+    for (uint32_t house : houses) generationOf_[house] += 1;
     const bool few = houses.size() <= kFewHouses;
     Result<Outcome> outcome = few ? growFew(inputs, houses) : expandWhole(inputs, set, houses, last_);
     const bool held = outcome && outcome->complete && fits(outcome->status, set) && outcome->widest <= room_.scopes;
     if (!held) {
         Status grown = outcome ? grow(inputs) : Status(outcome.failure());
-        if (!grown) takeBack(set, houses, std::move(before));
+        if (grown) undo.done();
         return grown;
     }
-    Status counted = recount(houses, *outcome);
-    stands_ = bool(counted);
-    if (!counted) return counted;
+    if (Status counted = recount(houses, *outcome); !counted) return counted;
+    undo.done();
     publish(inputs, *outcome, houses);
     stats_.housesGrown += houses.size();
     return Done{};
 }
 
 // Nothing has grown: what is drawn of these houses stays, though the GPU may have been told that it was replaced.
-void GpuRoofs::takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<uint32_t> generations) {
-    generationOf_ = std::move(generations);
+void GpuRoofs::takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<uint32_t>& generations) noexcept {
+    generationOf_.swap(generations);
     forgetTables();  // some may have been noted as sent
-    Result<Commands> commands = Commands::begin(device_, "roofs as they were");
-    if (!commands) return;
-    commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
-    const auto all = std::as_bytes(std::span(generationOf_));
-    for (uint32_t house : houses)
-        if (!commands->upload(set.generations, all.subspan(house * 4, 4), house * 4)) return;
-    (void)commands->submit();  // without memory for this the next growth will show them
+    try {
+        Result<Commands> commands = Commands::begin(device_, "roofs as they were");
+        if (!commands) return;
+        commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
+        const auto all = std::as_bytes(std::span(generationOf_));
+        for (uint32_t house : houses)
+            if (!commands->upload(set.generations, all.subspan(house * 4, 4), house * 4)) return;
+        (void)commands->submit();
+    } catch (const std::bad_alloc&) {
+        // Without memory for this the next growth will show them.
+    }
 }
 
 Result<RoofRecords> GpuRoofs::read() {

@@ -96,6 +96,8 @@ class RoofGrowth {
     virtual RoofStats stats() const = 0;
     // Waits for the GPU and copies what was grown.
     virtual Result<RoofRecords> read() = 0;
+    // Drops what only the next growth of all roofs, or of many, would use. What stands is left as it is.
+    virtual void trim() = 0;
 };
 
 // The same on the CPU, from the same text; `status` tells what was made.

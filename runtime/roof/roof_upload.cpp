@@ -2,6 +2,7 @@
 // changed, painted layers by their rows, what is kept of each house.
 #include <algorithm>
 
+#include "runtime/core/undo.hpp"
 #include "runtime/roof/gpu_roofs.hpp"
 #include "shaders/shared/roof_tables.h"
 
@@ -65,8 +66,7 @@ void GpuRoofs::noticeTown(const RoofInputs& inputs) {
         return a.firstAtom == b.firstAtom && a.atomCount == b.atomCount;
     };
     if (!other && std::ranges::equal(t.houses, ranges_, same)) return;
-    town_ = inputs.townRevision;
-    ranges_ = t.houses;
+    ranges_.clear();  // until all is worked out
     townStarts_.clear();
     startsSent_ = false;
     boxes_.resize(t.houses.size());
@@ -74,6 +74,8 @@ void GpuRoofs::noticeTown(const RoofInputs& inputs) {
         appendStarts(t, h, townStarts_);
         measure(t, h);
     }
+    ranges_ = t.houses;
+    town_ = inputs.townRevision;
 }
 
 void GpuRoofs::forgetTables() {
@@ -81,6 +83,7 @@ void GpuRoofs::forgetTables() {
     for (Set& set : sets_)
         for (Table* t : {&set.regions, &set.parts, &set.planes}) t->held = 0;
     startsSent_ = false;
+    for (bool& sent : layersSent_) sent = false;
 }
 
 // What the town's tables hold beyond what was sent before.
@@ -133,7 +136,8 @@ Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs) {
         const RoofInputs::Layer& layer = inputs.layers[i];
         table[i].fill = inputs.fill(i);
         if (!layer.texels) continue;
-        const bool fresh = !layers_[i] || layers_[i].size() < row * inputs.site.size;
+        const bool fresh = !layersSent_[i] || !layers_[i] || layers_[i].size() < row * inputs.site.size;
+        layersSent_[i] = false;
         if (Status s = ensure(layers_[i], "roof layer", row * inputs.site.size); !s) return s;
         const uint32_t first = fresh ? 0 : std::min(layer.firstRow, inputs.site.size);
         const uint32_t count = fresh ? inputs.site.size : std::min(layer.rowCount, inputs.site.size - first);
@@ -141,6 +145,7 @@ Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs) {
         if (count > 0)
             if (Status s = commands.upload(layers_[i], texels.subspan(first * row, count * row), first * row); !s)
                 return s;
+        layersSent_[i] = true;
         table[i].texels = addressOf<FloatBuf>(layers_[i]);
     }
     if (Status s = ensure(layerTable_, "roof layers", kRoofLayers * sizeof(RoofLayer)); !s) return s;
@@ -148,12 +153,14 @@ Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs) {
 }
 
 Status GpuRoofs::showLayers(const RoofInputs& inputs) {
+    Undo undo([this] { forgetTables(); });
     Result<Commands> commands = Commands::begin(device_, "roof layers");
     if (!commands) return commands.failure();
     commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
     if (Status s = uploadLayers(*commands, inputs); !s) return s;
     Result<uint64_t> submitted = commands->submit();
     if (!submitted) return submitted.failure();
+    undo.done();
     view_.layers = addressOf<RoofLayerBuf>(layerTable_);
     view_.site = inputs.site;
     return Done{};

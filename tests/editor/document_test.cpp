@@ -1,11 +1,13 @@
-// Undo and redo, judged by the growth's fingerprint, which knows nothing of documents; projects, by opening them in
-// another context; and saves that are killed.
+// Steps of undo and states; projects, judged by opening them in another context; and saves that are killed.
 #include <OpenImageIO/imageio.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
+#include <climits>
 #include <set>
 
 #include "tests/editor/editing.hpp"
@@ -59,32 +61,6 @@ Action randomEdit(std::mt19937& random, Editing& editing) {
 }
 
 }  // namespace
-
-TEST_CASE("whatever is done is undone step by step, and done again, to the same growth") {
-    const Folder folder;
-    Editing editing(smallScene(folder));
-    std::mt19937 random(7);
-    std::vector<uint64_t> hashes{editing.hash()};
-    std::vector<std::string> texts{editing.document->scene().grammars[0].text};
-    for (int i = 0; i < 16; ++i) {
-        REQUIRE_MESSAGE(editing.perform(randomEdit(random, editing)), editing.error);
-        hashes.push_back(editing.hash());
-        texts.push_back(editing.document->scene().grammars[0].text);
-    }
-    CHECK(std::set<uint64_t>(hashes.begin(), hashes.end()).size() > 7);
-    for (size_t i = hashes.size() - 1; i-- > 0;) {
-        REQUIRE_MESSAGE(editing.perform(Undo{}), editing.error);
-        CHECK_MESSAGE(editing.hash() == hashes[i], "after undoing step ", i);
-        CHECK(editing.document->scene().grammars[0].text == texts[i]);
-    }
-    CHECK(!editing.perform(Undo{}));
-    CHECK(contains(editing.error, "nothing to undo"));
-    for (size_t i = 1; i < hashes.size(); ++i) {
-        REQUIRE_MESSAGE(editing.perform(Redo{}), editing.error);
-        CHECK_MESSAGE(editing.hash() == hashes[i], "after doing again step ", i);
-    }
-    CHECK(!editing.perform(Redo{}));
-}
 
 TEST_CASE("a gesture is one step, and a new edit forgets what was undone") {
     const Folder folder;
@@ -166,6 +142,22 @@ TEST_CASE("a text with mistakes stands with its message while the last good one 
     CHECK(editing.perform(Undo{}));
     CHECK(editing.document->scene().grammars[0].error.empty());
     CHECK(editing.hash() == before);
+
+    // Over a text that grows something else, and back: what grew under the mistake grows there again.
+    const auto set = [&](const std::string& text) {
+        REQUIRE_MESSAGE(editing.perform(editing.document->withText(0, text)), editing.error);
+        return editing.hash();
+    };
+    CHECK(set(good + "Ivy -> }\n") == before);
+    const uint64_t other = set(kCreeper);
+    CHECK(other != before);
+    for (int i = 0; i < 3; ++i) {
+        REQUIRE(editing.perform(Undo{}));
+        CHECK(contains(editing.document->scene().grammars[0].error, ".grammar:"));
+        CHECK(editing.hash() == before);
+        REQUIRE(editing.perform(Redo{}));
+        CHECK(editing.hash() == other);
+    }
 }
 
 TEST_CASE("a project opens as it was saved, in another context and from another place") {
@@ -335,76 +327,169 @@ TEST_CASE("a project keeps its layers to the bit, and no file of theirs too many
     CHECK(again.hash() == editing.hash());
 }
 
-TEST_CASE("killed at any moment of a save, the project opens as it was or as it should be") {
+namespace {
+
+// What a project is to hold: all that is written of it, and what opening it has to give.
+struct Version {
+    ProjectData data;
+    uint64_t growth = 0;
+    std::vector<std::vector<float>> layers;
+};
+constexpr int kVersions = 4;
+constexpr const char* kLayers[] = {"mask", "damp"};
+
+std::vector<std::vector<float>> layersOf(Editing& editing) {
+    std::vector<std::vector<float>> layers;
+    for (const char* layer : kLayers) {
+        espalier::scene::GreyPicture picture;
+        REQUIRE_MESSAGE(editing.document->readLayer(0, layer, picture, editing.error), editing.error);
+        layers.push_back(picture.texels);
+    }
+    return layers;
+}
+
+// Another plant that is frozen, another one that grows, other layers.
+Version anyVersion(std::mt19937& random, Editing& editing) {
+    const auto chance = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
+    const uint32_t first = editing.document->scene().seeds[0].key;
+    const auto perform = [&](const Action& action) { REQUIRE_MESSAGE(editing.perform(action), editing.error); };
+    if (editing.document->scene().seeds[0].frozen) perform(FreezeSeeds{{first}, false});
+    for (const uint32_t grammar : {0u, 1u}) perform(SetParam{grammar, {"reach", {chance(.4f, 1.2f)}}});
+    editing.hash();
+    perform(FreezeSeeds{{first}, true});
+    for (const uint32_t grammar : {0u, 1u}) perform(SetParam{grammar, {"reach", {chance(.4f, 1.2f)}}});
+    for (const char* layer : kLayers) {
+        auto noise = std::make_shared<espalier::scene::GreyPicture>(128, 128, std::vector<float>(128 * 128));
+        for (float& texel : noise->texels) texel = chance(.4f, 1);
+        perform(LoadLayer{layer, "", 0, noise});
+    }
+    Version version{{}, editing.hash(), layersOf(editing)};
+    REQUIRE_MESSAGE(gather(*editing.document, version.data, editing.error), editing.error);
+    return version;
+}
+
+// Opens projects as an editor does, one after the other in one context: the making of that takes longest.
+class Reader {
+  public:
+    explicit Reader(const std::string& scene) : editing_(scene) {}
+    // Which version the file holds; -1: none.
+    int versionIn(const std::string& file, const std::vector<Version>& versions) {
+        EspContext* context = editing_.context.get();
+        for (const auto& grammar : editing_.document->scene().grammars) espDestroyGrammar(context, grammar.id);
+        for (const auto& surface : editing_.document->scene().surfaces) espDestroySurface(context, surface.id);
+        editing_.document = std::make_unique<Document>(context);
+        espalier::scene::Request request;
+        request.file = file;
+        REQUIRE_MESSAGE(editing_.document->open(request, editing_.error), editing_.error);
+        const Scene& scene = editing_.document->scene();
+        CHECK(scene.notes.empty());
+        REQUIRE(scene.seeds.size() == 2);
+        CHECK(scene.seeds[0].frozen);
+        const uint64_t growth = editing_.hash();
+        const auto layers = layersOf(editing_);
+        for (int i = 0; i < kVersions; ++i)
+            if (versions[size_t(i)].growth == growth && versions[size_t(i)].layers == layers) return i;
+        return -1;
+    }
+
+  private:
+    Editing editing_;
+};
+
+// A file's version before the write that is under way, and after it; told by the child that writes, while it lives.
+struct Told {
+    std::atomic<int> before = -1, after = -1;
+    bool has(int version) const { return version == before || version == after; }
+    void is(int version) { before = after = version; }
+};
+struct Both {
+    Told project, autosave;
+};
+
+// Autosaves and saves, each of the next version, for ever: the child has none of our threads, and no device.
+[[noreturn]] void writeOn(const std::vector<Version>& versions, int version, const std::string& garden, Both& told,
+                          int rounds) noexcept {
+    Progress progress;
+    std::string error;
+    for (int i = 0; i < rounds; ++i) {
+        version = (version + 1) % kVersions;
+        for (const auto& [file, write] : {std::pair(&told.autosave, &writeAutosave), {&told.project, &writeProject}}) {
+            file->after = version;
+            if (!write(versions[size_t(version)].data, garden, progress, error)) _exit(1);
+            file->before = version;
+        }
+    }
+    _exit(0);
+}
+
+}  // namespace
+
+TEST_CASE("killed at any moment of a save or an autosave, the project opens as it was or as it should be") {
     const Folder folder;
-    Editing editing(smallScene(folder));
     const std::string garden = folder.file("garden");
     // A forked child has no threads but the one that forked.
     OIIO::attribute("exr_threads", -1);
     OIIO::attribute("threads", 1);
-    REQUIRE(editing.perform(FillLayer{"mask", .5f}));
-    ProjectData data;
-    REQUIRE(gather(*editing.document, data, editing.error));
-    data.layers[0].picture = {64, 64, std::vector<float>(64 * 64)};
-    data.file.hour = 0;
-    Progress progress;
-    REQUIRE(writeProject(data, garden, progress, editing.error));
-    // How long two saves of a child take here and now, with its beginning.
-    const auto begin = std::chrono::steady_clock::now();
-    const pid_t first = fork();
-    REQUIRE(first >= 0);
-    if (first == 0) {
-        for (float version : {1.f, 0.f}) {
-            std::string error;
-            data.file.hour = version;
-            std::fill(data.layers[0].picture.texels.begin(), data.layers[0].picture.texels.end(), version);
-            if (!writeProject(data, garden, progress, error)) _exit(1);
-        }
-        _exit(0);
-    }
-    int ended = 0;
-    waitpid(first, &ended, 0);
-    REQUIRE(ended == 0);
-    const auto two = std::chrono::steady_clock::now() - begin;
-    const auto longest = std::max<int64_t>(1, std::chrono::duration_cast<std::chrono::microseconds>(two).count() * 2);
     std::mt19937 random(3);
-    std::set<float> seen;
-    int killed = 0;
+    std::vector<Version> versions;
+    const std::string scene = wallScene(folder, false);
+    {
+        Editing editing(scene);
+        for (int i = 0; i < kVersions; ++i) versions.push_back(anyVersion(random, editing));
+    }
+    Reader reader(scene);
+    void* shared = mmap(nullptr, sizeof(Both), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(shared != MAP_FAILED);
+    Both& told = *new (shared) Both;
+    const auto child = [&](int rounds) {
+        const pid_t made = fork();
+        REQUIRE(made >= 0);
+        if (made == 0) writeOn(versions, told.project.before, garden, told, rounds);
+        return made;
+    };
+    // How long it takes a child here and now to write two versions, with its beginning.
+    const auto begin = std::chrono::steady_clock::now();
+    int status = 0;
+    waitpid(child(2), &status, 0);
+    REQUIRE(status == 0);
+    const auto two = std::chrono::steady_clock::now() - begin;
+    const auto longest = std::max<int64_t>(1, std::chrono::duration_cast<std::chrono::microseconds>(two).count());
+    std::set<int> seen;
+    int killed = 0, interrupted = 0, recovered = 0;
     for (int round = 0; round < 100; ++round) {
-        // The child has none of our threads: it writes what was gathered before, ever another version of it.
-        const pid_t child = fork();
-        REQUIRE(child >= 0);
-        if (child == 0) {
-            for (float version = float(round);; version += .001f) {
-                std::string error;
-                data.file.hour = version / 100;
-                std::fill(data.layers[0].picture.texels.begin(), data.layers[0].picture.texels.end(), version / 100);
-                if (!writeProject(data, garden, progress, error)) _exit(1);
-            }
-        }
+        CAPTURE(round);
+        const pid_t writing = child(INT_MAX);
         usleep(useconds_t(random() % std::min<uint64_t>(uint64_t(longest), 400000)));
-        kill(child, SIGKILL);
-        int status = 0;
-        waitpid(child, &status, 0);
+        kill(writing, SIGKILL);
+        waitpid(writing, &status, 0);
         killed += WIFSIGNALED(status);
-        // Whole, and the picture is the one that belongs to the file.
-        espalier::scene::SceneFile file;
-        espalier::scene::GreyPicture picture;
-        std::string error;
-        REQUIRE_MESSAGE(readSceneFile(garden + "/project.json", file, error), error);
-        REQUIRE(file.layers.size() == 1);
-        REQUIRE_MESSAGE(readGrey(file.layers[0].file, picture, error), error);
-        REQUIRE(picture.texels.size() == 64 * 64);
-        CHECK(picture.texels.front() == file.hour);
-        CHECK(picture.texels.back() == file.hour);
-        seen.insert(file.hour);
+        interrupted += told.project.before != told.project.after;
+        const int version = reader.versionIn(garden, versions);
+        REQUIRE_MESSAGE(told.project.has(version), "version ", version);
+        // An autosave that was whole before its project was to follow is offered, unless that is there already.
+        const std::string left = recoverable(garden);
+        if (version == told.project.before && told.autosave.before != version) CHECK(!left.empty());
+        if (!left.empty()) {
+            const int kept = reader.versionIn(left, versions);
+            REQUIRE_MESSAGE(told.autosave.has(kept), "version ", kept);
+            told.autosave.is(kept);
+            ++recovered;
+        }
+        told.project.is(version);
+        seen.insert(version);
     }
     CHECK(killed == 100);
-    CHECK(seen.size() > 3);
-    // What an interrupted save left behind goes with the next.
-    REQUIRE(saveProject(*editing.document, garden, editing.error));
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(garden))
-        CHECK_MESSAGE(entry.path().filename().string()[0] != '.', entry.path().string());
-    Editing again(garden);
-    CHECK(again.document->scene().seeds.size() == 2);
+    CHECK(interrupted > 5);
+    CHECK(recovered > 5);
+    CHECK(seen.size() == kVersions);
+    // What an interrupted save left behind goes with the next: the texts, two layers and a plant are left.
+    Progress progress;
+    std::string error;
+    REQUIRE_MESSAGE(writeProject(versions[0].data, garden, progress, error), error);
+    CHECK(recoverable(garden).empty());
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(garden)) files += entry.is_regular_file();
+    CHECK(files == 4);
+    CHECK(reader.versionIn(garden, versions) == 0);
+    munmap(shared, sizeof(Both));
 }

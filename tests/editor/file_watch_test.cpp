@@ -15,6 +15,7 @@ struct Watched {
     Folder folder;
     FileWatch watch;
     int writes = 0;
+    std::filesystem::file_time_type began = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
 
     Watched() {
         write("model.glb", "bytes");
@@ -25,7 +26,7 @@ struct Watched {
     void write(const std::string& name, const std::string& text, bool later = true) {
         folder.write(name.c_str(), text);
         const auto apart = std::chrono::seconds(++writes) * (later ? 1 : -1000);
-        std::filesystem::last_write_time(folder.path / name, std::filesystem::file_time_type::clock::now() + apart);
+        std::filesystem::last_write_time(folder.path / name, began + apart);
     }
     // In one of two looks: the first may find it still being written.
     bool changed() {
@@ -52,12 +53,26 @@ TEST_CASE("a file counts as changed when it holds other bytes, not when it is to
 }
 
 TEST_CASE("a file that was written while it was read counts as changed, once it stands still") {
-    const auto read = std::filesystem::file_time_type::clock::now();
-    Watched t;  // writes its files later
+    const auto read = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+    Watched t;  // its files were written later
     t.watch.begin({t.folder.file("model.glb")}, read);
     CHECK(t.changed());
     CHECK(!t.changed());
     t.watch.begin({t.folder.file("model.glb")}, read + std::chrono::hours(1));
+    CHECK(!t.changed());
+}
+
+TEST_CASE("a file whose time lies in the future counts as changed when its bytes change, not whenever it is read") {
+    const auto read = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+    Watched t;
+    t.began = read + std::chrono::hours(24);
+    t.write("model.glb", "bytes");
+    for (int reload = 0; reload < 3; ++reload) {
+        t.watch.begin({t.folder.file("model.glb")}, read);
+        CHECK(!t.changed());
+    }
+    t.write("model.glb", "bites");
+    CHECK(t.changed());
     CHECK(!t.changed());
 }
 

@@ -15,6 +15,7 @@ struct Texts {
     espalier::scene::Scene scene;
     GrammarFiles files;
     int writes = 0;
+    std::filesystem::file_time_type began = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
 
     Texts() {
         write("parts.grammar", "// parts");
@@ -31,16 +32,15 @@ struct Texts {
     // At a time of its own, whatever the file system's clock tells apart.
     void write(const std::string& name, const std::string& text) {
         folder.write(name.c_str(), text);
-        std::filesystem::last_write_time(
-            folder.path / name, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(++writes));
+        std::filesystem::last_write_time(folder.path / name, began + std::chrono::seconds(++writes));
     }
 };
 
 }  // namespace
 
 TEST_CASE("a grammar that was saved while the scene was read is taken over") {
-    const auto read = std::filesystem::file_time_type::clock::now();
-    Texts t;  // saves its files later
+    const auto read = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+    Texts t;  // its files were saved later
     t.files.begin(t.scene, read + std::chrono::hours(1));
     t.scene.grammars[1].text = "typed";
     CHECK(t.files.look(t.scene).empty());
@@ -51,6 +51,34 @@ TEST_CASE("a grammar that was saved while the scene was read is taken over") {
     CHECK(changes[0].text == t.scene.grammars[0].text);  // compiled again: what it includes may be newer
     CHECK(changes[1].text == "B -> NULL");
     CHECK(t.files.look(t.scene).empty());
+}
+
+TEST_CASE("each grammar is judged by its own file and those that it includes, and none by a time in the future") {
+    const auto read = std::filesystem::file_time_type::clock::now() - std::chrono::minutes(30);
+    Texts t;
+    t.scene.grammars[0].text = "typed";
+    t.scene.grammars[1].text = "typed, too";
+    t.began = read;
+    t.write("b.grammar", "B -> C");
+    t.files.begin(t.scene, read);
+    auto changes = t.files.look(t.scene);
+    REQUIRE(changes.size() == 1);
+    CHECK(changes[0].grammar == 1);
+    CHECK(changes[0].text == "B -> C");
+    t.scene.grammars[1].text = "B -> C";
+
+    t.began = read + std::chrono::hours(24);
+    for (const char* name : {"c.grammar", "parts.grammar", "a.grammar"}) {
+        t.write(name, name);
+        for (int reload = 0; reload < 2; ++reload) {
+            t.files.begin(t.scene, read + std::chrono::minutes(10));
+            CHECK(t.files.look(t.scene).empty());
+        }
+    }
+    t.write("a.grammar", "A -> B");
+    changes = t.files.look(t.scene);
+    REQUIRE(changes.size() == 1);
+    CHECK(changes[0].text == "A -> B");
 }
 
 TEST_CASE("a grammar that is saved elsewhere is taken over, and no other one of its folder") {
@@ -75,16 +103,13 @@ TEST_CASE("a grammar that is saved elsewhere is taken over, and no other one of 
 
     t.scene.grammars[0].text = "typed and saved elsewhere, too";
     t.write("a.grammar", t.scene.grammars[0].text);
-    changes = t.files.look(t.scene);
-    REQUIRE(changes.size() == 1);
-    CHECK(!changes[0].replaces);
+    CHECK_MESSAGE(t.files.look(t.scene).empty(), "what is there already is no news");
 
     t.write("a.grammar", t.scene.grammars[0].text);
     CHECK_MESSAGE(t.files.look(t.scene).empty(), "the same text again is no change");
     // Restored with a time that is older than the other grammars'.
     t.folder.write("a.grammar", "A -> C");
-    std::filesystem::last_write_time(t.folder.path / "a.grammar",
-                                     std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+    std::filesystem::last_write_time(t.folder.path / "a.grammar", t.began - std::chrono::hours(1));
     changes = t.files.look(t.scene);
     REQUIRE(changes.size() == 1);
     CHECK(changes[0].text == "A -> C");

@@ -94,3 +94,49 @@ TEST_CASE("a frozen plant stands while others change, through undo, replanting a
     CHECK(editing.hash() == before);
     CHECK(!editing.perform(FreezeSeeds{{99}, true}));
 }
+
+TEST_CASE("a seed's own values wait while its grammar's text has no such parameters, in a project too") {
+    const Folder folder;
+    Editing editing(wallScene(folder, false));
+    SeedRecord seed = editing.document->recordOf(editing.document->scene().seeds[0]);
+    seed.params = {{"twigs", {12}}};
+    const uint64_t plain = editing.hash();
+    REQUIRE_MESSAGE(editing.perform(ChangeSeeds{{seed}}), editing.error);
+    const uint64_t twiggy = editing.hash();
+    CHECK(twiggy != plain);
+    const std::string ivy = editing.document->scene().grammars[0].text;
+    REQUIRE(editing.perform(editing.document->withText(0, kCreeper)));
+    const uint64_t creeping = editing.hash();
+    // Planted anew, with another seed among them and without.
+    const AddSeeds add{{{editing.document->freshKey(), 0, {0, .1f, 0}, {0, 1, 0}, 5}}, {0}};
+    REQUIRE_MESSAGE(editing.perform(add), editing.error);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(editing.hash() == creeping);
+
+    std::string error;
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("project"), error), error);
+    Editing opened(folder.file("project"));
+    REQUIRE(opened.document->scene().notes.size() == 1);
+    CHECK(contains(opened.document->scene().notes[0], "'twigs'"));
+    CHECK(opened.hash() == creeping);
+    REQUIRE(opened.perform(SetText{0, ivy, {{"reach", {1}}, {"twigs", {2}}}}));
+    CHECK(opened.hash() == twiggy);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(editing.hash() == twiggy);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(editing.hash() == plain);
+}
+
+TEST_CASE("a seed that is named twice is frozen once, and thawed by one undo") {
+    const Folder folder;
+    Editing editing(wallScene(folder, false));
+    editing.hash();
+    const auto frozen = [&] { return editing.document->scene().seeds[0].frozen != nullptr; };
+    const uint32_t key = editing.document->scene().seeds[0].key;
+    REQUIRE_MESSAGE(editing.perform(FreezeSeeds{{key, key}, true}), editing.error);
+    CHECK(frozen());
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(!frozen());
+    REQUIRE(editing.perform(Redo{}));
+    CHECK(frozen());
+}

@@ -13,6 +13,7 @@ TEST_CASE("every action comes back from its line") {
         RemoveSeeds{{1, 2, 3}},
         ChangeSeeds{{{3, 1, {1, 2, 3}, {0, 0, 1}, 7, {{"reach", {2}}}}}},
         SetLight{17.25f, -.5f, false},
+        SetWalk{"paper"},
         StrokeBegin{"mask", "erase", .25f, 1, .5f, .1f, {0, 1.5f}, {-1e6f, 2}, .3f, true},
         StrokeDabs{{{1, 2, 3, 0, 1, 0, 1}, {4, 5, 6, 0, 1, 0, .5f}}},
         StrokeEnd{},

@@ -3,45 +3,13 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "sample_game/session.hpp"
-#include "tests/editor/editing.hpp"
+#include "tests/editor/window.hpp"
 #include "tools/document/project.hpp"
 
 using namespace espalier::document;
 namespace fs = std::filesystem;
 
 namespace {
-
-// A window's workspace without the window, and the user's settings in a folder of the test's own.
-struct Window {
-    sample::Workspace work;
-    sample::Session session;
-    double now = 0;
-
-    Window(const Folder& folder, const std::string& file) {
-        ::setenv("XDG_CONFIG_HOME", folder.file("config").c_str(), 1);
-        Editing editing(file);
-        work.context = std::move(editing.context);
-        work.document = std::move(editing.document);
-        session.begin(work, file);
-    }
-    ~Window() { session.givesUp = true, session.end(work), work.document.reset(); }
-    void fill(float value) { REQUIRE(work.perform(FillLayer{"mask", value})); }
-    bool save(const std::string& folder) {
-        bool saved = false;
-        session.save(work, folder, [&](bool good) { saved = good; });
-        session.background().finish();
-        return saved;
-    }
-    // As much time as files are looked at in, and autosaves are made.
-    void wait() {
-        for (int i = 0; i < 5; ++i) {
-            now += session.autosaveEvery;
-            (void)session.step(work, now);
-            session.background().finish();
-        }
-    }
-};
 
 float maskOf(const std::string& project) {
     Editing opened(project);
@@ -191,6 +159,8 @@ TEST_CASE("what is opened again over itself goes on where it was kept, and a rec
     Window window(folder, rescued + "/autosave.json");
     const sample::Session::Origin origin = window.session.origin(window.work);
     REQUIRE(saveProject(*window.work.document, folder.file("reload"), window.work.error));
+    window.session.goesOn = true;
+    window.session.end(window.work);
     Window reloaded(folder, folder.file("reload"));
     reloaded.session.setOrigin(reloaded.work, origin);
     reloaded.session.startRecording(reloaded.work, run, 64, 64, [](bool good) { CHECK(good); });

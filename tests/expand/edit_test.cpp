@@ -157,6 +157,7 @@ TEST_CASE("native edits find the room that they need before gaps are closed") {
         barely.leaves = s.growth->stats().leaves;
     }
     Session s(flatSquare(), barely);
+    if (!s.gpu.device().info().cpu) return;
     s.scene.native = true;
     s.scene.plantMany(60, 0, 1);
     s.check();
@@ -249,18 +250,48 @@ void prune(Session& s, uint64_t draw) {
     }
 }
 
+// number: of the seed that may be planted.
+template <class Draw>
+void randomEdit(Session& s, Draw&& draw, uint64_t number) {
+    const float kind = draw(0, 1);
+    std::vector<Seed>& seeds = s.scene.seeds();
+    if (kind < 0.7f) {
+        const uint32_t layer = draw(0, 1) < 0.8f ? 0 : 1;
+        const glm::vec2 at(draw(0, 1), draw(0, 1));
+        const float radius = draw(0.005f, 0.08f);
+        s.dab(layer, at, radius, draw(0, 1) < 0.6f ? 0.0f : 1.0f);
+    } else if (kind < 0.8f && !seeds.empty()) {
+        seeds.erase(seeds.begin() + long(draw(0, float(seeds.size()) - 0.01f)));
+    } else if (kind < 0.83f) {
+        prune(s, mix64(number));
+    } else if (kind < 0.9f) {
+        s.scene.plantMany(1, draw(0, 1) < 0.7f ? 0 : 1, number);
+    } else if (kind < 0.95f) {
+        const char* name = draw(0, 1) < 0.5f ? "leafSize" : "twigs";
+        s.set(0, name, draw(0.02f, 0.6f));
+    } else {
+        s.set(1, "reach", floorExact(draw(3, 40)));
+    }
+}
+
 }  // namespace
 
+// By shaders, and by the native code that software devices run instead.
 TEST_CASE("random edits in any order end in what a full growth gives") {
     const Model models[] = {flatSquare(), cube(), ball()};
-    for (uint32_t m = 0; m < 3; ++m) {
+    for (uint32_t run = 0; run < 6; ++run) {
+        const uint32_t m = run % 3;
+        const bool native = run >= 3;
         CAPTURE(m);
+        CAPTURE(native);
         Session s(models[m], m == 1 ? GrowthRoom{256, 4096, 256, 4096, 64} : GrowthRoom{});
+        if (native && !s.gpu.device().info().cpu) break;
+        s.scene.native = native;
         s.scene.fetch = m != 1;
         s.scene.plantMany(25, 0, 1);
         s.scene.plantMany(8, 1, 2);
         s.check();
-        uint64_t key = mix64(77 + m);
+        uint64_t key = mix64(77 + run);
         auto draw = [&](float low, float high) {
             key = mix64(key);
             return low + (high - low) * uniformRandom(key, 1);
@@ -268,28 +299,12 @@ TEST_CASE("random edits in any order end in what a full growth gives") {
         for (uint32_t i = 0; i < 40; ++i) {
             CAPTURE(i);
             const uint32_t edits = uint32_t(draw(1, 4));
-            for (uint32_t k = 0; k < edits; ++k) {
-                const float kind = draw(0, 1);
-                std::vector<Seed>& seeds = s.scene.seeds();
-                if (kind < 0.7f) {
-                    const uint32_t layer = draw(0, 1) < 0.8f ? 0 : 1;
-                    s.dab(layer, {draw(0, 1), draw(0, 1)}, draw(0.005f, 0.08f), draw(0, 1) < 0.6f ? 0.0f : 1.0f);
-                } else if (kind < 0.8f && !seeds.empty()) {
-                    seeds.erase(seeds.begin() + long(draw(0, float(seeds.size()) - 0.01f)));
-                } else if (kind < 0.83f) {
-                    prune(s, mix64(key));
-                } else if (kind < 0.9f) {
-                    s.scene.plantMany(1, draw(0, 1) < 0.7f ? 0 : 1, 100 + i * 4 + k);
-                } else if (kind < 0.95f) {
-                    s.set(0, draw(0, 1) < 0.5f ? "leafSize" : "twigs", draw(0.02f, 0.6f));
-                } else {
-                    s.set(1, "reach", floorExact(draw(3, 40)));
-                }
-            }
+            for (uint32_t k = 0; k < edits; ++k) randomEdit(s, draw, 100 + i * 4 + k);
             s.check();
+            if (native) CHECK(s.growth->stats().native);
         }
-        std::printf("model %u: %u expansions, %u of them regrowths\n", m, s.growth->stats().expansions,
-                    s.growth->stats().regrowths);
+        std::printf("model %u, %s: %u expansions, %u of them regrowths\n", m, native ? "native" : "shaders",
+                    s.growth->stats().expansions, s.growth->stats().regrowths);
         CHECK(s.growth->stats().regrowths > 20);
     }
 }

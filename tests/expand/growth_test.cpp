@@ -459,6 +459,16 @@ TEST_CASE("what one large growth took is given back, and what is smaller grows o
         mustGrow(scene, gpu, *growth);
         mustGrow(scene, gpu, *growth);  // into the other set of buffers
         const GrowthStats large = growth->stats();
+        GrowthChanges none;
+        none.everything = false;
+        const auto edit = [&](Growth& edited) {
+            scene.changes = &none;
+            scene.plantMany(1, 0, 9);
+            mustGrow(scene, gpu, edited);
+            CHECK(edited.stats().regrowths == 1);
+            scene.changes = nullptr;
+        };
+        edit(*growth);
         scene.clearSeeds();
         scene.plantMany(3);
         mustGrow(scene, gpu, *growth);
@@ -476,6 +486,12 @@ TEST_CASE("what one large growth took is given back, and what is smaller grows o
         MESSAGE("bytes of " << large.nodes << " nodes: " << kept << "; then " << growth->stats().reservedBytes);
         CHECK(growth->stats().reservedBytes < kept / 2);
         checkAlike(scene, *growth);
+        // No more is left than one has that never was large.
+        auto small = gpu.growth({64, 1024, 64, 1024, 64});
+        mustGrow(scene, gpu, *small);
+        edit(*small);
+        MESSAGE("bytes of one that never was: " << small->stats().reservedBytes);
+        CHECK(growth->stats().reservedBytes <= small->stats().reservedBytes);
 
         scene.plantMany(300);
         mustGrow(scene, gpu, *growth);

@@ -144,6 +144,43 @@ TEST_CASE("a frozen plant stands as it was through every edit, and grows from wh
     CHECK(s.growth->stats().regrowths == 1);
 }
 
+TEST_CASE("frozen plants with more leaves than the limit are refused by name, and what stood before stands") {
+    Session s(ball());
+    s.scene.plantMany(2, 0, 1);
+    s.check();
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    const PlantRecords plant = plantOf(*records, 0);
+    const uint32_t leaves = uint32_t(plant.leaves.size());
+    REQUIRE(leaves > 1);
+    const std::vector<Seed> seeds = s.scene.seeds();
+    s.scene.clearSeeds();
+    s.scene.limits.maxLeaves = leaves;
+    s.grow();
+    const uint64_t hash = s.growth->stats().hash;
+
+    const auto refused = [&](uint32_t most) {
+        s.scene.changes = &s.changes;
+        const Status grown = s.scene.grow(s.gpu.device(), *s.growth);
+        REQUIRE_FALSE(grown);
+        CHECK(grown.failure().text().find("more than " + std::to_string(most) + " leaves") != std::string::npos);
+        CHECK(s.growth->stats().hash == hash);
+    };
+    // Put into what stands, and with all grown anew.
+    s.scene.frozen = {{seeds[0].key, std::make_shared<PlantRecords>(plant)},
+                      {seeds[1].key, std::make_shared<PlantRecords>(plant)}};
+    s.changes.frozen = {seeds[0].key, seeds[1].key};
+    refused(leaves);
+    s.changes.everything = true;
+    refused(leaves);
+    s.scene.frozen.pop_back();
+    s.scene.limits.maxLeaves = leaves - 1;
+    refused(leaves - 1);
+    s.scene.limits.maxLeaves = leaves;
+    s.grow();
+    CHECK(s.growth->stats().leaves == leaves);
+}
+
 TEST_CASE("plants with the paper's tangents grow beside frozen ones as they would alone") {
     for (const bool native : {false, true}) {
         CAPTURE(native);

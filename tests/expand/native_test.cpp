@@ -3,6 +3,7 @@
 
 #include "shaders/shared/random.h"
 #include "tests/expand/session.hpp"
+#include "tests/support/driver_between.hpp"
 
 using namespace espalier;
 using namespace espalier::growthtest;
@@ -90,4 +91,61 @@ TEST_CASE("edits of what native code has grown") {
     s.scene.seeds().pop_back();
     s.check();
     CHECK(s.growth->stats().regrowths > before);
+}
+
+namespace {
+
+constexpr VkDeviceSize kMostBytes = 48ull << 20;
+
+PFN_vkGetPhysicalDeviceProperties2 realProperties;
+VKAPI_ATTR void VKAPI_CALL withSmallBuffers(VkPhysicalDevice device, VkPhysicalDeviceProperties2* all) {
+    realProperties(device, all);
+    for (auto* next = static_cast<VkBaseOutStructure*>(all->pNext); next; next = next->pNext)
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES)
+            reinterpret_cast<VkPhysicalDeviceVulkan13Properties*>(next)->maxBufferSize = kMostBytes;
+}
+
+PFN_vkAllocateMemory realAllocate;
+VKAPI_ATTR VkResult VKAPI_CALL allocateLittle(VkDevice device, const VkMemoryAllocateInfo* info,
+                                              const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+    constexpr VkDeviceSize kBlock = 64ull << 20;  // that small requests share
+    if (info->allocationSize > kMostBytes && info->allocationSize != kBlock) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    return realAllocate(device, info, callbacks, memory);
+}
+
+}  // namespace
+
+TEST_CASE("what grows has its room where there is none to spare") {
+    TestDevice gpu;
+    if (!gpu.device().info().cpu) return;
+    // Half as much again is more than a buffer holds, or than there is memory for.
+    const uint32_t nodes = uint32_t((40ull << 20) / sizeof(Node));
+    for (bool small : {true, false}) {
+        CAPTURE(small);
+        test::DriverBetween driver(gpu.device());
+        realProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
+            gpu.device().getInstanceProcAddr()(gpu.device().instance(), "vkGetPhysicalDeviceProperties2"));
+        realAllocate = gpu.device().vk().vkAllocateMemory;
+        if (small)
+            driver.replace("vkGetPhysicalDeviceProperties2", withSmallBuffers);
+        else
+            driver.replace("vkAllocateMemory", allocateLittle);
+        Result<std::unique_ptr<Device>> adopted = Device::adopt(driver.host());
+        REQUIRE(adopted);
+        auto growth = Growth::create(**adopted, {64, nodes, 64, 64, 64});
+        REQUIRE(growth);
+        Scene scene = Scene::baked(cube());
+        scene.addGrammar(kPlain);
+        scene.native = true;
+        scene.plantMany(4);
+        const Status grown = scene.grow(**adopted, **growth);
+        if (!grown) FAIL(grown.failure().text());
+        CHECK((*growth)->stats().native);
+        Result<CpuGrowth> reference = scene.growOnCpu();
+        REQUIRE(reference);
+        CHECK((*growth)->stats().hash == reference->stats.hash);
+        const uint64_t bytes = (*growth)->view().nodeBuffer->size();
+        CHECK(bytes >= nodes * sizeof(Node));
+        CHECK(bytes <= kMostBytes);
+    }
 }

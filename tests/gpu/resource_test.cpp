@@ -4,6 +4,7 @@
 #ifdef __linux__
 #include <malloc.h>
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 #include <algorithm>
@@ -140,12 +141,15 @@ Malloced leaveHole(size_t bytes) {
     return after;
 }
 
+uintptr_t pageBytes() {
+    return uintptr_t(sysconf(_SC_PAGESIZE));
+}
+
 size_t residentBytes(std::byte* from, size_t bytes) {
-    constexpr uintptr_t kPage = 4096;
-    const uintptr_t first = (reinterpret_cast<uintptr_t>(from) + kPage - 1) / kPage * kPage;
-    std::vector<unsigned char> pages((bytes - kPage) / kPage);
-    REQUIRE(mincore(reinterpret_cast<void*>(first), pages.size() * kPage, pages.data()) == 0);
-    return size_t(std::ranges::count_if(pages, [](unsigned char page) { return (page & 1) != 0; })) * kPage;
+    const uintptr_t size = pageBytes(), first = (reinterpret_cast<uintptr_t>(from) + size - 1) / size * size;
+    std::vector<unsigned char> pages((bytes - size) / size);
+    REQUIRE(mincore(reinterpret_cast<void*>(first), pages.size() * size, pages.data()) == 0);
+    return size_t(std::ranges::count_if(pages, [](unsigned char page) { return (page & 1) != 0; })) * size;
 }
 
 }  // namespace
@@ -172,7 +176,7 @@ TEST_CASE("what a software device takes costs nothing until it is touched, whate
             REQUIRE(t.device.vk().vkMapMemory(t.device.handle(), block.memory, 0, VK_WHOLE_SIZE, 0, &at) == VK_SUCCESS);
         CHECK(residentBytes(static_cast<std::byte*>(at), kSize) == 0);
         std::memset(at, 1, kSize / 2);
-        CHECK(residentBytes(static_cast<std::byte*>(at), kSize) >= kSize / 2 - 4096);
+        CHECK(residentBytes(static_cast<std::byte*>(at), kSize) >= kSize / 2 - pageBytes());
         memory->free(block);
     }
 }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,7 @@ struct Painting {
         data = std::move(*read);
         EspContextDef def = espDefaultContextDef();
         def.validation = 1;
-        if (espCreate(&def, &context) != ESP_OK) FAIL(espLastError(nullptr));
+        if (espCreate(&def, &context) != ESP_OK) FAIL(std::string(espLastError(nullptr)));
         ok(espLoadSurface(context, path.c_str(), nullptr, &surface));
     }
     ~Painting() {
@@ -60,19 +61,27 @@ struct Painting {
     Painting& operator=(const Painting&) = delete;
 
     void ok(EspResult result) const {
-        if (result != ESP_OK) FAIL(result << ": " << espLastError(context));
+        if (result != ESP_OK) FAIL(result << ": " << std::string(espLastError(context)));
     }
     uint32_t size() const { return data.levels[0].size; }
     const Texel& texel(uint32_t x, uint32_t y) const { return data.levels[0].texels[texelIndex(size(), x, y)]; }
     const TexelAux& aux(uint32_t x, uint32_t y) const { return data.levels[0].aux[texelIndex(size(), x, y)]; }
 
-    std::vector<float> layer(const char* name) const {
+    std::vector<float> layer(const char* name) const { return layer(name, surface); }
+    // of: a surface from the same file
+    std::vector<float> layer(const char* name, EspSurface of) const {
         uint32_t side = 0;
-        ok(espReadLayer(context, surface, name, nullptr, &side));
+        ok(espReadLayer(context, of, name, nullptr, &side));
         REQUIRE(side == size());
         std::vector<float> texels(size_t(side) * side, -1);
-        ok(espReadLayer(context, surface, name, texels.data(), &side));
+        ok(espReadLayer(context, of, name, texels.data(), &side));
         return texels;
+    }
+    // The same shape once more, elsewhere.
+    EspSurface another(const EspTransform& place) const {
+        EspSurface second{};
+        ok(espLoadSurface(context, path.c_str(), &place, &second));
+        return second;
     }
     EspStroke begin(const EspBrush& brush) const {
         EspStroke stroke{};
@@ -122,6 +131,13 @@ inline EspBrush brushOn(const char* layer, float radius, float strength = 1, flo
 
 inline EspDab dabAt(glm::vec3 p, glm::vec3 n = {0, 1, 0}, float pressure = 1) {
     return {{p.x, p.y, p.z}, {n.x, n.y, n.z}, pressure};
+}
+
+inline glm::vec3 randomOnCube(std::mt19937& random) {
+    std::uniform_real_distribution<float> unit(0, 1);
+    const int face = int(random() % 6);
+    const float s = unit(random);
+    return onCube(face, s, unit(random));
 }
 
 }  // namespace espalier::test

@@ -42,3 +42,27 @@ TEST_CASE("a layer that no grammar reads any more makes room for another") {
     CHECK(espRecompileGrammar(painting.context, grammar, &def) == ESP_INVALID_CONTENT);
     CHECK(std::string(espLastError(painting.context)).find("16 are the most") != std::string::npos);
 }
+
+TEST_CASE("a layer that comes into being is read by grammars that wanted another value where there was none") {
+    const Painting painting;
+    painting.grammar(kMaskedIvy);  // what it wants is the layer's fill
+    std::string text = kMaskedIvy;
+    text.replace(text.find("mask = 1"), 8, "mask = 0");
+    painting.plant(painting.grammar(text.c_str()), {0, -.9f, 1}, {0, 1, 0});
+    const uint64_t forbidden = painting.grown().nodes;
+    const std::vector<float> there = painting.layer("mask");  // the layer's fill: no texel will be another
+    EspLayerDef def = espDefaultLayerDef();
+    def.surface = painting.surface;
+    def.name = "mask";
+    def.space = ESP_LAYER_TEXELS;
+    def.texels = there.data();
+    def.width = def.height = painting.size();
+    EspStroke stroke{};
+    painting.ok(espImportLayer(painting.context, &def, &stroke));
+    const EspStats free = painting.grown();
+    CHECK(free.nodes > forbidden + 20);
+    EspGrowDef grow = espDefaultGrowDef();
+    grow.maxDepth = 100;  // all anew
+    painting.ok(espSetGrow(painting.context, &grow));
+    CHECK(painting.grown().hash == free.hash);
+}

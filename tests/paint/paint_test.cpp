@@ -1,4 +1,4 @@
-// Painting through the public interface: every texel against the formula in double precision, seams, undoing, growth.
+// Painting through the public interface: every texel against the formula in double precision, seams, growth.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -64,11 +64,6 @@ SeamGaps seamGaps(const Painting& painting, const std::vector<float>& layer) {
         }
     }
     return gaps;
-}
-
-glm::vec3 randomOnCube(std::mt19937& random) {
-    std::uniform_real_distribution<float> unit(0, 1);
-    return onCube(int(random() % 6), unit(random), unit(random));
 }
 
 }  // namespace
@@ -155,76 +150,51 @@ TEST_CASE("a stroke around a corner is read alike on both sides of every seam") 
     }
 }
 
-TEST_CASE("1,000 random strokes undone restore every texel bit for bit, and redone paint the same") {
+TEST_CASE("a dab paints every surface that it reaches, as each is placed, and is undone on all") {
     Painting painting;
-    std::mt19937 random(5);
-    std::uniform_real_distribution<float> unit(0, 1);
-    const char* names[] = {"mask", "density", "tint"};
-    std::vector<std::vector<float>> begin, end;
-    // Not from a blank: what is restored is a picture.
-    for (const char* name : names) {
-        std::vector<float> picture(97 * 61);
-        for (float& v : picture) v = unit(random);
-        EspLayerDef def = espDefaultLayerDef();
-        def.surface = painting.surface;
-        def.name = name;
-        def.space = ESP_LAYER_WALK_UV;
-        def.texels = picture.data();
-        def.width = 97;
-        def.height = 61;
-        painting.ok(espSetLayer(painting.context, &def));
-        begin.push_back(painting.layer(name));
-    }
-    std::vector<EspStroke> strokes;
-    uint64_t bytes = 0;
-    for (int i = 0; i < 1000; ++i) {
-        if (i % 100 == 99) {
-            EspStroke fill{};
-            painting.ok(espFillLayer(painting.context, names[random() % 3], unit(random), &fill));
-            strokes.push_back(fill);
-            continue;
+    // The second cube's edge comes near the first one's face, aslant.
+    const float c = std::cos(.5f) * .8f, s = std::sin(.5f) * .8f;
+    const EspTransform place{{{c, 0, s, 2.3f}, {0, .8f, 0, .2f}, {-s, 0, c, .1f}}};
+    const EspSurface surfaces[2] = {painting.surface, painting.another(place)};
+    const EspTransform places[2] = {espIdentity(), place};
+    const glm::dvec3 at(1.15, .3, .2), facing(0, 0, 1);
+    EspBrush brush = brushOn("paint", .6f, .9f, .3f);
+    brush.heightRange[0] = 0;
+    brush.heightRange[1] = .5f;
+    brush.limitSoftness = .5f;
+    Expected expected{.6, 1, .9, .3};
+    expected.height[0] = 0;
+    expected.height[1] = .5;
+    expected.softness = .5;
+    const EspStroke stroke = painting.stroke(brush, {dabAt(at)});
+    for (int i = 0; i < 2; ++i) {
+        CAPTURE(i);
+        const std::vector<float> layer = painting.layer("paint", surfaces[i]);
+        glm::dmat3 turn;
+        glm::dvec3 shift;
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column) turn[column][row] = places[i].rows[row][column];
+            shift[row] = places[i].rows[row][3];
         }
-        EspBrush brush = brushOn(names[random() % 3], .02f + .6f * unit(random), unit(random), unit(random));
-        brush.mode = EspBrushMode(random() % 2);
-        brush.value = unit(random);
-        brush.frontOnly = random() % 2;
-        const EspStroke stroke = painting.begin(brush);
-        for (uint32_t call = 0; call <= random() % 3; ++call) {
-            std::vector<EspDab> dabs;
-            for (uint32_t k = 0; k < random() % 40; ++k)
-                dabs.push_back(dabAt(randomOnCube(random), {0, 1, 0}, unit(random)));
-            painting.ok(espStrokeDabs(painting.context, stroke, dabs.data(), uint32_t(dabs.size())));
-        }
-        painting.ok(espEndStroke(painting.context, stroke));
-        bytes += espStrokeBytes(painting.context, stroke);
-        strokes.push_back(stroke);
+        double worst = 0;
+        uint32_t painted = 0;
+        for (uint32_t y = 0; y < painting.size(); ++y)
+            for (uint32_t x = 0; x < painting.size(); ++x) {
+                if (texelClass(painting.texel(x, y).bits) == kTexelEmpty) continue;
+                const glm::dvec3 p = turn * glm::dvec3(painting.texel(x, y).position) + shift;
+                const glm::dvec3 n = glm::normalize(turn * glm::dvec3(unpackOct(painting.aux(x, y).normal)));
+                const double value = layer[y * painting.size() + x];
+                worst = std::max(worst, std::abs(expected.after(0, p, n, at, facing, 1) - value));
+                painted += value > .1;
+            }
+        CHECK(worst < 2e-4);
+        CHECK(painted > 20);
     }
-    CHECK(bytes > 0);
-    for (const char* name : names) end.push_back(painting.layer(name));
-    const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
-        return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-    };
-    for (size_t i = 0; i < 3; ++i) CHECK_FALSE(same(begin[i], end[i]));
-    for (size_t i = strokes.size(); i-- > 0;) painting.ok(espSwapStroke(painting.context, strokes[i]));
-    for (size_t i = 0; i < 3; ++i) CHECK(same(painting.layer(names[i]), begin[i]));
-    for (const EspStroke& stroke : strokes) painting.ok(espSwapStroke(painting.context, stroke));
-    for (size_t i = 0; i < 3; ++i) CHECK(same(painting.layer(names[i]), end[i]));
-}
-
-TEST_CASE("a stroke keeps what it changed and no more") {
-    Painting painting;
-    const EspStroke dab = painting.stroke(brushOn("paint", .2f), {dabAt({1, 0, 0})});
-    const uint64_t one = espStrokeBytes(painting.context, dab);
-    // A face is 32 texels wide: the dab 6, in at most 4 blocks.
-    CHECK(one > 0);
-    CHECK(one <= 4 * (64 * 4 + 4));
-    // The same again with nothing to add, and beside the model.
-    EspBrush again = brushOn("paint", .2f, 0);
-    CHECK(espStrokeBytes(painting.context, painting.stroke(again, {dabAt({1, 0, 0})})) == 0);
-    CHECK(espStrokeBytes(painting.context, painting.stroke(brushOn("paint", .2f), {dabAt({5, 0, 0})})) == 0);
-    painting.ok(espDestroyStroke(painting.context, dab));
-    CHECK(espStrokeBytes(painting.context, dab) == 0);
-    CHECK(espSwapStroke(painting.context, dab) == ESP_INVALID_ARGUMENT);
+    painting.ok(espSwapStroke(painting.context, stroke));
+    for (EspSurface surface : surfaces) {
+        const std::vector<float> layer = painting.layer("paint", surface);
+        CHECK(std::ranges::all_of(layer, [](float v) { return v == 0; }));
+    }
 }
 
 TEST_CASE("erasing leads back to the fill that a grammar declares, and layers outlive a recompilation") {

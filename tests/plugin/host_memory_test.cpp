@@ -1,9 +1,11 @@
 // Want of the host's own memory, which a thread of this program can be made to meet.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <string>
 
 #include "tests/plugin/life.hpp"
 
@@ -75,26 +77,143 @@ TEST_CASE("growth that the host has no memory for is tried ever less often, and 
     CHECK((grown.grids > 0) == ofTown);
 }
 
+namespace {
+
+// espUpdate where the thread gets no more than `pieces` of memory; then until it succeeds. Returns whether these were
+// enough.
+bool updateWith(Life& life, uint32_t pieces) {
+    refusals = 0;
+    left = pieces;
+    const EspResult result = espUpdate(life.context);
+    left = kPlenty;
+    const bool enough = refusals == 0;
+    REQUIRE((result == ESP_OK || (!enough && result == ESP_OUT_OF_MEMORY)));
+    for (int frame = 0; frame < 4 && !life.update();) ++frame;
+    REQUIRE_MESSAGE(life.result == ESP_OK, espLastError(life.context));
+    return enough;
+}
+
+uint64_t roofsHash(const Life& life) {
+    EspRoofStats stats{};
+    REQUIRE(espReadRoofStats(life.context, &stats) == ESP_OK);
+    return stats.hash;
+}
+
+// `count` houses of twelve corners in rows.
+std::string townOf(uint32_t count) {
+    std::string text = "{\"buildings\": [";
+    for (uint32_t i = 0; i < count; ++i) {
+        text += std::string(i > 0 ? "," : "") + "{\"id\": \"" + std::to_string(i) + "\", \"outer\": [";
+        for (uint32_t k = 0; k < 12; ++k) {
+            const double turn = k * 0.5235987755982988;
+            text += std::string(k > 0 ? "," : "") + "[" + std::to_string(14 * (i % 10) + 5 * std::cos(turn)) + "," +
+                    std::to_string(14 * (i / 10) + 5 * std::sin(turn)) + "]";
+        }
+        text += "]}";
+    }
+    return text + "]}";
+}
+
+}  // namespace
+
 TEST_CASE("want of the host's memory at any point of an update costs that update") {
     FailingDevice device;
     Life life;
     REQUIRE(life.all(device));
-    uint32_t failures = 0;
-    for (uint32_t at = 0;; at += 1 + at / 32) {
+    // Seeds alone are grown beside what stands, a parameter that all rules use anew.
+    bool anew = false;
+    SUBCASE("that grows a seed") {}
+    SUBCASE("that grows all anew") {
+        anew = true;
+    }
+    uint32_t failures = 0, round = 0;
+    for (uint32_t at = 0;; at += 1 + at / 32, ++round) {
         CAPTURE(at);
-        const float reach = at % 2 ? .5f : .6f;
-        REQUIRE(espSetParam(life.context, life.grammar, "reach", &reach, 1) == ESP_OK);
-        refusals = 0;
-        left = at;
-        const EspResult result = espUpdate(life.context);
-        left = kPlenty;
-        failures += refusals > 0;
-        REQUIRE((result == ESP_OK || result == ESP_OUT_OF_MEMORY));
-        const bool enough = refusals == 0;
-        for (int frame = 0; frame < 4 && !life.update();) ++frame;
-        REQUIRE_MESSAGE(life.result == ESP_OK, espLastError(life.context));
+        EspSeedDef def = espDefaultSeedDef();
+        def.grammar = life.grammar;
+        def.position[0] = .1f + .8f * std::fmod(.618f * float(round), 1.f);
+        def.position[1] = .1f + .8f * std::fmod(.271f * float(round), 1.f);
+        def.direction[1] = 1;
+        def.number = 2 + round;
+        EspSeed seed{};
+        REQUIRE(espPlant(life.context, &def, &seed) == ESP_OK);
+        const float reach = round % 2 ? .1f : .12f;
+        if (anew) REQUIRE(espSetParam(life.context, life.grammar, "reach", &reach, 1) == ESP_OK);
+        const bool enough = updateWith(life, at);
+        failures += enough ? 0 : 1;
         REQUIRE(life.draw());
+        const uint64_t hash = life.stats().hash;
+        EspGrowDef grow = espDefaultGrowDef();
+        grow.maxDepth = 4000 + round % 2;
+        REQUIRE(espSetGrow(life.context, &grow) == ESP_OK);
+        REQUIRE(life.update());
+        CHECK(life.stats().hash == hash);
+        CHECK(life.stats().seeds == 2 + round);
         if (enough) break;
+    }
+    CHECK(failures > 10);
+}
+
+TEST_CASE("want of the host's memory at any point of a town's update costs that update") {
+    constexpr const char* kRoofs =
+        "param tile = 0.5 [0.1 .. 5]\n"
+        "House -> Extrude(wallHeight) {NULL, Top}\n"
+        "Top -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, Top}\n"
+        "Cover -> Repeat(XY, vec2(tile, 0.5), clip) {Tile}\n"
+        "Tile -> Shape(\"slate\")\n";
+    uint32_t houses = 0, changed = 0, slower = 0;
+    SUBCASE("of which one house changes") {
+        houses = 3, changed = 1, slower = 32;
+    }
+    SUBCASE("whose tables run out of room") {
+        houses = 60, changed = 25, slower = 8;
+    }
+    SUBCASE("of which more houses change than the CPU grows") {
+        houses = 90, changed = 40, slower = 4;
+    }
+    FailingDevice device;
+    Life life;
+    REQUIRE(life.create(device));
+    const EspGrammarDef roofs{"roofs", kRoofs, std::strlen(kRoofs)};
+    const std::string text = townOf(houses);
+    EspTownDef town = espDefaultTownDef();
+    town.text = text.c_str();
+    town.length = text.size();
+    REQUIRE(espCompileGrammar(life.context, &roofs, &town.grammar) == ESP_OK);
+    REQUIRE(espLoadTown(life.context, &town) == ESP_OK);
+    const auto shapeTo = [&](bool steep) {
+        EspHouseDef def{};
+        def.shape = ESP_ROOF_PYRAMID;
+        def.slope = steep ? 1 : .7f;
+        for (uint32_t house = 0; house < changed; ++house) REQUIRE(espSetHouse(life.context, house, &def) == ESP_OK);
+    };
+    const auto tileTo = [&](bool wide) {
+        const float tile = wide ? .8f : .5f;
+        REQUIRE(espSetParam(life.context, town.grammar, "tile", &tile, 1) == ESP_OK);
+    };
+    uint64_t hashes[2][2];  // [steep][wide]
+    for (bool steep : {false, true})
+        for (bool wide : {false, true}) {
+            shapeTo(steep);
+            tileTo(wide);
+            REQUIRE(life.update());
+            hashes[steep][wide] = roofsHash(life);
+        }
+    CHECK(hashes[0][0] != hashes[0][1]);
+    CHECK(hashes[0][0] != hashes[1][0]);
+    bool steep = true, wide = true;
+    uint32_t failures = 0;
+    for (uint32_t at = 0, enough = 0; enough != 3; at += 1 + at / slower) {
+        CAPTURE(at);
+        steep = !steep;
+        shapeTo(steep);
+        enough = updateWith(life, at) ? 1 : 0;
+        CHECK(roofsHash(life) == hashes[steep][wide]);
+        wide = !wide;  // all houses, from the tables that the GPU has been sent
+        tileTo(wide);
+        enough |= updateWith(life, at) ? 2 : 0;
+        CHECK(roofsHash(life) == hashes[steep][wide]);
+        failures += enough != 3;
     }
     CHECK(failures > 10);
 }

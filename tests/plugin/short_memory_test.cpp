@@ -17,7 +17,8 @@ constexpr const char* kThicket =
     "Ivy -> Branch(8) {Stem, Stem, Stem, Stem, Stem, Stem, Stem, Stem}\n"
     "Stem : arc >= 0.9 -> NULL\n"
     "Stem -> Marching(0.002, rand(-0.3, 0.3), true) {Stem, Foliage}\n"
-    "Foliage -> Repeat(leaves) {S(0.06) T(rand(), 0.02) Shape(\"leaf\")}\n";
+    "Foliage -> Tuft Tuft Tuft Tuft\n"
+    "Tuft -> Repeat(leaves) {S(0.06) T(rand(), 0.02) Shape(\"leaf\")}\n";
 
 constexpr const char* kTown =
     "{\"buildings\": [{\"id\": \"h\", \"outer\": [[0,0],[10,0],[10,8],[0,8]]},"
@@ -97,9 +98,10 @@ TEST_CASE("growth too large for memory is tried ever less often, and what is sma
         CHECK(life.result == ESP_OUT_OF_MEMORY);
         CHECK(std::string(espLastError(life.context)).find("memory") != std::string::npos);
     }
-    CHECK(device.calls() > once);       // memory might have come back
-    CHECK(device.calls() <= 8 * once);  // after 1, 2, 4, 8, 16 calls
-    CHECK(life.stats().hash == hash);   // the last good growth stands
+    CHECK(device.calls() > once);  // memory might have come back
+    // After 1, 2, 4, 8, 16 calls; these tries ask for more, since the first began with buffers that there were.
+    CHECK(device.calls() <= 10 * once);
+    CHECK(life.stats().hash == hash);  // the last good growth stands
 
     REQUIRE(espSetParam(life.context, life.grammar, "leaves", &few, 1) == ESP_OK);
     growAnew(life.context, 4000);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <numeric>
 #include <set>
 
 #include "runtime/roof/house_tables.hpp"
@@ -155,4 +156,48 @@ TEST_CASE("tables that houses were replaced in become those of a town made anew,
     CHECK(grown.status.grids > 50);
     const std::vector<uint32_t> first(all.size(), 0);
     CHECK(drawn(grown.records, first) == drawn(wanted.records, first));
+}
+
+TEST_CASE("what only the next growth of all houses would use is given back, and they grow as before") {
+    Result<std::unique_ptr<Device>> device = Device::create({});
+    REQUIRE(device);
+    auto made = RoofGrowth::create(**device);
+    REQUIRE(made);
+    RoofGrowth& growth = **made;
+    std::vector<Footprint> all;
+    for (uint32_t i = 0; i < 80; ++i) {
+        std::vector<glm::dvec2> plan = i % 2 ? kEll : kRectangle;
+        for (glm::dvec2& p : plan) p.x += 20 * i;
+        all.push_back(footprint(plan));
+    }
+    Roofs r = roofs(all, kBalconies);
+    RoofInputs inputs = r.inputs();
+    inputs.townRevision = 1;
+    for (int i = 0; i < 2; ++i) REQUIRE(growth.grow(inputs));  // both sets of buffers are there now
+    const RoofStats kept = growth.stats();
+    std::vector<uint32_t> generations(all.size(), 0);
+    const auto records = [&] {
+        Result<RoofRecords> read = growth.read();
+        REQUIRE(read);
+        return drawn(*read, generations);
+    };
+    const Contents before = records();
+    growth.trim();
+    CHECK(growth.stats().reservedBytes < kept.reservedBytes * 3 / 4);
+    CHECK(growth.stats().hash == kept.hash);
+    CHECK(records() == before);
+    for (uint32_t count : {1u, 35u}) {  // by the CPU, by the GPU
+        CAPTURE(count);
+        std::vector<uint32_t> houses(count);
+        std::iota(houses.begin(), houses.end(), 0u);
+        for (uint32_t house : houses) generations[house] += 1;
+        REQUIRE(growth.growHouses(inputs, houses));
+        CHECK(growth.stats().hash == kept.hash);
+        CHECK(records() == before);
+        growth.trim();
+    }
+    REQUIRE(growth.grow(inputs));
+    std::fill(generations.begin(), generations.end(), 0u);
+    CHECK(growth.stats().hash == kept.hash);
+    CHECK(records() == before);
 }

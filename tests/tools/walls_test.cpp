@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/program.hpp"
@@ -108,35 +109,53 @@ TEST_CASE("walls as ground have none where windows and doors stand out, and stan
     CHECK(contains(bare.output, "--walls needs --grammar"));
 }
 
-TEST_CASE("walls as ground go up gables to a little below the verges") {
+TEST_CASE("walls as ground go up gables to a little below the verges, also where the roof breaks") {
     const Folder folder;
     folder.write("plan.json", R"({"buildings": [
- {"id": "gabled", "outer": [[0, 0], [8, 0], [8, 14], [0, 14]], "roof:shape": "gabled", "roof:angle": 45, "building:levels": 1}]})");
+ {"id": "gabled", "outer": [[0, 0], [8, 0], [8, 14], [0, 14]], "roof:shape": "gabled", "roof:angle": 45, "building:levels": 1},
+ {"id": "gambrel", "outer": [[20, 0], [28, 0], [28, 14], [20, 14]], "roof:shape": "gambrel", "building:levels": 1},
+ {"id": "mansard", "outer": [[40, 0], [48, 0], [48, 14], [40, 14]], "roof:shape": "mansard", "building:levels": 1,
+  "edges": [{"edge": 0, "gable": true}, {"edge": 2, "gable": true}]}]})");
     const Ran walls = run("cd " + folder.path.string() + " && " + program("espalier-bake") +
                           " plan.json -q --grammar " + content("grammars/town.grammar") + " --walls -o walls.glb");
     REQUIRE_MESSAGE(walls.code == 0, walls.output);
     const std::vector<House> ground = readTown(folder.file("walls.glb"));
-    REQUIRE(ground.size() == 1);
 
-    // Both gables' ends, at z = 0 and z = -14: triangles 8 m wide and 4 m high on the eaves.
-    constexpr float kEave = 3, kRidge = kEave + 4, kFree = .3f;
-    float highest[2] = {};
-    double area[2] = {};
-    for (size_t i = 0; i + 2 < ground[0].corners.size(); i += 3) {
-        const Point &a = ground[0].corners[i], &b = ground[0].corners[i + 1], &c = ground[0].corners[i + 2];
-        for (const Point& p : {a, b, c}) CHECK(p[1] < kRidge - kFree - std::min(std::abs(p[0] - 4), 4.f) + .02f);
-        const bool far = a[2] < -7;
-        if (std::abs(a[2] - b[2]) > 1e-3f || std::abs(a[2] - c[2]) > 1e-3f) continue;
-        const float out = far ? -1 : 1;
-        CHECK(out * turn(a, b, c) > 0);
-        const float lowest = std::min({a[1], b[1], c[1]});
-        highest[far] = std::max({highest[far], a[1], b[1], c[1]});
-        if (lowest > kEave - kFree - 1e-3f) area[far] += .5 * out * turn(a, b, c);
-    }
-    for (int end : {0, 1}) {
-        CAPTURE(end);
-        CHECK(highest[end] > kRidge - kFree - .02f);
-        CHECK(area[end] > .8 * 4 * 4);  // a window may be in it
-        CHECK(area[end] < 4 * 4 + .1);
+    // Gables 8 m wide at z = 0 and z = -14. Roofs rise over the eaves as fast as `below` until `inward`, then as
+    // `above`.
+    constexpr float kEave = 3, kFree = .3f;
+    struct Roof {
+        float middle, inward, below, above;
+        float operator()(float x) const {
+            const float in = std::max(4 - std::abs(x - middle), 0.f);
+            return kEave + below * std::min(in, inward) + above * std::max(in - inward, 0.f);
+        }
+    };
+    const Roof roofs[] = {{4, 4, 1, 0}, {24, 2, 1.732f, .577f}, {44, 2.4f / 2.747f, 2.747f, .364f}};
+    REQUIRE(ground.size() == std::size(roofs));
+    for (size_t house = 0; house < ground.size(); ++house) {
+        CAPTURE(ground[house].name);
+        const Roof& roof = roofs[house];
+        const float ridge = roof(roof.middle), broken = roof(roof.middle - 4 + roof.inward);
+        const double whole = double((8 - roof.inward) * (broken - kEave) + (4 - roof.inward) * (ridge - broken));
+        float highest[2] = {};
+        double area[2] = {};
+        for (size_t i = 0; i + 2 < ground[house].corners.size(); i += 3) {
+            const Point* t = &ground[house].corners[i];
+            for (int k = 0; k < 3; ++k) CHECK(t[k][1] < roof(t[k][0]) - kFree + .03f);
+            const bool far = t[0][2] < -7;
+            if (std::abs(t[0][2] - t[1][2]) > 1e-3f || std::abs(t[0][2] - t[2][2]) > 1e-3f) continue;
+            const float out = far ? -1 : 1;
+            CHECK(out * turn(t[0], t[1], t[2]) > 0);
+            const float lowest = std::min({t[0][1], t[1][1], t[2][1]});
+            highest[far] = std::max({highest[far], t[0][1], t[1][1], t[2][1]});
+            if (lowest > kEave - kFree - 1e-3f) area[far] += .5 * double(out * turn(t[0], t[1], t[2]));
+        }
+        for (int end : {0, 1}) {
+            CAPTURE(end);
+            CHECK(highest[end] > ridge - kFree - .02f);
+            CHECK(area[end] > .8 * whole);  // a window may be in it
+            CHECK(area[end] < whole + .1);
+        }
     }
 }

@@ -1,6 +1,7 @@
 // frame/place…: the sample game's whole place, with village, props and ivy, through the plugin's interface: one picture
-// at its best, and the frames of a camera that goes once around, drawn as the window draws them then. What the window
-// adds, its panels and the way to the screen, espalier-sample --turn tells.
+// at its best, and the frames of a camera that goes once around, drawn as the window draws them then. frame/dense…: the
+// same place with half a million nodes of ivy, also with a brush that paints in each frame, at half and at whole size.
+// What the window adds, its panels and the way to the screen, espalier-sample --turn tells.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <ctime>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "tools/bench/bench.hpp"
 #include "tools/scene/moving.hpp"
@@ -17,11 +19,15 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kWidth = 1280, kHeight = 720;
+constexpr uint64_t kNodes = 500'000;
 constexpr int kTurn = 180;     // frames
 constexpr int kSettling = 24;  // ahead of them, in which the detail finds its level
 constexpr int kSteps = 90;
-constexpr float kStep = 0.1f;   // metres, as somebody walks
-constexpr double kWhole = 1e3;  // ms: a picture that nothing moves in
+constexpr float kStep = 0.1f;               // metres, as somebody walks
+constexpr int kStrokes = 8, kDabs = 8;      // a dab a frame
+constexpr double kWhole = 1e3;              // ms: a picture that nothing moves in
+constexpr double kPaintingFrame = 1e3 / 8;  // ms
+constexpr double kFrame = scene::MovingDetail::kFrameMs;
 
 double mean(const std::vector<double>& values) {
     double sum = 0;
@@ -44,11 +50,13 @@ EspCamera aside(EspCamera camera, float metres) {
 
 struct Moves {
     std::vector<double> cpu, wall, leaves;  // of each frame; ms; empty: they can't be drawn
+    std::string leavesDrawn() const { return std::to_string(uint32_t(mean(leaves))) + " leaves drawn in the mean"; }
 };
 
 struct PlaceFilm {
     EspContext* context;
     const scene::Scene& scene;
+    bool half = true;  // what moves is drawn at half the window's size
     scene::MovingPicture picture{};
     EspStats stats{};
 
@@ -56,16 +64,18 @@ struct PlaceFilm {
         double cpu = 0, wall = 0;  // ms; 0: it can't be drawn
     };
 
-    Cost frame(const EspCamera& camera, bool moving) {
+    // `edit`: what is done to the scene in it.
+    Cost frame(const EspCamera& camera, bool moving, const std::function<bool()>& edit = {}) {
         EspDrawDef draw = espDefaultDrawDef();
         draw.camera = camera;
         draw.look = scene.look;
         draw.look.shadowsLag = 1;
-        const float scale = picture.prepare(draw, moving, stats.drawMs, true);
+        const float scale = picture.prepare(draw, moving, stats.drawMs, half);
         draw.width = uint32_t(kWidth * scale);
         draw.height = uint32_t(kHeight * scale);
         const std::clock_t before = std::clock();
         const auto began = std::chrono::steady_clock::now();
+        if (edit && !edit()) return {};
         if (espUpdate(context) != ESP_OK || espDraw(context, &draw) != ESP_OK ||
             espReadStats(context, &stats) != ESP_OK)
             return {};
@@ -75,11 +85,12 @@ struct PlaceFilm {
         return cost;
     }
 
-    // As many frames of a camera that moves, once levels of detail have settled.
-    Moves move(int frames, const std::function<EspCamera(int)>& cameraAt) {
+    // As many frames, once levels of detail have settled.
+    Moves move(int frames, const std::function<EspCamera(int)>& cameraAt, const std::function<bool(int)>& edit = {}) {
         Moves moves;
         for (int i = -kSettling; i < frames; ++i) {
-            const Cost cost = frame(cameraAt(i), true);
+            const Cost cost =
+                edit ? frame(cameraAt(i), true, [&] { return i < 0 || edit(i); }) : frame(cameraAt(i), true);
             if (cost.wall == 0) return {};
             if (i < 0) continue;
             moves.cpu.push_back(cost.cpu);
@@ -88,13 +99,131 @@ struct PlaceFilm {
         }
         return moves;
     }
+    Moves turn() {
+        return move(kTurn, [&](int frame) { return scene::turned(scene.camera, float(frame) * 6.2831853f / kTurn); });
+    }
+    Moves walk() {
+        return move(kSteps, [&](int frame) { return aside(scene.camera, kStep * float(frame)); });
+    }
+    Moves stand(int frames, const std::function<bool(int)>& edit) {
+        return move(
+            frames, [&](int) { return scene.camera; }, edit);
+    }
 };
+
+// Strokes on what the camera sees, a dab at a time, that take ivy away and bring it by turns.
+class Hand {
+  public:
+    Hand(EspContext* context, const EspCamera& camera) : context_(context), camera_(camera) {}
+
+    bool dab(int frame) {
+        if (frame % kDabs == 0 && !begin(frame / kDabs)) return false;
+        from_[0] += 0.12f;  // metres, to the right
+        EspHit hit;
+        const float way[3] = {from_[0] - camera_.eye[0], from_[1] - camera_.eye[1], from_[2] - camera_.eye[2]};
+        if (espPick(context_, camera_.eye, way, &hit) == ESP_OK) {
+            const EspDab dab{
+                {hit.position[0], hit.position[1], hit.position[2]}, {hit.normal[0], hit.normal[1], hit.normal[2]}, 1};
+            if (espStrokeDabs(context_, stroke_, &dab, 1) != ESP_OK) return false;
+        }
+        return frame % kDabs != kDabs - 1 || espEndStroke(context_, stroke_) == ESP_OK;
+    }
+
+  private:
+    bool begin(int stroke) {
+        EspBrush brush = espDefaultBrush();
+        brush.layer = "mask";
+        brush.radius = 0.25f;
+        brush.strength = 1;
+        brush.value = stroke % 2 ? 0.62f : 0;
+        const int pair = stroke / 2;  // the second goes where the first did
+        from_[0] = -2.2f + 1.1f * float(pair);
+        from_[1] = 0.8f + 0.5f * float(pair % 3);
+        from_[2] = 0.36f;  // the wall
+        return espBeginStroke(context_, &brush, &stroke_) == ESP_OK;
+    }
+
+    EspContext* context_;
+    EspCamera camera_;
+    EspStroke stroke_{};
+    float from_[3]{};
+};
+
+// Plants the scene's seeds again, with other numbers, until so many nodes have grown.
+bool thicken(EspContext* context, scene::Scene& scene, EspStats& stats) {
+    const std::vector<scene::Seed> seeds = scene.seeds;
+    for (uint32_t round = 1; round < 16; ++round) {
+        if (espUpdate(context) != ESP_OK || espReadStats(context, &stats) != ESP_OK) return false;
+        if (stats.nodes >= kNodes) return true;
+        for (const scene::Seed& seed : seeds) {
+            EspSeedDef def = espDefaultSeedDef();
+            def.grammar = scene.grammars[seed.grammar].id;
+            std::copy(seed.position.begin(), seed.position.end(), def.position);
+            std::copy(seed.direction.begin(), seed.direction.end(), def.direction);
+            def.number = seed.number + 1000 * round;
+            EspSeed planted;
+            if (espPlant(context, &def, &planted) != ESP_OK) return false;
+        }
+    }
+    return false;
+}
+
+void sampleCases(Bench& bench, EspContext* context, const scene::Scene& scene) {
+    const char* name = "frame/place";
+    PlaceFilm film{context, scene};
+    std::vector<double> still;
+    for (int frame = -2; frame < bench.options().repeats; ++frame)
+        if (const double took = film.frame(scene::turned(scene.camera, float(frame) * 1e-3f), false).wall; frame >= 0)
+            still.push_back(took);
+    const Moves turn = film.turn(), walk = film.walk();
+    if (turn.wall.empty() || walk.wall.empty()) return bench.skip(name, espLastError(context));
+    bench.add({"frame/place/still", "a whole picture by the clock", "ms", median(still), "a second", kWhole});
+    bench.add({name, "CPU time of a moving frame of the whole place, half size, mean of a turn", "ms", mean(turn.cpu),
+               "15 frames/s on two cores", 2 * kFrame});
+    bench.add({"frame/place/wall", "the same by the clock, " + turn.leavesDrawn(), "ms", mean(turn.wall), "15 frames/s",
+               kFrame});
+    bench.add({"frame/place/worst", "the same, worst", "ms", most(turn.wall), "15 frames/s", kFrame});
+    bench.add({"frame/place/walk", "by the clock, while it goes sideways, mean", "ms", mean(walk.wall), "15 frames/s",
+               kFrame});
+    bench.add(
+        {"frame/place/walk/worst", "the same, worst: shadows follow", "ms", most(walk.wall), "15 frames/s", kFrame});
+}
+
+void denseCases(Bench& bench, EspContext* context, scene::Scene& scene) {
+    const char* name = "frame/dense";
+    EspStats stats;
+    if (!thicken(context, scene, stats)) return bench.skip(name, "the ivy doesn't grow as dense as that");
+    PlaceFilm film{context, scene}, whole{context, scene, false};
+    const Moves turn = film.turn();
+    Hand hand(context, scene.camera);
+    const Moves painting = film.stand(kStrokes * kDabs, [&](int frame) { return hand.dab(frame); });
+    const Moves wholeTurn = whole.turn();
+    if (turn.wall.empty() || painting.wall.empty() || wholeTurn.wall.empty())
+        return bench.skip(name, espLastError(context));
+    bench.add({name,
+               "by the clock, a moving frame of the place with " + std::to_string(stats.nodes) + " nodes, half size, " +
+                   turn.leavesDrawn() + " of a turn",
+               "ms", mean(turn.wall), "15 frames/s", kFrame});
+    bench.add({"frame/dense/cpu", "CPU time of it", "ms", mean(turn.cpu), "15 frames/s on two cores", 2 * kFrame});
+    bench.add({"frame/dense/worst", "by the clock, worst", "ms", most(turn.wall), "15 frames/s", kFrame});
+    bench.add({"frame/dense/whole", "the same at whole size, " + wholeTurn.leavesDrawn(), "ms", mean(wholeTurn.wall),
+               "15 frames/s", kFrame});
+    bench.add({"frame/dense/painting", "a dab and its frame by the clock, half size, " + painting.leavesDrawn(), "ms",
+               mean(painting.wall), "8 frames/s", kPaintingFrame});
+    bench.add(
+        {"frame/dense/painting/worst", "the same, worst", "ms", most(painting.wall), "8 frames/s", kPaintingFrame});
+}
 
 }  // namespace
 
 void placeCases(Bench& bench) {
-    const char* name = "frame/place";
-    if (!bench.wants(name) && !bench.wants("frame/place/wall") && !bench.wants("frame/place/still")) return;
+    const auto wanted = [&](std::initializer_list<const char*> names) {
+        return std::any_of(names.begin(), names.end(), [&](const char* name) { return bench.wants(name); });
+    };
+    const bool sample = wanted({"frame/place", "frame/place/wall", "frame/place/still", "frame/place/walk"});
+    const bool dense = wanted({"frame/dense", "frame/dense/whole", "frame/dense/painting"});
+    if (!sample && !dense) return;
+    const char* name = sample ? "frame/place" : "frame/dense";
     const EspContextDef def = espDefaultContextDef();
     EspContext* made = nullptr;
     if (espCreate(&def, &made) != ESP_OK) return bench.skip(name, espLastError(nullptr));
@@ -105,28 +234,8 @@ void placeCases(Bench& bench) {
     std::string error;
     if (!scene::openScene(made, request, scene, error) || !scene::plantAll(made, scene, error))
         return bench.skip(name, error);
-
-    PlaceFilm film{made, scene};
-    std::vector<double> still;
-    for (int frame = -2; frame < bench.options().repeats; ++frame)
-        if (const double took = film.frame(scene::turned(scene.camera, float(frame) * 1e-3f), false).wall; frame >= 0)
-            still.push_back(took);
-    const Moves turn =
-        film.move(kTurn, [&](int frame) { return scene::turned(scene.camera, float(frame) * 6.2831853f / kTurn); });
-    const Moves walk = film.move(kSteps, [&](int frame) { return aside(scene.camera, kStep * float(frame)); });
-    if (turn.wall.empty() || walk.wall.empty()) return bench.skip(name, espLastError(made));
-    constexpr double kFrame = scene::MovingDetail::kFrameMs;
-    bench.add({"frame/place/still", "a whole picture by the clock", "ms", median(still), "a second", kWhole});
-    bench.add({name, "CPU time of a moving frame of the whole place, half size, mean of a turn", "ms", mean(turn.cpu),
-               "15 frames/s on two cores", 2 * kFrame});
-    bench.add({"frame/place/wall",
-               "the same by the clock, " + std::to_string(uint32_t(mean(turn.leaves))) + " leaves drawn in the mean",
-               "ms", mean(turn.wall), "15 frames/s", kFrame});
-    bench.add({"frame/place/worst", "the same, worst", "ms", most(turn.wall), "15 frames/s", kFrame});
-    bench.add({"frame/place/walk", "by the clock, while it goes sideways, mean", "ms", mean(walk.wall), "15 frames/s",
-               kFrame});
-    bench.add(
-        {"frame/place/walk/worst", "the same, worst: shadows follow", "ms", most(walk.wall), "15 frames/s", kFrame});
+    if (sample) sampleCases(bench, made, scene);
+    if (dense) denseCases(bench, made, scene);
 }
 
 }  // namespace espalier

@@ -29,7 +29,7 @@ struct Options {
     std::vector<std::string> layers, exports;
     uint32_t frames = 1;
     uint32_t width = 1280, height = 720;
-    std::string size, folder = "out", stats, view = "shaded", walk = "intrinsic", camera, cache, replay;
+    std::string size, folder = "out", stats, view = "shaded", walk, camera, cache, replay;
     uint32_t every = 1;
     long long seed = -1;
     uint32_t maxNodes = espDefaultGrowDef().maxNodes;
@@ -66,8 +66,7 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--view", options.view, "shaded, charts, normals, lod, depth, overdraw or layer:NAME")
         ->capture_default_str();
     app.add_option("--camera", options.camera, "EX,EY,EZ,TX,TY,TZ[,FOV]: eye, target, vertical angle in degrees");
-    app.add_option("--walk", options.walk, "intrinsic or paper")
-        ->capture_default_str()
+    app.add_option("--walk", options.walk, "intrinsic or paper, instead of what the scene says")
         ->check(CLI::IsMember({"intrinsic", "paper"}));
     app.add_option("--max-nodes", options.maxNodes, "growth stops there")->capture_default_str();
     app.add_option("--leaf-cap", options.leafCap, "leaves per square metre and seed at most, 0: no cap")
@@ -204,12 +203,11 @@ int run(Options options) {
     if (espCreate(&def, &made) != ESP_OK) return fail(espLastError(nullptr));
     const std::unique_ptr<EspContext, void (*)(EspContext*)> context(made, espDestroy);
 
-    EspGrowDef grow = espDefaultGrowDef();
-    grow.walk = options.walk == "paper" ? ESP_WALK_PAPER : ESP_WALK_INTRINSIC;
+    EspGrowDef& grow = options.request.grow;
     grow.maxNodes = options.maxNodes;
     grow.leafDensityCap = options.leafCap;
     grow.shadersOnly = options.shaders;
-    if (espSetGrow(made, &grow) != ESP_OK) return fail(espLastError(made));
+    if (EspWalkMode walk; walkNamed(options.walk, walk)) options.request.walk = walk;
     Document document(made);
     if (!document.open(options.request, error)) return fail(error);
     if (espUpdate(made) != ESP_OK) return fail(espLastError(made));

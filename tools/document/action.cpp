@@ -37,7 +37,7 @@ std::string toJson(const RunLine& line) {
             json[a.kName] = std::move(fields);
         },
         action);
-    return json.dump();
+    return scene::textOf(json);
 }
 
 bool fromJson(const std::string& text, RunLine& out, std::string& error) {

@@ -39,6 +39,7 @@ struct SetText {
     uint32_t grammar = 0;
     std::string text;
     std::vector<Param> params;
+    std::string grows = {};  // what grew while the text had mistakes; kept for undo, no part of a run
     template <class V>
     void fields(V&& v) {
         v("grammar", grammar), v("text", text), v("params", params);
@@ -128,6 +129,16 @@ struct SetLight {
     template <class V>
     void fields(V&& v) {
         v("hour", hour), v("exposure", exposure), v("shadows", shadows);
+    }
+};
+
+// How all plants walk.
+struct SetWalk {
+    static constexpr const char* kName = "walk";
+    std::string walk = "intrinsic";  // a name that scene::walkNamed knows
+    template <class V>
+    void fields(V&& v) {
+        v("walk", walk);
     }
 };
 
@@ -239,8 +250,8 @@ struct RestoreFrozen {
     template <class V>
     void fields(V&&) {}
 };
-using Action = std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, StrokeBegin, StrokeDabs,
-                            StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse,
+using Action = std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, SetWalk, StrokeBegin,
+                            StrokeDabs, StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse,
                             LoadTownLayer, SetCamera, SetView, Undo, Redo, SwapStroke, RestoreFrozen>;
 
 // One line of a run: {"frame": 3, "gesture": 2, "NAME": {fields}}; see run.hpp.

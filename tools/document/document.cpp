@@ -41,6 +41,14 @@ bool finite(const std::array<float, 3>& v) {
     return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
+bool hasParam(const EspContext* context, EspGrammar grammar, const std::string& name) {
+    for (uint32_t i = 0; i < espParamCount(context, grammar); ++i) {
+        EspParamInfo info;
+        if (espParamInfo(context, grammar, i, &info) == ESP_OK && info.name == name) return true;
+    }
+    return false;
+}
+
 // Within one gesture only the first value counts for undo: what later actions set is overwritten anyway.
 std::optional<uint32_t> houseOf(const Action& action) {
     if (const auto* set = std::get_if<SetHouse>(&action)) return set->house.index;
@@ -78,9 +86,39 @@ bool Document::failed(EspResult result, std::string& error) const {
 }
 
 bool Document::open(const scene::Request& request, std::string& error) {
-    if (!openScene(context_, request, scene_, error) || !plantAll(context_, scene_, error)) return false;
-    for (const Seed& seed : scene_.seeds) lastKey_ = std::max(lastKey_, seed.key);
+    if (!openScene(context_, request, scene_, error)) return false;
+    if (!plant(error)) {
+        // As while it was edited, seeds of a project wait for a text that grows plants.
+        if (!scene_.project) return false;
+        scene_.notes.push_back(std::exchange(error, {}));
+    }
+    for (const Seed& seed : scene_.seeds) {
+        lastKey_ = std::max(lastKey_, seed.key);
+        const scene::LoadedGrammar& grammar = scene_.grammars[seed.grammar];
+        for (const scene::ParamValue& own : seed.params)
+            if (!hasParam(context_, grammar.id, own.name))
+                scene_.notes.push_back(grammar.file + ": there is no parameter '" + own.name + "', which a seed sets");
+    }
     return true;
+}
+
+std::vector<uint32_t> Document::beginAnew() {
+    bottom_ = state();
+    done_.clear();
+    undone_.clear();
+    const std::vector<Seed> before = scene_.seeds;
+    std::ranges::stable_sort(scene_.seeds, {}, &Seed::grammar);
+    std::vector<uint32_t> keys;
+    lastKey_ = 0;
+    bool sorted = true;
+    for (size_t i = 0; i < before.size(); ++i) {
+        sorted = sorted && before[i].key == scene_.seeds[i].key;
+        keys.push_back(scene_.seeds[i].key);
+    }
+    for (Seed& seed : scene_.seeds) seed.key = ++lastKey_;
+    std::string ignored;
+    if (!sorted) (void)plant(ignored);
+    return keys;
 }
 
 const Seed* Document::seed(uint32_t key) const {
@@ -132,27 +170,29 @@ void Document::remember(const Action& action, std::vector<Action> back, uint32_t
             const bool known = !step.back.empty() && overwrites(step.back.back(), inverse);
             if (!known) step.back.push_back(std::move(inverse));
         }
-        return;
+    } else {
+        done_.push_back({nameOf(action), gesture, ++lastState_, std::move(back)});
     }
-    done_.push_back({nameOf(action), gesture, ++lastState_, std::move(back)});
-    forgetOldest();
+    keep(done_);
 }
 
 size_t Document::historyBytes() const {
     size_t bytes = 0;
     for (const std::vector<Step>* steps : {&done_, &undone_})
-        for (const Step& step : *steps)
-            for (const Action& action : step.back) bytes += keptBytes(action);
+        for (const Step& step : *steps) bytes += step.bytes;
     return bytes;
 }
 
-void Document::forgetOldest() {
-    size_t over = historyBytes();
-    auto keep = done_.begin();
-    for (; keep + 1 < done_.end() && (over > kMaxHistoryBytes || size_t(done_.end() - keep) > kMaxSteps); ++keep)
-        for (const Action& action : keep->back) over -= keptBytes(action);
-    if (keep != done_.begin()) bottom_ = (keep - 1)->state;
-    done_.erase(done_.begin(), keep);
+// Counts the last of the steps, which has come or changed, and forgets the first ones if it is too much.
+void Document::keep(std::vector<Step>& steps) {
+    steps.back().bytes = 0;
+    for (Action& action : steps.back().back) steps.back().bytes += keptBytes(action);
+    size_t bytes = historyBytes();
+    auto kept = steps.begin();
+    while (kept + 1 < steps.end() && (bytes > maxHistoryBytes_ || size_t(steps.end() - kept) > kMaxSteps))
+        bytes -= (kept++)->bytes;
+    if (&steps == &done_ && kept != steps.begin()) bottom_ = (kept - 1)->state;
+    steps.erase(steps.begin(), kept);
 }
 
 bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string& error) {
@@ -169,8 +209,12 @@ bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string&
     if (!whole) {
         if (begun) (&from == &done_ ? step : opposite).state = ++lastState_;
         from.push_back(std::move(step));
+        keep(from);
     }
-    if (whole || begun) to.push_back(std::move(opposite));
+    if (whole || begun) {
+        to.push_back(std::move(opposite));
+        keep(to);
+    }
     return whole;
 }
 
@@ -220,8 +264,11 @@ bool Document::carryOut(const SetText& action, std::vector<Action>& back, std::s
         return false;
     }
     scene::LoadedGrammar& grammar = scene_.grammars[action.grammar];
-    back.push_back(SetText{action.grammar, grammar.text, paramsOf(action.grammar)});
-    if (setText(context_, grammar, action.text)) noteLayers(context_, scene_);
+    const std::string grows = grammar.text == grammar.grows ? "" : grammar.grows;
+    back.push_back(SetText{action.grammar, grammar.text, paramsOf(action.grammar), grows});
+    const bool grew =
+        !action.grows.empty() && action.grows != grammar.grows && setText(context_, grammar, action.grows);
+    if (setText(context_, grammar, action.text) || grew) noteLayers(context_, scene_);
     // While a text has mistakes the parameters are those of the last good one; those that are there get their values.
     for (uint32_t i = 0; i < espParamCount(context_, grammar.id); ++i) {
         EspParamInfo info;
@@ -234,6 +281,11 @@ bool Document::carryOut(const SetText& action, std::vector<Action>& back, std::s
         else
             espSetParam(context_, grammar.id, info.name, own->value.data(), uint32_t(own->value.size()));
     }
+    // Seeds that wait for the text to have their values, or to be one that can be planted.
+    const bool waits = std::ranges::any_of(
+        scene_.seeds, [&](const Seed& seed) { return seed.grammar == action.grammar && !seed.params.empty(); });
+    std::string ignored;
+    if (waits || !allPlanted_) (void)plant(ignored);
     return true;
 }
 
@@ -297,11 +349,12 @@ bool Document::carryOut(const ChangeSeeds& action, std::vector<Action>& back, st
             return false;
         }
         inverse.seeds.push_back(recordOf(before[i]));
+        inverse.seeds.back().frozen = nullptr;  // which only FreezeSeeds changes
         onlyMoved = onlyMoved && record.number == before[i].number && record.grammar == before[i].grammar &&
                     record.params == inverse.seeds.back().params;
         scene_.seeds[i] = seedOf(record);
         scene_.seeds[i].planted = before[i].planted;
-        scene_.seeds[i].frozen = before[i].frozen;  // which only FreezeSeeds changes
+        scene_.seeds[i].frozen = before[i].frozen;
     }
     if (!(onlyMoved ? moveSeeds(action) : replant(before, error))) return false;
     back.push_back(std::move(inverse));
@@ -317,14 +370,26 @@ bool Document::moveSeeds(const ChangeSeeds& action) {
 }
 
 bool Document::replant(const std::vector<Seed>& before, std::string& error) {
-    if (plantAll(context_, scene_, error)) return true;
+    if (plant(error)) return true;
     scene_.seeds = before;
     std::string ignored;
-    plantAll(context_, scene_, ignored);
+    (void)plant(ignored);
     return false;
 }
 
-// ---- Light and camera
+// Values that a text has lost, or that another grammar's seed had, wait in the list for a text that has them.
+bool Document::plant(std::string& error) {
+    const std::vector<Seed> listed = scene_.seeds;
+    for (Seed& seed : scene_.seeds)
+        std::erase_if(seed.params, [&](const scene::ParamValue& own) {
+            return !hasParam(context_, scene_.grammars[seed.grammar].id, own.name);
+        });
+    allPlanted_ = plantAll(context_, scene_, error);
+    for (size_t i = 0; i < listed.size(); ++i) scene_.seeds[i].params = listed[i].params;
+    return allPlanted_;
+}
+
+// ---- Light, walk and camera
 
 bool Document::carryOut(const SetLight& action, std::vector<Action>& back, std::string& error) {
     if (action.hour != scene::kOwnSun && !(action.hour >= 0 && action.hour <= 24)) {
@@ -339,6 +404,18 @@ bool Document::carryOut(const SetLight& action, std::vector<Action>& back, std::
     scene_.look.exposure = action.exposure;
     scene_.look.shadows = action.shadows;
     scene_.look.view = view.view;
+    return true;
+}
+
+bool Document::carryOut(const SetWalk& action, std::vector<Action>& back, std::string& error) {
+    EspGrowDef grow = scene_.grow;
+    if (!scene::walkNamed(action.walk, grow.walk)) {
+        error = "there is no walk '" + action.walk + "'";
+        return false;
+    }
+    if (failed(espSetGrow(context_, &grow), error)) return false;
+    back.push_back(SetWalk{scene::nameOf(scene_.grow.walk)});
+    scene_.grow = grow;
     return true;
 }
 
@@ -373,6 +450,7 @@ const char* nameOf(const Action& action) {
         const char* operator()(const RemoveSeeds&) const { return "Remove seeds"; }
         const char* operator()(const ChangeSeeds&) const { return "Change seeds"; }
         const char* operator()(const SetLight&) const { return "Change the light"; }
+        const char* operator()(const SetWalk&) const { return "Walk otherwise"; }
         const char* operator()(const StrokeBegin&) const { return "Paint"; }
         const char* operator()(const StrokeDabs&) const { return "Paint"; }
         const char* operator()(const StrokeEnd&) const { return "Paint"; }

@@ -15,7 +15,9 @@ namespace espalier::document {
 // be undone. One thread; the context outlives the document, and nobody else edits what it holds.
 class Document {
   public:
-    explicit Document(EspContext* context) : context_(context) {}
+    static constexpr size_t kMaxHistoryBytes = size_t(256) << 20;
+    explicit Document(EspContext* context, size_t maxHistoryBytes = kMaxHistoryBytes)
+        : context_(context), maxHistoryBytes_(maxHistoryBytes) {}
     ~Document();
     Document(const Document&) = delete;
 
@@ -31,14 +33,20 @@ class Document {
     const char* undoName() const;
     const char* redoName() const;
     size_t undoSteps() const { return done_.size(); }
-    // What is kept for undo and redo. Past kMaxHistoryBytes the oldest steps are forgotten.
+    // Of the step that the next undo takes back; 0: it has none.
+    uint32_t undoGesture() const { return done_.empty() ? 0 : done_.back().gesture; }
+    // What is kept for undo and redo. Past maxHistoryBytes the oldest steps are forgotten, or, by undo, those that it
+    // undid first; the latest one is kept however large it is.
     size_t historyBytes() const;
-    static constexpr size_t kMaxHistoryBytes = size_t(256) << 20;
 
     // Rises with every action that changes what a project holds; undoing one is a change too.
     uint64_t revision() const { return revision_; }
     // Of what a project holds as it is now: undone and done again it is the same state.
     uint64_t state() const { return stroking() ? ~0ull : done_.empty() ? bottom_ : done_.back().state; }
+
+    // From here on as if it had been opened as a project of it: nothing can be undone, and seeds stand in the order,
+    // and have the keys, that its reader gives them. What their keys were, in that order. No stroke is open.
+    std::vector<uint32_t> beginAnew();
 
     // Called with every action that was asked for and done, after it.
     using Listener = std::function<void(const Action&, uint32_t gesture)>;
@@ -66,6 +74,7 @@ class Document {
         uint32_t gesture = 0;
         uint64_t state = 0;        // Document::state() after it
         std::vector<Action> back;  // performed from the last to the first, they take the step back
+        size_t bytes = 0;          // of that
     };
     // Does an action and tells what takes it back.
     bool carryOut(const Action& action, std::vector<Action>& back, std::string& error);
@@ -75,6 +84,7 @@ class Document {
     bool carryOut(const RemoveSeeds& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const ChangeSeeds& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetLight& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetWalk& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const StrokeBegin& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const StrokeDabs& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const StrokeEnd& action, std::vector<Action>& back, std::string& error);
@@ -94,16 +104,19 @@ class Document {
 
     bool move(std::vector<Step>& from, std::vector<Step>& to, std::string& error);
     void remember(const Action& action, std::vector<Action> back, uint32_t gesture);
-    void forgetOldest();
+    void keep(std::vector<Step>& steps);
     bool failed(EspResult result, std::string& error) const;
     std::vector<Param> paramsOf(uint32_t grammar) const;
     bool moveSeeds(const ChangeSeeds& action);
+    bool plant(std::string& error);
     bool replant(const std::vector<scene::Seed>& before, std::string& error);
     size_t indexOf(uint32_t key) const;
     Action houseBack(uint32_t index) const;
 
     EspContext* context_;
+    size_t maxHistoryBytes_;
     scene::Scene scene_;
+    bool allPlanted_ = true;
     std::vector<Step> done_, undone_;
     EspStroke stroke_{};  // open
     bool strokeHasDabs_ = false;

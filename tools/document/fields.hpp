@@ -122,4 +122,36 @@ class FieldReader {
     size_t known_ = 0;
 };
 
+// Counts the memory that a record's fields hold besides the record itself.
+class FieldBytes {
+  public:
+    template <class T>
+    void operator()(const char*, T& value) {
+        bytes_ += of(value);
+    }
+    size_t bytes() const { return bytes_; }
+
+  private:
+    template <class T>
+    static size_t of(T&) {
+        return 0;
+    }
+    static size_t of(std::string& value) { return value.size(); }
+    template <class T>
+    static size_t of(std::vector<T>& values) {
+        size_t bytes = values.size() * sizeof(T);
+        for (T& value : values) bytes += of(value);
+        return bytes;
+    }
+    template <class T>
+    requires requires(T t, FieldBytes b) { t.fields(b); }
+    static size_t of(T& record) {
+        FieldBytes inner;
+        record.fields(inner);
+        return inner.bytes();
+    }
+
+    size_t bytes_ = 0;
+};
+
 }  // namespace espalier::document

@@ -14,7 +14,7 @@ struct StrokeRecord {
     ~StrokeRecord() { espDestroyStroke(context, stroke); }
 };
 
-// Memory that an action in the history holds besides itself.
-size_t keptBytes(const Action& action);
+// Memory that an action in the history takes up.
+size_t keptBytes(Action& action);
 
 }  // namespace espalier::document

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tools/document/document.hpp"
+#include "tools/document/fields.hpp"
 #include "tools/document/layer_history.hpp"
 #include "tools/scene/named.hpp"
 
@@ -40,16 +41,20 @@ bool brushOf(const StrokeBegin& stroke, EspBrush& brush, std::string& error) {
     return true;
 }
 
-size_t keptBytes(const Action& action) {
+size_t keptBytes(Action& action) {
+    FieldBytes fields;
+    std::visit([&](auto& a) { a.fields(fields); }, action);
+    size_t bytes = sizeof(Action) + fields.bytes();
+    // What runs don't know of:
+    const auto frozen = [&](const scene::FrozenPlant& plant) { bytes += plant ? plant->size() : 0; };
     if (const auto* swap = std::get_if<SwapStroke>(&action))
-        return size_t(espStrokeBytes(swap->stroke->context, swap->stroke->stroke));
-    if (const auto* restore = std::get_if<RestoreFrozen>(&action)) {
-        size_t bytes = 0;
-        for (const auto& [key, plant] : restore->plants) bytes += plant ? plant->size() : 0;
-        return bytes;
-    }
-    if (const auto* text = std::get_if<SetText>(&action)) return text->text.size();
-    return 0;
+        bytes += size_t(espStrokeBytes(swap->stroke->context, swap->stroke->stroke));
+    if (const auto* restore = std::get_if<RestoreFrozen>(&action))
+        for (const auto& plant : restore->plants) bytes += sizeof plant, frozen(plant.second);
+    if (const auto* add = std::get_if<AddSeeds>(&action))
+        for (const SeedRecord& seed : add->seeds) frozen(seed.frozen);
+    if (const auto* text = std::get_if<SetText>(&action)) bytes += text->grows.size();
+    return bytes;
 }
 
 bool Document::readLayer(size_t surface, const std::string& layer, scene::GreyPicture& out, std::string& error) const {

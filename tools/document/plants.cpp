@@ -1,5 +1,6 @@
 // Plants that stand as they are, and branches that are cut away for good.
 #include <cstdlib>
+#include <ranges>
 
 #include "tools/document/document.hpp"
 
@@ -25,6 +26,8 @@ bool isPruned(const EspContext* context, uint64_t branch) {
 }  // namespace
 
 bool Document::carryOut(const FreezeSeeds& action, std::vector<Action>& back, std::string& error) {
+    // As it is now, also in a replay that draws no frame before: edits that haven't grown yet are part of it.
+    if (action.frozen && failed(espUpdate(context_), error)) return false;
     RestoreFrozen before;
     for (uint32_t key : action.keys) {
         const size_t i = indexOf(key);
@@ -45,16 +48,18 @@ bool Document::carryOut(const FreezeSeeds& action, std::vector<Action>& back, st
 
 bool Document::carryOut(const RestoreFrozen& action, std::vector<Action>& back, std::string& error) {
     RestoreFrozen before;
-    for (const auto& [key, plant] : action.plants) {
+    bool good = true;
+    // The last first: a seed that was named twice gets what it had at first.
+    for (const auto& [key, plant] : std::views::reverse(action.plants)) {
         scene::Seed& seed = scene_.seeds[indexOf(key)];
-        if (failed(plant ? espFreezeAs(context_, seed.planted, plant->data(), plant->size())
-                         : espFreezePlant(context_, seed.planted, 0),
-                   error))
-            return false;
+        good = !failed(plant ? espFreezeAs(context_, seed.planted, plant->data(), plant->size())
+                             : espFreezePlant(context_, seed.planted, 0),
+                       error);
+        if (!good) break;
         before.plants.push_back({key, std::exchange(seed.frozen, plant)});
     }
-    back.push_back(std::move(before));
-    return true;
+    if (!before.plants.empty()) back.push_back(std::move(before));
+    return good;
 }
 
 bool Document::carryOut(const PruneBranch& action, std::vector<Action>& back, std::string& error) {

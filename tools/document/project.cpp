@@ -8,6 +8,7 @@
 
 #include "tools/document/durable.hpp"
 #include "tools/scene/hash.hpp"
+#include "tools/scene/json_out.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/text_file.hpp"
 
@@ -83,6 +84,26 @@ bool writeLayers(ProjectData& data, const fs::path& folder, Progress& progress, 
     return true;
 }
 
+// What tells a house from others when the plan has got or lost some; empty: nothing does.
+std::string idOf(const EspContext* context, uint32_t house) {
+    EspHouseInfo info;
+    const std::string id = espHouseInfo(context, house, &info) == ESP_OK ? info.id : "";
+    return scene::isUtf8(id) ? id : "";
+}
+
+// A project that names a file otherwise than the disk does couldn't be opened.
+bool canName(const std::string& folder, const SceneFile& file, std::string& error) {
+    std::vector<std::string> names{file.site, file.town ? file.town->file : ""};
+    for (const scene::SceneSurface& surface : file.surfaces) names.push_back(surface.file);
+    for (const scene::SceneGrammar& grammar : file.grammars) names.push_back(grammar.file);
+    const fs::path from = fs::absolute(folder).lexically_normal();
+    const auto bad = std::ranges::find_if(names, [&](const std::string& name) {
+        return !name.empty() && !scene::isUtf8(fs::absolute(name).lexically_normal().lexically_relative(from).string());
+    });
+    if (bad != names.end()) error = *bad + ": its name isn't UTF-8, which a project can't hold";
+    return bad == names.end();
+}
+
 SceneFile describe(const Document& document) {
     const scene::Scene& scene = document.scene();
     SceneFile out;
@@ -101,7 +122,10 @@ SceneFile describe(const Document& document) {
             if (seed.grammar == i) described.seeds.push_back(seed);
     }
     out.town = scene.town;
+    if (out.town)
+        for (scene::House& house : out.town->houses) house.id = idOf(document.context(), house.index);
     out.site = scene.site;
+    out.walk = scene.grow.walk;
     out.pruned.resize(espPrunedCount(document.context()));
     for (uint32_t i = 0; i < out.pruned.size(); ++i) (void)espPrunedAt(document.context(), i, &out.pruned[i]);
     describeLook(scene, out);
@@ -136,9 +160,9 @@ void sweep(const fs::path& folder) {
 // What isn't complete in the end leaves no files: a disk that was full has room again.
 bool write(ProjectData data, const std::string& folder, const char* name, Progress& progress, std::string& error) {
     const std::string path = (fs::path(folder) / name).string();
-    const bool good = makeFolderDurably(folder, error) && writeLayers(data, folder, progress, error) &&
-                      writePlants(folder, data.file, error) && progress.at(1) &&
-                      writeTextDurably(path, writeSceneText(path, data.file), error);
+    const bool good = canName(folder, data.file, error) && makeFolderDurably(folder, error) &&
+                      writeLayers(data, folder, progress, error) && writePlants(folder, data.file, error) &&
+                      progress.at(1) && writeTextDurably(path, writeSceneText(path, data.file), error);
     if (good && name == kProject) dropAutosave(folder);
     sweep(folder);
     return good;
@@ -181,6 +205,10 @@ bool gather(const Document& document, ProjectData& out, std::string& error) {
 
 bool writeProject(ProjectData data, const std::string& folder, Progress& progress, std::string& error) {
     return write(std::move(data), folder, kProject, progress, error);
+}
+
+bool writeAutosave(ProjectData data, const std::string& folder, Progress& progress, std::string& error) {
+    return write(std::move(data), folder, kAutosave, progress, error);
 }
 
 Work::Plan saving(const Document& document, const std::string& folder) {

@@ -27,6 +27,7 @@ struct ProjectData {
 bool gather(const Document& document, ProjectData& out, std::string& error);
 // False: `error` tells file and cause, and the project is as it was. Texels are given back as they are written.
 bool writeProject(ProjectData data, const std::string& folder, Progress& progress, std::string& error);
+bool writeAutosave(ProjectData data, const std::string& folder, Progress& progress, std::string& error);
 
 // Both, as work beside whatever else is done: what is saved is the document as it was when this was called, so its next
 // edit is to come after Work::settle (Document::beforeEdits). Cancelled, the project is as it was.

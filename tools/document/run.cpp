@@ -40,6 +40,13 @@ bool readHead(const std::string& text, RunHead& head, std::string& error) {
     return error.empty();
 }
 
+// The picture that it reads; null: none.
+std::string* fileOf(Action& action) {
+    if (auto* load = std::get_if<LoadLayer>(&action)) return &load->file;
+    if (auto* load = std::get_if<LoadTownLayer>(&action)) return &load->file;
+    return nullptr;
+}
+
 }  // namespace
 
 bool readRun(const std::string& path, Run& out, std::string& error) {
@@ -73,28 +80,41 @@ bool readRun(const std::string& path, Run& out, std::string& error) {
         error = path + ": the file is empty";
         return false;
     }
-    if (!fs::path(out.head.scene).is_absolute())
-        out.head.scene = (fs::path(path).parent_path() / out.head.scene).lexically_normal().string();
+    const auto find = [&](std::string& file) {
+        if (!fs::path(file).is_absolute()) file = (fs::path(path).parent_path() / file).lexically_normal().string();
+    };
+    find(out.head.scene);
+    for (RunLine& line : out.lines)
+        if (std::string* file = fileOf(line.action)) find(*file);
     return true;
 }
 
 bool Recorder::begin(const std::string& path, RunHead head, std::string& error) {
+    folder_ = fs::absolute(path).parent_path().lexically_normal().string();
+    head.scene = beside(head.scene);
+    if (!scene::isUtf8(head.scene)) {
+        error = head.scene + ": its name isn't UTF-8, which a run can't hold";
+        return false;
+    }
     errno = 0;
     file_.reset(std::fopen(path.c_str(), "w"));
     if (!file_) {
         error = path + ": can't be written: " + std::strerror(errno);
         return false;
     }
-    const fs::path folder = fs::absolute(path).parent_path().lexically_normal();
-    const fs::path near = fs::absolute(head.scene).lexically_normal().lexically_relative(folder);
-    if (!near.empty()) head.scene = near.string();
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     head.fields(FieldWriter(json));
     frame_ = 0;
     path_ = path;
     failed_ = 0;
-    write(json.dump());
+    write(scene::textOf(json));
     return true;
+}
+
+// A file's name as the run has it: it and what lies beside it may be moved together.
+std::string Recorder::beside(const std::string& file) const {
+    const fs::path near = fs::absolute(file).lexically_normal().lexically_relative(folder_);
+    return near.empty() ? file : near.string();
 }
 
 void Recorder::write(const std::string& line) {
@@ -106,7 +126,9 @@ void Recorder::write(const std::string& line) {
 void Recorder::note(const Action& action, uint32_t gesture) {
     if (!file_) return;
     if (std::holds_alternative<SetCamera>(action)) camera_ = action;
-    write(toJson(RunLine{frame_, gesture, action}));
+    RunLine line{frame_, gesture, action};
+    if (std::string* file = fileOf(line.action)) *file = beside(*file);
+    write(toJson(line));
 }
 
 bool Recorder::end(std::string& error) {

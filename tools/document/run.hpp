@@ -51,9 +51,10 @@ class Recorder {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
     void write(const std::string& line);
+    std::string beside(const std::string& file) const;
 
     std::unique_ptr<std::FILE, Closer> file_;
-    std::string path_;
+    std::string path_, folder_;
     int failed_ = 0;  // errno of the first line that couldn't be written
     uint32_t frame_ = 0;
     Action camera_;  // of the latest frame

@@ -3,8 +3,25 @@
 #include <charconv>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace espalier::scene {
+
+// What JSON can hold.
+inline bool isUtf8(const std::string& text) {
+    try {
+        (void)nlohmann::ordered_json(text).dump();
+    } catch (const nlohmann::ordered_json::type_error&) {
+        return false;
+    }
+    return true;
+}
+
+// In one line, or with so much indent. Bytes that aren't UTF-8 become U+FFFD: such a letter in a grammar's remark must
+// not keep anybody from saving.
+inline std::string textOf(const nlohmann::ordered_json& json, int indent = -1) {
+    return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
 
 // A float as the shortest decimal that reads as the same float: 0.1, not 0.10000000149011612.
 inline nlohmann::ordered_json shortest(float value) {

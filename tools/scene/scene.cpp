@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "tools/scene/daylight.hpp"
 #include "tools/scene/named.hpp"
@@ -38,6 +39,45 @@ bool compileFile(EspContext* context, LoadedGrammar& grammar, std::string& error
     return readText(grammar.file, text, error) && compile(context, grammar, text, error);
 }
 
+namespace {
+
+// The place of the house that a project knows by an id: the plan may have got and lost others since. Of several of one
+// name it is the one at its old place.
+std::optional<uint32_t> placeOf(const EspContext* context, const House& house) {
+    std::optional<uint32_t> found;
+    for (uint32_t i = 0; i < espHouseCount(context); ++i) {
+        EspHouseInfo info;
+        if (espHouseInfo(context, i, &info) != ESP_OK || house.id != info.id) continue;
+        if (!found || i == house.index) found = i;
+    }
+    return found;
+}
+
+// A project keeps what it can: a house that is gone, or whose plan leaves no room for it, is told of.
+bool changeHouses(EspContext* context, Scene& out, std::string& error) {
+    SceneTown& town = *out.town;
+    std::vector<House> kept;
+    for (House house : town.houses) {
+        const std::string name = house.id.empty() ? std::to_string(house.index) : "'" + house.id + "'";
+        const std::optional<uint32_t> place = house.id.empty() ? house.index : placeOf(context, house);
+        house.id.clear();
+        house.index = place.value_or(house.index);
+        std::string why = "the plan has none of this name any more";
+        if (place && setHouse(context, house, why)) {
+            kept.push_back(std::move(house));
+            continue;
+        }
+        error = town.file + ": house " + name + " of the scene: " + why;
+        if (!out.project) return false;
+        out.notes.push_back(std::exchange(error, {}));
+    }
+    std::ranges::stable_sort(kept, {}, &House::index);
+    town.houses = std::move(kept);
+    return true;
+}
+
+}  // namespace
+
 bool loadTown(EspContext* context, Scene& out, std::string& error) {
     const SceneTown& town = *out.town;
     std::string text;
@@ -51,17 +91,19 @@ bool loadTown(EspContext* context, Scene& out, std::string& error) {
     def.ground = town.ground ? 1 : 0;
     if (town.groundColour) std::copy(town.groundColour->begin(), town.groundColour->end(), def.groundColour);
     if (!fromContext(context, espLoadTown(context, &def), error)) return false;
-    for (const House& house : town.houses)
-        if (!setHouse(context, house, error)) {
-            error = town.file + ": house " + std::to_string(house.index) + " of the scene: " + error;
-            return false;
-        }
-    if (town.grammar >= 0)
-        return fromContext(context, espSetTownGrammar(context, out.grammars[size_t(town.grammar)].id), error);
+    if (!changeHouses(context, out, error)) return false;
+    if (town.grammar >= 0) {
+        LoadedGrammar& grammar = out.grammars[size_t(town.grammar)];
+        if (fromContext(context, espSetTownGrammar(context, grammar.id), error)) return true;
+        if (!out.project) return false;
+        out.notes.push_back(town.file + ": its houses have no roofs: " + std::exchange(error, {}));
+        return true;
+    }
     for (const LoadedGrammar& grammar : out.grammars)
         if (espSetTownGrammar(context, grammar.id) == ESP_OK) return true;
     error = town.file + ": none of the scene's grammars makes roofs; town.grammar does";
-    return false;
+    if (out.project) out.notes.push_back(std::exchange(error, {}));
+    return out.project;
 }
 
 namespace {
@@ -92,9 +134,24 @@ bool isTown(const std::string& file) {
            (text.find("\"buildings\"") != std::string::npos || text.find("\"FeatureCollection\"") != std::string::npos);
 }
 
-bool loadGrammar(EspContext* context, const SceneGrammar& described, LoadedGrammar& grammar, std::string& error) {
-    const bool good = described.text ? compile(context, grammar, described.grows.value_or(*described.text), error)
-                                     : compileFile(context, grammar, error);
+// A project's text may not compile any more, since what it includes lies beside it: it opens with its message, and
+// until it is mended nothing grows by it.
+bool compileText(EspContext* context, Scene& out, LoadedGrammar& grammar, const std::string& text, std::string& error) {
+    if (compile(context, grammar, text, error)) return true;
+    std::string unheard;
+    if (!out.project || !compile(context, grammar, "Nothing -> Marching(1, 0, arc < 0) {Nothing}\n", unheard))
+        return false;
+    error.clear();
+    if (!setText(context, grammar, text))
+        out.notes.push_back("nothing grows by a text with mistakes: " + grammar.error);
+    return true;
+}
+
+bool loadGrammar(EspContext* context, const SceneGrammar& described, Scene& out, LoadedGrammar& grammar,
+                 std::string& error) {
+    const bool good = described.text
+                          ? compileText(context, out, grammar, described.grows.value_or(*described.text), error)
+                          : compileFile(context, grammar, error);
     if (!good) return false;
     // A project may have been saved with a mistake in its text: it stands there with its message, as it was.
     if (described.grows) setText(context, grammar, *described.text);
@@ -103,7 +160,8 @@ bool loadGrammar(EspContext* context, const SceneGrammar& described, LoadedGramm
         if (fromContext(context, espSetParam(context, grammar.id, v.name.c_str(), v.value.data(), v.count), error))
             continue;
         error = param.place + ": " + error;
-        return false;
+        if (!out.project) return false;
+        out.notes.push_back(std::exchange(error, {}));
     }
     return true;
 }
@@ -116,10 +174,28 @@ bool readFrozen(Seed& seed, std::string& error) {
     return true;
 }
 
+// Counts the parts of a scene as they come.
+class Parts {
+  public:
+    Parts(const Request& request, size_t count) : told_(request.told), count_(std::max<size_t>(count, 1)) {}
+    void begin(const std::string& file) {
+        if (told_) told_(std::filesystem::path(file).filename().string(), float(done_) / float(count_));
+        ++done_;
+    }
+
+  private:
+    const std::function<void(const std::string&, float)>& told_;
+    size_t done_ = 0, count_;
+};
+
 bool openDescription(EspContext* context, const Request& request, Scene& out, std::string& error) {
     SceneFile file;
     if (!readSceneFile(request.file, file, error)) return false;
+    out.project = file.project > 0;
+    Parts parts(request, file.surfaces.size() + file.grammars.size() + file.layers.size() + file.town.has_value() +
+                             !file.site.empty());
     for (const SceneSurface& described : file.surfaces) {
+        parts.begin(described.file);
         LoadedSurface& surface =
             out.surfaces.emplace_back(LoadedSurface{described.file, described.placing, described.drawn, {}});
         const EspTransform place = surface.placing.transform();
@@ -136,7 +212,8 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
             described.grows.reset();
         }
         grammar.file = described.file;
-        if (!loadGrammar(context, described, grammar, error)) return false;
+        parts.begin(grammar.file);
+        if (!loadGrammar(context, described, out, grammar, error)) return false;
         out.grammars.push_back(grammar);
         for (Seed seed : described.seeds) {
             seed.grammar = uint32_t(i);
@@ -148,11 +225,15 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
     for (uint64_t branch : file.pruned)
         if (!fromContext(context, espPruneBranch(context, branch, 1), error)) return false;
     out.town = file.town;
+    if (out.town) parts.begin(out.town->file);
     if (out.town && !loadTown(context, out, error)) return false;
     out.site = file.site;
+    out.grow.walk = file.walk;
+    if (!out.site.empty()) parts.begin(out.site);
     if (!out.site.empty() && !furnish(context, out.site, error)) return false;
     noteLayers(context, out);
     for (const SceneLayer& layer : file.layers) {
+        parts.begin(layer.file);
         // What was painted before a grammar's text lost its layer stays in a project; a scene may paint layers that
         // only some grammar, given in place of its own, doesn't read.
         const bool read = std::ranges::find(out.layers, layer.name) != out.layers.end();
@@ -203,9 +284,12 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     out = Scene{};
     out.name = fs::path(asked.file).filename().string();
     out.ownLook = espDefaultLook();
+    out.grow = request.grow;
     const bool described = fs::path(request.file).extension() == ".json";
     const auto open = isTown(request.file) ? openTown : described ? openDescription : openSurface;
     if (!open(context, request, out, error)) return false;
+    out.grow.walk = request.walk.value_or(out.grow.walk);
+    if (!fromContext(context, espSetGrow(context, &out.grow), error)) return false;
     noteLayers(context, out);
     for (const auto& [name, picture] : request.layers) {
         if (std::ranges::find(out.layers, name) == out.layers.end()) {
@@ -282,7 +366,8 @@ std::vector<ParamValue> changedParams(const EspContext* context, EspGrammar gram
 
 namespace {
 constexpr const char* kViews[] = {"shaded", "charts", "normals", "lod", "layer", "depth", "overdraw"};
-}
+constexpr const char* kWalks[] = {"intrinsic", "paper"};
+}  // namespace
 
 bool viewNamed(const std::string& name, EspView& out) {
     return valueNamed(kViews, name, out);
@@ -290,6 +375,14 @@ bool viewNamed(const std::string& name, EspView& out) {
 
 const char* nameOf(EspView view) {
     return size_t(view) < std::size(kViews) ? kViews[view] : "shaded";
+}
+
+bool walkNamed(const std::string& name, EspWalkMode& out) {
+    return valueNamed(kWalks, name, out);
+}
+
+const char* nameOf(EspWalkMode walk) {
+    return kWalks[walk];
 }
 
 EspCamera turned(const EspCamera& camera, float radians) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,11 @@ struct Request {
     std::string file;                                         // SCENE.json or SURFACE.glb
     std::vector<std::pair<std::string, std::string>> layers;  // name and picture, drawn in the model's UVs
     std::string grammar;                                      // takes the place of the scene's first grammar
-    std::optional<uint32_t> seed;  // the seeds' numbers are this, this + 1 ... instead of the scene's own
+    std::optional<uint32_t> seed;           // the seeds' numbers are this, this + 1 ... instead of the scene's own
+    EspGrowDef grow = espDefaultGrowDef();  // but for `walk`, which the scene's file says
+    std::optional<EspWalkMode> walk;        // instead of that
+    // Told before each part of a scene that may take long: what it is, and the share of all that is done, 0 to 1.
+    std::function<void(const std::string& part, float share)> told = {};
 };
 
 // How a surface stands in the scene: scaled evenly, turned about the vertical, moved.
@@ -85,11 +90,13 @@ constexpr float kOwnSun = -1;  // no hour: the scene's own light
 // A scene whose surfaces, grammars and layers are in a context. Seeds are planted by plantAll.
 struct Scene {
     std::string name;
+    bool project = false;  // its file is a project's, or an autosave
     std::vector<LoadedSurface> surfaces;
     std::vector<LoadedGrammar> grammars;
     std::vector<Seed> seeds;
     std::optional<SceneTown> town;
-    std::string site;                 // file of what furnishes it; empty: nothing does
+    std::string site;  // file of what furnishes it; empty: nothing does
+    EspGrowDef grow = espDefaultGrowDef();
     std::vector<std::string> layers;  // that grammars read; then those that are painted and that none reads any more
     std::vector<std::string> notes;   // what of the file couldn't be kept, a line each
     EspCamera camera{};
@@ -127,6 +134,9 @@ std::string contentFolder();
 // shaded, charts, normals, lod, layer. False: there is no such view.
 bool viewNamed(const std::string& name, EspView& out);
 const char* nameOf(EspView view);
+// intrinsic, paper. False: there is no such walk.
+bool walkNamed(const std::string& name, EspWalkMode& out);
+const char* nameOf(EspWalkMode walk);
 
 // The camera turned about its target and the vertical.
 EspCamera turned(const EspCamera& camera, float radians);

@@ -23,8 +23,8 @@ class Reader {
     void readScene(const Json& json) {
         if (!readVersion(json)) return;
         if (!isObject(json, "a scene",
-                      {"project", "surface", "surfaces", "town", "pruned", "grammars", "layers", "camera", "sun", "sky",
-                       "ground", "site", "exposure"}))
+                      {"project", "surface", "surfaces", "town", "pruned", "walk", "grammars", "layers", "camera",
+                       "sun", "sky", "ground", "site", "exposure"}))
             return;
         readSurfaces(json);
         if (const Json* grammars = need(json, "grammars")) {
@@ -35,6 +35,9 @@ class Reader {
         if (const Json* town = json.find("town")) readTown(*town);
         if (const Json* site = json.find("site")) out_.site = file(*site);
         if (const Json* pruned = json.find("pruned")) readPruned(*pruned);
+        if (const Json* walk = json.find("walk");
+            walk && (walk->kind != Json::Kind::text || !walkNamed(walk->text, out_.walk)))
+            fail(*walk, "'walk' must be \"intrinsic\" or \"paper\"");
         if (const Json* layers = json.find("layers")) {
             if (layers->kind != Json::Kind::object) fail(*layers, "'layers' must be an object");
             for (const auto& [name, picture] : layers->members) readLayer(name, picture);
@@ -141,9 +144,10 @@ class Reader {
         if (found) out = found->text;
     }
     void readHouse(const Json& json, House& house) {
-        if (!isObject(json, "a house", {"house", "shape", "slope", "eave_height", "edges", "corners"})) return;
+        if (!isObject(json, "a house", {"house", "id", "shape", "slope", "eave_height", "edges", "corners"})) return;
         EspRoofShape known;
         if (need(json, "house")) whole(json, "house", house.index);
+        if (json.find("id")) word(json, "id", house.id);
         word(json, "shape", house.shape);
         if (!shapeNamed(house.shape, known)) fail(json, "there is no roof of the kind '" + house.shape + "'");
         number(json, "slope", 0, 100, house.slope);

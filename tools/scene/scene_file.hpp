@@ -45,6 +45,7 @@ struct SceneFile {
     std::optional<SceneTown> town;
     std::string site;              // file of what furnishes the scene; empty: nothing does
     std::vector<uint64_t> pruned;  // keys of branches, ascending
+    EspWalkMode walk = ESP_WALK_INTRINSIC;
     std::vector<SceneLayer> layers;
     bool hasCamera = false;
     std::array<float, 3> eye{}, target{};

@@ -37,6 +37,7 @@ ordered_json townJson(const SceneTown& town, const std::string& file) {
                                                                      {"shape", house.shape},
                                                                      {"slope", shortest(house.slope)},
                                                                      {"eave_height", shortest(house.eaveHeight)}});
+        if (!house.id.empty()) out["id"] = house.id;
         for (const House::Edge& edge : house.edges)
             out["edges"].push_back({{"edge", edge.edge}, {"end", edge.end}, {"slope", shortest(edge.slope)}});
         for (const auto& corner : house.corners) out["corners"].push_back(shortestList(corner));
@@ -88,6 +89,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     }
     if (file.town) json["town"] = townJson(*file.town, beside(file.town->file));
     if (!file.site.empty()) json["site"] = beside(file.site);
+    if (file.walk != ESP_WALK_INTRINSIC) json["walk"] = nameOf(file.walk);
     for (uint64_t branch : file.pruned) {
         char key[20];
         std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(branch));
@@ -123,7 +125,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     if (!sky.empty()) json["sky"] = sky;
     if (file.groundLevel) json["ground"] = {{"level", shortest(*file.groundLevel)}};
     if (file.exposure != 0) json["exposure"] = shortest(file.exposure);
-    return json.dump(1) + "\n";
+    return textOf(json, 1) + "\n";
 }
 
 }  // namespace espalier::scene

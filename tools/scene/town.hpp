@@ -27,6 +27,7 @@ struct House {
     };
     std::vector<Edge> edges = {};                    // that have something of their own
     std::vector<std::array<float, 2>> corners = {};  // of the outer ring, world x and z; none: as they are
+    std::string id = {};  // that a project knows it by, whatever its place is then; no part of a run
     template <class V>
     void fields(V&& v) {
         v("house", index), v("shape", shape), v("slope", slope), v("eave_height", eaveHeight), v("edges", edges);

@@ -99,6 +99,20 @@ float heightAt(const std::vector<glm::vec2>& line, float x) {
     return b.x > a.x ? a.y + (b.y - a.y) * std::clamp((x - a.x) / (b.x - a.x), 0.f, 1.f) : std::max(a.y, b.y);
 }
 
+// One line out of several that go over parts of a wall, lines above each other: the highest.
+std::vector<glm::vec2> highestOf(const std::vector<std::vector<glm::vec2>>& lines) {
+    std::vector<glm::vec2> points;
+    for (const auto& line : lines)
+        for (glm::vec2 p : line) {
+            for (const auto& other : lines)
+                if (&other != &line && p.x >= other.front().x && p.x <= other.back().x)
+                    p.y = std::max(p.y, heightAt(other, p.x));
+            points.push_back(p);
+        }
+    std::stable_sort(points.begin(), points.end(), [](glm::vec2 a, glm::vec2 b) { return a.x < b.x; });
+    return points;
+}
+
 // The part of a cell below the line from (low.x, left) to (high.x, right): counterclockwise, convex, may be empty.
 std::vector<glm::vec2> below(glm::vec2 low, glm::vec2 high, float left, float right) {
     const glm::vec2 corners[] = {low, {high.x, low.y}, high, {low.x, high.y}};
@@ -132,8 +146,7 @@ class Builder {
             sizes.push_back(ring.size());
             for (size_t i = 0; i < ring.size(); ++i) walls_.push_back(wallFrom(ring[i], ring[(i + 1) % ring.size()]));
         }
-        for (uint32_t f = house_.firstFace; f < house_.firstFace + house_.faceCount; ++f)
-            if (structure_.faces[f].kind == FaceKind::gable) raise(structure_.faces[f]);
+        raiseGables();
         for (uint32_t g : grids) takeGrid(env, env.grids.v[g], walls_);
         std::vector<float> heights;
         float highest = 0;
@@ -155,16 +168,26 @@ class Builder {
 
   private:
     float eave() const { return std::max(house_.eaveHeight - house_.baseHeight - kBelowRoof, kLeast); }
-    // The wall goes up to the verges of its gable.
-    void raise(const RoofFace& face) {
-        Wall& wall = walls_[face.edge];
-        wall.top.clear();
+    // Walls go up to the verges of their gables. Where a roof breaks, one gable is a face below and others above.
+    void raiseGables() {
+        std::vector<std::vector<std::vector<glm::vec2>>> lines(walls_.size());
+        for (uint32_t f = house_.firstFace; f < house_.firstFace + house_.faceCount; ++f) {
+            const RoofFace& face = structure_.faces[f];
+            if (face.kind == FaceKind::gable) lines[face.edge].push_back(vergesOf(face));
+        }
+        for (size_t i = 0; i < walls_.size(); ++i)
+            if (!lines[i].empty()) walls_[i].top = highestOf(lines[i]);
+    }
+    std::vector<glm::vec2> vergesOf(const RoofFace& face) const {
+        const Wall& wall = walls_[face.edge];
+        std::vector<glm::vec2> line;
         const auto add = [&](glm::vec3 p) {
             const glm::vec3 at = p + glm::vec3(house_.origin.x, 0, -house_.origin.y) - wall.foot;
-            wall.top.push_back({glm::dot(at, wall.along), std::max(at.y - kBelowRoof, kLeast)});
+            line.push_back({glm::dot(at, wall.along), std::max(at.y - kBelowRoof, kLeast)});
         };
         for (uint32_t i = face.segmentCount; i-- > 0;) add(structure_.segments[face.firstSegment + i].to);
         add(face.eave[1]);
+        return line;
     }
     Wall wallFrom(glm::vec2 a, glm::vec2 b) const {
         Wall wall;

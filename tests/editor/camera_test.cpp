@@ -1,0 +1,192 @@
+// The camera in a user's hands: what it turns about, moves with and goes nearer to is what is seen, wherever it was
+// before; what begins with one button isn't disturbed by another.
+#include <cfloat>
+
+#include "tests/editor/window.hpp"
+
+using namespace espalier::document;
+using sample::Tool;
+
+namespace {
+
+constexpr int kRight = GLFW_MOUSE_BUTTON_RIGHT, kMiddle = GLFW_MOUSE_BUTTON_MIDDLE;
+
+struct Visitor : Editor {
+    explicit Visitor(const Folder& folder, Tool tool = Tool::look) : Editor(folder, smallScene(folder), tool) {
+        faceWall(*this, 3);
+    }
+    sample::ViewCamera& camera() { return work.camera; }
+    glm::vec2 middle() const { return {(1 + work.shift()) / 2 * work.window.x, work.window.y / 2}; }
+    void wheel(float steps) {
+        ImGui::GetIO().DisplaySize = {work.window.x, work.window.y};
+        ImGui::GetIO().MousePos = {mouse.x, mouse.y};
+        ImGui::NewFrame();
+        controls.take({}, steps);
+        ImGui::Render();
+    }
+    // Looks around by the right button, which tells the camera nothing of how far away things are.
+    void look(glm::vec2 by) {
+        press(middle(), 0, kRight);
+        moveTo(middle() + by, 4);
+        release(mouse, 0, kRight);
+    }
+};
+
+float between(glm::vec3 a, glm::vec3 b) {
+    return glm::distance(a, b);
+}
+
+}  // namespace
+
+TEST_CASE("a button that is pressed while the camera is dragged begins nothing, and the camera is let go by its own") {
+    const Folder folder;
+    for (const int button : {kRight, kMiddle}) {
+        CAPTURE(button);
+        Visitor visitor(folder, Tool::paint);
+        const glm::vec2 at = visitor.at({-.95f, 1.1f, .36f});
+        visitor.press(at, 0, button);
+        visitor.moveTo(at + glm::vec2(12, 0), 2);
+        visitor.press(visitor.mouse);
+        visitor.moveTo(at, 2);
+        CHECK(visitor.controls.turning());
+        CHECK(!visitor.controls.painting());
+        visitor.release(at, 0, button);
+        CHECK(!visitor.controls.turning());
+        const glm::vec3 eye = visitor.camera().eye(), ahead = visitor.camera().ahead();
+        visitor.moveTo(at + glm::vec2(80, 30), 4);
+        CHECK(visitor.camera().eye() == eye);
+        CHECK(visitor.camera().ahead() == ahead);
+        visitor.release(visitor.mouse);
+        CHECK(visitor.all<StrokeBegin>().empty());
+        visitor.drag(at, at + glm::vec2(20, 0));
+        CHECK(visitor.all<StrokeEnd>().size() == 1);
+        // The other way around: the stroke goes on.
+        visitor.press(at);
+        visitor.press(at, 0, button);
+        visitor.moveTo(at + glm::vec2(20, 10), 2);
+        CHECK(visitor.controls.painting());
+        visitor.release(visitor.mouse);
+        visitor.moveTo(at, 2);
+        visitor.release(at, 0, button);
+        CHECK(visitor.all<StrokeEnd>().size() == 2);
+        CHECK(visitor.camera().eye() == eye);
+        CHECK(visitor.camera().ahead() == ahead);
+    }
+}
+
+TEST_CASE("the wheel goes nearer to what is seen, also after it went close to something else") {
+    const Folder folder;
+    Visitor visitor(folder);
+    visitor.mouse = visitor.middle();
+    const glm::vec3 start = visitor.camera().eye();
+    visitor.wheel(3);
+    const glm::vec3 near = visitor.camera().eye();
+    visitor.wheel(-3);
+    CHECK_MESSAGE(between(visitor.camera().eye(), start) < 1e-4f, "there and back again");
+    visitor.wheel(3);
+    CHECK(between(visitor.camera().eye(), near) < 1e-4f);
+    visitor.wheel(60);  // as near as it gets
+    const glm::vec3 wall = visitor.under(visitor.middle());
+    CHECK(between(visitor.camera().eye(), wall) < .05f);
+
+    faceWall(visitor, 3);
+    visitor.camera().focus(.03f);  // it was close to something
+    visitor.look({3, 0});
+    const glm::vec3 from = visitor.camera().eye(), ahead = visitor.camera().ahead();
+    visitor.mouse = visitor.middle();
+    const float away = between(visitor.under(visitor.mouse), from);
+    visitor.wheel(1);
+    CHECK(between(visitor.camera().eye(), from) == doctest::Approx(.12f * away).epsilon(.01));
+    CHECK(visitor.camera().ahead() == ahead);
+    // Where nothing is, as far as the scene is large.
+    faceWall(visitor, 8);
+    visitor.camera().focus(.01f);
+    visitor.look({905, -100});
+    REQUIRE(!visitor.work.pick(visitor.middle()));
+    for (const glm::vec2 mouse : {visitor.middle(), glm::vec2(-FLT_MAX)}) {  // which may be outside the window
+        const glm::vec3 before = visitor.camera().eye();
+        visitor.mouse = mouse;
+        visitor.wheel(1);
+        const float moved = between(visitor.camera().eye(), before);
+        CHECK(moved > .01f * visitor.work.reach());
+        CHECK(moved < visitor.work.reach());
+    }
+}
+
+TEST_CASE(
+    "what is pressed upon stays under the mouse when the camera moves sideways, and in the middle when it turns") {
+    const Folder folder;
+    for (const float stale : {.02f, 40.f}) {
+        CAPTURE(stale);
+        Visitor visitor(folder);
+        visitor.camera().focus(stale);
+        visitor.look({2, 1});
+        const glm::vec3 eye = visitor.camera().eye(), ahead = visitor.camera().ahead();
+        const glm::vec2 at = visitor.at({-.8f, 1.3f, .36f});
+        const glm::vec3 held = visitor.under(at);
+        visitor.press(at, GLFW_MOD_SHIFT, kMiddle);
+        CHECK(visitor.camera().eye() == eye);
+        CHECK(visitor.camera().ahead() == ahead);
+        visitor.moveTo(at + glm::vec2(90, -40), 6, GLFW_MOD_SHIFT);
+        CHECK(glm::distance(visitor.at(held), visitor.mouse) < 1);
+        visitor.release(visitor.mouse, GLFW_MOD_SHIFT, kMiddle);
+
+        visitor.camera().focus(stale);
+        const glm::vec3 seen = visitor.under(visitor.middle());
+        const glm::vec3 before = visitor.camera().eye();
+        visitor.press(at, 0, kMiddle);
+        CHECK(visitor.camera().eye() == before);
+        visitor.moveTo(at + glm::vec2(60, 30), 6);
+        visitor.release(visitor.mouse, 0, kMiddle);
+        CHECK(glm::distance(visitor.at(seen), visitor.middle()) < 1);
+        CHECK(between(visitor.camera().eye(), seen) == doctest::Approx(between(before, seen)).epsilon(.001));
+    }
+}
+
+TEST_CASE("what was framed is turned about as a whole, until the user looks elsewhere") {
+    const Folder folder;
+    Visitor visitor(folder);
+    visitor.look({300, 80});
+    visitor.key(GLFW_KEY_HOME);
+    const EspCamera framed = visitor.camera().camera();
+    const glm::vec3 centre = sample::vec(framed.target);
+    visitor.press(visitor.middle(), 0, kMiddle);
+    visitor.moveTo(visitor.middle() + glm::vec2(200, 0), 6);
+    visitor.release(visitor.mouse, 0, kMiddle);
+    visitor.key(GLFW_KEY_KP_1);
+    visitor.key(GLFW_KEY_KP_4);
+    CHECK(glm::distance(visitor.at(centre), visitor.middle()) < 1);
+}
+
+TEST_CASE("while the right button looks around the wheel sets how fast one flies, and says so") {
+    const Folder folder;
+    Visitor visitor(folder);
+    const float usual = visitor.camera().hurry(0);
+    visitor.press(visitor.middle(), 0, kRight);
+    const glm::vec3 eye = visitor.camera().eye();
+    visitor.wheel(3);
+    CHECK(visitor.camera().eye() == eye);
+    CHECK(visitor.camera().hurry(0) > 1.5f * usual);
+    CHECK_MESSAGE(contains(visitor.work.message, "Flying at"), visitor.work.message);
+    visitor.wheel(-500);
+    CHECK(visitor.camera().hurry(0) > 0);
+    visitor.wheel(500);
+    const float most = visitor.camera().hurry(0);
+    visitor.camera().fly({0, 0, -1}, .5f, false);
+    CHECK(between(visitor.camera().eye(), eye) == doctest::Approx(most / 2));
+    visitor.release(visitor.mouse, 0, kRight);
+    visitor.wheel(1);
+    CHECK(visitor.camera().hurry(0) == most);
+}
+
+TEST_CASE("the numpad's . shows what the brush points at") {
+    const Folder folder;
+    Visitor visitor(folder, Tool::paint);
+    visitor.work.brush.radius = .1f;
+    const glm::vec2 at = visitor.at({-.8f, 1.4f, .36f});
+    visitor.move(at);
+    const glm::vec3 point = visitor.under(at);
+    visitor.key(GLFW_KEY_KP_DECIMAL);
+    CHECK(glm::distance(visitor.at(point), visitor.middle()) < 1);
+    CHECK(between(visitor.camera().eye(), point) < .3f * visitor.work.reach());
+}

@@ -1,0 +1,223 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "tests/editor/editing.hpp"
+
+// Of wallScene with its town.
+inline constexpr const char* kWallLayers[] = {"mask", "damp"};
+inline constexpr const char* kTownLayers[] = {"decay", "moss", "soot", "rise", "steep", "covering"};
+inline constexpr uint32_t kTown = 2;  // its grammar; the others are of plants
+
+namespace espalier::document {
+
+inline constexpr size_t kKinds = std::variant_size_v<Action>;
+
+// A designer who does anything, by chance. One function a kind of action: a kind that has none doesn't compile.
+class Designer {
+  public:
+    using Actions = std::vector<Action>;  // of one gesture; none: there is nothing to be done of the kind
+
+    Designer(Editing& editing, const Folder& folder, uint32_t seed)
+        : editing_(editing), document_(*editing.document), random_(seed), first_(document_.undoSteps()) {
+        const auto read = [&](const char* name) { return readAll(content("grammars/") + name); };
+        std::string free = read("ivy_free.grammar");
+        // As long as the guided one's plants, and alike where nothing is painted.
+        for (const auto& [from, to] : {std::pair{"mask = 0.5", "mask = 1"}, {"reach       = 3.5", "reach = 0.8"}}) {
+            REQUIRE(contains(free, from));
+            free.replace(free.find(from), std::string(from).size(), to);
+        }
+        plants_ = {document_.scene().grammars[0].text, free, kCreeper};
+        roofs_ = {document_.scene().grammars[kTown].text, read("roof_hip_slate.grammar")};
+        scene::GreyPicture picture{16, 16, std::vector<float>(256)};
+        for (float& texel : picture.texels) texel = chance(0, 1);
+        file_ = folder.file("import.exr");
+        REQUIRE_MESSAGE(writeGrey(file_, picture, editing.error), editing.error);
+    }
+    Actions any(size_t kind) { return any(kind, std::make_index_sequence<kKinds>()); }
+    uint32_t pick(size_t count) { return uint32_t(random_() % count); }
+    float chance(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
+
+  private:
+    template <size_t... I>
+    Actions any(size_t kind, std::index_sequence<I...>) {
+        Actions made;
+        ((kind == I ? void(made = make(std::variant_alternative_t<I, Action>())) : void()), ...);
+        return made;
+    }
+    const scene::Scene& scene() const { return document_.scene(); }
+    SeedRecord anySeed() { return document_.recordOf(scene().seeds[pick(scene().seeds.size())]); }
+
+    std::vector<Param> anyParams(uint32_t grammar, bool all) {
+        std::vector<Param> params;
+        const EspGrammar id = scene().grammars[grammar].id;
+        for (uint32_t i = 0; i < espParamCount(editing_.context.get(), id); ++i) {
+            EspParamInfo info;
+            REQUIRE(espParamInfo(editing_.context.get(), id, i, &info) == ESP_OK);
+            Param& param = params.emplace_back(Param{info.name, {}});
+            const float high = info.low < 1.2f ? std::min(info.high, 1.2f) : info.high;  // plants stay small
+            const bool whole = info.kind == ESP_PARAM_BOOL;
+            for (int axis = 0; axis < (info.kind == ESP_PARAM_COLOUR ? 3 : 1); ++axis)
+                param.value.push_back(whole ? float(pick(2)) : chance(info.low, high));
+        }
+        if (all || params.empty()) return params;
+        return {params[pick(params.size())]};
+    }
+    // One, dragged; or a preset.
+    Actions make(SetParam) {
+        const uint32_t grammar = pick(3);
+        Actions made;
+        const auto params = anyParams(grammar, pick(3) == 0);
+        for (const Param& param : params) made.push_back(SetParam{grammar, param});
+        if (params.size() == 1)
+            for (const Param& param : anyParams(grammar, true))
+                if (param.name == params[0].name) made.push_back(SetParam{grammar, param});
+        return made;
+    }
+    // Typed: sometimes through a mistake, sometimes into one.
+    Actions make(SetText) {
+        const uint32_t grammar = pick(3);
+        const auto& texts = grammar == kTown ? roofs_ : plants_;
+        const std::string text = (pick(3) ? "" : "context lichen = 0\n") + texts[pick(texts.size())];
+        const auto set = [&](const char* more) {
+            SetText action = document_.withText(grammar, text + more);
+            for (const Param& param : anyParams(grammar, false)) action.params.push_back(param);
+            return action;
+        };
+        switch (pick(4)) {
+            case 0:
+                return {set("Unfinished -> Marching(\n")};
+            case 1:
+                return {set("Unfinished -> \n"), set("")};
+            default:
+                return {set("")};
+        }
+    }
+    Actions make(AddSeeds) {
+        if (scene().seeds.size() > 4) return make(RemoveSeeds());
+        AddSeeds add;
+        for (uint32_t i = 0, count = 1 + pick(2); i < count; ++i) {
+            const uint32_t grammar = pick(2);
+            add.seeds.push_back({document_.freshKey(), grammar, {chance(-2, 2), chance(0, 1), 0}, {0, 1, 0}, pick(3)});
+            if (pick(3) == 0) add.seeds.back().params = anyParams(grammar, false);
+            add.places.push_back(pick(scene().seeds.size() + 1));
+        }
+        std::ranges::sort(add.places);
+        return {add};
+    }
+    Actions make(RemoveSeeds) {
+        if (scene().seeds.empty()) return make(AddSeeds());
+        RemoveSeeds remove{{anySeed().key}};
+        if (pick(4) == 0)
+            for (const auto& seed : scene().seeds)
+                if (seed.key != remove.keys[0]) remove.keys.push_back(seed.key);
+        return {remove};
+    }
+    Actions make(ChangeSeeds) {
+        if (scene().seeds.empty()) return {};
+        SeedRecord seed = anySeed();
+        Actions made;
+        const uint32_t what = pick(5);
+        for (int drag = 0; drag < 3; ++drag) {
+            if (what == 0) seed.position[0] = chance(-2, 2);
+            if (what == 1) seed.direction = {chance(-1, 1), chance(0, 1), 0};
+            if (what == 2) seed.number = pick(3);
+            if (what == 3) seed.params = anyParams(seed.grammar, pick(2) == 0);
+            if (what == 4) seed.grammar = pick(2);  // what is set of the other's parameters waits
+            made.push_back(ChangeSeeds{{seed}});
+        }
+        return made;
+    }
+    Actions make(FreezeSeeds) {
+        if (scene().seeds.empty()) return {};
+        editing_.hash();  // only what has grown can be frozen
+        const SeedRecord seed = anySeed();
+        FreezeSeeds freeze{{seed.key}, !seed.frozen};
+        if (pick(4) == 0) freeze.keys.push_back(seed.key);
+        return {freeze};
+    }
+    // A branch that a ray meets; or one that was cut comes back.
+    Actions make(PruneBranch) {
+        uint64_t branch = 0;
+        char key[20];
+        const bool back = pick(3) == 0 && espPrunedCount(editing_.context.get()) > 0;
+        if (back) REQUIRE(espPrunedAt(editing_.context.get(), 0, &branch) == ESP_OK);
+        editing_.hash();
+        for (int i = 0; i < 300 && !branch; ++i) {
+            const float eye[3] = {chance(-2, 2), chance(0, 1.5f), 1}, ahead[3] = {0, 0, -1};
+            EspPlantHit hit;
+            if (espPickPlant(editing_.context.get(), eye, ahead, &hit) == ESP_OK) branch = hit.branch;
+        }
+        std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(branch));
+        return branch ? Actions{PruneBranch{key, !back}} : Actions{};
+    }
+    Actions make(SetLight) {
+        Actions drag;
+        for (int i = 0; i < 2; ++i) drag.push_back(SetLight{pick(3) ? chance(0, 24) : -1, chance(-1, 1), pick(2) == 0});
+        return drag;
+    }
+    Actions make(SetWalk) { return {SetWalk{pick(2) ? "paper" : "intrinsic"}}; }
+    Actions make(StrokeBegin) {
+        const bool town = pick(2);
+        StrokeBegin stroke;
+        stroke.layer = anyLayer(town);
+        stroke.mode = std::array{"paint", "erase", "smooth"}[pick(3)];
+        stroke.radius = town ? chance(2, 6) : chance(.1f, .7f);
+        stroke.value = chance(0, 1);
+        stroke.frontOnly = pick(2);
+        EspHouseInfo house;
+        REQUIRE(espHouseInfo(editing_.context.get(), pick(2), &house) == ESP_OK);
+        Actions made{stroke};
+        for (int i = 0; i < 3; ++i) {
+            std::array<float, 7> dab{chance(-2, 2), chance(0, 2.5f), 0, 0, 0, 1, chance(.3f, 1)};
+            if (town)
+                for (int axis : {0, 2}) dab[size_t(axis)] = chance(house.boundsMin[axis], house.boundsMax[axis]);
+            made.push_back(StrokeDabs{{dab}});
+        }
+        made.push_back(StrokeEnd{});
+        return made;
+    }
+    Actions make(FillLayer) { return {FillLayer{anyLayer(pick(2)), chance(0, 1)}}; }
+    Actions make(LoadLayer) { return {LoadLayer{anyLayer(false), file_, 0}}; }
+    Actions make(LoadTownLayer) { return {LoadTownLayer{anyLayer(true), file_}}; }
+    // A corner that is dragged, with another roof over it.
+    Actions make(SetHouse) {
+        scene::House house = scene::houseNow(editing_.context.get(), pick(2));
+        house.shape = scene::nameOf(EspRoofShape(pick(ESP_ROOF_FLAT + 1)));
+        house.slope = chance(.5f, 1);
+        house.eaveHeight = chance(3, 6);
+        const uint32_t edge = pick(house.corners.size());
+        house.edges = {{edge, pick(2) ? "gable" : "eave", pick(2) ? chance(.5f, 1) : 0}};
+        Actions drag;
+        for (int i = 0; i < 2; ++i) {
+            for (float& axis : house.corners[edge]) axis += chance(-.4f, .4f);
+            drag.push_back(SetHouse{house});
+        }
+        return drag;
+    }
+    Actions make(ResetHouse) { return {ResetHouse{pick(2)}}; }
+    Actions make(SetCamera) { return {SetCamera{{chance(1, 2), 1, 5}, {0, 1, 0}, .7f}}; }
+    Actions make(SetView) { return {SetView{pick(2) ? "lod" : "shaded", ""}}; }
+    Actions make(Undo) { return document_.undoSteps() > first_ ? Actions{Undo{}} : Actions{}; }
+    Actions make(Redo) { return document_.redoName() ? Actions{Redo{}} : Actions{}; }
+    // These belong to others.
+    Actions make(StrokeDabs) { return {}; }
+    Actions make(StrokeEnd) { return {}; }
+    Actions make(SwapStroke) { return {}; }
+    Actions make(RestoreFrozen) { return {}; }
+
+    std::string anyLayer(bool town) {
+        return town ? kTownLayers[pick(std::size(kTownLayers))] : kWallLayers[pick(std::size(kWallLayers))];
+    }
+
+    Editing& editing_;
+    Document& document_;
+    std::mt19937 random_;
+    size_t first_;  // what was done before stays
+    std::vector<std::string> plants_, roofs_;
+    std::string file_;
+};
+
+}  // namespace espalier::document

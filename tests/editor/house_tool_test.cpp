@@ -1,0 +1,237 @@
+// Houses in a user's hands, seen from above: what is chosen, what a drag of a corner makes of the outline and of the
+// roof while the button is still down, and what takes it back.
+#include <algorithm>
+
+#include "tests/editor/window.hpp"
+
+using namespace espalier::document;
+using espalier::scene::House;
+using sample::Tool;
+
+namespace {
+
+struct Builder : Editor {
+    explicit Builder(const Folder& folder) : Editor(folder, content("town.json"), Tool::houses) {
+        work.frameAll();
+        work.camera.turnTo(0, -1.5f);
+    }
+    EspHouseInfo info(uint32_t house) const {
+        EspHouseInfo found;
+        REQUIRE(espHouseInfo(work.context.get(), house, &found) == ESP_OK);
+        return found;
+    }
+    uint32_t named(const std::string& id) const {
+        for (uint32_t i = 0; i < espHouseCount(work.context.get()); ++i)
+            if (info(i).id == id) return i;
+        FAIL("no house is called ", id);
+        return 0;
+    }
+    House house(uint32_t index) const { return espalier::scene::houseNow(work.context.get(), index); }
+    // The middle of a house's box: that of its roof, if nothing of the box is left out.
+    glm::vec2 middle(uint32_t index) const {
+        const EspHouseInfo of = info(index);
+        return at((sample::vec(of.boundsMin) + sample::vec(of.boundsMax)) * .5f);
+    }
+    // Where a place of the plan is seen at the height of the house's eaves, at which it is taken hold of.
+    glm::vec2 eave(uint32_t index, glm::vec2 plan) const { return at({plan.x, info(index).eaveHeight, plan.y}); }
+    glm::vec2 corner(uint32_t index, size_t i) const {
+        const auto c = house(index).corners[i];
+        return eave(index, {c[0], c[1]});
+    }
+    glm::vec2 edge(uint32_t index, size_t i) const {
+        return (corner(index, i) + corner(index, (i + 1) % house(index).corners.size())) / 2.f;
+    }
+    void choose(uint32_t index) {
+        click(middle(index));
+        REQUIRE(work.house == index);
+    }
+    // The whole town's roofs as they are drawn now.
+    EspRoofStats roofs() {
+        REQUIRE_MESSAGE(espUpdate(work.context.get()) == ESP_OK, espLastError(work.context.get()));
+        REQUIRE_MESSAGE(work.readStats(), work.error);
+        return work.roofs;
+    }
+    size_t steps() const { return work.document->undoSteps(); }
+};
+
+}  // namespace
+
+TEST_CASE("a click chooses the house under it, another click an edge of its outline, one beside them none") {
+    const Folder folder;
+    Builder builder(folder);
+    for (const char* id : {"mansard", "gambrel", "half-hip", "pyramid", "shed", "one-gable", "two-slopes", "oblique"}) {
+        CAPTURE(id);
+        const uint32_t index = builder.named(id);
+        builder.click(builder.middle(index));
+        CHECK(builder.work.house == index);
+        CHECK(!builder.work.houseEdge);
+    }
+    const uint32_t index = builder.named("gambrel");
+    builder.choose(index);
+    for (uint32_t i = 0; i < 4; ++i) {
+        builder.click(builder.edge(index, i));
+        CHECK(builder.work.house == index);
+        CHECK(builder.work.houseEdge == i);
+    }
+    builder.click(builder.at({100, 0, -20}));
+    CHECK(!builder.work.house);
+    CHECK(builder.done.empty());
+}
+
+TEST_CASE("a drag of a corner moves it alone, and the roof follows before the button is let go") {
+    const Folder folder;
+    Builder builder(folder);
+    const uint32_t index = builder.named("mansard");
+    builder.choose(index);
+    const House before = builder.house(index);
+    const EspRoofStats planned = builder.roofs();
+    const size_t moved = 1;
+    const glm::vec2 from = builder.corner(index, moved), to = from + glm::vec2(25, 18);
+    builder.press(from);
+    CHECK(builder.work.houseEdge == uint32_t(moved));
+    CHECK(builder.roofs().hash == planned.hash);
+    uint64_t last = planned.hash;
+    for (int i = 1; i <= 4; ++i) {
+        builder.move(glm::mix(from, to, float(i) / 4));
+        const EspRoofStats now = builder.roofs();
+        CHECK(now.hash != last);
+        CHECK(now.housesGrown == planned.housesGrown + uint64_t(i));  // the others stand as they did
+        last = now.hash;
+    }
+    CHECK(builder.roofs().tiles != planned.tiles);
+    builder.release(to);
+    CHECK(builder.roofs().hash == last);
+
+    const House after = builder.house(index);
+    REQUIRE(after.corners.size() == before.corners.size());
+    CHECK(glm::distance(builder.corner(index, moved), to) < .5f);
+    for (size_t i = 0; i < before.corners.size(); ++i)
+        if (i != moved) CHECK(after.corners[i] == before.corners[i]);
+    CHECK(after.shape == before.shape);
+    CHECK(after.slope == before.slope);
+
+    builder.moveTo(from, 3);  // the button is up
+    CHECK(builder.house(index) == after);
+    CHECK(builder.steps() == 1);
+    builder.undo();
+    CHECK(builder.house(index) == before);
+    CHECK(builder.roofs().hash == planned.hash);
+    builder.key(GLFW_KEY_Y, GLFW_MOD_CONTROL);
+    CHECK(builder.roofs().hash == last);
+}
+
+TEST_CASE("Esc in a drag gives the house back as it stood, and what the button still does changes nothing") {
+    const Folder folder;
+    Builder builder(folder);
+    const uint32_t index = builder.named("gambrel");
+    builder.choose(index);
+    const House before = builder.house(index);
+    const uint64_t planned = builder.roofs().hash;
+    const glm::vec2 from = builder.corner(index, 2), to = from + glm::vec2(20, -10);
+    builder.press(from);
+    builder.moveTo(to, 4);
+    CHECK(builder.roofs().hash != planned);
+    builder.key(GLFW_KEY_ESCAPE);
+    CHECK(builder.house(index) == before);
+    builder.moveTo(to + glm::vec2(20, 0), 4);
+    builder.release(builder.mouse);
+    CHECK(builder.house(index) == before);
+    CHECK(builder.roofs().hash == planned);
+    CHECK(builder.steps() == 0);
+    CHECK(builder.work.tool == Tool::houses);
+    CHECK(builder.work.house == index);
+    // A click on a corner, taken back before it moved, leaves the step before it alone.
+    builder.drag(from, to);
+    const uint64_t changed = builder.roofs().hash;
+    builder.press(builder.corner(index, 2));
+    builder.key(GLFW_KEY_ESCAPE);
+    builder.release(builder.mouse);
+    CHECK(builder.roofs().hash == changed);
+    CHECK(builder.steps() == 1);
+}
+
+TEST_CASE("Ctrl and a drag of an edge make a corner there as one step, and edges behind it keep what is their own") {
+    const Folder folder;
+    Builder builder(folder);
+    const uint32_t index = builder.named("one-gable");
+    builder.choose(index);
+    const House before = builder.house(index);
+    REQUIRE(before.edges.size() == 1);
+    const uint64_t planned = builder.roofs().hash;
+    const auto gable = [&] {
+        const House now = builder.house(index);
+        REQUIRE(now.edges.size() == 1);
+        CHECK(now.edges[0].end == "gable");
+        return builder.edge(index, now.edges[0].edge);
+    };
+    const glm::vec2 stands = gable();
+    const size_t edge = (before.edges[0].edge + 3) % 4;  // the one before it
+    const glm::vec2 from = builder.edge(index, edge);
+    const glm::vec2 outward = glm::normalize(from - builder.middle(index));
+    builder.drag(from, from + 20.f * outward, GLFW_MOD_CONTROL);
+    const House after = builder.house(index);
+    REQUIRE(after.corners.size() == 5);
+    for (const auto& corner : before.corners) CHECK(std::ranges::count(after.corners, corner) == 1);
+    const auto made = std::ranges::find_if(
+        after.corners, [&](const auto& corner) { return std::ranges::count(before.corners, corner) == 0; });
+    CHECK(glm::distance(builder.corner(index, size_t(made - after.corners.begin())), from + 20.f * outward) < .5f);
+    CHECK(builder.work.houseEdge == uint32_t(made - after.corners.begin()));
+    CHECK(glm::distance(gable(), stands) < .5f);
+    CHECK(builder.steps() == 1);
+    CHECK(builder.roofs().hash != planned);
+
+    builder.key(GLFW_KEY_DELETE);  // it is still the one in hand
+    CHECK(builder.house(index).corners.size() == 4);
+    CHECK(glm::distance(gable(), stands) < .5f);
+    CHECK(builder.roofs().hash == planned);
+    builder.undo();
+    builder.undo();
+    CHECK(builder.house(index) == before);
+    CHECK(builder.roofs().hash == planned);
+}
+
+TEST_CASE("Del takes away the corner where the chosen edge begins, down to three, and undo gives it back") {
+    const Folder folder;
+    Builder builder(folder);
+    const uint32_t index = builder.named("shed");
+    builder.choose(index);
+    const House before = builder.house(index);
+    const uint64_t planned = builder.roofs().hash;
+    builder.key(GLFW_KEY_DELETE);  // none is chosen
+    CHECK(builder.house(index) == before);
+    builder.click(builder.edge(index, 1));
+    builder.key(GLFW_KEY_DELETE);
+    const House after = builder.house(index);
+    CHECK(after.corners.size() == 3);
+    CHECK(std::ranges::count(after.corners, before.corners[1]) == 0);
+    CHECK(builder.roofs().hash != planned);
+    builder.click(builder.edge(index, 0));
+    builder.key(GLFW_KEY_X);
+    CHECK(builder.house(index) == after);
+    CHECK_MESSAGE(contains(builder.work.message, "three corners"), builder.work.message);
+    CHECK(builder.steps() == 1);
+    builder.undo();
+    CHECK(builder.house(index) == before);
+    CHECK(builder.roofs().hash == planned);
+}
+
+TEST_CASE("a corner that is let go over its neighbour becomes one with it, and one dragged into the sky stays") {
+    const Folder folder;
+    Builder builder(folder);
+    const uint32_t index = builder.named("half-hip");
+    builder.choose(index);
+    const House before = builder.house(index);
+    builder.drag(builder.corner(index, 0), builder.corner(index, 1) + glm::vec2(3, -3));
+    const House merged = builder.house(index);
+    CHECK(merged.corners.size() == 3);
+    for (const auto& corner : merged.corners) CHECK(std::ranges::count(before.corners, corner) == 1);
+    builder.undo();
+    CHECK(builder.house(index) == before);
+
+    builder.work.frameAll();
+    builder.press(builder.corner(index, 0));
+    builder.move({builder.mouse.x, 2});  // above the horizon
+    CHECK(builder.house(index) == before);
+    builder.release(builder.mouse);
+    CHECK(builder.done.back().index() == Action(Undo{}).index());
+}

@@ -1,0 +1,169 @@
+// Projects whose town or grammars have become others since they were saved.
+#include "sample_game/grammar_files.hpp"
+#include "sample_game/settings.hpp"
+#include "tests/editor/editing.hpp"
+#include "tools/document/project.hpp"
+#include "tools/scene/text_file.hpp"
+
+using namespace espalier::document;
+using espalier::scene::House;
+
+namespace {
+
+const char* const kA = R"({"id": "a", "outer": [[0,0],[12,0],[12,8],[0,8]]})";
+const char* const kB = R"({"id": "b", "outer": [[18,0],[27,0],[27,4],[22,4],[22,9],[18,9]]})";
+const char* const kNew = R"({"id": "new", "outer": [[-20,0],[-12,0],[-12,6],[-20,6]]})";
+
+std::string plan(const std::string& houses) {
+    return "{\"buildings\": [" + houses + "]}";
+}
+
+// The house "b" has another roof and outline.
+House changed(Editing& editing) {
+    House house = espalier::scene::houseNow(editing.context.get(), 1);
+    house.shape = "gable";
+    house.corners[0][0] -= 1;
+    REQUIRE_MESSAGE(editing.perform(SetHouse{house}), editing.error);
+    return house;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("a project finds a house by its id, wherever the plan has it, and tells of one that is gone") {
+    const Folder folder;
+    const std::string scene = wallScene(folder, true), project = folder.file("project");
+    House house;
+    {
+        Editing editing(scene);
+        house = changed(editing);
+        REQUIRE_MESSAGE(saveProject(*editing.document, project, editing.error), editing.error);
+    }
+    const auto shapeOf = [](Editing& opened, uint32_t index) {
+        return espalier::scene::houseNow(opened.context.get(), index).shape;
+    };
+    folder.write("houses.json", plan(std::string(kNew) + "," + kA + "," + kB));
+    {
+        Editing opened(project);
+        CHECK(opened.document->scene().notes.empty());
+        REQUIRE(opened.document->scene().town->houses.size() == 1);
+        CHECK(opened.document->scene().town->houses[0].index == 2);
+        CHECK(opened.document->scene().town->houses[0].corners == house.corners);
+        CHECK(shapeOf(opened, 1) == "hip");
+        CHECK(shapeOf(opened, 2) == "gable");
+        REQUIRE(saveProject(*opened.document, folder.file("again"), opened.error));
+    }
+    folder.write("houses.json", plan(std::string(kB) + "," + kNew));
+    CHECK(Editing(folder.file("again")).document->scene().town->houses[0].index == 0);
+    folder.write("houses.json", plan(kA));
+    {
+        Editing opened(project);
+        REQUIRE(opened.document->scene().notes.size() == 1);
+        CHECK_MESSAGE(contains(opened.document->scene().notes[0], "'b'"), opened.document->scene().notes[0]);
+        CHECK(opened.document->scene().town->houses.empty());
+        CHECK(shapeOf(opened, 0) == "hip");
+    }
+    // One that an older program has saved: by its place.
+    folder.write("houses.json", plan(std::string(kA) + "," + kB));
+    folder.write("project/project.json", replaced(readAll(project + "/project.json"), "\"id\": \"b\",", ""));
+    Editing old(project);
+    CHECK(shapeOf(old, 1) == "gable");
+    folder.write("houses.json", plan(kA));
+    Editing lost(project);
+    REQUIRE(lost.document->scene().notes.size() == 1);
+    CHECK_MESSAGE(contains(lost.document->scene().notes[0], "house 1"), lost.document->scene().notes[0]);
+}
+
+TEST_CASE("a project whose grammar has lost a parameter opens and tells of it; a scene is refused") {
+    const Folder folder;
+    const std::string scene = smallScene(folder), project = folder.file("project");
+    uint64_t before = 0;
+    {
+        Editing editing(scene);
+        before = editing.hash();
+        REQUIRE(saveProject(*editing.document, project, editing.error));
+    }
+    const std::string json = project + "/project.json";
+    folder.write("project/project.json", replaced(readAll(json), "\"params\": {", "\"params\": {\"lost\": 3,"));
+    Editing opened(project);
+    REQUIRE(opened.document->scene().notes.size() == 1);
+    CHECK_MESSAGE(contains(opened.document->scene().notes[0], "'lost'"), opened.document->scene().notes[0]);
+    CHECK(opened.hash() == before);
+
+    folder.write("lost.json", replaced(readAll(scene), "\"params\": {", "\"params\": {\"lost\": 3,"));
+    EspContext* context = nullptr;
+    const EspContextDef def = espDefaultContextDef();
+    REQUIRE(espCreate(&def, &context) == ESP_OK);
+    {
+        Document refused(context);
+        std::string error;
+        espalier::scene::Request request;
+        request.file = folder.file("lost.json");
+        CHECK(!refused.open(request, error));
+        CHECK_MESSAGE(contains(error, "lost.json:"), error);
+    }
+    espDestroy(context);
+}
+
+TEST_CASE("a project whose text has lost what it includes opens with its mistake, and grows when that is there again") {
+    const Folder folder;
+    const std::string scene = wallScene(folder, false), project = folder.file("project");
+    folder.write("creeper.grammar", std::string("include \"bend.grammar\"\n") + kCreeper);
+    folder.write("bend.grammar", "param spare = 1 [0 .. 2] \"m\" \"Spare\"\n");
+    uint64_t before = 0;
+    {
+        Editing editing(scene);
+        before = editing.hash();
+        REQUIRE(saveProject(*editing.document, project, editing.error));
+    }
+    std::filesystem::remove(folder.path / "bend.grammar");
+    {
+        Editing opened(project);
+        const auto& grammar = opened.document->scene().grammars[1];
+        CHECK(grammar.error != "");
+        CHECK(contains(grammar.text, "include \"bend.grammar\""));
+        REQUIRE(!opened.document->scene().notes.empty());
+        CHECK(opened.hash() != before);
+        REQUIRE_MESSAGE(opened.perform(opened.document->withText(1, kCreeper)), opened.error);
+        CHECK(opened.document->scene().grammars[1].error == "");
+        CHECK(opened.hash() == before);
+    }
+    folder.write("bend.grammar", "param spare = 1 [0 .. 2] \"m\" \"Spare\"\n");
+    CHECK(Editing(project).hash() == before);
+}
+
+TEST_CASE("a text that is typed here is written into its file, behind a link too, and is no news then") {
+    const Folder folder;
+    const std::string scene = wallScene(folder, false);
+    std::filesystem::rename(folder.path / "creeper.grammar", folder.path / "real.grammar");
+    std::filesystem::create_symlink("real.grammar", folder.path / "creeper.grammar");
+    Editing editing(scene);
+    sample::GrammarFiles files;
+    files.begin(editing.document->scene());
+    sample::FileText text;
+    const std::string file = folder.file("creeper.grammar");
+    REQUIRE(text.of(file));
+    CHECK(sample::sameText(*text.of(file), editing.document->scene().grammars[1].text));
+    REQUIRE(editing.perform(editing.document->withText(1, std::string(kCreeper) + "// mine\n")));
+    CHECK(!sample::sameText(*text.of(file), editing.document->scene().grammars[1].text));
+    REQUIRE(sample::writeGrammar(file, editing.document->scene().grammars[1].text, editing.error));
+    CHECK(sample::sameText(*text.of(file), editing.document->scene().grammars[1].text));
+    CHECK(std::filesystem::is_symlink(file));
+    CHECK(contains(readAll(folder.path / "real.grammar"), "// mine"));
+    CHECK(files.look(editing.document->scene()).empty());
+    std::filesystem::remove(file);
+    CHECK(!text.of(file));
+    CHECK(!sample::sameText("a\nb", "a\nc"));
+    CHECK(sample::sameText("a\nb\n\n", "a\nb"));
+    CHECK(!sample::sameText("a", "ab"));
+}
+
+TEST_CASE("grammars of one file share their presets") {
+    CHECK(sample::presetsOf("a/ivy.grammar") == "ivy");
+    CHECK(sample::presetsOf("b/ivy.grammar") == sample::presetsOf("ivy.grammar"));
+}

@@ -1,0 +1,324 @@
+// Seeds in a user's hands: planted, chosen, moved and turned on the wall of the small scene, and each of these taken
+// back by one step of undo.
+#include <algorithm>
+
+#include "tests/editor/window.hpp"
+
+using namespace espalier::document;
+using sample::array;
+using sample::Tool;
+using sample::vec;
+
+namespace {
+
+using Keys = std::set<uint32_t>;
+
+struct Gardener : Editor {
+    explicit Gardener(const Folder& folder) : Editor(folder, smallScene(folder), Tool::seeds) { faceWall(*this, 1.4f); }
+    glm::vec2 onWall(float x, float y) const { return at({x, y, .36f}); }
+    std::vector<SeedRecord> seeds() const {
+        std::vector<SeedRecord> records;
+        for (const auto& seed : work.scene().seeds) records.push_back(work.document->recordOf(seed));
+        return records;
+    }
+    SeedRecord seed(uint32_t key) const {
+        const auto* found = work.document->seed(key);
+        REQUIRE(found);
+        return work.document->recordOf(*found);
+    }
+    // The key of one that is planted by a click.
+    uint32_t plant(glm::vec2 place) {
+        click(place);
+        REQUIRE(work.selected.size() == 1);
+        return *work.selected.begin();
+    }
+    glm::vec2 marker(uint32_t key) const { return at(vec(seed(key).position)); }
+    size_t steps() const { return work.document->undoSteps(); }
+};
+
+float angle(glm::vec3 a, glm::vec3 b) {
+    return std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.f, 1.f));
+}
+
+}  // namespace
+
+TEST_CASE("a click plants one seed where the mouse points, which grows upward and is the one that is chosen") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const std::vector<SeedRecord> before = gardener.seeds();
+    for (const glm::vec2 place : {gardener.onWall(-1.1f, 1), gardener.onWall(-.8f, 1.4f)}) {
+        gardener.click(place);
+        const SeedRecord planted = gardener.seeds().back();
+        CHECK(planted.position == array(gardener.under(place)));
+        CHECK(planted.direction == std::array<float, 3>{0, 1, 0});
+        CHECK(planted.grammar == gardener.work.plantGrammar);
+        CHECK(gardener.work.selected == Keys{planted.key});
+    }
+    REQUIRE(gardener.seeds().size() == before.size() + 2);
+    CHECK(gardener.steps() == 2);
+    const std::vector<SeedRecord> after = gardener.seeds();
+    gardener.undo();
+    gardener.undo();
+    CHECK(gardener.seeds() == before);
+    gardener.key(GLFW_KEY_Y, GLFW_MOD_CONTROL);
+    gardener.key(GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+    CHECK(gardener.seeds() == after);
+
+    faceWall(gardener, 8);
+    const glm::vec2 sky = gardener.at({-.95f, 3.8f, .3f});
+    REQUIRE(!gardener.work.pick(sky));
+    gardener.click(sky);
+    CHECK(gardener.seeds() == after);
+    CHECK(gardener.work.selected.empty());
+}
+
+TEST_CASE("a drag plants a seed that grows the way it went, and Esc before its end plants none") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const std::vector<SeedRecord> before = gardener.seeds();
+    const glm::vec2 from = gardener.onWall(-1.1f, 1), to = gardener.onWall(-.8f, 1.1f);
+    gardener.press(from);
+    gardener.moveTo(to, 6);
+    CHECK(gardener.seeds() == before);
+    gardener.key(GLFW_KEY_ESCAPE);
+    gardener.release(to);
+    CHECK(gardener.seeds() == before);
+    CHECK(gardener.steps() == 0);
+
+    gardener.drag(from, to, 0, 6);
+    REQUIRE(gardener.seeds().size() == before.size() + 1);
+    const SeedRecord planted = gardener.seeds().back();
+    CHECK(planted.position == array(gardener.under(from)));
+    CHECK(angle(vec(planted.direction), gardener.under(to) - gardener.under(from)) < .001f);
+    CHECK(glm::length(vec(planted.direction)) == doctest::Approx(1));
+    CHECK(gardener.steps() == 1);
+}
+
+TEST_CASE("Ctrl and a drag plant a row at even distances, as one step, however the way comes in moves") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const std::vector<SeedRecord> before = gardener.seeds();
+    const glm::vec2 from = gardener.onWall(-1.25f, 1), to = gardener.onWall(-.65f, 1.05f);
+    const float pixel = glm::distance(gardener.under(from), gardener.under(from + glm::vec2(10, 0))) / 10;
+    for (const float step : {.06f, .13f})
+        for (const int events : {1, 10, 300}) {
+            CAPTURE(step);
+            CAPTURE(events);
+            gardener.work.layout.rowStep = step;
+            gardener.drag(from, to, GLFW_MOD_CONTROL, events);
+            const std::vector<SeedRecord> after = gardener.seeds();
+            const size_t first = before.size();
+            REQUIRE(after.size() > first);
+            CHECK(after[first].position == array(gardener.under(from)));
+            for (size_t i = first + 1; i < after.size(); ++i) {
+                const float apart = glm::distance(vec(after[i].position), vec(after[i - 1].position));
+                CHECK(apart >= step);
+                CHECK(apart < step + 5 * pixel + .02f);  // between two looks, and joints between stones
+                CHECK(after[i].direction == std::array<float, 3>{0, 1, 0});
+            }
+            CHECK(float(after.size() - first) > .6f * .6f / step);
+            CHECK(gardener.work.selected.size() == after.size() - first);
+            CHECK(gardener.steps() == 1);
+            gardener.undo();
+            CHECK(gardener.seeds() == before);
+        }
+}
+
+TEST_CASE("seeds of a row look along it if that is wanted, the first too") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const size_t first = gardener.seeds().size();
+    gardener.work.layout.rowAlong = true;
+    gardener.work.layout.rowStep = .1f;
+    const glm::vec2 from = gardener.onWall(-1.25f, 1), to = gardener.onWall(-.65f, 1.1f);
+    gardener.drag(from, to, GLFW_MOD_CONTROL, 20);
+    const std::vector<SeedRecord> after = gardener.seeds();
+    REQUIRE(after.size() > first + 3);
+    for (size_t i = first; i < after.size(); ++i) {
+        const size_t a = std::max(i, first + 1) - 1;
+        CHECK(angle(vec(after[i].direction), vec(after[a + 1].position) - vec(after[a].position)) < .001f);
+    }
+    CHECK(gardener.steps() == 1);
+    gardener.press(from + glm::vec2(0, 60), GLFW_MOD_CONTROL);
+    gardener.moveTo(to + glm::vec2(0, 60), 20, GLFW_MOD_CONTROL);
+    CHECK(gardener.seeds().size() > after.size() + 3);
+    gardener.key(GLFW_KEY_ESCAPE);  // the whole row goes
+    gardener.release(gardener.mouse);
+    CHECK(gardener.seeds() == after);
+}
+
+TEST_CASE("a click chooses a seed, Shift one more or one less, Shift and a drag those within, A all or none") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t a = gardener.plant(gardener.onWall(-1.2f, 1)), b = gardener.plant(gardener.onWall(-1, 1)),
+                   c = gardener.plant(gardener.onWall(-.8f, 1.4f));
+    const std::vector<SeedRecord> before = gardener.seeds();
+    const Keys& chosen = gardener.work.selected;
+    const size_t steps = gardener.steps();
+    gardener.click(gardener.marker(a) + glm::vec2(6, -6));  // beside it, within its reach
+    CHECK(chosen == Keys{a});
+    gardener.click(gardener.marker(b), GLFW_MOD_SHIFT);
+    CHECK(chosen == Keys{a, b});
+    gardener.click(gardener.marker(c), GLFW_MOD_SHIFT);
+    gardener.click(gardener.marker(a), GLFW_MOD_SHIFT);
+    CHECK(chosen == Keys{b, c});
+    gardener.click(gardener.marker(b));
+    CHECK(chosen == Keys{b});
+
+    gardener.drag(gardener.marker(a) - glm::vec2(40, 40), gardener.marker(b) + glm::vec2(20, 40), GLFW_MOD_SHIFT);
+    CHECK(chosen == Keys{a, b});
+    gardener.drag(gardener.marker(c) + glm::vec2(30, 30), gardener.marker(c) - glm::vec2(30, 30), GLFW_MOD_SHIFT);
+    CHECK(chosen == Keys{a, b, c});  // besides what is chosen, whichever way it is drawn
+    gardener.key(GLFW_KEY_A);
+    CHECK(chosen.size() == before.size());
+    gardener.key(GLFW_KEY_A);
+    CHECK(chosen.empty());
+    CHECK(gardener.seeds() == before);
+    CHECK(gardener.steps() == steps);
+}
+
+TEST_CASE("a drag moves what is chosen as one step, a single seed onto the surface under the mouse") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t a = gardener.plant(gardener.onWall(-1.2f, .9f)), b = gardener.plant(gardener.onWall(-1, .9f));
+    const std::vector<SeedRecord> before = gardener.seeds();
+    const size_t steps = gardener.steps();
+    const glm::vec2 to = gardener.onWall(-.8f, 1.3f);
+    gardener.drag(gardener.marker(b), to, 0, 9);
+    CHECK(gardener.seed(b).position == array(gardener.under(to)));
+    CHECK(gardener.seed(b).direction == before.back().direction);
+    CHECK(gardener.steps() == steps + 1);
+    gardener.undo();
+    CHECK(gardener.seeds() == before);
+    CHECK(gardener.steps() == steps);
+
+    gardener.click(gardener.marker(a));
+    gardener.click(gardener.marker(b), GLFW_MOD_SHIFT);
+    const glm::vec2 from = gardener.marker(b);
+    const glm::vec3 by = gardener.under(to) - gardener.under(from);
+    gardener.press(from);
+    gardener.moveTo(to, 9);
+    for (const uint32_t key : {a, b}) {
+        const SeedRecord was = *std::ranges::find(before, key, &SeedRecord::key);
+        CHECK(glm::distance(vec(gardener.seed(key).position), vec(was.position) + by) < .001f);
+    }
+    gardener.release(to);
+    CHECK(gardener.work.selected == Keys{a, b});
+    CHECK(gardener.steps() == steps + 1);
+    gardener.undo();
+    CHECK(gardener.seeds() == before);
+
+    // A hand that trembles in a click moves nothing.
+    gardener.drag(gardener.marker(a), gardener.marker(a) + glm::vec2(2, 2));
+    CHECK(gardener.seeds() == before);
+    CHECK(gardener.work.selected == Keys{a});
+    gardener.press(gardener.marker(a));
+    gardener.moveTo(to, 5);
+    gardener.key(GLFW_KEY_ESCAPE);
+    gardener.moveTo(from, 5);
+    gardener.release(from);
+    CHECK(gardener.seeds() == before);
+    CHECK(gardener.steps() == steps);
+}
+
+TEST_CASE("the arrow of a chosen seed, dragged, and R turn what is chosen to where the mouse points") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t a = gardener.plant(gardener.onWall(-1.2f, .8f)), b = gardener.plant(gardener.onWall(-1, .8f));
+    const std::vector<SeedRecord> before = gardener.seeds();
+    const size_t steps = gardener.steps();
+    const glm::vec2 to = gardener.onWall(-.7f, 1.2f);
+    const auto turned = [&](uint32_t key) {
+        return angle(vec(gardener.seed(key).direction), gardener.under(to) - vec(gardener.seed(key).position)) < .001f;
+    };
+    gardener.drag(gardener.at(vec(gardener.seed(b).position) + glm::vec3(0, .3f, 0)), to);  // as long as it is drawn
+    CHECK(turned(b));
+    CHECK(gardener.seed(b).position == before.back().position);
+    CHECK(gardener.seed(a) == before[before.size() - 2]);
+    CHECK(gardener.steps() == steps + 1);
+    gardener.undo();
+    CHECK(gardener.seeds() == before);
+
+    gardener.click(gardener.marker(a), GLFW_MOD_SHIFT);
+    CHECK(gardener.work.selected == Keys{a, b});
+    gardener.move(gardener.onWall(-1, 1));
+    gardener.key(GLFW_KEY_R);
+    CHECK(gardener.work.underWay);
+    gardener.moveTo(to, 6);
+    gardener.click(to);
+    CHECK(!gardener.work.underWay);
+    gardener.moveTo(gardener.onWall(-1, 1), 6);  // it is kept
+    CHECK(turned(a));
+    CHECK(turned(b));
+    CHECK(gardener.steps() == steps + 1);
+    CHECK(gardener.seeds().size() == before.size());
+}
+
+TEST_CASE("G moves what is chosen without a button, until a click keeps it, or Esc or the right button give it back") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t a = gardener.plant(gardener.onWall(-1.2f, .8f));
+    const std::vector<SeedRecord> before = gardener.seeds();
+    const size_t steps = gardener.steps();
+    const glm::vec2 from = gardener.onWall(-1, 1), to = gardener.onWall(-.7f, 1.2f);
+    for (const bool escape : {true, false}) {
+        gardener.move(from);
+        gardener.key(GLFW_KEY_G);
+        gardener.moveTo(to, 5);
+        CHECK(gardener.seed(a).position == array(gardener.under(to)));
+        escape ? gardener.key(GLFW_KEY_ESCAPE) : gardener.click(to, 0, GLFW_MOUSE_BUTTON_RIGHT);
+        gardener.moveTo(from, 5);
+        CHECK(gardener.seeds() == before);
+        CHECK(gardener.steps() == steps);
+        CHECK(gardener.work.selected == Keys{a});
+        CHECK(!gardener.work.underWay);
+    }
+    gardener.key(GLFW_KEY_G);
+    gardener.key(GLFW_KEY_ESCAPE);  // before a move: nothing was done that it could take back
+    CHECK(gardener.seeds() == before);
+    CHECK(gardener.steps() == steps);
+
+    gardener.key(GLFW_KEY_G);
+    gardener.moveTo(to, 5);
+    gardener.click(to);
+    gardener.moveTo(from, 5);
+    CHECK(gardener.seed(a).position == array(gardener.under(to)));
+    CHECK(gardener.seeds().size() == before.size());
+    CHECK(gardener.steps() == steps + 1);
+}
+
+TEST_CASE("Del and X remove what is chosen, and undo brings all of it back") {
+    const Folder folder;
+    Gardener gardener(folder);
+    (void)gardener.plant(gardener.onWall(-1.2f, .8f));
+    const std::vector<SeedRecord> before = gardener.seeds();
+    REQUIRE(before.size() == 3);
+    const size_t steps = gardener.steps();
+    for (const int key : {GLFW_KEY_DELETE, GLFW_KEY_X}) {
+        gardener.work.selected = {before[0].key, before[2].key};
+        gardener.key(key);
+        CHECK(gardener.seeds() == std::vector{before[1]});
+        CHECK(gardener.work.selected.empty());
+        CHECK(gardener.steps() == steps + 1);
+        gardener.undo();
+        CHECK(gardener.seeds() == before);
+    }
+    gardener.key(GLFW_KEY_DELETE);  // nothing is chosen
+    CHECK(gardener.steps() == steps);
+}
+
+TEST_CASE("a frozen plant stays where it is, and says so") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t a = gardener.plant(gardener.onWall(-1.2f, .8f)), b = gardener.plant(gardener.onWall(-1, .8f));
+    gardener.work.freeze({a}, true);
+    REQUIRE(gardener.work.document->seed(a)->frozen);
+    const SeedRecord before = gardener.seed(a);
+    gardener.click(gardener.marker(a), GLFW_MOD_SHIFT);
+    REQUIRE(gardener.work.selected == Keys{a, b});
+    const glm::vec3 stood = vec(gardener.seed(b).position);
+    gardener.drag(gardener.marker(b), gardener.onWall(-.8f, 1.2f));
+    CHECK(gardener.seed(a) == before);
+    CHECK(glm::distance(vec(gardener.seed(b).position), stood) > .3f);
+    CHECK_MESSAGE(contains(gardener.work.message, "frozen"), gardener.work.message);
+}

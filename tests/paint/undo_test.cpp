@@ -1,0 +1,121 @@
+// What strokes keep to be undone by, and that undoing restores.
+#include <cstring>
+
+#include "tests/paint/fixture.hpp"
+
+using namespace espalier;
+using namespace espalier::test;
+
+namespace {
+
+// Of three layers and two cubes that run into each other: random pictures, so that what is restored is no blank.
+struct Canvases {
+    const char* names[3] = {"mask", "density", "tint"};
+    const Painting& painting;
+    EspSurface surfaces[2];
+
+    template <class Do>
+    void each(Do&& apply) const {
+        for (const char* name : names)
+            for (EspSurface surface : surfaces) apply(name, surface);
+    }
+    void colour(std::mt19937& random) const {
+        std::uniform_real_distribution<float> unit(0, 1);
+        each([&](const char* name, EspSurface surface) {
+            std::vector<float> picture(97 * 61);
+            for (float& v : picture) v = unit(random);
+            EspLayerDef def = espDefaultLayerDef();
+            def.surface = surface;
+            def.name = name;
+            def.space = ESP_LAYER_WALK_UV;
+            def.texels = picture.data();
+            def.width = 97;
+            def.height = 61;
+            painting.ok(espSetLayer(painting.context, &def));
+        });
+    }
+    std::vector<std::vector<float>> all() const {
+        std::vector<std::vector<float>> layers;
+        each([&](const char* name, EspSurface surface) { layers.push_back(painting.layer(name, surface)); });
+        return layers;
+    }
+};
+
+bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+EspBrush randomBrush(const char* layer, std::mt19937& random) {
+    std::uniform_real_distribution<float> unit(0, 1);
+    EspBrush brush = brushOn(layer, .02f + .6f * unit(random), unit(random), unit(random));
+    brush.mode = EspBrushMode(random() % 3);
+    brush.value = unit(random);
+    brush.frontOnly = random() % 2;
+    if (random() % 3 == 0) brush.slopeRange[0] = unit(random), brush.slopeRange[1] = 1 + unit(random);
+    if (random() % 3 == 0) brush.heightRange[0] = -unit(random), brush.heightRange[1] = unit(random);
+    if (random() % 2 == 0) brush.limitSoftness = unit(random);
+    return brush;
+}
+
+}  // namespace
+
+TEST_CASE("1,000 random strokes undone restore every texel bit for bit, and redone paint the same") {
+    Painting painting;
+    EspTransform over = espIdentity();
+    over.rows[0][3] = 1.4f, over.rows[1][3] = .6f, over.rows[2][3] = .3f;
+    const Canvases canvases{.painting = painting, .surfaces = {painting.surface, painting.another(over)}};
+    CHECK(painting.grown().contacts > 0);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0, 1);
+    canvases.colour(random);
+    const std::vector<std::vector<float>> begin = canvases.all();
+    std::vector<EspStroke> strokes;
+    uint64_t bytes[3] = {};
+    for (int i = 0; i < 1000; ++i) {
+        if (i % 100 == 99) {
+            EspStroke fill{};
+            painting.ok(espFillLayer(painting.context, canvases.names[random() % 3], unit(random), &fill));
+            strokes.push_back(fill);
+            continue;
+        }
+        const EspBrush brush = randomBrush(canvases.names[random() % 3], random);
+        const EspStroke stroke = painting.begin(brush);
+        for (uint32_t call = 0; call <= random() % 3; ++call) {
+            std::vector<EspDab> dabs;
+            for (uint32_t k = 0; k < random() % 40; ++k) {
+                glm::vec3 at = randomOnCube(random);
+                if (random() % 2) at += glm::vec3(over.rows[0][3], over.rows[1][3], over.rows[2][3]);
+                dabs.push_back(dabAt(at, {0, 1, 0}, unit(random)));
+            }
+            painting.ok(espStrokeDabs(painting.context, stroke, dabs.data(), uint32_t(dabs.size())));
+        }
+        painting.ok(espEndStroke(painting.context, stroke));
+        bytes[brush.mode] += espStrokeBytes(painting.context, stroke);
+        strokes.push_back(stroke);
+    }
+    for (uint64_t of : bytes) CHECK(of > 0);
+    const std::vector<std::vector<float>> end = canvases.all();
+    for (size_t i = 0; i < end.size(); ++i) CHECK_FALSE(sameBits(begin[i], end[i]));
+    for (size_t i = strokes.size(); i-- > 0;) painting.ok(espSwapStroke(painting.context, strokes[i]));
+    const std::vector<std::vector<float>> undone = canvases.all();
+    for (size_t i = 0; i < end.size(); ++i) CHECK(sameBits(undone[i], begin[i]));
+    for (const EspStroke& stroke : strokes) painting.ok(espSwapStroke(painting.context, stroke));
+    const std::vector<std::vector<float>> redone = canvases.all();
+    for (size_t i = 0; i < end.size(); ++i) CHECK(sameBits(redone[i], end[i]));
+}
+
+TEST_CASE("a stroke keeps what it changed and no more") {
+    Painting painting;
+    const EspStroke dab = painting.stroke(brushOn("paint", .2f), {dabAt({1, 0, 0})});
+    const uint64_t one = espStrokeBytes(painting.context, dab);
+    // A face is 32 texels wide: the dab 6, in at most 4 blocks.
+    CHECK(one > 0);
+    CHECK(one <= 4 * (64 * 4 + 4));
+    // The same again with nothing to add, and beside the model.
+    EspBrush again = brushOn("paint", .2f, 0);
+    CHECK(espStrokeBytes(painting.context, painting.stroke(again, {dabAt({1, 0, 0})})) == 0);
+    CHECK(espStrokeBytes(painting.context, painting.stroke(brushOn("paint", .2f), {dabAt({5, 0, 0})})) == 0);
+    painting.ok(espDestroyStroke(painting.context, dab));
+    CHECK(espStrokeBytes(painting.context, dab) == 0);
+    CHECK(espSwapStroke(painting.context, dab) == ESP_INVALID_ARGUMENT);
+}
