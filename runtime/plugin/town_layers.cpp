@@ -94,6 +94,8 @@ void bindTownLayers(EspContext& context, RoofInputs& inputs) {
     const bool anew = town.stale || town.grammarRevision != grammar.revision;
     inputs.site = town.layers.site();
     town.means.resize(houses.size() * kRoofLayers);
+    std::vector<bool> edited(houses.size());  // other outlines have other means
+    for (uint32_t h : town.changed) edited[h] = true;
     const std::span<const uint32_t> reads = anew ? std::span<const uint32_t>() : context.roofs->reads();
     for (size_t i = 0; i < count; ++i) {
         const ContextInfo& declared = grammar.map.contexts()[i];
@@ -108,7 +110,7 @@ void bindTownLayers(EspContext& context, RoofInputs& inputs) {
             float& mean = town.means[h * kRoofLayers + i];
             if (!layer) {
                 mean = declared.fill;
-            } else if (anew || changed.meets(town.layers.under(houses[h], kHouseReach))) {
+            } else if (anew || edited[h] || changed.meets(town.layers.under(houses[h], kHouseReach))) {
                 mean = town.layers.mean(*layer, houses[h]);
                 if (!anew && h < reads.size() && (reads[h] & (0x101u << i)) != 0) town.changed.push_back(h);
             }
