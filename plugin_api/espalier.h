@@ -189,7 +189,8 @@ typedef struct EspParamInfo {
 } EspParamInfo;
 
 ESP_API EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGrammar* out);
-/* Replaces the text; parameters keep their values by name. On failure the last good grammar keeps growing. */
+/* Replaces the text; parameters keep their values by name. On failure the last good grammar keeps growing. Where comments,
+ * layout, labels or defaults alone are new, nothing grows anew. */
 ESP_API EspResult espRecompileGrammar(EspContext* context, EspGrammar grammar, const EspGrammarDef* def);
 /* What isn't wrong in the text that grows, but may not be meant: lines "file:line:column: warning: rule: message", "" if there
  * are none. Lives as long as the grammar and until it is compiled anew. */
@@ -458,7 +459,7 @@ typedef struct EspLook {         /* all numbers finite */
                                     default 0 */
     EspView view;
     const char* viewLayer;       /* for ESP_VIEW_LAYER */
-    float viewOpacity;           /* 0 to 1: of that layer over the model; default 1 */
+    float viewOpacity;           /* 0 to 1: of that layer over models and roofs; default 1 */
     const EspBrush* viewBrush;   /* for ESP_VIEW_LAYER: where its slopes and heights let no paint pass the surfaces are hatched, and
                                     the more faintly the more passes; NULL: nowhere */
     uint32_t viewLevel;          /* for ESP_VIEW_CHARTS: the level whose charts and links are shown */

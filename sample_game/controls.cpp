@@ -162,8 +162,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
         if (key == GLFW_KEY_G || turns) seeds_.grab(work_, {event.x, event.y}, turns);
     }
     if (key == GLFW_KEY_R && (event.mods & GLFW_MOD_SHIFT)) work_.renumberSeeds();
-    if (key == GLFW_KEY_V && !work_.brush.layer.empty() && !work_.townLayer(work_.brush.layer))
-        work_.showLayer(work_.scene().look.view != ESP_VIEW_LAYER);
+    if (key == GLFW_KEY_V && !work_.brush.layer.empty()) work_.showLayer(work_.scene().look.view != ESP_VIEW_LAYER);
     for (size_t i = 0; i < std::size(kViews); ++i)
         if (key == GLFW_KEY_1 + int(i)) work_.perform(SetView{espalier::scene::nameOf(kViews[i]), ""});
 }

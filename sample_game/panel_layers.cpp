@@ -49,8 +49,7 @@ std::vector<Layer> layersOf(const Workspace& work) {
 void chosenLayer(Workspace& work, const Layer& layer) {
     const auto& scene = work.scene();
     const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
-    const int count = layer.town ? 4 : 5;
-    const float width = (ImGui::GetContentRegionAvail().x - gap * float(count - 1)) / float(count);
+    const float width = (ImGui::GetContentRegionAvail().x - gap * 4) / 5;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * work.scale, ImGui::GetStyle().FramePadding.y});
     const auto button = [&](const char* label, const char* tip) {
         const bool pressed = ImGui::Button(label, {width, 0});
@@ -67,13 +66,12 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     if (button("Export", layer.town ? "Writes the layer as it is seen from above, north up"
                                     : "Writes the layer as a picture over the surface's atlas (F5)"))
         askForLayer(layer.name, false);
-    if (!layer.town) {
-        const bool seen = scene.look.view == ESP_VIEW_LAYER && scene.viewLayer == layer.name;
-        if (seen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        if (button("Show", "Shows what is painted on the model (V)"))
-            work.perform(SetView{seen ? "shaded" : "layer", seen ? "" : layer.name});
-        if (seen) ImGui::PopStyleColor();
-    }
+    const bool seen = scene.look.view == ESP_VIEW_LAYER && scene.viewLayer == layer.name;
+    if (seen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    if (button("Show",
+               layer.town ? "Shows what is painted on the roofs (V)" : "Shows what is painted on the model (V)"))
+        work.perform(SetView{seen ? "shaded" : "layer", seen ? "" : layer.name});
+    if (seen) ImGui::PopStyleColor();
     ImGui::PopStyleVar();
     ImGui::NewLine();
     ImGui::PushTextWrapPos(0);

@@ -46,8 +46,7 @@ void showMenu(Workspace& work, Session& session) {
                 if (ImGui::MenuItem(viewTitle(kViews[i]), std::to_string(i + 1).c_str(), seen == kViews[i]))
                     work.perform(SetView{espalier::scene::nameOf(kViews[i]), ""});
             const std::string& layer = work.brush.layer;
-            if (!layer.empty() && !work.townLayer(layer) &&
-                ImGui::MenuItem(("Layer: " + layer).c_str(), "V", seen == ESP_VIEW_LAYER))
+            if (!layer.empty() && ImGui::MenuItem(("Layer: " + layer).c_str(), "V", seen == ESP_VIEW_LAYER))
                 work.showLayer(seen != ESP_VIEW_LAYER);
             ImGui::Separator();
             ImGui::MenuItem("Panel", "F2", &work.layout.panel);
@@ -83,8 +82,7 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
         text = work.underWay;
     else if (work.tool == Tool::paint)
         text = "Drag: paint " + work.brush.layer + "   Ctrl: erase   Shift: smooth   F: size   Shift+F: strength   " +
-               (work.townLayer(work.brush.layer) ? "" : "V: show the layer   ") +
-               "middle drag: turn   wheel: nearer   F1: all keys";
+               "V: show the layer   middle drag: turn   wheel: nearer   F1: all keys";
     else if (work.tool == Tool::seeds)
         text =
             "Click: plant   drag: with a direction   Ctrl+drag: a row   click a seed: choose   Shift+drag: several   "

@@ -157,14 +157,15 @@ bool Workspace::townLayer(const std::string& name) const {
     return std::ranges::find(layers, name, &espalier::scene::TownLayer::name) != layers.end();
 }
 
-// What is painted is seen on surfaces by its view, on roofs by what it does to them.
+// Over surfaces what is painted is seen by its view, over roofs by what it does to them, unless it is asked for.
 void Workspace::chooseLayer(const std::string& name) {
     using espalier::document::SetView;
+    const bool seen = scene().look.view == ESP_VIEW_LAYER;
     brush.layer = name;
-    if (townLayer(name) && scene().look.view == ESP_VIEW_LAYER)
-        perform(SetView{"shaded", ""});
-    else if (!townLayer(name) && (tool == Tool::paint || scene().look.view == ESP_VIEW_LAYER))
+    if (townLayer(name) ? seen && townLayer(scene().viewLayer) : seen || tool == Tool::paint)
         perform(SetView{"layer", name});
+    else if (seen)
+        perform(SetView{"shaded", ""});
 }
 
 void Workspace::showLayer(bool seen) {

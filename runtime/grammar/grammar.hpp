@@ -88,6 +88,10 @@ class RuleMap {
     // Hash of text, includes, meshes and compiler version; parameters don't enter.
     uint64_t contentHash() const { return contentHash_; }
 
+    // The same plants and roofs grow from both, whatever their parameters are set to later: the texts differ in
+    // comments, layout, labels and defaults alone, and their parameters now stand at the same values.
+    bool growsAs(const RuleMap& other) const;
+
     // The map's record for words that lie at `address` (of a device, or of words().data() for the CPU, as long as
     // this object lives unchanged in place). layerOf is the identity: the caller binds layers by name.
     RuleMapRef refAt(uint64_t address) const;

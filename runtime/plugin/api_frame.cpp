@@ -55,6 +55,14 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
     return ESP_OK;
 }
 
+// Over surfaces; one that is painted, but that no grammar reads, gets a number to be seen by.
+std::optional<uint32_t> layerToShow(EspContext& context, const std::string& name) {
+    const auto known = std::ranges::find(context.sceneLayers, name, &SceneLayer::name);
+    if (known != context.sceneLayers.end()) return uint32_t(known - context.sceneLayers.begin());
+    if (std::ranges::find(context.layers, name, &PaintedLayer::name) == context.layers.end()) return {};
+    return sceneLayer(context, name, 0);
+}
+
 EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     look.sunDirection = vec(from.sunDirection);
     look.sunColor = vec(from.sunColour);
@@ -80,20 +88,9 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
         return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no such view");
     if (from.view == ESP_VIEW_LAYER) {
         const std::string name = from.viewLayer ? from.viewLayer : "";
-        bool found = false;
-        for (uint32_t i = 0; i < context.sceneLayers.size() && !found; ++i)
-            if (context.sceneLayers[i].name == name) {
-                look.layer = i;
-                found = true;
-            }
-        // One that is painted, but that no grammar reads, gets a number to be seen by.
-        for (const PaintedLayer& painted : context.layers)
-            if (!found && painted.name == name)
-                if (const auto number = sceneLayer(context, name, 0)) {
-                    look.layer = *number;
-                    found = true;
-                }
-        if (!found) return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
+        look.layer = layerToShow(context, name).value_or(kNoIndex);
+        if (look.layer == kNoIndex && !(context.town && context.town->layers.find(name)))
+            return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
     }
     return ESP_OK;
 }

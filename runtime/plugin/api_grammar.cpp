@@ -92,6 +92,16 @@ std::string lostSymbol(const EspContext& context, uint32_t grammarId, const Rule
     return lost;
 }
 
+// Where nothing grows differently by the new text, `old` takes what is told of it and all that grew stands.
+bool takeText(LoadedGrammar& old, LoadedGrammar& grammar) {
+    if (!grammar.map.growsAs(old.map) || grammar.layerOf != old.layerOf) return false;
+    old.name = std::move(grammar.name);
+    old.map = std::move(grammar.map);
+    old.warnings = std::move(grammar.warnings);
+    old.compileMs = grammar.compileMs;
+    return true;
+}
+
 }  // namespace
 }  // namespace espalier
 
@@ -135,8 +145,9 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
         if (!lost.empty())
             return fail(context, ESP_INVALID_CONTENT,
                         grammar->name + ": no rule grows from '" + lost + "', which planted seeds start with");
+        context->compileMs = grammar->compileMs;
+        if (takeText(*old, *grammar)) return ESP_OK;
         *old = std::move(*grammar);
-        context->compileMs = old->compileMs;
         context->changes.grammars.push_back(context->grammarIndex(id.id));
         old->edition = ++context->revision;
         return ESP_OK;

@@ -69,7 +69,7 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.skyColor = look.skyColor;
     frame.view = uint32_t(shownView(inputs));
     frame.groundColor = look.groundColor;
-    frame.layer = look.view == ViewMode::charts ? look.level : std::min(look.layer, kMaxLayers - 1);
+    frame.layer = look.view == ViewMode::charts ? look.level : look.layer;
     frame.layerOpacity = std::clamp(look.layerOpacity, 0.0f, 1.0f);
     frame.limits = look.limits;
     frame.background = look.background;

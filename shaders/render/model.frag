@@ -55,7 +55,7 @@ vec4 otherView(vec3 n) {
         if ((level.crossingHead.v[at] & 255u) != 0u) shown = mix(shown, vec3(1.0), 0.6);
         if (frame.layer > 0u && ((at ^ (at >> 3u)) & 1u) != 0u) shown *= 0.8;
         shown = withBuried(shown, level);
-    } else if (push.surface != kNoIndex && view == kViewLayer) {
+    } else if (push.surface != kNoIndex && view == kViewLayer && frame.layer < kMaxLayers) {
         LayerRef layer = frame.layers.v[push.surface * kMaxLayers + frame.layer];
         float x = layer.fill;
         if (u64(layer.texels) != 0ul) {

@@ -50,12 +50,16 @@ vec3 mossy(RoofDrawEnv env, uint mesh, vec3 base, vec3 position, float joint) {
     vec3 green = mix(vec3(0.038, 0.046, 0.016), vec3(0.085, 0.098, 0.03), quick ? 0.5 : noise3(position * 17.0));
     return mix(base, green * (1.0 - 0.4 * joint), share * min(1.0, 3.0 * painted));
 }
-// What the view of a layer shows on roofs and ground.
-vec3 layerColour(RoofDrawEnv env, vec3 position) {
-    if (env.shownLayer == kNoIndex) return vec3(0.4);
-    float x = roofLayerAt(env.roofs.layers, env.roofs.site, env.shownLayer, position.xz);
-    return layerColor(x);
+// What other views than the shaded one show. shown: where that isn't a layer.
+vec4 otherView(RoofDrawEnv env, vec3 shown, vec3 n, vec3 position) {
+    if (frame.view == kViewNormals) return stored(n * 0.5 + 0.5, 0.0);
+    if (frame.view == kViewLayer)
+        shown = env.shownLayer == kNoIndex ? vec3(0.4) :
+                layerColor(roofLayerAt(env.roofs.layers, env.roofs.site, env.shownLayer, position.xz));
+    return diagnostic(shown, n);
 }
+// A painted layer that the shaded picture shows through.
+bool layerOver() { return explains && frame.view == kViewLayer && frame.layerOpacity < 1.0; }
 // What a pane mirrors: the sky and, below an uneven crest, what stands across the way. Old glass isn't quite flat.
 vec3 mirrored(vec3 n, vec3 position) {
     vec3 eye = normalize(frame.eye - position);

@@ -19,10 +19,9 @@ void main() {
         color = oneFragment();
         return;
     }
-    if (explains) {
-        vec3 shown = view == kViewLayer ? layerColour(push.env.v[0], position) :
-                     view == kViewLod ? lodColor(5u) : vec3(0.5);
-        color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(shown, n);
+    vec3 shown = view == kViewLod ? lodColor(5u) : vec3(0.5);
+    if (explains && !layerOver()) {
+        color = otherView(push.env.v[0], shown, n, position);
         return;
     }
     vec2 cell = surface.xy;
@@ -48,4 +47,5 @@ void main() {
         base = mix(base, vec3(0.016, 0.013, 0.01), mix(painted, gone, clear) * step(0.001, painted));
     }
     color = shade(base, n, position, push.roughness, vec3(0.0));
+    if (layerOver()) color = mix(color, otherView(env, shown, n, position), frame.layerOpacity);
 }

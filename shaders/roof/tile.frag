@@ -20,10 +20,9 @@ void main() {
         color = oneFragment();
         return;
     }
-    if (explains) {
-        vec3 shown = view == kViewLod ? lodColor(look.z) : view == kViewCharts ? hashColor(look.y) : vec3(0.5);
-        if (view == kViewLayer) shown = layerColour(push.env.v[0], position);
-        color = view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(shown, n);
+    vec3 shown = view == kViewLod ? lodColor(look.z) : view == kViewCharts ? hashColor(look.y) : vec3(0.5);
+    if (explains && !layerOver()) {
+        color = otherView(push.env.v[0], shown, n, position);
         return;
     }
     float variation = float(look.y & 255u) * (1.0 / 255.0);
@@ -32,4 +31,5 @@ void main() {
     vec3 from = vec3(0.0);
     if (surface.w < 0.0) from = mirrored(n, position);
     color = shade(base, n, position, push.roughness, from);
+    if (layerOver()) color = mix(color, otherView(push.env.v[0], shown, n, position), frame.layerOpacity);
 }

@@ -89,6 +89,30 @@ TEST_CASE("a key that is held tells that it is, and asks for a dialogue once") {
     for (const KeyEvent& key : keys) CHECK(key.repeated);
 }
 
+TEST_CASE("V shows the brush's layer, on surfaces and on roofs") {
+    const Folder folder;
+    Typist typist(folder, content("hamlet.json"), Tool::paint);
+    const auto& scene = typist.work.scene();
+    const auto shows = [&](const std::string& layer) {
+        return scene.look.view == ESP_VIEW_LAYER && scene.viewLayer == layer;
+    };
+    typist.work.chooseLayer("mask");
+    CHECK(shows("mask"));
+    // What paint does to roofs is seen; the layer where it is asked for, until another kind of layer is taken.
+    typist.work.chooseLayer("moss");
+    REQUIRE(typist.work.townLayer("moss"));
+    CHECK(scene.look.view == ESP_VIEW_SHADED);
+    typist.key(GLFW_KEY_V);
+    CHECK(shows("moss"));
+    typist.work.chooseLayer("decay");
+    CHECK(shows("decay"));
+    typist.key(GLFW_KEY_V);
+    CHECK(scene.look.view == ESP_VIEW_SHADED);
+    typist.key(GLFW_KEY_V);
+    typist.work.choose(Tool::seeds);
+    CHECK(scene.look.view == ESP_VIEW_SHADED);
+}
+
 TEST_CASE("a key that is held acts once, but for undo, the brush's size and the numpad") {
     const Folder folder;
     Typist typist(folder, smallScene(folder), Tool::paint);

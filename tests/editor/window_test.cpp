@@ -16,8 +16,8 @@ bool hasDisplay() {
 }
 
 Ran drive(const std::string& script, const std::string& scene, const Folder& folder, const std::string& way = "") {
-    return run("xvfb-run -a -s '-screen 0 900x560x24' tests/editor/" + script + " " + program("espalier-sample") + " " +
-               scene + " " + folder.path.string() + " " + way);
+    return runOnDisplay("900x560", "tests/editor/" + script + " " + program("espalier-sample") + " " + scene + " " +
+                                       folder.path.string() + " " + way);
 }
 
 }  // namespace

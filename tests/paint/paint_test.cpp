@@ -219,6 +219,44 @@ TEST_CASE("erasing leads back to the fill that a grammar declares, and layers ou
     CHECK(*std::min_element(layer.begin(), layer.end()) == .75f);
 }
 
+TEST_CASE("a text that says the same in other words grows nothing anew, and any other does") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    painting.plant(grammar, {1, -.9f, 0}, {0, 1, 0});
+    const EspStats first = painting.grown();
+    const auto expansions = [&](std::string text) {
+        const EspGrammarDef def{"words", text.c_str(), text.size()};
+        painting.ok(espRecompileGrammar(painting.context, grammar, &def));
+        return painting.grown().expansions;
+    };
+    const auto with = [](const char* old, const char* replacement) {
+        std::string text = kMaskedIvy;
+        const size_t at = text.find(old);
+        REQUIRE(at != std::string::npos);
+        return text.replace(at, std::strlen(old), replacement);
+    };
+    CHECK(expansions("// the same\n\n" + with("reach = 2 [0 .. 9]", "reach = 3 [0 .. 9] \"m\" \"Length\"")) ==
+          first.expansions);
+    CHECK(painting.grown().hash == first.hash);
+    EspParamInfo reach;
+    painting.ok(espParamInfo(painting.context, grammar, 0, &reach));
+    CHECK(std::string(reach.label) == "Length");
+    CHECK(reach.value[0] == 2);
+    CHECK(reach.initial[0] == 3);
+    // What is told of that text is of use: a parameter, a layer.
+    const float longer = 3;
+    painting.ok(espSetParam(painting.context, grammar, "reach", &longer, 1));
+    const EspStats long_ = painting.grown();
+    CHECK(long_.hash != first.hash);
+    CHECK(expansions(with("reach * 0.7", "reach * 0.6")) > long_.expansions);
+    CHECK(painting.grown().hash != long_.hash);
+    CHECK(expansions(kMaskedIvy) > long_.expansions + 1);
+    CHECK(painting.grown().hash == long_.hash);
+    const uint32_t before = painting.grown().expansions;
+    CHECK(expansions(with("mask = 1", "mask = 0.75")) > before);  // where nothing is painted
+    CHECK(expansions(with("mask = 1\n", "mask = 0.75\ncontext other = 0\n")) > before);
+}
+
 TEST_CASE("growth follows strokes, their undoing and redoing, and is idle when they touch nothing it reads") {
     Painting painting;
     const EspGrammar grammar = painting.grammar(kMaskedIvy);

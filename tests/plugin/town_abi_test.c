@@ -36,18 +36,38 @@ static EspRoofStats stats(EspContext* context) {
     return s;
 }
 
-/* Tiles drawn seen from straight above, near enough for each to be one. */
-static uint32_t drawnTiles(EspContext* context) {
+enum { kSide = 256 };
+
+/* The first house seen from straight above, near enough for each tile to be one. */
+static EspDrawDef fromAbove(void) {
     EspDrawDef draw = espDefaultDrawDef();
-    draw.width = draw.height = 256;
+    draw.width = draw.height = kSide;
     draw.camera.eye[0] = draw.camera.target[0] = 5;
     draw.camera.eye[1] = 20;
     draw.camera.target[1] = 0;
     draw.camera.eye[2] = -4.f;
     draw.camera.target[2] = -4.1f;
     draw.look.shadows = 0;
+    return draw;
+}
+
+static uint32_t drawnTiles(EspContext* context) {
+    const EspDrawDef draw = fromAbove();
     OK(context, espDraw(context, &draw));
     return stats(context).drawnTiles;
+}
+
+/* In how many pixels that view differs from the picture `other`, which becomes its own. */
+static int shownOtherwise(EspContext* context, const EspDrawDef* draw, uint8_t* other) {
+    static uint8_t now[kSide * kSide * 4];
+    int count = 0;
+    OK(context, espUpdate(context));
+    OK(context, espDraw(context, draw));
+    OK(context, espReadPixels(context, now, sizeof now));
+    for (int i = 0; i < kSide * kSide; ++i)
+        count += abs(now[4 * i] - other[4 * i]) + abs(now[4 * i + 1] - other[4 * i + 1]) > 12;
+    memcpy(other, now, sizeof now);
+    return count;
 }
 
 static EspStroke dab(EspContext* context, const char* layer, float x, float z, float radius) {
@@ -64,6 +84,29 @@ static EspStroke dab(EspContext* context, const char* layer, float x, float z, f
     OK(context, espStrokeDabs(context, stroke, &at, 1));
     OK(context, espEndStroke(context, stroke));
     return stroke;
+}
+
+/* A layer over roofs is seen at any opacity, where it is painted and only there. */
+static void views(EspContext* context) {
+    static uint8_t picture[kSide * kSide * 4];
+    EspDrawDef draw = fromAbove();
+    (void)shownOtherwise(context, &draw, picture);
+    draw.look.view = ESP_VIEW_LAYER;
+    draw.look.viewLayer = "rise";
+    draw.look.viewOpacity = 0;
+    CHECK(shownOtherwise(context, &draw, picture) == 0);
+    draw.look.viewOpacity = .5f;
+    const int half = shownOtherwise(context, &draw, picture);
+    draw.look.viewOpacity = 1;
+    const int whole = shownOtherwise(context, &draw, picture);
+    CHECK(half > kSide * kSide / 4 && whole > kSide * kSide / 4);
+    const EspStroke stroke = dab(context, "rise", 5, -4, 1.5f);
+    const int painted = shownOtherwise(context, &draw, picture);
+    CHECK(painted > 1000 && painted < kSide * kSide / 2);
+    OK(context, espSwapStroke(context, stroke));
+    CHECK(shownOtherwise(context, &draw, picture) == painted);
+    draw.look.viewLayer = "nobody's at all";
+    REFUSED(espDraw(context, &draw));
 }
 
 static void houses(EspContext* context) {
@@ -155,6 +198,10 @@ static void layers(EspContext* context) {
     OK(context, espSetTownLayer(context, "nobody's", picture, 2, 2, NULL));
     side = 2048;
     OK(context, espReadTownLayer(context, "nobody's", texels, &side));
+    EspDrawDef unseen = fromAbove();
+    unseen.look.view = ESP_VIEW_LAYER;
+    unseen.look.viewLayer = "nobody's";
+    OK(context, espDraw(context, &unseen));
     CHECK(texels[0] == 0 && texels[side - 1] == 1);
     OK(context, espUpdate(context));
     CHECK(drawnTiles(context) == fewer);
@@ -263,6 +310,7 @@ int main(void) {
 
     houses(context);
     layers(context);
+    views(context);
     triangles(context);
     manyEdits(context);
 

@@ -46,7 +46,7 @@ done
 sleep 3
 kill $!
 )");
-    const Ran ran = run("xvfb-run -a -s '-screen 0 640x480x24' sh " + watched);
+    const Ran ran = runOnDisplay("640x480", "sh " + watched);
     CHECK_MESSAGE(ran.code == 0, ran.output);
     std::istringstream lines(readAll(note));
     long before = 0, after = 0, contexts = 0;

@@ -102,9 +102,9 @@ TEST_CASE("the window draws its frames without a word from the validation layer"
         return;
     }
     const Folder folder;
-    const Ran ran =
-        run("xvfb-run -a -s '-screen 0 800x600x24' " + program("espalier-sample") + " " + content("sample.json") +
-            " --validation --frames 4 --size 640x400 --screenshot " + folder.file("window.png"));
+    const Ran ran = runOnDisplay("800x600", program("espalier-sample") + " " + content("sample.json") +
+                                                " --validation --frames 4 --size 640x400 --screenshot " +
+                                                folder.file("window.png"));
     CHECK_MESSAGE(ran.code == 0, ran.output);
     CHECK(!contains(ran.output, "validation"));
     CHECK(std::filesystem::file_size(folder.file("window.png")) > 20000);

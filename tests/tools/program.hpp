@@ -33,6 +33,16 @@ inline Ran run(const std::string& command) {
     return ran;
 }
 
+// The same with a display of its own, where xvfb-run is installed. The command says itself how it ended: xvfb-run can
+// fail to clear up what it made for it.
+inline Ran runOnDisplay(const std::string& size, const std::string& command) {
+    const std::string end = "command ended with ";
+    Ran ran = run("xvfb-run -a -s '-screen 0 " + size + "x24' sh -c '" + command + "; echo \"" + end + "$?\"'");
+    const size_t at = ran.output.rfind(end);
+    ran.code = at == std::string::npos ? -1 : std::atoi(ran.output.c_str() + at + end.size());
+    return ran;
+}
+
 inline std::string program(const char* name) {
     return std::string(ESPALIER_BIN) + "/" + name;
 }
