@@ -228,8 +228,9 @@ ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
 /* ---- Painting ------------------------------------------------------------------------------------------------ */
 
 /* Painting happens in world space, on all surfaces at once: a dab reaches every texel whose point lies in its sphere,
- * so that seams don't show. A layer comes into being where it is first painted on; until then, and where nothing was
- * painted, it holds its fill: what the first grammar that declares it says, 0 if none does. Painting works for layers
+ * so that seams don't show. A layer comes into being on a surface where it is first painted on: until then each
+ * grammar reads its own fill there, from then on, where nothing was painted, that of the first grammar that declares the
+ * layer, 0 if none does. Painting works for layers
  * that no grammar reads too. A layer that a town's grammar reads, and no grammar of plants, is painted over the town, and on
  * surfaces that have it already only.
  *
@@ -302,8 +303,9 @@ ESP_API EspResult espRemoveSeed(EspContext* context, EspSeed seed);
 ESP_API EspResult espRemoveAllSeeds(EspContext* context);
 
 typedef struct EspSeedInfo {
-    EspSeedDef def;           /* as it was planted or last moved: planted again, it grows the same plant to the bit.
-                                 symbol: "" or valid as long as the seed */
+    EspSeedDef def;           /* as it was planted or last moved: planted again, it grows the same plant to the bit;
+                                 if its surface was moved since, one that rounding makes slightly another. symbol: "" or
+                                 valid as long as the seed */
     EspSurface surface;
     float position[3];        /* on the surface, world */
     float normal[3], direction[3];   /* unit, world; the direction is laid into the surface */

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "shaders/emit/glsl_names.h"
+
 namespace espalier {
 namespace {
 
@@ -27,6 +29,16 @@ bool sameView(const EmitView& a, EmitView b) {
     if (IS_GIVEN(a.tiles) == IS_GIVEN(b.tiles)) b.tiles = a.tiles;
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
+
+// What is around the kernel's text.
+struct TakeTiles {
+    const TakePush& push;
+#include "shaders/emit/take_tiles.h"
+
+    void all() {
+        takeRun(floatBitsToUint(push.taken.v[push.tiles]), 0, takePlaces(), 0);
+    }
+};
 
 }  // namespace
 
@@ -205,7 +217,7 @@ Status Emit::watch(Commands& commands, const EmitView& view) {
         watchTiles_ = std::move(*watched);
         takenTiles_ = std::move(*taken);
     }
-    usedBy_ = commands.serial();
+    usedBy_ = tilesBy_ = commands.serial();
     EmitView watched = view;
     watched.tiles.v = reinterpret_cast<float*>(watchTiles_.address());
     commands.barrier(Use::compute, Use::transfer);
@@ -218,8 +230,9 @@ Status Emit::watch(Commands& commands, const EmitView& view) {
     return Done{};
 }
 
-EmitView Emit::takeChanges(Commands& commands, uint32_t mostTiles) {
-    usedBy_ = commands.serial();
+EmitView Emit::takeChanges(Commands& commands, const EmitInputs& inputs, uint32_t mostTiles) {
+    const bool atOnce = inputs.native && sharesMemory() && device_->finished(boundBy_) && device_->finished(tilesBy_);
+    usedBy_ = tilesBy_ = commands.serial();
     EmitView view = watched_;
     view.tiles.v = reinterpret_cast<float*>(takenTiles_.address());
     view.scene = ++timesTaken_;  // others each time
@@ -229,6 +242,11 @@ EmitView Emit::takeChanges(Commands& commands, uint32_t mostTiles) {
     push.tiles = tilesOf(view);
     push.columns = tilesAlong(view, view.width);
     push.most = mostTiles;
+    if (atOnce) {
+        TakeTiles{push}.all();
+        view.flags |= kTilesStand;
+        return view;
+    }
     Pass pass(commands, "shadow emit");
     pass.barrier(Use::compute | Use::vertex, Use::compute);
     pass.dispatch(takeTiles_, {1, 1, 1}, push);

@@ -68,9 +68,10 @@ class Emit {
 
     // Recorded once all of `view`, a parallel one, was drawn: from now on the tiles of its picture are noted where
     // edits change it. takeChanges() is the view of what lies in these, once it is bound: in at most so many, the
-    // others come next time. They count as drawn.
+    // others come next time. They count as drawn. Native code takes them at once, as it culls; the recording may look
+    // at the view's tiles.
     Status watch(Commands& commands, const EmitView& view);
-    EmitView takeChanges(Commands& commands, uint32_t mostTiles);
+    EmitView takeChanges(Commands& commands, const EmitInputs& inputs, uint32_t mostTiles);
 
     // The last recording won't be submitted: nothing of it can be built on.
     void forget() {
@@ -182,7 +183,8 @@ class Emit {
     EmitView view_{};
     Program takeTiles_;
     Buffer watch_, watchTiles_, takenTiles_;
-    EmitView watched_{};  // and its tiles; width 0: none
+    EmitView watched_{};    // and its tiles; width 0: none
+    uint64_t tilesBy_ = 0;  // the recording that looked at them last
     uint64_t wholeBindings_ = 0, carries_ = 0, timesTaken_ = 0;
     bool counted_ = false;
     bool fetches_ = false, fetchesTouched_ = false;

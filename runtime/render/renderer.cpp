@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "runtime/core/check.hpp"
 #include "runtime/render/host_formats.hpp"
@@ -64,9 +65,11 @@ Status RendererImpl::removeProps() {
     return Done{};
 }
 
-// All that growth stands among.
+// All that growth stands among. A software device begins with what comes before a time stamp, in all threads, while one
+// sets up the rest.
 void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post) {
     const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
+    std::optional<Pass> part(std::in_place, pass.commands(), "draw models");
     models_.draw(pass, {scene_->model,
                         scene_->modelFoot,
                         *frame_,
@@ -77,7 +80,11 @@ void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, co
                         !onGround,
                         groundLevel_,
                         unit_});
-    if (furnished_) props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, shading_);
+    if (furnished_) {
+        part.emplace(pass.commands(), "draw props");
+        props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, shading_);
+    }
+    part.emplace(pass.commands(), "draw ground");
     if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, shading_);
 }
 
@@ -190,7 +197,10 @@ void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, cons
     if (ahead_) targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
     DrawPass pass(commands, "draw scene", targets);
     if (grows_) drawTerminals(pass, false);
-    if (roofed_) roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, shading_);
+    if (roofed_) {
+        const Pass part(commands, "draw roofs");
+        roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, shading_);
+    }
     if (ahead_) drawSurroundings(pass, inputs, post);
     if (!hosted_)
         pass.draw(sky_[post.ground], 3, 1, post, {ground_.noiseBinding(true), ground_.skylineBinding(), *frame_});

@@ -95,7 +95,7 @@ Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs,
     FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
     frame.viewProjection = sun.toClip;
     if (Status s = upload(commands, frame); !s) return s;
-    const EmitView changes = emit_.takeChanges(commands, mostTiles);
+    const EmitView changes = emit_.takeChanges(commands, emitInputs(inputs), mostTiles);
     if (Status s = emit_.cull(commands, emitInputs(inputs), changes, "shadow emit", false); !s) return s;
     commands.transition(shadowMap_, ImageState::depthTarget);
     {

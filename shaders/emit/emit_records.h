@@ -273,6 +273,8 @@ struct EmitPush {
 };
 STATIC_SIZE(EmitPush, 104);
 
+CONST_UINT(kTakenStrip, 4u);   // rows of a strip of tiles that are taken
+
 // Push data of the kernel that takes changed tiles of a watched picture.
 struct TakePush {
     FloatBuf watched;        // [tile]: kKeptTile or kChangedTile; those that are taken become kept

@@ -121,9 +121,10 @@ TEST_CASE("a picture is watched when there is memory for it again") {
     REQUIRE_FALSE(pipeline.emit.watch(commands, view));
     host.memory.refused.clear();
     REQUIRE(pipeline.emit.watch(commands, view));
-    const EmitView first = pipeline.emit.takeChanges(commands, 4);
+    const EmitInputs inputs = plant.inputs();
+    const EmitView first = pipeline.emit.takeChanges(commands, inputs, 4);
     CHECK(first.tiles.v != nullptr);
-    const EmitView second = pipeline.emit.takeChanges(commands, 4);
+    const EmitView second = pipeline.emit.takeChanges(commands, inputs, 4);
     CHECK(second.scene != first.scene);
     REQUIRE(commands.finish());
 }

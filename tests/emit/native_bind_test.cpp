@@ -61,13 +61,17 @@ void compareBound(Device& device, test::EmitPipeline& native, const EmitState& s
     CHECK(otherSpheres == 0);
 }
 
-// Of the picture that the pipeline watches, those that have changed since; and culls what is in them.
-std::vector<uint32_t> takeTiles(test::EmitPipeline& on, const EmitInputs& inputs, const EmitView& view) {
+// Of the picture that the pipeline watches, those that have changed since, at most so many; and culls what is in them.
+std::vector<uint32_t> takeTiles(test::EmitPipeline& on, const EmitInputs& inputs, const EmitView& view, uint32_t most,
+                                EmitState& culled) {
     Result<Commands> commands = Commands::begin(*on.device, "take");
     REQUIRE(commands);
     REQUIRE(on.emit.bind(*commands, inputs));
-    const EmitView taken = on.emit.takeChanges(*commands, 4096);
+    const EmitView taken = on.emit.takeChanges(*commands, inputs, most);
+    REQUIRE(on.emit.cull(*commands, inputs, taken, "cull", true));
+    CHECK(on.emit.culledNative() == inputs.native);
     REQUIRE(commands->finish());
+    culled = *readVector<EmitState>(*on.device, on.emit.state(), 0, 1)->data();
     const auto* tiles = reinterpret_cast<const uint32_t*>(taken.tiles.v);
     return {tiles, tiles + tilesOf(view)};
 }
@@ -109,13 +113,21 @@ TEST_CASE("native code binds what shaders bind") {
         for (uint32_t i = 0; i < numbers.size(); ++i) numbers[i] += e.touched[i] - 1;
         test::rewrite(*device, plant, touched, e.after, numbers);
         plant.view.number += 1;
-        EmitInputs inputs = plant.inputs();
-        inputs.native = false;
-        const std::vector<uint32_t> changed = takeTiles(shaders, inputs, view);
-        inputs.native = true;
-        CHECK(takeTiles(native, inputs, view) == changed);
-        CHECK(std::count(changed.begin(), changed.end(), kChangedTile) > 10);
-        CHECK(std::count(changed.begin(), changed.end(), kChangedTile) < std::ptrdiff_t(changed.size()));
+        // Some, the next ones, all that are left, none.
+        for (const auto& [most, least, last] : {std::tuple{6u, 6, 6}, {5u, 5, 5}, {4096u, 1, 4000}, {9u, 0, 0}}) {
+            EmitInputs inputs = plant.inputs();
+            EmitState theirs, ours;
+            inputs.native = false;
+            const std::vector<uint32_t> changed = takeTiles(shaders, inputs, view, most, theirs);
+            inputs.native = true;
+            CHECK(takeTiles(native, inputs, view, most, ours) == changed);
+            const auto count = std::count(changed.begin(), changed.end(), kChangedTile);
+            CHECK(count >= least);
+            CHECK(count <= last);
+            CHECK(count < std::ptrdiff_t(changed.size()));
+            CHECK(ours.spanCount == theirs.spanCount);
+            CHECK(ours.leafCount == theirs.leafCount);
+        }
         compare();
         CHECK(native.emit.stats().bound == shaders.emit.stats().bound);
     }

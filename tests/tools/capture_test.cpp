@@ -16,6 +16,20 @@ std::string frame(const Folder& folder, const char* out) {
     return folder.file(out) + "/frame_0000.png";
 }
 
+// Against tests/goldens/NAME.png, as anybody's test of frames would.
+void checkGolden(const std::string& name, const std::string& picture) {
+    const std::string golden = "tests/goldens/" + name + ".png", difference = "out/" + name + "_difference.png";
+    const char* update = std::getenv("ESPALIER_UPDATE_GOLDENS");
+    if (update && *update) {
+        std::filesystem::copy_file(picture, golden, std::filesystem::copy_options::overwrite_existing);
+        MESSAGE("written anew: ", golden);
+    }
+    REQUIRE(std::filesystem::exists(golden));
+    std::filesystem::create_directories("out");
+    const Ran alike = run(program("espalier-compare") + " " + golden + " " + picture + " --diff " + difference);
+    CHECK_MESSAGE(alike.code == 0, alike.output, " see ", difference);
+}
+
 }  // namespace
 
 TEST_CASE("the sample scene is drawn as the golden shows, in every run, whatever the threads, by shaders too") {
@@ -43,18 +57,18 @@ TEST_CASE("the sample scene is drawn as the golden shows, in every run, whatever
     for (const char* key : {"expand", "emit", "draw"}) CHECK(a.at("ms").at(key) > 0);
     CHECK(a.at("bytes").at("total") > 1000000);
 
-    const std::string golden = "tests/goldens/sample_640x360.png";
-    const char* update = std::getenv("ESPALIER_UPDATE_GOLDENS");
-    if (update && *update) {
-        std::filesystem::create_directories("tests/goldens");
-        std::filesystem::copy_file(frame(folder, "a"), golden, std::filesystem::copy_options::overwrite_existing);
-        MESSAGE("written anew: ", golden);
-    }
-    REQUIRE(std::filesystem::exists(golden));
-    std::filesystem::create_directories("out");
-    const Ran alike = run(program("espalier-compare") + " " + golden + " " + frame(folder, "a") +
-                          " --diff out/golden_difference.png");
-    CHECK_MESSAGE(alike.code == 0, alike.output, " see out/golden_difference.png");
+    checkGolden("sample_640x360", frame(folder, "a"));
+}
+
+// A path wiped free, autumn painted over the arch, a longer parameter, a seed more, one less and again, evening, a
+// roof.
+TEST_CASE("a run of edits leads to what the goldens show") {
+    const Folder folder;
+    const Ran ran = run(program("espalier-capture") + " " + content("sample.json") +
+                        " --replay tests/goldens/painting.jsonl --every 5 -o " + folder.file("run"));
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    checkGolden("painting_5", folder.file("run") + "/frame_0005.png");
+    checkGolden("painting_7", folder.file("run") + "/frame_0007.png");
 }
 
 TEST_CASE("a large picture, in which leaves lie at one depth, is the same in every run, whatever the threads") {
