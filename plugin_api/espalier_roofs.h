@@ -76,7 +76,7 @@ typedef struct EspHouseInfo {
     uint32_t cornerCount;    /* of all rings */
     uint32_t edgeCount;      /* edges with something of their own */
     float boundsMin[3], boundsMax[3];            /* world */
-    uint32_t outerCorners;   /* of the outer ring, which comes first */
+    uint32_t ringCount;      /* the outer ring and courtyards, in this order */
 } EspHouseInfo;
 
 ESP_API uint32_t espHouseCount(const EspContext* context);
@@ -85,6 +85,8 @@ ESP_API EspResult espHouseInfo(const EspContext* context, uint32_t house, EspHou
  * Corners in the plan, two floats each: world x and z. Room for EspHouseInfo::cornerCount pairs, edgeCount edges; either
  * may be NULL. */
 ESP_API EspResult espHouseShape(const EspContext* context, uint32_t house, float* corners, EspHouseEdge* edges);
+/* How many of these corners each ring has. Room for EspHouseInfo::ringCount numbers. */
+ESP_API EspResult espHouseRings(const EspContext* context, uint32_t house, uint32_t* corners);
 
 /* Changes one house; it alone grows anew in the next espUpdate. An outline that crosses itself or has no area is refused with
  * ESP_INVALID_CONTENT, and the house stands as it did. */
@@ -92,10 +94,12 @@ typedef struct EspHouseDef {
     EspRoofShape shape;
     float slope;             /* 0: the shape's own */
     float eaveHeight;        /* metres above the house's base; 0: as it is */
-    const EspHouseEdge* edges;   /* of the corners below, then of the other rings as espHouseShape gives them */
+    const EspHouseEdge* edges;   /* of the corners below, then of the rings that stay as they are */
     uint32_t edgeCount;
-    const float* corners;    /* of the outer ring, as espHouseShape gives them; NULL: as they are */
+    const float* corners;    /* as espHouseShape gives them; NULL: as they are */
     uint32_t cornerCount;
+    const uint32_t* rings;   /* how many of them each ring has, the outer one first; at least 3 */
+    uint32_t ringCount;      /* 0: all are of the outer ring, and courtyards stay as they are */
 } EspHouseDef;
 ESP_API EspResult espSetHouse(EspContext* context, uint32_t house, const EspHouseDef* def);
 /* Back to what the town was loaded with; does nothing where that is what stands. */

@@ -10,6 +10,7 @@ namespace {
 
 using espalier::scene::House;
 using espalier::scene::houseNow;
+using espalier::scene::ringOf;
 
 constexpr float kMissed = 1e30f;
 constexpr int kSteps = 96;  // through a house's box
@@ -28,36 +29,47 @@ bool crossBox(const Ray& ray, const float low[3], const float high[3], float& fi
     return first <= last;
 }
 
-// How far inside the outline the point lies; negative: outside.
-float depth(const std::vector<std::array<float, 2>>& ring, glm::vec2 p) {
-    bool in = false;
-    float nearest = kMissed;
-    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-        const glm::vec2 a(ring[j][0], ring[j][1]), b(ring[i][0], ring[i][1]), ab = b - a;
-        if ((b.y > p.y) != (a.y > p.y) && p.x < (a.x - b.x) * (p.y - b.y) / (a.y - b.y) + b.x) in = !in;
-        const float t = std::clamp(glm::dot(p - a, ab) / std::max(glm::dot(ab, ab), 1e-9f), 0.f, 1.f);
-        nearest = std::min(nearest, glm::distance(p, a + t * ab));
+// f(a, b): each side of the outline and of courtyards.
+template <class F>
+void overSides(const House& house, const F& f) {
+    for (size_t i = 0; i < house.corners.size(); ++i) {
+        const auto &a = house.corners[i], &b = house.corners[ringOf(house, i).after(i)];
+        f(glm::vec2(a[0], a[1]), glm::vec2(b[0], b[1]));
     }
-    return in ? nearest : -1;
+}
+
+// Of a side, what lies nearest to p.
+glm::vec2 nearest(glm::vec2 a, glm::vec2 b, glm::vec2 p) {
+    const glm::vec2 ab = b - a;
+    return a + std::clamp(glm::dot(p - a, ab) / std::max(glm::dot(ab, ab), 1e-9f), 0.f, 1.f) * ab;
+}
+
+// How far inside the outline, and from courtyards, the point lies; negative: outside, or in one of these.
+float depth(const House& house, glm::vec2 p) {
+    bool in = false;
+    float least = kMissed;
+    overSides(house, [&](glm::vec2 a, glm::vec2 b) {
+        if ((b.y > p.y) != (a.y > p.y) && p.x < (a.x - b.x) * (p.y - b.y) / (a.y - b.y) + b.x) in = !in;
+        least = std::min(least, glm::distance(p, nearest(a, b, p)));
+    });
+    return in ? least : -1;
 }
 
 // Of the wall that the ray meets there, towards it; of a roof, upward.
-glm::vec3 facing(const std::vector<std::array<float, 2>>& ring, const Ray& ray, float along) {
+glm::vec3 facing(const House& house, const Ray& ray, float along) {
     const glm::vec3 at = ray.origin + along * ray.direction;
     const glm::vec2 p(at.x, at.z), from(ray.direction.x, ray.direction.z);
     glm::vec3 normal(0, 1, 0);
     if (glm::length(from) < .1f) return normal;
-    float nearest = kMissed;
-    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-        const glm::vec2 a(ring[j][0], ring[j][1]), ab = glm::vec2(ring[i][0], ring[i][1]) - a;
-        const float t = std::clamp(glm::dot(p - a, ab) / std::max(glm::dot(ab, ab), 1e-9f), 0.f, 1.f);
-        const float distance = glm::distance(p, a + t * ab);
-        if (distance >= nearest || glm::dot(ab, ab) < 1e-9f) continue;
-        nearest = distance;
-        const glm::vec2 across = glm::normalize(glm::vec2(ab.y, -ab.x));
+    float least = kMissed;
+    overSides(house, [&](glm::vec2 a, glm::vec2 b) {
+        const float distance = glm::distance(p, nearest(a, b, p));
+        if (distance >= least || glm::distance(a, b) < 3e-5f) return;
+        least = distance;
+        const glm::vec2 across = glm::normalize(glm::vec2(b.y - a.y, a.x - b.x));
         const float side = glm::dot(across, from) > 0 ? -1.f : 1.f;
         normal = {side * across.x, 0, side * across.y};
-    }
+    });
     return normal;
 }
 
@@ -67,7 +79,7 @@ float meet(const Ray& ray, const House& house, const EspHouseInfo& info, bool sl
     const float slope = info.slope > 0 ? info.slope : kUsualSlope;
     const auto within = [&](float along) {
         const glm::vec3 p = ray.origin + along * ray.direction;
-        const float in = depth(house.corners, {p.x, p.z});
+        const float in = depth(house, {p.x, p.z});
         if (in < 0 || p.y < info.boundsMin[1]) return false;
         const float roof = info.boundsMax[1] - info.ridgeHeight + info.eaveHeight + slope * in;
         return p.y <= (sloped ? std::min(roof, info.boundsMax[1]) : info.boundsMax[1]);
@@ -128,7 +140,7 @@ bool Workspace::meets(const Ray& ray, float reach, EspHit& met) const {
     // Who is inside a house already, by G, gets out again.
     const auto wall = meetHouse(ray, found ? met.distance : reach);
     if (wall && wall->distance > 0)
-        nearer(wall->distance, facing(houseNow(context.get(), wall->house).corners, ray, wall->distance));
+        nearer(wall->distance, facing(houseNow(context.get(), wall->house), ray, wall->distance));
     return found;
 }
 

@@ -14,12 +14,14 @@ namespace {
 using namespace espalier::document;
 using espalier::scene::House;
 using espalier::scene::houseNow;
+using espalier::scene::Ring;
+using espalier::scene::ringOf;
 
 constexpr float kCornerReach = 11, kEdgeReach = 8, kMergeReach = 6, kTremble = 4;  // pixels at 96 dpi
 constexpr ImU32 kOutline = IM_COL32(255, 255, 255, 230), kChosen = IM_COL32(255, 170, 50, 255),
                 kGable = IM_COL32(250, 220, 90, 255), kEave = IM_COL32(110, 210, 255, 255);
 
-// The outline of the chosen house at its eaves, in the window; empty where a corner is behind the camera.
+// The corners of the chosen house at its eaves, in the window; empty where a corner is behind the camera.
 std::vector<glm::vec2> outline(const Workspace& work, const House& house) {
     std::vector<glm::vec2> points;
     EspHouseInfo info;
@@ -60,7 +62,8 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
                 return;
             }
         for (size_t i = 0; i < points.size(); ++i) {
-            const size_t next = (i + 1) % points.size();
+            const Ring ring = ringOf(house, i);
+            const size_t next = ring.after(i);
             const auto [share, distance] = nearest(points[i], points[next], at);
             if (distance > kEdgeReach * work.scale) continue;
             work.houseEdge = uint32_t(i);
@@ -68,6 +71,7 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
             const auto &a = house.corners[i], &b = house.corners[next];
             house.corners.insert(house.corners.begin() + std::ptrdiff_t(i) + 1,
                                  {a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share});
+            if (!house.rings.empty()) house.rings[ring.number] += 1;
             renumber(house, uint32_t(i) + 1, 1);
             gesture_ = work.newGesture();
             changed_ = work.perform(SetHouse{house}, gesture_);
@@ -103,9 +107,9 @@ void HouseTool::dragTo(Workspace& work, glm::vec2 mouse) {
     const glm::vec3 to = ray.origin + along * ray.direction;
     corner = {to.x, to.z};
     // So near to the next corner or the one before, it is meant to be one with it.
-    const size_t count = dragged_.corners.size();
-    for (size_t other : {*corner_ + 1, *corner_ + count - 1}) {
-        const auto& next = dragged_.corners[other % count];
+    const Ring ring = ringOf(dragged_, *corner_);
+    for (size_t other : {ring.after(*corner_), ring.before(*corner_)}) {
+        const auto& next = dragged_.corners[other];
         const auto place = work.place({next[0], info.eaveHeight, next[1]});
         if (place && glm::distance(*place, at) < kMergeReach * work.scale) corner = next;
     }
@@ -141,13 +145,19 @@ void HouseTool::removeCorner(Workspace& work) {
     House house = houseNow(work.context.get(), *work.house);
     const uint32_t corner = *work.houseEdge;
     if (corner >= house.corners.size()) return;
-    if (house.corners.size() < 4) {
+    const Ring ring = ringOf(house, corner);
+    if (ring.size() < 4 && ring.number == 0) {
         work.message = "An outline has at least three corners";
         return;
     }
-    house.corners.erase(house.corners.begin() + corner);
-    std::erase_if(house.edges, [&](const House::Edge& edge) { return edge.edge == corner; });
-    renumber(house, corner + 1, -1);
+    // A courtyard of three goes as a whole.
+    const size_t first = ring.size() < 4 ? ring.first : corner, count = ring.size() < 4 ? ring.size() : 1;
+    const auto from = house.corners.begin() + std::ptrdiff_t(first);
+    house.corners.erase(from, from + std::ptrdiff_t(count));
+    std::erase_if(house.edges, [&](const House::Edge& e) { return e.edge >= first && e.edge < first + count; });
+    renumber(house, uint32_t(first + count), -int(count));
+    if (!house.rings.empty() && (house.rings[ring.number] -= uint32_t(count)) == 0)
+        house.rings.erase(house.rings.begin() + std::ptrdiff_t(ring.number));
     if (work.perform(SetHouse{house})) work.houseEdge.reset();
 }
 
@@ -158,7 +168,7 @@ void HouseTool::draw(const Workspace& work) const {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float s = work.scale;
     for (size_t i = 0; i < points.size(); ++i) {
-        const glm::vec2 a = points[i], b = points[(i + 1) % points.size()];
+        const glm::vec2 a = points[i], b = points[ringOf(house, i).after(i)];
         const auto own = std::find_if(house.edges.begin(), house.edges.end(),
                                       [&](const House::Edge& edge) { return edge.edge == i; });
         ImU32 colour = kOutline;

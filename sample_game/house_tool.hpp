@@ -5,8 +5,8 @@
 
 namespace sample {
 
-// Roofs: a click chooses a house, or an edge of the chosen one; a drag of one of its corners moves the outline, and the
-// roof follows. Ctrl and a drag put a new corner into an edge.
+// Roofs: a click chooses a house, or an edge of the chosen one; a drag of one of its corners, or of a courtyard's,
+// moves the outline, and the roof follows. Ctrl and a drag put a new corner into an edge.
 class HouseTool {
   public:
     bool take(Workspace& work, const PointerEvent& event);
@@ -21,7 +21,7 @@ class HouseTool {
     void beginDrag(Workspace& work, espalier::scene::House house, size_t corner, glm::vec2 at);
     void dragTo(Workspace& work, glm::vec2 mouse);
 
-    // The corner of the outer ring that is being dragged, and its house as it is asked for: what stands may have its
+    // The corner that is being dragged, and its house as it is asked for: what stands may have its
     // corners in another order, or fewer of them.
     std::optional<size_t> corner_;
     espalier::scene::House dragged_;

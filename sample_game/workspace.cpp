@@ -143,7 +143,7 @@ void Workspace::takeUp(const Hands& hands) {
     EspHouseInfo info;
     if (!hands.house || espHouseInfo(context.get(), *hands.house, &info) != ESP_OK) return;
     house = hands.house;
-    if (hands.houseEdge && *hands.houseEdge < info.outerCorners) houseEdge = hands.houseEdge;
+    if (hands.houseEdge && *hands.houseEdge < info.cornerCount) houseEdge = hands.houseEdge;
 }
 
 bool Workspace::townLayer(const std::string& name) const {

@@ -24,6 +24,18 @@ bool finiteDef(const EspHouseDef& def) {
     return true;
 }
 
+// Rings are made of the corners, all of them.
+bool ringsFit(const EspHouseDef& def) {
+    if (def.ringCount == 0) return true;
+    if (!def.rings || !def.corners || def.ringCount > kMostCorners) return false;
+    uint64_t sum = 0;
+    for (uint32_t r = 0; r < def.ringCount; ++r) {
+        if (def.rings[r] < 3) return false;
+        sum += def.rings[r];
+    }
+    return sum == def.cornerCount;
+}
+
 const Footprint& footprintOf(const LoadedTown& town, uint32_t house) {
     const auto changed = town.changedHouses.find(house);
     return changed == town.changedHouses.end() ? town.footprints[town.footprintOf[house]] : changed->second;
@@ -60,10 +72,13 @@ Footprint changed(const Footprint& from, const RoofHouse& house, const EspHouseD
     f.rings.clear();
     for (const auto& ring : house.rings)
         for (f.rings.emplace_back(); glm::vec2 p : ring) f.rings.back().push_back(house.origin + glm::dvec2(p));
-    if (def.corners) {
-        f.rings.front().clear();
-        for (uint32_t i = 0; i < def.cornerCount; ++i)
-            f.rings.front().emplace_back(def.corners[2 * i], -def.corners[2 * i + 1]);
+    if (!def.corners) return f;
+    if (def.ringCount > 0) f.rings.assign(def.ringCount, {});
+    const float* corner = def.corners;
+    for (uint32_t r = 0; r < std::max(def.ringCount, 1u); ++r) {
+        f.rings[r].clear();
+        const uint32_t count = def.ringCount > 0 ? def.rings[r] : def.cornerCount;
+        for (uint32_t i = 0; i < count; ++i, corner += 2) f.rings[r].emplace_back(corner[0], -corner[1]);
     }
     return f;
 }
@@ -144,7 +159,7 @@ EspResult espHouseInfo(const EspContext* context, uint32_t index, EspHouseInfo* 
         out->eaveHeight = house->eaveHeight;
         out->ridgeHeight = house->ridgeHeight;
         out->edgeCount = uint32_t(house->edges.size());
-        out->outerCorners = uint32_t(house->rings.front().size());
+        out->ringCount = uint32_t(house->rings.size());
         glm::vec2 low(1e30f), high(-1e30f);
         for (const auto& ring : house->rings)
             for (glm::vec2 p : ring) {
@@ -176,13 +191,22 @@ EspResult espHouseShape(const EspContext* context, uint32_t index, float* corner
     });
 }
 
+EspResult espHouseRings(const EspContext* context, uint32_t index, uint32_t* corners) {
+    return guarded(context, [&] {
+        const RoofHouse* house = houseOf(context, index);
+        if (!house || !corners) return fail(context, ESP_INVALID_ARGUMENT, "espHouseRings: no such house, or null");
+        for (const auto& ring : house->rings) *corners++ = uint32_t(ring.size());
+        return ESP_OK;
+    });
+}
+
 EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* def) {
     return guarded(context, [&] {
         if (!houseOf(context, index) || !def)
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: no such house, or null");
         if (def->shape < ESP_ROOF_HIP || def->shape > ESP_ROOF_FLAT || (def->edgeCount && !def->edges) ||
             (def->corners && def->cornerCount < 3) || def->cornerCount > kMostCorners ||
-            def->edgeCount > kMostCorners || !finiteDef(*def))
+            def->edgeCount > kMostCorners || !finiteDef(*def) || !ringsFit(*def))
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: a value out of its range");
         const Footprint& now = footprintOf(*context->town, index);
         return setHouse(*context, index, changed(now, *houseOf(context, index), *def));

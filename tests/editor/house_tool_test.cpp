@@ -11,7 +11,8 @@ using sample::Tool;
 namespace {
 
 struct Builder : Editor {
-    explicit Builder(const Folder& folder) : Editor(folder, content("town.json"), Tool::houses) {
+    explicit Builder(const Folder& folder, const std::string& town = content("town.json"))
+        : Editor(folder, town, Tool::houses) {
         work.frameAll();
         work.camera.turnTo(0, -1.5f);
     }
@@ -234,4 +235,67 @@ TEST_CASE("a corner that is let go over its neighbour becomes one with it, and o
     CHECK(builder.house(index) == before);
     builder.release(builder.mouse);
     CHECK(builder.done.back().index() == Action(Undo{}).index());
+}
+
+TEST_CASE("a courtyard's corners are dragged, added and taken away as the outline's are, and the roof keeps to them") {
+    const Folder folder;
+    Builder builder(folder, folder.write("court.json", R"({"buildings": [{"id": "court", "roof:shape": "hipped",
+        "outer": [[0, 0], [24, 0], [24, 20], [0, 20]], "holes": [[[8, 7], [8, 13], [16, 13], [16, 7]]]}]})"));
+    const House before = builder.house(0);
+    REQUIRE(before.corners.size() == 8);
+    REQUIRE(before.rings == std::vector<uint32_t>{4, 4});
+    const auto place = [&](const House& house, size_t i) {
+        return glm::vec2(house.corners[i][0], house.corners[i][1]);
+    };
+    const auto inner = [&](glm::vec2 plan) {  // that lies there
+        const House now = builder.house(0);
+        for (size_t i = 4; i < now.corners.size(); ++i)
+            if (glm::distance(place(now, i), plan) < .3f) return i;
+        FAIL("the courtyard has no corner there");
+        return size_t(0);
+    };
+    // Who looks into the courtyard looks past the house.
+    builder.click(builder.eave(0, {12, -10}));
+    CHECK(!builder.work.house);
+    builder.click(builder.eave(0, {4, -10}));
+    REQUIRE(builder.work.house == 0u);
+    const EspRoofStats planned = builder.roofs();
+
+    builder.drag(builder.eave(0, {16, -13}), builder.eave(0, {19, -15}));
+    const House wider = builder.house(0);
+    CHECK(inner({19, -15}) >= 4);
+    for (size_t i = 0; i < 4; ++i) CHECK(wider.corners[i] == before.corners[i]);
+    CHECK(builder.work.houseEdge == uint32_t(inner({19, -15})));
+    CHECK(builder.roofs().hash != planned.hash);
+
+    builder.drag(builder.eave(0, {8, -10}), builder.eave(0, {6, -10}), GLFW_MOD_CONTROL);
+    const House bent = builder.house(0);
+    CHECK(bent.rings == std::vector<uint32_t>{4, 5});
+    CHECK(inner({6, -10}) >= 4);
+    // Dragged through the outline the courtyard is open there, and closed again when that is undone.
+    builder.drag(builder.eave(0, {6, -10}), builder.eave(0, {-4, -10}), 0, 1);
+    CHECK(builder.house(0).rings.empty());
+    builder.undo();
+    CHECK(builder.house(0) == bent);
+
+    const std::string project = folder.file("project");
+    REQUIRE(builder.save(project));
+    {
+        Editing opened(project);
+        House again = espalier::scene::houseNow(opened.context.get(), 0);
+        CHECK(again.corners == bent.corners);
+        CHECK(again.rings == bent.rings);
+    }
+    for (const uint32_t left : {4u, 3u}) {
+        builder.work.houseEdge = uint32_t(inner(left == 4 ? glm::vec2(6, -10) : glm::vec2(19, -15)));
+        builder.key(GLFW_KEY_DELETE);
+        CHECK(builder.house(0).rings == std::vector<uint32_t>{4, left});
+    }
+    builder.work.houseEdge = 5;
+    builder.key(GLFW_KEY_DELETE);  // the courtyard goes with the last three
+    CHECK(builder.house(0).corners.size() == 4);
+    CHECK(builder.house(0).rings.empty());
+    while (builder.steps() > 0) builder.undo();
+    CHECK(builder.house(0) == before);
+    CHECK(builder.roofs().hash == planned.hash);
 }

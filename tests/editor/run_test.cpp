@@ -22,6 +22,7 @@ TEST_CASE("every action comes back from its line") {
         FreezeSeeds{{1, 2}, true},
         PruneBranch{"00f1020304050607", true},
         SetHouse{{3, "gable", .7f, 5, {{1, "eave", .5f}}, {{0, 0}, {1, 0}, {1, 1.5f}}}},
+        SetHouse{{0, "hip", 1, 3, {}, {{0, 0}, {9, 0}, {9, 9}, {3, 3}, {3, 4}, {4, 3}}, {3, 3}}},
         ResetHouse{3},
         LoadTownLayer{"moss", "moss.png"},
         SetCamera{{1, 2, 3}, {4, 5, 6}, .7f},
@@ -29,7 +30,7 @@ TEST_CASE("every action comes back from its line") {
         Undo{},
         Redo{},
     };
-    CHECK(std::size(actions) == std::variant_size_v<Action> - 2 + 1);  // the inverses aside, one comes twice
+    CHECK(std::size(actions) == std::variant_size_v<Action> - 2 + 2);  // the inverses aside, two come twice
     for (const Action& action : actions) {
         const std::string line = toJson({12, 3, action});
         CAPTURE(line);

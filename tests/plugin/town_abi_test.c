@@ -111,7 +111,7 @@ static void views(EspContext* context) {
 
 static void houses(EspContext* context) {
     EspHouseInfo info;
-    EspHouseDef change = {ESP_ROOF_GABLE, 1, 0, NULL, 0, NULL, 0};
+    EspHouseDef change = {ESP_ROOF_GABLE, 1, 0, NULL, 0, NULL, 0, NULL, 0};
     float corners[8];
     CHECK(espHouseCount(context) == kHouses);
     OK(context, espHouseInfo(context, 3, &info));
@@ -143,6 +143,62 @@ static void houses(EspContext* context) {
     REFUSED(espSetHouse(context, kHouses, &change));
     REFUSED(espHouseInfo(context, kHouses, &info));
     OK(context, espUpdate(context));
+}
+
+/* A courtyard that comes, is moved, and goes. */
+static void courtyards(EspContext* context) {
+    EspHouseInfo info;
+    float corners[16], now[16];
+    uint32_t rings[2] = {4, 4}, found[2] = {0, 0};
+    EspHouseDef change = {ESP_ROOF_HIP, 1, 0, NULL, 0, corners, 8, rings, 2};
+    OK(context, espHouseShape(context, 2, corners, NULL));
+    const float x = 40, z = -4; /* the house's middle less five metres along x */
+    for (int i = 0; i < 4; ++i) {
+        corners[8 + 2 * i] = x + (i == 0 || i == 3 ? 3.5f : 6.5f);
+        corners[9 + 2 * i] = z + (i < 2 ? -1.f : 1.f);
+    }
+    OK(context, espSetHouse(context, 2, &change));
+    OK(context, espHouseInfo(context, 2, &info));
+    CHECK(info.ringCount == 2 && info.cornerCount == 8);
+    OK(context, espHouseRings(context, 2, found));
+    CHECK(found[0] == 4 && found[1] == 4);
+    OK(context, espUpdate(context));
+    const uint64_t hash = stats(context).hash;
+
+    /* Without rings the corners are the outer one's, and the courtyard stays. */
+    change.cornerCount = 4;
+    change.rings = NULL;
+    change.ringCount = 0;
+    OK(context, espSetHouse(context, 2, &change));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == hash);
+    OK(context, espHouseInfo(context, 2, &info));
+    CHECK(info.ringCount == 2);
+    OK(context, espHouseShape(context, 2, now, NULL));
+    float low = 1e9f;
+    for (int i = 4; i < 8; ++i) low = fminf(low, now[2 * i]);
+    CHECK(fabsf(low - (x + 3.5f)) < 1e-3f);
+
+    const uint32_t few[2] = {6, 2}, many[2] = {4, 5};
+    change.cornerCount = 8;
+    change.ringCount = 2;
+    REFUSED(espSetHouse(context, 2, &change));
+    change.rings = few;
+    REFUSED(espSetHouse(context, 2, &change));
+    change.rings = many;
+    REFUSED(espSetHouse(context, 2, &change));
+    REFUSED(espHouseRings(context, 2, NULL));
+    REFUSED(espHouseRings(context, kHouses, found));
+
+    change.rings = rings;
+    change.cornerCount = 4;
+    change.ringCount = 1;
+    OK(context, espSetHouse(context, 2, &change));
+    OK(context, espHouseInfo(context, 2, &info));
+    CHECK(info.ringCount == 1 && info.cornerCount == 4);
+    OK(context, espResetHouse(context, 2));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash != hash);
 }
 
 static void layers(EspContext* context) {
@@ -223,7 +279,7 @@ static void manyEdits(EspContext* context) {
     const EspRoofStats before = stats(context);
     uint64_t settled = 0;
     for (int i = 0; i < 1500; ++i) {
-        EspHouseDef change = {ESP_ROOF_HIP, i % 2 ? 1.f : 1.1f, 0, NULL, 0, NULL, 0};
+        EspHouseDef change = {ESP_ROOF_HIP, i % 2 ? 1.f : 1.1f, 0, NULL, 0, NULL, 0, NULL, 0};
         EspStats all;
         OK(context, espSetHouse(context, 5, &change));
         OK(context, espUpdate(context));
@@ -309,6 +365,7 @@ int main(void) {
     CHECK(stats(context).houses == kHouses && stats(context).tiles > 1000 && stats(context).housesGrown == kHouses);
 
     houses(context);
+    courtyards(context);
     layers(context);
     views(context);
     triangles(context);

@@ -21,6 +21,11 @@ class FieldWriter {
     void operator()(const char* name, T& value) {
         out_[name] = json(value);
     }
+    // One that is left out where it is empty.
+    template <class T>
+    void optional(const char* name, std::vector<T>& value) {
+        if (!value.empty()) (*this)(name, value);
+    }
 
   private:
     using Out = nlohmann::ordered_json;
@@ -49,8 +54,8 @@ class FieldWriter {
     Out& out_;
 };
 
-// Every field must be there and of its kind; what else stands in the object is an error too. error(): "line:column:
-// message" of the first mistake, empty if there is none.
+// Every field that isn't optional must be there, and of its kind; what else stands in the object is an error too.
+// error(): "line:column: message" of the first mistake, empty if there is none.
 class FieldReader {
   public:
     explicit FieldReader(const scene::Json& from, std::string& error) : from_(from), error_(error) {}
@@ -61,6 +66,10 @@ class FieldReader {
         const scene::Json* json = from_.find(name);
         if (!json) return fail(from_, std::string("'") + name + "' is missing");
         if (!read(*json, value)) fail(*json, std::string("'") + name + "' isn't what it should be");
+    }
+    template <class T>
+    void optional(const char* name, std::vector<T>& value) {
+        if (from_.find(name)) (*this)(name, value);
     }
     // After all fields.
     void end() {
@@ -128,6 +137,10 @@ class FieldBytes {
     template <class T>
     void operator()(const char*, T& value) {
         bytes_ += of(value);
+    }
+    template <class T>
+    void optional(const char* name, T& value) {
+        (*this)(name, value);
     }
     size_t bytes() const { return bytes_; }
 

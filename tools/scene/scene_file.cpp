@@ -144,7 +144,8 @@ class Reader {
         if (found) out = found->text;
     }
     void readHouse(const Json& json, House& house) {
-        if (!isObject(json, "a house", {"house", "id", "shape", "slope", "eave_height", "edges", "corners"})) return;
+        if (!isObject(json, "a house", {"house", "id", "shape", "slope", "eave_height", "edges", "corners", "rings"}))
+            return;
         EspRoofShape known;
         if (need(json, "house")) whole(json, "house", house.index);
         if (json.find("id")) word(json, "id", house.id);
@@ -163,6 +164,14 @@ class Reader {
         if (const Json* corners = list(json, "corners"))
             for (const Json& corner : corners->items)
                 if (!numbers(corner, house.corners.emplace_back())) fail(corner, "a corner must be two numbers");
+        if (const Json* rings = list(json, "rings"))
+            for (const Json& count : rings->items) {
+                const bool whole = count.kind == Json::Kind::number && count.number >= 3 &&
+                                   count.number <= double(house.corners.size()) &&
+                                   count.number == std::floor(count.number);
+                if (!whole) fail(count, "a ring has three corners or more, of those there are");
+                house.rings.push_back(whole ? uint32_t(count.number) : 3);
+            }
     }
     // Keys have 64 bits, more than a number of JSON holds.
     void readPruned(const Json& json) {

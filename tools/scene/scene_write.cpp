@@ -41,6 +41,7 @@ ordered_json townJson(const SceneTown& town, const std::string& file) {
         for (const House::Edge& edge : house.edges)
             out["edges"].push_back({{"edge", edge.edge}, {"end", edge.end}, {"slope", shortest(edge.slope)}});
         for (const auto& corner : house.corners) out["corners"].push_back(shortestList(corner));
+        if (!house.rings.empty()) out["rings"] = house.rings;
     }
     if (!town.ground)
         json["ground"] = false;

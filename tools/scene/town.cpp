@@ -4,6 +4,17 @@
 #include <algorithm>
 
 namespace espalier::scene {
+
+Ring ringOf(const House& house, size_t corner) {
+    Ring ring{0, house.corners.size(), 0};
+    if (house.rings.empty()) return ring;
+    for (ring.end = house.rings[0]; corner >= ring.end && ring.number + 1 < house.rings.size();) {
+        ring.first = ring.end;
+        ring.end += house.rings[++ring.number];
+    }
+    return ring;
+}
+
 House houseNow(const EspContext* context, uint32_t index) {
     House house;
     house.index = index;
@@ -16,8 +27,9 @@ House houseNow(const EspContext* context, uint32_t index) {
     std::vector<EspHouseEdge> edges(info.edgeCount);
     if (espHouseShape(context, index, corners.empty() ? nullptr : corners[0].data(), edges.data()) != ESP_OK)
         return house;
-    corners.resize(info.outerCorners);
     house.corners = std::move(corners);
+    house.rings.resize(info.ringCount);
+    if (info.ringCount < 2 || espHouseRings(context, index, house.rings.data()) != ESP_OK) house.rings.clear();
     for (const EspHouseEdge& edge : edges)
         house.edges.push_back({edge.edge, edge.gable < 0 ? "" : edge.gable ? "gable" : "eave", edge.slope});
     return house;
@@ -43,6 +55,8 @@ bool setHouse(EspContext* context, const House& house, std::string& error) {
     def.edgeCount = uint32_t(edges.size());
     def.corners = house.corners.empty() ? nullptr : house.corners[0].data();
     def.cornerCount = uint32_t(house.corners.size());
+    def.rings = house.rings.data();
+    def.ringCount = uint32_t(house.rings.size());
     if (espSetHouse(context, house.index, &def) == ESP_OK) return true;
     error = espLastError(context);
     return false;

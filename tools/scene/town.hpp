@@ -26,15 +26,26 @@ struct House {
         bool operator==(const Edge&) const = default;
     };
     std::vector<Edge> edges = {};                    // that have something of their own
-    std::vector<std::array<float, 2>> corners = {};  // of the outer ring, world x and z; none: as they are
-    std::string id = {};  // that a project knows it by, whatever its place is then; no part of a run
+    std::vector<std::array<float, 2>> corners = {};  // world x and z, of all rings; none: as they are
+    std::vector<uint32_t> rings = {};  // how many of them each has, the outer one first; none: all are the outer one's
+    std::string id = {};               // that a project knows it by, whatever its place is then; no part of a run
     template <class V>
     void fields(V&& v) {
         v("house", index), v("shape", shape), v("slope", slope), v("eave_height", eaveHeight), v("edges", edges);
-        v("corners", corners);
+        v("corners", corners), v.optional("rings", rings);
     }
     bool operator==(const House&) const = default;
 };
+
+// Corners from `first` to before `end`.
+struct Ring {
+    size_t first = 0, end = 0, number = 0;
+    size_t after(size_t corner) const { return corner + 1 == end ? first : corner + 1; }
+    size_t before(size_t corner) const { return corner == first ? end - 1 : corner - 1; }
+    size_t size() const { return end - first; }
+};
+// Of a corner, which there must be.
+Ring ringOf(const House& house, size_t corner);
 
 // As it stands; without edges and corners if there is no such house.
 House houseNow(const EspContext* context, uint32_t index);
