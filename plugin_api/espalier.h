@@ -540,6 +540,7 @@ typedef struct EspStats {
     uint64_t hash;               /* canonical: of positions, radii and all terminals, in no order */
     uint64_t modelTriangles;     /* triangles drawn of the surfaces' meshes in the last frame */
     uint32_t modelsFading;       /* surfaces that change their level of detail: the next frames will look different */
+    uint32_t shadowsBehind;      /* 1: in the last picture shadows lagged (EspLook::shadowsLag): draw another once nothing changes */
     uint32_t contacts;           /* crossings from surface to surface */
     double contactMs;            /* on the CPU: finding them when surfaces last came, went or moved */
     uint64_t derivedNodes;       /* that the latest growth derived; the others stood as they were */

@@ -117,7 +117,7 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     const uint32_t left = uint32_t(std::lround(work_.shift() * float(frame->extent.width)));
     if (!image_->show(work_.context.get(), *frame, draw, left, scale, work_.redraw)) return fail(image_->error());
     if (image_->drew()) {
-        work_.redraw = work_.readStats() && work_.stats.modelsFading > 0;
+        work_.redraw = work_.readStats() && (work_.stats.modelsFading > 0 || work_.stats.shadowsBehind);
         moving_.drew(work_.frameMs, uint32_t(work_.stats.drawnLeaves));
     }
     ImGui::Render();
@@ -137,6 +137,7 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
 
 void App::noteTimes() {
     const bool drew = image_->drew();
+    if (drew) work_.pictureMs = work_.frameMs;
     work_.history.push_back({float(grownMs_), drew ? float(work_.stats.emitMs) : 0,
                              drew ? float(work_.stats.drawMs) : 0, float(work_.frameMs)});
     if (work_.history.size() > kHistory) work_.history.erase(work_.history.begin());

@@ -16,6 +16,8 @@ namespace {
 using namespace espalier::document;
 using espalier::scene::Seed;
 
+constexpr float kMorning = 10;  // when a day begins for a scene that had a light of its own
+
 void toolButtons(Workspace& work) {
     struct Entry {
         const char *label, *key;
@@ -239,7 +241,7 @@ void brushPanel(Workspace& work) {
     labelledSlider("Hardness", &b.hardness, 0, 1, "%.2f");
     toolTip("0: soft from the centre, 1: a hard edge");
     labelledSlider("Value", &b.value, 0, 1, "%.2f");
-    toolTip("What is painted: 1 is all, 0 is nothing");
+    toolTip("What is painted; what 0 and 1 mean is said where the layer is chosen");
     labelledSlider("Spacing", &b.spacing, .05f, 1, "%.2f");
     toolTip("Between two dabs, of the radius");
     if (work.townLayer(b.layer)) return;
@@ -285,14 +287,13 @@ void lightPanel(Workspace& work) {
     bool own = light.hour == espalier::scene::kOwnSun;
     bool changed = ImGui::Checkbox("The scene's own light", &own);
     toolTip("As the scene's file says, or of a day, by its time");
-    if (changed) light.hour = own ? espalier::scene::kOwnSun : 10;
-    if (!own) {
-        const int minutes = int(std::lround(light.hour * 60)) % 1440;
-        char text[16];
-        std::snprintf(text, sizeof text, "%d:%02d", minutes / 60, minutes % 60);
-        changed |= labelledSlider("Time", &light.hour, 0, 24, text, false, hoursOf);
-        toolTip("Time of the day; typed, it may be 14:30");
-    }
+    if (changed) light.hour = own ? espalier::scene::kOwnSun : kMorning;
+    float hour = own ? kMorning : light.hour;
+    const int minutes = int(std::lround(hour * 60)) % 1440;
+    char text[16];
+    std::snprintf(text, sizeof text, own ? "not set" : "%d:%02d", minutes / 60, minutes % 60);
+    if (labelledSlider("Time", &hour, 0, 24, text, false, hoursOf)) light.hour = hour, changed = true;
+    toolTip("Time of the day; typed, it may be 14:30");
     const uint32_t gesture = changed ? widgetGesture(work) : 0;
     bool exposed = labelledSlider("Exposure", &light.exposure, -4, 4, "%.1f stops");
     const uint32_t second = exposed ? widgetGesture(work) : 0;

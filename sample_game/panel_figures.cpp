@@ -114,7 +114,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         ImGui::Spacing();
         const double times[] = {stats.expandMs + roofs.expandMs, stats.emitMs, stats.drawMs};
         for (int i = 0; i < 3 && !brief; ++i) row(kStages[i], ms(times[i]), kColours[i]);
-        row("Frame", ms(work.frameMs));
+        row("Frame", ms(work.pictureMs));
         if (!brief) graph(work);
         if (!brief) row("Times grown", grouped(stats.expansions));
         row(narrow ? "Memory" : "GPU memory", grouped(stats.totalBytes >> 20) + " MiB");

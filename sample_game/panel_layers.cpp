@@ -57,9 +57,12 @@ void chosenLayer(Workspace& work, const Layer& layer) {
         ImGui::SameLine(0, gap);
         return pressed;
     };
+    char fill[160];
+    std::snprintf(fill, sizeof fill,
+                  "Fills the whole layer with the brush's value, %.2f. Where nothing was painted it is %.2f",
+                  work.brush.value, layer.fill);
     if (button("Clear", "Fills the whole layer with 0")) work.perform(FillLayer{layer.name, 0});
-    if (button("Fill", "Fills the whole layer with the brush's value"))
-        work.perform(FillLayer{layer.name, work.brush.value});
+    if (button("Fill", fill)) work.perform(FillLayer{layer.name, work.brush.value});
     if (button("Import", layer.town ? "A picture (.png, .exr) of the town from above, north up, as Export writes it"
                                     : "A picture (.png, .exr) over the surface's atlas (F5), as Export writes it"))
         askForLayer(layer.name, true);
@@ -84,7 +87,7 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     }
     if (!layer.painted && work.brush.value != layer.fill)
         ImGui::TextDisabled("Not painted yet: all of it is %.2g.", layer.fill);
-    if (layer.painted && layer.town) ImGui::TextDisabled("Drag over the roofs: paint falls straight down.");
+    if (layer.town) ImGui::TextDisabled("Drag over the roofs: paint falls straight down.");
     ImGui::PopTextWrapPos();
 }
 
@@ -112,6 +115,11 @@ void layersPanel(Workspace& work) {
         ImGui::TextUnformatted(what.c_str());
         ImGui::PopStyleColor();
         if (chosen) chosenLayer(work, layer);
+        if (chosen && &layer == &layers.front() && !layer.town) {
+            ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+            ImGui::TextWrapped("A path up a wall: Clear, drag up the wall; then S and a click at its foot.");
+            ImGui::PopStyleColor();
+        }
         ImGui::PopID();
     }
 }

@@ -194,7 +194,8 @@ void beginGesture(Workspace& work) {
 }
 
 uint32_t widgetGesture(Workspace& work) {
-    return ImGui::IsAnyItemActive() ? work.gesture() : work.newGesture();
+    // What is typed is taken up as it is and again as its field is left.
+    return ImGui::IsAnyItemActive() || ImGui::IsItemDeactivated() ? work.gesture() : work.newGesture();
 }
 
 }  // namespace sample

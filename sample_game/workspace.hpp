@@ -80,7 +80,8 @@ struct Workspace {
     const char* underWay = nullptr;  // what the next click does, while a tool follows the mouse without one
     EspStats stats{};
     EspRoofStats roofs{};
-    double frameMs = 0;
+    double frameMs = 0;    // of the window, the last one
+    double pictureMs = 0;  // and of the last in which the scene was drawn
     std::vector<std::array<float, 4>> history;  // expand, emit, draw, frame; milliseconds of the latest frames
 
     // What the mouse points at in the scene, if it points at anything and isn't over a panel.

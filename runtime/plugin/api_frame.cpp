@@ -184,6 +184,7 @@ EspStats gather(const EspContext& context) {
     stats.hash = growth.hash;
     stats.modelTriangles = render.modelTriangles;
     stats.modelsFading = render.modelsFading;
+    stats.shadowsBehind = render.shadowsBehind;
     stats.contacts = context.contactCount;
     stats.contactMs = context.contactMs;
     stats.derivedNodes = growth.derived;

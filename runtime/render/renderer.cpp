@@ -328,6 +328,7 @@ RenderStats RendererImpl::stats() const {
     stats.shadowsWhole = shadowsWhole_;
     stats.shadowsPartly = shadowsPartly_;
     stats.shadowsTaken = shadowsTaken_;
+    stats.shadowsBehind = shadowsBehind_;
     stats.emitMs = device_.milliseconds("emit");
     stats.drawMs = std::max(0.0, device_.milliseconds("draw") - stats.emitMs);
     stats.shadowMs = device_.milliseconds("shadow emit") + device_.milliseconds("shadow draw");

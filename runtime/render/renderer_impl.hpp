@@ -140,6 +140,7 @@ class RendererImpl final : public Renderer {
     bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;
     bool shadowCoarse_ = false;  // the map has fewer and larger leaves, as in a stroke
     bool quickBefore_ = false;
+    bool shadowsBehind_ = false;   // of what this picture shows
     bool shadowKept_ = false;      // edits of growth can be redrawn alone
     uint64_t shadowBindings_ = 0;  // whole bindings when the map was last drawn whole
     uint32_t shadowsWhole_ = 0, shadowsPartly_ = 0, shadowsTaken_ = 0;

@@ -144,6 +144,7 @@ Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs
     const bool turned = wideKey_.sun != key.sun;
     const bool wait =
         inputs.look.shadowsLag && wideDrawn_ && !turned && wideChanges_ > 2 && wideChanges_ % kShadowPeriod != 0;
+    shadowsBehind_ |= wait;
     if (!wait && (!wideDrawn_ || wideKey_ != key)) {
         const SunView wide = makeSunView(key.sun, center, radius);
         if (Status s = drawWideShadows(commands, inputs, wide); !s) return s;
@@ -169,6 +170,7 @@ RendererImpl::ShadowKey RendererImpl::edited(ShadowKey before, const ShadowKey& 
 }
 
 Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame) {
+    shadowsBehind_ = false;
     const GrowthView& growth = inputs.growth;
     glm::vec3 low, high;
     models_.bounds(low, high);
@@ -210,6 +212,7 @@ Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inp
     const bool stroke = inputs.look.shadowsLag && changes_ > 2;
     const bool coarse = stroke || (inputs.look.shadowsLag && inputs.look.quick);  // they will do
     const bool asKept = shadowDrawn_ && key == shadowKey_ && (!shadowCoarse_ || coarse);
+    shadowsBehind_ |= inputs.look.shadows && (asKept ? shadowCoarse_ : stroke);
     if (!inputs.look.shadows || asKept) {
         if (!shadowDrawn_ && !wideDrawn_)
             commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
@@ -231,6 +234,7 @@ Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inp
         return s;
     shadowKey_ = key;
     shadowCoarse_ = !partly && coarse;
+    shadowsBehind_ |= shadowCoarse_;
     shadowDrawn_ = true;
     return Done{};
 }

@@ -13,7 +13,7 @@ using espalier::scene::GreyPicture;
 
 namespace {
 
-constexpr const char* kAutumn = "context autumn = 0 \"Turned leaves\"\n";
+constexpr const char* kRust = "context rust = 0 \"Turned leaves\"\n";
 
 bool lists(const Editing& editing, const char* name) {
     const auto& layers = editing.document->scene().layers;
@@ -96,31 +96,31 @@ TEST_CASE("what is painted on a layer that a grammar's text has lost stays, is l
     const Folder folder;
     Editing editing(smallScene(folder));
     const std::string text = editing.document->scene().grammars[0].text;
-    CHECK(!lists(editing, "autumn"));
-    setText(editing, kAutumn + text);
-    CHECK(lists(editing, "autumn"));
+    CHECK(!lists(editing, "rust"));
+    setText(editing, kRust + text);
+    CHECK(lists(editing, "rust"));
     setText(editing, text);
-    CHECK(!lists(editing, "autumn"));  // nothing was painted on it
-    setText(editing, kAutumn + text);
-    paint(editing, "autumn");
-    const std::vector<float> painted = texelsOf(editing, "autumn");
+    CHECK(!lists(editing, "rust"));  // nothing was painted on it
+    setText(editing, kRust + text);
+    paint(editing, "rust");
+    const std::vector<float> painted = texelsOf(editing, "rust");
     CHECK(*std::ranges::max_element(painted) == 1);
 
     setText(editing, text);
-    CHECK(lists(editing, "autumn"));
-    CHECK(texelsOf(editing, "autumn") == painted);
+    CHECK(lists(editing, "rust"));
+    CHECK(texelsOf(editing, "rust") == painted);
     REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("saved"), editing.error), editing.error);
     Editing again(folder.file("saved"));
-    CHECK(lists(again, "autumn"));
-    CHECK(texelsOf(again, "autumn") == painted);
-    setText(again, kAutumn + text);
-    CHECK(texelsOf(again, "autumn") == painted);
+    CHECK(lists(again, "rust"));
+    CHECK(texelsOf(again, "rust") == painted);
+    setText(again, kRust + text);
+    CHECK(texelsOf(again, "rust") == painted);
 
     // Back over the text to the stroke, and over it.
     REQUIRE(editing.perform(Undo{}));
-    CHECK(texelsOf(editing, "autumn") == painted);
+    CHECK(texelsOf(editing, "rust") == painted);
     REQUIRE(editing.perform(Undo{}));
-    const std::vector<float> cleared = texelsOf(editing, "autumn");
+    const std::vector<float> cleared = texelsOf(editing, "rust");
     CHECK(*std::ranges::max_element(cleared) == 0);
 }
 

@@ -182,3 +182,34 @@ TEST_CASE("leaves take the colour and the size that are painted for them") {
     painting.ok(espFillLayer(painting.context, "lush", .6f, &stroke));
     CHECK(seen(0, kSide).both() > 2 * before.both());
 }
+
+TEST_CASE("shadows that lag behind growth are told, and the next picture of what rests has them as they should be") {
+    const Painting painting;
+    painting.plant(
+        painting.grammar("context mask = 1\n"
+                         "Vine -> Marching(0.05, 0, mask(texCoord) and arc < 1.6) {Vine, Leaves}\n"
+                         "Leaves -> Repeat(every(0.02)) {S(0.3) T(0.5, 0.2) R(rand(-3, 3)) Shape(\"leaf\")}\n"),
+        {0, -.8f, 1}, {0, 1, 0});
+    EspLook lags = espDefaultLook();
+    lags.shadowsLag = 1;
+    const auto behind = [&] { return painting.grown().shadowsBehind != 0; };
+    (void)picture(painting, lags);
+    CHECK(!behind());
+    EspBrush brush = brushOn("mask", .3f, 1, 1);
+    brush.value = 0;
+    bool lagged = false;
+    for (int i = 0; i < 5; ++i) {
+        painting.stroke(brush, {{{0, .6f - .2f * float(i), 1}, {0, 0, 1}, 1}});
+        (void)painting.grown();
+        (void)picture(painting, lags);
+        lagged = behind();
+    }
+    CHECK(lagged);
+    const std::vector<uint8_t> rested = picture(painting, lags);
+    CHECK(!behind());
+    CHECK(picture(painting, lags) == rested);
+    lags.shadows = 0;
+    CHECK(picture(painting, lags) != rested);
+    CHECK(!behind());
+    CHECK(picture(painting, espDefaultLook()) == rested);
+}
