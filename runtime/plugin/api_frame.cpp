@@ -27,6 +27,8 @@ bool finite(const EspLook& look) {
 }
 
 EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
+    if (!isAmong(def.look.view, ESP_VIEW_SHADED, ESP_VIEW_OVERDRAW))
+        return fail(context, ESP_INVALID_ARGUMENT, "espDraw: no such view");
     if (def.width < 1 || def.height < 1 || def.width > kMaxSide || def.height > kMaxSide)
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a frame is 1 to 16384 pixels wide and high");
     for (const float* v : {def.camera.eye, def.camera.target, def.camera.up})
@@ -84,8 +86,6 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
             return fail(&context, ESP_INVALID_ARGUMENT, std::string("espDraw: viewBrush: ") + mistake);
         look.limits = limitsOf(*from.viewBrush);
     }
-    if (from.view < ESP_VIEW_SHADED || from.view > ESP_VIEW_OVERDRAW)
-        return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no such view");
     if (from.view == ESP_VIEW_LAYER) {
         const std::string name = from.viewLayer ? from.viewLayer : "";
         look.layer = layerToShow(context, name).value_or(kNoIndex);

@@ -204,7 +204,7 @@ EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* de
     return guarded(context, [&] {
         if (!houseOf(context, index) || !def)
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: no such house, or null");
-        if (def->shape < ESP_ROOF_HIP || def->shape > ESP_ROOF_FLAT || (def->edgeCount && !def->edges) ||
+        if (!isAmong(def->shape, ESP_ROOF_HIP, ESP_ROOF_FLAT) || (def->edgeCount && !def->edges) ||
             (def->corners && def->cornerCount < 3) || def->cornerCount > kMostCorners ||
             def->edgeCount > kMostCorners || !finiteDef(*def) || !ringsFit(*def))
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: a value out of its range");

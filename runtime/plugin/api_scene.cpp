@@ -48,7 +48,7 @@ EspResult checkLayer(const EspContext& context, const EspLayerDef& def) {
     const PlacedSurface* surface = context.surfaces.find(def.surface.id);
     if (!surface) return fail(&context, ESP_INVALID_ARGUMENT, "espSetLayer: no such surface");
     if (!def.name || !*def.name) return fail(&context, ESP_INVALID_ARGUMENT, "espSetLayer: a layer needs a name");
-    if (def.space < ESP_LAYER_WALK_UV || def.space > ESP_LAYER_TEXELS)
+    if (!isAmong(def.space, ESP_LAYER_WALK_UV, ESP_LAYER_TEXELS))
         return fail(&context, ESP_INVALID_ARGUMENT, "espSetLayer: no such UV set");
     if (!def.texels) return ESP_OK;
     const uint32_t side = surface->data.levels.front().size;

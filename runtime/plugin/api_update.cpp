@@ -133,9 +133,9 @@ EspGrowDef espDefaultGrowDef(void) {
 
 EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
     return guarded(context, [&] {
-        if (!def || def->walk < ESP_WALK_INTRINSIC || def->walk > ESP_WALK_PAPER || def->tangents < ESP_TANGENT_STEM ||
-            def->tangents > ESP_TANGENT_PAPER || def->maxNodes < 1 || def->maxDepth < 1 || def->maxDepth > 65534 ||
-            !std::isfinite(def->leafDensityCap) || def->leafDensityCap < 0)
+        if (!def || !isAmong(def->walk, ESP_WALK_INTRINSIC, ESP_WALK_PAPER) ||
+            !isAmong(def->tangents, ESP_TANGENT_STEM, ESP_TANGENT_PAPER) || def->maxNodes < 1 || def->maxDepth < 1 ||
+            def->maxDepth > 65534 || !std::isfinite(def->leafDensityCap) || def->leafDensityCap < 0)
             return fail(context, ESP_INVALID_ARGUMENT, "espSetGrow: null pointer, or a value out of its range");
         const EspGrowDef& now = context->grow;
         if (now.walk == def->walk && now.tangents == def->tangents && now.maxNodes == def->maxNodes &&

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -292,6 +293,13 @@ struct EspContext {
 namespace espalier {
 
 EspResult fail(const EspContext* context, EspResult code, std::string message);
+// Is what a host gave among the enumerators from `first` to `last`? It may be any number, which C++ mustn't look at as
+// one.
+template <class Enum>
+bool isAmong(const Enum& given, Enum first, Enum last) {
+    const int number = std::bit_cast<int>(given);
+    return number >= int(first) && number <= int(last);
+}
 constexpr const char* kNoMemory = "out of memory";  // short enough to take none
 // Names of the meshes that grammars of roofs may ask for; reads their file the first time.
 Status knowRoofMeshes(EspContext& context);

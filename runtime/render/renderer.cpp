@@ -65,11 +65,15 @@ Status RendererImpl::removeProps() {
     return Done{};
 }
 
-// All that growth stands among. A software device begins with what comes before a time stamp, in all threads, while one
-// sets up the rest.
+// All that growth stands among. Of a moving picture a software device begins with what comes before a time stamp, in
+// all threads, while one sets up the rest.
 void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post) {
     const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
-    std::optional<Pass> part(std::in_place, pass.commands(), "draw models");
+    std::optional<Pass> part;
+    const auto begin = [&](const char* name) {
+        if (shading_ == Shading::quick) part.emplace(pass.commands(), name);
+    };
+    begin("draw models");
     models_.draw(pass, {scene_->model,
                         scene_->modelFoot,
                         *frame_,
@@ -81,10 +85,10 @@ void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, co
                         groundLevel_,
                         unit_});
     if (furnished_) {
-        part.emplace(pass.commands(), "draw props");
+        begin("draw props");
         props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, shading_);
     }
-    part.emplace(pass.commands(), "draw ground");
+    begin("draw ground");
     if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, shading_);
 }
 
@@ -198,7 +202,8 @@ void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, cons
     DrawPass pass(commands, "draw scene", targets);
     if (grows_) drawTerminals(pass, false);
     if (roofed_) {
-        const Pass part(commands, "draw roofs");
+        std::optional<Pass> part;
+        if (shading_ == Shading::quick) part.emplace(commands, "draw roofs");
         roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, shading_);
     }
     if (ahead_) drawSurroundings(pass, inputs, post);

@@ -92,6 +92,8 @@ void badArguments(EspContext* context) {
     draw.look.view = ESP_VIEW_LAYER;
     draw.look.viewLayer = "no such layer";
     REFUSED(espDraw(context, &draw));
+    draw.look.view = (EspView)99;
+    REFUSED(espDraw(context, &draw));
     draw = espDefaultDrawDef();
     EspBrush nameless = espDefaultBrush();
     draw.look.viewBrush = &nameless;
