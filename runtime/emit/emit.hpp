@@ -13,7 +13,7 @@ namespace espalier {
 
 struct EmitInputs {
     GrowthView growth;
-    SurfaceBuf surfaces;            // indexed by surface instance
+    SurfaceBuf surfaces{};          // indexed by surface instance
     uint64_t surfacesRevision = 0;  // another one when a surface stands elsewhere
     // Where things grow, more or less: space is divided there. What lies elsewhere costs more, no more than that.
     glm::vec3 low{-4}, high{4};

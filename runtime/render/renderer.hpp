@@ -51,9 +51,9 @@ struct Look {
 
 struct DrawInputs {
     GrowthView growth;                // nodeCount 0: nothing grows
-    SurfaceBuf surfaces;              // device address of the SurfaceRef table; 0: no growth and no chart view
+    SurfaceBuf surfaces{};            // device address of the SurfaceRef table; 0: no growth and no chart view
     uint64_t surfacesRevision = 0;    // another one when that table says something else
-    LayerBuf layers;                  // surfaces * kMaxLayers; 0: no layer view
+    LayerBuf layers{};                // surfaces * kMaxLayers; 0: no layer view
     const RoofView* roofs = nullptr;  // none; needs loadRoofMeshes()
     GroundLook ground;
     Camera camera;
