@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sample_game/segment.hpp"
 #include "sample_game/workspace.hpp"
 
 namespace sample {
@@ -38,19 +39,13 @@ void overSides(const House& house, const F& f) {
     }
 }
 
-// Of a side, what lies nearest to p.
-glm::vec2 nearest(glm::vec2 a, glm::vec2 b, glm::vec2 p) {
-    const glm::vec2 ab = b - a;
-    return a + std::clamp(glm::dot(p - a, ab) / std::max(glm::dot(ab, ab), 1e-9f), 0.f, 1.f) * ab;
-}
-
 // How far inside the outline, and from courtyards, the point lies; negative: outside, or in one of these.
 float depth(const House& house, glm::vec2 p) {
     bool in = false;
     float least = kMissed;
     overSides(house, [&](glm::vec2 a, glm::vec2 b) {
         if ((b.y > p.y) != (a.y > p.y) && p.x < (a.x - b.x) * (p.y - b.y) / (a.y - b.y) + b.x) in = !in;
-        least = std::min(least, glm::distance(p, nearest(a, b, p)));
+        least = std::min(least, nearestOn(a, b, p).second);
     });
     return in ? least : -1;
 }
@@ -63,7 +58,7 @@ glm::vec3 facing(const House& house, const Ray& ray, float along) {
     if (glm::length(from) < .1f) return normal;
     float least = kMissed;
     overSides(house, [&](glm::vec2 a, glm::vec2 b) {
-        const float distance = glm::distance(p, nearest(a, b, p));
+        const float distance = nearestOn(a, b, p).second;
         if (distance >= least || glm::distance(a, b) < 3e-5f) return;
         least = distance;
         const glm::vec2 across = glm::normalize(glm::vec2(b.y - a.y, a.x - b.x));

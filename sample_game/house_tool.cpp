@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sample_game/segment.hpp"
+
 namespace sample {
 namespace {
 
@@ -34,13 +36,6 @@ std::vector<glm::vec2> outline(const Workspace& work, const House& house) {
     return points;
 }
 
-// The share of a-b that lies nearest to p, and how near.
-std::pair<float, float> nearest(glm::vec2 a, glm::vec2 b, glm::vec2 p) {
-    const glm::vec2 ab = b - a;
-    const float t = std::clamp(glm::dot(p - a, ab) / std::max(glm::dot(ab, ab), 1e-6f), 0.f, 1.f);
-    return {t, glm::distance(p, a + t * ab)};
-}
-
 // Edges from `first` on have another number now.
 void renumber(House& house, uint32_t first, int by) {
     for (auto& edge : house.edges)
@@ -64,14 +59,14 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
         for (size_t i = 0; i < points.size(); ++i) {
             const Ring ring = ringOf(house, i);
             const size_t next = ring.after(i);
-            const auto [share, distance] = nearest(points[i], points[next], at);
+            const auto [share, distance] = nearestOn(points[i], points[next], at);
             if (distance > kEdgeReach * work.scale) continue;
             work.houseEdge = uint32_t(i);
             if (!insert) return;
             const auto &a = house.corners[i], &b = house.corners[next];
             house.corners.insert(house.corners.begin() + std::ptrdiff_t(i) + 1,
                                  {a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share});
-            if (!house.rings.empty()) house.rings[ring.number] += 1;
+            house.rings.at(ring.number) += 1;
             renumber(house, uint32_t(i) + 1, 1);
             gesture_ = work.newGesture();
             changed_ = work.perform(SetHouse{house}, gesture_);
@@ -156,7 +151,7 @@ void HouseTool::removeCorner(Workspace& work) {
     house.corners.erase(from, from + std::ptrdiff_t(count));
     std::erase_if(house.edges, [&](const House::Edge& e) { return e.edge >= first && e.edge < first + count; });
     renumber(house, uint32_t(first + count), -int(count));
-    if (!house.rings.empty() && (house.rings[ring.number] -= uint32_t(count)) == 0)
+    if ((house.rings.at(ring.number) -= uint32_t(count)) == 0)
         house.rings.erase(house.rings.begin() + std::ptrdiff_t(ring.number));
     if (work.perform(SetHouse{house})) work.houseEdge.reset();
 }

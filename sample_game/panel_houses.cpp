@@ -109,9 +109,7 @@ void housesPanel(Workspace& work) {
         ImGui::Separator();
         edgePanel(work, edit, house);
     } else {
-        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-        ImGui::TextWrapped("Click an edge of the outline for a gable or a pitch of its own");
-        ImGui::PopStyleColor();
+        aside("Click an edge of the outline for a gable or a pitch of its own");
     }
     if (edit.changed) work.perform(SetHouse{house}, edit.gesture);
     const auto& town = work.scene().town;
@@ -120,9 +118,7 @@ void housesPanel(Workspace& work) {
     toolTip("Back to what the town's file says");
     ImGui::EndDisabled();
     if (std::ranges::any_of(work.scene().surfaces, [](const auto& surface) { return !surface.drawn; })) {
-        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-        ImGui::TextWrapped("Plants keep to walls as they were baked: they don't follow an outline.");
-        ImGui::PopStyleColor();
+        aside("Plants keep to walls as they were baked: they don't follow an outline.");
     }
 }
 

@@ -116,9 +116,7 @@ void layersPanel(Workspace& work) {
         ImGui::PopStyleColor();
         if (chosen) chosenLayer(work, layer);
         if (chosen && &layer == &layers.front() && !layer.town) {
-            ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-            ImGui::TextWrapped("A path up a wall: Clear, drag up the wall; then S and a click at its foot.");
-            ImGui::PopStyleColor();
+            aside("A path up a wall: Clear, drag up the wall; then S and a click at its foot.");
         }
         ImGui::PopID();
     }

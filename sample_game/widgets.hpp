@@ -29,6 +29,7 @@ void rowLabel(const char* text);               // the words before a widget, whi
 // ImGui::SameLine if something so wide still fits in the row.
 void sameLineIfRoom(float width);
 void hint(const char* text);  // what keeps the user from seeing anything happen
+void aside(const char* text);  // fainter, over as many lines as it takes
 // Shown when the mouse rests on the last widget.
 void toolTip(const char* text);
 void tip(const char* text);  // at the mouse, now; no wider than the window

@@ -464,9 +464,11 @@ TEST_CASE("killed at any moment of a save or an autosave, the project opens as i
     const auto two = std::chrono::steady_clock::now() - begin;
     const auto longest = std::max<int64_t>(1, std::chrono::duration_cast<std::chrono::microseconds>(two).count());
     std::set<int> seen;
-    int killed = 0, interrupted = 0, recovered = 0;
-    for (int round = 0; round < 100; ++round) {
-        CAPTURE(round);
+    int killed = 0, interrupted = 0, recovered = 0, rounds = 0;
+    // At least a hundred, and where the machine's other work leaves few kills between an autosave and its project,
+    // more.
+    for (; rounds < 100 || ((interrupted <= 5 || recovered <= 5) && rounds < 400); ++rounds) {
+        CAPTURE(rounds);
         const pid_t writing = child(INT_MAX);
         usleep(useconds_t(random() % std::min<uint64_t>(uint64_t(longest), 400000)));
         kill(writing, SIGKILL);
@@ -487,9 +489,10 @@ TEST_CASE("killed at any moment of a save or an autosave, the project opens as i
         told.project.is(version);
         seen.insert(version);
     }
-    CHECK(killed == 100);
-    CHECK(interrupted > 1);  // how often depends on what else the machine does
-    CHECK(recovered > 1);
+    CHECK(killed == rounds);
+    CHECK(rounds >= 100);
+    CHECK(interrupted > 5);
+    CHECK(recovered > 5);
     CHECK(seen.size() == kVersions);
     // What an interrupted save left behind goes with the next: the texts, two layers and a plant are left.
     Progress progress;

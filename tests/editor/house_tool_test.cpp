@@ -274,7 +274,7 @@ TEST_CASE("a courtyard's corners are dragged, added and taken away as the outlin
     CHECK(inner({6, -10}) >= 4);
     // Dragged through the outline the courtyard is open there, and closed again when that is undone.
     builder.drag(builder.eave(0, {6, -10}), builder.eave(0, {-4, -10}), 0, 1);
-    CHECK(builder.house(0).rings.empty());
+    CHECK(builder.house(0).rings.size() == 1);
     builder.undo();
     CHECK(builder.house(0) == bent);
 
@@ -294,7 +294,20 @@ TEST_CASE("a courtyard's corners are dragged, added and taken away as the outlin
     builder.work.houseEdge = 5;
     builder.key(GLFW_KEY_DELETE);  // the courtyard goes with the last three
     CHECK(builder.house(0).corners.size() == 4);
-    CHECK(builder.house(0).rings.empty());
+    // It stays away: through other changes, undo of what brings it back, and in a project.
+    House steeper = builder.house(0);
+    steeper.slope = 1.2f;
+    REQUIRE(builder.work.perform(SetHouse{steeper}));
+    const uint64_t closed = builder.roofs().hash;
+    REQUIRE(builder.work.perform(ResetHouse{0}));
+    CHECK(builder.house(0).corners.size() == 8);
+    builder.undo();
+    CHECK(builder.roofs().hash == closed);
+    REQUIRE(builder.save(folder.file("closed")));
+    {
+        Editing opened(folder.file("closed"));
+        CHECK(espalier::scene::houseNow(opened.context.get(), 0).corners.size() == 4);
+    }
     while (builder.steps() > 0) builder.undo();
     CHECK(builder.house(0) == before);
     CHECK(builder.roofs().hash == planned.hash);

@@ -246,6 +246,7 @@ TEST_CASE("outlines without area are refused, and roofs that can't be as asked s
     House now = houseOf(editing, 0);
     CHECK(now.shape == "pyramid");
     now.corners = {{0, 0}, {10, 0}, {10, -10}, {0, -10}};
+    now.rings = {4};
     REQUIRE_MESSAGE(editing.perform(SetHouse{now}), editing.error);
     CHECK_MESSAGE(note().empty(), note());
     CHECK(houseOf(editing, 0).shape == "pyramid");
@@ -350,4 +351,24 @@ TEST_CASE("what is painted over a town stays when its grammar loses the layer, i
     CHECK(texels(again, "lichen") == more);
     REQUIRE(editing.perform(Undo{}));
     CHECK(texels(editing, "lichen") == painted);
+}
+
+TEST_CASE("a scene whose rings aren't made of its corners is refused where it says so") {
+    const Folder folder;
+    folder.write("plan.json", R"({"buildings": [{"id": "h", "outer": [[0, 0], [10, 0], [10, 8], [0, 8]]}]})");
+    const auto refused = [&](const std::string& rings) {
+        const std::string scene = folder.write(
+            "scene.json",
+            "{\"town\": {\"file\": \"plan.json\", \"houses\": [{\"house\": 0, \"shape\": \"hip\", \"slope\": 1,"
+            "\"eave_height\": 3, \"corners\": [[0,0],[10,0],[10,-8],[0,-8],[3,-3],[3,-5],[6,-5]],\n\"rings\": " +
+                rings + "}]}}");
+        const Ran ran = run(program("espalier-capture") + " " + scene + " --size 64x36 -o " + folder.file("out"));
+        CHECK_MESSAGE(ran.code == 1, ran.output);
+        CHECK_MESSAGE(contains(ran.output, "scene.json:2:"), ran.output);
+        return ran.output;
+    };
+    CHECK(contains(refused("[4, 2]"), "three or more of the corners"));
+    CHECK(contains(refused("[4, 4]"), "three or more of the corners"));
+    CHECK(contains(refused("[4]"), "3 corners are of no ring"));
+    CHECK(contains(refused("[4, 2.5]"), "three or more of the corners"));
 }

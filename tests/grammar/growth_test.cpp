@@ -296,7 +296,7 @@ TEST_CASE("the shipped grammars compile without warnings and have usable sliders
             CHECK(p.label != p.name);
             CHECK(p.minimum < p.maximum);
         }
-        CHECK(map->words().size() * 4 < 10240);
+        CHECK(map->words().size() * 4 < 8192);
     }
     Result<RuleMap> free = compileGrammarFile("content/grammars/ivy_free.grammar");
     REQUIRE(free);

@@ -164,14 +164,18 @@ class Reader {
         if (const Json* corners = list(json, "corners"))
             for (const Json& corner : corners->items)
                 if (!numbers(corner, house.corners.emplace_back())) fail(corner, "a corner must be two numbers");
-        if (const Json* rings = list(json, "rings"))
-            for (const Json& count : rings->items) {
-                const bool whole = count.kind == Json::Kind::number && count.number >= 3 &&
-                                   count.number <= double(house.corners.size()) &&
-                                   count.number == std::floor(count.number);
-                if (!whole) fail(count, "a ring has three corners or more, of those there are");
-                house.rings.push_back(whole ? uint32_t(count.number) : 3);
-            }
+        if (const Json* rings = list(json, "rings")) readRings(*rings, house);
+    }
+    void readRings(const Json& json, House& house) {
+        size_t left = house.corners.size();
+        for (const Json& count : json.items) {
+            const bool fits = count.kind == Json::Kind::number && count.number >= 3 && count.number <= double(left) &&
+                              count.number == std::floor(count.number);
+            if (!fits) return fail(count, "a ring must have three or more of the corners, each ring others");
+            house.rings.push_back(uint32_t(count.number));
+            left -= house.rings.back();
+        }
+        if (left > 0) fail(json, std::to_string(left) + " corners are of no ring");
     }
     // Keys have 64 bits, more than a number of JSON holds.
     void readPruned(const Json& json) {

@@ -29,7 +29,7 @@ House houseNow(const EspContext* context, uint32_t index) {
         return house;
     house.corners = std::move(corners);
     house.rings.resize(info.ringCount);
-    if (info.ringCount < 2 || espHouseRings(context, index, house.rings.data()) != ESP_OK) house.rings.clear();
+    if (espHouseRings(context, index, house.rings.data()) != ESP_OK) house.rings.clear();
     for (const EspHouseEdge& edge : edges)
         house.edges.push_back({edge.edge, edge.gable < 0 ? "" : edge.gable ? "gable" : "eave", edge.slope});
     return house;
