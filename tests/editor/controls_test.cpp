@@ -175,3 +175,47 @@ TEST_CASE("keys that have nothing to act on leave no step behind") {
     CHECK(hands.steps() == steps);
     CHECK(espPrunedCount(hands.work.context.get()) == 0);
 }
+
+TEST_CASE("a colour that is typed is one step of undo, however many of its letters already make one") {
+    const Folder folder;
+    Gui gui;
+    Window window(folder, smallScene(folder));
+    auto& work = window.work;
+    const EspGrammar grammar = work.scene().grammars[0].id;
+    const auto colour = [&] {
+        EspParamInfo info{};
+        for (uint32_t i = 0; i < espParamCount(work.context.get(), grammar); ++i)
+            if (espParamInfo(work.context.get(), grammar, i, &info) == ESP_OK && info.kind == ESP_PARAM_COLOUR) break;
+        REQUIRE(info.kind == ESP_PARAM_COLOUR);
+        return info;
+    };
+    const auto frame = [&](bool focus = false) {
+        ImGui::GetIO().DisplaySize = {640, 360};
+        ImGui::NewFrame();
+        sample::beginGesture(work);
+        ImGui::Begin("panel");
+        if (focus) ImGui::SetKeyboardFocusHere();
+        const EspParamInfo info = colour();
+        float value[3];
+        std::copy(info.value, info.value + 3, value);
+        if (sample::editParam(info, value))
+            REQUIRE(work.perform(SetParam{0, {info.name, {value, value + 3}}}, sample::widgetGesture(work)));
+        ImGui::End();
+        ImGui::Render();
+    };
+    ImGui::GetIO().KeyMap[ImGuiKey_Enter] = 1;
+    const auto type = [&](const char* text) {
+        frame(true);
+        frame(), frame();
+        for (; *text; ++text) ImGui::GetIO().AddInputCharacter(unsigned(*text)), frame();
+        for (bool down : {true, false}) ImGui::GetIO().KeysDown[1] = down, frame();
+        frame();
+    };
+    const size_t before = work.document->undoSteps();
+    const float red = colour().value[0];
+    type("#20d0ff");
+    CHECK(colour().value[2] == doctest::Approx(1));
+    CHECK(work.document->undoSteps() == before + 1);
+    REQUIRE(work.perform(Undo{}));
+    CHECK(colour().value[0] == red);
+}

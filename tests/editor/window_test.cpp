@@ -41,6 +41,17 @@ TEST_CASE("an editor that is told to end keeps what isn't saved") {
     CHECK(kept == 1);
 }
 
+// Each picture comes after a single change of growth, behind which shadows may lag while there are more to come.
+TEST_CASE("a window that rests shows what was undone with its own shadows") {
+    if (!hasDisplay()) return;
+    const Folder folder;
+    const Ran ran = drive("drive_undo", smallScene(folder), folder);
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    const Ran alike =
+        run(program("espalier-compare") + " " + folder.file("espalier-1.png") + " " + folder.file("espalier-2.png"));
+    CHECK_MESSAGE(alike.code == 0, alike.output);
+}
+
 TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are planted, undone and done again") {
     if (!hasDisplay()) return;
     const Folder folder;
