@@ -352,7 +352,12 @@ typedef struct EspPathSample {
 } EspPathSample;
 /* From the node that the branch leaves from to its tip. *count: room in samples, set to how many there are. */
 ESP_API EspResult espBranchPath(EspContext* context, uint64_t branch, EspPathSample* samples, uint32_t* count);
-ESP_API EspResult espPlantNodes(EspContext* context, EspSeed seed, uint32_t* nodes);
+
+typedef struct EspPlantInfo {
+    uint32_t nodes;                            /* 0: nothing has grown from the seed */
+    float boundsMin[3], boundsMax[3];          /* world, of its nodes; a seed without nodes: its own place */
+} EspPlantInfo;
+ESP_API EspResult espPlantInfo(EspContext* context, EspSeed seed, EspPlantInfo* out);
 
 typedef struct EspBranchInfo {
     EspSeed seed;

@@ -27,7 +27,6 @@ namespace {
 using namespace espalier::document;
 namespace fs = std::filesystem;
 
-constexpr double kSlowGrowthMs = 500;
 constexpr double kLookEvery = .3, kLookAtWorkEvery = .05;  // seconds
 constexpr size_t kHistory = 240;                           // frames in the graph
 constexpr float kTurnDegrees = 2;                          // a frame
@@ -54,18 +53,16 @@ void App::showUi() {
     if (work_.editing) showDialogues(work_, session_);
 }
 
-// Growth that takes longer than a blink is announced one frame before.
 bool App::update() {
     grownMs_ = 0;
     const bool changed = work_.document->revision() != work_.grownRevision || controls_->painting();
-    const double expected = work_.growsWide ? wholeGrowthMs_ : 0;
-    if (changed && !growing_ && !controls_->painting() && expected > kSlowGrowthMs) {
-        growing_ = true;
-        showGrowing(work_);
+    const bool dragged = ImGui::IsMouseDown(0) && ImGui::IsAnyItemActive();
+    const GrowthPace::Step step = pace_.next(changed, work_.growsWide, dragged, controls_->painting());
+    if (step != GrowthPace::Step::grow) {
+        showGrowing(work_, step == GrowthPace::Step::wait ? "Grows when you let go" : "Growing ...");
         wake();
         return false;
     }
-    growing_ = false;
     const uint32_t expansions = work_.stats.expansions;
     const uint64_t housesGrown = work_.roofs.housesGrown;
     work_.remedied(std::exchange(growthError_, {}));
@@ -75,7 +72,7 @@ bool App::update() {
     if (!work_.readStats()) return false;
     const bool plants = work_.stats.expansions != expansions, houses = work_.roofs.housesGrown != housesGrown;
     if (plants && work_.branch) work_.readPath();
-    if (plants && 2 * work_.stats.derivedNodes > work_.stats.nodes) wholeGrowthMs_ = work_.stats.expandMs;
+    if (plants && 2 * work_.stats.derivedNodes > work_.stats.nodes) pace_.grewWhole(work_.stats.expandMs);
     grownMs_ = (plants ? work_.stats.expandMs : 0) + (houses ? work_.roofs.expandMs : 0);
     work_.redraw |= plants || houses;
     return plants || houses;

@@ -171,7 +171,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.roofs = {};
     work_.redraw = true;
     work_.grownRevision = ~0ull;
-    wholeGrowthMs_ = 0;
+    pace_ = {};
     work_.message.clear();
     for (const std::string& note : work_.scene().notes) work_.message += (work_.message.empty() ? "" : "\n") + note;
     const bool whole = request.layers.empty() && request.grammar.empty() && !request.seed;

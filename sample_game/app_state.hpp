@@ -8,6 +8,7 @@
 #include "sample_game/app.hpp"
 #include "sample_game/atlas_view.hpp"
 #include "sample_game/controls.hpp"
+#include "sample_game/growth_pace.hpp"
 #include "sample_game/replay.hpp"
 #include "sample_game/rest.hpp"
 #include "sample_game/scene_image.hpp"
@@ -91,8 +92,7 @@ class App {
     } turnBegan_;              // once the level of detail has settled
     double grownMs_ = 0;       // what growth took in this frame
     std::string growthError_;  // of the last frame
-    bool growing_ = false;
-    double wholeGrowthMs_ = 0;  // what most of the plants took to grow, the last time
+    GrowthPace pace_;
     float themeScale_ = 0;
 };
 

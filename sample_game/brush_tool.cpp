@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sample_game/widgets.hpp"
+
 namespace sample {
 namespace {
 
@@ -41,30 +43,42 @@ StrokeBegin strokeOf(const Workspace& work, int mods) {
     return action;
 }
 
-// The circle of the brush, let down onto the surface where that is near; it hangs free over edges.
+// What the brush reaches of the surface, as seen along the centre's normal.
 struct Disc {
     const Workspace& work;
     glm::vec3 centre, normal, u, v;
     float radius;
-    // At a place of the unit circle. False: no surface is near; met.position is where it hangs.
-    bool at(glm::vec2 place, EspHit& met) const {
-        const glm::vec3 p = centre + radius * (place.x * u + place.y * v);
-        const glm::vec3 from = p + radius * normal, down = -normal;
-        if (espPick(work.context.get(), &from.x, &down.x, &met) == ESP_OK && met.distance < 2 * radius) return true;
-        for (int i = 0; i < 3; ++i) met.position[i] = p[i];
-        return false;
+    bool flat;  // over a town, which is painted from above
+    // The outermost point this way, of the unit circle, that lies within `share` of the radius. It goes around what is
+    // thin and bridges gaps.
+    glm::vec3 rim(glm::vec2 way, float share) const {
+        if (flat) return centre + share * radius * (way.x * u + way.y * v);
+        constexpr int kSteps = 8, kHalvings = 4;
+        float inside = 0, outside = share;
+        glm::vec3 point = centre;
+        for (int i = kSteps; i > 0 && inside == 0; --i) {
+            const float at = share * float(i) / kSteps;
+            (reaches(at * way, share, point) ? inside : outside) = at;
+        }
+        for (int i = 0; i < kHalvings && inside < outside; ++i) {
+            const float at = (inside + outside) / 2;
+            (reaches(at * way, share, point) ? inside : outside) = at;
+        }
+        return point;
+    }
+
+  private:
+    // Whether a surface lies below or above a place of the circle, within the share: then where.
+    bool reaches(glm::vec2 place, float share, glm::vec3& point) const {
+        const glm::vec3 from = centre + radius * (place.x * u + place.y * v + share * normal), down = -normal;
+        EspHit met;
+        if (espPick(work.context.get(), &from.x, &down.x, &met) != ESP_OK) return false;
+        constexpr float kSlack = 1.001f;  // a flat surface lies on the circle
+        if (glm::distance(vec(met.position), centre) > kSlack * share * radius) return false;
+        point = vec(met.position);
+        return true;
     }
 };
-
-// Beside a place of the window, legible on anything.
-void drawNote(const Workspace& work, glm::vec2 at, const char* text) {
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const float s = work.scale;
-    const ImVec2 from{at.x + 14 * s, at.y - 8 * s}, size = ImGui::CalcTextSize(text);
-    list.AddRectFilled({from.x - 4 * s, from.y - 2 * s}, {from.x + size.x + 4 * s, from.y + size.y + 2 * s},
-                       IM_COL32(0, 0, 0, 150), 3 * s);
-    list.AddText(from, IM_COL32_WHITE, text);
-}
 
 }  // namespace
 
@@ -174,16 +188,16 @@ void BrushTool::drawCircle(const Workspace& work, int mods, const EspHit& hit) c
     const ImU32 colour = mode == "erase"    ? IM_COL32(255, 120, 90, 255)
                          : mode == "smooth" ? IM_COL32(110, 180, 255, 255)
                                             : IM_COL32(160, 240, 120, 255);
-    Disc disc{work, vec(hit.position), glm::normalize(vec(hit.normal)), {}, {}, work.brushRadius()};
+    Disc disc{work, vec(hit.position),  glm::normalize(vec(hit.normal)), {},
+              {},   work.brushRadius(), work.townLayer(work.brush.layer)};
     tangents(disc.normal, disc.u, disc.v);
     constexpr int kPoints = 48;
     const auto ring = [&](float share, ImVec2* points) {
         int count = 0;
         for (int i = 0; i < kPoints; ++i) {
             const float angle = 6.2831853f * float(i) / kPoints;
-            EspHit met;
-            (void)disc.at(share * glm::vec2(std::cos(angle), std::sin(angle)), met);
-            if (const auto at = work.place(vec(met.position))) points[count++] = {at->x, at->y};
+            const glm::vec3 point = disc.rim({std::cos(angle), std::sin(angle)}, share);
+            if (const auto at = work.place(point)) points[count++] = {at->x, at->y};
         }
         return count;
     };
@@ -214,7 +228,7 @@ void BrushTool::draw(const Workspace& work, int mods) const {
         std::snprintf(text, sizeof text, "slope %.0f\u00b0, height %.1f m",
                       std::acos(std::clamp(normal.y, -1.f, 1.f)) * 180 / 3.14159265f, hit->position[1]);
     }
-    if (text[0] && (sizing || middle)) drawNote(work, middle.value_or(sizingFrom_), text);
+    if (text[0] && (sizing || middle)) noteAt(work, middle.value_or(sizingFrom_), text);
 }
 
 }  // namespace sample

@@ -243,9 +243,10 @@ bool Controls::step(const Input& input, float seconds) {
 void Controls::hover() {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     work_.hit.reset();
-    if (!work_.editing || work_.tool != Tool::paint || !ImGui::IsMousePosValid(&mouse)) return;
-    if (overPanel(mouse.x, mouse.y)) return;
-    work_.hit = work_.aim({mouse.x, mouse.y});
+    const bool inScene = work_.editing && ImGui::IsMousePosValid(&mouse) && !overPanel(mouse.x, mouse.y);
+    if (inScene && work_.tool == Tool::paint) work_.hit = work_.aim({mouse.x, mouse.y});
+    const bool points = inScene && work_.tool == Tool::branch && !navigation_.dragging();
+    work_.pointAtBranch(points ? std::optional(glm::vec2(mouse.x, mouse.y)) : std::nullopt);
 }
 
 void Controls::showTool(int mods) {

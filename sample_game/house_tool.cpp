@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "sample_game/segment.hpp"
+#include "sample_game/widgets.hpp"
 
 namespace sample {
 namespace {
@@ -156,6 +158,18 @@ void HouseTool::removeCorner(Workspace& work) {
     if (work.perform(SetHouse{house})) work.houseEdge.reset();
 }
 
+namespace {
+
+void noteLength(const Workspace& work, const House& house, const std::vector<glm::vec2>& points, size_t edge) {
+    const size_t next = ringOf(house, edge).after(edge);
+    const auto &a = house.corners[edge], &b = house.corners[next];
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f m", std::hypot(b[0] - a[0], b[1] - a[1]));
+    noteAt(work, (points[edge] + points[next]) / 2.f, text);
+}
+
+}  // namespace
+
 void HouseTool::draw(const Workspace& work) const {
     if (!work.house) return;
     const House house = houseNow(work.context.get(), *work.house);
@@ -176,6 +190,9 @@ void HouseTool::draw(const Workspace& work) const {
         list.AddCircleFilled({points[i].x, points[i].y}, 6 * s, IM_COL32(0, 0, 0, 160));
         list.AddCircleFilled({points[i].x, points[i].y}, 4.5f * s, corner_ && work.houseEdge == i ? kChosen : kOutline);
     }
+    if (!work.houseEdge || *work.houseEdge >= points.size()) return;
+    noteLength(work, house, points, *work.houseEdge);
+    if (corner_) noteLength(work, house, points, ringOf(house, *work.houseEdge).before(*work.houseEdge));
 }
 
 }  // namespace sample

@@ -97,14 +97,29 @@ void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
     if (changed) work.perform(SetParam{grammar, {param.name, {value, value + count}}}, gesture);
 }
 
+// Where a grammar comes from and what grows by it.
+std::string grammarTip(const Workspace& work, uint32_t index) {
+    const auto& grammar = work.scene().grammars[index];
+    const auto seeds = std::ranges::count(work.scene().seeds, index, &espalier::scene::Seed::grammar);
+    EspGrammar town{};
+    const bool roofs = espTownGrammar(work.context.get(), &town) == ESP_OK && town.id == grammar.id.id;
+    return grammar.file + "\n" +
+           (roofs        ? "The town's houses are built by it"
+            : seeds == 1 ? "One seed grows by it"
+                         : std::to_string(seeds) + " seeds grow by it") +
+           "; values set here are for these alone";
+}
+
 }  // namespace
 
 void grammarsPanel(Workspace& work) {
     for (uint32_t i = 0; i < work.scene().grammars.size(); ++i) {
         const auto& grammar = work.scene().grammars[i];
         ImGui::PushID(int(i));
-        if (ImGui::CollapsingHeader(grammarName(work.scene(), i).c_str(),
-                                    i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
+        const bool open =
+            ImGui::CollapsingHeader(grammarName(work.scene(), i).c_str(), i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+        toolTip(grammarTip(work, i).c_str());
+        if (open) {
             const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
             if (ImGui::Button("Text  F4", {half, 0})) {
                 work.layout.grammar = !work.layout.grammar || work.openGrammar != i;

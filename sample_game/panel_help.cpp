@@ -19,7 +19,8 @@ void showHelp(Workspace& work) {
                           {"Middle drag, Alt+drag", "turn around; with Shift sideways"},
                           {"Right drag", "look around; with W A S D Q E fly, the wheel sets how fast"},
                           {"Wheel", "nearer, further"},
-                          {"Home, F or numpad .", "show everything, what is chosen or the brush points at"},
+                          {"Home", "show everything"},
+                          {"F or numpad .", "show what is chosen; with the brush in hand numpad . only"},
                           {"Numpad 1 3 7", "from the front, the right, above; Ctrl: the other side"},
                           {"Numpad 2 4 6 8, + -", "turn by 15 degrees, nearer, further"}};
     const Row paint[] = {{"B, then drag", "paint the chosen layer"},

@@ -145,8 +145,8 @@ bool beginNotice(const Workspace& work, const char* name, int row, int flags) {
 
 }  // namespace
 
-void showGrowing(const Workspace& work) {
-    if (beginNotice(work, "growing", 0, ImGuiWindowFlags_NoInputs)) ImGui::TextUnformatted("Growing ...");
+void showGrowing(const Workspace& work, const char* text) {
+    if (beginNotice(work, "growing", 0, ImGuiWindowFlags_NoInputs)) ImGui::TextUnformatted(text);
     ImGui::End();
 }
 

@@ -10,7 +10,7 @@ namespace sample {
 namespace {
 
 constexpr ImU32 kSample = IM_COL32(255, 255, 255, 255), kInserted = IM_COL32(120, 200, 255, 255),
-                kJump = IM_COL32(110, 230, 90, 255);
+                kJump = IM_COL32(110, 230, 90, 255), kPointed = IM_COL32(255, 190, 60, 190);
 
 bool jumps(const EspPathSample& a, const EspPathSample& b) {
     return a.chart != b.chart || a.surface.id != b.surface.id;
@@ -91,9 +91,12 @@ void branchPanel(Workspace& work) {
 }
 
 void showWalk(const Workspace& work) {
-    if (work.path.empty()) return;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float s = work.scale;
+    for (size_t i = 0; i + 1 < work.pointed.size(); ++i) {  // what a click would pick
+        const auto a = work.place(vec(work.pointed[i].position)), b = work.place(vec(work.pointed[i + 1].position));
+        if (a && b) list.AddLine({a->x, a->y}, {b->x, b->y}, kPointed, 5 * s);
+    }
     for (size_t i = 0; i + 1 < work.path.size(); ++i) {
         const auto a = work.place(vec(work.path[i].position)), b = work.place(vec(work.path[i + 1].position));
         if (a && b)

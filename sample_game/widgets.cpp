@@ -171,6 +171,15 @@ void sameLineIfRoom(float width) {
     if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width <= right) ImGui::SameLine();
 }
 
+void noteAt(const Workspace& work, glm::vec2 at, const char* text) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float s = work.scale;
+    const ImVec2 from{at.x + 14 * s, at.y - 8 * s}, size = ImGui::CalcTextSize(text);
+    list.AddRectFilled({from.x - 4 * s, from.y - 2 * s}, {from.x + size.x + 4 * s, from.y + size.y + 2 * s},
+                       IM_COL32(0, 0, 0, 150), 3 * s);
+    list.AddText(from, IM_COL32_WHITE, text);
+}
+
 void hint(const char* text) {
     ImGui::PushStyleColor(ImGuiCol_Text, kWarning);
     ImGui::TextWrapped("%s", text);

@@ -28,8 +28,10 @@ bool hoursOf(const char* text, float& hours);  // a ReadTyped: 14:30, or 14.5
 void rowLabel(const char* text);               // the words before a widget, which takes the rest of the row
 // ImGui::SameLine if something so wide still fits in the row.
 void sameLineIfRoom(float width);
-void hint(const char* text);  // what keeps the user from seeing anything happen
+void hint(const char* text);   // what keeps the user from seeing anything happen
 void aside(const char* text);  // fainter, over as many lines as it takes
+// Over the picture, beside a place of the window, legible on anything.
+void noteAt(const Workspace& work, glm::vec2 at, const char* text);
 // Shown when the mouse rests on the last widget.
 void toolTip(const char* text);
 void tip(const char* text);  // at the mouse, now; no wider than the window

@@ -75,7 +75,11 @@ void Workspace::frameChosen() {
     std::vector<glm::vec3> points;
     if (tool == Tool::seeds)
         for (const auto& seed : scene().seeds)
-            if (selected.count(seed.key)) points.push_back(vec(seed.position));
+            if (EspPlantInfo plant; selected.count(seed.key)) {
+                points.push_back(vec(seed.position));
+                if (espPlantInfo(context.get(), seed.planted, &plant) != ESP_OK) continue;
+                points.insert(points.end(), {vec(plant.boundsMin), vec(plant.boundsMax)});
+            }
     if (tool == Tool::paint && hit) {  // as much of it as the brush would paint
         const glm::vec3 at = vec(hit->position), around(brushRadius());
         points = {at - around, at + around};
@@ -88,7 +92,7 @@ void Workspace::frameChosen() {
     if (points.empty()) return frameAll();
     glm::vec3 low = points[0], high = points[0];
     for (const glm::vec3& point : points) low = glm::min(low, point), high = glm::max(high, point);
-    // A seed is a point: some of what grows around it is seen with it.
+    // A seed from which nothing has grown is a point: some of what is around it is seen with it.
     camera.frame((low + high) * .5f, std::max(glm::distance(low, high) / 2, std::min(1.f, .12f * reach())),
                  freeAspect());
     redraw = true;
@@ -113,11 +117,17 @@ bool Workspace::perform(const espalier::document::Action& action, uint32_t gestu
     if (!std::holds_alternative<espalier::document::SetCamera>(action)) error.clear(), message.clear();
     redraw = true;
     growsWide |= reachesFar(action);
-    return document->perform(action, error, gesture);
+    const bool back = std::holds_alternative<espalier::document::Undo>(action);
+    const bool again = std::holds_alternative<espalier::document::Redo>(action);
+    const char* name = back ? document->undoName() : again ? document->redoName() : nullptr;
+    const std::string done = name ? std::string(back ? "Undone: " : "Done again: ") + name : "";
+    if (!document->perform(action, error, gesture)) return false;
+    if (name) message = done;
+    return true;
 }
 
 void Workspace::takeBack(uint32_t gesture) {
-    if (document->undoGesture() == gesture) perform(espalier::document::Undo{});
+    if (document->undoGesture() == gesture && perform(espalier::document::Undo{})) message.clear();
 }
 
 void Workspace::choose(Tool chosen) {
@@ -206,6 +216,22 @@ void Workspace::pickBranch(glm::vec2 at) {
     readPath();
 }
 
+// Asked in every frame: picked only when mouse, camera or plants have moved.
+void Workspace::pointAtBranch(std::optional<glm::vec2> at) {
+    if (!at) {
+        pointer_.reset();
+        pointed.clear();
+        return;
+    }
+    const Ray ray = rayThrough(*at);
+    const Pointer now{ray.origin, ray.direction, stats.expansions};
+    if (pointer_ == now) return;
+    pointer_ = now;
+    pointed.clear();
+    EspPlantHit found;
+    if (espPickPlant(context.get(), &ray.origin.x, &ray.direction.x, &found) == ESP_OK) pointed = pathOf(found.branch);
+}
+
 void Workspace::pickParent() {
     if (!branch || path.empty()) return;
     branch = branchInfo.parent;
@@ -234,23 +260,26 @@ void Workspace::freeze(const std::vector<uint32_t>& keys, bool frozen) {
     perform(espalier::document::FreezeSeeds{keys, frozen});
 }
 
-void Workspace::readPath() {
+std::vector<EspPathSample> Workspace::pathOf(uint64_t of) const {
     uint32_t count = 0;
-    path.clear();
-    if (!branch || espBranchPath(context.get(), *branch, nullptr, &count) != ESP_OK) return;
-    path.resize(count);
-    if (espBranchPath(context.get(), *branch, path.data(), &count) != ESP_OK ||
-        espBranchInfo(context.get(), *branch, &branchInfo) != ESP_OK)
-        path.clear();
+    if (espBranchPath(context.get(), of, nullptr, &count) != ESP_OK) return {};
+    std::vector<EspPathSample> samples(count);
+    if (espBranchPath(context.get(), of, samples.data(), &count) != ESP_OK) samples.clear();
+    return samples;
+}
+
+void Workspace::readPath() {
+    path = branch ? pathOf(*branch) : std::vector<EspPathSample>{};
+    if (!path.empty() && espBranchInfo(context.get(), *branch, &branchInfo) != ESP_OK) path.clear();
 }
 
 bool Workspace::barren(uint32_t key) {
     const auto* seed = document->seed(key);
     if (!seed) return false;
     if (asked_.key == key && asked_.expansions == stats.expansions) return asked_.barren;
-    uint32_t nodes = 0;
-    const bool known = espPlantNodes(context.get(), seed->planted, &nodes) == ESP_OK;
-    asked_ = {key, stats.expansions, known && nodes < 2};  // the first stands where the seed does
+    EspPlantInfo plant{};
+    const bool known = espPlantInfo(context.get(), seed->planted, &plant) == ESP_OK;
+    asked_ = {key, stats.expansions, known && plant.nodes < 2};  // the first stands where the seed does
     return asked_.barren;
 }
 

@@ -63,12 +63,13 @@ struct Workspace {
 
     Tool tool = Tool::look;
     Brush brush;
-    std::set<uint32_t> selected;        // keys of seeds
-    std::optional<uint64_t> branch;     // key of the one that was picked
-    std::vector<EspPathSample> path;    // its walk; what grows anew may have lost it
-    EspBranchInfo branchInfo{};         // while there is a path
-    std::optional<uint32_t> house;      // of the town, that was chosen
-    std::optional<uint32_t> houseEdge;  // of its outer ring
+    std::set<uint32_t> selected;         // keys of seeds
+    std::optional<uint64_t> branch;      // key of the one that was picked
+    std::vector<EspPathSample> path;     // its walk; what grows anew may have lost it
+    EspBranchInfo branchInfo{};          // while there is a path
+    std::vector<EspPathSample> pointed;  // the walk of the branch under the mouse, while one may be picked
+    std::optional<uint32_t> house;       // of the town, that was chosen
+    std::optional<uint32_t> houseEdge;   // of its outer ring
     uint32_t plantGrammar = 0;
     uint32_t viewLevel = 0;    // whose charts are seen on the model
     uint32_t openGrammar = 0;  // in the grammar's window
@@ -80,8 +81,8 @@ struct Workspace {
     const char* underWay = nullptr;  // what the next click does, while a tool follows the mouse without one
     EspStats stats{};
     EspRoofStats roofs{};
-    double frameMs = 0;    // of the window, the last one
-    double pictureMs = 0;  // and of the last in which the scene was drawn
+    double frameMs = 0;                         // of the window, the last one
+    double pictureMs = 0;                       // and of the last in which the scene was drawn
     std::vector<std::array<float, 4>> history;  // expand, emit, draw, frame; milliseconds of the latest frames
 
     // What the mouse points at in the scene, if it points at anything and isn't over a panel.
@@ -135,7 +136,8 @@ struct Workspace {
     // What the brush goes over: surfaces; with a layer of the town also houses and ground.
     std::optional<EspHit> aim(glm::vec2 at) const;
     void pickBranch(glm::vec2 at);
-    void pickParent();  // the branch that the picked one leaves from
+    void pointAtBranch(std::optional<glm::vec2> at);  // nothing: the mouse isn't over the scene
+    void pickParent();                                // the branch that the picked one leaves from
     std::optional<HouseHit> meetHouse(const Ray& ray, float before) const;
     std::optional<uint32_t> pickHouse(glm::vec2 at) const;
     // What stops who walks: surfaces, houses and the ground; see Meets.
@@ -147,6 +149,7 @@ struct Workspace {
     // Lets the chosen seeds' plants stand as they are, or grow again.
     void freeze(const std::vector<uint32_t>& keys, bool frozen);
     void readPath();  // of the branch, from the last growth
+    std::vector<EspPathSample> pathOf(uint64_t of) const;
     // A seed that the last growth got no further than. Reads growth back, once after each.
     bool barren(uint32_t key);
     // False: `error` says why.
@@ -158,6 +161,12 @@ struct Workspace {
 
   private:
     uint32_t gesture_ = 0;
+    struct Pointer {
+        glm::vec3 origin{0}, direction{0};
+        uint32_t expansions = 0;
+        bool operator==(const Pointer&) const = default;
+    };
+    std::optional<Pointer> pointer_;  // that `pointed` is of
     struct {
         uint32_t key = 0, expansions = 0;
         bool barren = false;

@@ -29,6 +29,7 @@ Node Expressions::fail(const Place& place, const Env& env, const std::string& me
 }
 
 Node Expressions::unknown(const std::string& name, const Place& place, const Env& env) {
+    if (module_.mistaken.contains(name)) return graph_.mistake();
     std::vector<std::string> candidates = roofs_ ? roofAccessorNames() : accessorNames();
     for (const auto& arg : env.args) candidates.push_back(arg.first);
     candidates.insert(candidates.end(), names_.begin(), names_.end());

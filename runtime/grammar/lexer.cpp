@@ -50,7 +50,9 @@ class Lexer {
                 break;
             }
             if (reporter_.full()) break;
+            const size_t start = at_, before = tokens_.size();
             next();
+            if (tokens_.size() > before) tokens_.back().length = static_cast<int>(at_ - start);
         }
         begin(TokenKind::end);
         return std::move(tokens_);

@@ -16,6 +16,7 @@ struct Token {
     float rgb[3] = {};  // of a colour, linear
     Place place;
     bool firstOnLine = false;
+    int length = 0;  // bytes in the text
 };
 
 // Splits a text into tokens; the last is `end`. Bytes that belong to no token are reported and skipped.

@@ -28,6 +28,7 @@ class Parser {
             try {
                 statement();
             } catch (Stop) {
+                if (!rule_.empty()) module_.mistaken.insert(rule_);
                 recover(before);
             }
             if (at_ == before) ++at_;
@@ -61,12 +62,23 @@ class Parser {
         reporter_.error(now().place, rule_, message);
         throw Stop{};
     }
+    // What is missing as a line ends is told there, not where the next one begins.
+    [[noreturn]] void failMissing(const std::string& expected) {
+        const bool lineEnds = at_ > 0 && (now().firstOnLine || at(TokenKind::end));
+        if (!lineEnds) fail("expected " + expected + ", found " + shown(now()));
+        const Token& last = tokens_[at_ - 1];
+        Place place = last.place;
+        place.column += last.length;
+        reporter_.error(place, rule_,
+                        "expected " + expected +
+                            (at(TokenKind::end) ? ", found the end of the text" : ", found the end of the line"));
+        throw Stop{};
+    }
     void expect(std::string_view symbol, const char* where) {
-        if (accept(symbol)) return;
-        fail("expected '" + std::string(symbol) + "' " + where + ", found " + shown(now()));
+        if (!accept(symbol)) failMissing("'" + std::string(symbol) + "' " + where);
     }
     std::string expectName(const char* what) {
-        if (!at(TokenKind::name)) fail(std::string("expected ") + what + ", found " + shown(now()));
+        if (!at(TokenKind::name)) failMissing(what);
         return tokens_[at_++].text;
     }
 
@@ -196,8 +208,7 @@ class Parser {
         if (accept(":")) r.condition = expression();
         expect("->", r.condition == kNoExpr ? "behind the predecessor" : "behind the condition");
         r.successor = sequence(1);
-        if (r.successor.empty())
-            fail("expected a successor behind ->, found " + shown(now()) + " (NULL stands for none)");
+        if (r.successor.empty()) failMissing("a successor behind -> (NULL stands for none)");
         if (accept(":")) r.probability = expression();
         bool ended = accept(";");
         if (module_.rules.size() >= kMaxRules) fail("more than 1,000 rules");
@@ -210,7 +221,7 @@ class Parser {
         if (depth > 12) fail("successors are nested too deeply (12 levels are the most)");
         Sequence all;
         while (true) {
-            if (depth == 1 && statementBegins()) return all;
+            if (depth == 1 ? statementBegins() : at(TokenKind::name) && arrowFollowsName()) return all;
             if (at("[") || at("]")) {
                 Element bracket;
                 bracket.name = now().text;
@@ -234,8 +245,7 @@ class Parser {
             e.hasItems = true;
             while (!at("}")) {
                 e.items.push_back(sequence(depth + 1));
-                if (e.items.back().empty())
-                    fail("expected a successor, found " + shown(now()) + " (NULL stands for none)");
+                if (e.items.back().empty()) failMissing("a successor (NULL stands for none)");
                 if (e.items.size() > 64) fail("more than 64 successors");
                 if (!accept(",")) break;
             }
@@ -336,7 +346,7 @@ class Parser {
             return inner;
         }
         bool nextRule = now().firstOnLine && arrowFollowsName();
-        if (!at(TokenKind::name) || nextRule) fail("expected a value, found " + shown(now()));
+        if (!at(TokenKind::name) || nextRule) failMissing("a value");
         ++at_;
         Expr e{ExprKind::name, token.text, 0, {}, token.place, 1};
         while (at(".")) {

@@ -200,6 +200,7 @@ void analyseSymbols(Compilation& c) {
 }
 
 void Compilation::reportUnknown(const Element& e, const std::string& rule) {
+    if (module.mistaken.contains(e.name)) return;
     std::vector<std::string> candidates = successorNames();
     for (const Symbol& s : symbols) candidates.push_back(s.name);
     reporter.error(e.place, rule, "there is no rule for '" + e.name + "'" + didYouMean(e.name, candidates));

@@ -84,6 +84,22 @@ EspResult branchPath(EspContext& context, uint64_t branch, EspPathSample* sample
     return ESP_OK;
 }
 
+EspResult plantInfo(EspContext& context, EspSeed seed, EspPlantInfo* out) {
+    const Plants* plants = readPlants(context);
+    if (!plants) return gpuCode(context);
+    EspSeedInfo planted;
+    if (const EspResult result = espSeedInfo(&context, seed, &planted); result != ESP_OK) return result;
+    PlantExtent extent;
+    for (uint32_t i = 0; i < context.grownSeeds.size(); ++i)
+        if (context.grownSeeds[i] == seed.id) extent = plants->extentOf(i);
+    out->nodes = extent.nodes;
+    for (int i = 0; i < 3; ++i) {
+        out->boundsMin[i] = extent.nodes ? extent.low[i] : planted.position[i];
+        out->boundsMax[i] = extent.nodes ? extent.high[i] : planted.position[i];
+    }
+    return ESP_OK;
+}
+
 }  // namespace
 }  // namespace espalier
 
@@ -115,16 +131,11 @@ EspResult espBranchInfo(EspContext* context, uint64_t branch, EspBranchInfo* out
     });
 }
 
-EspResult espPlantNodes(EspContext* context, EspSeed seed, uint32_t* nodes) {
+EspResult espPlantInfo(EspContext* context, EspSeed seed, EspPlantInfo* out) {
     return guarded(context, [&] {
-        if (!nodes || !context->seeds.find(seed.id))
-            return fail(context, ESP_INVALID_ARGUMENT, "espPlantNodes: no such seed, or null");
-        const Plants* plants = readPlants(*context);
-        if (!plants) return gpuCode(*context);
-        *nodes = 0;
-        for (uint32_t i = 0; i < context->grownSeeds.size(); ++i)
-            if (context->grownSeeds[i] == seed.id) *nodes = plants->nodesOfSeed(i);
-        return ESP_OK;
+        if (!out || !context->seeds.find(seed.id))
+            return fail(context, ESP_INVALID_ARGUMENT, "espPlantInfo: no such seed, or null");
+        return plantInfo(*context, seed, out);
     });
 }
 

@@ -42,8 +42,12 @@ Plants::Plants(GrowthRecords records, std::span<const glm::mat4> toWorld) : reco
         for (size_t i = 1; i < nodes.size(); ++i) spans_.push_back({nodes[i - 1], nodes[i], b});
         const bool joined = firstChunk(b).previousNode != kNoIndex;
         const uint32_t seed = seedOf(b);
-        if (seed >= seedNodes_.size()) seedNodes_.resize(seed + 1);
-        seedNodes_[seed] += uint32_t(nodes.size()) - (joined ? 1 : 0);
+        if (seed >= extents_.size()) extents_.resize(seed + 1);
+        extents_[seed].nodes += uint32_t(nodes.size()) - (joined ? 1 : 0);
+        for (uint32_t node : nodes) {
+            extents_[seed].low = glm::min(extents_[seed].low, positions_[node]);
+            extents_[seed].high = glm::max(extents_[seed].high, positions_[node]);
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,6 +17,12 @@ struct PlantHit {
     uint32_t branch = 0;  // index
     glm::vec3 position{0};
     float distance = 0;  // along the ray, metres
+};
+
+// How many nodes a plant has, and the box around them in the world.
+struct PlantExtent {
+    uint32_t nodes = 0;
+    glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
 };
 
 class Plants {
@@ -40,8 +47,8 @@ class Plants {
     std::vector<uint32_t> nodesOf(uint32_t branch) const;
     const Node& node(uint32_t index) const { return records_.nodes[index]; }
     glm::vec3 positionOf(uint32_t node) const { return positions_[node]; }  // world
-    // Nodes of a seed's plant, by its index in the growth.
-    uint32_t nodesOfSeed(uint32_t seed) const { return seed < seedNodes_.size() ? seedNodes_[seed] : 0; }
+    // Of a seed's plant, by its index in the growth.
+    PlantExtent extentOf(uint32_t seed) const { return seed < extents_.size() ? extents_[seed] : PlantExtent{}; }
 
   private:
     const Chunk& firstChunk(uint32_t branch) const { return records_.chunks[records_.branches[branch].firstChunk]; }
@@ -53,7 +60,7 @@ class Plants {
     GrowthRecords records_;
     std::vector<glm::vec3> positions_;
     std::vector<Span> spans_;
-    std::vector<uint32_t> seedNodes_;
+    std::vector<PlantExtent> extents_;  // by seed
 };
 
 }  // namespace espalier

@@ -25,9 +25,9 @@ std::string someBranch(Editing& editing) {
 
 uint32_t nodesOf(Editing& editing, size_t seed) {
     REQUIRE_MESSAGE(espUpdate(editing.context.get()) == ESP_OK, espLastError(editing.context.get()));
-    uint32_t nodes = 0;
-    REQUIRE(espPlantNodes(editing.context.get(), editing.document->scene().seeds[seed].planted, &nodes) == ESP_OK);
-    return nodes;
+    EspPlantInfo plant{};
+    REQUIRE(espPlantInfo(editing.context.get(), editing.document->scene().seeds[seed].planted, &plant) == ESP_OK);
+    return plant.nodes;
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST_CASE("a run that begins after edits names the seeds that its replay has, an
     plant(1, 1.4f);
     REQUIRE(window.work.perform(RemoveSeeds{{1}}));
     REQUIRE(window.work.perform(Undo{}));
-    CHECK(document.undoName() == std::string("Plant"));
+    CHECK(document.undoName() == std::string("Plant a seed"));
     window.session.stopRecording(window.work);
     CHECK(replayed(path) == hashOf(window));
 }

@@ -124,6 +124,22 @@ TEST_CASE("several mistakes are reported in one go, those behind a broken statem
         CHECK(text.find(part) != std::string::npos);
 }
 
+TEST_CASE("what is missing at a line's end is told there, and nobody who uses that statement is blamed") {
+    const auto told = [](const char* text) {
+        const Result<RuleMap> map = compileGrammar(text);
+        REQUIRE(!map);
+        return map.failure().text();
+    };
+    CHECK(told("A -> Marching(0.1, 0, true) {A, B}\nB -> S(0.1) Shape(\"bark\", C1 // with a remark\nC -> B\n") ==
+          "grammar:2:29: B: expected ')' behind the arguments, found the end of the line");
+    CHECK(told("A -> Marching(0.1, 0, true) {A, B\nB -> Shape(\"bark\", C1)\n") ==
+          "grammar:1:34: A: expected '}' behind the successors, found the end of the line");
+    CHECK(told("param p = 2 *\nA -> Marching(p, 0, true) {A}\n") ==
+          "grammar:1:14: p: expected a value, found the end of the line");
+    CHECK(told("A -> Marching(0.1, 0, true) {A}\nB -> (") ==
+          "grammar:2:6: B: expected a successor behind -> (NULL stands for none), found '('");
+}
+
 TEST_CASE("a mistake in what several rules use is told once") {
     const std::string text = failureText(
         "A -> Branch(2) {B, C}\nB -> Marching(0.1, 0, true) {B, L}\nC -> Marching(0.1, 0, true) {C, L}\n"

@@ -201,9 +201,16 @@ TEST_CASE("a branch is picked where it grew, its path leads along it") {
     CHECK(espBranchInfo(painting.context, branch, nullptr) == ESP_INVALID_ARGUMENT);
     uint32_t count = 0;
     CHECK(espBranchPath(painting.context, 12345, nullptr, &count) == ESP_INVALID_ARGUMENT);
-    uint32_t nodes = 0;
-    painting.ok(espPlantNodes(painting.context, seed, &nodes));
-    CHECK(nodes == whole.nodes);
+    EspPlantInfo plant{};
+    painting.ok(espPlantInfo(painting.context, seed, &plant));
+    CHECK(plant.nodes == whole.nodes);
+    for (const EspPathSample& sample : pathOf(painting, hit.branch))
+        for (int i = 0; i < 3; ++i) {
+            CHECK(sample.position[i] >= plant.boundsMin[i]);
+            CHECK(sample.position[i] <= plant.boundsMax[i]);
+        }
+    CHECK(espPlantInfo(painting.context, seed, nullptr) == ESP_INVALID_ARGUMENT);
+    CHECK(espPlantInfo(painting.context, {seed.id + 1}, &plant) == ESP_INVALID_ARGUMENT);
 }
 
 TEST_CASE("a pruned branch stays cut whatever changes, and grows back as it was") {

@@ -171,7 +171,8 @@ void Document::remember(const Action& action, std::vector<Action> back, uint32_t
             if (!known) step.back.push_back(std::move(inverse));
         }
     } else {
-        done_.push_back({nameOf(action), gesture, ++lastState_, std::move(back)});
+        const bool stroke = std::holds_alternative<StrokeEnd>(action);
+        done_.push_back({stroke ? strokeName_ : nameOf(action), gesture, ++lastState_, std::move(back)});
     }
     keep(done_);
 }
@@ -442,31 +443,47 @@ bool Document::carryOut(const SetView& action, std::vector<Action>&, std::string
 
 // ---- What actions are
 
-const char* nameOf(const Action& action) {
+namespace {
+
+std::string counted(size_t count, const char* one, const char* several) {
+    return count == 1 ? one : std::to_string(count) + " " + several;
+}
+std::string seeds(size_t count) {
+    return counted(count, "a seed", "seeds");
+}
+
+}  // namespace
+
+std::string nameOf(const Action& action) {
+    using Name = std::string;
     struct Names {
-        const char* operator()(const SetParam&) const { return "Change a parameter"; }
-        const char* operator()(const SetText&) const { return "Edit the grammar"; }
-        const char* operator()(const AddSeeds&) const { return "Plant"; }
-        const char* operator()(const RemoveSeeds&) const { return "Remove seeds"; }
-        const char* operator()(const ChangeSeeds&) const { return "Change seeds"; }
-        const char* operator()(const SetLight&) const { return "Change the light"; }
-        const char* operator()(const SetWalk&) const { return "Walk otherwise"; }
-        const char* operator()(const StrokeBegin&) const { return "Paint"; }
-        const char* operator()(const StrokeDabs&) const { return "Paint"; }
-        const char* operator()(const StrokeEnd&) const { return "Paint"; }
-        const char* operator()(const FillLayer&) const { return "Fill a layer"; }
-        const char* operator()(const LoadLayer&) const { return "Import a layer"; }
-        const char* operator()(const LoadTownLayer&) const { return "Import a layer"; }
-        const char* operator()(const SwapStroke&) const { return "Paint"; }
-        const char* operator()(const FreezeSeeds& a) const { return a.frozen ? "Freeze" : "Thaw"; }
-        const char* operator()(const RestoreFrozen&) const { return "Freeze"; }
-        const char* operator()(const PruneBranch& a) const { return a.pruned ? "Prune" : "Let a branch grow again"; }
-        const char* operator()(const SetHouse&) const { return "Change a house"; }
-        const char* operator()(const ResetHouse&) const { return "A house as planned"; }
-        const char* operator()(const SetCamera&) const { return "Move the camera"; }
-        const char* operator()(const SetView&) const { return "Change the view"; }
-        const char* operator()(const Undo&) const { return "Undo"; }
-        const char* operator()(const Redo&) const { return "Redo"; }
+        Name operator()(const SetParam& a) const { return "Change " + a.param.name; }
+        Name operator()(const SetText&) const { return "Edit the grammar"; }
+        Name operator()(const AddSeeds& a) const { return "Plant " + seeds(a.seeds.size()); }
+        Name operator()(const RemoveSeeds& a) const { return "Remove " + seeds(a.keys.size()); }
+        Name operator()(const ChangeSeeds& a) const { return "Change " + seeds(a.seeds.size()); }
+        Name operator()(const SetLight&) const { return "Change the light"; }
+        Name operator()(const SetWalk&) const { return "Walk otherwise"; }
+        Name operator()(const StrokeBegin& a) const {
+            return (a.mode == "erase" ? "Erase " : a.mode == "smooth" ? "Smooth " : "Paint ") + a.layer;
+        }
+        Name operator()(const StrokeDabs&) const { return "Paint"; }
+        Name operator()(const StrokeEnd&) const { return "Paint"; }
+        Name operator()(const FillLayer& a) const { return "Fill " + a.layer; }
+        Name operator()(const LoadLayer& a) const { return "Import " + a.layer; }
+        Name operator()(const LoadTownLayer& a) const { return "Import " + a.layer; }
+        Name operator()(const SwapStroke&) const { return "Paint"; }
+        Name operator()(const FreezeSeeds& a) const {
+            return (a.frozen ? "Freeze " : "Thaw ") + counted(a.keys.size(), "a plant", "plants");
+        }
+        Name operator()(const RestoreFrozen&) const { return "Freeze"; }
+        Name operator()(const PruneBranch& a) const { return a.pruned ? "Prune" : "Let a branch grow again"; }
+        Name operator()(const SetHouse&) const { return "Change a house"; }
+        Name operator()(const ResetHouse&) const { return "A house as planned"; }
+        Name operator()(const SetCamera&) const { return "Move the camera"; }
+        Name operator()(const SetView&) const { return "Change the view"; }
+        Name operator()(const Undo&) const { return "Undo"; }
+        Name operator()(const Redo&) const { return "Redo"; }
     };
     return std::visit(Names{}, action);
 }

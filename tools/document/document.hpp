@@ -120,6 +120,7 @@ class Document {
     std::vector<Step> done_, undone_;
     EspStroke stroke_{};  // open
     bool strokeHasDabs_ = false;
+    std::string strokeName_;  // its nameOf()
     uint64_t revision_ = 0;
     uint64_t bottom_ = 0, lastState_ = 0;  // bottom: before the oldest step that is kept
     uint32_t lastKey_ = 0;
@@ -127,8 +128,8 @@ class Document {
     std::function<void()> settle_;
 };
 
-// The words for an action in menus, such as "Plant seeds".
-const char* nameOf(const Action& action);
+// The words for an action in menus, such as "Plant 3 seeds".
+std::string nameOf(const Action& action);
 // The brush of a stroke; the layer's name stays the stroke's. False: there is no such mode.
 bool brushOf(const StrokeBegin& stroke, EspBrush& brush, std::string& error);
 // Whether undo takes it back, and a project holds what it changes.

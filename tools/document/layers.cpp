@@ -78,6 +78,7 @@ bool Document::carryOut(const StrokeBegin& action, std::vector<Action>&, std::st
     EspBrush brush;
     if (!brushOf(action, brush, error)) return false;
     strokeHasDabs_ = false;
+    strokeName_ = nameOf(action);
     return !failed(espBeginStroke(context_, &brush, &stroke_), error);
 }
 
