@@ -1,0 +1,78 @@
+// Branches under a user's mouse: what a click would pick is shown before, and F shows the whole of what is chosen.
+#include "tests/editor/window.hpp"
+
+using sample::Tool;
+using sample::vec;
+
+namespace {
+
+struct Pruner : Editor {
+    explicit Pruner(const Folder& folder) : Editor(folder, smallScene(folder), Tool::branch) {
+        REQUIRE(espUpdate(work.context.get()) == ESP_OK);
+        REQUIRE(work.readStats());
+    }
+    // Where a branch would be picked; it is what was found by rays of the test's own.
+    std::pair<glm::vec2, uint64_t> someBranch() const {
+        for (float y = 20; y < work.window.y; y += 9)
+            for (float x = work.panelUnits() + 20; x < work.window.x; x += 9) {
+                const sample::Ray ray = work.rayThrough({x, y});
+                EspPlantHit hit;
+                if (espPickPlant(work.context.get(), &ray.origin.x, &ray.direction.x, &hit) == ESP_OK)
+                    return {{x, y}, hit.branch};
+            }
+        FAIL("no branch is seen");
+        return {};
+    }
+};
+
+bool sameWalk(const std::vector<EspPathSample>& a, const std::vector<EspPathSample>& b) {
+    return std::ranges::equal(
+        a, b, [](const EspPathSample& s, const EspPathSample& t) { return vec(s.position) == vec(t.position); });
+}
+
+}  // namespace
+
+TEST_CASE("the branch under the mouse is the one that a click picks") {
+    const Folder folder;
+    Pruner pruner(folder);
+    const auto [at, branch] = pruner.someBranch();
+    pruner.move(at);
+    REQUIRE(pruner.work.pointed.size() > 1);
+    CHECK(!pruner.work.branch);
+    const auto pointed = pruner.work.pointed;
+    pruner.click(at);
+    CHECK(pruner.work.branch == branch);
+    CHECK(sameWalk(pointed, pruner.work.path));
+    // Beside it there is none, nor while another tool is in hand.
+    pruner.move({pruner.work.panelUnits() + 2, 2});
+    CHECK(pruner.work.pointed.empty());
+    pruner.move(at);
+    REQUIRE(!pruner.work.pointed.empty());
+    pruner.key(GLFW_KEY_S);
+    CHECK(pruner.work.pointed.empty());
+}
+
+TEST_CASE("F shows the whole plant of the chosen seed") {
+    const Folder folder;
+    Pruner pruner(folder);
+    pruner.key(GLFW_KEY_S);
+    const auto& seed = pruner.work.scene().seeds.front();
+    EspPlantInfo plant{};
+    REQUIRE(espPlantInfo(pruner.work.context.get(), seed.planted, &plant) == ESP_OK);
+    REQUIRE(plant.nodes > 10);
+    const float size = glm::distance(vec(plant.boundsMin), vec(plant.boundsMax));
+    REQUIRE(size > .3f);
+    pruner.work.selected = {seed.key};
+    pruner.key(GLFW_KEY_F);
+    glm::vec2 low(1e9f), high(-1e9f);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::bvec3 far(corner & 1, corner & 2, corner & 4);
+        const glm::vec2 at = pruner.at(glm::mix(vec(plant.boundsMin), vec(plant.boundsMax), far));
+        low = glm::min(low, at), high = glm::max(high, at);
+    }
+    CHECK(low.x >= pruner.work.panelUnits());
+    CHECK(low.y >= 0);
+    CHECK(high.x <= pruner.work.window.x);
+    CHECK(high.y <= pruner.work.window.y);
+    CHECK(std::max(high.x - low.x, high.y - low.y) > .3f * pruner.work.window.y);
+}
