@@ -6,12 +6,18 @@
 
 namespace espalier {
 
-// Native code closes gaps before room runs out, of which there is half as much again as what has grown; kernels copy
-// all, which is the better the later.
+// Native code closes gaps before room runs out: an edit that finds none is done twice, and fresh memory costs ten times
+// what closing does. Kernels copy all, which is the better the later.
 bool GpuGrowth::gappy(const GrowthInputs& inputs) const {
-    const uint32_t mostGapsOf = runsNative(inputs) ? 4 : 3;
-    const auto wide = [&](uint32_t taken, uint32_t live) { return taken - std::min(taken, live) > taken / mostGapsOf; };
-    return wide(view_.nodeCount, stats_.nodes) || wide(view_.leafCount, stats_.leaves);
+    const bool native = runsNative(inputs);
+    const auto wide = [&](uint32_t taken, uint32_t live, uint64_t room) {
+        const uint32_t gaps = taken - std::min(taken, live);
+        const bool scarce = native && room - std::min<uint64_t>(room, taken) < live / 16;
+        return gaps > taken / (native ? 4 : 3) || (scarce && gaps > live / 32);
+    };
+    const Plants& plants = plants_[frontPlants_];
+    return wide(view_.nodeCount, stats_.nodes, capacityOf<Node>(plants.nodes)) ||
+           wide(view_.leafCount, stats_.leaves, capacityOf<Leaf>(plants.leaves));
 }
 
 Status GpuGrowth::compact(const GrowthInputs& inputs) {
@@ -78,7 +84,7 @@ Status GpuGrowth::makePlantRoom(Plants& plants) {
 Status GpuGrowth::enlarge() {
     const Plants& now = plants_[frontPlants_];
     const auto suffices = [](uint64_t capacity, uint32_t live, uint32_t room) {
-        return capacity >= std::max<uint64_t>(live + live / 4ull, room);
+        return capacity >= std::max<uint64_t>(live + live / 8ull, room);
     };
     if (suffices(capacityOf<Node>(now.nodes), stats_.nodes, room_.nodes) &&
         suffices(capacityOf<Leaf>(now.leaves), stats_.leaves, room_.leaves))
