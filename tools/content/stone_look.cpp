@@ -32,14 +32,21 @@ glm::vec3 stoneColor(uint32_t id, const StoneLook& look, float bump) {
     return color;
 }
 
-// Grey and ochre rosettes on some stones.
+// Grey and ochre crusts, lobed and broken, in patches over some stones: few large ones among many small.
 void addLichen(glm::vec3& color, const StoneLook& look, uint32_t id) {
-    Cells pale = cells(look.st * 9.0f + glm::vec2(0.3f * fractal(look.block * 11.0f, 331, 2)), 333);
-    float size = 0.16f + 0.22f * random01(pale.id, 3);
-    float spot = ramp(size, size * 0.6f, pale.nearest + 0.10f * fractal(look.block * 45.0f, 335, 2));
-    float present = random01(pale.id, 4) < 0.20f + 0.25f * random01(id, 8) ? 1.0f : 0.0f;
-    glm::vec3 tone = random01(pale.id, 9) < 0.22f ? glm::vec3(0.33f, 0.205f, 0.05f) : glm::vec3(0.37f, 0.37f, 0.31f);
-    color = glm::mix(color, tone, 0.62f * spot * present);
+    const float patch = ramp(-0.12f, 0.35f, fractal(look.block * 1.9f, 337, 2) + 0.5f * (random01(id, 8) - 0.5f));
+    const glm::vec2 bent = glm::vec2(fractal(look.block * 11.0f, 331, 2), fractal(look.block * 11.0f, 332, 2)) * 0.35f;
+    const float lobes = 0.20f * fractal(look.block * 42.0f, 335, 3);
+    const float crust = ramp(-0.35f, 0.10f, fractal(look.block * 85.0f, 339, 2));
+    for (const float often : {8.0f, 19.0f}) {
+        const Cells spot = cells(look.st * often + bent, 333);
+        const float size = 0.20f + 0.34f * random01(spot.id, 3) * random01(spot.id, 5);
+        const float inside = ramp(size, size * 0.45f, spot.nearest + lobes);
+        const float present = random01(spot.id, 4) < 0.75f * patch ? 1.0f : 0.0f;
+        const glm::vec3 tone =
+            random01(spot.id, 9) < 0.18f ? glm::vec3(0.30f, 0.20f, 0.06f) : glm::vec3(0.34f, 0.34f, 0.28f);
+        color = glm::mix(color, tone, 0.62f * inside * crust * present);
+    }
 }
 
 }  // namespace

@@ -55,16 +55,20 @@ float frontIvy(glm::vec2 p, const Elevation& wall) {
 
 float backIvy(glm::vec2 p) {
     static const Tongue kTongues[] = {
-        {{{-1.6f, -0.2f}, {-1.45f, 0.7f}, {-1.85f, 1.5f}, {-1.65f, 2.3f}, {-2.05f, 3.0f}, {-2.1f, 3.7f}}, 0.44f, 0.24f},
-        {{{-1.5f, 0.8f}, {-1.15f, 1.5f}, {-0.95f, 2.2f}}, 0.34f, 0.08f},
-        {{{-3.2f, -0.2f}, {-3.3f, 0.9f}, {-3.15f, 1.8f}, {-3.3f, 2.9f}}, 0.42f, 0.10f},
-        {{{-3.1f, 0.6f}, {-2.75f, 1.3f}, {-2.6f, 2.1f}}, 0.26f, 0.02f},
-        {{{2.3f, -0.2f}, {2.1f, 1.0f}, {1.75f, 2.2f}, {1.1f, 2.75f}, {0.4f, 2.9f}}, 0.50f, 0.12f},
-        {{{-0.25f, 0.1f}, {-0.3f, 1.2f}, {-0.5f, 2.1f}}, 0.20f, 0.05f}};
+        // A curtain that leans over to the corner, and what hangs from the coping.
+        {{{-1.6f, -0.2f}, {-1.45f, 0.7f}, {-1.85f, 1.5f}, {-1.65f, 2.3f}, {-2.15f, 3.0f}, {-2.3f, 3.8f}}, 0.62f, 0.36f},
+        {{{-1.5f, 0.6f}, {-0.95f, 1.3f}, {-0.75f, 2.2f}, {-0.2f, 2.7f}}, 0.46f, 0.12f},
+        {{{-3.2f, -0.2f}, {-3.3f, 0.9f}, {-3.1f, 1.8f}, {-3.25f, 2.9f}}, 0.46f, 0.16f},
+        {{{-3.1f, 0.3f}, {-2.6f, 0.9f}, {-2.45f, 1.9f}, {-2.2f, 2.7f}}, 0.34f, 0.16f},
+        {{{-2.6f, 3.7f}, {-1.7f, 3.55f}, {-0.9f, 3.1f}}, 0.26f, 0.14f},
+        // Over the arch, from its pier.
+        {{{2.3f, -0.2f}, {2.1f, 1.0f}, {1.75f, 2.2f}, {1.1f, 2.75f}, {0.4f, 2.9f}, {-0.3f, 2.8f}}, 0.58f, 0.18f},
+        {{{0.1f, 3.1f}, {0.05f, 2.4f}, {0.2f, 1.9f}}, 0.20f, 0.04f},
+        {{{-0.25f, 0.1f}, {-0.3f, 1.0f}, {-0.5f, 1.8f}}, 0.26f, 0.08f}};
     float d = 1e9f;
     for (const Tongue& tongue : kTongues) d = std::min(d, tongueDistance(p, tongue));
-    d += 0.16f * fractal(p * 2.4f, 489, 3) + 0.06f * fractal(p * 9.0f, 490, 2);
-    return 0.66f * ramp(0.06f, -0.16f, d);
+    d += 0.34f * fractal(p * 1.6f, 489, 3) + 0.12f * fractal(p * 6.0f, 490, 2);
+    return 0.72f * ramp(0.16f, -0.26f, d);
 }
 
 }  // namespace espalier::content
