@@ -79,8 +79,9 @@ class Emit {
         watched_ = {};
     }
 
-    // Drops what only the next growth or edit would use.
-    void trim() { spareOrder_ = {}; }
+    // Drops what only the next growth or edit would use; where far more was bound before, all, so that the next view
+    // binds growth anew.
+    void trim();
 
     // Where the draws of the last cull lie; bucket b has the commands 2b and 2b + 1.
     const Buffer& state() const { return culledNative() ? natives_[native_].state : state_; }

@@ -71,6 +71,22 @@ Status Emit::makeOrder(Buffer& order, const Held& held) {
     return Done{};
 }
 
+void Emit::trim() {
+    constexpr uint64_t kFarMore = 4, kLeast = 1 << 19;
+    spareOrder_ = {};
+    if (held_.numbers() / kFarMore <= std::max<uint64_t>(bound_.nodeCount + bound_.leafCount, kLeast)) return;
+    forget();
+    culled_ = {};
+    hold({});
+    for (TexelView* view : {&noteTexels_, &drawnTexels_}) *view = {};  // no view outlives its buffer
+    for (Buffer* buffer : {&flags_, &list_, &rows_, &notes_, &drawn_}) *buffer = {};
+    for (Native& native : natives_) {
+        native.drawnTexels = {};
+        native = {};
+    }
+    native_ = ~size_t(0);
+}
+
 void Emit::hold(Held held) {
     held_.spanTexels = {};  // no view outlives its buffer
     held_.leafTexels = {};

@@ -89,9 +89,15 @@ Status GpuGrowth::enlarge() {
     if (suffices(capacityOf<Node>(now.nodes), stats_.nodes, room_.nodes) &&
         suffices(capacityOf<Leaf>(now.leaves), stats_.leaves, room_.leaves))
         return Done{};
+    return movePlants();
+}
+
+// Nodes and leaves to the other set of buffers, with the room that edits ask for.
+Status GpuGrowth::movePlants() {
+    const Plants& now = plants_[frontPlants_];
     Plants& to = plants_[1 - frontPlants_];
     if (Status ok = makePlantRoom(to); !ok) return ok;
-    Result<Commands> commands = Commands::begin(device_, "enlarge growth");
+    Result<Commands> commands = Commands::begin(device_, "move growth");
     if (!commands) return commands.failure();
     commands->copy(now.nodes, to.nodes, view_.nodeCount * sizeof(Node));
     commands->copy(now.leaves, to.leaves, view_.leafCount * sizeof(Leaf));
@@ -102,6 +108,39 @@ Status GpuGrowth::enlarge() {
     view_.nodeBuffer = &to.nodes;
     view_.leafBuffer = &to.leaves;
     return Done{};
+}
+
+Status GpuGrowth::moveLinks() {
+    const Links& now = links_[frontLinks_];
+    Links& to = links_[1 - frontLinks_];
+    const AgainBytes bytes = againBytes(now);
+    if (Status ok = ensure(to.chunks, "growth chunks", bytes.chunks); !ok) return ok;
+    if (Status ok = ensure(to.branches, "growth branches", bytes.branches); !ok) return ok;
+    Result<Commands> commands = Commands::begin(device_, "move growth's links");
+    if (!commands) return commands.failure();
+    commands->copy(now.chunks, to.chunks, view_.chunkCount * sizeof(Chunk));
+    commands->copy(now.branches, to.branches, view_.branchCount * sizeof(BranchRecord));
+    if (Status finished = commands->finish(); !finished) return finished;
+    frontLinks_ = 1 - frontLinks_;
+    view_.chunks = addressOf<ChunkBuf, Chunk>(to.chunks);
+    view_.branches = addressOf<BranchBuf, BranchRecord>(to.branches);
+    view_.chunkBuffer = &to.chunks;
+    return Done{};
+}
+
+// After growth that needed far more, what stands moves to buffers of its own size, if that frees more than a block of
+// memory that it may take. The other set holds nothing.
+Status GpuGrowth::shrink() {
+    constexpr uint64_t kFarMore = 4, kWorth = 64 << 20;
+    const auto vast = [](const Buffer& buffer, uint64_t taken) {
+        return buffer.size() > kWorth && buffer.size() / kFarMore > taken;
+    };
+    const Plants& plants = plants_[frontPlants_];
+    if (vast(plants.nodes, view_.nodeCount * sizeof(Node)) || vast(plants.leaves, view_.leafCount * sizeof(Leaf)))
+        if (Status moved = movePlants(); !moved) return moved;
+    if (!vast(links_[frontLinks_].chunks, view_.chunkCount * sizeof(Chunk))) return Done{};
+    links_[1 - frontLinks_] = {};
+    return moveLinks();
 }
 
 Status GpuGrowth::makeCopyRoom() {

@@ -169,6 +169,9 @@ class GpuGrowth final : public Growth {
     Status compact(const GrowthInputs& inputs);
     Status closeGaps();
     Status enlarge();
+    Status movePlants();
+    Status moveLinks();
+    Status shrink();
     Status copyTogether();
     Status makeCopyRoom();
     CompactEnv compactEnvironment() const;

@@ -300,6 +300,9 @@ void GpuGrowth::trim() {
     fit(room_.leaves, view_.leafCount, least_.leaves);
     fit(room_.items, widest_, least_.items);
     plants_[1 - frontPlants_] = {};
+    dropViews();
+    (void)shrink();  // where there isn't memory even for less, all stays where it is
+    plants_[1 - frontPlants_] = {};
     const Plants& plants = plants_[frontPlants_];
     const Links& links = links_[frontLinks_];
     const AgainBytes again = againBytes(links);

@@ -1,0 +1,62 @@
+// Memory after growth that asked for far more than what stands now.
+#include <vector>
+
+#include "tests/editor/editing.hpp"
+
+using namespace espalier::document;
+
+namespace {
+
+constexpr uint32_t kMost = 1'150'000;  // nodes
+
+struct Place : Editing {
+    Place() : Editing(content("sample.json"), kMost) {}
+    EspStats stats() {
+        EspStats s{};
+        REQUIRE(espReadStats(context.get(), &s) == ESP_OK);
+        return s;
+    }
+    std::vector<uint8_t> picture() {
+        EspDrawDef draw = espDefaultDrawDef();
+        draw.camera = document->scene().camera;
+        draw.look = document->scene().look;
+        draw.width = 320;
+        draw.height = 180;
+        std::vector<uint8_t> rgba(size_t(4) * draw.width * draw.height);
+        REQUIRE_MESSAGE(espUpdate(context.get()) == ESP_OK, espLastError(context.get()));
+        REQUIRE_MESSAGE(espDraw(context.get(), &draw) == ESP_OK, espLastError(context.get()));
+        REQUIRE(espReadPixels(context.get(), rgba.data(), rgba.size()) == ESP_OK);
+        return rgba;
+    }
+    void trim() { REQUIRE_MESSAGE(espTrim(context.get()) == ESP_OK, espLastError(context.get())); }
+};
+
+}  // namespace
+
+TEST_CASE("what a slider that went too far has taken is given back once that is undone and the window rests") {
+    Place place;
+    const std::vector<uint8_t> before = place.picture();
+    const EspStats small = place.stats();
+    place.trim();
+    const uint64_t held = place.stats().totalBytes;
+    for (const auto& [name, value] : {std::pair("reach", 8.f), {"twigs", 20.f}, {"forks", 3.f}})
+        REQUIRE(place.perform(SetParam{0, {name, {value}}}, 1));
+    REQUIRE(place.perform(FillLayer{"mask", 1}));
+    (void)place.picture();
+    const EspStats large = place.stats();
+    REQUIRE(large.nodes > 8 * small.nodes);
+    REQUIRE(large.totalBytes > 2 * held);
+    REQUIRE(place.perform(Undo{}));
+    REQUIRE(place.perform(Undo{}));
+    CHECK(place.picture() == before);
+    place.trim();
+    CHECK(place.stats().totalBytes < held + held / 4);
+    CHECK(place.picture() == before);
+    CHECK(place.stats().hash == small.hash);
+    // What stands can be edited where it lies now.
+    REQUIRE(place.perform(FillLayer{"autumn", 1}));
+    CHECK(place.picture() != before);
+    REQUIRE(place.perform(Undo{}));
+    CHECK(place.picture() == before);
+    CHECK(place.stats().hash == small.hash);
+}
