@@ -174,6 +174,7 @@ void AtlasView::controls(Workspace& work) {
         for (const std::string& layer : scene.layers)
             if (!work.townLayer(layer) && ImGui::Selectable(layer.c_str(), layer == wanted_.layer))
                 wanted_.layer = layer;
+        if (espHouseCount(work.context.get())) ImGui::TextDisabled("Layers over roofs lie on no chart");
         ImGui::EndCombo();
     }
     if (!wanted_.layer.empty()) {

@@ -250,9 +250,14 @@ TEST_CASE("frames of a moving camera leave no memory behind") {
         studio.inputs.look.quick = quick;
         if (quick) studio.inputs.look.leafPixels *= 2, studio.inputs.look.lodPixels *= 4;
         move(8);
-        const size_t before = test::heapInUse();
-        move(24);
-        CHECK(double(test::heapInUse()) - double(before) < 1e6);
+        // What is made once, when a frame first finds another's depths ready, may come late; a leak comes every time.
+        double least = 1e30;
+        for (int round = 0; round < 3 && least >= 1e6; ++round) {
+            const size_t before = test::heapInUse();
+            move(24);
+            least = std::min(least, double(test::heapInUse()) - double(before));
+        }
+        CHECK(least < 1e6);
     }
 }
 
