@@ -59,6 +59,9 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     vec3 green = frame.grassColor * ((0.35 + blades) * (1.0 + 0.6 * broad.z + 0.25 * broad.x));
     float dry = clamp(0.28 + (0.5 * broad.x + 0.45 * near.z) * (1.0 - 0.35 * calm) + 0.25 * fine.y, 0.0, 0.75);
     green = mix(green, frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.55 + 0.75 * blades), dry);
+    // Clover and sorrel, and swathes that were cut earlier, over tens of metres.
+    float swathe = clamp(0.5 + 1.4 * broad.w + 0.45 * near.y * (1.0 - calm), 0.0, 1.0);
+    green *= mix(vec3(0.76, 0.90, 0.80), vec3(1.16, 1.06, 0.86), swathe);
     vec3 earth = mix(vec3(0.068, 0.056, 0.036), vec3(0.146, 0.122, 0.082), 0.5 + 0.5 * fine.x + 0.2 * near.z);
     // Far off lie fields, and woods between them.
     float far = clamp(metres * 0.012 - 0.9, 0.0, 1.0);
