@@ -84,7 +84,8 @@ ESP_API void espDestroy(EspContext* context);   /* NULL is allowed */
 /* Gives back to the device what GPU memory is only kept for what comes: by itself a context keeps up to 1 GiB of it, as asking
  * for it again costs time. For when nothing is to come soon: a pause, a menu, a level that has been loaded, a window at
  * rest. Waits for the GPU; what was recorded into the host's command buffers has to be submitted, as before espUpdate.
- * What stands and is drawn stays. EspStats::reservedBytes tells what is left. */
+ * What stands and is drawn stays; after growth that needed far more it moves to buffers of its own size, for which memory is
+ * asked first, and the next frame takes a little longer. EspStats::reservedBytes tells what is left. */
 ESP_API EspResult espTrim(EspContext* context);
 
 /* The VkPhysicalDeviceFeatures2 chain that a host's device must be created with; static memory, don't free. */

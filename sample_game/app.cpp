@@ -72,8 +72,8 @@ bool App::update() {
     if (!work_.readStats()) return false;
     const bool plants = work_.stats.expansions != expansions, houses = work_.roofs.housesGrown != housesGrown;
     if (plants && work_.branch) work_.readPath();
-    if (plants && 2 * work_.stats.derivedNodes > work_.stats.nodes) pace_.grewWhole(work_.stats.expandMs);
     grownMs_ = (plants ? work_.stats.expandMs : 0) + (houses ? work_.roofs.expandMs : 0);
+    if (plants || houses) pace_.grew(grownMs_, plants && 2 * work_.stats.derivedNodes > work_.stats.nodes);
     work_.redraw |= plants || houses;
     return plants || houses;
 }

@@ -53,7 +53,7 @@ struct Disc {
     // thin and bridges gaps.
     glm::vec3 rim(glm::vec2 way, float share) const {
         if (flat) return centre + share * radius * (way.x * u + way.y * v);
-        constexpr int kSteps = 8, kHalvings = 4;
+        constexpr int kSteps = 6, kHalvings = 3;
         float inside = 0, outside = share;
         glm::vec3 point = centre;
         for (int i = kSteps; i > 0 && inside == 0; --i) {
@@ -68,13 +68,14 @@ struct Disc {
     }
 
   private:
-    // Whether a surface lies below or above a place of the circle, within the share: then where.
+    // Whether a surface lies within the share of the radius, below or above a place of the circle: then where.
     bool reaches(glm::vec2 place, float share, glm::vec3& point) const {
-        const glm::vec3 from = centre + radius * (place.x * u + place.y * v + share * normal), down = -normal;
+        constexpr float kSlack = .02f;  // a flat surface lies on the circle
+        const float half = std::sqrt(std::max(share * share - glm::dot(place, place), 0.f)) + kSlack * share;
+        const glm::vec3 from = centre + radius * (place.x * u + place.y * v + half * normal), down = -normal;
         EspHit met;
-        if (espPick(work.context.get(), &from.x, &down.x, &met) != ESP_OK) return false;
-        constexpr float kSlack = 1.001f;  // a flat surface lies on the circle
-        if (glm::distance(vec(met.position), centre) > kSlack * share * radius) return false;
+        if (espPick(work.context.get(), &from.x, &down.x, &met) != ESP_OK || met.distance > 2 * half * radius)
+            return false;
         point = vec(met.position);
         return true;
     }
@@ -191,7 +192,7 @@ void BrushTool::drawCircle(const Workspace& work, int mods, const EspHit& hit) c
     Disc disc{work, vec(hit.position),  glm::normalize(vec(hit.normal)), {},
               {},   work.brushRadius(), work.townLayer(work.brush.layer)};
     tangents(disc.normal, disc.u, disc.v);
-    constexpr int kPoints = 48;
+    constexpr int kPoints = 40;
     const auto ring = [&](float share, ImVec2* points) {
         int count = 0;
         for (int i = 0; i < kPoints; ++i) {

@@ -30,7 +30,9 @@ int main(int argc, char** argv) {
                  "turns the view by two degrees in each of --frames, as a drag does, and tells how long a frame takes");
     cli.add_option("--screenshot", options.screenshot, "writes the last of --frames as PNG");
     cli.add_flag("--editor", options.editor, "begins in the editor (Tab)");
-    cli.add_option("--record", options.record, "records what is done into this file (RUN.jsonl)");
+    cli.add_option("--record", options.record,
+                   "records what is done into this file (RUN.jsonl), which mustn't exist yet")
+        ->check(CLI::NonexistentPath);
     cli.add_option("--autosave", options.autosave, "seconds between two autosaves of what isn't saved")
         ->capture_default_str()
         ->check(CLI::Range(1., 86400.));

@@ -216,7 +216,8 @@ void Workspace::pickBranch(glm::vec2 at) {
     readPath();
 }
 
-// Asked in every frame: picked only when mouse, camera or plants have moved.
+// Asked in every frame: picked only when mouse or camera have moved, since what has grown anew has to be read back
+// first.
 void Workspace::pointAtBranch(std::optional<glm::vec2> at) {
     if (!at) {
         pointer_.reset();
@@ -224,9 +225,9 @@ void Workspace::pointAtBranch(std::optional<glm::vec2> at) {
         return;
     }
     const Ray ray = rayThrough(*at);
-    const Pointer now{ray.origin, ray.direction, stats.expansions};
-    if (pointer_ == now) return;
-    pointer_ = now;
+    if (std::exchange(pointedAt_, stats.expansions) != stats.expansions) pointed.clear();
+    if (pointer_ && pointer_->origin == ray.origin && pointer_->direction == ray.direction) return;
+    pointer_ = ray;
     pointed.clear();
     EspPlantHit found;
     if (espPickPlant(context.get(), &ray.origin.x, &ray.direction.x, &found) == ESP_OK) pointed = pathOf(found.branch);

@@ -161,12 +161,8 @@ struct Workspace {
 
   private:
     uint32_t gesture_ = 0;
-    struct Pointer {
-        glm::vec3 origin{0}, direction{0};
-        uint32_t expansions = 0;
-        bool operator==(const Pointer&) const = default;
-    };
-    std::optional<Pointer> pointer_;  // that `pointed` is of
+    std::optional<Ray> pointer_;  // that `pointed` is of
+    uint32_t pointedAt_ = 0;      // and after how many expansions
     struct {
         uint32_t key = 0, expansions = 0;
         bool barren = false;

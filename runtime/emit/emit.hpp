@@ -79,9 +79,9 @@ class Emit {
         watched_ = {};
     }
 
-    // Drops what only the next growth or edit would use; where far more was bound before, all, so that the next view
-    // binds growth anew.
-    void trim();
+    // Drops what only the next growth or edit would use; where `growth`, which stands, needs far less than is held,
+    // all, so that the next view binds it anew.
+    void trim(const GrowthView& growth);
 
     // Where the draws of the last cull lie; bucket b has the commands 2b and 2b + 1.
     const Buffer& state() const { return culledNative() ? natives_[native_].state : state_; }
@@ -128,6 +128,10 @@ class Emit {
     };
 
     // emit_bind.cpp
+    struct HeldRoom {
+        uint64_t spans = 0, leaves = 0;
+    };
+    HeldRoom roomFor(const GrowthView& growth, uint32_t leaves) const;
     Result<Held> makeHeld(const GrowthView& growth, uint32_t leaves);  // but for the order
     Status makeOrder(Buffer& order, const Held& held);
     void hold(Held held);

@@ -33,21 +33,24 @@ EmitGrid gridOver(glm::vec3 low, glm::vec3 high) {
 
 }  // namespace
 
-// With room for all that growth has room for, and for as much again on software devices.
-Result<Emit::Held> Emit::makeHeld(const GrowthView& growth, uint32_t leaves) {
-    Held held;
-    const auto make = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
-        return makeRoom(buffer, name, std::max<uint64_t>(bytes, 65536) / 16 * 16, texels);
-    };
+// Room for all that growth has room for, and for as much again on software devices.
+Emit::HeldRoom Emit::roomFor(const GrowthView& growth, uint32_t leaves) const {
     const DeviceInfo& info = device_->info();
     const uint64_t most = std::min<uint64_t>(info.maxBufferBytes, 16ull * info.limits.maxTexelBufferElements);
     const auto room = [&](const Buffer* records, uint64_t recordBytes, uint32_t count, uint64_t instanceBytes) {
         const uint64_t there = std::max<uint64_t>(records ? records->size() / recordBytes : 0, count);
         return instanceRoom(there, instanceBytes, most, sharesMemory());
     };
-    const uint64_t spans = room(growth.nodeBuffer, sizeof(Node), growth.nodeCount, sizeof(SpanInstance));
-    const uint64_t loose =
-        std::min<uint64_t>(room(growth.leafBuffer, sizeof(Leaf), leaves, sizeof(LeafInstance)), kMostLeaves);
+    return {room(growth.nodeBuffer, sizeof(Node), growth.nodeCount, sizeof(SpanInstance)),
+            std::min<uint64_t>(room(growth.leafBuffer, sizeof(Leaf), leaves, sizeof(LeafInstance)), kMostLeaves)};
+}
+
+Result<Emit::Held> Emit::makeHeld(const GrowthView& growth, uint32_t leaves) {
+    Held held;
+    const auto make = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
+        return makeRoom(buffer, name, std::max<uint64_t>(bytes, 65536) / 16 * 16, texels);
+    };
+    const auto [spans, loose] = roomFor(growth, leaves);
     Status instances[] = {make(held.spans, "span instances", spans * sizeof(SpanInstance), &held.spanTexels),
                           make(held.leaves, "leaf instances", loose * sizeof(LeafInstance), &held.leafTexels)};
     for (Status& s : instances)
@@ -71,10 +74,12 @@ Status Emit::makeOrder(Buffer& order, const Held& held) {
     return Done{};
 }
 
-void Emit::trim() {
-    constexpr uint64_t kFarMore = 4, kLeast = 1 << 19;
+void Emit::trim(const GrowthView& growth) {
+    constexpr uint64_t kFarMore = 3;
     spareOrder_ = {};
-    if (held_.numbers() / kFarMore <= std::max<uint64_t>(bound_.nodeCount + bound_.leafCount, kLeast)) return;
+    for (TexelView* view : {&nodeRecords_, &chunkRecords_, &leafRecords_, &touchedRecords_}) *view = {};
+    const HeldRoom room = roomFor(growth, std::min(growth.leafCount, kMostLeaves));
+    if (held_.numbers() / kFarMore <= room.spans + room.leaves) return;
     forget();
     culled_ = {};
     hold({});

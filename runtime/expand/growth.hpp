@@ -69,8 +69,8 @@ struct GrowthMove {
     uint32_t nodesAfter = 0, leavesAfter = 0;
 };
 
-// What the later stages read. Buffers belong to Growth and change only in grow(). Counts include the gaps that edits
-// left: nodes without bark and with a radius below 0, chunks without marks, branches and leaves of kNoIndex.
+// What the later stages read. Buffers belong to Growth and change only in grow() and trim(). Counts include the gaps
+// that edits left: nodes without bark and with a radius below 0, chunks without marks, branches and leaves of kNoIndex.
 struct GrowthView {
     NodeBuf nodes{};
     ChunkBuf chunks{};
@@ -128,7 +128,8 @@ class Growth {
     // Waits for the GPU and copies the published growth, without gaps: indices differ from those of view().
     virtual Result<GrowthRecords> read() = 0;
     // Drops what only the next full growth would use, or edits of more than what stands, and makes its room what the
-    // last one needs, with half as much to spare. What stands is left as it is.
+    // last one needs, with half as much to spare. What stands stays, but may lie elsewhere after growth that needed far
+    // more.
     virtual void trim() = 0;
 };
 

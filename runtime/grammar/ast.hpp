@@ -87,7 +87,7 @@ struct Module {
     std::vector<ContextDeclaration> contexts;
     std::vector<LetDeclaration> lets;
     std::vector<WidthDeclaration> widths;  // more than one is a mistake, to be reported
-    std::set<std::string> mistaken;        // names whose statement couldn't be read: who uses them is not to blame
+    std::set<std::string> mistaken;        // names whose statement couldn't be read: who uses them isn't to blame
 };
 
 // Collects diagnostics, up to a number that a reader can still use.

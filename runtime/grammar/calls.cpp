@@ -17,6 +17,7 @@ Node Expressions::call(const Expr& e, Env& env) {
     bool qualified = name.rfind("context.", 0) == 0;
     if (qualified) name = name.substr(8);
     if (contextByName_.count(name) != 0) return layer(name, e, env);
+    if (mistaken(name)) return graph_.mistake();
     if (qualified) {
         std::vector<std::string> candidates;
         for (const auto& c : contextByName_) candidates.push_back(c.first);
@@ -61,6 +62,7 @@ Node Expressions::layer(const std::string& name, const Expr& e, const Env& env) 
 Node Expressions::layerNumber(ExprId id, Env& env) {
     const Expr& e = module_.exprs[id];
     auto found = e.kind == ExprKind::name ? contextByName_.find(e.text) : contextByName_.end();
+    if (found == contextByName_.end() && mistaken(e.text)) return graph_.mistake();
     if (found == contextByName_.end() || found->second >= kRoofLayers)
         return fail(e.place, env, "the name of one of the first 8 context layers must stand here");
     used_.insert(e.text);
@@ -196,6 +198,7 @@ bool Expressions::lowerColour(const std::vector<ExprId>& args, const Place& plac
     if (args.size() == 1) {
         const Expr& e = module_.exprs[args[0]];
         auto found = e.kind == ExprKind::name ? paramByName_.find(e.text) : paramByName_.end();
+        if (found == paramByName_.end() && mistaken(e.text)) return false;
         if (found == paramByName_.end() || params[found->second].kind != ParamKind::colour) {
             fail(place, env, "Colour takes a colour parameter or three numbers");
             return false;

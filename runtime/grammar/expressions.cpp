@@ -28,8 +28,12 @@ Node Expressions::fail(const Place& place, const Env& env, const std::string& me
     return graph_.mistake();
 }
 
+bool Expressions::mistaken(const std::string& name) const {
+    return module_.mistaken.contains(name.substr(0, name.find('.')));
+}
+
 Node Expressions::unknown(const std::string& name, const Place& place, const Env& env) {
-    if (module_.mistaken.contains(name)) return graph_.mistake();
+    if (mistaken(name)) return graph_.mistake();
     std::vector<std::string> candidates = roofs_ ? roofAccessorNames() : accessorNames();
     for (const auto& arg : env.args) candidates.push_back(arg.first);
     candidates.insert(candidates.end(), names_.begin(), names_.end());

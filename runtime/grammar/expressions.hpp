@@ -87,6 +87,7 @@ class Expressions {
     Node failTooDeep(const Place& place, const Env& env);
     bool takeName(const std::string& name, const Place& place);
     Node fail(const Place& place, const Env& env, const std::string& message);
+    bool mistaken(const std::string& name) const;  // its statement couldn't be read
     Node unknown(const std::string& name, const Place& place, const Env& env);
     Node accessor(const AccessorInfo& info, const Place& place, const Env& env);
     Node binary(const Expr& e, Env& env);

@@ -100,6 +100,17 @@ class Parser {
         return behindName().kind == TokenKind::symbol && behindName().text == symbol;
     }
     bool arrowFollowsName() const { return symbolFollowsName("->"); }
+    // A declaration, or a rule with or without a condition, where an expression or a successor might go on: what is
+    // missing is missing before it.
+    bool nextStatementBegins() const {
+        if (!at(TokenKind::name)) return false;
+        if (arrowFollowsName()) return true;
+        if (!now().firstOnLine || now().place.column > column_) return false;
+        const bool declares = atName("param") || atName("let") || atName("context") || atName("include");
+        const TokenKind next = ahead(1).kind;
+        if (declares && (next == TokenKind::name || next == TokenKind::string)) return true;
+        return choices_ == 0 && symbolFollowsName(":");
+    }
     bool statementBegins() const {
         if (!at(TokenKind::name)) return false;
         return (now().firstOnLine && now().place.column <= column_) || arrowFollowsName();
@@ -115,7 +126,7 @@ class Parser {
 
     void statement() {
         rule_.clear();
-        nesting_ = 0;
+        nesting_ = choices_ = 0;
         column_ = now().place.column;
         if (accept(";")) return;
         if (!at(TokenKind::name)) fail("expected a rule or a declaration, found " + shown(now()));
@@ -221,7 +232,7 @@ class Parser {
         if (depth > 12) fail("successors are nested too deeply (12 levels are the most)");
         Sequence all;
         while (true) {
-            if (depth == 1 ? statementBegins() : at(TokenKind::name) && arrowFollowsName()) return all;
+            if (depth == 1 ? statementBegins() : nextStatementBegins()) return all;
             if (at("[") || at("]")) {
                 Element bracket;
                 bracket.name = now().text;
@@ -285,7 +296,9 @@ class Parser {
         ExprId test = level(0);
         if (at("?")) {
             Place place = tokens_[at_++].place;
+            ++choices_;
             ExprId yes = expression();
+            --choices_;
             expect(":", "between the two values of a choice");
             ExprId no = expression();
             test = add({ExprKind::choice, "?", 0, {test, yes, no}, place, 1});
@@ -345,8 +358,8 @@ class Parser {
             expect(")", "behind the expression");
             return inner;
         }
-        bool nextRule = now().firstOnLine && arrowFollowsName();
-        if (!at(TokenKind::name) || nextRule) failMissing("a value");
+        const bool next = now().firstOnLine && nextStatementBegins();
+        if (!at(TokenKind::name) || next) failMissing("a value");
         ++at_;
         Expr e{ExprKind::name, token.text, 0, {}, token.place, 1};
         while (at(".")) {
@@ -365,7 +378,7 @@ class Parser {
     Module& module_;
     Reporter& reporter_;
     size_t at_ = 0;
-    int column_ = 1, nesting_ = 0;
+    int column_ = 1, nesting_ = 0, choices_ = 0;
     std::string rule_;
 };
 

@@ -168,9 +168,10 @@ void espDestroy(EspContext* context) {
 
 EspResult espTrim(EspContext* context) {
     return guarded(context, [&] {
+        context->plants.reset();
         context->growth->trim();
         if (context->roofs) context->roofs->trim();
-        context->renderer->trim();
+        context->renderer->trim(context->growth->view());
         // What was dropped goes once an empty submission behind all frames is done.
         Device& device = *context->device;
         device.hostSubmitted();

@@ -124,8 +124,8 @@ class Renderer {
     // What the last draw has recorded didn't run: the next relies on none of it.
     virtual void forget() = 0;
 
-    // Drops what only what comes would use; what was drawn last stays as it is.
-    virtual void trim() = 0;
+    // Drops what only what comes would use; what was drawn last stays as it is. growth: that stands.
+    virtual void trim(const GrowthView& growth) = 0;
 
     // The last frame drawn into the renderer's own image: RGBA, sRGB, rows top to bottom. Waits for it.
     virtual Result<std::vector<uint8_t>> readPixels() = 0;

@@ -33,7 +33,7 @@ class RendererImpl final : public Renderer {
     Status setSite(const SiteMap& map) override { return ground_.setSite(device_, map); }
     Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) override;
     void forget() override;
-    void trim() override { emit_.trim(); }
+    void trim(const GrowthView& growth) override { emit_.trim(growth); }
     Result<std::vector<uint8_t>> readPixels() override;
     RenderStats stats() const override;
     Result<EmittedTriangles> materialise(const EmitInputs& inputs) override { return emit_.materialise(inputs); }

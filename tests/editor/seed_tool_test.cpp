@@ -119,7 +119,10 @@ TEST_CASE("Ctrl and a drag plant a row at even distances, as one step, however t
             CHECK(float(after.size() - first) > .6f * .6f / step);
             CHECK(gardener.work.selected.size() == after.size() - first);
             CHECK(gardener.steps() == 1);
+            const std::string name = "Plant " + std::to_string(after.size() - first) + " seeds";
+            CHECK(gardener.work.document->undoName() == name);
             gardener.undo();
+            CHECK(gardener.work.message == "Undone: " + name);
             CHECK(gardener.seeds() == before);
         }
 }

@@ -124,6 +124,15 @@ TEST_CASE("several mistakes are reported in one go, those behind a broken statem
         CHECK(text.find(part) != std::string::npos);
 }
 
+TEST_CASE("a value may go on in the next line, whatever it begins with") {
+    for (const char* text : {"let l = 0.1 > 0 ?\nq : 2\nlet q = 1\nA -> Marching(l, 0, true) {A}\n",
+                             "let k = 1\nlet l = 2 *\nk * 2\nA -> Marching(l, 0, true) {A}\n"}) {
+        const Result<RuleMap> map = compileGrammar(text);
+        const std::string told = map ? "" : map.failure().text();
+        CHECK(told == "");
+    }
+}
+
 TEST_CASE("what is missing at a line's end is told there, and nobody who uses that statement is blamed") {
     const auto told = [](const char* text) {
         const Result<RuleMap> map = compileGrammar(text);
@@ -134,8 +143,18 @@ TEST_CASE("what is missing at a line's end is told there, and nobody who uses th
           "grammar:2:29: B: expected ')' behind the arguments, found the end of the line");
     CHECK(told("A -> Marching(0.1, 0, true) {A, B\nB -> Shape(\"bark\", C1)\n") ==
           "grammar:1:34: A: expected '}' behind the successors, found the end of the line");
-    CHECK(told("param p = 2 *\nA -> Marching(p, 0, true) {A}\n") ==
-          "grammar:1:14: p: expected a value, found the end of the line");
+    for (const char* next :
+         {"A -> Marching(p, 0, true) {A}\n", "A : p > 0 -> Marching(p, 0, true) {A}\n",
+          "param q = 1\nA -> Marching(p * q, 0, true) {A}\n", "let q = 1\nA -> Marching(p * q, 0, true) {A}\n"})
+        CHECK(told(("param p = 2 *\n" + std::string(next)).c_str()) ==
+              "grammar:1:14: p: expected a value, found the end of the line");
+    CHECK(told("A -> Marching(0.1, 0, true) {A, B\nB : arc > 1 -> NULL\nB -> Branch(2) {A, A}\n") ==
+          "grammar:1:34: A: expected '}' behind the successors, found the end of the line");
+    CHECK(told("context mask = \nA -> Marching(0.1, 0, mask(texCoord) > 0.5) {A}\n") ==
+          "grammar:1:15: mask: expected a value, found the end of the line");
+    CHECK(told("param hue = #12\nA -> Marching(0.1, 0, true) {A, B}\nB -> S(0.1) Colour(hue) Shape(\"bark\", C1)\n")
+              .find("Colour takes") == std::string::npos);
+    CHECK(told("let l = (1, 2\nA -> Marching(l.x, 0, true) {A}\n").find("is not known") == std::string::npos);
     CHECK(told("A -> Marching(0.1, 0, true) {A}\nB -> (") ==
           "grammar:2:6: B: expected a successor behind -> (NULL stands for none), found '('");
 }

@@ -72,6 +72,21 @@ bool overwrites(const Action& earlier, const Action& later) {
     return std::holds_alternative<SetLight>(earlier);
 }
 
+std::string counted(size_t count, const char* one, const char* several) {
+    return count == 1 ? one : std::to_string(count) + " " + several;
+}
+std::string seeds(size_t count) {
+    return counted(count, "a seed", "seeds");
+}
+
+// What takes a step of planting back says how many came, one by one or together.
+std::string plantingName(const std::vector<Action>& back) {
+    size_t count = 0;
+    for (const Action& action : back)
+        if (const auto* removal = std::get_if<RemoveSeeds>(&action)) count += removal->keys.size();
+    return "Plant " + seeds(count);
+}
+
 }  // namespace
 
 Document::~Document() {
@@ -170,6 +185,7 @@ void Document::remember(const Action& action, std::vector<Action> back, uint32_t
             const bool known = !step.back.empty() && overwrites(step.back.back(), inverse);
             if (!known) step.back.push_back(std::move(inverse));
         }
+        if (std::holds_alternative<AddSeeds>(action)) step.name = plantingName(step.back);
     } else {
         const bool stroke = std::holds_alternative<StrokeEnd>(action);
         done_.push_back({stroke ? strokeName_ : nameOf(action), gesture, ++lastState_, std::move(back)});
@@ -442,17 +458,6 @@ bool Document::carryOut(const SetView& action, std::vector<Action>&, std::string
 }
 
 // ---- What actions are
-
-namespace {
-
-std::string counted(size_t count, const char* one, const char* several) {
-    return count == 1 ? one : std::to_string(count) + " " + several;
-}
-std::string seeds(size_t count) {
-    return counted(count, "a seed", "seeds");
-}
-
-}  // namespace
 
 std::string nameOf(const Action& action) {
     using Name = std::string;
