@@ -27,8 +27,9 @@ struct House {
     };
     std::vector<Edge> edges = {};                    // that have something of their own
     std::vector<std::array<float, 2>> corners = {};  // world x and z, of all rings; none: as they are
-    std::vector<uint32_t> rings = {};  // how many of them each has, the outer one first; none: all are the outer one's, courtyards stay
-    std::string id = {};               // that a project knows it by, whatever its place is then; no part of a run
+    std::vector<uint32_t> rings =
+        {};  // how many of them each has, the outer one first; none: all are the outer one's, courtyards stay
+    std::string id = {};  // that a project knows it by, whatever its place is then; no part of a run
     template <class V>
     void fields(V&& v) {
         v("house", index), v("shape", shape), v("slope", slope), v("eave_height", eaveHeight), v("edges", edges);
