@@ -102,14 +102,15 @@ bool writeRows(OIIO::ImageOutput& output, const GreyPicture& picture, const std:
 bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error,
                const std::function<bool(float)>& goOn) {
     const bool floats = std::filesystem::path(path).extension() == ".exr";
+    // By way of memory: the picture library doesn't tell of a disk that is full. It outlives the output, which writes
+    // into it to its own end where it wasn't closed.
+    OIIO::Filesystem::IOVecOutput bytes;
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path);
     OIIO::ImageSpec spec(int(picture.width), int(picture.height), 1,
                          floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT16);
     spec["png:compressionLevel"] = 1;
     spec["compression"] = "zips";
     spec.channelnames = {"Y"};
-    // By way of memory: the picture library doesn't tell of a disk that is full.
-    OIIO::Filesystem::IOVecOutput bytes;
     const bool good = output && output->set_ioproxy(&bytes) && output->open(path, spec) &&
                       writeRows(*output, picture, goOn) && output->close();
     if (!good) {
@@ -125,10 +126,10 @@ bool writeGrey(const std::string& path, const GreyPicture& picture, std::string&
 }
 
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error) {
+    OIIO::Filesystem::IOVecOutput bytes;  // as in writeGrey
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
     OIIO::ImageSpec spec(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
     spec["png:compressionLevel"] = 1;
-    OIIO::Filesystem::IOVecOutput bytes;  // as in writeGrey
     const bool good = output && output->set_ioproxy(&bytes) && output->open(path, spec) &&
                       output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, OIIO::stride_t(width) * 4) && output->close();
     if (!good) {
