@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -297,7 +297,9 @@ EspResult fail(const EspContext* context, EspResult code, std::string message);
 // one.
 template <class Enum>
 bool isAmong(const Enum& given, Enum first, Enum last) {
-    const int number = std::bit_cast<int>(given);
+    static_assert(sizeof(Enum) == sizeof(int));
+    int number = 0;
+    std::memcpy(&number, &given, sizeof number);
     return number >= int(first) && number <= int(last);
 }
 constexpr const char* kNoMemory = "out of memory";  // short enough to take none

@@ -24,6 +24,14 @@ void* operator new(std::size_t bytes) {
     void* memory = none ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
     return memory ? memory : throw std::bad_alloc();
 }
+// What the library's own would do by the one above; the sanitizers' has memory of its own.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+    try {
+        return operator new(bytes);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
 void operator delete(void* memory) noexcept {
     std::free(memory);
 }
