@@ -6,8 +6,8 @@
 
 namespace espalier {
 
-// Native code closes gaps before room runs out: an edit that finds none is done twice, and fresh memory costs ten times
-// what closing does. Kernels copy all, which is the better the later.
+// Native code closes gaps before room runs out: an edit that finds none is done twice, and fresh memory costs far more
+// than closing does. Kernels copy all, which is the better the later.
 bool GpuGrowth::gappy(const GrowthInputs& inputs) const {
     const bool native = runsNative(inputs);
     const auto wide = [&](uint32_t taken, uint32_t live, uint64_t room) {
@@ -93,21 +93,24 @@ Status GpuGrowth::enlarge() {
     return movePlants();
 }
 
+// From the one buffer into the other, once all that reads or writes them is done.
+Status GpuGrowth::copyOver(std::initializer_list<Copied> pairs) {
+    Result<Commands> commands = Commands::begin(device_, "move growth");
+    if (!commands) return commands.failure();
+    for (const Copied& pair : pairs) commands->copy(pair.from, pair.to, pair.bytes);
+    return commands->finish();
+}
+
 // Nodes and leaves to the other set of buffers, with the room that edits ask for.
 Status GpuGrowth::movePlants() {
     const Plants& now = plants_[frontPlants_];
     Plants& to = plants_[1 - frontPlants_];
     if (Status ok = makePlantRoom(to); !ok) return ok;
-    Result<Commands> commands = Commands::begin(device_, "move growth");
-    if (!commands) return commands.failure();
-    commands->copy(now.nodes, to.nodes, view_.nodeCount * sizeof(Node));
-    commands->copy(now.leaves, to.leaves, view_.leafCount * sizeof(Leaf));
-    if (Status finished = commands->finish(); !finished) return finished;
+    const Status copied = copyOver({{now.nodes, to.nodes, view_.nodeCount * sizeof(Node)},
+                                    {now.leaves, to.leaves, view_.leafCount * sizeof(Leaf)}});
+    if (!copied) return copied;
     frontPlants_ = 1 - frontPlants_;
-    view_.nodes = addressOf<NodeBuf, Node>(to.nodes);
-    view_.leaves = addressOf<LeafBuf, Leaf>(to.leaves);
-    view_.nodeBuffer = &to.nodes;
-    view_.leafBuffer = &to.leaves;
+    lookAtFront();
     return Done{};
 }
 
@@ -117,29 +120,28 @@ Status GpuGrowth::moveLinks() {
     const AgainBytes bytes = againBytes(now);
     if (Status ok = ensure(to.chunks, "growth chunks", bytes.chunks); !ok) return ok;
     if (Status ok = ensure(to.branches, "growth branches", bytes.branches); !ok) return ok;
-    Result<Commands> commands = Commands::begin(device_, "move growth's links");
-    if (!commands) return commands.failure();
-    commands->copy(now.chunks, to.chunks, view_.chunkCount * sizeof(Chunk));
-    commands->copy(now.branches, to.branches, view_.branchCount * sizeof(BranchRecord));
-    if (Status finished = commands->finish(); !finished) return finished;
+    const Status copied = copyOver({{now.chunks, to.chunks, view_.chunkCount * sizeof(Chunk)},
+                                    {now.branches, to.branches, view_.branchCount * sizeof(BranchRecord)}});
+    if (!copied) return copied;
     frontLinks_ = 1 - frontLinks_;
-    view_.chunks = addressOf<ChunkBuf, Chunk>(to.chunks);
-    view_.branches = addressOf<BranchBuf, BranchRecord>(to.branches);
-    view_.chunkBuffer = &to.chunks;
+    lookAtFront();
     return Done{};
 }
 
 // After growth that needed far more, what stands moves to buffers of its own size, if that frees more than a block of
-// memory that it may take. The other set holds nothing.
+// memory that it may take. Nothing is left of the other set of nodes and leaves.
 Status GpuGrowth::shrink() {
     constexpr uint64_t kFarMore = 4, kWorth = 64 << 20;
     const auto vast = [](const Buffer& buffer, uint64_t taken) {
         return buffer.size() > kWorth && buffer.size() / kFarMore > taken;
     };
     const Plants& plants = plants_[frontPlants_];
-    if (vast(plants.nodes, view_.nodeCount * sizeof(Node)) || vast(plants.leaves, view_.leafCount * sizeof(Leaf)))
-        if (Status moved = movePlants(); !moved) return moved;
-    if (!vast(links_[frontLinks_].chunks, view_.chunkCount * sizeof(Chunk))) return Done{};
+    const bool moves =
+        vast(plants.nodes, view_.nodeCount * sizeof(Node)) || vast(plants.leaves, view_.leafCount * sizeof(Leaf));
+    plants_[1 - frontPlants_] = {};
+    const Status moved = moves ? movePlants() : Done{};
+    plants_[1 - frontPlants_] = {};
+    if (!moved || !vast(links_[frontLinks_].chunks, view_.chunkCount * sizeof(Chunk))) return moved;
     links_[1 - frontLinks_] = {};
     return moveLinks();
 }

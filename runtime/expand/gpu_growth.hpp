@@ -103,6 +103,7 @@ class GpuGrowth final : public Growth {
     static Origin originOf(const GrowthInputs& inputs);
     // What lies in front is drawn from now on. all: nodes aren't where they were.
     void show(const GrowStatus& status, bool all);
+    void lookAtFront();  // its buffers, which hold the same as those before, or what show() tells
     uint64_t reserved() const;
     // Whether growth runs as native code.
     bool runsNative(const GrowthInputs& inputs) const {
@@ -169,6 +170,11 @@ class GpuGrowth final : public Growth {
     Status compact(const GrowthInputs& inputs);
     Status closeGaps();
     Status enlarge();
+    struct Copied {
+        const Buffer &from, &to;
+        uint64_t bytes;
+    };
+    Status copyOver(std::initializer_list<Copied> pairs);
     Status movePlants();
     Status moveLinks();
     Status shrink();

@@ -237,7 +237,7 @@ GpuGrowth::Outcome GpuGrowth::readOutcome(uint32_t last) {
     return outcome;
 }
 
-void GpuGrowth::show(const GrowStatus& status, bool all) {
+void GpuGrowth::lookAtFront() {
     const Plants& plants = plants_[frontPlants_];
     const Links& links = links_[frontLinks_];
     view_.nodes = addressOf<NodeBuf, Node>(plants.nodes);
@@ -247,6 +247,10 @@ void GpuGrowth::show(const GrowStatus& status, bool all) {
     view_.nodeBuffer = &plants.nodes;
     view_.chunkBuffer = &links.chunks;
     view_.leafBuffer = &plants.leaves;
+}
+
+void GpuGrowth::show(const GrowStatus& status, bool all) {
+    lookAtFront();
     view_.nodeCount = status.nodes;
     view_.chunkCount = status.chunks;
     view_.branchCount = status.branches;
@@ -299,10 +303,8 @@ void GpuGrowth::trim() {
     fit(room_.branches, view_.branchCount, least_.branches);
     fit(room_.leaves, view_.leafCount, least_.leaves);
     fit(room_.items, widest_, least_.items);
-    plants_[1 - frontPlants_] = {};
     dropViews();
     (void)shrink();  // where there isn't memory even for less, all stays where it is
-    plants_[1 - frontPlants_] = {};
     const Plants& plants = plants_[frontPlants_];
     const Links& links = links_[frontLinks_];
     const AgainBytes again = againBytes(links);

@@ -84,18 +84,17 @@ EspResult branchPath(EspContext& context, uint64_t branch, EspPathSample* sample
     return ESP_OK;
 }
 
-EspResult plantInfo(EspContext& context, EspSeed seed, EspPlantInfo* out) {
+EspResult plantInfo(EspContext& context, uint32_t id, const PlantedSeed& seed, EspPlantInfo* out) {
     const Plants* plants = readPlants(context);
     if (!plants) return gpuCode(context);
-    EspSeedInfo planted;
-    if (const EspResult result = espSeedInfo(&context, seed, &planted); result != ESP_OK) return result;
     PlantExtent extent;
     for (uint32_t i = 0; i < context.grownSeeds.size(); ++i)
-        if (context.grownSeeds[i] == seed.id) extent = plants->extentOf(i);
+        if (context.grownSeeds[i] == id) extent = plants->extentOf(i);
+    if (extent.nodes == 0) extent.low = extent.high = seed.position;
     out->nodes = extent.nodes;
     for (int i = 0; i < 3; ++i) {
-        out->boundsMin[i] = extent.nodes ? extent.low[i] : planted.position[i];
-        out->boundsMax[i] = extent.nodes ? extent.high[i] : planted.position[i];
+        out->boundsMin[i] = extent.low[i];
+        out->boundsMax[i] = extent.high[i];
     }
     return ESP_OK;
 }
@@ -133,9 +132,9 @@ EspResult espBranchInfo(EspContext* context, uint64_t branch, EspBranchInfo* out
 
 EspResult espPlantInfo(EspContext* context, EspSeed seed, EspPlantInfo* out) {
     return guarded(context, [&] {
-        if (!out || !context->seeds.find(seed.id))
-            return fail(context, ESP_INVALID_ARGUMENT, "espPlantInfo: no such seed, or null");
-        return plantInfo(*context, seed, out);
+        const PlantedSeed* planted = context->seeds.find(seed.id);
+        if (!out || !planted) return fail(context, ESP_INVALID_ARGUMENT, "espPlantInfo: no such seed, or null");
+        return plantInfo(*context, seed.id, *planted, out);
     });
 }
 

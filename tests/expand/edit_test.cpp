@@ -174,6 +174,48 @@ TEST_CASE("native edits find the room that they need before gaps are closed") {
     s.check();
 }
 
+TEST_CASE("native edits of a sixteenth and less close gaps where little room is left, and don't move all") {
+    constexpr glm::vec2 kAway(0.5f, 0.75f);
+    constexpr float kWide = 0.17f, kBit = 0.04f;
+    const auto masked = [&](Session& s) {
+        s.scene.native = true;
+        s.scene.plantMany(60, 0, 1);
+        s.dab(0, kAway, kWide, 0);
+        s.changes.everything = true;
+        s.grow();
+    };
+    GrowthRoom barely{4096, 0, 4096, 0, 4096};
+    {
+        Session s(flatSquare());
+        masked(s);
+        barely.nodes = s.growth->stats().nodes;
+        barely.leaves = s.growth->stats().leaves;
+    }
+    Session s(flatSquare(), barely);
+    if (!s.gpu.device().info().cpu) return;
+    masked(s);
+    const Buffer *nodes = s.growth->view().nodeBuffer, *leaves = s.growth->view().leafBuffer;
+    // Brought back bit by bit.
+    for (float y = -kWide; y <= kWide; y += kBit)
+        for (float x = -kWide; x <= kWide; x += kBit) {
+            s.dab(0, kAway + glm::vec2(x, y), kBit, 1);
+            s.grow();
+        }
+    REQUIRE(s.growth->view().nodeBuffer == nodes);
+    const double room = double(nodes->size() / sizeof(Node)) / s.growth->stats().nodes;
+    CAPTURE(room);
+    REQUIRE(room > 1.14);
+    REQUIRE(room < 1.25);
+    for (int i = 0; i < 48; ++i) {
+        s.dab(0, {0.3f + 0.01f * float(i), 0.15f}, 0.02f, float(i % 2));
+        s.grow();
+        REQUIRE(s.growth->stats().derived < s.growth->stats().nodes / 16);
+        CHECK(s.growth->view().nodeBuffer == nodes);
+        CHECK(s.growth->view().leafBuffer == leaves);
+    }
+    s.check();
+}
+
 TEST_CASE("nothing changed: nothing is done") {
     Session s(cube());
     s.scene.plantMany(9, 0);
