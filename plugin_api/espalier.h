@@ -358,6 +358,7 @@ typedef struct EspPlantInfo {
     uint32_t nodes;                            /* 0: nothing has grown from the seed */
     float boundsMin[3], boundsMax[3];          /* world, of its nodes; a seed without nodes: its own place */
 } EspPlantInfo;
+/* Of one seed's plant. ESP_INVALID_ARGUMENT if there is no such seed. */
 ESP_API EspResult espPlantInfo(EspContext* context, EspSeed seed, EspPlantInfo* out);
 
 typedef struct EspBranchInfo {

@@ -30,6 +30,15 @@ TEST_CASE("an editor that can't keep what isn't saved says so at its end, and by
     CHECK_MESSAGE(contains(ran.output, "couldn't be kept: " + folder.file("taken")), ran.output);
 }
 
+TEST_CASE("a run isn't recorded over a file that is there") {
+    const Folder folder;
+    const std::string there = folder.write("run.jsonl", "mine");
+    const Ran ran = run(program("espalier-sample") + " --frames 1 --record " + there);
+    CHECK(ran.code == 2);
+    CHECK_MESSAGE(contains(ran.output, there), ran.output);
+    CHECK(readAll(there) == "mine");
+}
+
 TEST_CASE("an editor that is told to end keeps what isn't saved") {
     if (!hasDisplay()) return;
     const Folder folder;

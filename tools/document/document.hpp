@@ -130,6 +130,8 @@ class Document {
 
 // The words for an action in menus, such as "Plant 3 seeds".
 std::string nameOf(const Action& action);
+// Of a step of several plantings, by what takes it back.
+std::string plantingName(const std::vector<Action>& back);
 // The brush of a stroke; the layer's name stays the stroke's. False: there is no such mode.
 bool brushOf(const StrokeBegin& stroke, EspBrush& brush, std::string& error);
 // Whether undo takes it back, and a project holds what it changes.

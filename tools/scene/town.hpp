@@ -27,8 +27,8 @@ struct House {
     };
     std::vector<Edge> edges = {};                    // that have something of their own
     std::vector<std::array<float, 2>> corners = {};  // world x and z, of all rings; none: as they are
-    std::vector<uint32_t> rings =
-        {};  // how many of them each has, the outer one first; none: all are the outer one's, courtyards stay
+    // How many of them each ring has, the outer one first; none: all are the outer one's, courtyards stay.
+    std::vector<uint32_t> rings = {};
     std::string id = {};  // that a project knows it by, whatever its place is then; no part of a run
     template <class V>
     void fields(V&& v) {
