@@ -140,12 +140,13 @@ class EditBench {
         return bool(scene_.grow(growth_));
     }
 
-    // Times one of the dabs a round, each in its turn, counts nodes over all of them.
+    // Times one of the dabs a round, each in its turn and all of them, and counts nodes over all.
     void measure(const std::string& name, const std::vector<Dab>& dabs, const Census& census) {
         std::vector<double> again, whole, shares;
         const uint32_t nodes = growth_.stats().nodes;
         bool partly = true;
-        for (int i = -1; i < bench_.options().repeats; ++i) {
+        const int rounds = std::max(bench_.options().repeats, int(dabs.size()));
+        for (int i = -1; i < rounds; ++i) {  // the first isn't counted
             const Dab& dab = dabs[size_t(i + 1) % dabs.size()];
             for (float value : {0.0f, 1.0f}) {
                 GrowthChanges changes = paint(dab, value);
