@@ -38,7 +38,8 @@ typedef enum EspResult {
     ESP_IO_FAILED = 3,          /* can't read or write */
     ESP_NO_DEVICE = 4,          /* no Vulkan device that can run Espalier */
     ESP_DEVICE_LOST = 5,        /* destroy the context and create it anew */
-    ESP_OUT_OF_MEMORY = 6
+    ESP_OUT_OF_MEMORY = 6,
+    ESP_STOPPED = 7             /* who watches growth gave it up (espWatchGrowth) */
 } EspResult;
 
 typedef struct EspContext EspContext;
@@ -437,6 +438,13 @@ ESP_API EspResult espSetGrow(EspContext* context, const EspGrowDef* def);
  * is told by each call until its inputs change; for want of memory (ESP_OUT_OF_MEMORY) it is tried again after 1, 2, 4 ...
  * calls, at most 1,024. */
 ESP_API EspResult espUpdate(EspContext* context);
+
+/* Plants that take long to grow may be watched: `growing` is called within espUpdate, on its thread, some ten times a second
+ * from a tenth of a second on, on a GPU between its submissions, with the nodes grown so far. Where it returns 0 growth is
+ * given up: espUpdate returns ESP_STOPPED until its inputs change, what was grown before stands, and the next growth is of all
+ * that has changed since that. `growing` must not use the context. NULL: nobody watches. */
+typedef int (*EspGrowingFn)(void* user, uint64_t nodes);
+ESP_API EspResult espWatchGrowth(EspContext* context, EspGrowingFn growing, void* user);
 
 typedef struct EspCamera {
     float eye[3], target[3], up[3];

@@ -53,31 +53,6 @@ void App::showUi() {
     if (work_.editing) showDialogues(work_, session_);
 }
 
-bool App::update() {
-    grownMs_ = 0;
-    const bool changed = work_.document->revision() != work_.grownRevision || controls_->painting();
-    const bool dragged = ImGui::IsMouseDown(0) && ImGui::IsAnyItemActive();
-    const GrowthPace::Step step = pace_.next(changed, work_.growsWide, dragged, controls_->painting());
-    if (step != GrowthPace::Step::grow) {
-        showGrowing(work_, step == GrowthPace::Step::wait ? "Grows when you let go" : "Growing ...");
-        wake();
-        return false;
-    }
-    const uint32_t expansions = work_.stats.expansions;
-    const uint64_t housesGrown = work_.roofs.housesGrown;
-    work_.remedied(std::exchange(growthError_, {}));
-    if (espUpdate(work_.context.get()) != ESP_OK) work_.error = growthError_ = espLastError(work_.context.get());
-    work_.grownRevision = work_.document->revision();
-    work_.growsWide = false;
-    if (!work_.readStats()) return false;
-    const bool plants = work_.stats.expansions != expansions, houses = work_.roofs.housesGrown != housesGrown;
-    if (plants && work_.branch) work_.readPath();
-    grownMs_ = (plants ? work_.stats.expandMs : 0) + (houses ? work_.roofs.expandMs : 0);
-    if (plants || houses) pace_.grew(grownMs_, plants && 2 * work_.stats.derivedNodes > work_.stats.nodes);
-    work_.redraw |= plants || houses;
-    return plants || houses;
-}
-
 void App::screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height) {
     if (espalier::scene::writePng(path, rgba.data(), width, height, work_.error))
         work_.message = "Written: " + wholePath(path);
@@ -236,15 +211,19 @@ namespace {
 
 // Who ends the program from outside, as a desktop does when its user logs out, loses nothing. A second time it ends at
 // once.
-volatile std::sig_atomic_t endAsked = 0;
+volatile std::sig_atomic_t ended = 0;
 void heedEnd() {
     struct sigaction action {};
-    action.sa_handler = [](int) { endAsked = 1; };
+    action.sa_handler = [](int) { ended = 1; };
     action.sa_flags = SA_RESETHAND;
     for (int signal : {SIGTERM, SIGINT, SIGHUP}) sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
+
+bool App::endAsked() {
+    return ended != 0;
+}
 
 // Of the context first: what a software device is given back is the process's own memory.
 void App::giveBack() {
@@ -255,7 +234,7 @@ void App::giveBack() {
 bool App::loop() {
     heedEnd();
     double before = glfwGetTime();
-    while (!closing() && !endAsked && !(options_.frames && frames_ >= options_.frames)) {
+    while (!closing() && !endAsked() && !(options_.frames && frames_ >= options_.frames)) {
         // Asleep until the user does something, or it is time to look at the grammars' files.
         if (awake_ > 0 || options_.frames) {
             glfwPollEvents();

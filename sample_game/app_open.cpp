@@ -145,6 +145,8 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
         return false;
     }
     std::unique_ptr<EspContext, void (*)(EspContext*)> context(made, espDestroy);
+    const EspGrowingFn watch = [](void* app, uint64_t nodes) { return static_cast<App*>(app)->growing(nodes) ? 1 : 0; };
+    (void)espWatchGrowth(made, watch, this);
     auto document = std::make_unique<Document>(made);
     const fs::file_time_type read = fs::file_time_type::clock::now();
     auto shown = std::chrono::steady_clock::now();
@@ -248,12 +250,7 @@ bool App::showOpening(const std::string& file, const std::string& part, float sh
         list.AddText({(size.x - width) / 2, top + .5f * line}, IM_COL32(150, 155, 145, 255), part.c_str());
     }
     ImGui::Render();
-    imageBarrier(frame->commands, frame->image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    const VkClearColorValue dark{{.1f, .1f, .1f, 1}};
-    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vkCmdClearColorImage(frame->commands, frame->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &dark, 1, &all);
-    imageBarrier(frame->commands, frame->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    clear(*frame, {{.1f, .1f, .1f, 1}});
     return (ui_->draw(*frame, *ImGui::GetDrawData()) || fail(ui_->error())) &&
            (host_->end(*frame) || fail(host_->error()));
 }

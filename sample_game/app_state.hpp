@@ -43,6 +43,8 @@ class App {
     void retitle();
     void showUi();
     bool update();
+    bool growing(uint64_t nodes);
+    void showWaiting();
     bool showOpening(const std::string& file, const std::string& part = {}, float share = 0);
     bool drawFrame(bool moving, bool grew, bool last);
     void screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height);
@@ -57,6 +59,7 @@ class App {
     bool turn();
     void tellTurn() const;
     void giveBack();
+    static bool endAsked();  // from outside
     void wake() { awake_ = kFramesAfterChange; }
 
     AppOptions options_;
@@ -89,8 +92,12 @@ class App {
     struct {
         std::chrono::steady_clock::time_point at;
         std::clock_t cpu = 0;
-    } turnBegan_;              // once the level of detail has settled
-    double grownMs_ = 0;       // what growth took in this frame
+    } turnBegan_;         // once the level of detail has settled
+    double grownMs_ = 0;  // what growth took in this frame
+    struct {
+        std::chrono::steady_clock::time_point began;
+        bool told = false;
+    } growth_;                 // under way
     std::string growthError_;  // of the last frame
     GrowthPace pace_;
     float themeScale_ = 0;

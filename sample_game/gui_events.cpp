@@ -111,6 +111,13 @@ bool GuiEvents::tell(const Key& key, Told& told, std::vector<InputEvent>& taken)
     return true;
 }
 
+bool GuiEvents::takeEscape() {
+    return std::erase_if(events_, [](const Event& event) {
+               const Key* key = std::get_if<Key>(&event);
+               return key && key->event.key == GLFW_KEY_ESCAPE && key->action == GLFW_PRESS;
+           }) > 0;
+}
+
 void GuiEvents::feed(std::vector<InputEvent>& taken) {
     ImGuiIO& io = ImGui::GetIO();
     const ImGuiContext& gui = *ImGui::GetCurrentContext();

@@ -44,7 +44,7 @@ void showHelp(Workspace& work) {
                        {"1 2 3 4 5 6", "shaded, charts, normals, levels of detail, depth, overdraw"},
                        {"F2 F3 F4 F5", "panel, figures, grammar, atlas"},
                        {"F12", "write a screenshot"},
-                       {"Esc, Q", "puts the tool away"}};
+                       {"Esc, Q", "puts the tool away; Esc stops growth that takes long"}};
     ImGui::SetNextWindowPos({work.window.x / 2, work.window.y / 2}, ImGuiCond_Always, {.5f, .5f});
     // Two tables side by side where there is room, so that all is seen at once; else it may have to be scrolled.
     const bool wide = work.window.x > 1040 * work.scale;

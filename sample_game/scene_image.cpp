@@ -8,7 +8,7 @@ namespace sample {
 bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, uint32_t left, float scale,
                       bool redraw) {
     const VkExtent2D room{frame.extent.width - left, frame.extent.height};
-    drew_ = redraw || shown_.width != room.width || shown_.height != room.height || drawn_.width == 0;
+    drew_ = redraw || !fits(frame, left);
     if (drew_) {
         if (!image_.make(host_.format(), frame.extent.width, frame.extent.height,
                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT)) {
@@ -34,6 +34,15 @@ bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, 
         imageBarrier(frame.commands, image_.image(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     }
+    copy(frame, left);
+    return true;
+}
+
+void SceneImage::showAgain(const Frame& frame, uint32_t left) const {
+    fits(frame, left) ? copy(frame, left) : clear(frame, {{0, 0, 0, 1}});
+}
+
+void SceneImage::copy(const Frame& frame, uint32_t left) const {
     imageBarrier(frame.commands, frame.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     VkImageBlit region{};
     region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
@@ -44,7 +53,6 @@ bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, 
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
     imageBarrier(frame.commands, frame.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                  VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    return true;
 }
 
 }  // namespace sample

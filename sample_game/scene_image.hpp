@@ -19,11 +19,18 @@ class SceneImage {
     // above 0, up to 1. redraw: false shows what was drawn last, if that had this size. Leaves the window's image in
     // COLOR_ATTACHMENT_OPTIMAL.
     bool show(EspContext* context, const Frame& frame, EspDrawDef draw, uint32_t left, float scale, bool redraw);
+    // Likewise, without the context: what was drawn last; black if that isn't of this size.
+    void showAgain(const Frame& frame, uint32_t left) const;
     const std::string& error() const { return error_; }
     // Whether the last show() drew.
     bool drew() const { return drew_; }
 
   private:
+    bool fits(const Frame& frame, uint32_t left) const {
+        return shown_.width == frame.extent.width - left && shown_.height == frame.extent.height && drawn_.width > 0;
+    }
+    void copy(const Frame& frame, uint32_t left) const;
+
     const VulkanHost& host_;
     std::string error_;
     HostImage image_;

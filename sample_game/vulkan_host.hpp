@@ -27,6 +27,8 @@ constexpr uint32_t kFramesInFlight = 2;
 
 // Of a colour image, from all work before to all work after.
 void imageBarrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to);
+// The window's image to one colour; leaves it in COLOR_ATTACHMENT_OPTIMAL.
+void clear(const Frame& frame, const VkClearColorValue& colour);
 
 // The sample's own instance, device, queue and swapchain, as a game engine has them before it loads Espalier.
 // Errors end a call with a message in error(); after a lost device nothing but destruction is possible.

@@ -147,9 +147,11 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptNative(const GrowthInputs& inputs, 
     packTablesNative(env, uint32_t(inputs.grammars.size()));
     Outcome outcome;
     env.phase = lastWave(cut);
-    outcome.marchMs =
-        millisecondsOf([&] { env.wave = marchNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_, true); });
-    outcome.terminalsMs = millisecondsOf([&] { terminalsNative(env, inputs.limits, crew_); });
+    outcome.marchMs = millisecondsOf(
+        [&] { env.wave = marchNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_, true, inputs.watch); });
+    if (stopped(inputs)) return stoppedFailure();
+    outcome.terminalsMs = millisecondsOf([&] { terminalsNative(env, inputs.limits, crew_, inputs.watch); });
+    if (stopped(inputs)) return stoppedFailure();
     outcome.fitMs = millisecondsOf([&] { fitNative(env, crew_); });
     outcome.status = status_.mappedAs<GrowStatus>()[0];
     outcome.waves.assign(env.waves.v, env.waves.v + env.wave + 1);
@@ -192,6 +194,7 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptShaders(const GrowthInputs& inputs,
         outcome.waves = std::move(read.waves);
         bool short1 = outcome.status.items > room_.items || outcome.status.chunks > outcome.status.chunkCapacity;
         if (outcome.waves[last].count == 0 || last == most || short1) return outcome;
+        if (!goesOn(inputs.watch, outcome.status.nodes)) return stoppedFailure();
         first = last;
         batch = batch * 2;
     }
@@ -221,6 +224,7 @@ void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, con
 Status GpuGrowth::grow(const GrowthInputs& inputs) {
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
+    if (inputs.watch) inputs.watch->begin();
     Result<bool> put = canRegrow(inputs) ? putIn(inputs) : Result<bool>(false);
     if (!put) return put.failure();
     if (*put) {

@@ -10,6 +10,7 @@
 #include "runtime/core/result.hpp"
 #include "runtime/expand/changes.hpp"
 #include "runtime/expand/frozen.hpp"
+#include "runtime/expand/growth_watch.hpp"
 #include "runtime/gpu/buffer.hpp"
 #include "shaders/shared/growth_records.h"
 #include "shaders/shared/rule_map.h"
@@ -59,6 +60,8 @@ struct GrowthInputs {
     GrowthLimits limits;
     // What is different from the inputs of the last grow() that succeeded. Null: everything.
     const GrowthChanges* changes = nullptr;
+    // Null: nobody waits. It outlives grow().
+    GrowthWatch* watch = nullptr;
 };
 
 // Where a growth that only closed gaps moved what there was.
@@ -121,7 +124,8 @@ class Growth {
 
     // Grows what inputs.changes and the seeds say, or everything anew, and publishes it when complete; until then, and
     // on failure, the last growth stands.
-    // Fails for inputs that can't be grown (a seed of no grammar, NaN) and when memory has run out.
+    // Fails for inputs that can't be grown (a seed of no grammar, NaN), when memory has run out, and when
+    // inputs.watch has stopped it.
     virtual Status grow(const GrowthInputs& inputs) = 0;
     virtual GrowthView view() const = 0;
     virtual GrowthStats stats() const = 0;

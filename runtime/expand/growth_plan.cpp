@@ -198,6 +198,14 @@ Failure limitFailure(Verdict verdict, const GrowthLimits& limits) {
     return Failure("growth", "the limit of " + std::to_string(limits.maxNodes) + " nodes leaves room for nothing");
 }
 
+bool stopped(const GrowthInputs& inputs) {
+    return inputs.watch && inputs.watch->stopped();
+}
+
+Failure stoppedFailure() {
+    return Failure("growth", "growth was stopped; what was grown before stands");
+}
+
 void countBytes(GrowthStats& stats) {
     stats.spans = stats.nodes - std::min(stats.seeds, stats.nodes);
     stats.nodeBytes = uint64_t(stats.nodes) * sizeof(Node);

@@ -37,6 +37,8 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
 
 // Why limits let nothing grow; verdict: one of the last two.
 Failure limitFailure(Verdict verdict, const GrowthLimits& limits);
+bool stopped(const GrowthInputs& inputs);  // by who watches
+Failure stoppedFailure();
 
 // Takes out what edits have left as gaps and renumbers the rest.
 void compactRecords(GrowthRecords& records);

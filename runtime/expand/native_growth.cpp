@@ -35,11 +35,12 @@ void packTablesNative(ExpandEnv env, uint32_t grammars) {
     for (uint32_t i = 0; i < grammars; ++i) packGrammar(env.grammars, env.tables, i, 0, 1);
 }
 
-uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide) {
-    return march(env, queues, most, crew, wide);
+uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide,
+                     GrowthWatch* watch) {
+    return march(env, queues, most, crew, wide, watch);
 }
 
-void terminalsNative(ExpandEnv env, const GrowthLimits& limits, Crew& crew) {
+void terminalsNative(ExpandEnv env, const GrowthLimits& limits, Crew& crew, GrowthWatch* watch) {
     if (!complete(env)) return;
     const GrowStatus& s = env.status.v[0];
     if (limits.tangents == TangentMode::paper)
@@ -49,8 +50,9 @@ void terminalsNative(ExpandEnv env, const GrowthLimits& limits, Crew& crew) {
     for (uint32_t phase : {kTerminalsCount, kTerminalsWrite}) {
         if (phase == kTerminalsCount && limits.leafDensityCap <= 0) continue;
         env.phase = phase;
-        overRange(s.frozenNodes, s.nodes, kNodesAtOnce, crew,
-                  [&](size_t begin, size_t end) { finishNodes(env, begin, end); });
+        overRange(s.frozenNodes, s.nodes, kNodesAtOnce, crew, [&](size_t begin, size_t end) {
+            if (goesOn(watch, s.nodes)) finishNodes(env, begin, end);
+        });
     }
 }
 

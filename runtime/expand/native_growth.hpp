@@ -21,13 +21,14 @@ using ItemQueues = std::array<WorkItem*, 2>;
 void packTablesNative(ExpandEnv env, uint32_t grammars);
 
 // Grows waves from env.wave on until one is empty or the next would be `most`, env.phase being the last that may be
-// grown. Returns the first wave that didn't run. wide: chunks are grown side by side, their walks in the processor's
-// vectors (wide_walk.hpp); the CPU reference grows them one by one.
-uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide);
+// grown. Returns the first wave that didn't run, or, if `watch` stops it, one that didn't run whole. wide: chunks are
+// grown side by side, their walks in the processor's vectors (wide_walk.hpp); the CPU reference grows them one by one.
+uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide,
+                     GrowthWatch* watch = nullptr);
 
 // The passes after wave env.wave: terminals, fit and the structure's hash. Nothing, unless growth is complete.
-// env.density must be zero where limits ask for it.
-void terminalsNative(ExpandEnv env, const GrowthLimits& limits, Crew& crew);
+// env.density must be zero where limits ask for it. What `watch` stops isn't whole.
+void terminalsNative(ExpandEnv env, const GrowthLimits& limits, Crew& crew, GrowthWatch* watch = nullptr);
 void fitNative(ExpandEnv env, Crew& crew);
 
 // A regrowth's: the links that are drawn are copied to env's, chunks found that are to be grown again, and the first
@@ -35,7 +36,7 @@ void fitNative(ExpandEnv env, Crew& crew);
 void findNative(ExpandEnv env, Crew& crew);
 // its waves, as marchNative; and all that follows after wave env.wave: nothing, unless what was grown is whole and
 // fits.
-uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew);
+uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, GrowthWatch* watch);
 void finishAgainNative(ExpandEnv env, Crew& crew);
 
 // What is drawn, and has gaps.

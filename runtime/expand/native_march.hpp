@@ -25,8 +25,10 @@ constexpr uint32_t kFewestLanes = 3;  // fewer walk one by one
 struct WaveItems {
     std::atomic<size_t> taken = 0;
     size_t count = 0;
-    // kNoIndex: there are no more.
-    uint take() {
+    GrowthWatch* watch = nullptr;
+    // kNoIndex: there are no more. nodes: so far.
+    uint take(uint nodes) {
+        if (!goesOn(watch, nodes)) return kNoIndex;
         const size_t at = taken.fetch_add(1, std::memory_order_relaxed);
         return at < count ? uint(count - 1 - at) : kNoIndex;
     }
@@ -50,7 +52,7 @@ ESPALIER_WHOLE bool growToStretch(Lane& lane, WaveItems& items, GrowthTally& tal
             endTrip(lane.c.g);
         } else {
             if (lane.live) endChunk(lane.env, lane.c, tally);
-            const uint item = items.take();
+            const uint item = items.take(lane.env.status.v[0].nodes);
             lane.live = item != kNoIndex && beginChunk(lane.machine, lane.env, lane.env.items.v[item], lane.c);
             if (item == kNoIndex) return false;
         }
@@ -120,10 +122,10 @@ void overRange(uint32_t first, uint32_t last, size_t grain, Crew& crew, const Bo
 }
 
 // See marchNative.
-uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide) {
+uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide, GrowthWatch* watch) {
     wide = wide && widestVectors() != VectorKind::narrow && !PAPER_WALK(env);
     uint32_t w = env.wave;
-    for (; w < most && env.waves.v[w].count > 0; ++w) {
+    for (; w < most && env.waves.v[w].count > 0 && !(watch && watch->stopped()); ++w) {
         env.wave = w;
         env.items = {queues[w & 1]};
         env.nextItems = {queues[(w + 1) & 1]};
@@ -131,6 +133,7 @@ uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& cre
         if (wanted > count) atomicMax(env.status.v[0].items, wanted);
         WaveItems items;
         items.count = count;
+        items.watch = watch;
         const uint32_t side = std::clamp(count / crew.threads(), 1u, kWalkLanes);  // few items are for all threads
         crew.overRange(std::min(crew.threads(), count), 1, [&](size_t, size_t) { growItems(env, items, side, wide); });
     }

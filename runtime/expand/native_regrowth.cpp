@@ -142,8 +142,8 @@ void findNative(ExpandEnv env, Crew& crew) {
     for (uint32_t i = 0; i < listed(env, kListDirty); ++i) startAgain(env, i);  // sooner done than shared out
 }
 
-uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew) {
-    return march(env, queues, most, crew, true);
+uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, GrowthWatch* watch) {
+    return march(env, queues, most, crew, true, watch);
 }
 
 void finishAgainNative(ExpandEnv env, Crew& crew) {

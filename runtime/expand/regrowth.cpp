@@ -220,9 +220,10 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
 
 void GpuGrowth::growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
     env.phase = lastWave(noCut(inputs.limits));
-    outcome.marchMs =
-        millisecondsOf([&] { env.wave = marchAgainNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_); });
-    outcome.terminalsMs = millisecondsOf([&] { finishAgainNative(env, crew_); });
+    outcome.marchMs = millisecondsOf(
+        [&] { env.wave = marchAgainNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_, inputs.watch); });
+    // From here on what is drawn is changed: nothing stops that.
+    if (!stopped(inputs)) outcome.terminalsMs = millisecondsOf([&] { finishAgainNative(env, crew_); });
     outcome.status = status_.mappedAs<GrowStatus>()[0];
     outcome.waves.assign(env.waves.v, env.waves.v + env.wave + 1);
     state = again_.mappedAs<AgainState>()[0];
@@ -258,6 +259,7 @@ Status GpuGrowth::growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Ou
         outcome.fitMs += device_.milliseconds("expand fit");
         std::memcpy(&state, readback_.mapped() + stateAt, sizeof state);
         if (outcome.waves[last].count == 0 || last == most || outcome.status.items > 0) return Done{};
+        if (!goesOn(inputs.watch, outcome.status.nodes)) return stoppedFailure();
         first = last;
         batch *= 2;
     }
@@ -271,6 +273,7 @@ Result<GpuGrowth::Regrown> GpuGrowth::growAgain(const GrowthInputs& inputs, cons
     } else if (Status grown = growAgainShaders(inputs, env, outcome, state); !grown) {
         return grown.failure();
     }
+    if (stopped(inputs)) return stoppedFailure();
     const GrowStatus& s = outcome.status;
     const bool fits = s.chunks <= s.chunkCapacity && s.nodes <= s.nodeCapacity && s.branches <= s.branchCapacity &&
                       s.leaves <= s.leafCapacity && s.items <= room_.items;

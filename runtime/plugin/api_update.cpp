@@ -93,7 +93,9 @@ EspResult growPlants(EspContext& context) {
     if (known.size() > ids.size() || !std::equal(known.begin(), known.end(), ids.begin()))
         context.changes.everything = true;
     inputs.changes = &context.changes;
+    inputs.watch = context.watch.get();
     Status grown = context.growth->grow(inputs);
+    if (!grown && inputs.watch && inputs.watch->stopped()) return fail(&context, ESP_STOPPED, grown.failure().text());
     if (!grown && grown.failure().diagnostics.front().file == "growth")
         return fail(&context, ESP_INVALID_CONTENT, grown.failure().text());
     if (!grown) return failGpu(&context, grown.failure());
@@ -144,6 +146,15 @@ EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
             return ESP_OK;
         context->grow = *def;
         context->touch();
+        return ESP_OK;
+    });
+}
+
+EspResult espWatchGrowth(EspContext* context, EspGrowingFn growing, void* user) {
+    return guarded(context, [&] {
+        context->watch.reset();
+        if (growing)
+            context->watch = std::make_unique<GrowthWatch>([=](uint64_t nodes) { return growing(user, nodes) != 0; });
         return ESP_OK;
     });
 }

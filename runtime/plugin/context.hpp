@@ -249,6 +249,7 @@ struct EspContext {
     std::vector<uint64_t> pruned;  // keys of branches, ascending
 
     EspGrowDef grow;
+    std::unique_ptr<espalier::GrowthWatch> watch;  // null: nobody does
     // Of the inputs, since the last growth. Edits go through touch(), or note here what they changed and raise
     // `revision` themselves (for seeds that is all there is to do).
     espalier::GrowthChanges changes;

@@ -1,4 +1,4 @@
-// Memory after growth that asked for far more than what stands now.
+// Growth that asks for far more than what stood: it can be given up, and its memory is given back.
 #include <vector>
 
 #include "tests/editor/editing.hpp"
@@ -32,6 +32,39 @@ struct Place : Editing {
 };
 
 }  // namespace
+
+TEST_CASE("growth that a slider has asked too much of is given up, and plants stand as they were") {
+    Place place;
+    const std::vector<uint8_t> before = place.picture();
+    const EspStats small = place.stats();
+    for (const auto& [name, value] : {std::pair("reach", 8.f), {"twigs", 20.f}, {"forks", 3.f}})
+        REQUIRE(place.perform(SetParam{0, {name, {value}}}, 1));
+    REQUIRE(place.perform(FillLayer{"mask", 1}));
+    struct Watcher {
+        int asked = 0;
+        uint64_t nodes = 0;
+    } watcher;
+    const EspGrowingFn stops = [](void* user, uint64_t nodes) {
+        Watcher& w = *static_cast<Watcher*>(user);
+        w.asked += 1;
+        w.nodes = nodes;
+        return 0;
+    };
+    REQUIRE(espWatchGrowth(place.context.get(), stops, &watcher) == ESP_OK);
+    CHECK(espUpdate(place.context.get()) == ESP_STOPPED);
+    CHECK(std::string(espLastError(place.context.get())).find("stopped") != std::string::npos);
+    CHECK(watcher.asked == 1);
+    CHECK(watcher.nodes > 0);
+    CHECK(espUpdate(place.context.get()) == ESP_STOPPED);  // and doesn't try again
+    CHECK(watcher.asked == 1);
+    CHECK(place.stats().hash == small.hash);
+    CHECK(place.stats().nodes == small.nodes);
+    REQUIRE(place.perform(Undo{}));
+    REQUIRE(place.perform(Undo{}));
+    REQUIRE(espWatchGrowth(place.context.get(), nullptr, nullptr) == ESP_OK);
+    CHECK(place.picture() == before);
+    CHECK(place.stats().hash == small.hash);
+}
 
 TEST_CASE("what a slider that went too far has taken is given back once that is undone and the window rests") {
     Place place;

@@ -140,6 +140,7 @@ Status Scene::grow(Device& device, Growth& growth) {
     in.limits = limits;
     in.frozen = frozen;
     in.changes = changes;
+    in.watch = watch;
     return growth.grow(in);
 }
 

@@ -43,6 +43,7 @@ class Scene {
     GrowthLimits limits;
     std::vector<float> widths;
     const GrowthChanges* changes = nullptr;  // see GrowthInputs::changes
+    GrowthWatch* watch = nullptr;            // see GrowthInputs
     bool fetch = true;                       // see GrowthInputs
     bool native = false;                     // see there; tests are of shaders where they don't say otherwise
 

@@ -13,7 +13,7 @@ void badArguments(EspContext* context) {
     const float point[3] = {0, 0, 0}, bad[3] = {NAN, 0, 0};
 
     REFUSED(espCreate(NULL, NULL));
-    CHECK(espTrim(NULL) == ESP_INVALID_ARGUMENT);
+    CHECK(espTrim(NULL) == ESP_INVALID_ARGUMENT && espWatchGrowth(NULL, NULL, NULL) == ESP_INVALID_ARGUMENT);
     CHECK(espUpdate(NULL) == ESP_INVALID_ARGUMENT && espDraw(NULL, NULL) == ESP_INVALID_ARGUMENT);
     CHECK(espParamCount(NULL, grammar) == 0 && espLayerName(context, noGrammar, 0)[0] == 0);
     CHECK(espGrammarWarnings(context, noGrammar)[0] == 0 && espGrammarWarnings(NULL, grammar)[0] == 0);
