@@ -61,6 +61,23 @@ TEST_CASE("a window that rests shows what was undone with its own shadows") {
     CHECK_MESSAGE(alike.code == 0, alike.output);
 }
 
+TEST_CASE("Esc stops growth that takes long, and the next change grows") {
+    if (!hasDisplay()) return;
+    const Folder folder;
+    std::string seeds;
+    for (int i = 0; i < 200; ++i)
+        seeds += (i > 0 ? "," : "") + std::string(R"({"position": [)") + std::to_string(-1.6 + 0.015 * i) +
+                 R"(, 0.12, 0.36], "seed": )" + std::to_string(i) + "}";
+    const std::string dense =
+        folder.write("dense.json", R"({"surface": ")" + content("ruin.surface.glb") + R"(", "grammars": [{"file": ")" +
+                                       content("grammars/ivy_guided.grammar") +
+                                       R"(", "params": {"reach": 20, "twigs": 20, "twigLength": 1.5, "scale": 0.2},
+    "seeds": [)" + seeds + R"(]}], "camera": {"eye": [2.3, 1.9, 8.0], "target": [-0.05, 1.55, 0.3], "fov": 38}})");
+    const Ran ran = drive("drive_stop", dense, folder, ESPALIER_NOTE_UPDATE);
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    CHECK(readAll(folder.file("updates")) == std::to_string(ESP_STOPPED) + "\n" + std::to_string(ESP_OK) + "\n");
+}
+
 TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are planted, undone and done again") {
     if (!hasDisplay()) return;
     const Folder folder;
