@@ -151,9 +151,16 @@ bool Session::step(Workspace& work, double now) {
     return moved || models || grammars;
 }
 
-// Whoever deletes or moves a project's folder while it is open: what is open is all that is left of it.
+// Whoever deletes or moves a project's folder while it is open: what is open is all that is left of it. Who saves over
+// the project drops the autosave there: what isn't saved is kept anew.
 void Session::noticeLoss(Workspace& work) {
     std::error_code ignored;
+    const uint64_t state = work.document->state();
+    if (state == autosavedState_ && state != savedState_ &&
+        !fs::exists(fs::path(autosaveFolder()) / kAutosave, ignored)) {
+        autosavedState_ = kNever;
+        nextAutosave_ = 0;
+    }
     const bool there = folder_.empty() || fs::exists(fs::path(folder_) / kProject, ignored);
     const bool missed = std::exchange(missing_, !there);  // at two looks: others may be writing it anew
     if (there || !missed || savedState_ == kNever) return;

@@ -82,6 +82,12 @@ TEST_CASE("the second editor of a project says so, keeps what is its own beside 
     CHECK(keptIn(folder.path / "config").empty());
     CHECK(maskOf(garden + "/autosave.json") == .25f);
     CHECK(!one.session.changedByOthers());
+    // The second saves there all the same: what the first hasn't saved is kept once more, as what is newer.
+    REQUIRE(two.save(garden));
+    REQUIRE(!std::filesystem::exists(garden + "/autosave.json"));
+    one.wait();
+    CHECK(maskOf(garden + "/autosave.json") == .25f);
+    CHECK(recoverable(garden) == garden + "/autosave.json");
 }
 
 TEST_CASE("who has no folder for settings is told that nothing is kept") {
