@@ -487,8 +487,8 @@ typedef struct EspLook {         /* all numbers finite */
     float groundLevel;           /* its height in the world, metres */
 } EspLook;
 ESP_API EspLook espDefaultLook(void);
-/* For legends: the linear colour by which ESP_VIEW_DEPTH, ESP_VIEW_OVERDRAW, ESP_VIEW_LAYER or ESP_VIEW_LOD (levels, 0 the
- * finest) shows `amount`, and the amount from which on nothing changes. */
+/* For legends: the linear colour by which ESP_VIEW_DEPTH, ESP_VIEW_OVERDRAW, ESP_VIEW_LAYER, ESP_VIEW_LOD (levels, 0 the
+ * finest) or ESP_VIEW_CHARTS (a chart's number) shows `amount`, and the amount from which on nothing changes. */
 ESP_API EspResult espViewColour(EspView view, float amount, float rgb[3], float* most);
 
 /* A picture that the host has begun: its opaque objects are in colourImage and in a depth buffer. Growth and roofs are

@@ -51,6 +51,7 @@ void App::showUi() {
     showBackground(work_, session_.background());
     showHelp(work_);
     if (work_.editing) showDialogues(work_, session_);
+    if (work_.windowsAnew > 0) --work_.windowsAnew;
 }
 
 void App::screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height) {
@@ -107,12 +108,17 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     return host_->end(*frame, take) || fail(host_->error());
 }
 
+// A column for each picture. What its stages took is known once it is finished, in the next frame.
 void App::noteTimes() {
-    const bool drew = image_->drew();
-    if (drew) work_.pictureMs = work_.frameMs;
-    work_.history.push_back({float(grownMs_), drew ? float(work_.stats.emitMs) : 0,
-                             drew ? float(work_.stats.drawMs) : 0, float(work_.frameMs)});
+    if (std::exchange(timesAwaited_, false) && work_.readStats() && !work_.history.empty()) {
+        work_.history.back()[1] = float(work_.stats.emitMs);
+        work_.history.back()[2] = float(work_.stats.drawMs);
+    }
+    if (!image_->drew()) return;
+    work_.pictureMs = work_.frameMs;
+    work_.history.push_back({float(grownMs_), 0, 0, float(work_.frameMs)});
     if (work_.history.size() > kHistory) work_.history.erase(work_.history.begin());
+    timesAwaited_ = true;
 }
 
 // False: the view stays. The last frame is a whole picture, which nothing moves in.

@@ -20,6 +20,10 @@ constexpr const char* kStopped =
     "Growth was stopped: plants stand as they were. Ctrl+Z takes back what asked for so much; with the next change all "
     "that is new grows.";
 
+constexpr const char* kCut =
+    "More would grow than the limit of nodes allows: all plants are cut short. Ctrl+Z takes back what asked for so "
+    "much.";
+
 double millisecondsSince(Clock::time_point then) {
     return std::chrono::duration<double, std::milli>(Clock::now() - then).count();
 }
@@ -50,6 +54,7 @@ bool App::update() {
     const bool plants = work_.stats.expansions != expansions, houses = work_.roofs.housesGrown != housesGrown;
     if (plants && work_.branch) work_.readPath();
     grownMs_ = (plants ? work_.stats.expandMs : 0) + (houses ? work_.roofs.expandMs : 0);
+    if (plants && work_.stats.overflow > 0) work_.error = growthError_ = kCut;
     if (plants || houses) pace_.grew(grownMs_, plants && 2 * work_.stats.derivedNodes > work_.stats.nodes);
     work_.redraw |= plants || houses;
     return plants || houses;

@@ -97,8 +97,9 @@ class App {
     struct {
         std::chrono::steady_clock::time_point began;
         bool told = false;
-    } growth_;                 // under way
-    std::string growthError_;  // of the last frame
+    } growth_;                   // under way
+    std::string growthError_;    // of the last frame
+    bool timesAwaited_ = false;  // of the last picture
     GrowthPace pace_;
     float themeScale_ = 0;
 };

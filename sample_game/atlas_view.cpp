@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "sample_game/panels.hpp"
@@ -13,7 +14,8 @@ namespace sample {
 namespace {
 
 constexpr uint32_t kLeastSide = 512;  // pixels of the picture: texels of coarse levels are drawn as squares
-constexpr float kLinkReach = 7;       // pixels from the mouse to a link
+constexpr size_t kShades = 256;
+constexpr float kLinkReach = 7;  // pixels from the mouse to a link
 constexpr ImU32 kEmpty = IM_COL32(20, 21, 24, 255), kPlain = IM_COL32(62, 65, 70, 255);
 // Seams, nearest points, contacts, the model's borders.
 constexpr ImU32 kLinks[] = {IM_COL32(150, 170, 190, 255), IM_COL32(90, 210, 210, 255), IM_COL32(240, 200, 60, 255),
@@ -21,11 +23,6 @@ constexpr ImU32 kLinks[] = {IM_COL32(150, 170, 190, 255), IM_COL32(90, 210, 210,
 constexpr const char* kLinkNames[] = {"Seams", "Nearest points", "Contacts", "Open borders"};
 constexpr ImU32 kSample = IM_COL32(255, 255, 255, 255), kInserted = IM_COL32(120, 200, 255, 255),
                 kJump = IM_COL32(110, 230, 90, 255), kPointed = IM_COL32(255, 240, 150, 255);
-
-ImU32 chartColour(uint32_t chart) {
-    const ImVec4 colour = ImColor::HSV(float(chart * 2654435761u >> 8) / 16777216.f, .42f, .58f);
-    return ImGui::ColorConvertFloat4ToU32(colour);
-}
 
 ImU32 mixed(ImU32 a, ImU32 b, float share) {
     const auto channel = [&](int shift) {
@@ -35,9 +32,11 @@ ImU32 mixed(ImU32 a, ImU32 b, float share) {
     return channel(IM_COL32_R_SHIFT) | channel(IM_COL32_G_SHIFT) | channel(IM_COL32_B_SHIFT) | IM_COL32_A_MASK;
 }
 
-// As the view of a layer on the model.
-ImU32 layerColour(float value) {
-    return mixed(IM_COL32(80, 85, 97, 255), IM_COL32(243, 160, 79, 255), std::clamp(value, 0.f, 1.f));
+// By its file; one of several of a file has its number.
+std::string surfaceName(const std::vector<espalier::scene::LoadedSurface>& surfaces, size_t index) {
+    std::string name = std::filesystem::path(surfaces[index].file).filename().string();
+    name = name.substr(0, name.find('.'));
+    return surfaces.size() > 1 ? std::to_string(index + 1) + "  " + name : name;
 }
 
 void arrow(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float scale) {
@@ -67,6 +66,7 @@ struct AtlasView::View {
 void AtlasView::forget() {
     shown_ = {};
     wanted_.surface = ~0u;
+    followed_.reset();
     texels_.clear();
     links_.clear();
     layer_.clear();
@@ -99,17 +99,28 @@ bool AtlasView::read(Workspace& work, const Shown& wanted) {
     return true;
 }
 
+// As the views of charts and of a layer have them on the model.
+void AtlasView::mixColours() {
+    uint32_t charts = 1;
+    for (uint32_t texel : texels_) charts = std::max(charts, (texel & 0xFFFFu) + 1);
+    while (chartColours_.size() < charts)
+        chartColours_.push_back(viewColour(ESP_VIEW_CHARTS, float(chartColours_.size())));
+    while (layerColours_.size() < kShades)
+        layerColours_.push_back(viewColour(ESP_VIEW_LAYER, float(layerColours_.size()) / (kShades - 1)));
+}
+
 uint32_t AtlasView::colourOf(uint32_t x, uint32_t y) const {
     const uint32_t texel = texels_[size_t(y) * size_ + x], kind = texel >> 16 & 3u;
     if (kind == ESP_TEXEL_EMPTY) return kEmpty;
-    ImU32 colour = shown_.charts ? chartColour(texel & 0xFFFFu) : kPlain;
+    ImU32 colour = shown_.charts ? chartColours_[texel & 0xFFFFu] : kPlain;
     if (texel >> 18 & 1u) colour = mixed(colour, kEmpty, .75f);
     if (kind != ESP_TEXEL_INNER) return mixed(colour, kEmpty, .6f);
     if (shown_.layer.empty()) return colour;
     // At the texel's middle: around a chart the layer holds what nobody has painted.
     const auto middle = [&](uint32_t i) { return (2 * size_t(i) + 1) * layerSize_ / (2 * size_); };
     const size_t u = middle(x), v = middle(y);
-    return mixed(colour, layerColour(layer_[v * layerSize_ + u]), shown_.opacity);
+    const float value = std::clamp(layer_[v * layerSize_ + u], 0.f, 1.f);
+    return mixed(colour, layerColours_[size_t(value * (kShades - 1) + .5f)], shown_.opacity);
 }
 
 void AtlasView::drawLinks(std::vector<uint32_t>& pixels, uint32_t side) const {
@@ -127,6 +138,7 @@ void AtlasView::drawLinks(std::vector<uint32_t>& pixels, uint32_t side) const {
 
 // v runs upward, rows downward.
 bool AtlasView::compose() {
+    mixColours();
     const uint32_t factor = std::max(1u, kLeastSide / size_), side = size_ * factor;
     std::vector<uint32_t> pixels(size_t(side) * side);
     std::vector<uint32_t> row(size_);
@@ -141,18 +153,39 @@ bool AtlasView::compose() {
 
 // ---- The window
 
+// A branch that was picked, or is there when the window opens, is looked for on its own surface.
+void AtlasView::followBranch(const Workspace& work) {
+    const bool picked = work.branch && !work.path.empty();
+    if (followed_ == (picked ? work.branch : std::nullopt)) return;
+    followed_ = picked ? work.branch : std::nullopt;
+    if (!picked) return;
+    const auto& surfaces = work.scene().surfaces;
+    const auto lies = [&](size_t surface) {
+        return std::ranges::any_of(work.path,
+                                   [&](const EspPathSample& s) { return s.surface.id == surfaces[surface].id.id; });
+    };
+    if (lies(wanted_.surface)) return;
+    for (size_t i = 0; i < surfaces.size(); ++i)
+        if (surfaces[i].id.id == work.path.front().surface.id) wanted_.surface = uint32_t(i);
+}
+
+void AtlasView::surfaceChoice(const Workspace& work) {
+    const auto& surfaces = work.scene().surfaces;
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
+    if (ImGui::BeginCombo("##surface", surfaceName(surfaces, wanted_.surface).c_str())) {
+        for (size_t i = 0; i < surfaces.size(); ++i)
+            if (ImGui::Selectable(surfaceName(surfaces, i).c_str(), i == wanted_.surface))
+                wanted_.surface = uint32_t(i);
+        ImGui::EndCombo();
+    }
+    toolTip("Which of the scene's surfaces");
+    sameLineIfRoom(ImGui::GetFontSize() * 7);
+}
+
 void AtlasView::controls(Workspace& work) {
     const auto& scene = work.scene();
     const float room = ImGui::GetFontSize();
-    if (scene.surfaces.size() > 1) {
-        int surface = int(wanted_.surface);
-        ImGui::SetNextItemWidth(room * 7);
-        if (ImGui::SliderInt("##surface", &surface, 0, int(scene.surfaces.size()) - 1, "Surface %d",
-                             ImGuiSliderFlags_AlwaysClamp))
-            wanted_.surface = uint32_t(surface);
-        toolTip("Which of the scene's surfaces");
-        sameLineIfRoom(room * 7);
-    }
+    if (scene.surfaces.size() > 1) surfaceChoice(work);
     EspSurfaceInfo info{};
     (void)espSurfaceInfo(work.context.get(), scene.surfaces[wanted_.surface].id, &info);
     wanted_.level = std::min(wanted_.level, std::max(info.levels, 1u) - 1);
@@ -221,16 +254,18 @@ void AtlasView::drawWalk(const Workspace& work, const View& view) const {
     const auto here = [&](const EspPathSample& s) { return s.surface.id == surface; };
     for (size_t i = 0; i + 1 < work.path.size(); ++i) {
         const EspPathSample &a = work.path[i], &b = work.path[i + 1];
-        if (!here(a) || !here(b)) continue;
-        if (a.chart == b.chart)
+        if (here(a) && here(b) && !work.crossings[i])
             list.AddLine(view.place(a.uv), view.place(b.uv), IM_COL32(255, 255, 255, 150), view.scale);
-        else
+        else if (here(a) && here(b))
             arrow(list, view.place(a.uv), view.place(b.uv), kJump, view.scale);
+        else if (here(a) || here(b))  // to or from another surface
+            list.AddCircle(view.place(here(a) ? a.uv : b.uv), 5 * view.scale, kJump, 0, 1.5f * view.scale);
     }
+    // Smaller where the whole atlas is seen, so that they stay apart.
+    const float size = std::clamp(.5f + .25f * std::log2(zoom_), .5f, 1.f) * view.scale;
     for (const EspPathSample& s : work.path)
         if (here(s))
-            list.AddCircleFilled(view.place(s.uv), (s.inserted ? 1.8f : 2.4f) * view.scale,
-                                 s.inserted ? kInserted : kSample);
+            list.AddCircleFilled(view.place(s.uv), (s.inserted ? 1.8f : 2.4f) * size, s.inserted ? kInserted : kSample);
     if (work.hit && work.hit->surface.id == surface) {
         const ImVec2 at = view.place(work.hit->uv);
         list.AddCircle(at, 6 * view.scale, kPointed, 0, 1.5f * view.scale);
@@ -281,14 +316,15 @@ void AtlasView::tellAt(const View& view) const {
 }
 
 void AtlasView::show(Workspace& work) {
-    if (!work.layout.atlas || work.scene().surfaces.empty()) return;
+    if (!work.layout.atlas || work.scene().surfaces.empty()) return followed_.reset();
     const float s = work.scale;
-    // The first time at the lower right, below the figures if there is room.
-    const float high = std::clamp(work.window.y - 400 * s, 320 * s, 540 * s), wide = std::max(high - 60 * s, 300 * s);
-    if (!beginWindow(work, "Atlas", &work.layout.atlas, {work.window.x - wide - 12 * s, work.window.y - high - 44 * s},
-                     {wide, high}, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
+    // The first time beside the panel, large enough to tell a walk's samples apart.
+    const float high = std::clamp(work.window.y - 120 * s, 320 * s, 600 * s), wide = std::max(high - 90 * s, 300 * s);
+    if (!beginWindow(work, "Atlas", &work.layout.atlas, {work.panelUnits() + 12 * s, 40 * s}, {wide, high},
+                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
         return ImGui::End();
     if (wanted_.surface >= work.scene().surfaces.size()) wanted_.surface = 0;
+    followBranch(work);
     controls(work);
     wanted_.revision = wanted_.layer.empty() ? 0 : work.document->revision();
     if (wanted_ != shown_) {

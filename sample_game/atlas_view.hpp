@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,12 @@ class AtlasView {
     };
     struct View;  // where the picture lies in the window
 
+    void followBranch(const Workspace& work);
+    void surfaceChoice(const Workspace& work);
     void controls(Workspace& work);
     bool read(Workspace& work, const Shown& wanted);
     bool compose();
+    void mixColours();
     uint32_t colourOf(uint32_t x, uint32_t y) const;
     void drawLinks(std::vector<uint32_t>& pixels, uint32_t side) const;
     void moveView(const View& view);
@@ -51,6 +55,8 @@ class AtlasView {
     std::vector<uint32_t> texels_;       // as espReadAtlas gives them
     std::vector<EspLink> links_;
     std::vector<float> layer_;
+    std::vector<uint32_t> chartColours_, layerColours_;  // of each chart; of values from 0 to 1
+    std::optional<uint64_t> followed_;                   // the branch whose surface was turned to
     float zoom_ = 1;
     float centre_[2] = {.5f, .5f};  // walk UV
 };

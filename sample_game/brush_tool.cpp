@@ -168,6 +168,7 @@ bool BrushTool::take(Workspace& work, const PointerEvent& event) {
         begin(work, event.mods);
         last_ = at;
         if (painting_) layDab(work, at);
+        if (painting_ && !lastDab_) work.message = work.townLayer(work.brush.layer) ? "No roof there" : kNoGround;
         return true;
     }
     if (!painting_) return false;

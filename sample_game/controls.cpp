@@ -72,13 +72,16 @@ void Controls::takeKey(const KeyEvent& event) {
         if (key == GLFW_KEY_E && !work_.brush.layer.empty()) askForLayer(work_.brush.layer, false);
         if (key == GLFW_KEY_Z && brush_.painting()) return brush_.takeBack(work_);
         if (toolBusy()) return;
-        if (key == GLFW_KEY_Z && !shift && work_.document->undoName()) work_.perform(Undo{});
-        if (((key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y) && work_.document->redoName()) work_.perform(Redo{});
+        const bool undoes = key == GLFW_KEY_Z && !shift, redoes = (key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y;
+        if (undoes && work_.document->undoName()) return void(work_.perform(Undo{}));
+        if (redoes && work_.document->redoName()) return void(work_.perform(Redo{}));
+        if (undoes || redoes) work_.message = undoes ? "Nothing to undo" : "Nothing to redo";
         return;
     }
     if (key == GLFW_KEY_TAB) return setEditing(!work_.editing);
     if (key == GLFW_KEY_ESCAPE) {
         // Never quits: frees the mouse, closes the help, puts the tool away.
+        if (cancelDrag(work_)) return;
         if (navigation_.caught)
             catchMouse(false);
         else if (work_.layout.help)
@@ -206,6 +209,7 @@ bool Controls::panelTakes(const KeyEvent& event) {
     if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) return true;
     const bool file = (event.mods & GLFW_MOD_CONTROL) && (event.key == GLFW_KEY_S || event.key == GLFW_KEY_O ||
                                                           event.key == GLFW_KEY_E || event.key == GLFW_KEY_Q);
+    if (grammarFocused() && !(event.mods & GLFW_MOD_CONTROL) && event.key != GLFW_KEY_ESCAPE) return true;
     // What WantTextInput says is a frame late: nothing is active any more once a dialogue has closed.
     return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive() && !file;
 }

@@ -124,7 +124,18 @@ void showRemarks(const espalier::scene::LoadedGrammar& grammar, const std::vecto
 
 }  // namespace
 
+namespace {
+
+bool focused = false;
+
+}  // namespace
+
+bool grammarFocused() {
+    return focused;
+}
+
 void showGrammarWindow(Workspace& work) {
+    focused = false;
     if (!work.layout.grammar || work.scene().grammars.empty()) return;
     static TextState state;
     work.openGrammar = std::min(work.openGrammar, uint32_t(work.scene().grammars.size() - 1));
@@ -137,6 +148,7 @@ void showGrammarWindow(Workspace& work) {
     const std::string title =
         grammarName(work.scene(), work.openGrammar) + (differs ? "   differs from " + file : "") + "###grammar";
     if (beginWindow(work, title.c_str(), &work.layout.grammar, {work.window.x - 600 * s, 60 * s}, {580 * s, 520 * s})) {
+        focused = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
         fileRow(work, file, inFile);
         const std::vector<Remark> remarks = remarksOf(grammar);
         // Undo and files change the text from outside, also while the cursor is in it: the widget has a copy then.
@@ -162,6 +174,10 @@ void showGrammarWindow(Workspace& work) {
                                                            {std::max(whole, ImGui::GetContentRegionAvail().x), height},
                                                            flags, onEdit, &state);
             ImGui::PopID();
+            // Beside the text, at the numbers of its lines, a click is meant for it, too.
+            if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0) && !ImGui::IsItemHovered() &&
+                ImGui::GetMousePos().x < ImGui::GetItemRectMin().x)
+                ImGui::SetKeyboardFocusHere(-1);
             if (ImGui::IsItemActive() && (state.cursorLine != state.scrolledLine || state.cursorX != state.scrolledX)) {
                 state.scrolledLine = state.cursorLine;
                 state.scrolledX = state.cursorX;

@@ -85,6 +85,7 @@ void HouseTool::beginDrag(Workspace& work, House house, size_t corner, glm::vec2
     corner_ = corner;
     dragged_ = std::move(house);
     from_ = at;
+    refused_ = false;
     grip_ = corner < points.size() ? points[corner] - at : glm::vec2(0);
     moved_ = false;
 }
@@ -110,7 +111,8 @@ void HouseTool::dragTo(Workspace& work, glm::vec2 mouse) {
         const auto place = work.place({next[0], info.eaveHeight, next[1]});
         if (place && glm::distance(*place, at) < kMergeReach * work.scale) corner = next;
     }
-    if (!work.perform(SetHouse{dragged_}, gesture_)) return;
+    refused_ = !work.perform(SetHouse{dragged_}, gesture_);
+    if (refused_) return;
     changed_ = true;
     const auto& corners = houseNow(work.context.get(), dragged_.index).corners;
     const auto away = [&](const auto& c) { return glm::distance(glm::vec2(c[0], c[1]), glm::vec2(to.x, to.z)); };
@@ -125,10 +127,15 @@ bool HouseTool::take(Workspace& work, const PointerEvent& event) {
         return true;
     }
     if (event.kind == Kind::move || event.button != GLFW_MOUSE_BUTTON_LEFT) return corner_.has_value();
-    if (event.kind == Kind::press)
+    if (event.kind == Kind::press) {
         press(work, at, event.mods & GLFW_MOD_CONTROL);
-    else
+    } else if (refused_) {  // let go where no roof can be: not where the drag happened to get to
+        const std::string why = work.error;
+        cancel(work);
+        work.error = why;
+    } else {
         corner_.reset();
+    }
     return true;
 }
 

@@ -27,7 +27,7 @@ std::string ms(double value) {
 constexpr const char* kStages[] = {"Expand", "Emit", "Draw"};
 constexpr ImU32 kColours[] = {IM_COL32(120, 200, 90, 255), IM_COL32(90, 160, 230, 255), IM_COL32(230, 160, 70, 255)};
 
-// Stages stacked, one column a frame, the latest at the right.
+// Stages stacked, one column a picture, the latest at the right.
 void graph(const Workspace& work) {
     const float s = work.scale, height = 56 * s, width = ImGui::GetContentRegionAvail().x;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -131,7 +131,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
 void showLegend(const Workspace& work) {
     const EspView view = work.scene().look.view;
     float rgb[3], most = 0;
-    if (espViewColour(view, 0, rgb, &most) != ESP_OK) return;
+    if (view == ESP_VIEW_CHARTS || espViewColour(view, 0, rgb, &most) != ESP_OK) return;
     const float s = work.scale;
     ImGui::SetNextWindowPos({work.panelUnits() + 12 * s, work.window.y - ImGui::GetFrameHeight() - 16 * s},
                             ImGuiCond_Always, {0, 1});
@@ -152,11 +152,9 @@ void showLegend(const Workspace& work) {
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float steps = levels ? most + 1 : 64;
         for (float i = 0; i < steps; ++i) {
-            (void)espViewColour(view, levels ? i : most * (i + .5f) / steps, rgb, &most);
-            for (float& c : rgb) c = c <= .0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - .055f;
             ImGui::GetWindowDrawList()->AddRectFilled({at.x + width * i / steps, at.y},
                                                       {at.x + width * (i + 1) / steps, at.y + height},
-                                                      ImColor(rgb[0], rgb[1], rgb[2]));
+                                                      viewColour(view, levels ? i : most * (i + .5f) / steps));
         }
         ImGui::Dummy({width, height});
         ImGui::TextDisabled("0");

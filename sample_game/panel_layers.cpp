@@ -115,9 +115,8 @@ void layersPanel(Workspace& work) {
         ImGui::TextUnformatted(what.c_str());
         ImGui::PopStyleColor();
         if (chosen) chosenLayer(work, layer);
-        if (chosen && &layer == &layers.front() && !layer.town) {
+        if (chosen && layer.name == "mask" && !layer.readers.empty())
             aside("A path up a wall: Clear, drag up the wall; then S and a click at its foot.");
-        }
         ImGui::PopID();
     }
 }

@@ -53,6 +53,7 @@ void showMenu(Workspace& work, Session& session) {
             ImGui::MenuItem("Figures", "F3", &work.layout.figures);
             ImGui::MenuItem("Grammar", "F4", &work.layout.grammar);
             ImGui::MenuItem("Atlas", "F5", &work.layout.atlas);
+            if (ImGui::MenuItem("Windows as at first")) work.windowsAnew = 2;
             ImGui::MenuItem("Coarser while moving", nullptr, &work.layout.halfWhileMoving);
             toolTip("While the camera moves on a slow device, the picture has half the pixels a side");
             ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);

@@ -1,4 +1,7 @@
 // Where a project is saved, what is opened, and what becomes of work that isn't saved.
+#include <sys/stat.h>
+
+#include <ctime>
 #include <filesystem>
 
 #include "sample_game/dialogue.hpp"
@@ -12,10 +15,20 @@ namespace {
 using Turn = Dialogues::Turn;
 namespace fs = std::filesystem;
 
+// When a file was written, as words of a sentence; empty: that isn't known.
+std::string keptAt(const std::string& file) {
+    struct stat info {};
+    if (file.empty() || ::stat(file.c_str(), &info) != 0) return {};
+    char text[64];
+    std::tm when{};
+    return ::localtime_r(&info.st_mtime, &when) && std::strftime(text, sizeof text, " on %d %B at %H:%M", &when) ? text
+                                                                                                                 : "";
+}
+
 void recoveryDialogue(Session& session) {
     if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");
     if (beginDialogue("Unsaved work")) {
-        say("The last session ended without saving. What it had changed was kept.");
+        say("The last session ended without saving. What it had changed was kept" + keptAt(session.recovery()) + ".");
         if (session.recovery().empty()) ImGui::CloseCurrentPopup();
         if (ImGui::Button("Open it") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) {
             session.openNext = session.recovery();

@@ -2,6 +2,7 @@
 // the atlas.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "sample_game/panels.hpp"
@@ -11,10 +12,6 @@ namespace {
 
 constexpr ImU32 kSample = IM_COL32(255, 255, 255, 255), kInserted = IM_COL32(120, 200, 255, 255),
                 kJump = IM_COL32(110, 230, 90, 255), kPointed = IM_COL32(255, 190, 60, 190);
-
-bool jumps(const EspPathSample& a, const EspPathSample& b) {
-    return a.chart != b.chart || a.surface.id != b.surface.id;
-}
 
 // What has been pruned, to take it back.
 void prunedRow(Workspace& work) {
@@ -73,13 +70,12 @@ void branchPanel(Workspace& work) {
     for (const auto& planted : work.scene().seeds)
         if (picked && planted.planted.id == info.seed.id) seed = &planted;
     if (picked) {
-        size_t crossings = 0;
-        for (size_t i = 0; i + 1 < work.path.size(); ++i) crossings += jumps(work.path[i], work.path[i + 1]);
+        const size_t crossings = size_t(std::ranges::count(work.crossings, true));
         ImGui::Text("Depth %u, %zu samples, %zu crossing%s", info.depth, work.path.size(), crossings,
                     crossings == 1 ? "" : "s");
         char tip[160];
         std::snprintf(tip, sizeof tip,
-                      "Branches between it and its seed, steps of its walk,\njumps to another chart. Its key: %016llx",
+                      "Branches between it and its seed, steps of its walk,\njumps in the atlas. Its key: %016llx",
                       static_cast<unsigned long long>(*work.branch));
         toolTip(tip);
     } else {
@@ -99,8 +95,7 @@ void showWalk(const Workspace& work) {
     }
     for (size_t i = 0; i + 1 < work.path.size(); ++i) {
         const auto a = work.place(vec(work.path[i].position)), b = work.place(vec(work.path[i + 1].position));
-        if (a && b)
-            list.AddLine({a->x, a->y}, {b->x, b->y}, jumps(work.path[i], work.path[i + 1]) ? kJump : kSample, 2 * s);
+        if (a && b) list.AddLine({a->x, a->y}, {b->x, b->y}, work.crossings[i] ? kJump : kSample, 2 * s);
     }
     for (const EspPathSample& sample : work.path)
         if (const auto at = work.place(vec(sample.position)))

@@ -89,6 +89,7 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
     }
     work.selected.clear();
     const auto hit = work.pick(at);
+    if (!hit) work.message = kNoGround;
     if (!hit) return;
     pending_ = newSeed(work, *hit);
     drag_ = event.mods & GLFW_MOD_CONTROL ? Drag::row : Drag::direction;

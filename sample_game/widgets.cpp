@@ -84,10 +84,12 @@ void drawBar(float width, float share) {
 
 bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2 at, glm::vec2 size, int flags) {
     const float top = ImGui::GetFrameHeight(), bottom = work.window.y - ImGui::GetFrameHeight() - 4 * work.scale;
-    const glm::vec2 least = 120.f * glm::vec2(work.scale), room = glm::max({work.window.x, bottom - top}, least);
+    // A window that is made small for a while leaves them large enough to be of use afterwards.
+    const glm::vec2 least = glm::vec2(300, 200) * work.scale, room = glm::max({work.window.x, bottom - top}, least);
     ImGui::SetNextWindowSizeConstraints({least.x, least.y}, {room.x, room.y});
-    ImGui::SetNextWindowPos({at.x, at.y}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({size.x, size.y}, ImGuiCond_FirstUseEver);
+    const ImGuiCond when = work.windowsAnew > 0 ? ImGuiCond_Always : ImGuiCond_FirstUseEver;
+    ImGui::SetNextWindowPos({at.x, at.y}, when);
+    ImGui::SetNextWindowSize({size.x, size.y}, when);
     const bool shown = ImGui::Begin(title, open, flags | kQuiet);
     const ImVec2 is = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
     const ImVec2 wanted{std::max(0.f, std::min(is.x, work.window.x - extent.x)),
@@ -117,10 +119,13 @@ bool slider(const char* id, float* value, float low, float high, const char* for
         lastClick() = {};
         ImGui::SetKeyboardFocusHere(-1);
     }
-    if (typing)
-        *value = wanted;
-    else
+    // What is typed is taken when its field is left: half a number may be one that grows far too much.
+    if (!typing)
         changed = followMouse(value, wanted, changed);
+    else if (ImGui::IsItemActive())
+        changed = false;
+    else
+        changed = std::exchange(*value, wanted) != wanted;
     ImGui::PopStyleVar();
     ImGui::PopStyleColor(typing ? 4 : 5);
     return changed;
@@ -180,6 +185,13 @@ void noteAt(const Workspace& work, glm::vec2 at, const char* text) {
     list.AddText(from, IM_COL32_WHITE, text);
 }
 
+uint32_t viewColour(EspView view, float amount) {
+    float rgb[3]{}, most = 0;
+    (void)espViewColour(view, amount, rgb, &most);
+    for (float& c : rgb) c = c <= .0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - .055f;
+    return ImColor(rgb[0], rgb[1], rgb[2]);
+}
+
 void hint(const char* text) {
     ImGui::PushStyleColor(ImGuiCol_Text, kWarning);
     ImGui::TextWrapped("%s", text);
@@ -206,6 +218,14 @@ void beginGesture(Workspace& work) {
     if (ImGui::IsMouseClicked(0) || tabbed) work.newGesture();
     before = gui.ActiveId;
     if (lastClick().seen + 1 < ImGui::GetFrameCount()) lastClick() = {};  // its panel is gone
+}
+
+bool cancelDrag(Workspace& work) {
+    if (!ImGui::IsMouseDown(0) || !ImGui::IsAnyItemActive() || ImGui::GetIO().WantTextInput) return false;
+    lastClick() = {};
+    work.takeBack(work.gesture());
+    ImGui::ClearActiveID();
+    return true;
 }
 
 uint32_t widgetGesture(Workspace& work) {

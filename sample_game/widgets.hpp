@@ -28,6 +28,8 @@ bool hoursOf(const char* text, float& hours);  // a ReadTyped: 14:30, or 14.5
 void rowLabel(const char* text);               // the words before a widget, which takes the rest of the row
 // ImGui::SameLine if something so wide still fits in the row.
 void sameLineIfRoom(float width);
+// espViewColour's, as ImGui has colours; black: it has none.
+uint32_t viewColour(EspView view, float amount);
 void hint(const char* text);   // what keeps the user from seeing anything happen
 void aside(const char* text);  // fainter, over as many lines as it takes
 // Over the picture, beside a place of the window, legible on anything.
@@ -40,6 +42,9 @@ bool toolTipWaits();
 
 // Whether a slider that was clicked waits for the click to be no double click.
 bool clickWaits();
+
+// Takes back what a panel's control that the mouse holds has done, and lets go of it. False: it holds none.
+bool cancelDrag(Workspace& work);
 
 // Once a frame, before anything is laid out: what is taken up from here on is a step of undo of its own.
 void beginGesture(Workspace& work);

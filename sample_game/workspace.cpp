@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sample_game/crossings.hpp"
+
 namespace sample {
 
 glm::vec3 vec(const float* v) {
@@ -244,6 +246,7 @@ void Workspace::prune() {
     char key[20];
     std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(*branch));
     if (!perform(espalier::document::PruneBranch{key, true})) return;
+    message = "The branch is cut away, with all that grows from it";
     branch.reset();
     path.clear();
 }
@@ -272,6 +275,7 @@ std::vector<EspPathSample> Workspace::pathOf(uint64_t of) const {
 void Workspace::readPath() {
     path = branch ? pathOf(*branch) : std::vector<EspPathSample>{};
     if (!path.empty() && espBranchInfo(context.get(), *branch, &branchInfo) != ESP_OK) path.clear();
+    crossings = crossingsOf(path);
 }
 
 bool Workspace::barren(uint32_t key) {

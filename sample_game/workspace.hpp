@@ -49,6 +49,9 @@ struct HouseHit {
     float distance = 0;  // along the ray
 };
 
+// Of clicks beside what the baker has made ground of.
+inline constexpr const char* kNoGround = "No ground for plants there: key 2 shows it in colours";
+
 // What the tools and the panels of the editor share: the document, how it is looked at, what is chosen.
 struct Workspace {
     std::unique_ptr<EspContext, void (*)(EspContext*)> context{nullptr, espDestroy};
@@ -66,6 +69,8 @@ struct Workspace {
     std::set<uint32_t> selected;         // keys of seeds
     std::optional<uint64_t> branch;      // key of the one that was picked
     std::vector<EspPathSample> path;     // its walk; what grows anew may have lost it
+    int windowsAnew = 0;                 // frames in which windows go where they were at first
+    std::vector<bool> crossings;         // of the walk; see crossingsOf
     EspBranchInfo branchInfo{};          // while there is a path
     std::vector<EspPathSample> pointed;  // the walk of the branch under the mouse, while one may be picked
     std::optional<uint32_t> house;       // of the town, that was chosen

@@ -1,6 +1,7 @@
 // Which symbols grow (reach Marching), which draw, and whether derivation always gets on: a cycle of rules without
 // Marching would never end, so it is refused here, whatever conditions stand in it.
 #include <algorithm>
+#include <set>
 
 #include "runtime/grammar/compilation.hpp"
 
@@ -138,6 +139,40 @@ void warnUncalled(Compilation& c) {
     }
 }
 
+// What follows from a symbol, and it.
+std::set<uint32_t> reachedFrom(const Compilation& c, uint32_t symbol) {
+    std::set<uint32_t> reached{symbol};
+    std::vector<uint32_t> open{symbol};
+    while (!open.empty()) {
+        const Symbol& from = c.symbols[open.back()];
+        open.pop_back();
+        for (uint32_t rule : from.rules)
+            forEachElement(c.module.rules[rule].successor, [&](const Element& e) {
+                const uint32_t callee = c.findSymbol(e.name);
+                if (callee != kNoSymbol && reached.insert(callee).second) open.push_back(callee);
+            });
+    }
+    return reached;
+}
+
+// Plants begin with the first symbol that grows. One that was put above the others, and has nothing to do with them, is
+// likely to be a mistake; one that comes to it is another way to begin, for hosts that ask for it.
+void warnUnreached(Compilation& c) {
+    if (isRoofGrammar(c.module)) return;
+    const auto start = std::ranges::find_if(c.symbols, &Symbol::grows);
+    if (start == c.symbols.end()) return;
+    const uint32_t first = uint32_t(start - c.symbols.begin());
+    const std::set<uint32_t> reached = reachedFrom(c, first);
+    for (uint32_t i = 0; i < c.symbols.size(); ++i) {
+        const Symbol& symbol = c.symbols[i];
+        const Rule& rule = c.module.rules[symbol.rules[0]];
+        if (symbol.grows && rule.place.file == 0 && !reached.contains(i) && !reachedFrom(c, i).contains(first))
+            c.reporter.warning(rule.place, symbol.name,
+                               "plants begin with '" + start->name +
+                                   "', the first rule that grows, and never come to '" + symbol.name + "'");
+    }
+}
+
 }  // namespace
 
 void forEachElement(const Sequence& sequence, const std::function<void(const Element&)>& fn) {
@@ -180,6 +215,7 @@ void analyseSymbols(Compilation& c) {
     bool complete = !c.reporter.failed();
     if (complete) CycleCheck(c).run();
     if (!c.reporter.failed()) warnUncalled(c);
+    if (!c.reporter.failed()) warnUnreached(c);
     bool any = false;
     for (Symbol& symbol : c.symbols) {
         if (!symbol.grows) continue;

@@ -11,7 +11,7 @@
 namespace espalier {
 namespace {
 
-constexpr uint32_t kMaxSide = 16384;
+constexpr uint32_t kMaxSide = 16384, kMostCharts = 65535;
 
 glm::vec3 vec(const float v[3]) {
     return {v[0], v[1], v[2]};
@@ -225,6 +225,10 @@ EspResult espViewColour(EspView view, float amount, float rgb[3], float* most) {
         case ESP_VIEW_LOD:
             *most = float(kCoarsestLod);
             colour = lodColor(uint32_t(std::clamp(amount, 0.0f, *most)));
+            break;
+        case ESP_VIEW_CHARTS:
+            *most = float(kMostCharts);
+            colour = chartColor(uint32_t(std::clamp(amount, 0.0f, *most)));
             break;
         case ESP_VIEW_LAYER:
             *most = 1;

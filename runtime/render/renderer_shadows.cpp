@@ -9,7 +9,7 @@ namespace espalier {
 namespace {
 
 constexpr float kShadowLodPixels = 1.2f;
-constexpr float kStrokeLeafTexels = 32;                      // as Look::leafPixels, of shadows while a stroke goes on
+constexpr float kStrokeLeafTexels = 16;                      // as Look::leafPixels, of shadows while a stroke goes on
 constexpr float kStrokeError = 3;                            // times the errors that are allowed otherwise, then
 constexpr uint32_t kShadowTile = 32;                         // texels along a side of what is redrawn after edits
 constexpr uint32_t kShadowRows = kShadowSize / kShadowTile;  // of tiles

@@ -31,6 +31,20 @@ FN vec3 lodColor(uint lod) {
     return vec3(0.45f, 0.25f, 0.8f);
 }
 
+// A chart: numbers that follow each other are far apart in hue.
+FN vec3 chartColor(uint chart) {
+    float h = float((chart * 40503u) & 0xFFFFu) * (6.0f / 65536.0f);
+    float toRed = h > 3.0f ? h - 3.0f : 3.0f - h;
+    float toGreen = h > 2.0f ? h - 2.0f : 2.0f - h;
+    float toBlue = h > 4.0f ? h - 4.0f : 4.0f - h;
+    vec3 hue = vec3(toRed - 1.0f, 2.0f - toGreen, 2.0f - toBlue);
+    hue.x = hue.x < 0.0f ? 0.0f : (hue.x > 1.0f ? 1.0f : hue.x);
+    hue.y = hue.y < 0.0f ? 0.0f : (hue.y > 1.0f ? 1.0f : hue.y);
+    hue.z = hue.z < 0.0f ? 0.0f : (hue.z > 1.0f ? 1.0f : hue.z);
+    uint kind = chart % 3u;   // full, dark or pale
+    return kind == 0u ? hue * 0.34f + 0.1f : (kind == 1u ? hue * 0.2f + 0.04f : hue * 0.2f + 0.3f);
+}
+
 // A painted layer, from grey to orange.
 FN vec3 layerColor(float t) {
     vec3 none = vec3(0.08f, 0.09f, 0.12f);

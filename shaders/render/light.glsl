@@ -62,14 +62,6 @@ vec4 lit(vec3 direct, vec3 ambient) {
     return stored(toneMapped((direct + ambient) * frame.exposure), clamp(share, 0.0, 1.0));
 }
 
-vec3 hashColor(uint x) {
-    x = (x ^ 61u) ^ (x >> 16u);
-    x *= 9u;
-    x ^= x >> 4u;
-    x *= 0x27d4eb2du;
-    x ^= x >> 15u;
-    return vec3(x & 255u, (x >> 8u) & 255u, (x >> 16u) & 255u) / 255.0 * 0.75 + 0.2;
-}
 vec4 diagnostic(vec3 color, vec3 normal) {
     return stored(color * (0.55 + 0.45 * max(dot(normal, frame.sunDirection), 0.0)), 0.6);
 }

@@ -50,7 +50,7 @@ vec4 otherView(vec3 n) {
         SurfaceLevel level = surface.levels[min(frame.layer, surface.levelCount - 1u)];
         uint at = walkTexel(level.size);
         uint bits = level.texels.v[at].bits;
-        shown = texelClass(bits) == kTexelEmpty ? vec3(0.02) : hashColor(texelChart(bits));
+        shown = texelClass(bits) == kTexelEmpty ? vec3(0.02) : chartColor(texelChart(bits));
         // Where links pass; and, on coarse levels, which texel is which.
         if ((level.crossingHead.v[at] & 255u) != 0u) shown = mix(shown, vec3(1.0), 0.6);
         if (frame.layer > 0u && ((at ^ (at >> 3u)) & 1u) != 0u) shown *= 0.8;

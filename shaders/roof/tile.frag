@@ -20,7 +20,7 @@ void main() {
         color = oneFragment();
         return;
     }
-    vec3 shown = view == kViewLod ? lodColor(look.z) : view == kViewCharts ? hashColor(look.y) : vec3(0.5);
+    vec3 shown = view == kViewLod ? lodColor(look.z) : vec3(0.5);
     if (explains && !layerOver()) {
         color = otherView(push.env.v[0], shown, n, position);
         return;

@@ -1,4 +1,7 @@
 // Projects whose town or grammars have become others since they were saved.
+#include <algorithm>
+#include <fstream>
+
 #include "sample_game/grammar_files.hpp"
 #include "sample_game/settings.hpp"
 #include "tests/editor/editing.hpp"
@@ -166,4 +169,30 @@ TEST_CASE("a text that is typed here is written into its file, behind a link too
 TEST_CASE("grammars of one file share their presets") {
     CHECK(sample::presetsOf("a/ivy.grammar") == "ivy");
     CHECK(sample::presetsOf("b/ivy.grammar") == sample::presetsOf("ivy.grammar"));
+}
+
+TEST_CASE("a seed of a project that can't be planted is told by its place, and the others grow") {
+    const Folder folder;
+    const std::string project = folder.file("project");
+    uint64_t whole = 0;
+    {
+        Editing editing(smallScene(folder));
+        whole = editing.hash();
+        REQUIRE_MESSAGE(saveProject(*editing.document, project, editing.error), editing.error);
+    }
+    const std::string file = project + "/project.json", text = readAll(file);
+    const size_t at = text.find("\"position\"");
+    REQUIRE(at != std::string::npos);
+    const size_t bracket = text.find('[', at), comma = text.find(',', bracket);
+    std::ofstream(file) << text.substr(0, bracket + 1) << "2e19" << text.substr(comma);
+    Editing editing(project);
+    const auto& seeds = editing.document->scene().seeds;
+    REQUIRE(seeds.size() == 2);
+    CHECK(seeds[0].planted.id == 0);
+    CHECK(seeds[1].planted.id != 0);
+    const uint64_t others = editing.hash();
+    CHECK(others != 0);
+    CHECK(others != whole);
+    const auto& notes = editing.document->scene().notes;
+    CHECK(std::ranges::any_of(notes, [](const std::string& note) { return contains(note, "seed 1 at 2e+19"); }));
 }

@@ -100,3 +100,33 @@ TEST_CASE("what a slider that went too far has taken is given back once that is 
     CHECK(place.picture() == before);
     CHECK(place.stats().hash == small.hash);
 }
+
+TEST_CASE("what a text that runs away has taken is given back once it is undone and the window rests") {
+    Place place;
+    const std::vector<uint8_t> before = place.picture();
+    const EspStats small = place.stats();
+    place.trim();
+    (void)place.picture();
+    const uint64_t held = place.stats().totalBytes;
+    SetText text{0,
+                 R"(
+context mask = 1
+Vine -> Marching(0.01, rand(-1, 1), true) {Fork, Wood}
+Fork -> Branch(2) {Vine, Vine}
+Wood -> S(0.01) Shape("bark", C1)
+)",
+                 {}};
+    REQUIRE_MESSAGE(place.perform(text, 1), place.error);
+    (void)place.picture();
+    REQUIRE(place.stats().overflow > 0);
+    REQUIRE(place.stats().totalBytes > held + held / 2);
+    REQUIRE(place.perform(Undo{}));
+    CHECK(place.picture() == before);
+    place.trim();
+    const uint64_t left = place.stats().totalBytes;
+    MESSAGE("held " << (held >> 20) << " MiB, with the text " << (place.stats().reservedBytes >> 20) << ", left "
+                    << (left >> 20));
+    CHECK(left < held + held / 4);
+    CHECK(place.picture() == before);
+    CHECK(place.stats().hash == small.hash);
+}

@@ -197,6 +197,15 @@ TEST_CASE("what is never used is warned of") {
     CHECK(text.find("'M'") == std::string::npos);
 }
 
+TEST_CASE("rules that plants never come to, since another one stands first, are warned of") {
+    const std::string ivy = "Ivy -> Branch(2) {Stem, Stem}\nStem -> Marching(0.1, 0, true) {Stem}\n";
+    CHECK(compiled(ivy).warnings().empty());
+    const std::string text = toString(compiled("Other -> Marching(0.1, 0, true) {Other}\n" + ivy).warnings());
+    CHECK_MESSAGE(text.find("grammar:2:1: warning: Ivy: plants begin with 'Other'") != std::string::npos, text);
+    CHECK_MESSAGE(text.find("never come to 'Stem'") != std::string::npos, text);
+    CHECK(compiled(ivy + "Twig -> Marching(0.1, 0, true) {Ivy}\n").warnings().empty());  // another way to begin
+}
+
 TEST_CASE("; may be left out, → and π may be written, rules may span lines") {
     RuleMap map = compiled(
         "A(n) : n < 2 and\n   n > -1\n  → Marching(0.1,\n  π / 2, true)\n  {A(n),\n   NULL} : 0.5 A(n) -> NULL; B -> "

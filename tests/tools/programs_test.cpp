@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/tools/program.hpp"
+#include "tools/scene/picture.hpp"
 
 namespace {
 
@@ -156,6 +157,46 @@ TEST_CASE("a comparison says alike, not alike, or why it can't tell") {
     CHECK(std::filesystem::exists(folder.file("diff.png")));
     CHECK(run(compare + a + folder.file("small.png")).code == 1);
     CHECK(run(compare + a + folder.file("none.png")).code == 2);
+    for (const char* share : {"nan", "1.5", "-0.1", "half", ""})
+        CHECK(run(compare + a + a + "--share '" + share + "'").code == 2);
+    folder.write("torn.png", readAll(folder.file("a.png")).substr(0, 60));
+    CHECK(run(compare + a + folder.file("torn.png")).code == 2);
+}
+
+TEST_CASE("a comparison keeps to its tolerance to the last step, of alpha too, and of floats to the bit") {
+    const Folder folder;
+    const std::string compare = program("espalier-compare") + " --share 1 ";
+    const auto grey = [&](const char* name, int value) {
+        return folder.write(name, "P5 4 4 255\n" + std::string(16, char(value))) + " ";
+    };
+    const std::string a = grey("a.pgm", 100), near = grey("near.pgm", 105), far = grey("far.pgm", 106);
+    CHECK(run(compare + a + near).code == 0);
+    CHECK(run(compare + a + far).code == 1);
+    CHECK(run(compare + a + far + "--tolerance 6").code == 0);
+    CHECK(run(compare + a + near + "--tolerance 0").code == 1);
+    CHECK(run(compare + a + a + "--tolerance 0").code == 0);
+
+    using espalier::scene::GreyPicture;
+    const auto floats = [&](const char* name, float value) {
+        std::string error;
+        REQUIRE_MESSAGE(espalier::scene::writeGrey(folder.file(name), GreyPicture{4, 4, std::vector(16, value)}, error),
+                        error);
+        return folder.file(name) + " ";
+    };
+    const std::string half = floats("half.exr", .5f), next = floats("next.exr", .500001f),
+                      same = floats("same.exr", .5f);
+    CHECK(run(compare + half + next).code == 0);
+    CHECK(run(compare + half + next + "--tolerance 0").code == 1);
+    CHECK(run(compare + half + same + "--tolerance 0").code == 0);
+    CHECK(readAll(folder.file("half.exr")) == readAll(folder.file("same.exr")));
+
+    const Ran made = run("convert -size 4x4 xc:'rgba(100,100,100,0)' " + folder.file("clear.png") +
+                         " && convert -size 4x4 xc:'rgba(100,100,100,1)' PNG32:" + folder.file("full.png"));
+    if (made.code != 0) {
+        MESSAGE("ImageMagick isn't installed; alpha is skipped");
+        return;
+    }
+    CHECK(run(compare + folder.file("clear.png") + " " + folder.file("full.png")).code == 1);
 }
 
 TEST_CASE("what is written is whole, what a link leads to, and no device is replaced") {

@@ -37,6 +37,10 @@ struct Options {
     bool shaders = false, validation = false, moving = false;
 };
 
+void warn(const std::string& message) {
+    std::fprintf(stderr, "espalier-capture: warning: %s\n", message.c_str());
+}
+
 int fail(const std::string& message) {
     std::fprintf(stderr, "espalier-capture: %s\n", message.c_str());
     return 1;
@@ -46,14 +50,16 @@ void addOptions(CLI::App& app, Options& options) {
     app.set_version_flag("--version", ESPALIER_VERSION);
     app.add_option("FILE", options.request.file,
                    "a scene (SCENE.json), a project's folder or what espalier-bake wrote (SURFACE.glb)");
-    app.add_option("--replay", options.replay,
-                   "a recorded run: opens what it was recorded on (or FILE), does what was done and writes its frames");
+    const auto replay = app.add_option(
+        "--replay", options.replay,
+        "a recorded run: opens what it was recorded on (or FILE), does what was done and writes its frames");
     app.add_option("--every", options.every, "of a run, writes each N-th frame and the last")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000000));
-    app.add_option("--frames", options.frames, "how many; they go once around the scene's target")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 100000));
+    const auto frames = app.add_option("--frames", options.frames, "how many; they go once around the scene's target")
+                            ->capture_default_str()
+                            ->check(CLI::Range(1, 100000));
+    frames->excludes(replay);
     app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels (default 1280x720, of a run its own)");
     app.add_option("-o,--out", options.folder, "folder for frame_0000.png ...")->capture_default_str();
     app.add_option("--stats", options.stats, "writes counts, times, bytes and the growth's hash as JSON");
@@ -143,10 +149,17 @@ struct Film {
             error = espLastError(context);
             return false;
         }
+        return writePng(file(frame), pixels.data(), draw.width, draw.height, error);
+    }
+    std::string file(uint32_t frame) const {
         char name[32];
         std::snprintf(name, sizeof name, "frame_%04u.png", frame);
-        const std::string path = (std::filesystem::path(folder) / name).string();
-        return writePng(path, pixels.data(), draw.width, draw.height, error);
+        return (std::filesystem::path(folder) / name).string();
+    }
+    // Of an earlier, longer film: who compares folders would compare it, too.
+    void warnOfOld(uint32_t frames) const {
+        std::error_code ignored;
+        if (std::filesystem::exists(file(frames), ignored)) warn(file(frames) + " is there from before");
     }
 };
 
@@ -168,15 +181,19 @@ bool filmRun(const Run& run, uint32_t every, Document& document, Film& film, uin
                 error = "frame " + std::to_string(frame) + ", line " + std::to_string(next + 2) + ": " + error;
                 return false;
             }
+        const std::string of = "frame " + std::to_string(frame) + ": ";
         if (espUpdate(film.context) != ESP_OK) {
-            error = espLastError(film.context);
+            error = of + espLastError(film.context);
             return false;
         }
         if (frame % every && frame + 1 < frames) continue;
         film.draw.camera = document.scene().camera;
         film.draw.look = document.scene().look;
         film.draw.look.viewLayer = document.scene().viewLayer.c_str();
-        if (!film.take(frame, error)) return false;
+        if (!film.take(frame, error)) {
+            error = of + error;
+            return false;
+        }
         ++taken;
     }
     return true;
@@ -197,7 +214,7 @@ int run(Options options) {
     if (!options.cache.empty()) def.cacheFolder = options.cache.c_str();
     // Errors come back from calls; what else is worth telling is told here.
     def.log = [](void*, EspLogLevel level, const char* message) {
-        if (level == ESP_LOG_WARNING) std::fprintf(stderr, "espalier-capture: warning: %s\n", message);
+        if (level == ESP_LOG_WARNING) warn(message);
     };
     EspContext* made = nullptr;
     if (espCreate(&def, &made) != ESP_OK) return fail(espLastError(nullptr));
@@ -209,7 +226,11 @@ int run(Options options) {
     grow.shadersOnly = options.shaders;
     if (EspWalkMode walk; walkNamed(options.walk, walk)) options.request.walk = walk;
     Document document(made);
-    if (!document.open(options.request, error)) return fail(error);
+    if (!document.open(options.request, error))
+        return fail(error + (replays && options.request.file == recorded.head.scene
+                                 ? "; " + options.replay + ":1 names it, FILE takes its place"
+                                 : ""));
+    for (const std::string& note : document.scene().notes) warn(note);
     if (espUpdate(made) != ESP_OK) return fail(espLastError(made));
 
     Scene scene = document.scene();
@@ -232,6 +253,8 @@ int run(Options options) {
     }
     EspStats stats;
     if (espReadStats(made, &stats) != ESP_OK) return fail(espLastError(made));
+    if (stats.overflow > 0) warn("growth was cut at its limit of " + std::to_string(grow.maxNodes) + " nodes");
+    film.warnOfOld(replays ? recorded.frames() : options.frames);
     if (!options.stats.empty() && !writeText(options.stats, statsJson(stats), error)) return fail(error);
     std::printf("%u frames in %s: %u seeds, %" PRIu64 " nodes, %u branches, %" PRIu64 " leaves, %" PRIu64
                 " polygons (%s)\n",

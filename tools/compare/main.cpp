@@ -2,27 +2,72 @@
 // tolerance must reach the wanted share. Exit code 0: alike, 1: not alike, 2: can't tell.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 #include "tools/scene/picture.hpp"
 
 using namespace espalier::scene;
 
+namespace {
+
+constexpr int kChannels = 4;
+
+struct Comparison {
+    double within = 0;                // share of the pixels
+    float largest = 0;                // difference of a channel, of 255
+    std::vector<uint8_t> difference;  // as a picture
+};
+
+// tolerance: of 255; 0: only what is the same to the bit is within it. What is no number is like nothing.
+Comparison compare(const FloatPicture& a, const FloatPicture& b, int tolerance) {
+    constexpr float kRounding = 1e-3f;  // of parts that were whole numbers
+    Comparison out;
+    const size_t pixels = size_t(a.width) * a.height;
+    out.difference.assign(pixels * kChannels, 255);
+    size_t within = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        bool near = true;
+        for (size_t c = kChannels * i; c < kChannels * (i + 1); ++c) {
+            const float d = 255 * std::abs(a.rgba[c] - b.rgba[c]);
+            near = near && (tolerance == 0 ? a.rgba[c] == b.rgba[c] : d <= float(tolerance) + kRounding);
+            out.largest = std::isnan(d) ? INFINITY : std::max(out.largest, d);
+            const bool alpha = c % kChannels == 3;
+            if (!alpha) out.difference[c] = uint8_t(std::isnan(d) ? 255 : std::min(255.f, 8 * d));
+        }
+        within += near;
+    }
+    out.within = double(within) / double(pixels);
+    return out;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-    CLI::App app{"Compares two pictures pixel by pixel.", "espalier-compare"};
+    CLI::App app{
+        "Compares two pictures pixel by pixel, alpha too. Ends with 0: alike, 1: not alike, also by their sizes, 2: "
+        "can't "
+        "tell.",
+        "espalier-compare"};
     app.set_version_flag("--version", ESPALIER_VERSION);
     std::string first, second, diff;
     int tolerance = 5;
     double share = 0.999;
+    const auto isShare = [](const std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        return end != text.c_str() && *end == 0 && value >= 0 && value <= 1
+                   ? ""
+                   : "'" + text + "' isn't a share from 0 to 1";
+    };
     app.add_option("A", first, "a picture")->required();
     app.add_option("B", second, "the picture to compare it with")->required();
-    app.add_option("--tolerance", tolerance, "how far a channel may differ, of 255")
+    app.add_option("--tolerance", tolerance, "how far a channel may differ, of 255; 0: not by a bit, in EXR too")
         ->capture_default_str()
         ->check(CLI::Range(0, 255));
     app.add_option("--share", share, "the share of pixels that must be within it")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(isShare, "FLOAT in [0 - 1]");
     app.add_option("--diff", diff, "writes a PNG of the differences, brightest where they are largest");
     try {
         app.parse(argc, argv);
@@ -30,9 +75,9 @@ int main(int argc, char** argv) {
         return app.exit(e) ? 2 : 0;
     }
 
-    ColourPicture a, b;
+    FloatPicture a, b;
     std::string error;
-    if (!readColour(first, a, error) || !readColour(second, b, error)) {
+    if (!readFloats(first, a, error) || !readFloats(second, b, error)) {
         std::fprintf(stderr, "espalier-compare: %s\n", error.c_str());
         return 2;
     }
@@ -41,25 +86,11 @@ int main(int argc, char** argv) {
                      second.c_str(), b.width, b.height);
         return 1;
     }
-    const size_t pixels = size_t(a.width) * a.height;
-    std::vector<uint8_t> picture(pixels * 4, 255);
-    size_t within = 0;
-    int largest = 0;
-    for (size_t i = 0; i < pixels; ++i) {
-        int difference = 0;
-        for (size_t c = 4 * i; c < 4 * i + 3; ++c) {
-            const int d = std::abs(int(a.rgba[c]) - int(b.rgba[c]));
-            picture[c] = uint8_t(std::min(255, 8 * d));
-            difference = std::max(difference, d);
-        }
-        within += difference <= tolerance;
-        largest = std::max(largest, difference);
-    }
-    const double part = double(within) / double(pixels);
-    const bool alike = part >= share;
-    std::printf("%s: %.5f of the pixels differ by at most %d, the largest difference is %d (wanted: %.5f)\n",
-                alike ? "alike" : "not alike", part, tolerance, largest, share);
-    if (!diff.empty() && !writePng(diff, picture.data(), a.width, a.height, error)) {
+    const Comparison found = compare(a, b, tolerance);
+    const bool alike = found.within >= share;
+    std::printf("%s: %.5f of the pixels differ by at most %d, the largest difference is %.4g (wanted: %.5f)\n",
+                alike ? "alike" : "not alike", found.within, tolerance, double(found.largest), share);
+    if (!diff.empty() && !writePng(diff, found.difference.data(), a.width, a.height, error)) {
         std::fprintf(stderr, "espalier-compare: %s\n", error.c_str());
         return 2;
     }

@@ -17,6 +17,7 @@ constexpr uint32_t kVersion = 1;
 constexpr uint32_t kMaxFrames = 1000000;
 
 std::string checkHead(const RunHead& head) {
+    if (head.version < 1) return "1:1: there is no format " + std::to_string(head.version) + " of runs";
     if (head.version > kVersion)
         return "1:1: this run was recorded by a newer Espalier (format " + std::to_string(head.version) +
                "); this one reads up to " + std::to_string(kVersion);

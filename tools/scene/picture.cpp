@@ -53,14 +53,18 @@ bool read(const std::string& path, int channels, OIIO::TypeDesc type, uint32_t& 
     const int read = std::min(channels, spec.nchannels);
     width = uint32_t(spec.width);
     height = uint32_t(spec.height);
-    texels.assign(size_t(width) * height * channels, T(channels == 4 ? 255 : 0));
+    texels.assign(size_t(width) * height * channels, T(channels < 4 ? 0 : type.is_floating_point() ? 1 : 255));
     if (!input->read_image(0, 0, 0, read, type, texels.data(), channels * sizeof(T))) {
         const std::string why = input->geterror();
         error = path + ": is damaged: " + why.substr(0, why.find('\n'));
         return false;
     }
+    const bool greyAlpha = read == 2 && spec.alpha_channel == 1;
     if (channels == 4 && read < 3)
-        for (size_t i = 0; i < texels.size(); i += 4) texels[i + 1] = texels[i + 2] = texels[i];
+        for (size_t i = 0; i < texels.size(); i += 4) {
+            if (greyAlpha) texels[i + 3] = texels[i + 1];
+            texels[i + 1] = texels[i + 2] = texels[i];
+        }
     return true;
 }
 
@@ -77,6 +81,10 @@ bool readShape(const std::string& path, PictureShape& out, std::string& error) {
     if (!input) return false;
     out = {uint32_t(input->spec().width), uint32_t(input->spec().height), uint32_t(input->spec().nchannels)};
     return true;
+}
+
+bool readFloats(const std::string& path, FloatPicture& out, std::string& error) {
+    return read(path, 4, OIIO::TypeDesc::FLOAT, out.width, out.height, out.rgba, error);
 }
 
 bool readColour(const std::string& path, ColourPicture& out, std::string& error) {
@@ -110,6 +118,7 @@ bool writeGrey(const std::string& path, const GreyPicture& picture, std::string&
                          floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT16);
     spec["png:compressionLevel"] = 1;
     spec["compression"] = "zips";
+    spec["DateTime"] = "1970:01:01 00:00:00";  // else EXR holds when it was written, and no two files are the same
     spec.channelnames = {"Y"};
     const bool good = output && output->set_ioproxy(&bytes) && output->open(path, spec) &&
                       writeRows(*output, picture, goOn) && output->close();

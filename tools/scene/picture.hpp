@@ -18,6 +18,10 @@ struct ColourPicture {
     uint32_t width = 0, height = 0;
     std::vector<uint8_t> rgba;  // rows top to bottom
 };
+struct FloatPicture {
+    uint32_t width = 0, height = 0;
+    std::vector<float> rgba;  // rows top to bottom
+};
 
 // The first channel of a picture (of a grey one the only, of a coloured one red), limited to [0, 1]. `error` names file
 // and cause. Pictures of more than 8192 texels a side are refused.
@@ -25,6 +29,8 @@ bool readGrey(const std::string& path, GreyPicture& out, std::string& error);
 // What readGrey would find, from the file's beginning.
 bool readShape(const std::string& path, PictureShape& out, std::string& error);
 bool readColour(const std::string& path, ColourPicture& out, std::string& error);
+// With all the precision that the file has; whole numbers as parts of their greatest.
+bool readFloats(const std::string& path, FloatPicture& out, std::string& error);
 
 // Writes one channel: 16 bits as .png, floats as .exr. `goOn` is told now and then how much of it is encoded, 0 to 1;
 // when it returns false the picture isn't written.

@@ -319,26 +319,44 @@ EspResult walkLayer(EspContext* context, EspSurface surface, const std::string& 
     return ESP_OK;
 }
 
-bool plantAll(EspContext* context, Scene& scene, std::string& error) {
-    if (!fromContext(context, espRemoveAllSeeds(context), error)) return false;
-    for (Seed& seed : scene.seeds) {
-        EspSeedDef def = espDefaultSeedDef();
-        def.grammar = scene.grammars[seed.grammar].id;
-        std::copy(seed.position.begin(), seed.position.end(), def.position);
-        std::copy(seed.direction.begin(), seed.direction.end(), def.direction);
-        def.number = seed.number;
-        if (!fromContext(context, espPlant(context, &def, &seed.planted), error)) return false;
-        for (const ParamValue& own : seed.params)
-            if (!fromContext(context,
-                             espSetSeedParam(context, seed.planted, own.name.c_str(), own.value.data(), own.count),
-                             error))
-                return false;
-        if (seed.frozen && espFreezeAs(context, seed.planted, seed.frozen->data(), seed.frozen->size()) != ESP_OK) {
-            scene.notes.push_back("a frozen plant grows again: " + std::string(espLastError(context)));
-            seed.frozen = nullptr;
-        }
+namespace {
+
+bool plantOne(EspContext* context, Scene& scene, Seed& seed, std::string& error) {
+    EspSeedDef def = espDefaultSeedDef();
+    def.grammar = scene.grammars[seed.grammar].id;
+    std::copy(seed.position.begin(), seed.position.end(), def.position);
+    std::copy(seed.direction.begin(), seed.direction.end(), def.direction);
+    def.number = seed.number;
+    seed.planted = {};
+    if (!fromContext(context, espPlant(context, &def, &seed.planted), error)) return false;
+    for (const ParamValue& own : seed.params)
+        if (!fromContext(context, espSetSeedParam(context, seed.planted, own.name.c_str(), own.value.data(), own.count),
+                         error))
+            return false;
+    if (seed.frozen && espFreezeAs(context, seed.planted, seed.frozen->data(), seed.frozen->size()) != ESP_OK) {
+        scene.notes.push_back("a frozen plant grows again: " + std::string(espLastError(context)));
+        seed.frozen = nullptr;
     }
     return true;
+}
+
+}  // namespace
+
+bool plantAll(EspContext* context, Scene& scene, std::string& error) {
+    if (!fromContext(context, espRemoveAllSeeds(context), error)) return false;
+    size_t missing = 0;
+    std::string first, why;
+    for (size_t i = 0; i < scene.seeds.size(); ++i) {
+        Seed& seed = scene.seeds[i];
+        if (plantOne(context, scene, seed, why) || missing++ > 0) continue;
+        char place[96];
+        std::snprintf(place, sizeof place, "seed %zu at %g, %g, %g", i + 1, double(seed.position[0]),
+                      double(seed.position[1]), double(seed.position[2]));
+        first = place + (" of " + scene.grammars[seed.grammar].file + ": " + why);
+    }
+    if (missing == 0) return true;
+    error = missing == 1 ? first : std::to_string(missing) + " seeds aren't planted; the first is " + first;
+    return false;
 }
 
 bool setText(EspContext* context, LoadedGrammar& grammar, const std::string& text) {
