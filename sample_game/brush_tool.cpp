@@ -20,8 +20,10 @@ using namespace espalier::document;
 constexpr float kPixelsBetweenPicks = 3;
 constexpr float kSmallest = .005f, kLargest = 20;
 
-const char* modeOf(int mods) {
-    return mods & GLFW_MOD_CONTROL ? "erase" : mods & GLFW_MOD_SHIFT ? "smooth" : "paint";
+// Ctrl turns painting into erasing, and the other way round.
+std::string modeOf(const Brush& brush, int mods) {
+    if (mods & GLFW_MOD_CONTROL) return brush.mode == "erase" ? "paint" : "erase";
+    return mods & GLFW_MOD_SHIFT ? "smooth" : brush.mode;
 }
 
 StrokeBegin strokeOf(const Workspace& work, int mods) {
@@ -29,7 +31,7 @@ StrokeBegin strokeOf(const Workspace& work, int mods) {
     const Brush& b = work.brush;
     StrokeBegin action;
     action.layer = b.layer;
-    action.mode = modeOf(mods);
+    action.mode = modeOf(b, mods);
     action.radius = work.brushRadius();
     action.strength = b.strength;
     action.hardness = b.hardness;
@@ -104,7 +106,8 @@ void BrushTool::begin(Workspace& work, int mods) {
 void BrushTool::end(Workspace& work) {
     flush(work);
     if (painting_) work.perform(StrokeEnd{}, gesture_);
-    painting_ = false;
+    if (std::exchange(painting_, false) && !lastDab_)
+        work.message = work.townLayer(work.brush.layer) ? "No roof there" : kNoGround;
 }
 
 void BrushTool::flush(Workspace& work) {
@@ -168,7 +171,6 @@ bool BrushTool::take(Workspace& work, const PointerEvent& event) {
         begin(work, event.mods);
         last_ = at;
         if (painting_) layDab(work, at);
-        if (painting_ && !lastDab_) work.message = work.townLayer(work.brush.layer) ? "No roof there" : kNoGround;
         return true;
     }
     if (!painting_) return false;
@@ -186,7 +188,7 @@ void BrushTool::startSizing(Workspace& work, glm::vec2 at, bool strength) {
 }
 
 void BrushTool::drawCircle(const Workspace& work, int mods, const EspHit& hit) const {
-    const std::string mode = modeOf(mods);
+    const std::string mode = modeOf(work.brush, mods);
     const ImU32 colour = mode == "erase"    ? IM_COL32(255, 120, 90, 255)
                          : mode == "smooth" ? IM_COL32(110, 180, 255, 255)
                                             : IM_COL32(160, 240, 120, 255);

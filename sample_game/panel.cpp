@@ -47,12 +47,9 @@ void toolButtons(Workspace& work) {
     const bool keys = spare(true) > 2 * pad;
     const float more = spare(keys);
     for (const Entry& entry : shown) {
-        const bool on = work.tool == entry.tool;
         const std::string text = textOf(entry, keys);
         const float width = ImGui::CalcTextSize(text.c_str()).x + more;
-        if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        if (ImGui::Button(text.c_str(), {width, 0})) work.choose(entry.tool);
-        if (on) ImGui::PopStyleColor();
+        if (chosenButton(text.c_str(), work.tool == entry.tool, {width, 0})) work.choose(entry.tool);
         toolTip((std::string(entry.tip) + "  (" + entry.key + ")").c_str());
         if (&entry != &shown.back()) ImGui::SameLine();
     }
@@ -234,6 +231,18 @@ std::string grammarName(const espalier::scene::Scene& scene, size_t index) {
 
 void brushPanel(Workspace& work) {
     Brush& b = work.brush;
+    const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+    const auto mode = [&](const char* label, const char* name, const char* tip) {
+        if (chosenButton(label, b.mode == name, {third, 0})) b.mode = name;
+        toolTip(tip);
+    };
+    ImGui::PushID("mode");
+    mode("Paint", "paint", "Towards the value below");
+    ImGui::SameLine();
+    mode("Erase", "erase", "Towards 0; also with Ctrl, which paints while this is chosen");
+    ImGui::SameLine();
+    mode("Smooth", "smooth", "Towards what is around; also with Shift");
+    ImGui::PopID();
     labelledSlider("Radius", &work.brushRadius(), .01f, 20, "%.2f m", true);
     toolTip("[ and ], or F and a move of the mouse");
     labelledSlider("Strength", &b.strength, .01f, 1, "%.2f");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "sample_game/panels.hpp"
 #include "sample_game/theme.hpp"
@@ -97,27 +98,35 @@ void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
     if (changed) work.perform(SetParam{grammar, {param.name, {value, value + count}}}, gesture);
 }
 
+bool makesRoofs(const Workspace& work, uint32_t index) {
+    EspGrammar town{};
+    return espTownGrammar(work.context.get(), &town) == ESP_OK && town.id == work.scene().grammars[index].id.id;
+}
+
 // Where a grammar comes from and what grows by it.
 std::string grammarTip(const Workspace& work, uint32_t index) {
     const auto& grammar = work.scene().grammars[index];
     const auto seeds = std::ranges::count(work.scene().seeds, index, &espalier::scene::Seed::grammar);
-    EspGrammar town{};
-    const bool roofs = espTownGrammar(work.context.get(), &town) == ESP_OK && town.id == grammar.id.id;
     return grammar.file + "\n" +
-           (roofs        ? "The town's houses are built by it"
-            : seeds == 1 ? "One seed grows by it"
-                         : std::to_string(seeds) + " seeds grow by it") +
+           (makesRoofs(work, index) ? "The town's houses are built by it"
+            : seeds == 1            ? "One seed grows by it"
+                                    : std::to_string(seeds) + " seeds grow by it") +
            "; values set here are for these alone";
 }
 
 }  // namespace
 
 void grammarsPanel(Workspace& work) {
-    for (uint32_t i = 0; i < work.scene().grammars.size(); ++i) {
+    // Beside the tool for houses what they are made by comes first, and is open.
+    const bool houses = work.tool == Tool::houses;
+    std::vector<uint32_t> order(work.scene().grammars.size());
+    std::iota(order.begin(), order.end(), 0u);
+    if (houses) std::ranges::stable_partition(order, [&](uint32_t i) { return makesRoofs(work, i); });
+    for (uint32_t i : order) {
         const auto& grammar = work.scene().grammars[i];
-        ImGui::PushID(int(i));
-        const bool open =
-            ImGui::CollapsingHeader(grammarName(work.scene(), i).c_str(), i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+        ImGui::PushID(houses ? -1 - int(i) : int(i));
+        const bool open = ImGui::CollapsingHeader(grammarName(work.scene(), i).c_str(),
+                                                  i == order.front() ? ImGuiTreeNodeFlags_DefaultOpen : 0);
         toolTip(grammarTip(work, i).c_str());
         if (open) {
             const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;

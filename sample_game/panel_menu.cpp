@@ -82,7 +82,9 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
     else if (work.underWay)
         text = work.underWay;
     else if (work.tool == Tool::paint)
-        text = "Drag: paint " + work.brush.layer + "   Ctrl: erase   Shift: smooth   F: size   Shift+F: strength   " +
+        text = "Drag: " + work.brush.mode + " " + work.brush.layer +
+               "   Ctrl: " + (work.brush.mode == "erase" ? "paint" : "erase") +
+               "   Shift: smooth   F: size   Shift+F: strength   " +
                "V: show the layer   middle drag: turn   wheel: nearer   F1: all keys";
     else if (work.tool == Tool::seeds)
         text =

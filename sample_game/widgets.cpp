@@ -185,6 +185,13 @@ void noteAt(const Workspace& work, glm::vec2 at, const char* text) {
     list.AddText(from, IM_COL32_WHITE, text);
 }
 
+bool chosenButton(const char* label, bool on, glm::vec2 size) {
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    const bool pressed = ImGui::Button(label, {size.x, size.y});
+    if (on) ImGui::PopStyleColor();
+    return pressed;
+}
+
 uint32_t viewColour(EspView view, float amount) {
     float rgb[3]{}, most = 0;
     (void)espViewColour(view, amount, rgb, &most);

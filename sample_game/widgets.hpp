@@ -24,8 +24,9 @@ bool slider(const char* id, float* value, float low, float high, const char* for
 // After its label, to the end of the row.
 bool labelledSlider(const char* label, float* value, float low, float high, const char* format, bool byRatio = false,
                     ReadTyped read = nullptr);
-bool hoursOf(const char* text, float& hours);  // a ReadTyped: 14:30, or 14.5
-void rowLabel(const char* text);               // the words before a widget, which takes the rest of the row
+bool hoursOf(const char* text, float& hours);                   // a ReadTyped: 14:30, or 14.5
+bool chosenButton(const char* label, bool on, glm::vec2 size);  // lit while `on`
+void rowLabel(const char* text);  // the words before a widget, which takes the rest of the row
 // ImGui::SameLine if something so wide still fits in the row.
 void sameLineIfRoom(float width);
 // espViewColour's, as ImGui has colours; black: it has none.

@@ -17,8 +17,9 @@ enum class Tool { look, paint, seeds, branch, houses };
 // What the brush paints with, but for what the keys say while it does.
 struct Brush {
     std::string layer;
-    float radius = .25f;   // metres
-    float townRadius = 3;  // of layers over a town, whose houses are seen from afar
+    std::string mode = "paint";  // or "erase", "smooth": StrokeBegin::mode without keys that are held
+    float radius = .25f;         // metres
+    float townRadius = 3;        // of layers over a town, whose houses are seen from afar
     float strength = .6f, hardness = .5f, value = 1;
     float spacing = .3f;              // of the radius, between two dabs
     bool limited = false;             // to slopes and heights

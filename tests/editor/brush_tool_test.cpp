@@ -181,6 +181,41 @@ TEST_CASE("Ctrl erases and Shift smooths what was painted, for as long as the st
     CHECK(painter.work.document->undoSteps() == 6);  // with the layer's fillings
 }
 
+TEST_CASE("what the brush does is chosen in the panel, and keys turn it round") {
+    const Folder folder;
+    Painter painter(folder);
+    const glm::vec2 from = painter.onWall(-1.2f, 1), to = painter.onWall(-.9f, 1);
+    for (const char* mode : {"erase", "smooth", "paint"}) {
+        painter.work.brush.mode = mode;
+        for (const int mods : {0, GLFW_MOD_CONTROL, GLFW_MOD_SHIFT}) painter.drag(from, to, mods);
+    }
+    std::vector<std::string> modes;
+    for (const StrokeBegin& stroke : painter.all<StrokeBegin>()) modes.push_back(stroke.mode);
+    CHECK(modes == std::vector<std::string>{"erase", "paint", "smooth", "smooth", "erase", "smooth", "paint", "erase",
+                                            "smooth"});
+}
+
+TEST_CASE("a click beside all ground says so, and undo when there is nothing to undo") {
+    const Folder folder;
+    Painter painter(folder);
+    painter.work.lookFrom(painter.work.scene().camera);
+    const glm::vec2 sky(painter.work.window.x * .7f, 5);
+    REQUIRE(!painter.work.pick(sky));
+    painter.click(sky);
+    CHECK(painter.work.message == sample::kNoGround);
+    painter.click(painter.onWall(-1, 1));
+    CHECK(painter.work.message != sample::kNoGround);
+    painter.key(GLFW_KEY_S);
+    painter.click(sky);
+    CHECK(painter.work.message == sample::kNoGround);
+    for (size_t steps = painter.work.document->undoSteps(); steps > 0; --steps) {
+        painter.undo();
+        CHECK(painter.work.message != "Nothing to undo");
+    }
+    painter.undo();
+    CHECK(painter.work.message == "Nothing to undo");
+}
+
 TEST_CASE("Esc and Ctrl+Z in a stroke give back every texel, and what the button still does paints nothing") {
     const Folder folder;
     Painter painter(folder);

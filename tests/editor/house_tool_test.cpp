@@ -151,6 +151,33 @@ TEST_CASE("Esc in a drag gives the house back as it stood, and what the button s
     CHECK(builder.steps() == 1);
 }
 
+TEST_CASE("a corner that is let go where no roof can be is where it was") {
+    const Folder folder;
+    Builder builder(folder);
+    const uint32_t index = builder.named("gambrel");
+    builder.choose(index);
+    const House before = builder.house(index);
+    const uint64_t planned = builder.roofs().hash;
+    // Over the edge that lies across from it.
+    const glm::vec2 from = builder.corner(index, 2), across = builder.edge(index, 0);
+    const glm::vec2 beyond = across + .3f * (across - from);
+    builder.press(from);
+    builder.moveTo(beyond, 12);
+    builder.release(beyond);
+    CHECK(builder.house(index) == before);
+    CHECK(builder.roofs().hash == planned);
+    CHECK(builder.steps() == 0);
+    CHECK(builder.work.error != "");
+    // A way that only leads over such places ends where it is let go.
+    builder.press(from);
+    builder.moveTo(beyond, 4);
+    builder.moveTo(from + glm::vec2(20, -10), 4);
+    builder.release(builder.mouse);
+    CHECK(builder.house(index) != before);
+    CHECK(builder.steps() == 1);
+    CHECK(builder.work.error == "");
+}
+
 TEST_CASE("Ctrl and a drag of an edge make a corner there as one step, and edges behind it keep what is their own") {
     const Folder folder;
     Builder builder(folder);
