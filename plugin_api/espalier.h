@@ -440,7 +440,8 @@ ESP_API EspResult espSetGrow(EspContext* context, const EspGrowDef* def);
 ESP_API EspResult espUpdate(EspContext* context);
 
 /* Plants that take long to grow may be watched: `growing` is called within espUpdate, on its thread, some ten times a second
- * from a tenth of a second on, on a GPU between its submissions, with the nodes grown so far. Where it returns 0 growth is
+ * from a tenth of a second on, on a GPU between its submissions, with the nodes grown so far (fewer again where room has run
+ * out and growth begins anew). Where it returns 0 growth is
  * given up: espUpdate returns ESP_STOPPED until its inputs change, what was grown before stands, and the next growth is of all
  * that has changed since that. `growing` must not use the context. NULL: nobody watches. */
 typedef int (*EspGrowingFn)(void* user, uint64_t nodes);
@@ -490,6 +491,10 @@ ESP_API EspLook espDefaultLook(void);
 /* For legends: the linear colour by which ESP_VIEW_DEPTH, ESP_VIEW_OVERDRAW, ESP_VIEW_LAYER, ESP_VIEW_LOD (levels, 0 the
  * finest) or ESP_VIEW_CHARTS (a chart's number) shows `amount`, and the amount from which on nothing changes. */
 ESP_API EspResult espViewColour(EspView view, float amount, float rgb[3], float* most);
+
+/* As EspDrawDef::framesDone, in frames without espDraw: what the last picture took is known then, and what only waited for it is
+ * free. */
+ESP_API EspResult espFramesDone(EspContext* context, uint64_t framesDone);
 
 /* A picture that the host has begun: its opaque objects are in colourImage and in a depth buffer. Growth and roofs are
  * drawn into it, hidden by what lies nearer, and their depth is added, so that what the host draws next is hidden by
@@ -562,6 +567,7 @@ typedef struct EspStats {
     uint64_t drawnLeaves;        /* of the growth in the last frame */
     uint32_t enlarged;           /* times that the latest growth ran out of room and was given more, until it had enough */
     uint64_t reservedBytes;      /* taken from the device: totalBytes, and what is kept for what comes (espTrim) */
+    uint32_t cut;                /* times that maxNodes cut the growth that stands; 0: it is whole */
 } EspStats;
 ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
 

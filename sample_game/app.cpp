@@ -108,7 +108,8 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     return host_->end(*frame, take) || fail(host_->error());
 }
 
-// A column for each picture. What its stages took is known once it is finished, in the next frame.
+// A column for each picture. What its stages took is known once it is finished: by the next frame on a software device,
+// elsewhere a frame or two later.
 void App::noteTimes() {
     if (std::exchange(timesAwaited_, false) && work_.readStats() && !work_.history.empty()) {
         work_.history.back()[1] = float(work_.stats.emitMs);

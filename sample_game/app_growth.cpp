@@ -43,8 +43,9 @@ bool App::update() {
     const uint32_t expansions = work_.stats.expansions;
     const uint64_t housesGrown = work_.roofs.housesGrown;
     work_.remedied(std::exchange(growthError_, {}));
-    growth_ = {Clock::now(), false};
+    growth_ = {Clock::now(), input_->gui.count(), true, false};
     const EspResult grown = espUpdate(work_.context.get());
+    growth_.underWay = false;
     if (grown == ESP_STOPPED && growth_.told) pace_.grew(millisecondsSince(growth_.began), true);
     if (grown != ESP_OK)
         work_.error = growthError_ = grown == ESP_STOPPED ? kStopped : espLastError(work_.context.get());
@@ -54,28 +55,32 @@ bool App::update() {
     const bool plants = work_.stats.expansions != expansions, houses = work_.roofs.housesGrown != housesGrown;
     if (plants && work_.branch) work_.readPath();
     grownMs_ = (plants ? work_.stats.expandMs : 0) + (houses ? work_.roofs.expandMs : 0);
-    if (plants && work_.stats.overflow > 0) work_.error = growthError_ = kCut;
+    if (grown == ESP_OK && plants && work_.stats.cut > 0) work_.message = kCut;
     if (plants || houses) pace_.grew(grownMs_, plants && 2 * work_.stats.derivedNodes > work_.stats.nodes);
     work_.redraw |= plants || houses;
     return plants || houses;
 }
 
-// Within update(), now and then while plants grow. False: they are given up, which Esc asks for, and who ends the
-// program; a run that is played again grows all.
+// Now and then while plants grow within update(); elsewhere a frame may be half laid out. False: they are given up,
+// which Esc asks for, and who ends the program; a run that is played again grows all.
 bool App::growing(uint64_t nodes) {
-    if (millisecondsSince(growth_.began) < GrowthPace::kSlowMs) return true;
+    if (!growth_.underWay || millisecondsSince(growth_.began) < GrowthPace::kSlowMs) return true;
     glfwPollEvents();
+    input_->gui.polled(glfwGetTime());
     if (!std::exchange(growth_.told, true)) showWaiting();
     char title[96];
     std::snprintf(title, sizeof title, "Espalier \u2014 growing: %.1f million nodes; Esc stops", double(nodes) * 1e-6);
     title_ = title;
     glfwSetWindowTitle(window_.get(), title);
-    return replay_.on() || !(input_->gui.takeEscape() || glfwWindowShouldClose(window_.get()) || endAsked());
+    return replay_.on() ||
+           !(input_->gui.takeEscape(growth_.events) || glfwWindowShouldClose(window_.get()) || endAsked());
 }
 
 // The last picture, the panels as this frame has them, and that something grows.
 void App::showWaiting() {
-    showGrowing(work_, kGrowing);
+    // Not in a window: ImGui hides a new one for a frame.
+    const glm::vec2 middle((work_.window.x + work_.panelUnits()) / 2, work_.window.y - 90 * work_.scale);
+    noteAt(work_, middle, kGrowing);
     const std::optional<Frame> frame = host_->begin();
     if (!frame) return;
     image_->showAgain(*frame, uint32_t(std::lround(work_.shift() * float(frame->extent.width))));

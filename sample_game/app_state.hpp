@@ -96,8 +96,9 @@ class App {
     double grownMs_ = 0;  // what growth took in this frame
     struct {
         std::chrono::steady_clock::time_point began;
-        bool told = false;
-    } growth_;                   // under way
+        size_t events = 0;  // that waited then
+        bool underWay = false, told = false;
+    } growth_;                   // of update()
     std::string growthError_;    // of the last frame
     bool timesAwaited_ = false;  // of the last picture
     GrowthPace pace_;

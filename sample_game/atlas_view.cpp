@@ -155,10 +155,9 @@ bool AtlasView::compose() {
 
 // A branch that was picked, or is there when the window opens, is looked for on its own surface.
 void AtlasView::followBranch(const Workspace& work) {
-    const bool picked = work.branch && !work.path.empty();
-    if (followed_ == (picked ? work.branch : std::nullopt)) return;
-    followed_ = picked ? work.branch : std::nullopt;
-    if (!picked) return;
+    if (!work.branch) followed_.reset();
+    if (!work.branch || work.path.empty() || followed_ == work.branch) return;
+    followed_ = work.branch;
     const auto& surfaces = work.scene().surfaces;
     const auto lies = [&](size_t surface) {
         return std::ranges::any_of(work.path,

@@ -209,7 +209,11 @@ bool Controls::panelTakes(const KeyEvent& event) {
     if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) return true;
     const bool file = (event.mods & GLFW_MOD_CONTROL) && (event.key == GLFW_KEY_S || event.key == GLFW_KEY_O ||
                                                           event.key == GLFW_KEY_E || event.key == GLFW_KEY_Q);
-    if (grammarFocused() && !(event.mods & GLFW_MOD_CONTROL) && event.key != GLFW_KEY_ESCAPE) return true;
+    const bool numpad = event.key >= GLFW_KEY_KP_0 && event.key <= GLFW_KEY_KP_EQUAL;
+    if (work_.editing && grammarFocused() && !ImGui::IsAnyItemActive() && !(event.mods & GLFW_MOD_CONTROL) && !numpad) {
+        if (event.key == GLFW_KEY_ESCAPE) leaveGrammar();
+        return true;
+    }
     // What WantTextInput says is a frame late: nothing is active any more once a dialogue has closed.
     return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive() && !file;
 }

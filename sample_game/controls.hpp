@@ -38,7 +38,7 @@ class Controls {
     void takePointer(const PointerEvent& event);
     bool toolBusy() const;
     bool panelTakes(const PointerEvent& event);
-    static bool panelTakes(const KeyEvent& event);
+    bool panelTakes(const KeyEvent& event);
     void catchMouse(bool caught);
     void chooseTool(Tool tool);
     void cancelTools();  // what they are about, as if it hadn't been

@@ -134,6 +134,11 @@ bool grammarFocused() {
     return focused;
 }
 
+void leaveGrammar() {
+    focused = false;
+    ImGui::SetWindowFocus(nullptr);
+}
+
 void showGrammarWindow(Workspace& work) {
     focused = false;
     if (!work.layout.grammar || work.scene().grammars.empty()) return;

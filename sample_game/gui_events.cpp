@@ -111,11 +111,15 @@ bool GuiEvents::tell(const Key& key, Told& told, std::vector<InputEvent>& taken)
     return true;
 }
 
-bool GuiEvents::takeEscape() {
-    return std::erase_if(events_, [](const Event& event) {
-               const Key* key = std::get_if<Key>(&event);
-               return key && key->event.key == GLFW_KEY_ESCAPE && key->action == GLFW_PRESS;
-           }) > 0;
+bool GuiEvents::takeEscape(size_t behind) {
+    const auto from = events_.begin() + std::ptrdiff_t(std::min(behind, events_.size()));
+    const auto escapes = std::remove_if(from, events_.end(), [](const Event& event) {
+        const Key* key = std::get_if<Key>(&event);
+        return key && key->event.key == GLFW_KEY_ESCAPE && key->action == GLFW_PRESS;
+    });
+    const bool any = escapes != events_.end();
+    events_.erase(escapes, events_.end());
+    return any;
 }
 
 void GuiEvents::feed(std::vector<InputEvent>& taken) {

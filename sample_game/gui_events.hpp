@@ -46,8 +46,9 @@ class GuiEvents {
     // Between the backend's NewFrame and ImGui's. `taken` gets what ImGui has been told of, for the tools: no keys that
     // went up, no letters.
     void feed(std::vector<InputEvent>& taken);
-    // Esc was pressed since the last frame; nobody else is told of that.
-    bool takeEscape();
+    size_t count() const { return events_.size(); }  // that wait
+    // Esc was pressed, behind so many events that wait; nobody else is told of that.
+    bool takeEscape(size_t behind);
     // There is more for the next frame.
     bool waiting() const { return !events_.empty(); }
 

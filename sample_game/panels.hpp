@@ -14,6 +14,7 @@ void showDialogues(Workspace& work, Session& session);
 void showPanel(Workspace& work);          // at the left: the tool, layers, seeds, grammars, light
 void showGrammarWindow(Workspace& work);  // the text, with mistakes at their lines
 bool grammarFocused();                    // it was clicked at last: letters are meant for it
+void leaveGrammar();                      // they aren't any more
 void showFigures(const Workspace& work, uint32_t validationMessages, bool validation);
 void showLegend(const Workspace& work);                              // of a view that shows amounts
 void showStatus(const Workspace& work, bool caught, bool flying);    // at the bottom: what keys and buttons do now

@@ -33,6 +33,8 @@ bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, 
         }
         imageBarrier(frame.commands, image_.image(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    } else {
+        (void)espFramesDone(context, frame.finished);
     }
     copy(frame, left);
     return true;

@@ -32,6 +32,37 @@ Click& lastClick() {
     return click;
 }
 
+// What is typed in a slider's place, and what was there before a drag of it. Typed values are taken once the field is
+// left, however that comes about: half a number may be one that grows far too much.
+struct Held {
+    ImGuiID slider = 0;  // 0: none
+    float value = 0;
+    bool cancelled = false;  // a drag is to be taken back
+};
+
+Held& typed() {
+    static Held held;
+    return held;
+}
+Held& dragged() {
+    static Held held;
+    return held;
+}
+
+// Of the slider `self`. True: its field was left, and *value is what was typed there.
+bool takeTyped(ImGuiID self, float* value) {
+    if (typed().slider != self || ImGui::GetCurrentContext()->ActiveId == self) return false;
+    *value = std::exchange(typed(), {}).value;
+    return true;
+}
+
+// Of the slider `self`, before anything else is done with it.
+void noteDrag(ImGuiID self, float* value) {
+    Held& drag = dragged();
+    if (drag.slider == self && drag.cancelled) *value = drag.value;
+    if (drag.slider == self && (drag.cancelled || ImGui::GetCurrentContext()->ActiveId != self)) drag = {};
+}
+
 // Of the slider that was just laid out, which would go to `wanted`. True: it goes somewhere, to *value.
 bool followMouse(float* value, float wanted, bool changed) {
     Click& click = lastClick();
@@ -101,7 +132,10 @@ bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2
 bool slider(const char* id, float* value, float low, float high, const char* format, bool byRatio, ReadTyped read) {
     const float way = byRatio ? std::log(high / low) : high - low;
     const float share = way > 0 ? (byRatio ? std::log(*value / low) : *value - low) / way : 0;
-    const bool typing = ImGui::TempInputIsActive(ImGui::GetID(id));
+    const ImGuiID self = ImGui::GetID(id);
+    const bool typing = ImGui::TempInputIsActive(self);
+    noteDrag(self, value);
+    const bool left = takeTyped(self, value);  // by a key, or by a click on what comes before it
     if (!typing) drawBar(ImGui::CalcItemWidth(), share);
     // The bar is drawn already: what ImGui draws over it lets it through, but for the number.
     const ImVec4 none{0, 0, 0, 0}, lit{1, 1, 1, .07f};
@@ -119,16 +153,15 @@ bool slider(const char* id, float* value, float low, float high, const char* for
         lastClick() = {};
         ImGui::SetKeyboardFocusHere(-1);
     }
-    // What is typed is taken when its field is left: half a number may be one that grows far too much.
-    if (!typing)
-        changed = followMouse(value, wanted, changed);
-    else if (ImGui::IsItemActive())
-        changed = false;
+    if (!typing && ImGui::IsItemActivated()) dragged() = {self, *value};
+    if (typing)
+        typed() = wanted != *value ? Held{self, wanted} : Held{};
     else
-        changed = std::exchange(*value, wanted) != wanted;
+        changed = followMouse(value, wanted, changed);
+    if (typing) changed = takeTyped(self, value);
     ImGui::PopStyleVar();
     ImGui::PopStyleColor(typing ? 4 : 5);
-    return changed;
+    return changed || left;
 }
 
 bool labelledSlider(const char* label, float* value, float low, float high, const char* format, bool byRatio,
@@ -228,9 +261,11 @@ void beginGesture(Workspace& work) {
 }
 
 bool cancelDrag(Workspace& work) {
-    if (!ImGui::IsMouseDown(0) || !ImGui::IsAnyItemActive() || ImGui::GetIO().WantTextInput) return false;
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    if (!ImGui::IsMouseDown(0) || gui.ActiveId == 0 || gui.MovingWindow || ImGui::GetIO().WantTextInput) return false;
     lastClick() = {};
     work.takeBack(work.gesture());
+    if (dragged().slider == gui.ActiveId) dragged().cancelled = true;  // of what isn't the document's
     ImGui::ClearActiveID();
     return true;
 }

@@ -222,9 +222,9 @@ void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, con
 }
 
 Status GpuGrowth::grow(const GrowthInputs& inputs) {
+    if (inputs.watch) inputs.watch->begin();
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
-    if (inputs.watch) inputs.watch->begin();
     Result<bool> put = canRegrow(inputs) ? putIn(inputs) : Result<bool>(false);
     if (!put) return put.failure();
     if (*put) {

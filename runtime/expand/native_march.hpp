@@ -52,7 +52,7 @@ ESPALIER_WHOLE bool growToStretch(Lane& lane, WaveItems& items, GrowthTally& tal
             endTrip(lane.c.g);
         } else {
             if (lane.live) endChunk(lane.env, lane.c, tally);
-            const uint item = items.take(lane.env.status.v[0].nodes);
+            const uint item = items.take(std::atomic_ref(lane.env.status.v[0].nodes).load(std::memory_order_relaxed));
             lane.live = item != kNoIndex && beginChunk(lane.machine, lane.env, lane.env.items.v[item], lane.c);
             if (item == kNoIndex) return false;
         }

@@ -82,6 +82,7 @@ void collectSymbols(Compilation& c);
 
 // The same, and who grows, who calls whom; reports cycles that never march, duplicates, nesting.
 void analyseSymbols(Compilation& c);
+void warnUnreached(Compilation& c);  // of growth, when all else is known to be right
 
 // Rules, successors and continuations of the growing symbols.
 void lowerGrowth(Compilation& c);

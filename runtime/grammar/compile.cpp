@@ -76,6 +76,7 @@ Result<RuleMap> compile(Parsed& p) {
     lowerWidth(c);
     if (c.reporter.failed()) return failureOf(c.reporter);
     c.expressions.warnUnused();
+    if (!c.roofs) grammar::warnUnreached(c);
     RuleMap map = RuleMapAccess::assemble(c, p.contentHash);
     if (!c.code.failure.empty()) return Failure(c.options.fileName, c.code.failure);
     std::string wrong = RuleMapAccess::verify(map);

@@ -1,7 +1,6 @@
 // Which symbols grow (reach Marching), which draw, and whether derivation always gets on: a cycle of rules without
 // Marching would never end, so it is refused here, whatever conditions stand in it.
 #include <algorithm>
-#include <set>
 
 #include "runtime/grammar/compilation.hpp"
 
@@ -139,40 +138,6 @@ void warnUncalled(Compilation& c) {
     }
 }
 
-// What follows from a symbol, and it.
-std::set<uint32_t> reachedFrom(const Compilation& c, uint32_t symbol) {
-    std::set<uint32_t> reached{symbol};
-    std::vector<uint32_t> open{symbol};
-    while (!open.empty()) {
-        const Symbol& from = c.symbols[open.back()];
-        open.pop_back();
-        for (uint32_t rule : from.rules)
-            forEachElement(c.module.rules[rule].successor, [&](const Element& e) {
-                const uint32_t callee = c.findSymbol(e.name);
-                if (callee != kNoSymbol && reached.insert(callee).second) open.push_back(callee);
-            });
-    }
-    return reached;
-}
-
-// Plants begin with the first symbol that grows. One that was put above the others, and has nothing to do with them, is
-// likely to be a mistake; one that comes to it is another way to begin, for hosts that ask for it.
-void warnUnreached(Compilation& c) {
-    if (isRoofGrammar(c.module)) return;
-    const auto start = std::ranges::find_if(c.symbols, &Symbol::grows);
-    if (start == c.symbols.end()) return;
-    const uint32_t first = uint32_t(start - c.symbols.begin());
-    const std::set<uint32_t> reached = reachedFrom(c, first);
-    for (uint32_t i = 0; i < c.symbols.size(); ++i) {
-        const Symbol& symbol = c.symbols[i];
-        const Rule& rule = c.module.rules[symbol.rules[0]];
-        if (symbol.grows && rule.place.file == 0 && !reached.contains(i) && !reachedFrom(c, i).contains(first))
-            c.reporter.warning(rule.place, symbol.name,
-                               "plants begin with '" + start->name +
-                                   "', the first rule that grows, and never come to '" + symbol.name + "'");
-    }
-}
-
 }  // namespace
 
 void forEachElement(const Sequence& sequence, const std::function<void(const Element&)>& fn) {
@@ -215,7 +180,6 @@ void analyseSymbols(Compilation& c) {
     bool complete = !c.reporter.failed();
     if (complete) CycleCheck(c).run();
     if (!c.reporter.failed()) warnUncalled(c);
-    if (!c.reporter.failed()) warnUnreached(c);
     bool any = false;
     for (Symbol& symbol : c.symbols) {
         if (!symbol.grows) continue;
@@ -233,6 +197,53 @@ void analyseSymbols(Compilation& c) {
     if (!any && !c.reporter.failed())
         c.reporter.error(c.module.rules[0].place, c.module.rules[0].predecessor,
                          "no rule marches, so nothing can grow; a grammar needs a Marching rule");
+}
+
+// [symbol]: whether links lead to it from `first`, and `first` itself.
+static std::vector<bool> reachedFrom(uint32_t first, const std::vector<std::vector<uint32_t>>& links) {
+    std::vector<bool> reached(links.size());
+    std::vector<uint32_t> open{first};
+    reached[first] = true;
+    while (!open.empty()) {
+        const uint32_t from = open.back();
+        open.pop_back();
+        for (uint32_t to : links[from])
+            if (!reached[to]) {
+                reached[to] = true;
+                open.push_back(to);
+            }
+    }
+    return reached;
+}
+
+// Plants begin with the first symbol that grows. One that was put above the others, and has nothing to do with them, is
+// likely to be a mistake; one that comes to it is another way to begin, for hosts that ask for it. Of others that
+// belong together the first is told.
+void warnUnreached(Compilation& c) {
+    const auto start = std::ranges::find_if(c.symbols, &Symbol::grows);
+    if (start == c.symbols.end()) return;
+    std::vector<std::vector<uint32_t>> callees(c.symbols.size()), callers(c.symbols.size());
+    for (uint32_t i = 0; i < c.symbols.size(); ++i)
+        for (uint32_t rule : c.symbols[i].rules)
+            forEachElement(c.module.rules[rule].successor, [&](const Element& e) {
+                const uint32_t callee = c.findSymbol(e.name);
+                if (callee == kNoSymbol) return;
+                callees[i].push_back(callee);
+                callers[callee].push_back(i);
+            });
+    const uint32_t first = uint32_t(start - c.symbols.begin());
+    const std::vector<bool> after = reachedFrom(first, callees), before = reachedFrom(first, callers);
+    std::vector<bool> told = after;
+    for (uint32_t i = 0; i < c.symbols.size() && !c.reporter.full(); ++i) {
+        const Symbol& symbol = c.symbols[i];
+        const Rule& rule = c.module.rules[symbol.rules[0]];
+        if (!symbol.grows || rule.place.file != 0 || told[i] || before[i]) continue;
+        c.reporter.warning(rule.place, symbol.name,
+                           "plants begin with '" + start->name + "', the first rule that grows, and never come to '" +
+                               symbol.name + "'");
+        const std::vector<bool> with = reachedFrom(i, callees);
+        for (uint32_t other = 0; other < told.size(); ++other) told[other] = told[other] || with[other];
+    }
 }
 
 void Compilation::reportUnknown(const Element& e, const std::string& rule) {

@@ -167,6 +167,7 @@ EspStats gather(const EspContext& context) {
     stats.expansions = growth.expansions;
     stats.overflow = growth.overflow + render.emit.overflow;
     stats.enlarged = growth.enlarged;
+    stats.cut = growth.overflow;
     stats.stopped = growth.stopped;
     stats.deadEnds = growth.deadEnds;
     stats.validationMessages = context.device->validationMessages();
@@ -264,6 +265,13 @@ EspResult espDraw(EspContext* context, const EspDrawDef* def) {
     return guarded(context, [&] {
         if (!def) return fail(context, ESP_INVALID_ARGUMENT, "espDraw: null pointer");
         return draw(*context, *def);
+    });
+}
+
+EspResult espFramesDone(EspContext* context, uint64_t framesDone) {
+    return guarded(context, [&] {
+        context->device->hostFrameDone(framesDone);
+        return ESP_OK;
     });
 }
 

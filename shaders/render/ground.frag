@@ -35,6 +35,6 @@ void main() {
     vec3 direct = frame.sunColor * (sunVisibility(position, vec3(0.0, 1.0, 0.0)) * facing) * meadow.base;
     vec3 ambient = meadow.base * skyLight(meadow.normal) * meadow.open;
     // What is far goes over into the land at the horizon.
-    float haze = 1.0 - exp(-metres * (1.0 / 420.0));
+    float haze = hazeAt(metres);
     color = lit(mix(direct, vec3(0.0), haze), mix(ambient, farLand(ray, 0.0), haze));
 }

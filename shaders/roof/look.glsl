@@ -71,7 +71,7 @@ vec3 mirrored(vec3 n, vec3 position) {
     vec3 seen = mix(across, skyColor(ray), smoothstep(-0.03, 0.03, ray.y - crest));
     return seen * (0.18 + 0.82 * (c * c) * (c * c) * c);
 }
-const float kClear = 150.0;      // metres
+const float kClear = 150.0, kHazy = 400.0;   // metres
 const float kNoGround = -1e8;    // below which no ground is drawn
 // from: what is mirrored besides.
 vec4 shade(vec3 base, vec3 n, vec3 position, float roughness, vec3 from) {
@@ -81,10 +81,10 @@ vec4 shade(vec3 base, vec3 n, vec3 position, float roughness, vec3 from) {
     float visible = facingSunVisibility(facing, position, n);
     vec3 direct = frame.sunColor * visible * facing * (base + gloss(n, eye, sun, max(roughness, 0.35)));
     vec3 ambient = base * skyLight(n) + from;
-    // Houses beyond what a village takes up are as hazy as the ground there (ground.frag).
-    float away = distance(frame.eye, position) / frame.unit - kClear;
-    if (away > 0.0 && frame.groundLevel > kNoGround) {
-        float haze = 1.0 - exp(-away * (1.0 / 420.0));
+    // A village stands in clear air, houses far off in the haze of the ground there.
+    float away = distance(frame.eye, position) / frame.unit;
+    if (away > kClear && frame.groundLevel > kNoGround) {
+        float haze = hazeAt(away) * smoothstep(kClear, kHazy, away);
         direct *= 1.0 - haze;
         ambient = mix(ambient, farLand(-eye, 0.0), haze);
     }

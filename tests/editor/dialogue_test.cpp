@@ -121,8 +121,8 @@ TEST_CASE("a time of the day is typed as it is shown") {
 
     Field field;
     field.type("14:30");
-    CHECK(field.hour == doctest::Approx(14.5));
-    field.frame(false, ImGuiKey_Enter);
+    CHECK_MESSAGE(field.hour == 9, "not before it is known to be whole");
+    CHECK(field.frame(false, ImGuiKey_Enter));
     for (int i = 0; i < 3; ++i) field.frame();
     CHECK(field.hour == doctest::Approx(14.5));
     field.type("6:1");
@@ -133,5 +133,112 @@ TEST_CASE("a time of the day is typed as it is shown") {
     for (int i = 0; i < 3; ++i) field.frame();
     CHECK_MESSAGE(field.hour == doctest::Approx(6 + 1 / 60.), "as it was");
     field.type("15.5");
+    CHECK(field.hour == doctest::Approx(6 + 1 / 60.));
+    field.frame(false, ImGuiKey_Enter);
     CHECK(field.hour == doctest::Approx(15.5));
+}
+
+namespace {
+
+// Sliders of plain numbers between two buttons, and a mouse.
+struct Row {
+    Gui gui;
+    float value = 1, other = 3;
+    int changes = 0;
+    ImVec2 above, at, below;
+    void frame(ImVec2 mouse = {390, 290}, bool down = false, ImGuiKey key = ImGuiKey_COUNT, bool begins = false) {
+        ImGuiIO& io = ImGui::GetIO();
+        io.DisplaySize = {400, 300};
+        io.MousePos = mouse;
+        io.MouseDown[0] = down;
+        io.DeltaTime = 1.f / 3;  // clicks of unlike frames are no double click
+        for (int i = 0; i < ImGuiKey_COUNT; ++i) io.KeyMap[i] = i;
+        std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+        if (key != ImGuiKey_COUNT) io.KeysDown[key] = true;
+        ImGui::NewFrame();
+        ImGui::SetNextWindowPos({0, 0});
+        ImGui::Begin("panel");
+        const auto middle = [] {
+            const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+            return ImVec2((a.x + b.x) / 2, (a.y + b.y) / 2);
+        };
+        (void)ImGui::Button("above");
+        above = middle();
+        if (begins) ImGui::SetKeyboardFocusHere();
+        changes += sample::slider("##value", &value, 0, 100, "%.0f");
+        at = middle();
+        (void)sample::slider("##other", &other, 0, 100, "%.0f");  // to which Tab leads
+        (void)ImGui::Button("below");
+        below = middle();
+        ImGui::End();
+        ImGui::Render();
+    }
+    void type(const char* text) {
+        for (int i = 0; i < 3; ++i) frame();
+        frame({390, 290}, false, ImGuiKey_COUNT, true);
+        for (int i = 0; i < 3; ++i) frame();
+        for (const char* letter = text; *letter; ++letter) {
+            ImGui::GetIO().AddInputCharacter(unsigned(*letter));
+            frame();
+        }
+    }
+    void rest() {
+        for (int i = 0; i < 4; ++i) frame();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("what is typed in a slider's place is taken once, however its field is left, but for Esc") {
+    Row row;
+    const auto leave = [&](const char* way) {
+        const std::string by = way;
+        if (by == "above" || by == "below" || by == "nothing") {
+            const ImVec2 to = by == "above" ? row.above : by == "below" ? row.below : ImVec2{390, 290};
+            row.frame(to);
+            row.frame(to, true);
+            row.frame(to, false);
+        } else {
+            row.frame({390, 290}, false, by == "Tab" ? ImGuiKey_Tab : by == "Enter" ? ImGuiKey_Enter : ImGuiKey_Escape);
+        }
+        row.rest();
+    };
+    float typed = 50;
+    for (const char* way : {"Enter", "Tab", "above", "below", "nothing"}) {
+        CAPTURE(way);
+        const float before = row.value;
+        row.changes = 0;
+        row.type(std::to_string(int(typed)).c_str());
+        CHECK(row.value == before);
+        leave(way);
+        CHECK(row.value == typed);
+        CHECK(row.changes == 1);
+        CHECK(row.other == 3);
+        if (std::string(way) == "Tab") leave("Escape");  // out of the other one
+        typed += 1;
+    }
+    const float before = row.value;
+    row.type("7");
+    leave("Escape");
+    CHECK(row.value == before);
+}
+
+TEST_CASE("Esc takes back the drag of a slider, also of one that isn't the document's") {
+    const Folder folder;
+    Window window(folder, smallScene(folder));
+    Row row;
+    row.rest();
+    row.value = 20;
+    const ImVec2 from = row.at, to{row.at.x + 40, row.at.y};
+    row.frame(from);
+    row.frame(from, true);
+    row.frame(to, true);
+    row.frame(to, true);
+    CHECK(row.value > 25);
+    CHECK(sample::cancelDrag(window.work));
+    for (int i = 0; i < 3; ++i) row.frame({to.x + 10.f * float(i), to.y}, true);
+    CHECK(row.value == 20);
+    row.rest();
+    CHECK(row.value == 20);
+    CHECK(!sample::cancelDrag(window.work));
 }

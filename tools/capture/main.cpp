@@ -133,6 +133,7 @@ struct Film {
     EspDrawDef draw = espDefaultDrawDef();
     std::string folder;
     bool moving = false;
+    bool rests = true;  // growth does: shadows that lag make no picture depend on which others are taken
     std::vector<uint8_t> pixels;
 
     bool begin(std::string& error) {
@@ -145,6 +146,7 @@ struct Film {
     bool take(uint32_t frame, std::string& error) {
         EspDrawDef shown = draw;
         if (moving) espalier::scene::MovingDetail().apply(shown.look);
+        shown.look.shadowsLag = moving && rests;
         if (espDraw(context, &shown) != ESP_OK || espReadPixels(context, pixels.data(), pixels.size()) != ESP_OK) {
             error = espLastError(context);
             return false;
@@ -234,7 +236,7 @@ int run(Options options) {
     if (espUpdate(made) != ESP_OK) return fail(espLastError(made));
 
     Scene scene = document.scene();
-    Film film{made, espDefaultDrawDef(), options.folder, options.moving, {}};
+    Film film{made, espDefaultDrawDef(), options.folder, options.moving, !replays, {}};
     film.draw.width = options.width;
     film.draw.height = options.height;
     film.draw.look = scene.look;
@@ -253,7 +255,7 @@ int run(Options options) {
     }
     EspStats stats;
     if (espReadStats(made, &stats) != ESP_OK) return fail(espLastError(made));
-    if (stats.overflow > 0) warn("growth was cut at its limit of " + std::to_string(grow.maxNodes) + " nodes");
+    if (stats.cut > 0) warn("growth was cut at its limit of " + std::to_string(grow.maxNodes) + " nodes");
     film.warnOfOld(replays ? recorded.frames() : options.frames);
     if (!options.stats.empty() && !writeText(options.stats, statsJson(stats), error)) return fail(error);
     std::printf("%u frames in %s: %u seeds, %" PRIu64 " nodes, %u branches, %" PRIu64 " leaves, %" PRIu64

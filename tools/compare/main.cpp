@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "tools/scene/picture.hpp"
 
@@ -11,7 +12,7 @@ using namespace espalier::scene;
 
 namespace {
 
-constexpr int kChannels = 4;
+constexpr size_t kChannels = 4;
 
 struct Comparison {
     double within = 0;                // share of the pixels
@@ -19,7 +20,7 @@ struct Comparison {
     std::vector<uint8_t> difference;  // as a picture
 };
 
-// tolerance: of 255; 0: only what is the same to the bit is within it. What is no number is like nothing.
+// tolerance: of 255; 0: only what is the same to the bit is within it. What is no number is like itself only.
 Comparison compare(const FloatPicture& a, const FloatPicture& b, int tolerance) {
     constexpr float kRounding = 1e-3f;  // of parts that were whole numbers
     Comparison out;
@@ -28,13 +29,18 @@ Comparison compare(const FloatPicture& a, const FloatPicture& b, int tolerance) 
     size_t within = 0;
     for (size_t i = 0; i < pixels; ++i) {
         bool near = true;
-        for (size_t c = kChannels * i; c < kChannels * (i + 1); ++c) {
-            const float d = 255 * std::abs(a.rgba[c] - b.rgba[c]);
-            near = near && (tolerance == 0 ? a.rgba[c] == b.rgba[c] : d <= float(tolerance) + kRounding);
-            out.largest = std::isnan(d) ? INFINITY : std::max(out.largest, d);
-            const bool alpha = c % kChannels == 3;
-            if (!alpha) out.difference[c] = uint8_t(std::isnan(d) ? 255 : std::min(255.f, 8 * d));
+        float pixel[kChannels];
+        for (size_t c = 0; c < kChannels; ++c) {
+            const float x = a.rgba[kChannels * i + c], y = b.rgba[kChannels * i + c];
+            const bool same = x == y || (std::isnan(x) && std::isnan(y));
+            const float d = same ? 0 : std::abs(x - y);
+            pixel[c] = std::isnan(d) ? INFINITY : 255 * d;
+            near = near && (same || (tolerance > 0 && pixel[c] <= float(tolerance) + kRounding));
+            out.largest = std::max(out.largest, pixel[c]);
         }
+        // What only alpha tells is seen as grey.
+        for (size_t c = 0; c < 3; ++c)
+            out.difference[kChannels * i + c] = uint8_t(std::min(255.f, 8 * std::max(pixel[c], pixel[3])));
         within += near;
     }
     out.within = double(within) / double(pixels);

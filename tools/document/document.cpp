@@ -358,7 +358,7 @@ bool Document::carryOut(const ChangeSeeds& action, std::vector<Action>& back, st
         scene_.seeds[i].planted = before[i].planted;
         scene_.seeds[i].frozen = before[i].frozen;
     }
-    if (!(onlyMoved ? moveSeeds(action) : replant(before, error))) return false;
+    if (!(onlyMoved && allPlanted_ ? moveSeeds(action) : replant(before, error))) return false;
     back.push_back(std::move(inverse));
     return true;
 }
@@ -371,8 +371,16 @@ bool Document::moveSeeds(const ChangeSeeds& action) {
     return true;
 }
 
+// Seeds that couldn't be planted before, such as a file's, don't keep others from it.
 bool Document::replant(const std::vector<Seed>& before, std::string& error) {
+    const auto missing = [](const std::vector<Seed>& seeds) {
+        return std::ranges::count_if(seeds, [](const Seed& seed) { return seed.planted.id == 0; });
+    };
     if (plant(error)) return true;
+    if (missing(scene_.seeds) <= missing(before)) {
+        error.clear();
+        return true;
+    }
     scene_.seeds = before;
     std::string ignored;
     (void)plant(ignored);

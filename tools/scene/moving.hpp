@@ -24,7 +24,6 @@ class MovingDetail {
         look.windowLodPixels *= kLod;
         look.leafPixels *= leaf_;
         look.quick = 1;
-        look.shadowsLag = 1;
     }
 
     // After each such frame: its time, and the leaves that it drew. Steps are small, so that nothing pops.

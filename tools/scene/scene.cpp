@@ -331,8 +331,11 @@ bool plantOne(EspContext* context, Scene& scene, Seed& seed, std::string& error)
     if (!fromContext(context, espPlant(context, &def, &seed.planted), error)) return false;
     for (const ParamValue& own : seed.params)
         if (!fromContext(context, espSetSeedParam(context, seed.planted, own.name.c_str(), own.value.data(), own.count),
-                         error))
+                         error)) {
+            (void)espRemoveSeed(context, seed.planted);
+            seed.planted = {};
             return false;
+        }
     if (seed.frozen && espFreezeAs(context, seed.planted, seed.frozen->data(), seed.frozen->size()) != ESP_OK) {
         scene.notes.push_back("a frozen plant grows again: " + std::string(espLastError(context)));
         seed.frozen = nullptr;

@@ -116,7 +116,8 @@ bool openScene(EspContext* context, const Request& request, Scene& out, std::str
 EspResult walkLayer(EspContext* context, EspSurface surface, const std::string& name, const GreyPicture& picture,
                     EspLayerDef& out);
 
-// Takes away all seeds and plants the scene's.
+// Takes away all seeds and plants the scene's. False: `error` tells how many couldn't be, and of the first its place
+// and why; their Seed::planted is zero, the others grow.
 bool plantAll(EspContext* context, Scene& scene, std::string& error);
 
 // Gives the grammar another text. False: it has mistakes, told in grammar.error, and the last good one keeps growing.
