@@ -441,9 +441,9 @@ ESP_API EspResult espUpdate(EspContext* context);
 
 /* Plants that take long to grow may be watched: `growing` is called within espUpdate, on its thread, some ten times a second
  * from a tenth of a second on, on a GPU between its submissions, with the nodes grown so far (fewer again where room has run
- * out and growth begins anew). Where it returns 0 growth is
- * given up: espUpdate returns ESP_STOPPED until its inputs change, what was grown before stands, and the next growth is of all
- * that has changed since that. `growing` must not use the context. NULL: nobody watches. */
+ * out and growth begins anew). Where it returns 0 growth is given up: espUpdate returns ESP_STOPPED until its inputs change, what
+ * was grown before stands, and the next growth is of all that has changed since that. `growing` must neither use the context nor
+ * throw; it and `user` are used until they are replaced, or the context is destroyed. NULL: nobody watches. */
 typedef int (*EspGrowingFn)(void* user, uint64_t nodes);
 ESP_API EspResult espWatchGrowth(EspContext* context, EspGrowingFn growing, void* user);
 

@@ -78,9 +78,7 @@ bool App::growing(uint64_t nodes) {
 
 // The last picture, the panels as this frame has them, and that something grows.
 void App::showWaiting() {
-    // Not in a window: ImGui hides a new one for a frame.
-    const glm::vec2 middle((work_.window.x + work_.panelUnits()) / 2, work_.window.y - 90 * work_.scale);
-    noteAt(work_, middle, kGrowing);
+    showGrowing(work_, kGrowing);
     const std::optional<Frame> frame = host_->begin();
     if (!frame) return;
     image_->showAgain(*frame, uint32_t(std::lround(work_.shift() * float(frame->extent.width))));

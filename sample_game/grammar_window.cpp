@@ -122,10 +122,6 @@ void showRemarks(const espalier::scene::LoadedGrammar& grammar, const std::vecto
     ImGui::EndChild();
 }
 
-}  // namespace
-
-namespace {
-
 bool focused = false;
 
 }  // namespace

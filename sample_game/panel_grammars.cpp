@@ -15,9 +15,6 @@ namespace {
 
 using namespace espalier::document;
 
-float encodeSrgb(float v) {
-    return v <= .0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - .055f;
-}
 float decodeSrgb(float v) {
     return v <= .04045f ? v / 12.92f : std::pow((v + .055f) / 1.055f, 2.4f);
 }

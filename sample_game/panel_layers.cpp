@@ -51,8 +51,8 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
     const float width = (ImGui::GetContentRegionAvail().x - gap * 4) / 5;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * work.scale, ImGui::GetStyle().FramePadding.y});
-    const auto button = [&](const char* label, const char* tip) {
-        const bool pressed = ImGui::Button(label, {width, 0});
+    const auto button = [&](const char* label, const char* tip, bool on = false) {
+        const bool pressed = chosenButton(label, on, {width, 0});
         toolTip(tip);
         ImGui::SameLine(0, gap);
         return pressed;
@@ -70,11 +70,9 @@ void chosenLayer(Workspace& work, const Layer& layer) {
                                     : "Writes the layer as a picture over the surface's atlas (F5)"))
         askForLayer(layer.name, false);
     const bool seen = scene.look.view == ESP_VIEW_LAYER && scene.viewLayer == layer.name;
-    if (seen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-    if (button("Show",
-               layer.town ? "Shows what is painted on the roofs (V)" : "Shows what is painted on the model (V)"))
+    if (button("Show", layer.town ? "Shows what is painted on the roofs (V)" : "Shows what is painted on the model (V)",
+               seen))
         work.perform(SetView{seen ? "shaded" : "layer", seen ? "" : layer.name});
-    if (seen) ImGui::PopStyleColor();
     ImGui::PopStyleVar();
     ImGui::NewLine();
     ImGui::PushTextWrapPos(0);

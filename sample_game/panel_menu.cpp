@@ -134,23 +134,11 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
     ImGui::PopStyleVar(2);
 }
 
-namespace {
-
-// Over the picture, near its foot: `row` 0 is the lowest.
-bool beginNotice(const Workspace& work, const char* name, int row, int flags) {
-    ImGui::SetNextWindowPos(
-        {(work.window.x + work.panelUnits()) / 2, work.window.y - float(90 + 60 * row) * work.scale}, ImGuiCond_Always,
-        {.5f, .5f});
-    return ImGui::Begin(name, nullptr,
-                        flags | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings |
-                            ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize | kQuiet);
-}
-
-}  // namespace
-
+// Not in a window, of which ImGui hides a new one for a frame: there may be only one.
 void showGrowing(const Workspace& work, const char* text) {
-    if (beginNotice(work, "growing", 0, ImGuiWindowFlags_NoInputs)) ImGui::TextUnformatted(text);
-    ImGui::End();
+    noteAt(work,
+           {(work.window.x + work.panelUnits() - ImGui::CalcTextSize(text).x) / 2, work.window.y - 90 * work.scale},
+           text);
 }
 
 // When all is written the disk is waited for, which may take as long again.
@@ -163,7 +151,11 @@ void progressBar(const Background& background, float width) {
 
 void showBackground(const Workspace& work, Background& background) {
     if (!background.slow() || dialogueWaits()) return;
-    if (beginNotice(work, "background", 1, 0)) {
+    ImGui::SetNextWindowPos({(work.window.x + work.panelUnits()) / 2, work.window.y - 150 * work.scale},
+                            ImGuiCond_Always, {.5f, .5f});
+    const int flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                      ImGuiWindowFlags_AlwaysAutoResize | kQuiet;
+    if (ImGui::Begin("background", nullptr, flags)) {
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(background.title().c_str());
         ImGui::SameLine();

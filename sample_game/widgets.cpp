@@ -225,11 +225,14 @@ bool chosenButton(const char* label, bool on, glm::vec2 size) {
     return pressed;
 }
 
+float encodeSrgb(float linear) {
+    return linear <= .0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - .055f;
+}
+
 uint32_t viewColour(EspView view, float amount) {
     float rgb[3]{}, most = 0;
     (void)espViewColour(view, amount, rgb, &most);
-    for (float& c : rgb) c = c <= .0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - .055f;
-    return ImColor(rgb[0], rgb[1], rgb[2]);
+    return ImColor(encodeSrgb(rgb[0]), encodeSrgb(rgb[1]), encodeSrgb(rgb[2]));
 }
 
 void hint(const char* text) {
@@ -271,7 +274,7 @@ bool cancelDrag(Workspace& work) {
 }
 
 uint32_t widgetGesture(Workspace& work) {
-    // What is typed is taken up as it is and again as its field is left.
+    // A colour's text is taken up as it is typed, and again as its field is left.
     return ImGui::IsAnyItemActive() || ImGui::IsItemDeactivated() ? work.gesture() : work.newGesture();
 }
 

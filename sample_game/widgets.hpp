@@ -29,6 +29,7 @@ bool chosenButton(const char* label, bool on, glm::vec2 size);  // lit while `on
 void rowLabel(const char* text);  // the words before a widget, which takes the rest of the row
 // ImGui::SameLine if something so wide still fits in the row.
 void sameLineIfRoom(float width);
+float encodeSrgb(float linear);
 // espViewColour's, as ImGui has colours; black: it has none.
 uint32_t viewColour(EspView view, float amount);
 void hint(const char* text);   // what keeps the user from seeing anything happen

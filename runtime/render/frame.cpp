@@ -75,7 +75,7 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.background = look.background;
     frame.shadows = look.shadows ? 1 : 0;
     frame.horizon = look.horizon;
-    frame.groundLevel = inputs.ground.drawn ? inputs.ground.height : -1e30f;
+    frame.groundLevel = inputs.ground.drawn ? inputs.ground.height : kNoGround;
     frame.grassColor = inputs.ground.colour;
     frame.rayRight = right * (tangent * aspect);
     frame.rayUp = up * tangent;

@@ -14,6 +14,8 @@ CONST_UINT(kViewLayer, 4u);
 CONST_UINT(kViewDepth, 5u);
 CONST_UINT(kViewOverdraw, 6u);
 
+CONST_FLOAT(kNoGround, -1e30f);   // below everything
+
 // Constants of programs: do they draw another view than the shaded one? Do textures hold square roots of colours? Are
 // they for pictures of what moves, which have to be cheap? Do they draw the rest, too:
 // meadow on the feet of models, hills before the sky?
@@ -48,7 +50,7 @@ struct FrameRecord {
     vec3 rayUp;
     float unit;              // what a metre is for models that come in other units: sizes of the look are in it
     vec3 rayForward;
-    float groundLevel;       // height of the ground that is drawn to the horizon; none is drawn: far below
+    float groundLevel;       // height of the ground that is drawn to the horizon; kNoGround: none is
     SurfaceBuf surfaces;
     LayerBuf layers;
     float layerOpacity;      // over the model

@@ -72,7 +72,6 @@ vec3 mirrored(vec3 n, vec3 position) {
     return seen * (0.18 + 0.82 * (c * c) * (c * c) * c);
 }
 const float kClear = 150.0, kHazy = 400.0;   // metres
-const float kNoGround = -1e8;    // below which no ground is drawn
 // from: what is mirrored besides.
 vec4 shade(vec3 base, vec3 n, vec3 position, float roughness, vec3 from) {
     vec3 eye = normalize(frame.eye - position);
@@ -83,7 +82,7 @@ vec4 shade(vec3 base, vec3 n, vec3 position, float roughness, vec3 from) {
     vec3 ambient = base * skyLight(n) + from;
     // A village stands in clear air, houses far off in the haze of the ground there.
     float away = distance(frame.eye, position) / frame.unit;
-    if (away > kClear && frame.groundLevel > kNoGround) {
+    if (away > kClear && frame.groundLevel != kNoGround) {
         float haze = hazeAt(away) * smoothstep(kClear, kHazy, away);
         direct *= 1.0 - haze;
         ambient = mix(ambient, farLand(-eye, 0.0), haze);

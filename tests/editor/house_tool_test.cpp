@@ -55,6 +55,21 @@ struct Builder : Editor {
     size_t steps() const { return work.document->undoSteps(); }
 };
 
+// With one of its houses chosen.
+struct Chosen : Builder {
+    explicit Chosen(const Folder& folder) : Builder(folder) {
+        gambrel.index = named("gambrel");
+        choose(gambrel.index);
+        gambrel.before = house(gambrel.index);
+        gambrel.planned = roofs().hash;
+    }
+    struct {
+        uint32_t index = 0;
+        House before;
+        uint64_t planned = 0;  // the town's hash
+    } gambrel;
+};
+
 }  // namespace
 
 TEST_CASE("a click chooses the house under it, another click an edge of its outline, one beside them none") {
@@ -123,11 +138,8 @@ TEST_CASE("a drag of a corner moves it alone, and the roof follows before the bu
 
 TEST_CASE("Esc in a drag gives the house back as it stood, and what the button still does changes nothing") {
     const Folder folder;
-    Builder builder(folder);
-    const uint32_t index = builder.named("gambrel");
-    builder.choose(index);
-    const House before = builder.house(index);
-    const uint64_t planned = builder.roofs().hash;
+    Chosen builder(folder);
+    const auto& [index, before, planned] = builder.gambrel;
     const glm::vec2 from = builder.corner(index, 2), to = from + glm::vec2(20, -10);
     builder.press(from);
     builder.moveTo(to, 4);
@@ -153,11 +165,8 @@ TEST_CASE("Esc in a drag gives the house back as it stood, and what the button s
 
 TEST_CASE("a corner that is let go where no roof can be is where it was") {
     const Folder folder;
-    Builder builder(folder);
-    const uint32_t index = builder.named("gambrel");
-    builder.choose(index);
-    const House before = builder.house(index);
-    const uint64_t planned = builder.roofs().hash;
+    Chosen builder(folder);
+    const auto& [index, before, planned] = builder.gambrel;
     // Over the edge that lies across from it.
     const glm::vec2 from = builder.corner(index, 2), across = builder.edge(index, 0);
     const glm::vec2 beyond = across + .3f * (across - from);

@@ -67,6 +67,27 @@ TEST_CASE("overdraw counts nothing where nothing is, and a fragment or two on a 
     CHECK(legend(ESP_VIEW_DEPTH, 0) != legend(ESP_VIEW_DEPTH, 1));
 }
 
+TEST_CASE("each chart of a model has the colour that is told of it, and no two that follow each other have the same") {
+    const Painting painting;
+    EspLook look = espDefaultLook();
+    look.view = ESP_VIEW_CHARTS;
+    const std::vector<uint8_t> shown = picture(painting, look);
+    const float eye[3] = {.1f, .1f, 6}, ahead[3] = {0, 0, -1};
+    EspHit hit;
+    painting.ok(espPick(painting.context, eye, ahead, &hit));
+    // Diagnostic views dim what faces away: shares of linear red and green are compared.
+    const auto hue = [](Pixel p) {
+        std::array<float, 3> linear;
+        for (size_t i = 0; i < 3; ++i) linear[i] = std::pow(float(p[i]) / 255, 2.2f);
+        const float sum = linear[0] + linear[1] + linear[2] + 1e-4f;
+        return std::array<float, 2>{linear[0] / sum, linear[1] / sum};
+    };
+    const auto seen = hue(at(shown, 50, 46)), told = hue(legend(ESP_VIEW_CHARTS, float(hit.chart)));
+    CHECK(seen[0] == doctest::Approx(told[0]).epsilon(.06));
+    CHECK(seen[1] == doctest::Approx(told[1]).epsilon(.06));
+    for (float i = 0; i < 100; ++i) CHECK(!alike(legend(ESP_VIEW_CHARTS, i), legend(ESP_VIEW_CHARTS, i + 1)));
+}
+
 TEST_CASE("depth shows a stem and its branches each by the legend") {
     const Painting painting;
     const EspGrammar grammar = painting.grammar(

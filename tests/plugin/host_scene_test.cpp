@@ -381,6 +381,22 @@ TEST_CASE("a host that draws no more, but paints and updates, or only paints, ta
     CHECK(bytesAfter(64) <= settled + (64 << 10));
 }
 
+TEST_CASE("what a frame took is known once its host says that it is done, though it draws no other") {
+    DrawingHost host;
+    Grown grown(host);
+    REQUIRE(espUpdate(grown.context) == ESP_OK);
+    const auto drawMs = [&] {
+        EspStats s{};
+        REQUIRE(espReadStats(grown.context, &s) == ESP_OK);
+        return s.drawMs;
+    };
+    host.draw(cameraAt(1.3f, .9f, 1.9f), kBoxes, grown.context);
+    CHECK(drawMs() == 0);
+    REQUIRE(espFramesDone(grown.context, 1) == ESP_OK);
+    CHECK(drawMs() > 0);
+    CHECK(espFramesDone(nullptr, 1) == ESP_INVALID_ARGUMENT);
+}
+
 TEST_CASE("what is only kept for what comes is given back when the host asks, and nothing else") {
     DrawingHost host;
     Grown grown(host);

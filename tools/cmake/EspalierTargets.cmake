@@ -61,6 +61,14 @@ function(espalier_program target)
   target_link_libraries(${target} PRIVATE ${ARG_LINKS})
 endfunction()
 
+# preload/NAME.c of the calling folder becomes a module that tests load into a program that they watch.
+function(espalier_preload_here name)
+  add_library(${name} MODULE preload/${name}.c)
+  espalier_defaults(${name})
+  target_link_libraries(${name} PRIVATE ${CMAKE_DL_LIBS})
+  set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests C_VISIBILITY_PRESET default)
+endfunction()
+
 # The .cpp files of the calling folder below tests/ become the doctest program test_FOLDER, run from the
 # project's root. The environment variable ESPALIER_DATA may name a folder of further models (see tests/support).
 function(espalier_test_here)
