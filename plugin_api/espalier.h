@@ -208,7 +208,9 @@ ESP_API const char* espLayerName(const EspContext* context, EspGrammar grammar, 
 ESP_API const char* espLayerLabel(const EspContext* context, EspGrammar grammar, uint32_t index);
 ESP_API float espLayerFill(const EspContext* context, EspGrammar grammar, uint32_t index);   /* where nothing is painted */
 
-/* ---- Layers ------------------------------------------------------------------------------------------------- */
+/* ---- Layers -------------------------------------------------------------------------------------------------
+ * Pictures in [0,1] by which designers tell grammars where to do what. A layer of colours, `context NAME = #rrggbb`, is
+ * three layers, NAME.r, NAME.g and NAME.b, linear; only EspLook::viewLayer takes it by NAME. */
 
 typedef enum EspLayerSpace {
     ESP_LAYER_WALK_UV = 0,       /* drawn in the surface's walk UV set */
@@ -240,7 +242,7 @@ ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
  * destroyed. Strokes of one layer are to be swapped in the order in which a history goes: last done, first undone. */
 typedef enum EspBrushMode {
     ESP_BRUSH_PAINT = 0,         /* towards `value` */
-    ESP_BRUSH_ERASE = 1,         /* back to the layer's fill */
+    ESP_BRUSH_ERASE = 1,         /* to what the whole layer was filled with last (espLayerFilled), else its fill */
     ESP_BRUSH_SMOOTH = 2         /* towards the mean of the surface around, over seams too */
 } EspBrushMode;
 
@@ -278,6 +280,8 @@ ESP_API EspResult espDestroyStroke(EspContext* context, EspStroke stroke);
 ESP_API uint64_t espStrokeBytes(const EspContext* context, EspStroke stroke);   /* memory that it holds */
 /* Sets the whole layer, on all surfaces; out is an ended stroke. */
 ESP_API EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out);
+/* 1: *value is what espFillLayer set the whole layer to last, undone fills aside; 0: it was never filled. */
+ESP_API int espLayerFilled(const EspContext* context, const char* layer, float* value);
 
 /* espSetLayer that can be undone: out is an ended stroke. texels must not be NULL. */
 ESP_API EspResult espImportLayer(EspContext* context, const EspLayerDef* def, EspStroke* out);
@@ -476,7 +480,7 @@ typedef struct EspLook {         /* all numbers finite */
                                     instead of at each vertex; models' levels of detail take over at once;
                                     default 0 */
     EspView view;
-    const char* viewLayer;       /* for ESP_VIEW_LAYER */
+    const char* viewLayer;       /* for ESP_VIEW_LAYER: a layer, or one of colours */
     float viewOpacity;           /* 0 to 1: of that layer over models and roofs; default 1 */
     const EspBrush* viewBrush;   /* for ESP_VIEW_LAYER: where its slopes and heights let no paint pass the surfaces are hatched, and
                                     the more faintly the more passes; NULL: nowhere */

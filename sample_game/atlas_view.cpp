@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sample_game/panels.hpp"
+#include "tools/scene/layers.hpp"
 
 namespace sample {
 namespace {
@@ -92,10 +93,13 @@ bool AtlasView::read(Workspace& work, const Shown& wanted) {
     }
     if (wanted.layer.empty() || (sameSurface && wanted.layer == shown_.layer && wanted.revision == shown_.revision))
         return true;
-    espalier::scene::GreyPicture layer;
-    if (!work.document->readLayer(wanted.surface, wanted.layer, layer, work.error)) return false;
-    layerSize_ = layer.width;
-    layer_ = std::move(layer.texels);
+    layer_.clear();
+    for (const std::string& channel : channelsOf(work.scene(), wanted.layer)) {
+        espalier::scene::GreyPicture picture;
+        if (!work.document->readLayer(wanted.surface, channel, picture, work.error)) return false;
+        layerSize_ = picture.width;
+        layer_.push_back(std::move(picture.texels));
+    }
     return true;
 }
 
@@ -119,7 +123,10 @@ uint32_t AtlasView::colourOf(uint32_t x, uint32_t y) const {
     // At the texel's middle: around a chart the layer holds what nobody has painted.
     const auto middle = [&](uint32_t i) { return (2 * size_t(i) + 1) * layerSize_ / (2 * size_); };
     const size_t u = middle(x), v = middle(y);
-    const float value = std::clamp(layer_[v * layerSize_ + u], 0.f, 1.f);
+    const size_t at = v * layerSize_ + u;
+    if (layer_.size() == 3)
+        return mixed(colour, shownColour({layer_[0][at], layer_[1][at], layer_[2][at]}), shown_.opacity);
+    const float value = std::clamp(layer_[0][at], 0.f, 1.f);
     return mixed(colour, layerColours_[size_t(value * (kShades - 1) + .5f)], shown_.opacity);
 }
 
@@ -297,7 +304,9 @@ void AtlasView::tellAt(const View& view) const {
                               kind == ESP_TEXEL_INNER ? "" : " (gutter)");
     if (!shown_.layer.empty() && kind == ESP_TEXEL_INNER) {
         const size_t i = size_t(v * float(layerSize_)) * layerSize_ + size_t(u * float(layerSize_));
-        std::snprintf(text + used, sizeof text - size_t(used), "   %.30s %.2f", shown_.layer.c_str(), layer_[i]);
+        used += std::snprintf(text + used, sizeof text - size_t(used), "   %.30s", shown_.layer.c_str());
+        for (const std::vector<float>& channel : layer_)
+            used += std::snprintf(text + used, sizeof text - size_t(used), " %.2f", channel[i]);
     }
     const EspLink* link = shown_.links ? linkAt(view, at) : nullptr;
     if (link && link->kind != ESP_LINK_OPEN) {

@@ -54,7 +54,7 @@ class AtlasView {
     uint32_t size_ = 0, layerSize_ = 0;  // texels a side
     std::vector<uint32_t> texels_;       // as espReadAtlas gives them
     std::vector<EspLink> links_;
-    std::vector<float> layer_;
+    std::vector<std::vector<float>> layer_;              // one, or red, green and blue
     std::vector<uint32_t> chartColours_, layerColours_;  // of each chart; of values from 0 to 1
     std::optional<uint64_t> followed_;                   // the branch whose surface was turned to
     float zoom_ = 1;

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "sample_game/widgets.hpp"
+#include "tools/scene/layers.hpp"
 
 namespace sample {
 namespace {
@@ -36,6 +37,7 @@ StrokeBegin strokeOf(const Workspace& work, int mods) {
     action.strength = b.strength;
     action.hardness = b.hardness;
     action.value = b.value;
+    if (isColour(work.scene(), b.layer)) action.colour.assign(std::begin(b.colour), std::end(b.colour));
     if (work.brushLimited()) {
         action.slope = {b.slope[0] * kDegree, b.slope[1] * kDegree};
         action.height = {b.height[0], b.height[1]};

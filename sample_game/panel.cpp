@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sample_game/panels.hpp"
+#include "tools/scene/layers.hpp"
 
 namespace sample {
 namespace {
@@ -237,9 +238,12 @@ void brushPanel(Workspace& work) {
         toolTip(tip);
     };
     ImGui::PushID("mode");
-    mode("Paint", "paint", "Towards the value below");
+    mode("Paint", "paint", "Towards the value or colour below");
     ImGui::SameLine();
-    mode("Erase", "erase", "Towards 0; also with Ctrl, which paints while this is chosen");
+    mode("Erase", "erase",
+         "Back to what all of the layer was cleared or filled to, or else to what the grammar says; also with Ctrl, "
+         "which "
+         "paints while this is chosen");
     ImGui::SameLine();
     mode("Smooth", "smooth", "Towards what is around; also with Shift");
     ImGui::PopID();
@@ -249,8 +253,14 @@ void brushPanel(Workspace& work) {
     toolTip("How much one dab changes, or Shift+F and a move of the mouse");
     labelledSlider("Hardness", &b.hardness, 0, 1, "%.2f");
     toolTip("0: soft from the centre, 1: a hard edge");
-    labelledSlider("Value", &b.value, 0, 1, "%.2f");
-    toolTip("What is painted; what 0 and 1 mean is said where the layer is chosen");
+    if (isColour(work.scene(), b.layer)) {
+        rowLabel("Colour");
+        editColour("##colour", b.colour);
+        toolTip("What is painted; the field at the end opens a picker");
+    } else {
+        labelledSlider("Value", &b.value, 0, 1, "%.2f");
+        toolTip("What is painted; what 0 and 1 mean is said where the layer is chosen");
+    }
     labelledSlider("Spacing", &b.spacing, .05f, 1, "%.2f");
     toolTip("Between two dabs, of the radius");
     if (work.townLayer(b.layer)) return;

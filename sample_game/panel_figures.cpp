@@ -7,6 +7,7 @@
 
 #include "sample_game/brush_tool.hpp"
 #include "sample_game/panels.hpp"
+#include "tools/scene/layers.hpp"
 
 namespace sample {
 namespace {
@@ -131,7 +132,8 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
 void showLegend(const Workspace& work) {
     const EspView view = work.scene().look.view;
     float rgb[3], most = 0;
-    if (view == ESP_VIEW_CHARTS || espViewColour(view, 0, rgb, &most) != ESP_OK) return;
+    const bool colours = view == ESP_VIEW_LAYER && isColour(work.scene(), work.scene().viewLayer);
+    if (view == ESP_VIEW_CHARTS || colours || espViewColour(view, 0, rgb, &most) != ESP_OK) return;
     const float s = work.scale;
     ImGui::SetNextWindowPos({work.panelUnits() + 12 * s, work.window.y - ImGui::GetFrameHeight() - 16 * s},
                             ImGuiCond_Always, {0, 1});

@@ -15,10 +15,6 @@ namespace {
 
 using namespace espalier::document;
 
-float decodeSrgb(float v) {
-    return v <= .04045f ? v / 12.92f : std::pow((v + .055f) / 1.055f, 2.4f);
-}
-
 // "%.2f m": as many digits as the range asks for; a unit may hold a percent sign.
 std::string formatOf(const EspParamInfo& param) {
     const float range = std::max(std::abs(param.low), std::abs(param.high));
@@ -53,15 +49,7 @@ bool editParam(const EspParamInfo& param, float* value, bool several) {
         value[0] = on;
         return changed;
     }
-    if (param.kind == ESP_PARAM_COLOUR) {
-        float shown[3];
-        for (int i = 0; i < 3; ++i) shown[i] = encodeSrgb(value[i]);
-        // As the grammar's text writes it; a click on the field at its end opens the picker.
-        if (!ImGui::ColorEdit3("##value", shown, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_DisplayHex))
-            return false;
-        for (int i = 0; i < 3; ++i) value[i] = decodeSrgb(shown[i]);
-        return true;
-    }
+    if (param.kind == ESP_PARAM_COLOUR) return editColour("##value", value);
     // Ranges over several decades, such as 0.02 to 20, get a slider by ratio.
     const bool wide = param.low > 0 && param.high / param.low > 200;
     return slider("##value", value, param.low, param.high, several ? "several" : formatOf(param).c_str(), wide);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "sample_game/panels.hpp"
+#include "tools/scene/layers.hpp"
 
 namespace sample {
 namespace {
@@ -13,8 +14,9 @@ using namespace espalier::document;
 
 struct Layer {
     std::string name, label, readers;
-    float fill = 0;
+    std::vector<float> fill = {};  // where nothing was painted; three of a layer of colours
     bool town = false, painted = false;
+    bool colour() const { return fill.size() == 3; }
 };
 
 bool painted(const Workspace& work, const std::string& name) {
@@ -28,12 +30,15 @@ std::vector<Layer> layersOf(const Workspace& work) {
     std::vector<Layer> layers;
     const EspContext* context = work.context.get();
     for (const std::string& name : work.scene().layers) {
-        Layer layer{name, "", "", 0, work.townLayer(name), painted(work, name)};
+        const std::vector<std::string> channels = channelsOf(work.scene(), name);
+        Layer layer{
+            name, "", "", std::vector<float>(channels.size()), work.townLayer(name), painted(work, channels[0])};
         for (uint32_t g = 0; g < work.scene().grammars.size(); ++g) {
             const EspGrammar grammar = work.scene().grammars[g].id;
             for (uint32_t i = 0; i < espLayerCount(context, grammar); ++i) {
-                if (name != espLayerName(context, grammar, i)) continue;
-                if (layer.readers.empty()) layer.fill = espLayerFill(context, grammar, i);
+                if (channels[0] != espLayerName(context, grammar, i)) continue;
+                for (size_t c = 0; layer.readers.empty() && c < channels.size(); ++c)
+                    layer.fill[c] = espLayerFill(context, grammar, i + uint32_t(c));
                 if (layer.label.empty()) layer.label = espLayerLabel(context, grammar, i);
                 layer.readers += (layer.readers.empty() ? "" : ", ") + grammarName(work.scene(), g);
             }
@@ -41,7 +46,8 @@ std::vector<Layer> layersOf(const Workspace& work) {
         layers.push_back(layer);
     }
     for (const auto& known : espalier::scene::townLayers(context))
-        for (Layer& layer : layers) layer.painted |= layer.town && layer.name == known.name && known.painted;
+        for (Layer& layer : layers)
+            layer.painted |= layer.town && channelsOf(work.scene(), layer.name)[0] == known.name && known.painted;
     std::ranges::stable_partition(layers, [](const Layer& layer) { return !layer.town; });
     return layers;
 }
@@ -57,12 +63,20 @@ void chosenLayer(Workspace& work, const Layer& layer) {
         ImGui::SameLine(0, gap);
         return pressed;
     };
+    const Brush& brush = work.brush;
     char fill[160];
     std::snprintf(fill, sizeof fill,
                   "Fills the whole layer with the brush's value, %.2f. Where nothing was painted it is %.2f",
-                  work.brush.value, layer.fill);
-    if (button("Clear", "Fills the whole layer with 0")) work.perform(FillLayer{layer.name, 0});
-    if (button("Fill", fill)) work.perform(FillLayer{layer.name, work.brush.value});
+                  brush.value, layer.fill[0]);
+    if (layer.colour()) {
+        if (button("Clear", "Fills the whole layer with the grammar's own colour"))
+            work.perform(FillLayer{layer.name, 0, layer.fill});
+        if (button("Fill", "Fills the whole layer with the brush's colour"))
+            work.perform(FillLayer{layer.name, 0, {std::begin(brush.colour), std::end(brush.colour)}});
+    } else {
+        if (button("Clear", "Fills the whole layer with 0")) work.perform(FillLayer{layer.name, 0});
+        if (button("Fill", fill)) work.perform(FillLayer{layer.name, brush.value});
+    }
     if (button("Import", layer.town ? "A picture (.png, .exr) of the town from above, north up, as Export writes it"
                                     : "A picture (.png, .exr) over the surface's atlas (F5), as Export writes it"))
         askForLayer(layer.name, true);
@@ -76,15 +90,16 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     ImGui::PopStyleVar();
     ImGui::NewLine();
     ImGui::PushTextWrapPos(0);
-    if (!layer.painted && work.brush.value == layer.fill) {
+    if (!layer.painted && !layer.colour() && brush.value == layer.fill[0]) {
         char text[200];
         std::snprintf(text, sizeof text,
                       "All of %s is %.2g, and the brush paints %.2g: a stroke changes nothing. Clear it first.",
-                      layer.name.c_str(), layer.fill, work.brush.value);
+                      layer.name.c_str(), layer.fill[0], brush.value);
         hint(text);
     }
-    if (!layer.painted && work.brush.value != layer.fill)
-        ImGui::TextDisabled("Not painted yet: all of it is %.2g.", layer.fill);
+    if (!layer.painted && !layer.colour() && brush.value != layer.fill[0])
+        ImGui::TextDisabled("Not painted yet: all of it is %.2g.", layer.fill[0]);
+    if (!layer.painted && layer.colour()) ImGui::TextDisabled("Not painted yet.");
     if (layer.town) ImGui::TextDisabled("Drag over the roofs: paint falls straight down.");
     ImGui::PopTextWrapPos();
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sample_game/theme.hpp"
+#include "tools/scene/picture.hpp"
 
 namespace sample {
 namespace {
@@ -225,14 +226,24 @@ bool chosenButton(const char* label, bool on, glm::vec2 size) {
     return pressed;
 }
 
-float encodeSrgb(float linear) {
-    return linear <= .0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - .055f;
+namespace scene = espalier::scene;
+
+uint32_t shownColour(const float (&rgb)[3]) {
+    return ImColor(scene::srgbOf(rgb[0]), scene::srgbOf(rgb[1]), scene::srgbOf(rgb[2]));
+}
+
+bool editColour(const char* id, float* rgb) {
+    float shown[3];
+    for (int i = 0; i < 3; ++i) shown[i] = scene::srgbOf(rgb[i]);
+    if (!ImGui::ColorEdit3(id, shown, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_DisplayHex)) return false;
+    for (int i = 0; i < 3; ++i) rgb[i] = scene::linearOf(shown[i]);
+    return true;
 }
 
 uint32_t viewColour(EspView view, float amount) {
     float rgb[3]{}, most = 0;
     (void)espViewColour(view, amount, rgb, &most);
-    return ImColor(encodeSrgb(rgb[0]), encodeSrgb(rgb[1]), encodeSrgb(rgb[2]));
+    return shownColour(rgb);
 }
 
 void hint(const char* text) {

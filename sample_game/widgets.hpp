@@ -29,7 +29,11 @@ bool chosenButton(const char* label, bool on, glm::vec2 size);  // lit while `on
 void rowLabel(const char* text);  // the words before a widget, which takes the rest of the row
 // ImGui::SameLine if something so wide still fits in the row.
 void sameLineIfRoom(float width);
-float encodeSrgb(float linear);
+// A linear colour, as ImGui has colours.
+uint32_t shownColour(const float (&rgb)[3]);
+// A field and a picker for a linear colour, as a grammar's text writes it; a click on the field at its end opens the
+// picker.
+bool editColour(const char* id, float* rgb);
 // espViewColour's, as ImGui has colours; black: it has none.
 uint32_t viewColour(EspView view, float amount);
 void hint(const char* text);   // what keeps the user from seeing anything happen

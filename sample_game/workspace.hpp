@@ -21,10 +21,11 @@ struct Brush {
     float radius = .25f;         // metres
     float townRadius = 3;        // of layers over a town, whose houses are seen from afar
     float strength = .6f, hardness = .5f, value = 1;
-    float spacing = .3f;              // of the radius, between two dabs
-    bool limited = false;             // to slopes and heights
-    float slope[2] = {0, 180};        // degrees between the surface's normal and the upward
-    float height[2] = {-1e6f, 1e6f};  // metres
+    float colour[3] = {.54f, .1f, .02f};  // of layers of colours, linear, in place of the value
+    float spacing = .3f;                  // of the radius, between two dabs
+    bool limited = false;                 // to slopes and heights
+    float slope[2] = {0, 180};            // degrees between the surface's normal and the upward
+    float height[2] = {-1e6f, 1e6f};      // metres
     float softness = .3f;
     bool frontOnly = false;
 };

@@ -64,6 +64,8 @@ struct ParamDeclaration {
 struct ContextDeclaration {
     std::string name, label;
     ExprId fill = kNoExpr;
+    bool colour = false;
+    float rgb[3] = {};
     Place place;
 };
 

@@ -17,6 +17,10 @@ Node Expressions::call(const Expr& e, Env& env) {
     bool qualified = name.rfind("context.", 0) == 0;
     if (qualified) name = name.substr(8);
     if (contextByName_.count(name) != 0) return layer(name, e, env);
+    if (colourContexts_.count(name) != 0)
+        return fail(e.place, env,
+                    "'" + name + "' is a layer of colours: write Colour(" + name + "(texCoord)), or " + name +
+                        ".r(texCoord), .g and .b");
     if (mistaken(name)) return graph_.mistake();
     if (qualified) {
         std::vector<std::string> candidates;
@@ -44,7 +48,7 @@ Node Expressions::call(const Expr& e, Env& env) {
 }
 
 Node Expressions::layer(const std::string& name, const Expr& e, const Env& env) {
-    used_.insert(name);
+    used_.insert(name.substr(0, name.find('.')));
     auto named = [&](const char* word) {
         return e.kids.size() == 1 && module_.exprs[e.kids[0]].kind == ExprKind::name &&
                module_.exprs[e.kids[0]].text == word;
@@ -197,10 +201,15 @@ Node Expressions::angleTo(const Expr& e, Env& env) {
 bool Expressions::lowerColour(const std::vector<ExprId>& args, const Place& place, Env& env, Node (&rgb)[3]) {
     if (args.size() == 1) {
         const Expr& e = module_.exprs[args[0]];
+        const std::string name = e.text.rfind("context.", 0) == 0 ? e.text.substr(8) : e.text;
+        if (e.kind == ExprKind::call && colourContexts_.count(name) != 0) {
+            for (uint32_t i = 0; i < 3; ++i) rgb[i] = layer(name + kChannels[i], e, env);
+            return !graph_.isMistaken(rgb[0]);
+        }
         auto found = e.kind == ExprKind::name ? paramByName_.find(e.text) : paramByName_.end();
         if (found == paramByName_.end() && mistaken(e.text)) return false;
         if (found == paramByName_.end() || params[found->second].kind != ParamKind::colour) {
-            fail(place, env, "Colour takes a colour parameter or three numbers");
+            fail(place, env, "Colour takes a colour parameter, a layer of colours or three numbers");
             return false;
         }
         used_.insert(e.text);
@@ -208,15 +217,10 @@ bool Expressions::lowerColour(const std::vector<ExprId>& args, const Place& plac
         return true;
     }
     if (args.size() != 3) {
-        fail(place, env, "Colour takes a colour parameter or three numbers");
+        fail(place, env, "Colour takes a colour parameter, a layer of colours or three numbers");
         return false;
     }
-    for (int i = 0; i < 3; ++i) {
-        rgb[i] = lower(args[i], env);
-        if (graph_.isConstant(rgb[i]) || graph_[rgb[i]].uniform) continue;
-        fail(place, env, "Colour may use numbers and parameters only");
-        return false;
-    }
+    for (int i = 0; i < 3; ++i) rgb[i] = lower(args[i], env);
     return true;
 }
 

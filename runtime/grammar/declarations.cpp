@@ -60,23 +60,36 @@ void Expressions::declareParam(const ParamDeclaration& p, uint32_t& slots) {
     params.push_back(std::move(info));
 }
 
+// False: there is no room for it.
+bool Expressions::declareContext(const ContextDeclaration& c) {
+    if (contexts.size() + (c.colour ? 3 : 1) > kMaxLayers) {
+        reporter_.error(c.place, c.name, "too many context layers: 16 are the most, a colour counting as three");
+        return false;
+    }
+    const std::string& label = c.label.empty() ? c.name : c.label;
+    const auto add = [&](const std::string& name, float fill) {
+        contextByName_[name] = static_cast<uint32_t>(contexts.size());
+        contexts.push_back({name, label, fill});
+    };
+    if (c.colour) {
+        colourContexts_.insert(c.name);
+        for (uint32_t i = 0; i < 3; ++i) add(c.name + kChannels[i], c.rgb[i]);
+    } else {
+        const float fill = constantOf(c.fill, c.name, 1.0f);
+        if (fill < 0 || fill > 1) reporter_.error(c.place, c.name, "a layer's default lies between 0 and 1");
+        add(c.name, fill);
+    }
+    return true;
+}
+
 void Expressions::declare() {
     uint32_t slots = 0;
     for (const ParamDeclaration& p : module_.params) {
         declareParam(p, slots);
         if (slots > kMaxParams) break;
     }
-    for (const ContextDeclaration& c : module_.contexts) {
-        if (!takeName(c.name, c.place)) continue;
-        if (contexts.size() == kMaxLayers) {
-            reporter_.error(c.place, c.name, "too many context layers: 16 are the most");
-            break;
-        }
-        float fill = constantOf(c.fill, c.name, 1.0f);
-        if (fill < 0 || fill > 1) reporter_.error(c.place, c.name, "a layer's default lies between 0 and 1");
-        contextByName_[c.name] = static_cast<uint32_t>(contexts.size());
-        contexts.push_back({c.name, c.label.empty() ? c.name : c.label, fill});
-    }
+    for (const ContextDeclaration& c : module_.contexts)
+        if (takeName(c.name, c.place) && !declareContext(c)) break;
     for (uint32_t i = 0; i < module_.lets.size(); ++i)
         if (takeName(module_.lets[i].name, module_.lets[i].place)) letByName_[module_.lets[i].name] = i;
 }

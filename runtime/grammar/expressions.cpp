@@ -99,8 +99,8 @@ Node Expressions::lowerName(const std::string& name, const Place& place, Env& en
         return unknown(name, place, env);
     }
     if (const AccessorInfo* info = findAccessor(name)) return accessor(*info, place, env);
-    if (contextByName_.count(base == "context" ? part : name) != 0) {
-        std::string layerName = base == "context" ? part : name;
+    const std::string layerName = base == "context" ? name.substr(dot + 1) : name;
+    if (contextByName_.count(layerName) != 0 || colourContexts_.count(layerName) != 0) {
         return fail(place, env, "a painted layer is read at a place: write " + layerName + "(texCoord)");
     }
     if (name == "texCoord" || name == "normal" || name == "heading" || name == "position")

@@ -40,6 +40,8 @@ class LetScope {
     std::vector<std::pair<std::string, Node>> args_;
 };
 
+inline constexpr const char* kChannels[3] = {".r", ".g", ".b"};
+
 // Turns expressions into graph nodes; knows the declarations.
 class Expressions {
   public:
@@ -56,7 +58,7 @@ class Expressions {
     // A vector of 2 or 3 parts (`size`; of two the last part is 0): an accessor, vec2, vec3, cross, unit, sums,
     // products with numbers, a let of such. False: reported.
     bool lowerVector(ExprId expr, Env& env, Node (&xyz)[3], int& size);
-    // Three nodes of a colour: a colour parameter or three numbers. False: reported.
+    // Three nodes of a colour: a colour parameter, a layer of colours or three numbers. False: reported.
     bool lowerColour(const std::vector<ExprId>& args, const Place& place, Env& env, Node (&rgb)[3]);
     // A layer's name, as a constant: its number in the grammar + 1. Of grammars of roofs.
     Node layerNumber(ExprId id, Env& env);
@@ -83,6 +85,7 @@ class Expressions {
     bool vectorCall(const Expr& e, Env& env, Node (&xyz)[3], int& size);
     float constantOf(ExprId expr, const std::string& rule, float otherwise);
     void declareParam(const ParamDeclaration& p, uint32_t& slots);
+    bool declareContext(const ContextDeclaration& c);
     bool enterLet(const std::string& name, const Place& place, const Env& env);
     Node failTooDeep(const Place& place, const Env& env);
     bool takeName(const std::string& name, const Place& place);
@@ -103,6 +106,7 @@ class Expressions {
     Graph& graph_;
     std::map<std::string, uint32_t> paramByName_, contextByName_, letByName_;
     std::set<std::string> names_, used_, activeLets_;
+    std::set<std::string> colourContexts_;  // each is three contexts, its name with kChannels behind it
     uint64_t work_ = 0;
     bool roofs_ = false;
     uint32_t nesting_ = 0;  // calls of lower and lowerVector under way

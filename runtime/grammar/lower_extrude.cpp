@@ -229,10 +229,11 @@ class ExtrudeLowering {
         StageReads gate, body;
         c_.generate({&d.count, 1}, gate, gate, d.record.gate, {&d.record.count, 1}, d.place, d.rule);
         Node size = bark ? g_.mul(d.scope.size, g_.constant(0.5f)) : d.scope.size;
-        // What a choice within Repeat leaves out has no size.
-        Node roots[6] = {
+        // What a choice within Repeat leaves out has no size. Bark has its material's colour.
+        Node roots[9] = {
             g_.select(d.gate, size, g_.zero()), d.scope.t, d.scope.lift, d.scope.turn, d.scope.pitch, d.scope.tint};
-        Value values[6];
+        for (uint32_t i = 0; i < 3; ++i) roots[6 + i] = bark ? g_.one() : d.scope.colour[i];
+        Value values[9];
         c_.generate(roots, body, body, d.record.body, values, d.place, d.rule);
         TerminalRecord& r = d.record;
         r.size = values[0];
@@ -241,9 +242,7 @@ class ExtrudeLowering {
         r.turn = values[3];
         r.pitch = values[4];
         r.tint = values[5];
-        StageReads none;
-        CodeRange empty;
-        c_.generate(d.scope.colour, none, body, empty, r.colour, d.place, d.rule);
+        std::copy(values + 6, values + 9, r.colour);
         r.gateFirstSite = c_.storeSites(gate);
         r.gateSiteCount = static_cast<uint32_t>(gate.sites.size());
         r.bodyFirstSite = c_.storeSites(body);

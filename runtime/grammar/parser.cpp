@@ -145,17 +145,20 @@ class Parser {
         includes.push_back(tokens_[at_++]);
         accept(";");
     }
+    bool acceptColour(float (&rgb)[3]) {
+        if (!at(TokenKind::colour)) return false;
+        std::copy(now().rgb, now().rgb + 3, rgb);
+        ++at_;
+        return true;
+    }
     void param() {
         ++at_;
         ParamDeclaration p;
         p.place = now().place;
         p.name = rule_ = expectName("the parameter's name");
         expect("=", "and the default behind the parameter's name");
-        if (at(TokenKind::colour)) {
-            p.colour = true;
-            std::copy(now().rgb, now().rgb + 3, p.rgb);
-            ++at_;
-        } else {
+        p.colour = acceptColour(p.rgb);
+        if (!p.colour) {
             p.toggle = atName("true") || atName("false");
             p.standard = expression();
         }
@@ -179,7 +182,7 @@ class Parser {
         ContextDeclaration c;
         c.place = now().place;
         c.name = rule_ = expectName("the painted layer's name");
-        if (accept("=")) c.fill = expression();
+        if (accept("=") && !(c.colour = acceptColour(c.rgb))) c.fill = expression();
         if (at(TokenKind::string)) c.label = tokens_[at_++].text;
         accept(";");
         module_.contexts.push_back(std::move(c));

@@ -195,6 +195,9 @@ uint32_t featuresOf(const RuleMap& map, const RuleMapRef& ref) {
     for (uint32_t i = 0; i < ref.codeCount; ++i)
         if (isHardOperation(RuleMapAccess::record<CodeWord>(map, kSectionCode, i).bits & 31u))
             features |= kFeatureHardCode;
+    for (uint32_t i = 0; i < ref.terminalCount; ++i)
+        for (const Value& channel : RuleMapAccess::record<TerminalRecord>(map, kSectionTerminals, i).colour)
+            if (channel.slot != kSlotImmediate) features |= kFeatureColours;
     if (inputs & kInputsOfWorld) features |= kFeatureWorld;
     if (layers || (inputs & kInputCurvature)) features |= kFeatureSurface;
     return features;

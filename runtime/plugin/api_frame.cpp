@@ -6,6 +6,7 @@
 #include "runtime/gpu/commands.hpp"
 #include "runtime/plugin/context.hpp"
 #include "runtime/render/host_formats.hpp"
+#include "shaders/render/frame_records.h"
 #include "shaders/render/heat.h"
 
 namespace espalier {
@@ -65,6 +66,14 @@ std::optional<uint32_t> layerToShow(EspContext& context, const std::string& name
     return sceneLayer(context, name, 0);
 }
 
+// The number of a layer, or those of a layer of colours; kNoIndex: no surface has it.
+uint32_t layersToShow(EspContext& context, const std::string& name) {
+    if (const auto grey = layerToShow(context, name)) return *grey;
+    const auto red = layerToShow(context, name + ".r"), green = layerToShow(context, name + ".g"),
+               blue = layerToShow(context, name + ".b");
+    return red && green && blue ? colourLayers(*red, *green, *blue) : kNoIndex;
+}
+
 EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     look.sunDirection = vec(from.sunDirection);
     look.sunColor = vec(from.sunColour);
@@ -88,7 +97,7 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     }
     if (from.view == ESP_VIEW_LAYER) {
         const std::string name = from.viewLayer ? from.viewLayer : "";
-        look.layer = layerToShow(context, name).value_or(kNoIndex);
+        look.layer = layersToShow(context, name);
         if (look.layer == kNoIndex && !(context.town && context.town->layers.find(name)))
             return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
     }

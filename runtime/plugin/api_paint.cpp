@@ -116,7 +116,9 @@ EspResult begin(EspContext& context, const EspBrush& brush, EspStroke* out) {
     stroke.layer = brush.layer;
     stroke.radius = brush.radius;
     stroke.smooths = brush.mode == ESP_BRUSH_SMOOTH;
-    stroke.brush = recordOf(brush, declaredFill(context, brush.layer).value_or(0));
+    float erased = 0;
+    if (!espLayerFilled(&context, brush.layer, &erased)) erased = declaredFill(context, brush.layer).value_or(0);
+    stroke.brush = recordOf(brush, erased);
     out->id = context.strokes.insert(std::move(stroke));
     return out->id ? ESP_OK : fail(&context, ESP_OUT_OF_MEMORY, "espBeginStroke: no ids left");
 }
@@ -209,6 +211,7 @@ EspResult swap(EspContext& context, PaintStroke& stroke) {
     if (stroke.open) return fail(&context, ESP_INVALID_ARGUMENT, "espSwapStroke: the stroke has not been ended");
     context.device->hostSubmitted();
     swapTown(context, stroke);
+    if (stroke.filled) std::swap(*stroke.filled, context.filled[stroke.layer]);
     for (PaintStroke::Part& part : stroke.parts) {
         if (!paintedLayer(context, part.surface, stroke.layer)) continue;
         Result<std::vector<uint64_t>> swapped =
@@ -245,6 +248,7 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
     Status filled = context.painter->fill(jobs, value);
     if (!filled) return failGpu(&context, filled.failure());
+    stroke.filled = std::exchange(context.filled[name], value);
     return keepEnded(context, std::move(stroke), out);
 }
 
@@ -328,6 +332,14 @@ EspResult espFillLayer(EspContext* context, const char* layer, float value, EspS
             return fail(context, ESP_INVALID_ARGUMENT, "espFillLayer: null pointer, no name, or a value beyond 0 to 1");
         return fillLayer(*context, layer, value, out);
     });
+}
+
+int espLayerFilled(const EspContext* context, const char* layer, float* value) {
+    if (!context || !layer || !value) return 0;
+    const auto found = context->filled.find(layer);
+    if (found == context->filled.end() || !found->second) return 0;
+    *value = *found->second;
+    return 1;
 }
 
 }  // extern "C"

@@ -151,6 +151,9 @@ struct PaintStroke {
     std::vector<Part> parts;
     uint64_t town = 0;  // LoadedTown::number that `plan` is of
     PlanRecord plan;
+    // Of one that fills the whole layer: the layer's entry in EspContext::filled before it, or once it is undone,
+    // after.
+    std::optional<std::optional<float>> filled;
 };
 
 // Inputs that couldn't be grown, and why. What failed fails again, and trying it anew in each frame would only cost;
@@ -242,7 +245,8 @@ struct EspContext {
     espalier::IdTable<espalier::PlantedSeed> seeds;
     std::vector<espalier::PaintedLayer> layers;
     espalier::IdTable<espalier::PaintStroke> strokes;
-    std::unique_ptr<espalier::Painter> painter;  // made with the first stroke
+    std::map<std::string, std::optional<float>> filled;  // what layers were filled with as a whole: erasing leads there
+    std::unique_ptr<espalier::Painter> painter;          // made with the first stroke
     std::vector<espalier::SceneLayer> sceneLayers;
     espalier::TwinTable twins;
     std::vector<espalier::GrammarVariant> variants;

@@ -39,8 +39,8 @@ struct Look {
                               // quick pictures, too
     bool quick = false;       // on a software device fewer samples and twigs, for pictures that move
     ViewMode view = ViewMode::shaded;
-    uint32_t layer =
-        0;  // for ViewMode::layer: index into DrawInputs::layers' 16 a surface; kNoIndex: only roofs have it
+    // For ViewMode::layer: index into DrawInputs::layers' 16 a surface, or colourLayers; kNoIndex: only roofs have it.
+    uint32_t layer = 0;
     float layerOpacity = 1;
     BrushLimits limits = kNoLimits;  // that layer is hatched beyond them
     uint32_t level = 0;              // for ViewMode::charts

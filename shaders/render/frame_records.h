@@ -14,6 +14,11 @@ CONST_UINT(kViewLayer, 4u);
 CONST_UINT(kViewDepth, 5u);
 CONST_UINT(kViewOverdraw, 6u);
 
+// Three numbers of layers in FrameRecord::layer, where the view of a layer shows one of colours.
+CONST_UINT(kColourLayers, 1u << 24u);
+FN uint colourLayers(uint red, uint green, uint blue) { return kColourLayers | red | (green << 8u) | (blue << 16u); }
+FN bool isColourLayers(uint layer) { return (layer >> 24u) == 1u; }
+
 CONST_FLOAT(kNoGround, -1e30f);   // below everything
 
 // Constants of programs: do they draw another view than the shaded one? Do textures hold square roots of colours? Are
@@ -40,7 +45,7 @@ struct FrameRecord {
     vec3 skyColor;
     uint view;
     vec3 groundColor;
-    uint layer;              // that is seen; of charts: their level
+    uint layer;              // that is seen, or colourLayers; of charts: their level
     vec3 background;
     uint shadows;
     vec3 horizon;

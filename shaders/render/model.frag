@@ -41,6 +41,13 @@ float hatching() {
     return 1.0 - 0.7 * kept * smoothstep(0.25, 0.35, across);
 }
 
+float painted(uint index) {
+    LayerRef layer = frame.layers.v[push.surface * kMaxLayers + index];
+    if (u64(layer.texels) == 0ul) return layer.fill;
+    uvec2 at = min(uvec2(clamp(uvs.zw, 0.0, 1.0) * float(layer.size)), uvec2(layer.size - 1u));
+    return layer.texels.v[texelIndex(layer.size, at.x, at.y)];
+}
+
 vec4 otherView(vec3 n) {
     uint view = frame.view;
     if (view == kViewNormals) return stored(n * 0.5 + 0.5, 0.0);
@@ -55,14 +62,11 @@ vec4 otherView(vec3 n) {
         if ((level.crossingHead.v[at] & 255u) != 0u) shown = mix(shown, vec3(1.0), 0.6);
         if (frame.layer > 0u && ((at ^ (at >> 3u)) & 1u) != 0u) shown *= 0.8;
         shown = withBuried(shown, level);
-    } else if (push.surface != kNoIndex && view == kViewLayer && frame.layer < kMaxLayers) {
-        LayerRef layer = frame.layers.v[push.surface * kMaxLayers + frame.layer];
-        float x = layer.fill;
-        if (u64(layer.texels) != 0ul) {
-            uvec2 at = min(uvec2(clamp(uvs.zw, 0.0, 1.0) * float(layer.size)), uvec2(layer.size - 1u));
-            x = layer.texels.v[texelIndex(layer.size, at.x, at.y)];
-        }
-        shown = withBuried(layerColor(x), frame.surfaces.v[push.surface].levels[0]);
+    } else if (push.surface != kNoIndex && view == kViewLayer && frame.layer != kNoIndex) {
+        uint layer = frame.layer;
+        shown = isColourLayers(layer) ? vec3(painted(layer & 255u), painted((layer >> 8u) & 255u), painted((layer >> 16u) & 255u)) :
+                layerColor(painted(layer));
+        shown = withBuried(shown, frame.surfaces.v[push.surface].levels[0]);
     }
     return diagnostic(shown, n);
 }

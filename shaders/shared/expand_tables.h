@@ -17,15 +17,16 @@ ESPALIER_BEGIN
 //   blind: the condition asks nothing of the place.
 // Successor, 8 words: 0 symbol | ordinal << 16 | arguments << 24 | continues << 28, 1 hash of the symbol's name,
 //   2 code, 3 slots of the arguments, 4 to 7 their immediates
-// Terminal, 15 words: 0 mesh | smoothness << 8 | bark << 10 | gate's sites << 16 | body's sites << 24, 1 site,
+// Terminal, 18 words: 0 mesh | smoothness << 8 | bark << 10 | coloured << 11 | gate's sites << 16 | body's sites << 24, 1 site,
 //   2 code of the gate, 3 code of the body, 4 first site of the gate | of the body << 16,
-//   5 slots of count, size, t, lift, 6 of turn, pitch, tint, 7 to 13 immediates of these seven, 14 packed colour
+//   5 slots of count, size, t, lift, 6 of turn, pitch, tint, 7 to 13 immediates of these seven,
+//   14 packed colour, or, of one that is coloured leaf by leaf, slots of red, green and blue, whose immediates are 15 to 17
 // Extrude program, 4 words: 0 first terminal | terminals << 16, 1 hash of its name, 2 inputs, 3 layers
 // Code, 2 words each as CodeWord. Sites, 1 word each.
 CONST_UINT(kSymbolWords, 5u);
 CONST_UINT(kRuleWords, 9u);
 CONST_UINT(kSuccessorWords, 8u);
-CONST_UINT(kTerminalWords, 15u);
+CONST_UINT(kTerminalWords, 18u);
 CONST_UINT(kExtrudeWords, 4u);
 
 // Kernels that define ESPALIER_TABLES read the words from a uniform buffer, which on software devices costs half of
@@ -42,6 +43,7 @@ layout(binding = 0, scalar) uniform TableWords { uint tableWords[kUniformTableWo
 CONST_UINT(kRuleBlind, 1u << 24u);
 CONST_UINT(kPackedContinues, 1u << 28u);
 CONST_UINT(kPackedBark, 1u << 10u);
+CONST_UINT(kPackedColoured, 1u << 11u);
 
 FN uint packPair(uint low, uint high) { return (low & 0xFFFFu) | (high << 16u); }
 FN uint packSlots(uint a, uint b, uint c, uint d) { return (a & 127u) | ((b & 127u) << 8u) | ((c & 127u) << 16u) | (d << 24u); }
@@ -88,7 +90,9 @@ FN void packTerminal(TerminalRecordBuf from, UintBuf to, uint base, uint i) {
     TerminalRecord t = from.v[i];
     uint at = base + i * kTerminalWords;
     uint bark = (t.flags & kTerminalBark) != 0u ? kPackedBark : 0u;
-    to.v[at] = (t.mesh & 255u) | ((t.smoothness & 3u) << 8u) | bark | ((t.gateSiteCount & 255u) << 16u) |
+    bool same = t.colour[0].slot == kSlotImmediate && t.colour[1].slot == kSlotImmediate && t.colour[2].slot == kSlotImmediate;
+    uint coloured = same ? 0u : kPackedColoured;
+    to.v[at] = (t.mesh & 255u) | ((t.smoothness & 3u) << 8u) | bark | coloured | ((t.gateSiteCount & 255u) << 16u) |
                (t.bodySiteCount << 24u);
     to.v[at + 1u] = t.site;
     to.v[at + 2u] = packPair(t.gate.first, t.gate.count);
@@ -104,7 +108,8 @@ FN void packTerminal(TerminalRecordBuf from, UintBuf to, uint base, uint i) {
     to.v[at + 12u] = floatBitsToUint(t.pitch.immediate);
     to.v[at + 13u] = floatBitsToUint(t.tint.immediate);
     vec3 colour = vec3(t.colour[0].immediate, t.colour[1].immediate, t.colour[2].immediate);
-    to.v[at + 14u] = packLeafTint(0.0f, colour, 0u);
+    to.v[at + 14u] = same ? packLeafTint(0.0f, colour, 0u) : packSlots(t.colour[0].slot, t.colour[1].slot, t.colour[2].slot, 0u);
+    for (uint k = 0u; k < 3u; ++k) to.v[at + 15u + k] = floatBitsToUint(from.v[i].colour[k].immediate);
 }
 
 FN void packExtrude(ExtrudeRecordBuf from, UintBuf to, uint base, uint i) {

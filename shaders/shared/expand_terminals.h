@@ -124,6 +124,14 @@ FN void emitLeaf(LEAVES_PARAM ExpandEnv env, INOUT(NodeSite) site, LeafDraft dra
     takeLeaf(LEAVES env, site, draft);
 }
 
+// Of a terminal that is coloured leaf by leaf, whose slots stand at `at`; packed.
+FN uint leafColour(MACHINE_PARAM ExpandEnv env, uint at) {
+    uint slots = TABLE(at);
+    return packLeafTint(0.0f, vec3(packedValue(MACHINE slots & 127u, TABLE(at + 1u)),
+                                   packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 2u)),
+                                   packedValue(MACHINE (slots >> 16u) & 127u, TABLE(at + 3u))), 0u);
+}
+
 // Runs the node's program. One loop over gates and bodies alike: a trip makes an instance, or evaluates a gate that
 // has code of its own.
 FN float runTerminals(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, TableBases map, uint first, uint end,
@@ -178,6 +186,7 @@ FN float runTerminals(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, TableBases map, 
             draft.tint = packedValue(MACHINE (more >> 16u) & 127u, TABLE(at + 13u));
             draft.mesh = head & 255u;
             draft.colour = TABLE(at + 14u);
+            if ((kFeatures & kFeatureColours) != 0u && (head & kPackedColoured) != 0u) draft.colour = leafColour(MACHINE env, at + 14u);
             draft.word = 0u;
             emitLeaf(LEAVES env, site, draft, along, key, cell);
         }

@@ -232,7 +232,7 @@ struct TerminalRecord {
     Value turn;          // radians about the normal, from the heading to the left
     Value pitch;         // radians, away from the surface
     Value tint;          // 0..1
-    Value colour[3];     // linear, 0..1, the same for all instances (immediates)
+    Value colour[3];     // linear, 0..1
 };
 STATIC_SIZE(TerminalRecord, 128);
 
@@ -250,10 +250,11 @@ CONST_UINT(kFeatureKnown, 1u);
 CONST_UINT(kFeatureWorld, 2u);      // inputs that take the place in the world: normal, heading, angles, slope, height
 CONST_UINT(kFeatureSurface, 4u);    // layers, curvature
 CONST_UINT(kFeatureHardCode, 8u);   // operations from kOpFloor on that aren't a single instruction
-CONST_UINT(kFeatureDensity, 16u);   // the last two are asked for by GrowthLimits: a cap on leaves,
-CONST_UINT(kFeatureJoints, 32u);    // and the paper's tangents
-CONST_UINT(kRuleFeatures, 15u);
-CONST_UINT(kAllFeatures, 63u);
+CONST_UINT(kFeatureColours, 16u);   // leaves whose colour isn't the same wherever their shape is drawn
+CONST_UINT(kFeatureDensity, 32u);   // the last two are asked for by GrowthLimits: a cap on leaves,
+CONST_UINT(kFeatureJoints, 64u);    // and the paper's tangents
+CONST_UINT(kRuleFeatures, 31u);
+CONST_UINT(kAllFeatures, 127u);
 #if !defined(__cplusplus) && defined(ESPALIER_TABLES)
 layout(constant_id = 2) const uint kFeatures = kAllFeatures;
 #else

@@ -208,7 +208,7 @@ TEST_CASE("angles are read from the degrees that are written of them, to the bit
 TEST_CASE("a project of a newer program is refused by name, a mangled one with its place") {
     const Folder folder;
     folder.write("mangled.json", "{\"project\": 1,\n \"surfaces\": []}");
-    folder.write("newer.json", "{\"project\": 2,\n \"unheard\": 1}");
+    folder.write("newer.json", "{\"project\": 3,\n \"unheard\": 1}");
     const std::string capture = program("espalier-capture") + " -o " + folder.file("out") + " ";
     const Ran newer = run(capture + folder.file("newer.json"));
     CHECK(newer.code > 0);
@@ -361,9 +361,9 @@ Version anyVersion(std::mt19937& random, Editing& editing) {
     perform(FreezeSeeds{{first}, true});
     for (const uint32_t grammar : {0u, 1u}) perform(SetParam{grammar, {"reach", {chance(.4f, 1.2f)}}});
     for (const char* layer : kLayers) {
-        auto noise = std::make_shared<espalier::scene::GreyPicture>(128, 128, std::vector<float>(128 * 128));
-        for (float& texel : noise->texels) texel = chance(.4f, 1);
-        perform(LoadLayer{layer, "", 0, noise});
+        espalier::scene::GreyPicture noise{128, 128, std::vector<float>(128 * 128)};
+        for (float& texel : noise.texels) texel = chance(.4f, 1);
+        perform(LoadLayer{layer, "", 0, std::make_shared<std::vector<espalier::scene::GreyPicture>>(1, noise)});
     }
     Version version{{}, editing.hash(), layersOf(editing)};
     REQUIRE_MESSAGE(gather(*editing.document, version.data, editing.error), editing.error);

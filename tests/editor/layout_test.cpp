@@ -34,8 +34,8 @@ auto remembered(const Layout& of) {
 
 // Of a brush what it is like, not what it goes over.
 auto remembered(const Brush& of) {
-    const auto& [layer, mode, radius, townRadius, strength, hardness, value, spacing, limited, slope, height, softness,
-                 frontOnly] = of;
+    const auto& [layer, mode, radius, townRadius, strength, hardness, value, colour, spacing, limited, slope, height,
+                 softness, frontOnly] = of;
     (void)layer, (void)mode, (void)value, (void)limited, (void)slope, (void)height, (void)softness, (void)frontOnly;
     return std::tuple(radius, townRadius, strength, hardness, spacing);
 }

@@ -63,6 +63,10 @@ TEST_CASE("a window that rests shows what was undone with its own shadows") {
 
 TEST_CASE("Esc stops growth that takes long, and the next change grows") {
     if (!hasDisplay()) return;
+#ifdef __SANITIZE_ADDRESS__
+    MESSAGE("skipped: a sanitizer takes no library that is loaded before it");
+    return;
+#endif
     const Folder folder;
     std::string seeds;
     for (int i = 0; i < 200; ++i)

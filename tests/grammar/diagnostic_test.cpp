@@ -71,6 +71,15 @@ TEST_CASE("mistakes are named with place, rule and hint") {
          "only arguments that the branch hands on unchanged"},
         {"context mask\nA -> Marching(0.1, 0, mask) {A}", "write mask(texCoord)"},
         {"A -> Marching(0.1, 0, context.mask(texCoord)) {A}", "no context layer 'mask' is declared"},
+        {"context tint = #ff0000\nA -> Marching(0.1, 0, tint(texCoord)) {A}",
+         "'tint' is a layer of colours: write Colour(tint"},
+        {"context tint = #ff0000\nA -> Marching(0.1, 0, true) {A, Colour(tint) S(1) Shape(\"leaf\")}",
+         "Colour takes a colour"},
+        {"context tint = #ff0000\nA -> Marching(0.1, 0, tint.x(texCoord)) {A}", "'tint.x'"},
+        {"context a context b context c context d context e context f context g context h context i context j context "
+         "k "
+         "context l context m context n context tint = #ff0000\nB -> Marching(0.1, 0, true) {B}",
+         "too many context layers: 16 are the most, a colour counting as three"},
         {"param rand = 1\nA -> Marching(0.1, 0, true) {A}", "'rand' is the name of a function"},
         {"param p = 5 [0 .. 1]\nA -> Marching(p, 0, true) {A}", "the default lies outside the range"},
         {"param p = 1 [1 .. 0]\nA -> Marching(p, 0, true) {A}", "the range is empty"},

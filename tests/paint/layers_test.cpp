@@ -31,7 +31,11 @@ TEST_CASE("a layer that no grammar reads any more makes room for another") {
         CHECK(painting.grown().nodes == free);
         // It is this layer that the plant heeds, not the one whose number it got.
         EspStroke forbidden{};
+        float value = -1;
+        CHECK(espLayerFilled(painting.context, layer.c_str(), &value) == 0);
         painting.ok(espFillLayer(painting.context, layer.c_str(), 0, &forbidden));
+        CHECK(espLayerFilled(painting.context, layer.c_str(), &value) == 1);
+        CHECK(value == 0);
         CHECK(painting.grown().nodes < free / 4);
         painting.ok(espDestroyStroke(painting.context, forbidden));
     }

@@ -152,11 +152,13 @@ struct StrokeBegin {
     std::array<float, 2> height{-1e6f, 1e6f};                        // metres
     float softness = 0;
     bool frontOnly = false;
+    std::vector<float> colour = {};  // of a layer of colours, in place of the value: red, green, blue, linear
     template <class V>
     void fields(V&& v) {
         v("layer", layer), v("mode", mode), v("radius", radius), v("value", value), v("strength", strength);
         v("hardness", hardness), v("slope", slope), v("height", height), v("softness", softness);
         v("front_only", frontOnly);
+        v.optional("colour", colour);
     }
     bool operator==(const StrokeBegin&) const = default;
 };
@@ -177,13 +179,15 @@ struct FillLayer {
     static constexpr const char* kName = "fill";
     std::string layer;
     float value = 0;
+    std::vector<float> colour = {};  // as of StrokeBegin
     template <class V>
     void fields(V&& v) {
         v("layer", layer), v("value", value);
+        v.optional("colour", colour);
     }
 };
-// What a file holds, if it was read already; no part of a run.
-using Picture = std::shared_ptr<const scene::GreyPicture>;
+// What a file holds, if it was read already: a picture for each of scene::channelsOf; no part of a run.
+using Picture = std::shared_ptr<const std::vector<scene::GreyPicture>>;
 // From a picture in the surface's walk UVs.
 struct LoadLayer {
     static constexpr const char* kName = "load_layer";

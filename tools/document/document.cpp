@@ -8,6 +8,7 @@
 
 #include "tools/document/layer_history.hpp"
 #include "tools/scene/daylight.hpp"
+#include "tools/scene/layers.hpp"
 
 namespace espalier::document {
 namespace {
@@ -75,7 +76,7 @@ bool overwrites(const Action& earlier, const Action& later) {
 }  // namespace
 
 Document::~Document() {
-    if (stroking()) espDestroyStroke(context_, stroke_);
+    for (EspStroke stroke : strokes_) espDestroyStroke(context_, stroke);
 }
 
 bool Document::failed(EspResult result, std::string& error) const {

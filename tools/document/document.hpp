@@ -57,8 +57,8 @@ class Document {
     const scene::Scene& scene() const { return scene_; }
     EspContext* context() const { return context_; }
     const scene::Seed* seed(uint32_t key) const;
-    bool stroking() const { return stroke_.id != 0; }
-    // One surface's layer over its walk UVs, the first row at v = 0.
+    bool stroking() const { return !strokes_.empty(); }
+    // One surface's layer over its walk UVs, the first row at v = 0; of a layer of colours one of scene::channelsOf.
     bool readLayer(size_t surface, const std::string& layer, scene::GreyPicture& out, std::string& error) const;
     // A layer over the town's site, the first row in the north.
     bool readTownLayer(const std::string& layer, scene::GreyPicture& out, std::string& error) const;
@@ -107,6 +107,7 @@ class Document {
     void keep(std::vector<Step>& steps);
     bool failed(EspResult result, std::string& error) const;
     std::vector<Param> paramsOf(uint32_t grammar) const;
+    bool takeBack(std::vector<Action>& back);
     bool moveSeeds(const ChangeSeeds& action);
     bool plant(std::string& error);
     bool replant(const std::vector<scene::Seed>& before, std::string& error);
@@ -118,7 +119,7 @@ class Document {
     scene::Scene scene_;
     bool allPlanted_ = true;
     std::vector<Step> done_, undone_;
-    EspStroke stroke_{};  // open
+    std::vector<EspStroke> strokes_;  // open: one for each channel of a layer
     bool strokeHasDabs_ = false;
     std::string strokeName_;  // its nameOf()
     uint64_t revision_ = 0;

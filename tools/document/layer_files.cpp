@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tools/document/durable.hpp"
+#include "tools/scene/layers.hpp"
 
 namespace espalier::document {
 
@@ -22,7 +23,7 @@ namespace {
 
 struct Exported {
     std::string path;
-    scene::GreyPicture picture;
+    std::vector<scene::GreyPicture> channels;  // one, or red, green and blue
 };
 
 // All of them or, before the first is whole, none.
@@ -30,11 +31,12 @@ bool writePictures(std::vector<Exported> pictures, Progress& progress, std::stri
     std::deque<Unfinished> files;
     const float each = 1 / float(pictures.size());
     for (Exported& e : pictures) {
-        const scene::GreyPicture picture = std::move(e.picture);
+        const std::vector<scene::GreyPicture> channels = std::move(e.channels);
         const float written = float(files.size());
         const auto goOn = [&](float part) { return progress.at((written + part) * each); };
         const auto write = [&](const std::string& beside, std::string& why) {
-            return writeGrey(beside, picture, why, goOn);
+            return channels.size() > 1 ? writeColours(beside, channels, why, goOn)
+                                       : writeGrey(beside, channels[0], why, goOn);
         };
         if (!goOn(0) || !files.emplace_back(e.path).write(write, error)) return false;
     }
@@ -44,7 +46,7 @@ bool writePictures(std::vector<Exported> pictures, Progress& progress, std::stri
 struct Imported {
     std::string path;
     scene::PictureShape shape;
-    std::shared_ptr<const scene::GreyPicture> picture;  // null: its surface keeps its layer
+    Picture picture;  // null: its surface keeps its layer
 };
 
 // Texels a side.
@@ -65,18 +67,19 @@ std::string describe(const Imported& p, uint32_t side) {
     if (p.shape.width != side || p.shape.height != side)
         text = std::to_string(p.shape.width) + " x " + std::to_string(p.shape.height) + ", resampled to " +
                std::to_string(side) + " x " + std::to_string(side);
-    if (p.shape.channels > 2) text += std::string(text.empty() ? "" : "; ") + "of its colours the red";
+    if (p.shape.channels > 2 && p.picture->size() == 1)
+        text += std::string(text.empty() ? "" : "; ") + "of its colours the red";
     return text.empty() ? text : name + " is " + text;
 }
 
-bool readPictures(std::vector<Imported>& pictures, Progress& progress, std::string& error) {
+bool readPictures(std::vector<Imported>& pictures, bool colour, Progress& progress, std::string& error) {
     for (size_t i = 0; i < pictures.size(); ++i) {
         Imported& p = pictures[i];
         std::error_code ignored;
         if (!progress.at(float(i) / float(pictures.size()))) return false;
         if (i > 0 && !fs::exists(p.path, ignored)) continue;
-        const auto picture = std::make_shared<scene::GreyPicture>();
-        if (!readShape(p.path, p.shape, error) || !readGrey(p.path, *picture, error)) return false;
+        const auto picture = std::make_shared<std::vector<scene::GreyPicture>>();
+        if (!readShape(p.path, p.shape, error) || !readChannels(p.path, colour, *picture, error)) return false;
         p.picture = picture;
     }
     return progress.at(1);
@@ -98,10 +101,12 @@ Work::Plan exporting(const Document& document, const std::string& layer, bool to
     for (size_t i = 0; i < pictures->size(); ++i) {
         Exported& e = (*pictures)[i];
         e.path = town ? path : pictureOf(document, path, i);
-        plan.before.push_back([&document, &e, layer, town, i](std::string& error) {
-            return town ? document.readTownLayer(layer, e.picture, error)
-                        : document.readLayer(i, layer, e.picture, error);
-        });
+        for (const std::string& channel : channelsOf(document.scene(), layer))
+            plan.before.push_back([&document, &e, channel, town, i](std::string& error) {
+                scene::GreyPicture& picture = e.channels.emplace_back();
+                return town ? document.readTownLayer(channel, picture, error)
+                            : document.readLayer(i, channel, picture, error);
+            });
     }
     plan.beside = [pictures](Progress& progress, std::string& error) {
         return writePictures(std::move(*pictures), progress, error);
@@ -118,8 +123,8 @@ Work::Plan importing(Document& document, const std::string& layer, bool town, co
     Work::Plan plan;
     const auto pictures = std::make_shared<std::vector<Imported>>(town ? 1 : document.scene().surfaces.size());
     const auto note = plan.note = std::make_shared<std::string>();
-    plan.beside = [pictures](Progress& progress, std::string& error) {
-        return readPictures(*pictures, progress, error);
+    plan.beside = [pictures, colour = isColour(document.scene(), layer)](Progress& progress, std::string& error) {
+        return readPictures(*pictures, colour, progress, error);
     };
     for (uint32_t i = 0; i < pictures->size(); ++i) {
         Imported& p = (*pictures)[i];
@@ -128,7 +133,7 @@ Work::Plan importing(Document& document, const std::string& layer, bool town, co
             const Action load =
                 town ? Action(LoadTownLayer{layer, p.path, p.picture}) : Action(LoadLayer{layer, p.path, i, p.picture});
             if (p.picture && !document.perform(load, error, gesture)) return false;
-            const std::string said = describe(p, sideOf(document, layer, town, i));
+            const std::string said = describe(p, sideOf(document, channelsOf(document.scene(), layer)[0], town, i));
             p.picture.reset();
             *note += (note->empty() || said.empty() ? "" : "\n") + said;
             return true;

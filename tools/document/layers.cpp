@@ -5,6 +5,7 @@
 #include "tools/document/document.hpp"
 #include "tools/document/fields.hpp"
 #include "tools/document/layer_history.hpp"
+#include "tools/scene/layers.hpp"
 #include "tools/scene/named.hpp"
 
 namespace espalier::document {
@@ -15,10 +16,16 @@ bool modeNamed(const std::string& name, EspBrushMode& mode) {
     return scene::valueNamed(kModes, name, mode);
 }
 
-Picture pictureIn(const Picture& known, const std::string& file, std::string& error) {
-    if (known) return known;
-    const auto read = std::make_shared<scene::GreyPicture>();
-    return readGrey(file, *read, error) ? read : nullptr;
+Picture pictureIn(const Picture& known, const scene::Scene& scene, const std::string& layer, const std::string& file,
+                  std::string& error) {
+    if (known && known->size() == channelsOf(scene, layer).size()) return known;
+    const auto read = std::make_shared<std::vector<scene::GreyPicture>>();
+    return readChannels(file, isColour(scene, layer), *read, error) ? read : nullptr;
+}
+
+// What one channel of a layer is painted with.
+float valueOf(const std::vector<float>& colour, float value, size_t channel) {
+    return channel < colour.size() ? colour[channel] : value;
 }
 
 }  // namespace
@@ -79,7 +86,18 @@ bool Document::carryOut(const StrokeBegin& action, std::vector<Action>&, std::st
     if (!brushOf(action, brush, error)) return false;
     strokeHasDabs_ = false;
     strokeName_ = nameOf(action);
-    return !failed(espBeginStroke(context_, &brush, &stroke_), error);
+    const std::vector<std::string> channels = channelsOf(scene_, action.layer);
+    for (size_t c = 0; c < channels.size(); ++c) {
+        brush.layer = channels[c].c_str();
+        brush.value = valueOf(action.colour, action.value, c);
+        EspStroke stroke{};
+        if (failed(espBeginStroke(context_, &brush, &stroke), error)) {
+            for (EspStroke begun : std::exchange(strokes_, {})) espDestroyStroke(context_, begun);
+            return false;
+        }
+        strokes_.push_back(stroke);
+    }
+    return true;
 }
 
 bool Document::carryOut(const StrokeDabs& action, std::vector<Action>&, std::string& error) {
@@ -91,7 +109,9 @@ bool Document::carryOut(const StrokeDabs& action, std::vector<Action>&, std::str
     for (const auto& d : action.dabs) dabs.push_back({{d[0], d[1], d[2]}, {d[3], d[4], d[5]}, d[6]});
     if (dabs.empty()) return true;
     strokeHasDabs_ = true;
-    return !failed(espStrokeDabs(context_, stroke_, dabs.data(), uint32_t(dabs.size())), error);
+    return std::ranges::all_of(strokes_, [&](EspStroke stroke) {
+        return !failed(espStrokeDabs(context_, stroke, dabs.data(), uint32_t(dabs.size())), error);
+    });
 }
 
 bool Document::carryOut(const StrokeEnd&, std::vector<Action>& back, std::string& error) {
@@ -99,18 +119,31 @@ bool Document::carryOut(const StrokeEnd&, std::vector<Action>& back, std::string
         error = "no stroke has begun";
         return false;
     }
-    const EspStroke ended = std::exchange(stroke_, {});
-    const bool good = !failed(espEndStroke(context_, ended), error);
-    const auto record = std::make_shared<StrokeRecord>(context_, ended);
-    if (good && strokeHasDabs_) back.push_back(SwapStroke{record});
+    bool good = true;
+    for (EspStroke ended : std::exchange(strokes_, {})) {
+        good = !failed(espEndStroke(context_, ended), error) && good;
+        const auto record = std::make_shared<StrokeRecord>(context_, ended);
+        if (strokeHasDabs_) back.push_back(SwapStroke{record});
+    }
     return good;
 }
 
 bool Document::carryOut(const FillLayer& action, std::vector<Action>& back, std::string& error) {
-    EspStroke filled{};
-    if (failed(espFillLayer(context_, action.layer.c_str(), action.value, &filled), error)) return false;
-    back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, filled)});
+    const std::vector<std::string> channels = channelsOf(scene_, action.layer);
+    for (size_t c = 0; c < channels.size(); ++c) {
+        EspStroke filled{};
+        const float value = valueOf(action.colour, action.value, c);
+        if (failed(espFillLayer(context_, channels[c].c_str(), value, &filled), error)) return takeBack(back);
+        back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, filled)});
+    }
     return true;
+}
+
+// Of several channels some were painted before one failed.
+bool Document::takeBack(std::vector<Action>& back) {
+    for (const Action& swap : back) espSwapStroke(context_, std::get<SwapStroke>(swap).stroke->stroke);
+    back.clear();
+    return false;
 }
 
 bool Document::carryOut(const SwapStroke& action, std::vector<Action>& back, std::string& error) {
@@ -124,25 +157,32 @@ bool Document::carryOut(const LoadLayer& action, std::vector<Action>& back, std:
         error = "there is no surface " + std::to_string(action.surface);
         return false;
     }
-    const Picture picture = pictureIn(action.picture, action.file, error);
+    const Picture picture = pictureIn(action.picture, scene_, action.layer, action.file, error);
     if (!picture) return false;
-    EspLayerDef def;
-    EspStroke stroke{};
-    if (failed(scene::walkLayer(context_, scene_.surfaces[action.surface].id, action.layer, *picture, def), error) ||
-        failed(espImportLayer(context_, &def, &stroke), error))
-        return false;
-    back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, stroke)});
+    const std::vector<std::string> channels = channelsOf(scene_, action.layer);
+    const EspSurface surface = scene_.surfaces[action.surface].id;
+    for (size_t c = 0; c < channels.size(); ++c) {
+        EspLayerDef def;
+        EspStroke stroke{};
+        if (failed(scene::walkLayer(context_, surface, channels[c], (*picture)[c], def), error) ||
+            failed(espImportLayer(context_, &def, &stroke), error))
+            return takeBack(back);
+        back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, stroke)});
+    }
     return true;
 }
 
 bool Document::carryOut(const LoadTownLayer& action, std::vector<Action>& back, std::string& error) {
-    const Picture picture = pictureIn(action.picture, action.file, error);
-    EspStroke stroke{};
-    if (!picture || failed(espSetTownLayer(context_, action.layer.c_str(), picture->texels.data(), picture->width,
-                                           picture->height, &stroke),
-                           error))
-        return false;
-    back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, stroke)});
+    const Picture picture = pictureIn(action.picture, scene_, action.layer, action.file, error);
+    if (!picture) return false;
+    const std::vector<std::string> channels = channelsOf(scene_, action.layer);
+    for (size_t c = 0; c < channels.size(); ++c) {
+        const scene::GreyPicture& p = (*picture)[c];
+        EspStroke stroke{};
+        if (failed(espSetTownLayer(context_, channels[c].c_str(), p.texels.data(), p.width, p.height, &stroke), error))
+            return takeBack(back);
+        back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, stroke)});
+    }
     return true;
 }
 

@@ -9,6 +9,7 @@
 #include "tools/document/durable.hpp"
 #include "tools/scene/hash.hpp"
 #include "tools/scene/json_out.hpp"
+#include "tools/scene/layers.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/text_file.hpp"
 
@@ -177,6 +178,10 @@ ProjectData outline(const Document& document) {
             out.layers.push_back({espPaintedLayerName(context, i), int(surface), {}});
     for (uint32_t i = 0; i < espTownLayerCount(context); ++i)
         out.layers.push_back({espTownLayerName(context, i), scene::SceneLayer::kTown, {}});
+    std::ranges::stable_sort(out.layers, {}, &ProjectData::Layer::name);  // not by when each was painted
+    for (const std::string& layer : document.scene().layers)
+        for (const std::string& name : channelsOf(document.scene(), layer))
+            if (float value; espLayerFilled(context, name.c_str(), &value)) out.file.filled.push_back({name, value});
     return out;
 }
 

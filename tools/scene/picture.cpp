@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <span>
 
 #include "tools/scene/text_file.hpp"
 
@@ -44,6 +46,21 @@ std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path, std::stri
     return input;
 }
 
+// Whole numbers, which pictures hold as sRGB where they are colours.
+bool storesIntegers(const OIIO::ImageSpec& spec) {
+    return !spec.format.is_floating_point();
+}
+
+void limit(std::vector<float>& texels) {
+    for (float& texel : texels) texel = texel > 0 ? std::min(texel, 1.f) : 0;  // what is no number is 0, too
+}
+
+bool damaged(const std::string& path, const OIIO::ImageInput& input, std::string& error) {
+    const std::string why = input.geterror();
+    error = path + ": is damaged: " + why.substr(0, why.find('\n'));
+    return false;
+}
+
 template <class T>
 bool read(const std::string& path, int channels, OIIO::TypeDesc type, uint32_t& width, uint32_t& height,
           std::vector<T>& texels, std::string& error) {
@@ -54,11 +71,8 @@ bool read(const std::string& path, int channels, OIIO::TypeDesc type, uint32_t& 
     width = uint32_t(spec.width);
     height = uint32_t(spec.height);
     texels.assign(size_t(width) * height * channels, T(channels < 4 ? 0 : type.is_floating_point() ? 1 : 255));
-    if (!input->read_image(0, 0, 0, read, type, texels.data(), channels * sizeof(T))) {
-        const std::string why = input->geterror();
-        error = path + ": is damaged: " + why.substr(0, why.find('\n'));
-        return false;
-    }
+    if (!input->read_image(0, 0, 0, read, type, texels.data(), channels * sizeof(T)))
+        return damaged(path, *input, error);
     const bool greyAlpha = read == 2 && spec.alpha_channel == 1;
     if (channels == 4 && read < 3)
         for (size_t i = 0; i < texels.size(); i += 4) {
@@ -70,9 +84,31 @@ bool read(const std::string& path, int channels, OIIO::TypeDesc type, uint32_t& 
 
 }  // namespace
 
+float linearOf(float srgb) {
+    return srgb <= .04045f ? srgb / 12.92f : std::pow((srgb + .055f) / 1.055f, 2.4f);
+}
+float srgbOf(float linear) {
+    return linear <= .0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - .055f;
+}
+
 bool readGrey(const std::string& path, GreyPicture& out, std::string& error) {
     if (!read(path, 1, OIIO::TypeDesc::FLOAT, out.width, out.height, out.texels, error)) return false;
-    for (float& texel : out.texels) texel = texel > 0 ? std::min(texel, 1.f) : 0;  // what is no number is 0, too
+    limit(out.texels);
+    return true;
+}
+
+bool readLinear(const std::string& path, int channel, GreyPicture& out, std::string& error) {
+    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, error);
+    if (!input) return false;
+    const OIIO::ImageSpec& spec = input->spec();
+    const int from = spec.nchannels < 3 ? 0 : channel;
+    out.width = uint32_t(spec.width);
+    out.height = uint32_t(spec.height);
+    out.texels.resize(size_t(out.width) * out.height);
+    if (!input->read_image(0, 0, from, from + 1, OIIO::TypeDesc::FLOAT, out.texels.data()))
+        return damaged(path, *input, error);
+    limit(out.texels);
+    if (storesIntegers(spec)) std::ranges::transform(out.texels, out.texels.begin(), linearOf);
     return true;
 }
 
@@ -93,35 +129,47 @@ bool readColour(const std::string& path, ColourPicture& out, std::string& error)
 
 namespace {
 
-bool writeRows(OIIO::ImageOutput& output, const GreyPicture& picture, const std::function<bool(float)>& goOn) {
+using Channels = std::span<const GreyPicture>;
+
+// Rows y to end, channels beside each other.
+std::vector<float> rowsOf(Channels channels, uint32_t y, uint32_t end, bool srgb) {
+    const size_t first = size_t(y) * channels[0].width, count = size_t(end - y) * channels[0].width;
+    std::vector<float> rows(count * channels.size());
+    for (size_t i = 0; i < count; ++i)
+        for (size_t c = 0; c < channels.size(); ++c) {
+            const float texel = channels[c].texels[first + i];
+            rows[i * channels.size() + c] = srgb ? srgbOf(texel) : texel;
+        }
+    return rows;
+}
+
+bool writeRows(OIIO::ImageOutput& output, Channels channels, bool srgb, const std::function<bool(float)>& goOn) {
     constexpr uint32_t kRows = 256;
-    for (uint32_t y = 0; y < picture.height; y += kRows) {
-        if (goOn && !goOn(float(y) / float(picture.height))) return false;
-        const uint32_t end = std::min(y + kRows, picture.height);
-        if (!output.write_scanlines(int(y), int(end), 0, OIIO::TypeDesc::FLOAT,
-                                    &picture.texels[size_t(y) * picture.width]))
+    const uint32_t height = channels[0].height;
+    for (uint32_t y = 0; y < height; y += kRows) {
+        if (goOn && !goOn(float(y) / float(height))) return false;
+        const uint32_t end = std::min(y + kRows, height);
+        if (!output.write_scanlines(int(y), int(end), 0, OIIO::TypeDesc::FLOAT, rowsOf(channels, y, end, srgb).data()))
             return false;
     }
     return true;
 }
 
-}  // namespace
-
-bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error,
-               const std::function<bool(float)>& goOn) {
+bool writeChannels(const std::string& path, Channels channels, std::string& error,
+                   const std::function<bool(float)>& goOn) {
     const bool floats = std::filesystem::path(path).extension() == ".exr";
     // By way of memory: the picture library doesn't tell of a disk that is full. It outlives the output, which writes
     // into it to its own end where it wasn't closed.
     OIIO::Filesystem::IOVecOutput bytes;
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path);
-    OIIO::ImageSpec spec(int(picture.width), int(picture.height), 1,
+    OIIO::ImageSpec spec(int(channels[0].width), int(channels[0].height), int(channels.size()),
                          floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT16);
     spec["png:compressionLevel"] = 1;
     spec["compression"] = "zips";
     spec["DateTime"] = "1970:01:01 00:00:00";  // else EXR holds when it was written, and no two files are the same
-    spec.channelnames = {"Y"};
+    if (channels.size() == 1) spec.channelnames = {"Y"};
     const bool good = output && output->set_ioproxy(&bytes) && output->open(path, spec) &&
-                      writeRows(*output, picture, goOn) && output->close();
+                      writeRows(*output, channels, channels.size() > 1 && !floats, goOn) && output->close();
     if (!good) {
         error = path + ": can't be written: " + (output ? output->geterror() : OIIO::geterror());
         return false;
@@ -132,6 +180,18 @@ bool writeGrey(const std::string& path, const GreyPicture& picture, std::string&
     file.close();
     if (!file) error = path + ": can't be written: " + systemReason();
     return bool(file);
+}
+
+}  // namespace
+
+bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error,
+               const std::function<bool(float)>& goOn) {
+    return writeChannels(path, {&picture, 1}, error, goOn);
+}
+
+bool writeColours(const std::string& path, const std::vector<GreyPicture>& channels, std::string& error,
+                  const std::function<bool(float)>& goOn) {
+    return writeChannels(path, channels, error, goOn);
 }
 
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error) {

@@ -26,16 +26,27 @@ struct FloatPicture {
 // The first channel of a picture (of a grey one the only, of a coloured one red), limited to [0, 1]. `error` names file
 // and cause. Pictures of more than 8192 texels a side are refused.
 bool readGrey(const std::string& path, GreyPicture& out, std::string& error);
+// One of a picture's colours (0 red, 1 green, 2 blue; a grey picture's only channel), limited to [0, 1] and linear:
+// whole numbers are sRGB, floats are as they are. Else as readGrey.
+bool readLinear(const std::string& path, int channel, GreyPicture& out, std::string& error);
 // What readGrey would find, from the file's beginning.
 bool readShape(const std::string& path, PictureShape& out, std::string& error);
 bool readColour(const std::string& path, ColourPicture& out, std::string& error);
 // With all the precision that the file has; whole numbers as parts of their greatest.
 bool readFloats(const std::string& path, FloatPicture& out, std::string& error);
 
+// sRGB's curve: from linear, and to it.
+float srgbOf(float linear);
+float linearOf(float srgb);
+
 // Writes one channel: 16 bits as .png, floats as .exr. `goOn` is told now and then how much of it is encoded, 0 to 1;
 // when it returns false the picture isn't written.
 bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error,
                const std::function<bool(float)>& goOn = {});
+
+// Likewise red, green and blue, linear and of one size: sRGB as .png, as they are as .exr.
+bool writeColours(const std::string& path, const std::vector<GreyPicture>& channels, std::string& error,
+                  const std::function<bool(float)>& goOn = {});
 
 // Writes a PNG as writeText does (text_file.hpp).
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error);

@@ -1,5 +1,6 @@
 // A scene file -> surfaces, grammars, layers in a context, and what to plant and how to look.
 #include "tools/scene/scene.hpp"
+#include "tools/scene/layers.hpp"
 
 #include <unistd.h>
 
@@ -108,22 +109,29 @@ bool loadTown(EspContext* context, Scene& out, std::string& error) {
 
 namespace {
 
-bool layLayer(EspContext* context, const Scene& scene, const SceneLayer& layer, std::string& error) {
-    GreyPicture picture;
-    if (!readGrey(layer.file, picture, error)) return false;
-    if (layer.surface == SceneLayer::kTown)
+bool layChannel(EspContext* context, const Scene& scene, const std::string& name, const GreyPicture& picture,
+                int surface, std::string& error) {
+    if (surface == SceneLayer::kTown)
         return fromContext(
             context,
-            espSetTownLayer(context, layer.name.c_str(), picture.texels.data(), picture.width, picture.height, nullptr),
+            espSetTownLayer(context, name.c_str(), picture.texels.data(), picture.width, picture.height, nullptr),
             error);
     for (size_t i = 0; i < scene.surfaces.size(); ++i) {
-        if (layer.surface >= 0 && size_t(layer.surface) != i) continue;
+        if (surface >= 0 && size_t(surface) != i) continue;
         EspLayerDef def;
-        if (!fromContext(context, walkLayer(context, scene.surfaces[i].id, layer.name, picture, def), error))
-            return false;
-        if (layer.surface < 0) def.space = ESP_LAYER_MATERIAL_UV;
+        if (!fromContext(context, walkLayer(context, scene.surfaces[i].id, name, picture, def), error)) return false;
+        if (surface < 0) def.space = ESP_LAYER_MATERIAL_UV;
         if (!fromContext(context, espSetLayer(context, &def), error)) return false;
     }
+    return true;
+}
+
+bool layLayer(EspContext* context, const Scene& scene, const SceneLayer& layer, std::string& error) {
+    std::vector<GreyPicture> pictures;
+    if (!readChannels(layer.file, isColour(scene, layer.name), pictures, error)) return false;
+    const std::vector<std::string> channels = channelsOf(scene, layer.name);
+    for (size_t c = 0; c < channels.size(); ++c)
+        if (!layChannel(context, scene, channels[c], pictures[c], layer.surface, error)) return false;
     return true;
 }
 
@@ -232,12 +240,16 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
     if (!out.site.empty()) parts.begin(out.site);
     if (!out.site.empty() && !furnish(context, out.site, error)) return false;
     noteLayers(context, out);
+    for (const auto& [name, value] : file.filled) {
+        EspStroke filled{};
+        if (!fromContext(context, espFillLayer(context, name.c_str(), value, &filled), error)) return false;
+        espDestroyStroke(context, filled);
+    }
     for (const SceneLayer& layer : file.layers) {
         parts.begin(layer.file);
         // What was painted before a grammar's text lost its layer stays in a project; a scene may paint layers that
         // only some grammar, given in place of its own, doesn't read.
-        const bool read = std::ranges::find(out.layers, layer.name) != out.layers.end();
-        if (!read && !file.project) continue;
+        if (!readsLayer(out, layer.name) && !file.project) continue;
         if (!layLayer(context, out, layer, error)) return false;
     }
     out.camera = espFrameAll(context);
@@ -264,17 +276,6 @@ EspTransform Placing::transform() const {
     return {{{c, 0, s, position[0]}, {0, scale, 0, position[1]}, {-s, 0, c, position[2]}}};
 }
 
-void noteLayers(const EspContext* context, Scene& scene) {
-    scene.layers.clear();
-    const auto note = [&](const std::string& name) {
-        if (std::ranges::find(scene.layers, name) == scene.layers.end()) scene.layers.push_back(name);
-    };
-    for (const LoadedGrammar& grammar : scene.grammars)
-        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i) note(espLayerName(context, grammar.id, i));
-    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i) note(espPaintedLayerName(context, i));
-    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) note(espTownLayerName(context, i));
-}
-
 bool openScene(EspContext* context, const Request& asked, Scene& out, std::string& error) {
     namespace fs = std::filesystem;
     Request request = asked;
@@ -292,7 +293,7 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     if (!fromContext(context, espSetGrow(context, &out.grow), error)) return false;
     noteLayers(context, out);
     for (const auto& [name, picture] : request.layers) {
-        if (std::ranges::find(out.layers, name) == out.layers.end()) {
+        if (!readsLayer(out, name)) {
             error = picture + ": no grammar of this scene reads a layer '" + name + "'";
             return false;
         }

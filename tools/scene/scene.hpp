@@ -98,7 +98,8 @@ struct Scene {
     std::string site;  // file of what furnishes it; empty: nothing does
     EspGrowDef grow = espDefaultGrowDef();
     std::vector<std::string> layers;  // that grammars read; then those that are painted and that none reads any more
-    std::vector<std::string> notes;   // what of the file couldn't be kept, a line each
+    std::vector<std::string> colourLayers;  // those of them that are colours (tools/scene/layers.hpp)
+    std::vector<std::string> notes;         // what of the file couldn't be kept, a line each
     EspCamera camera{};
     EspLook ownLook{};      // as the file says
     EspLook look{};         // that, with the light of the hour
@@ -125,9 +126,6 @@ bool setText(EspContext* context, LoadedGrammar& grammar, const std::string& tex
 
 // Values that aren't the grammar's own.
 std::vector<ParamValue> changedParams(const EspContext* context, EspGrammar grammar);
-
-// The names of all layers that the grammars read, or that surfaces or the town are painted with, into scene.layers.
-void noteLayers(const EspContext* context, Scene& scene);
 
 // The folder with the content that is installed beside the running program.
 std::string contentFolder();

@@ -23,8 +23,8 @@ class Reader {
     void readScene(const Json& json) {
         if (!readVersion(json)) return;
         if (!isObject(json, "a scene",
-                      {"project", "surface", "surfaces", "town", "pruned", "walk", "grammars", "layers", "camera",
-                       "sun", "sky", "ground", "site", "exposure"}))
+                      {"project", "surface", "surfaces", "town", "pruned", "walk", "grammars", "filled", "layers",
+                       "camera", "sun", "sky", "ground", "site", "exposure"}))
             return;
         readSurfaces(json);
         if (const Json* grammars = need(json, "grammars")) {
@@ -38,6 +38,10 @@ class Reader {
         if (const Json* walk = json.find("walk");
             walk && (walk->kind != Json::Kind::text || !walkNamed(walk->text, out_.walk)))
             fail(*walk, "'walk' must be \"intrinsic\" or \"paper\"");
+        if (const Json* filled = json.find("filled")) {
+            if (filled->kind != Json::Kind::object) fail(*filled, "'filled' must be an object");
+            for (const auto& [name, value] : filled->members) readFilled(name, value);
+        }
         if (const Json* layers = json.find("layers")) {
             if (layers->kind != Json::Kind::object) fail(*layers, "'layers' must be an object");
             for (const auto& [name, picture] : layers->members) readLayer(name, picture);
@@ -190,10 +194,25 @@ class Reader {
         }
     }
     // Projects name files by their layers, so that a name must be no path.
-    void readLayer(const std::string& name, const Json& json) {
+    void needLayersName(const std::string& name, const Json& json) {
         const auto part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-        if (name.empty() || !std::ranges::all_of(name, part))
-            fail(json, "'" + name + "' is no layer's name: a grammar's are of letters, digits and _");
+        const bool channel = name.ends_with(".r") || name.ends_with(".g") || name.ends_with(".b");
+        const std::string stem = name.substr(0, name.size() - (channel ? 2 : 0));
+        if (stem.empty() || !std::ranges::all_of(stem, part))
+            fail(json,
+                 "'" + name +
+                     "' is no layer's name: a grammar's are of letters, digits and _, and a colour's channels end in "
+                     ".r, .g or .b");
+    }
+    void readFilled(const std::string& name, const Json& json) {
+        needLayersName(name, json);
+        if (json.kind == Json::Kind::number && json.number >= 0 && json.number <= 1)
+            out_.filled.push_back({name, float(json.number)});
+        else
+            fail(json, "a layer is filled with a number from 0 to 1");
+    }
+    void readLayer(const std::string& name, const Json& json) {
+        needLayersName(name, json);
         if (json.kind != Json::Kind::list) return out_.layers.push_back({name, file(json), -1});
         for (const Json& picture : json.items) {
             if (!isObject(picture, "a layer's picture", {"surface", "town", "file"})) continue;

@@ -38,14 +38,15 @@ struct SceneLayer {
 
 // A scene file as it is written (docs/scene_format.md), with paths made relative to the caller's folder.
 struct SceneFile {
-    static constexpr int kProjectVersion = 1;
-    int project = 0;  // version of a project file; 0: a scene that was written by hand
+    static constexpr int kProjectVersion = 2;  // 2: `filled`, layers of colours
+    int project = 0;                           // version of a project file; 0: a scene that was written by hand
     std::vector<SceneSurface> surfaces;
     std::vector<SceneGrammar> grammars;
     std::optional<SceneTown> town;
     std::string site;              // file of what furnishes the scene; empty: nothing does
     std::vector<uint64_t> pruned;  // keys of branches, ascending
     EspWalkMode walk = ESP_WALK_INTRINSIC;
+    std::vector<std::pair<std::string, float>> filled;  // layers that have one value wherever nothing is painted
     std::vector<SceneLayer> layers;
     bool hasCamera = false;
     std::array<float, 3> eye{}, target{};

@@ -98,6 +98,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     }
     json["grammars"] = ordered_json::array();
     for (const SceneGrammar& grammar : file.grammars) json["grammars"].push_back(grammarJson(grammar, beside));
+    for (const auto& [name, value] : file.filled) json["filled"][name] = shortest(value);
     for (const SceneLayer& layer : file.layers) {
         if (layer.surface == SceneLayer::kTown)
             json["layers"][layer.name].push_back({{"town", true}, {"file", beside(layer.file)}});

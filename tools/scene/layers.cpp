@@ -1,0 +1,66 @@
+// Which layers a scene has, those of colours put together.
+#include "tools/scene/layers.hpp"
+
+#include <algorithm>
+
+namespace espalier::scene {
+namespace {
+
+constexpr const char* kChannels[3] = {".r", ".g", ".b"};
+
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+// "tint" for "tint.r", "tint.g" and "tint.b" where all three are there; else the name.
+std::string whole(const std::vector<std::string>& names, const std::string& name) {
+    const std::string stem = name.size() < 3 ? "" : name.substr(0, name.size() - 2);
+    const bool channel =
+        std::ranges::any_of(kChannels, [&](const char* ending) { return !stem.empty() && name == stem + ending; });
+    return channel && std::ranges::all_of(kChannels, [&](const char* e) { return holds(names, stem + e); }) ? stem
+                                                                                                            : name;
+}
+
+}  // namespace
+
+bool isColour(const Scene& scene, const std::string& layer) {
+    return holds(scene.colourLayers, layer);
+}
+
+bool readsLayer(const Scene& scene, const std::string& name) {
+    return holds(scene.layers, name) || std::ranges::any_of(scene.colourLayers, [&](const auto& colour) {
+               return holds(channelsOf(scene, colour), name);
+           });
+}
+
+std::vector<std::string> channelsOf(const Scene& scene, const std::string& layer) {
+    if (!isColour(scene, layer)) return {layer};
+    return {layer + kChannels[0], layer + kChannels[1], layer + kChannels[2]};
+}
+
+void noteLayers(const EspContext* context, Scene& scene) {
+    std::vector<std::string> names;
+    for (const LoadedGrammar& grammar : scene.grammars)
+        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i)
+            names.push_back(espLayerName(context, grammar.id, i));
+    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i) names.push_back(espPaintedLayerName(context, i));
+    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) names.push_back(espTownLayerName(context, i));
+    scene.layers.clear();
+    scene.colourLayers.clear();
+    for (const std::string& name : names) {
+        const std::string layer = whole(names, name);
+        if (holds(scene.layers, layer)) continue;
+        scene.layers.push_back(layer);
+        if (layer != name) scene.colourLayers.push_back(layer);
+    }
+}
+
+bool readChannels(const std::string& path, bool colour, std::vector<GreyPicture>& out, std::string& error) {
+    out.clear();
+    if (!colour) return readGrey(path, out.emplace_back(), error);
+    for (int channel = 0; channel < 3; ++channel)
+        if (!readLinear(path, channel, out.emplace_back(), error)) return false;
+    return true;
+}
+
+}  // namespace espalier::scene

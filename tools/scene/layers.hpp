@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/scene/picture.hpp"
+#include "tools/scene/scene.hpp"
+
+namespace espalier::scene {
+
+// A layer of colours, which grammars declare as `context NAME = #rrggbb`, is three to the plugin: NAME.r, .g and .b. A
+// scene lists it once, in Scene::layers and Scene::colourLayers.
+
+bool isColour(const Scene& scene, const std::string& layer);
+// Whether the scene lists the layer, or one of colours whose channel it is.
+bool readsLayer(const Scene& scene, const std::string& name);
+// The plugin's layers of one of the scene's: red, green and blue, or itself.
+std::vector<std::string> channelsOf(const Scene& scene, const std::string& layer);
+
+// The names of all layers that the grammars read, or that surfaces or the town are painted with, into the scene.
+void noteLayers(const EspContext* context, Scene& scene);
+
+// A file's picture for each channel: three of a layer of colours, else one.
+bool readChannels(const std::string& path, bool colour, std::vector<GreyPicture>& out, std::string& error);
+
+}  // namespace espalier::scene
