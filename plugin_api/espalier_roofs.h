@@ -67,6 +67,25 @@ typedef struct EspHouseEdge {
     float slope;             /* tangent of the pitch; 0: as the shape says */
 } EspHouseEdge;
 
+/* What covers a roof; which of them it draws, and how, is the grammar's business. THATCH to GRASS come from plans. */
+typedef enum EspCovering {
+    ESP_COVERING_ANY = 0,    /* the grammar chooses */
+    ESP_COVERING_TILES = 1, ESP_COVERING_SLATE = 2, ESP_COVERING_METAL = 3, ESP_COVERING_COPPER = 4, ESP_COVERING_THATCH = 5,
+    ESP_COVERING_WOOD = 6, ESP_COVERING_STONE = 7, ESP_COVERING_CONCRETE = 8, ESP_COVERING_ASPHALT = 9,
+    ESP_COVERING_GRAVEL = 10, ESP_COVERING_GLASS = 11, ESP_COVERING_GRASS = 12, ESP_COVERING_PLAIN_TILES = 13,
+    ESP_COVERING_PAN_TILES = 14, ESP_COVERING_BARREL_TILES = 15
+} EspCovering;
+typedef enum EspChimneys { ESP_CHIMNEYS_ANY = 0, ESP_CHIMNEYS_NONE = 1, ESP_CHIMNEYS_ALL = 2 } EspChimneys;
+
+/* How a house's roof is dressed, where that isn't left to the grammar. */
+typedef struct EspHouseLook {
+    EspCovering covering;
+    int coloured;            /* 1: the covering has this colour */
+    float colour[3];         /* linear, 0 to 1, kept with 8 bits; read if it is coloured */
+    float overhang;          /* of the eaves, metres, up to 1; 0: as the grammar says */
+    EspChimneys chimneys;
+} EspHouseLook;
+
 typedef struct EspHouseInfo {
     const char* id;          /* the feature's; lives as long as the town */
     const char* note;        /* what couldn't be made as it was asked for, a line each; "": all was. Until the house changes */
@@ -77,6 +96,7 @@ typedef struct EspHouseInfo {
     uint32_t edgeCount;      /* edges with something of their own */
     float boundsMin[3], boundsMax[3];            /* world */
     uint32_t ringCount;      /* the outer ring and courtyards, in this order */
+    EspHouseLook look;
 } EspHouseInfo;
 
 ESP_API uint32_t espHouseCount(const EspContext* context);
@@ -100,6 +120,7 @@ typedef struct EspHouseDef {
     uint32_t cornerCount;
     const uint32_t* rings;   /* how many of them each ring has, the outer one first; at least 3 */
     uint32_t ringCount;      /* 0: all are of the outer ring, and courtyards stay as they are */
+    const EspHouseLook* look;   /* NULL: as it is */
 } EspHouseDef;
 ESP_API EspResult espSetHouse(EspContext* context, uint32_t house, const EspHouseDef* def);
 /* Back to what the town was loaded with; does nothing where that is what stands. */

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "sample_game/panels.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 
 using namespace espalier::document;
 using espalier::scene::House;
+using espalier::scene::HouseLook;
 using espalier::scene::houseNow;
 
 constexpr float kDegrees = 180 / 3.14159265f;
@@ -77,6 +79,55 @@ void edgePanel(Workspace& work, Edit& edit, House& house) {
     std::erase_if(house.edges, [](const House::Edge& e) { return e.end.empty() && e.slope == 0; });
 }
 
+// What covers the roof, its colour, overhang and chimneys.
+void lookPanel(Workspace& work, Edit& edit, HouseLook& look) {
+    struct Choice {
+        const char *name, *title;
+    };
+    const auto choose = [&](const char* label, std::string& chosen, std::span<const Choice> choices, const char* tip) {
+        rowLabel(label);
+        const auto now = std::ranges::find(choices, chosen, [](const Choice& c) { return std::string(c.name); });
+        ImGui::PushID(label);
+        if (ImGui::BeginCombo("##choice", now == choices.end() ? chosen.c_str() : now->title)) {
+            for (const Choice& choice : choices)
+                if (ImGui::Selectable(choice.title, chosen == choice.name)) {
+                    chosen = choice.name;
+                    edit.note(work, true);
+                }
+            ImGui::EndCombo();
+        }
+        ImGui::PopID();
+        toolTip(tip);
+    };
+    constexpr Choice kCoverings[] = {{"any", "As the grammar says"},   {"tiles", "Tiles of any kind"},
+                                     {"plain_tiles", "Plain tiles"},   {"pan_tiles", "Pan tiles"},
+                                     {"barrel_tiles", "Barrel tiles"}, {"slate", "Slate"},
+                                     {"metal", "Metal sheets"},        {"copper", "Copper"}};
+    constexpr Choice kChimneys[] = {{"any", "As the grammar says"}, {"none", "None"}, {"all", "On every ridge"}};
+    choose("Covering", look.covering, kCoverings, "What lies on the roof; the grammar draws it");
+    bool coloured = !look.colour.empty();
+    const bool switched = ImGui::Checkbox("Colour", &coloured);
+    toolTip("A colour of its own for the covering");
+    edit.note(work, switched);
+    if (switched) look.colour = coloured ? std::vector<float>{.19f, .066f, .04f} : std::vector<float>{};
+    if (coloured) {
+        ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
+        ImGui::SetNextItemWidth(-1);
+        edit.note(work, editColour("##colour", look.colour.data()));
+    }
+    bool overhangs = look.overhang > 0;
+    const bool own = ImGui::Checkbox("Overhang", &overhangs);
+    toolTip("How far the eaves reach over the walls; without it the grammar decides");
+    edit.note(work, own);
+    if (own) look.overhang = overhangs ? .4f : 0;
+    if (overhangs) {
+        ImGui::SameLine(ImGui::GetFontSize() * 6.2f);
+        ImGui::SetNextItemWidth(-1);
+        edit.note(work, slider("##overhang", &look.overhang, .02f, 1, "%.2f m"));
+    }
+    choose("Chimneys", look.chimneys, kChimneys, "On ridges that are long enough");
+}
+
 }  // namespace
 
 void housesPanel(Workspace& work) {
@@ -105,6 +156,7 @@ void housesPanel(Workspace& work) {
                                    std::max(20.f, house.eaveHeight), "%.1f m"));
     toolTip("Height of the eaves above the house's foot");
     pitch(work, edit, "Pitch", house.slope);
+    if (house.look) lookPanel(work, edit, *house.look);
     if (work.houseEdge && *work.houseEdge < house.corners.size()) {
         ImGui::Separator();
         edgePanel(work, edit, house);

@@ -129,6 +129,8 @@ constexpr AccessorInfo kRoofAccessors[] = {
     {"houseColour.g", kSlotHouseColour + 1, Where::onRoofs},
     {"houseColour.b", kSlotHouseColour + 2, Where::onRoofs},
     {"houseTinted", kSlotHouseTinted, Where::onRoofs},
+    {"houseOverhang", kSlotHouseOverhang, Where::onRoofs},
+    {"houseChimneys", kSlotHouseChimneys, Where::onRoofs},
     {"cornerStart", kSlotCorners, Where::onRoofs},
     {"cornerEnd", kSlotCorners + 1, Where::onRoofs},
     {"index", kSlotIndex, Where::onRoofs},

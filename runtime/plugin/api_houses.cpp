@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/roof/colour.hpp"
 #include "runtime/roof/shapes.hpp"
 
 namespace espalier {
@@ -22,6 +23,32 @@ bool finiteDef(const EspHouseDef& def) {
     for (uint32_t i = 0; def.corners && i < 2 * def.cornerCount; ++i)
         if (!std::isfinite(def.corners[i])) return false;
     return true;
+}
+
+bool lookFits(const EspHouseLook& look) {
+    const auto share = [](float c) { return c >= 0 && c <= 1; };
+    return isAmong(look.covering, ESP_COVERING_ANY, ESP_COVERING_BARREL_TILES) &&
+           isAmong(look.chimneys, ESP_CHIMNEYS_ANY, ESP_CHIMNEYS_ALL) && share(look.overhang) &&
+           (!look.coloured || std::ranges::all_of(look.colour, share));
+}
+
+void takeLook(const EspHouseLook& look, Footprint& f) {
+    f.material = RoofMaterial(look.covering);
+    f.colour = 0;
+    for (int c = 0; look.coloured && c < 3; ++c) f.colour |= toSrgb(look.colour[c]) << (8 * c);
+    if (look.coloured) f.colour |= 0xFF000000u;
+    f.overhang = look.overhang;
+    f.chimneys = uint32_t(look.chimneys);
+}
+
+EspHouseLook lookOf(const RoofHouse& house) {
+    EspHouseLook look{};
+    look.covering = EspCovering(house.material);
+    look.coloured = house.colour >> 24 != 0;
+    for (int c = 0; look.coloured && c < 3; ++c) look.colour[c] = fromSrgb(house.colour >> (8 * c) & 255);
+    look.overhang = house.overhang;
+    look.chimneys = EspChimneys(house.chimneys);
+    return look;
 }
 
 // Rings are made of the corners, all of them.
@@ -62,6 +89,7 @@ Footprint changed(const Footprint& from, const RoofHouse& house, const EspHouseD
         f.height.reset();
         f.levels = walls / 3.0;
     }
+    if (def.look) takeLook(*def.look, f);
     f.edges.clear();
     for (uint32_t i = 0; i < def.edgeCount; ++i) {
         EdgeRoof e{def.edges[i].edge, {}, {}};
@@ -160,6 +188,7 @@ EspResult espHouseInfo(const EspContext* context, uint32_t index, EspHouseInfo* 
         out->ridgeHeight = house->ridgeHeight;
         out->edgeCount = uint32_t(house->edges.size());
         out->ringCount = uint32_t(house->rings.size());
+        out->look = lookOf(*house);
         glm::vec2 low(1e30f), high(-1e30f);
         for (const auto& ring : house->rings)
             for (glm::vec2 p : ring) {
@@ -206,7 +235,8 @@ EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* de
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: no such house, or null");
         if (!isAmong(def->shape, ESP_ROOF_HIP, ESP_ROOF_FLAT) || (def->edgeCount && !def->edges) ||
             (def->corners && def->cornerCount < 3) || def->cornerCount > kMostCorners ||
-            def->edgeCount > kMostCorners || !finiteDef(*def) || !ringsFit(*def))
+            def->edgeCount > kMostCorners || !finiteDef(*def) || !ringsFit(*def) ||
+            (def->look && !lookFits(*def->look)))
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: a value out of its range");
         const Footprint& now = footprintOf(*context->town, index);
         return setHouse(*context, index, changed(now, *houseOf(context, index), *def));

@@ -1,6 +1,7 @@
 // A roof structure -> atoms with their targets, the pieces of their outlines and their regions (Buron 2013 §3.1).
 // Planes lean halfway between the two faces that meet in them (Figure 4 d-f), so that tiles of both meet there.
 #include "runtime/roof/atoms.hpp"
+#include "runtime/roof/colour.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,11 +30,6 @@ glm::vec3 unitOr(glm::vec3 v, glm::vec3 other) {
     const float l = glm::length(v);
     return l > 1e-9f ? v / l : other;
 }
-float fromSrgb(uint32_t byte) {
-    const float v = float(byte) / 255;
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
 class HouseAtoms {
   public:
     HouseAtoms(RoofTables& tables, const RoofStructure& structure, uint32_t house, uint32_t number,
@@ -86,7 +82,9 @@ class HouseAtoms {
         atom.region = kNoIndex;
         atom.house = number_;
         atom.tier = tier;
-        atom.style = uint32_t(h_.shape) | (h_.material & 255u) << 8 | ((h_.colour >> 24) != 0 ? 1u << 16 : 0u);
+        atom.style = uint32_t(h_.shape) | (h_.material & 255u) << 8 | ((h_.colour >> 24) != 0 ? 1u << 16 : 0u) |
+                     h_.chimneys << kAtomChimneys;
+        atom.overhang = h_.overhang;
         atom.colour = {fromSrgb(h_.colour & 255), fromSrgb(h_.colour >> 8 & 255), fromSrgb(h_.colour >> 16 & 255)};
         atom.firstPiece = uint32_t(t_.pieces.size());
         if (tier == 0) atom.corners = cornersOf(edge);

@@ -26,7 +26,10 @@ enum class RoofMaterial : uint32_t {
     asphalt,
     gravel,
     glass,
-    grass
+    grass,
+    plainTiles,  // these three are asked for by designers; plans say `tiles`
+    panTiles,
+    barrelTiles
 };
 
 enum class RidgeOrientation : uint32_t { along, across };
@@ -47,7 +50,9 @@ struct Footprint {
     std::optional<double> roofLevels;  // storeys in the roof
     double parapet = 0.6;              // metres, flat roofs
     RoofMaterial material = RoofMaterial::unknown;
-    uint32_t colour = 0;  // 0xAABBGGRR
+    uint32_t colour = 0;    // 0xAABBGGRR
+    float overhang = 0;     // of the eaves, metres; 0: as the grammar says
+    uint32_t chimneys = 0;  // 0: as the grammar says, 1: none, 2: on every ridge
 };
 
 // A town: footprints in plan metres around an origin, and what was wrong with the features that are missing or mended.

@@ -100,6 +100,8 @@ class HouseMaker {
         house.shape = shape;
         house.material = uint32_t(footprint_.material);
         house.colour = footprint_.colour;
+        house.overhang = footprint_.overhang;
+        house.chimneys = footprint_.chimneys;
         for (const auto& ring : outline_.rings) house.rings.emplace_back(ring.begin(), ring.end());
         size_t faces = out.faces.size(), segments = out.segments.size();
         appendHouse(facets, std::move(house), out);

@@ -81,6 +81,8 @@ struct RoofHouse {
     uint32_t firstFace, faceCount;
     uint32_t material;  // RoofMaterial of footprint.hpp
     uint32_t colour;    // 0xAABBGGRR; alpha 0: not given
+    float overhang;     // as of the footprint, as is the next
+    uint32_t chimneys;
 };
 
 struct RoofStructure {

@@ -74,6 +74,7 @@ RoofAtom readAtom(RoofEnv env, uint at) {
     r.random = uintBitsToFloat(g.y);
     r.colour = vec3(uintBitsToFloat(g.zw), h.x);
     r.corners = h.yz;
+    r.overhang = h.w;
     return r;
 }
 RoofRegion readRegion(RoofEnv env, uint at) {

@@ -46,11 +46,13 @@ struct RoofAtom {
     float random;       // of the house
     vec3 colour;        // of the house, linear
     vec2 corners;       // at the eave's begin and end: by how much of its overhang it goes on; below 0 at reflex corners, 0 at gables
+    float overhang;     // of the house, metres; 0: as the grammar says
 };
 STATIC_SIZE(RoofAtom, 128);
-// RoofAtom::style: what is among the outline's pieces.
+// RoofAtom::style: 2 bits of the house, 0: chimneys as the grammar says, 1: none, 2: on every ridge; then what is among the outline's pieces.
 CONST_UINT(kAtomGoesOn, 1u << 17u);    // one with an atom above it
 CONST_UINT(kAtomRidged, 1u << 18u);    // a ridge
+CONST_UINT(kAtomChimneys, 19u);        // first bit
 
 // 80 bytes. A region of a face first, then those that Join makes.
 struct RoofRegion {

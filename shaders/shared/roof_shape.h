@@ -84,6 +84,8 @@ FN void giveShape(MACHINE_PARAM RoofScope shape, RoofAtom atom, RoofRegion face,
     giveVector(MACHINE kSlotHouseColour, atom.colour);
     SLOT(kSlotCorners) = atom.corners.x;
     SLOT(kSlotCorners + 1u) = atom.corners.y;
+    SLOT(kSlotHouseOverhang) = atom.overhang;
+    SLOT(kSlotHouseChimneys) = float((atom.style >> kAtomChimneys) & 3u);
 }
 
 // A rule's numbers, kept while its successors' code runs.

@@ -111,7 +111,7 @@ static void views(EspContext* context) {
 
 static void houses(EspContext* context) {
     EspHouseInfo info;
-    EspHouseDef change = {ESP_ROOF_GABLE, 1, 0, NULL, 0, NULL, 0, NULL, 0};
+    EspHouseDef change = {ESP_ROOF_GABLE, 1, 0, NULL, 0, NULL, 0, NULL, 0, NULL};
     float corners[8];
     CHECK(espHouseCount(context) == kHouses);
     OK(context, espHouseInfo(context, 3, &info));
@@ -135,6 +135,18 @@ static void houses(EspContext* context) {
     OK(context, espSetHouse(context, 3, &change));
     OK(context, espHouseInfo(context, 3, &info));
     CHECK(info.edgeCount == 1 && fabsf(info.boundsMax[0] - 72) < 1e-3f);
+    EspHouseLook look = {ESP_COVERING_SLATE, 1, {0.5f, 0, 1}, 0.5f, ESP_CHIMNEYS_NONE};
+    change.look = &look;
+    OK(context, espSetHouse(context, 3, &change));
+    OK(context, espHouseInfo(context, 3, &info));
+    CHECK(info.look.covering == ESP_COVERING_SLATE && info.look.coloured && fabsf(info.look.colour[0] - 0.5f) < 0.01f);
+    CHECK(info.look.colour[1] == 0 && info.look.overhang == 0.5f && info.look.chimneys == ESP_CHIMNEYS_NONE);
+    look.overhang = 2;
+    REFUSED(espSetHouse(context, 3, &change));
+    look.overhang = 0;
+    look.covering = (EspCovering)99;
+    REFUSED(espSetHouse(context, 3, &change));
+    change.look = NULL;
     change.slope = -1;
     REFUSED(espSetHouse(context, 3, &change));
     change.slope = 1;
@@ -150,7 +162,7 @@ static void courtyards(EspContext* context) {
     EspHouseInfo info;
     float corners[16], now[16];
     uint32_t rings[2] = {4, 4}, found[2] = {0, 0};
-    EspHouseDef change = {ESP_ROOF_HIP, 1, 0, NULL, 0, corners, 8, rings, 2};
+    EspHouseDef change = {ESP_ROOF_HIP, 1, 0, NULL, 0, corners, 8, rings, 2, NULL};
     OK(context, espHouseShape(context, 2, corners, NULL));
     const float x = 40, z = -4; /* the house's middle less five metres along x */
     for (int i = 0; i < 4; ++i) {
@@ -279,7 +291,7 @@ static void manyEdits(EspContext* context) {
     const EspRoofStats before = stats(context);
     uint64_t settled = 0;
     for (int i = 0; i < 1500; ++i) {
-        EspHouseDef change = {ESP_ROOF_HIP, i % 2 ? 1.f : 1.1f, 0, NULL, 0, NULL, 0, NULL, 0};
+        EspHouseDef change = {ESP_ROOF_HIP, i % 2 ? 1.f : 1.1f, 0, NULL, 0, NULL, 0, NULL, 0, NULL};
         EspStats all;
         OK(context, espSetHouse(context, 5, &change));
         OK(context, espUpdate(context));

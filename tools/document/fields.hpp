@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ class FieldWriter {
     template <class T>
     void optional(const char* name, std::vector<T>& value) {
         if (!value.empty()) (*this)(name, value);
+    }
+    template <class T>
+    void optional(const char* name, std::optional<T>& value) {
+        if (value) (*this)(name, *value);
     }
 
   private:
@@ -70,6 +75,10 @@ class FieldReader {
     template <class T>
     void optional(const char* name, std::vector<T>& value) {
         if (from_.find(name)) (*this)(name, value);
+    }
+    template <class T>
+    void optional(const char* name, std::optional<T>& value) {
+        if (from_.find(name)) (*this)(name, value.emplace());
     }
     // After all fields.
     void end() {
@@ -141,6 +150,10 @@ class FieldBytes {
     template <class T>
     void optional(const char* name, T& value) {
         (*this)(name, value);
+    }
+    template <class T>
+    void optional(const char* name, std::optional<T>& value) {
+        if (value) (*this)(name, *value);
     }
     size_t bytes() const { return bytes_; }
 

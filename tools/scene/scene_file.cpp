@@ -148,7 +148,8 @@ class Reader {
         if (found) out = found->text;
     }
     void readHouse(const Json& json, House& house) {
-        if (!isObject(json, "a house", {"house", "id", "shape", "slope", "eave_height", "edges", "corners", "rings"}))
+        if (!isObject(json, "a house",
+                      {"house", "id", "shape", "slope", "eave_height", "edges", "corners", "rings", "look"}))
             return;
         EspRoofShape known;
         if (need(json, "house")) whole(json, "house", house.index);
@@ -169,6 +170,20 @@ class Reader {
             for (const Json& corner : corners->items)
                 if (!numbers(corner, house.corners.emplace_back())) fail(corner, "a corner must be two numbers");
         if (const Json* rings = list(json, "rings")) readRings(*rings, house);
+        if (const Json* look = json.find("look")) readLook(*look, house.look.emplace());
+    }
+    void readLook(const Json& json, HouseLook& look) {
+        if (!isObject(json, "a house's look", {"covering", "colour", "overhang", "chimneys"})) return;
+        EspCovering covering;
+        EspChimneys chimneys;
+        if (json.find("covering")) word(json, "covering", look.covering);
+        if (!coveringNamed(look.covering, covering)) fail(json, "there is no covering '" + look.covering + "'");
+        if (json.find("chimneys")) word(json, "chimneys", look.chimneys);
+        if (!chimneysNamed(look.chimneys, chimneys)) fail(json, "'chimneys' must be \"any\", \"none\" or \"all\"");
+        number(json, "overhang", 0, 1, look.overhang);
+        std::optional<std::array<float, 3>> colour;
+        vector(json, "colour", colour);
+        if (colour) look.colour.assign(colour->begin(), colour->end());
     }
     void readRings(const Json& json, House& house) {
         size_t left = house.corners.size();

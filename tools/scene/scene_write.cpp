@@ -42,6 +42,11 @@ ordered_json townJson(const SceneTown& town, const std::string& file) {
             out["edges"].push_back({{"edge", edge.edge}, {"end", edge.end}, {"slope", shortest(edge.slope)}});
         for (const auto& corner : house.corners) out["corners"].push_back(shortestList(corner));
         if (!house.rings.empty()) out["rings"] = house.rings;
+        if (!house.look) continue;
+        ordered_json& look = out["look"] = {{"covering", house.look->covering},
+                                            {"overhang", shortest(house.look->overhang)},
+                                            {"chimneys", house.look->chimneys}};
+        for (float channel : house.look->colour) look["colour"].push_back(shortest(channel));
     }
     if (!town.ground)
         json["ground"] = false;

@@ -23,6 +23,9 @@ House houseNow(const EspContext* context, uint32_t index) {
     house.shape = nameOf(info.shape);
     house.slope = info.slope;
     house.eaveHeight = info.eaveHeight - info.baseHeight;
+    const EspHouseLook& look = info.look;
+    house.look = HouseLook{nameOf(look.covering), {}, look.overhang, nameOf(look.chimneys)};
+    if (look.coloured) house.look->colour.assign(std::begin(look.colour), std::end(look.colour));
     std::vector<std::array<float, 2>> corners(info.cornerCount);
     std::vector<EspHouseEdge> edges(info.edgeCount);
     if (espHouseShape(context, index, corners.empty() ? nullptr : corners[0].data(), edges.data()) != ESP_OK)
@@ -34,6 +37,26 @@ House houseNow(const EspContext* context, uint32_t index) {
         house.edges.push_back({edge.edge, edge.gable < 0 ? "" : edge.gable ? "gable" : "eave", edge.slope});
     return house;
 }
+
+namespace {
+
+bool lookOf(const HouseLook& look, EspHouseLook& out, std::string& error) {
+    const auto fail = [&](const std::string& message) {
+        error = message;
+        return false;
+    };
+    out = {};
+    if (!coveringNamed(look.covering, out.covering)) return fail("there is no covering '" + look.covering + "'");
+    if (!chimneysNamed(look.chimneys, out.chimneys))
+        return fail("chimneys are 'any', 'none' or 'all', not '" + look.chimneys + "'");
+    if (!look.colour.empty() && look.colour.size() != 3) return fail("a roof's colour is three numbers, or none");
+    out.coloured = look.colour.size() == 3;
+    if (out.coloured) std::ranges::copy(look.colour, out.colour);
+    out.overhang = look.overhang;
+    return true;
+}
+
+}  // namespace
 
 bool setHouse(EspContext* context, const House& house, std::string& error) {
     EspHouseDef def{};
@@ -49,6 +72,9 @@ bool setHouse(EspContext* context, const House& house, std::string& error) {
         }
         edges.push_back({edge.edge, edge.end.empty() ? -1 : edge.end == "gable", edge.slope});
     }
+    EspHouseLook look;
+    if (house.look && !lookOf(*house.look, look, error)) return false;
+    def.look = house.look ? &look : nullptr;
     def.slope = house.slope;
     def.eaveHeight = house.eaveHeight;
     def.edges = edges.data();

@@ -2,12 +2,26 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "plugin_api/espalier.h"
 
 namespace espalier::scene {
+
+// How its roof is dressed, as of EspHouseLook.
+struct HouseLook {
+    std::string covering = "any";    // as of nameOf(EspCovering)
+    std::vector<float> colour = {};  // red, green, blue, linear; none: as the grammar says
+    float overhang = 0;              // metres; 0: as the grammar says
+    std::string chimneys = "any";    // or "none", "all"
+    template <class V>
+    void fields(V&& v) {
+        v("covering", covering), v("colour", colour), v("overhang", overhang), v("chimneys", chimneys);
+    }
+    bool operator==(const HouseLook&) const = default;
+};
 
 // A house of a town as a designer wants it, whatever the town's file says.
 struct House {
@@ -29,11 +43,12 @@ struct House {
     std::vector<std::array<float, 2>> corners = {};  // world x and z, of all rings; none: as they are
     // How many of them each ring has, the outer one first; none: all are the outer one's, courtyards stay.
     std::vector<uint32_t> rings = {};
-    std::string id = {};  // that a project knows it by, whatever its place is then; no part of a run
+    std::optional<HouseLook> look = {};  // none: as it is
+    std::string id = {};                 // that a project knows it by, whatever its place is then; no part of a run
     template <class V>
     void fields(V&& v) {
         v("house", index), v("shape", shape), v("slope", slope), v("eave_height", eaveHeight), v("edges", edges);
-        v("corners", corners), v.optional("rings", rings);
+        v("corners", corners), v.optional("rings", rings), v.optional("look", look);
     }
     bool operator==(const House&) const = default;
 };
@@ -64,5 +79,9 @@ std::vector<TownLayer> townLayers(const EspContext* context);
 
 bool shapeNamed(const std::string& name, EspRoofShape& out);
 const char* nameOf(EspRoofShape shape);
+bool coveringNamed(const std::string& name, EspCovering& out);
+const char* nameOf(EspCovering covering);
+bool chimneysNamed(const std::string& name, EspChimneys& out);
+const char* nameOf(EspChimneys chimneys);
 
 }  // namespace espalier::scene
