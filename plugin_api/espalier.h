@@ -47,6 +47,7 @@ typedef struct EspSurface { uint32_t id; } EspSurface;
 typedef struct EspGrammar { uint32_t id; } EspGrammar;
 typedef struct EspSeed { uint32_t id; } EspSeed;
 typedef struct EspStroke { uint32_t id; } EspStroke;
+typedef struct EspBrush EspBrush;   /* espalier_paint.h */
 
 typedef enum EspLogLevel { ESP_LOG_INFO = 0, ESP_LOG_WARNING = 1, ESP_LOG_ERROR = 2 } EspLogLevel;
 typedef void (*EspLogFn)(void* user, EspLogLevel level, const char* message);
@@ -207,194 +208,6 @@ ESP_API const char* espLayerName(const EspContext* context, EspGrammar grammar, 
 /* What the grammar says that it is for; may be empty. */
 ESP_API const char* espLayerLabel(const EspContext* context, EspGrammar grammar, uint32_t index);
 ESP_API float espLayerFill(const EspContext* context, EspGrammar grammar, uint32_t index);   /* where nothing is painted */
-
-/* ---- Layers -------------------------------------------------------------------------------------------------
- * Pictures in [0,1] by which designers tell grammars where to do what. A layer of colours, `context NAME = #rrggbb`, is
- * three layers, NAME.r, NAME.g and NAME.b, linear; only EspLook::viewLayer takes it by NAME. */
-
-typedef enum EspLayerSpace {
-    ESP_LAYER_WALK_UV = 0,       /* drawn in the surface's walk UV set */
-    ESP_LAYER_MATERIAL_UV = 1,   /* drawn in the model's own UV set; resampled on loading */
-    ESP_LAYER_TEXELS = 2         /* as espReadLayer gave it: the same size, taken as it is, gutters too */
-} EspLayerSpace;
-
-/* texels: height rows of width floats in [0,1], the first row at v = 0; 1 to 8192 each. NULL removes the layer. */
-typedef struct EspLayerDef {
-    EspSurface surface;
-    const char* name;            /* as a grammar's `context` declares it */
-    EspLayerSpace space;
-    const float* texels;
-    uint32_t width, height;
-} EspLayerDef;
-ESP_API EspLayerDef espDefaultLayerDef(void);
-ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
-
-/* ---- Painting ------------------------------------------------------------------------------------------------ */
-
-/* Painting happens in world space, on all surfaces at once: a dab reaches every texel whose point lies in its sphere,
- * so that seams don't show. A layer comes into being on a surface where it is first painted on: until then each
- * grammar reads its own fill there, from then on, where nothing was painted, that of the first grammar that declares the
- * layer, 0 if none does. Painting works for layers
- * that no grammar reads too. A layer that a town's grammar reads, and no grammar of plants, is painted over the town, and on
- * surfaces that have it already only.
- *
- * A stroke keeps what it painted over, in blocks of 8×8 texels. Once ended it is a record for undoing, until it is
- * destroyed. Strokes of one layer are to be swapped in the order in which a history goes: last done, first undone. */
-typedef enum EspBrushMode {
-    ESP_BRUSH_PAINT = 0,         /* towards `value` */
-    ESP_BRUSH_ERASE = 1,         /* to what the whole layer was filled with last (espLayerFilled), else its fill */
-    ESP_BRUSH_SMOOTH = 2         /* towards the mean of the surface around, over seams too */
-} EspBrushMode;
-
-typedef struct EspBrush {
-    const char* layer;
-    EspBrushMode mode;
-    float radius;                /* metres, over 0 */
-    float value;                 /* 0 to 1 */
-    float strength;              /* 0 to 1: of a dab, where it is strongest; dabs add up */
-    float hardness;              /* 0 to 1: share of the radius that has full strength; beyond it falls off smoothly */
-    float slopeRange[2];         /* radians between the surface's normal and the upward; default 0 to pi */
-    float heightRange[2];        /* metres, world; default the whole range of floats */
-    float limitSoftness;         /* 0 to 1: beyond these ranges paint fades out over up to 45 degrees and one radius */
-    int frontOnly;               /* 1: only where the normal is within 90 degrees of the dab's */
-} EspBrush;
-
-typedef struct EspDab {
-    float position[3];           /* world */
-    float normal[3];             /* unit, world; read with frontOnly */
-    float pressure;              /* 0 to 1, scales the strength */
-} EspDab;
-
-ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre in radius, half strength */
-/* Several strokes may be open at a time, on unlike layers. */
-ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
-/* One pass on the GPU, applied in order; the next espUpdate and espDraw see it. */
-ESP_API EspResult espStrokeDabs(EspContext* context, EspStroke stroke, const EspDab* dabs, uint32_t count);
-/* Waits for the GPU and keeps only the blocks that changed. */
-ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);
-/* Exchanges the layer's blocks with those kept, bit for bit: undoes an ended stroke, the next time redoes it. Surfaces
- * and layers that are gone are passed over. */
-ESP_API EspResult espSwapStroke(EspContext* context, EspStroke stroke);
-/* Forgets the record; what is painted stays. An open stroke is ended by it. */
-ESP_API EspResult espDestroyStroke(EspContext* context, EspStroke stroke);
-ESP_API uint64_t espStrokeBytes(const EspContext* context, EspStroke stroke);   /* memory that it holds */
-/* Sets the whole layer, on all surfaces; out is an ended stroke. */
-ESP_API EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out);
-/* 1: *value is what espFillLayer set the whole layer to last, undone fills aside; 0: it was never filled. */
-ESP_API int espLayerFilled(const EspContext* context, const char* layer, float* value);
-
-/* espSetLayer that can be undone: out is an ended stroke. texels must not be NULL. */
-ESP_API EspResult espImportLayer(EspContext* context, const EspLayerDef* def, EspStroke* out);
-
-/* The layers that are painted on any surface; a name is valid until the next call that changes layers. */
-ESP_API uint32_t espPaintedLayerCount(const EspContext* context);
-ESP_API const char* espPaintedLayerName(const EspContext* context, uint32_t index);
-/* The layer over the surface's walk UV: size rows of size floats, the first at v = 0. *size: the side of the array
- * that texels has room for; set to the layer's. 0, or texels NULL: only asks. Waits for the GPU. */
-ESP_API EspResult espReadLayer(EspContext* context, EspSurface surface, const char* layer, float* texels, uint32_t* size);
-
-/* ---- Seeds -------------------------------------------------------------------------------------------------- */
-
-typedef struct EspSeedDef {
-    EspGrammar grammar;
-    const char* symbol;       /* start symbol; NULL: the grammar's first */
-    float position[3];        /* world; the nearest place on a surface is taken; from bare material ground beside it */
-    float direction[3];       /* world; laid into the surface. Zero: upward, or any where the surface is level */
-    uint32_t number;          /* the seed's random number: seeds of unlike numbers grow unlike plants */
-    uint32_t twin;            /* tells apart seeds of one number, from 1; 0: the first that isn't planted yet */
-} EspSeedDef;
-ESP_API EspSeedDef espDefaultSeedDef(void);
-ESP_API EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out);
-ESP_API EspResult espRemoveSeed(EspContext* context, EspSeed seed);
-ESP_API EspResult espRemoveAllSeeds(EspContext* context);
-
-typedef struct EspSeedInfo {
-    EspSeedDef def;           /* as it was planted or last moved: planted again, it grows the same plant to the bit;
-                                 if its surface was moved since, one that rounding makes slightly another. symbol: "" or
-                                 valid as long as the seed */
-    EspSurface surface;
-    float position[3];        /* on the surface, world */
-    float normal[3], direction[3];   /* unit, world; the direction is laid into the surface */
-    int frozen;               /* 1: its plant stands as it is, see espFreezePlant */
-} EspSeedInfo;
-
-ESP_API uint32_t espSeedCount(const EspContext* context);
-/* In an order that doesn't change while no seed comes or goes. */
-ESP_API EspResult espSeedAt(const EspContext* context, uint32_t index, EspSeed* out);
-ESP_API EspResult espSeedInfo(const EspContext* context, EspSeed seed, EspSeedInfo* out);
-/* To where it would be planted at `position`; its plant keeps its random numbers. Without ground near, it doesn't grow. */
-ESP_API EspResult espMoveSeed(EspContext* context, EspSeed seed, const float position[3], const float direction[3]);
-/* twin: as in EspSeedDef. */
-ESP_API EspResult espSetSeedNumber(EspContext* context, EspSeed seed, uint32_t number, uint32_t twin);
-/* A value for this seed alone in place of its grammar's; count 0: the grammar's again. Limited to the range. Kept by
- * name when the grammar is compiled anew. Seeds of the same settings share one copy of the grammar's rule map. */
-ESP_API EspResult espSetSeedParam(EspContext* context, EspSeed seed, const char* name, const float* value,
-                                  uint32_t count);
-/* *count: 0 where the seed has no value of its own. */
-ESP_API EspResult espSeedParam(const EspContext* context, EspSeed seed, const char* name, float value[3],
-                               uint32_t* count);
-
-/* ---- Plants ------------------------------------------------------------------------------------------------- */
-
-/* These look at what the last espUpdate grew. The first call after a growth reads it back, and waits for the GPU. */
-typedef struct EspPlantHit {
-    EspSeed seed;
-    uint64_t branch;          /* key: stays the same as long as the rules that led to the branch do */
-    float position[3];        /* world */
-    float distance;           /* along the ray, metres */
-    uint32_t depth;           /* branches from the seed, 0: the seed's own */
-} EspPlantHit;
-/* The branch that the ray meets first; ESP_INVALID_ARGUMENT if none, or if a surface hides it. */
-ESP_API EspResult espPickPlant(EspContext* context, const float origin[3], const float direction[3], EspPlantHit* out);
-
-/* The walk of a branch (Buron 2015, Figure 4). Where chart or surface changes from one sample to the next, the walk
- * has gone over a crossing. */
-typedef struct EspPathSample {
-    float position[3];        /* world */
-    float uv[2];              /* the surface's walk UV */
-    uint32_t chart;
-    EspSurface surface;
-    int inserted;             /* 1: put in by a seam, a crease or a bend, not a step of the grammar */
-} EspPathSample;
-/* From the node that the branch leaves from to its tip. *count: room in samples, set to how many there are. */
-ESP_API EspResult espBranchPath(EspContext* context, uint64_t branch, EspPathSample* samples, uint32_t* count);
-
-typedef struct EspPlantInfo {
-    uint32_t nodes;                            /* 0: nothing has grown from the seed */
-    float boundsMin[3], boundsMax[3];          /* world, of its nodes; a seed without nodes: its own place */
-} EspPlantInfo;
-/* Of one seed's plant. ESP_INVALID_ARGUMENT if there is no such seed. */
-ESP_API EspResult espPlantInfo(EspContext* context, EspSeed seed, EspPlantInfo* out);
-
-typedef struct EspBranchInfo {
-    EspSeed seed;
-    uint64_t parent;          /* the branch that it leaves from; at depth 0 the branch itself */
-    uint32_t depth;           /* as in EspPlantHit */
-} EspBranchInfo;
-/* ESP_INVALID_ARGUMENT if no branch of this key has grown. */
-ESP_API EspResult espBranchInfo(EspContext* context, uint64_t branch, EspBranchInfo* out);
-
-/* Cuts a branch away with all that grows from it (pruned 1), or lets it grow again (0): the plant is then the same to
- * the bit as if it had never been cut. branch: a key as in EspPlantHit; depth 0 is the whole plant but for its seed.
- * It stays cut through every regrowth, and where no branch has this key (any more), the key waits for one. Takes
- * effect with the next espUpdate; setting what is set does nothing. */
-ESP_API EspResult espPruneBranch(EspContext* context, uint64_t branch, int pruned);
-/* The keys that are pruned, ascending: what a project keeps of pruning. index: below espPrunedCount. */
-ESP_API uint32_t espPrunedCount(const EspContext* context);
-ESP_API EspResult espPrunedAt(const EspContext* context, uint32_t index, uint64_t* branch);
-
-/* Keeps a seed's plant as the last espUpdate grew it (frozen 1): layers, parameters, grammars, prunings and changes of
- * the seed itself concern it no more, nor does a limit but maxNodes. It moves with its surface. Thawed (0), it grows
- * from what is there. It thaws by itself when a surface that it has grown on is destroyed, scaled, or moved against another
- * one that it stands on.
- * ESP_INVALID_ARGUMENT: no such seed, or it hasn't grown yet. Takes effect with the next espUpdate. */
-ESP_API EspResult espFreezePlant(EspContext* context, EspSeed seed, int frozen);
-/* A frozen plant is its records, not what it grew from: so a project keeps these. *size: bytes that `bytes` has room
- * for, set to how many there are; bytes NULL: only asks. */
-ESP_API EspResult espReadFrozen(EspContext* context, EspSeed seed, void* bytes, size_t* size);
-/* Freezes a seed's plant as espReadFrozen gave it, in this or another context where surfaces have been loaded in the
- * same order. ESP_INVALID_CONTENT: the bytes are none of a plant, of another version, or of a missing surface. */
-ESP_API EspResult espFreezeAs(EspContext* context, EspSeed seed, const void* bytes, size_t size);
 
 /* ---- Furnishing ---------------------------------------------------------------------------------------------- */
 
@@ -592,5 +405,7 @@ ESP_API EspResult espMaterialise(EspContext* context, EspTriangles* out);
 }
 #endif
 
+#include "espalier_paint.h"
+#include "espalier_plants.h"
 #include "espalier_roofs.h"
 #endif

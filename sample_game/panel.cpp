@@ -155,12 +155,13 @@ void chosenSeeds(Workspace& work) {
     uint32_t number = chosen[0].number;
     rowLabel("Random no.");
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
-    if (ImGui::InputScalar("##number", ImGuiDataType_U32, &number)) {
+    const bool several = std::ranges::any_of(chosen, [&](const SeedRecord& seed) { return seed.number != number; });
+    if (ImGui::InputScalar("##number", ImGuiDataType_U32, &number, nullptr, nullptr, several ? "%u, others" : "%u")) {
         for (SeedRecord& seed : chosen) seed.number = number++;
         changed = true;
     }
     toolTip(chosen.size() == 1 ? "Its random number: another one grows another plant"
-                               : "The first one's random number; the others get those that follow it");
+                               : "Typed: the first one's random number, the others get those that follow it");
     ImGui::SameLine();
     if (ImGui::Button("Another", {-1, 0})) {
         for (SeedRecord& seed : chosen) seed.number = seed.number * 747796405u + 2891336453u;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <numeric>
 
@@ -28,6 +29,16 @@ std::string formatOf(const EspParamInfo& param) {
     if (param.unit[0]) format += " ";
     for (const char* c = param.unit; *c; ++c) format += *c == '%' ? std::string("%%") : std::string(1, *c);
     return format;
+}
+
+// Its name in the text, and what is no matter of course about its slider.
+std::string paramTip(const EspParamInfo& param) {
+    if (param.kind != ESP_PARAM_FLOAT && param.kind != ESP_PARAM_INT) return param.name;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "%s in the grammar's text: %.4g to %.4g %s, there %.4g\nDouble click or Ctrl+click to type a value",
+                  param.name, param.low, param.high, param.unit, param.initial[0]);
+    return text;
 }
 
 bool isInitial(const EspParamInfo& param) {
@@ -68,8 +79,7 @@ void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
     std::memcpy(value, param.value, sizeof value);
     bool changed = editParam(param, value);
     uint32_t gesture = changed ? widgetGesture(work) : 0;
-    const bool number = param.kind == ESP_PARAM_FLOAT || param.kind == ESP_PARAM_INT;
-    toolTip((param.name + std::string(number ? "\nDouble click or Ctrl+click to type a value" : "")).c_str());
+    toolTip(paramTip(param).c_str());
     if (!isInitial(param)) {
         ImGui::SameLine();
         if (ImGui::Button("\u21ba", {button, button})) {

@@ -36,10 +36,16 @@ void recoveryDialogue(Session& session) {
             ImGui::CloseCurrentPopup();
         }
         ImGui::SameLine();
-        if (ImGui::Button("Throw it away")) {
-            session.forgetRecovery(true);
-            ImGui::CloseCurrentPopup();
+        static bool sure = false;  // one click too many must not cost an hour's work
+        if (ImGui::IsWindowAppearing()) sure = false;
+        if (ImGui::Button(sure ? "Yes, throw it away" : "Throw it away")) {
+            if (sure) {
+                session.forgetRecovery(true);
+                ImGui::CloseCurrentPopup();
+            }
+            sure = !sure;
         }
+        if (sure) say("It can't be brought back.");
         ImGui::EndPopup();
     }
 }

@@ -35,7 +35,7 @@ bool Replay::step(Workspace& work, double now) {
     work.underWay = status_.c_str();
     if (next_ < run_->lines.size()) return true;
     stop(work);
-    work.message = "Replayed: " + name + ", " + all + " frames";
+    work.message = "Replayed: " + name + ", " + all + " frames" + (run_->note.empty() ? "" : "\n" + run_->note);
     return false;
 }
 

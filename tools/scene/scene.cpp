@@ -250,7 +250,12 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         // What was painted before a grammar's text lost its layer stays in a project; a scene may paint layers that
         // only some grammar, given in place of its own, doesn't read.
         if (!readsLayer(out, layer.name) && !file.project) continue;
-        if (!layLayer(context, out, layer, error)) return false;
+        if (layLayer(context, out, layer, error)) continue;
+        // A project opens with what can be read of it.
+        std::vector<GreyPicture> unread;
+        std::string why;
+        if (!out.project || readChannels(layer.file, isColour(out, layer.name), unread, why)) return false;
+        out.notes.push_back(std::exchange(error, {}) + "; the layer '" + layer.name + "' isn't painted there");
     }
     out.camera = espFrameAll(context);
     if (file.hasCamera) {

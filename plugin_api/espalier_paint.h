@@ -1,0 +1,99 @@
+/* Layers and the strokes that paint them. A part of espalier.h, which includes it; the rules at its top hold here too. */
+#ifndef ESPALIER_PAINT_H
+#define ESPALIER_PAINT_H
+
+#include "espalier.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Layers -------------------------------------------------------------------------------------------------
+ * Pictures in [0,1] by which designers tell grammars where to do what. A layer of colours, `context NAME = #rrggbb`, is
+ * three layers, NAME.r, NAME.g and NAME.b, linear; only EspLook::viewLayer takes it by NAME. */
+
+typedef enum EspLayerSpace {
+    ESP_LAYER_WALK_UV = 0,       /* drawn in the surface's walk UV set */
+    ESP_LAYER_MATERIAL_UV = 1,   /* drawn in the model's own UV set; resampled on loading */
+    ESP_LAYER_TEXELS = 2         /* as espReadLayer gave it: the same size, taken as it is, gutters too */
+} EspLayerSpace;
+
+/* texels: height rows of width floats in [0,1], the first row at v = 0; 1 to 8192 each. NULL removes the layer. */
+typedef struct EspLayerDef {
+    EspSurface surface;
+    const char* name;            /* as a grammar's `context` declares it */
+    EspLayerSpace space;
+    const float* texels;
+    uint32_t width, height;
+} EspLayerDef;
+ESP_API EspLayerDef espDefaultLayerDef(void);
+ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
+
+/* ---- Painting ------------------------------------------------------------------------------------------------ */
+
+/* Painting happens in world space, on all surfaces at once: a dab reaches every texel whose point lies in its sphere,
+ * so that seams don't show. A layer comes into being on a surface where it is first painted on: until then each
+ * grammar reads its own fill there, from then on, where nothing was painted, that of the first grammar that declares the
+ * layer, 0 if none does. Painting works for layers
+ * that no grammar reads too. A layer that a town's grammar reads, and no grammar of plants, is painted over the town, and on
+ * surfaces that have it already only.
+ *
+ * A stroke keeps what it painted over, in blocks of 8×8 texels. Once ended it is a record for undoing, until it is
+ * destroyed. Strokes of one layer are to be swapped in the order in which a history goes: last done, first undone. */
+typedef enum EspBrushMode {
+    ESP_BRUSH_PAINT = 0,         /* towards `value` */
+    ESP_BRUSH_ERASE = 1,         /* to what the whole layer was filled with last (espLayerFilled), else its fill */
+    ESP_BRUSH_SMOOTH = 2         /* towards the mean of the surface around, over seams too */
+} EspBrushMode;
+
+struct EspBrush {
+    const char* layer;
+    EspBrushMode mode;
+    float radius;                /* metres, over 0 */
+    float value;                 /* 0 to 1 */
+    float strength;              /* 0 to 1: of a dab, where it is strongest; dabs add up */
+    float hardness;              /* 0 to 1: share of the radius that has full strength; beyond it falls off smoothly */
+    float slopeRange[2];         /* radians between the surface's normal and the upward; default 0 to pi */
+    float heightRange[2];        /* metres, world; default the whole range of floats */
+    float limitSoftness;         /* 0 to 1: beyond these ranges paint fades out over up to 45 degrees and one radius */
+    int frontOnly;               /* 1: only where the normal is within 90 degrees of the dab's */
+};
+
+typedef struct EspDab {
+    float position[3];           /* world */
+    float normal[3];             /* unit, world; read with frontOnly */
+    float pressure;              /* 0 to 1, scales the strength */
+} EspDab;
+
+ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre in radius, half strength */
+/* Several strokes may be open at a time, on unlike layers. */
+ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
+/* One pass on the GPU, applied in order; the next espUpdate and espDraw see it. */
+ESP_API EspResult espStrokeDabs(EspContext* context, EspStroke stroke, const EspDab* dabs, uint32_t count);
+/* Waits for the GPU and keeps only the blocks that changed. */
+ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);
+/* Exchanges the layer's blocks with those kept, bit for bit: undoes an ended stroke, the next time redoes it. Surfaces
+ * and layers that are gone are passed over. */
+ESP_API EspResult espSwapStroke(EspContext* context, EspStroke stroke);
+/* Forgets the record; what is painted stays. An open stroke is ended by it. */
+ESP_API EspResult espDestroyStroke(EspContext* context, EspStroke stroke);
+ESP_API uint64_t espStrokeBytes(const EspContext* context, EspStroke stroke);   /* memory that it holds */
+/* Sets the whole layer, on all surfaces; out is an ended stroke. */
+ESP_API EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out);
+/* 1: *value is what espFillLayer set the whole layer to last, undone fills aside; 0: it was never filled. */
+ESP_API int espLayerFilled(const EspContext* context, const char* layer, float* value);
+
+/* espSetLayer that can be undone: out is an ended stroke. texels must not be NULL. */
+ESP_API EspResult espImportLayer(EspContext* context, const EspLayerDef* def, EspStroke* out);
+
+/* The layers that are painted on any surface; a name is valid until the next call that changes layers. */
+ESP_API uint32_t espPaintedLayerCount(const EspContext* context);
+ESP_API const char* espPaintedLayerName(const EspContext* context, uint32_t index);
+/* The layer over the surface's walk UV: size rows of size floats, the first at v = 0. *size: the side of the array
+ * that texels has room for; set to the layer's. 0, or texels NULL: only asks. Waits for the GPU. */
+ESP_API EspResult espReadLayer(EspContext* context, EspSurface surface, const char* layer, float* texels, uint32_t* size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

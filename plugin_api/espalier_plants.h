@@ -1,0 +1,117 @@
+/* Seeds, and the plants that grow from them. A part of espalier.h, which includes it; the rules at its top hold here too. */
+#ifndef ESPALIER_PLANTS_H
+#define ESPALIER_PLANTS_H
+
+#include "espalier.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Seeds -------------------------------------------------------------------------------------------------- */
+
+typedef struct EspSeedDef {
+    EspGrammar grammar;
+    const char* symbol;       /* start symbol; NULL: the grammar's first */
+    float position[3];        /* world; the nearest place on a surface is taken; from bare material ground beside it */
+    float direction[3];       /* world; laid into the surface. Zero: upward, or any where the surface is level */
+    uint32_t number;          /* the seed's random number: seeds of unlike numbers grow unlike plants */
+    uint32_t twin;            /* tells apart seeds of one number, from 1; 0: the first that isn't planted yet */
+} EspSeedDef;
+ESP_API EspSeedDef espDefaultSeedDef(void);
+ESP_API EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out);
+ESP_API EspResult espRemoveSeed(EspContext* context, EspSeed seed);
+ESP_API EspResult espRemoveAllSeeds(EspContext* context);
+
+typedef struct EspSeedInfo {
+    EspSeedDef def;           /* as it was planted or last moved: planted again, it grows the same plant to the bit;
+                                 if its surface was moved since, one that rounding makes slightly another. symbol: "" or
+                                 valid as long as the seed */
+    EspSurface surface;
+    float position[3];        /* on the surface, world */
+    float normal[3], direction[3];   /* unit, world; the direction is laid into the surface */
+    int frozen;               /* 1: its plant stands as it is, see espFreezePlant */
+} EspSeedInfo;
+
+ESP_API uint32_t espSeedCount(const EspContext* context);
+/* In an order that doesn't change while no seed comes or goes. */
+ESP_API EspResult espSeedAt(const EspContext* context, uint32_t index, EspSeed* out);
+ESP_API EspResult espSeedInfo(const EspContext* context, EspSeed seed, EspSeedInfo* out);
+/* To where it would be planted at `position`; its plant keeps its random numbers. Without ground near, it doesn't grow. */
+ESP_API EspResult espMoveSeed(EspContext* context, EspSeed seed, const float position[3], const float direction[3]);
+/* twin: as in EspSeedDef. */
+ESP_API EspResult espSetSeedNumber(EspContext* context, EspSeed seed, uint32_t number, uint32_t twin);
+/* A value for this seed alone in place of its grammar's; count 0: the grammar's again. Limited to the range. Kept by
+ * name when the grammar is compiled anew. Seeds of the same settings share one copy of the grammar's rule map. */
+ESP_API EspResult espSetSeedParam(EspContext* context, EspSeed seed, const char* name, const float* value,
+                                  uint32_t count);
+/* *count: 0 where the seed has no value of its own. */
+ESP_API EspResult espSeedParam(const EspContext* context, EspSeed seed, const char* name, float value[3],
+                               uint32_t* count);
+
+/* ---- Plants ------------------------------------------------------------------------------------------------- */
+
+/* These look at what the last espUpdate grew. The first call after a growth reads it back, and waits for the GPU. */
+typedef struct EspPlantHit {
+    EspSeed seed;
+    uint64_t branch;          /* key: stays the same as long as the rules that led to the branch do */
+    float position[3];        /* world */
+    float distance;           /* along the ray, metres */
+    uint32_t depth;           /* branches from the seed, 0: the seed's own */
+} EspPlantHit;
+/* The branch that the ray meets first; ESP_INVALID_ARGUMENT if none, or if a surface hides it. */
+ESP_API EspResult espPickPlant(EspContext* context, const float origin[3], const float direction[3], EspPlantHit* out);
+
+/* The walk of a branch (Buron 2015, Figure 4). Where chart or surface changes from one sample to the next, the walk
+ * has gone over a crossing. */
+typedef struct EspPathSample {
+    float position[3];        /* world */
+    float uv[2];              /* the surface's walk UV */
+    uint32_t chart;
+    EspSurface surface;
+    int inserted;             /* 1: put in by a seam, a crease or a bend, not a step of the grammar */
+} EspPathSample;
+/* From the node that the branch leaves from to its tip. *count: room in samples, set to how many there are. */
+ESP_API EspResult espBranchPath(EspContext* context, uint64_t branch, EspPathSample* samples, uint32_t* count);
+
+typedef struct EspPlantInfo {
+    uint32_t nodes;                            /* 0: nothing has grown from the seed */
+    float boundsMin[3], boundsMax[3];          /* world, of its nodes; a seed without nodes: its own place */
+} EspPlantInfo;
+/* Of one seed's plant. ESP_INVALID_ARGUMENT if there is no such seed. */
+ESP_API EspResult espPlantInfo(EspContext* context, EspSeed seed, EspPlantInfo* out);
+
+typedef struct EspBranchInfo {
+    EspSeed seed;
+    uint64_t parent;          /* the branch that it leaves from; at depth 0 the branch itself */
+    uint32_t depth;           /* as in EspPlantHit */
+} EspBranchInfo;
+/* ESP_INVALID_ARGUMENT if no branch of this key has grown. */
+ESP_API EspResult espBranchInfo(EspContext* context, uint64_t branch, EspBranchInfo* out);
+
+/* Cuts a branch away with all that grows from it (pruned 1), or lets it grow again (0): the plant is then the same to
+ * the bit as if it had never been cut. branch: a key as in EspPlantHit; depth 0 is the whole plant but for its seed.
+ * It stays cut through every regrowth, and where no branch has this key (any more), the key waits for one. Takes
+ * effect with the next espUpdate; setting what is set does nothing. */
+ESP_API EspResult espPruneBranch(EspContext* context, uint64_t branch, int pruned);
+/* The keys that are pruned, ascending: what a project keeps of pruning. index: below espPrunedCount. */
+ESP_API uint32_t espPrunedCount(const EspContext* context);
+ESP_API EspResult espPrunedAt(const EspContext* context, uint32_t index, uint64_t* branch);
+
+/* Keeps a seed's plant as the last espUpdate grew it (frozen 1): layers, parameters, grammars, prunings and changes of
+ * the seed itself concern it no more, nor does a limit but maxNodes. It moves with its surface. Thawed (0), it grows
+ * from what is there. It thaws by itself when a surface that it has grown on is destroyed, scaled, or moved against another
+ * one that it stands on.
+ * ESP_INVALID_ARGUMENT: no such seed, or it hasn't grown yet. Takes effect with the next espUpdate. */
+ESP_API EspResult espFreezePlant(EspContext* context, EspSeed seed, int frozen);
+/* A frozen plant is its records, not what it grew from: so a project keeps these. *size: bytes that `bytes` has room
+ * for, set to how many there are; bytes NULL: only asks. */
+ESP_API EspResult espReadFrozen(EspContext* context, EspSeed seed, void* bytes, size_t* size);
+/* Freezes a seed's plant as espReadFrozen gave it, in this or another context where surfaces have been loaded in the
+ * same order. ESP_INVALID_CONTENT: the bytes are none of a plant, of another version, or of a missing surface. */
+ESP_API EspResult espFreezeAs(EspContext* context, EspSeed seed, const void* bytes, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
