@@ -26,12 +26,12 @@ struct RunHead {
 struct Run {
     RunHead head;                // its scene relative to the caller's folder
     std::vector<RunLine> lines;  // frames never fall
-    std::string note;  // what of the file was left out; empty: nothing
+    std::string note;            // what of the file was left out; empty: nothing
     uint32_t frames() const { return lines.empty() ? 1 : lines.back().frame + 1; }
 };
 
-// False: `error` is "file:line:column: message" of the first mistake. A last line that is cut off, as a full disk or a crash
-// leaves it, is left out and noted.
+// False: `error` is "file:line:column: message" of the first mistake. A last line that is cut off, as a full disk or a
+// crash leaves it, is left out and noted.
 bool readRun(const std::string& path, Run& out, std::string& error);
 
 // Writes a run line by line, each at once, so that a crash loses nothing of what led to it.
