@@ -19,6 +19,7 @@ inline std::string editionOf(uint32_t grammar, uint32_t edition) {
     static const std::string texts[2] = {
         R"(context mask = 1
 context cover = 0.7
+context tint = #80ff40
 param reach = 0.9 [0.1 .. 3]
 param stride = 0.05 [0.02 .. 0.2]
 param leafSize = 0.05 [0.01 .. 0.2]
@@ -31,7 +32,7 @@ Creep(l) -> Marching(stride, rand(-0.3, 0.3), mask(texCoord) > 0.5) {Stem(l), Co
 Twig(n, k) -> Marching(stride * 0.7, rand(-0.6, 0.6), mask(texCoord) > 0.3 and n < k) {Twig(n + 1, k), Cover}
 Cover -> Bark Leaves
 Bark -> S(0.002 + 0.01 * clamp(toTip / 0.5, 0, 1)) Shape("bark", C1)
-Leaves -> Repeat(floor(rand(0, 3) * cover(texCoord))) {T(rand(), 0.01) R(rand(-1, 1), 0.4) S(leafSize * rand(0.6, 1)) Shape("leaf")}
+Leaves -> Repeat(floor(rand(0, 3) * cover(texCoord))) {T(rand(), 0.01) R(rand(-1, 1), 0.4) S(leafSize * rand(0.6, 1)) Colour(tint(texCoord)) Shape("leaf")}
 )",
         R"(context damp = 0.8
 context mask = 0.6

@@ -75,8 +75,8 @@ struct RandomEdits {
 
   private:
     const char* layerName() {
-        const char* names[] = {"mask", "mask", "mask", "cover", "damp", "idle"};
-        return names[below(filled_ ? 5 : 6)];
+        const char* names[] = {"mask", "mask", "mask", "cover", "damp", "tint.g", "idle"};
+        return names[below(filled_ ? 6 : 7)];
     }
     EspHit place() {
         EspSurfaceInfo info{};
