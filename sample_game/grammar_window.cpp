@@ -51,14 +51,20 @@ int onEdit(ImGuiInputTextCallbackData* data) {
     return 0;
 }
 
-// The document's undo, in the text as everywhere: the widget has none of its own.
+// The document's undo, since the widget has none of its own; but only of texts: who types doesn't look at the scene.
 void takeUndoKeys(Workspace& work, TextState& state) {
     const ImGuiIO& io = ImGui::GetIO();
     if (!io.KeyCtrl) return;
     const bool z = ImGui::IsKeyPressedMap(ImGuiKey_Z), y = ImGui::IsKeyPressedMap(ImGuiKey_Y);
-    if (z && !io.KeyShift && work.document->undoName()) work.perform(Undo{});
-    if ((y || (z && io.KeyShift)) && work.document->redoName()) work.perform(Redo{});
-    if (z || y) state.gesture = 0;  // what is typed next is a step of its own
+    if (!z && !y) return;
+    state.gesture = 0;  // what is typed next is a step of its own
+    const bool back = z && !io.KeyShift;
+    const char* step = back ? work.document->undoName() : work.document->redoName();
+    if (step && step == nameOf(SetText{}))
+        back ? work.perform(Undo{}) : work.perform(Redo{});
+    else
+        work.message = std::string(back ? "Nothing more of the text to undo" : "Nothing of the text to redo") +
+                       (step ? std::string("; outside it: ") + step : "");
 }
 
 constexpr ImU32 kBadLine = IM_COL32(150, 40, 30, 255), kWarningLine = IM_COL32(125, 90, 15, 255);
