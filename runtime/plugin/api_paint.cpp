@@ -211,7 +211,6 @@ EspResult swap(EspContext& context, PaintStroke& stroke) {
     if (stroke.open) return fail(&context, ESP_INVALID_ARGUMENT, "espSwapStroke: the stroke has not been ended");
     context.device->hostSubmitted();
     swapTown(context, stroke);
-    if (stroke.filled) std::swap(*stroke.filled, context.filled[stroke.layer]);
     for (PaintStroke::Part& part : stroke.parts) {
         if (!paintedLayer(context, part.surface, stroke.layer)) continue;
         Result<std::vector<uint64_t>> swapped =
@@ -219,6 +218,7 @@ EspResult swap(EspContext& context, PaintStroke& stroke) {
         if (!swapped) return failGpu(&context, swapped.failure());
         layerChanged(context, part.surface, stroke.layer, part.record.blocks(), *swapped);
     }
+    if (stroke.filled) std::swap(*stroke.filled, context.filled[stroke.layer]);
     return ESP_OK;
 }
 

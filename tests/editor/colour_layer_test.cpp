@@ -178,3 +178,26 @@ TEST_CASE("erasing leads back to what the layer was cleared to, else to what the
     erase(editing);
     CHECK(middle(editing) == 1);
 }
+
+TEST_CASE("of a name that is a colour here and a number there, each channel stands for itself") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const std::string text = editing.document->scene().grammars[0].text;
+    REQUIRE(editing.perform(FillLayer{"colour", 0, {.5f, .2f, 0}}));
+    std::string number = text;
+    const std::string declared = "context colour = #ffffff", used = "Colour(colour(texCoord)) ";
+    number.replace(number.find(declared), declared.size(), "context colour = 1");
+    number.replace(number.find(used), used.size(), "Tint(colour(texCoord)) ");
+    REQUIRE_MESSAGE(editing.perform(editing.document->withText(0, number)), editing.error);
+    REQUIRE(editing.document->scene().grammars[0].error.empty());
+    const auto& scene = editing.document->scene();
+    CHECK(!isColour(scene, "colour"));
+    for (const char* layer : {"colour", "colour.r", "colour.g", "colour.b"}) {
+        CAPTURE(layer);
+        CHECK(std::ranges::count(scene.layers, layer) == 1);  // what is painted stays
+        CHECK(channelsOf(scene, layer).size() == 1);
+    }
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(isColour(scene, "colour"));
+    CHECK(std::ranges::count(scene.layers, "colour.r") == 0);
+}

@@ -12,13 +12,13 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-// "tint" for "tint.r", "tint.g" and "tint.b" where all three are there; else the name.
+// "tint" for "tint.r", "tint.g" and "tint.b" where all three are there; else the name. Another grammar may have numbers
+// by that name: then each channel stands for itself.
 std::string whole(const std::vector<std::string>& names, const std::string& name) {
     const std::string stem = name.size() < 3 ? "" : name.substr(0, name.size() - 2);
-    const bool channel =
-        std::ranges::any_of(kChannels, [&](const char* ending) { return !stem.empty() && name == stem + ending; });
-    return channel && std::ranges::all_of(kChannels, [&](const char* e) { return holds(names, stem + e); }) ? stem
-                                                                                                            : name;
+    const bool channel = std::ranges::any_of(kChannels, [&](const char* ending) { return name == stem + ending; });
+    const bool all = std::ranges::all_of(kChannels, [&](const char* ending) { return holds(names, stem + ending); });
+    return channel && all && !stem.empty() && !holds(names, stem) ? stem : name;
 }
 
 }  // namespace

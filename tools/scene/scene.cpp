@@ -241,6 +241,7 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
     if (!out.site.empty() && !furnish(context, out.site, error)) return false;
     noteLayers(context, out);
     for (const auto& [name, value] : file.filled) {
+        if (!readsLayer(out, name) && !file.project) continue;
         EspStroke filled{};
         if (!fromContext(context, espFillLayer(context, name.c_str(), value, &filled), error)) return false;
         espDestroyStroke(context, filled);
