@@ -82,8 +82,8 @@ typedef struct EspHouseLook {
     EspCovering covering;
     int coloured;            /* 1: the covering has this colour */
     float colour[3];         /* linear, 0 to 1, kept with 8 bits; read if it is coloured */
-    float overhang;          /* of the eaves, metres, up to 1; 0: as the grammar says */
-    EspChimneys chimneys;
+    float overhang;          /* of the eaves, metres, up to 1; 0: as the grammar says. Over steep walls the shipped ones reach out less */
+    EspChimneys chimneys;    /* ALL: on every ridge that the grammar finds long enough */
 } EspHouseLook;
 
 typedef struct EspHouseInfo {

@@ -354,7 +354,7 @@ void Session::forgetRecovery(bool deleteIt) {
 
 void Session::startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height, Ended ended) {
     work.error.clear();
-    const RunHead head{1, file_, width, height, 1 / 30.f};
+    const RunHead head{RunHead::kVersion, file_, width, height, 1 / 30.f};
     // What was edited since is part of what the run begins with, and a project may be saved while it is recorded.
     const bool asOpened = whole_ && folder_.empty() && work.document->revision() == 0 && !modified(work);
     if (asOpened) return ended(record(work, path, head));

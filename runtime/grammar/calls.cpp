@@ -203,6 +203,12 @@ bool Expressions::lowerColour(const std::vector<ExprId>& args, const Place& plac
         const Expr& e = module_.exprs[args[0]];
         const std::string name = e.text.rfind("context.", 0) == 0 ? e.text.substr(8) : e.text;
         if (e.kind == ExprKind::call && colourContexts_.count(name) != 0) {
+            const bool read = e.kids.size() == 1 && module_.exprs[e.kids[0]].kind == ExprKind::name;
+            const std::string at = read ? module_.exprs[e.kids[0]].text : "";
+            if (at != "texCoord" && !(roofs_ && at == "house")) {
+                fail(place, env, "a layer of colours is read where the shape stands: Colour(" + name + "(texCoord))");
+                return false;
+            }
             for (uint32_t i = 0; i < 3; ++i) rgb[i] = layer(name + kChannels[i], e, env);
             return !graph_.isMistaken(rgb[0]);
         }

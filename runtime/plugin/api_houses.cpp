@@ -25,6 +25,15 @@ bool finiteDef(const EspHouseDef& def) {
     return true;
 }
 
+// World x and z of a corner of a ring.
+glm::vec2 cornerOf(const RoofHouse& house, glm::vec2 p) {
+    return {float(house.origin.x + p.x), float(-house.origin.y - p.y)};
+}
+
+EspHouseEdge edgeOf(const EdgeRoof& e) {
+    return {e.edge, e.gable ? int(*e.gable) : -1, e.slope ? float(*e.slope) : 0};
+}
+
 bool lookFits(const EspHouseLook& look) {
     const auto share = [](float c) { return c >= 0 && c <= 1; };
     return isAmong(look.covering, ESP_COVERING_ANY, ESP_COVERING_BARREL_TILES) &&
@@ -75,10 +84,36 @@ size_t partOf(const LoadedTown& town, uint32_t house) {
     return part;
 }
 
+// Whether all but its look is what it is already: then heights that its plan gives it stay.
+bool standsAs(const Footprint& from, const RoofHouse& house, const EspHouseDef& def) {
+    const float slope = from.slope ? float(*from.slope) : 0;
+    if (def.shape != EspRoofShape(from.shape) || def.slope != slope || def.edgeCount != house.edges.size())
+        return false;
+    if (def.eaveHeight != 0 && def.eaveHeight != house.eaveHeight - house.baseHeight) return false;
+    for (uint32_t i = 0; i < def.edgeCount; ++i) {
+        const EspHouseEdge now = edgeOf(house.edges[i]), &edge = def.edges[i];
+        if (edge.edge != now.edge || edge.gable != now.gable || edge.slope != now.slope) return false;
+    }
+    if (!def.corners) return true;
+    if (def.ringCount != (def.ringCount > 0 ? house.rings.size() : 0)) return false;
+    const float* corner = def.corners;
+    for (size_t r = 0; r < (def.ringCount > 0 ? house.rings.size() : 1); ++r) {
+        const size_t count = def.ringCount > 0 ? def.rings[r] : def.cornerCount;
+        if (count != house.rings[r].size()) return false;
+        for (glm::vec2 p : house.rings[r]) {
+            const glm::vec2 at = cornerOf(house, p);
+            if (*corner++ != at.x || *corner++ != at.y) return false;
+        }
+    }
+    return true;
+}
+
 // The house's footprint with the changes of `def`. Its outline is the one that stands, by which callers count edges;
 // world x and z are plan x and -y.
 Footprint changed(const Footprint& from, const RoofHouse& house, const EspHouseDef& def) {
     Footprint f = from;
+    if (def.look) takeLook(*def.look, f);
+    if (standsAs(from, house, def)) return f;
     f.shape = RoofShape(def.shape);
     f.roofHeight.reset();
     f.slope.reset();
@@ -89,7 +124,6 @@ Footprint changed(const Footprint& from, const RoofHouse& house, const EspHouseD
         f.height.reset();
         f.levels = walls / 3.0;
     }
-    if (def.look) takeLook(*def.look, f);
     f.edges.clear();
     for (uint32_t i = 0; i < def.edgeCount; ++i) {
         EdgeRoof e{def.edges[i].edge, {}, {}};
@@ -211,11 +245,12 @@ EspResult espHouseShape(const EspContext* context, uint32_t index, float* corner
         for (const auto& ring : house->rings)
             for (glm::vec2 p : ring) {
                 if (!corners) break;
-                *corners++ = float(house->origin.x + p.x);
-                *corners++ = float(-house->origin.y - p.y);
+                const glm::vec2 at = cornerOf(*house, p);
+                *corners++ = at.x;
+                *corners++ = at.y;
             }
         for (const EdgeRoof& e : house->edges)
-            if (edges) *edges++ = {e.edge, e.gable ? int(*e.gable) : -1, e.slope ? float(*e.slope) : 0};
+            if (edges) *edges++ = edgeOf(e);
         return ESP_OK;
     });
 }

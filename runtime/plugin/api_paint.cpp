@@ -248,8 +248,10 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
     Status filled = context.painter->fill(jobs, value);
     if (!filled) return failGpu(&context, filled.failure());
-    stroke.filled = std::exchange(context.filled[name], value);
-    return keepEnded(context, std::move(stroke), out);
+    stroke.filled = context.filled[name];
+    if (EspResult bad = keepEnded(context, std::move(stroke), out)) return bad;
+    context.filled[name] = value;
+    return ESP_OK;
 }
 
 }  // namespace

@@ -323,7 +323,7 @@ void bindTownLayers(EspContext& context, RoofInputs& inputs);
 // Adds the town's roofs to what espMaterialise gives: TriangleVertex, uint32_t.
 EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices, std::vector<std::byte>& indices);
 // The number by which the town's grammar knows the layer; kNoIndex.
-uint32_t shownTownLayer(const EspContext& context, const char* name);
+uint32_t shownTownLayer(const EspContext& context, const std::string& name);
 EspResult failContent(const EspContext* context, const Failure& failure);
 // For failures of GPU work: DEVICE_LOST or OUT_OF_MEMORY, as the device says.
 EspResult gpuCode(const EspContext& context);

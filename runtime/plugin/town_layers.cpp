@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "runtime/plugin/context.hpp"
+#include "shaders/render/frame_records.h"
 
 namespace espalier {
 namespace {
@@ -121,10 +122,15 @@ void bindTownLayers(EspContext& context, RoofInputs& inputs) {
     town.changed.erase(std::unique(town.changed.begin(), town.changed.end()), town.changed.end());
 }
 
-uint32_t shownTownLayer(const EspContext& context, const char* name) {
+uint32_t shownTownLayer(const EspContext& context, const std::string& name) {
     const LoadedGrammar* grammar = grammarOf(context);
-    const auto index = grammar && name ? grammar->map.findContext(name) : std::nullopt;
-    return index && *index < kRoofLayers ? uint32_t(*index) : kNoIndex;
+    const auto number = [&](const std::string& layer) -> std::optional<uint32_t> {
+        const auto index = grammar ? grammar->map.findContext(layer) : std::nullopt;
+        return index && *index < kRoofLayers ? std::optional(uint32_t(*index)) : std::nullopt;
+    };
+    if (const auto grey = number(name)) return *grey;
+    const auto red = number(name + ".r"), green = number(name + ".g"), blue = number(name + ".b");
+    return red && green && blue ? colourLayers(*red, *green, *blue) : kNoIndex;
 }
 
 }  // namespace espalier

@@ -50,7 +50,7 @@ struct RoofView {
     UintBuf generations{};  // [house]: grids of another generation are gone
     RoofLayerBuf layers{};
     RoofSite site{};
-    uint32_t shownLayer = kNoIndex;  // by the view of a layer: the grammar's number
+    uint32_t shownLayer = kNoIndex;  // by the view of a layer: the grammar's number, or colourLayers
     uint32_t gridCount = 0, rowCount = 0;
     uint64_t tileCount = 0, clippedCount = 0;
     uint64_t revision = 0;

@@ -77,7 +77,7 @@ struct RoofDrawEnv {
     uint rowRoom, tileRoom, cutRoom, rectangleRoom;
     float leastCell;              // pixels below which cells are a pattern
     uint flags;
-    uint shownLayer;              // for the view of a layer: the grammar's number; kNoIndex: none
+    uint shownLayer;              // for the view of a layer: the grammar's number, or colourLayers; kNoIndex: none
 };
 STATIC_SIZE(RoofDrawEnv, 288);
 BUFFER(RoofDrawEnvBuf, RoofDrawEnv)

@@ -50,12 +50,17 @@ vec3 mossy(RoofDrawEnv env, uint mesh, vec3 base, vec3 position, float joint) {
     vec3 green = mix(vec3(0.038, 0.046, 0.016), vec3(0.085, 0.098, 0.03), quick ? 0.5 : noise3(position * 17.0));
     return mix(base, green * (1.0 - 0.4 * joint), share * min(1.0, 3.0 * painted));
 }
+float painted(RoofDrawEnv env, uint layer, vec3 position) {
+    return roofLayerAt(env.roofs.layers, env.roofs.site, layer, position.xz);
+}
 // What other views than the shaded one show. shown: where that isn't a layer.
 vec4 otherView(RoofDrawEnv env, vec3 shown, vec3 n, vec3 position) {
     if (frame.view == kViewNormals) return stored(n * 0.5 + 0.5, 0.0);
     if (frame.view == kViewLayer)
-        shown = env.shownLayer == kNoIndex ? vec3(0.4) :
-                layerColor(roofLayerAt(env.roofs.layers, env.roofs.site, env.shownLayer, position.xz));
+        shown = env.shownLayer == kNoIndex ? vec3(0.4) : isColourLayers(env.shownLayer) ?
+                vec3(painted(env, env.shownLayer & 255u, position), painted(env, (env.shownLayer >> 8u) & 255u, position),
+                     painted(env, (env.shownLayer >> 16u) & 255u, position)) :
+                layerColor(painted(env, env.shownLayer, position));
     return diagnostic(shown, n);
 }
 // A painted layer that the shaded picture shows through.

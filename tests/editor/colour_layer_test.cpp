@@ -201,3 +201,31 @@ TEST_CASE("of a name that is a colour here and a number there, each channel stan
     CHECK(isColour(scene, "colour"));
     CHECK(std::ranges::count(scene.layers, "colour.r") == 0);
 }
+
+TEST_CASE(
+    "numbers that were painted by a name that has become a colour's wait, in projects too, for a text that reads "
+    "them") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const std::string text = editing.document->scene().grammars[0].text;
+    const std::string declared = "context colour = #ffffff", used = "Colour(colour(texCoord)) ";
+    std::string number = text;
+    number.replace(number.find(declared), declared.size(), "context colour = 1");
+    number.replace(number.find(used), used.size(), "Tint(colour(texCoord)) ");
+    REQUIRE_MESSAGE(editing.perform(editing.document->withText(0, number)), editing.error);
+    StrokeBegin begin;
+    begin.layer = "colour";
+    begin.value = .25f;
+    stroke(editing, begin);
+    const std::vector<float> numbers = texelsOf(editing, "colour");
+    REQUIRE_MESSAGE(editing.perform(editing.document->withText(0, text)), editing.error);
+    CHECK(isColour(editing.document->scene(), "colour"));
+    CHECK(std::ranges::count(editing.document->scene().layers, "colour") == 1);
+    const Channels untouched = coloursOf(editing);
+    CHECK(count(untouched, kWhite) == untouched[0].size());
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("saved"), editing.error), editing.error);
+    Editing again(folder.file("saved"));
+    CHECK(isColour(again.document->scene(), "colour"));
+    CHECK(coloursOf(again) == untouched);
+    CHECK(texelsOf(again, "colour") == numbers);
+}

@@ -126,3 +126,47 @@ TEST_CASE("a house keeps its look through projects, runs and records that know o
     CHECK(!editing.perform(SetHouse{old}));
     CHECK(roofs(editing) == dressed);
 }
+
+TEST_CASE("records without a look leave it as it is, and undo and projects know what it was") {
+    const Folder folder;
+    Editing editing(plan(folder));
+    House steep = houseNow(editing.context.get(), 0);
+    steep.look.reset();
+    steep.slope = 1;
+    REQUIRE_MESSAGE(editing.perform(SetHouse{steep}), editing.error);
+    const uint64_t plain = roofs(editing);
+    HouseLook look = *houseNow(editing.context.get(), 0).look;
+    look.chimneys = "all";
+    look.covering = "pan_tiles";
+    dress(editing, look);
+    const uint64_t dressed = roofs(editing);
+    CHECK(dressed != plain);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(roofs(editing) == plain);
+    REQUIRE(editing.perform(Redo{}));
+    steep.slope = .9f;
+    REQUIRE_MESSAGE(editing.perform(SetHouse{steep}), editing.error);
+    CHECK(*houseNow(editing.context.get(), 0).look == look);
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("saved"), editing.error), editing.error);
+    Editing again(folder.file("saved"));
+    CHECK(*houseNow(again.context.get(), 0).look == look);
+    CHECK(roofs(again) == roofs(editing));
+}
+
+TEST_CASE("a roof keeps the height that its plan gives it when only its look changes") {
+    const Folder folder;
+    Editing editing(folder.write("plan.json", R"({"buildings": [
+ {"id": "low", "outer": [[0,0],[10,0],[10,8],[0,8]], "roof:shape": "gabled", "roof:height": 1.5, "height": 5, "building:levels": 1}]})"));
+    const auto heights = [&] {
+        EspHouseInfo info;
+        REQUIRE(espHouseInfo(editing.context.get(), 0, &info) == ESP_OK);
+        return std::pair(info.eaveHeight, info.ridgeHeight);
+    };
+    const auto planned = heights();
+    dress(editing, {"slate", {.1f, .1f, .2f}, .3f, "none"});
+    CHECK(heights() == planned);
+    House wider = houseNow(editing.context.get(), 0);
+    wider.corners[0][0] -= 1;
+    REQUIRE_MESSAGE(editing.perform(SetHouse{wider}), editing.error);
+    CHECK(houseNow(editing.context.get(), 0).look->covering == "slate");
+}

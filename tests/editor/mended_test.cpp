@@ -32,6 +32,7 @@ TEST_CASE("a run whose last line is cut off is read up to it, and says so; one t
     }
     CHECK(std::get<0>(read(head + fill.substr(0, 9) + "\n" + fill + "\n")) == -1);
     CHECK(std::get<0>(read(head + fill + "\n" + fill.substr(0, 9) + "\n")) == -1);  // whole, but no action
+    CHECK(std::get<0>(read(head + fill + "\n{\"frame\": 9, \"fly\": {}}")) == -1);  // likewise
     CHECK(std::get<0>(read(head + fill.substr(0, 9))) == -1);                       // nothing would be left
 }
 
@@ -67,6 +68,13 @@ TEST_CASE("a project whose layer is gone or damaged opens, tells which, and grow
         CHECK(contains(notes[0], fs::path(mask).filename().string()));
         CHECK(contains(notes[0], "'mask' isn't painted"));
         CHECK(opened.hash() == sized);
+        // The file isn't given up: what is saved still names it.
+        if (fs::exists(mask)) {
+            REQUIRE_MESSAGE(saveProject(*opened.document, saved, error), error);
+            CHECK(fs::exists(mask));
+        }
+        REQUIRE(espalier::scene::readText(saved + "/project.json", project, error));
+        CHECK(contains(project, fs::path(mask).filename().string()));
         fs::remove(mask);
     }
 }

@@ -64,7 +64,7 @@ TEST_CASE("mistakes in runs are told with their line") {
     };
     refused("", "", "empty");
     refused("{}\n", "1:", "espalier_run");
-    refused("{\"espalier_run\": 2, \"scene\": \"\", \"width\": 1, \"height\": 1, \"step\": 1}", "1:", "newer");
+    refused("{\"espalier_run\": 3, \"scene\": \"\", \"width\": 1, \"height\": 1, \"step\": 1}", "1:", "newer");
     refused("{\"espalier_run\": 1, \"scene\": \"\", \"width\": 0, \"height\": 1, \"step\": 1}", "1:", "0 x 1");
     refused(head + "\n{\"frame\": 0, \"undo\": {}}\n{\"frame\": 0, \"undo\": \n", "4:", "");
     refused(head + "{\"frame\": 0}", "2:", "no action");

@@ -372,3 +372,38 @@ TEST_CASE("a scene whose rings aren't made of its corners is refused where it sa
     CHECK(contains(refused("[4]"), "3 corners are of no ring"));
     CHECK(contains(refused("[4, 2.5]"), "three or more of the corners"));
 }
+
+TEST_CASE("a town's layer of colours is painted, shown in its colours, and told of when no text reads it any more") {
+    const Folder folder;
+    Editing editing(folder.write("slates.json", R"({"town": {"file": ")" + content("town.json") +
+                                                    R"("}, "grammars": [{"file": ")" +
+                                                    content("grammars/roof_hip_slate.grammar") + R"("}]})"));
+    const std::string text = editing.document->scene().grammars[0].text;
+    std::string tinted = "context shade = #ffffff\n" + text;
+    tinted.insert(tinted.find("Covering -> Slates"), "Covering : shade.r(house) < 0.2 -> NULL\n");
+    REQUIRE_MESSAGE(editing.perform(editing.document->withText(0, tinted)), editing.error);
+    REQUIRE_MESSAGE(editing.document->scene().grammars[0].error.empty(), editing.document->scene().grammars[0].error);
+    REQUIRE_MESSAGE(editing.perform(FillLayer{"shade", 0, {.8f, .1f, 0}}), editing.error);
+    EspDrawDef draw = espDefaultDrawDef();
+    draw.width = 160;
+    draw.height = 90;
+    draw.camera = editing.document->scene().camera;
+    draw.look = editing.document->scene().look;
+    draw.look.view = ESP_VIEW_LAYER;
+    draw.look.viewLayer = "shade";
+    const auto reds = [&](Editing& of) {
+        REQUIRE_MESSAGE(espUpdate(of.context.get()) == ESP_OK, espLastError(of.context.get()));
+        REQUIRE_MESSAGE(espDraw(of.context.get(), &draw) == ESP_OK, espLastError(of.context.get()));
+        std::vector<uint8_t> rgba(size_t(draw.width) * draw.height * 4);
+        REQUIRE(espReadPixels(of.context.get(), rgba.data(), rgba.size()) == ESP_OK);
+        size_t red = 0;
+        for (size_t i = 0; i < rgba.size(); i += 4) red += rgba[i] > 2 * rgba[i + 1] && rgba[i] > 100;
+        return red;
+    };
+    CHECK(reds(editing) > 500);
+    REQUIRE_MESSAGE(editing.perform(editing.document->withText(0, text)), editing.error);
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("saved"), editing.error), editing.error);
+    Editing again(folder.file("saved"));
+    CHECK(std::ranges::count(again.document->scene().layers, "shade") == 1);
+    CHECK(reds(again) == 0);  // grey, and no failure
+}

@@ -207,7 +207,7 @@ int run(Options options) {
     const bool replays = !options.replay.empty();
     if (replays) {
         if (!readRun(options.replay, recorded, error)) return fail(error);
-        if (!recorded.note.empty()) std::fprintf(stderr, "%s\n", recorded.note.c_str());
+        if (!recorded.note.empty()) warn(recorded.note);
         if (options.request.file.empty()) options.request.file = recorded.head.scene;
         if (options.size.empty()) options.width = recorded.head.width, options.height = recorded.head.height;
     }

@@ -25,7 +25,9 @@ bool Document::carryOut(const SetHouse& action, std::vector<Action>& back, std::
     std::vector<House>& houses = scene_.town->houses;
     std::erase_if(houses, [&](const House& house) { return house.index == index; });
     const auto place = std::find_if(houses.begin(), houses.end(), [&](const House& h) { return h.index > index; });
-    houses.insert(place, action.house);
+    House set = action.house;
+    if (!set.look) set.look = scene::houseNow(context_, index).look;  // so that taking back what follows knows it
+    houses.insert(place, std::move(set));
     return true;
 }
 

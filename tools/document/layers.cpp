@@ -125,7 +125,7 @@ bool Document::carryOut(const StrokeEnd&, std::vector<Action>& back, std::string
         const auto record = std::make_shared<StrokeRecord>(context_, ended);
         if (strokeHasDabs_) back.push_back(SwapStroke{record});
     }
-    return good;
+    return good || takeBack(back);
 }
 
 bool Document::carryOut(const FillLayer& action, std::vector<Action>& back, std::string& error) {

@@ -9,7 +9,6 @@
 #include "tools/document/durable.hpp"
 #include "tools/scene/hash.hpp"
 #include "tools/scene/json_out.hpp"
-#include "tools/scene/layers.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/text_file.hpp"
 
@@ -179,9 +178,17 @@ ProjectData outline(const Document& document) {
     for (uint32_t i = 0; i < espTownLayerCount(context); ++i)
         out.layers.push_back({espTownLayerName(context, i), scene::SceneLayer::kTown, {}});
     std::ranges::stable_sort(out.layers, {}, &ProjectData::Layer::name);  // not by when each was painted
-    for (const std::string& layer : document.scene().layers)
-        for (const std::string& name : channelsOf(document.scene(), layer))
-            if (float value; espLayerFilled(context, name.c_str(), &value)) out.file.filled.push_back({name, value});
+    for (size_t i = 0; i < out.layers.size(); ++i) {
+        const std::string& name = out.layers[i].name;
+        if (i > 0 && name == out.layers[i - 1].name) continue;
+        if (float value; espLayerFilled(context, name.c_str(), &value)) out.file.filled.push_back({name, value});
+    }
+    for (const scene::SceneLayer& unread : document.scene().unread) {
+        const auto painted = [&](const ProjectData::Layer& layer) {
+            return layer.name == unread.name && layer.surface == unread.surface;
+        };
+        if (std::ranges::none_of(out.layers, painted)) out.file.layers.push_back(unread);
+    }
     return out;
 }
 

@@ -13,14 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t kVersion = 1;
 constexpr uint32_t kMaxFrames = 1000000;
 
 std::string checkHead(const RunHead& head) {
     if (head.version < 1) return "1:1: there is no format " + std::to_string(head.version) + " of runs";
-    if (head.version > kVersion)
+    if (head.version > RunHead::kVersion)
         return "1:1: this run was recorded by a newer Espalier (format " + std::to_string(head.version) +
-               "); this one reads up to " + std::to_string(kVersion);
+               "); this one reads up to " + std::to_string(RunHead::kVersion);
     if (head.width < 1 || head.height < 1 || head.width > 16384 || head.height > 16384)
         return "1:1: frames of " + std::to_string(head.width) + " x " + std::to_string(head.height) + " pixels";
     if (!(head.step > 0 && head.step <= 10)) return "1:1: 'step' must be above 0 and at most 10 seconds";
@@ -73,7 +72,9 @@ bool readRun(const std::string& path, Run& out, std::string& error) {
         if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
         RunLine& entry = out.lines.emplace_back();
         if (!fromJson(line, entry, mistake)) {
-            const bool cutOff = end == text.size();  // lines are written with their end
+            scene::Json whole;
+            std::string unheard;
+            const bool cutOff = end == text.size() && !scene::readJson(line, whole, unheard);
             if (!cutOff || out.lines.size() < 2) return fail(mistake);
             out.lines.pop_back();
             out.note = path + ":" + std::to_string(number + 1) + ": the last line is cut off and left out";

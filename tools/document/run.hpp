@@ -13,7 +13,8 @@ namespace espalier::document {
 // A recorded editing run: what was done in which frame, with a fixed time between frames, as lines of JSON
 // (docs/frame_capture_tests.md). The first line is the head.
 struct RunHead {
-    uint32_t version = 1;
+    static constexpr uint32_t kVersion = 2;  // 2: layers of colours, houses' looks, what erasing leads to
+    uint32_t version = kVersion;
     std::string scene;  // what was opened; in the file relative to its folder
     uint32_t width = 1280, height = 720;
     float step = 1 / 30.f;  // seconds between two frames

@@ -12,13 +12,17 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-// "tint" for "tint.r", "tint.g" and "tint.b" where all three are there; else the name. Another grammar may have numbers
-// by that name: then each channel stands for itself.
+// Whether "tint.r", "tint.g" and "tint.b" are there, and no numbers by the name "tint", for which another grammar may
+// have it.
+bool areColour(const std::vector<std::string>& names, const std::string& stem) {
+    return !holds(names, stem) && std::ranges::all_of(kChannels, [&](const char* c) { return holds(names, stem + c); });
+}
+
+// "tint" for each of these three; else the name.
 std::string whole(const std::vector<std::string>& names, const std::string& name) {
     const std::string stem = name.size() < 3 ? "" : name.substr(0, name.size() - 2);
-    const bool channel = std::ranges::any_of(kChannels, [&](const char* ending) { return name == stem + ending; });
-    const bool all = std::ranges::all_of(kChannels, [&](const char* ending) { return holds(names, stem + ending); });
-    return channel && all && !stem.empty() && !holds(names, stem) ? stem : name;
+    const bool channel = std::ranges::any_of(kChannels, [&](const char* c) { return name == stem + c; });
+    return channel && !stem.empty() && areColour(names, stem) ? stem : name;
 }
 
 }  // namespace
@@ -39,12 +43,17 @@ std::vector<std::string> channelsOf(const Scene& scene, const std::string& layer
 }
 
 void noteLayers(const EspContext* context, Scene& scene) {
-    std::vector<std::string> names;
+    std::vector<std::string> declared;
     for (const LoadedGrammar& grammar : scene.grammars)
         for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i)
-            names.push_back(espLayerName(context, grammar.id, i));
-    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i) names.push_back(espPaintedLayerName(context, i));
-    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) names.push_back(espTownLayerName(context, i));
+            declared.push_back(espLayerName(context, grammar.id, i));
+    std::vector<std::string> names = declared;
+    // Numbers that were painted by a name which has become a colour's wait unseen for a text that reads them.
+    const auto painted = [&](const std::string& name) {
+        if (!areColour(declared, name)) names.push_back(name);
+    };
+    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i) painted(espPaintedLayerName(context, i));
+    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) painted(espTownLayerName(context, i));
     scene.layers.clear();
     scene.colourLayers.clear();
     for (const std::string& name : names) {

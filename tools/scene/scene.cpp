@@ -65,6 +65,7 @@ bool changeHouses(EspContext* context, Scene& out, std::string& error) {
         house.index = place.value_or(house.index);
         std::string why = "the plan has none of this name any more";
         if (place && setHouse(context, house, why)) {
+            if (!house.look) house.look = houseNow(context, house.index).look;
             kept.push_back(std::move(house));
             continue;
         }
@@ -128,8 +129,10 @@ bool layChannel(EspContext* context, const Scene& scene, const std::string& name
 
 bool layLayer(EspContext* context, const Scene& scene, const SceneLayer& layer, std::string& error) {
     std::vector<GreyPicture> pictures;
-    if (!readChannels(layer.file, isColour(scene, layer.name), pictures, error)) return false;
-    const std::vector<std::string> channels = channelsOf(scene, layer.name);
+    // Projects have what the plugin has: a colour's channels, each by itself.
+    const bool colour = !scene.project && isColour(scene, layer.name);
+    if (!readChannels(layer.file, colour, pictures, error)) return false;
+    const std::vector<std::string> channels = colour ? channelsOf(scene, layer.name) : std::vector{layer.name};
     for (size_t c = 0; c < channels.size(); ++c)
         if (!layChannel(context, scene, channels[c], pictures[c], layer.surface, error)) return false;
     return true;
@@ -242,9 +245,11 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
     noteLayers(context, out);
     for (const auto& [name, value] : file.filled) {
         if (!readsLayer(out, name) && !file.project) continue;
-        EspStroke filled{};
-        if (!fromContext(context, espFillLayer(context, name.c_str(), value, &filled), error)) return false;
-        espDestroyStroke(context, filled);
+        for (const std::string& layer : file.project ? std::vector{name} : channelsOf(out, name)) {
+            EspStroke filled{};
+            if (!fromContext(context, espFillLayer(context, layer.c_str(), value, &filled), error)) return false;
+            espDestroyStroke(context, filled);
+        }
     }
     for (const SceneLayer& layer : file.layers) {
         parts.begin(layer.file);
@@ -253,10 +258,11 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         if (!readsLayer(out, layer.name) && !file.project) continue;
         if (layLayer(context, out, layer, error)) continue;
         // A project opens with what can be read of it.
-        std::vector<GreyPicture> unread;
+        GreyPicture unread;
         std::string why;
-        if (!out.project || readChannels(layer.file, isColour(out, layer.name), unread, why)) return false;
+        if (!out.project || readGrey(layer.file, unread, why)) return false;
         out.notes.push_back(std::exchange(error, {}) + "; the layer '" + layer.name + "' isn't painted there");
+        out.unread.push_back(layer);
     }
     out.camera = espFrameAll(context);
     if (file.hasCamera) {

@@ -85,6 +85,13 @@ struct Seed {
     EspSeed planted{};
 };
 
+// A picture for a layer: drawn in the model's UVs and laid on every surface, or in the walk's UVs of one of them.
+struct SceneLayer {
+    std::string name, file;
+    static constexpr int kTown = -2;
+    int surface = -1;  // index into SceneFile::surfaces; -1: all, in the model's UVs; kTown: seen from above, north up
+};
+
 constexpr float kOwnSun = -1;  // no hour: the scene's own light
 
 // A scene whose surfaces, grammars and layers are in a context. Seeds are planted by plantAll.
@@ -100,6 +107,7 @@ struct Scene {
     std::vector<std::string> layers;  // that grammars read; then those that are painted and that none reads any more
     std::vector<std::string> colourLayers;  // those of them that are colours (tools/scene/layers.hpp)
     std::vector<std::string> notes;         // what of the file couldn't be kept, a line each
+    std::vector<SceneLayer> unread;         // of a project: pictures that couldn't be read, and are kept as they are
     EspCamera camera{};
     EspLook ownLook{};      // as the file says
     EspLook look{};         // that, with the light of the hour

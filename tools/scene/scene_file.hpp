@@ -29,13 +29,6 @@ struct SceneGrammar {
     std::vector<Seed> seeds;
 };
 
-// A picture for a layer: drawn in the model's UVs and laid on every surface, or in the walk's UVs of one of them.
-struct SceneLayer {
-    std::string name, file;
-    static constexpr int kTown = -2;
-    int surface = -1;  // index into SceneFile::surfaces; -1: all, in the model's UVs; kTown: seen from above, north up
-};
-
 // A scene file as it is written (docs/scene_format.md), with paths made relative to the caller's folder.
 struct SceneFile {
     static constexpr int kProjectVersion = 2;  // 2: `filled`, layers of colours
