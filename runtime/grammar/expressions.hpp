@@ -40,8 +40,6 @@ class LetScope {
     std::vector<std::pair<std::string, Node>> args_;
 };
 
-inline constexpr const char* kChannels[3] = {".r", ".g", ".b"};
-
 // Turns expressions into graph nodes; knows the declarations.
 class Expressions {
   public:

@@ -27,6 +27,9 @@ struct ParamInfo {
     uint32_t slot = 0;  // first bit in the masks of parameters
 };
 
+// A layer of colours is three layers: its name with each of these behind it.
+inline constexpr const char* kChannels[3] = {".r", ".g", ".b"};
+
 // A painted layer that the grammar reads. fill: its value where nothing is painted.
 struct ContextInfo {
     std::string name, label;

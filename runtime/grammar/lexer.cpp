@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "runtime/core/srgb.hpp"
+
 namespace espalier::grammar {
 namespace {
 
@@ -208,7 +210,7 @@ class Lexer {
             int byte = 0;
             std::from_chars(digits.data() + 2 * i, digits.data() + 2 * i + 2, byte, 16);
             float v = static_cast<float>(byte) / 255.0f;
-            token.rgb[i] = v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+            token.rgb[i] = linearOfSrgb(v);
         }
         token.text = digits;
     }

@@ -5,8 +5,8 @@
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/shown_layers.hpp"
 #include "runtime/render/host_formats.hpp"
-#include "shaders/render/frame_records.h"
 #include "shaders/render/heat.h"
 
 namespace espalier {
@@ -59,20 +59,11 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
 }
 
 // Over surfaces; one that is painted, but that no grammar reads, gets a number to be seen by.
-std::optional<uint32_t> layerToShow(EspContext& context, const std::string& name, std::span<const uint32_t> kept = {}) {
+std::optional<uint32_t> layerToShow(EspContext& context, const std::string& name, std::span<const uint32_t> kept) {
     const auto known = std::ranges::find(context.sceneLayers, name, &SceneLayer::name);
     if (known != context.sceneLayers.end()) return uint32_t(known - context.sceneLayers.begin());
     if (std::ranges::find(context.layers, name, &PaintedLayer::name) == context.layers.end()) return {};
     return sceneLayer(context, name, 0, kept);
-}
-
-// The number of a layer, or those of a layer of colours; kNoIndex: no surface has it.
-uint32_t layersToShow(EspContext& context, const std::string& name) {
-    if (const auto grey = layerToShow(context, name)) return *grey;
-    std::vector<uint32_t> numbers;
-    for (const char* channel : {".r", ".g", ".b"})
-        if (const auto number = layerToShow(context, name + channel, numbers)) numbers.push_back(*number);
-    return numbers.size() == 3 ? colourLayers(numbers[0], numbers[1], numbers[2]) : kNoIndex;
 }
 
 EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
@@ -98,9 +89,11 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     }
     if (from.view == ESP_VIEW_LAYER) {
         const std::string name = from.viewLayer ? from.viewLayer : "";
-        look.layer = layersToShow(context, name);
+        look.layer = shownLayers(name, [&](const std::string& layer, std::span<const uint32_t> kept) {
+            return layerToShow(context, layer, kept);
+        });
         const bool overTown =
-            context.town && (context.town->layers.find(name) || context.town->layers.find(name + ".r"));
+            context.town && (context.town->layers.find(name) || context.town->layers.find(name + kChannels[0]));
         if (look.layer == kNoIndex && !overTown)
             return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
     }

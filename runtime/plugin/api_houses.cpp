@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "runtime/core/srgb.hpp"
 #include "runtime/plugin/context.hpp"
-#include "runtime/roof/colour.hpp"
 #include "runtime/roof/shapes.hpp"
 
 namespace espalier {
@@ -34,6 +34,11 @@ EspHouseEdge edgeOf(const EdgeRoof& e) {
     return {e.edge, e.gable ? int(*e.gable) : -1, e.slope ? float(*e.slope) : 0};
 }
 
+static_assert(uint32_t(RoofMaterial::tiles) == ESP_COVERING_TILES &&
+              uint32_t(RoofMaterial::grass) == ESP_COVERING_GRASS &&
+              uint32_t(RoofMaterial::plainTiles) == ESP_COVERING_PLAIN_TILES &&
+              uint32_t(RoofMaterial::barrelTiles) == ESP_COVERING_BARREL_TILES);
+
 bool lookFits(const EspHouseLook& look) {
     const auto share = [](float c) { return c >= 0 && c <= 1; };
     return isAmong(look.covering, ESP_COVERING_ANY, ESP_COVERING_BARREL_TILES) &&
@@ -44,7 +49,8 @@ bool lookFits(const EspHouseLook& look) {
 void takeLook(const EspHouseLook& look, Footprint& f) {
     f.material = RoofMaterial(look.covering);
     f.colour = 0;
-    for (int c = 0; look.coloured && c < 3; ++c) f.colour |= toSrgb(look.colour[c]) << (8 * c);
+    for (int c = 0; look.coloured && c < 3; ++c)
+        f.colour |= uint32_t(std::lround(255 * srgbOfLinear(look.colour[c]))) << (8 * c);
     if (look.coloured) f.colour |= 0xFF000000u;
     f.overhang = look.overhang;
     f.chimneys = uint32_t(look.chimneys);
@@ -54,7 +60,8 @@ EspHouseLook lookOf(const RoofHouse& house) {
     EspHouseLook look{};
     look.covering = EspCovering(house.material);
     look.coloured = house.colour >> 24 != 0;
-    for (int c = 0; look.coloured && c < 3; ++c) look.colour[c] = fromSrgb(house.colour >> (8 * c) & 255);
+    for (int c = 0; look.coloured && c < 3; ++c)
+        look.colour[c] = linearOfSrgb(float(house.colour >> (8 * c) & 255) / 255);
     look.overhang = house.overhang;
     look.chimneys = EspChimneys(house.chimneys);
     return look;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "runtime/plugin/context.hpp"
-#include "shaders/render/frame_records.h"
+#include "runtime/plugin/shown_layers.hpp"
 
 namespace espalier {
 namespace {
@@ -124,13 +124,10 @@ void bindTownLayers(EspContext& context, RoofInputs& inputs) {
 
 uint32_t shownTownLayer(const EspContext& context, const std::string& name) {
     const LoadedGrammar* grammar = grammarOf(context);
-    const auto number = [&](const std::string& layer) -> std::optional<uint32_t> {
+    return shownLayers(name, [&](const std::string& layer, std::span<const uint32_t>) -> std::optional<uint32_t> {
         const auto index = grammar ? grammar->map.findContext(layer) : std::nullopt;
         return index && *index < kRoofLayers ? std::optional(uint32_t(*index)) : std::nullopt;
-    };
-    if (const auto grey = number(name)) return *grey;
-    const auto red = number(name + ".r"), green = number(name + ".g"), blue = number(name + ".b");
-    return red && green && blue ? colourLayers(*red, *green, *blue) : kNoIndex;
+    });
 }
 
 }  // namespace espalier

@@ -1,7 +1,6 @@
 // A roof structure -> atoms with their targets, the pieces of their outlines and their regions (Buron 2013 §3.1).
 // Planes lean halfway between the two faces that meet in them (Figure 4 d-f), so that tiles of both meet there.
 #include "runtime/roof/atoms.hpp"
-#include "runtime/roof/colour.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <tuple>
 
 #include "runtime/core/hash.hpp"
+#include "runtime/core/srgb.hpp"
 #include "shaders/shared/random.h"
 
 namespace espalier {
@@ -30,6 +30,7 @@ glm::vec3 unitOr(glm::vec3 v, glm::vec3 other) {
     const float l = glm::length(v);
     return l > 1e-9f ? v / l : other;
 }
+
 class HouseAtoms {
   public:
     HouseAtoms(RoofTables& tables, const RoofStructure& structure, uint32_t house, uint32_t number,
@@ -85,7 +86,7 @@ class HouseAtoms {
         atom.style = uint32_t(h_.shape) | (h_.material & 255u) << 8 | ((h_.colour >> 24) != 0 ? 1u << 16 : 0u) |
                      h_.chimneys << kAtomChimneys;
         atom.overhang = h_.overhang;
-        atom.colour = {fromSrgb(h_.colour & 255), fromSrgb(h_.colour >> 8 & 255), fromSrgb(h_.colour >> 16 & 255)};
+        for (int c = 0; c < 3; ++c) atom.colour[c] = linearOfSrgb(float(h_.colour >> (8 * c) & 255) / 255);
         atom.firstPiece = uint32_t(t_.pieces.size());
         if (tier == 0) atom.corners = cornersOf(edge);
         return atom;

@@ -1,6 +1,7 @@
 // The brush in a user's hands: where its dabs lie, what the keys make of them, and what is left of a stroke that is
 // taken back.
 #include <algorithm>
+#include <array>
 
 #include "tests/editor/window.hpp"
 
@@ -193,6 +194,29 @@ TEST_CASE("what the brush does is chosen in the panel, and keys turn it round") 
     for (const StrokeBegin& stroke : painter.all<StrokeBegin>()) modes.push_back(stroke.mode);
     CHECK(modes == std::vector<std::string>{"erase", "paint", "smooth", "smooth", "erase", "smooth", "paint", "erase",
                                             "smooth"});
+}
+
+TEST_CASE("over a layer of colours the brush paints its colour, and Ctrl the grammar's") {
+    const Folder folder;
+    Painter painter(folder);
+    const glm::vec2 from = painter.onWall(-1.2f, 1), to = painter.onWall(-.9f, 1);
+    painter.work.chooseLayer("colour");
+    painter.work.brush.strength = painter.work.brush.hardness = 1;
+    std::copy_n(std::array{.25f, .5f, .125f}.begin(), 3, painter.work.brush.colour);
+    const auto least = [&](const char* channel) {
+        espalier::scene::GreyPicture picture;
+        REQUIRE(painter.work.document->readLayer(0, channel, picture, painter.work.error));
+        return *std::ranges::min_element(picture.texels);
+    };
+    const size_t before = painter.work.document->undoSteps();
+    painter.drag(from, to);
+    CHECK(painter.all<StrokeBegin>().back().layer == "colour");
+    CHECK(least("colour.r") == .25f);
+    CHECK(least("colour.g") == .5f);
+    CHECK(least("colour.b") == .125f);
+    CHECK(painter.work.document->undoSteps() == before + 1);
+    painter.drag(from, to, GLFW_MOD_CONTROL);
+    CHECK(least("colour.g") > .99f);
 }
 
 TEST_CASE("a click beside all ground says so, and undo when there is nothing to undo") {

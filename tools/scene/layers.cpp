@@ -65,11 +65,9 @@ void noteLayers(const EspContext* context, Scene& scene) {
 }
 
 bool readChannels(const std::string& path, bool colour, std::vector<GreyPicture>& out, std::string& error) {
-    out.clear();
-    if (!colour) return readGrey(path, out.emplace_back(), error);
-    for (int channel = 0; channel < 3; ++channel)
-        if (!readLinear(path, channel, out.emplace_back(), error)) return false;
-    return true;
+    if (colour) return readColours(path, out, error);
+    out.resize(1);
+    return readGrey(path, out[0], error);
 }
 
 }  // namespace espalier::scene

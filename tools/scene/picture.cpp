@@ -97,18 +97,19 @@ bool readGrey(const std::string& path, GreyPicture& out, std::string& error) {
     return true;
 }
 
-bool readLinear(const std::string& path, int channel, GreyPicture& out, std::string& error) {
+bool readColours(const std::string& path, std::vector<GreyPicture>& channels, std::string& error) {
     const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, error);
     if (!input) return false;
     const OIIO::ImageSpec& spec = input->spec();
-    const int from = spec.nchannels < 3 ? 0 : channel;
-    out.width = uint32_t(spec.width);
-    out.height = uint32_t(spec.height);
-    out.texels.resize(size_t(out.width) * out.height);
-    if (!input->read_image(0, 0, from, from + 1, OIIO::TypeDesc::FLOAT, out.texels.data()))
-        return damaged(path, *input, error);
-    limit(out.texels);
-    if (storesIntegers(spec)) std::ranges::transform(out.texels, out.texels.begin(), linearOf);
+    const int count = spec.nchannels < 3 ? 1 : 3;
+    const size_t texels = size_t(spec.width) * size_t(spec.height);
+    std::vector<float> all(texels * size_t(count));
+    if (!input->read_image(0, 0, 0, count, OIIO::TypeDesc::FLOAT, all.data())) return damaged(path, *input, error);
+    limit(all);
+    if (storesIntegers(spec)) std::ranges::transform(all, all.begin(), linearOf);
+    channels.assign(3, {uint32_t(spec.width), uint32_t(spec.height), std::vector<float>(texels)});
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t i = 0; i < texels; ++i) channels[c].texels[i] = all[i * size_t(count) + (count == 3 ? c : 0)];
     return true;
 }
 

@@ -26,9 +26,9 @@ struct FloatPicture {
 // The first channel of a picture (of a grey one the only, of a coloured one red), limited to [0, 1]. `error` names file
 // and cause. Pictures of more than 8192 texels a side are refused.
 bool readGrey(const std::string& path, GreyPicture& out, std::string& error);
-// One of a picture's colours (0 red, 1 green, 2 blue; a grey picture's only channel), limited to [0, 1] and linear:
-// whole numbers are sRGB, floats are as they are. Else as readGrey.
-bool readLinear(const std::string& path, int channel, GreyPicture& out, std::string& error);
+// Red, green and blue (of a grey picture thrice its only channel), limited to [0, 1] and linear: whole numbers are
+// sRGB, floats are as they are. Else as readGrey.
+bool readColours(const std::string& path, std::vector<GreyPicture>& channels, std::string& error);
 // What readGrey would find, from the file's beginning.
 bool readShape(const std::string& path, PictureShape& out, std::string& error);
 bool readColour(const std::string& path, ColourPicture& out, std::string& error);
