@@ -72,3 +72,31 @@ TEST_CASE("leaves are thinned out while frames are late, down to those that are 
     after(15, picture, 200, 100'000);
     CHECK(after(9, picture, 20, 100'000).look.leafPixels < later);
 }
+
+TEST_CASE("what moves is drawn as large as leaves frames in time, and doesn't flicker between sizes") {
+    const double late = scene::MovingDetail::kFrameMs;
+    for (const double pixelsMs : {5.0, 20.0, 40.0, 80.0, 400.0}) {
+        CAPTURE(pixelsMs);
+        scene::MovingPicture picture;
+        const auto frames = [&](int count, double ms) {
+            float share = 0;
+            int changes = 0;
+            for (int i = 0; i < count; ++i) {
+                EspDrawDef draw = asked();
+                const float before = std::exchange(share, picture.prepare(draw, true, 200, true));
+                if (i > 0 && before != share) ++changes;
+                CHECK(draw.look.windowLodPixels == doctest::Approx(scene::MovingDetail::kLod * share / 0.5f));
+                const double noise = i % 2 == 0 ? 1.05 : 0.95;
+                picture.drew((20 + ms * double(share * share)) * noise, 30'000);
+            }
+            return std::pair(share, changes);
+        };
+        frames(200, pixelsMs);
+        const auto [share, changes] = frames(200, pixelsMs);
+        CHECK(changes == 0);
+        CHECK((share == 0.5f || 20 + pixelsMs * double(share * share) <= late));
+        CHECK((share == 1.0f || 20 + 1.44 * 1.44 * pixelsMs * double(share * share) > 0.6 * late));
+        // Where all becomes dearer it is small soon.
+        CHECK(frames(40, 400).first == 0.5f);
+    }
+}

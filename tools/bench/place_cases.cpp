@@ -1,6 +1,7 @@
 // frame/place…: the sample game's whole place, with village, props and ivy, through the plugin's interface: one picture
 // at its best, and the frames of a camera that goes once around, drawn as the window draws them then. frame/dense…: the
-// same place with half a million nodes of ivy, also with a brush that paints in each frame, at half and at whole size.
+// same place with half a million nodes of ivy, also with a brush that paints in each frame, as small as it takes and at
+// whole size.
 // What the window adds, its panels and the way to the screen, espalier-sample --turn tells.
 #include <algorithm>
 #include <chrono>
@@ -49,16 +50,18 @@ EspCamera aside(EspCamera camera, float metres) {
 }
 
 struct Moves {
-    std::vector<double> cpu, wall, update, leaves;  // of each frame; ms; empty: they can't be drawn
+    std::vector<double> cpu, wall, update, leaves, share;  // of each frame; ms; empty: they can't be drawn
     std::string leavesDrawn() const { return std::to_string(uint32_t(mean(leaves))) + " leaves drawn in the mean"; }
+    std::string size() const { return std::to_string(std::lround(100 * mean(share))) + " % of its width"; }
 };
 
 struct PlaceFilm {
     EspContext* context;
     const scene::Scene& scene;
-    bool half = true;  // what moves is drawn at half the window's size
+    bool smaller = true;  // what moves is drawn as small as it takes
     scene::MovingPicture picture{};
     EspStats stats{};
+    float share = 1;  // of the window's width, as the last frame was drawn
     using Clock = std::chrono::steady_clock;
 
     struct Cost {
@@ -71,9 +74,9 @@ struct PlaceFilm {
         draw.camera = camera;
         draw.look = scene.look;
         draw.look.shadowsLag = 1;
-        const float scale = picture.prepare(draw, moving, stats.drawMs, half);
-        draw.width = uint32_t(kWidth * scale);
-        draw.height = uint32_t(kHeight * scale);
+        share = picture.prepare(draw, moving, stats.drawMs, smaller);
+        draw.width = uint32_t(kWidth * share);
+        draw.height = uint32_t(kHeight * share);
         const std::clock_t before = std::clock();
         const auto began = Clock::now();
         const auto since = [](Clock::time_point then) {
@@ -101,6 +104,7 @@ struct PlaceFilm {
             moves.wall.push_back(cost.wall);
             moves.update.push_back(cost.update);
             moves.leaves.push_back(double(stats.drawnLeaves));
+            moves.share.push_back(double(share));
         }
         return moves;
     }
@@ -183,8 +187,8 @@ void sampleCases(Bench& bench, EspContext* context, const scene::Scene& scene) {
     const Moves turn = film.turn(), walk = film.walk();
     if (turn.wall.empty() || walk.wall.empty()) return bench.skip(name, espLastError(context));
     bench.add({"frame/place/still", "a whole picture by the clock", "ms", median(still), "a second", kWhole});
-    bench.add({name, "CPU time of a moving frame of the whole place, half size, mean of a turn", "ms", mean(turn.cpu),
-               "15 frames/s on two cores", 2 * kFrame});
+    bench.add({name, "CPU time of a moving frame of the whole place, " + turn.size() + ", mean of a turn", "ms",
+               mean(turn.cpu), "15 frames/s on two cores", 2 * kFrame});
     bench.add({"frame/place/wall", "the same by the clock, " + turn.leavesDrawn(), "ms", mean(turn.wall), "15 frames/s",
                kFrame});
     bench.add({"frame/place/worst", "the same, worst", "ms", most(turn.wall), "15 frames/s", kFrame});
@@ -206,14 +210,15 @@ void denseCases(Bench& bench, EspContext* context, scene::Scene& scene) {
     if (turn.wall.empty() || painting.wall.empty() || wholeTurn.wall.empty())
         return bench.skip(name, espLastError(context));
     bench.add({name,
-               "by the clock, a moving frame of the place with " + std::to_string(stats.nodes) + " nodes, half size, " +
-                   turn.leavesDrawn() + " of a turn",
+               "by the clock, a moving frame of the place with " + std::to_string(stats.nodes) + " nodes, " +
+                   turn.size() + ", " + turn.leavesDrawn() + " of a turn",
                "ms", mean(turn.wall), "15 frames/s", kFrame});
     bench.add({"frame/dense/cpu", "CPU time of it", "ms", mean(turn.cpu), "15 frames/s on two cores", 2 * kFrame});
     bench.add({"frame/dense/worst", "by the clock, worst", "ms", most(turn.wall), "15 frames/s", kFrame});
     bench.add({"frame/dense/whole", "the same at whole size, " + wholeTurn.leavesDrawn(), "ms", mean(wholeTurn.wall),
                "15 frames/s", kFrame});
-    bench.add({"frame/dense/painting", "a dab and its frame by the clock, half size, " + painting.leavesDrawn(), "ms",
+    bench.add({"frame/dense/painting",
+               "a dab and its frame by the clock, " + painting.size() + ", " + painting.leavesDrawn(), "ms",
                mean(painting.wall), "8 frames/s", kPaintingFrame});
     bench.add(
         {"frame/dense/painting/worst", "the same, worst", "ms", most(painting.wall), "8 frames/s", kPaintingFrame});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "plugin_api/espalier.h"
 
@@ -15,14 +16,16 @@ class MovingDetail {
     static constexpr float kLod = 4;  // times the errors that are allowed otherwise
     static constexpr double kFrameMs = 1e3 / 15;
     static constexpr uint32_t kLeaves = 20'000;  // in view: more aren't given up for speed
+    static constexpr float kLeastShare = 0.5f;   // of the window's width
 
     // Times the pixels from which on all leaves are drawn: fewer and larger leaves, and fewer twigs.
     float leaf() const { return leaf_; }
 
-    // Makes a picture as coarse as that.
-    void apply(EspLook& look) const {
-        look.windowLodPixels *= kLod;
-        look.leafPixels *= leaf_;
+    // Makes a picture as coarse as that. share: of the window's width that is drawn; larger pictures show no more
+    // detail than the least one, so that they cost more pixels and nothing else.
+    void apply(EspLook& look, float share = kLeastShare) const {
+        look.windowLodPixels *= kLod * share / kLeastShare;
+        look.leafPixels *= leaf_ * share / kLeastShare;
         look.quick = 1;
     }
 
@@ -38,24 +41,55 @@ class MovingDetail {
     float leaf_ = 1.5f;
 };
 
+// Which share of the window's width a moving picture is drawn with: as much as lets frames be in time.
+class MovingShare {
+  public:
+    float share() const { return share_; }
+
+    // After each such frame: its time. A step up makes a frame at most kStep² as dear, which leaves it in time.
+    void follow(double frameMs) {
+        mean_ = frames_++ == 0 ? frameMs : mean_ + kFollow * (frameMs - mean_);
+        if (frames_ >= kFramesDown && mean_ > kLate * MovingDetail::kFrameMs)
+            change(share_ / kStep);
+        else if (frames_ >= kFramesUp && mean_ < kEarly * MovingDetail::kFrameMs)
+            change(share_ * kStep);
+    }
+
+  private:
+    static constexpr float kStep = 1.2f;
+    static constexpr double kEarly = 0.6, kLate = 0.95, kFollow = 0.2;
+    static constexpr int kFramesDown = 4, kFramesUp = 12;  // at a share, before it may change
+
+    void change(float share) {
+        const float before = std::exchange(share_, std::clamp(share, MovingDetail::kLeastShare, 1.0f));
+        if (share_ != before) frames_ = 0;
+    }
+
+    float share_ = MovingDetail::kLeastShare;
+    double mean_ = 0;  // of the frames at this share, the latest weighing most
+    int frames_ = 0;
+};
+
 // What a window asks for in each frame; it draws as it is told.
 class MovingPicture {
   public:
     static constexpr double kSlowDrawMs = 40;  // a device that takes longer over a whole picture is slow
 
-    // Before a frame: moving: the camera does, or a stroke goes on; drawMs: what the last picture took; half: such
+    // Before a frame: moving: the camera does, or a stroke goes on; drawMs: what the last picture took; smaller: such
     // pictures may be smaller. Makes `draw` coarser if need be; returns the share of the window's width to draw.
-    float prepare(EspDrawDef& draw, bool moving, double drawMs, bool half) {
+    float prepare(EspDrawDef& draw, bool moving, double drawMs, bool smaller) {
         hurried_ = moving && (coarse_ || drawMs > kSlowDrawMs);
         if (!hurried_) return 1;
-        detail_.apply(draw.look);
-        return half ? 0.5f : 1.0f;
+        const float share = smaller ? share_.share() : 1;
+        detail_.apply(draw.look, share);
+        return share;
     }
 
     // After it, if it was drawn: the whole frame's time, and the leaves in it.
     void drew(double frameMs, uint32_t leaves) {
-        coarse_ = hurried_;
         if (hurried_) detail_.follow(frameMs, leaves);
+        if (hurried_ && coarse_) share_.follow(frameMs);  // the first makes its images
+        coarse_ = hurried_;
     }
 
     // The picture that is shown is a coarse one, to be drawn again when nothing moves.
@@ -63,6 +97,7 @@ class MovingPicture {
 
   private:
     MovingDetail detail_;
+    MovingShare share_;
     bool coarse_ = false, hurried_ = false;
 };
 
