@@ -45,6 +45,16 @@ void recoveryDialogue(Session& session) {
             }
             sure = !sure;
         }
+        if (session.recoveryWaits()) {
+            ImGui::SameLine();
+            const bool later =
+                ImGui::Button("Decide later") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+            toolTip("It stays where it is, and is offered again when this is opened next");
+            if (later) {
+                session.forgetRecovery(false);
+                ImGui::CloseCurrentPopup();
+            }
+        }
         if (sure) say("It can't be brought back.");
         ImGui::EndPopup();
     }

@@ -352,6 +352,10 @@ void Session::forgetRecovery(bool deleteIt) {
     unsavedLock_.release();
 }
 
+bool Session::recoveryWaits() const {
+    return !recovery_.empty() && (folder_.empty() || fs::path(recovery_).parent_path() != folder_);
+}
+
 void Session::startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height, Ended ended) {
     work.error.clear();
     const RunHead head{RunHead::kVersion, file_, width, height, 1 / 30.f};

@@ -45,6 +45,9 @@ class Session {
     // Of an earlier run that ended without saving; empty: there is none. Asked until answered.
     const std::string& recovery() const { return recovery_; }
     void forgetRecovery(bool deleteIt);
+    // Whether it can be decided on another time, what is done meanwhile being kept beside it. A project's own autosave
+    // can't: the next one takes its place.
+    bool recoveryWaits() const;
     // What is done in the document from now on is a recorded run's, and isn't kept.
     void replays(const std::string& run);
     // What follows is the user's: it is kept by the run's name. What was so, when a session ended, is offered.

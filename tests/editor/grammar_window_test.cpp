@@ -1,0 +1,137 @@
+// The window with a grammar's text as it is typed into: what compiles, what goes on growing, and what the keys mean.
+
+#include <algorithm>
+
+#include "sample_game/panels.hpp"
+#include "sample_game/remarks.hpp"
+#include "tests/editor/window.hpp"
+
+using namespace espalier::document;
+using sample::Tool;
+
+namespace {
+
+struct Writer : Editor {
+    explicit Writer(const Folder& folder) : Editor(folder, smallScene(folder), Tool::look) {
+        work.window = {1280, 720};
+        work.layout.grammar = true;
+        ImGuiIO& io = ImGui::GetIO();
+        for (int i = 0; i < ImGuiKey_COUNT; ++i) io.KeyMap[i] = i;
+        panels = [this] {
+            sample::beginGesture(work);
+            sample::showGrammarWindow(work);
+        };
+        rest();
+    }
+    const espalier::scene::LoadedGrammar& grammar() const { return work.scene().grammars[0]; }
+    void rest() {
+        for (int i = 0; i < 4; ++i) frame({});
+    }
+    void clickOn(glm::vec2 at) {
+        mouse = at;
+        for (const bool down : {false, true, false}) {
+            ImGui::GetIO().MouseDown[0] = down;
+            frame({});
+        }
+        rest();
+    }
+    // Behind its last letter.
+    void enterText() {
+        clickOn({1000, 300});
+        widgetKey(ImGuiKey_End, true);
+    }
+    void widgetKey(ImGuiKey key, bool ctrl = false) {
+        ImGuiIO& io = ImGui::GetIO();
+        io.KeyCtrl = ctrl;
+        io.KeyMods = ctrl ? ImGuiKeyModFlags_Ctrl : ImGuiKeyModFlags_None;
+        io.KeysDown[key] = true;
+        frame({});
+        io.KeysDown[key] = io.KeyCtrl = false;
+        io.KeyMods = ImGuiKeyModFlags_None;
+        rest();
+    }
+    void type(const std::string& text) {
+        for (const char letter : text) {
+            ImGui::GetIO().AddInputCharacter(unsigned(letter));
+            frame({});
+        }
+        rest();
+    }
+    uint64_t nodes() {
+        EspStats stats;
+        REQUIRE(espUpdate(work.context.get()) == ESP_OK);
+        REQUIRE(espReadStats(work.context.get(), &stats) == ESP_OK);
+        return stats.nodes;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("what is typed compiles with each letter; a mistake stands at its line while the last good text grows") {
+    const Folder folder;
+    Writer writer(folder);
+    const std::string before = writer.grammar().text;
+    const uint64_t grown = writer.nodes();
+    REQUIRE(grown > 100);
+    writer.enterText();
+    writer.type("// a note");
+    CHECK(writer.grammar().text == before + "// a note");
+    CHECK(writer.grammar().error == "");
+    writer.type("\nNew -> Nothing(");
+    CHECK(writer.grammar().error != "");
+    CHECK(writer.grammar().grows == before + "// a note\n");
+    const auto remarks = sample::remarksOf(writer.grammar());
+    REQUIRE(!remarks.empty());
+    const std::string typed = writer.grammar().text;
+    CHECK(remarks.front().line == 1 + std::count(typed.begin(), typed.end(), '\n'));
+    CHECK(writer.nodes() == grown);
+    // Mended, it grows by what is written now.
+    for (int i = 0; i < 15; ++i) writer.widgetKey(ImGuiKey_Backspace);
+    CHECK(writer.grammar().text == before + "// a note\n");
+    CHECK(writer.grammar().error == "");
+    CHECK(writer.nodes() == grown);
+}
+
+TEST_CASE("in a grammar's text Ctrl+Z goes back over what was typed and leaves the scene alone") {
+    const Folder folder;
+    Writer writer(folder);
+    const std::string before = writer.grammar().text;
+    writer.fill(.5f);
+    writer.enterText();
+    writer.type("// one");
+    REQUIRE(writer.grammar().text == before + "// one");
+    REQUIRE(writer.work.document->undoSteps() == 2);
+    writer.widgetKey(ImGuiKey_Z, true);
+    CHECK(writer.grammar().text == before);
+    CHECK(writer.work.document->undoSteps() == 1);
+    writer.widgetKey(ImGuiKey_Z, true);
+    CHECK(writer.work.document->undoSteps() == 1);
+    CHECK_MESSAGE(contains(writer.work.message, "Nothing more of the text"), writer.work.message);
+    writer.widgetKey(ImGuiKey_Y, true);
+    CHECK(writer.grammar().text == before + "// one");
+    // Outside the text the same keys are the scene's.
+    writer.widgetKey(ImGuiKey_Escape);
+    CHECK(writer.grammar().text == before + "// one");
+    writer.undo();
+    writer.undo();
+    CHECK(writer.grammar().text == before);
+    CHECK(writer.work.document->undoSteps() == 0);
+}
+
+TEST_CASE("letters that are typed into a grammar's text choose no tool, and neither do those after Esc has left it") {
+    const Folder folder;
+    Writer writer(folder);
+    writer.enterText();
+    writer.key(GLFW_KEY_B);
+    CHECK(writer.work.tool == Tool::look);
+    writer.widgetKey(ImGuiKey_Escape);
+    REQUIRE(sample::grammarFocused());
+    writer.key(GLFW_KEY_B);
+    CHECK(writer.work.tool == Tool::look);
+    // A second Esc leaves the window.
+    writer.key(GLFW_KEY_ESCAPE);
+    writer.rest();
+    CHECK(!sample::grammarFocused());
+    writer.key(GLFW_KEY_B);
+    CHECK(writer.work.tool == Tool::paint);
+}

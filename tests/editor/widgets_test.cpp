@@ -1,0 +1,192 @@
+// Panels and dialogues whose widgets are pressed one by one: what each does to the document and on disk.
+#include "tests/editor/widgets.hpp"
+
+#include <algorithm>
+
+#include "sample_game/dialogue.hpp"
+#include "sample_game/panels.hpp"
+
+using namespace espalier::document;
+using espalier::scene::House;
+using espalier::scene::houseNow;
+namespace fs = std::filesystem;
+
+namespace {
+
+size_t autosaves(const fs::path& folder) {
+    if (!fs::exists(folder)) return 0;
+    const fs::recursive_directory_iterator all(folder);
+    return size_t(std::count_if(fs::begin(all), fs::end(all),
+                                [](const auto& entry) { return entry.path().filename() == "autosave.json"; }));
+}
+
+// Leaves behind what an editor of `file` had kept when it came to a sudden end.
+void crash(const Folder& folder, const std::string& file, float mask) {
+    const fs::path kept = folder.path / "kept";
+    {
+        Window window(folder, file);
+        window.fill(mask);
+        window.wait();
+        fs::create_directories(kept);
+        for (const char* part : {"config", "garden"})
+            if (fs::exists(folder.path / part)) fs::copy(folder.path / part, kept / part, fs::copy_options::recursive);
+    }
+    for (const auto& part : fs::directory_iterator(kept)) {
+        fs::remove_all(folder.path / part.path().filename());
+        fs::rename(part.path(), folder.path / part.path().filename());
+    }
+    fs::remove_all(kept);
+}
+
+struct Dialogue : Editor {
+    static constexpr const char* kTitle = "Unsaved work";
+    Dialogue(const Folder& folder, const std::string& file) : Editor(folder, file, sample::Tool::look) {
+        panels = [this] { sample::showDialogues(work, session); };
+        for (int i = 0; i < 3; ++i) frame({});
+    }
+    ~Dialogue() { sample::closeDialogues(); }
+    void press(const char* button) { pressWidget(*this, kTitle, {button}); }
+    bool asks() const {
+        const ImGuiWindow* window = ImGui::FindWindowByName(kTitle);
+        return window && window->WasActive;
+    }
+};
+
+// The panel of the first house of a town.
+struct HousePanel : Editor {
+    explicit HousePanel(const Folder& folder) : Editor(folder, content("street.json"), sample::Tool::houses) {
+        panels = [this] {
+            ImGui::SetNextWindowSize({320, 700});
+            ImGui::Begin("panel");
+            sample::housesPanel(work);
+            ImGui::End();
+        };
+        work.house = 0;
+        for (int i = 0; i < 3; ++i) frame({});
+    }
+    House house() const { return houseNow(work.context.get(), 0); }
+    void press(std::initializer_list<const char*> path) { pressWidget(*this, "panel", path); }
+    void choose(std::initializer_list<const char*> combo, const char* choice) {
+        chooseFrom(*this, "panel", combo, choice);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("what an editor left behind is thrown away by a second click only") {
+    const Folder folder;
+    const std::string scene = smallScene(folder);
+    crash(folder, scene, .25f);
+    REQUIRE(autosaves(folder.path / "config") == 1);
+    Dialogue dialogue(folder, scene);
+    REQUIRE(dialogue.asks());
+    dialogue.press("Throw it away");
+    CHECK(autosaves(folder.path / "config") == 1);
+    CHECK(dialogue.asks());
+    dialogue.press("Yes, throw it away");
+    CHECK(autosaves(folder.path / "config") == 0);
+    CHECK(!dialogue.asks());
+}
+
+TEST_CASE("what an editor left behind can wait, beside what is done meanwhile, and is offered again") {
+    const Folder folder;
+    const std::string scene = smallScene(folder);
+    crash(folder, scene, .25f);
+    std::string offered;
+    {
+        Dialogue dialogue(folder, scene);
+        offered = dialogue.session.recovery();
+        dialogue.press("Decide later");
+        CHECK(!dialogue.asks());
+        dialogue.fill(.75f);
+        dialogue.wait();
+        CHECK(autosaves(folder.path / "config") == 2);
+        CHECK(!dialogue.asks());
+    }
+    Dialogue again(folder, scene);
+    CHECK(again.asks());
+    CHECK(again.session.recovery() == offered);
+    again.press("Open it");
+    CHECK(again.session.openNext == offered);
+    CHECK(!again.asks());
+}
+
+// The next one would take its place.
+TEST_CASE("a project's own autosave is decided on at once") {
+    const Folder folder;
+    const std::string garden = folder.file("garden");
+    {
+        Window window(folder, smallScene(folder));
+        REQUIRE(window.save(garden));
+    }
+    crash(folder, garden, .25f);
+    REQUIRE(autosaves(garden) == 1);
+    Dialogue dialogue(folder, garden);
+    REQUIRE(dialogue.asks());
+    dialogue.press("Decide later");
+    CHECK(dialogue.asks());
+    CHECK(autosaves(garden) == 1);
+}
+
+TEST_CASE("each widget of a house's panel does what it says, as one step of undo") {
+    const Folder folder;
+    HousePanel panel(folder);
+    const auto steps = [&] { return panel.work.document->undoSteps(); };
+    REQUIRE(panel.house().look);
+    size_t before = steps();
+    const auto oneStep = [&] { return steps() == ++before; };
+
+    panel.choose({"##kind"}, "Gambrel");
+    CHECK(panel.house().shape == "gambrel");
+    CHECK(oneStep());
+    panel.choose({"Covering", "##choice"}, "Slate");
+    CHECK(panel.house().look->covering == "slate");
+    CHECK(oneStep());
+    panel.choose({"Chimneys", "##choice"}, "None");
+    CHECK(panel.house().look->chimneys == "none");
+    CHECK(panel.house().look->covering == "slate");
+    CHECK(oneStep());
+    panel.press({"Colour"});
+    CHECK(panel.house().look->colour.size() == 3);
+    CHECK(oneStep());
+    panel.press({"Colour"});
+    CHECK(panel.house().look->colour.empty());
+    CHECK(oneStep());
+    panel.press({"Overhang"});
+    CHECK(panel.house().look->overhang == .4f);
+    CHECK(oneStep());
+    REQUIRE(panel.house().slope > 0);  // as it was planned
+    panel.press({"Pitch", "Pitch"});
+    CHECK(panel.house().slope == 0);
+    CHECK(oneStep());
+    panel.press({"Pitch", "Pitch"});
+    CHECK(panel.house().slope > 0);
+    CHECK(oneStep());
+    CHECK(panel.work.error == "");
+
+    panel.press({"As it was planned"});
+    CHECK(panel.all<ResetHouse>().size() == 1);
+    CHECK(panel.house().shape != "gambrel");
+    CHECK(panel.house().look->covering != "slate");
+    CHECK(oneStep());
+    panel.undo();
+    CHECK(panel.house().shape == "gambrel");
+    CHECK(panel.house().look->covering == "slate");
+}
+
+TEST_CASE("an edge's end and pitch are its own") {
+    const Folder folder;
+    HousePanel panel(folder);
+    panel.work.houseEdge = 1;
+    panel.frame({});
+    panel.choose({"##end"}, "Gable");
+    REQUIRE(panel.house().edges.size() == 1);
+    CHECK(panel.house().edges[0].edge == 1);
+    CHECK(panel.house().edges[0].end == "gable");
+    panel.choose({"##end"}, "Eave");
+    panel.press({"Pitch##edge", "Pitch##edge"});
+    CHECK(panel.house().edges[0].slope > 0);
+    panel.press({"Pitch##edge", "Pitch##edge"});
+    panel.choose({"##end"}, "As the kind says");
+    CHECK(panel.house().edges.empty());
+}
