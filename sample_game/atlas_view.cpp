@@ -1,4 +1,4 @@
-// Texels, links and a layer, as the plugin gives them back -> a picture; then what is drawn over it.
+// The window around an atlas' picture, and what is drawn over that.
 #include "sample_game/atlas_view.hpp"
 
 #include <imgui.h>
@@ -9,29 +9,14 @@
 #include <utility>
 
 #include "sample_game/panels.hpp"
-#include "tools/scene/layers.hpp"
 
 namespace sample {
 namespace {
 
-constexpr uint32_t kLeastSide = 512;  // pixels of the picture: texels of coarse levels are drawn as squares
-constexpr size_t kShades = 256;
 constexpr float kLinkReach = 7;  // pixels from the mouse to a link
-constexpr ImU32 kEmpty = IM_COL32(20, 21, 24, 255), kPlain = IM_COL32(62, 65, 70, 255);
-// Seams, nearest points, contacts, the model's borders.
-constexpr ImU32 kLinks[] = {IM_COL32(150, 170, 190, 255), IM_COL32(90, 210, 210, 255), IM_COL32(240, 200, 60, 255),
-                            IM_COL32(225, 80, 70, 255)};
 constexpr const char* kLinkNames[] = {"Seams", "Nearest points", "Contacts", "Open borders"};
 constexpr ImU32 kSample = IM_COL32(255, 255, 255, 255), kInserted = IM_COL32(120, 200, 255, 255),
                 kJump = IM_COL32(110, 230, 90, 255), kPointed = IM_COL32(255, 240, 150, 255);
-
-ImU32 mixed(ImU32 a, ImU32 b, float share) {
-    const auto channel = [&](int shift) {
-        const float x = float(a >> shift & 255), y = float(b >> shift & 255);
-        return ImU32(x + (y - x) * share + .5f) << shift;
-    };
-    return channel(IM_COL32_R_SHIFT) | channel(IM_COL32_G_SHIFT) | channel(IM_COL32_B_SHIFT) | IM_COL32_A_MASK;
-}
 
 // By its file; one of several of a file has its number.
 std::string surfaceName(const std::vector<espalier::scene::LoadedSurface>& surfaces, size_t index) {
@@ -65,100 +50,11 @@ struct AtlasView::View {
 };
 
 void AtlasView::forget() {
-    shown_ = {};
+    atlas_.forget();
     wanted_.surface = ~0u;
     followed_.reset();
-    texels_.clear();
-    links_.clear();
-    layer_.clear();
     zoom_ = 1;
 }
-
-// ---- The picture
-
-bool AtlasView::read(Workspace& work, const Shown& wanted) {
-    EspContext* context = work.context.get();
-    const EspSurface surface = work.scene().surfaces[wanted.surface].id;
-    const bool sameSurface = wanted.surface == shown_.surface;
-    if (!sameSurface || wanted.level != shown_.level) {
-        if (espReadAtlas(context, surface, wanted.level, nullptr, &size_) != ESP_OK) return false;
-        texels_.resize(size_t(size_) * size_);
-        if (espReadAtlas(context, surface, wanted.level, texels_.data(), &size_) != ESP_OK) return false;
-    }
-    if (!sameSurface) {
-        uint32_t count = 0;
-        if (espReadLinks(context, surface, nullptr, &count) != ESP_OK) return false;
-        links_.resize(count);
-        if (espReadLinks(context, surface, links_.data(), &count) != ESP_OK) return false;
-    }
-    if (wanted.layer.empty() || (sameSurface && wanted.layer == shown_.layer && wanted.revision == shown_.revision))
-        return true;
-    layer_.clear();
-    for (const std::string& channel : channelsOf(work.scene(), wanted.layer)) {
-        espalier::scene::GreyPicture picture;
-        if (!work.document->readLayer(wanted.surface, channel, picture, work.error)) return false;
-        layerSize_ = picture.width;
-        layer_.push_back(std::move(picture.texels));
-    }
-    return true;
-}
-
-// As the views of charts and of a layer have them on the model.
-void AtlasView::mixColours() {
-    uint32_t charts = 1;
-    for (uint32_t texel : texels_) charts = std::max(charts, (texel & 0xFFFFu) + 1);
-    while (chartColours_.size() < charts)
-        chartColours_.push_back(viewColour(ESP_VIEW_CHARTS, float(chartColours_.size())));
-    while (layerColours_.size() < kShades)
-        layerColours_.push_back(viewColour(ESP_VIEW_LAYER, float(layerColours_.size()) / (kShades - 1)));
-}
-
-uint32_t AtlasView::colourOf(uint32_t x, uint32_t y) const {
-    const uint32_t texel = texels_[size_t(y) * size_ + x], kind = texel >> 16 & 3u;
-    if (kind == ESP_TEXEL_EMPTY) return kEmpty;
-    ImU32 colour = shown_.charts ? chartColours_[texel & 0xFFFFu] : kPlain;
-    if (texel >> 18 & 1u) colour = mixed(colour, kEmpty, .75f);
-    if (kind != ESP_TEXEL_INNER) return mixed(colour, kEmpty, .6f);
-    if (shown_.layer.empty()) return colour;
-    // At the texel's middle: around a chart the layer holds what nobody has painted.
-    const auto middle = [&](uint32_t i) { return (2 * size_t(i) + 1) * layerSize_ / (2 * size_); };
-    const size_t u = middle(x), v = middle(y);
-    const size_t at = v * layerSize_ + u;
-    if (layer_.size() == 3)
-        return mixed(colour, shownColour({layer_[0][at], layer_[1][at], layer_[2][at]}), shown_.opacity);
-    const float value = std::clamp(layer_[0][at], 0.f, 1.f);
-    return mixed(colour, layerColours_[size_t(value * (kShades - 1) + .5f)], shown_.opacity);
-}
-
-void AtlasView::drawLinks(std::vector<uint32_t>& pixels, uint32_t side) const {
-    for (const EspLink& link : links_) {
-        const float dx = (link.b[0] - link.a[0]) * float(side), dy = (link.b[1] - link.a[1]) * float(side);
-        const int steps = std::min(int(std::max(std::abs(dx), std::abs(dy))) + 1, 16384);
-        for (int i = 0; i <= steps; ++i) {
-            const float t = float(i) / float(steps);
-            const int x = int(link.a[0] * float(side) + dx * t), y = int(link.a[1] * float(side) + dy * t);
-            if (x < 0 || y < 0 || x >= int(side) || y >= int(side)) continue;
-            pixels[size_t(int(side) - 1 - y) * side + size_t(x)] = kLinks[link.kind];
-        }
-    }
-}
-
-// v runs upward, rows downward.
-bool AtlasView::compose() {
-    mixColours();
-    const uint32_t factor = std::max(1u, kLeastSide / size_), side = size_ * factor;
-    std::vector<uint32_t> pixels(size_t(side) * side);
-    std::vector<uint32_t> row(size_);
-    for (uint32_t y = 0; y < size_; ++y) {
-        for (uint32_t x = 0; x < size_; ++x) row[x] = colourOf(x, y);
-        for (uint32_t k = 0; k < factor; ++k)
-            for (uint32_t x = 0; x < side; ++x) pixels[size_t(side - 1 - y * factor - k) * side + x] = row[x / factor];
-    }
-    if (shown_.links) drawLinks(pixels, side);
-    return picture_.show(reinterpret_cast<const unsigned char*>(pixels.data()), side, side);
-}
-
-// ---- The window
 
 // A branch that was picked, or is there when the window opens, is looked for on its own surface.
 void AtlasView::followBranch(const Workspace& work) {
@@ -224,14 +120,14 @@ void AtlasView::controls(Workspace& work) {
     }
     if (wanted_.links)
         for (int kind = 0; kind < 4; ++kind) {
-            const bool any =
-                std::any_of(links_.begin(), links_.end(), [&](const EspLink& l) { return l.kind == kind; });
+            const bool any = std::ranges::any_of(atlas_.links(), [&](const EspLink& l) { return l.kind == kind; });
             if (!any) continue;
-            ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kLinks[kind]), "%s", kLinkNames[kind]);
+            ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(AtlasPicture::kLinkColours[kind]), "%s",
+                               kLinkNames[kind]);
             sameLineIfRoom(room * 12);
         }
-    if (size_)
-        ImGui::TextDisabled("%u x %u, %u charts", size_, size_, info.charts);
+    if (atlas_.size())
+        ImGui::TextDisabled("%u x %u, %u charts", atlas_.size(), atlas_.size(), info.charts);
     else
         ImGui::TextDisabled("Reading ...");
 }
@@ -281,7 +177,7 @@ void AtlasView::drawWalk(const Workspace& work, const View& view) const {
 const EspLink* AtlasView::linkAt(const View& view, ImVec2 at) const {
     const EspLink* best = nullptr;
     float nearest = kLinkReach * view.scale;
-    for (const EspLink& link : links_) {
+    for (const EspLink& link : atlas_.links()) {
         const ImVec2 a = view.place(link.a), b = view.place(link.b);
         const float dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
         const float t = length2 > 0 ? std::clamp(((at.x - a.x) * dx + (at.y - a.y) * dy) / length2, 0.f, 1.f) : 0;
@@ -294,21 +190,20 @@ const EspLink* AtlasView::linkAt(const View& view, ImVec2 at) const {
 void AtlasView::tellAt(const View& view) const {
     const ImVec2 at = ImGui::GetIO().MousePos;
     const auto [u, v] = view.uvAt(at);
-    const int x = int(u * float(size_)), y = int(v * float(size_));
-    if (x < 0 || y < 0 || x >= int(size_) || y >= int(size_)) return;
-    const uint32_t texel = texels_[size_t(y) * size_ + size_t(x)], kind = texel >> 16 & 3u;
+    const int size = int(atlas_.size()), x = int(u * float(size)), y = int(v * float(size));
+    if (x < 0 || y < 0 || x >= size || y >= size) return;
+    const uint32_t texel = atlas_.texel(uint32_t(x), uint32_t(y)), kind = texel >> 16 & 3u;
     char text[160] = "";
     int used = std::snprintf(text, sizeof text, "Texel %d, %d", x, y);
     if (kind != ESP_TEXEL_EMPTY)
         used += std::snprintf(text + used, sizeof text - size_t(used), "   chart %u%s", texel & 0xFFFFu,
                               kind == ESP_TEXEL_INNER ? "" : " (gutter)");
-    if (!shown_.layer.empty() && kind == ESP_TEXEL_INNER) {
-        const size_t i = size_t(v * float(layerSize_)) * layerSize_ + size_t(u * float(layerSize_));
-        used += std::snprintf(text + used, sizeof text - size_t(used), "   %.30s", shown_.layer.c_str());
-        for (const std::vector<float>& channel : layer_)
-            used += std::snprintf(text + used, sizeof text - size_t(used), " %.2f", channel[i]);
+    if (!atlas_.shown().layer.empty() && kind == ESP_TEXEL_INNER) {
+        used += std::snprintf(text + used, sizeof text - size_t(used), "   %.30s", atlas_.shown().layer.c_str());
+        for (const float value : atlas_.layerAt(u, v))
+            used += std::snprintf(text + used, sizeof text - size_t(used), " %.2f", value);
     }
-    const EspLink* link = shown_.links ? linkAt(view, at) : nullptr;
+    const EspLink* link = atlas_.shown().links ? linkAt(view, at) : nullptr;
     if (link && link->kind != ESP_LINK_OPEN) {
         ImDrawList& list = *ImGui::GetWindowDrawList();
         const ImVec2 a = view.place(link->a), b = view.place(link->b), toA = view.place(link->toA),
@@ -335,15 +230,17 @@ void AtlasView::show(Workspace& work) {
     followBranch(work);
     controls(work);
     wanted_.revision = wanted_.layer.empty() ? 0 : work.document->revision();
-    if (wanted_ != shown_) {
-        if (!read(work, wanted_)) {
+    if (wanted_ != atlas_.shown()) {
+        if (!atlas_.read(work, wanted_)) {
             if (work.error.empty()) work.error = espLastError(work.context.get());
             return ImGui::End();
         }
         if (wanted_.level != work.viewLevel) work.redraw = true;
         work.viewLevel = wanted_.level;
-        shown_ = wanted_;
-        if (!compose()) work.error = picture_.error();
+        uint32_t side = 0;
+        const std::vector<uint32_t> pixels = atlas_.pixels(side);
+        if (!picture_.show(reinterpret_cast<const unsigned char*>(pixels.data()), side, side))
+            work.error = picture_.error();
     }
     View view;
     view.corner = ImGui::GetCursorScreenPos();
