@@ -34,8 +34,8 @@ const Habit kHabits[] = {
     {"apple_a", 1, 23, 1.3f, 4.3f, 2.1f, 0.45f, 0.35f, 8, {210, 60, 18}, 0.78f, 0.14f, 7, false},
     {"apple_b", 1, 24, 1.2f, 4.9f, 2.4f, 0.50f, 0.35f, 9, {230, 64, 19}, 0.82f, 0.15f, 7, false},
     {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, 13, {300, 80, 22}, 0.80f, 0.13f, 6, true},
-    {"bush_a", 3, 26, 0.0f, 1.5f, 1.05f, 0.45f, 0.30f, 5, {90, 28, 9}, 0.60f, 0.0f, 0, false},
-    {"bush_b", 3, 27, 0.0f, 1.0f, 0.85f, 0.50f, 0.30f, 4, {70, 24, 8}, 0.52f, 0.0f, 0, false},
+    {"bush_a", 3, 26, 0.0f, 1.5f, 1.05f, 0.45f, 0.30f, 6, {120, 34, 11}, 0.60f, 0.0f, 0, false},
+    {"bush_b", 3, 27, 0.0f, 1.0f, 0.85f, 0.50f, 0.30f, 5, {100, 30, 10}, 0.52f, 0.0f, 0, false},
 };
 
 float crownRadius(const Habit& h, float t) {
@@ -86,8 +86,8 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
         const float most = (bush ? 0.44f : 0.26f) * tall;
         const float broad = h.birch ? 0.78f * std::max(wide, 0.6f * h.radius) : (bush ? 0.66f : 0.56f) * h.radius;
         const float radius = std::min(broad * (bush ? 0.8f + 0.4f * random(2) : 0.70f + 0.50f * random(2)), most);
-        const float r =
-            top ? 0 : std::max(wide * ((bush ? 0.9f : 0.84f) + 0.22f * random(3)) - 0.75f * radius, 0.25f * wide);
+        const float reach = std::max(wide * (0.84f + 0.22f * random(3)) - 0.75f * radius, 0.25f * wide);
+        const float r = top ? 0 : bush ? std::min(reach, 0.7f * radius) : reach;
         const glm::vec3 out(std::cos(angle), 0, std::sin(angle));
         lobes.push_back({r * out + glm::vec3(0, h.crownFoot + tall * t, 0) + lean * (0.4f * tall * t),
                          glm::normalize(top ? glm::vec3(0, 1, 0) : out + glm::vec3(0, 0.5f * t, 0)), radius});
@@ -119,6 +119,7 @@ std::vector<Twig> twigsOf(const Habit& h, const std::vector<Lobe>& lobes, int lo
         const float deep = i % 6 == 5 ? h.hollow * random(2) : glm::mix(h.hollow, 1.0f, std::pow(random(2), 0.40f));
         glm::vec3 at = lobe.at + dir * glm::vec3(1, 0.8f, 1) * (lobe.radius * deep);
         at.y = std::max(at.y, h.crownFoot + (h.trunk > 0 ? 0.5f : 0.3f) * side);
+        if (h.trunk == 0 && i % 3 == 0) at.y = (0.1f + 0.2f * random(10)) * side;  // it stands on the ground
         twigs.push_back({&lobe, at, dir, deep});
     }
     return twigs;
