@@ -33,18 +33,13 @@ void runDialogues(Workspace& work, Session& session) {
         std::error_code ignored;
         return fs::exists(named(file), ignored) ? wholePath(named(file)) + " is there already." : "";
     };
-    askPath(work, session,
-            {"Record a run",
-             "File for what is done from now on (.jsonl); what was done before it can't be undone then:",
-             "Record",
-             d.run,
-             {".jsonl"},
-             false,
-             replaces},
-            [&](const char* file) {
-                session.startRecording(work, named(file), uint32_t(work.window.x), uint32_t(work.window.y),
-                                       [&work](bool good) { endWait(work, good); });
-            });
+    askPath(
+        work, session,
+        {"Record a run", "File for what is done from now on (.jsonl):", "Record", d.run, {".jsonl"}, false, replaces},
+        [&](const char* file) {
+            session.startRecording(work, named(file), uint32_t(work.window.x), uint32_t(work.window.y),
+                                   [&work](bool good) { endWait(work, good); });
+        });
 }
 
 }  // namespace sample

@@ -394,6 +394,7 @@ void Session::beginRun(Workspace& work) {
 void Session::stopRecording(Workspace& work) {
     const std::string frames = std::to_string(recorder_.frame() + 1) + " frames";
     if (recorder_.end(work.error)) work.message = "Recorded: " + recordingTo_ + ", " + frames;
+    work.document->reachBack();
 }
 
 }  // namespace sample

@@ -68,6 +68,64 @@ TEST_CASE("a run that begins after edits names the seeds that its replay has, an
     CHECK(replayed(path) == hashOf(window));
 }
 
+// Each of these is named by its seed's key, which a run's beginning changes.
+TEST_CASE("what was done before a run can be undone and done again when it has ended, however seeds were named in it") {
+    const Folder folder;
+    const std::string path = folder.file("run.jsonl");
+    Window window(folder, wallScene(folder, false));
+    auto& document = *window.work.document;
+    std::vector<uint64_t> hashes{hashOf(window)};
+    std::vector<size_t> seeds{document.scene().seeds.size()};
+    const auto step = [&](const Action& action) {
+        REQUIRE_MESSAGE(window.work.perform(action), window.work.error);
+        hashes.push_back(hashOf(window));
+        seeds.push_back(document.scene().seeds.size());
+    };
+    const auto plant = [&](uint32_t grammar, float x) {
+        const SeedRecord seed{
+            document.freshKey(), grammar, {x, .1f, 0}, {0, 1, 0}, 40 + uint32_t(document.scene().seeds.size())};
+        step(AddSeeds{{seed}, {uint32_t(document.scene().seeds.size())}});
+        return seed;
+    };
+    const SeedRecord gone = plant(1, .9f);
+    SeedRecord ivy = plant(0, .5f);
+    step(RemoveSeeds{{gone.key}});
+    ivy.position[0] = .3f;
+    step(ChangeSeeds{{ivy}});
+    step(FreezeSeeds{{ivy.key}, true});
+    step(FillLayer{"mask", .5f});
+    const size_t before = document.undoSteps();
+    REQUIRE(before == 6);
+
+    begin(window, path);
+    CHECK(document.undoSteps() == 0);
+    CHECK(hashOf(window) == hashes.back());
+    const SeedRecord late{document.freshKey(), 0, {-.4f, .1f, 0}, {0, 1, 0}, 99};
+    REQUIRE(window.work.perform(AddSeeds{{late}, {0}}));
+    REQUIRE(window.work.perform(Undo{}));
+    CHECK(!window.work.perform(Undo{}));
+    CHECK_MESSAGE(contains(window.work.error, "since the recording began"), window.work.error);
+    REQUIRE(window.work.perform(Redo{}));
+    window.session.stopRecording(window.work);
+    CHECK(replayed(path) == hashOf(window));
+
+    CHECK(document.undoSteps() == before + 1);
+    REQUIRE(window.work.perform(Undo{}));
+    for (size_t i = before; i-- > 0;) {
+        CAPTURE(i);
+        REQUIRE_MESSAGE(window.work.perform(Undo{}), window.work.error);
+        CHECK(document.scene().seeds.size() == seeds[i]);
+        CHECK(hashOf(window) == hashes[i]);
+    }
+    CHECK(!window.work.perform(Undo{}));
+    for (size_t i = 1; i <= before; ++i) {
+        CAPTURE(i);
+        REQUIRE_MESSAGE(window.work.perform(Redo{}), window.work.error);
+        CHECK(document.scene().seeds.size() == seeds[i]);
+        CHECK(hashOf(window) == hashes[i]);
+    }
+}
+
 TEST_CASE("the beginning of a run stays as it was when the project that was open is saved while it is recorded") {
     const Folder folder;
     const std::string garden = folder.file("garden"), path = folder.file("run.jsonl");

@@ -103,25 +103,6 @@ bool Document::open(const scene::Request& request, std::string& error) {
     return true;
 }
 
-std::vector<uint32_t> Document::beginAnew() {
-    bottom_ = state();
-    done_.clear();
-    undone_.clear();
-    const std::vector<Seed> before = scene_.seeds;
-    std::ranges::stable_sort(scene_.seeds, {}, &Seed::grammar);
-    std::vector<uint32_t> keys;
-    lastKey_ = 0;
-    bool sorted = true;
-    for (size_t i = 0; i < before.size(); ++i) {
-        sorted = sorted && before[i].key == scene_.seeds[i].key;
-        keys.push_back(scene_.seeds[i].key);
-    }
-    for (Seed& seed : scene_.seeds) seed.key = ++lastKey_;
-    std::string ignored;
-    if (!sorted) (void)plant(ignored);
-    return keys;
-}
-
 const Seed* Document::seed(uint32_t key) const {
     const size_t i = indexOf(key);
     return i < scene_.seeds.size() ? &scene_.seeds[i] : nullptr;
@@ -164,7 +145,7 @@ bool Document::carryOut(const Action& action, std::vector<Action>& back, std::st
 
 void Document::remember(const Action& action, std::vector<Action> back, uint32_t gesture) {
     undone_.clear();
-    if (gesture && !done_.empty() && done_.back().gesture == gesture) {
+    if (gesture && undoGesture() == gesture) {
         Step& step = done_.back();
         step.state = ++lastState_;
         for (Action& inverse : back) {
@@ -194,13 +175,19 @@ void Document::keep(std::vector<Step>& steps) {
     auto kept = steps.begin();
     while (kept + 1 < steps.end() && (bytes > maxHistoryBytes_ || size_t(steps.end() - kept) > kMaxSteps))
         bytes -= (kept++)->bytes;
-    if (&steps == &done_ && kept != steps.begin()) bottom_ = (kept - 1)->state;
+    if (&steps == &done_ && kept != steps.begin()) {
+        bottom_ = (kept - 1)->state;
+        out_ -= std::min(out_, size_t(kept - steps.begin()));
+    }
     steps.erase(steps.begin(), kept);
 }
 
 bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string& error) {
-    if (from.empty()) {
-        error = &from == &done_ ? "there is nothing to undo" : "there is nothing to redo";
+    if (&from == &done_ ? undoSteps() == 0 : from.empty()) {
+        error = &from != &done_ ? "there is nothing to redo"
+                : out_ == 0     ? "there is nothing to undo"
+                                : "there is nothing to undo since the recording began; what was done before it can be "
+                                  "undone when it has ended";
         return false;
     }
     Step step = std::move(from.back());
@@ -222,7 +209,7 @@ bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string&
 }
 
 const char* Document::undoName() const {
-    return done_.empty() ? nullptr : done_.back().name.c_str();
+    return undoSteps() == 0 ? nullptr : done_.back().name.c_str();
 }
 const char* Document::redoName() const {
     return undone_.empty() ? nullptr : undone_.back().name.c_str();
