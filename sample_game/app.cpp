@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr double kLookEvery = .3, kLookAtWorkEvery = .05;  // seconds
 constexpr size_t kHistory = 240;                           // frames in the graph
 constexpr float kTurnDegrees = 2;                          // a frame
-constexpr uint64_t kSettling = 24;                         // frames in which the level of detail follows the time
+constexpr uint64_t kSettling = 60;                         // frames in which detail and size follow the time
 
 }  // namespace
 
@@ -86,12 +86,12 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     }
     if (limiting_ && brushOf(*limiting_, brush, work_.error)) draw.look.viewBrush = &brush;
     // While the camera moves, or a stroke goes on, on a slow device, less detail.
-    const float scale = moving_.prepare(draw, moving && !last, work_.stats.drawMs, work_.layout.halfWhileMoving);
+    const float scale = moving_.prepare(draw, moving && !last, work_.stats.drawMs, work_.layout.smallerWhileMoving);
     const uint32_t left = uint32_t(std::lround(work_.shift() * float(frame->extent.width)));
     if (!image_->show(work_.context.get(), *frame, draw, left, scale, work_.redraw)) return fail(image_->error());
     if (image_->drew()) {
         work_.redraw = work_.readStats() && (work_.stats.modelsFading > 0 || work_.stats.shadowsBehind);
-        moving_.drew(work_.frameMs, uint32_t(work_.stats.drawnLeaves));
+        moving_.drew(work_.frameMs, uint32_t(work_.stats.drawnLeaves), controls_->painting());
     }
     ImGui::Render();
     if (!ui_->draw(*frame, *ImGui::GetDrawData())) return fail(ui_->error());
@@ -133,10 +133,10 @@ bool App::turn() {
 void App::tellTurn() const {
     const double frames = double(frames_ - kSettling);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - turnBegan_.at;
-    std::printf("%.1f frames/s: %.1f ms a frame, %.1f of CPU time; %llu leaves in the last\n",
+    std::printf("%.1f frames/s: %.1f ms a frame, %.1f of CPU time; %llu leaves and %.0f %% of the width in the last\n",
                 1e3 * frames / took.count(), took.count() / frames,
                 double(std::clock() - turnBegan_.cpu) * 1e3 / CLOCKS_PER_SEC / frames,
-                static_cast<unsigned long long>(work_.stats.drawnLeaves));
+                static_cast<unsigned long long>(work_.stats.drawnLeaves), double(100 * moving_.share()));
 }
 
 // A run's next step in place of what the user does, who can only end it. False: no run is on.

@@ -18,7 +18,7 @@ struct AppOptions {
     bool editor = false;   // begins in the editor
     double autosave = 60;  // seconds between two autosaves
     std::string record;    // begins with recording a run into this file
-    static constexpr uint64_t kLeastTurn = 60;
+    static constexpr uint64_t kLeastTurn = 90;
     std::string screenshot;  // written after the last of `frames`
 };
 

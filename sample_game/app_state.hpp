@@ -92,7 +92,7 @@ class App {
     struct {
         std::chrono::steady_clock::time_point at;
         std::clock_t cpu = 0;
-    } turnBegan_;         // once the level of detail has settled
+    } turnBegan_;         // once detail and size have settled
     double grownMs_ = 0;  // what growth took in this frame
     struct {
         std::chrono::steady_clock::time_point began;

@@ -42,27 +42,28 @@ bool AtlasPicture::read(Workspace& work, const AtlasShown& wanted) {
     EspContext* context = work.context.get();
     const EspSurface surface = work.scene().surfaces[wanted.surface].id;
     const bool sameSurface = wanted.surface == shown_.surface;
+    AtlasPicture next = *this;  // so that what is shown stands whole until all has been read
+    next.shown_ = wanted;
     if (!sameSurface || wanted.level != shown_.level) {
-        if (espReadAtlas(context, surface, wanted.level, nullptr, &size_) != ESP_OK) return false;
-        texels_.resize(size_t(size_) * size_);
-        if (espReadAtlas(context, surface, wanted.level, texels_.data(), &size_) != ESP_OK) return false;
+        if (espReadAtlas(context, surface, wanted.level, nullptr, &next.size_) != ESP_OK) return false;
+        next.texels_.resize(size_t(next.size_) * next.size_);
+        if (espReadAtlas(context, surface, wanted.level, next.texels_.data(), &next.size_) != ESP_OK) return false;
     }
     if (!sameSurface) {
         uint32_t count = 0;
         if (espReadLinks(context, surface, nullptr, &count) != ESP_OK) return false;
-        links_.resize(count);
-        if (espReadLinks(context, surface, links_.data(), &count) != ESP_OK) return false;
+        next.links_.resize(count);
+        if (espReadLinks(context, surface, next.links_.data(), &count) != ESP_OK) return false;
     }
-    const bool sameLayer = sameSurface && wanted.layer == shown_.layer && wanted.revision == shown_.revision;
-    if (!sameLayer) layer_.clear();
-    if (!sameLayer && !wanted.layer.empty())
+    if (!sameSurface || wanted.layer != shown_.layer || wanted.revision != shown_.revision) next.layer_.clear();
+    if (next.layer_.empty() && !wanted.layer.empty())
         for (const std::string& channel : channelsOf(work.scene(), wanted.layer)) {
             espalier::scene::GreyPicture picture;
             if (!work.document->readLayer(wanted.surface, channel, picture, work.error)) return false;
-            layerSize_ = picture.width;
-            layer_.push_back(std::move(picture.texels));
+            next.layerSize_ = picture.width;
+            next.layer_.push_back(std::move(picture.texels));
         }
-    shown_ = wanted;
+    *this = std::move(next);
     return true;
 }
 

@@ -29,8 +29,9 @@ void recoveryDialogue(Session& session) {
     if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");
     if (beginDialogue("Unsaved work")) {
         say("The last session ended without saving. What it had changed was kept" + keptAt(session.recovery()) + ".");
-        if (session.recovery().empty()) ImGui::CloseCurrentPopup();
-        if (ImGui::Button("Open it") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) {
+        // A key that was meant for something else, such as the Esc that ends a replay, is no answer.
+        const bool answers = !ImGui::IsWindowAppearing();
+        if (ImGui::Button("Open it") || (answers && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false))) {
             session.openNext = session.recovery();
             session.forgetRecovery(false);
             ImGui::CloseCurrentPopup();
@@ -47,15 +48,13 @@ void recoveryDialogue(Session& session) {
         }
         if (session.recoveryWaits()) {
             ImGui::SameLine();
-            const bool later =
-                ImGui::Button("Decide later") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+            const bool escape = answers && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+            const bool later = ImGui::Button("Decide later") || escape;
             toolTip("It stays where it is, and is offered again when this is opened next");
-            if (later) {
-                session.forgetRecovery(false);
-                ImGui::CloseCurrentPopup();
-            }
+            if (later) session.putOffRecovery(), sure = false;
         }
         if (sure) say("It can't be brought back.");
+        if (session.recovery().empty()) ImGui::CloseCurrentPopup();
         ImGui::EndPopup();
     }
 }

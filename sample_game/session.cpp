@@ -61,6 +61,7 @@ void Session::begin(Workspace& work, const std::string& file, fs::file_time_type
     toldKept_.clear();
     unsaved_.clear();
     run_.clear();
+    putOff_.clear();
     missing_ = replaying_ = saving_ = false;
     whole_ = whole && !work.scene().project;
     project_ = stampOf(fs::path(folder_) / kProject);
@@ -114,7 +115,10 @@ void Session::takePlace() {
         std::error_code failed;
         const fs::path place = unsavedFolder(i);
         fs::create_directories(place, failed);
-        if (failed) return;  // which saving there will tell
+        if (failed) {  // which saving there will tell
+            unsaved_ = place.string();
+            return unsavedLock_.release();
+        }
         if (!unsavedLock_.take(place.string()) || fs::exists(place / kAutosave, failed)) continue;
         unsaved_ = place.string();
         return;
@@ -125,7 +129,7 @@ void Session::takePlace() {
 std::string Session::leftBehind() {
     for (int i = 1; i <= kMostPlaces && !unsavedFolder().empty(); ++i)
         if (const std::string kept = recoverable(unsavedFolder(i));
-            !kept.empty() && unsavedLock_.take(unsavedFolder(i)))
+            !kept.empty() && !putOff_.contains(kept) && unsavedLock_.take(unsavedFolder(i)))
             return kept;
     return {};
 }
@@ -177,7 +181,7 @@ bool Session::idle() {
 }
 
 Session::Origin Session::origin(const Workspace& work) const {
-    return {file_, folder_, cannotKeep_, recoveredFrom_, unsaved_, run_, project_, whole_, modified(work)};
+    return {file_, folder_, cannotKeep_, recoveredFrom_, unsaved_, run_, putOff_, project_, whole_, modified(work)};
 }
 
 void Session::setOrigin(const Workspace& work, const Origin& origin) {
@@ -189,6 +193,8 @@ void Session::setOrigin(const Workspace& work, const Origin& origin) {
     run_ = origin.run;
     project_ = origin.project;
     whole_ = origin.whole;
+    putOff_ = origin.putOff;
+    if (putOff_.contains(recovery_)) putOffRecovery();
     claim();
     if (!unsaved_.empty() && !unsavedLock_.take(unsaved_)) unsaved_.clear();
     savedState_ = autosavedState_ = origin.modified ? kNever : work.document->state();
@@ -354,6 +360,12 @@ void Session::forgetRecovery(bool deleteIt) {
 
 bool Session::recoveryWaits() const {
     return !recovery_.empty() && (folder_.empty() || fs::path(recovery_).parent_path() != folder_);
+}
+
+void Session::putOffRecovery() {
+    putOff_.insert(recovery_);
+    forgetRecovery(false);
+    recovery_ = leftBehind();
 }
 
 void Session::startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height, Ended ended) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,8 @@ class Session {
     // Whether it can be decided on another time, what is done meanwhile being kept beside it. A project's own autosave
     // can't: the next one takes its place.
     bool recoveryWaits() const;
+    // Until this is opened again; the next one, if there is another, is offered.
+    void putOffRecovery();
     // What is done in the document from now on is a recorded run's, and isn't kept.
     void replays(const std::string& run);
     // What follows is the user's: it is kept by the run's name. What was so, when a session ended, is offered.
@@ -61,6 +64,7 @@ class Session {
     // Where the document belongs, over a reload of what it is in now.
     struct Origin {
         std::string file, folder, cannotKeep, recoveredFrom, unsaved, run;
+        std::set<std::string> putOff;
         FileStamp project;
         bool whole = false, modified = false;
     };
@@ -72,9 +76,9 @@ class Session {
     double autosaveEvery = 60;  // seconds
 
     bool recording() const { return recorder_.on(); }
-    // Of a scene as it was opened, or of how it is now, which is saved beside the run first, and undo then begins
-    // there, as in the replay; the run's file names it. `ended` is told whether it records, as save()'s; nothing is to
-    // edit the document before that.
+    // Of a scene as it was opened, or of how it is now, which is saved beside the run first; undo doesn't go further
+    // back then, as in the replay, until the recording has ended. The run's file names it. `ended` is told whether it
+    // records, as save()'s; nothing is to edit the document before that.
     void startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height, Ended ended);
     void stopRecording(Workspace& work);
     void nextFrame() { recorder_.nextFrame(); }
@@ -84,9 +88,9 @@ class Session {
     // Beside the user's settings, for what has no folder or can't write to it: the first that editors of the same would
     // take, or another of them. Empty: there is no place.
     std::string unsavedFolder(int number = 1) const;
-    void claim();      // what it is kept in, before others do
-    void takePlace();  // one of those, if it is to be kept there
-    std::string leftBehind();
+    void claim();                             // what it is kept in, before others do
+    void takePlace();                         // one of those, if it is to be kept there
+    std::string leftBehind();                 // none that is put off
     bool keeps(const Workspace& work) const;  // what isn't saved is to become an autosave
     void keepSoon(Workspace& work);
     void keepNow(Workspace& work);
@@ -102,12 +106,13 @@ class Session {
     bool watchGrammars(Workspace& work);
 
     std::string file_, folder_, recovery_, recordingTo_;
-    std::string recoveredFrom_;  // the autosave's folder of what was never saved; it goes on there
-    std::string unsaved_;        // the folder beside the user's settings that it is kept in; empty: none yet
-    std::string run_;            // that was replayed; empty: none was
-    std::string cannotKeep_;     // why the project's folder takes no autosave; empty: it does
-    std::string toldKept_;       // the last news of autosaves; empty: all is well
-    bool missing_ = false;       // the project, at the last look
+    std::set<std::string> putOff_;  // of recovery_'s, for as long as this is open
+    std::string recoveredFrom_;     // the autosave's folder of what was never saved; it goes on there
+    std::string unsaved_;           // the folder beside the user's settings that it is kept in; empty: none yet
+    std::string run_;               // that was replayed; empty: none was
+    std::string cannotKeep_;        // why the project's folder takes no autosave; empty: it does
+    std::string toldKept_;          // the last news of autosaves; empty: all is well
+    bool missing_ = false;          // the project, at the last look
     bool replaying_ = false;
     bool whole_ = false;  // file_ says all that was opened
     bool saving_ = false;

@@ -29,7 +29,7 @@ struct LayoutRecord {
         v("panel", layout.panel), v("figures", layout.figures), v("grammar", layout.grammar);
         v("atlas", layout.atlas), v("layer_opacity", layout.layerOpacity);
         v("panel_width", layout.panelWidth), v("size", layout.sizeOfAll),
-            v("half_while_moving", layout.halfWhileMoving);
+            v("smaller_while_moving", layout.smallerWhileMoving);
         v("window_width", layout.windowWidth), v("window_height", layout.windowHeight);
         v("maximised", layout.maximised), v("row_step", layout.rowStep), v("row_along", layout.rowAlong);
         v("radius", brush.radius), v("strength", brush.strength), v("hardness", brush.hardness);

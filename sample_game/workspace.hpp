@@ -41,7 +41,7 @@ struct Layout {
     bool maximised = false;
     float sizeOfAll = 1;        // of letters and panels, besides the display's own scale
     float layerOpacity = .75f;  // of the layer that is seen on the model
-    bool halfWhileMoving = true;
+    bool smallerWhileMoving = true;
     float rowStep = .25f;   // metres between two seeds of a row
     bool rowAlong = false;  // each looks along the row, else upward
 };

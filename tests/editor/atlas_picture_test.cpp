@@ -6,6 +6,7 @@
 #include <set>
 
 #include "sample_game/widgets.hpp"
+#include "tests/editor/faults.hpp"
 #include "tests/editor/window.hpp"
 
 using namespace espalier::document;
@@ -24,6 +25,17 @@ struct Atlas : Window {
         pixels = picture.pixels(side);
         REQUIRE(pixels.size() == size_t(side) * side);
     }
+    // With all of the brush's strength, in the middle of the wall.
+    void dab(const char* layer, std::vector<float> colour = {}) {
+        StrokeBegin stroke;
+        stroke.layer = layer;
+        stroke.colour = std::move(colour);
+        stroke.value = stroke.strength = stroke.hardness = 1;
+        stroke.radius = .8f;
+        for (const Action& action :
+             {Action{stroke}, Action{StrokeDabs{{{-1.35f, .7f, .36f, 0, 0, 1, 1}}}}, Action{StrokeEnd{}}})
+            REQUIRE_MESSAGE(work.perform(action), work.error);
+    }
     std::vector<uint32_t> texels(uint32_t level) {
         uint32_t size = 0;
         const EspSurface surface = work.scene().surfaces[0].id;
@@ -38,7 +50,7 @@ struct Atlas : Window {
         const size_t factor = side / picture.size();
         return pixels[(side - 1 - (y * factor + factor / 2)) * side + x * factor + factor / 2];
     }
-    // check(x, y, its chart) for every texel that isn't beside a border, in one layer's words: inner, not buried.
+    // check(x, y, its chart) for every inner texel of a chart that can be walked on at this level.
     template <class Check>
     void overGround(uint32_t level, const Check& check) {
         const std::vector<uint32_t> all = texels(level);
@@ -82,33 +94,48 @@ TEST_CASE("an atlas shows each chart in its colour, at every level as many pixel
     CHECK(atlas.picture.layerAt(.5f, .5f).empty());
 }
 
-TEST_CASE("an atlas shows what a layer holds, as it is painted") {
+TEST_CASE("an atlas shows what a layer holds, where it was painted") {
     const Folder folder;
     Atlas atlas(folder);
     AtlasShown shown = charts();
     shown.layer = "mask";
     shown.opacity = 1;
-    for (const float value : {.25f, .75f}) {
-        CAPTURE(value);
-        atlas.fill(value);
-        shown.revision = atlas.work.document->revision();
-        atlas.show(shown);
-        // Of 256 shades the nearest.
-        const uint32_t wanted = sample::viewColour(ESP_VIEW_LAYER, std::round(value * 255) / 255);
-        size_t wrong = 0;
-        atlas.overGround(0, [&](size_t x, size_t y, uint32_t) { wrong += atlas.at(x, y) != wanted; });
-        CHECK(wrong == 0);
-    }
-    // Half seen it lies between its own colour and the chart's.
-    shown.opacity = 0;
+    atlas.fill(.25f);
+    atlas.dab("mask");
+    shown.revision = atlas.work.document->revision();
     atlas.show(shown);
-    size_t wrong = 0;
-    atlas.overGround(0, [&](size_t x, size_t y, uint32_t chart) {
-        wrong += atlas.at(x, y) != sample::viewColour(ESP_VIEW_CHARTS, float(chart));
+    espalier::scene::GreyPicture mask;
+    REQUIRE(atlas.work.document->readLayer(0, "mask", mask, atlas.work.error));
+    REQUIRE(mask.width == int(atlas.picture.size()));
+    const auto value = [&](size_t x, size_t y) { return mask.texels[y * size_t(mask.width) + x]; };
+    size_t wrong = 0, painted = 0;
+    atlas.overGround(0, [&](size_t x, size_t y, uint32_t) {
+        // Of 256 shades the nearest.
+        wrong += atlas.at(x, y) != sample::viewColour(ESP_VIEW_LAYER, std::round(value(x, y) * 255) / 255);
+        painted += value(x, y) == 1;
+        const float u = (float(x) + .5f) / float(mask.width), v = (float(y) + .5f) / float(mask.width);
+        wrong += atlas.picture.layerAt(u, v) != std::vector<float>{value(x, y)};
     });
     CHECK(wrong == 0);
-    CHECK(std::ranges::count(atlas.picture.layerAt(.5f, .5f), -1.f) == 0);
-    CHECK(atlas.picture.layerAt(.5f, .5f).size() == 1);
+    CHECK(painted > 100);
+
+    // Half seen, each channel lies in the middle between the layer's and the chart's.
+    const std::vector<uint32_t> whole = atlas.pixels;
+    shown.opacity = 0;
+    atlas.show(shown);
+    const std::vector<uint32_t> none = atlas.pixels;
+    shown.opacity = .5f;
+    atlas.show(shown);
+    size_t off = 0, differ = 0;
+    for (size_t i = 0; i < whole.size(); ++i) {
+        for (const int shift : {0, 8, 16}) {
+            const auto channel = [&](uint32_t pixel) { return int(pixel >> shift & 255u); };
+            off += std::abs(2 * channel(atlas.pixels[i]) - channel(whole[i]) - channel(none[i])) > 1;
+        }
+        differ += whole[i] != none[i];
+    }
+    CHECK(off == 0);
+    CHECK(differ > whole.size() / 10);
 }
 
 TEST_CASE("an atlas shows a layer of colours in them") {
@@ -117,17 +144,20 @@ TEST_CASE("an atlas shows a layer of colours in them") {
     AtlasShown shown = charts();
     shown.layer = "colour";
     shown.opacity = 1;
-    const float tint[3] = {.8f, .1f, .05f};
     REQUIRE(std::ranges::count(atlas.work.scene().layers, shown.layer) == 1);
-    FillLayer fill{"colour", 1};
-    fill.colour = {tint[0], tint[1], tint[2]};
-    REQUIRE_MESSAGE(atlas.work.perform(fill), atlas.work.error);
+    atlas.dab("colour", {.75f, .125f, 0});
     shown.revision = atlas.work.document->revision();
     atlas.show(shown);
-    size_t wrong = 0;
-    atlas.overGround(0, [&](size_t x, size_t y, uint32_t) { wrong += atlas.at(x, y) != sample::shownColour(tint); });
+    size_t wrong = 0, painted = 0;
+    atlas.overGround(0, [&](size_t x, size_t y, uint32_t) {
+        const auto size = float(atlas.picture.size());
+        const std::vector<float> rgb = atlas.picture.layerAt((float(x) + .5f) / size, (float(y) + .5f) / size);
+        REQUIRE(rgb.size() == 3);
+        wrong += atlas.at(x, y) != sample::shownColour({rgb[0], rgb[1], rgb[2]});
+        painted += rgb == std::vector<float>{.75f, .125f, 0};
+    });
     CHECK(wrong == 0);
-    CHECK(atlas.picture.layerAt(.5f, .5f).size() == 3);
+    CHECK(painted > 100);
 }
 
 TEST_CASE("an atlas shows its links by their kind") {
@@ -156,10 +186,28 @@ TEST_CASE("an atlas shows its links by their kind") {
 TEST_CASE("an atlas that can't be read stays what it was") {
     const Folder folder;
     Atlas atlas(folder);
-    atlas.show(charts());
+    AtlasShown shown = charts();
+    shown.layer = "mask";
+    shown.opacity = 1;
+    atlas.show(shown);
     const std::vector<uint32_t> before = atlas.pixels;
+    const auto stands = [&] {
+        CHECK(atlas.picture.shown() == shown);
+        atlas.pixels = atlas.picture.pixels(atlas.side);
+        CHECK(atlas.pixels == before);
+    };
     CHECK(!atlas.picture.read(atlas.work, charts(99)));
-    CHECK(atlas.picture.shown() == charts());
-    atlas.pixels = atlas.picture.pixels(atlas.side);
-    CHECK(atlas.pixels == before);
+    stands();
+    // Another layer, on another level, of which one of three channels can't be read.
+    AtlasShown other = charts(2);
+    other.layer = "colour";
+    for (const int call : {1, 3, 5}) {  // each is read in two calls, the first of which asks for its size
+        callsUntilFailure = call;
+        CHECK(!atlas.picture.read(atlas.work, other));
+        CHECK(callsUntilFailure == 0);
+        stands();
+    }
+    atlas.show(other);
+    CHECK(atlas.picture.shown() == other);
+    CHECK(atlas.pixels != before);
 }

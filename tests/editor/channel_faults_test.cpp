@@ -1,50 +1,13 @@
 // Layers of colours when the plugin fails at one of their channels: what was done to the others is taken back.
-#include <dlfcn.h>
-
 #include <array>
 
 #include "tests/editor/editing.hpp"
+#include "tests/editor/faults.hpp"
 #include "tools/document/layer_files.hpp"
 #include "tools/scene/picture.hpp"
 
 using namespace espalier::document;
 using espalier::scene::GreyPicture;
-
-namespace {
-
-int callsUntilFailure = 0;  // of the functions below; 0: none fails
-
-bool fails() {
-    return callsUntilFailure > 0 && --callsUntilFailure == 0;
-}
-
-template <class Function>
-Function* plugins(const char* name, Function*) {
-    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
-}
-
-}  // namespace
-
-// In place of the plugin's own, for all that this program holds: the document's code.
-extern "C" {
-EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out) {
-    static auto* real = plugins("espBeginStroke", &espBeginStroke);
-    return fails() ? ESP_OUT_OF_MEMORY : real(context, brush, out);
-}
-EspResult espEndStroke(EspContext* context, EspStroke stroke) {
-    static auto* real = plugins("espEndStroke", &espEndStroke);
-    const EspResult ended = real(context, stroke);  // one that fails has ended, too
-    return fails() ? ESP_OUT_OF_MEMORY : ended;
-}
-EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out) {
-    static auto* real = plugins("espFillLayer", &espFillLayer);
-    return fails() ? ESP_OUT_OF_MEMORY : real(context, layer, value, out);
-}
-EspResult espImportLayer(EspContext* context, const EspLayerDef* def, EspStroke* out) {
-    static auto* real = plugins("espImportLayer", &espImportLayer);
-    return fails() ? ESP_OUT_OF_MEMORY : real(context, def, out);
-}
-}
 
 namespace {
 

@@ -26,10 +26,10 @@ struct Home {
 // All that is remembered of a layout. A new field doesn't compile here until it is said whether it is.
 auto remembered(const Layout& of) {
     const auto& [panel, figures, grammar, atlas, help, panelWidth, windowWidth, windowHeight, maximised, sizeOfAll,
-                 layerOpacity, halfWhileMoving, rowStep, rowAlong] = of;
+                 layerOpacity, smallerWhileMoving, rowStep, rowAlong] = of;
     (void)help;  // it is closed at the beginning
     return std::tuple(panel, figures, grammar, atlas, panelWidth, windowWidth, windowHeight, maximised, sizeOfAll,
-                      layerOpacity, halfWhileMoving, rowStep, rowAlong);
+                      layerOpacity, smallerWhileMoving, rowStep, rowAlong);
 }
 
 // Of a brush what it is like, not what it goes over.
@@ -60,7 +60,7 @@ Layout unlikeLayout() {
             .maximised = true,
             .sizeOfAll = 1.5f,
             .layerOpacity = .25f,
-            .halfWhileMoving = false,
+            .smallerWhileMoving = false,
             .rowStep = .5f,
             .rowAlong = true};
 }

@@ -1,5 +1,8 @@
 // A recording and what it is replayed from: whatever was done before it, and whatever is done to its project later.
 #include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
 
 #include "tests/editor/window.hpp"
 #include "tools/document/layer_files.hpp"
@@ -74,19 +77,25 @@ TEST_CASE("what was done before a run can be undone and done again when it has e
     const std::string path = folder.file("run.jsonl");
     Window window(folder, wallScene(folder, false));
     auto& document = *window.work.document;
+    // The list, in its order: it tells seeds of one number apart.
+    const auto listed = [&] {
+        std::vector<std::pair<uint32_t, std::array<float, 3>>> seeds;
+        for (const auto& seed : document.scene().seeds) seeds.emplace_back(seed.grammar, seed.position);
+        return seeds;
+    };
     std::vector<uint64_t> hashes{hashOf(window)};
-    std::vector<size_t> seeds{document.scene().seeds.size()};
+    std::vector<decltype(listed())> seeds{listed()};
     const auto step = [&](const Action& action) {
         REQUIRE_MESSAGE(window.work.perform(action), window.work.error);
         hashes.push_back(hashOf(window));
-        seeds.push_back(document.scene().seeds.size());
+        seeds.push_back(listed());
     };
     const auto plant = [&](uint32_t grammar, float x) {
-        const SeedRecord seed{
-            document.freshKey(), grammar, {x, .1f, 0}, {0, 1, 0}, 40 + uint32_t(document.scene().seeds.size())};
+        const SeedRecord seed{document.freshKey(), grammar, {x, .1f, 0}, {0, 1, 0}, 40};
         step(AddSeeds{{seed}, {uint32_t(document.scene().seeds.size())}});
         return seed;
     };
+    plant(1, 1.2f);
     const SeedRecord gone = plant(1, .9f);
     SeedRecord ivy = plant(0, .5f);
     step(RemoveSeeds{{gone.key}});
@@ -95,11 +104,11 @@ TEST_CASE("what was done before a run can be undone and done again when it has e
     step(FreezeSeeds{{ivy.key}, true});
     step(FillLayer{"mask", .5f});
     const size_t before = document.undoSteps();
-    REQUIRE(before == 6);
+    REQUIRE(before == 7);
 
     begin(window, path);
     CHECK(document.undoSteps() == 0);
-    CHECK(hashOf(window) == hashes.back());
+    CHECK(listed() != seeds.back());
     const SeedRecord late{document.freshKey(), 0, {-.4f, .1f, 0}, {0, 1, 0}, 99};
     REQUIRE(window.work.perform(AddSeeds{{late}, {0}}));
     REQUIRE(window.work.perform(Undo{}));
@@ -111,19 +120,25 @@ TEST_CASE("what was done before a run can be undone and done again when it has e
 
     CHECK(document.undoSteps() == before + 1);
     REQUIRE(window.work.perform(Undo{}));
+    const auto recorded = listed();
     for (size_t i = before; i-- > 0;) {
         CAPTURE(i);
         REQUIRE_MESSAGE(window.work.perform(Undo{}), window.work.error);
-        CHECK(document.scene().seeds.size() == seeds[i]);
+        CHECK(listed() == seeds[i]);
         CHECK(hashOf(window) == hashes[i]);
     }
     CHECK(!window.work.perform(Undo{}));
-    for (size_t i = 1; i <= before; ++i) {
+    for (size_t i = 1; i < before; ++i) {
         CAPTURE(i);
         REQUIRE_MESSAGE(window.work.perform(Redo{}), window.work.error);
-        CHECK(document.scene().seeds.size() == seeds[i]);
+        CHECK(listed() == seeds[i]);
         CHECK(hashOf(window) == hashes[i]);
     }
+    // Behind the last one the run goes on from what it began with.
+    REQUIRE(window.work.perform(Redo{}));
+    CHECK(listed() == recorded);
+    REQUIRE_MESSAGE(window.work.perform(Redo{}), window.work.error);
+    CHECK(replayed(path) == hashOf(window));
 }
 
 TEST_CASE("the beginning of a run stays as it was when the project that was open is saved while it is recorded") {

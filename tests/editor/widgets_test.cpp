@@ -2,6 +2,7 @@
 #include "tests/editor/widgets.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 #include "sample_game/dialogue.hpp"
 #include "sample_game/panels.hpp"
@@ -36,11 +37,18 @@ void crash(const Folder& folder, const std::string& file, float mask) {
         fs::rename(part.path(), folder.path / part.path().filename());
     }
     fs::remove_all(kept);
+    // Copies were made in any order; an autosave is younger than its project.
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path))
+        if (entry.path().filename() == "autosave.json")
+            fs::last_write_time(entry.path(), fs::file_time_type::clock::now() + std::chrono::seconds(2));
 }
 
 struct Dialogue : Editor {
     static constexpr const char* kTitle = "Unsaved work";
-    Dialogue(const Folder& folder, const std::string& file) : Editor(folder, file, sample::Tool::look) {
+    Dialogue(const Folder& folder, const std::string& file, bool escape = false)
+        : Editor(folder, file, sample::Tool::look) {
+        for (int i = 0; i < ImGuiKey_COUNT; ++i) ImGui::GetIO().KeyMap[i] = i;
+        ImGui::GetIO().KeysDown[ImGuiKey_Escape] = escape;
         panels = [this] { sample::showDialogues(work, session); };
         for (int i = 0; i < 3; ++i) frame({});
     }
@@ -101,6 +109,7 @@ TEST_CASE("what an editor left behind can wait, beside what is done meanwhile, a
         dialogue.fill(.75f);
         dialogue.wait();
         CHECK(autosaves(folder.path / "config") == 2);
+        dialogue.frame({});
         CHECK(!dialogue.asks());
     }
     Dialogue again(folder, scene);
@@ -109,6 +118,44 @@ TEST_CASE("what an editor left behind can wait, beside what is done meanwhile, a
     again.press("Open it");
     CHECK(again.session.openNext == offered);
     CHECK(!again.asks());
+}
+
+TEST_CASE("of several editors' work that waits, each is offered in turn") {
+    const Folder folder;
+    const std::string scene = smallScene(folder);
+    crash(folder, scene, .25f);
+    // A second one, which had put that off.
+    const fs::path kept = folder.path / "config/espalier/unsaved";
+    REQUIRE(fs::exists(kept));
+    const fs::path first = fs::directory_iterator(kept)->path();
+    fs::copy(first, first.string() + "-2", fs::copy_options::recursive);
+    Dialogue dialogue(folder, scene);
+    const std::string one = dialogue.session.recovery();
+    dialogue.press("Decide later");
+    CHECK(dialogue.asks());
+    const std::string other = dialogue.session.recovery();
+    CHECK(other != "");
+    CHECK(other != one);
+    dialogue.press("Decide later");
+    CHECK(!dialogue.asks());
+    dialogue.fill(.75f);
+    dialogue.wait();
+    CHECK(autosaves(folder.path / "config") == 3);
+}
+
+TEST_CASE("Esc puts off what waits, but not the Esc that was pressed before it was asked about") {
+    const Folder folder;
+    const std::string scene = smallScene(folder);
+    crash(folder, scene, .25f);
+    Dialogue dialogue(folder, scene, true);
+    CHECK(dialogue.asks());
+    ImGui::GetIO().KeysDown[ImGuiKey_Escape] = false;
+    for (int i = 0; i < 3; ++i) dialogue.frame({});
+    CHECK(dialogue.asks());
+    ImGui::GetIO().KeysDown[ImGuiKey_Escape] = true;
+    for (int i = 0; i < 3; ++i) dialogue.frame({});
+    CHECK(!dialogue.asks());
+    CHECK(autosaves(folder.path / "config") == 1);
 }
 
 // The next one would take its place.
@@ -124,6 +171,9 @@ TEST_CASE("a project's own autosave is decided on at once") {
     Dialogue dialogue(folder, garden);
     REQUIRE(dialogue.asks());
     dialogue.press("Decide later");
+    ImGui::GetIO().KeysDown[ImGuiKey_Escape] = true;
+    dialogue.frame({});
+    dialogue.frame({});
     CHECK(dialogue.asks());
     CHECK(autosaves(garden) == 1);
 }

@@ -2,6 +2,9 @@
 // aren't.
 #include <doctest/doctest.h>
 
+#include <utility>
+#include <vector>
+
 #include "tools/scene/moving.hpp"
 
 using namespace espalier;
@@ -73,30 +76,90 @@ TEST_CASE("leaves are thinned out while frames are late, down to those that are 
     CHECK(after(9, picture, 20, 100'000).look.leafPixels < later);
 }
 
+namespace {
+
+// A window whose frames take `base` and, of a whole picture's pixels, `pixels`; both ms. It knows what a frame took
+// some frames later.
+struct Device {
+    double base, pixels;
+    size_t lag;
+    std::vector<double> took = {};  // of each frame
+    scene::MovingPicture picture = {};
+    float share = 0;  // of the last frame
+
+    // As many frames; how often the share changed.
+    int move(int count, bool strokes = false) {
+        int changes = 0;
+        for (int i = 0; i < count; ++i) {
+            EspDrawDef draw = asked();
+            const float before = std::exchange(share, picture.prepare(draw, true, 200, true));
+            if (i > 0 && before != share) ++changes;
+            CHECK(draw.look.windowLodPixels == doctest::Approx(scene::MovingDetail::kLod * share / 0.5f));
+            took.push_back(cost(share) * (i % 2 == 0 ? 1.05 : 0.95));
+            picture.drew(took[took.size() > lag ? took.size() - 1 - lag : 0], 30'000, strokes);
+        }
+        return changes;
+    }
+    void rest() {
+        EspDrawDef draw = asked();
+        picture.prepare(draw, false, 200, true);
+        took.push_back(300);
+        picture.drew(300, 30'000);
+    }
+    double cost(float of) const { return base + pixels * double(of) * double(of); }
+};
+
+}  // namespace
+
 TEST_CASE("what moves is drawn as large as leaves frames in time, and doesn't flicker between sizes") {
     const double late = scene::MovingDetail::kFrameMs;
-    for (const double pixelsMs : {5.0, 20.0, 40.0, 80.0, 400.0}) {
-        CAPTURE(pixelsMs);
-        scene::MovingPicture picture;
-        const auto frames = [&](int count, double ms) {
-            float share = 0;
-            int changes = 0;
-            for (int i = 0; i < count; ++i) {
-                EspDrawDef draw = asked();
-                const float before = std::exchange(share, picture.prepare(draw, true, 200, true));
-                if (i > 0 && before != share) ++changes;
-                CHECK(draw.look.windowLodPixels == doctest::Approx(scene::MovingDetail::kLod * share / 0.5f));
-                const double noise = i % 2 == 0 ? 1.05 : 0.95;
-                picture.drew((20 + ms * double(share * share)) * noise, 30'000);
-            }
-            return std::pair(share, changes);
-        };
-        frames(200, pixelsMs);
-        const auto [share, changes] = frames(200, pixelsMs);
-        CHECK(changes == 0);
-        CHECK((share == 0.5f || 20 + pixelsMs * double(share * share) <= late));
-        CHECK((share == 1.0f || 20 + 1.44 * 1.44 * pixelsMs * double(share * share) > 0.6 * late));
-        // Where all becomes dearer it is small soon.
-        CHECK(frames(40, 400).first == 0.5f);
+    for (const size_t lag : {0, 1, 2})
+        for (const double pixels : {5.0, 20.0, 40.0, 60.0, 80.0, 400.0}) {
+            CAPTURE(lag);
+            CAPTURE(pixels);
+            Device device{20, pixels, lag};
+            device.move(200);
+            CHECK(device.move(200) == 0);
+            CHECK((device.share == 0.5f || device.cost(device.share) <= late));
+            CHECK((device.share == 1.0f || device.cost(device.share * 1.2f) > 0.6 * late));
+            // It isn't forgotten while all rests, nor judged by the whole picture that is drawn then.
+            const float share = device.share;
+            device.rest();
+            CHECK(device.move(60) == 0);
+            CHECK(device.share == share);
+            // Where all becomes dearer it is small soon.
+            device.pixels = 400;
+            device.move(40);
+            CHECK(device.share == 0.5f);
+        }
+}
+
+TEST_CASE("a picture that becomes too dear is made no smaller than it takes") {
+    for (const size_t lag : {0, 1, 2}) {
+        CAPTURE(lag);
+        Device device{20, 5, lag};
+        device.move(200);
+        REQUIRE(device.share == 1.0f);
+        device.pixels = 60;  // 80 ms; at the next size below 61.7
+        device.move(100);
+        CHECK(device.share == doctest::Approx(1 / 1.2f));
     }
+}
+
+TEST_CASE("a stroke's frames, which may take longer, don't make the picture smaller") {
+    Device device{20, 5, 1};
+    device.move(200);
+    REQUIRE(device.share == 1.0f);
+    device.base = 80;
+    CHECK(device.move(100, true) == 0);
+    device.base = 20;
+    device.move(5);
+    CHECK(device.share == 1.0f);
+}
+
+TEST_CASE("whole pictures of what moves are as coarse as half ones are in their own pixels") {
+    scene::MovingPicture picture;
+    EspDrawDef draw = asked();
+    CHECK(picture.prepare(draw, true, 200, false) == 1);
+    CHECK(draw.look.windowLodPixels == scene::MovingDetail::kLod);
 }

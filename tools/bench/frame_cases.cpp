@@ -1,8 +1,8 @@
 // frame/…: what a frame of the sample's court costs, with half a million nodes of ivy: standing; while the camera goes
-// round, shadows kept, drawn at half the window's size and as coarsely as MovingDetail says, as the window does then;
-// and with a dab of the brush in each frame, shadows following a few tiles at a time. CPU time, which on
-// a software device is all of it and which other programs disturb less than the clock, beside what a frame may cost on
-// two cores; stages by the device's clock. What moves also by the clock on the wall.
+// round, shadows kept, drawn at half the window's size and as coarsely as MovingDetail says, as the window does where
+// no larger picture is in time; and with a dab of the brush in each frame, shadows following a few tiles at a time. CPU
+// time, which on a software device is all of it and which other programs disturb less than the clock, beside what a
+// frame may cost on two cores; stages by the device's clock. What moves also by the clock on the wall.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

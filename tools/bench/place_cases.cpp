@@ -22,7 +22,7 @@ namespace {
 constexpr uint32_t kWidth = 1280, kHeight = 720;
 constexpr uint64_t kNodes = 500'000;
 constexpr int kTurn = 180;     // frames
-constexpr int kSettling = 24;  // ahead of them, in which the detail finds its level
+constexpr int kSettling = 60;  // ahead of them, in which detail and size find their level
 constexpr int kSteps = 90;
 constexpr float kStep = 0.1f;               // metres, as somebody walks
 constexpr int kStrokes = 8, kDabs = 8;      // a dab a frame
@@ -75,6 +75,10 @@ struct PlaceFilm {
         draw.look = scene.look;
         draw.look.shadowsLag = 1;
         share = picture.prepare(draw, moving, stats.drawMs, smaller);
+        if (draw.look.quick && !smaller) {  // with the detail of the smallest
+            draw.look.windowLodPixels /= scene::MovingDetail::kLeastShare;
+            draw.look.leafPixels /= scene::MovingDetail::kLeastShare;
+        }
         draw.width = uint32_t(kWidth * share);
         draw.height = uint32_t(kHeight * share);
         const std::clock_t before = std::clock();
@@ -88,7 +92,7 @@ struct PlaceFilm {
         const double update = since(edited);
         if (espDraw(context, &draw) != ESP_OK || espReadStats(context, &stats) != ESP_OK) return {};
         const Cost cost{double(std::clock() - before) * 1e3 / CLOCKS_PER_SEC, since(began), update};
-        picture.drew(cost.wall, uint32_t(stats.drawnLeaves));
+        picture.drew(cost.wall, uint32_t(stats.drawnLeaves), bool(edit));
         return cost;
     }
 

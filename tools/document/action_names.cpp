@@ -36,6 +36,7 @@ std::string nameOf(const Action& action) {
             return (a.frozen ? "Freeze " : "Thaw ") + counted(a.keys.size(), "a plant", "plants");
         }
         Name operator()(const RestoreFrozen&) const { return "Freeze"; }
+        Name operator()(const OrderSeeds&) const { return "Order the seeds"; }
         Name operator()(const PruneBranch& a) const { return a.pruned ? "Prune" : "Let a branch grow again"; }
         Name operator()(const SetHouse&) const { return "Change a house"; }
         Name operator()(const ResetHouse&) const { return "A house as planned"; }

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "tools/document/document.hpp"
+#include "tools/document/layer_history.hpp"
 
 namespace espalier::document {
 namespace {
@@ -16,11 +17,29 @@ struct RenameSeeds {
     void operator()(ChangeSeeds& action) const { rename(action.seeds); }
     void operator()(RemoveSeeds& action) const { rename(action.keys); }
     void operator()(FreezeSeeds& action) const { rename(action.keys); }
+    void operator()(OrderSeeds& action) const { rename(action.keys); }
     void operator()(RestoreFrozen& action) const {
         for (auto& [key, plant] : action.plants) key = newKey(key);
     }
-    template <class Other>
-    void operator()(Other&) const {}
+    // These name none.
+    void operator()(SetParam&) const {}
+    void operator()(SetText&) const {}
+    void operator()(SetLight&) const {}
+    void operator()(SetWalk&) const {}
+    void operator()(StrokeBegin&) const {}
+    void operator()(StrokeDabs&) const {}
+    void operator()(StrokeEnd&) const {}
+    void operator()(FillLayer&) const {}
+    void operator()(LoadLayer&) const {}
+    void operator()(LoadTownLayer&) const {}
+    void operator()(PruneBranch&) const {}
+    void operator()(SetHouse&) const {}
+    void operator()(ResetHouse&) const {}
+    void operator()(SetCamera&) const {}
+    void operator()(SetView&) const {}
+    void operator()(Undo&) const {}
+    void operator()(Redo&) const {}
+    void operator()(SwapStroke&) const {}
 
   private:
     void rename(std::vector<SeedRecord>& seeds) const {
@@ -35,7 +54,7 @@ struct RenameSeeds {
 
 std::vector<uint32_t> Document::beginAnew() {
     undone_.clear();
-    out_ = done_.size();
+    beyond_ = done_.size();
     const std::vector<scene::Seed> before = scene_.seeds;
     std::ranges::stable_sort(scene_.seeds, {}, &scene::Seed::grammar);
     std::vector<uint32_t> keys;
@@ -56,9 +75,28 @@ std::vector<uint32_t> Document::beginAnew() {
     };
     for (Step& step : done_)
         for (Action& action : step.back) std::visit(RenameSeeds<decltype(newKey)>{newKey}, action);
+    if (sorted) return keys;
     std::string ignored;
-    if (!sorted) (void)plant(ignored);
+    (void)plant(ignored);
+    // What was done before was done to the list as it was.
+    OrderSeeds order;
+    for (const scene::Seed& seed : before) order.keys.push_back(renamed[seed.key]);
+    if (!done_.empty()) {
+        done_.back().back.push_back(std::move(order));
+        done_.back().bytes += keptBytes(done_.back().back.back());
+    }
     return keys;
+}
+
+bool Document::carryOut(const OrderSeeds& action, std::vector<Action>& back, std::string& error) {
+    const std::vector<scene::Seed> before = scene_.seeds;
+    OrderSeeds inverse;
+    for (const scene::Seed& seed : before) inverse.keys.push_back(seed.key);
+    std::ranges::stable_sort(scene_.seeds, {},
+                             [&](const scene::Seed& seed) { return std::ranges::find(action.keys, seed.key); });
+    if (!replant(before, error)) return false;
+    back.push_back(std::move(inverse));
+    return true;
 }
 
 }  // namespace espalier::document

@@ -177,7 +177,7 @@ void Document::keep(std::vector<Step>& steps) {
         bytes -= (kept++)->bytes;
     if (&steps == &done_ && kept != steps.begin()) {
         bottom_ = (kept - 1)->state;
-        out_ -= std::min(out_, size_t(kept - steps.begin()));
+        beyond_ -= std::min(beyond_, size_t(kept - steps.begin()));
     }
     steps.erase(steps.begin(), kept);
 }
@@ -185,7 +185,7 @@ void Document::keep(std::vector<Step>& steps) {
 bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string& error) {
     if (&from == &done_ ? undoSteps() == 0 : from.empty()) {
         error = &from != &done_ ? "there is nothing to redo"
-                : out_ == 0     ? "there is nothing to undo"
+                : beyond_ == 0  ? "there is nothing to undo"
                                 : "there is nothing to undo since the recording began; what was done before it can be "
                                   "undone when it has ended";
         return false;

@@ -32,7 +32,7 @@ class Document {
     // What the next undo and redo would take back or do again, in a few words; null: there is nothing.
     const char* undoName() const;
     const char* redoName() const;
-    size_t undoSteps() const { return done_.size() - out_; }
+    size_t undoSteps() const { return done_.size() - beyond_; }
     // Of the step that the next undo takes back; 0: it has none.
     uint32_t undoGesture() const { return undoSteps() == 0 ? 0 : done_.back().gesture; }
     // What is kept for undo and redo. Past maxHistoryBytes the oldest steps are forgotten, or, by undo, those that it
@@ -44,11 +44,11 @@ class Document {
     // Of what a project holds as it is now: undone and done again it is the same state.
     uint64_t state() const { return stroking() ? ~0ull : done_.empty() ? bottom_ : done_.back().state; }
 
-    // From here on as if it had been opened as a project of it: seeds stand in the order, and have the keys, that its
-    // reader gives them. What their keys were, in that order. No stroke is open. What was done before is out of undo's
-    // reach until reachBack(); nothing can be done again.
+    // For a recording, from here on as if it had been opened as a project of it: seeds stand in the order, and have the
+    // keys, that its reader gives them. What their keys were, in that order. No stroke is open. What was done before is
+    // out of undo's reach until reachBack(); nothing can be done again.
     std::vector<uint32_t> beginAnew();
-    void reachBack() { out_ = 0; }
+    void reachBack() { beyond_ = 0; }
 
     // Called with every action that was asked for and done, after it.
     using Listener = std::function<void(const Action&, uint32_t gesture)>;
@@ -96,6 +96,7 @@ class Document {
     bool carryOut(const SwapStroke& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const FreezeSeeds& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const RestoreFrozen& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const OrderSeeds& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const PruneBranch& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetHouse& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const ResetHouse& action, std::vector<Action>& back, std::string& error);
@@ -121,7 +122,7 @@ class Document {
     scene::Scene scene_;
     bool allPlanted_ = true;
     std::vector<Step> done_, undone_;
-    size_t out_ = 0;                  // of done_, from its beginning: out of undo's reach
+    size_t beyond_ = 0;               // of done_, from its beginning: out of undo's reach
     std::vector<EspStroke> strokes_;  // open: one for each channel of a layer
     bool strokeHasDabs_ = false;
     std::string strokeName_;  // its nameOf()

@@ -41,14 +41,18 @@ class MovingDetail {
     float leaf_ = 1.5f;
 };
 
-// Which share of the window's width a moving picture is drawn with: as much as lets frames be in time.
+// Which share of the window's width a picture is drawn with while the camera moves: as much as lets frames be in time.
 class MovingShare {
   public:
     float share() const { return share_; }
 
-    // After each such frame: its time. A step up makes a frame at most kStep² as dear, which leaves it in time.
+    // The camera begins to move.
+    void begin() { frames_ = -kLag; }
+    // After each such frame: the time of the latest one that is known. A step up makes a frame at most kStep² as dear,
+    // which leaves it in time.
     void follow(double frameMs) {
-        mean_ = frames_++ == 0 ? frameMs : mean_ + kFollow * (frameMs - mean_);
+        if (frames_++ < 0) return;
+        mean_ = frames_ == 1 ? frameMs : mean_ + kFollow * (frameMs - mean_);
         if (frames_ >= kFramesDown && mean_ > kLate * MovingDetail::kFrameMs)
             change(share_ / kStep);
         else if (frames_ >= kFramesUp && mean_ < kEarly * MovingDetail::kFrameMs)
@@ -58,16 +62,17 @@ class MovingShare {
   private:
     static constexpr float kStep = 1.2f;
     static constexpr double kEarly = 0.6, kLate = 0.95, kFollow = 0.2;
+    static constexpr int kLag = 3;  // frames whose times are of others: known late, or of one that made its images
     static constexpr int kFramesDown = 4, kFramesUp = 12;  // at a share, before it may change
 
     void change(float share) {
         const float before = std::exchange(share_, std::clamp(share, MovingDetail::kLeastShare, 1.0f));
-        if (share_ != before) frames_ = 0;
+        if (share_ != before) begin();
     }
 
     float share_ = MovingDetail::kLeastShare;
     double mean_ = 0;  // of the frames at this share, the latest weighing most
-    int frames_ = 0;
+    int frames_ = 0;   // that were followed at this share
 };
 
 // What a window asks for in each frame; it draws as it is told.
@@ -79,25 +84,31 @@ class MovingPicture {
     // pictures may be smaller. Makes `draw` coarser if need be; returns the share of the window's width to draw.
     float prepare(EspDrawDef& draw, bool moving, double drawMs, bool smaller) {
         hurried_ = moving && (coarse_ || drawMs > kSlowDrawMs);
-        if (!hurried_) return 1;
-        const float share = smaller ? share_.share() : 1;
-        detail_.apply(draw.look, share);
-        return share;
+        shown_ = hurried_ && smaller ? share_.share() : 1;
+        if (hurried_) detail_.apply(draw.look, smaller ? shown_ : MovingDetail::kLeastShare);
+        return shown_;
     }
 
-    // After it, if it was drawn: the whole frame's time, and the leaves in it.
-    void drew(double frameMs, uint32_t leaves) {
+    // After it, if it was drawn: the time of the latest whole frame that is known, the leaves in it. strokes: a stroke
+    // goes on, whose frames may take longer: they are as large as the last that a camera moved in.
+    void drew(double frameMs, uint32_t leaves, bool strokes = false) {
         if (hurried_) detail_.follow(frameMs, leaves);
-        if (hurried_ && coarse_) share_.follow(frameMs);  // the first makes its images
+        if (!hurried_ || !coarse_ || strokes)
+            share_.begin();
+        else
+            share_.follow(frameMs);
         coarse_ = hurried_;
     }
 
+    // As prepare() gave it last.
+    float share() const { return shown_; }
     // The picture that is shown is a coarse one, to be drawn again when nothing moves.
     bool coarse() const { return coarse_; }
 
   private:
     MovingDetail detail_;
     MovingShare share_;
+    float shown_ = 1;
     bool coarse_ = false, hurried_ = false;
 };
 
