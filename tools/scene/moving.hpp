@@ -33,8 +33,8 @@ class MovingDetail {
     void follow(double frameMs, uint32_t leaves) {
         if (leaves < kLeaves || frameMs < 0.7 * kFrameMs)
             leaf_ = std::max(1.0f, leaf_ * 0.95f);
-        else if (frameMs > kFrameMs && leaves > kLeaves + kLeaves / 5)
-            leaf_ = std::min(4.0f, leaf_ * 1.08f);
+        else if (frameMs > kFrameMs && leaves > kLeaves + kLeaves / 10)
+            leaf_ = std::min(4.0f, leaf_ * 1.04f);
     }
 
   private:
