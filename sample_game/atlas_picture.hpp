@@ -19,7 +19,8 @@ struct AtlasShown {
     bool operator==(const AtlasShown&) const = default;
 };
 
-// A surface's atlas as a picture: charts, links and a painted layer. Colours are ImGui's, as IM_COL32 packs them.
+// A surface's atlas as a picture: charts, links and a painted layer. Colours are ImGui's, as IM_COL32 packs them. One
+// thread, the context's.
 class AtlasPicture {
   public:
     // Of seams, nearest points, contacts, the model's borders; by EspLink::kind.
@@ -35,9 +36,9 @@ class AtlasPicture {
     uint32_t size() const { return size_; }  // texels a side; 0: nothing has been read
     uint32_t texel(uint32_t x, uint32_t y) const { return texels_[size_t(y) * size_ + x]; }  // as espReadAtlas has it
     const std::vector<EspLink>& links() const { return links_; }
-    // What the layer holds at a walk UV: nothing, one number, or red, green and blue.
+    // What the layer holds at a walk UV, each from 0 to below 1: nothing, one number, or red, green and blue.
     std::vector<float> layerAt(float u, float v) const;
-    // side: pixels a side, as many to each texel. v runs upward, rows downward.
+    // side: pixels a side, as many to each texel. v runs upward, rows downward. Once something has been read.
     std::vector<uint32_t> pixels(uint32_t& side);
 
   private:

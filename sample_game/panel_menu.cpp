@@ -54,7 +54,7 @@ void showMenu(Workspace& work, Session& session) {
             ImGui::MenuItem("Grammar", "F4", &work.layout.grammar);
             ImGui::MenuItem("Atlas", "F5", &work.layout.atlas);
             if (ImGui::MenuItem("Windows as at first")) work.windowsAnew = 2;
-            ImGui::MenuItem("Coarser while moving", nullptr, &work.layout.smallerWhileMoving);
+            ImGui::MenuItem("Smaller while moving", nullptr, &work.layout.smallerWhileMoving);
             toolTip("While the camera moves on a slow device, the picture has fewer pixels, down to half a side");
             ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
             ImGui::SliderFloat("Size of all", &work.layout.sizeOfAll, .5f, 2.5f, "%.2f", ImGuiSliderFlags_AlwaysClamp);

@@ -70,6 +70,15 @@ AtlasShown charts(uint32_t level = 0) {
     return shown;
 }
 
+// Nothing but the layer, as the document has it.
+AtlasShown layer(const Atlas& atlas, const char* name, uint32_t level = 0) {
+    AtlasShown shown = charts(level);
+    shown.layer = name;
+    shown.opacity = 1;
+    shown.revision = atlas.work.document->revision();
+    return shown;
+}
+
 }  // namespace
 
 TEST_CASE("an atlas shows each chart in its colour, at every level as many pixels a texel") {
@@ -97,12 +106,9 @@ TEST_CASE("an atlas shows each chart in its colour, at every level as many pixel
 TEST_CASE("an atlas shows what a layer holds, where it was painted") {
     const Folder folder;
     Atlas atlas(folder);
-    AtlasShown shown = charts();
-    shown.layer = "mask";
-    shown.opacity = 1;
     atlas.fill(.25f);
     atlas.dab("mask");
-    shown.revision = atlas.work.document->revision();
+    AtlasShown shown = layer(atlas, "mask");
     atlas.show(shown);
     espalier::scene::GreyPicture mask;
     REQUIRE(atlas.work.document->readLayer(0, "mask", mask, atlas.work.error));
@@ -141,13 +147,9 @@ TEST_CASE("an atlas shows what a layer holds, where it was painted") {
 TEST_CASE("an atlas shows a layer of colours in them") {
     const Folder folder;
     Atlas atlas(folder);
-    AtlasShown shown = charts();
-    shown.layer = "colour";
-    shown.opacity = 1;
-    REQUIRE(std::ranges::count(atlas.work.scene().layers, shown.layer) == 1);
+    REQUIRE(std::ranges::count(atlas.work.scene().layers, "colour") == 1);
     atlas.dab("colour", {.75f, .125f, 0});
-    shown.revision = atlas.work.document->revision();
-    atlas.show(shown);
+    atlas.show(layer(atlas, "colour"));
     size_t wrong = 0, painted = 0;
     atlas.overGround(0, [&](size_t x, size_t y, uint32_t) {
         const auto size = float(atlas.picture.size());
@@ -186,9 +188,7 @@ TEST_CASE("an atlas shows its links by their kind") {
 TEST_CASE("an atlas that can't be read stays what it was") {
     const Folder folder;
     Atlas atlas(folder);
-    AtlasShown shown = charts();
-    shown.layer = "mask";
-    shown.opacity = 1;
+    const AtlasShown shown = layer(atlas, "mask");
     atlas.show(shown);
     const std::vector<uint32_t> before = atlas.pixels;
     const auto stands = [&] {
@@ -199,8 +199,7 @@ TEST_CASE("an atlas that can't be read stays what it was") {
     CHECK(!atlas.picture.read(atlas.work, charts(99)));
     stands();
     // Another layer, on another level, of which one of three channels can't be read.
-    AtlasShown other = charts(2);
-    other.layer = "colour";
+    const AtlasShown other = layer(atlas, "colour", 2);
     for (const int call : {1, 3, 5}) {  // each is read in two calls, the first of which asks for its size
         callsUntilFailure = call;
         CHECK(!atlas.picture.read(atlas.work, other));

@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <memory>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "tests/tools/program.hpp"
 #include "tools/document/document.hpp"
@@ -102,4 +104,13 @@ f 4 3 7 8
     {"file": "creeper.grammar", "seeds": [{"position": [1, 0.1, 0], "seed": 2}]})" +
                                          (town ? roofs : "") + R"(],
   "camera": {"eye": [0, 1.5, 6], "target": [0, 1, 0], "fov": 40}})");
+}
+
+// What editors have kept of what isn't saved, in a folder and all that are in it.
+inline std::vector<std::string> autosavesIn(const std::filesystem::path& folder) {
+    std::vector<std::string> found;
+    if (!std::filesystem::exists(folder)) return found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().filename() == "autosave.json") found.push_back(entry.path().string());
+    return found;
 }

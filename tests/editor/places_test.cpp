@@ -9,14 +9,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> keptIn(const fs::path& folder) {
-    std::vector<std::string> found;
-    if (!fs::exists(folder)) return found;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.path().filename() == "autosave.json") found.push_back(entry.path().string());
-    return found;
-}
-
 float maskOf(const std::string& scene) {
     Editing opened(scene);
     espalier::scene::GreyPicture mask;
@@ -36,7 +28,7 @@ TEST_CASE("two editors of one scene keep what is theirs apart, and are offered o
         two.fill(.75f);
         one.wait();
         two.wait();
-        std::vector<std::string> kept = keptIn(config);
+        std::vector<std::string> kept = autosavesIn(config);
         REQUIRE(kept.size() == 2);
         CHECK(maskOf(kept[0]) + maskOf(kept[1]) == 1);
         CHECK(maskOf(kept[0]) != maskOf(kept[1]));
@@ -44,10 +36,10 @@ TEST_CASE("two editors of one scene keep what is theirs apart, and are offered o
         CHECK(three.session.recovery() == "");
         one.fill(.5f);
         one.wait();
-        CHECK(keptIn(config).size() == 2);
+        CHECK(autosavesIn(config).size() == 2);
         fs::copy(config, folder.path / "copy", fs::copy_options::recursive);
     }
-    CHECK(keptIn(config).empty());
+    CHECK(autosavesIn(config).empty());
     // As if both had ended there.
     fs::remove_all(config);
     fs::rename(folder.path / "copy", config);
@@ -58,7 +50,7 @@ TEST_CASE("two editors of one scene keep what is theirs apart, and are offered o
     again.session.forgetRecovery(true);
     again.fill(.125f);
     again.wait();
-    REQUIRE(keptIn(config).size() == 2);
+    REQUIRE(autosavesIn(config).size() == 2);
     CHECK(maskOf(beside.session.recovery()) != .125f);
 }
 
@@ -74,12 +66,12 @@ TEST_CASE("the second editor of a project says so, keeps what is its own beside 
     two.fill(.75f);
     two.wait();
     CHECK(maskOf(garden + "/autosave.json") == .25f);
-    const std::vector<std::string> kept = keptIn(folder.path / "config");
+    const std::vector<std::string> kept = autosavesIn(folder.path / "config");
     REQUIRE(kept.size() == 1);
     CHECK(maskOf(kept[0]) == .75f);
     REQUIRE(two.work.perform(Undo{}));
     two.wait();
-    CHECK(keptIn(folder.path / "config").empty());
+    CHECK(autosavesIn(folder.path / "config").empty());
     CHECK(maskOf(garden + "/autosave.json") == .25f);
     CHECK(!one.session.changedByOthers());
     // The second saves there all the same: what the first hasn't saved is kept once more, as what is newer.
@@ -115,15 +107,15 @@ TEST_CASE("what is done after a replay is kept by the run's name, and offered af
         window.session.replays(run);
         window.fill(.25f);
         window.wait();
-        CHECK(keptIn(config).empty());  // it is the run's
+        CHECK(autosavesIn(config).empty());  // it is the run's
         window.session.endReplay(window.work);
         window.wait();
-        CHECK(keptIn(config).empty());
+        CHECK(autosavesIn(config).empty());
         CHECK(!window.session.modified(window.work));
         window.fill(.75f);
         window.wait();
-        REQUIRE(keptIn(config).size() == 1);
-        CHECK_MESSAGE(contains(keptIn(config)[0], "/run.jsonl-"), keptIn(config)[0]);
+        REQUIRE(autosavesIn(config).size() == 1);
+        CHECK_MESSAGE(contains(autosavesIn(config)[0], "/run.jsonl-"), autosavesIn(config)[0]);
         fs::copy(config, folder.path / "copy", fs::copy_options::recursive);
     }
     fs::remove_all(config);

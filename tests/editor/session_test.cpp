@@ -20,14 +20,9 @@ float maskOf(const std::string& project) {
 
 // The only autosave beside the user's settings.
 std::string keptIn(const Folder& folder) {
-    std::string found;
-    if (!fs::exists(folder.path / "config")) return found;
-    for (const auto& entry : fs::recursive_directory_iterator(folder.path / "config"))
-        if (entry.path().filename() == "autosave.json") {
-            CHECK(found.empty());
-            found = entry.path().string();
-        }
-    return found;
+    const std::vector<std::string> found = autosavesIn(folder.path / "config");
+    CHECK(found.size() <= 1);
+    return found.empty() ? "" : found.front();
 }
 
 }  // namespace

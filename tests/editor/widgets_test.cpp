@@ -1,7 +1,6 @@
 // Panels and dialogues whose widgets are pressed one by one: what each does to the document and on disk.
 #include "tests/editor/widgets.hpp"
 
-#include <algorithm>
 #include <chrono>
 
 #include "sample_game/dialogue.hpp"
@@ -13,13 +12,6 @@ using espalier::scene::houseNow;
 namespace fs = std::filesystem;
 
 namespace {
-
-size_t autosaves(const fs::path& folder) {
-    if (!fs::exists(folder)) return 0;
-    const fs::recursive_directory_iterator all(folder);
-    return size_t(std::count_if(fs::begin(all), fs::end(all),
-                                [](const auto& entry) { return entry.path().filename() == "autosave.json"; }));
-}
 
 // Leaves behind what an editor of `file` had kept when it came to a sudden end.
 void crash(const Folder& folder, const std::string& file, float mask) {
@@ -38,9 +30,8 @@ void crash(const Folder& folder, const std::string& file, float mask) {
     }
     fs::remove_all(kept);
     // Copies were made in any order; an autosave is younger than its project.
-    for (const auto& entry : fs::recursive_directory_iterator(folder.path))
-        if (entry.path().filename() == "autosave.json")
-            fs::last_write_time(entry.path(), fs::file_time_type::clock::now() + std::chrono::seconds(2));
+    for (const std::string& autosave : autosavesIn(folder.path))
+        fs::last_write_time(autosave, fs::file_time_type::clock::now() + std::chrono::seconds(2));
 }
 
 struct Dialogue : Editor {
@@ -85,14 +76,14 @@ TEST_CASE("what an editor left behind is thrown away by a second click only") {
     const Folder folder;
     const std::string scene = smallScene(folder);
     crash(folder, scene, .25f);
-    REQUIRE(autosaves(folder.path / "config") == 1);
+    REQUIRE(autosavesIn(folder.path / "config").size() == 1);
     Dialogue dialogue(folder, scene);
     REQUIRE(dialogue.asks());
     dialogue.press("Throw it away");
-    CHECK(autosaves(folder.path / "config") == 1);
+    CHECK(autosavesIn(folder.path / "config").size() == 1);
     CHECK(dialogue.asks());
     dialogue.press("Yes, throw it away");
-    CHECK(autosaves(folder.path / "config") == 0);
+    CHECK(autosavesIn(folder.path / "config").size() == 0);
     CHECK(!dialogue.asks());
 }
 
@@ -108,7 +99,7 @@ TEST_CASE("what an editor left behind can wait, beside what is done meanwhile, a
         CHECK(!dialogue.asks());
         dialogue.fill(.75f);
         dialogue.wait();
-        CHECK(autosaves(folder.path / "config") == 2);
+        CHECK(autosavesIn(folder.path / "config").size() == 2);
         dialogue.frame({});
         CHECK(!dialogue.asks());
     }
@@ -140,7 +131,7 @@ TEST_CASE("of several editors' work that waits, each is offered in turn") {
     CHECK(!dialogue.asks());
     dialogue.fill(.75f);
     dialogue.wait();
-    CHECK(autosaves(folder.path / "config") == 3);
+    CHECK(autosavesIn(folder.path / "config").size() == 3);
 }
 
 TEST_CASE("Esc puts off what waits, but not the Esc that was pressed before it was asked about") {
@@ -155,7 +146,7 @@ TEST_CASE("Esc puts off what waits, but not the Esc that was pressed before it w
     ImGui::GetIO().KeysDown[ImGuiKey_Escape] = true;
     for (int i = 0; i < 3; ++i) dialogue.frame({});
     CHECK(!dialogue.asks());
-    CHECK(autosaves(folder.path / "config") == 1);
+    CHECK(autosavesIn(folder.path / "config").size() == 1);
 }
 
 // The next one would take its place.
@@ -167,7 +158,7 @@ TEST_CASE("a project's own autosave is decided on at once") {
         REQUIRE(window.save(garden));
     }
     crash(folder, garden, .25f);
-    REQUIRE(autosaves(garden) == 1);
+    REQUIRE(autosavesIn(garden).size() == 1);
     Dialogue dialogue(folder, garden);
     REQUIRE(dialogue.asks());
     dialogue.press("Decide later");
@@ -175,7 +166,7 @@ TEST_CASE("a project's own autosave is decided on at once") {
     dialogue.frame({});
     dialogue.frame({});
     CHECK(dialogue.asks());
-    CHECK(autosaves(garden) == 1);
+    CHECK(autosavesIn(garden).size() == 1);
 }
 
 TEST_CASE("each widget of a house's panel does what it says, as one step of undo") {

@@ -44,10 +44,7 @@ TEST_CASE("an editor that is told to end keeps what isn't saved") {
     const Folder folder;
     const Ran ran = drive("drive_end", smallScene(folder), folder, "term");
     CHECK_MESSAGE(ran.code == 0, ran.output);
-    size_t kept = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path / "config"))
-        kept += entry.path().filename() == "autosave.json";
-    CHECK(kept == 1);
+    CHECK(autosavesIn(folder.path / "config").size() == 1);
 }
 
 // Each picture comes after a single change of growth, behind which shadows may lag while there are more to come.
@@ -133,8 +130,7 @@ TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are plan
     CHECK(std::filesystem::exists(folder.path / "saved/project.json"));
 
     // What was done and not saved was kept until it was saved.
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path))
-        CHECK(entry.path().filename() != "autosave.json");
+    CHECK(autosavesIn(folder.path).empty());
 
     // Replayed in a window it is the same run.
     Run again;

@@ -1,7 +1,7 @@
 // frame/place…: the sample game's whole place, with village, props and ivy, through the plugin's interface: one picture
 // at its best, and the frames of a camera that goes once around, drawn as the window draws them then. frame/dense…: the
-// same place with half a million nodes of ivy, also with a brush that paints in each frame, as small as it takes and at
-// whole size.
+// same place with half a million nodes of ivy, also with a brush that paints in each frame, as small as it takes, and
+// at larger sizes up to the whole one.
 // What the window adds, its panels and the way to the screen, espalier-sample --turn tells.
 #include <algorithm>
 #include <chrono>
@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "tools/bench/bench.hpp"
 #include "tools/scene/moving.hpp"
@@ -58,7 +59,8 @@ struct Moves {
 struct PlaceFilm {
     EspContext* context;
     const scene::Scene& scene;
-    bool smaller = true;  // what moves is drawn as small as it takes
+    // Of the window's width that what moves is drawn with, at the detail of the smallest; none: as small as it takes.
+    std::optional<float> fixed = {};
     scene::MovingPicture picture{};
     EspStats stats{};
     float share = 1;  // of the window's width, as the last frame was drawn
@@ -74,10 +76,11 @@ struct PlaceFilm {
         draw.camera = camera;
         draw.look = scene.look;
         draw.look.shadowsLag = 1;
-        share = picture.prepare(draw, moving, stats.drawMs, smaller);
-        if (draw.look.quick && !smaller) {  // with the detail of the smallest
-            draw.look.windowLodPixels /= scene::MovingDetail::kLeastShare;
-            draw.look.leafPixels /= scene::MovingDetail::kLeastShare;
+        share = picture.prepare(draw, moving, stats.drawMs, !fixed);
+        if (draw.look.quick && fixed) {
+            share = *fixed;
+            draw.look.windowLodPixels *= share / scene::MovingDetail::kLeastShare;
+            draw.look.leafPixels *= share / scene::MovingDetail::kLeastShare;
         }
         draw.width = uint32_t(kWidth * share);
         draw.height = uint32_t(kHeight * share);
@@ -206,21 +209,24 @@ void denseCases(Bench& bench, EspContext* context, scene::Scene& scene) {
     const char* name = "frame/dense";
     EspStats stats;
     if (!thicken(context, scene, stats)) return bench.skip(name, "the ivy doesn't grow as dense as that");
-    PlaceFilm film{context, scene}, whole{context, scene, false};
+    PlaceFilm film{context, scene};
     const Moves turn = film.turn();
     Hand hand(context, scene.camera);
     const Moves painting = film.stand(kStrokes * kDabs, [&](int frame) { return hand.dab(frame); });
-    const Moves wholeTurn = whole.turn();
-    if (turn.wall.empty() || painting.wall.empty() || wholeTurn.wall.empty())
-        return bench.skip(name, espLastError(context));
+    if (turn.wall.empty() || painting.wall.empty()) return bench.skip(name, espLastError(context));
     bench.add({name,
                "by the clock, a moving frame of the place with " + std::to_string(stats.nodes) + " nodes, " +
                    turn.size() + ", " + turn.leavesDrawn() + " of a turn",
                "ms", mean(turn.wall), "15 frames/s", kFrame});
     bench.add({"frame/dense/cpu", "CPU time of it", "ms", mean(turn.cpu), "15 frames/s on two cores", 2 * kFrame});
     bench.add({"frame/dense/worst", "by the clock, worst", "ms", most(turn.wall), "15 frames/s", kFrame});
-    bench.add({"frame/dense/whole", "the same at whole size, " + wholeTurn.leavesDrawn(), "ms", mean(wholeTurn.wall),
-               "15 frames/s", kFrame});
+    for (const auto& [row, share] :
+         {std::pair("frame/dense/0.6", .6f), {"frame/dense/0.75", .75f}, {"frame/dense/whole", 1.f}}) {
+        const Moves larger = PlaceFilm{context, scene, share}.turn();
+        if (larger.wall.empty()) return bench.skip(row, espLastError(context));
+        bench.add({row, "the same, mean, " + larger.size() + ", " + larger.leavesDrawn(), "ms", mean(larger.wall),
+                   "15 frames/s", kFrame});
+    }
     bench.add({"frame/dense/painting",
                "a dab and its frame by the clock, " + painting.size() + ", " + painting.leavesDrawn(), "ms",
                mean(painting.wall), "8 frames/s", kPaintingFrame});
@@ -237,7 +243,8 @@ void placeCases(Bench& bench) {
         return std::any_of(names.begin(), names.end(), [&](const char* name) { return bench.wants(name); });
     };
     const bool sample = wanted({"frame/place", "frame/place/wall", "frame/place/still", "frame/place/walk"});
-    const bool dense = wanted({"frame/dense", "frame/dense/whole", "frame/dense/painting"});
+    const bool dense =
+        wanted({"frame/dense", "frame/dense/0.6", "frame/dense/0.75", "frame/dense/whole", "frame/dense/painting"});
     if (!sample && !dense) return;
     const char* name = sample ? "frame/place" : "frame/dense";
     const EspContextDef def = espDefaultContextDef();
