@@ -23,6 +23,8 @@
     F(v12, hostQueryReset) \
     F(v13, synchronization2) \
     F(v13, dynamicRendering) \
+    F(v13, shaderDemoteToHelperInvocation) \
+    F(v13, shaderTerminateInvocation) \
     F(v13, maintenance4)
 #define ESPALIER_WELCOME(F) \
     F(core.features, samplerAnisotropy) \
@@ -41,8 +43,6 @@
     F(v12, shaderSubgroupExtendedTypes) \
     F(v12, vulkanMemoryModel) \
     F(v12, vulkanMemoryModelDeviceScope) \
-    F(v13, shaderDemoteToHelperInvocation) \
-    F(v13, shaderTerminateInvocation) \
     F(v13, subgroupSizeControl) \
     F(v13, computeFullSubgroups)
 // clang-format on

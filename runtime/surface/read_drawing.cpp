@@ -1,6 +1,7 @@
 // In: an opened surface. Out: its materials with their pictures, the mesh, and the coarser ones.
 #include <draco/compression/decode.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/core/jobs.hpp"
@@ -60,7 +61,7 @@ void readMaterials(Container& file, SurfaceData& data) {
             out.baseColorImage = imageOf(file, data, pbr, "baseColorTexture");
             out.normalImage = imageOf(file, data, m, "normalTexture");
             out.normalScale = out.normalImage >= 0 ? number(m["normalTexture"], "scale", 1) : 1;
-            out.roughness = number(pbr, "roughnessFactor", 1);
+            out.roughness = std::clamp(number(pbr, "roughnessFactor", 1), 0.0f, 1.0f);
             out.alphaCutoff = number(m, "alphaCutoff", 0);
             out.doubleSided = flag(m, "doubleSided");
             out.bare = m.is_object() && m.contains("extras") && flag(m["extras"], "bare");

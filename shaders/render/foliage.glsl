@@ -14,7 +14,7 @@ layout(location = 0) out vec4 color;
 // Where one level takes over from another its leaves grow, and then the other's shrink: alpha is a ramp towards their
 // middle. fade: PropInstance::fade.
 float cutoffOf(float fade) {
-    float whole = fade > 0.0 ? smoothstep(0.0, 0.6, fade) : smoothstep(1.0, 0.4, -fade);
+    float whole = fade > 0.0 ? smoothstep(0.0, 0.6, fade) : 1.0 - smoothstep(0.4, 1.0, -fade);
     return mix(1.01, push.alphaCutoff, whole * shown);
 }
 

@@ -50,10 +50,10 @@ vec3 skyLight(vec3 normal) {
 float gloss(vec3 normal, vec3 view, vec3 light, float roughness) {
     vec3 h = normalize(view + light);
     float a = roughness * roughness;
-    float power = 2.0 / max(a * a, 1e-3) - 2.0;
+    float power = max(2.0 / max(a * a, 1e-3) - 2.0, 0.0);
     float c = 1.0 - clamp(dot(view, h), 0.0, 1.0);
     float edge = 0.04 + 0.96 * (c * c) * (c * c) * c;
-    return edge * (power + 8.0) * 0.04 * pow(max(dot(normal, h), 0.0), power);
+    return edge * (power + 8.0) * 0.04 * pow(max(dot(normal, h), 1e-6), power);   // a power of 0 isn't defined
 }
 
 vec4 lit(vec3 direct, vec3 ambient) {

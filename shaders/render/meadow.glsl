@@ -20,7 +20,7 @@ void addStreet(sampler2D paving, vec2 place, vec2 dx, vec2 dy, float inside, flo
     vec3 kerb = vec3(0.225, 0.208, 0.178) * (0.72 + 0.45 * stone.r) * worn;
     float wide = pixel + 0.012;
     float onKerb = clamp((0.26 - inside) / wide + 0.5, 0.0, 1.0);
-    float gutter = smoothstep(0.55, 0.28, inside) * (1.0 - onKerb);
+    float gutter = (1.0 - smoothstep(0.28, 0.55, inside)) * (1.0 - onKerb);
     vec3 base = mix(setts * (1.0 - 0.42 * gutter), kerb, onKerb);
     vec2 slope = (stone.ba * 2.0 - 1.0) * (1.0 - 0.7 * onKerb);
     float share = clamp(inside / wide + 0.5, 0.0, 1.0);

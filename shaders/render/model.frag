@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_demote_to_helper_invocation : require
 #include "shaders/shared/extensions.glsl"
 // glTF base colour and normal map under sun and sky; or what the other views ask for.
 #include "shaders/render/light.glsl"
@@ -106,13 +107,14 @@ void addMeadow(vec3 plane, float metres, inout vec3 base, inout vec3 bumped) {
 }
 
 void main() {
-    if (!quick && push.fade != 1.0 && fadedOut(push.fade, gl_FragCoord.xy)) discard;   // there one mesh replaces another at once
+    // What isn't drawn goes on, for the derivatives of the pixels beside it.
+    if (!quick && push.fade != 1.0 && fadedOut(push.fade, gl_FragCoord.xy)) demote;   // there one mesh replaces another at once
     vec3 n = normalize(normal);
     vec3 eye = normalize(frame.eye - position);
     if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;
     vec4 base = texture(colorMap, uvs.xy);
     base = vec4(texelColor(base.rgb), base.a) * push.baseColor;
-    if (push.alphaCutoff > 0.0 && base.a < push.alphaCutoff) discard;
+    if (push.alphaCutoff > 0.0 && base.a < push.alphaCutoff) demote;
     vec3 bumped = n;
     float across = dot(tangent.xyz, tangent.xyz);
     if (across > 1e-12 && push.normalScale != 0.0) {

@@ -12,19 +12,23 @@ layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uvs;
-#else
-vec3 position;
 #endif
 
+// Of a row of the placing matrix. No dot product: that would be left to the compiler.
+float placed(vec4 row) {
+    precise float at = row.x * atVertex.x + row.y * atVertex.y + row.z * atVertex.z + row.w;
+    return at;
+}
+
 void main() {
-    vec4 p = vec4(atVertex, 1.0);
-    position = vec3(dot(push.toWorld[0], p), dot(push.toWorld[1], p), dot(push.toWorld[2], p));
+    vec3 at = vec3(placed(push.toWorld[0]), placed(push.toWorld[1]), placed(push.toWorld[2]));
 #ifndef ESPALIER_DEPTH_ONLY
+    position = at;
     normal = vec3(dot(push.toWorld[0].xyz, vertexNormal), dot(push.toWorld[1].xyz, vertexNormal), dot(push.toWorld[2].xyz, vertexNormal));
     tangent = vec4(dot(push.toWorld[0].xyz, vertexTangent.xyz), dot(push.toWorld[1].xyz, vertexTangent.xyz),
                    dot(push.toWorld[2].xyz, vertexTangent.xyz), vertexTangent.w);
     uvs = vertexUvs;
 #endif
-    precise vec4 clip = frame.viewProjection * vec4(position, 1.0);
+    precise vec4 clip = frame.viewProjection * vec4(at, 1.0);
     gl_Position = clip;
 }

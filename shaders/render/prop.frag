@@ -15,6 +15,7 @@ layout(location = 3) flat in vec2 tintFade;
 layout(location = 0) out vec4 color;
 
 void main() {
+    vec4 texel = texture(colorMap, uv);   // before any pixel is discarded: its neighbours need it for their levels
     if (fadedOut(tintFade.y, gl_FragCoord.xy)) discard;
     vec3 n = normalize(normal);
     vec3 eye = normalize(frame.eye - position);
@@ -24,7 +25,7 @@ void main() {
                 : frame.view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0) : diagnostic(vec3(0.4), n);
         return;
     }
-    vec3 base = texelColor(texture(colorMap, uv).rgb) * push.baseColor.rgb * (0.88 + 0.24 * tintFade.x);
+    vec3 base = texelColor(texel.rgb) * push.baseColor.rgb * (0.88 + 0.24 * tintFade.x);
     // What stands on the ground is dark and damp at its foot.
     float foot = clamp((position.y - frame.groundLevel) * 4.0 / frame.unit, 0.0, 1.0);
     base *= 0.72 + 0.28 * foot;

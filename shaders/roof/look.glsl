@@ -46,7 +46,7 @@ vec3 mossy(RoofDrawEnv env, uint mesh, vec3 base, vec3 position, float joint) {
     float painted = roofLayerAt(env.roofs.layers, env.roofs.site, layer - 1u, position.xz);
     if (painted <= 0.0) return base;
     float cushions = noise3(position * 3.1) * 0.45 + (quick ? 0.275 : noise3(position * 9.7) * 0.35 + noise3(position * 31.0) * 0.2);
-    float share = smoothstep(0.62, 0.38, cushions + 0.55 * (0.75 - painted) - 0.2 * joint);
+    float share = 1.0 - smoothstep(0.38, 0.62, cushions + 0.55 * (0.75 - painted) - 0.2 * joint);
     vec3 green = mix(vec3(0.038, 0.046, 0.016), vec3(0.085, 0.098, 0.03), quick ? 0.5 : noise3(position * 17.0));
     return mix(base, green * (1.0 - 0.4 * joint), share * min(1.0, 3.0 * painted));
 }

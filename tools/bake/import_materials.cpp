@@ -122,7 +122,7 @@ void readMaterials(const Document& document, Model& model, std::vector<MaterialU
         m.baseColorImage = found.find(pbr.baseColorTexture.index);
         m.normalImage = found.find(from.normalTexture.index);
         m.normalScale = finite(from.normalTexture.scale, 1);
-        m.roughness = finite(pbr.roughnessFactor, 1);
+        m.roughness = std::clamp(finite(pbr.roughnessFactor, 1), 0.0f, 1.0f);
         m.doubleSided = from.doubleSided;
         // Blending is drawn as a cut-out at one half.
         if (from.alphaMode == "MASK") m.alphaCutoff = finite(from.alphaCutoff, 0.5);
