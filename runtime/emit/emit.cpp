@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/emit/cell_lanes.hpp"
 #include "shaders/emit/glsl_names.h"
 
 namespace espalier {
@@ -18,10 +19,11 @@ uint32_t tilesAlong(const EmitView& view, uint32_t pixels) {
     return (pixels + view.tilePixels - 1) / view.tilePixels;
 }
 
-// Lanes that list a cell's items: cells may be coarse for what grows in them, and then one alone takes a GPU long. A
-// software device pays for each that has nothing to do.
-uint32_t cellLanes(const Device& device) {
-    return device.info().cpu ? 1 : 64;
+// Where a group may have 1,024 lanes, 16 of them share a bucket's blocks.
+const char* scanShader(const Device& device) {
+    const VkPhysicalDeviceLimits& limits = device.info().limits;
+    const uint32_t most = std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
+    return !device.info().cpu && most >= 1024 ? "emit/scan_wide.comp" : "emit/scan.comp";
 }
 
 // Wherever their tiles lie: `scene` tells whether these say the same.
@@ -43,6 +45,7 @@ struct TakeTiles {
 }  // namespace
 
 Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
+    const SpecConstant lanes{5, cellLanes(device)};
     Emit emit;
     emit.device_ = &device;
     emit.terminals_ = &terminals;
@@ -58,17 +61,17 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
                     {emit.bindTouch_[0], "emit/bind_touch.comp", {{3, 1}}},
                     {emit.bindTouch_[1], "emit/bind_touch.comp", {{3, 0}}},
                     {emit.bindStretches_, "emit/bind_stretches.comp", {}, true},
-                    {emit.bindKeep_, "emit/bind_keep.comp", {}},
+                    {emit.bindKeep_, "emit/bind_keep.comp", {lanes}},
                     {emit.bindCount_, "emit/bind_count.comp", {}, true},
                     {emit.bindCells_, "emit/bind_cells.comp", {}},
                     {emit.bindOrder_, "emit/bind_order.comp", {}},
-                    {emit.bindSort_, "emit/bind_sort.comp", {}},
+                    {emit.bindSort_, "emit/bind_sort.comp", {{5, sortLanes(device)}}},
                     {emit.cullCells_, "emit/cull_cells.comp", {}},
                     {emit.listBlocks_, "emit/list_blocks.comp", {}},
-                    {emit.listItems_, "emit/list_items.comp", {{5, cellLanes(device)}}},
-                    {emit.classifySpans_, "emit/classify_spans.comp", {}},
-                    {emit.classifyLeaves_, "emit/classify_leaves.comp", {}},
-                    {emit.scan_, "emit/scan.comp", {}},
+                    {emit.listItems_, "emit/list_items.comp", {lanes}},
+                    {emit.classifySpans_, "emit/classify_spans.comp", {lanes}},
+                    {emit.classifyLeaves_, "emit/classify_leaves.comp", {lanes}},
+                    {emit.scan_, scanShader(device), {}},
                     {emit.writeDrawn_, "emit/write_drawn.comp", {}},
                     {emit.takeTiles_, "emit/take_tiles.comp", {}},
                     {emit.barkVertices_, "emit/bark_vertices.comp", {}, true},

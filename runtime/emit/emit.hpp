@@ -59,7 +59,8 @@ class Emit {
     Status cull(Commands& commands, const EmitInputs& inputs, const EmitView& view, std::string_view passName,
                 bool counted);
 
-    // When growth has changed, binds it; cull() does so too.
+    // When growth has changed, binds it; when it is known that some of it found no room, all of it anew. cull() does
+    // so too.
     Status bind(Commands& commands, const EmitInputs& inputs);
     // How often everything was bound, and how often what was bound was carried over to other buffers, since growth had
     // closed gaps or there was too little room.
@@ -138,6 +139,7 @@ class Emit {
     Status reserve();
     Status makeRoom(Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels);
     Status viewRecords(const GrowthView& growth, uint32_t nodesBefore);
+    bool crowded() const;
     bool staysBound(const Bound& wanted, const GrowthView& growth) const;
     Status bindByKernels(Commands& commands, const GrowthView& growth, const BindInputs& given);
     // emit_carry.cpp

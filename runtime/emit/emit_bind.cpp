@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/emit/cell_lanes.hpp"
 #include "runtime/emit/emit.hpp"
 #include "runtime/emit/instance_room.hpp"
 #include "runtime/emit/native_bind.hpp"
@@ -154,10 +155,15 @@ Status Emit::viewRecords(const GrowthView& growth, uint32_t nodesBefore) {
     return Done{};
 }
 
+// Whether it is known that cells had no room for some of what is bound.
+bool Emit::crowded() const {
+    const uint32_t binding = reinterpret_cast<const EmitState*>(readback_.mapped())->crowded;
+    return binding != 0 && binding == uint32_t(wholeBindings_);
+}
+
 // Whether what is bound is what regrowths, or the gaps' closing before them, began with.
 bool Emit::staysBound(const Bound& wanted, const GrowthView& growth) const {
     const Bound& b = bound_;
-    const bool crowded = reinterpret_cast<const EmitState*>(readback_.mapped())->crowded != 0;
     const GrowthMove& moved = growth.moved;
     const bool added = growth.renewed <= b.number && b.number <= growth.number && b.nodeCount <= wanted.nodeCount &&
                        b.leafCount <= wanted.leafCount;
@@ -165,7 +171,7 @@ bool Emit::staysBound(const Bound& wanted, const GrowthView& growth) const {
                            b.leafCount == moved.leavesBefore;
     return b.nodes != 0 && b.surfaces == wanted.surfaces && b.surfacesRevision == wanted.surfacesRevision &&
            b.low == wanted.low && b.high == wanted.high && growth.touched != nullptr && (added || movedThen) &&
-           !crowded;
+           !crowded();
 }
 
 Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
@@ -181,7 +187,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
                        growth.number,
                        inputs.low,
                        inputs.high};
-    if (wanted == bound_) return Done{};
+    if (wanted == bound_ && !crowded()) return Done{};
     const bool partly = staysBound(wanted, growth);
     Bound before = bound_;
     bound_ = culled_ = {};
@@ -225,6 +231,7 @@ Status Emit::bind(Commands& commands, const EmitInputs& inputs) {
     given.orderRoom = uint32_t(held_.order.size() / 4);
     given.partly = partly ? 1 : 0;
     given.watched = partly && watched_.width > 0 ? 1 : 0;
+    given.binding = uint32_t(wholeBindings_);
     given.since = before.number;
     given.nodesBefore = partly ? before.nodeCount : 0;
     given.leavesBefore = partly ? before.leafCount : 0;
@@ -277,7 +284,7 @@ Status Emit::bindByKernels(Commands& commands, const GrowthView& growth, const B
     pass.dispatch(bindLeaves_[fetches_], groupsFor(leaves), {}, {table, leafRecords_, held_.spanTexels, watch_, in});
     pass.barrier(Use::compute, Use::compute);
     if (partly) {
-        pass.dispatchItems(bindKeep_, kAllCells, {}, {in});
+        pass.dispatchItems(bindKeep_, kAllCells * cellLanes(*device_), {}, {in});
         pass.barrier(Use::compute, Use::compute);
     }
     const std::array<uint32_t, 3> groups = groupsFor(std::min(nodes + leaves, 4095u * 64));
@@ -287,7 +294,7 @@ Status Emit::bindByKernels(Commands& commands, const GrowthView& growth, const B
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(bindOrder_, groups, {}, {in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(bindSort_, kAllCells * kSortLanes, {}, {held_.spanTexels, held_.leafTexels, in});
+    pass.dispatchItems(bindSort_, kAllCells * sortLanes(*device_), {}, {held_.spanTexels, held_.leafTexels, in});
     pass.barrier(Use::compute, Use::compute | Use::vertex);
     return Done{};
 }

@@ -2,6 +2,7 @@
 // by the numbers that growth's records have now, in an order of items with new room. Native code moves it in place
 // on software devices; kernels copy it to other buffers, which have new room, too. Binding all anew would cost ten
 // times.
+#include "runtime/emit/cell_lanes.hpp"
 #include "runtime/emit/emit.hpp"
 #include "runtime/emit/native_carry.hpp"
 
@@ -28,8 +29,9 @@ Status Emit::makeCarrying(bool moved) {
         const char* shader;
     } rows[] = {
         {c.spans, "emit/carry_spans.comp"}, {c.leaves, "emit/carry_leaves.comp"}, {c.cells, "emit/carry_cells.comp"}};
+    const std::vector<SpecConstant> constants{{4, moved ? 1u : 0u}, {5, cellLanes(*device_)}};
     for (const auto& row : rows) {
-        Result<Program> made = Program::compute(*device_, row.shader, {.constants = {{4, moved ? 1u : 0u}}});
+        Result<Program> made = Program::compute(*device_, row.shader, {.constants = constants});
         if (!made) return made.failure();
         row.program = std::move(*made);
     }
@@ -49,7 +51,7 @@ Status Emit::carryByKernels(Commands& commands, const CarryPush& push, bool all)
         pass.dispatchItems(programs.spans, push.nodeCount, push, {held_.spanTexels});
         pass.dispatchItems(programs.leaves, push.leafCount, push, {held_.leafTexels});
     }
-    pass.dispatchItems(programs.cells, kAllCells, push);
+    pass.dispatchItems(programs.cells, kAllCells * cellLanes(*device_), push);
     pass.barrier(Use::compute, Use::compute | Use::transfer);
     return Done{};
 }

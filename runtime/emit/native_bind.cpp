@@ -83,15 +83,14 @@ class Binding {
     }
     // Items come to their cells.
     void order() {
-        if (push.partly != 0) eachCell([](Kernels& kernels, uint cell) { kernels.keepItems(cell); });
+        if (push.partly != 0) eachCell([](Kernels& kernels, uint cell) { kernels.keepItems(cell, 0, 1); });
         if (push.partly == 0) HEAD.changed = push.nodeCount + push.leafCount;
         const uint items = HEAD.changed;
         each(items, kItemsAtOnce, [](Kernels& kernels, uint i) { kernels.countItem(kernels.itemToPut(i)); });
         eachCell([](Kernels& kernels, uint cell) { kernels.makeCellRoom(cell); });
         each(items, kItemsAtOnce, [](Kernels& kernels, uint i) { kernels.putItem(kernels.itemToPut(i)); });
         eachCell([&](Kernels& kernels, uint cell) {
-            for (uint share = 0; share < kSortLanes && push.cells.v[cell].count > 0; ++share)
-                kernels.sortBins(cell, share);
+            if (push.cells.v[cell].count > 0) kernels.sortBins(cell, 0, 1);
         });
     }
 

@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-// Eight bins of a cell each.
+// Some of a cell's bins each.
 #include "shaders/emit/bind.glsl"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 5) const uint kSortLanes = 8u;   // a cell's
 layout(set = 0, binding = 0) uniform usamplerBuffer spanTexels;
 layout(set = 0, binding = 1) uniform usamplerBuffer leafTexels;
 
@@ -16,5 +17,5 @@ void main() {
     uint i = itemIndex();
     uint cell = i / kSortLanes;
     if (cell >= kAllCells || push.cells.v[cell].count == 0u) return;
-    if (push.partly == 0u || push.cells.v[cell].changed != 0u) sortBins(cell, i % kSortLanes);
+    if (push.partly == 0u || push.cells.v[cell].changed != 0u) sortBins(cell, i % kSortLanes, kSortLanes);
 }

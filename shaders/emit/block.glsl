@@ -4,6 +4,8 @@
 #define ESPALIER_EMIT_BLOCK_GLSL
 #include "shaders/emit/emit_inputs.glsl"
 
+layout(constant_id = 5) const uint kRankLanes = 1u;   // 1: the first lane ranks all; else each its own item
+
 shared uint laneBuckets[64];
 shared uint laneRanks[64];
 shared uint bucketCounts[64];
@@ -18,8 +20,14 @@ void noteItem(uint block, uint count, DrawnItem found, uint bucket) {
     laneBuckets[lane] = bucket;
     bucketCounts[lane] = 0u;
     barrier();
-    // The first lane alone, one item after another.
-    for (uint i = 0u; i < (lane == 0u ? count : 0u); ++i) {
+    if (kRankLanes > 1u) {
+        uint rank = 0u;
+        for (uint i = 0u; i < lane; ++i) rank += laneBuckets[i] == bucket ? 1u : 0u;
+        laneRanks[lane] = rank;
+        if (bucket != kNoBucket) atomicAdd(bucketCounts[bucket], 1u);
+    }
+    // One item after another.
+    for (uint i = 0u; i < (kRankLanes == 1u && lane == 0u ? count : 0u); ++i) {
         uint b = laneBuckets[i];
         if (b != kNoBucket) laneRanks[i] = bucketCounts[b]++;
     }

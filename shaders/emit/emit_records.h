@@ -101,7 +101,6 @@ CONST_UINT(kLeafClass, 6u);    // classes below: of spans
 CONST_UINT(kAllCells, 28672u);
 CONST_UINT(kCellBins, 64u);
 CONST_UINT(kReachTiles, 9u);   // what reaches more tiles along a side, less one, isn't asked whether it is hidden
-CONST_UINT(kSortLanes, 8u);    // that put a cell's bins in order
 CONST_UINT(kLongRun, 64u);     // items of a bin from which on that takes a heap
 CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
 
@@ -138,7 +137,8 @@ struct EmitState {
     uint blocks[2];             // of these, each of kBlockItems or less; those of leaves follow those of spans
     uint groups[9];             // VkDispatchIndirectCommand for the blocks of spans, of leaves, of both
     uint boundItems;            // that the last binding looked at
-    uint crowded;               // 1: cells had no room for what came to them, all is to be bound anew
+    uint crowded;               // not 0: in the whole binding of this number, or since, cells had no room for what came to
+                                // them, all is to be bound anew
     uint ordered;               // where room in the order of items begins
 };
 STATIC_SIZE(EmitState, 3152);
@@ -232,7 +232,7 @@ struct BindInputs {
     uint nodesBefore, leavesBefore;
     uint leafWork;
     uint watched;               // 1: tiles of a watched picture are noted
-    uint spare;
+    uint binding;               // number of the whole binding that this is, or comes after; not 0
 };
 STATIC_SIZE(BindInputs, 200);
 // cells[kAllCells]: first: triangles of all items at full detail; count: where room in the order begins; changed: items

@@ -1,5 +1,5 @@
-// A share of a cell's bins, of kSortLanes of them: their items by where they are in the world, so that every run draws
-// in the same order. The text of a kernel, and in C++ of a member: `push`, spanTexel() and leafTexel() are around it.
+// A share of a cell's bins: their items by where they are in the world, so that every run draws in the same order. The
+// text of a kernel, and in C++ of a member: `push`, spanTexel() and leafTexel() are around it.
 
 // Differs between instances and is the same in every run: of the end of a span, or of a leaf's place and turn.
 uint rankOf(uint item, uint kind) {
@@ -61,12 +61,14 @@ void sortRun(uint first, uint end, uint kind) {
     }
 }
 
-void sortBins(uint cell, uint share) {
+// shares: of a cell, each of as many bins.
+void sortBins(uint cell, uint share, uint shares) {
     uint kind = cell / kMaxCells;
     uint first = push.cells.v[cell].first;
-    uint bin = cell * kCellBins + share * (kCellBins / kSortLanes);
+    uint bins = kCellBins / shares;
+    uint bin = cell * kCellBins + share * bins;
     uint begin = share > 0u ? push.bins.v[bin - 1u] : 0u;
-    for (uint b = bin; b < bin + kCellBins / kSortLanes; ++b) {
+    for (uint b = bin; b < bin + bins; ++b) {
         uint end = push.bins.v[b];
         sortRun(first + begin, first + end, kind);
         begin = end;

@@ -23,9 +23,10 @@ T addressOf(const Buffer& buffer) {
 }
 
 // How many words of blocks beyond the last one a kernel has written that was dispatched over kGroups groups.
-size_t wordsBeyond(test::EmitPipeline& gpu, const char* shader, bool leaves) {
+// lanes: that rank a block's items.
+size_t wordsBeyond(test::EmitPipeline& gpu, const char* shader, bool leaves, uint32_t lanes) {
     Device& device = *gpu.device;
-    Result<Program> program = Program::compute(device, shader);
+    Result<Program> program = Program::compute(device, shader, {.constants = {{5, lanes}}});
     REQUIRE(program);
     EmitState given{};
     given.listed[leaves] = kBlocks * kBlockItems - 7;
@@ -67,6 +68,8 @@ size_t wordsBeyond(test::EmitPipeline& gpu, const char* shader, bool leaves) {
 
 TEST_CASE("groups that overhang the blocks of a large view write nothing") {
     test::EmitPipeline gpu;
-    CHECK(wordsBeyond(gpu, "emit/classify_spans.comp", false) == 0);
-    CHECK(wordsBeyond(gpu, "emit/classify_leaves.comp", true) == 0);
+    for (const uint32_t lanes : {1u, 64u}) {
+        CHECK(wordsBeyond(gpu, "emit/classify_spans.comp", false, lanes) == 0);
+        CHECK(wordsBeyond(gpu, "emit/classify_leaves.comp", true, lanes) == 0);
+    }
 }
