@@ -22,6 +22,7 @@ bool GpuGrowth::gappy(const GrowthInputs& inputs) const {
 
 Status GpuGrowth::compact(const GrowthInputs& inputs) {
     dropViews();
+    view_.moved = {};  // what it says is written over, and may get no room again
     if (Status ok = ensure(nodesWent_, "growth where nodes went", capacityOf<Node>(*view_.nodeBuffer) * 4ull); !ok)
         return ok;
     if (Status ok = ensure(leavesWent_, "growth where leaves went", capacityOf<Leaf>(*view_.leafBuffer) * 4ull); !ok)
@@ -43,7 +44,8 @@ void GpuGrowth::showMoved(uint32_t nodes, uint32_t leaves) {
     status.branches = view_.branchCount;
     show(status, true);
     view_.moved = moved;
-    view_.touched = &touched_;  // what it says of earlier growths is of no account any more
+    // What it says of earlier growths is of no account any more.
+    if (touched_ && !touchedIsNew_) view_.touched = &touched_;
 }
 
 Status GpuGrowth::closeGaps() {

@@ -56,14 +56,24 @@ void take(std::span<const std::byte>& from, std::vector<T>& to, uint32_t count) 
     from = from.subspan(count * sizeof(T));
 }
 
-// Links lead to records that exist, chunks' nodes are theirs and in a row, parents come from elsewhere than below.
+constexpr float kFarthest = 1e9f;  // metres from a surface's origin
+constexpr float kThickest = 1e3f;  // metres; no terminal makes a larger radius
+
+// Whether what is worked out from its numbers is finite.
+bool sound(const Node& n) {
+    const float away = std::abs(n.position.x) + std::abs(n.position.y) + std::abs(n.position.z);
+    return away <= kFarthest && n.radius >= 0 && n.radius <= kThickest && std::isfinite(n.arc);
+}
+
+// Links lead to records that exist, each node is one chunk's, chunks' nodes are in a row and know it, parents and the
+// nodes that chunks start from come from elsewhere than below, branches are their chunks'.
 bool sound(const PlantRecords& p, uint32_t surfaces) {
     const auto none = [](uint32_t index, size_t count) { return index == kNoIndex || index < count; };
+    const auto depth = [&](uint32_t chunk) { return p.chunks[chunk].depth >> 16; };
     for (const Node& n : p.nodes)
-        if (n.chunk >= p.chunks.size() || (n.place >> 16) >= surfaces || !(n.radius >= 0) || !std::isfinite(n.radius) ||
-            !std::isfinite(n.position.x + n.position.y + n.position.z) || !std::isfinite(n.arc))
-            return false;
+        if (n.chunk >= p.chunks.size() || (n.place >> 16) >= surfaces || !sound(n)) return false;
     std::vector<uint32_t> linked(p.chunks.size(), 0);  // times that the chunk is somebody's child or sibling
+    size_t nodes = 0;                                  // of chunks so far
     for (size_t i = 0; i < p.chunks.size(); ++i) {
         const Chunk& c = p.chunks[i];
         const uint32_t count = chunkNodes(c.marks);
@@ -74,18 +84,25 @@ bool sound(const PlantRecords& p, uint32_t surfaces) {
             return false;
         if (count > 0 && (c.firstNode > p.nodes.size() || p.nodes.size() - c.firstNode < count)) return false;
         for (uint32_t k = 0; k < count; ++k)
-            if (p.nodes[c.firstNode + k].chunk != i) return false;
+            if (const Node& n = p.nodes[c.firstNode + k]; n.chunk != i || (n.flags >> 8 & 31u) != k) return false;
+        nodes += count;
+        if (!std::isfinite(c.entry.uv.x + c.entry.uv.y)) return false;
         for (uint32_t link : {c.firstChild, c.nextSibling})
             if (link != kNoIndex && ++linked[link] > 1) return false;
         // A step away from the seed each, so that no way along links has no end.
         for (uint32_t link : {c.next, c.firstChild})
-            if (link != kNoIndex && (p.chunks[link].parent != i || p.chunks[link].depth >> 16 != (c.depth >> 16) + 1))
-                return false;
+            if (link != kNoIndex && (p.chunks[link].parent != i || depth(link) != (c.depth >> 16) + 1)) return false;
+        if (c.next != kNoIndex && p.chunks[c.next].branch != c.branch) return false;
         if (c.nextSibling != kNoIndex && p.chunks[c.nextSibling].parent != c.parent) return false;
-        if (c.parent != kNoIndex && p.chunks[c.parent].depth >> 16 >= c.depth >> 16) return false;
+        if (c.parent != kNoIndex && depth(c.parent) >= c.depth >> 16) return false;
+        if (c.previousNode != kNoIndex && depth(p.nodes[c.previousNode].chunk) >= c.depth >> 16) return false;
     }
-    for (const BranchRecord& b : p.branches)
-        if (b.firstChunk >= p.chunks.size() || chunkNodes(p.chunks[b.firstChunk].marks) == 0) return false;
+    if (nodes != p.nodes.size()) return false;
+    for (size_t b = 0; b < p.branches.size(); ++b) {
+        const uint32_t first = p.branches[b].firstChunk;
+        if (first >= p.chunks.size() || chunkNodes(p.chunks[first].marks) == 0 || p.chunks[first].branch != b)
+            return false;
+    }
     for (const Leaf& l : p.leaves)
         if (l.node >= p.nodes.size()) return false;
     return true;

@@ -163,6 +163,7 @@ class GpuGrowth final : public Growth {
     // Frozen plants that GrowthChanges::frozen names, among what is drawn as if they had been there before: put_in.cpp.
     // False: there is no room.
     Result<bool> putIn(const GrowthInputs& inputs);
+    Result<Regrown> regrowWithFrozen(const GrowthInputs& inputs);  // with them
 
     // Gaps that edits have left: compaction.cpp.
     bool gappy(const GrowthInputs& inputs) const;
@@ -208,6 +209,7 @@ class GpuGrowth final : public Growth {
     Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_, nodesWent_, leavesWent_;
     bool touchedIsNew_ = false;  // and holds nothing yet
     bool chained_ = false;       // leaves on the nodes that are drawn are chained
+    bool tablesStand_ = false;   // tables_ and grammars_ hold what is drawn was grown by
     GrowthView view_;
     GrowthStats stats_;
     Origin origin_;        // of the growth that is shown

@@ -204,6 +204,7 @@ void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, con
     origin_ = std::move(origin);
     frontPlants_ = 1 - frontPlants_;
     frontLinks_ = 1 - frontLinks_;
+    tablesStand_ = true;
     chained_ = frozen.records.nodes.empty();
     show(outcome.status, true);
     stats_.seeds = uint32_t(inputs.seeds.size() + inputs.frozen.size());
@@ -225,18 +226,15 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     if (inputs.watch) inputs.watch->begin();
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
-    Result<bool> put = canRegrow(inputs) ? putIn(inputs) : Result<bool>(false);
-    if (!put) return put.failure();
-    if (*put) {
-        const std::optional<SeedChanges> seeds = seedChanges(origin_, inputs);
-        const bool closes = seeds && gappy(inputs);
+    if (canRegrow(inputs)) {
+        const bool closes = gappy(inputs);
         if (closes)
             if (Status closed = compact(inputs); !closed) return closed;
-        Result<Regrown> done = seeds ? regrow(inputs, *seeds) : Result<Regrown>(Regrown::tooMuch);
+        Result<Regrown> done = regrowWithFrozen(inputs);
         if (done && *done == Regrown::noRoom) {
             const Status closed = closes && runsNative(inputs) ? enlarge() : compact(inputs);
             if (!closed) return closed;
-            done = regrow(inputs, *seeds);
+            done = regrowWithFrozen(inputs);
         }
         dropViews();
         if (!done) return done.failure();

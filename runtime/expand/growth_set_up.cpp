@@ -106,9 +106,14 @@ Status GpuGrowth::makeTables(const GrowthInputs& inputs) {
     uint64_t words = 0;
     placeTables(inputs, words);
     byAddress_ = words > kUniformTableWords;
-    Status made = ensure(tables_, "growth tables", (byAddress_ ? words : kUniformTableWords) * 4);
-    if (made) made = ensure(noTables_, "growth no tables", byAddress_ ? kUniformTableWords * 4 : 0);
-    return made ? ensure(grammars_, "growth grammars", inputs.grammars.size() * sizeof(RuleMapRef)) : made;
+    constexpr uint64_t kUniformBytes = kUniformTableWords * 4;  // a uniform buffer may have no more
+    const uint64_t tables = byAddress_ ? words * 4 : kUniformBytes;
+    const uint64_t grammars = inputs.grammars.size() * sizeof(RuleMapRef);
+    if (!byAddress_ && tables_.size() > kUniformBytes) tables_ = {};
+    tablesStand_ = tablesStand_ && tables_.size() >= tables && grammars_.size() >= grammars;
+    Status made = ensure(tables_, "growth tables", tables);
+    if (made) made = ensure(noTables_, "growth no tables", byAddress_ ? kUniformBytes : 0);
+    return made ? ensure(grammars_, "growth grammars", grammars) : made;
 }
 
 // Kernels for what these grammars ask of them.
@@ -202,6 +207,7 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plant
 }
 
 Status GpuGrowth::uploadTables(Commands& commands, const GrowthInputs& inputs, bool pack) {
+    tablesStand_ = false;
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     uint64_t words = 0;
     Status steps[] = {commands.upload(grammars_, grammars), commands.upload(tables_, placeTables(inputs, words))};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "runtime/core/undo.hpp"
 #include "runtime/expand/gpu_growth.hpp"
 
 namespace espalier {
@@ -58,6 +59,26 @@ Result<bool> GpuGrowth::putIn(const GrowthInputs& inputs) {
     const uvec2 hash = uvec2(uint32_t(stats_.hash), uint32_t(stats_.hash >> 32)) + uvec2(sum.hash[0], sum.hash[1]);
     stats_.hash = uint64_t(hash.y) << 32 | hash.x;
     return true;
+}
+
+// Unless the regrowth gets done they are taken out again: they are the last of all records.
+Result<GpuGrowth::Regrown> GpuGrowth::regrowWithFrozen(const GrowthInputs& inputs) {
+    Undo takeOut([this, view = view_, stats = stats_, frozen = origin_.frozen.size()] {
+        origin_.frozen.resize(frozen);
+        view_.nodeCount = view.nodeCount;
+        view_.leafCount = view.leafCount;
+        view_.chunkCount = view.chunkCount;
+        view_.branchCount = view.branchCount;
+        view_.revision = view.revision;
+        stats_ = stats;
+    });
+    Result<bool> put = putIn(inputs);
+    if (!put) return put.failure();
+    const std::optional<SeedChanges> seeds = *put ? seedChanges(origin_, inputs) : std::nullopt;
+    if (!seeds) return Regrown::tooMuch;
+    Result<Regrown> done = regrow(inputs, *seeds);
+    if (done && *done == Regrown::done) takeOut.done();
+    return done;
 }
 
 }  // namespace espalier

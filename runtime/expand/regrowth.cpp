@@ -84,6 +84,7 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
     // Regrowths of the same nodes find the same room: nothing that is noted there gets lost.
     const uint64_t touched = capacityOf<Node>(plants_[frontPlants_].nodes) * 4ull;
     touchedIsNew_ = touchedIsNew_ || !touched_ || touched_.size() < touched;
+    if (touchedIsNew_) view_.touched = nullptr;  // until it holds something
     if (Status ok = ensure(touched_, "growth touched nodes", touched); !ok) return ok;
     for (const auto& row : rows)
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
@@ -157,7 +158,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     // Packed tables change with parameters, grammars and where their words lie.
     const std::vector<RuleMapRef>& maps = origin_.maps;
     const std::vector<float>& widths = origin_.widths;
-    const bool same = inputs.changes->params.empty() && inputs.changes->grammars.empty() &&
+    const bool same = tablesStand_ && inputs.changes->params.empty() && inputs.changes->grammars.empty() &&
                       inputs.grammars.size() == maps.size() && inputs.widths.size() == widths.size() &&
                       std::memcmp(inputs.grammars.data(), maps.data(), maps.size() * sizeof(RuleMapRef)) == 0 &&
                       std::equal(widths.begin(), widths.end(), inputs.widths.begin());
@@ -290,6 +291,7 @@ Result<GpuGrowth::Regrown> GpuGrowth::growAgain(const GrowthInputs& inputs, cons
 void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state,
                              Origin&& origin) {
     origin_ = std::move(origin);
+    tablesStand_ = true;
     const GrowStatus& s = outcome.status;
     GrowthStats delta;
     takeCounters(s, delta);
@@ -339,6 +341,7 @@ Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const S
     Origin origin = originOf(inputs);  // now, since nothing may fail between the change of what is drawn and the end
     if (nothing && !seeds.any) {
         origin_ = std::move(origin);
+        tablesStand_ = true;
         stats_.derived = 0;
         return Regrown::done;
     }

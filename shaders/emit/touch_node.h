@@ -14,6 +14,17 @@ void flagStretch(uint first, uint end, uint node) {
     for (uint i = from; i < min(from + kStretch, end); ++i) flagNode(i, kFlagStretch);
 }
 
+// The next of the chunks that start where `root` does: it, and behind each without nodes those that follow from it.
+// kNoIndex after the last.
+uint nextStart(uint root, uint at) {
+    uint next = chunkNodes(push.chunks.v[at].marks) > 0u ? kNoIndex : push.chunks.v[at].firstChild;
+    while (next == kNoIndex && at != root) {
+        next = push.chunks.v[at].nextSibling;
+        at = push.chunks.v[at].parent;
+    }
+    return next;
+}
+
 void flagFollowers(uint i) {
     uint chunk = push.nodes.v[i].chunk;
     uint first = push.chunks.v[chunk].firstNode;
@@ -22,10 +33,12 @@ void flagFollowers(uint i) {
     if (i + 1u < end) flagStretch(first, end, i + 1u);
     uint child = push.chunks.v[chunk].firstChild;
     for (uint k = 0u; k < 4096u && child != kNoIndex; ++k) {
-        if (push.chunks.v[child].previousNode == i && chunkNodes(push.chunks.v[child].marks) > 0u)
-            flagStretch(push.chunks.v[child].firstNode,
-                        push.chunks.v[child].firstNode + chunkNodes(push.chunks.v[child].marks),
-                        push.chunks.v[child].firstNode);
+        uint at = push.chunks.v[child].previousNode == i ? child : kNoIndex;
+        for (; at != kNoIndex; at = nextStart(child, at)) {
+            uint start = push.chunks.v[at].firstNode;
+            uint count = chunkNodes(push.chunks.v[at].marks);
+            if (count > 0u) flagStretch(start, start + count, start);
+        }
         child = push.chunks.v[child].nextSibling;
     }
 }

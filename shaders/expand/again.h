@@ -101,6 +101,11 @@ FN void queueAgain(ExpandEnv env, WorkItemBuf items, uint wave, uint chunk, uint
     if (added > 0u) atomicAdd(env.waves.v[wave].groups[0], added);
 }
 
+FN void listBranch(ExpandEnv env, uint branch) {
+    if ((atomicOr(AGAIN_MARKS.v[branch].branchBits, kBranchListed) & kBranchListed) == 0u)
+        appendTo(env, kListBranches, branch);
+}
+
 // Lets a dirty chunk wait for `above`, which is grown before it. Its own children need not: they are found dirty.
 FN void waitFor(ExpandEnv env, uint chunk, uint below) {
     if (below == chunk) return;

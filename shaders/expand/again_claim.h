@@ -45,13 +45,29 @@ FN bool entersAlike(Chunk c, WorkItem item) {
            sameBits(c.entry.direction.z, item.walk.direction.z) && sameBits(c.entry.arc, item.walk.arc);
 }
 
-// Gives a kept chunk the node that it now starts from, and so those that follow from it before its first step.
+// Whether two nodes lie in one place to the bit: where a step goes over an edge of a triangle, the node that it begins at
+// is laid on the triangle beyond (expand_stage.h), so it hangs on what follows.
+FN bool samePlace(ExpandEnv env, uint a, uint b) {
+    vec3 p = env.nodes.v[a].position;
+    vec3 q = env.nodes.v[b].position;
+    return sameBits(p.x, q.x) && sameBits(p.y, q.y) && sameBits(p.z, q.z);
+}
+
+// Gives a kept chunk the node that it now starts from, and so those that follow from it before its first step. Their
+// first nodes' tangents follow from its place.
 FN void moveFoot(ExpandEnv env, uint chunk, uint node) {
     uint old = env.chunks.v[chunk].previousNode;
+    bool turns = false;
+    // A node beyond is nowhere: all is done again.
+    if (old != node && node < env.status.v[0].nodeCapacity) turns = !samePlace(env, old, node);
     uint at = old == node ? kNoIndex : chunk;
     while (at != kNoIndex) {
         bool moves = env.chunks.v[at].previousNode == old;
         if (moves) env.chunks.v[at].previousNode = node;
+        if (moves && turns && chunkNodes(env.chunks.v[at].marks) > 0u) {
+            atomicOr(AGAIN_MARKS.v[at].bits, kMarkTurned);   // who grows it again may be marking it
+            listBranch(env, env.chunks.v[at].branch);
+        }
         at = nextChunk(env.chunks, chunk, at, !moves);
     }
 }

@@ -36,8 +36,7 @@ FN void letGo(ExpandEnv env, uint root) {
 FN void settleAgain(ExpandEnv env, ChunkBuf before, uint i) {
     uint chunk = listEntry(env, kListGrown, i);
     uint branch = env.chunks.v[chunk].branch;
-    if (branch != kNoIndex && (atomicOr(AGAIN_MARKS.v[branch].branchBits, kBranchListed) & kBranchListed) == 0u)
-        appendTo(env, kListBranches, branch);
+    if (branch != kNoIndex) listBranch(env, branch);
     if ((AGAIN_MARKS.v[chunk].bits & kMarkAgain) == 0u) return;
     atomicAdd(AGAIN.goneNodes, chunkNodes(before.v[chunk].marks));
     uint was = before.v[chunk].branch;

@@ -33,8 +33,10 @@ FN void listWork(ExpandEnv env, uint branch, uint first) {
         bool grown = (AGAIN_MARKS.v[chunk].bits & kMarkGrown) != 0u;
         bool nextGrown = next != kNoIndex && (AGAIN_MARKS.v[next].bits & kMarkGrown) != 0u;
         uint all = count >= 32u ? 0xFFFFFFFFu : (1u << count) - 1u;
+        bool turned = (AGAIN_MARKS.v[chunk].bits & kMarkTurned) != 0u;
         // The last node before a grown chunk has another follower.
-        uint nodes = whole || grown ? all : nextGrown ? all & ~(all >> 1u) : 0u;
+        uint ends = (turned ? 1u : 0u) | (nextGrown ? all & ~(all >> 1u) : 0u);
+        uint nodes = whole || grown ? all : ends;
         if (nodes != 0u) {
             AGAIN_MARKS.v[chunk].nodes = nodes;
             uint firstNode = env.chunks.v[chunk].firstNode;

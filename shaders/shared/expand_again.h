@@ -27,6 +27,7 @@ CONST_UINT(kMarkDirty, 1u);
 CONST_UINT(kMarkAgain, 2u);      // grown again in its place
 CONST_UINT(kMarkGrown, 4u);      // that, or new
 CONST_UINT(kMarkKept, 8u);       // its parent was grown again and asked for it as it was
+CONST_UINT(kMarkTurned, 16u);    // it stands, but the node that it starts from lies elsewhere by a hair
 // AgainMark::branchBits
 CONST_UINT(kBranchListed, 1u);
 CONST_UINT(kBranchRedo, 2u);     // all its terminals are to be made anew

@@ -56,6 +56,68 @@ TEST_CASE("an edit binds what it concerns, and leaves what binding everything le
     }
 }
 
+namespace {
+
+// Puts a chunk without nodes between each twig and the chunk that it leaves.
+void addChunksWithoutNodes(test::PlantData& data) {
+    for (const BranchRecord& branch : data.branches) {
+        const uint32_t twig = branch.firstChunk, joint = data.chunks[twig].previousNode;
+        if (joint == kNoIndex) continue;
+        const uint32_t between = uint32_t(data.chunks.size()), parent = data.nodes[joint].chunk;
+        uint32_t* link = &data.chunks[parent].firstChild;
+        while (*link != twig) link = &data.chunks[*link].nextSibling;
+        *link = between;
+        Chunk chunk{};
+        chunk.branch = kNoIndex;
+        chunk.previousNode = joint;
+        chunk.parent = parent;
+        chunk.firstChild = twig;
+        chunk.nextSibling = std::exchange(data.chunks[twig].nextSibling, kNoIndex);
+        data.chunks[twig].parent = between;
+        data.chunks.push_back(chunk);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("with a node the spans are bound that start there behind chunks without nodes") {
+    const std::shared_ptr<Device> device = test::validatedDevice();
+    test::PlantData before = test::wallIvy(8, 2, 1.5f);
+    test::linkChunks(before);
+    addChunksWithoutNodes(before);
+    test::PlantData after = before;
+    std::vector<uint32_t> touched((before.nodes.size() + 3) / 4 * 4, 1);
+    for (size_t twig = before.branches.size() - 3; twig < before.branches.size(); ++twig) {
+        const uint32_t joint = before.chunks[before.branches[twig].firstChunk].previousNode;
+        REQUIRE(joint != kNoIndex);
+        after.nodes[joint].position.z += 0.01f;
+        touched[joint] = 2;
+    }
+    test::Plant plant = test::upload(*device, before);
+    const Buffer numbers = std::move(*makeBuffer(*device, "touched", touched));
+    plant.view.touched = &numbers;
+    EmitView view{};
+    view.flags = kFullDetail;
+    view.lodPixels = 1;
+    for (const bool native : {false, true}) {
+        CAPTURE(native);
+        test::EmitPipeline often(device), once(device);
+        const auto cull = [&](test::EmitPipeline& pipeline) {
+            EmitInputs inputs = plant.inputs();
+            inputs.native = native;
+            return pipeline.cull(inputs, view);
+        };
+        plant.view.number = plant.view.renewed = 1;
+        test::rewrite(*device, plant, numbers, before, touched);
+        cull(often);
+        plant.view.number = 2;
+        test::rewrite(*device, plant, numbers, after, touched);
+        const EmitState part = cull(often);
+        CHECK(often.emit.stats().bound < (plant.view.nodeCount + plant.view.leafCount) / 2);
+        compareDrawn(*device, often, part, once, cull(once));
+    }
+}
+
 TEST_CASE("room is kept for twice what is bound where that costs nothing, up to what a buffer holds") {
     CHECK(instanceRoom(1000, 96, 1 << 30, false) == 1000);
     CHECK(instanceRoom(1000, 96, 1 << 30, true) == 2000);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "runtime/gpu/commands.hpp"
 #include "shaders/shared/exact.h"
 #include "shaders/shared/expand_again.h"
 #include "shaders/shared/random.h"
@@ -116,6 +117,72 @@ Bark -> S(0.01) Shape("bark", C1)
     }
     // One that asks the place in either part tries them all.
     CHECK(grown("n < k or mask(texCoord) < 0.5").deadEnds > 0);
+}
+
+namespace {
+
+std::vector<Node> nodesOf(Session& s) {
+    const GrowthView view = s.growth->view();
+    return *readVector<Node>(s.gpu.device(), *view.nodeBuffer, 0, view.nodeCount);
+}
+void overwrite(Session& s, uint32_t index, const Node& node) {
+    Result<Commands> commands = Commands::begin(s.gpu.device(), "overwrite");
+    REQUIRE(commands);
+    REQUIRE(commands->upload(*s.growth->view().nodeBuffer, std::vector<Node>{node}, index * sizeof(Node)));
+    REQUIRE(commands->finish());
+}
+
+// Whether nothing that the chunk has read lies near `at`.
+bool isFarFrom(glm::vec2 at, const Chunk& chunk, const std::vector<Node>& nodes) {
+    constexpr float kNear = 0.05f;
+    bool far = glm::distance(chunk.entry.uv, at) > kNear;
+    for (uint32_t i = 0; i < chunkNodes(chunk.marks); ++i)
+        far = far && glm::distance(unpackUv(nodes[chunk.firstNode + i].uv), at) > kNear;
+    return far;
+}
+
+}  // namespace
+
+// What a node is laid on is known only when the next step goes on from it, so that one may move it. A step that does is
+// rare: here the node has been elsewhere before.
+TEST_CASE("a kept branch's first node is finished again when the node that it starts from comes to lie elsewhere") {
+    for (const bool native : {false, true}) {
+        CAPTURE(native);
+        Session s(flatSquare());
+        s.scene.native = native;
+        for (int i = 0; i < 8; ++i) s.scene.plant({-0.75f, 0, -0.7f + 0.2f * float(i)}, {1, 0, 0}, 0, uint64_t(i));
+        s.grow();
+        const GrowthView view = s.growth->view();
+        const std::vector<Node> nodes = nodesOf(s);
+        const std::vector<Chunk> chunks = *readVector<Chunk>(s.gpu.device(), *view.chunkBuffer, 0, view.chunkCount);
+        // A branch, and the last node of the chunk that it leaves, which is to be grown again.
+        const Chunk* branch = nullptr;
+        glm::vec2 at(0);
+        for (const Chunk& c : chunks) {
+            if (c.parent == kNoIndex || chunkNodes(c.marks) == 0 || c.branch == chunks[c.parent].branch) continue;
+            const Chunk& parent = chunks[c.parent];
+            if (nodes[c.previousNode].chunk != c.parent) continue;
+            at = unpackUv(nodes[parent.firstNode + chunkNodes(parent.marks) - 1].uv);
+            branch = &c;
+            if (isFarFrom(at, c, nodes)) break;
+            branch = nullptr;
+        }
+        REQUIRE(branch);
+        Node foot = nodes[branch->previousNode], first = nodes[branch->firstNode];
+        foot.position.y += 1e-4f;
+        first.tangent ^= 0x00700070u;
+        overwrite(s, branch->previousNode, foot);
+        overwrite(s, branch->firstNode, first);
+
+        s.dab(0, at, 0.004f, 1);  // as it is
+        s.grow();
+        CHECK(s.growth->stats().regrowths == 1);
+        REQUIRE(s.growth->view().renewed == view.renewed);
+        const std::vector<Node> now = nodesOf(s);
+        CHECK(now[branch->previousNode].radius < 0);
+        CHECK(now[branch->firstNode].radius >= 0);
+        CHECK(now[branch->firstNode].tangent == nodes[branch->firstNode].tangent);
+    }
 }
 
 TEST_CASE("gaps are closed in passing: however many edits, none grows everything anew") {

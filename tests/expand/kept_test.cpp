@@ -244,7 +244,11 @@ TEST_CASE("bytes that aren't a plant are refused") {
     s.check();
     Result<GrowthRecords> records = s.growth->read();
     REQUIRE(records);
-    const PlantRecords plant = plantOf(*records, 0);
+    PlantRecords plant;  // the largest
+    for (uint32_t seed = 0; seed < 4; ++seed)
+        if (PlantRecords other = plantOf(*records, seed); other.nodes.size() > plant.nodes.size())
+            plant = std::move(other);
+    REQUIRE(plant.branches.size() > 1);
     const std::vector<std::byte> bytes = packPlant(plant);
     CHECK(unpackPlant(bytes, 1));
     CHECK(!unpackPlant(bytes, 0));
@@ -270,4 +274,20 @@ TEST_CASE("bytes that aren't a plant are refused") {
     refused([](PlantRecords& p) { p.chunks.back().nextSibling = uint32_t(p.chunks.size() - 1); });
     refused([](PlantRecords& p) { p.branches[0].firstChunk = kNoIndex; });
     refused([](PlantRecords& p) { p.leaves[0].node = uint32_t(p.nodes.size()); });
+    refused([](PlantRecords& p) { p.nodes[0].flags ^= 7u << 8; });    // not its index in its chunk
+    refused([](PlantRecords& p) { p.nodes.push_back(p.nodes[0]); });  // of no chunk
+    refused([](PlantRecords& p) { p.nodes[0].position.x = 1e30f; });
+    refused([](PlantRecords& p) { p.nodes[0].radius = 1e30f; });
+    refused([](PlantRecords& p) { p.chunks[0].entry.uv.x = NAN; });
+    refused([](PlantRecords& p) { p.branches.push_back(p.branches[0]); });
+    refused([](PlantRecords& p) { p.branches[0].firstChunk = p.branches[1].firstChunk; });
+    refused([](PlantRecords& p) {  // starts from a node of its own
+        Chunk& first = p.chunks[p.branches[0].firstChunk];
+        first.previousNode = first.firstNode;
+    });
+    refused([](PlantRecords& p) {  // another branch carries it on
+        for (Chunk& c : p.chunks)
+            for (uint32_t at = c.firstChild; at != kNoIndex; at = p.chunks[at].nextSibling)
+                if (p.chunks[at].branch != c.branch) c.next = at;
+    });
 }

@@ -122,9 +122,14 @@ Status Scene::grow(Device& device, Growth& growth) {
     std::vector<LayerRef> layers(kMaxLayers, LayerRef{{nullptr}, 0, 1});
     for (Layer& l : layers_) layers[l.index] = {{reinterpret_cast<float*>(upload(l.texels, "layer"))}, l.size, 1};
     std::vector<RuleMapRef> refs;
-    for (const RuleMap& map : grammars_) {
-        std::vector<uint32_t> words(map.words().begin(), map.words().end());
-        refs.push_back(map.refAt(upload(words, "rule map")));
+    uploaded_.resize(grammars_.size());
+    for (size_t i = 0; i < grammars_.size(); ++i) {
+        std::vector<uint32_t> words(grammars_[i].words().begin(), grammars_[i].words().end());
+        if (uploaded_[i].words != words) {
+            upload(words, "rule map");
+            uploaded_[i] = {std::move(words), std::move(buffers_.back())};
+        }
+        refs.push_back(grammars_[i].refAt(uploaded_[i].buffer.address()));
     }
     GrowthInputs in;
     in.surfaces = {reinterpret_cast<SurfaceRef*>(upload(std::vector<SurfaceRef>{gpuSurface_.ref()}, "surfaces"))};

@@ -60,7 +60,13 @@ class Scene {
     std::vector<RuleMap> grammars_;
     std::vector<Layer> layers_;
     std::vector<Seed> seeds_;
+    // Rule maps stay where they are until they change, as a host's do.
+    struct Uploaded {
+        std::vector<uint32_t> words;
+        Buffer buffer;
+    };
     GpuSurface gpuSurface_;
+    std::vector<Uploaded> uploaded_;
     std::vector<Buffer> buffers_;
 };
 

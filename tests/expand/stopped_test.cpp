@@ -10,6 +10,13 @@ using namespace espalier::growthtest;
 
 namespace {
 
+// The structure's hash, as stats() should have it.
+uint64_t hashOf(const GrowthRecords& records) {
+    const FrozenPlant all{1, std::make_shared<PlantRecords>(records)};
+    const FrozenSum sum = sumOf({&all, 1}, 0);
+    return uint64_t(sum.hash[1]) << 32 | sum.hash[0];
+}
+
 // Some long branches, in more waves than one submission of shaders has.
 struct LongGrowth : Session {
     explicit LongGrowth(bool native) : Session(ball()) {
@@ -45,6 +52,13 @@ struct LongGrowth : Session {
         CHECK(growth->stats().hash == before.hash);
         CHECK(growth->stats().nodes == before.nodes);
         CHECK(growth->stats().expansions == before.expansions);
+        Result<GrowthRecords> records = growth->read();
+        REQUIRE(records);
+        CHECK(records->nodes.size() == before.nodes);
+        CHECK(records->leaves.size() == before.leaves);
+        CHECK(records->chunks.size() == before.chunks);
+        CHECK(records->branches.size() == before.branches);
+        CHECK(hashOf(*records) == before.hash);
     }
 };
 
@@ -78,6 +92,41 @@ TEST_CASE("growth that is given up leaves what stood, and what was asked for gro
         s.check();
         CHECK(s.growth->stats().hash != whole);
     }
+}
+
+TEST_CASE("frozen plants that an edit puts in are gone again when it is given up") {
+    LongGrowth s(true);
+    if (!s.gpu.device().info().cpu) return;
+    s.dab(0, {0.5f, 0.5f}, 0.1f, 0);
+    s.check();
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    const uint64_t key = s.scene.seeds()[3].key;
+    s.scene.seeds().erase(s.scene.seeds().begin() + 3);
+    s.scene.frozen = {{key, std::make_shared<PlantRecords>(plantOf(*records, 3))}};
+    s.changes.frozen = {key};  // what has grown there isn't asked
+    s.dab(0, {0.5f, 0.5f}, 0.1f, 1);
+    for (int most : {1, 2}) s.checkStop(most);
+    s.grow();
+    const GrowthStats stats = s.growth->stats();
+    CHECK(stats.regrowths == 1);
+    s.changes.everything = true;
+    s.grow();
+    CHECK(s.growth->stats().hash == stats.hash);
+    CHECK(s.growth->stats().nodes == stats.nodes);
+    CHECK(s.growth->stats().leaves == stats.leaves);
+}
+
+TEST_CASE("growth that was given up leaves nothing of its tables to the next") {
+    LongGrowth s(true);
+    if (!s.gpu.device().info().cpu) return;
+    s.check();
+    s.scene.widths = {1, 1};
+    s.checkStop(1);
+    s.scene.widths.clear();
+    s.dab(0, {0.5f, 0.5f}, 0.1f, 0);
+    s.check();
+    CHECK(s.growth->stats().regrowths == 1);
 }
 
 TEST_CASE("who watches and lets growth go on changes nothing") {

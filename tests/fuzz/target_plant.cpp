@@ -1,16 +1,21 @@
-// In: bytes. Out: nothing, if all goes well; a plant that is accepted packs to the same bytes and can be grown on.
+// In: bytes. Out: nothing, if all goes well; a plant that is accepted packs to the same bytes and can be grown on:
+// another one beside it can be taken out, the gaps be closed, and what is left be bound for drawing.
 #include <algorithm>
 #include <cstring>
 #include <vector>
 
 #include "runtime/core/hash.hpp"
+#include "runtime/emit/native_bind.hpp"
 #include "runtime/expand/frozen.hpp"
+#include "runtime/expand/growth_plan.hpp"
+#include "runtime/expand/native_growth.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace espalier::fuzz {
 namespace {
 
 constexpr size_t kCountsAt = 8, kHashAt = 24, kHead = 32;
+constexpr uint32_t kSurfaces = 3;
 
 // The same with counts that fit its size and the hash that belongs to it: nearly every change would else be refused
 // for these alone.
@@ -31,13 +36,90 @@ std::vector<std::byte> repaired(std::span<const std::byte> bytes) {
     return out;
 }
 
+// The first of two plants goes, as an edit takes it out.
+void takeFirst(GrowthRecords& both, const PlantRecords& first) {
+    for (size_t i = 0; i < first.nodes.size(); ++i) {
+        both.nodes[i].flags &= 0x1F00u;
+        both.nodes[i].radius = -1;
+    }
+    for (size_t i = 0; i < first.chunks.size(); ++i) both.chunks[i].marks = 0;
+    for (size_t i = 0; i < first.branches.size(); ++i) both.branches[i].firstChunk = kNoIndex;
+    for (size_t i = 0; i < first.leaves.size(); ++i) both.leaves[i].node = kNoIndex;
+}
+
+void closeGaps(GrowthRecords& records) {
+    std::vector<uint32_t> nodesWent(records.nodes.size()), leavesWent(records.leaves.size());
+    GapClosing closing;
+    closing.nodes = records.nodes.data();
+    closing.leaves = records.leaves.data();
+    closing.chunks = records.chunks.data();
+    closing.nodesWent = nodesWent.data();
+    closing.leavesWent = leavesWent.data();
+    closing.chunkCount = uint32_t(records.chunks.size());
+    closing.nodeCount = uint32_t(records.nodes.size());
+    closing.leafCount = uint32_t(records.leaves.size());
+    Crew crew(1);
+    closeGapsNative(closing, crew);
+    records.nodes.resize(closing.nodeCount);
+    records.leaves.resize(closing.leafCount);
+}
+
+// With a kind of bark and one of leaves.
+void bind(GrowthRecords& records) {
+    std::vector<SurfaceRef> surfaces(kSurfaces);
+    for (SurfaceRef& surface : surfaces)
+        for (int i = 0; i < 3; ++i) surface.toWorld[i][i] = 1;
+    EmitTable table{};
+    table.kinds[0] = {0, 1, 1, 0};
+    table.kinds[1] = {1, 1, 0, 0};
+    table.kindCount = table.variantCount = table.bucketCount = 2;
+    for (uint32_t i = 0; i < 2; ++i) table.variants[i] = {i, 1, 1, {}, {}};
+    const size_t nodes = records.nodes.size(), leaves = records.leaves.size(), items = nodes + leaves;
+    std::vector<SpanInstance> spans(nodes);
+    std::vector<LeafInstance> leafInstances(leaves);
+    std::vector<EmitCell> cells(kAllCells + 1);
+    std::vector<uint32_t> bins(size_t(kAllCells) * kCellBins), keys(items), list(items), leafHeads(nodes),
+        leafNext(leaves), order(20 * items);
+    BindInputs push{};
+    push.nodes = {records.nodes.data()};
+    push.chunks = {records.chunks.data()};
+    push.leaves = {records.leaves.data()};
+    push.surfaces = {surfaces.data()};
+    push.spans = {spans.data()};
+    push.leafInstances = {leafInstances.data()};
+    push.cells = {cells.data()};
+    push.bins = {bins.data()};
+    push.keys = {keys.data()};
+    push.order = {order.data()};
+    push.list = {list.data()};
+    push.leafHeads = {leafHeads.data()};
+    push.leafNext = {leafNext.data()};
+    push.grid = {{-8, -8, -8}, 1, {16, 16, 16}};
+    push.nodeCount = push.leafBase = uint32_t(nodes);
+    push.leafCount = uint32_t(leaves);
+    push.orderRoom = uint32_t(order.size());
+    bindNative(push, table, EmitView{}, 1);
+}
+
 void check(std::span<const std::byte> bytes) {
-    auto plant = unpackPlant(bytes, 3);
+    auto plant = unpackPlant(bytes, kSurfaces);
     if (!plant) return checkMessage(plant.failure());
     require(std::ranges::equal(packPlant(*plant), bytes), "a plant packs to what it was");
     const auto records = std::make_shared<const PlantRecords>(std::move(*plant));
     const FrozenPlant twice[] = {{1, records}, {2, records}};
-    require(sumOf(twice, 5).records.nodes.size() == 2 * records->nodes.size(), "plants stand side by side");
+    GrowthRecords both = sumOf(twice, 5).records;
+    require(both.nodes.size() == 2 * records->nodes.size(), "plants stand side by side");
+    takeFirst(both, *records);
+    GrowthRecords second = both;
+    compactRecords(second);
+    closeGaps(both);
+    for (const GrowthRecords* left : {&both, &second}) {
+        require(left->nodes.size() == records->nodes.size(), "the nodes of one are left");
+        require(left->leaves.size() == records->leaves.size(), "the leaves of one are left");
+    }
+    require(second.chunks.size() == records->chunks.size(), "the chunks of one are left");
+    require(second.branches.size() == records->branches.size(), "the branches of one are left");
+    bind(both);
 }
 
 }  // namespace
