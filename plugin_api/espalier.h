@@ -193,7 +193,8 @@ typedef struct EspParamInfo {
 
 ESP_API EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGrammar* out);
 /* Replaces the text; parameters keep their values by name. On failure the last good grammar keeps growing. Where comments,
- * layout, labels or defaults alone are new, nothing grows anew. */
+ * layout, labels or defaults alone are new, nothing grows anew. ESP_INVALID_CONTENT also where seeds grow by the grammar
+ * and it would make roofs, or the town's roofs and it would make none. */
 ESP_API EspResult espRecompileGrammar(EspContext* context, EspGrammar grammar, const EspGrammarDef* def);
 /* What isn't wrong in the text that grows, but may not be meant: lines "file:line:column: warning: rule: message", "" if there
  * are none. Lives as long as the grammar and until it is compiled anew. */

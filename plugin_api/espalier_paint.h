@@ -70,15 +70,15 @@ ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre in radius, h
 ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
 /* One pass on the GPU, applied in order; the next espUpdate and espDraw see it. */
 ESP_API EspResult espStrokeDabs(EspContext* context, EspStroke stroke, const EspDab* dabs, uint32_t count);
-/* Waits for the GPU and keeps only the blocks that changed. */
+/* Waits for the GPU and keeps only the blocks that changed, or all that it has come to where memory is short. */
 ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);
-/* Exchanges the layer's blocks with those kept, bit for bit: undoes an ended stroke, the next time redoes it. Surfaces
- * and layers that are gone are passed over. */
+/* Exchanges the layer's blocks with those kept, bit for bit: undoes an ended stroke, the next time redoes it. On
+ * failure nothing is exchanged. Surfaces and layers that are gone are passed over. */
 ESP_API EspResult espSwapStroke(EspContext* context, EspStroke stroke);
 /* Forgets the record; what is painted stays. An open stroke is ended by it. */
 ESP_API EspResult espDestroyStroke(EspContext* context, EspStroke stroke);
 ESP_API uint64_t espStrokeBytes(const EspContext* context, EspStroke stroke);   /* memory that it holds */
-/* Sets the whole layer, on all surfaces; out is an ended stroke. */
+/* Sets the whole layer, on all surfaces; out is an ended stroke. On failure the layer is as it was. */
 ESP_API EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out);
 /* 1: *value is what espFillLayer set the whole layer to last, undone fills aside; 0: it was never filled. */
 ESP_API int espLayerFilled(const EspContext* context, const char* layer, float* value);

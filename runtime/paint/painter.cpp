@@ -315,28 +315,32 @@ Result<std::vector<uint64_t>> Painter::differences(const Canvas& canvas, const B
     return readVector<uint64_t>(device_, *marks, 0, count);
 }
 
-Result<std::vector<uint64_t>> Painter::swap(const Canvas& canvas, BlockRecord& record) {
-    Result<std::vector<uint64_t>> changed = differences(canvas, record);
-    if (!changed || changed->empty()) return changed;
+Status Painter::swap(std::span<const PaintJob> jobs) {
+    std::vector<uint32_t> words;
+    for (const PaintJob& job : jobs) words.insert(words.end(), job.record->blocks_.begin(), job.record->blocks_.end());
+    if (words.empty()) return Done{};
     Result<Commands> commands = Commands::begin(device_, "paint swap");
     if (!commands) return commands.failure();
-    Status uploaded = upload(*commands, record.blocks_);
-    if (!uploaded) return uploaded.failure();
+    if (Status uploaded = upload(*commands, words); !uploaded) return uploaded;
     commands->barrier(Use::transfer, Use::compute);
     {
         Pass pass(*commands, "paint swap");
-        move(pass, {wordsOf(*canvas.layer),
-                    wordsOf(record.texels_),
-                    wordsOf(words_),
-                    {},
-                    uint32_t(changed->size()),
-                    0,
-                    kBlocksSwap,
-                    0});
+        uint64_t blocks = words_.address();
+        for (const PaintJob& job : jobs) {
+            const uint32_t count = uint32_t(job.record->blocks_.size());
+            move(pass, {wordsOf(*job.canvas.layer),
+                        wordsOf(job.record->texels_),
+                        at<UintBuf, uint32_t>(blocks),
+                        {},
+                        count,
+                        0,
+                        kBlocksSwap,
+                        0});
+            blocks += count * sizeof(uint32_t);
+        }
     }
     Result<uint64_t> submitted = commands->submit();
-    if (!submitted) return submitted.failure();
-    return changed;
+    return submitted ? Status(Done{}) : submitted.failure();
 }
 
 Result<std::vector<uint64_t>> Painter::close(const Canvas& canvas, BlockRecord& record) {

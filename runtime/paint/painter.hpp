@@ -68,9 +68,11 @@ class Painter {
     // Drops from a record the blocks that are as they were, and gives back the room it doesn't need; from then on it
     // takes no more dabs. Gives of each block that is left the texels that changed, bit 8 y + x. Waits for the GPU.
     Result<std::vector<uint64_t>> close(const Canvas& canvas, BlockRecord& record);
-    // Exchanges the layer's blocks with the record's, bit for bit: twice is as before. Gives of each block the texels
-    // that change by it, bit 8 y + x. Waits for what was submitted before.
-    Result<std::vector<uint64_t>> swap(const Canvas& canvas, BlockRecord& record);
+    // Of each block of a record the texels that differ from the layer's, bit 8 y + x. Waits for the GPU.
+    Result<std::vector<uint64_t>> differences(const Canvas& canvas, const BlockRecord& record);
+    // Exchanges the layers' blocks with the records', bit for bit: twice is as before. All of them or none. The jobs'
+    // own blocks are of no account.
+    Status swap(std::span<const PaintJob> jobs);
 
   private:
     explicit Painter(Device& device) : device_(device) {}
@@ -88,8 +90,6 @@ class Painter {
     Status makeSmoothing();
     // The same for all dabs of a stroke: where texels of the new blocks look.
     Status findPlaces(Commands& commands, const PaintJob& job, Placed& placed, Reach reach);
-    // Of each block of a record the texels that differ from the layer's, bit 8 y + x. Waits for the GPU.
-    Result<std::vector<uint64_t>> differences(const Canvas& canvas, const BlockRecord& record);
     Status upload(Commands& commands, const std::vector<uint32_t>& words);
     void move(Pass& pass, BlocksEnv env);
 

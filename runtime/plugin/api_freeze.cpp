@@ -7,24 +7,39 @@
 namespace espalier {
 namespace {
 
-// The plant of a seed as last grown; null: it hasn't grown, or can't be read.
-std::shared_ptr<const PlantRecords> grownPlant(EspContext& context, uint32_t seed) {
-    const auto at = std::ranges::find(context.grownSeeds, seed);
-    if (at == context.grownSeeds.end()) return nullptr;
-    const Plants* plants = readPlants(context);
-    if (!plants) return nullptr;
-    return std::make_shared<PlantRecords>(plantOf(plants->records(), uint32_t(at - context.grownSeeds.begin())));
+// Whether the surfaces that a plant has grown on are still there, and as large.
+bool standsYet(const EspContext& context, const PlantRecords& plant) {
+    std::vector<bool> there(context.grownSurfaces.size());
+    context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
+        if (surface.instance >= there.size()) return;
+        const auto& [grownOn, scale] = context.grownSurfaces[surface.instance];
+        there[surface.instance] = grownOn == id && sameScale(scale, surface.scale);
+    });
+    return std::ranges::all_of(plant.nodes, [&](const Node& node) {
+        const uint32_t instance = node.place >> 16;
+        return instance < there.size() && there[instance];
+    });
 }
 
-EspResult freeze(EspContext& context, PlantedSeed& seed, uint32_t id, bool frozen) {
-    if (frozen == bool(seed.frozen)) return ESP_OK;
-    std::shared_ptr<const PlantRecords> plant = frozen ? grownPlant(context, id) : nullptr;
-    if (frozen && !plant && context.device->lost()) return ESP_DEVICE_LOST;
-    if (frozen && !plant)
+// The plant as last grown.
+EspResult freeze(EspContext& context, PlantedSeed& seed, uint32_t id) {
+    const auto at = std::ranges::find(context.grownSeeds, id);
+    if (at == context.grownSeeds.end())
         return fail(&context, ESP_INVALID_ARGUMENT, "espFreezePlant: nothing has grown from the seed yet");
+    const Plants* plants = readPlants(context);
+    if (!plants) return gpuCode(context);
+    auto plant = std::make_shared<PlantRecords>(plantOf(plants->records(), uint32_t(at - context.grownSeeds.begin())));
+    if (!standsYet(context, *plant))
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    "espFreezePlant: a surface that the plant has grown on is gone or scaled since");
     seed.frozen = std::move(plant);
     ++context.revision;
     return ESP_OK;
+}
+
+void thaw(EspContext& context, PlantedSeed& seed) {
+    seed.frozen = nullptr;
+    ++context.revision;
 }
 
 EspResult freezeAs(EspContext& context, PlantedSeed& seed, std::span<const std::byte> bytes) {
@@ -61,7 +76,10 @@ EspResult espFreezePlant(EspContext* context, EspSeed id, int frozen) {
     return guarded(context, [&] {
         PlantedSeed* seed = context->seeds.find(id.id);
         if (!seed) return fail(context, ESP_INVALID_ARGUMENT, "espFreezePlant: no such seed");
-        return freeze(*context, *seed, id.id, frozen != 0);
+        if ((frozen != 0) == bool(seed->frozen)) return ESP_OK;
+        if (frozen) return freeze(*context, *seed, id.id);
+        thaw(*context, *seed);
+        return ESP_OK;
     });
 }
 

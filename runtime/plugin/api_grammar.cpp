@@ -92,6 +92,14 @@ std::string lostSymbol(const EspContext& context, uint32_t grammarId, const Rule
     return lost;
 }
 
+// What the grammar is of use for, if it can't be of the other kind for that; else null.
+const char* useOf(const EspContext& context, uint32_t grammarId) {
+    if (context.town && context.town->grammar == grammarId) return "the town's roofs grow by it";
+    bool planted = false;
+    context.seeds.forEach([&](uint32_t, const PlantedSeed& seed) { planted = planted || seed.grammar == grammarId; });
+    return planted ? "planted seeds grow by it" : nullptr;
+}
+
 // Where nothing grows differently by the new text, `old` takes what is told of it and all that grew stands.
 bool takeText(LoadedGrammar& old, LoadedGrammar& grammar) {
     if (!grammar.map.growsAs(old.map) || grammar.layerOf != old.layerOf) return false;
@@ -145,6 +153,11 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
         if (!lost.empty())
             return fail(context, ESP_INVALID_CONTENT,
                         grammar->name + ": no rule grows from '" + lost + "', which planted seeds start with");
+        const char* use = grammar->map.roofs() != old->map.roofs() ? useOf(*context, id.id) : nullptr;
+        if (use)
+            return fail(context, ESP_INVALID_CONTENT,
+                        grammar->name +
+                            (grammar->map.roofs() ? ": would make roofs, yet " : ": would make plants, yet ") + use);
         context->compileMs = grammar->compileMs;
         if (takeText(*old, *grammar)) return ESP_OK;
         *old = std::move(*grammar);

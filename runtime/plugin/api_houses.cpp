@@ -184,12 +184,16 @@ EspResult setHouse(EspContext& context, uint32_t index, const Footprint& footpri
     if (made.houses.empty())
         return fail(&context, ESP_INVALID_CONTENT,
                     footprint.id + ": " + causeOf(diagnostics) + "; it stands as it did");
-    if (made.houses.size() > 1)
+    LoadedTown& town = *context.town;
+    // What is loaded may make several houses, each of which has a look of its own.
+    const bool asLoaded = footprint.rings == town.footprints[town.footprintOf[index]].rings;
+    const size_t part = asLoaded ? partOf(town, index) : 0;
+    if ((made.houses.size() > 1 && !asLoaded) || part >= made.houses.size())
         return fail(&context, ESP_INVALID_CONTENT,
                     footprint.id + ": the outline crosses or touches itself, so that the house would fall into " +
                         std::to_string(made.houses.size()) + " parts; it stands as it did");
-    context.town->changedHouses.insert_or_assign(index, footprint);
-    replaceHouse(*context.town, index, made, 0);
+    town.changedHouses.insert_or_assign(index, footprint);
+    replaceHouse(town, index, made, part);
     return ESP_OK;
 }
 

@@ -13,7 +13,8 @@ bool isRead(const EspContext& context, uint32_t number) {
         read = read || std::ranges::find(layerOf, number) != layerOf.end();
     };
     context.grammars.forEach([&](uint32_t, const LoadedGrammar& grammar) { look(grammar.layerOf); });
-    for (const GrammarVariant& variant : context.variants) look(variant.layerOf);
+    for (const GrammarVariant& variant : context.variants)
+        if (variant.used && context.grammars.find(variant.grammar)) look(variant.layerOf);
     return read;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
 
 namespace espalier {
@@ -116,6 +117,7 @@ EspResult begin(EspContext& context, const EspBrush& brush, EspStroke* out) {
     stroke.layer = brush.layer;
     stroke.radius = brush.radius;
     stroke.smooths = brush.mode == ESP_BRUSH_SMOOTH;
+    stroke.erases = brush.mode == ESP_BRUSH_ERASE;
     float erased = 0;
     if (!espLayerFilled(&context, brush.layer, &erased)) erased = declaredFill(context, brush.layer).value_or(0);
     stroke.brush = recordOf(brush, erased);
@@ -190,7 +192,17 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
     return painted ? ESP_OK : failGpu(&context, painted.failure());
 }
 
-// `changed` is told of each part's blocks that aren't as they were, and which of their texels.
+// The parts of an ended stroke whose layers there are.
+std::vector<PaintJob> jobsOf(EspContext& context, PaintStroke& stroke) {
+    std::vector<PaintJob> jobs;
+    for (PaintStroke::Part& part : stroke.parts)
+        if (paintedLayer(context, part.surface, stroke.layer))
+            jobs.push_back({canvasOf(context, part.surface, stroke.layer), &part.record, {}});
+    return jobs;
+}
+
+// `changed` is told of each part's blocks that aren't as they were, and which of their texels. Where there is no memory
+// to look, the record keeps all of its blocks, and all of their texels count as changed.
 template <class Changed>
 EspResult end(EspContext& context, PaintStroke& stroke, Changed&& changed) {
     context.device->hostSubmitted();
@@ -200,57 +212,86 @@ EspResult end(EspContext& context, PaintStroke& stroke, Changed&& changed) {
         if (!paintedLayer(context, part.surface, stroke.layer)) continue;
         Result<std::vector<uint64_t>> texels =
             context.painter->close(canvasOf(context, part.surface, stroke.layer), part.record);
-        if (!texels) return failGpu(&context, texels.failure());
-        changed(part, *texels);
+        if (!texels && context.device->lost()) return failGpu(&context, texels.failure());
+        changed(part, texels ? *texels : std::vector<uint64_t>());
     }
     std::erase_if(stroke.parts, [](const PaintStroke::Part& part) { return part.record.blocks().empty(); });
     return ESP_OK;
 }
 
+// All of it or nothing.
 EspResult swap(EspContext& context, PaintStroke& stroke) {
     if (stroke.open) return fail(&context, ESP_INVALID_ARGUMENT, "espSwapStroke: the stroke has not been ended");
     context.device->hostSubmitted();
-    swapTown(context, stroke);
     for (PaintStroke::Part& part : stroke.parts) {
         if (!paintedLayer(context, part.surface, stroke.layer)) continue;
-        Result<std::vector<uint64_t>> swapped =
-            context.painter->swap(canvasOf(context, part.surface, stroke.layer), part.record);
-        if (!swapped) return failGpu(&context, swapped.failure());
-        layerChanged(context, part.surface, stroke.layer, part.record.blocks(), *swapped);
+        Result<std::vector<uint64_t>> texels =
+            context.painter->differences(canvasOf(context, part.surface, stroke.layer), part.record);
+        if (!texels) return failGpu(&context, texels.failure());
+        layerChanged(context, part.surface, stroke.layer, part.record.blocks(), *texels);
     }
+    swapTown(context, stroke);
+    Undo town([&] { swapTown(context, stroke); });
+    if (Status swapped = context.painter->swap(jobsOf(context, stroke)); !swapped)
+        return failGpu(&context, swapped.failure());
     if (stroke.filled) std::swap(*stroke.filled, context.filled[stroke.layer]);
+    town.done();
     return ESP_OK;
+}
+
+// Takes back, as far as there is memory for it, what a call has painted that can't be kept.
+void takeBack(EspContext& context, PaintStroke& stroke) noexcept {
+    context.touch();
+    swapTown(context, stroke);
+    try {
+        (void)context.painter->swap(jobsOf(context, stroke));
+    } catch (const std::bad_alloc&) {
+    }
 }
 
 // Ends a stroke that painted in one go, and gives it an id.
 EspResult keepEnded(EspContext& context, PaintStroke stroke, EspStroke* out) {
+    Undo painted([&] { takeBack(context, stroke); });
     const auto changed = [&](const PaintStroke::Part& part, const std::vector<uint64_t>& texels) {
         layerChanged(context, part.surface, stroke.layer, part.record.blocks(), texels);
     };
     if (EspResult bad = end(context, stroke, changed)) return bad;
-    out->id = context.strokes.insert(std::move(stroke));
-    return out->id ? ESP_OK : fail(&context, ESP_OUT_OF_MEMORY, "painting: no ids left");
+    const uint32_t id = context.strokes.insert({});
+    if (!id) return fail(&context, ESP_OUT_OF_MEMORY, "painting: no ids left");
+    painted.done();
+    *context.strokes.find(id) = std::move(stroke);
+    out->id = id;
+    return ESP_OK;
+}
+
+// Whether a layer that isn't painted has this value for all grammars that read it.
+bool readAs(const EspContext& context, const std::string& name, float value) {
+    return declaredFill(context, name).value_or(0) == value &&
+           std::ranges::none_of(context.sceneLayers,
+                                [&](const SceneLayer& layer) { return layer.name == name && layer.fill != value; });
 }
 
 EspResult fillLayer(EspContext& context, const char* name, float value, EspStroke* out) {
     if (EspResult bad = makePainter(context)) return bad;
     PaintStroke stroke;
     stroke.layer = name;
-    const float fill = declaredFill(context, name).value_or(0);
+    std::optional<float>& filled = context.filled[name];
+    stroke.filled = filled;
     const bool roofsOnly = fillTown(context, stroke, value) && !plantsRead(context, name);
+    Undo town([&] { swapTown(context, stroke); });
     Touched touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
-        if ((value == fill || roofsOnly) && !paintedLayer(context, id, name)) return;
+        if ((roofsOnly || readAs(context, name, value)) && !paintedLayer(context, id, name)) return;
         touched.push_back({id, {}});
         boundsOf(surface).all(touched.back().second);
     });
     std::vector<PaintJob> jobs;
+    const float fill = declaredFill(context, name).value_or(0);
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
-    Status filled = context.painter->fill(jobs, value);
-    if (!filled) return failGpu(&context, filled.failure());
-    stroke.filled = context.filled[name];
+    if (Status painted = context.painter->fill(jobs, value); !painted) return failGpu(&context, painted.failure());
+    town.done();
     if (EspResult bad = keepEnded(context, std::move(stroke), out)) return bad;
-    context.filled[name] = value;
+    filled = value;
     return ESP_OK;
 }
 

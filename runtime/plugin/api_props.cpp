@@ -16,8 +16,9 @@ EspResult findPlaces(const EspContext& context, const TerminalData& models, cons
                                         [&](const TerminalVariant& v) { return v.name == name; });
         if (found == models.variants.end())
             return fail(&context, ESP_INVALID_CONTENT, "espSetProps: there is no model '" + name + "'");
-        const float sum = place.position[0] + place.position[1] + place.position[2] + place.turn + place.scale;
-        if (!std::isfinite(sum) || !(place.scale > 0) || std::abs(sum) > 1e7f)
+        const auto usable = [](float v) { return std::abs(v) <= 1e7f; };
+        if (!std::ranges::all_of(place.position, usable) || !usable(place.turn) || !usable(place.scale) ||
+            !(place.scale > 0))
             return fail(&context, ESP_INVALID_ARGUMENT,
                         "espSetProps: place " + std::to_string(i) + " of '" + name + "' is out of range");
         out.push_back({uint32_t(found - models.variants.begin()),
@@ -33,6 +34,7 @@ EspResult setProps(EspContext& context, const char* path, const EspPropPlace* pl
         Status cleared = context.renderer->removeProps();
         return cleared ? ESP_OK : failGpu(&context, cleared.failure());
     }
+    if (EspResult readable = checkReadable(&context, path)) return readable;
     // The first kind is none: it would be bark.
     Result<TerminalData> models = readTerminals(path, {"none"});
     if (!models) return fail(&context, ESP_INVALID_CONTENT, models.failure().text());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
 #include "shaders/shared/random.h"
 
@@ -77,8 +78,10 @@ EspResult plant(EspContext& context, const EspSeedDef& def, EspSeed* out) {
                     "espPlant: twin " + std::to_string(def.twin) + " of number " + std::to_string(def.number) +
                         " is planted already");
     seed.number = def.number;
+    Undo taking([&, twin = seed.twin] { context.twins.release(def.number, twin); });
     const uint32_t id = context.seeds.insert(std::move(seed));
     if (!id) return fail(&context, ESP_OUT_OF_MEMORY, "espPlant: no ids left");
+    taking.done();
     ++context.revision;
     out->id = id;
     return ESP_OK;

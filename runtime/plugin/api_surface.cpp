@@ -1,6 +1,7 @@
 // Loading, placing and describing surfaces; the tables of surfaces and layers that kernels read.
 #include <cmath>
 
+#include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
 
 namespace espalier {
@@ -123,13 +124,15 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     if (!id) return fail(&context, ESP_OUT_OF_MEMORY, call + "no ids left");
     PlacedSurface& placed = *context.surfaces.find(id);
     placed.instance = instanceOf(id);
-    Status drawn = context.renderer->setSurface(placed.instance, placed.data, toWorld, groundOnly);
-    if (!drawn) {
+    Undo placing([&] {
+        context.renderer->removeSurface(instanceOf(id));
         context.surfaces.erase(id);
-        return failGpu(&context, drawn.failure());
-    }
+    });
+    Status drawn = context.renderer->setSurface(placed.instance, placed.data, toWorld, groundOnly);
+    if (!drawn) return failGpu(&context, drawn.failure());
     dropUploaded(placed.data);
     prepareSearch(placed);
+    placing.done();
     surfacesChanged(context);
     out->id = id;
     return ESP_OK;
@@ -144,7 +147,7 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
                     "espMoveSurface: the transform must move, turn and scale evenly, without mirroring");
     if (toWorld == surface.toWorld) return ESP_OK;
     // A frozen plant stands in its surface's own space, but for its thickness.
-    thawPlantsOn(context, surface.instance, *scale == surface.scale);
+    thawPlantsOn(context, surface.instance, sameScale(*scale, surface.scale));
     const glm::mat4 shift = toWorld * surface.toObject;
     surface.place = place;
     surface.toWorld = toWorld;
@@ -189,8 +192,10 @@ Status EspContext::refreshTables() {
         contactsStale = false;
     }
     if (tablesStale) {
-        const uint32_t slots = std::max(surfaceSlots(), 1u);
+        uint32_t slots = std::max(surfaceSlots(), 1u);
+        if (!goneStands.empty()) slots = std::max(slots, goneStands.rbegin()->first + 1);
         std::vector<SurfaceRef> refs(slots);
+        for (const auto& [instance, toWorld] : goneStands) placeSurface(refs[instance], toWorld);
         std::vector<LayerRef> layerRefs(size_t(slots) * kMaxLayers);
         for (LayerRef& ref : layerRefs) ref = LayerRef{{nullptr}, 0, 1};
         for (size_t i = 0; i < layerRefs.size(); ++i)
@@ -259,6 +264,7 @@ EspResult espDestroySurface(EspContext* context, EspSurface surface) {
         });
         for (uint32_t id : gone) removeSeed(*context, id);
         thawPlantsOn(*context, placed->instance, false);
+        context->goneStands.insert_or_assign(placed->instance, placed->toWorld);
         std::erase_if(context->layers, [&](const PaintedLayer& layer) { return layer.surface == surface.id; });
         context->renderer->removeSurface(placed->instance);
         context->surfaces.erase(surface.id);

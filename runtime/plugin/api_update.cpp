@@ -16,6 +16,16 @@ void noteMoved(EspContext& context) {
     });
 }
 
+// What has grown stands on these.
+void noteSurfaces(EspContext& context) {
+    context.grownSurfaces.assign(context.surfaceSlots(), {});
+    context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
+        context.grownSurfaces[surface.instance] = {id, surface.scale};
+    });
+    context.tablesStale = context.tablesStale || !context.goneStands.empty();
+    context.goneStands.clear();
+}
+
 EspResult growPlants(EspContext& context) {
     Status tables = context.refreshTables();
     if (!tables) return failGpu(&context, tables.failure());
@@ -104,6 +114,7 @@ EspResult growPlants(EspContext& context) {
     context.grownSeeds = std::move(seedIds);
     context.changes = {.everything = false, .cells = {}, .params = {}, .grammars = {}};
     context.moved.clear();
+    noteSurfaces(context);
     context.dropTriangles();
     return ESP_OK;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -141,7 +142,7 @@ class TwinTable {
 struct PaintStroke {
     std::string layer;
     BrushRecord brush{};
-    bool smooths = false;
+    bool smooths = false, erases = false;
     float radius = 0;  // metres
     bool open = true;
     struct Part {
@@ -273,7 +274,14 @@ struct EspContext {
     espalier::Buffer layerTable;    // LayerRef[surfaceSlots() * kMaxLayers]
     double compileMs = 0;
 
-    std::vector<uint32_t> grownSeeds;        // ids, in the order of growth's indices
+    std::vector<uint32_t> grownSeeds;  // ids, in the order of growth's indices
+    struct GrownSurface {
+        uint32_t id = 0;  // 0: there was none
+        float scale = 1;
+    };
+    std::vector<GrownSurface> grownSurfaces;  // [instance], as growth found them
+    // [instance], to world: surfaces that were destroyed since; what has grown on them is drawn yet.
+    std::map<uint32_t, glm::mat4> goneStands;
     std::optional<espalier::Plants> plants;  // what was grown, read back when asked for
     uint64_t plantsRevision = 0;             // of the growth's view
 
@@ -360,6 +368,11 @@ EspResult guarded(const EspContext* context, F&& body) noexcept {
 // The number by which nodes and kernels know the surface of this id.
 inline uint32_t instanceOf(uint32_t surfaceId) {
     return (surfaceId & ((1u << IdTable<PlacedSurface>::kPlaceBits) - 1)) - 1;
+}
+
+// Of two places of a surface: a turn's columns are rounded.
+inline bool sameScale(float a, float b) {
+    return std::abs(a - b) <= 1e-5f * b;
 }
 
 // The id of the surface and the walk's place for a point of its mesh.

@@ -71,9 +71,12 @@ void addReached(const EspContext& context, std::vector<bool>& instances) {
     for (bool more = true; more;) {
         more = false;
         context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
-            for (const Crossing& c : surface.contacts)
-                if (instances[surface.instance] != instances[c.target >> 16])
-                    more = instances[surface.instance] = instances[c.target >> 16] = true;
+            for (const Crossing& c : surface.contacts) {
+                const uint32_t other = c.target >> 16;
+                if (other >= instances.size()) continue;  // gone since contacts were found
+                if (instances[surface.instance] != instances[other])
+                    more = instances[surface.instance] = instances[other] = true;
+            }
         });
     }
 }
@@ -93,6 +96,7 @@ bool buriedByOthers(const EspContext& context, const PlantedSeed& seed) {
 
 Status refreshContacts(EspContext& context) {
     const auto start = std::chrono::steady_clock::now();
+    if (!context.moved.empty()) context.moved.resize(context.surfaceSlots());
     std::vector<Stand> stands;
     std::vector<Box> boxes;
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {

@@ -15,11 +15,23 @@ const LoadedGrammar* grammarOf(const EspContext& context) {
     return context.town ? context.grammars.find(context.town->grammar) : nullptr;
 }
 
+// Where what changes of a layer is noted.
+PlanRect& notesOf(LoadedTown& town, const std::string& name) {
+    for (auto& [known, changed] : town.painted)
+        if (known == name) return changed;
+    return town.painted.emplace_back(name, PlanRect()).second;
+}
+
 void note(LoadedTown& town, const std::string& name, const PlanRect& rect) {
     town.revision += 1;
-    for (auto& [known, changed] : town.painted)
-        if (known == name) return changed.add(rect);
-    town.painted.push_back({name, rect});
+    notesOf(town, name).add(rect);
+}
+
+// What the town's roofs read where nothing of the layer is painted.
+float fillOverTown(const EspContext& context, const std::string& name) {
+    const LoadedGrammar* grammar = grammarOf(context);
+    const auto index = grammar ? grammar->map.findContext(name) : std::nullopt;
+    return index ? grammar->map.contexts()[*index].fill : declaredFill(context, name).value_or(0);
 }
 
 // The layer that strokes reach, made if it is one that the town's grammar reads; else null.
@@ -29,7 +41,7 @@ PlanLayer* townLayer(EspContext& context, const std::string& name) {
     if (PlanLayer* known = context.town->layers.find(name)) return known;
     const auto index = grammar->map.findContext(name);
     if (!index || *index >= kRoofLayers) return nullptr;
-    return &context.town->layers.make(name, grammar->map.contexts()[*index].fill);
+    return &context.town->layers.make(name, fillOverTown(context, name));
 }
 
 // Bilinear, between the centres of texels.
@@ -61,8 +73,13 @@ bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabReco
     PlanLayer* layer = townLayer(context, stroke.layer);
     if (!layer) return false;
     LoadedTown& town = *context.town;
+    if (stroke.town != town.number) stroke.plan = {};  // of a town that is gone
     stroke.town = town.number;
-    const PlanRect rect = town.layers.dabs(*layer, stroke.brush, stroke.smooths, dabs, stroke.plan);
+    BrushRecord brush = stroke.brush;
+    float filled = 0;
+    if (stroke.erases && !espLayerFilled(&context, stroke.layer.c_str(), &filled))
+        brush.target = fillOverTown(context, stroke.layer);
+    const PlanRect rect = town.layers.dabs(*layer, brush, stroke.smooths, dabs, stroke.plan);
     if (!rect.empty()) note(town, stroke.layer, rect);
     return true;
 }
@@ -83,8 +100,11 @@ void closeTown(EspContext& context, PaintStroke& stroke) {
 
 void swapTown(EspContext& context, PaintStroke& stroke) {
     const bool ours = context.town && context.town->number == stroke.town && !stroke.plan.blocks.empty();
-    if (PlanLayer* layer = ours ? context.town->layers.find(stroke.layer) : nullptr)
-        note(*context.town, stroke.layer, context.town->layers.swap(*layer, stroke.plan));
+    PlanLayer* layer = ours ? context.town->layers.find(stroke.layer) : nullptr;
+    if (!layer) return;
+    PlanRect& changed = notesOf(*context.town, stroke.layer);  // takes what memory there has to be, so comes first
+    changed.add(context.town->layers.swap(*layer, stroke.plan));
+    context.town->revision += 1;
 }
 
 void bindTownLayers(EspContext& context, RoofInputs& inputs) {
@@ -162,7 +182,7 @@ EspResult espSetTownLayer(EspContext* context, const char* name, const float* te
         stroke.layer = name;
         stroke.town = town.number;
         stroke.open = false;
-        PlanLayer& layer = town.layers.make(name, declaredFill(*context, name).value_or(0));
+        PlanLayer& layer = town.layers.make(name, fillOverTown(*context, name));
         const std::vector<float> values = resampled(texels, width, height, town.layers.site().size);
         note(town, name, town.layers.replace(layer, values, stroke.plan));
         town.layers.close(layer, stroke.plan);
@@ -187,7 +207,7 @@ EspResult espReadTownLayer(EspContext* context, const char* name, float* texels,
         if (layer)
             std::ranges::copy(layer->texels, texels);
         else
-            std::fill_n(texels, size_t(side) * side, declaredFill(*context, name).value_or(0));
+            std::fill_n(texels, size_t(side) * side, fillOverTown(*context, name));
         return ESP_OK;
     });
 }

@@ -26,8 +26,6 @@ EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices,
     if (!records) return failGpu(&context, records.failure());
     RoofInputs inputs;
     inputs.grammar = &grammar->map;
-    std::vector<uint32_t> newest(context.town->structure.houses.size());
-    for (const RoofGrid& g : records->grids) newest[g.house & 0xFFFFFFu] = g.house >> 24;  // later grids stand behind
     RoofLayer layers[kRoofLayers] = {};
     for (uint32_t i = 0; i < kRoofLayers; ++i) {
         layers[i].fill = inputs.fill(i);
@@ -46,7 +44,7 @@ EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices,
     env.site = context.town->layers.site();
     RoofTriangles part;
     for (const RoofGrid& grid : records->grids) {
-        if (newest[grid.house & 0xFFFFFFu] != grid.house >> 24) continue;
+        if (records->generations[grid.house & 0xFFFFFFu] != grid.house >> 24) continue;
         part.positions.clear();
         part.normals.clear();
         part.colours.clear();

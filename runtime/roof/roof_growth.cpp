@@ -368,6 +368,7 @@ Result<RoofRecords> GpuRoofs::read() {
                       fetch(to.planes, set.planes.buffer, last_.planes)};
     for (Status& s : steps)
         if (!s) return s.failure();
+    to.generations = generationOf_;
     return to;
 }
 

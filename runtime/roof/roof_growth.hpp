@@ -76,6 +76,7 @@ struct RoofRecords {
     std::vector<RoofRegion> regions;
     std::vector<RoofPart> parts;
     std::vector<vec4> planes;
+    std::vector<uint32_t> generations;  // [house], as RoofView's
 };
 
 class RoofGrowth {

@@ -70,3 +70,49 @@ TEST_CASE("a layer that comes into being is read by grammars that wanted another
     painting.ok(espSetGrow(painting.context, &grow));
     CHECK(painting.grown().hash == free.hash);
 }
+
+TEST_CASE("what nobody grows by any more reads no layers") {
+    const Painting painting;
+    const auto nine = [](const char* letter) {
+        std::string text;
+        for (int i = 0; i < 9; ++i) text += std::string("context ") + letter + std::to_string(i) + " = 1\n";
+        return text + kMaskedIvy;
+    };
+    const EspGrammar first = painting.grammar(nine("a").c_str());
+    const EspSeed seed = painting.plant(first, {0, -.9f, 1}, {0, 1, 0});
+    const float own = 1;
+    painting.ok(espSetSeedParam(painting.context, seed, "reach", &own, 1));
+    painting.grown();
+    painting.ok(espDestroyGrammar(painting.context, first));
+    const EspGrammar second = painting.grammar(nine("b").c_str());
+    painting.plant(second, {0, -.9f, 1}, {0, 1, 0});
+    CHECK(painting.grown().nodes > 20);
+}
+
+TEST_CASE("a fill reaches grammars for which its value isn't the one that is there without paint") {
+    const Painting painting;
+    painting.grammar(kMaskedIvy);
+    std::string text = kMaskedIvy;
+    text.replace(text.find("mask = 1"), 8, "mask = 0");
+    painting.plant(painting.grammar(text.c_str()), {0, -.9f, 1}, {0, 1, 0});
+    const uint64_t forbidden = painting.grown().nodes;
+    EspStroke filled{};
+    painting.ok(espFillLayer(painting.context, "mask", 1, &filled));
+    CHECK(painting.grown().nodes > forbidden + 20);
+}
+
+TEST_CASE("a grammar that plants grow by doesn't become one of roofs") {
+    const Painting painting;
+    const EspGrammar ivy = painting.grammar(kMaskedIvy);
+    const char* roofs =
+        "House -> Extrude(wallHeight) {NULL, Top}\nTop -> Join(roofHeight, roofPos1, roofPos2) {NULL, NULL, Top}\n";
+    const EspGrammarDef def{"paint test", roofs, std::string(roofs).size()};
+    painting.ok(espRecompileGrammar(painting.context, ivy, &def));  // nobody minds
+    const EspGrammarDef back{"paint test", kMaskedIvy, std::string(kMaskedIvy).size()};
+    painting.ok(espRecompileGrammar(painting.context, ivy, &back));
+    painting.plant(ivy, {0, -.9f, 1}, {0, 1, 0});
+    const EspStats before = painting.grown();
+    CHECK(espRecompileGrammar(painting.context, ivy, &def) == ESP_INVALID_CONTENT);
+    CHECK(std::string(espLastError(painting.context)) == "paint test: would make roofs, yet planted seeds grow by it");
+    CHECK(painting.grown().hash == before.hash);
+}

@@ -2,7 +2,9 @@
 // town and plants fail each for itself, undo takes back what was painted and no more.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "tests/plugin/life.hpp"
@@ -57,6 +59,24 @@ EspStroke begin(EspContext* context, const char* layer, EspBrushMode mode, float
 EspResult dab(EspContext* context, EspStroke stroke, float x, float y, float z) {
     const EspDab at = {{x, y, z}, {0, 0, 1}, 1};
     return espStrokeDabs(context, stroke, &at, 1);
+}
+
+std::vector<float> layerOf(Life& life, const char* name, EspSurface surface) {
+    uint32_t side = 0;
+    REQUIRE(espReadLayer(life.context, surface, name, nullptr, &side) == ESP_OK);
+    std::vector<float> texels(size_t(side) * side);
+    REQUIRE(espReadLayer(life.context, surface, name, texels.data(), &side) == ESP_OK);
+    return texels;
+}
+std::vector<float> layerOf(Life& life, const char* name) {
+    return layerOf(life, name, life.surface);
+}
+std::vector<float> townLayerOf(Life& life, const char* name) {
+    uint32_t side = 0;
+    REQUIRE(espReadTownLayer(life.context, name, nullptr, &side) == ESP_OK);
+    std::vector<float> texels(size_t(side) * side);
+    REQUIRE(espReadTownLayer(life.context, name, texels.data(), &side) == ESP_OK);
+    return texels;
 }
 
 uint32_t drawnTiles(Life& life) {
@@ -195,13 +215,7 @@ TEST_CASE("a dab that memory ran short for is no part of what undo takes back") 
     FailingDevice device;
     Life life;
     REQUIRE((life.create(device) && life.load()));
-    const auto layer = [&] {
-        uint32_t side = 0;
-        REQUIRE(espReadLayer(life.context, life.surface, "mask", nullptr, &side) == ESP_OK);
-        std::vector<float> texels(size_t(side) * side);
-        REQUIRE(espReadLayer(life.context, life.surface, "mask", texels.data(), &side) == ESP_OK);
-        return texels;
-    };
+    const auto layer = [&] { return layerOf(life, "mask"); };
     for (EspBrushMode mode : {ESP_BRUSH_PAINT, ESP_BRUSH_SMOOTH}) {
         CAPTURE(mode);
         const EspStroke spots = begin(life.context, "mask", ESP_BRUSH_PAINT, .1f);
@@ -227,4 +241,91 @@ TEST_CASE("a dab that memory ran short for is no part of what undo takes back") 
         }
         CHECK(failures > 3);
     }
+}
+
+TEST_CASE("a fill or an import that memory ran short for has done nothing, on the town neither") {
+    FailingDevice device;
+    Life life;
+    REQUIRE((life.create(device) && life.load()));
+    life.grammar =
+        compiled(life.context, "ivy", "context decay = 0\nIvy -> Marching(0.05, 0, decay(texCoord) < 0.5) {Ivy}\n");
+    EspTownDef town = espDefaultTownDef();
+    town.text = kTown;
+    town.length = std::strlen(kTown);
+    town.grammar = compiled(life.context, "roofs", kRoofs);
+    REQUIRE(espLoadTown(life.context, &town) == ESP_OK);
+    REQUIRE((life.plant(1) && life.update()));
+    const EspStroke spot = begin(life.context, "decay", ESP_BRUSH_PAINT, .2f);
+    REQUIRE(dab(life.context, spot, .5f, .5f, 0) == ESP_OK);
+    REQUIRE(espEndStroke(life.context, spot) == ESP_OK);
+    REQUIRE(life.update());
+    const std::vector<float> surface = layerOf(life, "decay"), roofs = townLayerOf(life, "decay");
+    const uint64_t hash = life.stats().hash;
+    const std::vector<float> picture(surface.size(), .25f);
+    EspLayerDef def = espDefaultLayerDef();
+    def.surface = life.surface;
+    def.name = "decay";
+    def.texels = picture.data();
+    def.space = ESP_LAYER_TEXELS;
+    def.width = def.height = uint32_t(std::lround(std::sqrt(double(picture.size()))));
+    for (const bool fills : {true, false}) {
+        CAPTURE(fills);
+        uint32_t failures = 0;
+        for (uint32_t at = 0; at < 100; ++at) {
+            CAPTURE(at);
+            EspStroke stroke{};
+            device.failAt(at, Failure::OutOfMemory);
+            const EspResult result = fills ? espFillLayer(life.context, "decay", .75f, &stroke)
+                                           : espImportLayer(life.context, &def, &stroke);
+            const bool failed = !device.failed().empty();
+            device.heal();
+            if (result != ESP_OK) {
+                CHECK(result == ESP_OUT_OF_MEMORY);
+                failures += 1;
+            } else {  // which it may be with a record that is larger than it has to be
+                CHECK(layerOf(life, "decay") != surface);
+                REQUIRE(espSwapStroke(life.context, stroke) == ESP_OK);
+                REQUIRE(espDestroyStroke(life.context, stroke) == ESP_OK);
+            }
+            REQUIRE(layerOf(life, "decay") == surface);
+            REQUIRE(townLayerOf(life, "decay") == roofs);
+            REQUIRE(life.update());
+            REQUIRE(life.stats().hash == hash);
+            if (!failed) break;
+        }
+        CHECK(failures > 3);
+    }
+}
+
+TEST_CASE("undo that memory ran short for has done nothing, and does all the next time") {
+    FailingDevice device;
+    Life life;
+    REQUIRE((life.create(device) && life.load()));
+    EspTransform beside = espIdentity();
+    beside.rows[0][3] = 1.2f;
+    EspSurface second{};
+    REQUIRE(espLoadSurface(life.context, ESPALIER_SQUARE, &beside, &second) == ESP_OK);
+    const auto layers = [&] { return std::pair(layerOf(life, "mask"), layerOf(life, "mask", second)); };
+    const EspStroke stroke = begin(life.context, "mask", ESP_BRUSH_PAINT, .5f);
+    const auto before = layers();
+    REQUIRE(dab(life.context, stroke, 1.1f, .5f, 0) == ESP_OK);
+    REQUIRE(espEndStroke(life.context, stroke) == ESP_OK);
+    const auto painted = layers();
+    REQUIRE(painted.first != before.first);
+    REQUIRE(painted.second != before.second);
+    uint32_t failures = 0;
+    for (uint32_t at = 0; at < 100; ++at) {
+        CAPTURE(at);
+        device.failAt(at, Failure::OutOfMemory);
+        const EspResult result = espSwapStroke(life.context, stroke);
+        const bool failed = !device.failed().empty();
+        device.heal();
+        CHECK((result != ESP_OK) == failed);
+        REQUIRE((layers() == (failed ? painted : before)));
+        if (!failed) break;
+        failures += 1;
+    }
+    CHECK(failures > 3);
+    REQUIRE(espSwapStroke(life.context, stroke) == ESP_OK);
+    CHECK((layers() == painted));
 }

@@ -387,7 +387,7 @@ int main(void) {
     EspPropPlace place = {"bench", {1, 0, 1}, 0, 1};
     const uint8_t street[8] = {255, 0, 255, 255, 0, 0, 255, 255};
     EspSiteDef site = {street, 2, 1, {0, 0}, {10, 10}};
-    CHECK(espSetProps(context, "/no/such/file.glb", &place, 1) == ESP_INVALID_CONTENT);
+    CHECK(espSetProps(context, "/no/such/file.glb", &place, 1) == ESP_IO_FAILED);
     CHECK(strstr(espLastError(context), "/no/such/file.glb") != NULL);
     REFUSED(espSetProps(context, "/no/such/file.glb", NULL, 1));
     OK(context, espSetProps(context, NULL, NULL, 0));

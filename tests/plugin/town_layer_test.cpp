@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <vector>
 
 #include "tests/plugin/life.hpp"
 
@@ -54,4 +55,117 @@ TEST_CASE("a layer that roofs alone read is painted over the town, and on surfac
     compiled(context, "ivy", "context decay = 0\nA -> Marching(0.1, 0, decay(texCoord) > 0.5) {A}\n");
     dab(context, "decay");
     CHECK(espPaintedLayerCount(context) == 2);
+}
+
+namespace {
+
+void load(EspContext* context, EspGrammar grammar, const char* text) {
+    EspTownDef town = espDefaultTownDef();
+    town.text = text;
+    town.length = std::strlen(text);
+    town.grammar = grammar;
+    REQUIRE(espLoadTown(context, &town) == ESP_OK);
+}
+
+std::vector<float> layerOf(EspContext* context, const char* name) {
+    uint32_t side = 0;
+    REQUIRE(espReadTownLayer(context, name, nullptr, &side) == ESP_OK);
+    std::vector<float> texels(size_t(side) * side);
+    REQUIRE(espReadTownLayer(context, name, texels.data(), &side) == ESP_OK);
+    return texels;
+}
+
+constexpr const char* kDecaying =
+    "context decay = 0\nHouse -> Extrude(wallHeight) {NULL, Top}\n"
+    "Top -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, Top}\n"
+    "Cover -> Repeat(XY, vec2(0.3, 0.25), bond) {Tile}\nTile -> Drop(decay) Shape(\"slate\")\n";
+
+}  // namespace
+
+TEST_CASE("a stroke that goes on over another town takes back what it did to that one") {
+    FailingDevice device;
+    Life life;
+    REQUIRE(life.create(device));
+    EspContext* context = life.context;
+    const EspGrammar roofs = compiled(context, "roofs", kDecaying);
+    load(context, roofs, "{\"buildings\": [{\"id\": \"a\", \"outer\": [[0,0],[400,0],[400,8],[0,8]]}]}");
+    REQUIRE(espUpdate(context) == ESP_OK);
+    EspBrush brush = espDefaultBrush();
+    brush.layer = "decay";
+    brush.radius = 3;
+    EspStroke stroke{};
+    REQUIRE(espBeginStroke(context, &brush, &stroke) == ESP_OK);
+    const EspDab far = {{390, 0, -4}, {0, 1, 0}, 1}, near = {{5, 0, -4}, {0, 1, 0}, 1};
+    REQUIRE(espStrokeDabs(context, stroke, &far, 1) == ESP_OK);
+    load(context, roofs, "{\"buildings\": [{\"id\": \"b\", \"outer\": [[0,0],[10,0],[10,8],[0,8]]}]}");
+    REQUIRE(espUpdate(context) == ESP_OK);
+    const std::vector<float> before = layerOf(context, "decay");
+    REQUIRE(espStrokeDabs(context, stroke, &near, 1) == ESP_OK);
+    CHECK(layerOf(context, "decay") != before);
+    REQUIRE(espEndStroke(context, stroke) == ESP_OK);
+    REQUIRE(espSwapStroke(context, stroke) == ESP_OK);
+    CHECK(layerOf(context, "decay") == before);
+}
+
+TEST_CASE("over a town a layer has the value that the town's grammar wants, whatever plants want") {
+    FailingDevice device;
+    Life life;
+    REQUIRE(life.create(device));
+    EspContext* context = life.context;
+    compiled(context, "ivy", "context decay = 1\nA -> Marching(0.1, 0, decay(texCoord) > 0.5) {A}\n");
+    load(context, compiled(context, "roofs", kDecaying),
+         "{\"buildings\": [{\"id\": \"b\", \"outer\": [[0,0],[10,0],[10,8],[0,8]]}]}");
+    const std::vector<float> bare = layerOf(context, "decay");
+    CHECK(bare == std::vector<float>(bare.size(), 0.f));
+    const float half = .5f;
+    EspStroke imported{};
+    REQUIRE(espSetTownLayer(context, "decay", &half, 1, 1, &imported) == ESP_OK);
+    CHECK(layerOf(context, "decay") != bare);
+    EspBrush brush = espDefaultBrush();
+    brush.layer = "decay";
+    brush.mode = ESP_BRUSH_ERASE;
+    brush.radius = 100;
+    brush.strength = brush.hardness = 1;
+    EspStroke erased{};
+    const EspDab everywhere = {{5, 0, -4}, {0, 1, 0}, 1};
+    REQUIRE(espBeginStroke(context, &brush, &erased) == ESP_OK);
+    REQUIRE(espStrokeDabs(context, erased, &everywhere, 1) == ESP_OK);
+    REQUIRE(espEndStroke(context, erased) == ESP_OK);
+    CHECK(layerOf(context, "decay") == bare);
+    REQUIRE(espSwapStroke(context, erased) == ESP_OK);
+    REQUIRE(espSwapStroke(context, imported) == ESP_OK);
+    CHECK(layerOf(context, "decay") == bare);
+}
+
+TEST_CASE("a house that grows to nothing has no triangles any more") {
+    FailingDevice device;
+    Life life;
+    REQUIRE(life.create(device));
+    EspContext* context = life.context;
+    const EspGrammar roofs = compiled(context, "roofs",
+                                      "context decay = 0\nHouse -> Extrude(wallHeight) {NULL, Top}\n"
+                                      "Top : decay(house) > 0.5 -> NULL\n"
+                                      "Top -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, Top}\n"
+                                      "Cover -> Repeat(XY, vec2(0.3, 0.25), bond) {Tile}\nTile -> Shape(\"slate\")\n");
+    load(context, roofs,
+         "{\"buildings\": [{\"id\": \"a\", \"outer\": [[0,0],[10,0],[10,8],[0,8]]},"
+         " {\"id\": \"b\", \"outer\": [[40,0],[50,0],[50,8],[40,8]]}]}");
+    const auto triangles = [&] {
+        EspTriangles made{};
+        REQUIRE(espUpdate(context) == ESP_OK);
+        REQUIRE(espMaterialise(context, &made) == ESP_OK);
+        return made.indexCount / 3;
+    };
+    const size_t two = triangles();
+    REQUIRE(two > 1000);
+    EspBrush brush = espDefaultBrush();
+    brush.layer = "decay";
+    brush.radius = 12;
+    brush.strength = brush.hardness = 1;
+    EspStroke stroke{};
+    const EspDab first = {{5, 0, -4}, {0, 1, 0}, 1};
+    REQUIRE(espBeginStroke(context, &brush, &stroke) == ESP_OK);
+    REQUIRE(espStrokeDabs(context, stroke, &first, 1) == ESP_OK);
+    REQUIRE(espEndStroke(context, stroke) == ESP_OK);
+    CHECK(triangles() == two / 2);
 }
