@@ -36,7 +36,8 @@ constexpr uint64_t kSettling = 60;                         // frames in which de
 
 void App::showUi() {
     work_.followLayers();
-    if (!work_.editing && dialogueAsked()) controls_->setEditing(true);  // where it can be answered
+    const bool asks = dialogueAsked() || !session_.recovery().empty();
+    if (!work_.editing && asks) controls_->setEditing(true);  // where it can be answered
     if (!work_.editing) closeDialogues();
     if (work_.editing) {
         controls_->showTool(input_->mods());
@@ -161,6 +162,11 @@ bool App::replay(std::vector<InputEvent>& events) {
 bool App::closing() {
     if (session_.quit) return true;
     if (!glfwWindowShouldClose(window_.get())) return false;
+    if (sliderWaits()) {  // what it is to have counts
+        leaveFields();
+        wake();
+        return false;
+    }
     if (asksToLeave() || options_.frames || !session_.modified(work_)) return true;
     glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
     controls_->askToQuit();
@@ -260,7 +266,10 @@ bool App::loop() {
             continue;
         }
         if (options_.turn && frames_ + 1 == options_.frames) tellTurn();
-        if (!frame(seconds)) return false;
+        if (!frame(seconds)) {
+            rescue();
+            return false;
+        }
         rest_.drew(glfwGetTime());
     }
     const std::string shown = std::exchange(work_.error, {});
@@ -275,7 +284,9 @@ bool App::loop() {
 
 void App::rescue() noexcept {
     try {
+        work_.error.clear();
         if (work_.document) session_.end(work_);
+        if (!work_.error.empty()) fail(work_.error);
     } catch (...) {  // what ended the program is told
     }
 }

@@ -259,7 +259,13 @@ bool App::showOpening(const std::string& file, const std::string& part, float sh
 // the frames; what is done meanwhile isn't in it, so it is then saved again.
 void App::reload() {
     session_.reload = false;
-    const fs::path folder = fs::temp_directory_path() / ("espalier-reload-" + std::to_string(getpid()));
+    std::error_code failed;
+    const fs::path temporary = fs::temp_directory_path(failed);
+    if (failed) {
+        work_.error = "Not reloaded: TMPDIR is no folder";
+        return;
+    }
+    const fs::path folder = temporary / ("espalier-reload-" + std::to_string(getpid()));
     const std::string kept = (folder / work_.scene().name).string();
     const auto state = std::make_shared<uint64_t>();
     session_.background().ask({"Reloading " + fs::path(session_.file()).filename().string(),

@@ -28,7 +28,7 @@ class App {
     ~App();
     bool open();
     bool loop();
-    // Of what can't go on: what isn't saved is kept.
+    // Of what can't go on: what isn't saved is kept, or told that it couldn't be.
     void rescue() noexcept;
 
   private:

@@ -91,10 +91,16 @@ void AtlasView::controls(Workspace& work) {
     EspSurfaceInfo info{};
     (void)espSurfaceInfo(work.context.get(), scene.surfaces[wanted_.surface].id, &info);
     wanted_.level = std::min(wanted_.level, std::max(info.levels, 1u) - 1);
-    int level = int(wanted_.level);
-    ImGui::SetNextItemWidth(room * 7);
-    if (ImGui::SliderInt("##level", &level, 0, int(info.levels) - 1, "Level %d", ImGuiSliderFlags_AlwaysClamp))
-        wanted_.level = uint32_t(level);
+    float level = float(wanted_.level);
+    keepingDrag("##level", {&level, 1}, [&] {
+        int shown = int(level);
+        ImGui::SetNextItemWidth(room * 7);
+        const bool moved =
+            ImGui::SliderInt("##level", &shown, 0, int(info.levels) - 1, "Level %d", ImGuiSliderFlags_AlwaysClamp);
+        level = float(shown);
+        return moved;
+    });
+    wanted_.level = uint32_t(level);
     toolTip("0 is the finest; dark charts are too small to be walked on a coarse one");
     sameLineIfRoom(room * 5);
     ImGui::Checkbox("Charts", &wanted_.charts);

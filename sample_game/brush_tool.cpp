@@ -127,7 +127,7 @@ void BrushTool::cancel(Workspace& work) {
 void BrushTool::takeBack(Workspace& work) {
     end(work);
     if (!lastDab_) return;
-    work.perform(Undo{});
+    work.takeBack(gesture_);  // one that couldn't be ended is taken back already
     work.message = "The stroke is taken back";
 }
 

@@ -25,14 +25,23 @@ void Controls::cancelTools() {
     brush_.cancel(work_);
     seeds_.cancel(work_);
     houses_.cancel(work_);
-    work_.busy = toolBusy();
+    noteTools();
 }
 
 void Controls::finishTools() {
     brush_.cancel(work_);  // keeps what is painted
     seeds_.finish(work_);
     houses_.finish();
-    work_.busy = toolBusy();
+    finishDrag();
+    noteTools();
+}
+
+void Controls::noteTools() {
+    work_.busy = toolBusy() || holdsControl();
+    // The click that ends what follows the mouse without a button is no panel's.
+    const bool own = navigation_.caught || seeds_.followsMouse() || brush_.sizing();
+    ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
+    flags = own ? flags | ImGuiConfigFlags_NoMouse : flags & ~ImGuiConfigFlags_NoMouse;
 }
 
 void Controls::setEditing(bool editing) {
@@ -82,7 +91,6 @@ void Controls::takeKey(const KeyEvent& event) {
     if (key == GLFW_KEY_TAB) return setEditing(!work_.editing);
     if (key == GLFW_KEY_ESCAPE) {
         // Never quits: frees the mouse, closes the help, puts the tool away.
-        if (cancelDrag(work_)) return;
         if (navigation_.caught)
             catchMouse(false);
         else if (work_.layout.help)
@@ -205,7 +213,7 @@ void Controls::takePointer(const PointerEvent& event) {
 
 bool Controls::panelTakes(const KeyEvent& event) {
     const bool functionKey = event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F12;
-    if (event.key == GLFW_KEY_ESCAPE && closeMenus()) return true;
+    if (event.key == GLFW_KEY_ESCAPE && (cancelDrag(work_) || closeMenus())) return true;
     if (functionKey) return false;
     if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) return true;
     const bool file = (event.mods & GLFW_MOD_CONTROL) && (event.key == GLFW_KEY_S || event.key == GLFW_KEY_O ||
@@ -240,7 +248,7 @@ void Controls::take(const std::vector<InputEvent>& events, float wheel) {
         }
     }
     brush_.flush(work_);
-    work_.busy = toolBusy();
+    noteTools();
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (!overPanel(mouse.x, mouse.y)) navigation_.wheel(work_, wheel, {mouse.x, mouse.y});
 }

@@ -25,7 +25,7 @@ class Controls {
 
     void setEditing(bool editing);
     void askToQuit();    // see askToLeave
-    void finishTools();  // what they are about is done as it is
+    void finishTools();  // what they, and the mouse in a panel, are about is done as it is
     bool caught() const { return navigation_.caught; }
     bool flying() const { return navigation_.flying(); }
     bool painting() const { return brush_.painting(); }
@@ -37,6 +37,7 @@ class Controls {
     void takeToolKey(const KeyEvent& key);
     void takePointer(const PointerEvent& event);
     bool toolBusy() const;
+    void noteTools();  // what they are about, for others
     bool panelTakes(const PointerEvent& event);
     bool panelTakes(const KeyEvent& event);
     void catchMouse(bool caught);

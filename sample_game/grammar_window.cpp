@@ -100,7 +100,7 @@ void fileRow(Workspace& work, const std::string& file, const std::string* inFile
     toolTip(("For all scenes with this grammar: " + grammar.file).c_str());
     ImGui::SameLine();
     ImGui::BeginDisabled(!inFile);
-    if (ImGui::Button("Take from file") &&
+    if (ImGui::Button("Take from file") && inFile &&
         work.perform(work.document->withText(work.openGrammar, *inFile), work.newGesture()))
         work.message = "Read again: " + file + "; Ctrl+Z brings back what was typed here";
     toolTip("Gives up what was typed here");

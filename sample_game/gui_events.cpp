@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <iterator>
+#include <utility>
 
 #include "sample_game/panels.hpp"
 
@@ -27,6 +28,11 @@ bool writes(int key, int mods) {
 // Opens a dialogue, into which the next keys are typed.
 bool asks(int key, int mods) {
     return (mods & GLFW_MOD_CONTROL) && (key == GLFW_KEY_S || key == GLFW_KEY_O || key == GLFW_KEY_E);
+}
+
+// What is done by it is done to what is open as it stands.
+bool keeps(int key, int mods) {
+    return asks(key, mods) || ((mods & GLFW_MOD_CONTROL) && key == GLFW_KEY_Q);
 }
 
 }  // namespace
@@ -67,12 +73,23 @@ void GuiEvents::pointer(const PointerEvent& event) {
     events_.push_back(Pointer{event, again});
 }
 
+bool GuiEvents::waitsForPanels(const Told& told) {
+    if (told.waited) return false;
+    if (told.keyed || told.wrote || told.handed) return true;  // which comes first
+    leaveFields();
+    return waited_ = true;
+}
+
 bool GuiEvents::tell(const Pointer& pointer, Told& told, std::vector<InputEvent>& taken) {
     if (told.clicked) return false;
     const PointerEvent& e = pointer.event;
     const bool press = e.kind == PointerEvent::Kind::press;
     if (e.kind != PointerEvent::Kind::move) {
         const bool panels = press ? overPanel(e.x, e.y) : ofPanel_[e.button];
+        // What is typed is about what is chosen before the click. Over panels ImGui itself ends it.
+        const bool left = press && e.button == GLFW_MOUSE_BUTTON_LEFT;
+        if (left && ((told.typing && !panels) || sliderWaits(e.x, e.y)) && waitsForPanels(told)) return false;
+        if (press && panels && told.handed) return false;  // the tools may have begun what this ends
         // A slider looks where the mouse is only while its button is down: the end of a fast drag is a frame of its
         // own.
         if (panels && ((told.moved && !press) || (told.typing && (told.keyed || told.wrote)))) return false;
@@ -103,10 +120,12 @@ bool GuiEvents::tell(const Key& key, Told& told, std::vector<InputEvent>& taken)
     const bool shifts = code >= GLFW_KEY_LEFT_SHIFT && code <= GLFW_KEY_RIGHT_SUPER;
     const bool apart = told.typing && !writes(code, mods) && !(shifts && key.action == GLFW_PRESS);
     if (apart && (told.keyed || told.wrote)) return false;
+    if (key.action != GLFW_RELEASE && keeps(code, mods) && sliderWaits() && waitsForPanels(told)) return false;
     ImGui_ImplGlfw_KeyCallback(window_, key.code, key.scancode, key.action, mods);
     told.keyed = told.keyed || apart;
     if (key.action == GLFW_RELEASE) return true;
     taken.push_back(key.event);
+    told.handed = true;
     told.asks = !key.event.repeated && asks(code, mods);
     return true;
 }
@@ -128,9 +147,12 @@ void GuiEvents::feed(std::vector<InputEvent>& taken) {
     Told told{.typing = gui.WantTextInputNextFrame > 0 || !gui.OpenPopupStack.empty(), .awaited = awaitsText()};
     // A dialogue whose list is held takes no text before it is let go, which may come behind a key.
     if (std::ranges::count(buttons_, true) > 0) told.awaited = false;
+    told.waited = std::exchange(waited_, false);
     const auto next = [&](const auto& event) { return tell(event, told, taken); };
     for (auto event = events_.begin(); event != events_.end();) {
-        if (std::visit(next, *event)) {
+        const bool took = std::visit(next, *event);
+        told.waited = false;
+        if (took) {
             event = events_.erase(event);
         } else if (dialogueWaits() && told.awaited && !std::holds_alternative<Pointer>(*event)) {
             told.held = true;  // for when it has closed: its Cancel is clicked now

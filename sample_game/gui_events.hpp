@@ -33,7 +33,8 @@ bool overPanel(float x, float y);
 // how things stand once a frame: with frames that take long, a key that went down and up in between would be lost to
 // it, and a click would land where the mouse is by now. So it gets no more at a time than it can tell apart, and the
 // rest comes with the next frames. What is typed after the key that asks for a dialogue, or after a click on a panel,
-// waits until it can be typed there.
+// waits until it can be typed there. What changes or keeps that which panels are about waits until they have taken over
+// what is typed into them.
 class GuiEvents {
   public:
     explicit GuiEvents(GLFWwindow* window) : window_(window) {}
@@ -70,12 +71,16 @@ class GuiEvents {
         bool typing, awaited;                             // something is typed into; a dialogue isn't there yet
         bool moved = false, clicked = false;              // clicked: a panel's button has changed
         bool keyed = false, wrote = false, asks = false;  // asks: for a dialogue
+        bool handed = false;                              // a key to the tools
+        bool waited = false;                              // the event that is next, for the panels
         bool held = false;                                // keys have been passed over, by what comes behind them
     };
     // False: the event has to wait for the next frame.
     bool tell(const Key& key, Told& told, std::vector<InputEvent>& taken);
     bool tell(const Letter& letter, Told& told, std::vector<InputEvent>& taken);
     bool tell(const Pointer& pointer, Told& told, std::vector<InputEvent>& taken);
+    // True: the event that is next waits for a frame in which the panels take over what is typed.
+    bool waitsForPanels(const Told& told);
 
     GLFWwindow* window_;
     std::deque<Event> events_;
@@ -83,6 +88,7 @@ class GuiEvents {
     double polled_ = 0;
     float x_ = 0, y_ = 0;
     bool buttons_[5] = {}, ofPanel_[5] = {}, placed_ = false;
+    bool waited_ = false;
 };
 
 }  // namespace sample

@@ -65,20 +65,25 @@ void limits(const Workspace& work, Brush& brush) {
         "shown (V). The numbers beside the brush say what slope and height are there");
     if (!brush.limited) return;
     rowLabel("Slope");
-    ImGui::DragFloatRange2("##slope", &brush.slope[0], &brush.slope[1], 1, 0, 180, "%.0f\u00b0", "%.0f\u00b0",
-                           ImGuiSliderFlags_AlwaysClamp);
+    keepingDrag("##slope", brush.slope, [&] {
+        return ImGui::DragFloatRange2("##slope", &brush.slope[0], &brush.slope[1], 1, 0, 180, "%.0f\u00b0",
+                                      "%.0f\u00b0", ImGuiSliderFlags_AlwaysClamp);
+    });
     toolTip("0\u00b0: floors, 90\u00b0: walls, 180\u00b0: ceilings");
     // Beyond the scene there is nothing to limit.
     const auto [low, high] = work.bounds();
     const float least = std::floor(low.y), most = std::ceil(high.y);
-    float shown[2] = {std::clamp(brush.height[0], least, most), std::clamp(brush.height[1], least, most)};
     rowLabel("Height");
-    if (ImGui::DragFloatRange2("##height", &shown[0], &shown[1], .01f, least, most,
-                               shown[0] <= least ? "any" : "%.1f m", shown[1] >= most ? "any" : "%.1f m",
-                               ImGuiSliderFlags_AlwaysClamp)) {
+    keepingDrag("##height", brush.height, [&] {
+        float shown[2] = {std::clamp(brush.height[0], least, most), std::clamp(brush.height[1], least, most)};
+        if (!ImGui::DragFloatRange2("##height", &shown[0], &shown[1], .01f, least, most,
+                                    shown[0] <= least ? "any" : "%.1f m", shown[1] >= most ? "any" : "%.1f m",
+                                    ImGuiSliderFlags_AlwaysClamp))
+            return false;
         brush.height[0] = shown[0] <= least ? -1e6f : shown[0];
         brush.height[1] = shown[1] >= most ? 1e6f : shown[1];
-    }
+        return true;
+    });
     toolTip("From the lowest to the highest point that takes paint: drag, or double click to type");
     labelledSlider("Softness", &brush.softness, 0, 1, "%.2f");
     toolTip("0: the limits are edges, 1: paint fades out over a wide band");
@@ -87,6 +92,7 @@ void limits(const Workspace& work, Brush& brush) {
 // Values that the chosen seeds have in place of their grammar's.
 void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
     if (!ImGui::TreeNode("Values of their own")) return;
+    ImGui::PushID(int(chosen[0].key));  // what is typed is theirs
     std::erase_if(chosen, [grammar = chosen[0].grammar](const SeedRecord& seed) { return seed.grammar != grammar; });
     const EspGrammar grammar = work.scene().grammars[chosen[0].grammar].id;
     for (uint32_t i = 0; i < espParamCount(work.context.get(), grammar); ++i) {
@@ -129,6 +135,7 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
         }
         work.perform(ChangeSeeds{chosen}, gesture);
     }
+    ImGui::PopID();
     ImGui::TreePop();
 }
 
@@ -156,10 +163,12 @@ void chosenSeeds(Workspace& work) {
     rowLabel("Random no.");
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
     const bool several = std::ranges::any_of(chosen, [&](const SeedRecord& seed) { return seed.number != number; });
+    ImGui::PushID(int(chosen[0].key));
     if (ImGui::InputScalar("##number", ImGuiDataType_U32, &number, nullptr, nullptr, several ? "%u, others" : "%u")) {
         for (SeedRecord& seed : chosen) seed.number = number++;
         changed = true;
     }
+    ImGui::PopID();
     toolTip(chosen.size() == 1 ? "Its random number: another one grows another plant"
                                : "Typed: the first one's random number, the others get those that follow it");
     ImGui::SameLine();

@@ -69,7 +69,9 @@ void edgePanel(Workspace& work, Edit& edit, House& house) {
     }
     toolTip("What the roof does over the chosen edge");
     ImGui::BeginDisabled(edge.end == "gable");  // a wall
+    ImGui::PushID(int(number));
     pitch(work, edit, "Pitch##edge", edge.slope);
+    ImGui::PopID();
     ImGui::EndDisabled();
     if (!edit.changed) return;
     if (own == house.edges.end())
@@ -137,6 +139,7 @@ void housesPanel(Workspace& work) {
         return;
     }
     House house = houseNow(work.context.get(), *work.house);
+    ImGui::PushID(int(*work.house));  // what is typed is this one's
     ImGui::Text("%s", info.id);
     ImGui::SameLine();
     ImGui::TextDisabled("ridge %.1f m", info.ridgeHeight - info.baseHeight);
@@ -172,6 +175,7 @@ void housesPanel(Workspace& work) {
     if (std::ranges::any_of(work.scene().surfaces, [](const auto& surface) { return !surface.drawn; })) {
         aside("Plants keep to walls as they were baked: they don't follow an outline.");
     }
+    ImGui::PopID();
 }
 
 }  // namespace sample

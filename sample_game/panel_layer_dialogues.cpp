@@ -65,9 +65,10 @@ void layerDialogues(Workspace& work, Session& session) {
 
 void askForLayer(const std::string& layer, bool import) {
     Dialogues& d = dialogues();
-    const std::string name = layer + ".exr";
-    if (d.layer != layer) put(d.picture, import ? name : freeName(name, ".exr"));
+    if (d.layer != layer || !d.picture[0]) put(d.picture, layer + ".exr");
     d.layer = layer;
+    const std::string name = d.picture.data();
+    if (!import) put(d.picture, freeName(name, std::filesystem::path(name).extension().string()));
     ask(import ? "Import a layer" : "Export a layer");
 }
 

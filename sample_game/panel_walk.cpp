@@ -57,7 +57,7 @@ void plantButtons(Workspace& work, const espalier::scene::Seed* seed) {
     toolTip("A frozen plant stands as it is: neither paint nor sliders change it");
     ImGui::EndDisabled();
     if (prunes) work.prune();
-    if (freezes) work.freeze({seed->key}, !frozen);
+    if (freezes && seed) work.freeze({seed->key}, !frozen);
 }
 
 }  // namespace

@@ -22,9 +22,12 @@ bool Replay::step(Workspace& work, double now) {
     const auto due = uint32_t(std::min((now - began_) / run_->head.step, double(run_->frames())));
     for (; next_ < run_->lines.size() && run_->lines[next_].frame <= due; ++next_) {
         const RunLine& line = run_->lines[next_];
-        if (line.gesture != theirs_) ours_ = line.gesture ? work.newGesture() : 0;
-        theirs_ = line.gesture;
-        if (!work.perform(line.action, ours_)) {
+        // Lines of no gesture, such as the camera's, may stand amid those of one.
+        if (line.gesture && line.gesture != theirs_) {
+            theirs_ = line.gesture;
+            ours_ = work.newGesture();
+        }
+        if (!work.perform(line.action, line.gesture ? ours_ : 0)) {
             work.error = path_ + ":" + std::to_string(next_ + 2) + ": " + work.error;
             return stop(work), false;
         }

@@ -31,7 +31,7 @@ class Replay {
     std::optional<espalier::document::Run> run_;
     double began_ = -1;
     size_t next_ = 0;                 // of the run's lines
-    uint32_t theirs_ = 0, ours_ = 0;  // the last line's gesture, in the run and here
+    uint32_t theirs_ = 0, ours_ = 0;  // the last gesture, in the run and here; 0: there was none
 };
 
 }  // namespace sample

@@ -18,6 +18,7 @@ class SeedTool {
     void remove(Workspace& work);     // those that are chosen
     void selectAll(Workspace& work);  // or none, if all are
     bool dragging() const { return drag_ != Drag::none; }
+    bool followsMouse() const { return byKey_; }  // without a button held
     void draw(const Workspace& work) const;
 
   private:

@@ -48,7 +48,7 @@ void removeKept(const fs::path& folder) {
 }  // namespace
 
 void Session::begin(Workspace& work, const std::string& file, fs::file_time_type read, bool whole) {
-    file_ = fs::absolute(file).lexically_normal().string();
+    file_ = wholePath(file);
     fs::path place(file_);
     std::error_code ignored;
     const bool recovered = place.filename() == kAutosave;
@@ -146,8 +146,8 @@ bool Session::step(Workspace& work, double now) {
         nextAutosave_ = now + autosaveEvery;
         keepSoon(work);
     }
-    // What others write waits for a tool in use: its Esc takes back the latest step.
-    if (now < nextLook_ || background_.busy() || work.document->stroking() || work.busy) return moved;
+    // What others write waits for a tool in use, since its Esc takes back the latest step, and for a replay's end.
+    if (now < nextLook_ || background_.busy() || replaying_ || work.document->stroking() || work.busy) return moved;
     nextLook_ = now + kLookEvery;
     noticeLoss(work);
     const bool models = models_.changed(), grammars = watchGrammars(work);
@@ -303,7 +303,7 @@ void Session::dropKept() {
 void Session::replays(const std::string& run) {
     replaying_ = true;
     whole_ = false;
-    run_ = fs::absolute(run).lexically_normal().string();
+    run_ = wholePath(run);
     folder_.clear();
     recoveredFrom_.clear();
     recovery_.clear();

@@ -5,6 +5,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -20,34 +21,39 @@ constexpr float kTipDelay = .5f;  // seconds
 constexpr float kDragPixels = 3;
 constexpr double kSecondClick = .35;  // seconds after one click until another makes no double click with it
 
-// A slider that was pressed and not dragged, and where: it goes there unless a double click comes of it.
-struct Click {
-    ImGuiID slider = 0;
+// What a slider is to have.
+struct Wanted {
+    ImGuiID slider = 0;  // 0: none
     float value = 0;
-    double released = 0;  // when, on ImGui's clock; 0: it is still held
-    int seen = 0;         // the last frame in which the slider was laid out
+    ImRect place;         // of the slider
+    int seen = 0;         // the last frame in which it was laid out
+    double released = 0;  // of a click: when, on ImGui's clock; 0: it is still held
 };
 
-Click& lastClick() {
-    static Click click;
+// By a press without a drag: it goes there unless a double click comes of it.
+Wanted& lastClick() {
+    static Wanted click;
     return click;
 }
 
-// What is typed in a slider's place, and what was there before a drag of it. Typed values are taken once the field is
-// left, however that comes about: half a number may be one that grows far too much.
-struct Held {
-    ImGuiID slider = 0;  // 0: none
-    float value = 0;
-    bool cancelled = false;  // a drag is to be taken back
+// By what is typed in its place, or by a click that waits no longer. It is taken once the field is left, however that
+// comes about: half a number may be one that grows far too much.
+Wanted& typed() {
+    static Wanted value;
+    return value;
+}
+
+// What was there before a drag.
+struct Drag {
+    ImGuiID owner = 0;   // 0: none
+    ImGuiID active = 0;  // the control that is dragged, the owner or a part of it
+    std::array<float, 3> before{};
+    bool cancelled = false;  // it is to be taken back
 };
 
-Held& typed() {
-    static Held held;
-    return held;
-}
-Held& dragged() {
-    static Held held;
-    return held;
+Drag& dragged() {
+    static Drag drag;
+    return drag;
 }
 
 // Of the slider `self`. True: its field was left, and *value is what was typed there.
@@ -57,20 +63,26 @@ bool takeTyped(ImGuiID self, float* value) {
     return true;
 }
 
-// Of the slider `self`, before anything else is done with it.
-void noteDrag(ImGuiID self, float* value) {
-    Held& drag = dragged();
-    if (drag.slider == self && drag.cancelled) *value = drag.value;
-    if (drag.slider == self && (drag.cancelled || ImGui::GetCurrentContext()->ActiveId != self)) drag = {};
+// Before anything else is done with what belongs to `owner`.
+void takeBackDrag(ImGuiID owner, std::span<float> values) {
+    Drag& drag = dragged();
+    if (drag.owner != owner) return;
+    if (drag.cancelled) std::copy_n(drag.before.begin(), values.size(), values.begin());
+    if (drag.cancelled || ImGui::GetCurrentContext()->ActiveId != drag.active) drag = {};
 }
 
-// Of the slider that was just laid out, which would go to `wanted`. True: it goes somewhere, to *value.
-bool followMouse(float* value, float wanted, bool changed) {
-    Click& click = lastClick();
+// Of the item or group that was just laid out.
+void noteDrag(ImGuiID owner, const std::array<float, 3>& before) {
+    if (ImGui::IsItemActivated()) dragged() = {owner, ImGui::GetCurrentContext()->ActiveId, before};
+}
+
+// Of the slider that was just laid out at `place`, which would go to `wanted`. True: it goes somewhere, to *value.
+bool followMouse(float* value, float wanted, bool changed, const ImRect& place) {
+    Wanted& click = lastClick();
     const ImGuiID slider = ImGui::GetItemID();
     if (ImGui::IsItemActive() && ImGui::IsMouseDown(0) && !ImGui::IsMouseDragging(0, kDragPixels)) {
         const bool begins = ImGui::IsItemActivated() && !ImGui::IsMouseDoubleClicked(0);
-        if (begins && changed) click = {slider, wanted};
+        if (begins && changed) click = {slider, wanted, place};
         if (click.slider == slider) click.seen = ImGui::GetFrameCount();
         return false;
     }
@@ -87,28 +99,26 @@ bool followMouse(float* value, float wanted, bool changed) {
 }
 
 // The field that a slider has become, where ImGui's own takes digits only. True: it says something else by now.
-bool typeInto(const char* id, float& value, float low, float high, const char* now, ReadTyped read) {
+bool typeInto(const ImRect& place, const char* id, float& value, float low, float high, const char* now,
+              ReadTyped read) {
     char text[64];
     std::snprintf(text, sizeof text, "%s", now);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const ImRect box(at, {at.x + ImGui::CalcItemWidth(), at.y + ImGui::GetFrameHeight()});
     float typed = value;
-    if (!ImGui::TempInputText(box, ImGui::GetID(id), id, text, sizeof text, ImGuiInputTextFlags_AutoSelectAll) ||
+    if (!ImGui::TempInputText(place, ImGui::GetID(id), id, text, sizeof text, ImGuiInputTextFlags_AutoSelectAll) ||
         !read(text, typed))
         return false;
     typed = std::clamp(typed, low, high);
     return std::exchange(value, typed) != typed;
 }
 
-// From the low end to where the value is, below a slider that is about to be laid out here.
-void drawBar(float width, float share) {
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float bottom = at.y + ImGui::GetFrameHeight();
+// From the low end to where the value is, below a slider that is about to be laid out there.
+void drawBar(const ImRect& place, float share) {
+    const float rounding = ImGui::GetStyle().FrameRounding;
+    const ImVec2 end(place.Min.x + std::clamp(share, 0.f, 1.f) * place.GetWidth(), place.Max.y);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(at, {at.x + width, bottom}, ImGui::GetColorU32(ImGuiCol_FrameBg), style.FrameRounding);
-    ImGui::PushClipRect(at, {at.x + std::clamp(share, 0.f, 1.f) * width, bottom}, true);
-    list.AddRectFilled(at, {at.x + width, bottom}, ImGui::GetColorU32(ImGuiCol_SliderGrab, .55f), style.FrameRounding);
+    list.AddRectFilled(place.Min, place.Max, ImGui::GetColorU32(ImGuiCol_FrameBg), rounding);
+    ImGui::PushClipRect(place.Min, end, true);
+    list.AddRectFilled(place.Min, place.Max, ImGui::GetColorU32(ImGuiCol_SliderGrab, .55f), rounding);
     ImGui::PopClipRect();
 }
 
@@ -134,10 +144,12 @@ bool slider(const char* id, float* value, float low, float high, const char* for
     const float way = byRatio ? std::log(high / low) : high - low;
     const float share = way > 0 ? (byRatio ? std::log(*value / low) : *value - low) / way : 0;
     const ImGuiID self = ImGui::GetID(id);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImRect place(at, {at.x + ImGui::CalcItemWidth(), at.y + ImGui::GetFrameHeight()});
     const bool typing = ImGui::TempInputIsActive(self);
-    noteDrag(self, value);
+    takeBackDrag(self, {value, 1});
     const bool left = takeTyped(self, value);  // by a key, or by a click on what comes before it
-    if (!typing) drawBar(ImGui::CalcItemWidth(), share);
+    if (!typing) drawBar(place, share);
     // The bar is drawn already: what ImGui draws over it lets it through, but for the number.
     const ImVec4 none{0, 0, 0, 0}, lit{1, 1, 1, .07f};
     if (!typing) ImGui::PushStyleColor(ImGuiCol_FrameBg, none);
@@ -148,17 +160,17 @@ bool slider(const char* id, float* value, float low, float high, const char* for
     ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, 1);
     float wanted = *value;
     const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (byRatio ? ImGuiSliderFlags_Logarithmic : 0);
-    bool changed = typing && read ? typeInto(id, wanted, low, high, format, read)
+    bool changed = typing && read ? typeInto(place, id, wanted, low, high, format, read)
                                   : ImGui::SliderFloat(id, &wanted, low, high, format, flags);
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
         lastClick() = {};
         ImGui::SetKeyboardFocusHere(-1);
     }
-    if (!typing && ImGui::IsItemActivated()) dragged() = {self, *value};
+    if (!typing) noteDrag(self, {*value});
     if (typing)
-        typed() = wanted != *value ? Held{self, wanted} : Held{};
+        typed() = wanted != *value ? Wanted{self, wanted, place, ImGui::GetFrameCount()} : Wanted{};
     else
-        changed = followMouse(value, wanted, changed);
+        changed = followMouse(value, wanted, changed, place);
     if (typing) changed = takeTyped(self, value);
     ImGui::PopStyleVar();
     ImGui::PopStyleColor(typing ? 4 : 5);
@@ -185,6 +197,20 @@ bool hoursOf(const char* text, float& hours) {
 
 bool clickWaits() {
     return lastClick().slider != 0;
+}
+
+bool sliderWaits() {
+    return clickWaits() || typed().slider != 0;
+}
+
+bool sliderWaits(float x, float y) {
+    const auto elsewhere = [&](const Wanted& wanted) { return wanted.slider != 0 && !wanted.place.Contains({x, y}); };
+    return elsewhere(lastClick()) || elsewhere(typed());
+}
+
+void leaveFields() {
+    if (clickWaits()) typed() = std::exchange(lastClick(), {});
+    ImGui::ClearActiveID();
 }
 
 bool toolTipWaits() {
@@ -232,12 +258,24 @@ uint32_t shownColour(const float (&rgb)[3]) {
     return ImColor(scene::srgbOf(rgb[0]), scene::srgbOf(rgb[1]), scene::srgbOf(rgb[2]));
 }
 
+bool keepingDrag(const char* id, std::span<float> values, const std::function<bool()>& layOut) {
+    const ImGuiID self = ImGui::GetID(id);
+    takeBackDrag(self, values);
+    std::array<float, 3> before{};
+    std::ranges::copy(values, before.begin());
+    const bool changed = layOut();
+    noteDrag(self, before);
+    return changed;
+}
+
 bool editColour(const char* id, float* rgb) {
-    float shown[3];
-    for (int i = 0; i < 3; ++i) shown[i] = scene::srgbOf(rgb[i]);
-    if (!ImGui::ColorEdit3(id, shown, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_DisplayHex)) return false;
-    for (int i = 0; i < 3; ++i) rgb[i] = scene::linearOf(shown[i]);
-    return true;
+    return keepingDrag(id, {rgb, 3}, [&] {
+        float shown[3];
+        for (int i = 0; i < 3; ++i) shown[i] = scene::srgbOf(rgb[i]);
+        if (!ImGui::ColorEdit3(id, shown, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_DisplayHex)) return false;
+        for (int i = 0; i < 3; ++i) rgb[i] = scene::linearOf(shown[i]);
+        return true;
+    });
 }
 
 uint32_t viewColour(EspView view, float amount) {
@@ -271,17 +309,26 @@ void beginGesture(Workspace& work) {
     const bool tabbed = gui.ActiveId != 0 && gui.ActiveId != before && !gui.ActiveIdHasBeenEditedBefore;
     if (ImGui::IsMouseClicked(0) || tabbed) work.newGesture();
     before = gui.ActiveId;
-    if (lastClick().seen + 1 < ImGui::GetFrameCount()) lastClick() = {};  // its panel is gone
+    for (Wanted* wanted : {&lastClick(), &typed()})
+        if (wanted->seen + 1 < ImGui::GetFrameCount()) *wanted = {};  // its panel is gone
+}
+
+bool holdsControl() {
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    return ImGui::IsMouseDown(0) && gui.ActiveId != 0 && !gui.MovingWindow && !ImGui::GetIO().WantTextInput;
 }
 
 bool cancelDrag(Workspace& work) {
-    const ImGuiContext& gui = *ImGui::GetCurrentContext();
-    if (!ImGui::IsMouseDown(0) || gui.ActiveId == 0 || gui.MovingWindow || ImGui::GetIO().WantTextInput) return false;
+    if (!holdsControl()) return false;
     lastClick() = {};
     work.takeBack(work.gesture());
-    if (dragged().slider == gui.ActiveId) dragged().cancelled = true;  // of what isn't the document's
+    if (dragged().active == ImGui::GetCurrentContext()->ActiveId) dragged().cancelled = true;  // not the document's
     ImGui::ClearActiveID();
     return true;
+}
+
+void finishDrag() {
+    if (holdsControl()) ImGui::ClearActiveID();
 }
 
 uint32_t widgetGesture(Workspace& work) {

@@ -2,6 +2,9 @@
 
 // What the panels are put together from, besides ImGui's own widgets.
 
+#include <functional>
+#include <span>
+
 #include "sample_game/workspace.hpp"
 
 namespace sample {
@@ -31,6 +34,9 @@ void rowLabel(const char* text);  // the words before a widget, which takes the 
 void sameLineIfRoom(float width);
 // A linear colour, as ImGui has colours.
 uint32_t shownColour(const float (&rgb)[3]);
+// Controls of up to three values that needn't be the document's, which `layOut` lays out as one item or group: Esc
+// takes back a drag of them. What `layOut` says.
+bool keepingDrag(const char* id, std::span<float> values, const std::function<bool()>& layOut);
 // A field and a picker for a linear colour, as a grammar's text writes it; a click on the field at its end opens the
 // picker.
 bool editColour(const char* id, float* rgb);
@@ -48,9 +54,17 @@ bool toolTipWaits();
 
 // Whether a slider that was clicked waits for the click to be no double click.
 bool clickWaits();
+// That, or something is typed in a slider's place.
+bool sliderWaits();
+bool sliderWaits(float x, float y);  // of sliders that don't lie there
+// Sliders take what they wait for when the panels are laid out next; whatever is typed into is left.
+void leaveFields();
 
-// Takes back what a panel's control that the mouse holds has done, and lets go of it. False: it holds none.
+// A panel's control is held by the mouse.
+bool holdsControl();
+// Takes back what it has done, and lets go of it. False: there is none.
 bool cancelDrag(Workspace& work);
+void finishDrag();  // lets go of it: what it has done stays
 
 // Once a frame, before anything is laid out: what is taken up from here on is a step of undo of its own.
 void beginGesture(Workspace& work);

@@ -64,7 +64,7 @@ struct Workspace {
     glm::vec2 window{1280, 720};
     float scale = 1;
     bool editing = false;  // Tab: the editor is open
-    bool busy = false;     // a tool has begun what is to be one step: nothing else may come between
+    bool busy = false;     // a tool or a drag in a panel goes on with what is to be one step: nothing may come between
 
     Tool tool = Tool::look;
     Brush brush;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tests/editor/faults.hpp"
 #include "tests/editor/window.hpp"
 
 using namespace espalier::document;
@@ -272,6 +273,24 @@ TEST_CASE("Esc and Ctrl+Z in a stroke give back every texel, and what the button
     CHECK(painter.work.document->undoSteps() == steps);
     painter.key(GLFW_KEY_ESCAPE);
     CHECK(painter.work.tool == Tool::look);
+}
+
+TEST_CASE("Esc in a stroke that can't be ended leaves alone what was painted before it") {
+    const Folder folder;
+    Painter painter(folder);
+    painter.drag(painter.onWall(-1.2f, .9f), painter.onWall(-.7f, .9f));
+    const std::vector<float> before = painter.texels();
+    const size_t steps = painter.work.document->undoSteps();
+    painter.press(painter.onWall(-1.1f, .8f));
+    painter.moveTo(painter.onWall(-.8f, 1.1f), 5);
+    callsUntilFailure = 1;
+    painter.key(GLFW_KEY_ESCAPE);
+    CHECK(callsUntilFailure == 0);
+    callsUntilFailure = 0;
+    painter.release(painter.mouse);
+    CHECK(painter.work.error != "");
+    CHECK(painter.work.document->undoSteps() == steps);
+    CHECK(painter.texels() == before);
 }
 
 TEST_CASE("F and a move set the radius alone, Shift+F the strength, and neither paints") {

@@ -121,6 +121,7 @@ TEST_CASE("a project whose text has lost what it includes opens with its mistake
     uint64_t before = 0;
     {
         Editing editing(scene);
+        REQUIRE(editing.perform(SetParam{1, {"reach", {1.4f}}}));
         before = editing.hash();
         REQUIRE(saveProject(*editing.document, project, editing.error));
     }
@@ -135,9 +136,53 @@ TEST_CASE("a project whose text has lost what it includes opens with its mistake
         REQUIRE_MESSAGE(opened.perform(opened.document->withText(1, kCreeper)), opened.error);
         CHECK(opened.document->scene().grammars[1].error == "");
         CHECK(opened.hash() == before);
+        REQUIRE_MESSAGE(opened.perform(Undo{}), opened.error);
+        REQUIRE_MESSAGE(opened.perform(Redo{}), opened.error);
+        CHECK(opened.hash() == before);
+    }
+    // Who saves it meanwhile, twice, keeps what the sliders said.
+    for (int i = 0; i < 2; ++i) {
+        Editing opened(project);
+        CHECK(opened.param(1, "reach") == -1);  // until the text can be read
+        REQUIRE(saveProject(*opened.document, project, opened.error));
     }
     folder.write("bend.grammar", "param spare = 1 [0 .. 2] \"m\" \"Spare\"\n");
-    CHECK(Editing(project).hash() == before);
+    Editing again(project);
+    CHECK(again.param(1, "reach") == 1.4f);
+    CHECK(again.hash() == before);
+}
+
+TEST_CASE("a town whose grammar has lost what it includes gets its roofs, as they were, when that is there again") {
+    const Folder folder;
+    std::filesystem::copy(content("grammars"), folder.path / "grammars", std::filesystem::copy_options::recursive);
+    const std::string own =
+        replaced(readAll(wallScene(folder, true)), content("grammars/town.grammar"), "grammars/town.grammar");
+    const std::string scene = folder.write("own.json", own), project = folder.file("project");
+    const auto roofs = [](Editing& editing) {
+        EspRoofStats stats{};
+        REQUIRE_MESSAGE(espUpdate(editing.context.get()) == ESP_OK, espLastError(editing.context.get()));
+        REQUIRE(espReadRoofStats(editing.context.get(), &stats) == ESP_OK);
+        return stats;
+    };
+    uint64_t before = 0;
+    {
+        Editing editing(scene);
+        REQUIRE_MESSAGE(editing.perform(SetParam{2, {"overhang", {.75f}}}), editing.error);
+        before = roofs(editing).hash;
+        REQUIRE(roofs(editing).tiles > 0);
+        REQUIRE(saveProject(*editing.document, project, editing.error));
+    }
+    const std::filesystem::path part = folder.path / "grammars/roof_house.grammar";
+    std::filesystem::rename(part, folder.path / "aside");
+    Editing opened(project);
+    CHECK(roofs(opened).tiles == 0);
+    const auto& notes = opened.document->scene().notes;
+    CHECK(std::ranges::any_of(notes, [](const std::string& note) { return contains(note, "have no roofs"); }));
+    std::filesystem::rename(folder.path / "aside", part);
+    const std::string text = opened.document->scene().grammars[2].text;
+    REQUIRE_MESSAGE(opened.perform(opened.document->withText(2, text)), opened.error);
+    CHECK(opened.document->scene().grammars[2].error == "");
+    CHECK(roofs(opened).hash == before);
 }
 
 TEST_CASE("a text that is typed here is written into its file, behind a link too, and is no news then") {

@@ -135,4 +135,10 @@ TEST_CASE("a picture is written over another only when that is confirmed") {
     CHECK(dialogues().turn == Turn::confirms);
     window.enter();
     CHECK(readAll(path) != "somebody's");
+    // Once more it is offered a name that is free, of the kind that was taken.
+    sample::askForLayer("mask", false);
+    CHECK(std::string(dialogues().picture.data()) == folder.file("mask-2.exr"));
+    sample::put(dialogues().picture, folder.write("mask.png", ""));
+    sample::askForLayer("mask", false);
+    CHECK(std::string(dialogues().picture.data()) == folder.file("mask-2.png"));
 }

@@ -40,6 +40,21 @@ TEST_CASE("a town without surfaces is flown over and seen from afar by its own s
     CHECK(window.work.camera.distance() > 3 * before);
 }
 
+TEST_CASE("a project that is named with a slash at its end, as shells complete it, is the same project") {
+    const Folder folder;
+    const std::string garden = folder.file("garden");
+    {
+        Window window(folder, smallScene(folder));
+        REQUIRE_MESSAGE(window.save(garden), window.work.error);
+    }
+    Window window(folder, garden + "/");
+    CHECK(window.session.folder() == garden);
+    CHECK(window.session.name(window.work) == "garden");
+    CHECK(window.work.scene().name == "garden");
+    window.session.replays(garden + "/");
+    CHECK(window.session.name(window.work) == "garden");
+}
+
 TEST_CASE("a project whose folder is deleted counts as not saved, is kept elsewhere and can be saved anew") {
     const Folder folder;
     const std::string garden = folder.file("garden");

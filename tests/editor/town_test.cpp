@@ -216,6 +216,13 @@ TEST_CASE("houses that one outline falls into are changed one by one") {
     CHECK(roofs(editing) == planned);
     REQUIRE(editing.perform(Undo{}));
     CHECK(roofs(editing) == changed);
+    REQUIRE(editing.perform(ResetHouse{1}));
+    House flat = second;
+    flat.look->overhang = flat.look->overhang > .5f ? 0.f : 1.f;
+    REQUIRE_MESSAGE(editing.perform(SetHouse{flat}), editing.error);
+    CHECK(houseOf(editing, 1).look->overhang == flat.look->overhang);
+    CHECK(houseOf(editing, 0) == first);
+    CHECK(houseOf(editing, 1).corners == second.corners);
 }
 
 TEST_CASE("outlines without area are refused, and roofs that can't be as asked say so and remember what was asked") {

@@ -2,31 +2,39 @@
 
 #include <imgui_internal.h>
 
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "tests/editor/window.hpp"
 
+// One of the words and numbers that tell widgets apart.
+struct Part {
+    const char* word = nullptr;
+    int number = 0;
+    Part(const char* text) : word(text) {}
+    Part(int of) : number(of) {}
+};
+
 // The identity of what was laid out in the last frame; path: what was pushed around it, and its label.
-inline ImGuiID widget(const std::string& window, std::initializer_list<const char*> path) {
+inline ImGuiID widget(const std::string& window, const std::vector<Part>& path) {
     const ImGuiWindow* found = ImGui::FindWindowByName(window.c_str());
     REQUIRE_MESSAGE((found && found->WasActive), window << " isn't shown");
     ImGuiID id = found->ID;
-    for (const char* part : path) id = ImHashStr(part, 0, id);
+    for (const Part& part : path)
+        id = part.word ? ImHashStr(part.word, 0, id) : ImHashData(&part.number, sizeof part.number, id);
     return id;
 }
 
 // Presses a button, a box or a choice by its name, which like a click begins a gesture. Nothing of that name: nothing
 // happens; what is disabled is pressed, too.
-inline void pressWidget(Editor& editor, const std::string& window, std::initializer_list<const char*> path) {
+inline void pressWidget(Editor& editor, const std::string& window, const std::vector<Part>& path) {
     editor.work.newGesture();
     ImGui::ActivateItem(widget(window, path));
     for (int i = 0; i < 3; ++i) editor.frame({});
 }
 
 // Opens a list of choices and takes one of them.
-inline void chooseFrom(Editor& editor, const std::string& window, std::initializer_list<const char*> combo,
-                       const char* choice) {
+inline void chooseFrom(Editor& editor, const std::string& window, const std::vector<Part>& combo, const char* choice) {
     pressWidget(editor, window, combo);
     pressWidget(editor, "##Combo_00", {choice});
 }

@@ -64,9 +64,13 @@ struct HousePanel : Editor {
         for (int i = 0; i < 3; ++i) frame({});
     }
     House house() const { return houseNow(work.context.get(), 0); }
-    void press(std::initializer_list<const char*> path) { pressWidget(*this, "panel", path); }
-    void choose(std::initializer_list<const char*> combo, const char* choice) {
-        chooseFrom(*this, "panel", combo, choice);
+    std::vector<Part> ofHouse(std::vector<Part> path) const {
+        path.insert(path.begin(), int(*work.house));
+        return path;
+    }
+    void press(const std::vector<Part>& path) { pressWidget(*this, "panel", ofHouse(path)); }
+    void choose(const std::vector<Part>& combo, const char* choice) {
+        chooseFrom(*this, "panel", ofHouse(combo), choice);
     }
 };
 
@@ -225,9 +229,30 @@ TEST_CASE("an edge's end and pitch are its own") {
     CHECK(panel.house().edges[0].edge == 1);
     CHECK(panel.house().edges[0].end == "gable");
     panel.choose({"##end"}, "Eave");
-    panel.press({"Pitch##edge", "Pitch##edge"});
+    panel.press({1, "Pitch##edge", "Pitch##edge"});
     CHECK(panel.house().edges[0].slope > 0);
-    panel.press({"Pitch##edge", "Pitch##edge"});
+    panel.press({1, "Pitch##edge", "Pitch##edge"});
     panel.choose({"##end"}, "As the kind says");
     CHECK(panel.house().edges.empty());
+}
+
+TEST_CASE("buttons that have nothing to act on do nothing, even if they are pressed") {
+    const Folder folder;
+    folder.write("own.grammar", readAll(content("grammars/ivy_guided.grammar")));
+    std::string scene = readAll(smallScene(folder));
+    const std::string name = content("grammars/ivy_guided.grammar");
+    scene.replace(scene.find(name), name.size(), "own.grammar");
+    Editor editor(folder, folder.write("own.json", scene), sample::Tool::branch);
+    editor.panels = [&] {
+        ImGui::Begin("panel");
+        sample::branchPanel(editor.work);
+        ImGui::End();
+        sample::showGrammarWindow(editor.work);
+    };
+    editor.work.layout.grammar = true;
+    fs::remove(folder.path / "own.grammar");
+    for (int i = 0; i < 3; ++i) editor.frame({});
+    for (const char* button : {"Freeze plant", "Prune  Del"}) pressWidget(editor, "panel", {button});
+    pressWidget(editor, "###grammar", {"Take from file"});
+    CHECK(editor.work.document->undoSteps() == 0);
 }

@@ -110,6 +110,7 @@ class Document {
     void keep(std::vector<Step>& steps);
     bool failed(EspResult result, std::string& error) const;
     std::vector<Param> paramsOf(uint32_t grammar) const;
+    bool townGrows() const;  // it has a grammar
     bool takeBack(std::vector<Action>& back);
     bool moveSeeds(const ChangeSeeds& action);
     bool plant(std::string& error);

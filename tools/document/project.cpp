@@ -118,6 +118,7 @@ SceneFile describe(const Document& document) {
         if (grammar.text != grammar.grows) described.grows = grammar.grows;
         for (const scene::ParamValue& value : scene::changedParams(document.context(), grammar.id))
             described.params.push_back({value, {}});
+        for (const scene::ParamValue& value : grammar.unset) described.params.push_back({value, {}});
         for (const scene::Seed& seed : scene.seeds)
             if (seed.grammar == i) described.seeds.push_back(seed);
     }

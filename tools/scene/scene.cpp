@@ -42,74 +42,6 @@ bool compileFile(EspContext* context, LoadedGrammar& grammar, std::string& error
 
 namespace {
 
-// The place of the house that a project knows by an id: the plan may have got and lost others since. Of several of one
-// name it is the one at its old place.
-std::optional<uint32_t> placeOf(const EspContext* context, const House& house) {
-    std::optional<uint32_t> found;
-    for (uint32_t i = 0; i < espHouseCount(context); ++i) {
-        EspHouseInfo info;
-        if (espHouseInfo(context, i, &info) != ESP_OK || house.id != info.id) continue;
-        if (!found || i == house.index) found = i;
-    }
-    return found;
-}
-
-// A project keeps what it can: a house that is gone, or whose plan leaves no room for it, is told of.
-bool changeHouses(EspContext* context, Scene& out, std::string& error) {
-    SceneTown& town = *out.town;
-    std::vector<House> kept;
-    for (House house : town.houses) {
-        const std::string name = house.id.empty() ? std::to_string(house.index) : "'" + house.id + "'";
-        const std::optional<uint32_t> place = house.id.empty() ? house.index : placeOf(context, house);
-        house.id.clear();
-        house.index = place.value_or(house.index);
-        std::string why = "the plan has none of this name any more";
-        if (place && setHouse(context, house, why)) {
-            if (!house.look) house.look = houseNow(context, house.index).look;
-            kept.push_back(std::move(house));
-            continue;
-        }
-        error = town.file + ": house " + name + " of the scene: " + why;
-        if (!out.project) return false;
-        out.notes.push_back(std::exchange(error, {}));
-    }
-    std::ranges::stable_sort(kept, {}, &House::index);
-    town.houses = std::move(kept);
-    return true;
-}
-
-}  // namespace
-
-bool loadTown(EspContext* context, Scene& out, std::string& error) {
-    const SceneTown& town = *out.town;
-    std::string text;
-    if (!readText(town.file, text, error)) return false;
-    EspTownDef def = espDefaultTownDef();
-    def.name = town.file.c_str();
-    def.text = text.data();
-    def.length = text.size();
-    std::copy(town.placing.position.begin(), town.placing.position.end(), def.position);
-    def.turn = town.placing.turn;
-    def.ground = town.ground ? 1 : 0;
-    if (town.groundColour) std::copy(town.groundColour->begin(), town.groundColour->end(), def.groundColour);
-    if (!fromContext(context, espLoadTown(context, &def), error)) return false;
-    if (!changeHouses(context, out, error)) return false;
-    if (town.grammar >= 0) {
-        LoadedGrammar& grammar = out.grammars[size_t(town.grammar)];
-        if (fromContext(context, espSetTownGrammar(context, grammar.id), error)) return true;
-        if (!out.project) return false;
-        out.notes.push_back(town.file + ": its houses have no roofs: " + std::exchange(error, {}));
-        return true;
-    }
-    for (const LoadedGrammar& grammar : out.grammars)
-        if (espSetTownGrammar(context, grammar.id) == ESP_OK) return true;
-    error = town.file + ": none of the scene's grammars makes roofs; town.grammar does";
-    if (out.project) out.notes.push_back(std::exchange(error, {}));
-    return out.project;
-}
-
-namespace {
-
 bool layChannel(EspContext* context, const Scene& scene, const std::string& name, const GreyPicture& picture,
                 int surface, std::string& error) {
     if (surface == SceneLayer::kTown)
@@ -172,7 +104,11 @@ bool loadGrammar(EspContext* context, const SceneGrammar& described, Scene& out,
             continue;
         error = param.place + ": " + error;
         if (!out.project) return false;
-        out.notes.push_back(std::exchange(error, {}));
+        if (grammar.error.empty())
+            out.notes.push_back(error);
+        else
+            grammar.unset.push_back(v);
+        error.clear();
     }
     return true;
 }
@@ -288,6 +224,18 @@ EspTransform Placing::transform() const {
     return {{{c, 0, s, position[0]}, {0, scale, 0, position[1]}, {-s, 0, c, position[2]}}};
 }
 
+namespace {
+
+// Also of a folder's name that a shell has completed with a slash.
+std::string lastPart(const std::string& file) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    const fs::path whole = fs::absolute(file, ignored).lexically_normal();
+    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
+}  // namespace
+
 bool openScene(EspContext* context, const Request& asked, Scene& out, std::string& error) {
     namespace fs = std::filesystem;
     Request request = asked;
@@ -295,7 +243,7 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     if (fs::is_directory(request.file, ignored) && fs::exists(fs::path(request.file) / "project.json", ignored))
         request.file = (fs::path(request.file) / "project.json").string();
     out = Scene{};
-    out.name = fs::path(asked.file).filename().string();
+    out.name = lastPart(asked.file);
     out.ownLook = espDefaultLook();
     out.grow = request.grow;
     const bool described = fs::path(request.file).extension() == ".json";

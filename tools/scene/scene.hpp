@@ -63,11 +63,12 @@ struct ParamValue {
 };
 
 struct LoadedGrammar {
-    std::string file;      // where it came from; what it includes lies beside it
-    std::string text;      // as it stands in the editor; it may have mistakes
-    std::string grows;     // the text that was compiled last and grows
-    std::string error;     // of `text`; empty: it grows
-    std::string warnings;  // of `text` while it grows, a line each
+    std::string file;               // where it came from; what it includes lies beside it
+    std::string text;               // as it stands in the editor; it may have mistakes
+    std::string grows;              // the text that was compiled last and grows
+    std::string error;              // of `text`; empty: it grows
+    std::string warnings;           // of `text` while it grows, a line each
+    std::vector<ParamValue> unset;  // while `text` has mistakes: values of parameters that only it may have
     EspGrammar id{};
 };
 
@@ -131,6 +132,10 @@ bool plantAll(EspContext* context, Scene& scene, std::string& error);
 
 // Gives the grammar another text. False: it has mistakes, told in grammar.error, and the last good one keeps growing.
 bool setText(EspContext* context, LoadedGrammar& grammar, const std::string& text);
+
+// Of a scene with a town, what that grows by: the grammar that it names, or the first that makes roofs. False: none
+// does.
+bool setTownGrammar(EspContext* context, const Scene& scene, std::string& error);
 
 // Values that aren't the grammar's own.
 std::vector<ParamValue> changedParams(const EspContext* context, EspGrammar grammar);

@@ -1,0 +1,104 @@
+// Texts of grammars and the values of their parameters.
+#include <algorithm>
+
+#include "tools/document/document.hpp"
+#include "tools/document/params.hpp"
+#include "tools/scene/layers.hpp"
+
+namespace espalier::document {
+
+using scene::Seed;
+
+Param paramOf(const scene::ParamValue& value) {
+    return {value.name, {value.value.begin(), value.value.begin() + value.count}};
+}
+
+scene::ParamValue valueOf(const Param& param) {
+    scene::ParamValue value{param.name};
+    value.count = uint32_t(std::min(param.value.size(), value.value.size()));
+    std::copy_n(param.value.begin(), value.count, value.value.begin());
+    return value;
+}
+
+bool hasParam(const EspContext* context, EspGrammar grammar, const std::string& name) {
+    for (uint32_t i = 0; i < espParamCount(context, grammar); ++i) {
+        EspParamInfo info;
+        if (espParamInfo(context, grammar, i, &info) == ESP_OK && info.name == name) return true;
+    }
+    return false;
+}
+
+std::vector<Param> Document::paramsOf(uint32_t grammar) const {
+    std::vector<Param> params;
+    for (const scene::ParamValue& value : scene::changedParams(context_, scene_.grammars[grammar].id))
+        params.push_back(paramOf(value));
+    for (const scene::ParamValue& value : scene_.grammars[grammar].unset) params.push_back(paramOf(value));
+    return params;
+}
+
+SetText Document::withText(uint32_t grammar, std::string text) const {
+    return {grammar, std::move(text), grammar < scene_.grammars.size() ? paramsOf(grammar) : std::vector<Param>{}};
+}
+
+bool Document::carryOut(const SetParam& action, std::vector<Action>& back, std::string& error) {
+    if (action.grammar >= scene_.grammars.size()) {
+        error = "there is no grammar " + std::to_string(action.grammar);
+        return false;
+    }
+    const EspGrammar grammar = scene_.grammars[action.grammar].id;
+    SetParam before{action.grammar, {action.param.name, {}}};
+    for (uint32_t i = 0; i < espParamCount(context_, grammar); ++i) {
+        EspParamInfo info;
+        if (espParamInfo(context_, grammar, i, &info) == ESP_OK && info.name == action.param.name)
+            before.param.value.assign(info.value, info.value + (info.kind == ESP_PARAM_COLOUR ? 3 : 1));
+    }
+    if (failed(espSetParam(context_, grammar, action.param.name.c_str(), action.param.value.data(),
+                           uint32_t(action.param.value.size())),
+               error))
+        return false;
+    back.push_back(before);
+    return true;
+}
+
+bool Document::townGrows() const {
+    EspGrammar grammar{};
+    return espTownGrammar(context_, &grammar) == ESP_OK && grammar.id != 0;
+}
+
+bool Document::carryOut(const SetText& action, std::vector<Action>& back, std::string& error) {
+    if (action.grammar >= scene_.grammars.size()) {
+        error = "there is no grammar " + std::to_string(action.grammar);
+        return false;
+    }
+    scene::LoadedGrammar& grammar = scene_.grammars[action.grammar];
+    const std::string grows = grammar.text == grammar.grows ? "" : grammar.grows;
+    back.push_back(SetText{action.grammar, grammar.text, paramsOf(action.grammar), grows});
+    const bool grew =
+        !action.grows.empty() && action.grows != grammar.grows && setText(context_, grammar, action.grows);
+    if (setText(context_, grammar, action.text) || grew) noteLayers(context_, scene_);
+    // While a text has mistakes the parameters are those of the last good one; those that are there get their values.
+    for (uint32_t i = 0; i < espParamCount(context_, grammar.id); ++i) {
+        EspParamInfo info;
+        if (espParamInfo(context_, grammar.id, i, &info) != ESP_OK) continue;
+        const auto own = std::find_if(action.params.begin(), action.params.end(),
+                                      [&](const Param& param) { return param.name == info.name; });
+        const uint32_t count = info.kind == ESP_PARAM_COLOUR ? 3 : 1;
+        if (own == action.params.end())
+            espSetParam(context_, grammar.id, info.name, info.initial, count);
+        else
+            espSetParam(context_, grammar.id, info.name, own->value.data(), uint32_t(own->value.size()));
+    }
+    grammar.unset.clear();
+    for (const Param& param : action.params)
+        if (!grammar.error.empty() && !hasParam(context_, grammar.id, param.name))
+            grammar.unset.push_back(valueOf(param));
+    // A town, or seeds, that wait for the text to make roofs, to have their values, or to be one that can be planted.
+    std::string ignored;
+    if (scene_.town && !townGrows()) (void)setTownGrammar(context_, scene_, ignored);
+    const bool waits = std::ranges::any_of(
+        scene_.seeds, [&](const Seed& seed) { return seed.grammar == action.grammar && !seed.params.empty(); });
+    if (waits || !allPlanted_) (void)plant(ignored);
+    return true;
+}
+
+}  // namespace espalier::document
