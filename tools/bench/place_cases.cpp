@@ -1,7 +1,7 @@
 // frame/place…: the sample game's whole place, with village, props and ivy, through the plugin's interface: one picture
 // at its best, and the frames of a camera that goes once around, drawn as the window draws them then. frame/dense…: the
 // same place with half a million nodes of ivy, also with a brush that paints in each frame, as small as it takes, and
-// at larger sizes up to the whole one.
+// at larger sizes up to the whole one. frame/device…: the stages of that place by the device's clock.
 // What the window adds, its panels and the way to the screen, espalier-sample --turn tells.
 #include <algorithm>
 #include <chrono>
@@ -30,6 +30,7 @@ constexpr int kStrokes = 8, kDabs = 8;      // a dab a frame
 constexpr double kWhole = 1e3;              // ms: a picture that nothing moves in
 constexpr double kPaintingFrame = 1e3 / 8;  // ms
 constexpr double kFrame = scene::MovingDetail::kFrameMs;
+constexpr double kSmooth = 1e3 / 60;  // ms, on a GPU
 
 double mean(const std::vector<double>& values) {
     double sum = 0;
@@ -165,6 +166,46 @@ class Hand {
     float from_[3]{};
 };
 
+// Growth by shaders, culling and drawing at best by the device's time stamps; on a software device those of stages that
+// others overlap say little.
+void deviceRows(Bench& bench, EspContext* context, const scene::Scene& scene, Hand& hand) {
+    PlaceFilm film{context, scene};
+    EspStats stats;
+    std::vector<double> whole, dabs, culls, draws;
+    const auto grows = [&](EspGrowDef def, std::vector<double>& times) {
+        if (espSetGrow(context, &def) != ESP_OK || espUpdate(context) != ESP_OK) return false;
+        times.push_back(espReadStats(context, &stats) == ESP_OK ? stats.expandMs : 0);
+        return true;
+    };
+    EspGrowDef grow = scene.grow;
+    grow.shadersOnly = 1;
+    std::vector<double> ignored;
+    bool sound = grows(grow, ignored);  // makes kernels and room
+    for (int i = 0; sound && i < 3; ++i) {
+        ++grow.maxDepth;  // all anew
+        sound = grows(grow, whole);
+    }
+    for (int i = 0; sound && i < kStrokes * kDabs; ++i) {
+        sound = hand.dab(i) && espUpdate(context) == ESP_OK && espReadStats(context, &stats) == ESP_OK;
+        if (stats.derivedNodes > 0) dabs.push_back(stats.expandMs);
+    }
+    for (int i = -2; sound && i < bench.options().repeats; ++i) {
+        sound = film.frame(scene::turned(scene.camera, float(i) * 2e-3f), false).wall > 0;
+        if (i < 0) continue;
+        culls.push_back(film.stats.emitMs);
+        draws.push_back(film.stats.drawMs);
+    }
+    if (!sound || dabs.empty() || !grows(scene.grow, ignored)) return bench.skip("frame/device", espLastError(context));
+    const std::string nodes = std::to_string(stats.nodes) + " nodes";
+    bench.add({"frame/device/expand", "expansion of all " + nodes + ", time stamps", "ms", median(whole), "60 frames/s",
+               kSmooth});
+    bench.add(
+        {"frame/device/dab", "expansion after a dab, time stamps", "ms", median(dabs), "all anew", median(whole)});
+    bench.add({"frame/device/cull", "culling what is bound, time stamps", "ms", median(culls), "60 frames/s", kSmooth});
+    bench.add(
+        {"frame/device/draw", "drawing a whole picture, time stamps", "ms", median(draws), "60 frames/s", kSmooth});
+}
+
 // Plants the scene's seeds again, with other numbers, until so many nodes have grown.
 bool thicken(EspContext* context, scene::Scene& scene, EspStats& stats) {
     const std::vector<scene::Seed> seeds = scene.seeds;
@@ -236,6 +277,13 @@ void denseCases(Bench& bench, EspContext* context, scene::Scene& scene) {
                "8 frames/s", kPaintingFrame});
 }
 
+void deviceCases(Bench& bench, EspContext* context, scene::Scene& scene) {
+    EspStats stats;
+    if (!thicken(context, scene, stats)) return bench.skip("frame/device", "the ivy doesn't grow as dense as that");
+    Hand hand(context, scene.camera);
+    deviceRows(bench, context, scene, hand);
+}
+
 }  // namespace
 
 void placeCases(Bench& bench) {
@@ -245,8 +293,9 @@ void placeCases(Bench& bench) {
     const bool sample = wanted({"frame/place", "frame/place/wall", "frame/place/still", "frame/place/walk"});
     const bool dense =
         wanted({"frame/dense", "frame/dense/0.6", "frame/dense/0.75", "frame/dense/whole", "frame/dense/painting"});
-    if (!sample && !dense) return;
-    const char* name = sample ? "frame/place" : "frame/dense";
+    const bool stages = wanted({"frame/device", "frame/device/expand", "frame/device/draw"});
+    if (!sample && !dense && !stages) return;
+    const char* name = sample ? "frame/place" : dense ? "frame/dense" : "frame/device";
     const EspContextDef def = espDefaultContextDef();
     EspContext* made = nullptr;
     if (espCreate(&def, &made) != ESP_OK) return bench.skip(name, espLastError(nullptr));
@@ -259,6 +308,7 @@ void placeCases(Bench& bench) {
         return bench.skip(name, error);
     if (sample) sampleCases(bench, made, scene);
     if (dense) denseCases(bench, made, scene);
+    if (stages) deviceCases(bench, made, scene);
 }
 
 }  // namespace espalier
