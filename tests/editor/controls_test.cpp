@@ -15,15 +15,8 @@ namespace {
 struct Hands : Editor {
     std::string grammar;
 
-    static std::string scene(const Folder& folder) {
-        folder.write("own.grammar", readAll(content("grammars/ivy_guided.grammar")));
-        std::string text = readAll(smallScene(folder));
-        const std::string name = content("grammars/ivy_guided.grammar");
-        text.replace(text.find(name), name.size(), "own.grammar");
-        return folder.write("own.json", text);
-    }
     explicit Hands(const Folder& folder)
-        : Editor(folder, scene(folder), Tool::seeds), grammar(folder.file("own.grammar")) {
+        : Editor(folder, sceneOfItsOwn(folder), Tool::seeds), grammar(folder.file("own.grammar")) {
         faceWall(*this, 3);
         click(on(-1.1f, 1));
         REQUIRE(work.selected.size() == 1);

@@ -63,6 +63,15 @@ inline std::string smallScene(const Folder& folder) {
 })");
 }
 
+// The same with a grammar of the test's own in the folder, which others may write: own.grammar.
+inline std::string sceneOfItsOwn(const Folder& folder) {
+    folder.write("own.grammar", readAll(content("grammars/ivy_guided.grammar")));
+    std::string text = readAll(smallScene(folder));
+    const std::string name = content("grammars/ivy_guided.grammar");
+    text.replace(text.find(name), name.size(), "own.grammar");
+    return folder.write("own.json", text);
+}
+
 // Plants of another kind than ivy, which read a layer of their own.
 inline constexpr const char* kCreeper = R"(param reach = 0.8 [0.2 .. 2]  "m"   "Length"
 param bend  = 0.1 [0 .. 0.5] "rad" "Bend"

@@ -2,7 +2,7 @@
 // roof while the button is still down, and what takes it back.
 #include <algorithm>
 
-#include "tests/editor/window.hpp"
+#include "tests/editor/over_town.hpp"
 
 using namespace espalier::document;
 using espalier::scene::House;
@@ -10,29 +10,9 @@ using sample::Tool;
 
 namespace {
 
-struct Builder : Editor {
-    explicit Builder(const Folder& folder, const std::string& town = content("town.json"))
-        : Editor(folder, town, Tool::houses) {
-        work.frameAll();
-        work.camera.turnTo(0, -1.5f);
-    }
-    EspHouseInfo info(uint32_t house) const {
-        EspHouseInfo found;
-        REQUIRE(espHouseInfo(work.context.get(), house, &found) == ESP_OK);
-        return found;
-    }
-    uint32_t named(const std::string& id) const {
-        for (uint32_t i = 0; i < espHouseCount(work.context.get()); ++i)
-            if (info(i).id == id) return i;
-        FAIL("no house is called ", id);
-        return 0;
-    }
+struct Builder : OverTown<Editor> {
+    explicit Builder(const Folder& folder, const std::string& town = content("town.json")) : OverTown(folder, town) {}
     House house(uint32_t index) const { return espalier::scene::houseNow(work.context.get(), index); }
-    // The middle of a house's box: that of its roof, if nothing of the box is left out.
-    glm::vec2 middle(uint32_t index) const {
-        const EspHouseInfo of = info(index);
-        return at((sample::vec(of.boundsMin) + sample::vec(of.boundsMax)) * .5f);
-    }
     // Where a place of the plan is seen at the height of the house's eaves, at which it is taken hold of.
     glm::vec2 eave(uint32_t index, glm::vec2 plan) const { return at({plan.x, info(index).eaveHeight, plan.y}); }
     glm::vec2 corner(uint32_t index, size_t i) const {

@@ -10,15 +10,8 @@ struct Outside : User {
     std::string grammar;
     float value = 10;
 
-    static std::string scene(const Folder& folder) {
-        folder.write("own.grammar", readAll(content("grammars/ivy_guided.grammar")));
-        std::string text = readAll(smallScene(folder));
-        const std::string name = content("grammars/ivy_guided.grammar");
-        text.replace(text.find(name), name.size(), "own.grammar");
-        return folder.write("own.json", text);
-    }
     explicit Outside(const Folder& folder)
-        : User(folder, scene(folder), sample::Tool::look), grammar(folder.file("own.grammar")) {
+        : User(folder, sceneOfItsOwn(folder), sample::Tool::look), grammar(folder.file("own.grammar")) {
         panel = [this] { (void)sample::slider("##value", &value, 0, 100, "%.0f"); };
         rest();
         wait();

@@ -1,4 +1,5 @@
 // What is typed into a panel, or was clicked at in one, when the next click or key changes what the panel is about.
+#include "tests/editor/over_town.hpp"
 #include "tests/editor/user.hpp"
 
 using namespace espalier::document;
@@ -28,27 +29,10 @@ struct Gardener : User {
 };
 
 // A town from above.
-struct Builder : User {
-    explicit Builder(const Folder& folder) : User(folder, content("town.json"), Tool::houses) {
-        work.frameAll();
-        work.camera.turnTo(0, -1.5f);
+struct Builder : OverTown<User> {
+    explicit Builder(const Folder& folder) : OverTown(folder, content("town.json")) {
         panel = [this] { sample::housesPanel(work); };
         rest();
-    }
-    EspHouseInfo info(uint32_t house) const {
-        EspHouseInfo found;
-        REQUIRE(espHouseInfo(work.context.get(), house, &found) == ESP_OK);
-        return found;
-    }
-    uint32_t named(const std::string& id) const {
-        for (uint32_t i = 0; i < espHouseCount(work.context.get()); ++i)
-            if (info(i).id == id) return i;
-        FAIL("no house is called ", id);
-        return 0;
-    }
-    glm::vec2 middle(uint32_t house) const {
-        const EspHouseInfo of = info(house);
-        return at((sample::vec(of.boundsMin) + sample::vec(of.boundsMax)) * .5f);
     }
     float walls(uint32_t house) const { return espalier::scene::houseNow(work.context.get(), house).eaveHeight; }
     // Chooses the house, and leaves a height half typed.

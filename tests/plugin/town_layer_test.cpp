@@ -17,15 +17,23 @@ EspGrammar compiled(EspContext* context, const char* name, const char* text) {
     return grammar;
 }
 
-void dab(EspContext* context, const char* layer) {
+EspBrush brushOn(const char* layer, float radius) {
     EspBrush brush = espDefaultBrush();
     brush.layer = layer;
-    brush.radius = 3;
-    EspStroke stroke{};
-    const EspDab at = {{.5f, .5f, 0}, {0, 0, 1}, 1};
-    REQUIRE(espBeginStroke(context, &brush, &stroke) == ESP_OK);
-    REQUIRE(espStrokeDabs(context, stroke, &at, 1) == ESP_OK);
-    REQUIRE(espEndStroke(context, stroke) == ESP_OK);
+    brush.radius = radius;
+    return brush;
+}
+
+EspStroke stroke(EspContext* context, const EspBrush& brush, const EspDab& at) {
+    EspStroke made{};
+    REQUIRE(espBeginStroke(context, &brush, &made) == ESP_OK);
+    REQUIRE(espStrokeDabs(context, made, &at, 1) == ESP_OK);
+    REQUIRE(espEndStroke(context, made) == ESP_OK);
+    return made;
+}
+
+void dab(EspContext* context, const char* layer) {
+    stroke(context, brushOn(layer, 3), {{.5f, .5f, 0}, {0, 0, 1}, 1});
 }
 
 }  // namespace
@@ -90,9 +98,7 @@ TEST_CASE("a stroke that goes on over another town takes back what it did to tha
     const EspGrammar roofs = compiled(context, "roofs", kDecaying);
     load(context, roofs, "{\"buildings\": [{\"id\": \"a\", \"outer\": [[0,0],[400,0],[400,8],[0,8]]}]}");
     REQUIRE(espUpdate(context) == ESP_OK);
-    EspBrush brush = espDefaultBrush();
-    brush.layer = "decay";
-    brush.radius = 3;
+    const EspBrush brush = brushOn("decay", 3);
     EspStroke stroke{};
     REQUIRE(espBeginStroke(context, &brush, &stroke) == ESP_OK);
     const EspDab far = {{390, 0, -4}, {0, 1, 0}, 1}, near = {{5, 0, -4}, {0, 1, 0}, 1};
@@ -121,16 +127,10 @@ TEST_CASE("over a town a layer has the value that the town's grammar wants, what
     EspStroke imported{};
     REQUIRE(espSetTownLayer(context, "decay", &half, 1, 1, &imported) == ESP_OK);
     CHECK(layerOf(context, "decay") != bare);
-    EspBrush brush = espDefaultBrush();
-    brush.layer = "decay";
+    EspBrush brush = brushOn("decay", 100);
     brush.mode = ESP_BRUSH_ERASE;
-    brush.radius = 100;
     brush.strength = brush.hardness = 1;
-    EspStroke erased{};
-    const EspDab everywhere = {{5, 0, -4}, {0, 1, 0}, 1};
-    REQUIRE(espBeginStroke(context, &brush, &erased) == ESP_OK);
-    REQUIRE(espStrokeDabs(context, erased, &everywhere, 1) == ESP_OK);
-    REQUIRE(espEndStroke(context, erased) == ESP_OK);
+    const EspStroke erased = stroke(context, brush, {{5, 0, -4}, {0, 1, 0}, 1});
     CHECK(layerOf(context, "decay") == bare);
     REQUIRE(espSwapStroke(context, erased) == ESP_OK);
     REQUIRE(espSwapStroke(context, imported) == ESP_OK);
@@ -158,14 +158,8 @@ TEST_CASE("a house that grows to nothing has no triangles any more") {
     };
     const size_t two = triangles();
     REQUIRE(two > 1000);
-    EspBrush brush = espDefaultBrush();
-    brush.layer = "decay";
-    brush.radius = 12;
+    EspBrush brush = brushOn("decay", 12);
     brush.strength = brush.hardness = 1;
-    EspStroke stroke{};
-    const EspDab first = {{5, 0, -4}, {0, 1, 0}, 1};
-    REQUIRE(espBeginStroke(context, &brush, &stroke) == ESP_OK);
-    REQUIRE(espStrokeDabs(context, stroke, &first, 1) == ESP_OK);
-    REQUIRE(espEndStroke(context, stroke) == ESP_OK);
+    stroke(context, brush, {{5, 0, -4}, {0, 1, 0}, 1});
     CHECK(triangles() == two / 2);
 }
