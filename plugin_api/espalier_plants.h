@@ -102,8 +102,8 @@ ESP_API EspResult espPrunedAt(const EspContext* context, uint32_t index, uint64_
  * the seed itself concern it no more, nor does a limit but maxNodes. It moves with its surface. Thawed (0), it grows
  * from what is there. It thaws by itself when a surface that it has grown on is destroyed, scaled, or moved against another
  * one that it stands on.
- * ESP_INVALID_ARGUMENT: no such seed, or it hasn't grown yet, or a surface that it has grown on was destroyed or scaled
- * since. Takes effect with the next espUpdate. */
+ * ESP_INVALID_ARGUMENT: no such seed, or it hasn't grown yet, or a surface that it has grown on was destroyed, scaled,
+ * or moved against another one that it stands on, since. Takes effect with the next espUpdate. */
 ESP_API EspResult espFreezePlant(EspContext* context, EspSeed seed, int frozen);
 /* A frozen plant is its records, not what it grew from: so a project keeps these. *size: bytes that `bytes` has room
  * for, set to how many there are; bytes NULL: only asks. */

@@ -19,11 +19,11 @@ uint32_t tilesAlong(const EmitView& view, uint32_t pixels) {
     return (pixels + view.tilePixels - 1) / view.tilePixels;
 }
 
-// Where a group may have 1,024 lanes, 16 of them share a bucket's blocks.
+// Where a group may have as many lanes, some of them share a bucket's blocks.
 const char* scanShader(const Device& device) {
     const VkPhysicalDeviceLimits& limits = device.info().limits;
     const uint32_t most = std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
-    return !device.info().cpu && most >= 1024 ? "emit/scan_wide.comp" : "emit/scan.comp";
+    return !device.info().cpu && most >= kScanShares * kMaxBuckets ? "emit/scan_wide.comp" : "emit/scan.comp";
 }
 
 // Wherever their tiles lie: `scene` tells whether these say the same.

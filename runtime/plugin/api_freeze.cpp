@@ -7,17 +7,22 @@
 namespace espalier {
 namespace {
 
-// Whether the surfaces that a plant has grown on are still there, and as large.
+// Whether the surfaces that a plant has grown on are still there and as large, and if they are several, where they
+// were.
 bool standsYet(const EspContext& context, const PlantRecords& plant) {
+    const auto instanceOfNode = [](const Node& node) { return node.place >> 16; };
+    const auto elsewhere = [&](const Node& node) { return instanceOfNode(node) != instanceOfNode(plant.nodes[0]); };
+    const bool across = std::ranges::any_of(plant.nodes, elsewhere);
     std::vector<bool> there(context.grownSurfaces.size());
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
         if (surface.instance >= there.size()) return;
-        const auto& [grownOn, scale] = context.grownSurfaces[surface.instance];
-        there[surface.instance] = grownOn == id && sameScale(scale, surface.scale);
+        const auto& [grownOn, toWorld] = context.grownSurfaces[surface.instance];
+        const bool stands =
+            across ? toWorld == surface.toWorld : sameScale(glm::length(glm::vec3(toWorld[0])), surface.scale);
+        there[surface.instance] = grownOn == id && stands;
     });
     return std::ranges::all_of(plant.nodes, [&](const Node& node) {
-        const uint32_t instance = node.place >> 16;
-        return instance < there.size() && there[instance];
+        return instanceOfNode(node) < there.size() && there[instanceOfNode(node)];
     });
 }
 
@@ -30,8 +35,9 @@ EspResult freeze(EspContext& context, PlantedSeed& seed, uint32_t id) {
     if (!plants) return gpuCode(context);
     auto plant = std::make_shared<PlantRecords>(plantOf(plants->records(), uint32_t(at - context.grownSeeds.begin())));
     if (!standsYet(context, *plant))
-        return fail(&context, ESP_INVALID_ARGUMENT,
-                    "espFreezePlant: a surface that the plant has grown on is gone or scaled since");
+        return fail(
+            &context, ESP_INVALID_ARGUMENT,
+            "espFreezePlant: a surface that the plant has grown on is gone, scaled or moved against another since");
     seed.frozen = std::move(plant);
     ++context.revision;
     return ESP_OK;

@@ -14,10 +14,7 @@ const Plants* readPlants(EspContext& context) {
         (void)failGpu(&context, records.failure());
         return nullptr;
     }
-    std::vector<glm::mat4> toWorld(context.surfaceSlots(), glm::mat4(1));
-    context.surfaces.forEach(
-        [&](uint32_t, const PlacedSurface& surface) { toWorld[surface.instance] = surface.toWorld; });
-    context.plants.emplace(std::move(*records), toWorld);
+    context.plants.emplace(std::move(*records), context.stands());
     context.plantsRevision = revision;
     return &*context.plants;
 }

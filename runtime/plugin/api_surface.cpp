@@ -186,17 +186,23 @@ uint32_t EspContext::surfaceSlots() const {
     return slots;
 }
 
+std::vector<glm::mat4> EspContext::stands() const {
+    std::vector<glm::mat4> places(std::max({size_t(surfaceSlots()), grownSurfaces.size(), size_t(1)}), glm::mat4(1));
+    for (size_t i = 0; i < grownSurfaces.size(); ++i) places[i] = grownSurfaces[i].toWorld;
+    surfaces.forEach([&](uint32_t, const PlacedSurface& surface) { places[surface.instance] = surface.toWorld; });
+    return places;
+}
+
 Status EspContext::refreshTables() {
     if (contactsStale) {
         if (Status found = refreshContacts(*this); !found) return found;
         contactsStale = false;
     }
     if (tablesStale) {
-        uint32_t slots = std::max(surfaceSlots(), 1u);
-        if (!goneStands.empty()) slots = std::max(slots, goneStands.rbegin()->first + 1);
-        std::vector<SurfaceRef> refs(slots);
-        for (const auto& [instance, toWorld] : goneStands) placeSurface(refs[instance], toWorld);
-        std::vector<LayerRef> layerRefs(size_t(slots) * kMaxLayers);
+        const std::vector<glm::mat4> places = stands();
+        std::vector<SurfaceRef> refs(places.size());
+        for (size_t i = 0; i < places.size(); ++i) placeSurface(refs[i], places[i]);
+        std::vector<LayerRef> layerRefs(places.size() * kMaxLayers);
         for (LayerRef& ref : layerRefs) ref = LayerRef{{nullptr}, 0, 1};
         for (size_t i = 0; i < layerRefs.size(); ++i)
             if (i % kMaxLayers < sceneLayers.size()) layerRefs[i].fill = sceneLayers[i % kMaxLayers].fill;
@@ -264,7 +270,6 @@ EspResult espDestroySurface(EspContext* context, EspSurface surface) {
         });
         for (uint32_t id : gone) removeSeed(*context, id);
         thawPlantsOn(*context, placed->instance, false);
-        context->goneStands.insert_or_assign(placed->instance, placed->toWorld);
         std::erase_if(context->layers, [&](const PaintedLayer& layer) { return layer.surface == surface.id; });
         context->renderer->removeSurface(placed->instance);
         context->surfaces.erase(surface.id);

@@ -20,10 +20,8 @@ void noteMoved(EspContext& context) {
 void noteSurfaces(EspContext& context) {
     context.grownSurfaces.assign(context.surfaceSlots(), {});
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
-        context.grownSurfaces[surface.instance] = {id, surface.scale};
+        context.grownSurfaces[surface.instance] = {id, surface.toWorld};
     });
-    context.tablesStale = context.tablesStale || !context.goneStands.empty();
-    context.goneStands.clear();
 }
 
 EspResult growPlants(EspContext& context) {

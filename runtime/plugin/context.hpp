@@ -269,21 +269,19 @@ struct EspContext {
     uint32_t contactCount = 0;      // crossings between surfaces
     double contactMs = 0;           // of finding them the last time, CPU
     bool tablesStale = true;        // the two below don't describe surfaces and layers any more
-    espalier::Buffer surfaceTable;  // SurfaceRef[surfaceSlots()]
+    espalier::Buffer surfaceTable;  // SurfaceRef[stands().size()]
     uint64_t tablesRevision = 0;    // grows when they are made anew
-    espalier::Buffer layerTable;    // LayerRef[surfaceSlots() * kMaxLayers]
+    espalier::Buffer layerTable;    // LayerRef[stands().size() * kMaxLayers]
     double compileMs = 0;
 
     std::vector<uint32_t> grownSeeds;  // ids, in the order of growth's indices
     struct GrownSurface {
         uint32_t id = 0;  // 0: there was none
-        float scale = 1;
+        glm::mat4 toWorld{1};
     };
     std::vector<GrownSurface> grownSurfaces;  // [instance], as growth found them
-    // [instance], to world: surfaces that were destroyed since; what has grown on them is drawn yet.
-    std::map<uint32_t, glm::mat4> goneStands;
-    std::optional<espalier::Plants> plants;  // what was grown, read back when asked for
-    uint64_t plantsRevision = 0;             // of the growth's view
+    std::optional<espalier::Plants> plants;   // what was grown, read back when asked for
+    uint64_t plantsRevision = 0;              // of the growth's view
 
     bool hasPicture = false;
     uint32_t pictureWidth = 0, pictureHeight = 0;
@@ -299,6 +297,8 @@ struct EspContext {
     // The index by which growth and GrowthChanges know a grammar.
     uint32_t grammarIndex(uint32_t id) const;
     uint32_t surfaceSlots() const;
+    // [instance]: where what has grown on a surface stands in the world, also if that has been destroyed since.
+    std::vector<glm::mat4> stands() const;
     // Uploads what is stale of tables and grammars.
     espalier::Status refreshTables();
 };

@@ -101,6 +101,7 @@ CONST_UINT(kLeafClass, 6u);    // classes below: of spans
 CONST_UINT(kAllCells, 28672u);
 CONST_UINT(kCellBins, 64u);
 CONST_UINT(kReachTiles, 9u);   // what reaches more tiles along a side, less one, isn't asked whether it is hidden
+CONST_UINT(kScanShares, 16u);  // of a bucket's blocks, each a lane's, in scan_wide.comp
 CONST_UINT(kLongRun, 64u);     // items of a bin from which on that takes a heap
 CONST_UINT(kBlockItems, 64u);  // what a group of the culling kernels looks at
 

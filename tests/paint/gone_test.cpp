@@ -55,7 +55,7 @@ TEST_CASE("a plant whose surface has gone, or is larger, isn't frozen before it 
     EspContext* context = two.painting.context;
     two.painting.ok(espDestroySurface(context, two.second));
     CHECK(espFreezePlant(context, two.seed, 1) == ESP_INVALID_ARGUMENT);
-    CHECK(std::string(espLastError(context)).find("gone or scaled") != std::string::npos);
+    CHECK(std::string(espLastError(context)).find("is gone") != std::string::npos);
     two.painting.grown();
     two.painting.ok(espFreezePlant(context, two.seed, 1));
     size_t size = 0;
@@ -65,6 +65,15 @@ TEST_CASE("a plant whose surface has gone, or is larger, isn't frozen before it 
     two.painting.ok(espFreezeAs(context, two.seed, bytes.data(), size));
     two.painting.ok(espFreezePlant(context, two.seed, 0));
     two.painting.grown();
+    // Moved against the one that it goes over to.
+    const EspSurface again = two.painting.another(movedBy({1.5f, .3f, .3f}));
+    two.painting.grown();
+    const EspTransform aside = movedBy({1.5f, .3f, .35f});
+    two.painting.ok(espMoveSurface(context, again, &aside));
+    CHECK(espFreezePlant(context, two.seed, 1) == ESP_INVALID_ARGUMENT);
+    two.painting.grown();
+    two.painting.ok(espFreezePlant(context, two.seed, 1));
+    two.painting.ok(espFreezePlant(context, two.seed, 0));
     EspTransform larger = espIdentity();
     for (int i = 0; i < 3; ++i) larger.rows[i][i] = 1.5f;
     two.painting.ok(espMoveSurface(context, two.painting.surface, &larger));

@@ -166,46 +166,6 @@ class Hand {
     float from_[3]{};
 };
 
-// Growth by shaders, culling and drawing at best by the device's time stamps; on a software device those of stages that
-// others overlap say little.
-void deviceRows(Bench& bench, EspContext* context, const scene::Scene& scene, Hand& hand) {
-    PlaceFilm film{context, scene};
-    EspStats stats;
-    std::vector<double> whole, dabs, culls, draws;
-    const auto grows = [&](EspGrowDef def, std::vector<double>& times) {
-        if (espSetGrow(context, &def) != ESP_OK || espUpdate(context) != ESP_OK) return false;
-        times.push_back(espReadStats(context, &stats) == ESP_OK ? stats.expandMs : 0);
-        return true;
-    };
-    EspGrowDef grow = scene.grow;
-    grow.shadersOnly = 1;
-    std::vector<double> ignored;
-    bool sound = grows(grow, ignored);  // makes kernels and room
-    for (int i = 0; sound && i < 3; ++i) {
-        ++grow.maxDepth;  // all anew
-        sound = grows(grow, whole);
-    }
-    for (int i = 0; sound && i < kStrokes * kDabs; ++i) {
-        sound = hand.dab(i) && espUpdate(context) == ESP_OK && espReadStats(context, &stats) == ESP_OK;
-        if (stats.derivedNodes > 0) dabs.push_back(stats.expandMs);
-    }
-    for (int i = -2; sound && i < bench.options().repeats; ++i) {
-        sound = film.frame(scene::turned(scene.camera, float(i) * 2e-3f), false).wall > 0;
-        if (i < 0) continue;
-        culls.push_back(film.stats.emitMs);
-        draws.push_back(film.stats.drawMs);
-    }
-    if (!sound || dabs.empty() || !grows(scene.grow, ignored)) return bench.skip("frame/device", espLastError(context));
-    const std::string nodes = std::to_string(stats.nodes) + " nodes";
-    bench.add({"frame/device/expand", "expansion of all " + nodes + ", time stamps", "ms", median(whole), "60 frames/s",
-               kSmooth});
-    bench.add(
-        {"frame/device/dab", "expansion after a dab, time stamps", "ms", median(dabs), "all anew", median(whole)});
-    bench.add({"frame/device/cull", "culling what is bound, time stamps", "ms", median(culls), "60 frames/s", kSmooth});
-    bench.add(
-        {"frame/device/draw", "drawing a whole picture, time stamps", "ms", median(draws), "60 frames/s", kSmooth});
-}
-
 // Plants the scene's seeds again, with other numbers, until so many nodes have grown.
 bool thicken(EspContext* context, scene::Scene& scene, EspStats& stats) {
     const std::vector<scene::Seed> seeds = scene.seeds;
@@ -277,11 +237,46 @@ void denseCases(Bench& bench, EspContext* context, scene::Scene& scene) {
                "8 frames/s", kPaintingFrame});
 }
 
+// Growth by shaders, culling and drawing at best by the device's time stamps; on a software device those of stages that
+// others overlap say little.
 void deviceCases(Bench& bench, EspContext* context, scene::Scene& scene) {
     EspStats stats;
     if (!thicken(context, scene, stats)) return bench.skip("frame/device", "the ivy doesn't grow as dense as that");
+    PlaceFilm film{context, scene};
     Hand hand(context, scene.camera);
-    deviceRows(bench, context, scene, hand);
+    std::vector<double> whole, dabs, culls, draws;
+    const auto grows = [&](EspGrowDef def, std::vector<double>& times) {
+        if (espSetGrow(context, &def) != ESP_OK || espUpdate(context) != ESP_OK) return false;
+        times.push_back(espReadStats(context, &stats) == ESP_OK ? stats.expandMs : 0);
+        return true;
+    };
+    EspGrowDef grow = scene.grow;
+    grow.shadersOnly = 1;
+    std::vector<double> ignored;
+    bool sound = grows(grow, ignored);  // makes kernels and room
+    for (int i = 0; sound && i < 3; ++i) {
+        ++grow.maxDepth;  // all anew
+        sound = grows(grow, whole);
+    }
+    for (int i = 0; sound && i < kStrokes * kDabs; ++i) {
+        sound = hand.dab(i) && espUpdate(context) == ESP_OK && espReadStats(context, &stats) == ESP_OK;
+        if (stats.derivedNodes > 0) dabs.push_back(stats.expandMs);
+    }
+    for (int i = -2; sound && i < bench.options().repeats; ++i) {
+        sound = film.frame(scene::turned(scene.camera, float(i) * 2e-3f), false).wall > 0;
+        if (i < 0) continue;
+        culls.push_back(film.stats.emitMs);
+        draws.push_back(film.stats.drawMs);
+    }
+    if (!sound || dabs.empty() || !grows(scene.grow, ignored)) return bench.skip("frame/device", espLastError(context));
+    const std::string nodes = std::to_string(stats.nodes) + " nodes";
+    bench.add({"frame/device/expand", "expansion of all " + nodes + ", time stamps", "ms", median(whole), "60 frames/s",
+               kSmooth});
+    bench.add(
+        {"frame/device/dab", "expansion after a dab, time stamps", "ms", median(dabs), "all anew", median(whole)});
+    bench.add({"frame/device/cull", "culling what is bound, time stamps", "ms", median(culls), "60 frames/s", kSmooth});
+    bench.add(
+        {"frame/device/draw", "drawing a whole picture, time stamps", "ms", median(draws), "60 frames/s", kSmooth});
 }
 
 }  // namespace
