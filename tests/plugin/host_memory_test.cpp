@@ -1,11 +1,13 @@
 // Want of the host's own memory, which a thread of this program can be made to meet.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 #include <string>
+#include <utility>
 
 #include "tests/plugin/life.hpp"
 
@@ -224,4 +226,46 @@ TEST_CASE("want of the host's memory at any point of a town's update costs that 
         failures += enough != 3;
     }
     CHECK(failures > 10);
+}
+
+TEST_CASE("a seed or a surface that the host has no memory for takes no place") {
+    constexpr uint32_t kMany = 10'000'000, kLast = 24;
+    FailingDevice device;
+    Life life;
+    REQUIRE(life.all(device));
+    const EspStats before = life.stats();
+    // With all pieces of memory that a call takes but the last ones. Of a surface's first it takes no heed: the reader
+    // of its JSON asks for some as it takes itself down.
+    const auto runsShort = [&](const auto& call, const auto& takeBack) {
+        left = kMany;
+        REQUIRE(call() == ESP_OK);
+        const uint32_t used = kMany - std::exchange(left, kPlenty);
+        takeBack();
+        uint32_t failures = 0;
+        for (uint32_t missing = 1; missing <= std::min(used, kLast); ++missing) {
+            CAPTURE(missing);
+            left = used - missing;
+            const EspResult result = call();
+            left = kPlenty;
+            if (result == ESP_OK) takeBack();
+            if (result == ESP_OK) continue;
+            failures += 1;
+            REQUIRE(result == ESP_OUT_OF_MEMORY);
+            REQUIRE(espSeedCount(life.context) == before.seeds);
+            REQUIRE(life.stats().surfaceBytes == before.surfaceBytes);
+            REQUIRE(life.draw());
+            REQUIRE(life.stats().modelTriangles == before.modelTriangles);
+        }
+        CHECK(failures > 0);
+    };
+    EspSeed seed{};
+    EspSeedDef def = espDefaultSeedDef();
+    def.grammar = life.grammar;
+    def.number = 9;
+    def.twin = 1;  // free each time
+    runsShort([&] { return espPlant(life.context, &def, &seed); },
+              [&] { REQUIRE(espRemoveSeed(life.context, seed) == ESP_OK); });
+    EspSurface surface{};
+    runsShort([&] { return espLoadSurface(life.context, ESPALIER_SQUARE, nullptr, &surface); },
+              [&] { REQUIRE(espDestroySurface(life.context, surface) == ESP_OK); });
 }
