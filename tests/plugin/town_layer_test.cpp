@@ -88,13 +88,22 @@ constexpr const char* kDecaying =
     "Top -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, Top}\n"
     "Cover -> Repeat(XY, vec2(0.3, 0.25), bond) {Tile}\nTile -> Drop(decay) Shape(\"slate\")\n";
 
+// A context without surfaces.
+struct Bare {
+    FailingDevice device;
+    Life life;
+    EspContext* context;
+    Bare() {
+        REQUIRE(life.create(device));
+        context = life.context;
+    }
+};
+
 }  // namespace
 
 TEST_CASE("a stroke that goes on over another town takes back what it did to that one") {
-    FailingDevice device;
-    Life life;
-    REQUIRE(life.create(device));
-    EspContext* context = life.context;
+    const Bare host;
+    EspContext* context = host.context;
     const EspGrammar roofs = compiled(context, "roofs", kDecaying);
     load(context, roofs, "{\"buildings\": [{\"id\": \"a\", \"outer\": [[0,0],[400,0],[400,8],[0,8]]}]}");
     REQUIRE(espUpdate(context) == ESP_OK);
@@ -114,10 +123,8 @@ TEST_CASE("a stroke that goes on over another town takes back what it did to tha
 }
 
 TEST_CASE("over a town a layer has the value that the town's grammar wants, whatever plants want") {
-    FailingDevice device;
-    Life life;
-    REQUIRE(life.create(device));
-    EspContext* context = life.context;
+    const Bare host;
+    EspContext* context = host.context;
     compiled(context, "ivy", "context decay = 1\nA -> Marching(0.1, 0, decay(texCoord) > 0.5) {A}\n");
     load(context, compiled(context, "roofs", kDecaying),
          "{\"buildings\": [{\"id\": \"b\", \"outer\": [[0,0],[10,0],[10,8],[0,8]]}]}");
@@ -138,10 +145,8 @@ TEST_CASE("over a town a layer has the value that the town's grammar wants, what
 }
 
 TEST_CASE("a house that grows to nothing has no triangles any more") {
-    FailingDevice device;
-    Life life;
-    REQUIRE(life.create(device));
-    EspContext* context = life.context;
+    const Bare host;
+    EspContext* context = host.context;
     const EspGrammar roofs = compiled(context, "roofs",
                                       "context decay = 0\nHouse -> Extrude(wallHeight) {NULL, Top}\n"
                                       "Top : decay(house) > 0.5 -> NULL\n"
