@@ -17,6 +17,7 @@ constexpr float kFoliagePixels = 6;                       // of foliage, which i
 constexpr float kFadeZone = 0.15f, kFoliageZone = 0.05f;  // shares of the distance over which a level takes over
 constexpr float kLeastPixels = 2;                         // radius below which a prop isn't drawn
 constexpr float kGrassReach = 24, kGrassShrinks = 10;     // metres from the eye; over which it sinks into the meadow
+constexpr float kTallGrass = 0.2f;                        // metres; what is lower sinks nearer by, down to half as far
 
 }  // namespace
 
@@ -136,7 +137,8 @@ Status Props::choose(Commands& commands, const FrameRecord& frame) {
         const float distance = std::max(glm::length(instance.position - frame.eye), 1e-3f);
         if (variant.extent * instance.scale * frame.pixelScale < kLeastPixels * distance) continue;
         if (material.name == "grass") {
-            instance.scale *= std::clamp((kGrassReach - distance / frame.unit) / kGrassShrinks, 0.0f, 1.0f);
+            const float reach = kGrassReach * std::clamp(rooms_[places_[i].variant].top / kTallGrass, 0.5f, 1.0f);
+            instance.scale *= std::clamp((reach - distance / frame.unit) / kGrassShrinks, 0.0f, 1.0f);
             if (instance.scale <= 0) continue;
         }
         const bool noisy = material.alphaCutoff > 0 || material.name == "grass";

@@ -30,8 +30,8 @@ vec3 cardNormal(float code) {
 }
 // As meadow.glsl: green, in places dry; u is how far up the blade, whose foot has the ground's colour.
 vec3 grassColor(PropVertex v) {
-    vec3 green = frame.grassColor * (0.78 + 0.62 * v.uv.x);
-    vec3 dry = frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.70 + 0.75 * v.uv.x);
+    vec3 green = frame.grassColor * (0.70 + 0.58 * v.uv.x);
+    vec3 dry = frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.60 + 0.60 * v.uv.x);
     return mix(green, dry, 0.65 * v.tint);
 }
 

@@ -53,7 +53,7 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
 
     // Patches that lie flat to the eye run together into streaks: far away the meadow is one green, its hue changing slowly.
     float calm = clamp(metres * 0.03 - 0.2, 0.0, 1.0);
-    float grass = smoothstep(-0.30, 0.25, 0.38 + 0.5 * calm + (0.7 * broad.x + 0.8 * near.x) * (1.0 - 0.7 * calm) + 0.45 * fine.y - 1.5 * laid.y);
+    float grass = smoothstep(-0.30, 0.25, 0.38 + 0.5 * calm + (0.7 * broad.x + 0.8 * near.x) * (1.0 - 0.7 * calm) + 0.75 * fine.y - 1.5 * laid.y);
     float blades = clamp(0.5 + 0.75 * fine.y + 0.2 * near.x * (1.0 - calm), 0.0, 1.0);
     // Here thicker, there thinner, in swathes of some metres.
     vec3 green = frame.grassColor * ((0.35 + blades) * (1.0 + 0.6 * broad.z + 0.25 * broad.x));
@@ -62,7 +62,7 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     // Clover and sorrel, and swathes that were cut earlier, over tens of metres.
     float swathe = clamp(0.5 + 1.4 * broad.w + 0.45 * near.y * (1.0 - calm), 0.0, 1.0);
     green *= mix(vec3(0.76, 0.90, 0.80), vec3(1.16, 1.06, 0.86), swathe);
-    vec3 earth = mix(vec3(0.068, 0.056, 0.036), vec3(0.146, 0.122, 0.082), 0.5 + 0.5 * fine.x + 0.2 * near.z);
+    vec3 earth = mix(vec3(0.068, 0.056, 0.036), vec3(0.146, 0.122, 0.082), 0.5 + 0.5 * fine.x + 0.2 * near.z) * (1.0 + 0.55 * fine.y);   // and straw on it
     // Far off lie fields, and woods between them.
     float far = clamp(metres * 0.012 - 0.9, 0.0, 1.0);
     if (fields && far > 0.0) {

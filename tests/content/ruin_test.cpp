@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "tools/content/masonry.hpp"
 #include "tools/content/ruin.hpp"
 
 using namespace espalier::content;
@@ -210,4 +211,31 @@ TEST_CASE("the sample's ivy keeps off the tondo, is lush over the arch and climb
     CHECK(ivyAt("main back", {1.85f, 1.5f}) > 140);  // s runs against x there
     CHECK(ivyAt("main back", {0, 1.9f}) == 0);
     CHECK(ivyAt("ground", {0.5f, -2.0f}) == 128);
+}
+
+TEST_CASE("stones are rectangles without holes, a few of them two courses high") {
+    const Elevation wall(0, 8, {{0, 12}, {5.1f, 9}, {6.4f, 5}}, Arch{}, 77);
+    constexpr float kStep = 0.01f;
+    struct Seen {
+        glm::vec2 low{1e9f}, high{-1e9f};
+        float area = 0;
+    };
+    std::map<uint32_t, Seen> stones;
+    for (float x = kStep / 2; x < 8; x += kStep)
+        for (float y = kStep / 2; y < wall.top(x); y += kStep) {
+            Seen& stone = stones[wall.placeAt({x, y}, 0).id];
+            stone.low = glm::min(stone.low, glm::vec2(x, y));
+            stone.high = glm::max(stone.high, glm::vec2(x, y));
+            stone.area += kStep * kStep;
+        }
+    int tall = 0;
+    for (const auto& [id, stone] : stones) {
+        const glm::vec2 size = stone.high - stone.low + kStep;
+        if (size.y > 0.4f) ++tall;
+        CHECK(size.y < 0.68f);
+        // Its joints wander by two centimetres at each end.
+        CHECK(stone.area > (size.x - 0.045f) * (size.y - 0.045f) - 0.003f);
+    }
+    CHECK(tall >= 5);
+    CHECK(tall < int(stones.size()) / 6);
 }

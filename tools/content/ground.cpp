@@ -54,6 +54,23 @@ float pavedShare(glm::vec2 xz) {
 
 namespace {
 
+// Shares of the ground, paving apart. rim: where it goes over into the meadow; patches: where grass has taken hold;
+// grass: those, and where it has closed over the heaps because nobody treads there.
+struct Turf {
+    float rim, patches, grass;
+};
+
+Turf turfAt(glm::vec2 xz) {
+    Turf turf{};
+    turf.rim = ramp(0.62f, 0.93f, outward(xz) + 0.12f * fractal(xz * 1.3f, 763, 3));
+    turf.patches =
+        ramp(0.05f, 0.5f,
+             fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f + 0.55f * turf.rim);
+    const float trodden = ramp(0.66f, 0.36f, outward(xz) + 0.14f * fractal(xz * 1.1f, 767, 3));
+    turf.grass = std::max(turf.patches, 0.95f * (1 - trodden) * ramp(-0.45f, 0.05f, fractal(xz * 2.3f, 769, 3)));
+    return turf;
+}
+
 Detail groundDetail(glm::vec2 st) {
     glm::vec2 xz(st.x, -st.y);
     glm::vec2 bent = xz + 0.05f * glm::vec2(fractal(xz * 2.2f, 721, 2), fractal(xz * 2.2f, 723, 2));
@@ -80,14 +97,10 @@ Detail groundDetail(glm::vec2 st) {
     earth *= 1 + 0.35f * grit + 0.25f * clods;
     earth =
         glm::mix(earth, glm::vec3(0.165f, 0.148f, 0.122f) * (0.6f + 0.8f * random01(pebble.id, 2)), 0.8f * isPebble);
-    float rim = ramp(0.62f, 0.93f, outward(xz) + 0.12f * fractal(xz * 1.3f, 763, 3));  // goes over into the meadow
-    float grass = ramp(0.05f, 0.5f,
-                       fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f + 0.55f * rim);
+    const Turf turf = turfAt(xz);
+    const float rim = turf.rim, grass = turf.grass;
     float blades = 0.5f + 0.5f * fractal(glm::vec2(xz.x * 60.0f, xz.y * 34.0f), 765, 2);
-    out.height += 0.010f * grass * blades * (1 - stone);
-    // Where nobody treads, grass has closed over the heaps, too.
-    const float trodden = ramp(0.66f, 0.36f, outward(xz) + 0.14f * fractal(xz * 1.1f, 767, 3));
-    grass = std::max(grass, 0.95f * (1 - trodden) * ramp(-0.45f, 0.05f, fractal(xz * 2.3f, 769, 3)));
+    out.height += 0.010f * turf.patches * blades * (1 - stone);
     earth = glm::mix(earth,
                      glm::mix(glm::mix(glm::vec3(0.034f, 0.044f, 0.014f), glm::vec3(0.092f, 0.106f, 0.036f), blades),
                               glm::vec3(0.088f, 0.102f, 0.038f) * (0.50f + 0.7f * blades), 0.8f * rim),
@@ -105,6 +118,10 @@ Detail groundDetail(glm::vec2 st) {
 }
 
 }  // namespace
+
+float grassShare(glm::vec2 xz) {
+    return turfAt(xz).grass * (1 - pavedShare(xz));
+}
 
 float groundHeight(glm::vec2 xz) {
     float foot = footDistance(xz);

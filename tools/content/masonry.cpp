@@ -12,6 +12,8 @@ namespace espalier::content {
 namespace {
 
 constexpr float kPi = 3.14159265f;
+constexpr float kTallShare = 0.3f;                       // of the stones that could be as high as two courses
+constexpr float kTallWidest = 0.5f, kTallClear = 0.21f;  // metres; and room beside them
 
 float segmentDistance(glm::vec2 p, glm::vec2 a, glm::vec2 b) {
     glm::vec2 d = b - a;
@@ -41,6 +43,7 @@ const std::vector<float>& Elevation::courseHeights() {
 
 Elevation::Elevation(float begin, float end, std::vector<CrestStep> crest, Arch arch, uint32_t salt)
     : begin_(begin), end_(end), crest_(std::move(crest)), arch_(arch), salt_(salt) {
+    tall_.resize(courseHeights().size() - 1);
     for (size_t c = 0; c + 1 < courseHeights().size(); ++c) layCourse(c);
     corners_.push_back({begin_, top(begin_)});
     for (size_t i = 1; i < crest_.size(); ++i) {
@@ -52,9 +55,8 @@ Elevation::Elevation(float begin, float end, std::vector<CrestStep> crest, Arch 
     corners_.push_back({end_, 0});
 }
 
-// Stones end where the crest steps down on them, and at the opening; between such points they are cut to lengths
-// that avoid the joints of the course below.
-void Elevation::layCourse(size_t course) {
+// Stones end where the crest steps down on them, and at the opening.
+std::vector<float> Elevation::fixedJoints(size_t course) const {
     std::vector<float> fixed{begin_, end_};
     float middle = (courseHeights()[course] + courseHeights()[course + 1]) * 0.5f;
     for (size_t i = 1; i < crest_.size(); ++i) {
@@ -65,11 +67,41 @@ void Elevation::layCourse(size_t course) {
         fixed.push_back(arch_.centre - arch_.halfWidth);
         fixed.push_back(arch_.centre + arch_.halfWidth);
     }
+    return fixed;
+}
+
+// Some short stones of the course below are as high as two courses, away from the crest, the ends and the arch. Adds
+// their ends to `fixed`.
+void Elevation::growTall(size_t course, std::vector<float>& fixed) {
+    const std::vector<float>& below = joints_[course - 1];
+    for (size_t i = 1; i + 2 < below.size(); ++i) {
+        const float a = below[i], b = below[i + 1];
+        if (random01(hash32(salt_, static_cast<uint32_t>(course)), static_cast<uint32_t>(i), 31) > kTallShare) continue;
+        if (b - a > kTallWidest || (course > 1 && isTall(course - 2, a))) continue;
+        if (std::min(top(a - kTallClear), top(b + kTallClear)) < courseHeights()[course + 1] + 0.01f) continue;
+        const float ring = arch_.halfWidth + arch_.ring + kTallClear;
+        if (arch_.present() && a < arch_.centre + ring && b > arch_.centre - ring) continue;
+        const auto close = [&](float x) { return x > a - kTallClear && x < b + kTallClear; };
+        if (std::any_of(fixed.begin(), fixed.end(), close)) continue;
+        fixed.insert(fixed.end(), {a, b});
+        tall_[course - 1].push_back(a);
+    }
+}
+
+bool Elevation::isTall(size_t course, float from) const {
+    return std::find(tall_[course].begin(), tall_[course].end(), from) != tall_[course].end();
+}
+
+// Between fixed joints, stones are cut to lengths that avoid the joints of the course below.
+void Elevation::layCourse(size_t course) {
+    std::vector<float> fixed = fixedJoints(course);
+    if (course > 0) growTall(course, fixed);
     std::sort(fixed.begin(), fixed.end());
     std::vector<float> joints;
     for (size_t k = 0; k + 1 < fixed.size(); ++k) {
         float a = fixed[k], b = fixed[k + 1];
         joints.push_back(a);
+        if (course > 0 && isTall(course - 1, a)) continue;
         int count = std::max(
             1, static_cast<int>(std::lround((b - a) / (0.40f + 0.16f * random01(salt_, static_cast<uint32_t>(course),
                                                                                 static_cast<uint32_t>(k))))));
@@ -137,10 +169,17 @@ StonePlace Elevation::placeAt(glm::vec2 p, uint32_t side) const {
         return place;
     }
     size_t course = courseOf(q.y);
+    const auto stoneAt = [&](size_t in) {
+        size_t i = 0;
+        while (i + 2 < joints_[in].size() && q.x >= joints_[in][i + 1]) ++i;
+        return i;
+    };
+    size_t above = course + 1;
+    if (isTall(course, joints_[course][stoneAt(course)])) ++above;
+    if (course > 0 && isTall(course - 1, joints_[course][stoneAt(course)])) --course;
+    const size_t i = stoneAt(course);
     auto& joints = joints_[course];
-    size_t i = 0;
-    while (i + 2 < joints.size() && q.x >= joints[i + 1]) ++i;
-    float y0 = courseHeights()[course], y1 = courseHeights()[course + 1];
+    float y0 = courseHeights()[course], y1 = courseHeights()[above];
     // A joint needs a stone on its other side.
     float row = (y0 + y1) * 0.5f;
     auto solid = [&](float x) {

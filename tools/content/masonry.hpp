@@ -59,7 +59,6 @@ class Elevation {
     float begin() const { return begin_; }
     float end() const { return end_; }
     const std::vector<CrestStep>& crest() const { return crest_; }
-    const std::vector<float>& joints(size_t course) const { return joints_[course]; }
 
     // Stone at p; `side` salts what differs between the two faces.
     StonePlace placeAt(glm::vec2 p, uint32_t side) const;
@@ -78,13 +77,17 @@ class Elevation {
   private:
     bool inRing(glm::vec2 p) const;
     float crestDistance(glm::vec2 p) const;
+    std::vector<float> fixedJoints(size_t course) const;
+    void growTall(size_t course, std::vector<float>& fixed);
     void layCourse(size_t course);
+    bool isTall(size_t course, float from) const;
     float begin_, end_;
     std::vector<CrestStep> crest_;
     Arch arch_;
     uint32_t salt_;
     std::vector<std::vector<float>> joints_;
-    std::vector<glm::vec2> corners_;  // of the crest
+    std::vector<std::vector<float>> tall_;  // of each course: where stones begin that go on into the course above
+    std::vector<glm::vec2> corners_;        // of the crest
 };
 
 // Splits a-b into equal pieces no longer than `longest`; appends all but a.

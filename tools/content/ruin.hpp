@@ -19,9 +19,11 @@ Ruin makeRuin(int textureSize);
 // Height of the ground at (x, z) of the block-out, metres, without its relief.
 float groundHeight(glm::vec2 xz);
 
-// Metres from (x, z) to what stands on the ground, roughly, and how much of the court's paving lies there.
+// Metres from (x, z) to what stands on the ground, roughly, and how much of it the court's paving and grass cover
+// there.
 float footDistance(glm::vec2 xz);
 float pavedShare(glm::vec2 xz);
+float grassShare(glm::vec2 xz);
 
 // From the block-out to where it stands: leaning walls, ground that rises to their foot.
 glm::vec3 settle(glm::vec3 block);

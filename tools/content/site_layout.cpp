@@ -23,6 +23,7 @@ void Layout::lay() {
     daisies();
     shrubs();
     tallGrass();
+    turf();
     tufts();
 }
 

@@ -51,6 +51,7 @@ class Layout {
     void daisies();
     void shrubs();
     void tallGrass();
+    void turf();
     void tufts();
 
     const Plan& plan_;

@@ -79,6 +79,24 @@ void Layout::tallGrass() {
         }
 }
 
+// Short grass in the court and around it, thinner farther away.
+void Layout::turf() {
+    constexpr float kCell = 0.29f, kReach = 15;
+    const int cells = int(kReach / kCell);
+    for (int y = -cells; y <= cells; ++y)
+        for (int x = -cells; x <= cells; ++x) {
+            const uint32_t i = uint32_t((y + cells) * (2 * cells + 1) + x + cells);
+            const vec2 p = kCourt + kCell * (vec2(x, y) + 0.9f * vec2(random01(i, 191), random01(i, 192)));
+            const bool court = Plan::toCourt(p) < 0.1f;
+            const float thin = glm::distance(p, kCourt) / kReach;
+            const bool grows = court ? grassShare(p) > 0.35f && footDistance(p) > 0.2f
+                                     : thin + 0.5f * noise(p / 1.9f, 193) < 0.95f && plan_.trodden(p) < -0.2f;
+            if (!grows || plan_.paved(p) > -0.2f) continue;
+            put("turf", p, 360 * random01(i, 194), 0.75f + 0.5f * random01(i, 195),
+                court ? kLevel - groundHeight(p) + 0.01f : 0);
+        }
+}
+
 // Grass stands higher where nobody mows or treads: at feet of walls and stones, along kerbs, around the court.
 void Layout::tufts() {
     uint32_t index = 0;

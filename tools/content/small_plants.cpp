@@ -71,18 +71,20 @@ Mesh makeMeadow(int kind, int lod) {
     return mesh;
 }
 
-// Blades of grass, their roots together. u is how far up the blade.
-Mesh makeTuft(uint32_t salt, int blades, float tall, float spread, int lod) {
+// Blades of grass. roots: within so many metres of the middle; spread: how far blades lean, metres; wide: their half
+// width, metres. u is how far up the blade.
+Mesh makeTuft(uint32_t salt, int blades, float tall, float roots, float spread, float wide, int lod) {
     Mesh mesh;
     const int steps = lod == 0 ? 2 : 1, count = lod == 0 ? blades : lod == 1 ? blades / 2 : blades / 4;
     for (int b = 0; b < count; ++b) {
         const auto random = [&](uint32_t which) { return random01(salt, uint32_t(b), which); };
         const float angle = 2.399963f * float(b) + random(0), high = tall * (0.55f + 0.45f * random(1));
         const glm::vec3 out(std::cos(angle), 0, std::sin(angle)), across(-out.z, 0, out.x);
-        const glm::vec3 root = out * (spread * 0.35f * random(2));
-        const float half = (lod == 0   ? 0.0042f
-                            : lod == 1 ? 0.007f
-                                       : 0.014f) *
+        const glm::vec3 root = out * (roots * random(2));
+        const float half = wide *
+                           (lod == 0   ? 1.0f
+                            : lod == 1 ? 1.7f
+                                       : 3.3f) *
                            (0.8f + 0.6f * random(3)),
                     lean = spread * (0.35f + 0.9f * random(4));
         const uint32_t first = uint32_t(mesh.positions.size());
@@ -115,9 +117,10 @@ void addSmallPlants(PropMeshes& out) {
             out.add("flowers_" + std::string(1, char('a' + kind)), lod, makeFlowers(kind, lod), PropMeshes::kFoliage);
         for (int kind = 0; kind < kMeadows; ++kind)
             out.add("meadow_" + std::string(1, char('a' + kind)), lod, makeMeadow(kind, lod), PropMeshes::kFoliage);
-        out.add("tuft_a", lod, makeTuft(31, 18, 0.20f, 0.13f, lod), PropMeshes::kGrass);
-        out.add("tuft_b", lod, makeTuft(32, 26, 0.32f, 0.20f, lod), PropMeshes::kGrass);
-        out.add("tuft_c", lod, makeTuft(33, 14, 0.12f, 0.12f, lod), PropMeshes::kGrass);
+        out.add("tuft_a", lod, makeTuft(31, 18, 0.20f, 0.045f, 0.13f, 0.0042f, lod), PropMeshes::kGrass);
+        out.add("tuft_b", lod, makeTuft(32, 26, 0.32f, 0.07f, 0.20f, 0.0042f, lod), PropMeshes::kGrass);
+        out.add("tuft_c", lod, makeTuft(33, 14, 0.12f, 0.042f, 0.12f, 0.0042f, lod), PropMeshes::kGrass);
+        out.add("turf", lod, makeTuft(34, 48, 0.11f, 0.32f, 0.08f, 0.009f, lod), PropMeshes::kGrass);
     }
 }
 

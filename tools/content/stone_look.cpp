@@ -68,7 +68,9 @@ Detail stoneDetail(const StonePlace& place, const StoneLook& look) {
     float face = (standOut + glm::dot(tilt, place.local)) + (coarse + fine + pit) * look.roughness;
     float mortar = -kMortarDepth + 0.008f * fractal(look.block * 22.0f, 329, 3);
     out.height = glm::mix(face, mortar, saturate(inJoint));
-    out.height -= 0.026f * (0.6f + 0.8f * chip) * roundDrop(place.edge / (kEdgeRound * (0.6f + 0.9f * chip)));
+    const float broken = 1 + 1.6f * std::pow(random01(id, 6), 3.0f);  // few stones have lost a corner
+    out.height -=
+        0.026f * broken * (0.6f + 0.8f * chip) * roundDrop(place.edge / (kEdgeRound * broken * (0.6f + 0.9f * chip)));
 
     glm::vec3 color = stoneColor(id, look, coarse + fine * 2 + pit * 1.5f);
     addLichen(color, look, id);

@@ -1,8 +1,9 @@
-// Layers of the ruin's main wall, as functions of the place.
+// Layers of the ruin's walls, as functions of the place.
 #include "tools/content/wall_layers.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "tools/content/noise.hpp"
 
@@ -26,6 +27,14 @@ float tongueDistance(glm::vec2 p, const Tongue& tongue) {
         best = std::min(best, glm::distance(p, tongue.line[i] + d * t) - glm::mix(tongue.foot, tongue.tip, along));
     }
     return best;
+}
+
+// Ivy within tongues, thinner towards their ragged borders.
+float tongues(glm::vec2 p, std::span<const Tongue> all) {
+    float d = 1e9f;
+    for (const Tongue& tongue : all) d = std::min(d, tongueDistance(p, tongue));
+    d += 0.34f * fractal(p * 1.6f, 489, 3) + 0.12f * fractal(p * 6.0f, 490, 2);
+    return 0.72f * ramp(0.16f, -0.26f, d);
 }
 
 }  // namespace
@@ -65,10 +74,16 @@ float backIvy(glm::vec2 p) {
         {{{2.3f, -0.2f}, {2.1f, 1.0f}, {1.75f, 2.2f}, {1.1f, 2.75f}, {0.4f, 2.9f}, {-0.3f, 2.8f}}, 0.58f, 0.18f},
         {{{0.1f, 3.1f}, {0.05f, 2.4f}, {0.2f, 1.9f}}, 0.20f, 0.04f},
         {{{-0.25f, 0.1f}, {-0.3f, 1.0f}, {-0.5f, 1.8f}}, 0.26f, 0.08f}};
-    float d = 1e9f;
-    for (const Tongue& tongue : kTongues) d = std::min(d, tongueDistance(p, tongue));
-    d += 0.34f * fractal(p * 1.6f, 489, 3) + 0.12f * fractal(p * 6.0f, 490, 2);
-    return 0.72f * ramp(0.16f, -0.26f, d);
+    return tongues(p, kTongues);
+}
+
+float outerIvy(glm::vec2 p) {
+    static const Tongue kTongues[] = {
+        {{{1.5f, -0.2f}, {1.3f, 0.8f}, {1.0f, 1.5f}, {0.75f, 2.2f}, {0.3f, 2.9f}, {0.2f, 3.6f}}, 0.62f, 0.14f},
+        {{{0.6f, -0.2f}, {0.45f, 0.7f}, {0.1f, 1.3f}, {-0.05f, 1.9f}}, 0.36f, 0.10f},
+        {{{1.9f, 0.2f}, {1.95f, 0.8f}, {1.75f, 1.3f}, {1.6f, 1.9f}}, 0.40f, 0.14f},
+        {{{1.2f, 1.2f}, {1.35f, 1.8f}, {1.15f, 2.4f}}, 0.34f, 0.16f}};
+    return tongues(p, kTongues);
 }
 
 }  // namespace espalier::content

@@ -1,6 +1,6 @@
 #pragma once
 
-// What is painted on the ruin's main wall. p: metres, (along, y) of its elevation.
+// What is painted on the ruin's walls. p: metres, (along, y) of their elevation.
 
 #include "tools/content/masonry.hpp"
 
@@ -17,5 +17,8 @@ float frontIvy(glm::vec2 p, const Elevation& wall);
 // On the back it keeps to tongues: one that winds up to the crest, one by the corner, those beside the arch. They thin
 // out towards ragged borders.
 float backIvy(glm::vec2 p);
+
+// Outside the return wall: a curtain that parts towards the corner. p.x: towards the court's open side.
+float outerIvy(glm::vec2 p);
 
 }  // namespace espalier::content

@@ -134,6 +134,7 @@ void addFace(std::vector<Chart>& charts, const Elevation& wall, const Face& face
     };
     if (face.side == 0) chart.ivy = [wall](glm::vec2 st) { return frontIvy(st, wall); };
     if (face.side == 1) chart.ivy = [face](glm::vec2 st) { return backIvy({face.sign * st.x, st.y}); };
+    if (face.side == 3) chart.ivy = [face](glm::vec2 st) { return outerIvy({face.sign * st.x, st.y}); };
     if (face.side == 0) chart.mask = [wall, face](glm::vec2 st) { return mainMask({face.sign * st.x, st.y}, wall); };
     charts.push_back(std::move(chart));
 }
