@@ -179,8 +179,10 @@ bool App::frame(float seconds) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     if (!session_.openNext.empty() && session_.idle() && !openNext()) return false;
-    if (session_.reload && session_.recovery().empty() && session_.idle()) reload();
-    if (!reloading_.kept.empty() && !work_.busy && session_.idle()) openReloaded();
+    // Opened anew, a dialogue would be gone, and what is typed into it meant for the tools.
+    const bool answers = usesPanels();
+    if (session_.reload && session_.recovery().empty() && session_.idle() && !answers) reload();
+    if (!reloading_.kept.empty() && !work_.busy && session_.idle() && !answers) openReloaded();
     if (!rescale()) return false;
     std::vector<InputEvent> events;
     ImGui_ImplGlfw_NewFrame();

@@ -186,7 +186,10 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
 
 // By what is open, which another name may have been saved under.
 void App::retitle() {
-    const std::string title = "Espalier \u2014 " + session_.name(work_);
+    entitle("Espalier \u2014 " + session_.name(work_));
+}
+
+void App::entitle(const std::string& title) {
     if (std::exchange(title_, title) != title) glfwSetWindowTitle(window_.get(), title.c_str());
 }
 

@@ -41,6 +41,7 @@ class App {
 
     bool rescale();
     void retitle();
+    void entitle(const std::string& title);
     void showUi();
     bool update();
     bool growing(uint64_t nodes);

@@ -68,7 +68,7 @@ void Controls::takeKey(const KeyEvent& event) {
     if (key == GLFW_KEY_F1) work_.layout.help = !work_.layout.help;
     if (key == GLFW_KEY_F2) work_.layout.panel = !work_.layout.panel, work_.redraw = true;
     if (key == GLFW_KEY_F3) work_.layout.figures = !work_.layout.figures;
-    if (key == GLFW_KEY_F4) work_.layout.grammar = !work_.layout.grammar;
+    if (key == GLFW_KEY_F4) work_.showGrammar(!work_.layout.grammar, work_.shownGrammar);
     if (key == GLFW_KEY_F5) work_.layout.atlas = !work_.layout.atlas;
     if (key == GLFW_KEY_F12) work_.screenshot = true, work_.message.clear();  // the last one's isn't in the picture
     if (control && takeViewKey(event)) return;
@@ -81,6 +81,8 @@ void Controls::takeKey(const KeyEvent& event) {
         if (key == GLFW_KEY_E && !work_.brush.layer.empty()) askForLayer(work_.brush.layer, false);
         if (key == GLFW_KEY_Z && brush_.painting()) return brush_.takeBack(work_);
         if (toolBusy()) return;
+        if (key == GLFW_KEY_D && work_.editing && work_.tool == Tool::seeds)
+            return seeds_.duplicate(work_, {event.x, event.y});
         const bool undoes = key == GLFW_KEY_Z && !shift, redoes = (key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y;
         if (undoes && work_.document->undoName()) return void(work_.perform(Undo{}));
         if (redoes && work_.document->redoName()) return void(work_.perform(Redo{}));
@@ -172,6 +174,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
         if (key == GLFW_KEY_A) seeds_.selectAll(work_);
         const bool turns = key == GLFW_KEY_R && !(event.mods & GLFW_MOD_SHIFT);
         if (key == GLFW_KEY_G || turns) seeds_.grab(work_, {event.x, event.y}, turns);
+        if (key == GLFW_KEY_D && (event.mods & GLFW_MOD_SHIFT)) seeds_.duplicate(work_, {event.x, event.y});
     }
     if (key == GLFW_KEY_R && (event.mods & GLFW_MOD_SHIFT)) work_.renumberSeeds();
     if (key == GLFW_KEY_V && !work_.brush.layer.empty()) work_.showLayer(work_.scene().look.view != ESP_VIEW_LAYER);

@@ -28,10 +28,11 @@ void put(PathText& to, const std::string& text) {
     std::snprintf(to.data(), to.size(), "%s", text.c_str());
 }
 
-void doubt(const std::string& path, const std::string& why) {
+void doubt(const std::string& path, const Doubt& why) {
     dialogues().turn = Turn::confirms;
     dialogues().doubted = path;
-    dialogues().why = why;
+    dialogues().why = why.why + " " + why.question;
+    dialogues().yes = why.yes;
 }
 
 // Windows that appear for the first time would lie over it.
@@ -87,10 +88,10 @@ bool doubted(const PathQuestion& question, bool confirmed) {
     const bool again = ImGui::IsMouseReleased(0) && ImGui::GetIO().MouseClickedLastCount[0] > 1;
     if (d.turn == Turn::confirms && path == d.doubted) return confirmed && !again;
     if (d.turn == Turn::confirms) d.turn = Turn::asks;
-    if (!confirmed || !question.replaces || (d.turn != Turn::asks && d.turn != Turn::failed)) return confirmed;
-    const std::string why = question.replaces(path);
-    if (!why.empty()) doubt(path, why);
-    return why.empty();
+    if (!confirmed || !question.doubts || (d.turn != Turn::asks && d.turn != Turn::failed)) return confirmed;
+    const Doubt found = question.doubts(path);
+    if (!found.why.empty()) doubt(path, found);
+    return found.why.empty();
 }
 
 // How far it is; true: it is told to act.
@@ -101,7 +102,7 @@ bool showTurn(Background& background, bool confirmed) {
         progressBar(background, dialogueWidth());
     }
     if (d.turn == Turn::failed) say(d.why, kBad);
-    if (d.turn == Turn::confirms) say(d.why + " Replace it?", kWarning);
+    if (d.turn == Turn::confirms) say(d.why, kWarning);
     if (d.turn == Turn::acts) return true;
     if (confirmed && d.turn != Turn::waits && d.turn != Turn::done) {
         d.turn = Turn::acts;
@@ -139,11 +140,16 @@ void askPath(Workspace& work, Session& session, const PathQuestion& question,
     if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // it is all that one can type into
     const bool waits = d.turn == Turn::waits;
     const ImGuiInputTextFlags flags = waits ? ImGuiInputTextFlags_ReadOnly : 0;
+    const PathText before = path;
     bool confirmed = ImGui::InputText("##path", path.data(), path.size(), ImGuiInputTextFlags_EnterReturnsTrue | flags);
     ImGui::BeginDisabled(waits);
     confirmed |= showFolder(question);
-    confirmed |= ImGui::Button(d.turn == Turn::confirms ? "Replace" : question.button);
+    confirmed |= ImGui::Button(d.turn == Turn::confirms ? d.yes : question.button);
     ImGui::EndDisabled();
+    if (path != before && d.turn == Turn::failed) {  // what went wrong was of another path
+        work.remedied(d.why);
+        d.turn = Turn::asks;
+    }
     confirmed = doubted(question, confirmed && path[0]);
     ImGui::SameLine();
     const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));

@@ -23,14 +23,23 @@ struct Dialogues {
     // failed: it stays, with `why`.
     enum class Turn { asks, confirms, acts, waits, done, failed } turn = Turn::asks;
     std::string why;
-    std::string doubted;  // the path that it confirms
-    bool asks = false;    // one that asks for a path was open in the last frame
-    bool leaves = false;  // for what is next, as soon as nothing is under way
+    std::string doubted;   // the path that it confirms
+    const char* yes = "";  // and the button that does so
+    bool asks = false;     // one that asks for a path was open in the last frame
+    bool leaves = false;   // for what is next, as soon as nothing is under way
     PathText project{}, file{}, run{}, picture{};
     std::string layer;                // of the picture
     std::optional<std::string> next;  // what is opened once this is saved or given up; "": nothing, the program ends
 };
 Dialogues& dialogues();
+
+// What speaks against a path, as a sentence, and what is asked then; empty: nothing does.
+struct Doubt {
+    std::string why;
+    const char *question = "Replace it?", *yes = "Replace";
+    Doubt(std::string of = {}) : why(std::move(of)) {}
+    Doubt(std::string of, const char* asked, const char* button) : why(std::move(of)), question(asked), yes(button) {}
+};
 
 // One that asks for a path.
 struct PathQuestion {
@@ -38,14 +47,13 @@ struct PathQuestion {
     PathText& path;
     std::vector<std::string> endings;  // of the files that are listed
     bool projects = false;             // may be answered with; else they are folders like others
-    // What would go by it, as a sentence; empty: nothing does.
-    std::function<std::string(const std::string& path)> replaces = {};
+    std::function<Doubt(const std::string& path)> doubts = {};
 };
 
 void ask(const char* title);
 void put(PathText& to, const std::string& text);
-void doubt(const std::string& path, const std::string& why);  // of the one that was asked for: it begins by confirming
-bool beginDialogue(const char* title);                        // false: it isn't open
+void doubt(const std::string& path, const Doubt& why);  // of the one that was asked for: it begins by confirming
+bool beginDialogue(const char* title);                  // false: it isn't open
 void say(const std::string& text, ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_Text));
 // Stays with what went wrong until `act`, which is given the path, or the work that it began, is done.
 void askPath(Workspace& work, Session& session, const PathQuestion& question,

@@ -22,6 +22,7 @@ struct TextState {
     int cursorLine = 0, scrolledLine = -1;
     float cursorX = 0, scrolledX = -1;  // within the line
     int wantedLine = 0;                 // is to be seen; from 1, 0: none
+    bool wanted = false;                // the cursor is to be in it
     float changedAt = -1e9f;
     uint32_t gesture = 0;
 };
@@ -69,26 +70,28 @@ void takeUndoKeys(Workspace& work, TextState& state) {
 
 constexpr ImU32 kBadLine = IM_COL32(150, 40, 30, 255), kWarningLine = IM_COL32(125, 90, 15, 255);
 
-void lineNumbers(int lines, const std::vector<Remark>& remarks, float width, float height) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+// Beside the text, which they are scrolled with up and down, not sideways. True: they were clicked at, which is meant
+// for the text.
+bool lineNumbers(int lines, const std::vector<Remark>& remarks, ImVec2 place, ImVec2 size, float scrolled) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 end{place.x + size.x, place.y + size.y}, at{place.x, place.y - scrolled};
+    const bool hovered = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
+                         ImGui::IsMouseHoveringRect(place, end);
+    ImGui::PushClipRect(place, end, true);
     const float line = ImGui::GetFontSize(), pad = ImGui::GetStyle().FramePadding.y;
     for (int i = 1; i <= lines; ++i) {
         const auto found = std::ranges::find(remarks, i, &Remark::line);  // a mistake, if there is one
         const std::string text = std::to_string(i);
-        const ImVec2 place{at.x + width - ImGui::CalcTextSize(text.c_str()).x - 6, at.y + pad + line * float(i - 1)};
+        const ImVec2 from{end.x - ImGui::CalcTextSize(text.c_str()).x - 6, at.y + pad + line * float(i - 1)};
         if (found != remarks.end()) {
-            list.AddRectFilled({at.x, place.y}, {at.x + width - 2, place.y + line},
-                               found->warning ? kWarningLine : kBadLine, 2);
-            if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows |
-                                       ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
-                ImGui::IsMouseHoveringRect({at.x, place.y}, {at.x + width, place.y + line}))
-                tip(found->text.c_str());
+            list.AddRectFilled({at.x, from.y}, {end.x - 2, from.y + line}, found->warning ? kWarningLine : kBadLine, 2);
+            if (hovered && ImGui::IsMouseHoveringRect({at.x, from.y}, {end.x, from.y + line})) tip(found->text.c_str());
         }
-        list.AddText(place, ImGui::GetColorU32(found != remarks.end() ? ImGuiCol_Text : ImGuiCol_TextDisabled),
+        list.AddText(from, ImGui::GetColorU32(found != remarks.end() ? ImGuiCol_Text : ImGuiCol_TextDisabled),
                      text.c_str());
     }
-    ImGui::Dummy({width, height});
+    ImGui::PopClipRect();
+    return hovered && ImGui::IsMouseClicked(0);
 }
 
 // Above the text: its way to the file and back.
@@ -130,6 +133,61 @@ void showRemarks(const espalier::scene::LoadedGrammar& grammar, const std::vecto
 
 bool focused = false;
 
+// Of the text's own window, which scrolls: where the cursor has gone is seen.
+void followCursor(TextState& state, float line) {
+    if (state.cursorLine == state.scrolledLine && state.cursorX == state.scrolledX) return;
+    state.scrolledLine = state.cursorLine;
+    state.scrolledX = state.cursorX;
+    const float y = line * float(state.cursorLine), high = ImGui::GetWindowHeight() - line;
+    if (y < ImGui::GetScrollY()) ImGui::SetScrollY(y);
+    if (y + 2 * line > ImGui::GetScrollY() + high) ImGui::SetScrollY(y + 2 * line - high);
+    const float x = state.cursorX, wide = ImGui::GetWindowWidth() - line;
+    if (x < ImGui::GetScrollX()) ImGui::SetScrollX(x);
+    if (x + 2 * line > ImGui::GetScrollX() + wide) ImGui::SetScrollX(x + 2 * line - wide);
+}
+
+// The text that is shown becomes the grammar's as it is typed.
+void editText(Workspace& work, int lines, TextState& state) {
+    const auto& grammar = work.scene().grammars[work.openGrammar];
+    const float line = ImGui::GetFontSize();
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const ImVec2 size{std::max(ImGui::CalcTextSize(state.shown.c_str()).x + 2 * line, room.x),
+                      std::max(line * float(lines + 1) + 2 * ImGui::GetStyle().FramePadding.y, room.y)};
+    if (state.wantedLine) ImGui::SetScrollY(line * float(std::max(0, std::exchange(state.wantedLine, 0) - 3)));
+    if (std::exchange(state.wanted, false)) ImGui::SetKeyboardFocusHere();
+    const ImGuiInputTextFlags flags = ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CallbackResize |
+                                      ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo;
+    ImGui::PushID(int(work.openGrammar));
+    const bool changed =
+        ImGui::InputTextMultiline("##grammar", state.shown.data(), state.shown.size() + 1, size, flags, onEdit, &state);
+    ImGui::PopID();
+    if (ImGui::IsItemActive()) followCursor(state, line);
+    if (ImGui::IsItemActive()) takeUndoKeys(work, state);
+    // Escape leaves the text. ImGui would take back all that was typed since it was clicked at.
+    const bool left = ImGui::IsItemDeactivated() && ImGui::IsKeyPressedMap(ImGuiKey_Escape);
+    if (left) work.message = "Esc again: letters are keys of the tools";
+    if (!changed || left || state.shown == grammar.text) return;
+    // A pause ends a step of undo.
+    if (ImGui::GetTime() - state.changedAt > 1.5 || !state.gesture) state.gesture = work.newGesture();
+    state.changedAt = float(ImGui::GetTime());
+    work.perform(work.document->withText(work.openGrammar, state.shown), state.gesture);
+}
+
+// below: how much of the window's height stays free.
+void showText(Workspace& work, const std::vector<Remark>& remarks, int lines, float below, TextState& state) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float margin = ImGui::CalcTextSize("0000").x + 8;
+    float scrolled = 0;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + margin);
+    if (ImGui::BeginChild("text", {0, -below}, false, ImGuiWindowFlags_HorizontalScrollbar)) {
+        editText(work, lines, state);
+        scrolled = ImGui::GetScrollY();
+    }
+    const float high = ImGui::GetWindowHeight();
+    ImGui::EndChild();
+    state.wanted |= lineNumbers(lines, remarks, at, {margin, high}, scrolled);
+}
+
 }  // namespace
 
 bool grammarFocused() {
@@ -166,46 +224,7 @@ void showGrammarWindow(Workspace& work) {
         const float shown = 1.4f * float(std::min<size_t>(remarks.size(), 4));  // more are scrolled to
         const float below = ImGui::GetFontSize() * (1.6f + shown);
         ImGui::PushFont(textFont());
-        const float line = ImGui::GetFontSize();
-        const float height = line * float(lines + 1) + 2 * ImGui::GetStyle().FramePadding.y;
-        if (ImGui::BeginChild("text", {0, -below}, false, ImGuiWindowFlags_HorizontalScrollbar)) {
-            const float margin = ImGui::CalcTextSize("0000").x + 8;
-            const float whole = ImGui::CalcTextSize(state.shown.c_str()).x + 2 * line;
-            if (state.wantedLine) ImGui::SetScrollY(line * float(std::max(0, std::exchange(state.wantedLine, 0) - 3)));
-            lineNumbers(lines, remarks, margin, height);
-            ImGui::SameLine(0, 0);
-            const ImGuiInputTextFlags flags = ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CallbackResize |
-                                              ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo;
-            ImGui::PushID(int(work.openGrammar));
-            const bool changed = ImGui::InputTextMultiline("##grammar", state.shown.data(), state.shown.size() + 1,
-                                                           {std::max(whole, ImGui::GetContentRegionAvail().x), height},
-                                                           flags, onEdit, &state);
-            ImGui::PopID();
-            // Beside the text, at the numbers of its lines, a click is meant for it, too.
-            if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0) && !ImGui::IsItemHovered() &&
-                ImGui::GetMousePos().x < ImGui::GetItemRectMin().x)
-                ImGui::SetKeyboardFocusHere(-1);
-            if (ImGui::IsItemActive() && (state.cursorLine != state.scrolledLine || state.cursorX != state.scrolledX)) {
-                state.scrolledLine = state.cursorLine;
-                state.scrolledX = state.cursorX;
-                const float y = line * float(state.cursorLine), high = ImGui::GetWindowHeight() - line;
-                if (y < ImGui::GetScrollY()) ImGui::SetScrollY(y);
-                if (y + 2 * line > ImGui::GetScrollY() + high) ImGui::SetScrollY(y + 2 * line - high);
-                const float x = margin + state.cursorX, wide = ImGui::GetWindowWidth() - line;
-                if (state.cursorX < ImGui::GetScrollX()) ImGui::SetScrollX(state.cursorX);
-                if (x + 2 * line > ImGui::GetScrollX() + wide) ImGui::SetScrollX(x + 2 * line - wide);
-            }
-            // Escape leaves the text. ImGui would take back all that was typed since it was clicked at.
-            const bool left = ImGui::IsItemDeactivated() && ImGui::IsKeyPressedMap(ImGuiKey_Escape);
-            if (ImGui::IsItemActive()) takeUndoKeys(work, state);
-            if (changed && !left && state.shown != grammar.text) {
-                // A pause ends a step of undo.
-                if (ImGui::GetTime() - state.changedAt > 1.5 || !state.gesture) state.gesture = work.newGesture();
-                state.changedAt = float(ImGui::GetTime());
-                work.perform(work.document->withText(work.openGrammar, state.shown), state.gesture);
-            }
-        }
-        ImGui::EndChild();
+        showText(work, remarks, lines, below, state);
         ImGui::PopFont();
         showRemarks(grammar, remarks, lines, state);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -118,7 +119,7 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
         ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, some);
         bool changed = ImGui::Checkbox(info.label, &has);
         ImGui::PopItemFlag();
-        toolTip("A value of their own in place of the grammar's");
+        toolTip((std::string(info.label) + ": a value of their own in place of the grammar's").c_str());
         has = has || some;  // those that had none get it, too
         uint32_t gesture = 0;
         if (has && !changed) {
@@ -159,13 +160,16 @@ void chosenSeeds(Workspace& work) {
                  ? "Nothing grows from it."
                  : "Nothing grows from it: it may be that a layer is empty here. B shows what is painted.");
     bool changed = false;
-    uint32_t number = chosen[0].number;
+    int64_t number = chosen[0].number;
     rowLabel("Random no.");
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
+    const float another = ImGui::CalcTextSize("Another").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - another - ImGui::GetStyle().ItemSpacing.x);
     const bool several = std::ranges::any_of(chosen, [&](const SeedRecord& seed) { return seed.number != number; });
     ImGui::PushID(int(chosen[0].key));
-    if (ImGui::InputScalar("##number", ImGuiDataType_U32, &number, nullptr, nullptr, several ? "%u, others" : "%u")) {
-        for (SeedRecord& seed : chosen) seed.number = number++;
+    if (ImGui::InputScalar("##number", ImGuiDataType_S64, &number, nullptr, nullptr,
+                           several ? "%lld, others" : "%lld")) {
+        number = std::clamp<int64_t>(number, 0, std::numeric_limits<uint32_t>::max());
+        for (SeedRecord& seed : chosen) seed.number = uint32_t(number++);
         changed = true;
     }
     ImGui::PopID();

@@ -33,6 +33,11 @@ bool dialogueWaits() {
     return dialogues().turn == Turn::waits;
 }
 
+bool usesPanels() {
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    return dialogueAsked() || !gui.OpenPopupStack.empty() || (gui.ActiveId != 0 && ImGui::GetIO().WantTextInput);
+}
+
 bool closeMenus() {
     const auto& open = ImGui::GetCurrentContext()->OpenPopupStack;
     int level = open.Size;

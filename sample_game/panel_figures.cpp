@@ -82,7 +82,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
     ImGui::SetNextWindowPos({work.window.x - margin, margin + ImGui::GetFrameHeight()}, ImGuiCond_Always, {1, 0});
     ImGui::SetNextWindowSize({std::min(235 * s, room), 0});
     ImGui::SetNextWindowBgAlpha(.72f);
-    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize;
     if (ImGui::Begin("figures", nullptr, flags)) {
@@ -138,7 +138,7 @@ void showLegend(const Workspace& work) {
     ImGui::SetNextWindowPos({work.panelUnits() + 12 * s, work.window.y - ImGui::GetFrameHeight() - 16 * s},
                             ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowBgAlpha(.72f);
-    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize;
     if (ImGui::Begin("legend", nullptr, flags)) {

@@ -36,8 +36,8 @@ std::string paramTip(const EspParamInfo& param) {
     if (param.kind != ESP_PARAM_FLOAT && param.kind != ESP_PARAM_INT) return param.name;
     char text[200];
     std::snprintf(text, sizeof text,
-                  "%s in the grammar's text: %.4g to %.4g %s, there %.4g\nDouble click or Ctrl+click to type a value",
-                  param.name, param.low, param.high, param.unit, param.initial[0]);
+                  "%s in the grammar's text: %.4g to %.4g%s%s, there %.4g\nDouble click or Ctrl+click to type a value",
+                  param.name, param.low, param.high, param.unit[0] ? " " : "", param.unit, param.initial[0]);
     return text;
 }
 
@@ -117,6 +117,7 @@ void grammarsPanel(Workspace& work) {
     std::vector<uint32_t> order(work.scene().grammars.size());
     std::iota(order.begin(), order.end(), 0u);
     if (houses) std::ranges::stable_partition(order, [&](uint32_t i) { return makesRoofs(work, i); });
+    std::vector<uint32_t> shown;
     for (uint32_t i : order) {
         const auto& grammar = work.scene().grammars[i];
         ImGui::PushID(houses ? -1 - int(i) : int(i));
@@ -124,12 +125,11 @@ void grammarsPanel(Workspace& work) {
                                                   i == order.front() ? ImGuiTreeNodeFlags_DefaultOpen : 0);
         toolTip(grammarTip(work, i).c_str());
         if (open) {
+            shown.push_back(i);
             const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-            if (ImGui::Button("Text  F4", {half, 0})) {
-                work.layout.grammar = !work.layout.grammar || work.openGrammar != i;
-                work.openGrammar = i;
-            }
-            toolTip("Edit the grammar: the plant follows as you type");
+            if (ImGui::Button(i == work.shownGrammar ? "Text  F4###text" : "Text###text", {half, 0}))
+                work.showGrammar(!work.layout.grammar || work.openGrammar != i, i);
+            toolTip("Edit the grammar: what grows by it follows as you type");
             ImGui::SameLine();
             presetsPanel(work, i);
             if (!grammar.error.empty()) {
@@ -138,8 +138,8 @@ void grammarsPanel(Workspace& work) {
                 ImGui::PopStyleColor();
             }
             if (!grammar.warnings.empty()) {
-                hint("The text has warnings: F4");
-                if (ImGui::IsItemClicked()) work.layout.grammar = true, work.openGrammar = i;
+                hint("The text has warnings: click to see them");
+                if (ImGui::IsItemClicked()) work.showGrammar(true, i);
             }
             for (uint32_t p = 0; p < espParamCount(work.context.get(), grammar.id); ++p) {
                 EspParamInfo info;
@@ -151,6 +151,8 @@ void grammarsPanel(Workspace& work) {
         }
         ImGui::PopID();
     }
+    const bool known = shown.empty() || std::ranges::find(shown, work.openGrammar) != shown.end();
+    work.shownGrammar = known ? work.openGrammar : shown.front();
 }
 
 }  // namespace sample

@@ -33,6 +33,7 @@ void showHelp(Workspace& work) {
                          {"Click, Shift+click, Shift+drag", "choose one, one more, several"},
                          {"Drag a seed, its arrow", "move, turn what is chosen"},
                          {"G, R", "move, turn the chosen seeds; a click ends it, Esc takes it back"},
+                         {"Shift+D or Ctrl+D", "copies of the chosen seeds, to be moved as with G"},
                          {"A, X or Del", "choose all, remove"},
                          {"Shift+R", "other random numbers for all"},
                          {"P, then click", "a branch; [ picks its parent, Del prunes it"},

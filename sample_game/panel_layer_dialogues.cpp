@@ -49,17 +49,17 @@ void layerDialogues(Workspace& work, Session& session) {
     const std::vector<std::string> endings{".png", ".exr"};
     askPath(work, session, {"Import a layer", asked, "Import", d.picture, endings},
             [&](const char* file) { importFrom(work, session, town, file); });
-    const auto replaces = [&](const std::string& file) {
+    const auto taken = [&](const std::string& file) -> Doubt {
         for (size_t i = 0; i < (town ? 1 : work.scene().surfaces.size()); ++i) {
             const std::string each = town ? file : pictureOf(*work.document, file, i);
             std::error_code ignored;
             if (std::filesystem::exists(each, ignored)) return wholePath(each) + " is there already.";
         }
-        return std::string();
+        return {};
     };
     askPath(work, session,
             {"Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture, endings,
-             false, replaces},
+             false, taken},
             [&](const char* file) { exportTo(work, session, town, file); });
 }
 

@@ -100,6 +100,8 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     if (!layer.painted && !layer.colour() && brush.value != layer.fill[0])
         ImGui::TextDisabled("Not painted yet: all of it is %.2g.", layer.fill[0]);
     if (!layer.painted && layer.colour()) ImGui::TextDisabled("Not painted yet.");
+    if (const size_t rest = layer.label.find(": "); rest != std::string::npos && !layer.readers.empty())
+        ImGui::TextDisabled("%s.", layer.label.c_str() + rest + 2);
     if (layer.town) ImGui::TextDisabled("Drag over the roofs: paint falls straight down.");
     ImGui::PopTextWrapPos();
 }

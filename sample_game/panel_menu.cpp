@@ -53,7 +53,11 @@ void showMenu(Workspace& work, Session& session) {
             ImGui::MenuItem("Figures", "F3", &work.layout.figures);
             ImGui::MenuItem("Grammar", "F4", &work.layout.grammar);
             ImGui::MenuItem("Atlas", "F5", &work.layout.atlas);
-            if (ImGui::MenuItem("Windows as at first")) work.windowsAnew = 2;
+            if (ImGui::MenuItem("Windows as at first")) {
+                work.windowsAnew = 2;
+                work.layout.panelWidth = Layout{}.panelWidth;
+                work.redraw = true;
+            }
             ImGui::MenuItem("Smaller while moving", nullptr, &work.layout.smallerWhileMoving);
             toolTip("While the camera moves on a slow device, the picture has fewer pixels, down to half a side");
             ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
@@ -78,31 +82,32 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
     if (!work.editing)
         text = std::string(caught ? "Mouse: look   " : "Click: look around   ") +
                "W A S D: " + (flying ? "fly   Q E: down, up   G: walk" : "walk   Space: jump   Shift: run   G: fly") +
-               "   Tab: the editor" + (caught ? "   Esc: free the mouse" : "");
+               (caught ? "   Esc: free the mouse" : "");
     else if (work.underWay)
         text = work.underWay;
     else if (work.tool == Tool::paint)
         text = "Drag: " + work.brush.mode + " " + work.brush.layer +
                "   Ctrl: " + (work.brush.mode == "erase" ? "paint" : "erase") +
                "   Shift: smooth   F: size   Shift+F: strength   " +
-               "V: show the layer   middle drag: turn   wheel: nearer   F1: all keys";
+               "V: show the layer   middle drag: turn   wheel: nearer";
     else if (work.tool == Tool::seeds)
         text =
             "Click: plant   drag: with a direction   Ctrl+drag: a row   click a seed: choose   Shift+drag: several   "
-            "G: move   R: turn   Del: remove   F1: all keys";
+            "G: move   R: turn   Shift+D: duplicate   Del: remove";
     else if (work.tool == Tool::houses)
         text =
             "Click a house, or an edge of the chosen one   drag a corner: the roof follows   Ctrl+drag an edge: a new "
-            "corner   Del: the edge's corner goes   F: show it   F1: all keys";
+            "corner   Del: the edge's corner goes   F: show it";
     else if (work.tool == Tool::branch)
         text =
-            "Click a branch   [: its parent   Del: prune it   F: show it   F1: all keys   white: steps   blue: put in "
-            "at "
-            "seams and creases   green: over a seam";
+            "Click a branch   [: its parent   Del: prune it   F: show it   white: steps   blue: put in at seams and "
+            "creases   green: over a seam";
     else
-        text =
-            "Drag: turn around   Shift+drag: sideways   wheel: nearer   right drag: look, with W A S D: fly   "
-            "Tab: walk   F1: all keys";
+        text = "Drag: turn around   Shift+drag: sideways   wheel: nearer   right drag: look, with W A S D: fly";
+    // Who is new needs these most: they stay when others give way.
+    const std::string always = !work.editing   ? "   Tab: the editor"
+                               : work.underWay ? ""
+                                               : "   Tab: walk   F1: all keys";
     const bool bad = !work.error.empty();
     const float height = ImGui::GetFrameHeight() + 4 * work.scale;
     ImGui::SetNextWindowPos({0, work.window.y - height});
@@ -118,11 +123,11 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
         const std::string& news = bad ? work.error : work.message;
         const std::string line = news.substr(0, news.find('\n'));
         const float width = ImGui::CalcTextSize(line.c_str()).x;
-        const bool fits = ImGui::CalcTextSize(text.c_str()).x + width + 52 * work.scale < work.window.x;
         // In a narrow window the last hints give way, each as a whole.
-        while (ImGui::CalcTextSize(text.c_str()).x + 24 * work.scale > work.window.x &&
-               text.rfind("   ") != std::string::npos)
-            text.resize(text.rfind("   "));
+        const auto taken = [&] { return ImGui::CalcTextSize((text + always).c_str()).x + 24 * work.scale; };
+        const bool fits = taken() + width + 28 * work.scale < work.window.x;
+        while (taken() > work.window.x && text.rfind("   ") != std::string::npos) text.resize(text.rfind("   "));
+        text += always;
         if (line.empty() || fits) ImGui::TextUnformatted(text.c_str());
         if (!line.empty()) {
             if (fits) ImGui::SameLine(work.window.x - width - 12 * work.scale);

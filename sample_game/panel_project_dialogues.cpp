@@ -59,13 +59,15 @@ void recoveryDialogue(Session& session) {
     }
 }
 
-// The project that would go if this one were saved there.
-std::string goneBySaving(const Session& session, const std::string& folder) {
+// Another's work would go if this project were saved there, or its files lie among others.
+Doubt doubtOfSaving(const Session& session, const std::string& folder) {
     std::error_code ignored;
     const std::string place = wholePath(folder);
     if (place == session.folder())
         return session.changedByOthers() ? place + " has been saved by somebody else since it was opened." : "";
-    return fs::exists(fs::path(place) / "project.json", ignored) ? place + " is a project already." : "";
+    if (fs::exists(fs::path(place) / "project.json", ignored)) return place + " is a project already.";
+    if (fs::directory_iterator(place, ignored) == fs::directory_iterator()) return {};  // empty, or to be made
+    return {place + " holds other files.", "Save the project among them?", "Save there"};
 }
 
 // What is open is saved, or may be given up.
@@ -100,11 +102,11 @@ void leavingDialogue(Workspace& work, Session& session) {
 // What can't be saved asks for another place, and nothing is left before that.
 bool askToSave(Workspace& work, Session& session, bool elsewhere) {
     const std::string& own = session.folder();
-    const std::string doubts = own.empty() ? "" : goneBySaving(session, own);
+    const Doubt found = own.empty() ? Doubt{} : doubtOfSaving(session, own);
     put(dialogues().project, elsewhere && !own.empty() ? freeName(own) : own);
-    if (own.empty() || elsewhere || !doubts.empty()) {
+    if (own.empty() || elsewhere || !found.why.empty()) {
         ask("Save the project");
-        if (!elsewhere && !doubts.empty()) doubt(own, doubts);
+        if (!elsewhere && !found.why.empty()) doubt(own, found);
         return false;
     }
     session.save(work, session.folder(), [&work](bool good) {
@@ -152,7 +154,7 @@ void projectDialogues(Workspace& work, Session& session) {
              d.project,
              {},
              true,
-             [&](const std::string& folder) { return goneBySaving(session, folder); }},
+             [&](const std::string& folder) { return doubtOfSaving(session, folder); }},
             [&](const char* folder) {
                 session.save(work, folder, [&work](bool good) {
                     endWait(work, good);

@@ -29,17 +29,16 @@ void runDialogues(Workspace& work, Session& session) {
                 d.turn = turnOf(work, good);
             });
     const auto named = [](const std::string& file) { return Replay::names(file) ? file : file + ".jsonl"; };
-    const auto replaces = [&](const std::string& file) {
+    const auto taken = [&](const std::string& file) -> Doubt {
         std::error_code ignored;
         return fs::exists(named(file), ignored) ? wholePath(named(file)) + " is there already." : "";
     };
-    askPath(
-        work, session,
-        {"Record a run", "File for what is done from now on (.jsonl):", "Record", d.run, {".jsonl"}, false, replaces},
-        [&](const char* file) {
-            session.startRecording(work, named(file), uint32_t(work.window.x), uint32_t(work.window.y),
-                                   [&work](bool good) { endWait(work, good); });
-        });
+    askPath(work, session,
+            {"Record a run", "File for what is done from now on (.jsonl):", "Record", d.run, {".jsonl"}, false, taken},
+            [&](const char* file) {
+                session.startRecording(work, named(file), uint32_t(work.window.x), uint32_t(work.window.y),
+                                       [&work](bool good) { endWait(work, good); });
+            });
 }
 
 }  // namespace sample

@@ -11,7 +11,8 @@ namespace sample {
 namespace {
 
 constexpr ImU32 kSample = IM_COL32(255, 255, 255, 255), kInserted = IM_COL32(120, 200, 255, 255),
-                kJump = IM_COL32(110, 230, 90, 255), kPointed = IM_COL32(255, 190, 60, 190);
+                kJump = IM_COL32(110, 230, 90, 255), kPointed = IM_COL32(255, 190, 60, 190),
+                kBelow = IM_COL32(20, 24, 16, 170);
 
 // What has been pruned, to take it back.
 void prunedRow(Workspace& work) {
@@ -93,13 +94,18 @@ void showWalk(const Workspace& work) {
         const auto a = work.place(vec(work.pointed[i].position)), b = work.place(vec(work.pointed[i + 1].position));
         if (a && b) list.AddLine({a->x, a->y}, {b->x, b->y}, kPointed, 5 * s);
     }
-    for (size_t i = 0; i + 1 < work.path.size(); ++i) {
-        const auto a = work.place(vec(work.path[i].position)), b = work.place(vec(work.path[i + 1].position));
-        if (a && b) list.AddLine({a->x, a->y}, {b->x, b->y}, work.crossings[i] ? kJump : kSample, 2 * s);
-    }
+    // Dark below, so that white is seen among bright leaves.
+    for (const bool below : {true, false})
+        for (size_t i = 0; i + 1 < work.path.size(); ++i) {
+            const auto a = work.place(vec(work.path[i].position)), b = work.place(vec(work.path[i + 1].position));
+            const ImU32 colour = below ? kBelow : work.crossings[i] ? kJump : kSample;
+            if (a && b) list.AddLine({a->x, a->y}, {b->x, b->y}, colour, (below ? 7 : 3) * s);
+        }
     for (const EspPathSample& sample : work.path)
-        if (const auto at = work.place(vec(sample.position)))
-            list.AddCircleFilled({at->x, at->y}, 2.5f * s, sample.inserted ? kInserted : kSample);
+        if (const auto at = work.place(vec(sample.position))) {
+            list.AddCircleFilled({at->x, at->y}, 4.5f * s, kBelow);
+            list.AddCircleFilled({at->x, at->y}, 3 * s, sample.inserted ? kInserted : kSample);
+        }
 }
 
 }  // namespace sample

@@ -33,6 +33,7 @@ void askToReplay();
 // False: that is asked, which only frames with showDialogues() do.
 bool askToLeave(Workspace& work, Session& session, const std::string& next = {});
 bool asksToLeave();
+bool usesPanels();     // a dialogue or a menu is open, or something is typed
 bool closeMenus();     // those that are open, not dialogues; false: there are none
 bool dialogueWaits();  // for work that it began
 // One opens in the next frame with showDialogues().

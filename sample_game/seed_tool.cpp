@@ -186,14 +186,35 @@ void SeedTool::grab(Workspace& work, glm::vec2 at, bool turns) {
                           : "Move the mouse: move   click: keep it   Esc: as it was";
 }
 
+void SeedTool::duplicate(Workspace& work, glm::vec2 at) {
+    if (work.selected.empty() || drag_ != Drag::none) return;
+    AddSeeds copies;
+    for (const Seed& seed : work.scene().seeds) {
+        if (!work.selected.count(seed.key)) continue;
+        SeedRecord copy = work.document->recordOf(seed);
+        copy.key = work.document->freshKey();
+        copy.number = std::random_device()();
+        copy.frozen = {};
+        copies.seeds.push_back(std::move(copy));
+        copies.places.push_back(uint32_t(work.scene().seeds.size() + copies.places.size()));
+    }
+    copied_ = std::exchange(work.selected, {});
+    for (const SeedRecord& copy : copies.seeds) work.selected.insert(copy.key);
+    grab(work, at, false);
+    changed_ = work.perform(copies, gesture_);
+    if (!changed_) cancel(work);
+}
+
 void SeedTool::cancel(Workspace& work) {
     if (drag_ != Drag::none && changed_) work.takeBack(gesture_);
+    if (!copied_.empty()) work.selected = copied_;
     finish(work);
 }
 
 void SeedTool::finish(Workspace& work) {
     drag_ = Drag::none;
     byKey_ = changed_ = false;
+    copied_.clear();
     work.underWay = nullptr;
 }
 

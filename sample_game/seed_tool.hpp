@@ -13,6 +13,8 @@ class SeedTool {
     bool take(Workspace& work, const PointerEvent& event);
     // Without a button held: the chosen ones follow the mouse, or turn towards it, until a click.
     void grab(Workspace& work, glm::vec2 at, bool turns);
+    // Copies of the chosen ones, which are chosen then and follow the mouse. Each grows a plant of its own.
+    void duplicate(Workspace& work, glm::vec2 at);
     void cancel(Workspace& work);     // what is under way, as if it hadn't been
     void finish(Workspace& work);     // it stays as it is by now; what isn't planted yet, isn't
     void remove(Workspace& work);     // those that are chosen
@@ -38,8 +40,9 @@ class SeedTool {
     Drag drag_ = Drag::none;
     glm::vec2 from_{0}, last_{0};
     bool moved_ = false, changed_ = false;
-    uint32_t alone_ = 0;  // the seed that a click without a move leaves as the only one chosen; 0: none
-    bool byKey_ = false;  // no button is held
+    uint32_t alone_ = 0;         // the seed that a click without a move leaves as the only one chosen; 0: none
+    bool byKey_ = false;         // no button is held
+    std::set<uint32_t> copied_;  // what was chosen before its copies were; empty: nothing is duplicated
     uint32_t gesture_ = 0;
     espalier::document::SeedRecord pending_;  // planted on release
     std::optional<glm::vec3> lastInRow_;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <utility>
 
 #include "sample_game/theme.hpp"
@@ -125,18 +126,36 @@ void drawBar(const ImRect& place, float share) {
 }  // namespace
 
 bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2 at, glm::vec2 size, int flags) {
+    struct Place {
+        glm::vec2 at{0}, size{0};
+        bool operator==(const Place&) const = default;
+    };
+    struct Had {
+        Place wanted, shown;  // as the user has put it, and as there is room for it
+    };
+    static std::map<ImGuiID, Had> all;
+    Had& had = all[ImHashStr(title)];
+    const bool known = ImGui::FindWindowByName(title) && had.wanted != Place{} && work.windowsAnew == 0;
     const float top = ImGui::GetFrameHeight(), bottom = work.window.y - ImGui::GetFrameHeight() - 4 * work.scale;
-    // A window that is made small for a while leaves them large enough to be of use afterwards.
+    // A window that is made small for a while leaves them large enough to be of use.
     const glm::vec2 least = glm::vec2(300, 200) * work.scale, room = glm::max({work.window.x, bottom - top}, least);
+    const bool held = ImGui::IsMouseDown(0);
     ImGui::SetNextWindowSizeConstraints({least.x, least.y}, {room.x, room.y});
-    const ImGuiCond when = work.windowsAnew > 0 ? ImGuiCond_Always : ImGuiCond_FirstUseEver;
-    ImGui::SetNextWindowPos({at.x, at.y}, when);
-    ImGui::SetNextWindowSize({size.x, size.y}, when);
+    if (known && !held) {
+        const glm::vec2 fits = glm::clamp(had.wanted.size, least, room);
+        ImGui::SetNextWindowSize({fits.x, fits.y});
+        ImGui::SetNextWindowPos({std::max(0.f, std::min(had.wanted.at.x, work.window.x - fits.x)),
+                                 std::max(top, std::min(had.wanted.at.y, bottom - fits.y))});
+    } else if (!known) {
+        const ImGuiCond when = work.windowsAnew > 0 ? ImGuiCond_Always : ImGuiCond_FirstUseEver;
+        ImGui::SetNextWindowPos({at.x, at.y}, when);
+        ImGui::SetNextWindowSize({size.x, size.y}, when);
+    }
     const bool shown = ImGui::Begin(title, open, flags | kQuiet);
-    const ImVec2 is = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
-    const ImVec2 wanted{std::max(0.f, std::min(is.x, work.window.x - extent.x)),
-                        std::max(top, std::min(is.y, bottom - extent.y))};
-    if (!ImGui::IsMouseDown(0) && (wanted.x != is.x || wanted.y != is.y)) ImGui::SetWindowPos(wanted);
+    const ImGuiWindow& window = *ImGui::GetCurrentWindow();
+    const Place now{{window.Pos.x, window.Pos.y}, {window.SizeFull.x, window.SizeFull.y}};
+    if (!known || (held && now != had.shown)) had.wanted = now;
+    had.shown = now;
     return shown;
 }
 

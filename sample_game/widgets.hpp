@@ -14,7 +14,8 @@ namespace sample {
 constexpr int kQuiet = 1 << 12;  // ImGuiWindowFlags_NoFocusOnAppearing
 
 // ImGui::Begin of a window that the user may move, with where and how large it is the first time. It stays between the
-// bars at the top and bottom, whatever the size of window and letters becomes.
+// bars at the top and bottom, whatever the size of window and letters becomes, and is as the user had it where there is
+// room for it again.
 bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2 at, glm::vec2 size, int flags = 0);
 
 // A value between two others as a bar, with the number over it. A drag moves it, a click sets it a moment later, since

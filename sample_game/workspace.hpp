@@ -78,8 +78,9 @@ struct Workspace {
     std::optional<uint32_t> house;       // of the town, that was chosen
     std::optional<uint32_t> houseEdge;   // of its outer ring
     uint32_t plantGrammar = 0;
-    uint32_t viewLevel = 0;    // whose charts are seen on the model
-    uint32_t openGrammar = 0;  // in the grammar's window
+    uint32_t viewLevel = 0;     // whose charts are seen on the model
+    uint32_t openGrammar = 0;   // in the grammar's window
+    uint32_t shownGrammar = 0;  // whose text F4 opens: of the group that is open in the panel
     Layout layout;
 
     std::string message, error;      // the latest of each
@@ -124,6 +125,7 @@ struct Workspace {
     void takeUp(const Hands& hands);
     // Painting shows what is painted, everything else the scene.
     void choose(Tool chosen);
+    void showGrammar(bool shown, uint32_t index) { layout.grammar = shown, openGrammar = index; }
     // A number for the actions that belong together from now on.
     uint32_t newGesture() { return ++gesture_; }
     uint32_t gesture() const { return gesture_; }

@@ -181,6 +181,7 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
     desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
     for (uint32_t shading = 0; shading < kShadings; ++shading) {
         desc.options.constants = constantsOf(Shading(shading));
+        desc.blend = blendOf(Shading(shading));
         Result<Program> program = Program::graphics(device, desc);
         if (!program) return program.failure();
         ground.programs_[shading] = std::move(*program);

@@ -59,21 +59,20 @@ Props::Box Props::boxOf(const PropPlace& place) const {
 
 Status Props::makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
     const char* foliage = samples == 1 ? "render/foliage_single.frag" : "render/foliage.frag";
-    const struct {
+    struct Row {
         Program& program;
         const char* name;
         const char* vertex;
         const char* fragment;
         Shading shading = Shading::full;
         bool shadow = false;
-    } rows[] = {{built_[0], "prop", "render/prop.vert", "render/prop.frag"},
-                {built_[1], "prop", "render/prop.vert", "render/prop.frag", Shading::explaining},
-                {built_[2], "prop", "render/prop.vert", "render/prop.frag", Shading::quick},
-                {foliage_[0], "foliage", "render/foliage.vert", foliage},
-                {foliage_[1], "foliage", "render/foliage.vert", foliage, Shading::explaining},
-                {foliage_[2], "foliage", "render/foliage.vert", foliage, Shading::quick},
-                {depth_, "prop shadow", "render/prop.vert", "render/prop_shadow.frag", Shading::full, true}};
-    for (const auto& r : rows) {
+    };
+    std::vector<Row> rows{{depth_, "prop shadow", "render/prop.vert", "render/prop_shadow.frag", Shading::full, true}};
+    for (uint32_t s = 0; s < kShadings; ++s) {
+        rows.push_back({built_[s], "prop", "render/prop.vert", "render/prop.frag", Shading(s)});
+        rows.push_back({foliage_[s], "foliage", "render/foliage.vert", foliage, Shading(s)});
+    }
+    for (const Row& r : rows) {
         GraphicsDesc desc;
         desc.name = r.name;
         desc.vertex = r.vertex;
@@ -85,6 +84,7 @@ Status Props::makePrograms(Device& device, VkFormat color, VkFormat depth, uint3
             desc.depthBiasSlope = 1.8f;
         } else {
             desc.colors = {color};
+            desc.blend = blendOf(r.shading);
             desc.samples = samples;
             desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
         }

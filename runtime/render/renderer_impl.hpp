@@ -58,7 +58,7 @@ class RendererImpl final : public Renderer {
         };
         Lit litBark, litLeaves[2];  // of quick ones (lit.glsl): leaves of three vertices, and of four, if there are any
     };
-    Status makeScene(ScenePrograms& programs, Shading shading, Blend blend) const;
+    Status makeScene(ScenePrograms& programs, Shading shading) const;
     Status makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,
                             std::vector<SpecConstant> constants, Blend blend) const;
     Status pickScene(ViewMode shown, bool quick);
@@ -108,8 +108,8 @@ class RendererImpl final : public Renderer {
     Targets targets_;
     Image shadowMap_, standing_;  // the near half without growth; made when something grows
     Sampler shadowSampler_, textureSampler_, quickSampler_, plainSampler_, pointSampler_;
-    ScenePrograms scenes_[kShadings], counting_;  // each made when first asked for
-    ScenePrograms* scene_ = &scenes_[0];          // of this recording
+    ScenePrograms scenes_[kShadings];     // each made when first asked for
+    ScenePrograms* scene_ = &scenes_[0];  // of this recording
     Shading shading_ = Shading::full;
     Program modelAhead_, modelAheadFading_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_,
         depthTiles_, shadowRestore_;
@@ -137,7 +137,7 @@ class RendererImpl final : public Renderer {
     uint64_t growthBefore_ = 0, sceneNumber_ = 0;
     uint32_t changes_ = 0;  // frames in a row in which growth has changed
     uint64_t propsRevision_ = 0;
-    bool grows_ = false, roofed_ = false, explained_ = false, counts_ = false, shadowDrawn_ = false;
+    bool grows_ = false, roofed_ = false, explained_ = false, shadowDrawn_ = false;
     bool shadowCoarse_ = false;  // the map has fewer and larger leaves, as in a stroke
     bool quickBefore_ = false;
     bool shadowsBehind_ = false;   // of what this picture shows

@@ -110,7 +110,7 @@ Status RendererImpl::makeSceneProgram(Program& program, const char* name, const 
     return Done{};
 }
 
-Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading, Blend blend) const {
+Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading) const {
     if (programs.model) return Done{};
     if (shading == Shading::quick)
         if (Status lit = makeLit(programs); !lit) return lit;
@@ -131,7 +131,7 @@ Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading, Blend b
                 {programs.model, "model", "render/model.vert", "render/model.frag"}};  // last: then all are made
     for (const auto& row : rows) {
         const Status made = makeSceneProgram(row.program, row.name, row.vertex, row.fragment,
-                                             constantsOf(shading, holdsRoots(device_), row.rest), blend);
+                                             constantsOf(shading, holdsRoots(device_), row.rest), blendOf(shading));
         if (!made) return made;
     }
     return Done{};
@@ -139,19 +139,22 @@ Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading, Blend b
 
 Status RendererImpl::pickScene(ViewMode shown, bool quick) {
     explained_ = shown != ViewMode::shaded;
-    counts_ = shown == ViewMode::overdraw;
-    shading_ = explained_ ? Shading::explaining : quick && device_.info().cpu ? Shading::quick : Shading::full;
-    ScenePrograms& wanted = counts_ ? counting_ : scenes_[size_t(shading_)];
+    shading_ = shown == ViewMode::overdraw   ? Shading::counting
+               : explained_                  ? Shading::explaining
+               : quick && device_.info().cpu ? Shading::quick
+                                             : Shading::full;
+    ScenePrograms& wanted = scenes_[size_t(shading_)];
     scene_ = &wanted;
-    return makeScene(wanted, shading_, counts_ ? Blend::additive : Blend::none);
+    return makeScene(wanted, shading_);
 }
 
 Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
-    const ResolveKind kind{format, counts_, shading_ == Shading::quick};
+    const bool counts = shading_ == Shading::counting;
+    const ResolveKind kind{format, counts, shading_ == Shading::quick};
     if (auto it = resolves_.find(kind); it != resolves_.end()) return &it->second;
     const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
     GraphicsDesc desc = fullscreen("resolve", fragment, format);
-    desc.options.constants = {{kExplains, counts_ ? 1u : 0u}, {kQuick, shading_ == Shading::quick ? 1u : 0u}};
+    desc.options.constants = {{kExplains, counts ? 1u : 0u}, {kQuick, shading_ == Shading::quick ? 1u : 0u}};
     Result<Program> made = Program::graphics(device_, desc);
     if (!made) return made.failure();
     return &(resolves_[kind] = std::move(*made));

@@ -73,25 +73,22 @@ Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, ui
         if (!made) return made.failure();
         *program = std::move(*made);
     }
-    const struct {
+    struct Row {
         Program& program;
         const char* name;
         const char* vertex;
         const char* fragment;
         Shading shading = Shading::full;
-    } rows[] = {{tile_[0], "roof tile", "roof/tile.vert", "roof/tile.frag"},
-                {tile_[1], "roof tile", "roof/tile.vert", "roof/tile.frag", Shading::explaining},
-                {tile_[2], "roof tile", "roof/tile.vert", "roof/tile.frag", Shading::quick},
-                {cutTile_[0], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag"},
-                {cutTile_[1], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag", Shading::explaining},
-                {cutTile_[2], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag", Shading::quick},
-                {rectangle_[0], "far roof", "roof/rectangle.vert", "roof/rectangle.frag"},
-                {rectangle_[1], "far roof", "roof/rectangle.vert", "roof/rectangle.frag", Shading::explaining},
-                {rectangle_[2], "far roof", "roof/rectangle.vert", "roof/rectangle.frag", Shading::quick},
-                {tileDepth_, "roof tile shadow", "roof/tile.vert", ""},
-                {cutTileDepth_, "cut roof tile shadow", "roof/cut_tile.vert", ""},
-                {rectangleDepth_, "far roof shadow", "roof/rectangle.vert", ""}};
-    for (const auto& r : rows) {
+    };
+    std::vector<Row> rows{{tileDepth_, "roof tile shadow", "roof/tile.vert", ""},
+                          {cutTileDepth_, "cut roof tile shadow", "roof/cut_tile.vert", ""},
+                          {rectangleDepth_, "far roof shadow", "roof/rectangle.vert", ""}};
+    for (uint32_t s = 0; s < kShadings; ++s) {
+        rows.push_back({tile_[s], "roof tile", "roof/tile.vert", "roof/tile.frag", Shading(s)});
+        rows.push_back({cutTile_[s], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag", Shading(s)});
+        rows.push_back({rectangle_[s], "far roof", "roof/rectangle.vert", "roof/rectangle.frag", Shading(s)});
+    }
+    for (const Row& r : rows) {
         GraphicsDesc desc;
         desc.name = r.name;
         desc.vertex = r.vertex;
@@ -100,6 +97,7 @@ Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, ui
         desc.options.constants = constantsOf(r.shading);
         if (*r.fragment) {
             desc.colors = {color};
+            desc.blend = blendOf(r.shading);
             desc.samples = samples;
             desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
         } else {

@@ -4,21 +4,26 @@
 
 #include <vector>
 
+#include "runtime/gpu/program.hpp"
 #include "runtime/gpu/spirv.hpp"
 #include "shaders/render/frame_records.h"
 
 namespace espalier {
 
 // full: as settled pictures are. explaining: any view but the shaded one. quick: for a moving picture on a software
-// device, with fewer samples of shadows and textures.
-enum class Shading : uint32_t { full = 0, explaining = 1, quick = 2 };
-constexpr uint32_t kShadings = 3;
+// device, with fewer samples of shadows and textures. counting: of overdraw, where fragments add up.
+enum class Shading : uint32_t { full = 0, explaining = 1, quick = 2, counting = 3 };
+constexpr uint32_t kShadings = 4;
 
 inline std::vector<SpecConstant> constantsOf(Shading shading, bool rooted = false, bool rest = false) {
-    return {{kExplains, shading == Shading::explaining ? 1u : 0u},
+    return {{kExplains, shading == Shading::explaining || shading == Shading::counting ? 1u : 0u},
             {kRooted, rooted ? 1u : 0u},
             {kQuick, shading == Shading::quick ? 1u : 0u},
             {kRest, rest ? 1u : 0u}};
+}
+
+inline Blend blendOf(Shading shading) {
+    return shading == Shading::counting ? Blend::additive : Blend::none;
 }
 
 }  // namespace espalier

@@ -22,5 +22,7 @@ void main() {
     vec4 texel = texture(colorMap, uvShare.xy);
     CUT_OUT(texel.a, cutoffOf(fade), 0u)
     color = stored(toneMapped(texelColor(texel.rgb) * light), uvShare.z);
-    if (explains) color = frame.view == kViewOverdraw ? oneFragment() : stored(vec3(0.10, 0.14, 0.07), 0.6);
+    if (explains)
+        color = frame.view == kViewOverdraw  ? oneFragment()
+                : frame.view == kViewNormals ? stored(light, 0.0) : stored(vec3(0.10, 0.14, 0.07), 0.6);
 }

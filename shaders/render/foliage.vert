@@ -10,7 +10,7 @@
 
 layout(push_constant, scalar) uniform Data { PropPush push; };
 layout(location = 0) out vec3 uvShare;   // uv; share of the light that is the sky's
-layout(location = 1) out vec3 light;     // on a texel's colour
+layout(location = 1) out vec3 light;     // on a texel's colour; in the view of normals, the normal
 layout(location = 2) flat out float fade;
 layout(location = 3) flat out float shown;   // of its leaves
 
@@ -58,6 +58,7 @@ void main() {
                          : skyLight(0.55 * v.normal + vec3(0.0, 0.25, 0.0)) * vec3(1.12, 1.10, 0.84) * (0.50 + 0.50 * open);
     const vec3 weights = vec3(0.3, 0.6, 0.1);
     light = tone * (direct + ambient) * frame.exposure;
+    if (explains && frame.view == kViewNormals) light = normalize(v.normal) * 0.5 + 0.5;
     // What lets light through darkens what is behind it less than distances tell.
     float share = dot(ambient, weights) / max(dot(direct + ambient, weights), 1e-5);
     uvShare = vec3(v.uv, share * (grass ? 0.15 : 0.7));

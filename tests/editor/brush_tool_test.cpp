@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "sample_game/panels.hpp"
 #include "tests/editor/faults.hpp"
 #include "tests/editor/window.hpp"
 
@@ -143,6 +144,15 @@ TEST_CASE("nothing is painted where it isn't seen: outside of the window, and be
     // What goes down on the panel is the panel's, wherever it is dragged to.
     painter.done.clear();
     painter.drag({800, 350}, {1000, 350});
+    CHECK(painter.done.empty());
+
+    // Figures are a panel, too.
+    painter.work.layout.figures = true;
+    painter.panels = [&] { sample::showFigures(painter.work, 0, false); };
+    for (int i = 0; i < 3; ++i) painter.frame({});
+    const glm::vec2 figures(painter.work.window.x - 60, 80);
+    (void)painter.under(figures);
+    painter.drag(figures, figures + glm::vec2(10, 30));
     CHECK(painter.done.empty());
 }
 

@@ -96,6 +96,51 @@ TEST_CASE("a second click on a project opens it, and one on a folder leads into 
     CHECK(asked.session.openNext.empty());
 }
 
+TEST_CASE("a project is saved among other files only when that is said twice, and into an empty folder at once") {
+    const Folder folder;
+    std::filesystem::create_directories(folder.path / "full");
+    std::filesystem::create_directories(folder.path / "empty");
+    folder.write("full/note.txt", "not ours");
+    for (const char* name : {"full", "empty"}) {
+        CAPTURE(name);
+        Asked asked(folder);
+        const auto enter = [&] {
+            ImGui::GetIO().KeyMap[ImGuiKey_Enter] = ImGuiKey_Enter;
+            ImGui::GetIO().KeysDown[ImGuiKey_Enter] = true;
+            asked.frame({});
+            ImGui::GetIO().KeysDown[ImGuiKey_Enter] = false;
+            asked.settle();
+            asked.session.background().finish();
+            asked.settle();
+        };
+        sample::put(sample::dialogues().project, folder.file(name));
+        sample::ask("Save the project");
+        asked.settle();
+        CHECK(sample::usesPanels());
+        enter();
+        const std::string project = folder.file(name) + "/project.json";
+        const bool full = std::string(name) == "full";
+        CHECK(std::filesystem::exists(project) == !full);
+        if (!full) continue;
+        CHECK_MESSAGE(contains(sample::dialogues().why, "holds other files"), sample::dialogues().why);
+        enter();
+        CHECK(std::filesystem::exists(project));
+        CHECK(std::filesystem::exists(folder.file("full/note.txt")));
+        CHECK(!sample::usesPanels());
+    }
+}
+
+TEST_CASE("what went wrong with one path isn't said of another") {
+    const Folder folder;
+    Asked asked(folder);
+    sample::askToOpen(folder.file("none.json"), "it isn't there");
+    asked.settle();
+    CHECK(sample::dialogues().turn == sample::Dialogues::Turn::failed);
+    ImGui::GetIO().AddInputCharacter('x');
+    asked.settle();
+    CHECK(sample::dialogues().turn == sample::Dialogues::Turn::asks);
+}
+
 TEST_CASE("~ is the user's folder") {
     const char* before = std::getenv("HOME");
     const std::string had = before ? before : "";

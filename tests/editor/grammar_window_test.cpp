@@ -1,6 +1,9 @@
 // The window with a grammar's text as it is typed into: what compiles, what goes on growing, and what the keys mean.
 
+#include <imgui_internal.h>
+
 #include <algorithm>
+#include <array>
 
 #include "sample_game/panels.hpp"
 #include "sample_game/remarks.hpp"
@@ -90,6 +93,55 @@ TEST_CASE("what is typed compiles with each letter; a mistake stands at its line
     CHECK(writer.grammar().text == before + "// a note\n");
     CHECK(writer.grammar().error == "");
     CHECK(writer.nodes() == grown);
+}
+
+TEST_CASE("lines' numbers stay beside a text that is scrolled sideways, and a click at one goes into it") {
+    const Folder folder;
+    Writer writer(folder);
+    writer.enterText();
+    writer.type("// " + std::string(200, 'a'));
+    const ImGuiWindow *text = nullptr, *grammar = ImGui::FindWindowByName("###grammar");
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+        if (window->WasActive && window->ParentWindow == grammar && contains(window->Name, "/text_")) text = window;
+    REQUIRE(grammar);
+    REQUIRE(text);
+    CHECK(text->Scroll.x > 500);
+    CHECK(text->Pos.x > grammar->Pos.x + 20);
+    writer.widgetKey(ImGuiKey_Escape);
+    REQUIRE(!ImGui::IsAnyItemActive());
+    CHECK(!sample::usesPanels());
+    writer.clickOn({(grammar->Pos.x + text->Pos.x) / 2, text->Pos.y + 60});
+    CHECK(ImGui::IsAnyItemActive());
+    CHECK(sample::usesPanels());
+}
+
+TEST_CASE("a window in a small window is small, and as it was once there is room again") {
+    const Folder folder;
+    Writer writer(folder);
+    const auto place = [] {
+        const ImGuiWindow* window = ImGui::FindWindowByName("###grammar");
+        REQUIRE(window);
+        return std::array{window->Pos.x, window->Pos.y, window->Size.x, window->Size.y};
+    };
+    // Dragged by its title to a place of the user's.
+    const auto first = place();
+    writer.mouse = {first[0] + 200, first[1] + 8};
+    for (const float by : {0.f, 0.f, 0.f, 10.f, 30.f, 60.f}) {
+        ImGui::GetIO().MouseDown[0] = true;
+        writer.mouse.x = first[0] + 200 - by;
+        writer.frame({});
+    }
+    ImGui::GetIO().MouseDown[0] = false;
+    writer.rest();
+    const auto before = place();
+    CHECK(before[0] == first[0] - 60);
+    writer.work.window = {400, 300};
+    writer.rest();
+    CHECK(place()[0] + place()[2] <= 400);
+    CHECK(place()[1] + place()[3] <= 300);
+    writer.work.window = {1280, 720};
+    writer.rest();
+    CHECK(place() == before);
 }
 
 TEST_CASE("in a grammar's text Ctrl+Z goes back over what was typed and leaves the scene alone") {

@@ -257,6 +257,50 @@ TEST_CASE("the arrow of a chosen seed, dragged, and R turn what is chosen to whe
     CHECK(gardener.seeds().size() == before.size());
 }
 
+TEST_CASE("Shift+D makes copies that follow the mouse, as one step, and Esc takes them away again") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t a = gardener.plant(gardener.onWall(-1.2f, .9f)), b = gardener.plant(gardener.onWall(-1, .9f));
+    SeedRecord own = gardener.seed(b);
+    own.params = {{"reach", {.5f}}};
+    REQUIRE(gardener.work.perform(ChangeSeeds{{own}}));
+    const std::vector<SeedRecord> before = gardener.seeds();
+    const size_t steps = gardener.steps();
+    gardener.work.selected = {a, b};
+    const glm::vec2 from = gardener.onWall(-1, 1), to = gardener.onWall(-.8f, 1.3f);
+    const glm::vec3 by = gardener.under(to) - gardener.under(from);
+    for (const int mods : {GLFW_MOD_SHIFT, GLFW_MOD_CONTROL}) {
+        CAPTURE(mods);
+        gardener.move(from);
+        gardener.key(GLFW_KEY_D, mods);
+        CHECK(gardener.seeds().size() == before.size() + 2);
+        gardener.moveTo(to, 6);
+        gardener.key(GLFW_KEY_ESCAPE);
+        CHECK(gardener.seeds() == before);
+        CHECK(gardener.work.selected == Keys{a, b});
+        CHECK(gardener.steps() == steps);
+    }
+    gardener.move(from);
+    gardener.key(GLFW_KEY_D, GLFW_MOD_SHIFT);
+    gardener.moveTo(to, 6);
+    gardener.click(to);
+    gardener.moveTo(from, 3);  // they stay
+    const std::vector<SeedRecord> after = gardener.seeds();
+    REQUIRE(after.size() == before.size() + 2);
+    CHECK(std::equal(before.begin(), before.end(), after.begin()));
+    for (size_t i = 0; i < 2; ++i) {
+        const SeedRecord &copy = after[before.size() + i], &of = before[before.size() - 2 + i];
+        CHECK(gardener.work.selected.count(copy.key));
+        CHECK(glm::distance(vec(copy.position), vec(of.position) + by) < .001f);
+        CHECK(copy.direction == of.direction);
+        CHECK(copy.params == of.params);
+        CHECK(copy.number != of.number);
+    }
+    CHECK(gardener.steps() == steps + 1);
+    gardener.undo();
+    CHECK(gardener.seeds() == before);
+}
+
 TEST_CASE("G moves what is chosen without a button, until a click keeps it, or Esc or the right button give it back") {
     const Folder folder;
     Gardener gardener(folder);

@@ -68,6 +68,19 @@ TEST_CASE("what stands in a seed's field stays that seed's, whichever seed is cl
     CHECK(gardener.seed(b).number == 9);
 }
 
+TEST_CASE("a random number that is typed stays within what there is") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t a = gardener.plant(gardener.onWall(-1.1f, 1));
+    for (const auto& [typed, number] :
+         {std::pair{"-5", 0u}, {"99999999999", 4294967295u}, {"4294967295", 4294967295u}}) {
+        gardener.tap(gardener.placeOf({int(a), "##number"}));
+        gardener.type(typed);
+        gardener.tap(gardener.marker(a));
+        CHECK(gardener.seed(a).number == number);
+    }
+}
+
 TEST_CASE("a height that is typed is the house's that was chosen, whatever is clicked next") {
     const Folder folder;
     Builder builder(folder);

@@ -236,6 +236,27 @@ TEST_CASE("an edge's end and pitch are its own") {
     CHECK(panel.house().edges.empty());
 }
 
+TEST_CASE("F4 opens the text of the grammar whose group is open") {
+    const Folder folder;
+    Editor editor(folder, content("village.json"), sample::Tool::look);
+    editor.panels = [&] {
+        ImGui::Begin("panel");
+        sample::grammarsPanel(editor.work);
+        ImGui::End();
+    };
+    const auto opens = [&](sample::Tool tool) {
+        editor.work.choose(tool);
+        for (int i = 0; i < 3; ++i) editor.frame({});
+        for (const bool shown : {true, false}) {
+            editor.key(GLFW_KEY_F4);
+            CHECK(editor.work.layout.grammar == shown);
+        }
+        return std::filesystem::path(editor.work.scene().grammars[editor.work.openGrammar].file).stem().string();
+    };
+    CHECK(opens(sample::Tool::look).starts_with("ivy"));
+    CHECK(opens(sample::Tool::houses) == "town");
+}
+
 TEST_CASE("buttons that have nothing to act on do nothing, even if they are pressed") {
     const Folder folder;
     folder.write("own.grammar", readAll(content("grammars/ivy_guided.grammar")));
