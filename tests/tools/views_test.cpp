@@ -44,7 +44,8 @@ class Shown {
 
 }  // namespace
 
-TEST_CASE("cards of a tree's crown lie over each other in the view of overdraw, and face every way in that of normals") {
+TEST_CASE(
+    "cards of a tree's crown lie over each other in the view of overdraw, and face every way in that of normals") {
     const Folder folder;
     const Shown overdraw(folder, "overdraw"), normals(folder, "normals");
     // Where ground alone is drawn, a pixel has one fragment.
