@@ -179,10 +179,7 @@ bool App::frame(float seconds) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     if (!session_.openNext.empty() && session_.idle() && !openNext()) return false;
-    // Opened anew, a dialogue would be gone, and what is typed into it meant for the tools.
-    const bool answers = usesPanels();
-    if (session_.reload && session_.recovery().empty() && session_.idle() && !answers) reload();
-    if (!reloading_.kept.empty() && !work_.busy && session_.idle() && !answers) openReloaded();
+    followModels();
     if (!rescale()) return false;
     std::vector<InputEvent> events;
     ImGui_ImplGlfw_NewFrame();

@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kGrowing = "Growing ...  Esc stops that; what has grown is drawn then";
+constexpr const char* kGrowing = "Growing ...  Esc stops it; drawing what has grown takes a moment more";
 constexpr const char* kStopped =
     "Growth was stopped: plants stand as they were. Ctrl+Z takes back what asked for so much; with the next change all "
     "that is new grows.";
@@ -46,7 +46,7 @@ bool App::update() {
     growth_ = {Clock::now(), input_->gui.count(), true, false};
     const EspResult grown = espUpdate(work_.context.get());
     growth_.underWay = false;
-    if (growth_.told) entitle("Espalier \u2014 drawing what has grown");
+    if (growth_.told && grown == ESP_OK) entitle("Espalier \u2014 drawing what has grown");
     if (grown == ESP_STOPPED && growth_.told) pace_.grew(millisecondsSince(growth_.began), true);
     if (grown != ESP_OK)
         work_.error = growthError_ = grown == ESP_STOPPED ? kStopped : espLastError(work_.context.get());

@@ -35,6 +35,7 @@ bool App::fail(const std::string& message) {
 }
 
 App::~App() {
+    dropReloaded();
     atlas_.reset();
     ui_.reset();
     image_.reset();
@@ -158,7 +159,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     if (!document->open(told, error)) return false;
     host_->waitIdle();
     if (work_.document) session_.end(work_);
-    reloading_ = {};
+    dropReloaded();
     work_.document = std::move(document);
     work_.context = std::move(context);
     work_.selected.clear();
@@ -167,7 +168,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.house.reset();
     work_.houseEdge.reset();
     atlas_->forget();
-    work_.plantGrammar = work_.openGrammar = 0;
+    work_.plantGrammar = work_.openGrammar = work_.shownGrammar = 0;
     work_.brush.layer = work_.scene().layers.empty() ? "" : work_.scene().layers.front();
     work_.stats = {};
     work_.roofs = {};
@@ -256,6 +257,23 @@ bool App::showOpening(const std::string& file, const std::string& part, float sh
     clear(*frame, {{.1f, .1f, .1f, 1}});
     return (ui_->draw(*frame, *ImGui::GetDrawData()) || fail(ui_->error())) &&
            (host_->end(*frame) || fail(host_->error()));
+}
+
+// Opened anew, a dialogue would be gone, and what is typed into it meant for the tools: that comes first.
+void App::followModels() {
+    if (!session_.reload && reloading_.kept.empty()) return;
+    const bool waits = usesPanels();
+    if (waits && !reloadWaits_) work_.message = "A model has changed on disk: it is read when you are done here";
+    reloadWaits_ = waits;
+    if (waits || !session_.idle()) return;
+    if (session_.reload && session_.recovery().empty()) reload();
+    if (!reloading_.kept.empty() && !work_.busy && session_.idle()) openReloaded();
+}
+
+void App::dropReloaded() {
+    std::error_code ignored;
+    if (!reloading_.kept.empty()) fs::remove_all(fs::path(reloading_.kept).parent_path(), ignored);
+    reloading_ = {};
 }
 
 // By way of a project, so that everything that was done stands; only undo doesn't reach behind it. It is saved beside

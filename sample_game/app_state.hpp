@@ -53,8 +53,10 @@ class App {
     void beginReplay();
     bool replay(std::vector<InputEvent>& events);
     bool closing();
+    void followModels();
     void reload();
     void openReloaded();
+    void dropReloaded();
     bool frame(float seconds);
     void noteTimes();
     bool turn();
@@ -81,6 +83,7 @@ class App {
         std::string kept;    // the project that it was saved to; empty: none
         uint64_t state = 0;  // of the document then
     } reloading_;
+    bool reloadWaits_ = false;  // for the user, who has been told
     Replay replay_;
     std::unique_ptr<Controls> controls_;
 

@@ -81,7 +81,7 @@ void Controls::takeKey(const KeyEvent& event) {
         if (key == GLFW_KEY_E && !work_.brush.layer.empty()) askForLayer(work_.brush.layer, false);
         if (key == GLFW_KEY_Z && brush_.painting()) return brush_.takeBack(work_);
         if (toolBusy()) return;
-        if (key == GLFW_KEY_D && work_.editing && work_.tool == Tool::seeds)
+        if (key == GLFW_KEY_D && work_.editing && work_.tool == Tool::seeds && !navigation_.dragging())
             return seeds_.duplicate(work_, {event.x, event.y});
         const bool undoes = key == GLFW_KEY_Z && !shift, redoes = (key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y;
         if (undoes && work_.document->undoName()) return void(work_.perform(Undo{}));

@@ -28,11 +28,11 @@ void put(PathText& to, const std::string& text) {
     std::snprintf(to.data(), to.size(), "%s", text.c_str());
 }
 
-void doubt(const std::string& path, const Doubt& why) {
+void doubt(const std::string& path, const Doubt& found) {
     dialogues().turn = Turn::confirms;
     dialogues().doubted = path;
-    dialogues().why = why.why + " " + why.question;
-    dialogues().yes = why.yes;
+    dialogues().why = found.why + " " + found.question;
+    dialogues().yes = found.yes;
 }
 
 // Windows that appear for the first time would lie over it.

@@ -37,8 +37,6 @@ Dialogues& dialogues();
 struct Doubt {
     std::string why;
     const char *question = "Replace it?", *yes = "Replace";
-    Doubt(std::string of = {}) : why(std::move(of)) {}
-    Doubt(std::string of, const char* asked, const char* button) : why(std::move(of)), question(asked), yes(button) {}
 };
 
 // One that asks for a path.
@@ -52,8 +50,8 @@ struct PathQuestion {
 
 void ask(const char* title);
 void put(PathText& to, const std::string& text);
-void doubt(const std::string& path, const Doubt& why);  // of the one that was asked for: it begins by confirming
-bool beginDialogue(const char* title);                  // false: it isn't open
+void doubt(const std::string& path, const Doubt& found);  // of the one that was asked for: it begins by confirming
+bool beginDialogue(const char* title);                    // false: it isn't open
 void say(const std::string& text, ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_Text));
 // Stays with what went wrong until `act`, which is given the path, or the work that it began, is done.
 void askPath(Workspace& work, Session& session, const PathQuestion& question,

@@ -70,9 +70,8 @@ void takeUndoKeys(Workspace& work, TextState& state) {
 
 constexpr ImU32 kBadLine = IM_COL32(150, 40, 30, 255), kWarningLine = IM_COL32(125, 90, 15, 255);
 
-// Beside the text, which they are scrolled with up and down, not sideways. True: they were clicked at, which is meant
-// for the text.
-bool lineNumbers(int lines, const std::vector<Remark>& remarks, ImVec2 place, ImVec2 size, float scrolled) {
+// Beside the text, which they are scrolled with up and down, not sideways.
+void lineNumbers(int lines, const std::vector<Remark>& remarks, ImVec2 place, ImVec2 size, float scrolled) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end{place.x + size.x, place.y + size.y}, at{place.x, place.y - scrolled};
     const bool hovered = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
@@ -91,7 +90,6 @@ bool lineNumbers(int lines, const std::vector<Remark>& remarks, ImVec2 place, Im
                      text.c_str());
     }
     ImGui::PopClipRect();
-    return hovered && ImGui::IsMouseClicked(0);
 }
 
 // Above the text: its way to the file and back.
@@ -154,10 +152,14 @@ void editText(Workspace& work, int lines, TextState& state) {
     const ImVec2 size{std::max(ImGui::CalcTextSize(state.shown.c_str()).x + 2 * line, room.x),
                       std::max(line * float(lines + 1) + 2 * ImGui::GetStyle().FramePadding.y, room.y)};
     if (state.wantedLine) ImGui::SetScrollY(line * float(std::max(0, std::exchange(state.wantedLine, 0) - 3)));
-    if (std::exchange(state.wanted, false)) ImGui::SetKeyboardFocusHere();
     const ImGuiInputTextFlags flags = ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CallbackResize |
                                       ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo;
     ImGui::PushID(int(work.openGrammar));
+    if (std::exchange(state.wanted, false)) {  // as SetKeyboardFocusHere, which would also scroll to the top
+        ImGuiContext& gui = *ImGui::GetCurrentContext();
+        gui.NavNextActivateId = ImGui::GetID("##grammar");
+        gui.NavNextActivateFlags = ImGuiActivateFlags_PreferInput | ImGuiActivateFlags_TryToPreserveState;
+    }
     const bool changed =
         ImGui::InputTextMultiline("##grammar", state.shown.data(), state.shown.size() + 1, size, flags, onEdit, &state);
     ImGui::PopID();
@@ -176,16 +178,17 @@ void editText(Workspace& work, int lines, TextState& state) {
 // below: how much of the window's height stays free.
 void showText(Workspace& work, const std::vector<Remark>& remarks, int lines, float below, TextState& state) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float margin = ImGui::CalcTextSize("0000").x + 8;
+    const ImVec2 size{ImGui::CalcTextSize("0000").x + 8, ImGui::GetContentRegionAvail().y - below};
     float scrolled = 0;
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + margin);
+    // A click at the numbers is meant for the text.
+    state.wanted |= ImGui::InvisibleButton("numbers", size);
+    ImGui::SameLine(0, 0);
     if (ImGui::BeginChild("text", {0, -below}, false, ImGuiWindowFlags_HorizontalScrollbar)) {
         editText(work, lines, state);
         scrolled = ImGui::GetScrollY();
     }
-    const float high = ImGui::GetWindowHeight();
     ImGui::EndChild();
-    state.wanted |= lineNumbers(lines, remarks, at, {margin, high}, scrolled);
+    lineNumbers(lines, remarks, at, size, scrolled);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ bool dialogueWaits() {
 
 bool usesPanels() {
     const ImGuiContext& gui = *ImGui::GetCurrentContext();
-    return dialogueAsked() || !gui.OpenPopupStack.empty() || (gui.ActiveId != 0 && ImGui::GetIO().WantTextInput);
+    return dialogueAsked() || !gui.OpenPopupStack.empty() || (ImGui::IsAnyItemActive() && ImGui::GetIO().WantTextInput);
 }
 
 bool closeMenus() {

@@ -53,7 +53,7 @@ void layerDialogues(Workspace& work, Session& session) {
         for (size_t i = 0; i < (town ? 1 : work.scene().surfaces.size()); ++i) {
             const std::string each = town ? file : pictureOf(*work.document, file, i);
             std::error_code ignored;
-            if (std::filesystem::exists(each, ignored)) return wholePath(each) + " is there already.";
+            if (std::filesystem::exists(each, ignored)) return {wholePath(each) + " is there already."};
         }
         return {};
     };

@@ -24,6 +24,56 @@ void fileMenu(Workspace& work, Session& session) {
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) askToLeave(work, session);
 }
 
+// What the mouse and keys do now. always: what stays where others give way, which who is new needs most.
+struct Hint {
+    std::string text, always;
+};
+
+Hint hintOf(const Workspace& work, bool caught, bool flying) {
+    if (!work.editing)
+        return {std::string(caught ? "Mouse: look   " : "Click: look around   ") + "W A S D: " +
+                    (flying ? "fly   Q E: down, up   G: walk" : "walk   Space: jump   Shift: run   G: fly") +
+                    (caught ? "   Esc: free the mouse" : ""),
+                "   Tab: the editor"};
+    if (work.underWay) return {work.underWay, ""};
+    std::string text;
+    switch (work.tool) {
+        case Tool::paint:
+            text = "Drag: " + work.brush.mode + " " + work.brush.layer +
+                   "   Ctrl: " + (work.brush.mode == "erase" ? "paint" : "erase") +
+                   "   Shift: smooth   F: size   Shift+F: strength   V: show the layer   middle drag: turn   "
+                   "wheel: nearer";
+            break;
+        case Tool::seeds:
+            text =
+                "Click: plant   drag: with a direction   Ctrl+drag: a row   click a seed: choose   Shift+drag: "
+                "several   G: move   R: turn   Shift+D: duplicate   Del: remove";
+            break;
+        case Tool::houses:
+            text =
+                "Click a house, or an edge of the chosen one   drag a corner: the roof follows   Ctrl+drag an edge: a "
+                "new corner   Del: the edge's corner goes   F: show it";
+            break;
+        case Tool::branch:
+            text =
+                "Click a branch   [: its parent   Del: prune it   F: show it   white: steps   blue: put in at seams "
+                "and creases   green: over a seam";
+            break;
+        case Tool::look:
+            text = "Drag: turn around   Shift+drag: sideways   wheel: nearer   right drag: look, with W A S D: fly";
+            break;
+    }
+    return {text, "   Tab: walk   F1: all keys"};
+}
+
+// As much of it as there is room for: the last hints give way, each as a whole. Empty: there is no room.
+std::string fitted(const Hint& hint, float room) {
+    std::string text = hint.text;
+    const auto width = [&] { return ImGui::CalcTextSize((text + hint.always).c_str()).x; };
+    while (width() > room && text.rfind("   ") != std::string::npos) text.resize(text.rfind("   "));
+    return width() > room ? "" : text + hint.always;
+}
+
 }  // namespace
 
 void showMenu(Workspace& work, Session& session) {
@@ -51,7 +101,8 @@ void showMenu(Workspace& work, Session& session) {
             ImGui::Separator();
             ImGui::MenuItem("Panel", "F2", &work.layout.panel);
             ImGui::MenuItem("Figures", "F3", &work.layout.figures);
-            ImGui::MenuItem("Grammar", "F4", &work.layout.grammar);
+            if (ImGui::MenuItem("Grammar", "F4", work.layout.grammar))
+                work.showGrammar(!work.layout.grammar, work.shownGrammar);
             ImGui::MenuItem("Atlas", "F5", &work.layout.atlas);
             if (ImGui::MenuItem("Windows as at first")) {
                 work.windowsAnew = 2;
@@ -78,36 +129,6 @@ void showMenu(Workspace& work, Session& session) {
 }
 
 void showStatus(const Workspace& work, bool caught, bool flying) {
-    std::string text;
-    if (!work.editing)
-        text = std::string(caught ? "Mouse: look   " : "Click: look around   ") +
-               "W A S D: " + (flying ? "fly   Q E: down, up   G: walk" : "walk   Space: jump   Shift: run   G: fly") +
-               (caught ? "   Esc: free the mouse" : "");
-    else if (work.underWay)
-        text = work.underWay;
-    else if (work.tool == Tool::paint)
-        text = "Drag: " + work.brush.mode + " " + work.brush.layer +
-               "   Ctrl: " + (work.brush.mode == "erase" ? "paint" : "erase") +
-               "   Shift: smooth   F: size   Shift+F: strength   " +
-               "V: show the layer   middle drag: turn   wheel: nearer";
-    else if (work.tool == Tool::seeds)
-        text =
-            "Click: plant   drag: with a direction   Ctrl+drag: a row   click a seed: choose   Shift+drag: several   "
-            "G: move   R: turn   Shift+D: duplicate   Del: remove";
-    else if (work.tool == Tool::houses)
-        text =
-            "Click a house, or an edge of the chosen one   drag a corner: the roof follows   Ctrl+drag an edge: a new "
-            "corner   Del: the edge's corner goes   F: show it";
-    else if (work.tool == Tool::branch)
-        text =
-            "Click a branch   [: its parent   Del: prune it   F: show it   white: steps   blue: put in at seams and "
-            "creases   green: over a seam";
-    else
-        text = "Drag: turn around   Shift+drag: sideways   wheel: nearer   right drag: look, with W A S D: fly";
-    // Who is new needs these most: they stay when others give way.
-    const std::string always = !work.editing   ? "   Tab: the editor"
-                               : work.underWay ? ""
-                                               : "   Tab: walk   F1: all keys";
     const bool bad = !work.error.empty();
     const float height = ImGui::GetFrameHeight() + 4 * work.scale;
     ImGui::SetNextWindowPos({0, work.window.y - height});
@@ -119,18 +140,17 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                    ImGuiWindowFlags_NoNav;
     if (ImGui::Begin("status", nullptr, flags)) {
-        // News is short-lived: it takes the hint's place where there isn't room for both.
+        // News is short-lived: hints give way to it.
         const std::string& news = bad ? work.error : work.message;
         const std::string line = news.substr(0, news.find('\n'));
-        const float width = ImGui::CalcTextSize(line.c_str()).x;
-        // In a narrow window the last hints give way, each as a whole.
-        const auto taken = [&] { return ImGui::CalcTextSize((text + always).c_str()).x + 24 * work.scale; };
-        const bool fits = taken() + width + 28 * work.scale < work.window.x;
-        while (taken() > work.window.x && text.rfind("   ") != std::string::npos) text.resize(text.rfind("   "));
-        text += always;
-        if (line.empty() || fits) ImGui::TextUnformatted(text.c_str());
+        const float width = line.empty() ? 0 : ImGui::CalcTextSize(line.c_str()).x + 28 * work.scale;
+        const std::string hint = fitted(hintOf(work, caught, flying), work.window.x - 24 * work.scale - width);
+        ImGui::TextUnformatted(hint.c_str());
         if (!line.empty()) {
-            if (fits) ImGui::SameLine(work.window.x - width - 12 * work.scale);
+            if (hint.empty())
+                ImGui::SameLine(12 * work.scale);
+            else
+                ImGui::SameLine(work.window.x - width + 16 * work.scale);
             ImGui::TextColored(bad ? kBad : kGood, "%s", line.c_str());
             if (ImGui::IsItemHovered()) tip(news.c_str());
         }

@@ -64,8 +64,8 @@ Doubt doubtOfSaving(const Session& session, const std::string& folder) {
     std::error_code ignored;
     const std::string place = wholePath(folder);
     if (place == session.folder())
-        return session.changedByOthers() ? place + " has been saved by somebody else since it was opened." : "";
-    if (fs::exists(fs::path(place) / "project.json", ignored)) return place + " is a project already.";
+        return {session.changedByOthers() ? place + " has been saved by somebody else since it was opened." : ""};
+    if (fs::exists(fs::path(place) / "project.json", ignored)) return {place + " is a project already."};
     if (fs::directory_iterator(place, ignored) == fs::directory_iterator()) return {};  // empty, or to be made
     return {place + " holds other files.", "Save the project among them?", "Save there"};
 }

@@ -198,6 +198,7 @@ void SeedTool::duplicate(Workspace& work, glm::vec2 at) {
         copies.seeds.push_back(std::move(copy));
         copies.places.push_back(uint32_t(work.scene().seeds.size() + copies.places.size()));
     }
+    if (copies.seeds.empty()) return;  // what was chosen has gone
     copied_ = std::exchange(work.selected, {});
     for (const SeedRecord& copy : copies.seeds) work.selected.insert(copy.key);
     grab(work, at, false);

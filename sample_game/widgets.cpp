@@ -135,15 +135,17 @@ bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2
     };
     static std::map<ImGuiID, Had> all;
     Had& had = all[ImHashStr(title)];
-    const bool known = ImGui::FindWindowByName(title) && had.wanted != Place{} && work.windowsAnew == 0;
+    const ImGuiWindow* is = ImGui::FindWindowByName(title);
+    const bool known = is && had.wanted != Place{} && work.windowsAnew == 0;
     const float top = ImGui::GetFrameHeight(), bottom = work.window.y - ImGui::GetFrameHeight() - 4 * work.scale;
     // A window that is made small for a while leaves them large enough to be of use.
     const glm::vec2 least = glm::vec2(300, 200) * work.scale, room = glm::max({work.window.x, bottom - top}, least);
     const bool held = ImGui::IsMouseDown(0);
     ImGui::SetNextWindowSizeConstraints({least.x, least.y}, {room.x, room.y});
     if (known && !held) {
-        const glm::vec2 fits = glm::clamp(had.wanted.size, least, room);
+        glm::vec2 fits = glm::clamp(had.wanted.size, least, room);
         ImGui::SetNextWindowSize({fits.x, fits.y});
+        if (is->Collapsed) fits.y = is->TitleBarHeight();
         ImGui::SetNextWindowPos({std::max(0.f, std::min(had.wanted.at.x, work.window.x - fits.x)),
                                  std::max(top, std::min(had.wanted.at.y, bottom - fits.y))});
     } else if (!known) {
@@ -154,7 +156,8 @@ bool beginWindow(const Workspace& work, const char* title, bool* open, glm::vec2
     const bool shown = ImGui::Begin(title, open, flags | kQuiet);
     const ImGuiWindow& window = *ImGui::GetCurrentWindow();
     const Place now{{window.Pos.x, window.Pos.y}, {window.SizeFull.x, window.SizeFull.y}};
-    if (!known || (held && now != had.shown)) had.wanted = now;
+    if (!known || (held && now.at != had.shown.at)) had.wanted.at = now.at;
+    if (!known || (held && now.size != had.shown.size)) had.wanted.size = now.size;
     had.shown = now;
     return shown;
 }

@@ -137,7 +137,8 @@ Status Props::choose(Commands& commands, const FrameRecord& frame) {
         const float distance = std::max(glm::length(instance.position - frame.eye), 1e-3f);
         if (variant.extent * instance.scale * frame.pixelScale < kLeastPixels * distance) continue;
         if (material.name == "grass") {
-            const float reach = kGrassReach * std::clamp(rooms_[places_[i].variant].top / kTallGrass, 0.5f, 1.0f);
+            const float high = rooms_[places_[i].variant].top * instance.scale / frame.unit;
+            const float reach = kGrassReach * std::clamp(high / kTallGrass, 0.5f, 1.0f);
             instance.scale *= std::clamp((reach - distance / frame.unit) / kGrassShrinks, 0.0f, 1.0f);
             if (instance.scale <= 0) continue;
         }

@@ -143,9 +143,8 @@ Status RendererImpl::pickScene(ViewMode shown, bool quick) {
                : explained_                  ? Shading::explaining
                : quick && device_.info().cpu ? Shading::quick
                                              : Shading::full;
-    ScenePrograms& wanted = scenes_[size_t(shading_)];
-    scene_ = &wanted;
-    return makeScene(wanted, shading_);
+    scene_ = &scenes_[size_t(shading_)];
+    return makeScene(*scene_, shading_);
 }
 
 Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {

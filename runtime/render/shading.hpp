@@ -10,8 +10,8 @@
 
 namespace espalier {
 
-// full: as settled pictures are. explaining: any view but the shaded one. quick: for a moving picture on a software
-// device, with fewer samples of shadows and textures. counting: of overdraw, where fragments add up.
+// full: as settled pictures are. explaining: any view but the shaded one and overdraw. quick: for a moving picture on a
+// software device, with fewer samples of shadows and textures. counting: of overdraw, where fragments add up.
 enum class Shading : uint32_t { full = 0, explaining = 1, quick = 2, counting = 3 };
 constexpr uint32_t kShadings = 4;
 

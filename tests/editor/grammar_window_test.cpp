@@ -26,6 +26,7 @@ struct Writer : Editor {
         };
         rest();
     }
+    ~Writer() { sample::leaveGrammar(); }
     const espalier::scene::LoadedGrammar& grammar() const { return work.scene().grammars[0]; }
     void rest() {
         for (int i = 0; i < 4; ++i) frame({});
@@ -110,7 +111,14 @@ TEST_CASE("lines' numbers stay beside a text that is scrolled sideways, and a cl
     writer.widgetKey(ImGuiKey_Escape);
     REQUIRE(!ImGui::IsAnyItemActive());
     CHECK(!sample::usesPanels());
-    writer.clickOn({(grammar->Pos.x + text->Pos.x) / 2, text->Pos.y + 60});
+    const ImVec2 before = text->Scroll;
+    writer.mouse = {text->Pos.x - 10, text->Pos.y + 60};
+    for (const bool down : {false, true, true, true, true, true, false}) {
+        ImGui::GetIO().MouseDown[0] = down;
+        writer.frame({});
+    }
+    writer.rest();
+    CHECK(text->Scroll.y == before.y);
     CHECK(ImGui::IsAnyItemActive());
     CHECK(sample::usesPanels());
 }
@@ -139,6 +147,7 @@ TEST_CASE("a window in a small window is small, and as it was once there is room
     writer.rest();
     CHECK(place()[0] + place()[2] <= 400);
     CHECK(place()[1] + place()[3] <= 300);
+    writer.clickOn({200, place()[1] + 8});  // on its title: it stays
     writer.work.window = {1280, 720};
     writer.rest();
     CHECK(place() == before);

@@ -299,6 +299,12 @@ TEST_CASE("Shift+D makes copies that follow the mouse, as one step, and Esc take
     CHECK(gardener.steps() == steps + 1);
     gardener.undo();
     CHECK(gardener.seeds() == before);
+
+    // Of seeds that aren't there any more there are no copies, and they can still be brought back.
+    gardener.key(GLFW_KEY_D, GLFW_MOD_SHIFT);
+    CHECK(gardener.steps() == steps);
+    gardener.key(GLFW_KEY_Y, GLFW_MOD_CONTROL);
+    CHECK(gardener.seeds() == after);
 }
 
 TEST_CASE("G moves what is chosen without a button, until a click keeps it, or Esc or the right button give it back") {

@@ -79,6 +79,25 @@ TEST_CASE("Esc stops growth that takes long, and the next change grows") {
     CHECK(readAll(folder.file("updates")) == std::to_string(ESP_STOPPED) + "\n" + std::to_string(ESP_OK) + "\n");
 }
 
+TEST_CASE("a model that changes on disk waits for an open dialogue, and what is typed there isn't the tools'") {
+    if (!hasDisplay()) return;
+    const Folder folder;
+    std::string scene = readAll(smallScene(folder)), model = readAll(content("ruin.surface.glb"));
+    const std::string name = content("ruin.surface.glb"), own = folder.write("own.surface.glb", model);
+    scene.replace(scene.find(name), name.size(), own);
+    const std::string generator = R"("generator":")";
+    const size_t at = model.find(generator);
+    REQUIRE(at != std::string::npos);
+    model[at + generator.size()] = 'E';
+    folder.write("other", model);
+    const Ran ran = drive("drive_reload", folder.write("own.json", scene), folder, own);
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    const std::string saved = readAll(folder.file("kept/project.json"));
+    size_t seeds = 0;
+    for (size_t i = 0; (i = saved.find(R"("position")", i)) != std::string::npos; ++i) ++seeds;
+    CHECK(seeds == 2);
+}
+
 TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are planted, undone and done again") {
     if (!hasDisplay()) return;
     const Folder folder;

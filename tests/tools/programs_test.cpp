@@ -62,6 +62,8 @@ TEST_CASE("files that are missing, or aren't what they should be") {
     refuses(capture + folder.write("text.glb", "not a model") + out, folder, {"text.glb"});
     refuses(capture + folder.write("nothing.glb", "") + out, folder, {"nothing.glb"});
     refuses(capture + content("ruin.glb") + out, folder, {"ruin.glb", "espalier-bake"});  // not baked
+    refuses(capture + folder.write("model.gltf", R"({"asset": {}})") + out, folder, {"model.gltf", "espalier-bake"});
+    refuses(capture + folder.write("note.txt", "of no use") + out, folder, {"note.txt", "neither a scene"});
     std::string half = readAll(content("ruin.surface.glb"));
     half.resize(half.size() / 2);
     refuses(capture + folder.write("half.glb", half) + out, folder, {"half.glb"});

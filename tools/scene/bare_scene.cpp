@@ -3,7 +3,9 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
+#include <string_view>
 
 #include "tools/scene/scene_parts.hpp"
 #include "tools/scene/text_file.hpp"
@@ -89,6 +91,15 @@ bool isUnbakedModel(const std::string& path) {
     return model && text.find(kSurfaceExtension) == std::string::npos;
 }
 
+// A file of quite another kind.
+bool isNoSurface(const std::string& path) {
+    char begin[4];
+    std::ifstream in(path, std::ios::binary);
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored) && in &&
+           (!in.read(begin, sizeof begin) || std::string_view(begin, sizeof begin) != "glTF");
+}
+
 // glTF's unit is the metre, but many scans come in another: a statue of a centimetre, or of a kilometre, is shown as
 // one of two metres, so that ivy on it is ivy.
 bool loadAtLivingSize(EspContext* context, LoadedSurface& surface, EspSurfaceInfo& info, std::string& error) {
@@ -124,7 +135,11 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     EspSurfaceInfo info;
     LoadedSurface& surface = out.surfaces.emplace_back();
     surface.file = request.file;
-    if (!loadAtLivingSize(context, surface, info, error)) return false;
+    if (!loadAtLivingSize(context, surface, info, error)) {
+        if (isNoSurface(request.file))
+            error = request.file + ": neither a scene (.json), a town (.geojson) nor a baked surface (.glb)";
+        return false;
+    }
     const char* standard = request.layers.empty() ? "ivy_free.grammar" : "ivy_guided.grammar";
     LoadedGrammar grammar;
     grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/" + standard : request.grammar;

@@ -246,12 +246,7 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     out.name = lastPart(asked.file);
     out.ownLook = espDefaultLook();
     out.grow = request.grow;
-    const std::string ending = fs::path(request.file).extension().string();
-    if (ending != ".json" && ending != ".geojson" && ending != ".glb" && fs::is_regular_file(request.file, ignored)) {
-        error = request.file + ": neither a scene (.json), a town (.geojson) nor a baked surface (.glb)";
-        return false;
-    }
-    const bool described = ending == ".json";
+    const bool described = fs::path(request.file).extension() == ".json";
     const auto open = isTown(request.file) ? openTown : described ? openDescription : openSurface;
     if (!open(context, request, out, error)) return false;
     out.grow.walk = request.walk.value_or(out.grow.walk);
