@@ -178,7 +178,8 @@ void editText(Workspace& work, int lines, TextState& state) {
 // below: how much of the window's height stays free.
 void showText(Workspace& work, const std::vector<Remark>& remarks, int lines, float below, TextState& state) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const ImVec2 size{ImGui::CalcTextSize("0000").x + 8, ImGui::GetContentRegionAvail().y - below};
+    // As high as the text's window, which ImGui makes no lower.
+    const ImVec2 size{ImGui::CalcTextSize("0000").x + 8, std::max(4.f, ImGui::GetContentRegionAvail().y - below)};
     float scrolled = 0;
     // A click at the numbers is meant for the text.
     state.wanted |= ImGui::InvisibleButton("numbers", size);

@@ -203,13 +203,15 @@ TEST_CASE("the mask leads from the ground up the wall") {
     CHECK(maskAt("ground", {-1.35f, -0.5f}) > 128);
 }
 
-TEST_CASE("the sample's ivy keeps off the tondo, is lush over the arch and climbs the back by tongues") {
+TEST_CASE("the sample's ivy keeps off the tondo, is lush over the arch and climbs the back and the end by tongues") {
     auto ivyAt = [](const std::string& chart, glm::vec2 st) { return layerAt(ruin().painted.ivy, chart, st); };
     CHECK(ivyAt("main front", {-1.62f, 2.05f}) == 0);
     CHECK(ivyAt("main front", {0.55f, 2.70f}) > 180);
     CHECK(ivyAt("main front", {-2.5f, 0.8f}) == 128);
     CHECK(ivyAt("main back", {1.85f, 1.5f}) > 140);  // s runs against x there
     CHECK(ivyAt("main back", {0, 1.9f}) == 0);
+    CHECK(ivyAt("return outer", {1.4f, 0.5f}) > 140);
+    CHECK(ivyAt("return outer", {-0.25f, 3.3f}) == 0);  // the corner, high up
     CHECK(ivyAt("ground", {0.5f, -2.0f}) == 128);
 }
 
