@@ -69,6 +69,7 @@ Status Props::makePrograms(Device& device, VkFormat color, VkFormat depth, uint3
     };
     std::vector<Row> rows{{depth_, "prop shadow", "render/prop.vert", "render/prop_shadow.frag", Shading::full, true}};
     for (uint32_t s = 0; s < kShadings; ++s) {
+        if (!isAskedOf(device, Shading(s))) continue;
         rows.push_back({built_[s], "prop", "render/prop.vert", "render/prop.frag", Shading(s)});
         rows.push_back({foliage_[s], "foliage", "render/foliage.vert", foliage, Shading(s)});
     }
@@ -111,7 +112,7 @@ Status Props::place(Device& device, std::vector<PropPlace> places) {
         const float tint = std::fmod(float(i) * 0.61803399f, 1.0f);
         instances_.push_back({p.position, p.scale, {std::cos(p.turn), std::sin(p.turn)}, tint, 1});
     }
-    chosenFor_ = glm::mat4(0);
+    chosenFor_ = {};
     return Done{};
 }
 
@@ -124,7 +125,8 @@ void Props::bounds(glm::vec3& low, glm::vec3& high) const {
 }
 
 Status Props::choose(Commands& commands, const FrameRecord& frame) {
-    if (chosenFor_ == frame.viewProjection) return Done{};
+    const View view{frame.viewProjection, frame.pixelScale, frame.unit};
+    if (chosenFor_ == view) return Done{};
     const TerminalTable& table = terminals_.table();
     std::vector<Level> levels(table.buckets.size());
     const ViewSides sides(frame.viewProjection);
@@ -164,11 +166,8 @@ Status Props::choose(Commands& commands, const FrameRecord& frame) {
         instance.fade = -instance.fade;
         levels[variant.firstBucket + level - 1].seen.emplace_back(distance, instance);
     }
-    triangles_ = 0;
-    for (uint32_t b = 0; b < table.buckets.size(); ++b)
-        triangles_ += levels[b].seen.size() * (table.buckets[b].indexCount / 3);
     if (Status s = upload(commands, levels, inView_); !s) return s;
-    chosenFor_ = frame.viewProjection;
+    chosenFor_ = view;
     return Done{};
 }
 
@@ -218,9 +217,8 @@ void Props::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, 
     for (const Run& run : chosen.runs) {
         const BucketRecord& bucket = table.buckets[run.bucket];
         const PropPush push = pushOf(run.bucket, run.first);
-        // Patterns are for records; here each instance draws the first of its repetitions.
         const DrawPass::IndexRange range{bucket.indexCount, bucket.firstIndex, int32_t(bucket.firstVertex), run.count};
-        const Sampler& sampler = shading == Shading::quick ? quickSampler_ : sampler_;
+        const Sampler& sampler = isQuick(shading) ? quickSampler_ : sampler_;
         const Binding color{terminals_.baseColor(bucket.material), sampler}, texels(chosen.texels),
             meshes(terminals_.vertexTexels());
         if (!shadow)

@@ -38,8 +38,7 @@ class Props {
     Status chooseCasters(Commands& commands, const glm::mat4& sunClip);
     void draw(DrawPass& pass, const Buffer& frame, const Binding& shadow, Shading shading) const;
     void drawDepth(DrawPass& pass, const Buffer& frame) const;
-    uint64_t triangles() const { return triangles_; }  // of the last choice
-    void forget() { chosenFor_ = glm::mat4(0); }       // the last recording won't be submitted
+    void forget() { chosenFor_ = {}; }  // the last recording won't be submitted
 
   private:
     // What a variant takes up however it is turned: a cylinder about its origin's vertical.
@@ -61,6 +60,12 @@ class Props {
     struct Level {
         std::vector<std::pair<float, PropInstance>> seen;  // by distance
     };
+    // What a choice depends on: pictures of two sizes may have one matrix.
+    struct View {
+        glm::mat4 viewProjection{0};
+        float pixelScale = 0, unit = 0;
+        bool operator==(const View&) const = default;
+    };
     void measure();
     Box boxOf(const PropPlace& place) const;
     Status makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples);
@@ -77,8 +82,7 @@ class Props {
     Program built_[kShadings], foliage_[kShadings];
     Program depth_;
     Chosen inView_, casters_;
-    glm::mat4 chosenFor_{0};
-    uint64_t triangles_ = 0;
+    View chosenFor_;
 };
 
 }  // namespace espalier
