@@ -8,61 +8,16 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/gpu/color_texture.hpp"
-#include "runtime/surface/box_tree.hpp"
 #include "shaders/shared/exact.h"
 
 namespace espalier {
 namespace {
 
-// Enough vertices a draw instance that the fixed cost of one doesn't show.
-constexpr uint32_t kBatchVertices = 4096;
+// Enough vertices a draw instance that the fixed cost of one doesn't show; a mesh has no more than six indices for
+// each.
+constexpr uint32_t kBatchVertices = 4096, kBatchIndices = 6 * kBatchVertices;
 // Of a ribbon against a tube, in radii: bark of less than two and a half pixels of radius may be one.
 constexpr float kRibbonError = 0.4f;
-// Of a cut-out of two triangles at least, in sizes: its outline and light show more than its distance does. Where
-// leaves of less than eight pixels are thinned out and 1.2 pixels are allowed, none is drawn: it is for pictures of
-// what moves.
-constexpr float kKiteError = 0.16f;
-
-float distanceToSegment(glm::vec3 p, glm::vec3 a, glm::vec3 b) {
-    const glm::vec3 d = b - a;
-    const float t = glm::clamp(glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-20f), 0.0f, 1.0f);
-    return glm::length(p - a - d * t);
-}
-
-float distanceToTriangle(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-    const glm::vec3 n = glm::cross(b - a, c - a);
-    const float n2 = glm::dot(n, n);
-    if (n2 > 1e-20f) {
-        const bool inside = glm::dot(glm::cross(b - a, p - a), n) >= 0 && glm::dot(glm::cross(c - b, p - b), n) >= 0 &&
-                            glm::dot(glm::cross(a - c, p - c), n) >= 0;
-        if (inside) return std::abs(glm::dot(p - a, n)) / std::sqrt(n2);
-    }
-    return std::min({distanceToSegment(p, a, b), distanceToSegment(p, b, c), distanceToSegment(p, c, a)});
-}
-
-// A LOD's triangles in a tree of boxes.
-class LodDistance {
-  public:
-    LodDistance(const TerminalData& data, const TerminalLod& lod) {
-        std::vector<Box> boxes;
-        for (uint32_t i = 0; i < lod.indexCount; ++i) {
-            corners_.push_back(data.vertices[lod.firstVertex + data.indices[lod.firstIndex + i]].position);
-            if (i % 3 == 0) boxes.emplace_back();
-            boxes.back().add(corners_.back());
-        }
-        tree_ = BoxTree(std::move(boxes), {});
-    }
-    double squareAt(glm::vec3 p) const {
-        return tree_.nearestSquare(p, [&](uint32_t i) {
-            const double d = distanceToTriangle(p, corners_[3 * i], corners_[3 * i + 1], corners_[3 * i + 2]);
-            return d * d;
-        });
-    }
-
-  private:
-    std::vector<glm::vec3> corners_;
-    BoxTree tree_;
-};
 
 // Pieces along z.
 float barkSegments(const TerminalData& data, const TerminalLod& lod) {
@@ -72,34 +27,18 @@ float barkSegments(const TerminalData& data, const TerminalLod& lod) {
     return float(std::max<size_t>(levels.size(), 2) - 1);
 }
 
-}  // namespace
-
-void measureTerminalErrors(TerminalData& data) {
-    for (TerminalVariant& variant : data.variants) {
-        if (variant.lods.size() < 2) continue;
-        const TerminalLod& full = variant.lods[0];
-        const LodDistance toFull(data, full);
-        for (size_t l = 1; l < variant.lods.size(); ++l) {
-            TerminalLod& lod = variant.lods[l];
-            const LodDistance toLod(data, lod);
-            // The root of the mean square: one far point, like the end of a stalk, doesn't decide for all.
-            double sum = 0;
-            uint32_t count = full.vertexCount;
-            for (uint32_t i = 0; i < full.vertexCount; ++i)
-                sum += toLod.squareAt(data.vertices[full.firstVertex + i].position);
-            // A cut-out may reach further than the shape: its texture takes that away again.
-            const bool cutOut = data.materials[lod.material].alphaCutoff > 0;
-            if (!cutOut) {
-                count += lod.vertexCount;
-                for (uint32_t i = 0; i < lod.vertexCount; ++i)
-                    sum += toFull.squareAt(data.vertices[lod.firstVertex + i].position);
-            }
-            const float error = std::min(float(std::sqrt(sum / std::max(count, 1u))), 1e30f);
-            const float least = cutOut && lod.indexCount <= 6 ? kKiteError : 1e-4f;
-            lod.error = std::max({error, variant.lods[l - 1].error * 1.01f, least});
-        }
-    }
+// Kernels' table has room for so many.
+Status checkRoom(const TerminalData& data) {
+    size_t levels = 0;
+    for (const TerminalVariant& variant : data.variants) levels += std::min<size_t>(variant.lods.size(), kMaxLods);
+    if (data.kinds.size() <= kMaxTerminalKinds && data.variants.size() <= kMaxVariants && levels <= kMaxBuckets)
+        return Done{};
+    return Failure("terminals", "more than " + std::to_string(kMaxTerminalKinds) + " kinds, " +
+                                    std::to_string(kMaxVariants) + " variants or " + std::to_string(kMaxBuckets) +
+                                    " levels of detail of terminal meshes");
 }
+
+}  // namespace
 
 // Far bark is a ribbon that the vertex shader turns to the eye: two triangles a span.
 void addRibbons(TerminalData& data) {
@@ -125,14 +64,17 @@ Result<Terminals> Terminals::create(Device& device, TerminalData data, TerminalC
     Terminals terminals;
     terminals.data_ = std::move(data);
     addRibbons(terminals.data_);
-    if (Status s = terminals.makeTable(device); !s) return s.failure();
-    if (choice == TerminalChoice::kernels)
+    const bool kernels = choice == TerminalChoice::kernels;
+    if (kernels)
+        if (Status s = checkRoom(terminals.data_); !s) return s.failure();
+    if (Status s = terminals.makeTable(device, kernels); !s) return s.failure();
+    if (kernels)
         if (Status s = terminals.makeKernelTable(device); !s) return s.failure();
     if (Status s = terminals.makePictures(device); !s) return s.failure();
     return terminals;
 }
 
-Status Terminals::makeTable(Device& device) {
+Status Terminals::makeTable(Device& device, bool repeats) {
     std::stable_sort(data_.variants.begin(), data_.variants.end(),
                      [](const TerminalVariant& a, const TerminalVariant& b) { return a.kind < b.kind; });
     table_.kinds.resize(data_.kinds.size());
@@ -151,7 +93,9 @@ Status Terminals::makeTable(Device& device) {
             record.segments[l] = kind.bark ? barkSegments(data_, lod) : 1;
             for (uint32_t i = 0; i < lod.vertexCount; ++i)
                 record.extent = std::max(record.extent, glm::length(data_.vertices[lod.firstVertex + i].position));
-            const uint32_t batch = std::max(1u, kBatchVertices / lod.vertexCount);
+            const uint32_t most =
+                std::min(kBatchVertices / lod.vertexCount, kBatchIndices / std::max(lod.indexCount, 1u));
+            const uint32_t batch = repeats ? std::max(1u, most) : 1;
             table_.buckets.push_back(
                 {lod.firstVertex, lod.vertexCount, lod.indexCount, batch, uint32_t(batches.size()), lod.material});
             for (uint32_t b = 0; b < batch; ++b)
@@ -178,11 +122,6 @@ Status Terminals::makeTable(Device& device) {
 }
 
 Status Terminals::makeKernelTable(Device& device) {
-    if (table_.kinds.size() > kMaxTerminalKinds || table_.variants.size() > kMaxVariants ||
-        table_.buckets.size() > kMaxBuckets)
-        return Failure("terminals", "more than " + std::to_string(kMaxTerminalKinds) + " kinds, " +
-                                        std::to_string(kMaxVariants) + " variants or " + std::to_string(kMaxBuckets) +
-                                        " levels of detail of terminal meshes");
     std::ranges::copy(table_.kinds, kernelTable_.kinds);
     std::ranges::copy(table_.variants, kernelTable_.variants);
     std::ranges::copy(table_.buckets, kernelTable_.buckets);

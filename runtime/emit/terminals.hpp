@@ -78,14 +78,15 @@ class Terminals {
     const Buffer& vertices() const { return vertices_; }
     const TexelView& vertexTexels() const { return vertexTexels_; }  // of two words
     const Buffer& indices() const { return indices_; }               // of single instances, for materialising
-    const Buffer& batches() const { return batches_; }               // repeated patterns, for drawing
+    const Buffer& batches() const { return batches_; }               // patterns for drawing, BucketRecord::firstIndex
     const TerminalLod& lodOfBucket(uint32_t bucket) const;
     // Textures of a material; white, or flat, where it has none.
     const Image& baseColor(uint32_t material) const;
     const Image& normalMap(uint32_t material) const;
 
   private:
-    Status makeTable(Device& device);
+    // repeats: each level's indices, so that an instance is a batch; else the pattern is one mesh.
+    Status makeTable(Device& device, bool repeats);
     Status makeKernelTable(Device& device);
     Status makePictures(Device& device);
 

@@ -17,6 +17,8 @@ namespace {
 
 using nlohmann::json;
 constexpr uint32_t kMaxMeshVertices = 1 << 16;
+constexpr size_t kMaxFileIndices =
+    1 << 24;  // and vertices: meshes may share what lies in the file, not what is made of it
 
 uint32_t wordAt(std::span<const std::byte> bytes, size_t offset) {
     uint32_t w;
@@ -218,6 +220,10 @@ class Reader {
               name + ": attributes of different lengths, or more than 65,536 vertices");
         check(!index.empty() && index.size() % 3 == 0, name + ": indices are not whole triangles");
 
+        check(data_.vertices.size() + vertices <= kMaxFileIndices &&
+                  data_.indices.size() + index.size() <= kMaxFileIndices,
+              name + ": more than 16 million vertices or indices in all meshes");
+
         TerminalLod lod;
         lod.firstVertex = uint32_t(data_.vertices.size());
         lod.vertexCount = uint32_t(vertices);
@@ -237,7 +243,7 @@ class Reader {
             data_.vertices.push_back(v);
         }
         for (double i : index) {
-            check(i < double(vertices), name + ": an index is out of range");
+            check(i >= 0 && i < double(vertices) && i == std::floor(i), name + ": an index is out of range");
             data_.indices.push_back(uint32_t(i));
         }
         return lod;

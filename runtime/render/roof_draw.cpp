@@ -84,6 +84,7 @@ Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, ui
                           {cutTileDepth_, "cut roof tile shadow", "roof/cut_tile.vert", ""},
                           {rectangleDepth_, "far roof shadow", "roof/rectangle.vert", ""}};
     for (uint32_t s = 0; s < kShadings; ++s) {
+        if (!isAskedOf(*device_, Shading(s))) continue;
         rows.push_back({tile_[s], "roof tile", "roof/tile.vert", "roof/tile.frag", Shading(s)});
         rows.push_back({cutTile_[s], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag", Shading(s)});
         rows.push_back({rectangle_[s], "far roof", "roof/rectangle.vert", "roof/rectangle.frag", Shading(s)});
@@ -214,7 +215,8 @@ void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap,
         push.flatShade = flatShades_[b];
         push.roughness = terminals_.data().materials[bucket.material].roughness;
         for (uint32_t cut : {0u, 1u}) {
-            const uint64_t offset = offsetof(RoofDrawState, draws) + (128ull * cut + 2 * b) * sizeof(DrawCommand);
+            const uint64_t offset =
+                offsetof(RoofDrawState, draws) + 2ull * (kMaxBuckets * cut + b) * sizeof(DrawCommand);
             if (depthOnly)
                 pass.drawIndexedIndirect(cut ? cutTileDepth_ : tileDepth_, state_, offset, 2, push, {frame});
             else

@@ -36,7 +36,7 @@ void main() {
         count = min(wanted, env.cutRoom - cut);
         overflow += wanted - count;
         env.state.v[0].cutStarts[b] = cut;
-        writeDraws(env, 128u + 2u * b, b, count);
+        writeDraws(env, 2u * (kMaxBuckets + b), b, count);
         cut += count;
         triangles += count * perTile;
     }

@@ -15,21 +15,25 @@ using namespace espalier;
 
 namespace {
 
-// bark_lod0 and leaf_lod0, both one triangle.
-std::vector<std::byte> smallFile() {
+// bark_lod0 and leaf_lod0, both one triangle of these indices of a glTF component type.
+template <class T>
+std::vector<std::byte> smallFile(std::array<T, 3> indices, int componentType) {
     const float vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
-    const uint16_t indices[] = {0, 1, 2, 0};
-    std::string text = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":80}],"bufferViews":[
-        {"buffer":0,"byteOffset":0,"byteLength":72},{"buffer":0,"byteOffset":72,"byteLength":8}],"accessors":[
+    std::string text = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":84}],"bufferViews":[
+        {"buffer":0,"byteOffset":0,"byteLength":72},{"buffer":0,"byteOffset":72,"byteLength":12}],"accessors":[
         {"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
         {"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"},
-        {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],"meshes":[
+        {"bufferView":1,"componentType":)" +
+                       std::to_string(componentType) + R"(,"count":3,"type":"SCALAR"}],"meshes":[
         {"name":"bark_lod0","primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2}]},
         {"name":"leaf_lod0","primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2}]}]})";
-    std::array<std::byte, 80> binary{};
+    std::array<std::byte, 84> binary{};
     std::memcpy(binary.data(), vertices, 72);
-    std::memcpy(binary.data() + 72, indices, 8);
+    std::memcpy(binary.data() + 72, indices.data(), sizeof indices);
     return glbContainer(text, binary);
+}
+std::vector<std::byte> smallFile() {
+    return smallFile<uint16_t>({0, 1, 2}, 5123);
 }
 
 Result<TerminalData> readBytes(const std::vector<std::byte>& bytes) {
@@ -112,6 +116,29 @@ TEST_CASE("damaged files are refused or read, never followed out of bounds") {
                 for (uint32_t i = 0; i < lod.indexCount; ++i)
                     REQUIRE(data->indices[lod.firstIndex + i] < lod.vertexCount);
     }
+}
+
+TEST_CASE("indices that are no whole numbers of the mesh's own vertices are refused") {
+    CHECK(readBytes(smallFile<float>({0, 1, 2}, 5126)));
+    for (float wrong : {-1.0f, 0.5f, 3.0f, NAN}) {
+        CAPTURE(wrong);
+        CHECK(!readBytes(smallFile<float>({0, wrong, 2}, 5126)));
+    }
+}
+
+TEST_CASE("a pattern for drawing isn't longer than a mesh with many triangles on few vertices asks for") {
+    DeviceOptions options;
+    auto device = Device::create(options);
+    REQUIRE(device);
+    TerminalData data = test::simpleTerminals();
+    TerminalLod& lod = data.variants.back().lods.back();
+    lod.firstIndex = uint32_t(data.indices.size());
+    lod.indexCount = 3 * 50000;
+    data.indices.resize(data.indices.size() + lod.indexCount);
+    auto terminals = Terminals::create(**device, data);
+    REQUIRE(terminals);
+    CHECK(terminals->table().buckets.back().batch == 1);
+    CHECK(terminals->batches().size() < 4 * lod.indexCount + (4 << 20));
 }
 
 TEST_CASE("a tree without end is refused, not copied until the stack ends") {

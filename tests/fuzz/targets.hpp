@@ -10,20 +10,23 @@ namespace espalier::fuzz {
 
 using Bytes = std::span<const uint8_t>;
 
-void gltf(Bytes bytes);     // the glTF importer: text or container
-void obj(Bytes bytes);      // the OBJ importer
-void ply(Bytes bytes);      // the PLY importer, packed or not
-void surface(Bytes bytes);  // the surface reader; its hashes are not compared in a fuzzing build
-void grammar(Bytes bytes);  // the grammar compiler, and loading what it made
-void roof(Bytes bytes);     // the reader of footprints, and the roofs over them
-void plant(Bytes bytes);    // the reader of frozen plants
-void scene(Bytes bytes);    // the reader of scene files, and reading what it wrote
+void gltf(Bytes bytes);       // the glTF importer: text or container
+void obj(Bytes bytes);        // the OBJ importer
+void ply(Bytes bytes);        // the PLY importer, packed or not
+void surface(Bytes bytes);    // the surface reader; its hashes are not compared in a fuzzing build
+void grammar(Bytes bytes);    // the grammar compiler, and loading what it made
+void roof(Bytes bytes);       // the reader of footprints, and the roofs over them
+void plant(Bytes bytes);      // the reader of frozen plants
+void scene(Bytes bytes);      // the reader of scene files, and reading what it wrote
+void terminals(Bytes bytes);  // the reader of meshes that are drawn, and measuring their levels of detail
+void run(Bytes bytes);        // the reader of recorded editing runs, and reading what was written of one
 
 struct Target {
     const char* name;
     void (*run)(Bytes);
 };
-inline constexpr Target kTargets[] = {{"gltf", gltf},       {"obj", obj},   {"ply", ply},     {"surface", surface},
-                                      {"grammar", grammar}, {"roof", roof}, {"plant", plant}, {"scene", scene}};
+inline constexpr Target kTargets[] = {{"gltf", gltf},           {"obj", obj},   {"ply", ply},     {"surface", surface},
+                                      {"grammar", grammar},     {"roof", roof}, {"plant", plant}, {"scene", scene},
+                                      {"terminals", terminals}, {"run", run}};
 
 }  // namespace espalier::fuzz

@@ -54,7 +54,9 @@ bool fromJson(const std::string& text, RunLine& out, std::string& error) {
     if (const scene::Json* gesture = json.find("gesture"); gesture && !whole(*gesture, out.gesture))
         return fail(*gesture, "'gesture' must be a whole number");
     bool found = false;
-    for (const auto& [name, fields] : json.members) {
+    for (const auto& member : json.members) {
+        const std::string& name = member.name;
+        const scene::Json& fields = member.value;
         if (name == "frame" || name == "gesture") continue;
         if (found) return fail(fields, "one action a line");
         if (!make(name, out.action)) return fail(fields, "there is no action '" + name + "'");
