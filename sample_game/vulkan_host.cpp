@@ -337,6 +337,10 @@ std::optional<Frame> VulkanHost::begin(bool overlaps) {
 }
 
 bool VulkanHost::copyPicture(const Frame& frame) {
+    if (!canCopy_) {
+        error_ = "the window's images can't be copied here";
+        return false;
+    }
     VkBufferCreateInfo buffer{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     buffer.size = VkDeviceSize(frame.extent.width) * frame.extent.height * 4;
     buffer.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
@@ -364,7 +368,8 @@ bool VulkanHost::copyPicture(const Frame& frame) {
 }
 
 bool VulkanHost::end(const Frame& frame, const TakePicture& picture) {
-    const bool copies = picture && canCopy_ && copyPicture(frame);
+    const bool copies = picture && copyPicture(frame);
+    const std::string uncopied = copies ? "" : std::exchange(error_, {});  // the frame itself is whole
     if (!copies)
         imageBarrier(frame.commands, frame.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                      VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
@@ -383,7 +388,9 @@ bool VulkanHost::end(const Frame& frame, const TakePicture& picture) {
             if (format_ == VK_FORMAT_B8G8R8A8_UNORM) std::swap(rgba[i], rgba[i + 2]);
             rgba[i + 3] = 255;
         }
-        picture(std::move(rgba), frame.extent.width, frame.extent.height);
+        picture(std::move(rgba), frame.extent.width, frame.extent.height, {});
+    } else if (picture) {
+        picture({}, 0, 0, uncopied);
     }
     vkDestroyBuffer(device_, pictureBuffer_, nullptr);
     vkFreeMemory(device_, pictureMemory_, nullptr);

@@ -48,8 +48,10 @@ class VulkanHost {
     // empty after a failure.
     std::optional<Frame> begin(bool overlaps = false);
     // Ends, submits and shows what was recorded. The image must be in COLOR_ATTACHMENT_OPTIMAL. `picture`: if not
-    // null it is given the frame's pixels, RGBA, rows top to bottom (the call waits for the GPU then).
-    using TakePicture = std::function<void(std::vector<uint8_t> rgba, uint32_t width, uint32_t height)>;
+    // null it is given the frame's pixels, RGBA, rows top to bottom (the call waits for the GPU then), or why there
+    // are none.
+    using TakePicture =
+        std::function<void(std::vector<uint8_t> rgba, uint32_t width, uint32_t height, const std::string& error)>;
     bool end(const Frame& frame, const TakePicture& picture = {});
     void waitIdle() const;
 

@@ -16,7 +16,7 @@ Status Targets::resize(Device& device, uint32_t newWidth, uint32_t newHeight) {
          {.name = "scene depth", .format = kDepthFormat, .width = newWidth, .height = newHeight, .samples = samples}},
         {distance, {.name = "distance", .format = kDistanceFormat, .width = halfWidth, .height = halfHeight}},
         {open, {.name = "ambient visibility", .format = kOpenFormat, .width = halfWidth, .height = halfHeight}}};
-    own = Image();
+    if (width != newWidth || height != newHeight) own = Image();
     color = Image();  // so that a failure half way leaves a size that matches nothing
     for (const auto& i : images) {
         ImageDesc desc = i.desc;

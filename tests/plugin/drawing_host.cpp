@@ -165,7 +165,7 @@ void DrawingHost::recordInVain(const EspCamera& camera, EspContext* context) {
     REQUIRE_MESSAGE(result == ESP_OK, espLastError(context));
 }
 
-std::vector<DrawingHost::Picture> DrawingHost::drawAtOnce(const std::vector<EspCamera>& cameras, EspContext* context) {
+std::vector<Image> DrawingHost::submit(const std::vector<EspCamera>& cameras, EspContext* context) {
     std::vector<Image> images;
     std::vector<Commands> recorded;
     const uint64_t before = frame_;
@@ -180,8 +180,12 @@ std::vector<DrawingHost::Picture> DrawingHost::drawAtOnce(const std::vector<EspC
         images.push_back(std::move(picture_));
     }
     for (Commands& commands : recorded) REQUIRE(commands.submit());
+    return images;
+}
+
+std::vector<DrawingHost::Picture> DrawingHost::drawAtOnce(const std::vector<EspCamera>& cameras, EspContext* context) {
     std::vector<Picture> pictures;
-    for (Image& image : images) {
+    for (Image& image : submit(cameras, context)) {
         picture_ = std::move(image);
         pictures.push_back(read());
     }

@@ -41,7 +41,9 @@ class DrawingHost {
     Picture draw(const EspCamera& camera, const std::vector<Box>& boxes, EspContext* context, bool surfaces = false);
     // Has such a frame recorded, and neither submits it nor says so.
     void recordInVain(const EspCamera& camera, EspContext* context);
-    // The plugin's own pictures for each camera, all recorded before the first is submitted.
+    // Frames of the plugin's own pictures for each camera, all recorded before the first is submitted; waits for none.
+    std::vector<Image> submit(const std::vector<EspCamera>& cameras, EspContext* context);
+    // The same as pictures.
     std::vector<Picture> drawAtOnce(const std::vector<EspCamera>& cameras, EspContext* context);
 
     EspHostScene scene() const;  // as draw() hands it in
