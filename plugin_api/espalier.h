@@ -81,7 +81,9 @@ typedef struct EspContextDef {
 
 ESP_API EspContextDef espDefaultContextDef(void);
 ESP_API EspResult espCreate(const EspContextDef* def, EspContext** out);
-ESP_API void espDestroy(EspContext* context);   /* NULL is allowed */
+/* Waits for the GPU, also for frames that the host has submitted to EspHostDevice::queue. What espDraw has recorded and isn't
+ * submitted by then must never be. NULL is allowed. */
+ESP_API void espDestroy(EspContext* context);
 
 /* Gives back to the device what GPU memory is only kept for what comes: by itself a context keeps up to 1 GiB of it, as asking
  * for it again costs time. For when nothing is to come soon: a pause, a menu, a level that has been loaded, a window at
@@ -95,7 +97,7 @@ ESP_API const void* espRequiredFeatures(void);
 /* Names of the device extensions that it must have been created with besides. Static memory. */
 ESP_API const char* const* espRequiredExtensions(uint32_t* count);
 
-/* What went wrong last in this context (NULL: in this thread's last espCreate), several lines if several mistakes
+/* What went wrong last in this context (NULL: in this thread's last call without one, such as espCreate), several lines if several mistakes
  * were found. Valid until the next call. Never NULL. */
 ESP_API const char* espLastError(const EspContext* context);
 ESP_API const char* espVersion(void);
@@ -193,7 +195,8 @@ typedef struct EspParamInfo {
 
 ESP_API EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGrammar* out);
 /* Replaces the text; parameters keep their values by name. On failure the last good grammar keeps growing. Where comments,
- * layout, labels or defaults alone are new, nothing grows anew. ESP_INVALID_CONTENT also where seeds grow by the grammar
+ * layout, labels or defaults alone are new, nothing grows anew; where only what is drawn on spans is, bark and leaves, no node
+ * is derived again. ESP_INVALID_CONTENT also where seeds grow by the grammar
  * and it would make roofs, or the town's roofs and it would make none. */
 ESP_API EspResult espRecompileGrammar(EspContext* context, EspGrammar grammar, const EspGrammarDef* def);
 /* What isn't wrong in the text that grows, but may not be meant: lines "file:line:column: warning: rule: message", "" if there

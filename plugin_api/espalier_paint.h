@@ -29,6 +29,25 @@ typedef struct EspLayerDef {
 ESP_API EspLayerDef espDefaultLayerDef(void);
 ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
 
+/* A surface that was baked anew, as another resolution or after its model has changed: its charts lie elsewhere, places in
+ * space don't. Each texel of the later bake takes the value of the nearest place of the earlier one that faces the same way
+ * within 60 degrees, up to a hundredth of the surface's radius away. These need no context and may be called by any thread;
+ * espLastError(NULL) tells what went wrong. */
+typedef struct EspCarry EspCarry;
+typedef struct EspCarried {
+    double fresh;                /* m² of the later bake's ground without a place of the earlier one near */
+    double lost;                 /* m² that were painted above 0 and have no ground any more */
+} EspCarried;
+/* Paths of what espalier-bake wrote. May take seconds. out: to be destroyed; serves all layers. */
+ESP_API EspResult espCreateCarry(const char* earlier, const char* later, EspCarry** out);
+ESP_API uint32_t espCarrySide(const EspCarry* carry);   /* texels a side of what is carried; NULL: 0 */
+/* texels: as espReadLayer gave them, over the earlier bake's walk UV set. fresh: the value of ground that the earlier hadn't.
+ * out: espCarrySide's square of floats, over the later's; espSetLayer takes them as ESP_LAYER_WALK_UV. carried: may be
+ * NULL. */
+ESP_API EspResult espCarryLayer(const EspCarry* carry, const float* texels, uint32_t width, uint32_t height, float fresh,
+                                float* out, EspCarried* carried);
+ESP_API void espDestroyCarry(EspCarry* carry);          /* NULL is allowed */
+
 /* ---- Painting ------------------------------------------------------------------------------------------------ */
 
 /* Painting happens in world space, on all surfaces at once: a dab reaches every texel whose point lies in its sphere,

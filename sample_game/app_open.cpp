@@ -160,6 +160,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     host_->waitIdle();
     if (work_.document) session_.end(work_);
     dropReloaded();
+    viewsSeen_.clear();
     work_.document = std::move(document);
     work_.context = std::move(context);
     work_.selected.clear();
@@ -318,8 +319,10 @@ void App::openReloaded() {
         work_.perform(view);
         work_.takeUp(hands);
         session_.setOrigin(work_, origin);
+        const std::string notes = std::exchange(work_.message, {});
         work_.message = "Its model has changed on disk: " + fs::path(origin.file).filename().string() +
-                        " was reloaded" + (recorded ? "; the recording has ended" : "");
+                        " was reloaded" + (recorded ? "; the recording has ended" : "") + (notes.empty() ? "" : "\n") +
+                        notes;
     }
     session_.goesOn = false;
     std::error_code ignored;

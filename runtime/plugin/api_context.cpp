@@ -11,9 +11,6 @@
 namespace espalier {
 namespace {
 
-// What espLastError(NULL) tells: the reason why this thread's last espCreate gave no context to ask.
-thread_local std::string creationError;
-
 // Where the library (or the program that it is linked into) lies: its content is installed next to it.
 std::filesystem::path contentFolder() {
     Dl_info info{};
@@ -35,9 +32,13 @@ Log logInto(EspLogFn log, void* user) {
     };
 }
 
-EspResult failCreation(EspResult code, std::string message) {
-    creationError = std::move(message);
-    return code;
+// Returns when the GPU is done with all that was submitted, a host's frames included: an empty submission is behind
+// them.
+Status finishFrames(Device& device, const char* name) {
+    device.hostSubmitted();
+    Result<Commands> commands = Commands::begin(device, name);
+    if (!commands) return commands.failure();
+    return commands->finish();
 }
 
 Result<std::unique_ptr<Device>> makeDevice(const EspContextDef& def, const Log& log) {
@@ -62,30 +63,30 @@ Result<std::unique_ptr<Device>> makeDevice(const EspContextDef& def, const Log& 
 EspResult create(const EspContextDef& def, EspContext** out) {
     if (def.host && (!def.host->getInstanceProcAddr || !def.host->instance || !def.host->physicalDevice ||
                      !def.host->device || !def.host->queue))
-        return failCreation(ESP_INVALID_ARGUMENT, "espCreate: a handle of the host's device is null");
+        return failAlone(ESP_INVALID_ARGUMENT, "espCreate: a handle of the host's device is null");
     auto context = std::make_unique<EspContext>();
     context->log = logInto(def.log, def.logUser);
     context->grow = espDefaultGrowDef();
     if (def.cacheFolder) context->cacheFolder = def.cacheFolder;
 
     Result<std::unique_ptr<Device>> device = makeDevice(def, context->log);
-    if (!device) return failCreation(ESP_NO_DEVICE, device.failure().text());
+    if (!device) return failAlone(ESP_NO_DEVICE, device.failure().text());
     context->device = std::move(*device);
 
     const std::filesystem::path terminals = def.terminals ? def.terminals : contentFolder() / "terminals.glb";
     context->roofMeshFile = std::filesystem::path(terminals).replace_filename("roofs.glb");
     if (EspResult readable = checkReadable(context.get(), terminals.c_str()))
-        return failCreation(readable, "terminal meshes: " + context->error);
+        return failAlone(readable, "terminal meshes: " + context->error);
     Result<TerminalData> meshes = readTerminals(terminals);
-    if (!meshes) return failCreation(ESP_INVALID_CONTENT, meshes.failure().text());
+    if (!meshes) return failAlone(ESP_INVALID_CONTENT, meshes.failure().text());
 
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(*context->device, std::move(*meshes));
-    if (!renderer) return failCreation(gpuCode(*context), renderer.failure().text());
+    if (!renderer) return failAlone(gpuCode(*context), renderer.failure().text());
     context->renderer = std::move(*renderer);
     // Room for a well-grown scene, so that only large ones have to grow twice.
     const GrowthRoom room{.chunks = 32768, .nodes = 262144, .branches = 32768, .leaves = 262144, .items = 32768};
     Result<std::unique_ptr<Growth>> growth = Growth::create(*context->device, room);
-    if (!growth) return failCreation(gpuCode(*context), growth.failure().text());
+    if (!growth) return failAlone(gpuCode(*context), growth.failure().text());
     context->growth = std::move(*growth);
     *out = context.release();
     return ESP_OK;
@@ -99,6 +100,11 @@ struct RequiredFeatures {
 constexpr const char* kRequiredExtensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
 
 }  // namespace
+
+std::string& errorAlone() {
+    thread_local std::string error;
+    return error;
+}
 
 EspResult fail(const EspContext* context, EspResult code, std::string message) {
     try {
@@ -143,26 +149,20 @@ EspContextDef espDefaultContextDef(void) {
 }
 
 EspResult espCreate(const EspContextDef* def, EspContext** out) {
-    try {
-        creationError.clear();
-        if (!def || !out) return failCreation(ESP_INVALID_ARGUMENT, "espCreate: null pointer");
+    return guardedAlone([&] {
+        if (!def || !out) return failAlone(ESP_INVALID_ARGUMENT, "espCreate: null pointer");
         *out = nullptr;
         return create(*def, out);
-    } catch (const std::bad_alloc&) {
-        return ESP_OUT_OF_MEMORY;
-    } catch (const std::exception& e) {
-        try {
-            creationError = e.what();
-        } catch (...) {
-        }
-        return ESP_INVALID_CONTENT;
-    }
+    });
 }
 
 void espDestroy(EspContext* context) {
     if (!context) return;
-    // The GPU may still read what is about to be freed: a host's frames included.
-    (void)context->device->waitIdle();
+    try {
+        if (!finishFrames(*context->device, "destroy")) (void)context->device->waitIdle();
+    } catch (...) {  // without memory for that the host's frames are not waited for
+        (void)context->device->waitIdle();
+    }
     delete context;
 }
 
@@ -172,13 +172,9 @@ EspResult espTrim(EspContext* context) {
         context->growth->trim();
         if (context->roofs) context->roofs->trim();
         context->renderer->trim(context->growth->view());
-        // What was dropped goes once an empty submission behind all frames is done.
-        Device& device = *context->device;
-        device.hostSubmitted();
-        Result<Commands> commands = Commands::begin(device, "trim");
-        if (!commands) return failGpu(context, commands.failure());
-        if (Status finished = commands->finish(); !finished) return failGpu(context, finished.failure());
-        device.memory().trim();
+        // What was dropped goes with the last frame that may read it.
+        if (Status done = finishFrames(*context->device, "trim"); !done) return failGpu(context, done.failure());
+        context->device->memory().trim();
         return ESP_OK;
     });
 }
@@ -194,7 +190,7 @@ const char* const* espRequiredExtensions(uint32_t* count) {
 }
 
 const char* espLastError(const EspContext* context) {
-    return context ? context->error.c_str() : creationError.c_str();
+    return context ? context->error.c_str() : errorAlone().c_str();
 }
 
 const char* espVersion(void) {

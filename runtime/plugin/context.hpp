@@ -365,6 +365,28 @@ EspResult guarded(const EspContext* context, F&& body) noexcept {
     }
 }
 
+// The same for functions without a context. What espLastError(NULL) tells: why this thread's last call of one failed.
+std::string& errorAlone();
+inline EspResult failAlone(EspResult code, std::string message) {
+    errorAlone() = std::move(message);
+    return code;
+}
+template <class F>
+EspResult guardedAlone(F&& body) noexcept {
+    try {
+        errorAlone().clear();
+        return body();
+    } catch (const std::bad_alloc&) {
+        return ESP_OUT_OF_MEMORY;
+    } catch (const std::exception& e) {
+        try {
+            errorAlone() = e.what();
+        } catch (...) {
+        }
+        return ESP_INVALID_CONTENT;
+    }
+}
+
 // The number by which nodes and kernels know the surface of this id.
 inline uint32_t instanceOf(uint32_t surfaceId) {
     return (surfaceId & ((1u << IdTable<PlacedSurface>::kPlaceBits) - 1)) - 1;

@@ -1,6 +1,6 @@
 // Layers carried from a surface to another whose charts lie elsewhere: what is painted is a function of the place, so
 // that every texel's value is known.
-#include "tools/bake/carry.hpp"
+#include "runtime/surface/carry.hpp"
 
 #include <doctest/doctest.h>
 
@@ -22,9 +22,9 @@ SurfaceData surfaceOf(const Model& model, uint32_t resolution = 256) {
 }
 
 template <class Fn>
-PaintedLayer paint(const SurfaceData& surface, Fn&& value) {
+UvPicture paint(const SurfaceData& surface, Fn&& value) {
     const SurfaceLevelData& level = surface.levels[0];
-    PaintedLayer out{level.size, level.size, std::vector<float>(size_t(level.size) * level.size, 0.0f)};
+    UvPicture out{level.size, level.size, std::vector<float>(size_t(level.size) * level.size, 0.0f)};
     for (uint32_t y = 0; y < level.size; ++y)
         for (uint32_t x = 0; x < level.size; ++x) {
             const Texel& t = level.texels[texelIndex(level.size, x, y)];
@@ -35,7 +35,7 @@ PaintedLayer paint(const SurfaceData& surface, Fn&& value) {
 
 // Calls fn(position, normal, value) for each texel of ground.
 template <class Fn>
-void forGround(const SurfaceData& surface, const PaintedLayer& layer, Fn&& fn) {
+void forGround(const SurfaceData& surface, const UvPicture& layer, Fn&& fn) {
     const SurfaceLevelData& level = surface.levels[0];
     for (uint32_t y = 0; y < level.size; ++y)
         for (uint32_t x = 0; x < level.size; ++x) {

@@ -183,14 +183,15 @@ TEST_CASE("killed at any moment of a save or an autosave, the project opens as i
     CHECK(interrupted > 5);
     CHECK(recovered > 5);
     CHECK(seen.size() == kVersions);
-    // What an interrupted save left behind goes with the next: the texts, two layers and a plant are left.
+    // What an interrupted save left behind goes with the next: the text, two layers, the bake under them and a plant
+    // are left.
     Progress progress;
     std::string error;
     REQUIRE_MESSAGE(writeProject(versions[0].data, garden, progress, error), error);
     CHECK(recoverable(garden).empty());
     size_t files = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(garden)) files += entry.is_regular_file();
-    CHECK(files == 4);
+    CHECK(files == 5);
     CHECK(reader.versionIn(garden, versions) == 0);
     munmap(shared, sizeof(Both));
 }

@@ -109,13 +109,13 @@ TEST_CASE("autosaves don't pile up, and files that aren't a project's own stay i
     for (const float value : {.5f, .6f, .7f}) {
         REQUIRE(editing.perform(FillLayer{"mask", value}));
         REQUIRE_MESSAGE(autosave(*editing.document, garden, editing.error), editing.error);
-        CHECK(filesIn(garden).size() == 5);  // both texts, a layer of each, and the user's
+        CHECK(filesIn(garden).size() == 6);  // both texts, a layer of each, the bake under them, and the user's
     }
     Editing old(garden), recovered(recoverable(garden));
     CHECK(lowest(old) == .25f);
     CHECK(lowest(recovered) == .7f);
     REQUIRE(saveProject(*editing.document, garden, editing.error));
-    CHECK(filesIn(garden).size() == 3);
+    CHECK(filesIn(garden).size() == 4);
     CHECK(readAll(garden + "/layers/own.exr") == "a user's");
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/surface/surface.hpp"
-#include "tools/bake/painted_layer.hpp"
+#include "runtime/surface/uv_picture.hpp"
 
 namespace espalier {
 
@@ -35,7 +35,7 @@ struct BakeOptions {
     uint32_t levels = 0;         // 0: down to 64 texels
     float nearestTolerance = 0;  // metres; 0: a texel's footprint
     bool keepLayout = false;     // true: charts are never moved, gutters or not (tests of analytic surfaces)
-    PaintedLayer weights;        // drawn in the model's UVs: texels a metre, as a share of the most; empty: even
+    UvPicture weights;           // drawn in the model's UVs: texels a metre, as a share of the most; empty: even
     bool contacts = true;        // false: pieces that touch are no ground for one plant (tests whose oracle knows none)
     Progress progress;
 };

@@ -107,7 +107,7 @@ Result<std::vector<uint32_t>> layOut(BakeMesh& mesh, const std::string& name, co
 
 // What is painted on each chart, as a share of the densest chart's: LayoutOptions::density. weights: in the model's
 // UVs.
-std::vector<double> chartDensities(const Model& model, const BakeMesh& mesh, const PaintedLayer& weights);
+std::vector<double> chartDensities(const Model& model, const BakeMesh& mesh, const UvPicture& weights);
 
 // Places charts as masks on a grid so that their bands don't meet. levelOf(scale) is decided within.
 // Returns per chart the offset, and the one scale: uv' = uv * scale + offset; scale 0: nothing fits.

@@ -119,7 +119,7 @@ void makeMetric(BakeMesh& mesh, const std::vector<double>& density) {
 
 }  // namespace
 
-std::vector<double> chartDensities(const Model& model, const BakeMesh& mesh, const PaintedLayer& weights) {
+std::vector<double> chartDensities(const Model& model, const BakeMesh& mesh, const UvPicture& weights) {
     std::vector<double> sum(mesh.chartCount(), 0), area(mesh.chartCount(), 0);
     for (const Triangle& t : mesh.triangles) {
         glm::vec2 corner[3], middle(0);

@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "tools/scene/text_file.hpp"
+
 namespace espalier::document {
 namespace {
 
@@ -27,8 +29,8 @@ bool flush(const std::string& path, int flags, std::string& error) {
 
 const char* const kUnfinished = ".unfinished-";
 
-Unfinished::Unfinished(const std::string& path) : path_(path) {
-    const fs::path place(path), folder = place.has_parent_path() ? place.parent_path() : ".";
+Unfinished::Unfinished(const std::string& path) : path_(path), place_(scene::behindLinks(path).string()) {
+    const fs::path place(place_), folder = place.has_parent_path() ? place.parent_path() : ".";
     folder_ = folder.string();
     beside_ = (folder / (kUnfinished + std::to_string(::getpid()) + "-" + place.filename().string())).string();
 }
@@ -45,7 +47,7 @@ bool Unfinished::write(const WriteFile& make, std::string& error) {
 }
 
 bool Unfinished::take(std::string& error) {
-    taken_ = std::rename(beside_.c_str(), path_.c_str()) == 0;
+    taken_ = std::rename(beside_.c_str(), place_.c_str()) == 0;
     if (!taken_) error = path_ + ": can't be written: " + std::strerror(errno);
     return taken_ && flush(folder_, O_RDONLY | O_DIRECTORY, error);
 }

@@ -8,7 +8,7 @@ namespace espalier::document {
 using WriteFile = std::function<bool(const std::string& path, std::string& error)>;
 
 // A file that becomes whole or not at all, whenever the program or the machine stops: it is written beside its place,
-// flushed to the disk, and then takes its place. What doesn't come so far is removed.
+// flushed to the disk, and then takes its place, or that of what a link leads to. What doesn't come so far is removed.
 class Unfinished {
   public:
     explicit Unfinished(const std::string& path);
@@ -21,7 +21,7 @@ class Unfinished {
     bool take(std::string& error);
 
   private:
-    std::string path_, folder_, beside_;
+    std::string path_, place_, folder_, beside_;  // place_: behind links
     bool taken_ = false;
 };
 

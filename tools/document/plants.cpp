@@ -7,12 +7,13 @@
 namespace espalier::document {
 namespace {
 
-scene::FrozenPlant recordsOf(EspContext* context, EspSeed seed) {
+EspResult readRecords(EspContext* context, EspSeed seed, scene::FrozenPlant& out) {
     size_t size = 0;
-    if (espReadFrozen(context, seed, nullptr, &size) != ESP_OK) return nullptr;
+    if (EspResult bad = espReadFrozen(context, seed, nullptr, &size)) return bad;
     auto bytes = std::make_shared<std::vector<std::byte>>(size);
-    if (espReadFrozen(context, seed, bytes->data(), &size) != ESP_OK) return nullptr;
-    return bytes;
+    if (EspResult bad = espReadFrozen(context, seed, bytes->data(), &size)) return bad;
+    out = std::move(bytes);
+    return ESP_OK;
 }
 
 bool isPruned(const EspContext* context, uint64_t branch) {
@@ -31,16 +32,24 @@ bool Document::carryOut(const FreezeSeeds& action, std::vector<Action>& back, st
     RestoreFrozen before;
     for (uint32_t key : action.keys) {
         const size_t i = indexOf(key);
+        const auto freeze = [&] {
+            if (i == scene_.seeds.size()) {
+                error = "there is no seed " + std::to_string(key);
+                return false;
+            }
+            scene::Seed& seed = scene_.seeds[i];
+            if (failed(espFreezePlant(context_, seed.planted, action.frozen), error)) return false;
+            before.plants.push_back({key, seed.frozen});
+            scene::FrozenPlant records;
+            if (action.frozen && failed(readRecords(context_, seed.planted, records), error)) return false;
+            seed.frozen = std::move(records);
+            return true;
+        };
+        if (freeze()) continue;
         std::vector<Action> ignored;
         std::string none;
-        if (i == scene_.seeds.size() ||
-            failed(espFreezePlant(context_, scene_.seeds[i].planted, action.frozen), error)) {
-            if (i == scene_.seeds.size()) error = "there is no seed " + std::to_string(key);
-            carryOut(before, ignored, none);
-            return false;
-        }
-        before.plants.push_back({key, scene_.seeds[i].frozen});
-        scene_.seeds[i].frozen = action.frozen ? recordsOf(context_, scene_.seeds[i].planted) : nullptr;
+        carryOut(before, ignored, none);
+        return false;
     }
     back.push_back(std::move(before));
     return true;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "tools/document/durable.hpp"
+#include "tools/scene/carried.hpp"
 #include "tools/scene/hash.hpp"
 #include "tools/scene/json_out.hpp"
 #include "tools/scene/picture.hpp"
@@ -23,6 +24,7 @@ constexpr const char* kProject = "project.json";
 constexpr const char* kAutosave = "autosave.json";
 constexpr const char* kLayers = "layers";
 constexpr const char* kPlants = "plants";
+constexpr const char* kSurfaces = "surfaces";
 
 std::array<float, 3> three(const float* v) {
     return {v[0], v[1], v[2]};
@@ -62,6 +64,15 @@ bool writePlants(const fs::path& folder, SceneFile& out, std::string& error) {
     return true;
 }
 
+// The bake that layers lie over, for when the model is baked anew. Without it they are kept all the same.
+bool writeBake(const ProjectData::Bake& bake, const fs::path& folder, std::string& error) {
+    const fs::path path = folder / kSurfaces / bake.name;
+    std::error_code none;
+    if (std::string bytes; !fs::exists(path, none) && bake.file && bake.file->read(bytes))
+        return makeFolderDurably(path.parent_path().string(), error) && writeTextDurably(path.string(), bytes, error);
+    return true;
+}
+
 // Each layer into a file, unless a file holds just that already.
 bool writeLayers(ProjectData& data, const fs::path& folder, Progress& progress, std::string& error) {
     float written = 0;
@@ -78,7 +89,13 @@ bool writeLayers(ProjectData& data, const fs::path& folder, Progress& progress, 
             return writeGrey(beside, picture, why, goOn);
         };
         if (!goOn(0) || (!fs::exists(path, none) && !writeDurably(path.string(), write, error))) return false;
-        data.file.layers.push_back({layer.name, path.string(), layer.surface});
+        std::string over;
+        if (!town) {
+            const ProjectData::Bake& bake = data.bakes[size_t(layer.surface)];
+            if (!writeBake(bake, folder, error)) return false;
+            over = (folder / kSurfaces / bake.name).string();
+        }
+        data.file.layers.push_back({layer.name, path.string(), layer.surface, over});
         ++written;
     }
     return true;
@@ -133,15 +150,15 @@ SceneFile describe(const Document& document) {
     return out;
 }
 
-// NAME-SURFACE-HASH.exr or HASH.plant: whoever keeps files of his own in such a folder keeps them.
+// NAME-SURFACE-HASH.exr, HASH.plant or HASH.glb: whoever keeps files of his own in such a folder keeps them.
 bool named(const fs::path& file) {
     const std::string stem = file.stem().string(), ending = file.extension().string();
     const std::string hash = stem.substr(stem.size() < kHashDigits ? 0 : stem.size() - kHashDigits);
-    return (ending == ".exr" || ending == ".plant") && hash.size() == kHashDigits &&
+    return (ending == ".exr" || ending == ".plant" || ending == ".glb") && hash.size() == kHashDigits &&
            hash.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// What interrupted saves have left behind, and layers and plants that no file of the project names.
+// What interrupted saves have left behind, and layers, plants and bakes that no file of the project names.
 void sweep(const fs::path& folder) {
     std::error_code ignored;
     std::string wanted, text, error;
@@ -150,7 +167,7 @@ void sweep(const fs::path& folder) {
         if (!scene::readText((folder / file).string(), text, error)) return;  // who knows what it names
         wanted += text;
     }
-    for (const fs::path& place : {folder, folder / kLayers, folder / kPlants})
+    for (const fs::path& place : {folder, folder / kLayers, folder / kPlants, folder / kSurfaces})
         for (const auto& entry : fs::directory_iterator(place, ignored)) {
             const std::string name = entry.path().filename().string();
             const bool unwanted = place != folder && named(name) && wanted.find(name) == std::string::npos;
@@ -171,8 +188,10 @@ bool write(ProjectData data, const std::string& folder, const char* name, Progre
 
 // All but the layers' texels.
 ProjectData outline(const Document& document) {
-    ProjectData out{describe(document), {}};
+    ProjectData out{describe(document), {}, {}};
     EspContext* context = document.context();
+    for (const scene::LoadedSurface& surface : document.scene().surfaces)
+        out.bakes.push_back({scene::keptName(context, surface.id), surface.kept});
     for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i)
         for (size_t surface = 0; surface < document.scene().surfaces.size(); ++surface)
             out.layers.push_back({espPaintedLayerName(context, i), int(surface), {}});

@@ -21,8 +21,13 @@ struct ProjectData {
         int surface = 0;  // index into SceneFile::surfaces, or SceneLayer::kTown
         scene::GreyPicture picture;
     };
+    struct Bake {
+        std::string name;  // scene::keptName
+        std::shared_ptr<const scene::KeptFile> file;
+    };
     scene::SceneFile file;
     std::vector<Layer> layers;
+    std::vector<Bake> bakes;  // [surface]
 };
 bool gather(const Document& document, ProjectData& out, std::string& error);
 // False: `error` tells file and cause, and the project is as it was. Texels are given back as they are written.

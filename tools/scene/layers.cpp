@@ -64,6 +64,14 @@ void noteLayers(const EspContext* context, Scene& scene) {
     }
 }
 
+float fillOf(const EspContext* context, const Scene& scene, const std::string& layer) {
+    if (float value; espLayerFilled(context, layer.c_str(), &value)) return value;
+    for (const LoadedGrammar& grammar : scene.grammars)
+        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i)
+            if (espLayerName(context, grammar.id, i) == layer) return espLayerFill(context, grammar.id, i);
+    return 0;
+}
+
 bool readChannels(const std::string& path, bool colour, std::vector<GreyPicture>& out, std::string& error) {
     if (colour) return readColours(path, out, error);
     out.resize(1);

@@ -16,6 +16,9 @@ bool isColour(const Scene& scene, const std::string& layer);
 bool readsLayer(const Scene& scene, const std::string& name);
 // The plugin's layers of one of the scene's: red, green and blue, or itself.
 std::vector<std::string> channelsOf(const Scene& scene, const std::string& layer);
+// What one of the plugin's layers has where nothing is painted: what all of it was filled with last, or else what the
+// first grammar that declares it says, or 0.
+float fillOf(const EspContext* context, const Scene& scene, const std::string& layer);
 
 // The names of all layers that the grammars read, or that surfaces or the town are painted with, into the scene.
 void noteLayers(const EspContext* context, Scene& scene);

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "tools/scene/carried.hpp"
 #include "tools/scene/daylight.hpp"
 #include "tools/scene/named.hpp"
 #include "tools/scene/picture.hpp"
@@ -42,8 +43,9 @@ bool compileFile(EspContext* context, LoadedGrammar& grammar, std::string& error
 
 namespace {
 
+// `carried`: the picture has nothing beside its charts.
 bool layChannel(EspContext* context, const Scene& scene, const std::string& name, const GreyPicture& picture,
-                int surface, std::string& error) {
+                int surface, bool carried, std::string& error) {
     if (surface == SceneLayer::kTown)
         return fromContext(
             context,
@@ -54,19 +56,27 @@ bool layChannel(EspContext* context, const Scene& scene, const std::string& name
         EspLayerDef def;
         if (!fromContext(context, walkLayer(context, scene.surfaces[i].id, name, picture, def), error)) return false;
         if (surface < 0) def.space = ESP_LAYER_MATERIAL_UV;
+        if (carried) def.space = ESP_LAYER_WALK_UV;
         if (!fromContext(context, espSetLayer(context, &def), error)) return false;
     }
     return true;
 }
 
-bool layLayer(EspContext* context, const Scene& scene, const SceneLayer& layer, std::string& error) {
+bool layLayer(EspContext* context, Scene& scene, const SceneLayer& layer, Carrying& carrying, std::string& error) {
     std::vector<GreyPicture> pictures;
     // Projects have what the plugin has: a colour's channels, each by itself.
     const bool colour = !scene.project && isColour(scene, layer.name);
     if (!readChannels(layer.file, colour, pictures, error)) return false;
     const std::vector<std::string> channels = colour ? channelsOf(scene, layer.name) : std::vector{layer.name};
-    for (size_t c = 0; c < channels.size(); ++c)
-        if (!layChannel(context, scene, channels[c], pictures[c], layer.surface, error)) return false;
+    for (size_t c = 0; c < channels.size(); ++c) {
+        std::string note;
+        bool carried = false;
+        if (layer.surface >= 0 &&
+            !carrying.carry(context, scene, channels[c], layer, pictures[c], carried, note, error))
+            return false;
+        if (!layChannel(context, scene, channels[c], pictures[c], layer.surface, carried, error)) return false;
+        if (!note.empty()) scene.notes.push_back(note);
+    }
     return true;
 }
 
@@ -146,6 +156,7 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         LoadedSurface& surface =
             out.surfaces.emplace_back(LoadedSurface{described.file, described.placing, described.drawn, {}});
         const EspTransform place = surface.placing.transform();
+        surface.kept = KeptFile::open(surface.file);
         const auto load = surface.drawn ? espLoadSurface : espLoadGround;
         if (!fromContext(context, load(context, surface.file.c_str(), &place, &surface.id), error)) return false;
     }
@@ -187,12 +198,13 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
             espDestroyStroke(context, filled);
         }
     }
+    Carrying carrying;
     for (const SceneLayer& layer : file.layers) {
         parts.begin(layer.file);
         // What was painted before a grammar's text lost its layer stays in a project; a scene may paint layers that
         // only some grammar, given in place of its own, doesn't read.
         if (!readsLayer(out, layer.name) && !file.project) continue;
-        if (layLayer(context, out, layer, error)) continue;
+        if (layLayer(context, out, layer, carrying, error)) continue;
         // A project opens with what can be read of it.
         GreyPicture unread;
         std::string why;
@@ -257,7 +269,8 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
             error = picture + ": no grammar of this scene reads a layer '" + name + "'";
             return false;
         }
-        if (!layLayer(context, out, {name, picture, -1}, error)) return false;
+        Carrying none;
+        if (!layLayer(context, out, {name, picture, -1}, none, error)) return false;
     }
     out.look = out.ownLook;
     if (out.hour != kOwnSun) applyDaylight(out.hour, out.look);

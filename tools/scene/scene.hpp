@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "plugin_api/espalier.h"
+#include "tools/scene/kept_file.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/town.hpp"
 
@@ -42,6 +43,7 @@ struct LoadedSurface {
     Placing placing;
     bool drawn = true;  // false: it is ground only, and something else draws it
     EspSurface id{};
+    std::shared_ptr<const KeptFile> kept = {};  // as it was loaded; null: it couldn't be kept
 };
 
 // A town of the scene.
@@ -91,6 +93,7 @@ struct SceneLayer {
     std::string name, file;
     static constexpr int kTown = -2;
     int surface = -1;  // index into SceneFile::surfaces; -1: all, in the model's UVs; kTown: seen from above, north up
+    std::string over = {};  // of a surface: the bake that it was painted over, named by its hash; empty: isn't known
 };
 
 constexpr float kOwnSun = -1;  // no hour: the scene's own light

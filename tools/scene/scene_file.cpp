@@ -230,7 +230,7 @@ class Reader {
         needLayersName(name, json);
         if (json.kind != Json::Kind::list) return out_.layers.push_back({name, file(json), -1});
         for (const Json& picture : json.items) {
-            if (!isObject(picture, "a layer's picture", {"surface", "town", "file"})) continue;
+            if (!isObject(picture, "a layer's picture", {"surface", "town", "file", "over"})) continue;
             int surface = 0;
             bool town = false;
             flag(picture, "town", town);
@@ -239,7 +239,10 @@ class Reader {
             else
                 index(picture, "surface", out_.surfaces.size(), surface);
             if (town && !out_.town) fail(picture, "the scene has no town");
-            if (const Json* on = need(picture, "file")) out_.layers.push_back({name, file(*on), surface});
+            const Json* over = picture.find("over");
+            if (over && town) fail(*over, "a town has no bakes");
+            if (const Json* on = need(picture, "file"))
+                out_.layers.push_back({name, file(*on), surface, over ? file(*over) : ""});
         }
     }
     // A text is a list of its lines.

@@ -109,8 +109,11 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
             json["layers"][layer.name].push_back({{"town", true}, {"file", beside(layer.file)}});
         else if (layer.surface < 0)
             json["layers"][layer.name] = beside(layer.file);
-        else
-            json["layers"][layer.name].push_back({{"surface", layer.surface}, {"file", beside(layer.file)}});
+        else {
+            ordered_json picture{{"surface", layer.surface}, {"file", beside(layer.file)}};
+            if (!layer.over.empty()) picture["over"] = beside(layer.over);
+            json["layers"][layer.name].push_back(std::move(picture));
+        }
     }
     if (file.hasCamera)
         json["camera"] = {

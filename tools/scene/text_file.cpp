@@ -39,15 +39,14 @@ bool isSpecial(const fs::path& path) {
            type == fs::file_type::socket;
 }
 
-// What a link leads to, or else the path itself.
+}  // namespace
+
 fs::path behindLinks(const fs::path& path) {
     std::error_code code;
     if (!fs::is_symlink(path, code)) return path;
     const fs::path target = fs::canonical(path, code);
     return code ? path : target;
 }
-
-}  // namespace
 
 bool writeText(const std::string& path, std::string_view text, std::string& error) {
     const auto fail = [&](const std::string& why) {

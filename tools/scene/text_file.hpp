@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,9 @@ namespace espalier::scene {
 // Written beside `path` first and renamed, so that a failure leaves what was there. What a link leads to is replaced,
 // not the link; devices and pipes are written to as they are.
 bool writeText(const std::string& path, std::string_view text, std::string& error);
+
+// What a link leads to, or else the path itself.
+std::filesystem::path behindLinks(const std::filesystem::path& path);
 
 // Folders and devices, which may never end, are refused.
 bool readText(const std::string& path, std::string& text, std::string& error);

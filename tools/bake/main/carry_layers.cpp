@@ -12,8 +12,8 @@
 #include <memory>
 
 #include "runtime/core/file.hpp"
+#include "runtime/surface/carry.hpp"
 #include "runtime/surface/picture.hpp"
-#include "tools/bake/carry.hpp"
 #include "tools/bake/main/carry_seeds.hpp"
 
 namespace espalier {
@@ -34,7 +34,7 @@ void appendChunk(std::vector<std::byte>& out, const char (&name)[5], const std::
 }
 
 // 16-bit grey, unfiltered.
-std::vector<std::byte> encodePng(const PaintedLayer& layer) {
+std::vector<std::byte> encodePng(const UvPicture& layer) {
     std::vector<std::byte> rows;
     rows.reserve(size_t(layer.height) * (2 * layer.width + 1));
     for (uint32_t y = 0; y < layer.height; ++y) {
@@ -64,7 +64,7 @@ std::vector<std::byte> encodePng(const PaintedLayer& layer) {
 
 }  // namespace
 
-Result<PaintedLayer> readLayer(const std::string& path) {
+Result<UvPicture> readLayer(const std::string& path) {
     auto bytes = readFile(path);
     if (!bytes) return std::move(bytes.failure());
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes->data());
@@ -78,7 +78,7 @@ Result<PaintedLayer> readLayer(const std::string& path) {
     const std::unique_ptr<stbi_us, void (*)(void*)> grey(
         stbi_load_16_from_memory(data, int(bytes->size()), &width, &height, &channels, 1), stbi_image_free);
     if (!grey) return Failure(path, std::string("cannot be read: ") + stbi_failure_reason());
-    PaintedLayer layer{uint32_t(width), uint32_t(height), {}};
+    UvPicture layer{uint32_t(width), uint32_t(height), {}};
     layer.texels.assign(grey.get(), grey.get() + size_t(width) * size_t(height));
     for (float& value : layer.texels) value /= 65535.0f;
     return layer;

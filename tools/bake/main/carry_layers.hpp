@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "runtime/surface/surface.hpp"
-#include "tools/bake/painted_layer.hpp"
+#include "runtime/surface/uv_picture.hpp"
 
 namespace espalier {
 
 // A picture's grey, at most 8192 texels a side.
-Result<PaintedLayer> readLayer(const std::string& path);
+Result<UvPicture> readLayer(const std::string& path);
 
 struct CarryArguments {
     std::string from;                 // a surface; empty: nothing is carried

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/core/file.hpp"
-#include "tools/bake/carry.hpp"
+#include "runtime/surface/carry.hpp"
 
 namespace espalier {
 namespace {

@@ -7,7 +7,7 @@
 namespace espalier {
 
 // One channel over a UV square; rows from v = 0 on, width * height values.
-struct PaintedLayer {
+struct UvPicture {
     uint32_t width = 0, height = 0;
     std::vector<float> texels;
     bool empty() const { return texels.empty(); }

@@ -1,6 +1,6 @@
 // In: two surfaces, and layers over the first or places on it. Out: the layers over the second, texel by texel from the
 // nearest place of the first's mesh, and what found no place.
-#include "tools/bake/carry.hpp"
+#include "runtime/surface/carry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -123,14 +123,13 @@ SurfaceMatch::SurfaceMatch(const SurfaceData& from, const SurfaceData& to, doubl
     old_ = match(from, to, within);
 }
 
-CarriedLayer SurfaceMatch::carry(const PaintedLayer& layer) const {
+CarriedLayer SurfaceMatch::carry(const UvPicture& layer, float fresh) const {
     CarriedLayer out;
     out.layer = {size_, size_, std::vector<float>(size_t(size_) * size_, 0.0f)};
     for (const Ground& g : new_) {
-        if (g.other.x < 0)
-            out.fresh += g.area;
-        else
-            out.layer.texels[size_t(g.y) * size_ + g.x] = layer.at(g.other);
+        const bool isFresh = g.other.x < 0;
+        if (isFresh) out.fresh += g.area;
+        out.layer.texels[size_t(g.y) * size_ + g.x] = isFresh ? fresh : layer.at(g.other);
     }
     for (const Ground& g : old_)
         if (g.other.x < 0 && layer.at((glm::vec2(g.x, g.y) + 0.5f) / float(oldSize_)) > 0) out.lost += g.area;

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "runtime/surface/surface.hpp"
-#include "tools/bake/painted_layer.hpp"
+#include "runtime/surface/uv_picture.hpp"
 
 namespace espalier {
 
 struct CarriedLayer {
-    PaintedLayer layer;  // over the walk's UV square, of the new surface's finest level; 0 outside of its charts
-    double fresh = 0;    // m² of new ground with no old one near: 0 there
-    double lost = 0;     // m² of old ground, painted above 0, that no new one is near
+    UvPicture layer;   // over the walk's UV square, of the new surface's finest level; 0 outside of its charts
+    double fresh = 0;  // m² of new ground with no old one near
+    double lost = 0;   // m² of old ground, painted above 0, that no new one is near
 };
 
 // Which place of one surface lies where on the other: the nearest one whose outside points the same way within 60°, not
@@ -22,7 +22,9 @@ struct CarriedLayer {
 class SurfaceMatch {
   public:
     SurfaceMatch(const SurfaceData& from, const SurfaceData& to, double within = 0);
-    CarriedLayer carry(const PaintedLayer& layer) const;
+    // fresh: what ground without an old place has.
+    CarriedLayer carry(const UvPicture& layer, float fresh = 0) const;
+    uint32_t size() const { return size_; }  // texels a side of the new surface's finest level
 
   private:
     struct Ground {

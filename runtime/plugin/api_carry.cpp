@@ -1,0 +1,61 @@
+// What was painted over a surface, carried to a later bake of it.
+#include <algorithm>
+
+#include "runtime/plugin/context.hpp"
+#include "runtime/surface/carry.hpp"
+
+struct EspCarry {
+    espalier::SurfaceMatch match;
+};
+
+using namespace espalier;
+
+namespace {
+
+constexpr uint32_t kMostSide = 8192;
+
+Result<SurfaceData> read(const char* path) {
+    if (!path || !*path) return Failure("espCreateCarry", "two surfaces are needed");
+    return readSurface(path);
+}
+
+}  // namespace
+
+extern "C" {
+
+EspResult espCreateCarry(const char* earlier, const char* later, EspCarry** out) {
+    return guardedAlone([&] {
+        if (!out) return failAlone(ESP_INVALID_ARGUMENT, "espCreateCarry: null pointer");
+        *out = nullptr;
+        Result<SurfaceData> from = read(earlier);
+        if (!from) return failAlone(ESP_INVALID_CONTENT, from.failure().text());
+        Result<SurfaceData> to = read(later);
+        if (!to) return failAlone(ESP_INVALID_CONTENT, to.failure().text());
+        *out = new EspCarry{SurfaceMatch(*from, *to)};
+        return ESP_OK;
+    });
+}
+
+uint32_t espCarrySide(const EspCarry* carry) {
+    return carry ? carry->match.size() : 0;
+}
+
+EspResult espCarryLayer(const EspCarry* carry, const float* texels, uint32_t width, uint32_t height, float fresh,
+                        float* out, EspCarried* carried) {
+    return guardedAlone([&] {
+        if (!carry || !texels || !out) return failAlone(ESP_INVALID_ARGUMENT, "espCarryLayer: null pointer");
+        if (width < 1 || height < 1 || width > kMostSide || height > kMostSide)
+            return failAlone(ESP_INVALID_ARGUMENT, "espCarryLayer: a layer has 1 to 8192 texels a side");
+        const CarriedLayer layer =
+            carry->match.carry({width, height, std::vector<float>(texels, texels + size_t(width) * height)}, fresh);
+        std::ranges::copy(layer.layer.texels, out);
+        if (carried) *carried = {layer.fresh, layer.lost};
+        return ESP_OK;
+    });
+}
+
+void espDestroyCarry(EspCarry* carry) {
+    delete carry;
+}
+
+}  // extern "C"
