@@ -23,8 +23,9 @@ struct GrowthChanges {
     std::vector<DirtyCells> cells;
     std::vector<std::pair<uint32_t, uint32_t>> params;  // grammar's index, mask of slots (bit 31: any from 31 on)
     std::vector<uint32_t> grammars;                     // indices of those whose rules changed
-    std::vector<uint64_t> seeds{};   // keys of seeds whose plants grow anew: what they stand on has moved
-    std::vector<uint64_t> frozen{};  // keys of frozen plants that aren't what grew there: their records are put in
+    std::vector<uint32_t> extrudes{};  // of which only what they draw on spans has (RuleMap::derivesAs)
+    std::vector<uint64_t> seeds{};     // keys of seeds whose plants grow anew: what they stand on has moved
+    std::vector<uint64_t> frozen{};    // keys of frozen plants that aren't what grew there: their records are put in
 
     // Texels [x0, x1) × [y0, y1) of a layer of `size` texels a side have other values. All of them, when a layer comes,
     // goes or changes its size.
@@ -35,7 +36,8 @@ struct GrowthChanges {
     }
     void markParams(uint32_t grammar, uint32_t mask);
     bool none() const {
-        return !everything && cells.empty() && params.empty() && grammars.empty() && seeds.empty() && frozen.empty();
+        return !everything && cells.empty() && params.empty() && grammars.empty() && extrudes.empty() &&
+               seeds.empty() && frozen.empty();
     }
 };
 

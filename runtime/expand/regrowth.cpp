@@ -159,7 +159,8 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     const std::vector<RuleMapRef>& maps = origin_.maps;
     const std::vector<float>& widths = origin_.widths;
     const bool same = tablesStand_ && inputs.changes->params.empty() && inputs.changes->grammars.empty() &&
-                      inputs.grammars.size() == maps.size() && inputs.widths.size() == widths.size() &&
+                      inputs.changes->extrudes.empty() && inputs.grammars.size() == maps.size() &&
+                      inputs.widths.size() == widths.size() &&
                       std::memcmp(inputs.grammars.data(), maps.data(), maps.size() * sizeof(RuleMapRef)) == 0 &&
                       std::equal(widths.begin(), widths.end(), inputs.widths.begin());
     if (!same) return uploadTables(commands, inputs, !runsNative(inputs));

@@ -146,6 +146,12 @@ std::vector<uint32_t> editWords(const GrowthInputs& inputs, const SeedChanges& s
         for (const auto& [grammar, slots] : changes.params)
             if (grammar < inputs.grammars.size()) words[words[kEditParams] + grammar] |= slots;
     }
+    if (!changes.extrudes.empty()) {
+        words[kEditExtrudes] = uint32_t(words.size());
+        words.resize(words.size() + inputs.grammars.size());
+        for (uint32_t grammar : changes.extrudes)
+            if (grammar < inputs.grammars.size()) words[words[kEditExtrudes] + grammar] = 1;
+    }
     if (!seeds.pruned.empty()) {
         words[kEditPruned] = uint32_t(words.size());
         words.push_back(uint32_t(seeds.pruned.size()));

@@ -94,6 +94,9 @@ class RuleMap {
     // The same plants and roofs grow from both, whatever their parameters are set to later: the texts differ in
     // comments, layout, labels and defaults alone, and their parameters now stand at the same values.
     bool growsAs(const RuleMap& other) const;
+    // The same branches and nodes grow from both with the parameters as they stand: at most what is drawn on spans,
+    // bark and leaves, is another. Not of roofs.
+    bool derivesAs(const RuleMap& other) const;
 
     // The map's record for words that lie at `address` (of a device, or of words().data() for the CPU, as long as
     // this object lives unchanged in place). layerOf is the identity: the caller binds layers by name.

@@ -205,30 +205,6 @@ uint32_t featuresOf(const RuleMap& map, const RuleMapRef& ref) {
 
 }  // namespace
 
-bool RuleMap::growsAs(const RuleMap& other) const {
-    const auto sameBytes = [](const auto& a, const auto& b) {
-        return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
-    };
-    const auto sameParam = [](const ParamInfo& a, const ParamInfo& b) {
-        return a.name == b.name && a.kind == b.kind && a.minimum == b.minimum && a.maximum == b.maximum &&
-               a.slot == b.slot;
-    };
-    const auto sameContext = [](const ContextInfo& a, const ContextInfo& b) {
-        return a.name == b.name && a.fill == b.fill;
-    };
-    const auto sameSymbol = [](const SymbolInfo& a, const SymbolInfo& b) {
-        return a.name == b.name && a.argCount == b.argCount && a.grows == b.grows;
-    };
-    const auto sameSection = [](Section a, Section b) { return a.offset == b.offset && a.count == b.count; };
-    return startSymbol_ == other.startSymbol_ && roofs_ == other.roofs_ && widthUniform_ == other.widthUniform_ &&
-           width_ == other.width_ && std::ranges::equal(params_, other.params_, sameParam) &&
-           std::ranges::equal(contexts_, other.contexts_, sameContext) &&
-           std::ranges::equal(symbols_, other.symbols_, sameSymbol) &&
-           std::ranges::equal(sections_, other.sections_, sameSection) && sameBytes(words_, other.words_) &&
-           sameBytes(uniformCode_, other.uniformCode_) && sameBytes(uniforms_, other.uniforms_) &&
-           sameBytes(patches_, other.patches_);
-}
-
 RuleMapRef RuleMap::refAt(uint64_t address) const {
     RuleMapRef ref = {};
     auto at = [&](uint32_t section) { return address + uint64_t(sections_[section].offset) * 4; };

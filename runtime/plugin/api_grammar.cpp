@@ -160,8 +160,10 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
                             (grammar->map.roofs() ? ": would make roofs, yet " : ": would make plants, yet ") + use);
         context->compileMs = grammar->compileMs;
         if (takeText(*old, *grammar)) return ESP_OK;
+        const bool derives = grammar->map.derivesAs(old->map) && grammar->layerOf == old->layerOf;
         *old = std::move(*grammar);
-        context->changes.grammars.push_back(context->grammarIndex(id.id));
+        GrowthChanges& changes = context->changes;
+        (derives ? changes.extrudes : changes.grammars).push_back(context->grammarIndex(id.id));
         old->edition = ++context->revision;
         return ESP_OK;
     });

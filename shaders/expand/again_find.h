@@ -78,7 +78,7 @@ FN bool readsDirty(ExpandEnv env, UintBuf edits, uint chunk, ChunkReads r, uint 
 // The head of AgainState::edits.
 struct EditHead {
     UintBuf edits;
-    uint layers, seeds, params, pruned;
+    uint layers, seeds, params, pruned, extrudes;
 };
 FN EditHead editHead(ExpandEnv env) {
     EditHead head;
@@ -87,6 +87,7 @@ FN EditHead editHead(ExpandEnv env) {
     head.seeds = head.edits.v[kEditSeeds];
     head.params = head.edits.v[kEditParams];
     head.pruned = head.edits.v[kEditPruned];
+    head.extrudes = head.edits.v[kEditExtrudes];
     return head;
 }
 
@@ -101,7 +102,7 @@ FN void findChunk(ExpandEnv env, EditHead head, uint c) {
         if (near) dirty = readsDirty(env, head.edits, c, r, grid, level);
     }
     if (head.pruned != 0u) dirty = dirty || isAmong(head.edits, head.pruned + 1u, head.edits.v[head.pruned], env.chunks.v[c].key);
-    uint looks = head.params + head.seeds != 0u || dirty ? 1u : 0u;
+    uint looks = head.params + head.seeds + head.extrudes != 0u || dirty ? 1u : 0u;
     for (uint k = 0u; k < looks; ++k) {
         uint branch = env.chunks.v[c].branch;
         bool first = branch != kNoIndex && env.branches.v[branch].firstChunk == c;
@@ -127,7 +128,8 @@ FN void findChunk(ExpandEnv env, EditHead head, uint c) {
         uint grammar = env.chunks.v[c].symbol >> 16u;
         uint changed = head.params != 0u ? head.edits.v[head.params + grammar] : 0u;
         dirty = dirty || (changed & r.paramMask) != 0u;
-        if (first && (changed & env.tables.v[grammar * kGrammarWords + kTableExtrudeParams]) != 0u) {
+        bool other = head.extrudes != 0u && head.edits.v[head.extrudes + grammar] != 0u;
+        if (first && (other || (changed & env.tables.v[grammar * kGrammarWords + kTableExtrudeParams]) != 0u)) {
             AGAIN_MARKS.v[branch].branchBits = kBranchListed | kBranchRedo;
             appendTo(env, kListBranches, branch);
         }

@@ -417,3 +417,47 @@ TEST_CASE("random edits in any order end in what a full growth gives") {
         CHECK(s.growth->stats().regrowths > 20);
     }
 }
+
+TEST_CASE("a text that draws something else on spans derives nothing again; one that grows otherwise does") {
+    Session s(flatSquare());
+    for (int i = 0; i < 40; ++i) s.scene.plant({-0.75f, 0, -0.78f + 0.04f * float(i)}, {1, 0, 0}, 0, uint64_t(i));
+    s.check();
+    const GrowthStats before = s.growth->stats();
+    std::string text = kGuided;
+    const auto edit = [&](const std::string& from, const std::string& to) {
+        const size_t at = text.find(from);
+        REQUIRE(at != std::string::npos);
+        text.replace(at, from.size(), to);
+        Result<RuleMap> map = compileGrammar(text);
+        REQUIRE_MESSAGE(map, (map ? "" : map.failure().text()));
+        const bool derives = map->derivesAs(s.scene.grammar(0));
+        CHECK(derives == s.scene.grammar(0).derivesAs(*map));
+        s.scene.grammar(0) = std::move(*map);
+        (derives ? s.changes.extrudes : s.changes.grammars).push_back(0);
+        return derives;
+    };
+    SUBCASE("leaves, fewer and with more code") {
+        CHECK(edit("rand(0, 3) * cover(texCoord)", "min(rand(0, 2), arc * 100) * cover(texCoord)"));
+        s.check();
+        CHECK(s.growth->stats().leaves != before.leaves);
+    }
+    SUBCASE("leaves twice") {
+        CHECK(edit("Cover -> Bark Leaves", "Cover -> Bark Leaves Leaves"));
+        s.check();
+        CHECK(s.growth->stats().leaves > before.leaves);
+    }
+    SUBCASE("bark, as thick at its tip as at its foot") {
+        CHECK(edit("0.002 + 0.01 * clamp(toTip / 0.5, 0, 1)", "0.01"));
+        s.check();
+        CHECK(s.growth->stats().leaves == before.leaves);
+    }
+    SUBCASE("twigs that fork more often") {
+        CHECK(!edit(": 0.3", ": 0.5"));
+        s.check();
+        CHECK(s.growth->stats().derived > 0);
+        return;
+    }
+    CHECK(s.growth->stats().derived == 0);
+    CHECK(s.growth->stats().nodes == before.nodes);
+    CHECK(s.growth->stats().regrowths == before.regrowths + 1);
+}
