@@ -180,6 +180,7 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
     desc.samples = samples;
     desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
     for (uint32_t shading = 0; shading < kShadings; ++shading) {
+        if (!isAskedOf(device, Shading(shading))) continue;
         desc.options.constants = constantsOf(Shading(shading));
         desc.blend = blendOf(Shading(shading));
         Result<Program> program = Program::graphics(device, desc);
@@ -246,7 +247,7 @@ void Ground::describe(FrameRecord& frame) const {
 
 void Ground::draw(DrawPass& pass, const PostPush& push, const Buffer& frame, const Image& shadowMap,
                   const Sampler& shadowSampler, Shading shading) const {
-    const bool quick = shading == Shading::quick;
+    const bool quick = isQuick(shading);
     pass.draw(programs_[size_t(shading)], 3, 1, push,
               {noiseBinding(quick), {shadowMap, shadowSampler}, siteBinding(quick), pavingBinding(quick), frame});
 }

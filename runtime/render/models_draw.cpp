@@ -107,7 +107,7 @@ void Models::overShown(const Model& model, const Each& each) {
 }
 
 void Models::draw(DrawPass& pass, const Drawn& with) const {
-    const bool quick = with.shading == Shading::quick;
+    const bool quick = isQuick(with.shading);
     const Sampler& sampler = quick ? quickSampler_ : sampler_;
     for (const auto& [index, model] : models_) {
         if (!model.seen || (with.drawnOnly && model.groundOnly)) continue;

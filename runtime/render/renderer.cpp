@@ -26,9 +26,9 @@ DrawTargets onto(VkExtent2D extent, VkImageView view) {
     return targets;
 }
 
-// Pixels. Views of the walk's UV square want the mesh that has it everywhere.
+// Pixels. Views of the walk's UV square want the mesh that has it everywhere; a layer while all moves does with less.
 float allowedModelError(const Look& look, bool grows) {
-    if (look.view == ViewMode::charts || look.view == ViewMode::layer) return 0;
+    if (look.view == ViewMode::charts || (look.view == ViewMode::layer && !look.quick)) return 0;
     const float grown = look.quick ? kQuickGrown * look.lodPixels : kGrownPixels;
     return grows ? std::min(look.lodPixels, grown) : look.lodPixels;
 }
@@ -71,7 +71,7 @@ void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, co
     const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
     std::optional<Pass> part;
     const auto begin = [&](const char* name) {
-        if (shading_ == Shading::quick) part.emplace(pass.commands(), name);
+        if (isQuick(shading_)) part.emplace(pass.commands(), name);
     };
     begin("draw models");
     models_.draw(pass, {scene_->model,
@@ -95,7 +95,7 @@ void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, co
 // What hides growth. Where the picture is ours and shaded, that is depths only: what growth hides isn't shaded at all.
 Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target,
                                 const PostPush& post) {
-    ahead_ = !hosted_ && !explained_;
+    ahead_ = !hosted_ && shading_ != Shading::counting;
     if (ahead_) {
         DrawTargets depths;
         depths.extent = {targets_.width, targets_.height};
@@ -185,7 +185,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     thinOut(view, inputs.look.leafPixels);
     if (inputs.look.quick && device_.info().cpu) view.flags |= kStretches;
     view.scene = sceneOf(inputs);
-    if (shading_ == Shading::quick && !hosted_) lookBack(view);
+    if (isQuick(shading_) && !hosted_) lookBack(view);
     if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
     if (!grows_) return Done{};
@@ -203,7 +203,7 @@ void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, cons
     if (grows_) drawTerminals(pass, false);
     if (roofed_) {
         std::optional<Pass> part;
-        if (shading_ == Shading::quick) part.emplace(commands, "draw roofs");
+        if (isQuick(shading_)) part.emplace(commands, "draw roofs");
         roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, shading_);
     }
     if (ahead_) drawSurroundings(pass, inputs, post);

@@ -71,8 +71,8 @@ struct HostScene {
 };
 
 // Where to draw. image null: into the renderer's own image. Otherwise the image may be in any layout, its contents
-// are lost but with a host's scene, and it is left in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; format: an 8-bit RGBA
-// or BGRA, UNORM or SRGB.
+// are lost but with a host's scene, and it is left in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; format: one of
+// EspDrawDef::colourFormat's.
 struct DrawTarget {
     uint32_t width = 1280, height = 720;  // 1 to 16384
     VkImage image = VK_NULL_HANDLE;
@@ -117,8 +117,8 @@ class Renderer {
 
     // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed; after
     // edits of growth only in tiles that they reach. If it may lag: from the third frame in a row on in which growth
-    // has changed, an eighth of these tiles in each, by bands, and all when it has come to rest; where all growth is
-    // new, in every eighth frame, until then with fewer and larger leaves.
+    // has changed, at most eight of these tiles in every second one, and all when it has come to rest; where all growth
+    // is new, in every eighth frame, until then with fewer and larger leaves.
     virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;
 
     // What the last draw has recorded didn't run: the next relies on none of it.

@@ -112,7 +112,7 @@ Status RendererImpl::makeSceneProgram(Program& program, const char* name, const 
 
 Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading) const {
     if (programs.model) return Done{};
-    if (shading == Shading::quick)
+    if (isQuick(shading))
         if (Status lit = makeLit(programs); !lit) return lit;
     const bool one = targets_.samples == 1;
     const struct {
@@ -138,22 +138,25 @@ Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading) const {
 }
 
 Status RendererImpl::pickScene(ViewMode shown, bool quick) {
-    explained_ = shown != ViewMode::shaded;
-    shading_ = shown == ViewMode::overdraw   ? Shading::counting
-               : explained_                  ? Shading::explaining
-               : quick && device_.info().cpu ? Shading::quick
-                                             : Shading::full;
+    const bool explained = shown != ViewMode::shaded, cheap = quick && device_.info().cpu;
+    plain_ = !explained || shown == ViewMode::layer;
+    if (shown == ViewMode::overdraw)
+        shading_ = Shading::counting;
+    else if (explained)
+        shading_ = cheap ? Shading::quickExplaining : Shading::explaining;
+    else
+        shading_ = cheap ? Shading::quick : Shading::full;
     scene_ = &scenes_[size_t(shading_)];
     return makeScene(*scene_, shading_);
 }
 
 Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
     const bool counts = shading_ == Shading::counting;
-    const ResolveKind kind{format, counts, shading_ == Shading::quick};
+    const ResolveKind kind{format, counts, isQuick(shading_)};
     if (auto it = resolves_.find(kind); it != resolves_.end()) return &it->second;
     const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
     GraphicsDesc desc = fullscreen("resolve", fragment, format);
-    desc.options.constants = {{kExplains, counts ? 1u : 0u}, {kQuick, shading_ == Shading::quick ? 1u : 0u}};
+    desc.options.constants = {{kExplains, counts ? 1u : 0u}, {kQuick, isQuick(shading_) ? 1u : 0u}};
     Result<Program> made = Program::graphics(device_, desc);
     if (!made) return made.failure();
     return &(resolves_[kind] = std::move(*made));

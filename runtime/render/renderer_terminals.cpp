@@ -63,7 +63,7 @@ Status RendererImpl::lightTerminals(Commands& commands) {
     const uint64_t bytes = known ? std::max(known->spanCount + known->leafCount, 1u) * 8ull * kLitWords : 0;
     const DeviceInfo& info = device_.info();
     const uint64_t room = bytes + bytes / 4 / 16 * 16, most = 16ull * info.limits.maxTexelBufferElements;
-    lit_ = shading_ == Shading::quick && known && room <= std::min<uint64_t>(info.maxBufferBytes, most);
+    lit_ = isQuick(shading_) && plain_ && known && room <= std::min<uint64_t>(info.maxBufferBytes, most);
     if (!lit_) return Done{};
     if (!litTerminals_ || litTerminals_.size() < bytes) {
         Status made =
@@ -109,9 +109,9 @@ void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
             pass.drawIndexedIndirect(litPrograms(*scene_, b).draw, emit_.state(), offset, 2, push,
                                      {color, shadow, *frame_, emit_.state(), litTexels_});
         else if (!depthOnly && bark)
-            pass.drawIndexedIndirect(!explained_ && small_[b] ? scene_->barkSmall : scene_->bark, emit_.state(), offset,
-                                     2, push, {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
-        else if (!depthOnly && !explained_ && small_[b])
+            pass.drawIndexedIndirect(plain_ && small_[b] ? scene_->barkSmall : scene_->bark, emit_.state(), offset, 2,
+                                     push, {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
+        else if (!depthOnly && plain_ && small_[b])
             pass.drawIndexedIndirect(scene_->leafSmall, emit_.state(), offset, 2, push,
                                      {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
         else if (!depthOnly)

@@ -4,21 +4,31 @@
 
 #include <vector>
 
+#include "runtime/gpu/device.hpp"
 #include "runtime/gpu/program.hpp"
 #include "runtime/gpu/spirv.hpp"
 #include "shaders/render/frame_records.h"
 
 namespace espalier {
 
-// full: as settled pictures are. explaining: any view but the shaded one and overdraw. quick: for a moving picture on a
-// software device, with fewer samples of shadows and textures. counting: of overdraw, where fragments add up.
-enum class Shading : uint32_t { full = 0, explaining = 1, quick = 2, counting = 3 };
-constexpr uint32_t kShadings = 4;
+// full: as settled pictures are. explaining: any view but the shaded one and overdraw. quick, quickExplaining: the same
+// for a moving picture on a software device, with fewer samples of shadows and textures. counting: of overdraw, where
+// fragments add up.
+enum class Shading : uint32_t { full = 0, explaining = 1, quick = 2, counting = 3, quickExplaining = 4 };
+constexpr uint32_t kShadings = 5;
+
+inline bool isQuick(Shading shading) {
+    return shading == Shading::quick || shading == Shading::quickExplaining;
+}
+inline bool isAskedOf(const Device& device, Shading shading) {
+    return device.info().cpu || !isQuick(shading);
+}
 
 inline std::vector<SpecConstant> constantsOf(Shading shading, bool rooted = false, bool rest = false) {
-    return {{kExplains, shading == Shading::explaining || shading == Shading::counting ? 1u : 0u},
+    const bool explains = shading != Shading::full && shading != Shading::quick;
+    return {{kExplains, explains ? 1u : 0u},
             {kRooted, rooted ? 1u : 0u},
-            {kQuick, shading == Shading::quick ? 1u : 0u},
+            {kQuick, isQuick(shading) ? 1u : 0u},
             {kRest, rest ? 1u : 0u}};
 }
 

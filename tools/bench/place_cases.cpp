@@ -28,6 +28,7 @@ constexpr int kSteps = 90;
 constexpr float kStep = 0.1f;               // metres, as somebody walks
 constexpr int kStrokes = 8, kDabs = 8;      // a dab a frame
 constexpr double kWhole = 1e3;              // ms: a picture that nothing moves in
+constexpr float kLayerOpacity = 0.75f;      // as the editor shows layers at first
 constexpr double kPaintingFrame = 1e3 / 8;  // ms
 constexpr double kFrame = scene::MovingDetail::kFrameMs;
 constexpr double kSmooth = 1e3 / 60;  // ms, on a GPU
@@ -53,7 +54,11 @@ EspCamera aside(EspCamera camera, float metres) {
 
 struct Moves {
     std::vector<double> cpu, wall, update, leaves, share;  // of each frame; ms; empty: they can't be drawn
-    std::string leavesDrawn() const { return std::to_string(uint32_t(mean(leaves))) + " leaves drawn in the mean"; }
+    std::string leavesDrawn() const {
+        const double least = *std::min_element(leaves.begin(), leaves.end());
+        return std::to_string(uint32_t(mean(leaves))) + " leaves drawn in the mean; at least " +
+               std::to_string(uint32_t(least));
+    }
     std::string size() const { return std::to_string(std::lround(100 * mean(share))) + " % of its width"; }
 };
 
@@ -62,6 +67,7 @@ struct PlaceFilm {
     const scene::Scene& scene;
     // Of the window's width that what moves is drawn with, at the detail of the smallest; none: as small as it takes.
     std::optional<float> fixed = {};
+    const char* layer = nullptr;  // shown over the surfaces, as while the brush is in hand; null: the shaded view
     scene::MovingPicture picture{};
     EspStats stats{};
     float share = 1;  // of the window's width, as the last frame was drawn
@@ -77,6 +83,11 @@ struct PlaceFilm {
         draw.camera = camera;
         draw.look = scene.look;
         draw.look.shadowsLag = 1;
+        if (layer) {
+            draw.look.view = ESP_VIEW_LAYER;
+            draw.look.viewLayer = layer;
+            draw.look.viewOpacity = kLayerOpacity;
+        }
         share = picture.prepare(draw, moving, stats.drawMs, !fixed);
         if (draw.look.quick && fixed) {
             share = *fixed;
@@ -194,6 +205,12 @@ void sampleCases(Bench& bench, EspContext* context, const scene::Scene& scene) {
             still.push_back(took);
     const Moves turn = film.turn(), walk = film.walk();
     if (turn.wall.empty() || walk.wall.empty()) return bench.skip(name, espLastError(context));
+    PlaceFilm over{context, scene};
+    over.layer = "mask";
+    Hand bare(context, scene.camera), showing(context, scene.camera);
+    const Moves painting = film.stand(kStrokes * kDabs, [&](int frame) { return bare.dab(frame); });
+    const Moves shown = over.stand(kStrokes * kDabs, [&](int frame) { return showing.dab(frame); });
+    if (painting.wall.empty() || shown.wall.empty()) return bench.skip(name, espLastError(context));
     bench.add({"frame/place/still", "a whole picture by the clock", "ms", median(still), "a second", kWhole});
     bench.add({name, "CPU time of a moving frame of the whole place, " + turn.size() + ", mean of a turn", "ms",
                mean(turn.cpu), "15 frames/s on two cores", 2 * kFrame});
@@ -202,6 +219,10 @@ void sampleCases(Bench& bench, EspContext* context, const scene::Scene& scene) {
     bench.add({"frame/place/worst", "the same, worst", "ms", most(turn.wall), "15 frames/s", kFrame});
     bench.add({"frame/place/walk", "by the clock, while it goes sideways, mean", "ms", mean(walk.wall), "15 frames/s",
                kFrame});
+    bench.add({"frame/place/painting", "a dab and its frame by the clock, " + painting.size() + ", mean", "ms",
+               mean(painting.wall), "8 frames/s", kPaintingFrame});
+    bench.add({"frame/place/painting/layer", "the same with the layer shown, " + shown.size() + ", mean", "ms",
+               mean(shown.wall), "8 frames/s", kPaintingFrame});
     bench.add(
         {"frame/place/walk/worst", "the same, worst: shadows follow", "ms", most(walk.wall), "15 frames/s", kFrame});
 }
