@@ -167,20 +167,9 @@ class DrawPass : public Pass {
                       Bindings bindings = {});
     void drawIndexedIndirect(const Program& program, const Buffer& arguments, uint64_t offset, uint32_t count,
                              Push push = {}, Bindings bindings = {});
-    // The number of commands is the word at countOffset of `counts`, at most maxCount.
-    struct Counted {
-        const Buffer& arguments;
-        uint64_t offset;
-        const Buffer& counts;
-        uint64_t countOffset;
-        uint32_t maxCount;
-    };
-    void drawIndirectCount(const Program& program, const Counted& draws, Push push = {}, Bindings bindings = {});
-    void drawIndexedIndirectCount(const Program& program, const Counted& draws, Push push = {}, Bindings bindings = {});
 
   private:
     void start(VkExtent2D extent);
-    void forgetCount(const Counted& draws);
     bool ours_ = false;
 };
 

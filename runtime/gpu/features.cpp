@@ -19,7 +19,6 @@
     F(v12, bufferDeviceAddress) \
     F(v12, scalarBlockLayout) \
     F(v12, timelineSemaphore) \
-    F(v12, drawIndirectCount) \
     F(v12, hostQueryReset) \
     F(v13, synchronization2) \
     F(v13, dynamicRendering) \
@@ -28,7 +27,6 @@
     F(v13, maintenance4)
 #define ESPALIER_WELCOME(F) \
     F(core.features, samplerAnisotropy) \
-    F(core.features, depthClamp) \
     F(core.features, fillModeNonSolid) \
     F(core.features, independentBlend) \
     F(core.features, fragmentStoresAndAtomics) \

@@ -36,8 +36,8 @@ namespace espalier {
     F(vkCmdDispatchIndirect) F(vkCmdFillBuffer) F(vkCmdUpdateBuffer) F(vkCmdCopyBuffer) \
     F(vkCmdCopyBufferToImage) F(vkCmdCopyImageToBuffer) F(vkCmdBlitImage) F(vkCmdBeginRendering) \
     F(vkCmdEndRendering) F(vkCmdSetViewport) F(vkCmdSetScissor) F(vkCmdSetCullMode) F(vkCmdBindIndexBuffer) F(vkCmdBindVertexBuffers) F(vkCmdDraw) \
-    F(vkCmdDrawIndexed) F(vkCmdDrawIndirect) F(vkCmdDrawIndexedIndirect) F(vkCmdDrawIndirectCount) \
-    F(vkCmdDrawIndexedIndirectCount) F(vkCmdPushDescriptorSetKHR)
+    F(vkCmdDrawIndexed) F(vkCmdDrawIndirect) F(vkCmdDrawIndexedIndirect) \
+    F(vkCmdPushDescriptorSetKHR)
 #define ESPALIER_DEVICE_FUNCTIONS_OPTIONAL(F) \
     F(vkSetDebugUtilsObjectNameEXT) F(vkCmdBeginDebugUtilsLabelEXT) F(vkCmdEndDebugUtilsLabelEXT)
 // clang-format on

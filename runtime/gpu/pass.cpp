@@ -193,30 +193,4 @@ void DrawPass::drawIndexedIndirect(const Program& program, const Buffer& argumen
     vk_.vkCmdDrawIndexedIndirect(cmd_, arguments.handle(), offset, count, sizeof(VkDrawIndexedIndirectCommand));
 }
 
-void DrawPass::drawIndirectCount(const Program& program, const Counted& draws, Push push, Bindings bindings) {
-    bind(program, push, bindings);
-    vk_.vkCmdDrawIndirectCount(cmd_, draws.arguments.handle(), draws.offset, draws.counts.handle(), draws.countOffset,
-                               draws.maxCount, sizeof(VkDrawIndirectCommand));
-    forgetCount(draws);
-}
-
-void DrawPass::drawIndexedIndirectCount(const Program& program, const Counted& draws, Push push, Bindings bindings) {
-    bind(program, push, bindings);
-    vk_.vkCmdDrawIndexedIndirectCount(cmd_, draws.arguments.handle(), draws.offset, draws.counts.handle(),
-                                      draws.countOffset, draws.maxCount, sizeof(VkDrawIndexedIndirectCommand));
-    forgetCount(draws);
-}
-
-// Mesa 22.3's software device applies the count of a counted draw to later indirect draws without one. A draw of at
-// most 0 commands, with a count that limits nothing, takes its place.
-void DrawPass::forgetCount(const Counted& draws) {
-    Device& device = commands_.device();
-    if (!device.info().cpu) return;
-    Result<Buffer> unlimited = Buffer::create(device, "unlimited count", 4, BufferUse::upload);
-    if (!unlimited) return;
-    unlimited->mappedAs<uint32_t>()[0] = 0xFFFFFFFFu;
-    vk_.vkCmdDrawIndirectCount(cmd_, draws.arguments.handle(), draws.offset, unlimited->handle(), 0, 0,
-                               sizeof(VkDrawIndirectCommand));
-}
-
 }  // namespace espalier

@@ -84,7 +84,6 @@ struct FixedFunctions {
     explicit FixedFunctions(const GraphicsDesc& d) : blends(d.colors.size(), blendState(d.blend)) {
         assembly.topology = d.topology;
         viewport.viewportCount = viewport.scissorCount = 1;
-        raster.depthClampEnable = d.depthClamp;
         raster.frontFace = d.front;
         raster.lineWidth = 1;
         raster.depthBiasEnable = d.depthBiasConstant != 0 || d.depthBiasSlope != 0;

@@ -41,7 +41,6 @@ struct GraphicsDesc {
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS_OR_EQUAL;
     float depthBiasConstant = 0;
     float depthBiasSlope = 0;
-    bool depthClamp = false;
     Blend blend = Blend::none;
     bool alphaToCoverage = false;
     VkFrontFace front = VK_FRONT_FACE_COUNTER_CLOCKWISE;

@@ -50,9 +50,4 @@ void BlockBounds::near(glm::vec3 centre, float radius, std::vector<uint32_t>& bl
     }
 }
 
-void BlockBounds::all(std::vector<uint32_t>& blocks) const {
-    for (uint32_t b = 0; b < blockBoxes_.size(); ++b)
-        if (blockBoxes_[b].low.x <= blockBoxes_[b].high.x) blocks.push_back(b);
-}
-
 }  // namespace espalier

@@ -17,8 +17,6 @@ class BlockBounds {
 
     // Appends the blocks whose box the sphere meets.
     void near(glm::vec3 centre, float radius, std::vector<uint32_t>& blocks) const;
-    // Appends all blocks that have texels.
-    void all(std::vector<uint32_t>& blocks) const;
 
     uint32_t side() const { return side_; }  // blocks a side
     explicit operator bool() const { return side_ > 0; }

@@ -57,9 +57,9 @@ class Painter {
 
     // Applies the dabs in order. Blocks that a record doesn't hold yet are kept in it first.
     Status dabs(std::span<PaintJob> jobs, BrushRecord brush, std::span<const DabRecord> dabs);
-    // Smooths by the dabs, one after the other: texels go towards the mean of places brush.reach away over the surface,
-    // which are found when a stroke comes to a block. All dabs of a record have one reach. The canvases need their
-    // table of surfaces.
+    // Smooths by the dabs, one after the other: texels go towards the mean of places reach.texels away over the
+    // surface, which are found when a stroke comes to a block. All dabs of a record have one reach. The canvases need
+    // their table of surfaces.
     Status smooth(PaintJob& job, Reach reach, BrushRecord brush, std::span<const DabRecord> dabs);
     // Sets all texels of the jobs' blocks, likewise.
     Status fill(std::span<PaintJob> jobs, float value);

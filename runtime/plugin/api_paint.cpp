@@ -10,7 +10,6 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kMaxDabs = 1u << 16;  // of one call
-constexpr float kSmoothReach = .12f;     // of the radius, to what is averaged
 constexpr float kMostReach = 16;         // texels: what a texel tells of borders ends a little farther out
 
 bool usable(const EspDab& dab) {
@@ -271,6 +270,13 @@ bool readAs(const EspContext& context, const std::string& name, float value) {
                                 [&](const SceneLayer& layer) { return layer.name == name && layer.fill != value; });
 }
 
+// Of a layer of so many texels a side, those beside charts too: whoever exports it sees them.
+std::vector<uint32_t> allBlocks(uint32_t side) {
+    std::vector<uint32_t> blocks(size_t(side) * side / kBlockTexels);
+    std::iota(blocks.begin(), blocks.end(), 0u);
+    return blocks;
+}
+
 EspResult fillLayer(EspContext& context, const char* name, float value, EspStroke* out) {
     if (EspResult bad = makePainter(context)) return bad;
     PaintStroke stroke;
@@ -282,8 +288,7 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     Touched touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         if ((roofsOnly || readAs(context, name, value)) && !paintedLayer(context, id, name)) return;
-        touched.push_back({id, {}});
-        boundsOf(surface).all(touched.back().second);
+        touched.push_back({id, allBlocks(surface.data.levels.front().size)});
     });
     std::vector<PaintJob> jobs;
     const float fill = declaredFill(context, name).value_or(0);
@@ -302,11 +307,10 @@ EspResult replaceLayer(EspContext& context, uint32_t surface, const std::string&
     if (EspResult bad = makePainter(context)) return bad;
     PaintStroke stroke;
     stroke.layer = name;
-    std::vector<uint32_t> blocks(texels.size() / kBlockTexels);
-    std::iota(blocks.begin(), blocks.end(), 0u);
+    const uint32_t side = context.surfaces.find(surface)->data.levels.front().size;
     std::vector<PaintJob> jobs;
     const float fill = declaredFill(context, name).value_or(0);
-    if (EspResult bad = jobsFor(context, stroke, fill, {{surface, std::move(blocks)}}, jobs)) return bad;
+    if (EspResult bad = jobsFor(context, stroke, fill, {{surface, allBlocks(side)}}, jobs)) return bad;
     Status replaced = context.painter->replace(jobs.front(), texels);
     if (!replaced) return failGpu(&context, replaced.failure());
     return keepEnded(context, std::move(stroke), out);

@@ -10,7 +10,6 @@ namespace {
 constexpr float kAround = 4;     // metres of the site beyond its houses
 constexpr float kTexel = 0.25f;  // metres
 constexpr uint32_t kMostTexels = 2048, kLeastTexels = 128;
-constexpr float kSmoothReach = .12f;  // of the radius, to what is averaged
 constexpr uint32_t kBlock = 8;
 
 void boundsOf(const RoofHouse& house, glm::vec2& low, glm::vec2& high) {
@@ -79,10 +78,12 @@ float PlanLayers::mean(const PlanLayer& layer, const RoofHouse& house) const {
 
 void PlanLayers::keep(const PlanLayer& layer, PlanRecord& kept, const PlanRect& rect) const {
     const uint32_t side = site_.size / kBlock;
+    kept.holds.resize(size_t(side) * side);
     for (uint32_t by = rect.y0 / kBlock; by * kBlock < rect.y1; ++by)
         for (uint32_t bx = rect.x0 / kBlock; bx * kBlock < rect.x1; ++bx) {
             const uint32_t block = by * side + bx;
-            if (std::ranges::find(kept.blocks, block) != kept.blocks.end()) continue;
+            if (kept.holds[block]) continue;
+            kept.holds[block] = true;
             kept.blocks.push_back(block);
             for (uint32_t y = by * kBlock; y < (by + 1) * kBlock; ++y) {
                 const float* row = &layer.texels[size_t(y) * site_.size + bx * kBlock];
@@ -103,9 +104,12 @@ PlanRect PlanLayers::dabs(PlanLayer& layer, BrushRecord brush, bool smooths, std
         if (r.empty()) continue;
         keep(layer, kept, r);
         all.add(r);
-        const std::vector<float> before = smooths ? layer.texels : std::vector<float>();
+        // The rows that smoothing reads, as they were.
+        const int top = std::max(int(r.y0) - reach, 0), bottom = std::min(int(r.y1) + reach, last + 1);
+        const auto row = [&](int y) { return layer.texels.begin() + ptrdiff_t(y) * ptrdiff_t(site_.size); };
+        const std::vector<float> before = smooths ? std::vector<float>(row(top), row(bottom)) : std::vector<float>();
         const auto old = [&](int x, int y) {
-            return before[size_t(std::clamp(y, 0, last)) * site_.size + size_t(std::clamp(x, 0, last))];
+            return before[size_t(std::clamp(y, 0, last) - top) * site_.size + size_t(std::clamp(x, 0, last))];
         };
         for (uint32_t y = r.y0; y < r.y1; ++y)
             for (uint32_t x = r.x0; x < r.x1; ++x) {

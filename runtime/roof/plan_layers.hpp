@@ -30,6 +30,7 @@ struct PlanRect {
 struct PlanRecord {
     std::vector<uint32_t> blocks;
     std::vector<float> texels;
+    std::vector<bool> holds;  // [block], until close()
     uint64_t bytes() const { return blocks.size() * 4 + texels.size() * 4; }
 };
 

@@ -11,6 +11,7 @@ ESPALIER_BEGIN
 
 CONST_UINT(kBlockTexels, 64u);
 CONST_UINT(kDabsAtOnce, 32u);   // of one dispatch, in order
+CONST_FLOAT(kSmoothReach, 0.12f);   // of a brush's radius, from a texel to what smoothing takes the mean of
 
 // BrushRecord::flags
 CONST_UINT(kBrushSlope, 1u);
