@@ -28,6 +28,7 @@ using namespace espalier::document;
 namespace fs = std::filesystem;
 
 constexpr double kLookEvery = .3, kLookAtWorkEvery = .05;  // seconds
+constexpr double kNewsSeconds = 12;                        // that a message is shown
 constexpr size_t kHistory = 240;                           // frames in the graph
 constexpr float kTurnDegrees = 2;                          // a frame
 constexpr uint64_t kSettling = 60;                         // frames in which detail and size follow the time
@@ -89,8 +90,17 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     // While the camera moves, or a stroke goes on, on a slow device, less detail.
     const float scale = moving_.prepare(draw, moving && !last, work_.stats.drawMs, work_.layout.smallerWhileMoving);
     const uint32_t left = uint32_t(std::lround(work_.shift() * float(frame->extent.width)));
-    if (!image_->show(work_.context.get(), *frame, draw, left, scale, work_.redraw)) return fail(image_->error());
-    if (image_->drew()) {
+    // What draws a view is made when it is first shown, which may take seconds: the frame before says so.
+    const bool announces = viewsSeen_.insert(draw.look.view).second && viewsSeen_.size() > 1 && !last;
+    if (announces) {
+        showGrowing(work_, "Preparing this view ...");
+        image_->showAgain(*frame, left);
+        work_.redraw = true;
+        wake();
+    } else if (!image_->show(work_.context.get(), *frame, draw, left, scale, work_.redraw)) {
+        return fail(image_->error());
+    }
+    if (!announces && image_->drew()) {
         work_.redraw = work_.readStats() && (work_.stats.modelsFading > 0 || work_.stats.shadowsBehind);
         moving_.drew(work_.frameMs, uint32_t(work_.stats.drawnLeaves), controls_->painting());
     }
@@ -102,8 +112,9 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     if (work_.screenshot && path.empty())
         for (int i = 1; path.empty() || fs::exists(path); ++i) path = "espalier-" + std::to_string(i) + ".png";
     if (!path.empty())
-        take = [&](const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height) {
-            screenshot(path, rgba, width, height);
+        take = [&](const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height, const std::string& error) {
+            if (error.empty()) return screenshot(path, rgba, width, height);
+            work_.error = path + ": no picture was taken: " + error;
         };
     work_.screenshot = false;
     return host_->end(*frame, take) || fail(host_->error());
@@ -121,6 +132,13 @@ void App::noteTimes() {
     work_.history.push_back({float(grownMs_), 0, 0, float(work_.frameMs)});
     if (work_.history.size() > kHistory) work_.history.erase(work_.history.begin());
     timesAwaited_ = true;
+}
+
+// News of one line goes after a while, so that the hints have their room again.
+void App::fadeNews() {
+    const double now = ImGui::GetTime();
+    if (news_ != work_.message) news_ = work_.message, newsBegan_ = now;
+    if (now - newsBegan_ > kNewsSeconds && news_.find('\n') == std::string::npos) work_.message.clear();
 }
 
 // False: the view stays. The last frame is a whole picture, which nothing moves in.
@@ -200,6 +218,7 @@ bool App::frame(float seconds) {
         controls_->finishTools();
         askToLeave(work_, session_, file);
     }
+    fadeNews();
     showUi();
     retitle();
     const bool grew = update();

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <ctime>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "sample_game/app.hpp"
@@ -59,6 +60,7 @@ class App {
     void dropReloaded();
     bool frame(float seconds);
     void noteTimes();
+    void fadeNews();
     bool turn();
     void tellTurn() const;
     void giveBack();
@@ -107,6 +109,9 @@ class App {
     bool timesAwaited_ = false;  // of the last picture
     GrowthPace pace_;
     float themeScale_ = 0;
+    std::set<EspView> viewsSeen_;  // of this document
+    std::string news_;             // the latest message, since when it is shown
+    double newsBegan_ = 0;
 };
 
 }  // namespace sample

@@ -102,7 +102,7 @@ void AtlasPicture::drawLinks(std::vector<uint32_t>& pixels, uint32_t side) const
             const float t = float(i) / float(steps);
             const int x = int(link.a[0] * float(side) + dx * t), y = int(link.a[1] * float(side) + dy * t);
             if (x < 0 || y < 0 || x >= int(side) || y >= int(side)) continue;
-            pixels[size_t(int(side) - 1 - y) * side + size_t(x)] = kLinkColours[link.kind];
+            pixels[size_t(y) * side + size_t(x)] = kLinkColours[link.kind];
         }
     }
 }
@@ -123,7 +123,7 @@ std::vector<uint32_t> AtlasPicture::pixels(uint32_t& side) {
     for (uint32_t y = 0; y < size_; ++y) {
         for (uint32_t x = 0; x < size_; ++x) row[x] = colourOf(x, y);
         for (uint32_t k = 0; k < factor; ++k)
-            for (uint32_t x = 0; x < side; ++x) pixels[size_t(side - 1 - y * factor - k) * side + x] = row[x / factor];
+            for (uint32_t x = 0; x < side; ++x) pixels[size_t(y * factor + k) * side + x] = row[x / factor];
     }
     if (shown_.links) drawLinks(pixels, side);
     return pixels;

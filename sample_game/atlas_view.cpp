@@ -39,13 +39,13 @@ void arrow(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float scale) {
 struct AtlasView::View {
     ImVec2 corner;
     float side;               // of the window onto the picture, in ImGui's units
-    float left, top, extent;  // the part of the UV square in it; top is the greater v
+    float left, top, extent;  // the part of the UV square in it; v goes down, as in pictures of it
     float scale;
     ImVec2 place(const float uv[2]) const {
-        return {corner.x + side * (uv[0] - left) / extent, corner.y + side * (top - uv[1]) / extent};
+        return {corner.x + side * (uv[0] - left) / extent, corner.y + side * (uv[1] - top) / extent};
     }
     std::pair<float, float> uvAt(ImVec2 at) const {
-        return {left + (at.x - corner.x) / side * extent, top - (at.y - corner.y) / side * extent};
+        return {left + (at.x - corner.x) / side * extent, top + (at.y - corner.y) / side * extent};
     }
 };
 
@@ -150,7 +150,7 @@ void AtlasView::moveView(const View& view) {
     }
     if (ImGui::IsItemActive()) {
         centre_[0] -= io.MouseDelta.x / view.side * view.extent;
-        centre_[1] += io.MouseDelta.y / view.side * view.extent;
+        centre_[1] -= io.MouseDelta.y / view.side * view.extent;
     }
     const float half = .5f / zoom_;
     for (float& c : centre_) c = std::clamp(c, half, 1 - half);
@@ -253,14 +253,14 @@ void AtlasView::show(Workspace& work) {
     view.side = std::max(64.f, std::min(ImGui::GetContentRegionAvail().x, ImGui::GetContentRegionAvail().y));
     view.extent = 1 / zoom_;
     view.left = centre_[0] - .5f * view.extent;
-    view.top = centre_[1] + .5f * view.extent;
+    view.top = centre_[1] - .5f * view.extent;
     view.scale = s;
     const ImVec2 end(view.corner.x + view.side, view.corner.y + view.side);
     ImGui::InvisibleButton("picture", {view.side, view.side},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     const bool over = ImGui::IsItemHovered() && !ImGui::IsItemActive();
-    ImGui::GetWindowDrawList()->AddImage(&picture_, view.corner, end, {view.left, 1 - view.top},
-                                         {view.left + view.extent, 1 - view.top + view.extent});
+    ImGui::GetWindowDrawList()->AddImage(&picture_, view.corner, end, {view.left, view.top},
+                                         {view.left + view.extent, view.top + view.extent});
     ImGui::PushClipRect(view.corner, end, true);
     drawWalk(work, view);
     if (over) tellAt(view);

@@ -160,6 +160,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
         float& radius = work_.brushRadius();
         if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, .005f);
         if (key == GLFW_KEY_RIGHT_BRACKET) radius = std::min(radius * 1.15f, 20.f);
+        if (key == GLFW_KEY_X) work_.brush.value = 1 - work_.brush.value;
         if (key == GLFW_KEY_F) brush_.startSizing(work_, {event.x, event.y}, event.mods & GLFW_MOD_SHIFT);
     } else if (key == GLFW_KEY_F) {
         work_.frameChosen();
@@ -171,7 +172,10 @@ void Controls::takeToolKey(const KeyEvent& event) {
     if (work_.tool == Tool::houses && removes) houses_.removeCorner(work_);
     if (work_.tool == Tool::seeds) {
         if (removes) seeds_.remove(work_);
-        if (key == GLFW_KEY_A) seeds_.selectAll(work_);
+        if (key == GLFW_KEY_A && (event.mods & GLFW_MOD_ALT))
+            work_.selected.clear();
+        else if (key == GLFW_KEY_A)
+            seeds_.selectAll(work_);
         const bool turns = key == GLFW_KEY_R && !(event.mods & GLFW_MOD_SHIFT);
         if (key == GLFW_KEY_G || turns) seeds_.grab(work_, {event.x, event.y}, turns);
         if (key == GLFW_KEY_D && (event.mods & GLFW_MOD_SHIFT)) seeds_.duplicate(work_, {event.x, event.y});

@@ -135,13 +135,16 @@ void askPath(Workspace& work, Session& session, const PathQuestion& question,
     if (!beginDialogue(question.title)) return;
     PathText& path = question.path;
     d.asks = true;
+    if (ImGui::IsWindowAppearing()) ++d.openings;
     say(question.label);
     ImGui::SetNextItemWidth(dialogueWidth());
     if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // it is all that one can type into
     const bool waits = d.turn == Turn::waits;
     const ImGuiInputTextFlags flags = waits ? ImGuiInputTextFlags_ReadOnly : 0;
     const PathText before = path;
+    ImGui::PushID(d.openings);
     bool confirmed = ImGui::InputText("##path", path.data(), path.size(), ImGuiInputTextFlags_EnterReturnsTrue | flags);
+    ImGui::PopID();
     ImGui::BeginDisabled(waits);
     confirmed |= showFolder(question);
     confirmed |= ImGui::Button(d.turn == Turn::confirms ? d.yes : question.button);

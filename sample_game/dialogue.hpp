@@ -26,6 +26,7 @@ struct Dialogues {
     std::string doubted;   // the path that it confirms
     const char* yes = "";  // and the button that does so
     bool asks = false;     // one that asks for a path was open in the last frame
+    int openings = 0;      // each time the whole path is marked, so that it can be typed over
     bool leaves = false;   // for what is next, as soon as nothing is under way
     PathText project{}, file{}, run{}, picture{};
     std::string layer;                // of the picture

@@ -254,10 +254,12 @@ void brushPanel(Workspace& work) {
     ImGui::PushID("mode");
     mode("Paint", "paint", "Towards the value or colour below");
     ImGui::SameLine();
-    mode("Erase", "erase",
-         "Back to what all of the layer was cleared or filled to, or else to what the grammar says; also with Ctrl, "
-         "which "
-         "paints while this is chosen");
+    mode(
+        "Erase", "erase",
+        "Back to as it comes: to what all of the layer was cleared or filled to, or else to what the grammar says; the "
+        "line at the bottom tells which value that is. To take away what grows, paint the opposite value (X). Also "
+        "with "
+        "Ctrl, which paints while this is chosen");
     ImGui::SameLine();
     mode("Smooth", "smooth", "Towards what is around; also with Shift");
     ImGui::PopID();
@@ -273,7 +275,7 @@ void brushPanel(Workspace& work) {
         toolTip("What is painted; the field at the end opens a picker");
     } else {
         labelledSlider("Value", &b.value, 0, 1, "%.2f");
-        toolTip("What is painted; what 0 and 1 mean is said where the layer is chosen");
+        toolTip("What is painted; what 0 and 1 mean is said where the layer is chosen. X: the opposite");
     }
     labelledSlider("Spacing", &b.spacing, .05f, 1, "%.2f");
     toolTip("Between two dabs, of the radius");

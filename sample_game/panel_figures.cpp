@@ -52,7 +52,10 @@ void graph(const Workspace& work) {
             y = top;
         }
     }
-    list.AddText({at.x + 4, at.y + 2}, ImGui::GetColorU32(ImGuiCol_TextDisabled), ms(highest).c_str());
+    const std::string top = ms(highest);
+    const ImVec2 size = ImGui::CalcTextSize(top.c_str());
+    list.AddRectFilled(at, {at.x + size.x + 8, at.y + size.y + 4}, IM_COL32(0, 0, 0, 170));
+    list.AddText({at.x + 4, at.y + 2}, ImGui::GetColorU32(ImGuiCol_TextDisabled), top.c_str());
     ImGui::Dummy({width, height});
 }
 

@@ -24,7 +24,8 @@ void showHelp(Workspace& work) {
                           {"Numpad 1 3 7", "from the front, the right, above; Ctrl: the other side"},
                           {"Numpad 2 4 6 8, + -", "turn by 15 degrees, nearer, further"}};
     const Row paint[] = {{"B, then drag", "paint the chosen layer"},
-                         {"Ctrl+drag, Shift+drag", "erase, smooth"},
+                         {"Ctrl+drag, Shift+drag", "erase (back to as it comes), smooth"},
+                         {"X", "the opposite value: to take away what would be painted"},
                          {"[ and ]", "smaller, larger brush"},
                          {"F, Shift+F, then move", "radius, strength; click to keep it"},
                          {"V", "show or hide what is painted"}};
@@ -34,7 +35,7 @@ void showHelp(Workspace& work) {
                          {"Drag a seed, its arrow", "move, turn what is chosen"},
                          {"G, R", "move, turn the chosen seeds; a click ends it, Esc takes it back"},
                          {"Shift+D or Ctrl+D", "copies of the chosen seeds, to be moved as with G"},
-                         {"A, X or Del", "choose all, remove"},
+                         {"A, Alt+A, X or Del", "choose all, none, remove"},
                          {"Shift+R", "other random numbers for all"},
                          {"P, then click", "a branch; [ picks its parent, Del prunes it"},
                          {"H, then click", "a house; drag its corners, choose its edges"},
@@ -42,7 +43,7 @@ void showHelp(Workspace& work) {
     const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y", "undo, redo: of everything"},
                        {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
                        {"Ctrl+O, Ctrl+E, Ctrl+Q", "open, export the layer, quit"},
-                       {"1 2 3 4 5 6", "shaded, charts, normals, levels of detail, depth, overdraw"},
+                       {"1 2 3 4 5 6", "shaded, charts, normals, levels of detail, branches from the seed, overdraw"},
                        {"F2 F3 F4 F5", "panel, figures, grammar, atlas"},
                        {"F12", "write a screenshot"},
                        {"Esc, Q", "puts the tool away; Esc stops growth that takes long"}};

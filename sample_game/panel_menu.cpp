@@ -2,10 +2,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "sample_game/panels.hpp"
 #include "sample_game/theme.hpp"
+#include "tools/scene/layers.hpp"
 
 namespace sample {
 namespace {
@@ -29,6 +31,18 @@ struct Hint {
     std::string text, always;
 };
 
+// What a drag of the brush does, or one with Ctrl, which makes painting of erasing and the other way round.
+std::string strokeOf(const Workspace& work, bool control) {
+    const Brush& brush = work.brush;
+    const std::string mode = !control ? brush.mode : brush.mode == "erase" ? "paint" : "erase";
+    if (mode == "smooth" || espalier::scene::isColour(work.scene(), brush.layer)) return mode + " " + brush.layer;
+    const float to =
+        mode == "paint" ? brush.value : espalier::scene::fillOf(work.context.get(), work.scene(), brush.layer);
+    char text[16];
+    std::snprintf(text, sizeof text, "%.2f", double(to));
+    return mode + " " + brush.layer + (mode == "paint" ? ": " : " back to ") + text;
+}
+
 Hint hintOf(const Workspace& work, bool caught, bool flying) {
     if (!work.editing)
         return {std::string(caught ? "Mouse: look   " : "Click: look around   ") + "W A S D: " +
@@ -39,9 +53,9 @@ Hint hintOf(const Workspace& work, bool caught, bool flying) {
     std::string text;
     switch (work.tool) {
         case Tool::paint:
-            text = "Drag: " + work.brush.mode + " " + work.brush.layer +
-                   "   Ctrl: " + (work.brush.mode == "erase" ? "paint" : "erase") +
-                   "   Shift: smooth   F: size   Shift+F: strength   V: show the layer   middle drag: turn   "
+            text = "Drag: " + strokeOf(work, false) + "   Ctrl: " + strokeOf(work, true) +
+                   "   X: the opposite value   Shift: smooth   F: size   Shift+F: strength   V: show the layer   "
+                   "middle drag: turn   "
                    "wheel: nearer";
             break;
         case Tool::seeds:
@@ -130,7 +144,7 @@ void showMenu(Workspace& work, Session& session) {
 
 void showStatus(const Workspace& work, bool caught, bool flying) {
     const bool bad = !work.error.empty();
-    const float height = ImGui::GetFrameHeight() + 4 * work.scale;
+    const float height = std::ceil(ImGui::GetFrameHeight() + 4 * work.scale);  // windows stand on whole pixels
     ImGui::SetNextWindowPos({0, work.window.y - height});
     ImGui::SetNextWindowSize({work.window.x, height});
     ImGui::SetNextWindowBgAlpha(work.editing ? 1.f : .55f);

@@ -236,9 +236,7 @@ void SeedTool::selectBox(Workspace& work) const {
 }
 
 void SeedTool::selectAll(Workspace& work) {
-    std::set<uint32_t> all;
-    for (const Seed& seed : work.scene().seeds) all.insert(seed.key);
-    work.selected = work.selected == all ? std::set<uint32_t>{} : all;
+    for (const Seed& seed : work.scene().seeds) work.selected.insert(seed.key);
 }
 
 void SeedTool::draw(const Workspace& work) const {

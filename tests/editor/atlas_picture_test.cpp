@@ -45,10 +45,10 @@ struct Atlas : Window {
         REQUIRE(size == picture.size());
         return texels;
     }
-    // Of the middle of a texel: v runs upward, rows downward.
+    // Of the middle of a texel: the first row is at v = 0, as in pictures that are exported.
     uint32_t at(size_t x, size_t y) const {
         const size_t factor = side / picture.size();
-        return pixels[(side - 1 - (y * factor + factor / 2)) * side + x * factor + factor / 2];
+        return pixels[(y * factor + factor / 2) * side + x * factor + factor / 2];
     }
     // check(x, y, its chart) for every inner texel of a chart that can be walked on at this level.
     template <class Check>
@@ -172,7 +172,7 @@ TEST_CASE("an atlas shows its links by their kind") {
     size_t bare = 0, own = 0;
     for (const EspLink& link : atlas.picture.links()) {
         const int last = int(atlas.side) - 1, x = int(float(atlas.side) * (link.a[0] + link.b[0]) / 2),
-                  y = last - int(float(atlas.side) * (link.a[1] + link.b[1]) / 2);
+                  y = int(float(atlas.side) * (link.a[1] + link.b[1]) / 2);
         uint32_t near[9];
         for (int i = 0; i < 9; ++i)
             near[i] = atlas.pixels[size_t(std::clamp(y + i / 3 - 1, 0, last)) * atlas.side +

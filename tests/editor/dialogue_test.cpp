@@ -141,6 +141,28 @@ TEST_CASE("what went wrong with one path isn't said of another") {
     CHECK(sample::dialogues().turn == sample::Dialogues::Turn::asks);
 }
 
+TEST_CASE("a path is typed over what was asked for before, each time that it is asked for") {
+    const Folder folder;
+    Asked asked(folder);
+    const auto type = [&](const std::string& text) {
+        for (const char letter : text) ImGui::GetIO().AddInputCharacter(unsigned(letter));
+        asked.settle();
+    };
+    for (const char* name : {"a.json", "b.json", "c.json"}) {
+        CAPTURE(name);
+        sample::ask("Open");
+        asked.settle();
+        type(name);
+        CHECK(std::string(sample::dialogues().file.data()) == name);
+        ImGui::GetIO().KeyMap[ImGuiKey_Escape] = ImGuiKey_Escape;
+        ImGui::GetIO().KeysDown[ImGuiKey_Escape] = true;
+        asked.frame({});
+        ImGui::GetIO().KeysDown[ImGuiKey_Escape] = false;
+        asked.settle();
+        CHECK(!sample::usesPanels());
+    }
+}
+
 TEST_CASE("~ is the user's folder") {
     const char* before = std::getenv("HOME");
     const std::string had = before ? before : "";

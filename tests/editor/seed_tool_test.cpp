@@ -175,6 +175,8 @@ TEST_CASE("a click chooses a seed, Shift one more or one less, Shift and a drag 
     gardener.key(GLFW_KEY_A);
     CHECK(chosen.size() == before.size());
     gardener.key(GLFW_KEY_A);
+    CHECK(chosen.size() == before.size());
+    gardener.key(GLFW_KEY_A, GLFW_MOD_ALT);
     CHECK(chosen.empty());
     CHECK(gardener.seeds() == before);
     CHECK(gardener.steps() == steps);

@@ -9,10 +9,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "tools/document/document.hpp"
 #include "tools/document/layer_files.hpp"
 #include "tools/document/run.hpp"
+#include "tools/scene/daylight.hpp"
 #include "tools/scene/moving.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene.hpp"
@@ -29,6 +31,7 @@ struct Options {
     std::vector<std::string> layers, exports;
     uint32_t frames = 1;
     uint32_t width = 1280, height = 720;
+    std::optional<float> hour;
     std::string size, folder = "out", stats, view = "shaded", walk, camera, cache, replay;
     uint32_t every = 1;
     long long seed = -1;
@@ -72,6 +75,9 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--view", options.view, "shaded, charts, normals, lod, depth, overdraw or layer:NAME")
         ->capture_default_str();
     app.add_option("--camera", options.camera, "EX,EY,EZ,TX,TY,TZ[,FOV]: eye, target, vertical angle in degrees");
+    app.add_option("--hour", options.hour, "light of this time of the day, 0 to 24, instead of the scene's")
+        ->check(CLI::Range(0.0, 24.0))
+        ->excludes(replay);
     app.add_option("--walk", options.walk, "intrinsic or paper, instead of what the scene says")
         ->check(CLI::IsMember({"intrinsic", "paper"}));
     app.add_option("--max-nodes", options.maxNodes, "growth stops there")->capture_default_str();
@@ -242,6 +248,7 @@ int run(Options options) {
     film.draw.height = options.height;
     film.draw.look = scene.look;
     if (!parseView(options.view, film.draw.look)) return fail("--view: no such view: " + options.view);
+    if (options.hour) applyDaylight(*options.hour, film.draw.look);
     if (!options.camera.empty() && !parseCamera(options.camera, scene.camera))
         return fail("--camera takes six or seven numbers with commas between them, not '" + options.camera + "'");
     if (!film.begin(error)) return fail(error);
