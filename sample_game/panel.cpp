@@ -254,12 +254,11 @@ void brushPanel(Workspace& work) {
     ImGui::PushID("mode");
     mode("Paint", "paint", "Towards the value or colour below");
     ImGui::SameLine();
-    mode(
-        "Erase", "erase",
-        "Back to as it comes: to what all of the layer was cleared or filled to, or else to what the grammar says; the "
-        "line at the bottom tells which value that is. To take away what grows, paint the opposite value (X). Also "
-        "with "
-        "Ctrl, which paints while this is chosen");
+    mode("Erase", "erase",
+         "Back to as it comes: what all of the layer was cleared or filled to, or else what the grammar says, as the "
+         "line "
+         "at the bottom tells. Also with Ctrl, which paints while this is chosen. To take away what grows, paint the "
+         "opposite value (X)");
     ImGui::SameLine();
     mode("Smooth", "smooth", "Towards what is around; also with Shift");
     ImGui::PopID();

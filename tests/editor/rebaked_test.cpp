@@ -128,6 +128,21 @@ TEST_CASE("a project that is saved after its model was baked anew keeps the bake
     CHECK(Rebaked::wrong(opened, .15f) == 0);
 }
 
+TEST_CASE("a project opens though the bake that was painted on is damaged") {
+    Rebaked cube;
+    {
+        Editing editing(cube.scene);
+        cube.paintAndSave(editing);
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(cube.folder.file("kept/surfaces")))
+        std::filesystem::resize_file(entry.path(), 1000);
+    CHECK(Editing(cube.folder.file("kept")).document->scene().notes.empty());  // nobody needs it
+    cube.bake(true, 256);
+    const Editing opened(cube.folder.file("kept"));
+    REQUIRE(opened.document->scene().notes.size() == 1);
+    CHECK_MESSAGE(contains(opened.document->scene().notes[0], "can't be read"), opened.document->scene().notes[0]);
+}
+
 TEST_CASE("a project without the bake that was painted on opens, and says that its paint may not fit") {
     Rebaked cube;
     Editing editing(cube.scene);

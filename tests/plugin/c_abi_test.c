@@ -314,6 +314,12 @@ int main(int argc, char** argv) {
     const char* cache = argv[2];
     CHECK(strcmp(espVersion(), "0.1.0") == 0);
     espDestroy(NULL);
+    EspCarry* carry = NULL;
+    CHECK(espCreateCarry("/no/such.glb", "/no/such.glb", &carry) == ESP_INVALID_CONTENT && !carry);
+    CHECK(strstr(espLastError(NULL), "/no/such.glb") != NULL);
+    CHECK(espCarrySide(NULL) == 0);
+    CHECK(espCarryLayer(NULL, NULL, 1, 1, 0, NULL, NULL) == ESP_INVALID_ARGUMENT);
+    espDestroyCarry(NULL);
 
     EspContext* own = create(NULL, NULL);
     const uint64_t hash = wholeLife(own);

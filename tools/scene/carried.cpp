@@ -29,19 +29,22 @@ std::string keptName(const EspContext* context, EspSurface surface) {
 }
 
 bool Carrying::carry(const EspContext* context, const Scene& scene, const std::string& channel, const SceneLayer& layer,
-                     GreyPicture& picture, bool& carried, std::string& note, std::string& error) {
+                     GreyPicture& picture, std::string& note) {
     const LoadedSurface& surface = scene.surfaces[size_t(layer.surface)];
     const fs::path earlier(layer.over);
-    if (layer.over.empty() || earlier.filename() == keptName(context, surface.id)) return true;
+    if (layer.over.empty() || earlier.filename() == keptName(context, surface.id)) return false;
     const std::string which = "the layer '" + layer.name + "' of " + fs::path(surface.file).filename().string();
-    if (std::error_code none; !fs::exists(earlier, none)) {
-        note = which + " was painted over another bake of it, which wasn't kept: it may not fit";
-        return true;
-    }
+    const auto stays = [&](const std::string& why) {
+        note = which + " was painted over another bake of it, " + why + ": it may not fit";
+        return false;
+    };
+    if (std::error_code none; !fs::exists(earlier, none)) return stays("which wasn't kept");
+    std::string error;
     if (!latest_ || from_ != layer.over || to_ != surface.file) {
         EspCarry* made = nullptr;
         latest_.reset();
-        if (!fromContext(nullptr, espCreateCarry(layer.over.c_str(), surface.file.c_str(), &made), error)) return false;
+        if (!fromContext(nullptr, espCreateCarry(layer.over.c_str(), surface.file.c_str(), &made), error))
+            return stays("which can't be read (" + error + ")");
         latest_.reset(made);
         from_ = layer.over;
         to_ = surface.file;
@@ -52,9 +55,8 @@ bool Carrying::carry(const EspContext* context, const Scene& scene, const std::s
     EspCarried parts{};
     const EspResult done = espCarryLayer(latest_.get(), picture.texels.data(), picture.width, picture.height,
                                          fillOf(context, scene, channel), there.texels.data(), &parts);
-    if (!fromContext(nullptr, done, error)) return false;
+    if (!fromContext(nullptr, done, error)) return stays("and couldn't be carried (" + error + ")");
     picture = std::move(there);
-    carried = true;
     note = which + ", which was baked anew, was carried over";
     if (parts.lost > 0) note += "; " + squareMetres(parts.lost) + " of what was painted are gone";
     if (parts.fresh > 0) note += "; " + squareMetres(parts.fresh) + " of its ground are new and unpainted";

@@ -13,11 +13,11 @@ std::string keptName(const EspContext* context, EspSurface surface);
 // Layers that were painted over an earlier bake of their surface, laid over the present one.
 class Carrying {
   public:
-    // Does nothing to the picture of a channel that was painted over this bake, or of which that isn't known. Else it
-    // becomes one over this bake (`carried`; beside its charts it has nothing), or, where the earlier one isn't kept,
-    // stays as it is; `note` says what became of it. False: `error` tells file and cause.
+    // True: the picture of a channel that was painted over another bake has become one over this; beside its charts it
+    // has nothing. False: it is over this one, or that isn't known, or it can't be carried; a project opens all the
+    // same. `note`: what became of it, if it isn't over this one.
     bool carry(const EspContext* context, const Scene& scene, const std::string& channel, const SceneLayer& layer,
-               GreyPicture& picture, bool& carried, std::string& note, std::string& error);
+               GreyPicture& picture, std::string& note);
 
   private:
     struct Destroy {

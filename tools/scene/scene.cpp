@@ -70,10 +70,8 @@ bool layLayer(EspContext* context, Scene& scene, const SceneLayer& layer, Carryi
     const std::vector<std::string> channels = colour ? channelsOf(scene, layer.name) : std::vector{layer.name};
     for (size_t c = 0; c < channels.size(); ++c) {
         std::string note;
-        bool carried = false;
-        if (layer.surface >= 0 &&
-            !carrying.carry(context, scene, channels[c], layer, pictures[c], carried, note, error))
-            return false;
+        const bool carried =
+            layer.surface >= 0 && carrying.carry(context, scene, channels[c], layer, pictures[c], note);
         if (!layChannel(context, scene, channels[c], pictures[c], layer.surface, carried, error)) return false;
         if (!note.empty()) scene.notes.push_back(note);
     }
