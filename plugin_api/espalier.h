@@ -97,8 +97,8 @@ ESP_API const void* espRequiredFeatures(void);
 /* Names of the device extensions that it must have been created with besides. Static memory. */
 ESP_API const char* const* espRequiredExtensions(uint32_t* count);
 
-/* What went wrong last in this context (NULL: in this thread's last call without one, such as espCreate), several lines if several mistakes
- * were found. Valid until the next call. Never NULL. */
+/* What went wrong last in this context (NULL: in this thread's last call without one, such as espCreate), several lines if
+ * several mistakes were found. Valid until the next call. Never NULL. */
 ESP_API const char* espLastError(const EspContext* context);
 ESP_API const char* espVersion(void);
 ESP_API const char* espDeviceName(const EspContext* context);

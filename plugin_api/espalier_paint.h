@@ -38,7 +38,8 @@ typedef struct EspCarried {
     double fresh;                /* m² of the later bake's ground without a place of the earlier one near */
     double lost;                 /* m² that were painted above 0 and have no ground any more */
 } EspCarried;
-/* Paths of what espalier-bake wrote. May take seconds. out: to be destroyed; serves all layers. */
+/* Paths of what espalier-bake wrote. May take seconds. out: the caller's, to be destroyed; serves all layers, several threads
+ * at a time. ESP_IO_FAILED: a file can't be read; ESP_INVALID_CONTENT: it is no surface. */
 ESP_API EspResult espCreateCarry(const char* earlier, const char* later, EspCarry** out);
 ESP_API uint32_t espCarrySide(const EspCarry* carry);   /* texels a side of what is carried; NULL: 0 */
 /* texels: as espReadLayer gave them, over the earlier bake's walk UV set. fresh: the value of ground that the earlier hadn't.

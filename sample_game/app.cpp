@@ -93,14 +93,14 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     // What draws a view is made when it is first shown, which may take seconds: the frame before says so.
     const bool announces = viewsSeen_.insert(draw.look.view).second && viewsSeen_.size() > 1 && !last;
     if (announces) {
-        showGrowing(work_, "Preparing this view ...");
+        showUnderWay(work_, "Preparing this view ...");
         image_->showAgain(*frame, left);
         work_.redraw = true;
         wake();
     } else if (!image_->show(work_.context.get(), *frame, draw, left, scale, work_.redraw)) {
         return fail(image_->error());
     }
-    if (!announces && image_->drew()) {
+    if (image_->drew()) {
         work_.redraw = work_.readStats() && (work_.stats.modelsFading > 0 || work_.stats.shadowsBehind);
         moving_.drew(work_.frameMs, uint32_t(work_.stats.drawnLeaves), controls_->painting());
     }

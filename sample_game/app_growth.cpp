@@ -36,7 +36,7 @@ bool App::update() {
     const bool dragged = ImGui::IsMouseDown(0) && ImGui::IsAnyItemActive();
     const GrowthPace::Step step = pace_.next(changed, work_.growsWide, dragged, controls_->painting());
     if (step != GrowthPace::Step::grow) {
-        showGrowing(work_, step == GrowthPace::Step::wait ? "Grows when you let go" : kGrowing);
+        showUnderWay(work_, step == GrowthPace::Step::wait ? "Grows when you let go" : kGrowing);
         wake();
         return false;
     }
@@ -78,7 +78,7 @@ bool App::growing(uint64_t nodes) {
 
 // The last picture, the panels as this frame has them, and that something grows.
 void App::showWaiting() {
-    showGrowing(work_, kGrowing);
+    showUnderWay(work_, kGrowing);
     const std::optional<Frame> frame = host_->begin();
     if (!frame) return;
     image_->showAgain(*frame, uint32_t(std::lround(work_.shift() * float(frame->extent.width))));

@@ -174,7 +174,7 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
 }
 
 // Not in a window, of which ImGui hides a new one for a frame: there may be only one.
-void showGrowing(const Workspace& work, const char* text) {
+void showUnderWay(const Workspace& work, const char* text) {
     noteAt(work,
            {(work.window.x + work.panelUnits() - ImGui::CalcTextSize(text).x) / 2, work.window.y - 90 * work.scale},
            text);

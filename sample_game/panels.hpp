@@ -20,7 +20,7 @@ void showLegend(const Workspace& work);                              // of a vie
 void showStatus(const Workspace& work, bool caught, bool flying);    // at the bottom: what keys and buttons do now
 void showWalk(const Workspace& work);                                // of the picked branch, on the model
 void showHelp(Workspace& work);                                      // over all: F1
-void showGrowing(const Workspace& work, const char* text);           // while growth takes longer than a blink
+void showUnderWay(const Workspace& work, const char* text);          // what takes longer than a blink
 void showBackground(const Workspace& work, Background& background);  // what takes long of it, unless a dialogue does
 void progressBar(const Background& background, float width);         // of what is under way
 

@@ -40,7 +40,8 @@ bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, 
     return true;
 }
 
-void SceneImage::showAgain(const Frame& frame, uint32_t left) const {
+void SceneImage::showAgain(const Frame& frame, uint32_t left) {
+    drew_ = false;
     fits(frame, left) ? copy(frame, left) : clear(frame, {{0, 0, 0, 1}});
 }
 

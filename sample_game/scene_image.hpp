@@ -20,9 +20,9 @@ class SceneImage {
     // COLOR_ATTACHMENT_OPTIMAL.
     bool show(EspContext* context, const Frame& frame, EspDrawDef draw, uint32_t left, float scale, bool redraw);
     // Likewise, without the context: what was drawn last; black if that isn't of this size.
-    void showAgain(const Frame& frame, uint32_t left) const;
+    void showAgain(const Frame& frame, uint32_t left);
     const std::string& error() const { return error_; }
-    // Whether the last show() drew.
+    // Whether what was shown last was drawn for it.
     bool drew() const { return drew_; }
 
   private:

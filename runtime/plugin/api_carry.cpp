@@ -14,22 +14,19 @@ namespace {
 
 constexpr uint32_t kMostSide = 8192;
 
-Result<SurfaceData> read(const char* path) {
-    if (!path || !*path) return Failure("espCreateCarry", "two surfaces are needed");
-    return readSurface(path);
-}
-
 }  // namespace
 
 extern "C" {
 
 EspResult espCreateCarry(const char* earlier, const char* later, EspCarry** out) {
     return guardedAlone([&] {
-        if (!out) return failAlone(ESP_INVALID_ARGUMENT, "espCreateCarry: null pointer");
+        if (!earlier || !later || !out) return failAlone(ESP_INVALID_ARGUMENT, "espCreateCarry: null pointer");
         *out = nullptr;
-        Result<SurfaceData> from = read(earlier);
+        for (const char* path : {earlier, later})
+            if (std::string why = whyUnreadable(path); !why.empty()) return failAlone(ESP_IO_FAILED, std::move(why));
+        Result<SurfaceData> from = readSurface(earlier);
         if (!from) return failAlone(ESP_INVALID_CONTENT, from.failure().text());
-        Result<SurfaceData> to = read(later);
+        Result<SurfaceData> to = readSurface(later);
         if (!to) return failAlone(ESP_INVALID_CONTENT, to.failure().text());
         *out = new EspCarry{SurfaceMatch(*from, *to)};
         return ESP_OK;

@@ -128,14 +128,17 @@ EspResult failGpu(const EspContext* context, const Failure& failure) {
     return fail(context, gpuCode(*context), failure.text());
 }
 
-EspResult checkReadable(const EspContext* context, const char* path) {
+std::string whyUnreadable(const char* path) {
     std::error_code error;
-    if (std::filesystem::is_directory(path, error))
-        return fail(context, ESP_IO_FAILED, std::string(path) + ": is a folder");
+    if (std::filesystem::is_directory(path, error)) return std::string(path) + ": is a folder";
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    if (!file) return fail(context, ESP_IO_FAILED, std::string(path) + ": can't be read: " + std::strerror(errno));
-    return ESP_OK;
+    return file ? "" : std::string(path) + ": can't be read: " + std::strerror(errno);
+}
+
+EspResult checkReadable(const EspContext* context, const char* path) {
+    const std::string why = whyUnreadable(path);
+    return why.empty() ? ESP_OK : fail(context, ESP_IO_FAILED, why);
 }
 
 }  // namespace espalier

@@ -336,6 +336,8 @@ EspResult failContent(const EspContext* context, const Failure& failure);
 // For failures of GPU work: DEVICE_LOST or OUT_OF_MEMORY, as the device says.
 EspResult gpuCode(const EspContext& context);
 EspResult failGpu(const EspContext* context, const Failure& failure);
+// Why a file can't be read at all; empty: it can.
+std::string whyUnreadable(const char* path);
 // OK, or IO_FAILED with the system's reason, for a file that is to be read.
 EspResult checkReadable(const EspContext* context, const char* path);
 

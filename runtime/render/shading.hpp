@@ -20,6 +20,7 @@ constexpr uint32_t kShadings = 5;
 inline bool isQuick(Shading shading) {
     return shading == Shading::quick || shading == Shading::quickExplaining;
 }
+// Others are drawn with fewer pixels at full quality at most, and need no programs for it.
 inline bool isAskedOf(const Device& device, Shading shading) {
     return device.info().cpu || !isQuick(shading);
 }

@@ -345,3 +345,13 @@ TEST_CASE("F and a move set the radius alone, Shift+F the strength, and neither 
     REQUIRE(painter.all<StrokeBegin>().size() == 1);
     CHECK(painter.all<StrokeBegin>()[0].radius == doctest::Approx(larger));
 }
+
+TEST_CASE("X paints the opposite value") {
+    const Folder folder;
+    Painter painter(folder);
+    painter.work.brush.value = .75f;
+    painter.key(GLFW_KEY_X);
+    painter.drag(painter.onWall(-1, 1), painter.onWall(-.6f, 1));
+    REQUIRE(painter.all<StrokeBegin>().size() == 1);
+    CHECK(painter.all<StrokeBegin>()[0].value == .25f);
+}

@@ -315,7 +315,7 @@ int main(int argc, char** argv) {
     CHECK(strcmp(espVersion(), "0.1.0") == 0);
     espDestroy(NULL);
     EspCarry* carry = NULL;
-    CHECK(espCreateCarry("/no/such.glb", "/no/such.glb", &carry) == ESP_INVALID_CONTENT && !carry);
+    CHECK(espCreateCarry("/no/such.glb", "/no/such.glb", &carry) == ESP_IO_FAILED && !carry);
     CHECK(strstr(espLastError(NULL), "/no/such.glb") != NULL);
     CHECK(espCarrySide(NULL) == 0);
     CHECK(espCarryLayer(NULL, NULL, 1, 1, 0, NULL, NULL) == ESP_INVALID_ARGUMENT);

@@ -3,12 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstdlib>
 
-#include "runtime/render/renderer.hpp"
 #include "runtime/surface/mesh_tree.hpp"
 #include "tests/bake/small_models.hpp"
-#include "tests/emit/fixture.hpp"
+#include "tests/render/drawn.hpp"
 #include "tests/support/data.hpp"
 
 using namespace espalier;
@@ -18,21 +16,9 @@ namespace {
 constexpr uint32_t kWidth = 320, kHeight = 240;
 using Pixels = std::vector<uint8_t>;
 
-class Stage {
+class Stage : public test::Drawn {
   public:
-    Stage() {
-        DeviceOptions options;
-        options.validation = std::getenv("ESPALIER_NO_VALIDATION") == nullptr;
-        auto device = Device::create(options);
-        REQUIRE(device);
-        device_ = std::move(*device);
-        auto renderer = Renderer::create(*device_, test::simpleTerminals());
-        REQUIRE(renderer);
-        renderer_ = std::move(*renderer);
-        background(4);
-        inputs.look.shadows = false;
-    }
-    ~Stage() { CHECK(device_->validationMessages() == 0); }
+    Stage() { background(4); }
 
     // From the front, at this many radii.
     void look(const SurfaceData& data, float radii) {
@@ -48,22 +34,11 @@ class Stage {
     // So many metres of error are allowed.
     void allow(float error) { inputs.look.lodPixels = error / metresPerPixel_; }
 
-    void place(const SurfaceData& data) { REQUIRE(renderer_->setSurface(0, data, glm::mat4(1))); }
-    void clear() { renderer_->removeSurface(0); }
+    void place(const SurfaceData& data) { REQUIRE(renderer().setSurface(0, data, glm::mat4(1))); }
+    void clear() { renderer().removeSurface(0); }
 
-    Pixels frame() {
-        auto commands = Commands::begin(*device_, "frame");
-        REQUIRE(commands);
-        DrawTarget target;
-        target.width = kWidth, target.height = kHeight;
-        REQUIRE(renderer_->draw(*commands, inputs, target));
-        REQUIRE(commands->finish());
-        auto pixels = renderer_->readPixels();
-        REQUIRE(pixels);
-        return std::move(*pixels);
-    }
-    RenderStats stats() const { return renderer_->stats(); }
-    Device& device() { return *device_; }
+    Pixels frame() { return Drawn::frame(kWidth, kHeight); }
+    RenderStats stats() { return renderer().stats(); }
 
     // Which pixels lie inside the mesh's silhouette by two pixels or more.
     std::vector<bool> inside(const MeshTree& mesh) const {
@@ -87,11 +62,7 @@ class Stage {
         return all;
     }
 
-    DrawInputs inputs;
-
   private:
-    std::unique_ptr<Device> device_;
-    std::unique_ptr<Renderer> renderer_;
     float metresPerPixel_ = 1;
 };
 

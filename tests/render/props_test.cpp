@@ -1,27 +1,14 @@
 // Props are drawn at the level of detail that a picture's size asks for.
-#include <doctest/doctest.h>
-
-#include <cstdlib>
-
-#include "runtime/render/renderer.hpp"
-#include "tests/emit/fixture.hpp"
+#include "tests/render/drawn.hpp"
 
 using namespace espalier;
 
 namespace {
 
 // Blades whose levels have colours of their own, in a row that leads away from the eye.
-class Row {
+class Row : public test::Drawn {
   public:
     Row() {
-        DeviceOptions options;
-        options.validation = std::getenv("ESPALIER_NO_VALIDATION") == nullptr;
-        auto device = Device::create(options);
-        REQUIRE(device);
-        device_ = std::move(*device);
-        auto renderer = Renderer::create(*device_, test::simpleTerminals());
-        REQUIRE(renderer);
-        renderer_ = std::move(*renderer);
         TerminalData models = test::simpleTerminals();
         models.materials.resize(kMaxLods);
         for (uint32_t l = 0; l < kMaxLods; ++l) models.materials[l].baseColor = {l == 0, l == 1, l >= 2, 1};
@@ -30,29 +17,9 @@ class Row {
         std::vector<PropPlace> places;
         for (int i = 0; i < 40; ++i)
             for (int k = 0; k < 2; ++k) places.push_back({1, {float(i % 8) - 3.5f, float(k), -float(i)}, float(k), 1});
-        REQUIRE(renderer_->setProps(std::move(models), std::move(places)));
+        REQUIRE(renderer().setProps(std::move(models), std::move(places)));
         inputs.camera = {{0, 1, 4}, {0, 1, -20}, {0, 1, 0}};
-        inputs.look.shadows = false;
     }
-    ~Row() { CHECK(device_->validationMessages() == 0); }
-
-    std::vector<uint8_t> frame(uint32_t width, uint32_t height) {
-        auto commands = Commands::begin(*device_, "frame");
-        REQUIRE(commands);
-        DrawTarget target;
-        target.width = width, target.height = height;
-        REQUIRE(renderer_->draw(*commands, inputs, target));
-        REQUIRE(commands->finish());
-        auto pixels = renderer_->readPixels();
-        REQUIRE(pixels);
-        return std::move(*pixels);
-    }
-
-    DrawInputs inputs;
-
-  private:
-    std::unique_ptr<Device> device_;
-    std::unique_ptr<Renderer> renderer_;
 };
 
 }  // namespace

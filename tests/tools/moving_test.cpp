@@ -45,3 +45,19 @@ TEST_CASE("ivy isn't darker while the camera moves than once it rests") {
         CHECK(brightness[1] == doctest::Approx(brightness[0]).epsilon(0.1));
     }
 }
+
+TEST_CASE("a capture's hour is that of its light") {
+    const Folder folder;
+    const auto brightness = [&](const char* hour) {
+        const Ran ran = run(program("espalier-capture") + " " + content("sample.json") + " --size 160x90 --hour " +
+                            hour + " -o " + folder.file("frames"));
+        REQUIRE_MESSAGE(ran.code == 0, ran.output);
+        ColourPicture picture;
+        std::string error;
+        REQUIRE_MESSAGE(readColour(folder.file("frames/frame_0000.png"), picture, error), error);
+        double sum = 0;
+        for (const uint8_t value : picture.rgba) sum += value;
+        return sum;
+    };
+    CHECK(brightness("12") > 1.3 * brightness("0"));
+}
