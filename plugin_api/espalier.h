@@ -196,7 +196,7 @@ typedef struct EspParamInfo {
 ESP_API EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGrammar* out);
 /* Replaces the text; parameters keep their values by name. On failure the last good grammar keeps growing. Where comments,
  * layout, labels or defaults alone are new, nothing grows anew; where only what is drawn on spans is, bark and leaves, no node
- * is derived again. ESP_INVALID_CONTENT also where seeds grow by the grammar
+ * is derived again; where rules are, the plants' chunks that used one. ESP_INVALID_CONTENT also where seeds grow by the grammar
  * and it would make roofs, or the town's roofs and it would make none. */
 ESP_API EspResult espRecompileGrammar(EspContext* context, EspGrammar grammar, const EspGrammarDef* def);
 /* What isn't wrong in the text that grows, but may not be meant: lines "file:line:column: warning: rule: message", "" if there

@@ -25,14 +25,14 @@ void GrowthChanges::markTexels(uint32_t instance, uint32_t layer, uint32_t size,
         for (uint32_t x = first(x0); x < end(x1); ++x) found->bits[(y * kLayerCells + x) / 32] |= 1u << (x % 32);
 }
 
-void GrowthChanges::markParams(uint32_t grammar, uint32_t mask) {
+void GrowthChanges::markUses(uint32_t grammar, uint32_t mask) {
     if (mask == 0) return;
-    for (auto& [known, slots] : params)
+    for (auto& [known, bits] : uses)
         if (known == grammar) {
-            slots |= mask;
+            bits |= mask;
             return;
         }
-    params.emplace_back(grammar, mask);
+    uses.emplace_back(grammar, mask);
 }
 
 }  // namespace espalier

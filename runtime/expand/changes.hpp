@@ -21,11 +21,11 @@ struct DirtyCells {
 struct GrowthChanges {
     bool everything = true;  // surfaces, limits, what isn't known: all is grown anew
     std::vector<DirtyCells> cells;
-    std::vector<std::pair<uint32_t, uint32_t>> params;  // grammar's index, mask of slots (bit 31: any from 31 on)
-    std::vector<uint32_t> grammars;                     // indices of those whose rules changed
-    std::vector<uint32_t> extrudes{};  // of which only what they draw on spans has (RuleMap::derivesAs)
-    std::vector<uint64_t> seeds{};     // keys of seeds whose plants grow anew: what they stand on has moved
-    std::vector<uint64_t> frozen{};    // keys of frozen plants that aren't what grew there: their records are put in
+    std::vector<std::pair<uint32_t, uint32_t>> uses;  // grammar's index, what of it has changed, as Chunk::uses
+    std::vector<uint32_t> grammars;                   // indices of those whose plants grow anew
+    std::vector<uint32_t> extrudes{};                 // of those that draw something else on spans
+    std::vector<uint64_t> seeds{};   // keys of seeds whose plants grow anew: what they stand on has moved
+    std::vector<uint64_t> frozen{};  // keys of frozen plants that aren't what grew there: their records are put in
 
     // Texels [x0, x1) × [y0, y1) of a layer of `size` texels a side have other values. All of them, when a layer comes,
     // goes or changes its size.
@@ -34,10 +34,10 @@ struct GrowthChanges {
     void markLayer(uint32_t instance, uint32_t layer, uint32_t size) {
         markTexels(instance, layer, size, 0, 0, size, size);
     }
-    void markParams(uint32_t grammar, uint32_t mask);
+    void markUses(uint32_t grammar, uint32_t mask);
     bool none() const {
-        return !everything && cells.empty() && params.empty() && grammars.empty() && extrudes.empty() &&
-               seeds.empty() && frozen.empty();
+        return !everything && cells.empty() && uses.empty() && grammars.empty() && extrudes.empty() && seeds.empty() &&
+               frozen.empty();
     }
 };
 

@@ -158,7 +158,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     // Packed tables change with parameters, grammars and where their words lie.
     const std::vector<RuleMapRef>& maps = origin_.maps;
     const std::vector<float>& widths = origin_.widths;
-    const bool same = tablesStand_ && inputs.changes->params.empty() && inputs.changes->grammars.empty() &&
+    const bool same = tablesStand_ && inputs.changes->uses.empty() && inputs.changes->grammars.empty() &&
                       inputs.changes->extrudes.empty() && inputs.grammars.size() == maps.size() &&
                       inputs.widths.size() == widths.size() &&
                       std::memcmp(inputs.grammars.data(), maps.data(), maps.size() * sizeof(RuleMapRef)) == 0 &&

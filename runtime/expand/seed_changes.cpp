@@ -140,11 +140,11 @@ std::vector<uint32_t> editWords(const GrowthInputs& inputs, const SeedChanges& s
         words.insert(words.end(), seeds.to.begin(), seeds.to.end());
     }
     const GrowthChanges& changes = *inputs.changes;
-    if (!changes.params.empty()) {
-        words[kEditParams] = uint32_t(words.size());
+    if (!changes.uses.empty()) {
+        words[kEditUses] = uint32_t(words.size());
         words.resize(words.size() + inputs.grammars.size());
-        for (const auto& [grammar, slots] : changes.params)
-            if (grammar < inputs.grammars.size()) words[words[kEditParams] + grammar] |= slots;
+        for (const auto& [grammar, bits] : changes.uses)
+            if (grammar < inputs.grammars.size()) words[words[kEditUses] + grammar] |= bits;
     }
     if (!changes.extrudes.empty()) {
         words[kEditExtrudes] = uint32_t(words.size());

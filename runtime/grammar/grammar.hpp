@@ -62,6 +62,13 @@ struct CompileOptions {
     std::vector<TerminalMesh> roofMeshes;  // for grammars of roofs; empty: `meshes`
 };
 
+// How what has grown by one rule map differs from what grows by another.
+struct RuleChanges {
+    bool all = false;       // nothing is known to be the same
+    uint32_t uses = 0;      // chunks that have one of these bits in Chunk::uses derive anew, others stand
+    bool extrudes = false;  // what is drawn on spans, bark and leaves, is another
+};
+
 // A compiled grammar with its parameters at some setting. A value type; calls on one object from one thread.
 class RuleMap {
   public:
@@ -94,9 +101,8 @@ class RuleMap {
     // The same plants and roofs grow from both, whatever their parameters are set to later: the texts differ in
     // comments, layout, labels and defaults alone, and their parameters now stand at the same values.
     bool growsAs(const RuleMap& other) const;
-    // The same branches and nodes grow from both with the parameters as they stand: at most what is drawn on spans,
-    // bark and leaves, is another. Not of roofs.
-    bool derivesAs(const RuleMap& other) const;
+    // What grows otherwise than by `before`, with the parameters of both as they stand. Not of roofs: `all`.
+    RuleChanges changesFrom(const RuleMap& before) const;
 
     // The map's record for words that lie at `address` (of a device, or of words().data() for the CPU, as long as
     // this object lives unchanged in place). layerOf is the identity: the caller binds layers by name.

@@ -85,6 +85,8 @@ RuleMap RuleMapAccess::assemble(grammar::Compilation& c, uint64_t contentHash) {
         }
         directions.push_back(d);
     }
+    if (!c.roofs)
+        for (uint32_t i = 0; i < c.symbolRecords.size(); ++i) c.symbolRecords[i].uses |= symbolBit(i, slotsOf(map));
     append(map.words_, map.sections_[kSectionSymbols], c.symbolRecords);
     append(map.words_, map.sections_[kSectionRules], c.rules);
     append(map.words_, map.sections_[kSectionSuccessors], c.successors);

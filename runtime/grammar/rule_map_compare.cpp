@@ -17,38 +17,60 @@ bool sameSymbol(const SymbolInfo& a, const SymbolInfo& b) {
     return a.name == b.name && a.argCount == b.argCount && a.grows == b.grows;
 }
 
-// What a map's words say of branches and nodes: records, and the code and sites that they name in place of where these
-// lie, since texts that draw something else on spans put them elsewhere.
-class Derivation {
+// What a map's words say of one of its parts: records, and the code and sites that they name in place of where these
+// lie, since any change of a text puts them elsewhere. All else that they name goes by its number, as it does where
+// plants have grown: a part that says the same in two maps means the same to what has used it.
+class Part {
   public:
-    explicit Derivation(const RuleMap& map) : map_(map) {
-        for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionSymbols); ++i) {
-            auto r = RuleMapAccess::record<SymbolRecord>(map, kSectionSymbols, i);
-            add(r.select);
-            addSites(r.firstSite, r.siteCount);
-            add(r);
-        }
-        for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionRules); ++i) {
-            auto r = RuleMapAccess::record<RuleRecord>(map, kSectionRules, i);
-            add(r.start);
-            add(r.arrive);
-            addSites(r.firstSite, r.siteCount);
-            add(r);
-        }
-        for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionSuccessors); ++i) {
-            auto r = RuleMapAccess::record<SuccessorRecord>(map, kSectionSuccessors, i);
-            add(r.code);
-            add(r);
-        }
-        for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionDirections); ++i)
-            add(RuleMapAccess::record<vec4>(map, kSectionDirections, i));
-        // Nodes tell programs apart by their numbers, and what these draw by their names' keys.
-        for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionExtrudes); ++i)
-            add(RuleMapAccess::record<ExtrudeRecord>(map, kSectionExtrudes, i).nameHash);
+    static Part symbol(const RuleMap& map, uint32_t i) {
+        Part part(map);
+        part.addSymbol(RuleMapAccess::record<SymbolRecord>(map, kSectionSymbols, i));
+        return part;
     }
-    bool operator==(const Derivation& other) const { return words_ == other.words_; }
+    static Part extrude(const RuleMap& map, uint32_t i) {
+        Part part(map);
+        part.addExtrude(RuleMapAccess::record<ExtrudeRecord>(map, kSectionExtrudes, i));
+        return part;
+    }
+    bool operator==(const Part& other) const { return words_ == other.words_; }
 
   private:
+    explicit Part(const RuleMap& map) : map_(map) {}
+
+    void addSymbol(SymbolRecord r) {
+        add(r.select);
+        addSites(r.firstSite, r.siteCount);
+        for (uint32_t i = 0; i < r.ruleCount; ++i)
+            addRule(RuleMapAccess::record<RuleRecord>(map_, kSectionRules, r.firstRule + i));
+        r.firstRule = 0;
+        add(r);
+    }
+    void addRule(RuleRecord r) {
+        add(r.start);
+        add(r.arrive);
+        addSites(r.firstSite, r.siteCount);
+        for (uint32_t i = 0; i < r.successorCount; ++i) {
+            auto s = RuleMapAccess::record<SuccessorRecord>(map_, kSectionSuccessors, r.firstSuccessor + i);
+            add(s.code);
+            add(s);
+        }
+        r.firstSuccessor = 0;
+        // What a program draws goes by its name's key, too.
+        if (r.extrude != 0) add(RuleMapAccess::record<ExtrudeRecord>(map_, kSectionExtrudes, r.extrude - 1).nameHash);
+        add(r);
+    }
+    void addExtrude(ExtrudeRecord r) {
+        for (uint32_t i = 0; i < r.terminalCount; ++i) {
+            auto t = RuleMapAccess::record<TerminalRecord>(map_, kSectionTerminals, r.firstTerminal + i);
+            add(t.gate);
+            add(t.body);
+            addSites(t.gateFirstSite, t.gateSiteCount);
+            addSites(t.bodyFirstSite, t.bodySiteCount);
+            add(t);
+        }
+        r.firstTerminal = 0;
+        add(r);
+    }
     template <class Record>
     void add(const Record& record) {
         const size_t at = words_.size();
@@ -69,6 +91,30 @@ class Derivation {
     std::vector<uint32_t> words_;
 };
 
+bool sameDirections(const RuleMap& a, const RuleMap& b) {
+    const uint32_t common =
+        std::min(RuleMapAccess::count(a, kSectionDirections), RuleMapAccess::count(b, kSectionDirections));
+    for (uint32_t i = 0; i < common; ++i)
+        if (RuleMapAccess::record<vec4>(a, kSectionDirections, i) !=
+            RuleMapAccess::record<vec4>(b, kSectionDirections, i))
+            return false;
+    return true;
+}
+
+// Chunks note of layers what any part of their grammar reads.
+uint32_t layersOf(const RuleMap& map) {
+    uint32_t layers = 0;
+    for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionSymbols); ++i)
+        layers |= RuleMapAccess::record<SymbolRecord>(map, kSectionSymbols, i).layers;
+    for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionRules); ++i) {
+        const auto rule = RuleMapAccess::record<RuleRecord>(map, kSectionRules, i);
+        layers |= rule.startLayers | rule.arriveLayers;
+    }
+    for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionExtrudes); ++i)
+        layers |= RuleMapAccess::record<ExtrudeRecord>(map, kSectionExtrudes, i).layers;
+    return layers;
+}
+
 }  // namespace
 
 bool RuleMap::growsAs(const RuleMap& other) const {
@@ -85,14 +131,30 @@ bool RuleMap::growsAs(const RuleMap& other) const {
            sameBytes(patches_, other.patches_);
 }
 
-bool RuleMap::derivesAs(const RuleMap& other) const {
-    const auto sameValues = [](const ParamInfo& a, const ParamInfo& b) {
-        return sameParam(a, b) && std::equal(std::begin(a.value), std::end(a.value), std::begin(b.value));
-    };
-    return !roofs_ && !other.roofs_ && startSymbol_ == other.startSymbol_ && width_ == other.width_ &&
-           ref().features == other.ref().features && std::ranges::equal(params_, other.params_, sameValues) &&
-           std::ranges::equal(contexts_, other.contexts_, sameContext) &&
-           std::ranges::equal(symbols_, other.symbols_, sameSymbol) && Derivation(*this) == Derivation(other);
+RuleChanges RuleMap::changesFrom(const RuleMap& before) const {
+    const size_t layers = std::min(contexts_.size(), before.contexts_.size());
+    if (roofs_ || before.roofs_ || !sameDirections(*this, before) ||
+        !std::equal(contexts_.begin(), contexts_.begin() + std::ptrdiff_t(layers), before.contexts_.begin(),
+                    sameContext))
+        return {.all = true};
+    RuleChanges changes;
+    const auto count = [](const RuleMap& map, MapSection section) { return RuleMapAccess::count(map, section); };
+    const uint32_t slots = RuleMapAccess::slotsOf(before);
+    for (uint32_t i = 0; i < count(before, kSectionSymbols); ++i) {
+        if (i < count(*this, kSectionSymbols) && Part::symbol(*this, i) == Part::symbol(before, i)) continue;
+        const uint32_t bit = symbolBit(i, slots);
+        changes.all = changes.all || bit == 0;
+        changes.uses |= bit;
+    }
+    const uint32_t programs = std::min(count(*this, kSectionExtrudes), count(before, kSectionExtrudes));
+    const uint32_t noted = layersOf(before);
+    for (uint32_t i = 0; i < programs; ++i) {
+        if (Part::extrude(*this, i) == Part::extrude(before, i)) continue;
+        changes.extrudes = true;
+        const uint32_t read = RuleMapAccess::record<ExtrudeRecord>(*this, kSectionExtrudes, i).layers;
+        changes.all = changes.all || (read & ~noted) != 0;
+    }
+    return changes;
 }
 
 }  // namespace espalier

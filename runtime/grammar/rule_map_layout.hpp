@@ -29,6 +29,12 @@ inline constexpr uint32_t kRecordWords[] = {sizeof(SymbolRecord) / 4,
 // Where in a record of that section Values stand (in words); a code word's immediate is patched too, but is none.
 std::span<const uint32_t> valueOffsets(uint32_t section);
 
+// What a chunk that derived the symbol notes in Chunk::uses, of a grammar whose parameters take so many slots: the bits
+// that these leave are given from the highest down, and over again. 0: they leave none.
+inline uint32_t symbolBit(uint32_t symbol, uint32_t slots) {
+    return slots < 32 ? 1u << (31 - symbol % (32 - slots)) : 0;
+}
+
 // True if the symbol's only rule is a terminal that leaves its shape as it is. values: the rule's kScopeValues numbers.
 inline bool isPlainTerminal(const SymbolRecord& symbol, const RuleRecord& rule, std::span<const Value> values) {
     if (symbol.ruleCount != 1 || symbol.select.count != 0 || symbol.selected.slot != kSlotImmediate) return false;
@@ -62,6 +68,11 @@ struct RuleMapAccess {
         return r;
     }
     static uint32_t count(const RuleMap& map, uint32_t section) { return map.sections_[section].count; }
+    // Slots that its parameters take.
+    static uint32_t slotsOf(const RuleMap& map) {
+        return map.params_.empty() ? 0
+                                   : map.params_.back().slot + (map.params_.back().kind == ParamKind::colour ? 3 : 1);
+    }
     static std::vector<Diagnostic>& warnings(RuleMap& map) { return map.warnings_; }
 };
 

@@ -366,7 +366,7 @@ std::vector<Env> Compilation::lowerChoice(const Symbol& symbol, std::span<const 
     record.siteCount = static_cast<uint32_t>(reads.sites.size());
     record.inputs = reads.inputs;
     record.layers = reads.layers;
-    record.params = reads.params;
+    record.uses = reads.params;
     record.firstRule = static_cast<uint32_t>(rules.size());
     record.ruleCount = static_cast<uint32_t>(symbol.rules.size());
     symbolRecords[symbol.record] = record;

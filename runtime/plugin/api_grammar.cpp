@@ -160,10 +160,8 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
                             (grammar->map.roofs() ? ": would make roofs, yet " : ": would make plants, yet ") + use);
         context->compileMs = grammar->compileMs;
         if (takeText(*old, *grammar)) return ESP_OK;
-        const bool derives = grammar->map.derivesAs(old->map) && grammar->layerOf == old->layerOf;
+        noteRules(*context, context->grammarIndex(id.id), {old->map, old->layerOf}, {grammar->map, grammar->layerOf});
         *old = std::move(*grammar);
-        GrowthChanges& changes = context->changes;
-        (derives ? changes.extrudes : changes.grammars).push_back(context->grammarIndex(id.id));
         old->edition = ++context->revision;
         return ESP_OK;
     });
@@ -226,7 +224,7 @@ EspResult espSetParam(EspContext* context, EspGrammar id, const char* name, cons
             return fail(context, ESP_INVALID_ARGUMENT, grammar->name + ": there is no parameter '" + name + "'");
         if (const uint32_t slots = grammar->map.setParam(*index, std::span(value, count))) {
             grammar->stale = true;
-            context->changes.markParams(context->grammarIndex(id.id), slots);
+            context->changes.markUses(context->grammarIndex(id.id), slots);
             grammar->edition = ++context->revision;
             grammar->revision = ++context->grammarRevisions;
         }

@@ -110,7 +110,7 @@ EspResult growPlants(EspContext& context) {
     context.grownRevision = context.revision;
     context.grownGrammars = std::move(ids);
     context.grownSeeds = std::move(seedIds);
-    context.changes = {.everything = false, .cells = {}, .params = {}, .grammars = {}};
+    context.changes = {.everything = false, .cells = {}, .uses = {}, .grammars = {}};
     context.moved.clear();
     noteSurfaces(context);
     context.dropTriangles();

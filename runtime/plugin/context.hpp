@@ -432,6 +432,13 @@ void removeSeed(EspContext& context, uint32_t id);
 const Plants* readPlants(EspContext& context);
 // Makes the variants that seeds ask for, and brings up to date those whose grammar has changed.
 Status refreshVariants(EspContext& context);
+// Notes for the next growth what grows otherwise by these rules than by those that stood in their place. index: among
+// growth's grammars.
+struct BoundRules {
+    const RuleMap& map;
+    std::span<const uint32_t> layerOf;  // scene layer of each of the map's contexts
+};
+void noteRules(EspContext& context, uint32_t index, const BoundRules& before, const BoundRules& now);
 
 // What is wrong with a brush; null: nothing.
 const char* mistakeIn(const EspBrush& brush);

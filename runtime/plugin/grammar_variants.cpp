@@ -31,16 +31,32 @@ Status fill(EspContext& context, GrammarVariant& variant, uint32_t place) {
             map.setParam(*index, std::span(param.value.data(), param.count));
     Result<Buffer> words = makeBuffer(*context.device, "rule map variant", std::as_bytes(map.words()));
     if (!words) return words.failure();
+    const uint32_t index = context.grammars.size() + place;
+    if (variant.used)
+        noteRules(context, index, {variant.map, variant.layerOf}, {map, grammar.layerOf});
+    else
+        context.changes.grammars.push_back(index);
     variant.map = std::move(map);
     variant.words = std::move(*words);
     variant.edition = grammar.edition;
     variant.layerOf = grammar.layerOf;
     variant.used = true;
-    context.changes.grammars.push_back(context.grammars.size() + place);
     return Done{};
 }
 
 }  // namespace
+
+void noteRules(EspContext& context, uint32_t index, const BoundRules& before, const BoundRules& now) {
+    const size_t common = std::min(before.layerOf.size(), now.layerOf.size());
+    const RuleChanges changes = now.map.changesFrom(before.map);
+    if (changes.all ||
+        !std::equal(now.layerOf.begin(), now.layerOf.begin() + std::ptrdiff_t(common), before.layerOf.begin())) {
+        context.changes.grammars.push_back(index);
+        return;
+    }
+    context.changes.markUses(index, changes.uses);
+    if (changes.extrudes) context.changes.extrudes.push_back(index);
+}
 
 Status refreshVariants(EspContext& context) {
     std::vector<GrammarVariant>& variants = context.variants;

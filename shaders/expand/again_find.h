@@ -13,26 +13,26 @@ FN bool dirtyTile(UintBuf edits, uint grid, uint level, uint x, uint y) {
 
 // What a chunk has read, and its marks.
 struct ChunkReads {
-    uint marks, paramMask;
+    uint marks, uses;
     uint words[3];   // Chunk::reads
 };
 #ifdef __cplusplus
 inline ChunkReads readReads(const ExpandEnv& env, uint at) {
     const Chunk& c = env.chunks.v[at];
-    return {c.marks, c.paramMask, {c.reads[0], c.reads[1], c.reads[2]}};
+    return {c.marks, c.uses, {c.reads[0], c.reads[1], c.reads[2]}};
 }
 #else
 ChunkReads readReads(ExpandEnv env, uint chunk) {
     ChunkReads r;
     if (kRecordsByAddress != 0u) {
         r.marks = env.chunks.v[chunk].marks;
-        r.paramMask = env.chunks.v[chunk].paramMask;
+        r.uses = env.chunks.v[chunk].uses;
         for (uint i = 0u; i < 3u; ++i) r.words[i] = env.chunks.v[chunk].reads[i];
     } else {
         uvec4 marks = CHUNK_TEXEL(7u * chunk + 5u);
         uvec4 reads = CHUNK_TEXEL(7u * chunk + 6u);
         r.marks = marks.y;
-        r.paramMask = marks.z;
+        r.uses = marks.z;
         r.words[0] = reads.y;
         r.words[1] = reads.z;
         r.words[2] = reads.w;
@@ -78,14 +78,14 @@ FN bool readsDirty(ExpandEnv env, UintBuf edits, uint chunk, ChunkReads r, uint 
 // The head of AgainState::edits.
 struct EditHead {
     UintBuf edits;
-    uint layers, seeds, params, pruned, extrudes;
+    uint layers, seeds, uses, pruned, extrudes;
 };
 FN EditHead editHead(ExpandEnv env) {
     EditHead head;
     head.edits = AGAIN.edits;
     head.layers = head.edits.v[kEditLayers];
     head.seeds = head.edits.v[kEditSeeds];
-    head.params = head.edits.v[kEditParams];
+    head.uses = head.edits.v[kEditUses];
     head.pruned = head.edits.v[kEditPruned];
     head.extrudes = head.edits.v[kEditExtrudes];
     return head;
@@ -102,7 +102,7 @@ FN void findChunk(ExpandEnv env, EditHead head, uint c) {
         if (near) dirty = readsDirty(env, head.edits, c, r, grid, level);
     }
     if (head.pruned != 0u) dirty = dirty || isAmong(head.edits, head.pruned + 1u, head.edits.v[head.pruned], env.chunks.v[c].key);
-    uint looks = head.params + head.seeds + head.extrudes != 0u || dirty ? 1u : 0u;
+    uint looks = head.uses + head.seeds + head.extrudes != 0u || dirty ? 1u : 0u;
     for (uint k = 0u; k < looks; ++k) {
         uint branch = env.chunks.v[c].branch;
         bool first = branch != kNoIndex && env.branches.v[branch].firstChunk == c;
@@ -126,8 +126,8 @@ FN void findChunk(ExpandEnv env, EditHead head, uint c) {
             break;
         }
         uint grammar = env.chunks.v[c].symbol >> 16u;
-        uint changed = head.params != 0u ? head.edits.v[head.params + grammar] : 0u;
-        dirty = dirty || (changed & r.paramMask) != 0u;
+        uint changed = head.uses != 0u ? head.edits.v[head.uses + grammar] : 0u;
+        dirty = dirty || (changed & r.uses) != 0u;
         bool other = head.extrudes != 0u && head.edits.v[head.extrudes + grammar] != 0u;
         if (first && (other || (changed & env.tables.v[grammar * kGrammarWords + kTableExtrudeParams]) != 0u)) {
             AGAIN_MARKS.v[branch].branchBits = kBranchListed | kBranchRedo;

@@ -68,7 +68,7 @@ STATIC_SIZE(AgainState, 176);
 BUFFER(AgainStateBuf, AgainState)
 
 // AgainState::edits, words: 0 dirty layers (bits), 1 first word of the seeds' new indices (0: seeds are the same;
-// kNoIndex: gone), 2 first word of the masks of changed parameters, one a grammar (0: none), 3 first word of the
+// kNoIndex: gone), 2 first word of what has changed of each grammar, as Chunk::uses (0: nothing), 3 first word of the
 // branches that are cut away or grow again (0: none): their number, then their keys as isAmong() takes them, 4 first
 // word of a grammar's word each that isn't 0 where what its branches draw on spans is another (0: none); then one
 // word for each of 256 instances: where its dirty tiles begin (0: none). These are bits y * side + x of grids of side
@@ -77,7 +77,7 @@ BUFFER(AgainStateBuf, AgainState)
 // around the dirty ones of side 256: bits 7..0 least x, 15..8 least y, 23..16 most x, 31..24 most y.
 CONST_UINT(kEditLayers, 0u);
 CONST_UINT(kEditSeeds, 1u);
-CONST_UINT(kEditParams, 2u);
+CONST_UINT(kEditUses, 2u);
 CONST_UINT(kEditPruned, 3u);
 CONST_UINT(kEditExtrudes, 4u);
 CONST_UINT(kEditInstances, 5u);

@@ -268,7 +268,7 @@ void writeChunk(ChunkBuf chunks, uint at, Chunk c) {
     to.v[8] = pairOf(c.next, c.branch);
     to.v[9] = pairOf(c.firstNode, c.depth);
     to.v[10] = pairOf(c.step, c.marks);
-    to.v[11] = pairOf(c.paramMask, c.firstChild);
+    to.v[11] = pairOf(c.uses, c.firstChild);
     to.v[12] = pairOf(c.nextSibling, c.reads[0]);
     to.v[13] = pairOf(c.reads[1], c.reads[2]);
 }

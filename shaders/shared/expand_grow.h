@@ -132,7 +132,7 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     flags = flags | (g.reads.beyond ? kChunkBeyond : 0u);
     flags = flags | (g.phase == kPhaseDead ? kChunkDeadEnd : 0u) | (g.phase == kPhaseStopped ? kChunkStopped : 0u);
     c.marks = (site.sceneLayers << 16u) | (g.count << 8u) | flags;
-    c.paramMask = g.reads.params;
+    c.uses = g.reads.uses;
     c.firstChild = kNoIndex;
     c.nextSibling = joinSiblings(env, item, site.chunk);
     c.reads[0] = readWord(g.reads, 0u);

@@ -9,7 +9,7 @@ ESPALIER_BEGIN
 // A chunk's read set as it gathers, see Chunk::reads. Tiles of a layer's changes are grown by what a bilinear read takes
 // in, so a place is noted for the tile that it lies in alone.
 struct ReadSet {
-    uint params;
+    uint uses;           // Chunk::uses
     uint level;          // above kMaxReadLevel: everything
     uint last;           // the place noted last: instance << 16 | finest tile
     uint instance;
@@ -19,7 +19,7 @@ struct ReadSet {
 
 FN ReadSet emptyReadSet() {
     ReadSet r;
-    r.params = 0u;
+    r.uses = 0u;
     r.level = 0u;
     r.last = kNoIndex;
     r.instance = kNoIndex;
@@ -67,7 +67,7 @@ FN void notePlace(INOUT(ReadSet) r, uint instance, vec2 uv) {
         for (uint i = 0u; i < (again ? kReadTiles : 0u); ++i) {
             if (i == 0u) {
                 r = emptyReadSet();
-                r.params = old.params;
+                r.uses = old.uses;
                 r.last = old.last;
                 r.instance = old.instance;
                 r.beyond = old.beyond;

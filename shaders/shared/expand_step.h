@@ -181,7 +181,7 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
     drawTable(MACHINE env, map, sites & 0xFFFFu, (sites >> 16u) & 255u, g.key, g.key);
     runTable(MACHINE env, map, TABLE(at + 1u));
     float selected = packedValue(MACHINE sites >> 24u, TABLE(at + 3u));
-    g.reads.params = g.reads.params | TABLE(at + 4u);
+    g.reads.uses = g.reads.uses | TABLE(at + 4u);
     uint ruleCount = rules >> 16u;
     if (!(selected >= 0.0f) || ruleCount == 0u) {
         g.phase = kPhaseEnded;
@@ -201,7 +201,7 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
     g.angle = packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 6u));
     g.conditionSlots = slots >> 16u;
     g.conditionValue = TABLE(at + 7u);
-    g.reads.params = g.reads.params | TABLE(at + 8u);
+    g.reads.uses = g.reads.uses | TABLE(at + 8u);
     g.attempt = 0u;
     g.fresh = true;
     g.phase = (head & 3u) == kRuleMarch ? kPhaseMarch : kPhaseEnded;

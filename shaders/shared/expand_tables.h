@@ -56,7 +56,7 @@ FN void packSymbol(SymbolRecordBuf from, UintBuf to, uint base, uint i) {
     to.v[at + 1u] = packPair(s.select.first, s.select.count);
     to.v[at + 2u] = (s.firstSite & 0xFFFFu) | ((s.siteCount & 255u) << 16u) | (s.selected.slot << 24u);
     to.v[at + 3u] = floatBitsToUint(s.selected.immediate);
-    to.v[at + 4u] = s.params;
+    to.v[at + 4u] = s.uses;
 }
 
 FN void packSuccessor(SuccessorRecordBuf from, UintBuf to, uint base, uint i) {

@@ -135,7 +135,7 @@ struct Chunk {
     uint step;           // bits 31..24 shapes that a limit refused (at most 255), 23..0 steps of the grammar since its
                          // branch began
     uint marks;
-    uint paramMask;      // parameters of its grammar that it read (bit 31: any from 31 on)
+    uint uses;           // what it used of its grammar: parameter slots from bit 0 up, symbols in the bits that these leave
     uint firstChild;     // of the chunks that it queued, in any order; the next one that its parent queued. kNoIndex
     uint nextSibling;
     uint reads[3];

@@ -138,7 +138,7 @@ struct SymbolRecord {
     Value selected;      // rule number below ruleCount, or negative: none holds
     uint firstSite, siteCount;   // drawn before `select`
     uint inputs, layers;         // needed by `select`
-    uint params;                 // bit i: the choice depends on parameter slot i
+    uint uses;                   // bit i: the choice depends on parameter slot i; or the symbol's own (symbolBit)
     uint spare;
 };
 STATIC_SIZE(SymbolRecord, 56);

@@ -69,7 +69,29 @@ class Session {
     }
     void set(uint32_t grammar, const char* name, float value) {
         RuleMap& map = scene.grammar(grammar);
-        changes.markParams(grammar, map.setParam(*map.findParam(name), {&value, 1}));
+        changes.markUses(grammar, map.setParam(*map.findParam(name), {&value, 1}));
+    }
+    // Another text of a grammar, its parameters as they stand.
+    RuleChanges write(uint32_t grammar, const std::string& rules) {
+        Result<RuleMap> map = compileGrammar(rules);
+        REQUIRE_MESSAGE(map, (map ? "" : map.failure().text()));
+        RuleMap& old = scene.grammar(grammar);
+        for (const ParamInfo& param : old.params())
+            if (const auto index = map->findParam(param.name)) map->setParam(*index, std::span(param.value, 1));
+        const RuleChanges what = map->changesFrom(old);
+        old = std::move(*map);
+        changes.markUses(grammar, what.uses);
+        if (what.all) changes.grammars.push_back(grammar);
+        if (what.extrudes) changes.extrudes.push_back(grammar);
+        return what;
+    }
+    // Writes `to` in place of `from` in the first grammar's text, which has it once.
+    RuleChanges rewrite(const std::string& from, const std::string& to) {
+        const size_t at = text.find(from);
+        REQUIRE(at != std::string::npos);
+        REQUIRE(text.find(from, at + 1) == std::string::npos);
+        text.replace(at, from.size(), to);
+        return write(0, text);
     }
     void upload(uint32_t layer) {
         scene.paint(layer, kSize, [&](glm::vec2 uv) {
@@ -80,7 +102,7 @@ class Session {
         scene.changes = &changes;
         Status grown = scene.grow(gpu.device(), *growth);
         if (!grown) FAIL(grown.failure().text());
-        changes = {.everything = false, .cells = {}, .params = {}, .grammars = {}};
+        changes = {.everything = false, .cells = {}, .uses = {}, .grammars = {}};
     }
     void check() {
         grow();
@@ -111,6 +133,7 @@ class Session {
     Scene scene;
     std::unique_ptr<Growth> growth;
     GrowthChanges changes;
+    std::string text = kGuided;  // of the first grammar
     std::array<std::vector<float>, 2> layers;
 };
 

@@ -61,6 +61,16 @@ bool BenchScene::setGrammar(const std::string& text) {
     return true;
 }
 
+bool BenchScene::changeGrammar(const std::string& text, GrowthChanges& edits) {
+    const RuleMap before = grammar_;
+    if (!setGrammar(text)) return false;
+    const RuleChanges what = grammar_.changesFrom(before);
+    edits.everything = what.all;
+    edits.markUses(0, what.uses);
+    if (what.extrudes) edits.extrudes.push_back(0);
+    return true;
+}
+
 bool BenchScene::paint(uint32_t layer, uint32_t size, const std::vector<float>& texels) {
     const bool fresh = painted_[layer].size() != texels.size() * 4;
     if (fresh) {

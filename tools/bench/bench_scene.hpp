@@ -22,6 +22,8 @@ class BenchScene {
 
     // Compiles the text; prints and returns false if that fails.
     bool setGrammar(const std::string& text);
+    // Likewise in place of the text that has grown; edits: what the next growth is to take as changed.
+    bool changeGrammar(const std::string& text, GrowthChanges& edits);
     // `count` seeds over all inner texels, each with a direction of its own; the same in every run.
     void plant(uint32_t count);
     GrowthLimits limits;

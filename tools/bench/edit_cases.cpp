@@ -35,6 +35,16 @@ Leaves -> Repeat(1) { T(rand(), 0) R(rand(-1, 1), 0.4) S(stride) Shape("leaf") }
     return text;
 }
 
+// The same with a shoot here and there, which turns by `bend` at every step.
+std::string shootGrammar(float step, float bend) {
+    char rules[160];
+    std::snprintf(rules, sizeof rules, R"(Fork(n) -> Branch(2) {Shoot(0), Stem(n)} : 0.02
+Shoot(n) -> Marching(stride, %g, n < 12) {Shoot(n + 1), Cover}
+)",
+                  double(bend));
+    return maskedGrammar(step) + rules;
+}
+
 constexpr float kTexel = 1.0f / kTexels;
 
 uint32_t invalidatedBy(const Dab& dab, const Census& census) {
@@ -155,6 +165,27 @@ class EditBench {
         bench_.add({name + "/derived", figure, "nodes", derived, "invalidated", invalidated});
     }
 
+    // Texts of which each changes the rule of shoots, and no other.
+    void measureRule(const std::string& name, float step) {
+        std::vector<double> again, whole, shares;
+        for (int i = -1; i < bench_.options().repeats; ++i) {  // the first isn't counted
+            GrowthChanges changes;
+            if (!scene_.changeGrammar(shootGrammar(step, i % 2 == 0 ? 0.1f : 0.2f), changes)) return;
+            scene_.changes = &changes;
+            const double time = cpuSeconds([&] { (void)scene_.grow(growth_); });
+            const double share = 100.0 * growth_.stats().derived / growth_.stats().nodes;
+            const double all = cpuSeconds([&] { (void)growAll(); });
+            if (i < 0) continue;
+            again.push_back(time);
+            shares.push_back(share);
+            whole.push_back(all);
+        }
+        char figure[96];
+        std::snprintf(figure, sizeof figure, "a text that changes a rule of %.2f %% of %u nodes", median(shares),
+                      growth_.stats().nodes);
+        bench_.add({name, figure, "CPU ms", 1e3 * median(again), "everything anew", 1e3 * median(whole)});
+    }
+
     void measureUnchanged() {
         GrowthChanges none;
         none.everything = false;
@@ -196,7 +227,7 @@ class EditBench {
 void editCases(Bench& bench) {
     const std::string name = "edit/";
     const std::pair<const char*, double> shares[] = {{"dab-0.1", 0.001}, {"dab-1", 0.01}, {"dab-10", 0.1}};
-    bool wanted = bench.wants("edit/dab-trunk") || bench.wants("edit/unchanged");
+    bool wanted = bench.wants("edit/dab-trunk") || bench.wants("edit/rule") || bench.wants("edit/unchanged");
     for (const auto& [row, share] : shares) wanted = wanted || bench.wants(name + row);
     if (!wanted) return;
     const std::string path = bench.options().dataFolder + "/derived/bunny_unwrap.glb";
@@ -205,7 +236,8 @@ void editCases(Bench& bench) {
     Result<std::unique_ptr<Growth>> growth = Growth::create(**device);
     auto scene = BenchScene::create(**device, path, kTexels);
     if (!growth || !scene) return bench.skip(name, "needs " + path);
-    if (!scene->setGrammar(maskedGrammar(2.2f * scene->texelMetres()))) return;
+    const float step = 2.2f * scene->texelMetres();
+    if (!scene->setGrammar(maskedGrammar(step))) return;
     scene->plant(kSeeds);
     EditBench edits(bench, *scene, **growth);
     if (!scene->paint(0, kTexels, std::vector<float>(size_t(kTexels) * kTexels, 1.0f)) || !edits.growAll()) return;
@@ -217,6 +249,8 @@ void editCases(Bench& bench) {
             edits.measure(name + row, Dabs(census).about(share * (*growth)->stats().nodes), census);
     if (bench.wants("edit/dab-trunk")) edits.measure(name + "dab-trunk", Dabs(census).onTrunks(), census);
     if (bench.wants("edit/unchanged")) edits.measureUnchanged();
+    if (bench.wants("edit/rule") && scene->setGrammar(shootGrammar(step, 0)) && edits.growAll())
+        edits.measureRule(name + "rule", step);
 }
 
 }  // namespace espalier

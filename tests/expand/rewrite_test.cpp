@@ -1,0 +1,98 @@
+// A grammar's new text regrows what it changes, by RuleMap::changesFrom.
+#include <doctest/doctest.h>
+
+#include "tests/expand/session.hpp"
+
+using namespace espalier;
+using namespace espalier::growthtest;
+
+TEST_CASE("a text that draws something else on spans derives nothing again") {
+    Session s(flatSquare());
+    for (int i = 0; i < 40; ++i) s.scene.plant({-0.75f, 0, -0.78f + 0.04f * float(i)}, {1, 0, 0}, 0, uint64_t(i));
+    s.check();
+    const GrowthStats before = s.growth->stats();
+    const auto drawn = [&](const std::string& from, const std::string& to) {
+        const RuleChanges what = s.rewrite(from, to);
+        CHECK(!what.all);
+        CHECK(what.uses == 0);
+        CHECK(what.extrudes);
+    };
+    SUBCASE("leaves, fewer and with more code") {
+        drawn("rand(0, 3) * cover(texCoord)", "min(rand(0, 2), arc * 100) * cover(texCoord)");
+        s.check();
+        CHECK(s.growth->stats().leaves != before.leaves);
+    }
+    SUBCASE("leaves twice") {
+        drawn("Cover -> Bark Leaves", "Cover -> Bark Leaves Leaves");
+        s.check();
+        CHECK(s.growth->stats().leaves > before.leaves);
+    }
+    SUBCASE("bark, as thick at its tip as at its foot") {
+        drawn("0.002 + 0.01 * clamp(toTip / 0.5, 0, 1)", "0.01");
+        s.check();
+        CHECK(s.growth->stats().leaves == before.leaves);
+    }
+    CHECK(s.growth->stats().derived == 0);
+    CHECK(s.growth->stats().nodes == before.nodes);
+    CHECK(s.growth->stats().regrowths == before.regrowths + 1);
+}
+
+TEST_CASE("a text that changes a rule derives what used it: little of a rule of tips, all of that of stems") {
+    Session s(flatSquare());
+    for (int i = 0; i < 40; ++i) s.scene.plant({-0.75f, 0, -0.78f + 0.04f * float(i)}, {1, 0, 0}, 0, uint64_t(i));
+    s.scene.plantMany(20, 1, 2);
+    s.set(0, "twigs", 0.05f);  // or there are more chunks of tips than all that edits go through
+    s.check();
+    const GrowthStats before = s.growth->stats();
+    const auto derived = [&](const std::string& from, const std::string& to) {
+        CHECK(!s.rewrite(from, to).all);
+        s.check();
+        CHECK(s.growth->stats().regrowths > before.regrowths);
+        CHECK(s.growth->stats().derived > 0);
+        return s.growth->stats().derived;
+    };
+    SUBCASE("tips") {
+        CHECK(derived("n < 3) {Tip(n + 1)", "n < 4) {Tip(n + 1)") < before.nodes / 4);
+        CHECK(s.growth->stats().hash != before.hash);
+        derived("n < 4) {Tip(n + 1)", "n < 3) {Tip(n + 1)");
+        CHECK(s.growth->stats().hash == before.hash);
+    }
+    SUBCASE("stems, but not the other grammar's") {
+        derived("Fork(n + 1), Cover}", "Fork(n + 2), Cover}");
+    }
+    SUBCASE("tips that end in a shape with a rule of its own, which comes and goes") {
+        const char* plain = "Tip(n + 1), Cover}";
+        const char* more = "End(n + 1), Cover}\nEnd(n) -> Marching(0.01, 0.1, n < 6) {End(n + 2), Cover}";
+        CHECK(derived(plain, more) < before.nodes / 4);
+        CHECK(derived(more, plain) < before.nodes / 4);
+        CHECK(s.growth->stats().hash == before.hash);
+    }
+    SUBCASE("a rule before all others, which gives all of them another number") {
+        s.rewrite("Stem(n) -> Marching",
+                  "First(n) -> Marching(0.5, 0, n < 2) {Stem(n + 1), Cover}\nStem(n) -> Marching");
+        s.check();
+    }
+    SUBCASE("a shape by another name") {
+        for (size_t at = 0; (at = s.text.find("Tip(", at)) != std::string::npos;) s.text.replace(at, 4, "End(");
+        CHECK(!s.write(0, s.text).all);
+        s.check();
+        CHECK(s.growth->stats().hash != before.hash);
+    }
+    SUBCASE("a parameter in place of a number") {
+        s.rewrite("\"Twigs\"\n", "\"Twigs\"\nparam tiny = 0.03 [0.01 .. 1] \"m\" \"Tips\"\n");
+        CHECK(derived("Marching(0.02, rand(-1, 1)", "Marching(tiny, rand(-1, 1)") < before.nodes / 4);
+        s.set(0, "tiny", 0.02f);
+        s.check();
+        CHECK(s.growth->stats().derived < before.nodes / 4);
+        CHECK(s.growth->stats().hash == before.hash);
+    }
+    SUBCASE("leaves that read a layer which nothing has read before") {
+        s.rewrite("floor(rand(0, 3) * cover(texCoord))", "floor(rand(0, 3))");
+        s.changes.everything = true;
+        s.check();
+        s.rewrite("floor(rand(0, 3))", "floor(rand(0, 3) * cover(texCoord))");
+        s.check();
+        s.dab(1, {0.5f, 0.5f}, 0.2f, 0);
+        s.check();
+    }
+}
