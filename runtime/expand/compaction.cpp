@@ -15,7 +15,7 @@ bool GpuGrowth::gappy(const GrowthInputs& inputs) const {
         const bool scarce = native && room - std::min<uint64_t>(room, taken) < live / 16;
         return gaps > taken / (native ? 4 : 3) || (scarce && gaps > live / 32);
     };
-    const Plants& plants = plants_[frontPlants_];
+    const Plants& plants = plants_.drawn();
     return wide(view_.nodeCount, stats_.nodes, capacityOf<Node>(plants.nodes)) ||
            wide(view_.leafCount, stats_.leaves, capacityOf<Leaf>(plants.leaves));
 }
@@ -85,7 +85,7 @@ Status GpuGrowth::makePlantRoom(Plants& plants) {
 
 // Where what has grown leaves too little room: the same in the other set of buffers, with more.
 Status GpuGrowth::enlarge() {
-    const Plants& now = plants_[frontPlants_];
+    const Plants& now = plants_.drawn();
     const auto suffices = [](uint64_t capacity, uint32_t live, uint32_t room) {
         return capacity >= std::max<uint64_t>(live + live / 8ull, room);
     };
@@ -105,27 +105,27 @@ Status GpuGrowth::copyOver(std::initializer_list<Copied> pairs) {
 
 // Nodes and leaves to the other set of buffers, with the room that edits ask for.
 Status GpuGrowth::movePlants() {
-    const Plants& now = plants_[frontPlants_];
-    Plants& to = plants_[1 - frontPlants_];
+    const Plants& now = plants_.drawn();
+    Plants& to = plants_.spare();
     if (Status ok = makePlantRoom(to); !ok) return ok;
     const Status copied = copyOver({{now.nodes, to.nodes, view_.nodeCount * sizeof(Node)},
                                     {now.leaves, to.leaves, view_.leafCount * sizeof(Leaf)}});
     if (!copied) return copied;
-    frontPlants_ = 1 - frontPlants_;
+    plants_.swap();
     lookAtFront();
     return Done{};
 }
 
 Status GpuGrowth::moveLinks() {
-    const Links& now = links_[frontLinks_];
-    Links& to = links_[1 - frontLinks_];
+    const Links& now = links_.drawn();
+    Links& to = links_.spare();
     const AgainBytes bytes = againBytes(now);
     if (Status ok = ensure(to.chunks, "growth chunks", bytes.chunks); !ok) return ok;
     if (Status ok = ensure(to.branches, "growth branches", bytes.branches); !ok) return ok;
     const Status copied = copyOver({{now.chunks, to.chunks, view_.chunkCount * sizeof(Chunk)},
                                     {now.branches, to.branches, view_.branchCount * sizeof(BranchRecord)}});
     if (!copied) return copied;
-    frontLinks_ = 1 - frontLinks_;
+    links_.swap();
     lookAtFront();
     return Done{};
 }
@@ -137,30 +137,28 @@ Status GpuGrowth::shrink() {
     const auto vast = [](const Buffer& buffer, uint64_t taken) {
         return buffer.size() > kWorth && buffer.size() / kFarMore > taken;
     };
-    const Plants& plants = plants_[frontPlants_];
+    const Plants& plants = plants_.drawn();
     const bool moves =
         vast(plants.nodes, view_.nodeCount * sizeof(Node)) || vast(plants.leaves, view_.leafCount * sizeof(Leaf));
-    plants_[1 - frontPlants_] = {};
+    plants_.spare() = {};
     const Status moved = moves ? movePlants() : Done{};
-    plants_[1 - frontPlants_] = {};
-    if (!moved || !vast(links_[frontLinks_].chunks, view_.chunkCount * sizeof(Chunk))) return moved;
-    links_[1 - frontLinks_] = {};
+    plants_.spare() = {};
+    if (!moved || !vast(links_.drawn().chunks, view_.chunkCount * sizeof(Chunk))) return moved;
+    links_.spare() = {};
     return moveLinks();
 }
 
 Status GpuGrowth::makeCopyRoom() {
-    Plants& plants = plants_[1 - frontPlants_];
-    Links& links = links_[1 - frontLinks_];
-    const Links& linksNow = links_[frontLinks_];
+    Plants& plants = plants_.spare();
+    Links& links = links_.spare();
+    const Links& linksNow = links_.drawn();
     Status steps[] = {
         makePlantRoom(plants),
         ensure(links.chunks, "growth chunks",
                std::max<uint64_t>(linksNow.chunks.size(), room_.chunks * uint64_t(sizeof(Chunk)))),
         ensure(links.branches, "growth branches",
                std::max<uint64_t>(linksNow.branches.size(), room_.branches * uint64_t(sizeof(BranchRecord)))),
-        load(compactPlaces_, "expand/compact_places.comp", {}),
-        load(compactNodes_, "expand/compact_nodes.comp", {}),
-        load(compactLeaves_, "expand/compact_leaves.comp", {})};
+        kernels_.make({GrowthKernel::compactPlaces, GrowthKernel::compactNodes, GrowthKernel::compactLeaves}, access_)};
     for (Status& step : steps)
         if (!step) return step;
     return Done{};
@@ -171,9 +169,9 @@ CompactEnv GpuGrowth::compactEnvironment() const {
     env.nodes = view_.nodes;
     env.leaves = view_.leaves;
     env.chunks = view_.chunks;
-    env.toNodes = addressOf<NodeBuf, Node>(plants_[1 - frontPlants_].nodes);
-    env.toLeaves = addressOf<LeafBuf, Leaf>(plants_[1 - frontPlants_].leaves);
-    env.toChunks = addressOf<ChunkBuf, Chunk>(links_[1 - frontLinks_].chunks);
+    env.toNodes = addressOf<NodeBuf, Node>(plants_.spare().nodes);
+    env.toLeaves = addressOf<LeafBuf, Leaf>(plants_.spare().leaves);
+    env.toChunks = addressOf<ChunkBuf, Chunk>(links_.spare().chunks);
     env.nodesWent = addressOf<UintBuf, uint32_t>(nodesWent_);
     env.leavesWent = addressOf<UintBuf, uint32_t>(leavesWent_);
     env.status = addressOf<GrowStatusBuf, GrowStatus>(status_);
@@ -184,7 +182,7 @@ CompactEnv GpuGrowth::compactEnvironment() const {
 
 Status GpuGrowth::copyTogether() {
     if (Status room = makeCopyRoom(); !room) return room;
-    const Links &links = links_[1 - frontLinks_], &linksNow = links_[frontLinks_];
+    const Links &links = links_.spare(), &linksNow = links_.drawn();
     Result<Commands> commands = Commands::begin(device_, "close gaps");
     if (!commands) return commands.failure();
     if (Status up = commands->upload(status_, std::vector<GrowStatus>(1)); !up) return up;
@@ -196,10 +194,10 @@ Status GpuGrowth::copyTogether() {
         Pass pass(*commands, "expand compact");
         const CompactEnv env = compactEnvironment();
         const std::array<uint32_t, 3> groups = spreadGroups();
-        pass.dispatch(compactPlaces_, groups, env);
+        pass.dispatch(kernel(GrowthKernel::compactPlaces), groups, env);
         pass.barrier(Use::compute, Use::compute);
-        pass.dispatch(compactNodes_, groups, env);
-        pass.dispatch(compactLeaves_, groups, env);
+        pass.dispatch(kernel(GrowthKernel::compactNodes), groups, env);
+        pass.dispatch(kernel(GrowthKernel::compactLeaves), groups, env);
         pass.barrier(Use::compute, Use::transfer | Use::compute);
     }
     commands->copy(status_, readback_, sizeof(GrowStatus));
@@ -207,8 +205,8 @@ Status GpuGrowth::copyTogether() {
     if (Status finished = commands->finish(); !finished) return finished;
     GrowStatus status;
     std::memcpy(&status, readback_.mapped(), sizeof status);
-    frontPlants_ = 1 - frontPlants_;
-    frontLinks_ = 1 - frontLinks_;
+    plants_.swap();
+    links_.swap();
     chained_ = false;
     showMoved(status.nodes, status.leaves);
     return Done{};

@@ -11,12 +11,12 @@
 #include <thread>
 
 #include "runtime/expand/growth.hpp"
+#include "runtime/expand/growth_kernels.hpp"
 #include "runtime/expand/growth_plan.hpp"
 #include "runtime/expand/native_growth.hpp"
 #include "runtime/expand/seed_changes.hpp"
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/gpu/commands.hpp"
-#include "runtime/gpu/program.hpp"
 #include "shaders/expand/compact.h"
 #include "shaders/shared/expand_again.h"
 #include "shaders/shared/expand_tables.h"
@@ -48,7 +48,7 @@ uint32_t capacityOf(const Buffer& buffer) {
 
 class GpuGrowth final : public Growth {
   public:
-    GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), least_(room), room_(room) {}
+    GpuGrowth(Device& device, const GrowthRoom& room) : device_(device), kernels_(device), least_(room), room_(room) {}
 
     Status setUp();
     Status grow(const GrowthInputs& inputs) override;
@@ -60,6 +60,16 @@ class GpuGrowth final : public Growth {
   private:
     // What is drawn is in one of two sets. A full growth writes the other one of both; a regrowth adds to the nodes and
     // leaves that are drawn, and writes the other links.
+    template <class Set>
+    struct Two {
+        Set sets[2];
+        uint32_t front = 0;
+        Set& drawn() { return sets[front]; }
+        Set& spare() { return sets[1 - front]; }
+        const Set& drawn() const { return sets[front]; }
+        const Set& spare() const { return sets[1 - front]; }
+        void swap() { front = 1 - front; }
+    };
     struct Plants {
         Buffer nodes, leaves;
     };
@@ -79,8 +89,6 @@ class GpuGrowth final : public Growth {
     };
 
     // Both kinds: growth_set_up.cpp.
-    Status load(Program& program, const char* shader, std::vector<SpecConstant> constants);
-    Status loadKernels(WalkMode mode);
     Status ensureChains(const Plants& plants);
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
     Status viewSurfaces(const GrowthInputs& inputs);
@@ -114,10 +122,12 @@ class GpuGrowth final : public Growth {
         if (limits.tangents == TangentMode::paper) return kDensityCells + 3 * (room_.nodes + frozen);
         return limits.leafDensityCap > 0 ? kDensityCells : 1;
     }
-    uint32_t marchNumber() const { return (fetches_ ? 2 : 0) + (byAddress_ ? 1 : 0); }
-    uint32_t terminalsNumber() const { return (fetchesRecords_ ? 2 : 0) + (byAddress_ ? 1 : 0); }
+    const Program& kernel(GrowthKernel kernel) const { return kernels_.get(kernel, access_); }
+    static GrowthKernel marchOf(const GrowthLimits& limits) {
+        return limits.walk == WalkMode::paper ? GrowthKernel::marchPaper : GrowthKernel::march;
+    }
     // The packed tables for kernels' uniform binding: something of its size when they are read by address.
-    const Buffer& uniformTables() const { return byAddress_ ? noTables_ : tables_; }
+    const Buffer& uniformTables() const { return access_.tablesByAddress ? noTables_ : tables_; }
 
     // All anew: growth.cpp.
     Status growAll(const GrowthInputs& inputs);
@@ -140,7 +150,6 @@ class GpuGrowth final : public Growth {
         uint64_t chunks, branches, marks, lists, results;
     };
     AgainBytes againBytes(const Links& from) const;
-    Status makeAgainKernels();
     Status makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords);
     Status uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
                        const std::vector<uint32_t>& edits);
@@ -185,26 +194,15 @@ class GpuGrowth final : public Growth {
     void showMoved(uint32_t nodes, uint32_t leaves);
 
     Device& device_;
+    GrowthKernels kernels_;
     Crew crew_;                  // of native code; its threads sleep between growths
     const GrowthRoom least_;     // to begin with
     GrowthRoom room_;            // of a full growth, beside frozen plants
     uint32_t likelyWaves_ = 24;  // recorded in the first submission
-    // Made when first asked for; [1] reads tables by address, see kUniformTableWords.
-    std::array<Program, 4> march_, marchAgain_;          // [2], [3] fetch surfaces as texels
-    std::array<Program, 4> terminals_, terminalsAgain_;  // [2], [3] fetch records as texels
-    std::array<Program, 2> marchPaper_;
-    uint32_t features_ = 0;  // that these are specialised to: all that grammars ever used, so that they settle
-    Program packTables_, branchesFit_;
-    std::array<Program, 2> fit_;  // [1] fetches records as texels
-    Program compactPlaces_, compactNodes_, compactLeaves_;
-    Program start_, settle_, work_, thickness_;
-    std::array<Program, 2> find_, apply_, fitAgain_;  // as fit_
-    bool byAddress_ = false;
-    bool fetches_ = false, fetchesRecords_ = false;
+    GrowthAccess access_;
     TexelView surfaceView_, nodeView_, chunkView_, branchView_, leafView_, chunkViewBefore_;
-    Plants plants_[2];
-    Links links_[2];
-    uint32_t frontPlants_ = 0, frontLinks_ = 0;
+    Two<Plants> plants_;
+    Two<Links> links_;
     Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, noTexels_, density_, readback_;
     Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_, nodesWent_, leavesWent_;
     bool touchedIsNew_ = false;  // and holds nothing yet

@@ -48,8 +48,8 @@ GrowStatus withoutFrozen(GrowStatus status, const GrowthRecords& frozen) {
 
 Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const FrozenSum& frozen,
                                const GrowthCut& cut) {
-    const Plants& plants = plants_[1 - frontPlants_];
-    const Links& links = links_[1 - frontLinks_];
+    const Plants& plants = plants_.spare();
+    const Links& links = links_.spare();
     const GrowthRecords& r = frozen.records;
     Status kept[] = {commands.upload(plants.nodes, r.nodes), commands.upload(plants.leaves, r.leaves),
                      commands.upload(links.chunks, r.chunks), commands.upload(links.branches, r.branches)};
@@ -86,10 +86,9 @@ void GpuGrowth::recordWaves(Pass& pass, const Program& march, bool fetching, con
 Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t first, uint32_t last,
                          const GrowthLimits& limits) {
     const bool paper = limits.walk == WalkMode::paper;
-    const Program& march = paper ? marchPaper_[byAddress_] : march_[marchNumber()];
     {
         Pass pass(commands, "expand march");
-        recordWaves(pass, march, !paper, base, first, last);
+        recordWaves(pass, kernel(marchOf(limits)), !paper, base, first, last);
     }
     ExpandEnv env = base;
     env.wave = last;
@@ -101,7 +100,7 @@ Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t fir
 }
 
 void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits) {
-    const Program& terminals = terminals_[terminalsNumber()];
+    const Program& terminals = kernel(GrowthKernel::terminals);
     env.phase = kTerminalsWrite;
     constexpr uint64_t kNodes = offsetof(GrowStatus, nodeGroups), kBranches = offsetof(GrowStatus, branchGroups);
     bool capped = limits.leafDensityCap > 0, joined = limits.tangents == TangentMode::paper;
@@ -113,7 +112,7 @@ void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthL
         Pass pass(commands, "expand terminals");
         if (joined) {
             env.phase = kTerminalsJoints;
-            pass.dispatchIndirect(branchesFit_, status_, kBranches, env);
+            pass.dispatchIndirect(kernel(GrowthKernel::branches), status_, kBranches, env);
             pass.barrier(Use::compute, Use::compute);
         }
         if (capped) {
@@ -127,16 +126,16 @@ void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthL
         pass.barrier(Use::compute, Use::compute);
     }
     Pass pass(commands, "expand fit");
-    pass.dispatchIndirect(branchesFit_, status_, kBranches, env);
+    pass.dispatchIndirect(kernel(GrowthKernel::branches), status_, kBranches, env);
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchIndirect(fit_[fetchesRecords_], status_, kNodes, env, {nodeView_, chunkView_, branchView_});
+    pass.dispatchIndirect(kernel(GrowthKernel::fit), status_, kNodes, env, {nodeView_, chunkView_, branchView_});
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 
 // What follows needs no kernels, so none are made.
 Result<GpuGrowth::Outcome> GpuGrowth::attemptNative(const GrowthInputs& inputs, const FrozenSum& frozen,
                                                     const GrowthCut& cut) {
-    ExpandEnv env = environment(inputs, plants_[1 - frontPlants_], links_[1 - frontLinks_]);
+    ExpandEnv env = environment(inputs, plants_.spare(), links_.spare());
     {
         Result<Commands> commands = Commands::begin(device_, "expand inputs");
         if (!commands) return commands.failure();
@@ -167,7 +166,7 @@ Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const 
 
 Result<GpuGrowth::Outcome> GpuGrowth::attemptShaders(const GrowthInputs& inputs, const FrozenSum& frozen,
                                                      const GrowthCut& cut) {
-    ExpandEnv env = environment(inputs, plants_[1 - frontPlants_], links_[1 - frontLinks_]);
+    ExpandEnv env = environment(inputs, plants_.spare(), links_.spare());
     Outcome outcome;
     uint32_t first = 0;
     uint32_t most = inputs.limits.maxDepth + 1;
@@ -202,8 +201,8 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptShaders(const GrowthInputs& inputs,
 
 void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome, Origin&& origin) {
     origin_ = std::move(origin);
-    frontPlants_ = 1 - frontPlants_;
-    frontLinks_ = 1 - frontLinks_;
+    plants_.swap();
+    links_.swap();
     tablesStand_ = true;
     chained_ = frozen.records.nodes.empty();
     show(outcome.status, true);

@@ -8,38 +8,7 @@
 namespace espalier {
 
 Status GpuGrowth::setUp() {
-    struct Row {
-        Program* program;
-        const char* shader;
-    };
-    const Row rows[] = {{&packTables_, "expand/tables.comp"}, {&branchesFit_, "expand/branches.comp"}};
-    for (const Row& row : rows) {
-        Status made = load(*row.program, row.shader, {});
-        if (!made) return made;
-    }
-    return Done{};
-}
-
-Status GpuGrowth::load(Program& program, const char* shader, std::vector<SpecConstant> constants) {
-    if (program) return Done{};
-    Result<Program> made = Program::compute(device_, shader, {.exact = true, .constants = std::move(constants)});
-    if (!made) return made.failure();
-    requireEqual(made->localSize()[0], kExpandGroup, "local size of an expansion kernel");
-    program = std::move(*made);
-    return Done{};
-}
-
-Status GpuGrowth::loadKernels(WalkMode mode) {
-    const std::vector<SpecConstant> constants = {{0, byAddress_ ? 1u : 0u}, {2, features_}};
-    const std::vector<SpecConstant> finishing = {
-        {0, byAddress_ ? 1u : 0u}, {2, features_}, {3, fetchesRecords_ ? 0u : 1u}};
-    const std::vector<SpecConstant> walking = {{0, byAddress_ ? 1u : 0u}, {1, fetches_ ? 0u : 1u}, {2, features_}};
-    Status march = mode == WalkMode::paper ? load(marchPaper_[byAddress_], "expand/march_paper.comp", constants)
-                                           : load(march_[marchNumber()], "expand/march.comp", walking);
-    if (!march) return march;
-    Status terminals = load(terminals_[terminalsNumber()], "expand/terminals.comp", finishing);
-    if (!terminals) return terminals;
-    return load(fit_[fetchesRecords_], "expand/fit.comp", {{3, fetchesRecords_ ? 0u : 1u}});
+    return kernels_.make({GrowthKernel::tables, GrowthKernel::branches}, access_);
 }
 
 Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
@@ -63,10 +32,11 @@ Status GpuGrowth::ensureChains(const Plants& plants) {
 Status GpuGrowth::viewSurfaces(const GrowthInputs& inputs) {
     const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
     const Buffer* data = inputs.surfaceData;
-    fetches_ = inputs.fetch && device_.info().cpu && data && data->size() >= 16 && data->size() <= most;
+    access_.surfacesAsTexels = inputs.fetch && device_.info().cpu && data && data->size() >= 16 && data->size() <= most;
     surfaceView_ = {};
     if (Status made = ensure(noTexels_, "growth no texels", 16); !made) return made;
-    Result<TexelView> view = TexelView::create(device_, fetches_ ? *data : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
+    Result<TexelView> view =
+        TexelView::create(device_, access_.surfacesAsTexels ? *data : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
     if (!view) return view.failure();
     surfaceView_ = std::move(*view);
     return Done{};
@@ -84,13 +54,14 @@ Status GpuGrowth::viewRecords(const GrowthInputs& inputs, const Plants& plants, 
                 {&leafView_, &plants.leaves},
                 {&chunkViewBefore_, &before.chunks}};
     const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
-    fetchesRecords_ = inputs.fetch && device_.info().cpu;
+    access_.recordsAsTexels = inputs.fetch && device_.info().cpu;
     for (const auto& row : rows)
-        fetchesRecords_ = fetchesRecords_ && row.buffer->size() >= 16 && row.buffer->size() <= most;
+        access_.recordsAsTexels = access_.recordsAsTexels && row.buffer->size() >= 16 && row.buffer->size() <= most;
     if (Status made = ensure(noTexels_, "growth no texels", 16); !made) return made;
     for (const auto& [view, buffer] : rows) {
         *view = {};
-        auto made = TexelView::create(device_, fetchesRecords_ ? *buffer : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
+        auto made =
+            TexelView::create(device_, access_.recordsAsTexels ? *buffer : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
         if (!made) return made.failure();
         *view = std::move(*made);
     }
@@ -105,14 +76,14 @@ void GpuGrowth::dropViews() {
 Status GpuGrowth::makeTables(const GrowthInputs& inputs) {
     uint64_t words = 0;
     placeTables(inputs, words);
-    byAddress_ = words > kUniformTableWords;
+    access_.tablesByAddress = words > kUniformTableWords;
     constexpr uint64_t kUniformBytes = kUniformTableWords * 4;  // a uniform buffer may have no more
-    const uint64_t tables = byAddress_ ? words * 4 : kUniformBytes;
+    const uint64_t tables = access_.tablesByAddress ? words * 4 : kUniformBytes;
     const uint64_t grammars = inputs.grammars.size() * sizeof(RuleMapRef);
-    if (!byAddress_ && tables_.size() > kUniformBytes) tables_ = {};
+    if (!access_.tablesByAddress && tables_.size() > kUniformBytes) tables_ = {};
     tablesStand_ = tablesStand_ && tables_.size() >= tables && grammars_.size() >= grammars;
     Status made = ensure(tables_, "growth tables", tables);
-    if (made) made = ensure(noTables_, "growth no tables", byAddress_ ? kUniformBytes : 0);
+    if (made) made = ensure(noTables_, "growth no tables", access_.tablesByAddress ? kUniformBytes : 0);
     return made ? ensure(grammars_, "growth grammars", grammars) : made;
 }
 
@@ -120,18 +91,13 @@ Status GpuGrowth::makeTables(const GrowthInputs& inputs) {
 Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
     Status viewed = viewSurfaces(inputs);
     if (!viewed) return viewed;
-    uint32_t features = features_ | kFeatureKnown;
+    uint32_t features = kFeatureKnown;
     for (const RuleMapRef& map : inputs.grammars)
         features |= map.features == 0 ? kRuleFeatures : map.features & kRuleFeatures;
     if (inputs.limits.leafDensityCap > 0) features |= kFeatureDensity;
     if (inputs.limits.tangents == TangentMode::paper) features |= kFeatureJoints;
-    if (features != features_) {
-        for (auto* programs : {&march_, &marchAgain_, &terminals_, &terminalsAgain_})
-            for (Program& program : *programs) program = {};
-        for (Program& program : marchPaper_) program = {};
-        features_ = features;
-    }
-    return loadKernels(inputs.limits.walk);
+    kernels_.use(features);
+    return kernels_.make({marchOf(inputs.limits), GrowthKernel::terminals, GrowthKernel::fit}, access_);
 }
 
 // Edits add nodes and leaves before gaps are closed. Where memory that isn't touched costs nothing, there is room for
@@ -140,14 +106,14 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
     if (inputs.native && device_.info().cpu) {
         if (Status made = makeRoom(inputs, frozen, true); made) return made;
         dropViews();
-        plants_[1 - frontPlants_] = {};
+        plants_.spare() = {};
     }
     return makeRoom(inputs, frozen, false);
 }
 
 Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen, bool spare) {
-    Plants& plants = plants_[1 - frontPlants_];
-    Links& links = links_[1 - frontLinks_];
+    Plants& plants = plants_.spare();
+    Links& links = links_.spare();
     struct Row {
         Buffer* buffer;
         const char* name;
@@ -191,7 +157,7 @@ Status GpuGrowth::makeQueues(const GrowthInputs& inputs) {
 ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plants, const Links& links) {
     ExpandEnv env{};
     env.surfaces = inputs.surfaces;
-    if (fetches_) env.scratch = addressOf<UintBuf, uint32_t>(*inputs.surfaceData);
+    if (access_.surfacesAsTexels) env.scratch = addressOf<UintBuf, uint32_t>(*inputs.surfaceData);
     env.layers = inputs.layers;
     env.grammars = addressOf<RuleMapBuf, RuleMapRef>(grammars_);
     env.tables = addressOf<UintBuf, uint32_t>(tables_);
@@ -216,8 +182,8 @@ Status GpuGrowth::uploadTables(Commands& commands, const GrowthInputs& inputs, b
     commands.barrier(Use::transfer, Use::compute | Use::indirect);
     if (grammars.empty() || !pack) return Done{};
     Pass pass(commands, "expand tables");
-    pass.dispatch(packTables_, {uint32_t(grammars.size()), 1, 1},
-                  environment(inputs, plants_[frontPlants_], links_[frontLinks_]));
+    pass.dispatch(kernel(GrowthKernel::tables), {uint32_t(grammars.size()), 1, 1},
+                  environment(inputs, plants_.drawn(), links_.drawn()));
     pass.barrier(Use::compute, Use::compute);
     return Done{};
 }
@@ -244,8 +210,8 @@ GpuGrowth::Outcome GpuGrowth::readOutcome(uint32_t last) {
 }
 
 void GpuGrowth::lookAtFront() {
-    const Plants& plants = plants_[frontPlants_];
-    const Links& links = links_[frontLinks_];
+    const Plants& plants = plants_.drawn();
+    const Links& links = links_.drawn();
     view_.nodes = addressOf<NodeBuf, Node>(plants.nodes);
     view_.chunks = addressOf<ChunkBuf, Chunk>(links.chunks);
     view_.branches = addressOf<BranchBuf, BranchRecord>(links.branches);
@@ -270,8 +236,8 @@ void GpuGrowth::show(const GrowStatus& status, bool all) {
 
 uint64_t GpuGrowth::reserved() const {
     uint64_t bytes = 0;
-    for (const Plants& p : plants_) bytes += p.nodes.size() + p.leaves.size();
-    for (const Links& l : links_) bytes += l.chunks.size() + l.branches.size();
+    for (const Plants& p : plants_.sets) bytes += p.nodes.size() + p.leaves.size();
+    for (const Links& l : links_.sets) bytes += l.chunks.size() + l.branches.size();
     for (const Buffer* b :
          {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_, &density_, &again_,
           &marks_, &lists_, &edits_, &results_, &firstLeaves_, &nextLeaves_, &touched_, &nodesWent_, &leavesWent_})
@@ -280,8 +246,8 @@ uint64_t GpuGrowth::reserved() const {
 }
 
 Result<GrowthRecords> GpuGrowth::read() {
-    Plants& plants = plants_[frontPlants_];
-    Links& links = links_[frontLinks_];
+    Plants& plants = plants_.drawn();
+    Links& links = links_.drawn();
     GrowthRecords to;
     auto fetch = [&](auto& values, const Buffer& buffer, uint32_t count) -> Status {
         if (count == 0) return Done{};
@@ -311,16 +277,16 @@ void GpuGrowth::trim() {
     fit(room_.items, widest_, least_.items);
     dropViews();
     (void)shrink();  // where there isn't memory even for less, all stays where it is
-    const Plants& plants = plants_[frontPlants_];
-    const Links& links = links_[frontLinks_];
+    const Plants& plants = plants_.drawn();
+    const Links& links = links_.drawn();
     const AgainBytes again = againBytes(links);
     const struct {
         Buffer* buffer;
         uint64_t bytes;
     } rows[] = {{&items_[0], room_.items * sizeof(WorkItem)},
                 {&items_[1], room_.items * sizeof(WorkItem)},
-                {&links_[1 - frontLinks_].chunks, again.chunks},
-                {&links_[1 - frontLinks_].branches, again.branches},
+                {&links_.spare().chunks, again.chunks},
+                {&links_.spare().branches, again.branches},
                 {&marks_, again.marks},
                 {&lists_, again.lists},
                 {&results_, again.results},

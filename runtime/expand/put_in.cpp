@@ -23,8 +23,8 @@ Result<bool> GpuGrowth::putIn(const GrowthInputs& inputs) {
     if (stats_.leaves + r.leaves.size() > inputs.limits.maxLeaves) return false;
     shiftRecords(r, view_.nodeCount, view_.chunkCount, view_.branchCount);
 
-    const Plants& plants = plants_[frontPlants_];
-    const Links& links = links_[frontLinks_];
+    const Plants& plants = plants_.drawn();
+    const Links& links = links_.drawn();
     Result<Commands> commands = Commands::begin(device_, "put plants in");
     if (!commands) return commands.failure();
     bool fits = true;

@@ -30,29 +30,6 @@ bool GpuGrowth::canRegrow(const GrowthInputs& inputs) const {
     return inputs.grammars.size() >= origin_.maps.size();
 }
 
-Status GpuGrowth::makeAgainKernels() {
-    const struct {
-        Program* program;
-        const char* shader;
-    } rows[] = {{&start_, "expand/again_start.comp"},
-                {&settle_, "expand/again_settle.comp"},
-                {&work_, "expand/again_work.comp"},
-                {&thickness_, "expand/again_thickness.comp"}};
-    for (const auto& row : rows)
-        if (Status made = load(*row.program, row.shader, {}); !made) return made;
-    const uint32_t address = byAddress_ ? 1 : 0;
-    const std::vector<SpecConstant> reading = {{3, fetchesRecords_ ? 0u : 1u}};
-    Status published = load(find_[fetchesRecords_], "expand/again_find.comp", reading);
-    if (published) published = load(apply_[fetchesRecords_], "expand/again_apply.comp", reading);
-    if (published) published = load(fitAgain_[fetchesRecords_], "expand/again_fit.comp", reading);
-    if (!published) return published;
-    Status march = load(marchAgain_[marchNumber()], "expand/march_again.comp",
-                        {{0, address}, {1, fetches_ ? 0u : 1u}, {2, features_}});
-    if (!march) return march;
-    return load(terminalsAgain_[terminalsNumber()], "expand/terminals_again.comp",
-                {{0, address}, {2, features_}, {3, fetchesRecords_ ? 0u : 1u}});
-}
-
 // As much as before, unless that is more than twice what is of use.
 GpuGrowth::AgainBytes GpuGrowth::againBytes(const Links& from) const {
     const auto roomOf = [](uint32_t count, uint32_t room, uint32_t capacity) -> uint64_t {
@@ -66,8 +43,8 @@ GpuGrowth::AgainBytes GpuGrowth::againBytes(const Links& from) const {
 }
 
 Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) {
-    const Links& from = links_[frontLinks_];
-    Links& to = links_[1 - frontLinks_];
+    const Links& from = links_.drawn();
+    Links& to = links_.spare();
     const AgainBytes again = againBytes(from);
     const struct {
         Buffer* buffer;
@@ -80,9 +57,9 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
                 {&lists_, "regrowth lists", again.lists},
                 {&edits_, "regrowth edits", std::max<uint64_t>(editWords * 4, kLeastEditBytes)},
                 {&results_, "regrowth results", again.results}};
-    if (Status ok = ensureChains(plants_[frontPlants_]); !ok) return ok;
+    if (Status ok = ensureChains(plants_.drawn()); !ok) return ok;
     // Regrowths of the same nodes find the same room: nothing that is noted there gets lost.
-    const uint64_t touched = capacityOf<Node>(plants_[frontPlants_].nodes) * 4ull;
+    const uint64_t touched = capacityOf<Node>(plants_.drawn().nodes) * 4ull;
     touchedIsNew_ = touchedIsNew_ || !touched_ || touched_.size() < touched;
     if (touchedIsNew_) view_.touched = nullptr;  // until it holds something
     if (Status ok = ensure(touched_, "growth touched nodes", touched); !ok) return ok;
@@ -90,18 +67,19 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
     if (Status tables = makeTables(inputs); !tables) return tables;
     if (Status queues = makeQueues(inputs); !queues || runsNative(inputs)) return queues;
-    if (Status viewed = viewRecords(inputs, plants_[frontPlants_], to, from); !viewed) return viewed;
+    if (Status viewed = viewRecords(inputs, plants_.drawn(), to, from); !viewed) return viewed;
     if (Status kernels = makeKernels(inputs); !kernels) return kernels;
-    return makeAgainKernels();
+    using enum GrowthKernel;
+    return kernels_.make({find, start, marchAgain, settle, work, terminalsAgain, apply, thickness, fitAgain}, access_);
 }
 
 // Copies the links, unless native code does as it looks at them, and uploads counters, edits and the seeds that are
 // planted anew as the first wave.
 Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
                               const std::vector<uint32_t>& edits) {
-    const Links& from = links_[frontLinks_];
-    const Links& to = links_[1 - frontLinks_];
-    const Plants& plants = plants_[frontPlants_];
+    const Links& from = links_.drawn();
+    const Links& to = links_.spare();
+    const Plants& plants = plants_.drawn();
     if (!runsNative(inputs)) {
         commands.copy(from.chunks, to.chunks, view_.chunkCount * sizeof(Chunk));
         commands.copy(from.branches, to.branches, view_.branchCount * sizeof(BranchRecord));
@@ -182,9 +160,9 @@ Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedCh
     }
     {
         Pass pass(*commands, "expand find");
-        pass.dispatch(find_[fetchesRecords_], spreadGroups(), env, {nodeView_, chunkView_, branchView_});
+        pass.dispatch(kernel(GrowthKernel::find), spreadGroups(), env, {nodeView_, chunkView_, branchView_});
         pass.barrier(Use::compute, Use::compute);
-        pass.dispatch(start_, spreadGroups(), env);
+        pass.dispatch(kernel(GrowthKernel::start), spreadGroups(), env);
         pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
     }
     commands->copy(again_, readback_, sizeof(AgainState));
@@ -200,23 +178,23 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
     const auto groups = spreadGroups();
     {
         Pass pass(commands, "expand terminals");
-        pass.dispatch(settle_, groups, env);
+        pass.dispatch(kernel(GrowthKernel::settle), groups, env);
         pass.barrier(Use::compute, Use::compute);
-        pass.dispatch(work_, groups, env);
+        pass.dispatch(kernel(GrowthKernel::work), groups, env);
         pass.barrier(Use::compute, Use::compute);
         env.phase = kTerminalsAgain;
-        pass.dispatch(terminalsAgain_[terminalsNumber()], groups, env,
+        pass.dispatch(kernel(GrowthKernel::terminalsAgain), groups, env,
                       {uniformTables(), nodeView_, chunkView_, branchView_});
         pass.barrier(Use::compute, Use::compute);
     }
     Pass pass(commands, "expand fit");
     const auto records = {Binding(nodeView_), Binding(chunkView_), Binding(branchView_), Binding(leafView_),
                           Binding(chunkViewBefore_)};
-    pass.dispatch(apply_[fetchesRecords_], groups, env, records);
+    pass.dispatch(kernel(GrowthKernel::apply), groups, env, records);
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(thickness_, groups, env);
+    pass.dispatch(kernel(GrowthKernel::thickness), groups, env);
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(fitAgain_[fetchesRecords_], groups, env, {nodeView_, chunkView_, branchView_});
+    pass.dispatch(kernel(GrowthKernel::fitAgain), groups, env, {nodeView_, chunkView_, branchView_});
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 
@@ -243,7 +221,7 @@ Status GpuGrowth::growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Ou
         env.phase = lastWave(noCut(inputs.limits));
         {
             Pass pass(*commands, "expand march");
-            recordWaves(pass, marchAgain_[marchNumber()], true, env, first, last);
+            recordWaves(pass, kernel(GrowthKernel::marchAgain), true, env, first, last);
         }
         env.wave = last;
         recordAgain(*commands, env);
@@ -296,7 +274,7 @@ void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome,
     const GrowStatus& s = outcome.status;
     GrowthStats delta;
     takeCounters(s, delta);
-    frontLinks_ = 1 - frontLinks_;
+    links_.swap();
     show(s, false);
     stats_.seeds = uint32_t(inputs.seeds.size() + inputs.frozen.size());
     stats_.derived = s.nodes - state.nodeCount;
@@ -332,7 +310,7 @@ Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const S
     const uint64_t words = kEditHead + seeds.to.size() + inputs.grammars.size() + 2 * seeds.pruned.size() + 1 +
                            uint64_t(dirtyGrid(kMaxReadLevel + 1) + kCellWords + 1) * inputs.changes->cells.size();
     if (Status made = makeAgainRoom(inputs, words); !made) return made.failure();
-    const ExpandEnv env = environment(inputs, plants_[frontPlants_], links_[1 - frontLinks_]);
+    const ExpandEnv env = environment(inputs, plants_.drawn(), links_.spare());
     Result<AgainState> found = findDirty(inputs, seeds, env);
     if (!found) return found.failure();
     chained_ = true;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -13,215 +12,15 @@
 #include <set>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "plugin_api/espalier.h"
 #include "runtime/core/result.hpp"
 #include "runtime/expand/growth.hpp"
-#include "runtime/gpu/buffer.hpp"
 #include "runtime/gpu/device.hpp"
-#include "runtime/grammar/grammar.hpp"
-#include "runtime/paint/painter.hpp"
+#include "runtime/plugin/contents.hpp"
 #include "runtime/plugin/id_table.hpp"
-#include "runtime/plugin/plants.hpp"
 #include "runtime/render/renderer.hpp"
-#include "runtime/roof/footprint.hpp"
-#include "runtime/roof/plan_layers.hpp"
-#include "runtime/roof/roof_growth.hpp"
-#include "runtime/surface/burial.hpp"
-#include "runtime/surface/gpu_surface.hpp"
-#include "runtime/surface/mesh_tree.hpp"
-#include "runtime/surface/surface.hpp"
-
-namespace espalier {
-
-// A placed surface: on the GPU, and what picking, planting and laying layers need on the CPU. Its place in the id
-// table is its instance number, which nodes and seeds carry.
-struct PlacedSurface {
-    uint32_t instance = 0;
-    EspTransform place;
-    glm::mat4 toWorld{1}, toObject{1};
-    float scale = 1;
-    SurfaceData data;  // without images and all levels but the first, once it is on the GPU
-    EspSurfaceInfo info;
-    GpuSurface gpu;
-    MeshTree tree;
-    BlockBounds blocks;  // made when it is first painted on
-    // Made when it first comes near another surface; data then holds crossings and all levels again, without aux.
-    std::unique_ptr<ContactGround> ground;
-    std::vector<Crossing> contacts;  // to other surfaces, as its GPU data has them
-    TexelSets buried;                // by other surfaces, likewise
-};
-
-// The contacts of two surfaces as they stood when these were found; others: surfaces that may have hidden some.
-struct SurfacePair {
-    struct Stand {
-        uint32_t id = 0;
-        glm::mat4 toWorld{1};
-        bool operator==(const Stand&) const = default;
-    };
-    Stand a, b;
-    std::vector<Stand> others;
-    PlacedContacts found;
-    TexelSets hiddenOfA, hiddenOfB;  // texels of the one that bodies of the other hide
-};
-
-// One painted layer of one surface. `name` may be one that no grammar reads (yet).
-struct PaintedLayer {
-    std::string name;
-    uint32_t surface = 0;  // id
-    uint32_t size = 0;     // texels a side
-    Buffer texels;
-};
-
-struct LoadedGrammar {
-    std::string name;
-    RuleMap map;
-    std::string warnings;  // of the map, as text
-    Buffer words;          // uploaded from the map when stale
-    bool stale = true;
-    uint64_t revision = 0;          // of rules and parameters, unlike any other grammar's
-    std::vector<uint32_t> layerOf;  // scene layer of each of the map's contexts
-    uint64_t edition = 0;           // the context's revision when text or parameters last changed
-    double compileMs = 0;
-};
-
-// A value that a seed has in place of its grammar's.
-struct SeedParam {
-    std::string name;
-    std::array<float, 3> value{};
-    uint32_t count = 0;
-    bool operator==(const SeedParam&) const = default;
-};
-
-struct PlantedSeed {
-    uint32_t grammar = 0;  // id
-    uint32_t surface = 0;  // id
-    std::string symbol;    // empty: the grammar's first
-    uint32_t number = 0;
-    uint32_t twin = 1;  // tells apart seeds of one number
-    Walk walk{};
-    bool onBare = false;                             // no ground is near: it waits
-    glm::vec3 position{0}, normal{0}, direction{0};  // world
-    glm::vec3 givenPosition{0}, givenDirection{0};   // as the host asked
-    std::vector<SeedParam> params;                   // by name
-    std::shared_ptr<const PlantRecords> frozen;      // its plant, if it is to stay as it is
-    uint32_t variant = kNoIndex;                     // place in EspContext::variants, since the last refreshVariants
-};
-
-// A grammar as seeds with values of their own grow by it.
-struct GrammarVariant {
-    uint32_t grammar = 0;  // id
-    uint64_t edition = 0;  // of the grammar that it was made from
-    std::vector<SeedParam> params;
-    std::vector<uint32_t> layerOf;
-    RuleMap map;
-    Buffer words;
-    bool used = false;
-};
-
-// Which twins of which numbers are planted.
-class TwinTable {
-  public:
-    // wanted: 0 for the first that is free. False: it is taken, or beyond 2^20.
-    bool take(uint32_t number, uint32_t wanted, uint32_t& twin);
-    void release(uint32_t number, uint32_t twin);
-    size_t numbers() const { return numbers_.size(); }  // that are planted
-
-  private:
-    static constexpr uint32_t kMaxTwin = 1u << 20;
-    struct Uses {
-        std::vector<bool> taken;  // [twin - 1]
-        uint32_t firstFree = 0;   // none before it is free
-    };
-    std::unordered_map<uint32_t, Uses> numbers_;
-};
-
-// A stroke: open while it takes dabs, then a record for undoing.
-struct PaintStroke {
-    std::string layer;
-    BrushRecord brush{};
-    bool smooths = false, erases = false;
-    float radius = 0;  // metres
-    bool open = true;
-    struct Part {
-        uint32_t surface = 0;  // id
-        BlockRecord record;
-    };
-    std::vector<Part> parts;
-    uint64_t town = 0;  // LoadedTown::number that `plan` is of
-    PlanRecord plan;
-    // Of one that fills the whole layer: the layer's entry in EspContext::filled before it, or once it is undone,
-    // after.
-    std::optional<std::optional<float>> filled;
-};
-
-// Inputs that couldn't be grown, and why. What failed fails again, and trying it anew in each frame would only cost;
-// but memory may have come back, so growth that found too little is tried again after 1, 2, 4 ... calls, at most 1,024.
-class FailedInputs {
-  public:
-    using Revision = std::array<uint64_t, 2>;
-
-    // Whether these inputs are known to fail and aren't to be tried by this call.
-    bool known(Revision inputs) {
-        if (result_ == ESP_OK || inputs != inputs_) return false;
-        return result_ != ESP_OUT_OF_MEMORY || ++calls_ < wait_;
-    }
-    EspResult tell(std::string& error) const {
-        error = why_;
-        return result_;
-    }
-    EspResult note(Revision inputs, EspResult result, const std::string& why) {
-        const bool again = result_ == ESP_OUT_OF_MEMORY && inputs == inputs_;
-        wait_ = again ? std::min(2 * wait_, 1024u) : 1;
-        calls_ = 0;
-        inputs_ = inputs;
-        why_ = why;
-        return result_ = result;
-    }
-    EspResult forget() { return result_ = ESP_OK; }
-
-  private:
-    EspResult result_ = ESP_OK;
-    Revision inputs_{};
-    uint32_t wait_ = 1, calls_ = 0;
-    std::string why_;
-};
-
-// A town and what has been made of it.
-struct LoadedTown {
-    std::string name;
-    std::vector<Footprint> footprints;            // as they were loaded
-    std::vector<uint32_t> footprintOf;            // [house]; an outline that crosses itself makes several
-    std::map<uint32_t, Footprint> changedHouses;  // [house]: what a designer has made of it, one house each
-    RoofStructure structure;
-    RoofTables tables;
-    uint32_t grammar = 0;           // id; 0: none yet
-    bool stale = true;              // all of it has to grow
-    std::vector<uint32_t> changed;  // houses that have to, if not all
-    uint64_t grammarRevision = 0;   // what the roofs were grown from
-    uint64_t revision = 1;          // of houses, layers and the choice of a grammar
-    FailedInputs failed;
-    GroundLook ground;
-    uint64_t number = 0;        // unlike any other town's of the context, from 1
-    uint64_t tablesNumber = 0;  // of `tables`, likewise
-    PlanLayers layers;
-    std::vector<std::pair<std::string, PlanRect>> painted;  // layers that changed since the roofs last grew
-    std::vector<float> means;                               // [house * kRoofLayers + layer of the grammar]
-    RoofView view;                                          // of what stands
-    double structureMs = 0;
-};
-
-// A layer as kernels know it: its number is the place in this list. Two grammars that name the same layer, but
-// want another value where nothing is painted, read two of them.
-struct SceneLayer {
-    std::string name;
-    float fill = 1;
-    bool operator==(const SceneLayer&) const = default;
-};
-
-}  // namespace espalier
 
 // What the C ABI calls a context. Every function of the ABI goes through guarded().
 struct EspContext {

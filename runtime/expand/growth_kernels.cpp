@@ -1,0 +1,90 @@
+// Kernels of growth by name, and what each of them is specialised to.
+#include "runtime/expand/growth_kernels.hpp"
+
+#include "runtime/core/check.hpp"
+#include "shaders/shared/expand_env.h"
+#include "shaders/shared/rule_map.h"
+
+namespace espalier {
+namespace {
+
+// Numbers of specialisation constants, as bits.
+constexpr uint32_t kTables = 1u << 0, kSurfaces = 1u << 1, kFeatureSet = 1u << 2, kRecords = 1u << 3;
+
+struct Row {
+    GrowthKernel kernel;
+    const char* shader;
+    uint32_t constants;
+};
+constexpr Row kRows[] = {
+    {GrowthKernel::tables, "expand/tables.comp", 0},
+    {GrowthKernel::march, "expand/march.comp", kTables | kSurfaces | kFeatureSet},
+    {GrowthKernel::marchPaper, "expand/march_paper.comp", kTables | kFeatureSet},
+    {GrowthKernel::terminals, "expand/terminals.comp", kTables | kFeatureSet | kRecords},
+    {GrowthKernel::branches, "expand/branches.comp", 0},
+    {GrowthKernel::fit, "expand/fit.comp", kRecords},
+    {GrowthKernel::find, "expand/again_find.comp", kRecords},
+    {GrowthKernel::start, "expand/again_start.comp", 0},
+    {GrowthKernel::marchAgain, "expand/march_again.comp", kTables | kSurfaces | kFeatureSet},
+    {GrowthKernel::settle, "expand/again_settle.comp", 0},
+    {GrowthKernel::work, "expand/again_work.comp", 0},
+    {GrowthKernel::terminalsAgain, "expand/terminals_again.comp", kTables | kFeatureSet | kRecords},
+    {GrowthKernel::apply, "expand/again_apply.comp", kRecords},
+    {GrowthKernel::thickness, "expand/again_thickness.comp", 0},
+    {GrowthKernel::fitAgain, "expand/again_fit.comp", kRecords},
+    {GrowthKernel::compactPlaces, "expand/compact_places.comp", 0},
+    {GrowthKernel::compactNodes, "expand/compact_nodes.comp", 0},
+    {GrowthKernel::compactLeaves, "expand/compact_leaves.comp", 0},
+};
+
+constexpr bool inOrder() {
+    for (size_t i = 0; i < std::size(kRows); ++i)
+        if (kRows[i].kernel != GrowthKernel(i)) return false;
+    return true;
+}
+static_assert(inOrder());
+
+const Row& rowOf(GrowthKernel kernel) {
+    return kRows[size_t(kernel)];
+}
+
+}  // namespace
+
+void GrowthKernels::use(uint32_t features) {
+    if ((features | features_) == features_) return;
+    features_ |= features;
+    std::erase_if(programs_, [](const auto& made) { return (rowOf(made.first.first).constants & kFeatureSet) != 0; });
+}
+
+GrowthKernels::Key GrowthKernels::keyOf(GrowthKernel kernel, const GrowthAccess& access) {
+    const uint32_t all = (access.tablesByAddress ? kTables : 0) | (access.surfacesAsTexels ? kSurfaces : 0) |
+                         (access.recordsAsTexels ? kRecords : 0);
+    return {kernel, all & rowOf(kernel).constants};
+}
+
+Status GrowthKernels::make(std::initializer_list<GrowthKernel> kernels, const GrowthAccess& access) {
+    for (const GrowthKernel kernel : kernels) {
+        Program& program = programs_[keyOf(kernel, access)];
+        if (program) continue;
+        const Row& row = rowOf(kernel);
+        std::vector<SpecConstant> constants;
+        if (row.constants & kTables) constants.push_back({0, access.tablesByAddress ? 1u : 0u});
+        if (row.constants & kSurfaces) constants.push_back({1, access.surfacesAsTexels ? 0u : 1u});
+        if (row.constants & kFeatureSet) constants.push_back({2, features_});
+        if (row.constants & kRecords) constants.push_back({3, access.recordsAsTexels ? 0u : 1u});
+        Result<Program> made =
+            Program::compute(device_, row.shader, {.exact = true, .constants = std::move(constants)});
+        if (!made) return made.failure();
+        requireEqual(made->localSize()[0], kExpandGroup, "local size of an expansion kernel");
+        program = std::move(*made);
+    }
+    return Done{};
+}
+
+const Program& GrowthKernels::get(GrowthKernel kernel, const GrowthAccess& access) const {
+    const auto made = programs_.find(keyOf(kernel, access));
+    require(made != programs_.end() && made->second, "a kernel of growth is made before it is used");
+    return made->second;
+}
+
+}  // namespace espalier
