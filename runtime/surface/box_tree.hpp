@@ -67,17 +67,34 @@ class BoxTree {
         return met;
     }
 
-    // The least of square(i), the squares of distances from `point`, asked only of those whose boxes are nearer than
-    // what was found before.
+    // The least of square(i), the squares of distances from `point`, and of `least`; asked only of those whose boxes
+    // are nearer than what was found before, near ones first.
     template <class Fn>
-    double nearestSquare(glm::dvec3 point, Fn&& square) const {
-        double least = std::numeric_limits<double>::infinity();
-        visit(
-            [&](const Box& b) {
-                const glm::dvec3 d = glm::max(glm::max(b.low - point, point - b.high), glm::dvec3(0));
-                return glm::dot(d, d) < least;
-            },
-            [&](uint32_t i) { least = std::min(least, double(square(i))); });
+    double nearestSquare(glm::dvec3 point, Fn&& square, double least = std::numeric_limits<double>::infinity()) const {
+        if (empty()) return least;
+        const auto away = [&](const Box& b) {
+            const glm::dvec3 d = glm::max(glm::max(b.low - point, point - b.high), glm::dvec3(0));
+            return glm::dot(d, d);
+        };
+        struct Ahead {
+            uint32_t node;
+            double away;
+        };
+        Ahead stack[96];
+        uint32_t top = 0;
+        stack[top++] = {0, away(bounds())};
+        while (top > 0) {
+            const auto [node, nearest] = stack[--top];
+            if (nearest >= least) continue;
+            const Node& n = nodes_[node];
+            for (uint32_t i = n.first; i < n.first + n.count; ++i)
+                if (away(boxes_[items_[i]]) < least) least = std::min(least, double(square(items_[i])));
+            if (n.count > 0) continue;
+            Ahead near{n.first, away(nodes_[n.first].box)}, far{n.first + 1, away(nodes_[n.first + 1].box)};
+            if (far.away < near.away) std::swap(near, far);
+            stack[top++] = far;
+            stack[top++] = near;
+        }
         return least;
     }
 

@@ -45,21 +45,24 @@ class Target {
         Place found;
         if (tree_.empty()) return found;
         double best = within * within;
-        tree_.nearestSquare(p, [&](uint32_t t) {
-            const DrawVertex &a = vertex(t, 0), &b = vertex(t, 1), &c = vertex(t, 2);
-            const glm::dvec3 outside(a.normal + b.normal + c.normal);
-            const bool faces = glm::dot(outside, normal) > kFacing * glm::length(outside);
-            if (!faces && normal != glm::dvec3(0)) return 1e300;
-            const glm::dvec3 w = weights(p, glm::dvec3(a.position), glm::dvec3(b.position), glm::dvec3(c.position));
-            const glm::dvec3 at =
-                glm::dvec3(a.position) * w.x + glm::dvec3(b.position) * w.y + glm::dvec3(c.position) * w.z;
-            const double far = glm::dot(at - p, at - p);
-            if (far >= best) return far;
-            best = far;
-            found = {a.walkUv * float(w.x) + b.walkUv * float(w.y) + c.walkUv * float(w.z), at,
-                     outside / std::max(glm::length(outside), 1e-30)};
-            return far;
-        });
+        tree_.nearestSquare(
+            p,
+            [&](uint32_t t) {
+                const DrawVertex &a = vertex(t, 0), &b = vertex(t, 1), &c = vertex(t, 2);
+                const glm::dvec3 outside(a.normal + b.normal + c.normal);
+                const bool faces = glm::dot(outside, normal) > kFacing * glm::length(outside);
+                if (!faces && normal != glm::dvec3(0)) return 1e300;
+                const glm::dvec3 w = weights(p, glm::dvec3(a.position), glm::dvec3(b.position), glm::dvec3(c.position));
+                const glm::dvec3 at =
+                    glm::dvec3(a.position) * w.x + glm::dvec3(b.position) * w.y + glm::dvec3(c.position) * w.z;
+                const double far = glm::dot(at - p, at - p);
+                if (far >= best) return far;
+                best = far;
+                found = {a.walkUv * float(w.x) + b.walkUv * float(w.y) + c.walkUv * float(w.z), at,
+                         outside / std::max(glm::length(outside), 1e-30)};
+                return far;
+            },
+            best);
         return found;
     }
 

@@ -307,6 +307,28 @@ static void surfacesTouch(EspContext* context) {
     CHECK(stats(context).validationMessages == 0);
 }
 
+/* A layer that is carried to the bake that it lies over stays as it was, and next to nothing is lost or fresh. */
+static void carries(void) {
+    EspCarry* carry = NULL;
+    CHECK(espCreateCarry(surfacePath, surfacePath, &carry) == ESP_OK);
+    const uint32_t side = espCarrySide(carry);
+    CHECK(side >= 64);
+    const size_t count = (size_t)side * side;
+    float* texels = malloc(count * sizeof *texels);
+    float* out = malloc(count * sizeof *out);
+    for (size_t i = 0; i < count; ++i) texels[i] = (float)(i % side) / (float)side;
+    EspCarried carried = {1, 1};
+    CHECK(espCarryLayer(carry, texels, side, side, .5f, out, &carried) == ESP_OK);
+    CHECK(carried.fresh < .2 && carried.lost < .2); /* m²: slivers that face elsewhere than their neighbours */
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i) kept += fabsf(out[i] - texels[i]) < 1.5f / (float)side;
+    CHECK(kept > count / 20 * 9); /* the rest is no ground */
+    CHECK(espCarryLayer(carry, texels, 0, side, .5f, out, NULL) == ESP_INVALID_ARGUMENT);
+    espDestroyCarry(carry);
+    free(out);
+    free(texels);
+}
+
 int main(int argc, char** argv) {
     CHECK(argc == 3);
     programPath = argv[0];
@@ -320,6 +342,7 @@ int main(int argc, char** argv) {
     CHECK(espCarrySide(NULL) == 0);
     CHECK(espCarryLayer(NULL, NULL, 1, 1, 0, NULL, NULL) == ESP_INVALID_ARGUMENT);
     espDestroyCarry(NULL);
+    carries();
 
     EspContext* own = create(NULL, NULL);
     const uint64_t hash = wholeLife(own);
