@@ -25,7 +25,7 @@ bool Navigation::take(Workspace& work, const PointerEvent& event) {
         else if (event.button == GLFW_MOUSE_BUTTON_RIGHT)
             drag_ = Drag::look;
         if (drag_ == Drag::orbit) aim(work);
-        if (drag_ == Drag::pan) aimAt(work, at, false);
+        if (drag_ == Drag::pan) aimAt(work, at);
         button_ = event.button;
         return drag_ != Drag::none;
     }
@@ -49,12 +49,22 @@ bool Navigation::take(Workspace& work, const PointerEvent& event) {
 
 namespace {
 
+bool within(const Workspace& work, glm::vec2 mouse) {
+    return glm::clamp(mouse, glm::vec2(0), work.window) == mouse;
+}
+
 // How far ahead what lies there stands; nothing: the sky does, or it is so far away that nobody means it.
 std::optional<float> depthOf(const Workspace& work, const Ray& ray) {
     EspHit hit;
-    const float most = 2 * std::max(work.reach(), work.camera.distance());
-    if (!work.meets(ray, most, hit)) return {};
-    return hit.distance * glm::dot(ray.direction, work.camera.ahead());
+    EspTownInfo town{};  // without one: as large as nothing
+    (void)espTownInfo(work.context.get(), &town);
+    const float most = 2 * std::max({work.reach(), town.layerSide, work.camera.distance()});
+    float distance = work.meets(ray, most, hit) ? hit.distance : most;
+    EspPlantHit plant;  // leaves are seen where no ground is
+    if (espPickPlant(work.context.get(), &ray.origin.x, &ray.direction.x, &plant) == ESP_OK)
+        distance = std::min(distance, plant.distance);
+    if (distance >= most) return {};
+    return distance * glm::dot(ray.direction, work.camera.ahead());
 }
 
 }  // namespace
@@ -67,19 +77,16 @@ void Navigation::aim(Workspace& work) {
     work.camera.focus(middle.value_or(std::max(work.camera.distance(), .1f * work.reach())));
 }
 
-void Navigation::aimAt(Workspace& work, glm::vec2 mouse, bool middleToo) {
+bool Navigation::aimAt(Workspace& work, glm::vec2 mouse) {
     // ImGui tells nothing of the mouse outside the window, or while the game has caught it.
-    const bool inside = glm::clamp(mouse, glm::vec2(0), work.window) == mouse;
-    const auto under = inside ? depthOf(work, work.rayThrough(mouse)) : std::nullopt;
-    std::optional<float> depth = under;
-    // Nearer things in the middle aren't passed through on the way ahead.
-    if (!under || middleToo) {
-        const auto middle = depthOf(work, {work.camera.eye(), work.camera.ahead()});
-        if (middle) depth = std::min(*middle, under.value_or(*middle));
-    }
-    if (!depth) return aim(work);
+    const auto under = within(work, mouse) ? depthOf(work, work.rayThrough(mouse)) : std::nullopt;
+    const auto depth = under ? under : depthOf(work, {work.camera.eye(), work.camera.ahead()});
+    if (depth)
+        work.camera.focus(*depth);
+    else
+        aim(work);
     strayed_ = true;
-    work.camera.focus(*depth);
+    return under.has_value();
 }
 
 void Navigation::wheel(Workspace& work, float steps, glm::vec2 mouse) {
@@ -92,8 +99,10 @@ void Navigation::wheel(Workspace& work, float steps, glm::vec2 mouse) {
         return;
     }
     // There and back again ends where it began.
-    if (wheeled_ != mouse) aimAt(work, mouse, true);
-    work.camera.zoom(steps);
+    if (wheeled_ != mouse || open_) open_ = !aimAt(work, mouse);
+    const float distance = work.camera.distance();
+    work.camera.zoom(steps, within(work, mouse) ? work.rayThrough(mouse).direction : work.camera.ahead());
+    if (open_) work.camera.focus(distance);  // nothing stops one there
     wheeled_ = mouse;
     moved_ = true;
 }

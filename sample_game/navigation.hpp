@@ -32,10 +32,11 @@ class Navigation {
 
   private:
     enum class Drag { none, orbit, pan, look };
-    void aimAt(Workspace& work, glm::vec2 mouse, bool middleToo);
+    bool aimAt(Workspace& work, glm::vec2 mouse);  // false: nothing is under it
     Drag drag_ = Drag::none;
     bool strayed_ = false;              // what the camera turns about isn't what lies in the middle any more
     std::optional<glm::vec2> wheeled_;  // where the wheel was turned last, if the camera hasn't moved otherwise since
+    bool open_ = false;                 // nothing was there
     int button_ = 0;
     glm::vec2 last_{0};
     bool known_ = false, flying_ = false, jump_ = false, moved_ = false;

@@ -53,10 +53,10 @@ void ViewCamera::pan(float x, float y) {
     eye_ += metres * (-x * right() + y * above());
 }
 
-void ViewCamera::zoom(float steps) {
-    const glm::vec3 target = eye_ + distance_ * ahead();
+void ViewCamera::zoom(float steps, glm::vec3 way) {
+    const float before = distance_;
     distance_ = std::clamp(distance_ * std::pow(.88f, steps), reach_ * 1e-3f, reach_ * 50);
-    eye_ = target - distance_ * ahead();
+    eye_ += (before - distance_) / std::max(glm::dot(way, ahead()), .1f) * way;
 }
 
 void ViewCamera::turnTo(float yaw, float pitch) {
@@ -74,9 +74,17 @@ void ViewCamera::focus(float distance) {
     distance_ = std::clamp(distance, reach_ * 1e-3f, reach_ * 50);
 }
 
-void ViewCamera::frame(glm::vec3 centre, float radius, float aspect) {
-    const float half = std::atan(std::tan(fovY_ / 2) * std::clamp(aspect, .1f, 1.f));  // the narrower way
-    distance_ = std::max(1.2f * radius / std::sin(half), reach_ * 1e-3f);
+void ViewCamera::frame(glm::vec3 low, glm::vec3 high, float aspect) {
+    constexpr float kMargin = 1.15f;
+    const glm::vec3 centre = (low + high) * .5f;
+    const float upward = std::tan(fovY_ / 2) / kMargin, sideways = upward * std::max(aspect, .1f);
+    distance_ = reach_ * 1e-3f;
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec3 c = glm::mix(low, high, glm::vec3(i & 1, i >> 1 & 1, i >> 2 & 1)) - centre;
+        const float across =
+            std::max(std::abs(glm::dot(c, above())) / upward, std::abs(glm::dot(c, right())) / sideways);
+        distance_ = std::max(distance_, across - glm::dot(c, ahead()));
+    }
     eye_ = centre - distance_ * ahead();
 }
 

@@ -25,13 +25,16 @@ class ViewCamera {
     // ---- Editor. Moves of the mouse by fractions of the window's height; x to the right, y down.
     void orbit(float x, float y);
     void pan(float x, float y);
-    void zoom(float steps);               // positive: nearer
+    // Positive: nearer, along `way` in place of ahead. What lies there, at the distance that focus() was told, stays
+    // where it is seen and isn't passed through.
+    void zoom(float steps, glm::vec3 way);
+    void zoom(float steps) { zoom(steps, ahead()); }
     void turnTo(float yaw, float pitch);  // about what is looked at; 0, 0: from the front, +z
     void turnBy(float yaw, float pitch);  // likewise, radians
     // What is turned about, stays under the mouse and is gone nearer to lies that far ahead. The view stays.
     void focus(float distance);
-    // So that the ball fills the view, from where it is seen now. aspect: width by height of what nothing lies over.
-    void frame(glm::vec3 centre, float radius, float aspect);
+    // So that the box fills the view, from where it is seen now. aspect: width by height of what nothing lies over.
+    void frame(glm::vec3 low, glm::vec3 high, float aspect);
     // ---- Both
     void look(float x, float y);
     // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`.

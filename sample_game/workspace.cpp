@@ -72,6 +72,10 @@ void Workspace::frameAll() {
     const float times = std::max(1.f, kFramed / freeAspect());
     for (int i = 0; i < 3; ++i) all.eye[i] = all.target[i] + times * (all.eye[i] - all.target[i]);
     lookFrom(all);
+    if (scene().surfaces.empty() || espHouseCount(context.get()) == 0) return;
+    // A village around what plants grow on isn't what is worked on.
+    const auto [low, high] = bounds();
+    camera.frame(low, high, freeAspect());
 }
 
 void Workspace::frameChosen() {
@@ -96,8 +100,8 @@ void Workspace::frameChosen() {
     glm::vec3 low = points[0], high = points[0];
     for (const glm::vec3& point : points) low = glm::min(low, point), high = glm::max(high, point);
     // A seed from which nothing has grown is a point: some of what is around it is seen with it.
-    camera.frame((low + high) * .5f, std::max(glm::distance(low, high) / 2, std::min(1.f, .12f * reach())),
-                 freeAspect());
+    const glm::vec3 centre = (low + high) * .5f, around(std::min(.6f, .07f * reach()));
+    camera.frame(glm::min(low, centre - around), glm::max(high, centre + around), freeAspect());
     redraw = true;
 }
 
@@ -244,7 +248,7 @@ void Workspace::pickParent() {
 }
 
 void Workspace::prune() {
-    if (!branch || path.empty()) return;
+    if (!branch || path.empty()) return void(message = "No branch is picked: click one");
     char key[20];
     std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(*branch));
     if (!perform(espalier::document::PruneBranch{key, true})) return;

@@ -113,6 +113,58 @@ TEST_CASE("the wheel goes nearer to what is seen, also after it went close to so
     }
 }
 
+TEST_CASE("the wheel goes to what the mouse points at, which stays under it and isn't passed through") {
+    const Folder folder;
+    Visitor visitor(folder);
+    faceWall(visitor, 1.4f);
+    const glm::vec2 at = glm::floor(visitor.at({-1.1f, 1.3f, .36f}));  // as ImGui tells it
+    const glm::vec3 start = visitor.camera().eye(), ahead = visitor.camera().ahead(), point = visitor.under(at);
+    REQUIRE(glm::distance(at, visitor.middle()) > 40);
+    visitor.mouse = at;
+    visitor.wheel(4);
+    CHECK(glm::distance(visitor.at(point), at) < 1);
+    CHECK(visitor.camera().ahead() == ahead);
+    CHECK(between(visitor.camera().eye(), point) ==
+          doctest::Approx(std::pow(.88f, 4) * between(start, point)).epsilon(.01));
+    visitor.wheel(-4);
+    CHECK_MESSAGE(between(visitor.camera().eye(), start) < 1e-3f, "there and back again");
+    visitor.wheel(20);
+    CHECK(glm::distance(visitor.at(point), at) < 2);
+    visitor.wheel(60);
+    CHECK(between(visitor.camera().eye(), point) < .05f);
+    CHECK(glm::dot(point - visitor.camera().eye(), ahead) > 0);
+
+    // Where nothing is, along the ray through the mouse, as far with each step.
+    faceWall(visitor, 8);
+    visitor.mouse = visitor.at({-.5f, 3.8f, .3f});
+    REQUIRE(!visitor.work.pick(visitor.mouse));
+    const glm::vec3 way = visitor.work.rayThrough(visitor.mouse).direction;
+    for (float last = 0; const int step : {1, 2, 3}) {
+        CAPTURE(step);
+        const glm::vec3 from = visitor.camera().eye();
+        visitor.wheel(1);
+        const glm::vec3 moved = visitor.camera().eye() - from;
+        CHECK(glm::dot(glm::normalize(moved), way) > .999f);
+        CHECK(glm::length(moved) > .8f * last);
+        last = glm::length(moved);
+    }
+}
+
+TEST_CASE("Home shows what plants grow on, not the village around it") {
+    const Folder folder;
+    Editor editor(folder, wallScene(folder, true), Tool::look);  // 4 m wide, the houses 30 m behind it
+    const auto [low, high] = editor.work.bounds();
+    editor.key(GLFW_KEY_HOME);
+    glm::vec2 least(1e6f), most(-1e6f);
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec2 at = editor.at(glm::mix(low, high, glm::vec3(i & 1, i >> 1 & 1, i >> 2 & 1)));
+        CHECK(at.x > editor.work.panelUnits());
+        CHECK(glm::clamp(at, glm::vec2(0), editor.work.window) == at);
+        least = glm::min(least, at), most = glm::max(most, at);
+    }
+    CHECK(most.y - least.y > .3f * editor.work.window.y);
+}
+
 TEST_CASE(
     "what is pressed upon stays under the mouse when the camera moves sideways, and in the middle when it turns") {
     const Folder folder;

@@ -108,18 +108,16 @@ TEST_CASE("what is framed lies in what a panel leaves free of the window, howeve
         sample::ViewCamera camera;
         camera.turnTo(.4f, -.3f);
         const glm::vec3 centre(3, 2, -5);
-        constexpr float kRadius = 4;
-        camera.frame(centre, kRadius, (window.x - panel) / window.y);
+        const glm::vec3 half(4, 3, 5);
+        camera.frame(centre - half, centre + half, (window.x - panel) / window.y);
         glm::vec2 low(1e9f), high(-1e9f);
-        for (int axis = 0; axis < 3; ++axis)
-            for (const float side : {-kRadius, kRadius}) {
-                glm::vec3 point = centre;
-                point[axis] += side;
-                glm::vec2 at;
-                REQUIRE(camera.project(point, aspect, shift, at));
-                low = glm::min(low, at * window);
-                high = glm::max(high, at * window);
-            }
+        for (int i = 0; i < 8; ++i) {
+            const glm::vec3 side(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+            glm::vec2 at;
+            REQUIRE(camera.project(centre + side * half, aspect, shift, at));
+            low = glm::min(low, at * window);
+            high = glm::max(high, at * window);
+        }
         CHECK(low.x >= panel);
         CHECK(low.y >= 0);
         CHECK(high.x <= window.x);
