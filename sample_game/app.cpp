@@ -171,7 +171,7 @@ bool App::replay(std::vector<InputEvent>& events) {
     if (ends) replay_.stop(work_);
     if (!ends && replay_.step(work_, glfwGetTime())) return true;
     flags &= ~ImGuiConfigFlags_NoMouse;
-    session_.endReplay(work_);
+    session_.endReplay();
     if (options_.frames) session_.forgetRecovery(false);
     return true;
 }

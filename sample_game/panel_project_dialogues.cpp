@@ -63,8 +63,11 @@ void recoveryDialogue(Session& session) {
 Doubt doubtOfSaving(const Session& session, const std::string& folder) {
     std::error_code ignored;
     const std::string place = wholePath(folder);
-    if (place == session.folder())
-        return {session.changedByOthers() ? place + " has been saved by somebody else since it was opened." : ""};
+    if (place == session.folder() && session.changedByOthers())
+        return {place + " has been saved by somebody else since it was opened."};
+    if (place == session.folder() && session.holdsBack())
+        return {place + " still holds what the last session left unsaved.", "Throw that away?", "Throw away, save"};
+    if (place == session.folder()) return {};
     if (fs::exists(fs::path(place) / "project.json", ignored)) return {place + " is a project already."};
     if (fs::directory_iterator(place, ignored) == fs::directory_iterator()) return {};  // empty, or to be made
     return {place + " holds other files.", "Save the project among them?", "Save there"};

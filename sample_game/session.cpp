@@ -83,6 +83,10 @@ std::string Session::name(const Workspace& work) const {
     return !recoveredFrom_.empty() ? "recovered work" : work.scene().name;
 }
 
+std::string Session::ownAutosave() const {
+    return (fs::path(folder_) / kAutosave).string();
+}
+
 std::string Session::autosaveFolder() const {
     if (replaying_) return {};
     if (!folder_.empty() && cannotKeep_.empty()) return folder_;
@@ -292,12 +296,13 @@ void Session::tellKept(Workspace& work, const std::string& news) {
 }
 
 void Session::dropKept() {
-    if (!folder_.empty() && lock_.held()) dropAutosave(folder_);
+    const bool own = !folder_.empty() && lock_.held() && !holdsBack();
+    if (own) dropAutosave(folder_);
     if (folder_.empty() && !recoveredFrom_.empty()) removeKept(recoveredFrom_);
     if (!unsaved_.empty()) removeKept(unsaved_);
     unsaved_.clear();
     unsavedLock_.release();
-    if (folder_.empty() || lock_.held()) cannotKeep_.clear();
+    if (folder_.empty() || own) cannotKeep_.clear();
 }
 
 void Session::replays(const std::string& run) {
@@ -311,9 +316,8 @@ void Session::replays(const std::string& run) {
     unsavedLock_.release();
 }
 
-void Session::endReplay(const Workspace& work) {
+void Session::endReplay() {
     replaying_ = false;
-    savedState_ = autosavedState_ = work.document->state();
     recovery_ = leftBehind();
 }
 
@@ -346,6 +350,7 @@ void Session::saved(const std::string& folder, uint64_t state) {
     cannotKeep_.clear();
     missing_ = replaying_ = whole_ = false;
     folder_ = wholePath(folder);
+    putOff_.erase(ownAutosave());
     project_ = stampOf(fs::path(folder_) / kProject);
     claim();
     savedState_ = autosavedState_ = state;
@@ -359,10 +364,11 @@ void Session::forgetRecovery(bool deleteIt) {
 }
 
 bool Session::recoveryWaits() const {
-    return !recovery_.empty() && (folder_.empty() || fs::path(recovery_).parent_path() != folder_);
+    return !recovery_.empty() && (recovery_ != ownAutosave() || !unsavedFolder().empty());
 }
 
 void Session::putOffRecovery() {
+    if (recovery_ == ownAutosave()) (void)keepElsewhere("What was left unsaved waits in " + folder_);
     putOff_.insert(recovery_);
     forgetRecovery(false);
     recovery_ = leftBehind();

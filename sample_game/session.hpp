@@ -46,15 +46,17 @@ class Session {
     // Of an earlier run that ended without saving; empty: there is none. Asked until answered.
     const std::string& recovery() const { return recovery_; }
     void forgetRecovery(bool deleteIt);
-    // Whether it can be decided on another time, what is done meanwhile being kept beside it. A project's own autosave
-    // can't: the next one takes its place.
+    // Whether it can be decided on another time, what is done meanwhile being kept elsewhere.
     bool recoveryWaits() const;
+    // A project's own was put off: it lies in the folder until the project is saved there.
+    bool holdsBack() const { return putOff_.contains(ownAutosave()); }
     // Until this is opened again; the next one, if there is another, is offered.
     void putOffRecovery();
-    // What is done in the document from now on is a recorded run's, and isn't kept.
+    // What is done in the document from now on is a recorded run's, and isn't kept before its end.
     void replays(const std::string& run);
-    // What follows is the user's: it is kept by the run's name. What was so, when a session ended, is offered.
-    void endReplay(const Workspace& work);
+    // What the run has changed counts as not saved, and is kept by the run's name, with what the user does now. What
+    // was so, when a session ended, is offered.
+    void endReplay();
 
     // What to open next; the application does it.
     std::string openNext;
@@ -84,6 +86,7 @@ class Session {
     void nextFrame() { recorder_.nextFrame(); }
 
   private:
+    std::string ownAutosave() const;  // the file in the project's folder
     std::string autosaveFolder() const;
     // Beside the user's settings, for what has no folder or can't write to it: the first that editors of the same would
     // take, or another of them. Empty: there is no place.

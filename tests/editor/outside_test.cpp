@@ -47,6 +47,6 @@ TEST_CASE("what another program saves while a run is replayed is taken over when
     user.session.replays(folder.file("run.jsonl"));
     user.writeGrammar();
     CHECK(user.taken() == 0);
-    user.session.endReplay(user.work);
+    user.session.endReplay();
     CHECK(user.taken() == 1);
 }

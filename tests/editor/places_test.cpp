@@ -98,7 +98,7 @@ TEST_CASE("who has no folder for settings is told that nothing is kept") {
     ::setenv("XDG_CONFIG_HOME", folder.file("config").c_str(), 1);
 }
 
-TEST_CASE("what is done after a replay is kept by the run's name, and offered after the next one") {
+TEST_CASE("what a replay has done counts as not saved, is kept by the run's name, and offered after the next one") {
     const Folder folder;
     const std::string scene = smallScene(folder), run = folder.file("run.jsonl");
     const fs::path config = folder.path / "config";
@@ -108,10 +108,11 @@ TEST_CASE("what is done after a replay is kept by the run's name, and offered af
         window.fill(.25f);
         window.wait();
         CHECK(autosavesIn(config).empty());  // it is the run's
-        window.session.endReplay(window.work);
+        window.session.endReplay();
+        CHECK(window.session.modified(window.work));
         window.wait();
-        CHECK(autosavesIn(config).empty());
-        CHECK(!window.session.modified(window.work));
+        REQUIRE(autosavesIn(config).size() == 1);
+        CHECK(maskOf(autosavesIn(config)[0]) == .25f);
         window.fill(.75f);
         window.wait();
         REQUIRE(autosavesIn(config).size() == 1);
@@ -124,7 +125,7 @@ TEST_CASE("what is done after a replay is kept by the run's name, and offered af
     CHECK(again.session.recovery() == "");
     again.session.replays(run);
     CHECK(again.session.recovery() == "");
-    again.session.endReplay(again.work);
+    again.session.endReplay();
     REQUIRE(again.session.recovery() != "");
     CHECK(maskOf(again.session.recovery()) == .75f);
 }
