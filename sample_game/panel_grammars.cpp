@@ -55,7 +55,7 @@ bool editParam(const EspParamInfo& param, float* value, bool several) {
     if (param.kind == ESP_PARAM_BOOL) {
         bool on = value[0] != 0;
         ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, several);
-        const bool changed = ImGui::Checkbox(param.label, &on);
+        const bool changed = checkBox(param.label, &on);
         ImGui::PopItemFlag();
         value[0] = on;
         return changed;
@@ -71,7 +71,7 @@ namespace {
 void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
                         {ImGui::GetStyle().ItemSpacing.x, ImGui::GetStyle().ItemSpacing.y / 3});
-    if (param.kind != ESP_PARAM_BOOL) ImGui::TextUnformatted(param.label);
+    if (param.kind != ESP_PARAM_BOOL) label(param.label);
     ImGui::PopStyleVar();
     const float button = ImGui::GetFrameHeight();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
@@ -121,7 +121,9 @@ void grammarsPanel(Workspace& work) {
     for (uint32_t i : order) {
         const auto& grammar = work.scene().grammars[i];
         ImGui::PushID(houses ? -1 - int(i) : int(i));
-        const bool open = ImGui::CollapsingHeader(grammarName(work.scene(), i).c_str(),
+        const std::string name = grammarName(work.scene(), i);
+        const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetFontSize();  // beside the arrow
+        const bool open = ImGui::CollapsingHeader((shortened(name, room) + "###" + name).c_str(),
                                                   i == order.front() ? ImGuiTreeNodeFlags_DefaultOpen : 0);
         toolTip(grammarTip(work, i).c_str());
         if (open) {

@@ -127,7 +127,7 @@ void layersPanel(Workspace& work) {
         const std::string what =
             layer.readers.empty() ? "no grammar reads it" : layer.label.substr(0, layer.label.find(':'));
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-        ImGui::TextUnformatted(what.c_str());
+        label(what.c_str());
         ImGui::PopStyleColor();
         if (chosen) chosenLayer(work, layer);
         if (chosen && layer.name == "mask" && !layer.readers.empty())

@@ -318,6 +318,34 @@ void aside(const char* text) {
     ImGui::PopStyleColor();
 }
 
+std::string shortened(const std::string& text, float room) {
+    constexpr const char* kEllipsis = "\u2026";
+    if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
+    const auto within = [](char c) { return (c & 0xC0) == 0x80; };  // of a letter of several bytes
+    std::string shown = text;
+    while (!shown.empty() && ImGui::CalcTextSize((shown + kEllipsis).c_str()).x > room) {
+        while (within(shown.back())) shown.pop_back();
+        shown.pop_back();
+    }
+    return shown + kEllipsis;
+}
+
+void label(const char* text) {
+    const std::string shown = shortened(text, ImGui::GetContentRegionAvail().x);
+    ImGui::TextUnformatted(shown.c_str());
+    if (shown != text) toolTip(text);
+}
+
+bool checkBox(const char* label, bool* on) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - style.ItemInnerSpacing.x;
+    const std::string shown = shortened(label, room);
+    const bool cut = shown != label;
+    const bool changed = ImGui::Checkbox(cut ? (shown + "###" + label).c_str() : label, on);
+    if (cut) toolTip(label);
+    return changed;
+}
+
 void rowLabel(const char* text) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(text);

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 
 #include "sample_game/workspace.hpp"
 
@@ -31,6 +32,10 @@ bool labelledSlider(const char* label, float* value, float low, float high, cons
 bool hoursOf(const char* text, float& hours);                   // a ReadTyped: 14:30, or 14.5
 bool chosenButton(const char* label, bool on, glm::vec2 size);  // lit while `on`
 void rowLabel(const char* text);  // the words before a widget, which takes the rest of the row
+// Words that have to do with the room there is: what is cut ends in an ellipsis, and the whole is its tip.
+std::string shortened(const std::string& text, float room);
+void label(const char* text);
+bool checkBox(const char* label, bool* on);
 // ImGui::SameLine if something so wide still fits in the row.
 void sameLineIfRoom(float width);
 // A linear colour, as ImGui has colours.
