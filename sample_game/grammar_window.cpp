@@ -61,7 +61,7 @@ void takeUndoKeys(Workspace& work, TextState& state) {
     state.gesture = 0;  // what is typed next is a step of its own
     const bool back = z && !io.KeyShift;
     const char* step = back ? work.document->undoName() : work.document->redoName();
-    if (step && step == nameOf(SetText{}))
+    if (step && std::string(step).starts_with(kEditText))
         back ? work.perform(Undo{}) : work.perform(Redo{});
     else
         work.message = std::string(back ? "Nothing more of the text to undo" : "Nothing of the text to redo") +

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <span>
 #include <utility>
@@ -47,19 +46,19 @@ void toolButtons(Workspace& work) {
         return room / float(shown.size());
     };
     const bool keys = spare(true) > 2 * pad;
-    const float more = spare(keys);
+    const float more = std::max(spare(keys), 2 * pad);  // where that is too wide they take two rows
     for (const Entry& entry : shown) {
         const std::string text = textOf(entry, keys);
-        const float width = ImGui::CalcTextSize(text.c_str()).x + more;
+        const float width = std::floor(ImGui::CalcTextSize(text.c_str()).x + more);
+        if (&entry != &shown.front()) sameLineIfRoom(width);
         if (chosenButton(text.c_str(), work.tool == entry.tool, {width, 0})) work.choose(entry.tool);
         toolTip((std::string(entry.tip) + "  (" + entry.key + ")").c_str());
-        if (&entry != &shown.back()) ImGui::SameLine();
     }
     ImGui::PopStyleVar(2);
 }
 
 void limits(const Workspace& work, Brush& brush) {
-    ImGui::Checkbox("Only some slopes and heights", &brush.limited);
+    checkBox("Only some slopes and heights", &brush.limited);
     toolTip(
         "Paint fades out where the surface is steeper or flatter, higher or lower: there it is hatched\nwhile the "
         "layer is "
@@ -117,7 +116,7 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
         const bool some = has && own.size() < chosen.size();
         ImGui::PushID(int(i));
         ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, some);
-        bool changed = ImGui::Checkbox(info.label, &has);
+        bool changed = checkBox(info.label, &has);
         ImGui::PopItemFlag();
         toolTip((std::string(info.label) + ": a value of their own in place of the grammar's").c_str());
         has = has || some;  // those that had none get it, too
@@ -237,13 +236,6 @@ const char* viewTitle(EspView view) {
     return "Layer";
 }
 
-std::string grammarName(const espalier::scene::Scene& scene, size_t index) {
-    std::string name = std::filesystem::path(scene.grammars[index].file).stem().string();
-    size_t before = 0;
-    for (size_t i = 0; i < index; ++i) before += scene.grammars[i].file == scene.grammars[index].file;
-    return before ? name + " (" + std::to_string(before + 1) + ")" : name;
-}
-
 void brushPanel(Workspace& work) {
     Brush& b = work.brush;
     const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
@@ -280,7 +272,7 @@ void brushPanel(Workspace& work) {
     toolTip("Between two dabs, of the radius");
     if (work.townLayer(b.layer)) return;
     limits(work, b);
-    ImGui::Checkbox("Only what faces as the centre does", &b.frontOnly);
+    checkBox("Only what faces as the centre does", &b.frontOnly);
     toolTip("A brush on a thin wall leaves its back alone");
 }
 
@@ -298,7 +290,7 @@ void seedsPanel(Workspace& work) {
     chosenSeeds(work);
     labelledSlider("Row's step", &work.layout.rowStep, kLeastRowStep, kMostRowStep, "%.2f m", true);
     toolTip("Between two seeds of a row: Ctrl and a drag plant one");
-    ImGui::Checkbox("A row's seeds look along it", &work.layout.rowAlong);
+    checkBox("A row's seeds look along it", &work.layout.rowAlong);
     toolTip("Else they look upward");
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
     ImGui::BeginDisabled(scene.seeds.empty());
@@ -319,7 +311,7 @@ void lightPanel(Workspace& work) {
     const auto& scene = work.scene();
     SetLight light{scene.hour, scene.look.exposure, scene.look.shadows != 0};
     bool own = light.hour == espalier::scene::kOwnSun;
-    bool changed = ImGui::Checkbox("The scene's own light", &own);
+    bool changed = checkBox("The scene's own light", &own);
     toolTip("As the scene's file says, or of a day, by its time");
     if (changed) light.hour = own ? espalier::scene::kOwnSun : kMorning;
     float hour = own ? kMorning : light.hour;
@@ -332,7 +324,7 @@ void lightPanel(Workspace& work) {
     bool exposed = labelledSlider("Exposure", &light.exposure, -4, 4, "%.1f stops");
     const uint32_t second = exposed ? widgetGesture(work) : 0;
     toolTip("One stop more is twice as bright");
-    exposed |= ImGui::Checkbox("Shadows", &light.shadows);
+    exposed |= checkBox("Shadows", &light.shadows);
     toolTip("Of models, plants and houses");
     if (changed || exposed) work.perform(light, changed ? gesture : second);
 
@@ -353,7 +345,7 @@ void lightPanel(Workspace& work) {
         toolTip("Of the painted layer over the model");
     }
     bool paper = scene.grow.walk == ESP_WALK_PAPER;
-    if (ImGui::Checkbox("The paper's walk, to compare", &paper))
+    if (checkBox("The paper's walk, to compare", &paper))
         work.perform(SetWalk{espalier::scene::nameOf(paper ? ESP_WALK_PAPER : ESP_WALK_INTRINSIC)});
     toolTip("Plants walk from texel to texel, as Buron 2015 does: they turn at seams");
 }
@@ -377,6 +369,11 @@ void showPanel(Workspace& work) {
         }
         if (std::exchange(shown, work.tool) != work.tool) ImGui::SetScrollY(0);  // what it has stands first
         toolButtons(work);
+        // Of the scene, not of a tool or a grammar: found at once, and out of the way of the tool in hand.
+        ImGui::PushID(work.tool == Tool::look ? "look" : "tool");
+        const int open = work.tool == Tool::look ? ImGuiTreeNodeFlags_DefaultOpen : 0;
+        if (ImGui::CollapsingHeader("Light and view", open)) lightPanel(work);
+        ImGui::PopID();
         if (work.tool == Tool::paint) {
             layersPanel(work);
             ImGui::Separator();
@@ -388,7 +385,6 @@ void showPanel(Workspace& work) {
         ImGui::Spacing();
         grammarsPanel(work);
         if (work.tool != Tool::paint && ImGui::CollapsingHeader("Layers")) layersPanel(work);
-        if (ImGui::CollapsingHeader("Light and view", ImGuiTreeNodeFlags_DefaultOpen)) lightPanel(work);
     }
     ImGui::End();
 }

@@ -58,8 +58,6 @@ void lightPanel(Workspace& work);
 // A slider, check box (with its label) or colour. True: the value has changed. several: it stands for values that
 // differ.
 bool editParam(const EspParamInfo& param, float* value, bool several = false);
-// A grammar's file, told apart from others of the same file by its place.
-std::string grammarName(const espalier::scene::Scene& scene, size_t index);
 // Views that need no layer, in the order of their keys 1, 2 ...
 constexpr EspView kViews[] = {ESP_VIEW_SHADED, ESP_VIEW_CHARTS, ESP_VIEW_NORMALS,
                               ESP_VIEW_LOD,    ESP_VIEW_DEPTH,  ESP_VIEW_OVERDRAW};

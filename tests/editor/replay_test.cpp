@@ -32,7 +32,7 @@ TEST_CASE("what was one step of undo in a run is one step in its replay, whereve
     CHECK(window.work.document->undoSteps() == 5);
     CHECK(window.work.document->undoName() == std::string("Paint mask"));
     for (int i = 0; i < 4; ++i) REQUIRE(window.work.perform(Undo{}));
-    CHECK(window.work.document->undoName() == std::string("Change reach"));
+    CHECK(window.work.document->undoName() == std::string("Length of the stems"));
     REQUIRE(window.work.perform(Undo{}));
     CHECK(!window.work.document->undoName());
 }

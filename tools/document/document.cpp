@@ -115,8 +115,9 @@ bool Document::perform(const Action& action, std::string& error, uint32_t gestur
         return false;
     }
     if (changes && settle_) settle_();
+    std::string name = std::holds_alternative<StrokeEnd>(action) ? strokeName_ : nameOf(*this, action);
     if (!carryOut(action, back, error)) return false;
-    if (!back.empty()) remember(action, std::move(back), gesture);
+    if (!back.empty()) remember(action, std::move(name), std::move(back), gesture);
     if (changes) ++revision_;
     if (listener_) listener_(action, gesture);
     return true;
@@ -126,7 +127,7 @@ bool Document::carryOut(const Action& action, std::vector<Action>& back, std::st
     return std::visit([&](const auto& a) { return carryOut(a, back, error); }, action);
 }
 
-void Document::remember(const Action& action, std::vector<Action> back, uint32_t gesture) {
+void Document::remember(const Action& action, std::string name, std::vector<Action> back, uint32_t gesture) {
     undone_.clear();
     if (gesture && undoGesture() == gesture) {
         Step& step = done_.back();
@@ -136,9 +137,10 @@ void Document::remember(const Action& action, std::vector<Action> back, uint32_t
             if (!known) step.back.push_back(std::move(inverse));
         }
         if (std::holds_alternative<AddSeeds>(action)) step.name = plantingName(step.back);
+        const auto* set = std::get_if<SetParam>(&action);
+        if (set && step.name != name) step.name = "Values of " + grammarName(scene_, set->grammar);
     } else {
-        const bool stroke = std::holds_alternative<StrokeEnd>(action);
-        done_.push_back({stroke ? strokeName_ : nameOf(action), gesture, ++lastState_, std::move(back)});
+        done_.push_back({std::move(name), gesture, ++lastState_, std::move(back)});
     }
     keep(done_);
 }

@@ -67,6 +67,8 @@ class Document {
     // A key that no seed of this document has or had.
     uint32_t freshKey() { return ++lastKey_; }
     SeedRecord recordOf(const scene::Seed& seed) const;
+    // A house as the town's file says; what stands stays.
+    scene::House plannedHouse(uint32_t index) const;
     // Another text for a grammar, whose parameters keep their values.
     SetText withText(uint32_t grammar, std::string text) const;
 
@@ -106,7 +108,7 @@ class Document {
     bool carryOut(const Redo&, std::vector<Action>&, std::string& error) { return move(undone_, done_, error); }
 
     bool move(std::vector<Step>& from, std::vector<Step>& to, std::string& error);
-    void remember(const Action& action, std::vector<Action> back, uint32_t gesture);
+    void remember(const Action& action, std::string name, std::vector<Action> back, uint32_t gesture);
     void keep(std::vector<Step>& steps);
     bool failed(EspResult result, std::string& error) const;
     std::vector<Param> paramsOf(uint32_t grammar) const;
@@ -134,8 +136,11 @@ class Document {
     std::function<void()> settle_;
 };
 
-// The words for an action in menus, such as "Plant 3 seeds".
-std::string nameOf(const Action& action);
+// The words for an action in menus, before it is done: "Plant 3 seeds", "Pitch of house 12".
+std::string nameOf(const Document& document, const Action& action);
+constexpr const char* kEditText = "Edit the text";  // these begin so, of whichever grammar
+// A grammar's file, told apart from others of the same file by its place.
+std::string grammarName(const scene::Scene& scene, size_t index);
 // Of a step of several plantings, by what takes it back.
 std::string plantingName(const std::vector<Action>& back);
 // The brush of a stroke; the layer's name stays the stroke's. False: there is no such mode.

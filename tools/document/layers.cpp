@@ -86,7 +86,7 @@ bool Document::carryOut(const StrokeBegin& action, std::vector<Action>&, std::st
     EspBrush brush;
     if (!brushOf(action, brush, error)) return false;
     strokeHasDabs_ = false;
-    strokeName_ = nameOf(action);
+    strokeName_ = nameOf(*this, action);
     const std::vector<std::string> channels = channelsOf(scene_, action.layer);
     for (size_t c = 0; c < channels.size(); ++c) {
         brush.layer = channels[c].c_str();
