@@ -70,6 +70,18 @@ bool presetRow(Workspace& work, const std::string& grammar, const std::string& n
     return chosen;
 }
 
+void shippedRows(Workspace& work, uint32_t index) {
+    const std::string& file = work.scene().grammars[index].file;
+    ImGui::PushID("shipped");
+    for (const std::string& name : shippedPresets(file)) {
+        std::vector<Param> params;
+        const bool chosen = ImGui::Selectable(name.c_str());
+        toolTip("Comes with the grammar; one step of undo");
+        if (chosen && readShippedPreset(file, name, params, work.error)) apply(work, index, params);
+    }
+    ImGui::PopID();
+}
+
 void presetRows(Workspace& work, uint32_t index, const std::string& grammar, Names& names) {
     const std::vector<std::string> all = presetNames(grammar);
     for (const std::string& name : all) {
@@ -121,6 +133,8 @@ void presetsPanel(Workspace& work, uint32_t index) {
     if (ImGui::IsWindowAppearing()) names.renamed.clear();
     if (ImGui::Selectable("As the grammar says"))
         apply(work, index, values(work, work.scene().grammars[index].id, true));
+    shippedRows(work, index);
+    if (!presetNames(grammar).empty()) ImGui::Separator();
     presetRows(work, index, grammar, names);
     ImGui::Separator();
     keepRow(work, index, grammar, names);

@@ -82,14 +82,30 @@ fs::path presetFile(const std::string& grammar, std::string name, const char* ex
     return presetFolder(grammar) / (name + extension);
 }
 
-std::vector<std::string> presetsWith(const std::string& grammar, const char* extension) {
+// Stems of the files that end so.
+std::vector<std::string> namesIn(const fs::path& folder, const char* extension) {
     std::vector<std::string> names;
     std::error_code ignored;
-    if (configFolder().empty()) return names;
-    for (const auto& entry : fs::directory_iterator(presetFolder(grammar), ignored))
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
         if (entry.path().extension() == extension) names.push_back(entry.path().stem().string());
     std::sort(names.begin(), names.end());
     return names;
+}
+
+std::vector<std::string> presetsWith(const std::string& grammar, const char* extension) {
+    return configFolder().empty() ? std::vector<std::string>{} : namesIn(presetFolder(grammar), extension);
+}
+
+// Beside the grammar that they come with.
+fs::path shippedFolder(const std::string& grammarFile) {
+    return fs::path(grammarFile).parent_path() / "presets" / presetsOf(grammarFile);
+}
+
+bool readParams(const fs::path& file, std::vector<document::Param>& params, std::string& error) {
+    Preset preset;
+    if (!read(file.string(), preset, error)) return false;
+    params = std::move(preset.params);
+    return true;
 }
 
 bool moveFile(const fs::path& from, const fs::path& to, std::string& error) {
@@ -150,10 +166,16 @@ std::vector<std::string> presetNames(const std::string& grammar) {
 
 bool readPreset(const std::string& grammar, const std::string& name, std::vector<document::Param>& params,
                 std::string& error) {
-    Preset preset;
-    if (!read(presetFile(grammar, name).string(), preset, error)) return false;
-    params = preset.params;
-    return true;
+    return readParams(presetFile(grammar, name), params, error);
+}
+
+std::vector<std::string> shippedPresets(const std::string& grammarFile) {
+    return namesIn(shippedFolder(grammarFile), kKept);
+}
+
+bool readShippedPreset(const std::string& grammarFile, const std::string& name, std::vector<document::Param>& params,
+                       std::string& error) {
+    return readParams(shippedFolder(grammarFile) / (name + kKept), params, error);
 }
 
 bool writePreset(const std::string& grammar, const std::string& name, const std::vector<document::Param>& params,

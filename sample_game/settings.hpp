@@ -22,6 +22,10 @@ std::string presetsOf(const std::string& grammarFile);
 std::vector<std::string> presetNames(const std::string& grammar);
 bool readPreset(const std::string& grammar, const std::string& name, std::vector<espalier::document::Param>& params,
                 std::string& error);
+// Those that come with a grammar, in presets/NAME/ beside NAME.grammar.
+std::vector<std::string> shippedPresets(const std::string& grammarFile);
+bool readShippedPreset(const std::string& grammarFile, const std::string& name,
+                       std::vector<espalier::document::Param>& params, std::string& error);
 // Takes the place of one of the same name.
 bool writePreset(const std::string& grammar, const std::string& name,
                  const std::vector<espalier::document::Param>& params, std::string& error);

@@ -1,8 +1,10 @@
-// The user's own files: values of parameters under names.
+// Values of parameters under names: the user's own files, and those that come with a grammar.
+#include <algorithm>
 #include <cstdlib>
 
+#include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
-#include "tests/editor/editing.hpp"
+#include "tests/editor/widgets.hpp"
 
 using namespace espalier::document;
 using namespace sample;
@@ -56,4 +58,58 @@ TEST_CASE("a preset is kept, renamed, removed and brought back; a name that is t
     CHECK(!readPreset("ivy", "broken", read, error));
     CHECK_MESSAGE(contains(error, "broken.json:1:"), error);
     home ? setenv("XDG_CONFIG_HOME", before.c_str(), 1) : unsetenv("XDG_CONFIG_HOME");
+}
+
+TEST_CASE("the presets that come with a grammar say values that it takes, and one taken is one step of undo") {
+    const Folder folder;
+    Editor editor(folder, content("village.json"), sample::Tool::look);
+    editor.panels = [&] {
+        ImGui::SetNextWindowSize({320, 700});
+        ImGui::Begin("panel");
+        sample::grammarsPanel(editor.work);
+        ImGui::End();
+    };
+    for (int i = 0; i < 3; ++i) editor.frame({});
+    const auto& grammars = editor.work.scene().grammars;
+    for (const char* file : {"ivy_free", "ivy_guided", "town"}) {
+        CAPTURE(file);
+        const std::string path = content("grammars/") + file + ".grammar";
+        CHECK(shippedPresets(path).size() >= 3);
+        for (const std::string& name : shippedPresets(path)) {
+            CAPTURE(name);
+            std::vector<Param> params;
+            std::string error;
+            REQUIRE_MESSAGE(readShippedPreset(path, name, params, error), error);
+            const auto own = std::ranges::find_if(grammars, [&](const auto& g) { return contains(g.file, file); });
+            if (own == grammars.end()) continue;
+            for (const Param& param : params) {
+                CAPTURE(param.name);
+                uint32_t i = 0;
+                EspParamInfo info{};
+                while (espParamInfo(editor.work.context.get(), own->id, i, &info) == ESP_OK && param.name != info.name)
+                    ++i;
+                REQUIRE(param.name == info.name);
+                REQUIRE(param.value.size() == (info.kind == ESP_PARAM_COLOUR ? 3u : 1u));
+                if (info.kind == ESP_PARAM_COLOUR) continue;
+                CHECK(param.value[0] >= info.low);
+                CHECK(param.value[0] <= info.high);
+            }
+        }
+    }
+    const auto value = [&](const char* wanted) {
+        EspParamInfo info{};
+        for (uint32_t i = 0; espParamInfo(editor.work.context.get(), grammars[0].id, i, &info) == ESP_OK; ++i)
+            if (std::string(info.name) == wanted) return info.value[0];
+        return -1.f;
+    };
+    const float leaf = value("leafSize"), twig = value("twigLength");
+    pressWidget(editor, "panel", {0, "##presets"});
+    pressWidget(editor, "##Combo_00", {"shipped", "Lush"});
+    CHECK(value("leafSize") > leaf);
+    CHECK(value("twigLength") > twig);
+    CHECK(editor.work.document->undoSteps() == 1);
+    CHECK(contains(editor.work.document->undoName(), "Values of ivy"));
+    editor.undo();
+    CHECK(value("leafSize") == leaf);
+    CHECK(value("twigLength") == twig);
 }
