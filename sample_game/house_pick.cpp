@@ -92,8 +92,9 @@ float meet(const Ray& ray, const House& house, const EspHouseInfo& info, bool sl
 
 }  // namespace
 
-std::optional<HouseHit> Workspace::meetHouse(const Ray& ray, float before) const {
+std::optional<HouseHit> Workspace::meetHouse(const Ray& ray, float before, bool generous) const {
     for (const bool sloped : {true, false}) {
+        if (!sloped && !generous) break;
         HouseHit best{0, before};
         for (uint32_t i = 0; i < espHouseCount(context.get()); ++i) {
             EspHouseInfo info;

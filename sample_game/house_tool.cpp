@@ -23,19 +23,55 @@ using espalier::scene::ringOf;
 
 constexpr float kCornerReach = 11, kEdgeReach = 8, kMergeReach = 6, kTremble = 4;  // pixels at 96 dpi
 constexpr ImU32 kOutline = IM_COL32(255, 255, 255, 230), kChosen = IM_COL32(255, 170, 50, 255),
-                kGable = IM_COL32(250, 220, 90, 255), kEave = IM_COL32(110, 210, 255, 255);
+                kGable = IM_COL32(250, 220, 90, 255), kEave = IM_COL32(110, 210, 255, 255),
+                kShade = IM_COL32(0, 0, 0, 140);
+constexpr float kOwnDepth = .3f;  // metres of a wall or roof that an outline along it isn't hidden by
+constexpr int kDashes = 16;       // of an edge
 
-// The corners of the chosen house at its eaves, in the window; empty where a corner is behind the camera.
+ImU32 dimmed(ImU32 colour) {
+    return (colour & ~IM_COL32_A_MASK) | 120u << IM_COL32_A_SHIFT;
+}
+
+// The corners of the house at its eaves.
+std::vector<glm::vec3> eavesOf(const Workspace& work, const House& house) {
+    std::vector<glm::vec3> eaves;
+    EspHouseInfo info;
+    if (espHouseInfo(work.context.get(), house.index, &info) != ESP_OK) return eaves;
+    for (const auto& corner : house.corners) eaves.emplace_back(corner[0], info.eaveHeight, corner[1]);
+    return eaves;
+}
+
+// Those in the window; empty where a corner is behind the camera.
 std::vector<glm::vec2> outline(const Workspace& work, const House& house) {
     std::vector<glm::vec2> points;
-    EspHouseInfo info;
-    if (espHouseInfo(work.context.get(), house.index, &info) != ESP_OK) return points;
-    for (const auto& corner : house.corners) {
-        const auto at = work.place({corner[0], info.eaveHeight, corner[1]});
+    for (const glm::vec3 corner : eavesOf(work, house)) {
+        const auto at = work.place(corner);
         if (!at) return {};
         points.push_back(*at);
     }
     return points;
+}
+
+// By a house, its own too, or by a surface.
+bool hidden(const Workspace& work, glm::vec3 point) {
+    const glm::vec3 to = point - work.camera.eye();
+    const float distance = glm::length(to), nearly = std::min(.97f * distance, distance - kOwnDepth);
+    if (nearly <= 0) return false;
+    return work.meetHouse({work.camera.eye(), to / distance}, nearly, false) || !work.visible(point);
+}
+
+// What is hidden is dashed, and fainter.
+void drawEdge(const Workspace& work, glm::vec3 from, glm::vec3 to, ImU32 colour) {
+    const float s = work.scale;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const auto at = [&](int piece) { return glm::mix(from, to, float(piece) / (2 * kDashes)); };
+    for (int i = 0; i < 2 * kDashes; i += 2) {
+        const bool faint = hidden(work, at(i + 1));
+        const auto a = work.place(at(i)), b = work.place(at(faint ? i + 1 : i + 2));
+        if (!a || !b) continue;
+        if (!faint) list.AddLine({a->x, a->y}, {b->x, b->y}, kShade, 4 * s);
+        list.AddLine({a->x, a->y}, {b->x, b->y}, faint ? dimmed(colour) : colour, 2 * s);
+    }
 }
 
 // Edges from `first` on have another number now.
@@ -145,7 +181,11 @@ void HouseTool::cancel(Workspace& work) {
 }
 
 void HouseTool::removeCorner(Workspace& work) {
-    if (!work.house || !work.houseEdge) return;
+    if (!work.house || !work.houseEdge) {
+        work.message = work.house ? "Click an edge of the outline: Del takes away the corner where it begins"
+                                  : "Click a house, then an edge: Del takes away the corner where it begins";
+        return;
+    }
     House house = houseNow(work.context.get(), *work.house);
     const uint32_t corner = *work.houseEdge;
     if (corner >= house.corners.size()) return;
@@ -181,21 +221,23 @@ void HouseTool::draw(const Workspace& work) const {
     if (!work.house) return;
     const House house = houseNow(work.context.get(), *work.house);
     const std::vector<glm::vec2> points = outline(work, house);
+    const std::vector<glm::vec3> eaves = eavesOf(work, house);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float s = work.scale;
     for (size_t i = 0; i < points.size(); ++i) {
-        const glm::vec2 a = points[i], b = points[ringOf(house, i).after(i)];
         const auto own = std::find_if(house.edges.begin(), house.edges.end(),
                                       [&](const House::Edge& edge) { return edge.edge == i; });
         ImU32 colour = kOutline;
         if (own != house.edges.end() && own->end == "gable") colour = kGable;
         if (own != house.edges.end() && own->end == "eave") colour = kEave;
-        list.AddLine({a.x, a.y}, {b.x, b.y}, IM_COL32(0, 0, 0, 140), 4 * s);
-        list.AddLine({a.x, a.y}, {b.x, b.y}, work.houseEdge == uint32_t(i) ? kChosen : colour, 2 * s);
+        if (work.houseEdge == uint32_t(i)) colour = kChosen;
+        drawEdge(work, eaves[i], eaves[ringOf(house, i).after(i)], colour);
     }
     for (size_t i = 0; i < points.size(); ++i) {
-        list.AddCircleFilled({points[i].x, points[i].y}, 6 * s, IM_COL32(0, 0, 0, 160));
-        list.AddCircleFilled({points[i].x, points[i].y}, 4.5f * s, corner_ && work.houseEdge == i ? kChosen : kOutline);
+        const ImU32 colour = corner_ && work.houseEdge == i ? kChosen : kOutline;
+        const bool faint = hidden(work, eaves[i]);
+        list.AddCircleFilled({points[i].x, points[i].y}, 6 * s, faint ? dimmed(kShade) : kShade);
+        list.AddCircleFilled({points[i].x, points[i].y}, 4.5f * s, faint ? dimmed(colour) : colour);
     }
     if (!work.houseEdge || *work.houseEdge >= points.size()) return;
     noteLength(work, house, points, *work.houseEdge);

@@ -49,6 +49,14 @@ void pitch(Workspace& work, Edit& edit, const char* label, float& slope) {
     ImGui::PopID();
 }
 
+// Another kind comes with a pitch of its own, or the plan's, unless the user has set one.
+void chooseKind(const Workspace& work, House& house, const std::string& kind) {
+    const auto& planned = work.scene().plannedRoofs[house.index];
+    const bool set = house.slope > 0 && house.slope != planned.slope;
+    if (!set && kind != house.shape) house.slope = kind == planned.shape ? planned.slope : 0;
+    house.shape = kind;
+}
+
 void edgePanel(Workspace& work, Edit& edit, House& house) {
     const uint32_t number = *work.houseEdge;
     auto own = std::find_if(house.edges.begin(), house.edges.end(),
@@ -148,7 +156,7 @@ void housesPanel(Workspace& work) {
     if (ImGui::BeginCombo("##kind", kTitles[info.shape])) {
         for (int i = 0; i < int(std::size(kTitles)); ++i)
             if (ImGui::Selectable(kTitles[i], i == int(info.shape))) {
-                house.shape = espalier::scene::nameOf(EspRoofShape(i));
+                chooseKind(work, house, espalier::scene::nameOf(EspRoofShape(i)));
                 edit.note(work, true);
             }
         ImGui::EndCombo();

@@ -215,6 +215,7 @@ TEST_CASE("Del takes away the corner where the chosen edge begins, down to three
     const House before = builder.house(index);
     const uint64_t planned = builder.roofs().hash;
     builder.key(GLFW_KEY_DELETE);  // none is chosen
+    CHECK_MESSAGE(contains(builder.work.message, "Click an edge"), builder.work.message);
     CHECK(builder.house(index) == before);
     builder.click(builder.edge(index, 1));
     builder.key(GLFW_KEY_DELETE);
@@ -327,4 +328,21 @@ TEST_CASE("a courtyard's corners are dragged, added and taken away as the outlin
     while (builder.steps() > 0) builder.undo();
     CHECK(builder.house(0) == before);
     CHECK(builder.roofs().hash == planned.hash);
+}
+
+TEST_CASE("what is hidden of an outline is fainter than what is seen") {
+    const Folder folder;
+    Builder builder(folder);
+    const uint32_t index = builder.named("pyramid");
+    builder.choose(index);
+    builder.key(GLFW_KEY_F);
+    const auto faint = [&] {
+        builder.mouse = {0, 0};
+        builder.frame({});
+        const auto& drawn = ImGui::GetBackgroundDrawList()->VtxBuffer;
+        return std::ranges::count_if(drawn, [](const ImDrawVert& v) { return v.col >> IM_COL32_A_SHIFT == 120; });
+    };
+    CHECK(faint() == 0);  // from above
+    builder.work.camera.turnTo(.7f, -.05f);
+    CHECK(faint() > 0);  // the far side lies behind the roof
 }

@@ -60,6 +60,11 @@ bool loadTown(EspContext* context, Scene& out, std::string& error) {
     def.ground = town.ground ? 1 : 0;
     if (town.groundColour) std::copy(town.groundColour->begin(), town.groundColour->end(), def.groundColour);
     if (!fromContext(context, espLoadTown(context, &def), error)) return false;
+    out.plannedRoofs.clear();
+    for (uint32_t i = 0; i < espHouseCount(context); ++i) {
+        const House house = houseNow(context, i);
+        out.plannedRoofs.push_back({house.shape, house.slope});
+    }
     if (!changeHouses(context, out, error)) return false;
     if (setTownGrammar(context, out, error)) return true;
     error = town.file + ": its houses have no roofs: " + error;

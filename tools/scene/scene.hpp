@@ -106,7 +106,12 @@ struct Scene {
     std::vector<LoadedGrammar> grammars;
     std::vector<Seed> seeds;
     std::optional<SceneTown> town;
-    std::string site;  // file of what furnishes it; empty: nothing does
+    struct PlannedRoof {
+        std::string shape;
+        float slope = 0;
+    };
+    std::vector<PlannedRoof> plannedRoofs;  // [house] as the town's file says
+    std::string site;                       // file of what furnishes it; empty: nothing does
     EspGrowDef grow = espDefaultGrowDef();
     std::vector<std::string> layers;  // that grammars read; then those that are painted and that none reads any more
     std::vector<std::string> colourLayers;  // those of them that are colours (tools/scene/layers.hpp)
