@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <regex>
 #include <sstream>
 
 namespace sample {
@@ -15,6 +16,8 @@ Remark remarkOf(const std::string& line, const std::string& file) {
         remark.line = std::atoi(rest.c_str());
         remark.text = remark.line > 0 ? "line " + rest : rest;
     }
+    static const std::regex kRule(R"((:\d+: (?:warning: )?)([A-Za-z_]\w*): )");
+    remark.text = std::regex_replace(remark.text, kRule, "$1in '$2': ", std::regex_constants::format_first_only);
     // Behind the place, before what might be quoted.
     const size_t word = line.find(": warning: ");
     remark.warning = word != std::string::npos && line.find('\'') > word;

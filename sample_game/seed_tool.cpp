@@ -79,12 +79,12 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
         drag_ = Drag::move;
         return;
     }
-    if (arrowAt(work, at)) {
-        drag_ = Drag::turn;
+    if (event.mods & GLFW_MOD_SHIFT) {  // wherever it begins
+        drag_ = Drag::box;
         return;
     }
-    if (event.mods & GLFW_MOD_SHIFT) {
-        drag_ = Drag::box;
+    if (arrowAt(work, at)) {
+        drag_ = Drag::turn;
         return;
     }
     work.selected.clear();
@@ -223,7 +223,10 @@ void SeedTool::remove(Workspace& work) {
     RemoveSeeds action;
     for (const Seed& seed : work.scene().seeds)
         if (work.selected.count(seed.key)) action.keys.push_back(seed.key);
-    if (!action.keys.empty()) work.perform(action);
+    if (action.keys.empty())
+        work.message = "No seed is chosen: click one";
+    else
+        work.perform(action);
     work.selected.clear();
 }
 

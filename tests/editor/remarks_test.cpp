@@ -60,6 +60,9 @@ TEST_CASE("remarks on files that are included, or on no place, have no line of t
     CHECK(remarks[0].text.starts_with("prelude.grammar:4:1:"));
     CHECK(remarks[1].line == 0);
     CHECK(remarks[2].line == 3);
+    CHECK(remarks[2].text == "line 3:7: in 'Ivy': expected ')'");
+    CHECK(remarks[3].text == "line 12:3: warning: in 'Ivy': later rules stay unused");
+    CHECK(remarks[0].text == "prelude.grammar:4:1: in 'Twig': 'x: warning: y' is not known");
     CHECK(remarks[3].line == 12);
     CHECK(remarks[3].warning);
 }

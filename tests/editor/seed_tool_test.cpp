@@ -226,6 +226,18 @@ TEST_CASE("a drag moves what is chosen as one step, a single seed onto the surfa
     CHECK(gardener.steps() == steps);
 }
 
+TEST_CASE("Shift and a drag choose also where they begin on an arrow") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t key = gardener.plant(gardener.onWall(-1.1f, 1));
+    const SeedRecord before = gardener.seed(key);
+    const glm::vec2 tip = gardener.at(vec(before.position) + .3f * glm::normalize(vec(before.direction)));
+    gardener.drag(tip, tip + glm::vec2(60, 40), GLFW_MOD_SHIFT);
+    CHECK(gardener.seed(key) == before);
+    CHECK(gardener.steps() == 1);
+    CHECK(gardener.work.selected == Keys{key});
+}
+
 TEST_CASE("the arrow of a chosen seed, dragged, and R turn what is chosen to where the mouse points") {
     const Folder folder;
     Gardener gardener(folder);
@@ -359,6 +371,7 @@ TEST_CASE("Del and X remove what is chosen, and undo brings all of it back") {
         CHECK(gardener.seeds() == before);
     }
     gardener.key(GLFW_KEY_DELETE);  // nothing is chosen
+    CHECK(gardener.work.message == "No seed is chosen: click one");
     CHECK(gardener.steps() == steps);
 }
 
