@@ -153,8 +153,7 @@ TEST_CASE("Esc puts off what waits, but not the Esc that was pressed before it w
     CHECK(autosavesIn(folder.path / "config").size() == 1);
 }
 
-// The next one would take its place.
-TEST_CASE("a project's own autosave is decided on at once") {
+TEST_CASE("a project's own autosave can wait, too, until the project is saved") {
     const Folder folder;
     const std::string garden = folder.file("garden");
     {
@@ -163,14 +162,43 @@ TEST_CASE("a project's own autosave is decided on at once") {
     }
     crash(folder, garden, .25f);
     REQUIRE(autosavesIn(garden).size() == 1);
-    Dialogue dialogue(folder, garden);
-    REQUIRE(dialogue.asks());
-    dialogue.press("Decide later");
-    ImGui::GetIO().KeysDown[ImGuiKey_Escape] = true;
-    dialogue.frame({});
-    dialogue.frame({});
-    CHECK(dialogue.asks());
-    CHECK(autosavesIn(garden).size() == 1);
+    std::string offered;
+    {
+        Dialogue dialogue(folder, garden);
+        REQUIRE(dialogue.asks());
+        offered = dialogue.session.recovery();
+        dialogue.press("Decide later");
+        CHECK(!dialogue.asks());
+        dialogue.fill(.75f);
+        dialogue.wait();  // kept elsewhere
+        CHECK(autosavesIn(folder.path / "config").size() == 1);
+        dialogue.undo();
+        dialogue.wait();  // nothing of its own is to be kept
+        CHECK(autosavesIn(folder.path / "config").size() == 0);
+        CHECK(autosavesIn(garden) == std::vector{offered});
+        dialogue.fill(.5f);
+        dialogue.wait();
+        CHECK(autosavesIn(garden) == std::vector{offered});
+        CHECK(autosavesIn(folder.path / "config").size() == 1);
+    }
+    {
+        Dialogue again(folder, garden);
+        REQUIRE(again.asks());
+        CHECK(again.session.recovery() == offered);
+        ImGui::GetIO().KeysDown[ImGuiKey_Escape] = true;  // later
+        for (int i = 0; i < 3; ++i) again.frame({});
+        ImGui::GetIO().KeysDown[ImGuiKey_Escape] = false;
+        CHECK(again.session.holdsBack());
+        again.fill(1);
+        CHECK(!sample::askToSave(again.work, again.session));  // that it would go is asked about
+        CHECK_MESSAGE(contains(sample::dialogues().why, "left unsaved"), sample::dialogues().why);
+        CHECK(autosavesIn(garden) == std::vector{offered});
+        CHECK(again.save(garden));
+        CHECK(!again.session.holdsBack());
+        again.fill(.25f);
+        again.wait();  // in the project again
+        CHECK(autosavesIn(garden) == std::vector{offered});
+    }
 }
 
 TEST_CASE("each widget of a house's panel does what it says, as one step of undo") {
@@ -181,8 +209,11 @@ TEST_CASE("each widget of a house's panel does what it says, as one step of undo
     size_t before = steps();
     const auto oneStep = [&] { return steps() == ++before; };
 
+    const float planned = panel.house().slope;
+    REQUIRE(planned > 0);
     panel.choose({"##kind"}, "Gambrel");
     CHECK(panel.house().shape == "gambrel");
+    CHECK(panel.house().slope == 0);  // the kind's own
     CHECK(oneStep());
     panel.choose({"Covering", "##choice"}, "Slate");
     CHECK(panel.house().look->covering == "slate");
@@ -200,12 +231,11 @@ TEST_CASE("each widget of a house's panel does what it says, as one step of undo
     panel.press({"Overhang"});
     CHECK(panel.house().look->overhang == .4f);
     CHECK(oneStep());
-    REQUIRE(panel.house().slope > 0);  // as it was planned
-    panel.press({"Pitch", "Pitch"});
-    CHECK(panel.house().slope == 0);
-    CHECK(oneStep());
     panel.press({"Pitch", "Pitch"});
     CHECK(panel.house().slope > 0);
+    CHECK(oneStep());
+    panel.press({"Pitch", "Pitch"});
+    CHECK(panel.house().slope == 0);
     CHECK(oneStep());
     CHECK(panel.work.error == "");
 
@@ -217,6 +247,41 @@ TEST_CASE("each widget of a house's panel does what it says, as one step of undo
     panel.undo();
     CHECK(panel.house().shape == "gambrel");
     CHECK(panel.house().look->covering == "slate");
+}
+
+TEST_CASE("another kind of roof has a pitch of its own, or the plan's, unless the user has set one") {
+    const Folder folder;
+    HousePanel panel(folder);
+    const House planned = panel.house();
+    REQUIRE(planned.slope > 0);
+    REQUIRE(planned.shape == "gable");
+    panel.choose({"##kind"}, "Mansard");
+    CHECK(panel.house().shape == "mansard");
+    CHECK(panel.house().slope == 0);
+    EspHouseInfo own;
+    REQUIRE(espHouseInfo(panel.work.context.get(), 0, &own) == ESP_OK);
+    House kept = planned;
+    kept.shape = "mansard";
+    REQUIRE(panel.work.perform(SetHouse{kept}));
+    EspHouseInfo before;
+    REQUIRE(espHouseInfo(panel.work.context.get(), 0, &before) == ESP_OK);
+    CHECK(own.ridgeHeight != doctest::Approx(before.ridgeHeight));
+    panel.undo();
+
+    panel.choose({"##kind"}, "Gable");
+    CHECK(panel.house() == planned);
+    panel.undo();
+    panel.undo();
+    CHECK(panel.house() == planned);
+    CHECK(panel.work.document->undoSteps() == 0);
+
+    House steep = planned;
+    steep.slope = 1.5f;
+    REQUIRE(panel.work.perform(SetHouse{steep}));
+    for (const char* kind : {"Mansard", "Hip", "Gable"}) {
+        panel.choose({"##kind"}, kind);
+        CHECK(panel.house().slope == 1.5f);
+    }
 }
 
 TEST_CASE("an edge's end and pitch are its own") {
@@ -277,4 +342,52 @@ TEST_CASE("buttons that have nothing to act on do nothing, even if they are pres
     for (const char* button : {"Freeze plant", "Prune  Del"}) pressWidget(editor, "panel", {button});
     pressWidget(editor, "###grammar", {"Take from file"});
     CHECK(editor.work.document->undoSteps() == 0);
+}
+
+TEST_CASE("words that there is no room for end in an ellipsis, between letters, and their widget works all the same") {
+    const Folder folder;
+    Editor editor(folder, smallScene(folder), sample::Tool::look);
+    const std::string words = "Gr\u00fc\u00dfe aus G\u00fctersloh";
+    bool on = false;
+    editor.panels = [&] {
+        ImGui::SetNextWindowSize({90, 200});
+        ImGui::Begin("panel");
+        const float whole = ImGui::CalcTextSize(words.c_str()).x;
+        CHECK(sample::shortened(words, whole) == words);
+        for (float room = whole - 1; room > 20; room -= 5) {
+            const std::string shown = sample::shortened(words, room);
+            CHECK(ImGui::CalcTextSize(shown.c_str()).x <= room);
+            REQUIRE(shown.ends_with("\u2026"));
+            CHECK(words.starts_with(shown.substr(0, shown.size() - 3)));
+            CHECK((shown.size() < 4 || (words[shown.size() - 3] & 0xC0) != 0x80));
+        }
+        CHECK(sample::shortened(words, 0) == "\u2026");
+        (void)sample::checkBox(words.c_str(), &on);
+        ImGui::End();
+    };
+    for (int i = 0; i < 3; ++i) editor.frame({});
+    pressWidget(editor, "panel", {("###" + words).c_str()});
+    CHECK(on);
+}
+
+TEST_CASE("light and view stand before what grammars have, with every tool") {
+    const Folder folder;
+    Editor editor(folder, smallScene(folder), sample::Tool::look);
+    editor.panels = [&] { sample::showPanel(editor.work); };
+    const auto heightOf = [&](ImGuiID id) {
+        for (editor.mouse = {60, 0}; editor.mouse.y < editor.work.window.y; editor.mouse.y += 3) {
+            editor.frame({});
+            if (ImGui::GetCurrentContext()->HoveredId == id) return editor.mouse.y;
+        }
+        FAIL("it isn't in the panel");
+        return 0.f;
+    };
+    for (const sample::Tool tool : {sample::Tool::look, sample::Tool::seeds, sample::Tool::branch}) {
+        editor.work.choose(tool);
+        for (int i = 0; i < 3; ++i) editor.frame({});
+        const char* group = tool == sample::Tool::look ? "look" : "tool";
+        const float light = heightOf(widget("Espalier", {group, "Light and view"}));
+        CHECK(light < 90);
+        CHECK(light < heightOf(widget("Espalier", {0, "###ivy_guided"})));
+    }
 }
