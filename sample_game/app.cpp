@@ -172,7 +172,7 @@ bool App::replay(std::vector<InputEvent>& events) {
     if (!ends && replay_.step(work_, glfwGetTime())) return true;
     flags &= ~ImGuiConfigFlags_NoMouse;
     session_.endReplay();
-    if (options_.frames) session_.forgetRecovery(false);
+    if (options_.frames) session_.forgetRecovery(false), session_.givesUp = true;  // nobody is there to be asked
     return true;
 }
 

@@ -16,6 +16,7 @@ using espalier::scene::ringOf;
 constexpr float kMissed = 1e30f;
 constexpr int kSteps = 96;  // through a house's box
 constexpr float kUsualSlope = 1;
+constexpr float kOwnDepth = .3f;  // metres of a wall or roof that what lies on it isn't hidden by
 
 // Where along the ray the box begins and ends; a ray that starts inside meets it at 0.
 bool crossBox(const Ray& ray, const float low[3], const float high[3], float& first, float& last) {
@@ -92,9 +93,8 @@ float meet(const Ray& ray, const House& house, const EspHouseInfo& info, bool sl
 
 }  // namespace
 
-std::optional<HouseHit> Workspace::meetHouse(const Ray& ray, float before, bool generous) const {
+std::optional<HouseHit> Workspace::meetHouse(const Ray& ray, float before) const {
     for (const bool sloped : {true, false}) {
-        if (!sloped && !generous) break;
         HouseHit best{0, before};
         for (uint32_t i = 0; i < espHouseCount(context.get()); ++i) {
             EspHouseInfo info;
@@ -108,6 +108,26 @@ std::optional<HouseHit> Workspace::meetHouse(const Ray& ray, float before, bool 
         if (best.distance < before) return best;
     }
     return {};
+}
+
+std::vector<bool> Workspace::hidden(const std::vector<glm::vec3>& points) const {
+    glm::vec3 low = camera.eye(), high = low;
+    for (const glm::vec3& point : points) low = glm::min(low, point), high = glm::max(high, point);
+    std::vector<std::pair<House, EspHouseInfo>> between;
+    for (uint32_t i = 0; i < espHouseCount(context.get()); ++i)
+        if (EspHouseInfo info; espHouseInfo(context.get(), i, &info) == ESP_OK &&
+                               glm::all(glm::lessThanEqual(vec(info.boundsMin), high)) &&
+                               glm::all(glm::greaterThanEqual(vec(info.boundsMax), low)))
+            between.emplace_back(houseNow(context.get(), i), info);
+    std::vector<bool> found;
+    for (const glm::vec3& point : points) {
+        const glm::vec3 to = point - camera.eye();
+        const float distance = glm::length(to), nearly = std::min(.97f * distance, distance - kOwnDepth);
+        const Ray ray{camera.eye(), to / std::max(distance, 1e-6f)};
+        const auto hides = [&](const auto& one) { return meet(ray, one.first, one.second, true) < nearly; };
+        found.push_back(nearly > 0 && (!visible(point) || std::ranges::any_of(between, hides)));
+    }
+    return found;
 }
 
 std::optional<uint32_t> Workspace::pickHouse(glm::vec2 at) const {

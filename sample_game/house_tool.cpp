@@ -25,8 +25,7 @@ constexpr float kCornerReach = 11, kEdgeReach = 8, kMergeReach = 6, kTremble = 4
 constexpr ImU32 kOutline = IM_COL32(255, 255, 255, 230), kChosen = IM_COL32(255, 170, 50, 255),
                 kGable = IM_COL32(250, 220, 90, 255), kEave = IM_COL32(110, 210, 255, 255),
                 kShade = IM_COL32(0, 0, 0, 140);
-constexpr float kOwnDepth = .3f;  // metres of a wall or roof that an outline along it isn't hidden by
-constexpr int kDashes = 16;       // of an edge
+constexpr int kDashes = 16;  // of an edge
 
 ImU32 dimmed(ImU32 colour) {
     return (colour & ~IM_COL32_A_MASK) | 120u << IM_COL32_A_SHIFT;
@@ -52,22 +51,20 @@ std::vector<glm::vec2> outline(const Workspace& work, const House& house) {
     return points;
 }
 
-// By a house, its own too, or by a surface.
-bool hidden(const Workspace& work, glm::vec3 point) {
-    const glm::vec3 to = point - work.camera.eye();
-    const float distance = glm::length(to), nearly = std::min(.97f * distance, distance - kOwnDepth);
-    if (nearly <= 0) return false;
-    return work.meetHouse({work.camera.eye(), to / distance}, nearly, false) || !work.visible(point);
+// Of an edge, where it is decided whether a dash of it is hidden.
+glm::vec3 dashOf(glm::vec3 from, glm::vec3 to, float dash) {
+    return glm::mix(from, to, dash / kDashes);
 }
 
-// What is hidden is dashed, and fainter.
-void drawEdge(const Workspace& work, glm::vec3 from, glm::vec3 to, ImU32 colour) {
+// What is hidden, by the flags of its dashes, has gaps and is fainter.
+void drawEdge(const Workspace& work, glm::vec3 from, glm::vec3 to, ImU32 colour,
+              std::vector<bool>::const_iterator hidden) {
     const float s = work.scale;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const auto at = [&](int piece) { return glm::mix(from, to, float(piece) / (2 * kDashes)); };
-    for (int i = 0; i < 2 * kDashes; i += 2) {
-        const bool faint = hidden(work, at(i + 1));
-        const auto a = work.place(at(i)), b = work.place(at(faint ? i + 1 : i + 2));
+    for (int i = 0; i < kDashes; ++i) {
+        const bool faint = hidden[i];
+        const auto a = work.place(dashOf(from, to, float(i)));
+        const auto b = work.place(dashOf(from, to, float(i) + (faint ? .5f : 1)));
         if (!a || !b) continue;
         if (!faint) list.AddLine({a->x, a->y}, {b->x, b->y}, kShade, 4 * s);
         list.AddLine({a->x, a->y}, {b->x, b->y}, faint ? dimmed(colour) : colour, 2 * s);
@@ -222,6 +219,11 @@ void HouseTool::draw(const Workspace& work) const {
     const House house = houseNow(work.context.get(), *work.house);
     const std::vector<glm::vec2> points = outline(work, house);
     const std::vector<glm::vec3> eaves = eavesOf(work, house);
+    std::vector<glm::vec3> places = eaves;  // then of each edge's dashes
+    for (size_t i = 0; i < eaves.size(); ++i)
+        for (int dash = 0; dash < kDashes; ++dash)
+            places.push_back(dashOf(eaves[i], eaves[ringOf(house, i).after(i)], float(dash) + .5f));
+    const std::vector<bool> hidden = work.hidden(places);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float s = work.scale;
     for (size_t i = 0; i < points.size(); ++i) {
@@ -231,11 +233,12 @@ void HouseTool::draw(const Workspace& work) const {
         if (own != house.edges.end() && own->end == "gable") colour = kGable;
         if (own != house.edges.end() && own->end == "eave") colour = kEave;
         if (work.houseEdge == uint32_t(i)) colour = kChosen;
-        drawEdge(work, eaves[i], eaves[ringOf(house, i).after(i)], colour);
+        drawEdge(work, eaves[i], eaves[ringOf(house, i).after(i)], colour,
+                 hidden.begin() + std::ptrdiff_t(eaves.size() + i * kDashes));
     }
     for (size_t i = 0; i < points.size(); ++i) {
         const ImU32 colour = corner_ && work.houseEdge == i ? kChosen : kOutline;
-        const bool faint = hidden(work, eaves[i]);
+        const bool faint = hidden[i];
         list.AddCircleFilled({points[i].x, points[i].y}, 6 * s, faint ? dimmed(kShade) : kShade);
         list.AddCircleFilled({points[i].x, points[i].y}, 4.5f * s, faint ? dimmed(colour) : colour);
     }

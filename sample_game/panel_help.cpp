@@ -18,8 +18,8 @@ void showHelp(Workspace& work) {
                           {"W A S D, mouse", "walk and look (game); G flies, Space jumps, Shift runs"},
                           {"Middle drag, Alt+drag", "turn around; with Shift sideways"},
                           {"Right drag", "look around; with W A S D Q E fly, the wheel sets how fast"},
-                          {"Wheel", "nearer, further"},
-                          {"Home", "show everything"},
+                          {"Wheel", "to and from what the mouse points at"},
+                          {"Home", "show all that plants grow on"},
                           {"F or numpad .", "show what is chosen; with the brush in hand numpad . only"},
                           {"Numpad 1 3 7", "from the front, the right, above; Ctrl: the other side"},
                           {"Numpad 2 4 6 8, + -", "turn by 15 degrees, nearer, further"}};

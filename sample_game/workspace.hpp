@@ -147,8 +147,9 @@ struct Workspace {
     void pickBranch(glm::vec2 at);
     void pointAtBranch(std::optional<glm::vec2> at);  // nothing: the mouse isn't over the scene
     void pickParent();                                // the branch that the picked one leaves from
-    // generous: one that the ray misses by little, below its ridge, is met where no other is.
-    std::optional<HouseHit> meetHouse(const Ray& ray, float before, bool generous = true) const;
+    std::optional<HouseHit> meetHouse(const Ray& ray, float before) const;
+    // Each of the points: a house hides it, if only by a roof that it lies behind, or a surface does.
+    std::vector<bool> hidden(const std::vector<glm::vec3>& points) const;
     std::optional<uint32_t> pickHouse(glm::vec2 at) const;
     // What stops who walks: surfaces, houses and the ground; see Meets.
     bool meets(const Ray& ray, float reach, EspHit& met) const;

@@ -70,3 +70,23 @@ TEST_CASE(
     CHECK(shown == 12);
     CHECK(host.validationMessages() == 0);
 }
+
+TEST_CASE("a run that is shown for some frames only leaves nothing behind to be recovered") {
+    if (run("command -v xvfb-run").code != 0) {
+        MESSAGE("xvfb-run isn't installed; skipped");
+        return;
+    }
+    const Folder folder;
+    const std::string shown = folder.write("run.jsonl", R"({"espalier_run":1,"scene":")" + content("guided.json") +
+                                                            R"(","width":64,"height":36,"step":0.01}
+{"frame":0,"fill":{"layer":"mask","value":0}}
+{"frame":1,"light":{"hour":12,"exposure":0,"shadows":false}}
+)");
+    const std::string home = "HOME=" + folder.path.string() + " XDG_CONFIG_HOME=" + folder.file("config") + " ";
+    const Ran ran = runOnDisplay("640x480", home + program("espalier-sample") + " " + shown +
+                                                " --editor --size 320x240 --autosave 1 --frames 12");
+    CHECK_MESSAGE(ran.code == 0, ran.output);
+    std::error_code none;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path / "config", none))
+        CHECK_MESSAGE(entry.path().filename() != "autosave.json", entry.path().string());
+}
