@@ -19,7 +19,7 @@ float cutoffOf(float fade) {
 }
 
 void main() {
-    vec4 texel = texture(colorMap, uvShare.xy);
+    vec4 texel = texture(colorMap, uvShare.xy, -1.0);
     CUT_OUT(texel.a, cutoffOf(fade), 0u)
     color = stored(toneMapped(texelColor(texel.rgb) * light), uvShare.z);
     if (explains)

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // Leaves of trees and bushes on cards, and blades of grass: lit at each vertex. A card's normals point out of its crown, so
-// that the crown has one light and one dark side; the whole part of its texture u is how deep in the crown it lies, in
+// that a crown and its lobes have light and dark sides; the whole part of texture u is how open a corner lies, in
 // eighths, 8 being outside; where its v is negative, the whole part is where the card faces: seen from its edge, when it
 // would be a line, its leaves shrink away.
 #include "shaders/render/light.glsl"
@@ -14,11 +14,11 @@ layout(location = 1) out vec3 light;     // on a texel's colour; in the view of 
 layout(location = 2) flat out float fade;
 layout(location = 3) flat out float shown;   // of its leaves
 
-// code: of the card; twigs of one tree differ a little.
-vec3 foliageColor(PropVertex v, float code) {
+// Twigs of one tree differ a little.
+vec3 foliageColor(PropVertex v) {
     vec3 young = vec3(1.16, 1.06, 0.72), old = vec3(0.80, 0.92, 0.92);
-    float own = fract(code * 0.618034) - 0.5;
-    return push.baseColor.rgb * mix(old, young, clamp(v.tint + 0.5 * own, 0.0, 1.0)) * (1.0 + 0.3 * own);
+    float own = fract(max(v.code, 0.0) * 0.618034) - 0.5;
+    return push.baseColor.rgb * mix(old, young, clamp(v.tint + 0.5 * own, 0.0, 1.0)) * (1.0 + 0.2 * own);
 }
 // What a card's code says, in the model's space; either side.
 vec3 cardNormal(float code) {
@@ -37,19 +37,17 @@ vec3 grassColor(PropVertex v) {
 
 void main() {
     PropVertex v = propVertex(uint(gl_VertexIndex), push.firstInstance + uint(gl_InstanceIndex));
-    bool grass = push.grass != 0u, card = v.uv.y < 0.0;
-    float code = card ? -1.0 - floor(v.uv.y) : 0.0;
-    v.uv.y -= card ? floor(v.uv.y) : 0.0;
+    bool grass = push.grass != 0u;
     vec3 eye = normalize(frame.eye - v.position);
-    shown = card ? smoothstep(0.06, 0.42, abs(dot(turned(v, cardNormal(code)), eye))) : 1.0;
-    float open = grass ? 0.72 + 0.28 * v.uv.x : floor(v.uv.x) * 0.125;
+    shown = v.code < 0.0 ? 1.0 : smoothstep(0.06, 0.42, abs(dot(turned(v, cardNormal(v.code)), eye)));
+    float open = grass ? 0.72 + 0.28 * v.uv.x : v.open;
     float side = dot(v.normal, frame.sunDirection);
     // Light gets some way into a crown.
     float into = grass ? 0.0 : 0.9 * frame.unit;
-    float visible = mix(grass ? 0.0 : 0.14 + 0.30 * open, 1.0, sunVisibility(v.position + frame.sunDirection * into, v.normal));
+    float visible = mix(grass ? 0.0 : 0.22 + 0.30 * open, 1.0, sunVisibility(v.position + frame.sunDirection * into, v.normal));
     // Leaves turn every way: what falls on a crown's far side comes through, the more the thinner it is.
-    float facing = clamp(0.40 + 0.60 * side, 0.20, 1.0);
-    vec3 tone = grass ? grassColor(v) : foliageColor(v, code);
+    float facing = clamp(0.42 + 0.58 * side, 0.24, 1.0);
+    vec3 tone = grass ? grassColor(v) : foliageColor(v);
     vec3 direct = frame.sunColor * (visible * facing * (0.45 + 0.55 * open));
     // Against the sun, leaves glow.
     if (!grass) direct *= 1.0 + vec3(0.9, 0.7, 0.1) * pow(max(dot(-eye, frame.sunDirection), 0.0), 3.0);

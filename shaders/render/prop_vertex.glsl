@@ -11,6 +11,8 @@ layout(set = 0, binding = 11) uniform usamplerBuffer meshes;      // two words a
 struct PropVertex {
     vec3 position, normal;
     vec2 uv;
+    float open;   // 0 to 1, of foliage: what its texture u carries, see foliage.vert
+    float code;   // of a card: where it faces; -1: none
     float tint, fade;
     vec2 turn;   // PropInstance::turn
 };
@@ -28,6 +30,10 @@ PropVertex propVertex(uint vertex, uint instance) {
     v.position = uintBitsToFloat(a.xyz) + turned(v, at);
     v.normal = turned(v, n);
     v.uv = uintBitsToFloat(texelFetch(meshes, int(3u * vertex + 2u)).xy);
+    bool card = v.uv.y < 0.0;
+    v.open = floor(v.uv.x) * 0.125;
+    v.code = card ? -1.0 - floor(v.uv.y) : -1.0;
+    v.uv = card ? fract(v.uv) : v.uv;
     v.tint = uintBitsToFloat(b.z);
     v.fade = uintBitsToFloat(b.w);
     return v;

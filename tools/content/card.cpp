@@ -21,8 +21,7 @@ float facingCode(glm::vec3 n) {
 
 }  // namespace
 
-void addCard(Mesh& mesh, glm::vec3 at, glm::vec3 out, glm::vec3 up, float side, Cell cell, float open,
-             const Round& round) {
+void addCard(Mesh& mesh, glm::vec3 at, glm::vec3 out, glm::vec3 up, float side, Cell cell, const LitAt& litAt) {
     const glm::vec3 x = glm::normalize(glm::cross(up, out)), y = glm::cross(out, x);
     const uint32_t first = uint32_t(mesh.positions.size());
     const float facing = facingCode(glm::cross(x, y));
@@ -30,8 +29,9 @@ void addCard(Mesh& mesh, glm::vec3 at, glm::vec3 out, glm::vec3 up, float side, 
         const glm::vec2 c(k == 1 || k == 2 ? 1 : 0, k >= 2 ? 1 : 0);
         const glm::vec3 p = at + side * ((c.x - 0.5f) * x + (c.y - 0.5f) * y);
         mesh.positions.push_back(p);
-        mesh.normals.push_back(glm::normalize(round.normal(p) + 0.35f * out));
-        mesh.uvs.push_back(glm::vec2(std::round(open * 8), -1 - facing) + cell.low +
+        const Lit lit = litAt(p);
+        mesh.normals.push_back(lit.normal);
+        mesh.uvs.push_back(glm::vec2(std::round(lit.open * 8), -1 - facing) + cell.low +
                            cell.side * (0.02f + 0.96f * glm::vec2(c.x, 1 - c.y)));
     }
     for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);

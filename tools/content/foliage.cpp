@@ -20,55 +20,81 @@ struct Species {
     float serrated;         // of its edge
 };
 // Rows of the atlas: lime, apple, birch, shrub.
-const Species kSpecies[] = {{0.080f, 0.058f, 18, 1.25f, {0.026f, 0.050f, 0.015f}, {0.098f, 0.138f, 0.036f}, 0.05f},
-                            {0.074f, 0.042f, 19, 1.20f, {0.030f, 0.050f, 0.022f}, {0.104f, 0.130f, 0.054f}, 0.03f},
-                            {0.056f, 0.044f, 19, 1.10f, {0.034f, 0.060f, 0.017f}, {0.112f, 0.152f, 0.044f}, 0.06f},
-                            {0.066f, 0.042f, 20, 1.15f, {0.028f, 0.050f, 0.019f}, {0.096f, 0.126f, 0.042f}, 0.02f}};
+const Species kSpecies[] = {{0.080f, 0.058f, 18, 1.25f, {0.019f, 0.038f, 0.011f}, {0.116f, 0.160f, 0.042f}, 0.05f},
+                            {0.074f, 0.042f, 19, 1.20f, {0.022f, 0.037f, 0.016f}, {0.120f, 0.150f, 0.062f}, 0.03f},
+                            {0.056f, 0.044f, 19, 1.10f, {0.026f, 0.046f, 0.013f}, {0.132f, 0.176f, 0.050f}, 0.06f},
+                            {0.066f, 0.042f, 20, 1.15f, {0.021f, 0.037f, 0.014f}, {0.112f, 0.146f, 0.048f}, 0.02f}};
 
 struct Leaf {
     glm::vec2 foot, along;
-    float length, width, bright, lie;
+    float length, width, bright, lie;  // what lies higher hides the rest
 };
 
-// A twig rises through the cell, sprigs leave it to both sides, the longest in its middle, and leaves stand on these in
-// turn. What is farther out lies over the rest and is lighter. Far off many twigs are one: short sprigs all over the
-// cell.
-std::vector<Leaf> twigLeaves(const Species& s, uint32_t salt, bool far) {
+// A line of leaves.
+struct Sprig {
+    glm::vec2 root;
+    float heading, bend, reach;  // radians from up, clockwise; cells
+    float scale, bright, lie;    // of its leaves
+};
+
+// Leaves stand on it in turn, its last one on its tip. What is farther out lies over the rest and is lighter, the more
+// so the more it leads up.
+void addSprig(std::vector<Leaf>& leaves, const Species& s, const Sprig& sprig, uint32_t salt) {
+    const int count = std::max(3, int(2.5f * sprig.reach / (sprig.scale * s.length) + 0.5f));
+    for (int i = 0; i < count; ++i) {
+        const auto random = [&](uint32_t which) { return random01(salt, uint32_t(i), which); };
+        const bool last = i + 1 == count;
+        const float u = (float(i) + 0.6f * random(0) + 0.4f) / float(count), angle = sprig.heading + sprig.bend * u;
+        const glm::vec2 at = sprig.root + sprig.reach * u * glm::vec2(std::sin(angle), -std::cos(angle));
+        const float turn = angle + (last ? 0 : (i % 2 ? 0.9f : -0.9f) + 0.9f * (random(1) - 0.5f));
+        const float size = sprig.scale * (0.8f + 0.45f * random(2) - 0.15f * u);
+        const glm::vec2 along(std::sin(turn), -std::cos(turn)), tip = at + s.length * size * along;
+        if (glm::any(glm::greaterThan(glm::abs(tip - 0.5f), glm::vec2(0.48f)))) continue;
+        const float bright = sprig.bright + 0.42f * random(4) + 0.45f * u * u + 0.25f * u * std::cos(angle);
+        leaves.push_back({at, along, s.length * size, s.width * size * (0.6f + 0.4f * random(3)),
+                          glm::clamp(bright, 0.0f, 1.0f), sprig.lie + 0.7f * sprig.reach * u + 0.08f * random(5)});
+    }
+}
+
+// A twig rises through the cell, sprigs leave it to both sides, the longest in its middle.
+std::vector<Leaf> twigLeaves(const Species& s, uint32_t salt) {
     std::vector<Leaf> leaves;
-    const float scale = far ? 0.5f : 0.75f;  // of leaves
-    const int sprigs = far ? 5 * s.sprigs : 4 * s.sprigs / 3;
+    const int sprigs = 7 * s.sprigs / 4;
     const float sway = 0.16f * (random01(salt, 7) - 0.5f);
     for (int k = 0; k < sprigs; ++k) {
-        const auto ofSprig = [&](uint32_t which) { return random01(salt + 97, uint32_t(k), which); };
+        const auto random = [&](uint32_t which) { return random01(salt + 97, uint32_t(k), which); };
         const bool top = k + 1 == sprigs;
         const float t = float(k) / float(sprigs - 1), side = k % 2 ? 1.0f : -1.0f;
-        const float wide = 0.30f * std::sqrt(ofSprig(4)), about = 2.399963f * float(k);
-        const glm::vec2 root = far ? 0.5f + wide * glm::vec2(std::cos(about), std::sin(about))
-                                   : glm::vec2(0.5f + sway * std::sin(kPi * t), 0.84f - 0.50f * t);
-        const float away =
-            far ? 0.8f * std::atan2(root.x - 0.5f, 0.9f - root.y) : side * s.spread * (1.25f - 0.65f * t);
-        const float heading = top ? 0 : away + 0.9f * (ofSprig(0) - 0.5f);
-        const float bend = -side * 0.5f * ofSprig(1);
-        const float longest = far ? 0.22f : 0.22f + 0.22f * std::sin(kPi * (0.20f + 0.55f * t));
-        const float reach = longest * (0.55f + 0.60f * ofSprig(2));
-        const int count = std::max(3, int(2.5f * reach / (scale * s.length) + 0.5f));
-        for (int i = 0; i < count; ++i) {
-            const auto random = [&](uint32_t which) { return random01(salt + uint32_t(k) * 7919, uint32_t(i), which); };
-            const bool last = i + 1 == count;
-            const float u = (float(i) + 0.6f * random(0) + 0.4f) / float(count), angle = heading + bend * u;
-            const glm::vec2 at = root + reach * u * glm::vec2(std::sin(angle), -std::cos(angle));
-            const float turn = angle + (last ? 0 : (i % 2 ? 0.9f : -0.9f) + 0.9f * (random(1) - 0.5f));
-            const float size = scale * (0.8f + 0.45f * random(2) - 0.15f * u);
-            const glm::vec2 along(std::sin(turn), -std::cos(turn)), tip = at + s.length * size * along;
-            if (glm::any(glm::greaterThan(glm::abs(tip - 0.5f), glm::vec2(0.48f)))) continue;
-            const float out = reach * u;
-            leaves.push_back(
-                {at, along, s.length * size, s.width * size * (0.6f + 0.4f * random(3)),
-                 glm::clamp(0.42f * random(4) + 0.75f * (ofSprig(3) - 0.4f) + 0.45f * u * u + 0.1f, 0.0f, 1.0f),
-                 0.7f * out + 0.25f * ofSprig(3) + 0.08f * random(5)});
+        const glm::vec2 root(0.5f + sway * std::sin(kPi * t), 0.84f - 0.50f * t);
+        const float heading = top ? 0 : side * s.spread * (1.25f - 0.65f * t) + 0.9f * (random(0) - 0.5f);
+        const float longest = 0.22f + 0.22f * std::sin(kPi * (0.20f + 0.55f * t));
+        addSprig(leaves, s,
+                 {root, heading, -side * 0.5f * random(1), longest * (0.55f + 0.60f * random(2)), 0.75f,
+                  0.75f * (random(3) - 0.4f) + 0.1f, 0.25f * random(3)},
+                 salt + uint32_t(k) * 7919);
+    }
+    return leaves;
+}
+
+// Far off many twigs are one: clumps of short sprigs, each light above and dark below, the lower before the upper, with
+// gaps at the cell's border.
+std::vector<Leaf> farLeaves(const Species& s, uint32_t salt) {
+    constexpr int kClumps = 12, kSprigs = 17;
+    std::vector<Leaf> leaves;
+    for (int c = 0; c < kClumps; ++c) {
+        const float about = 2.399963f * float(c), wide = 0.34f * std::sqrt((float(c) + 0.3f) / float(kClumps));
+        const glm::vec2 middle = 0.5f + wide * glm::vec2(std::cos(about), std::sin(about));
+        for (int k = 0; k < kSprigs; ++k) {
+            const uint32_t own = salt + uint32_t(c * kSprigs + k) * 7919;
+            const auto random = [&](uint32_t which) { return random01(own, which); };
+            const float heading = 2.399963f * float(k) + 0.8f * (random(0) - 0.5f);
+            const glm::vec2 out(std::sin(heading), -std::cos(heading));
+            addSprig(leaves, s,
+                     {middle + 0.04f * out, heading, 0.5f * (random(1) - 0.5f), 0.07f + 0.09f * random(2), 0.55f,
+                      0.40f * (random(3) - 0.5f) - 0.35f * out.y, 2 * middle.y},
+                     own + 1);
         }
     }
-    std::stable_sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.lie < b.lie; });
     return leaves;
 }
 
@@ -115,7 +141,9 @@ bool overLeaves(const std::vector<Leaf>& leaves, const Species& s, glm::vec2 p, 
 void paintTwig(Picture& picture, int x0, int y0, int side, const Species& s, uint32_t salt, bool far) {
     std::vector<glm::vec3> colors(size_t(side) * size_t(side), 0.35f * (s.dark + s.light));
     std::vector<float> edges(colors.size(), -1.0f);
-    for (const Leaf& leaf : twigLeaves(s, salt, far)) {
+    std::vector<Leaf> leaves = far ? farLeaves(s, salt) : twigLeaves(s, salt);
+    std::stable_sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.lie < b.lie; });
+    for (const Leaf& leaf : leaves) {
         const float reach = 1.4f * leaf.length;
         const auto texelOf = [&](float p) { return std::clamp(int(p * float(side)), 0, side - 1); };
         for (int y = texelOf(leaf.foot.y - reach); y <= texelOf(leaf.foot.y + reach); ++y)

@@ -17,9 +17,13 @@ Mesh makeHedge(int lod) {
         const auto random = [&](uint32_t which) { return random01(911u + uint32_t(lod), i, which); };
         const glm::vec3 turned = glm::normalize(out + 0.7f * (glm::vec3(random(0), random(1), random(2)) - 0.5f));
         const Cell cell = cellOf(lod, 3, random(3));
+        const auto litAt = [&](glm::vec3 p) -> Lit {
+            return {glm::normalize(5.0f * glm::normalize(p - at + out) + turned),
+                    glm::clamp(0.35f + 0.5f * p.y / high, 0.2f, 1.0f)};
+        };
         addCard(mesh, at + 0.08f * (glm::vec3(random(4), random(5), random(6)) - 0.5f), turned,
                 std::abs(out.y) > 0.5f ? glm::vec3(0.3f, 0, 1) : glm::vec3(0.2f * (random(7) - 0.5f), 1, 0), side, cell,
-                glm::clamp(0.35f + 0.5f * at.y / high, 0.0f, 1.0f), {at - out, glm::vec3(1), at - out});
+                litAt);
     };
     uint32_t i = 0;
     const int rows = lod == 0 ? 4 : lod == 1 ? 2 : 1;
@@ -46,7 +50,10 @@ Mesh makeFlowers(int kind, int lod) {
         const float angle = 2.399963f * float(i), r = lod < 2 ? 0.16f * std::sqrt(float(i) / float(count)) : 0;
         const glm::vec3 at(r * std::cos(angle), 0.47f * side, r * std::sin(angle));
         const glm::vec3 out = glm::normalize(glm::vec3(std::cos(2 * angle), 0.25f, std::sin(2 * angle)));
-        addCard(mesh, at, out, {0, 1, 0}, side, cell, 0.9f, {at - glm::vec3(0, 1, 0), glm::vec3(1), at - out});
+        const auto litAt = [&](glm::vec3 p) -> Lit {
+            return {glm::normalize(glm::vec3(0, 1, 0) + 2.1f * (p - at) + 1.1f * out), 0.9f};
+        };
+        addCard(mesh, at, out, {0, 1, 0}, side, cell, litAt);
     }
     return mesh;
 }
@@ -65,8 +72,11 @@ Mesh makeMeadow(int kind, int lod) {
         const float lean = glm::dot(level, foot) < 0 ? -kLean : kLean;
         const glm::vec3 up = glm::vec3(0, std::cos(lean), 0) + std::sin(lean) * level;
         const glm::vec3 out = std::cos(lean) * level - glm::vec3(0, std::sin(lean), 0);
-        const glm::vec3 at = foot + 0.48f * side * up, below = at - glm::vec3(0, 1, 0);
-        addCard(mesh, at, out, up, side, cell, 0.8f, {below, glm::vec3(1), below});
+        const glm::vec3 at = foot + 0.48f * side * up;
+        const auto litAt = [&](glm::vec3 p) -> Lit {
+            return {glm::normalize(5.0f * (p - at + glm::vec3(0, 1, 0)) + out), 0.8f};
+        };
+        addCard(mesh, at, out, up, side, cell, litAt);
     }
     return mesh;
 }

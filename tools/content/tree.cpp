@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "tools/content/card.hpp"
 #include "tools/content/noise.hpp"
@@ -29,13 +30,13 @@ struct Habit {
     bool birch;
 };
 const Habit kHabits[] = {
-    {"lime_a", 0, 21, 1.9f, 9.6f, 3.5f, 0.42f, 0.45f, 13, {400, 104, 30}, 0.98f, 0.30f, 9, false},
-    {"lime_b", 0, 22, 2.2f, 11.2f, 3.9f, 0.40f, 0.45f, 15, {450, 115, 32}, 1.06f, 0.36f, 10, false},
-    {"apple_a", 1, 23, 1.3f, 4.3f, 2.1f, 0.45f, 0.35f, 8, {210, 60, 18}, 0.78f, 0.14f, 7, false},
-    {"apple_b", 1, 24, 1.2f, 4.9f, 2.4f, 0.50f, 0.35f, 9, {230, 64, 19}, 0.82f, 0.15f, 7, false},
-    {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, 13, {300, 80, 22}, 0.80f, 0.13f, 6, true},
-    {"bush_a", 3, 26, 0.0f, 1.5f, 1.05f, 0.45f, 0.30f, 6, {120, 34, 11}, 0.60f, 0.0f, 0, false},
-    {"bush_b", 3, 27, 0.0f, 1.0f, 0.85f, 0.50f, 0.30f, 5, {100, 30, 10}, 0.52f, 0.0f, 0, false},
+    {"lime_a", 0, 21, 1.9f, 9.6f, 3.5f, 0.42f, 0.45f, 13, {500, 150, 44}, 0.96f, 0.30f, 9, false},
+    {"lime_b", 0, 22, 2.2f, 11.2f, 3.9f, 0.40f, 0.45f, 15, {560, 165, 46}, 1.03f, 0.36f, 10, false},
+    {"apple_a", 1, 23, 1.3f, 4.3f, 2.1f, 0.45f, 0.35f, 8, {270, 86, 26}, 0.74f, 0.14f, 7, false},
+    {"apple_b", 1, 24, 1.2f, 4.9f, 2.4f, 0.50f, 0.35f, 9, {290, 92, 28}, 0.78f, 0.15f, 7, false},
+    {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, 13, {340, 104, 30}, 0.62f, 0.13f, 6, true},
+    {"bush_a", 3, 26, 0.0f, 1.5f, 1.05f, 0.45f, 0.30f, 6, {150, 48, 16}, 0.54f, 0.0f, 0, false},
+    {"bush_b", 3, 27, 0.0f, 1.0f, 0.85f, 0.50f, 0.30f, 5, {125, 42, 14}, 0.47f, 0.0f, 0, false},
 };
 
 float crownRadius(const Habit& h, float t) {
@@ -67,6 +68,7 @@ void addTube(Mesh& mesh, const std::vector<glm::vec3>& line, float r0, float r1,
         }
 }
 
+constexpr float kFlat = 0.8f;  // height of a lobe by its width
 struct Lobe {
     glm::vec3 at, away;  // away: from the trunk, unit
     float radius;
@@ -99,7 +101,6 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
 struct Twig {
     const Lobe* lobe;
     glm::vec3 at, dir;  // dir: from the lobe's middle, unit
-    float deep;         // 1: on the lobe's outside
 };
 
 // Even over the lobes; what would lie inside the crown comes round to its outside. None hangs below the crown's foot.
@@ -115,12 +116,12 @@ std::vector<Twig> twigsOf(const Habit& h, const std::vector<Lobe>& lobes, int lo
         glm::vec3 dir(flat * std::cos(angle), up, flat * std::sin(angle));
         dir -= std::min(glm::dot(dir, lobe.away) + 0.25f, 0.0f) * 1.6f * lobe.away;
         dir = glm::normalize(dir);
-        // Every sixth fills the lobe, so that no sky is seen through a crown's middle.
-        const float deep = i % 6 == 5 ? h.hollow * random(2) : glm::mix(h.hollow, 1.0f, std::pow(random(2), 0.40f));
-        glm::vec3 at = lobe.at + dir * glm::vec3(1, 0.8f, 1) * (lobe.radius * deep);
+        // Every fifth fills the lobe, so that no sky is seen through a crown's middle.
+        const float deep = i % 5 == 4 ? h.hollow * random(2) : glm::mix(h.hollow, 1.0f, std::pow(random(2), 0.40f));
+        glm::vec3 at = lobe.at + dir * glm::vec3(1, kFlat, 1) * (lobe.radius * deep);
         at.y = std::max(at.y, h.crownFoot + (h.trunk > 0 ? 0.5f : 0.3f) * side);
         if (h.trunk == 0 && i % 3 == 0) at.y = (0.1f + 0.2f * random(10)) * side;  // it stands on the ground
-        twigs.push_back({&lobe, at, dir, deep});
+        twigs.push_back({&lobe, at, dir});
     }
     return twigs;
 }
@@ -136,10 +137,56 @@ void gather(std::vector<Twig>& twigs, float side) {
         }
 }
 
+// Places within a crown: lobes are even clouds of leaves, which hide the more of the sky the longer the way through
+// them.
+class Crown {
+  public:
+    Crown(const Habit& h, std::span<const Lobe> lobes)
+        : lobes_(lobes),
+          middle_(0, glm::mix(h.crownFoot, h.crownTop, 0.42f), 0),
+          squash_(h.radius, 0.5f * (h.crownTop - h.crownFoot), h.radius),
+          dense_(kDense / h.radius),
+          least_(h.birch ? 0.55f : 0.2f) {}
+
+    glm::vec3 away(glm::vec3 p) const { return glm::normalize((p - middle_) / squash_); }
+    Lit litAt(glm::vec3 p, const Lobe& lobe, glm::vec3 out) const {
+        const glm::vec3 n = 0.6f * away(p) + glm::normalize(p - lobe.at) + 0.3f * out;
+        return {glm::normalize(n), glm::mix(least_, 1.0f, std::min(1.25f * openAt(p), 1.0f))};
+    }
+
+  private:
+    static constexpr float kDense = 2.6f;  // of a way as long as the crown's radius
+    static constexpr int kWays = 48;
+
+    // Share of the sky, its zenith counting most.
+    float openAt(glm::vec3 p) const {
+        float seen = 0, all = 0;
+        for (int i = 0; i < kWays; ++i) {
+            const float up = 1 - 1.5f * (float(i) + 0.5f) / kWays, angle = 2.399963f * float(i);
+            const float flat = std::sqrt(1 - up * up), weight = 0.6f + up;
+            const glm::vec3 way(flat * std::cos(angle), up, flat * std::sin(angle));
+            float through = 0;
+            for (const Lobe& lobe : lobes_) through += within(lobe, p, way);
+            seen += weight * std::exp(-dense_ * through);
+            all += weight;
+        }
+        return seen / all;
+    }
+    // Length of the ray from p that lies in a lobe.
+    static float within(const Lobe& lobe, glm::vec3 p, glm::vec3 way) {
+        const glm::vec3 rcp(1, 1 / kFlat, 1), from = (p - lobe.at) * rcp / lobe.radius, d = way * rcp / lobe.radius;
+        const float a = glm::dot(d, d), b = glm::dot(from, d), c = glm::dot(from, from) - 1, root = b * b - a * c;
+        return root > 0 ? std::max((std::sqrt(root) - b) / a, 0.0f) - std::max((-std::sqrt(root) - b) / a, 0.0f) : 0;
+    }
+
+    std::span<const Lobe> lobes_;
+    glm::vec3 middle_, squash_;
+    float dense_, least_;
+};
+
 Mesh makeTree(const Habit& h, int lod) {
     Mesh mesh;
     const float tall = h.crownTop - h.crownFoot, bark = h.birch ? 0.0625f : 0.0f;
-    const glm::vec3 middle(0, h.crownFoot + tall * 0.42f, 0);
     const glm::vec3 lean(0.25f * (random01(h.salt, 1) - 0.5f), 0, 0.25f * (random01(h.salt, 2) - 0.5f));
     const int sides = lod == 0 ? 7 : lod == 1 ? 4 : 3;
     if (h.trunk > 0) {
@@ -149,7 +196,7 @@ Mesh makeTree(const Habit& h, int lod) {
             const float t = float(i) / (lod == 0 ? 5.0f : 2.0f);
             line.push_back(glm::vec3(0, top * t - 0.1f, 0) + lean * (t * t * top * 0.4f));
         }
-        addTube(mesh, line, h.trunk, h.trunk * (h.birch ? 0.12f : 0.35f), sides, bark, 0.6f);
+        addTube(mesh, line, h.trunk, h.trunk * (h.birch ? 0.12f : 0.22f), sides, bark, 0.6f);
         // The root's flare.
         if (lod == 0)
             addTube(mesh, {{0, -0.1f, 0}, {0, 0.16f, 0}, {0, 0.5f, 0}}, h.trunk * 1.55f, h.trunk * 0.92f, sides, bark,
@@ -167,31 +214,25 @@ Mesh makeTree(const Habit& h, int lod) {
             addTube(mesh, {root, bend, end}, h.trunk * 0.45f, h.trunk * 0.10f, lod == 0 ? 4 : 3, bark, 0.5f);
         }
     const int cards = h.cards[lod];
-    const float side = h.side * std::pow(float(h.cards[0]) / float(cards), 0.46f);
-    const glm::vec3 squash(h.radius, tall * 0.5f, h.radius);
+    const float side = h.side * std::pow(float(h.cards[0]) / float(cards), 0.43f);
     const std::vector<Lobe> lobes = lobesOf(h, lean);
+    const Crown crown(h, lobes);
     std::vector<Twig> twigs = twigsOf(h, lobes, lod, side);
     gather(twigs, side);
     for (int i = 0; i < cards; ++i) {
         const auto random = [&](uint32_t which) { return random01(h.salt * 7 + uint32_t(lod), uint32_t(i), which); };
-        const auto& [on, at, dir, deep] = twigs[size_t(i)];
-        const Lobe& lobe = *on;
-        const glm::vec3 away = glm::normalize((at - middle) / squash);
+        const auto& [lobe, at, dir] = twigs[size_t(i)];
         const glm::vec3 tilt(random(3) - 0.5f, random(4) - 0.35f, random(5) - 0.5f);
-        glm::vec3 out = glm::normalize(0.5f * away + dir + 0.9f * tilt);
+        glm::vec3 out = glm::normalize(0.3f * crown.away(at) + 0.7f * dir + 1.4f * tilt);
         // Seen from the ground, a card that lies flat is a line.
         out = glm::normalize(glm::vec3(out.x, 0.55f * out.y, out.z));
-        // Twigs lead out of their lobe, up to the light; a birch's hang.
+        // Twigs lead out of their lobe, up to the light; a birch's hang. Far off, cards are light above.
+        const float rise = lod > 0 ? 1.0f : h.birch ? -0.9f : 0.35f;
         const glm::vec3 twig =
-            glm::normalize(glm::vec3(random(6) - 0.5f, h.birch ? -0.9f : 0.35f, random(7) - 0.5f) + 0.6f * dir);
+            glm::normalize(glm::vec3(random(6) - 0.5f, rise, random(7) - 0.5f) + (lod > 0 ? 0.2f : 0.6f) * dir);
         const Cell cell = cellOf(lod, h.row, random(8));
-        // Dark inside and below, of the crown and of each lobe; open above.
-        const float t = (at.y - h.crownFoot) / tall;
-        float open = glm::clamp(0.36f + 0.28f * (deep - h.hollow) / (1 - h.hollow) + 0.24f * dir.y +
-                                    0.16f * glm::dot(dir, lobe.away) + 0.25f * (t - 0.4f),
-                                0.2f, 1.0f);
-        if (h.birch) open = glm::mix(open, 0.95f, 0.6f);  // light gets through
-        addCard(mesh, at, out, twig, side * (0.8f + 0.4f * random(9)), cell, open, {middle, squash, lobe.at});
+        addCard(mesh, at, out, twig, side * (0.8f + 0.4f * random(9)), cell,
+                [&, on = lobe](glm::vec3 p) { return crown.litAt(p, *on, out); });
     }
     return mesh;
 }
