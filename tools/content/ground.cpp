@@ -54,6 +54,9 @@ float pavedShare(glm::vec2 xz) {
 
 namespace {
 
+// Earth and rubble that fell from the walls: (x, z), radius, height.
+constexpr glm::vec4 kHeaps[] = {{3.75f, 0.15f, 0.55f, 0.20f}, {-3.1f, 3.05f, 0.5f, 0.16f}, {2.6f, -0.8f, 0.6f, 0.13f}};
+
 // Shares of the ground, paving apart. rim: where it goes over into the meadow; patches: where grass has taken hold;
 // grass: those, and where it has closed over the heaps because nobody treads there.
 struct Turf {
@@ -68,6 +71,8 @@ Turf turfAt(glm::vec2 xz) {
              fractal(xz * 1.9f, 761, 4) + 0.35f * ramp(0.7f, 0.0f, footDistance(xz)) - 0.08f + 0.55f * turf.rim);
     const float trodden = ramp(0.66f, 0.36f, outward(xz) + 0.14f * fractal(xz * 1.1f, 767, 3));
     turf.grass = std::max(turf.patches, 0.95f * (1 - trodden) * ramp(-0.45f, 0.05f, fractal(xz * 2.3f, 769, 3)));
+    for (glm::vec4 heap : kHeaps)
+        turf.grass = std::max(turf.grass, ramp(1.9f, 0.9f, glm::distance(xz, glm::vec2(heap)) / heap.z));
     return turf;
 }
 
@@ -103,7 +108,7 @@ Detail groundDetail(glm::vec2 st) {
     out.height += 0.010f * turf.patches * blades * (1 - stone);
     earth = glm::mix(earth,
                      glm::mix(glm::mix(glm::vec3(0.034f, 0.044f, 0.014f), glm::vec3(0.092f, 0.106f, 0.036f), blades),
-                              glm::vec3(0.088f, 0.102f, 0.038f) * (0.50f + 0.7f * blades), 0.8f * rim),
+                              glm::vec3(0.088f, 0.102f, 0.038f) * (0.50f + 0.7f * blades), 0.5f + 0.4f * rim),
                      0.85f * grass);
     glm::vec3 slab =
         glm::mix(glm::vec3(0.175f, 0.165f, 0.145f), glm::vec3(0.245f, 0.215f, 0.168f), random01(flag.id, 2));
@@ -127,10 +132,9 @@ float groundHeight(glm::vec2 xz) {
     float foot = footDistance(xz);
     float height = 0.05f * fractal(xz * 0.55f, 781, 2) + 0.022f * fractal(xz * 1.7f, 783, 2);
     height += 0.10f * std::exp(-foot / 0.22f) * (0.55f + 0.5f * fractal(xz * 1.4f, 785, 2));
-    for (glm::vec4 m : {glm::vec4(3.75f, 0.15f, 0.55f, 0.20f), glm::vec4(-3.1f, 3.05f, 0.5f, 0.16f),
-                        glm::vec4(2.6f, -0.8f, 0.6f, 0.13f)}) {
-        float r = glm::distance(xz, glm::vec2(m)) / m.z;
-        height += m.w * std::exp(-r * r) * (1 + 0.5f * fractal(xz * 5.0f, 787, 2));
+    for (glm::vec4 heap : kHeaps) {
+        float r = glm::distance(xz, glm::vec2(heap)) / heap.z;
+        height += heap.w * std::exp(-r * r) * (1 + 0.5f * fractal(xz * 5.0f, 787, 2));
     }
     // The rim goes under the meadow around it, gently.
     float rim = std::max(outward(xz) - 0.70f, 0.0f);

@@ -60,6 +60,12 @@ void Layout::feature() {
     put("bush_b", {-7.6f, -0.7f}, 10, 0.7f, 0.05f);
     put("rubble", {6.9f, 0.4f}, 20, 1, 0.03f);
     put("rubble", {-5.4f, 5.9f}, 130, 0.8f, 0.04f);
+    // Where the path's kerbs end at the court's older paving.
+    for (uint32_t i = 0; i < 12; ++i) {
+        const vec2 end(0.6f + (i % 2 ? 0.95f : -0.95f) + 0.36f * (random01(i, 207) - 0.5f),
+                       -1.75f - 0.55f * random01(i, 208));
+        put("meadow_a", end, 360 * random01(i, 209), 0.22f + 0.26f * random01(i, 210), 0.03f);
+    }
     put("bench", {-3.1f, -8.3f}, 62, 1);
     put("bench", {-5.3f, -31.0f}, 29, 1);
     tree("apple_b", {-7.6f, -33.6f}, 0.85f, 1.6f, 9);

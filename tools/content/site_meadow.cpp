@@ -69,7 +69,7 @@ void Layout::tallGrass() {
             if (track < 0.25f) continue;
             const float rail = nearest(p, rails, placeOf), lying = nearest(p, left, placeOf);
             const float trunk = nearest(p, shades_, [](glm::vec3 s) { return vec2(s); });
-            float wild = noise(p / 6.5f, 173) + 0.5f * noise(p / 2.1f, 174) - 0.80f;
+            float wild = noise(p / 6.5f, 173) + 0.5f * noise(p / 2.1f, 174) - 0.70f;
             wild += 0.45f * ramp(1.2f, 0.5f, track) + 0.75f * ramp(1.3f, 0.4f, rail) + 0.7f * ramp(1.3f, 0.5f, trunk) +
                     0.7f * ramp(2.0f, 0.9f, lying) + 0.25f * ramp(1.6f, 0.5f, kerb);
             if (wild < 0) continue;
@@ -117,10 +117,13 @@ void Layout::tufts() {
     }
     for (uint32_t i = 0; i < 9000; ++i) {
         const vec2 p = kCourt + 1.1f * kCourtHalf * (2.0f * vec2(random01(i, 181), random01(i, 182)) - 1.0f);
-        const float foot = footDistance(p);
-        if (foot < 0.02f || foot > 0.20f || pavedShare(p) > 0.2f || noise(p / 0.7f, 183) < -0.1f) continue;
-        put(random01(i, 184) < 0.35f ? "tuft_a" : "tuft_c", p, 360 * random01(i, 185), 0.6f + 0.5f * random01(i, 186),
-            kLevel - groundHeight(p) + 0.01f);
+        const float foot = footDistance(p), rank = noise(p / 0.7f, 183), sink = kLevel - groundHeight(p) + 0.01f;
+        if (foot < 0.02f || foot > 0.30f || pavedShare(p) > 0.2f || rank < -0.1f) continue;
+        const float turn = 360 * random01(i, 185), size = random01(i, 186);
+        if (foot < 0.20f) put(random01(i, 184) < 0.35f ? "tuft_a" : "tuft_c", p, turn, 0.6f + 0.5f * size, sink);
+        // Taller where a clump has come up, so that no wall meets the ground in a line.
+        if (foot > 0.07f && random01(i, 187) < 0.10f + 0.25f * rank)
+            put(rank > 0.4f && random01(i, 188) < 0.15f ? "meadow_b" : "meadow_a", p, turn, 0.26f + 0.34f * size, sink);
     }
     const std::map<std::string, std::vector<SitePlace>> built = site_.props;
     for (const char* foot : {"wall", "pier", "fence", "rubble", "bench", "boards", "cart", "hives", "barrel"}) {
