@@ -11,15 +11,16 @@ struct Meadow {
 
 const float kSiteReach = 1.0;   // metres inside a street where the site's red is 1; as far outside it is 0
 
-// Setts and joints up to a kerb. inside: metres from its outer edge; pixel: how much that changes over a pixel.
-void addStreet(sampler2D paving, vec2 place, vec2 dx, vec2 dy, float inside, float pixel, float uneven, inout Meadow m) {
+// Setts and joints up to a kerb. inside: metres from its outer edge; pixel: how much that changes over a pixel; far: 1 where
+// kerbs aren't told apart.
+void addStreet(sampler2D paving, vec2 place, vec2 dx, vec2 dy, float inside, float pixel, float far, float uneven, inout Meadow m) {
     const float side = 1.0 / 2.4;
     vec4 stone = textureGrad(paving, place * side, dx * side, dy * side);
     float worn = 0.80 + 0.35 * uneven;
     vec3 setts = mix(vec3(0.062, 0.054, 0.040), vec3(0.200, 0.182, 0.155) * worn, stone.g) * (0.55 + 0.75 * stone.r);
     vec3 kerb = vec3(0.225, 0.208, 0.178) * (0.72 + 0.45 * stone.r) * worn;
     float wide = pixel + 0.012;
-    float onKerb = clamp((0.26 - inside) / wide + 0.5, 0.0, 1.0);
+    float onKerb = clamp((0.26 - inside) / wide + 0.5, 0.0, 1.0) * (1.0 - far);
     float gutter = (1.0 - smoothstep(0.28, 0.55, inside)) * (1.0 - onKerb);
     vec3 base = mix(setts * (1.0 - 0.42 * gutter), kerb, onKerb);
     vec2 slope = (stone.ba * 2.0 - 1.0) * (1.0 - 0.7 * onKerb);
@@ -75,7 +76,7 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     vec2 slope = near.zw * 0.35 * (1.0 - calm) + fine.zw * 0.55;
     m.normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     m.open = laid.z;
-    if (laid.x > -0.3) addStreet(paving, place, dx, dy, laid.x, pixel, near.x, m);
+    if (laid.x > -0.3) addStreet(paving, place, dx, dy, laid.x, pixel, far, near.x, m);
     return m;
 }
 #endif

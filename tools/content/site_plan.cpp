@@ -16,15 +16,16 @@ struct Street {
     float half;  // of its paved width
     bool closed = false;
 };
-// Around the village past the houses' fronts, ways out, and the path to the court's arch.
+// Around the village past the houses' fronts, ways out, which cross the map's border straight, as it goes on beyond, and
+// the path to the court's arch.
 const Street kStreets[] = {
     {{{-31, 52},   {-27, 40}, {-34, 28}, {-37, 14},   {-40.5f, 0}, {-37, -13}, {-29, -21.5f}, {-16, -24},
       {-6, -27},   {3, -34},  {13, -35}, {24, -33},   {34, -29},   {44, -21},  {49, -9},      {43.5f, 3},
       {41.5f, 13}, {34, 22},  {27, 32},  {15, 38.5f}, {3, 45},     {-12, 47},  {-23, 52}},
      2.3f,
      true},
-    {{{24, -33}, {25.5f, -48}, {20, -66}, {24, -90}, {20, -130}}, 2.0f},
-    {{{-29, 51}, {-40, 66}, {-44, 90}, {-60, 130}}, 2.0f},
+    {{{24, -33}, {25.5f, -48}, {20, -66}, {22, -90}, {22, -130}}, 2.0f},
+    {{{-29, 51}, {-40, 66}, {-44, 90}, {-44, 130}}, 2.0f},
     {{{3, -34}, {-0.5f, -42}, {-0.8f, -49}}, 1.8f},
     {{{-6, -27}, {-7.5f, -20}, {-4.5f, -13}, {-0.2f, -8}, {0.6f, -3.2f}, {0.6f, -0.6f}}, 1.05f},
 };
