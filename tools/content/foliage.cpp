@@ -70,7 +70,7 @@ std::vector<Leaf> twigLeaves(const Species& s, uint32_t salt) {
         const float longest = 0.22f + 0.22f * std::sin(kPi * (0.20f + 0.55f * t));
         addSprig(leaves, s,
                  {root, heading, -side * 0.5f * random(1), longest * (0.55f + 0.60f * random(2)), 0.75f,
-                  0.75f * (random(3) - 0.4f) + 0.1f, 0.25f * random(3)},
+                  0.95f * (random(3) - 0.4f) + 0.05f, 0.25f * random(3)},
                  salt + uint32_t(k) * 7919);
     }
     return leaves;

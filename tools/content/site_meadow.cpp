@@ -66,7 +66,7 @@ void Layout::tallGrass() {
             const vec2 p = middle + kCell * (vec2(x, y) + vec2(random01(i, 171), random01(i, 172)));
             if (glm::distance(p, middle) > kReach || glm::distance(p, before) < 6.5f || !clear(p, 0.3f, 0.9f)) continue;
             const float track = -plan_.trodden(p), kerb = -plan_.paved(p);
-            if (track < 0.25f) continue;
+            if (track < 0.25f || nearest(p, site_.props["bench"], placeOf) < 1.1f) continue;  // one sits there
             const float rail = nearest(p, rails, placeOf), lying = nearest(p, left, placeOf);
             const float trunk = nearest(p, shades_, [](glm::vec3 s) { return vec2(s); });
             float wild = noise(p / 6.5f, 173) + 0.5f * noise(p / 2.1f, 174) - 0.70f;

@@ -86,10 +86,11 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
         const float t = top ? highest : 0.10f + rise * (float(k) + 0.5f * random(0)) / float(h.lobes - 1);
         const float angle = 2.399963f * float(k) + 0.6f * random(1), wide = crownRadius(h, t);
         const float most = (bush ? 0.44f : 0.26f) * tall;
-        const float broad = h.birch ? 0.78f * std::max(wide, 0.6f * h.radius) : (bush ? 0.66f : 0.56f) * h.radius;
+        const float broad = h.birch ? 0.78f * std::max(wide, 0.6f * h.radius) : (bush ? 0.66f : 0.60f) * h.radius;
         const float radius = std::min(broad * (bush ? 0.8f + 0.4f * random(2) : 0.70f + 0.50f * random(2)), most);
-        const float reach = std::max(wide * (0.84f + 0.22f * random(3)) - 0.75f * radius, 0.25f * wide);
-        const float r = top ? 0 : bush ? std::min(reach, 0.7f * radius) : reach;
+        const float reach = std::max(wide * (0.84f + 0.16f * random(3)) - 0.82f * radius, 0.25f * wide);
+        // A birch's boughs are too thin to be seen: none of its lobes stands off by itself.
+        const float r = top ? 0 : h.birch ? 0.7f * reach : bush ? std::min(reach, 0.7f * radius) : reach;
         const glm::vec3 out(std::cos(angle), 0, std::sin(angle));
         lobes.push_back({r * out + glm::vec3(0, h.crownFoot + tall * t, 0) + lean * (0.4f * tall * t),
                          glm::normalize(top ? glm::vec3(0, 1, 0) : out + glm::vec3(0, 0.5f * t, 0)), radius});
@@ -116,9 +117,11 @@ std::vector<Twig> twigsOf(const Habit& h, const std::vector<Lobe>& lobes, int lo
         glm::vec3 dir(flat * std::cos(angle), up, flat * std::sin(angle));
         dir -= std::min(glm::dot(dir, lobe.away) + 0.25f, 0.0f) * 1.6f * lobe.away;
         dir = glm::normalize(dir);
-        // Every fifth fills the lobe, so that no sky is seen through a crown's middle.
-        const float deep = i % 5 == 4 ? h.hollow * random(2) : glm::mix(h.hollow, 1.0f, std::pow(random(2), 0.40f));
+        // Every fifth fills the room between lobe and trunk, so that no sky is seen through a crown's middle.
+        const bool fills = i % 5 == 4;
+        const float deep = fills ? h.hollow * random(2) : glm::mix(h.hollow, 1.0f, std::pow(random(2), 0.40f));
         glm::vec3 at = lobe.at + dir * glm::vec3(1, kFlat, 1) * (lobe.radius * deep);
+        if (fills) at -= lobe.away * (0.7f * random(11) * glm::length(glm::vec2(lobe.at.x, lobe.at.z)));
         at.y = std::max(at.y, h.crownFoot + (h.trunk > 0 ? 0.5f : 0.3f) * side);
         if (h.trunk == 0 && i % 3 == 0) at.y = (0.1f + 0.2f * random(10)) * side;  // it stands on the ground
         twigs.push_back({&lobe, at, dir});
@@ -151,7 +154,7 @@ class Crown {
     glm::vec3 away(glm::vec3 p) const { return glm::normalize((p - middle_) / squash_); }
     Lit litAt(glm::vec3 p, const Lobe& lobe, glm::vec3 out) const {
         const glm::vec3 n = 0.6f * away(p) + glm::normalize(p - lobe.at) + 0.3f * out;
-        return {glm::normalize(n), glm::mix(least_, 1.0f, std::min(1.25f * openAt(p), 1.0f))};
+        return {glm::normalize(n), glm::mix(least_, 1.0f, std::min(1.35f * openAt(p), 1.0f))};
     }
 
   private:
