@@ -16,8 +16,8 @@ struct Street {
     float half;  // of its paved width
     bool closed = false;
 };
-// Around the village past the houses' fronts, ways out, which cross the map's border straight, as it goes on beyond, and
-// the path to the court's arch.
+// Around the village past the houses' fronts, ways out, which cross the map's border straight, as it goes on beyond,
+// and the path to the court's arch.
 const Street kStreets[] = {
     {{{-31, 52},   {-27, 40}, {-34, 28}, {-37, 14},   {-40.5f, 0}, {-37, -13}, {-29, -21.5f}, {-16, -24},
       {-6, -27},   {3, -34},  {13, -35}, {24, -33},   {34, -29},   {44, -21},  {49, -9},      {43.5f, 3},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "tools/content/card.hpp"
@@ -129,14 +130,21 @@ std::vector<Twig> twigsOf(const Habit& h, const std::vector<Lobe>& lobes, int lo
     return twigs;
 }
 
-// One that would hang in the air by itself moves in to its lobe's middle until others are near.
+// One that would hang in the air by itself moves in to its lobe's middle until others are near, at last over to those.
 void gather(std::vector<Twig>& twigs, float side) {
-    constexpr int kCompany = 4;
-    for (Twig& twig : twigs)
-        for (int step = 0; step < 4; ++step) {
-            const auto near = [&](const Twig& other) { return glm::distance(other.at, twig.at) < 0.8f * side; };
-            if (std::count_if(twigs.begin(), twigs.end(), near) > kCompany) break;  // itself, too
-            twig.at = glm::mix(twig.at, twig.lobe->at, 0.25f);
+    constexpr int kCompany = 4, kInward = 4, kSteps = 6;
+    std::vector<glm::vec3> near(kCompany + 1), all(twigs.size());
+    for (int step = 0; step < kSteps; ++step)
+        for (Twig& twig : twigs) {
+            const auto nearer = [&](glm::vec3 a, glm::vec3 b) {
+                return glm::distance(a, twig.at) < glm::distance(b, twig.at);
+            };
+            std::transform(twigs.begin(), twigs.end(), all.begin(), [](const Twig& other) { return other.at; });
+            std::partial_sort_copy(all.begin(), all.end(), near.begin(), near.end(), nearer);  // itself first
+            if (glm::distance(near.back(), twig.at) < 0.8f * side) continue;
+            const glm::vec3 sum = std::accumulate(near.begin() + 1, near.end(), glm::vec3(0));
+            twig.at = step < kInward ? glm::mix(twig.at, twig.lobe->at, 0.25f)
+                                     : glm::mix(twig.at, sum / float(kCompany), 0.5f);
         }
 }
 
