@@ -324,7 +324,7 @@ std::string shortened(const std::string& text, float room) {
     const auto within = [](char c) { return (c & 0xC0) == 0x80; };  // of a letter of several bytes
     std::string shown = text;
     while (!shown.empty() && ImGui::CalcTextSize((shown + kEllipsis).c_str()).x > room) {
-        while (within(shown.back())) shown.pop_back();
+        while (shown.size() > 1 && within(shown.back())) shown.pop_back();
         shown.pop_back();
     }
     return shown + kEllipsis;

@@ -31,9 +31,19 @@ EspResult makePainter(EspContext& context) {
     return ESP_OK;
 }
 
-// The surface's layer of this name, made if need be, filled with `fill`.
-EspResult ensureLayer(EspContext& context, uint32_t surface, const std::string& name, float fill) {
-    if (paintedLayer(context, surface, name)) return ESP_OK;
+// Grammars that want another value where nothing is painted read one that is painted instead, or their own again.
+void tellFill(EspContext& context, uint32_t surface, const std::string& name, float fill) {
+    context.tablesStale = true;
+    const PlacedSurface& placed = *context.surfaces.find(surface);
+    for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
+        if (context.sceneLayers[layer].name == name && context.sceneLayers[layer].fill != fill) {
+            context.changes.markLayer(placed.instance, layer, placed.data.levels.front().size);
+            ++context.revision;
+        }
+}
+
+// A layer of this name for a surface that has none, filled with `fill`.
+EspResult makeLayer(EspContext& context, uint32_t surface, const std::string& name, float fill, uint64_t number) {
     const uint32_t size = context.surfaces.find(surface)->data.levels.front().size;
     Result<Buffer> texels = Buffer::create(*context.device, "layer", uint64_t(size) * size * sizeof(float));
     if (!texels) return failGpu(&context, texels.failure());
@@ -42,15 +52,8 @@ EspResult ensureLayer(EspContext& context, uint32_t surface, const std::string& 
     commands->fill(*texels, floatBitsToUint(fill));
     Result<uint64_t> submitted = commands->submit();
     if (!submitted) return failGpu(&context, submitted.failure());
-    context.layers.push_back({name, surface, size, std::move(*texels)});
-    context.tablesStale = true;
-    // Grammars that want another value where nothing is painted read this one from now on.
-    const PlacedSurface& placed = *context.surfaces.find(surface);
-    for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
-        if (context.sceneLayers[layer].name == name && context.sceneLayers[layer].fill != fill) {
-            context.changes.markLayer(placed.instance, layer, size);
-            ++context.revision;
-        }
+    context.layers.push_back({name, surface, size, std::move(*texels), number, 0});
+    tellFill(context, surface, name, fill);
     return ESP_OK;
 }
 
@@ -89,10 +92,12 @@ bool plantsRead(const EspContext& context, const std::string& name) {
     return read;
 }
 
-BlockRecord& recordFor(PaintStroke& stroke, uint32_t surface) {
+PaintStroke::Part& partOf(PaintStroke& stroke, uint32_t surface) {
     for (PaintStroke::Part& part : stroke.parts)
-        if (part.surface == surface) return part.record;
-    return stroke.parts.emplace_back(PaintStroke::Part{surface, {}}).record;
+        if (part.surface == surface) return part;
+    PaintStroke::Part& part = stroke.parts.emplace_back();
+    part.surface = surface;
+    return part;
 }
 
 using Touched = std::vector<std::pair<uint32_t, std::vector<uint32_t>>>;  // surface id, blocks
@@ -100,11 +105,15 @@ using Touched = std::vector<std::pair<uint32_t, std::vector<uint32_t>>>;  // sur
 // Makes the layers that are missing, and what the painter asks for.
 EspResult jobsFor(EspContext& context, PaintStroke& stroke, float fill, Touched touched, std::vector<PaintJob>& jobs) {
     context.device->hostSubmitted();  // as espUpdate does
-    for (const auto& [surface, blocks] : touched)
-        if (EspResult bad = ensureLayer(context, surface, stroke.layer, fill)) return bad;
-    for (const auto& [surface, blocks] : touched) recordFor(stroke, surface);  // before any address is taken
-    for (auto& [surface, blocks] : touched)
-        jobs.push_back({canvasOf(context, surface, stroke.layer), &recordFor(stroke, surface), std::move(blocks)});
+    for (const auto& [surface, blocks] : touched) {
+        PaintStroke::Part& part = partOf(stroke, surface);
+        if (paintedLayer(context, surface, stroke.layer)) continue;
+        if (EspResult bad = makeLayer(context, surface, stroke.layer, fill, context.layersMade + 1)) return bad;
+        part.made = ++context.layersMade;
+        part.fill = fill;
+    }
+    for (auto& [surface, blocks] : touched)  // addresses stay from here on
+        jobs.push_back({canvasOf(context, surface, stroke.layer), &partOf(stroke, surface).record, std::move(blocks)});
     return ESP_OK;
 }
 
@@ -195,9 +204,41 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
 std::vector<PaintJob> jobsOf(EspContext& context, PaintStroke& stroke) {
     std::vector<PaintJob> jobs;
     for (PaintStroke::Part& part : stroke.parts)
-        if (paintedLayer(context, part.surface, stroke.layer))
+        if (paintedLayer(context, part.surface, stroke.layer) && !part.record.blocks().empty())
             jobs.push_back({canvasOf(context, part.surface, stroke.layer), &part.record, {}});
     return jobs;
+}
+
+// Layers that the stroke has made go while it is undone, unless something else has been painted on them.
+void dropMade(EspContext& context, const PaintStroke& stroke) noexcept {
+    for (const PaintStroke::Part& part : stroke.parts) {
+        const auto made = [&](const PaintedLayer& layer) { return layer.number == part.made && layer.strokes == 0; };
+        if (part.undone && part.made != 0 && std::erase_if(context.layers, made) > 0) context.tablesStale = true;
+    }
+}
+
+// Before the stroke is done again.
+EspResult makeAgain(EspContext& context, const PaintStroke& stroke) {
+    for (const PaintStroke::Part& part : stroke.parts)
+        if (part.undone && part.made != 0 && context.surfaces.find(part.surface) &&
+            !paintedLayer(context, part.surface, stroke.layer))
+            if (EspResult bad = makeLayer(context, part.surface, stroke.layer, part.fill, part.made)) return bad;
+    return ESP_OK;
+}
+
+// Notes that the stroke has been undone, or done again.
+void turn(EspContext& context, PaintStroke& stroke) noexcept {
+    for (PaintStroke::Part& part : stroke.parts)
+        if (PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer)) {
+            part.undone = !part.undone;
+            layer->strokes += part.undone ? -1 : 1;
+        }
+}
+
+// Notes that an ended stroke has painted on its layers.
+void countOn(EspContext& context, const PaintStroke& stroke) {
+    for (const PaintStroke::Part& part : stroke.parts)
+        if (PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer)) ++layer->strokes;
 }
 
 // `changed` is told of each part's blocks that aren't as they were, and which of their texels. Where there is no memory
@@ -214,7 +255,9 @@ EspResult end(EspContext& context, PaintStroke& stroke, Changed&& changed) {
         if (!texels && context.device->lost()) return failGpu(&context, texels.failure());
         changed(part, texels ? *texels : std::vector<uint64_t>());
     }
-    std::erase_if(stroke.parts, [](const PaintStroke::Part& part) { return part.record.blocks().empty(); });
+    std::erase_if(stroke.parts,
+                  [](const PaintStroke::Part& part) { return part.record.blocks().empty() && part.made == 0; });
+    countOn(context, stroke);
     return ESP_OK;
 }
 
@@ -222,8 +265,12 @@ EspResult end(EspContext& context, PaintStroke& stroke, Changed&& changed) {
 EspResult swap(EspContext& context, PaintStroke& stroke) {
     if (stroke.open) return fail(&context, ESP_INVALID_ARGUMENT, "espSwapStroke: the stroke has not been ended");
     context.device->hostSubmitted();
+    Undo made([&] { dropMade(context, stroke); });
+    if (EspResult bad = makeAgain(context, stroke)) return bad;
     for (PaintStroke::Part& part : stroke.parts) {
-        if (!paintedLayer(context, part.surface, stroke.layer)) continue;
+        const PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer);
+        if (!layer) continue;
+        if (part.made != 0 && layer->number == part.made) tellFill(context, part.surface, stroke.layer, part.fill);
         Result<std::vector<uint64_t>> texels =
             context.painter->differences(canvasOf(context, part.surface, stroke.layer), part.record);
         if (!texels) return failGpu(&context, texels.failure());
@@ -235,6 +282,9 @@ EspResult swap(EspContext& context, PaintStroke& stroke) {
         return failGpu(&context, swapped.failure());
     if (stroke.filled) std::swap(*stroke.filled, context.filled[stroke.layer]);
     town.done();
+    turn(context, stroke);
+    made.done();
+    dropMade(context, stroke);
     return ESP_OK;
 }
 
@@ -359,8 +409,10 @@ EspResult espSwapStroke(EspContext* context, EspStroke id) {
 
 EspResult espDestroyStroke(EspContext* context, EspStroke id) {
     return guarded(context, [&] {
-        if (!context->strokes.erase(id.id))
-            return fail(context, ESP_INVALID_ARGUMENT, "espDestroyStroke: no such stroke");
+        const PaintStroke* stroke = context->strokes.find(id.id);
+        if (!stroke) return fail(context, ESP_INVALID_ARGUMENT, "espDestroyStroke: no such stroke");
+        if (stroke->open) countOn(*context, *stroke);
+        context->strokes.erase(id.id);
         return ESP_OK;
     });
 }

@@ -64,6 +64,9 @@ struct PaintedLayer {
     uint32_t surface = 0;  // id
     uint32_t size = 0;     // texels a side
     Buffer texels;
+    // Of one that a stroke has made: unlike any other layer's, and how many strokes have changed it that aren't undone.
+    uint64_t number = 0;
+    int strokes = 0;
 };
 
 struct LoadedGrammar {
@@ -139,6 +142,9 @@ struct PaintStroke {
     struct Part {
         uint32_t surface = 0;  // id
         BlockRecord record;
+        uint64_t made = 0;  // number of the layer that came into being by it, filled with `fill`; it goes when undone
+        float fill = 0;
+        bool undone = false;
     };
     std::vector<Part> parts;
     uint64_t town = 0;  // LoadedTown::number that `plan` is of

@@ -119,3 +119,66 @@ TEST_CASE("a stroke keeps what it changed and no more") {
     CHECK(espStrokeBytes(painting.context, dab) == 0);
     CHECK(espSwapStroke(painting.context, dab) == ESP_INVALID_ARGUMENT);
 }
+
+TEST_CASE("layers that a stroke made go when it is undone, and come back as they were") {
+    Painting painting;
+    // Two grammars that want another value each where nothing is painted.
+    const EspGrammar first = painting.grammar(kMaskedIvy);
+    std::string text = kMaskedIvy;
+    text.replace(text.find("mask = 1"), 8, "mask = 0");
+    const EspGrammar second = painting.grammar(text.c_str());
+    painting.plant(first, {1, -.9f, 0}, {0, 1, 0}, 1);
+    painting.plant(second, {0, -.9f, 1}, {0, 1, 0}, 2);
+    const EspStats before = painting.grown();
+    EspBrush brush = brushOn("mask", .4f);
+    brush.value = 0;
+    const EspStroke stroke = painting.stroke(brush, {dabAt({1, 0, 0})});
+    const EspStats painted = painting.grown();
+    const std::vector<float> mask = painting.layer("mask");
+    CHECK(painted.hash != before.hash);  // the second's ivy grows where nothing is painted, too
+    CHECK(painted.nodes > before.nodes);
+    const auto swapped = [&](EspStroke which) {
+        painting.ok(espSwapStroke(painting.context, which));
+        return painting.grown();
+    };
+    SUBCASE("back and forth") {
+        for (int i = 0; i < 2; ++i) {
+            CHECK(swapped(stroke).hash == before.hash);
+            CHECK(espPaintedLayerCount(painting.context) == 0);
+            CHECK(swapped(stroke).hash == painted.hash);
+            CHECK(sameBits(painting.layer("mask"), mask));
+        }
+    }
+    SUBCASE("after later strokes, which are undone first") {
+        const EspStroke later = painting.stroke(brush, {dabAt({0, 0, 1})});
+        swapped(later);
+        CHECK(sameBits(painting.layer("mask"), mask));
+        CHECK(swapped(stroke).hash == before.hash);
+        CHECK(espPaintedLayerCount(painting.context) == 0);
+        swapped(stroke);
+        swapped(later);
+        CHECK_FALSE(sameBits(painting.layer("mask"), mask));
+    }
+    SUBCASE("but not where what was painted since can't be undone") {
+        painting.ok(espDestroyStroke(painting.context, painting.stroke(brush, {dabAt({0, 0, 1})})));
+        swapped(stroke);
+        CHECK(espPaintedLayerCount(painting.context) == 1);
+    }
+    SUBCASE("nor one that has taken its place") {
+        const std::vector<float> half(size_t(4), .5f);
+        EspLayerDef def = espDefaultLayerDef();
+        def.surface = painting.surface;
+        def.name = "mask";
+        def.texels = half.data();
+        def.width = def.height = 2;
+        painting.ok(espSetLayer(painting.context, &def));
+        swapped(stroke);
+        CHECK(espPaintedLayerCount(painting.context) == 1);
+    }
+    SUBCASE("nor come they back on a surface that is gone") {
+        swapped(stroke);
+        painting.ok(espDestroySurface(painting.context, painting.surface));
+        painting.ok(espSwapStroke(painting.context, stroke));
+        CHECK(espPaintedLayerCount(painting.context) == 0);
+    }
+}
