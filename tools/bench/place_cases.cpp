@@ -177,21 +177,21 @@ class Hand {
     float from_[3]{};
 };
 
-// Plants the scene's seeds again, with other numbers, until so many nodes have grown.
+// Plants the scene's seeds again and again, with other numbers, until so many nodes have grown.
 bool thicken(EspContext* context, scene::Scene& scene, EspStats& stats) {
     const std::vector<scene::Seed> seeds = scene.seeds;
-    for (uint32_t round = 1; round < 16; ++round) {
+    const size_t most = 16 * seeds.size();
+    for (size_t i = 0; i < most; ++i) {
         if (espUpdate(context) != ESP_OK || espReadStats(context, &stats) != ESP_OK) return false;
         if (stats.nodes >= kNodes) return true;
-        for (const scene::Seed& seed : seeds) {
-            EspSeedDef def = espDefaultSeedDef();
-            def.grammar = scene.grammars[seed.grammar].id;
-            std::copy(seed.position.begin(), seed.position.end(), def.position);
-            std::copy(seed.direction.begin(), seed.direction.end(), def.direction);
-            def.number = seed.number + 1000 * round;
-            EspSeed planted;
-            if (espPlant(context, &def, &planted) != ESP_OK) return false;
-        }
+        const scene::Seed& seed = seeds[i % seeds.size()];
+        EspSeedDef def = espDefaultSeedDef();
+        def.grammar = scene.grammars[seed.grammar].id;
+        std::copy(seed.position.begin(), seed.position.end(), def.position);
+        std::copy(seed.direction.begin(), seed.direction.end(), def.direction);
+        def.number = seed.number + 1000 * uint32_t(1 + i / seeds.size());
+        EspSeed planted;
+        if (espPlant(context, &def, &planted) != ESP_OK) return false;
     }
     return false;
 }
