@@ -1,6 +1,8 @@
 // Stamps at each look, bytes when a stamp has changed and stands still.
 #include "sample_game/file_watch.hpp"
 
+#include <sys/stat.h>
+
 #include <fstream>
 #include <optional>
 #include <utility>
@@ -28,8 +30,10 @@ std::optional<uint64_t> contentOf(const std::string& path) {
 
 FileStamp stampOf(const fs::path& file) {
     std::error_code noTime, noSize;
-    const FileStamp stamp{fs::last_write_time(file, noTime), fs::file_size(file, noSize)};
-    return noTime || noSize ? FileStamp{} : stamp;
+    struct stat found {};
+    const bool there = stat(file.c_str(), &found) == 0;
+    const FileStamp stamp{fs::last_write_time(file, noTime), fs::file_size(file, noSize), found.st_ino};
+    return !there || noTime || noSize ? FileStamp{} : stamp;
 }
 
 bool writtenSince(const FileStamp& stamp, fs::file_time_type read) {

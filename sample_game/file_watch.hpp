@@ -11,6 +11,7 @@ namespace sample {
 struct FileStamp {
     std::filesystem::file_time_type time{};
     uintmax_t size = 0;
+    uint64_t number = 0;  // the file system's: one that takes a file's place may be as long and of the same instant
     bool operator==(const FileStamp&) const = default;
 };
 FileStamp stampOf(const std::filesystem::path& file);
