@@ -248,7 +248,10 @@ void Workspace::pickParent() {
 }
 
 void Workspace::prune() {
-    if (!branch || path.empty()) return void(message = "No branch is picked: click one");
+    if (!branch || path.empty()) {
+        message = "No branch is picked: click one";
+        return;
+    }
     char key[20];
     std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(*branch));
     if (!perform(espalier::document::PruneBranch{key, true})) return;

@@ -61,7 +61,7 @@ class GpuGrowth final : public Growth {
     // What is drawn is in one of two sets. A full growth writes the other one of both; a regrowth adds to the nodes and
     // leaves that are drawn, and writes the other links.
     template <class Set>
-    struct Two {
+    struct DoubleBuffered {
         Set sets[2];
         uint32_t front = 0;
         Set& drawn() { return sets[front]; }
@@ -201,8 +201,8 @@ class GpuGrowth final : public Growth {
     uint32_t likelyWaves_ = 24;  // recorded in the first submission
     GrowthAccess access_;
     TexelView surfaceView_, nodeView_, chunkView_, branchView_, leafView_, chunkViewBefore_;
-    Two<Plants> plants_;
-    Two<Links> links_;
+    DoubleBuffered<Plants> plants_;
+    DoubleBuffered<Links> links_;
     Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, noTexels_, density_, readback_;
     Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_, nodesWent_, leavesWent_;
     bool touchedIsNew_ = false;  // and holds nothing yet

@@ -380,3 +380,34 @@ TEST_CASE("a seed whose ground lies inside of another surface waits until that o
     CHECK(painting.grown().nodes == both.nodes);
     CHECK(painting.grown().hash == both.hash);
 }
+
+TEST_CASE("a text that changes a rule lets what didn't use it stand, also where a seed has values of its own") {
+    Painting painting;
+    std::string text =
+        "param reach = 1.5 [0 .. 9]\n"
+        "Ivy -> Stem(reach)\n"
+        "Stem(l) : arc >= l -> NULL\n"
+        "Stem(l) : rand() < 0.015 -> Branch(2) {Shoot(0), Creep(l)}\n"
+        "Stem(l) -> Creep(l)\n"
+        "Creep(l) -> Marching(0.01, rand(-0.2, 0.2), arc < 9) {Stem(l), Wood}\n"
+        "Shoot(n) -> Marching(0.01, 0.1, n < 3) {Shoot(n + 1), Wood}\n"
+        "Wood -> S(0.01) Shape(\"bark\", C1)\n";
+    const EspGrammar grammar = painting.grammar(text.c_str());
+    const float own = 1.2f;
+    for (uint32_t number = 1; number <= 8; ++number) {
+        const EspSeed seed = painting.plant(grammar, {1, -.8f, .2f * float(number) - .9f}, kUp, number);
+        painting.ok(espSetSeedParam(painting.context, seed, "reach", &own, 1));
+    }
+    const EspStats before = painting.grown();
+    text.replace(text.find("n < 3"), 5, "n < 4");
+    const EspGrammarDef def{"again", text.c_str(), text.size()};
+    painting.ok(espRecompileGrammar(painting.context, grammar, &def));
+    const EspStats after = painting.grown();
+    CHECK(after.nodes > before.nodes);
+    CHECK(after.derivedNodes > 0);
+    CHECK(after.derivedNodes < after.nodes / 2);
+    EspGrowDef grow = espDefaultGrowDef();
+    grow.maxDepth = 100;  // all anew
+    painting.ok(espSetGrow(painting.context, &grow));
+    CHECK(painting.grown().hash == after.hash);
+}

@@ -10,6 +10,7 @@
 
 #include "runtime/core/file.hpp"
 #include "runtime/core/jobs.hpp"
+#include "runtime/surface/carry.hpp"
 #include "runtime/surface/codec.hpp"
 #include "tools/bake/bake.hpp"
 #include "tools/bench/bench.hpp"
@@ -143,9 +144,33 @@ size_t dracoBytes(const std::string& path) {
     return sum;
 }
 
+// A layer to the ruin's next bake, whose atlas has another size.
+void carryCase(Bench& bench) {
+    const char* name = "surface/carry";
+    if (!bench.wants(name)) return;
+    Result<Model> model = importModel(bench.options().contentFolder + "/ruin.glb");
+    if (!model) return bench.skip(name, model.failure().text());
+    BakeOptions smaller;
+    smaller.resolution = 512;
+    Result<Baked> earlier = bake(*model, smaller), later = bake(*model, {});
+    if (!earlier || !later) return bench.skip(name, (earlier ? later : earlier).failure().text());
+    const uint32_t side = earlier->surface.levels[0].size;
+    const UvPicture layer{side, side, std::vector<float>(size_t(side) * side, 1.0f)};
+    std::vector<double> carried, baked;
+    for (int i = 0; i < bench.options().repeats; ++i) {
+        carried.push_back(seconds([&] { (void)SurfaceMatch(earlier->surface, later->surface).carry(layer); }));
+        baked.push_back(seconds([&] { (void)bake(*model, {}); }));
+    }
+    char figure[96];
+    std::snprintf(figure, sizeof figure, "a layer of %u texels a side to a bake of %u", side,
+                  later->surface.levels[0].size);
+    bench.add({name, figure, "s", median(carried), "that bake", median(baked)});
+}
+
 }  // namespace
 
 void surfaceCases(Bench& bench) {
+    carryCase(bench);
     struct Case {
         const char *name, *file;
     };

@@ -67,8 +67,6 @@ class Document {
     // A key that no seed of this document has or had.
     uint32_t freshKey() { return ++lastKey_; }
     SeedRecord recordOf(const scene::Seed& seed) const;
-    // A house as the town's file says; what stands stays.
-    scene::House plannedHouse(uint32_t index) const;
     // Another text for a grammar, whose parameters keep their values.
     SetText withText(uint32_t grammar, std::string text) const;
 
