@@ -47,6 +47,8 @@ class RendererImpl final : public Renderer {
         glm::vec4 sphere{0};
         bool operator==(const ShadowKey&) const = default;
     };
+    // What of the near half a picture draws anew: of tiles those that edits of growth have changed.
+    enum class NearShadows { stand, fewTiles, allTiles, whole };
 
     Status makePrograms();
     Status drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
@@ -68,6 +70,7 @@ class RendererImpl final : public Renderer {
     // renderer_shadows.cpp: redraws shadows that aren't up to date, and tells the frame where they are.
     Status keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame);
     Status updateNearShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, const ShadowKey& key);
+    NearShadows nearShadows(const ShadowKey& key, bool stroke) const;
     Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse);
     // The tiles that edits have changed since, or so many of them.
     Status redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, uint32_t mostTiles);

@@ -205,6 +205,15 @@ Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, F
     return updateNearShadows(commands, inputs, sun, key);
 }
 
+// In a stroke most pictures leave it as it is, some redraw a few of its tiles: what is left follows when growth rests.
+RendererImpl::NearShadows RendererImpl::nearShadows(const ShadowKey& key, bool stroke) const {
+    const bool onlyGrown = shadowDrawn_ && edited(shadowKey_, key) == key;
+    const bool inTiles = onlyGrown && shadowKept_ && grows_ && shadowBindings_ == emit_.wholeBindings();
+    if (!stroke) return inTiles ? NearShadows::allTiles : NearShadows::whole;
+    if (inTiles) return changes_ % kStrokeFrames == 0 ? NearShadows::fewTiles : NearShadows::stand;
+    return onlyGrown && changes_ % kShadowPeriod != 0 ? NearShadows::stand : NearShadows::whole;
+}
+
 Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun,
                                        const ShadowKey& key) {
     changes_ = key.growth == growthBefore_ ? 0 : changes_ + 1;
@@ -220,20 +229,18 @@ Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inp
     }
     if (grows_)
         if (Status s = emit_.bind(commands, emitInputs(inputs)); !s) return s;
-    const bool onlyGrown = shadowDrawn_ && edited(shadowKey_, key) == key;
-    const bool partly = onlyGrown && shadowKept_ && grows_ && shadowBindings_ == emit_.wholeBindings();
-    const uint32_t turn = changes_ % kShadowPeriod;
-    if (stroke && partly && changes_ % kStrokeFrames != 0) return Done{};
-    if (stroke && partly) {  // a few tiles: what is left follows when growth rests
+    const NearShadows redrawn = nearShadows(key, stroke);
+    if (redrawn == NearShadows::stand) return Done{};
+    if (redrawn == NearShadows::fewTiles) {
         ++shadowsTaken_;
         return redrawShadows(commands, inputs, sun, kStrokeTiles);
     }
-    if (stroke && onlyGrown && turn != 0) return Done{};
-    if (partly) ++shadowsPartly_;
-    if (Status s = partly ? redrawShadows(commands, inputs, sun, ~0u) : drawShadows(commands, inputs, sun, coarse); !s)
+    const bool whole = redrawn == NearShadows::whole;
+    if (!whole) ++shadowsPartly_;
+    if (Status s = whole ? drawShadows(commands, inputs, sun, coarse) : redrawShadows(commands, inputs, sun, ~0u); !s)
         return s;
     shadowKey_ = key;
-    shadowCoarse_ = !partly && coarse;
+    shadowCoarse_ = whole && coarse;
     shadowsBehind_ |= shadowCoarse_;
     shadowDrawn_ = true;
     return Done{};
