@@ -1,10 +1,10 @@
-// Strokes on layers: which surfaces a brush reaches, what a stroke keeps.
+// The C ABI's strokes and fills: which surfaces a brush reaches, and which texels.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "runtime/core/undo.hpp"
-#include "runtime/plugin/context.hpp"
+#include "runtime/plugin/strokes.hpp"
 
 namespace espalier {
 namespace {
@@ -31,41 +31,6 @@ EspResult makePainter(EspContext& context) {
     return ESP_OK;
 }
 
-// Grammars that want another value where nothing is painted read one that is painted instead, or their own again.
-void tellFill(EspContext& context, uint32_t surface, const std::string& name, float fill) {
-    context.tablesStale = true;
-    const PlacedSurface& placed = *context.surfaces.find(surface);
-    for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
-        if (context.sceneLayers[layer].name == name && context.sceneLayers[layer].fill != fill) {
-            context.changes.markLayer(placed.instance, layer, placed.data.levels.front().size);
-            ++context.revision;
-        }
-}
-
-// A layer of this name for a surface that has none, filled with `fill`.
-EspResult makeLayer(EspContext& context, uint32_t surface, const std::string& name, float fill, uint64_t number) {
-    const uint32_t size = context.surfaces.find(surface)->data.levels.front().size;
-    Result<Buffer> texels = Buffer::create(*context.device, "layer", uint64_t(size) * size * sizeof(float));
-    if (!texels) return failGpu(&context, texels.failure());
-    Result<Commands> commands = Commands::begin(*context.device, "fill layer");
-    if (!commands) return failGpu(&context, commands.failure());
-    commands->fill(*texels, floatBitsToUint(fill));
-    Result<uint64_t> submitted = commands->submit();
-    if (!submitted) return failGpu(&context, submitted.failure());
-    context.layers.push_back({name, surface, size, std::move(*texels), number, 0});
-    tellFill(context, surface, name, fill);
-    return ESP_OK;
-}
-
-Canvas canvasOf(EspContext& context, uint32_t surface, const std::string& name) {
-    const PlacedSurface& placed = *context.surfaces.find(surface);
-    Canvas canvas;
-    canvas.layer = &paintedLayer(context, surface, name)->texels;
-    canvas.surface = placed.gpu.ref(placed.toWorld);
-    canvas.instance = placed.instance;
-    return canvas;
-}
-
 // Of each block the texels that lie within a dab's radius, bit 8 y + x.
 std::vector<uint64_t> texelsWithin(const PlacedSurface& surface, std::span<const uint32_t> blocks,
                                    std::span<const DabRecord> dabs, float radius) {
@@ -90,31 +55,6 @@ bool plantsRead(const EspContext& context, const std::string& name) {
         read = read || (!grammar.map.roofs() && grammar.map.findContext(name));
     });
     return read;
-}
-
-PaintStroke::Part& partOf(PaintStroke& stroke, uint32_t surface) {
-    for (PaintStroke::Part& part : stroke.parts)
-        if (part.surface == surface) return part;
-    PaintStroke::Part& part = stroke.parts.emplace_back();
-    part.surface = surface;
-    return part;
-}
-
-using Touched = std::vector<std::pair<uint32_t, std::vector<uint32_t>>>;  // surface id, blocks
-
-// Makes the layers that are missing, and what the painter asks for.
-EspResult jobsFor(EspContext& context, PaintStroke& stroke, float fill, Touched touched, std::vector<PaintJob>& jobs) {
-    context.device->hostSubmitted();  // as espUpdate does
-    for (const auto& [surface, blocks] : touched) {
-        PaintStroke::Part& part = partOf(stroke, surface);
-        if (paintedLayer(context, surface, stroke.layer)) continue;
-        if (EspResult bad = makeLayer(context, surface, stroke.layer, fill, context.layersMade + 1)) return bad;
-        part.made = ++context.layersMade;
-        part.fill = fill;
-    }
-    for (auto& [surface, blocks] : touched)  // addresses stay from here on
-        jobs.push_back({canvasOf(context, surface, stroke.layer), &partOf(stroke, surface).record, std::move(blocks)});
-    return ESP_OK;
 }
 
 EspResult begin(EspContext& context, const EspBrush& brush, EspStroke* out) {
@@ -176,7 +116,7 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
     }
     // What is for roofs alone makes no layers on surfaces that happen to be near.
     const bool roofsOnly = paintTown(context, stroke, records) && !plantsRead(context, stroke.layer);
-    Touched touched;
+    TouchedBlocks touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         if (roofsOnly && !paintedLayer(context, id, stroke.layer)) return;
         std::vector<uint32_t> blocks;
@@ -198,119 +138,6 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
         layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, records, stroke.radius));
     }
     return painted ? ESP_OK : failGpu(&context, painted.failure());
-}
-
-// The parts of an ended stroke whose layers there are.
-std::vector<PaintJob> jobsOf(EspContext& context, PaintStroke& stroke) {
-    std::vector<PaintJob> jobs;
-    for (PaintStroke::Part& part : stroke.parts)
-        if (paintedLayer(context, part.surface, stroke.layer) && !part.record.blocks().empty())
-            jobs.push_back({canvasOf(context, part.surface, stroke.layer), &part.record, {}});
-    return jobs;
-}
-
-// Layers that the stroke has made go while it is undone, unless something else has been painted on them.
-void dropMade(EspContext& context, const PaintStroke& stroke) noexcept {
-    for (const PaintStroke::Part& part : stroke.parts) {
-        const auto made = [&](const PaintedLayer& layer) { return layer.number == part.made && layer.strokes == 0; };
-        if (part.undone && part.made != 0 && std::erase_if(context.layers, made) > 0) context.tablesStale = true;
-    }
-}
-
-// Before the stroke is done again.
-EspResult makeAgain(EspContext& context, const PaintStroke& stroke) {
-    for (const PaintStroke::Part& part : stroke.parts)
-        if (part.undone && part.made != 0 && context.surfaces.find(part.surface) &&
-            !paintedLayer(context, part.surface, stroke.layer))
-            if (EspResult bad = makeLayer(context, part.surface, stroke.layer, part.fill, part.made)) return bad;
-    return ESP_OK;
-}
-
-// Notes that the stroke has been undone, or done again.
-void turn(EspContext& context, PaintStroke& stroke) noexcept {
-    for (PaintStroke::Part& part : stroke.parts)
-        if (PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer)) {
-            part.undone = !part.undone;
-            layer->strokes += part.undone ? -1 : 1;
-        }
-}
-
-// Notes that an ended stroke has painted on its layers.
-void countOn(EspContext& context, const PaintStroke& stroke) {
-    for (const PaintStroke::Part& part : stroke.parts)
-        if (PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer)) ++layer->strokes;
-}
-
-// `changed` is told of each part's blocks that aren't as they were, and which of their texels. Where there is no memory
-// to look, the record keeps all of its blocks, and all of their texels count as changed.
-template <class Changed>
-EspResult end(EspContext& context, PaintStroke& stroke, Changed&& changed) {
-    context.device->hostSubmitted();
-    stroke.open = false;
-    closeTown(context, stroke);
-    for (PaintStroke::Part& part : stroke.parts) {
-        if (!paintedLayer(context, part.surface, stroke.layer)) continue;
-        Result<std::vector<uint64_t>> texels =
-            context.painter->close(canvasOf(context, part.surface, stroke.layer), part.record);
-        if (!texels && context.device->lost()) return failGpu(&context, texels.failure());
-        changed(part, texels ? *texels : std::vector<uint64_t>());
-    }
-    std::erase_if(stroke.parts,
-                  [](const PaintStroke::Part& part) { return part.record.blocks().empty() && part.made == 0; });
-    countOn(context, stroke);
-    return ESP_OK;
-}
-
-// All of it or nothing.
-EspResult swap(EspContext& context, PaintStroke& stroke) {
-    if (stroke.open) return fail(&context, ESP_INVALID_ARGUMENT, "espSwapStroke: the stroke has not been ended");
-    context.device->hostSubmitted();
-    Undo made([&] { dropMade(context, stroke); });
-    if (EspResult bad = makeAgain(context, stroke)) return bad;
-    for (PaintStroke::Part& part : stroke.parts) {
-        const PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer);
-        if (!layer) continue;
-        if (part.made != 0 && layer->number == part.made) tellFill(context, part.surface, stroke.layer, part.fill);
-        Result<std::vector<uint64_t>> texels =
-            context.painter->differences(canvasOf(context, part.surface, stroke.layer), part.record);
-        if (!texels) return failGpu(&context, texels.failure());
-        layerChanged(context, part.surface, stroke.layer, part.record.blocks(), *texels);
-    }
-    swapTown(context, stroke);
-    Undo town([&] { swapTown(context, stroke); });
-    if (Status swapped = context.painter->swap(jobsOf(context, stroke)); !swapped)
-        return failGpu(&context, swapped.failure());
-    if (stroke.filled) std::swap(*stroke.filled, context.filled[stroke.layer]);
-    town.done();
-    turn(context, stroke);
-    made.done();
-    dropMade(context, stroke);
-    return ESP_OK;
-}
-
-// Takes back, as far as there is memory for it, what a call has painted that can't be kept.
-void takeBack(EspContext& context, PaintStroke& stroke) noexcept {
-    context.touch();
-    swapTown(context, stroke);
-    try {
-        (void)context.painter->swap(jobsOf(context, stroke));
-    } catch (const std::bad_alloc&) {
-    }
-}
-
-// Ends a stroke that painted in one go, and gives it an id.
-EspResult keepEnded(EspContext& context, PaintStroke stroke, EspStroke* out) {
-    Undo painted([&] { takeBack(context, stroke); });
-    const auto changed = [&](const PaintStroke::Part& part, const std::vector<uint64_t>& texels) {
-        layerChanged(context, part.surface, stroke.layer, part.record.blocks(), texels);
-    };
-    if (EspResult bad = end(context, stroke, changed)) return bad;
-    const uint32_t id = context.strokes.insert({});
-    if (!id) return fail(&context, ESP_OUT_OF_MEMORY, "painting: no ids left");
-    painted.done();
-    *context.strokes.find(id) = std::move(stroke);
-    out->id = id;
-    return ESP_OK;
 }
 
 // Whether a layer that isn't painted has this value for all grammars that read it.
@@ -335,7 +162,7 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     stroke.filled = filled;
     const bool roofsOnly = fillTown(context, stroke, value) && !plantsRead(context, name);
     Undo town([&] { swapTown(context, stroke); });
-    Touched touched;
+    TouchedBlocks touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         if ((roofsOnly || readAs(context, name, value)) && !paintedLayer(context, id, name)) return;
         touched.push_back({id, allBlocks(surface.data.levels.front().size)});
@@ -395,7 +222,7 @@ EspResult espEndStroke(EspContext* context, EspStroke id) {
         PaintStroke* stroke = context->strokes.find(id.id);
         if (!stroke || !stroke->open)
             return fail(context, ESP_INVALID_ARGUMENT, "espEndStroke: no such stroke, or it has been ended before");
-        return end(*context, *stroke, [](const auto&, const auto&) {});  // its dabs have told
+        return endStroke(*context, *stroke);  // its dabs have told
     });
 }
 
@@ -403,7 +230,7 @@ EspResult espSwapStroke(EspContext* context, EspStroke id) {
     return guarded(context, [&] {
         PaintStroke* stroke = context->strokes.find(id.id);
         if (!stroke) return fail(context, ESP_INVALID_ARGUMENT, "espSwapStroke: no such stroke");
-        return swap(*context, *stroke);
+        return swapStroke(*context, *stroke);
     });
 }
 
