@@ -6,19 +6,16 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <initializer_list>
 
-#include "tools/scene/json_tree.hpp"
-#include "tools/scene/text_file.hpp"
+#include "tools/scene/json_checks.hpp"
 
 namespace espalier::scene {
 namespace {
 
-class Reader {
+class Reader : JsonChecks {
   public:
-    Reader(std::string path, SceneFile& out) : path_(std::move(path)), out_(out) {}
-    std::string errors;
+    Reader(std::string path, SceneFile& out) : JsonChecks(std::move(path)), out_(out) {}
+    using JsonChecks::errors;
 
     void readScene(const Json& json) {
         if (!readVersion(json)) return;
@@ -126,27 +123,6 @@ class Reader {
         else
             fail(*ground, "'ground' must be true, false or a colour of three numbers");
     }
-    // A place in a list of so many, from 0.
-    void index(const Json& json, const char* name, size_t count, int& out) {
-        const Json* found = json.find(name);
-        if (!found) return;
-        const double number = found->kind == Json::Kind::number ? found->number : -1;
-        if (number >= 0 && number < double(count) && number == std::floor(number))
-            out = int(number);
-        else
-            fail(*found, std::string("'") + name + "' must be a place in the list of " + name + "s, from 0");
-    }
-    void whole(const Json& json, const char* name, uint32_t& out) {
-        float value = 0;
-        number(json, name, 0, 1e6f, value);
-        if (value != std::floor(value)) fail(json, std::string("'") + name + "' must be a whole number");
-        out = uint32_t(value);
-    }
-    void word(const Json& json, const char* name, std::string& out) {
-        const Json* found = need(json, name);
-        if (found && found->kind != Json::Kind::text) fail(*found, std::string("'") + name + "' must be a word");
-        if (found) out = found->text;
-    }
     void readHouse(const Json& json, House& house) {
         if (!isObject(json, "a house",
                       {"house", "id", "shape", "slope", "eave_height", "edges", "corners", "rings", "look"}))
@@ -245,81 +221,6 @@ class Reader {
                 out_.layers.push_back({name, file(*on), surface, over ? file(*over) : ""});
         }
     }
-    // A text is a list of its lines.
-    bool lines(const Json& json, const char* name, std::optional<std::string>& out) {
-        const Json* found = json.find(name);
-        if (!found) return false;
-        std::string text;
-        bool good = found->kind == Json::Kind::list;
-        for (const Json& line : found->items) {
-            good = good && line.kind == Json::Kind::text;
-            text += line.text + "\n";
-        }
-        if (!good) fail(*found, std::string("'") + name + "' must be a list of lines");
-        out = text;
-        return good;
-    }
-    void flag(const Json& json, const char* name, bool& out) {
-        const Json* found = json.find(name);
-        if (!found) return;
-        if (found->kind != Json::Kind::flag) fail(*found, std::string("'") + name + "' must be true or false");
-        out = found->flag;
-    }
-
-    void fail(const Json& at, const std::string& message) { errors += place(at) + ": " + message + "\n"; }
-    std::string place(const Json& at) const {
-        return path_ + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
-    }
-
-    bool isObject(const Json& json, const std::string& what, std::initializer_list<const char*> keys) {
-        if (json.kind != Json::Kind::object) {
-            fail(json, what + " must be an object");
-            return false;
-        }
-        for (const auto& [name, value] : json.members) {
-            bool known = false;
-            for (const char* key : keys) known = known || name == key;
-            if (!known) fail(value, what + " has no key '" + name + "'");
-        }
-        return true;
-    }
-    const Json* need(const Json& json, const char* name) {
-        const Json* found = json.find(name);
-        if (!found) fail(json, std::string("'") + name + "' is missing");
-        return found;
-    }
-    std::string file(const Json& json) {
-        if (json.kind != Json::Kind::text || json.text.empty()) {
-            fail(json, "a file's name must stand here");
-            return {};
-        }
-        // A project that was moved, or lay in a folder that is gone by now, must not matter to what it names.
-        return (std::filesystem::path(path_).parent_path() / json.text).lexically_normal().string();
-    }
-    void number(const Json& json, const char* name, float low, float high, float& out) {
-        const Json* found = json.find(name);
-        if (!found) return;
-        if (found->kind != Json::Kind::number || !(found->number >= low) || !(found->number <= high))
-            fail(*found, std::string("'") + name + "' must be a number from " + std::to_string(low) + " to " +
-                             std::to_string(high));
-        else
-            out = float(found->number);
-    }
-    template <size_t N>
-    bool numbers(const Json& json, std::array<float, N>& out) {
-        if (json.kind != Json::Kind::list || json.items.size() != N) return false;
-        for (size_t i = 0; i < N; ++i) {
-            if (json.items[i].kind != Json::Kind::number || !std::isfinite(float(json.items[i].number))) return false;
-            out[i] = float(json.items[i].number);
-        }
-        return true;
-    }
-    // Null: there is none.
-    const Json* list(const Json& json, const char* name) {
-        const Json* found = json.find(name);
-        if (found && found->kind != Json::Kind::list) fail(*found, std::string("'") + name + "' must be a list");
-        return found;
-    }
     void params(const Json& json, std::vector<SceneParam>& out) {
         const Json* found = json.find("params");
         if (!found) return;
@@ -329,24 +230,12 @@ class Reader {
             if (readParam(name, value, param)) out.push_back(param);
         }
     }
-    bool vector(const Json& json, const char* name, std::optional<std::array<float, 3>>& out) {
-        const Json* found = json.find(name);
-        if (!found) return false;
-        std::array<float, 3> value{};
-        if (!numbers(*found, value)) {
-            fail(*found, std::string("'") + name + "' must be three numbers");
-            return false;
-        }
-        out = value;
-        return true;
-    }
-
     void readGrammar(const Json& json) {
         if (!isObject(json, "a grammar", {"file", "text", "grows", "params", "seeds"})) return;
         SceneGrammar& grammar = out_.grammars.emplace_back();
         if (const Json* name = need(json, "file")) grammar.file = file(*name);
         lines(json, "text", grammar.text);
-        if (lines(json, "grows", grammar.grows) && !grammar.text) fail(json, "'grows' needs a 'text'");
+        if (lines(json, "grows", grammar.grows) && !json.find("text")) fail(json, "'grows' needs a 'text'");
         params(json, grammar.params);
         if (const Json* seeds = list(json, "seeds"))
             for (const Json& seed : seeds->items) readSeed(grammar, seed);
@@ -401,7 +290,6 @@ class Reader {
         number(json, "fov", 1, 170, out_.fov);
     }
 
-    std::string path_;
     SceneFile& out_;
 };
 
@@ -425,20 +313,12 @@ void SceneFile::applyLook(EspLook& look) const {
 }
 
 bool readSceneFile(const std::string& path, SceneFile& out, std::string& error) {
-    std::string text;
-    if (!readText(path, text, error)) return false;
     Json json;
-    if (!readJson(text, json, error)) {
-        error = path + ":" + error;
-        return false;
-    }
+    if (!readJsonFile(path, json, error)) return false;
     Reader reader(path, out);
     reader.readScene(json);
-    if (!reader.errors.empty()) {
-        error = reader.errors.substr(0, reader.errors.size() - 1);
-        return false;
-    }
-    return true;
+    error = reader.errors();
+    return error.empty();
 }
 
 }  // namespace espalier::scene
