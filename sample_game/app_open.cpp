@@ -178,7 +178,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     pace_ = {};
     work_.message.clear();
     for (const std::string& note : work_.scene().notes) work_.message += (work_.message.empty() ? "" : "\n") + note;
-    const bool whole = request.layers.empty() && request.grammar.empty() && !request.seed;
+    const bool whole = request.layers.empty() && request.grammar.empty() && !request.seed && request.times == 1;
     session_.begin(work_, request.file, read, whole);
     if (options_.frames) session_.forgetRecovery(false);
     work_.lookFrom(work_.scene().camera);

@@ -21,6 +21,8 @@ int main(int argc, char** argv) {
     cli.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
     cli.add_option("--seed", seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
         ->check(CLI::Range(0ll, 4294967295ll));
+    cli.add_option("--times", options.request.times, "plants each seed so many times, with other random numbers")
+        ->check(CLI::Range(1, 1000));
     cli.add_option("--size", size, "WIDTHxHEIGHT of the window; default: as it was last, at first 1280x720");
     cli.add_option("--ui-scale", options.uiScale, "of letters and panels, 0.5 to 4; default: as the display says")
         ->check(CLI::Range(.5, 4.));

@@ -79,7 +79,7 @@ TEST_CASE("a large picture, in which leaves lie at one depth, is the same in eve
     CHECK(readAll(frame(folder, "a")) == readAll(frame(folder, "b")));
 }
 
-TEST_CASE("another seed grows another plant, and a mask that is black grows none") {
+TEST_CASE("another seed grows another plant, more of them grow more, and a mask that is black grows none") {
     const Folder folder;
     const std::string capture = program("espalier-capture") + " " + content("ruin.surface.glb") + " --size 64x36 -o " +
                                 folder.file("out") + " --stats ";
@@ -90,6 +90,10 @@ TEST_CASE("another seed grows another plant, and a mask that is black grows none
     CHECK(a.at("hash") != b.at("hash"));
     CHECK(a.at("hash") == statsOf(folder.file("c.json")).at("hash"));
     CHECK(a.at("nodes") > 1000);
+    REQUIRE(run(capture + folder.file("f.json") + " --seed 1 --times 3").code == 0);
+    const nlohmann::json f = statsOf(folder.file("f.json"));
+    CHECK(f.at("seeds") == 3 * a.at("seeds").get<int>());
+    CHECK(f.at("nodes") > 2 * a.at("nodes").get<int>());
     if (run("convert -size 64x64 xc:black " + folder.file("black.png") + " && convert -size 64x64 xc:white " +
             folder.file("white.png"))
             .code != 0)

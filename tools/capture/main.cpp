@@ -68,6 +68,9 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--stats", options.stats, "writes counts, times, bytes and the growth's hash as JSON");
     app.add_option("--seed", options.seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
         ->check(CLI::Range(0ll, 4294967295ll));
+    app.add_option("--times", options.request.times, "plants each seed so many times, with other random numbers")
+        ->check(CLI::Range(1, 1000))
+        ->excludes(replay);
     app.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
     app.add_option("--layer", options.layers, "NAME=FILE: a picture drawn in the model's UVs");
     app.add_option("--export", options.exports,

@@ -244,6 +244,18 @@ std::string lastPart(const std::string& file) {
     return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
+// Frozen plants are what they are.
+void plantMore(uint32_t times, std::vector<Seed>& seeds) {
+    constexpr uint32_t kApart = 1000;  // numbers of one seed: a scene's count from 1
+    const size_t own = seeds.size();
+    for (uint32_t i = 1; i < times; ++i)
+        for (size_t s = 0; s < own; ++s)
+            if (seeds[s].frozenFile.empty()) {
+                seeds.push_back(seeds[s]);
+                seeds.back().number += kApart * i;
+            }
+}
+
 }  // namespace
 
 bool openScene(EspContext* context, const Request& asked, Scene& out, std::string& error) {
@@ -259,6 +271,7 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     const bool described = fs::path(request.file).extension() == ".json";
     const auto open = isTown(request.file) ? openTown : described ? openDescription : openSurface;
     if (!open(context, request, out, error)) return false;
+    plantMore(request.times, out.seeds);
     out.grow.walk = request.walk.value_or(out.grow.walk);
     if (!fromContext(context, espSetGrow(context, &out.grow), error)) return false;
     noteLayers(context, out);

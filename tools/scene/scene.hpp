@@ -22,7 +22,8 @@ struct Request {
     std::string file;                                         // SCENE.json or SURFACE.glb
     std::vector<std::pair<std::string, std::string>> layers;  // name and picture, drawn in the model's UVs
     std::string grammar;                                      // takes the place of the scene's first grammar
-    std::optional<uint32_t> seed;           // the seeds' numbers are this, this + 1 ... instead of the scene's own
+    std::optional<uint32_t> seed;  // the seeds' numbers are this, this + 1 ... instead of the scene's own
+    uint32_t times = 1;  // that each seed is planted, with other numbers: to see how it goes with more of them
     EspGrowDef grow = espDefaultGrowDef();  // but for `walk`, which the scene's file says
     std::optional<EspWalkMode> walk;        // instead of that
     // Told before each part of a scene that may take long: what it is, and the share of all that is done, 0 to 1.
