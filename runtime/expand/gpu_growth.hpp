@@ -152,8 +152,10 @@ class GpuGrowth final : public Growth {
     AgainBytes againBytes(const Links& from) const;
     Status makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords);
     Status uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
-                       const std::vector<uint32_t>& edits);
-    Result<AgainState> findDirty(const GrowthInputs& inputs, const SeedChanges& seeds, ExpandEnv env);
+                       std::span<const uint32_t> edits);
+    // edits: editWords(inputs, seeds).
+    Result<AgainState> findDirty(const GrowthInputs& inputs, const SeedChanges& seeds, std::span<const uint32_t> edits,
+                                 ExpandEnv env);
     Result<Regrown> growAgain(const GrowthInputs& inputs, const ExpandEnv& env, Outcome& outcome, AgainState& state);
     Status growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
     void growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);

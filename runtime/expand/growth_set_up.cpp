@@ -157,7 +157,8 @@ Status GpuGrowth::makeQueues(const GrowthInputs& inputs) {
 ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plants, const Links& links) {
     ExpandEnv env{};
     env.surfaces = inputs.surfaces;
-    if (access_.surfacesAsTexels) env.scratch = addressOf<UintBuf, uint32_t>(*inputs.surfaceData);
+    if (access_.surfacesAsTexels && inputs.surfaceData)  // native code sets up no views, and needs none
+        env.scratch = addressOf<UintBuf, uint32_t>(*inputs.surfaceData);
     env.layers = inputs.layers;
     env.grammars = addressOf<RuleMapBuf, RuleMapRef>(grammars_);
     env.tables = addressOf<UintBuf, uint32_t>(tables_);

@@ -76,7 +76,7 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
 // Copies the links, unless native code does as it looks at them, and uploads counters, edits and the seeds that are
 // planted anew as the first wave.
 Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
-                              const std::vector<uint32_t>& edits) {
+                              std::span<const uint32_t> edits) {
     const Links& from = links_.drawn();
     const Links& to = links_.spare();
     const Plants& plants = plants_.drawn();
@@ -129,8 +129,9 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     std::vector<Wave> waves(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
     waves[0].count = waves[0].announced = uint32_t(items.size());
     waves[0].groups[0] = (waves[0].count + kItemsPerGroupAgain - 1) / kItemsPerGroupAgain;
-    Status steps[] = {uploadStatus(commands, inputs, s), commands.upload(again_, state), commands.upload(edits_, edits),
-                      commands.upload(waves_, waves), commands.upload(items_[0], items)};
+    Status steps[] = {uploadStatus(commands, inputs, s), commands.upload(again_, state),
+                      commands.upload(edits_, std::as_bytes(edits)), commands.upload(waves_, waves),
+                      commands.upload(items_[0], items)};
     for (Status& step : steps)
         if (!step) return step;
     // Packed tables change with parameters, grammars and where their words lie.
@@ -146,8 +147,8 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     return Done{};
 }
 
-Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedChanges& seeds, ExpandEnv env) {
-    const std::vector<uint32_t> edits = editWords(inputs, seeds);
+Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedChanges& seeds,
+                                        std::span<const uint32_t> edits, ExpandEnv env) {
     Result<Commands> commands = Commands::begin(device_, "find what changed");
     if (!commands) return commands.failure();
     if (Status ok = uploadAgain(*commands, inputs, seeds, edits); !ok) return ok.failure();
@@ -307,11 +308,10 @@ Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const S
         return Regrown::done;
     }
     room_.items = std::max(room_.items, uint32_t(seeds.planted.size()));
-    const uint64_t words = kEditHead + seeds.to.size() + inputs.grammars.size() + 2 * seeds.pruned.size() + 1 +
-                           uint64_t(dirtyGrid(kMaxReadLevel + 1) + kCellWords + 1) * inputs.changes->cells.size();
-    if (Status made = makeAgainRoom(inputs, words); !made) return made.failure();
+    const std::vector<uint32_t> edits = editWords(inputs, seeds);
+    if (Status made = makeAgainRoom(inputs, edits.size()); !made) return made.failure();
     const ExpandEnv env = environment(inputs, plants_.drawn(), links_.spare());
-    Result<AgainState> found = findDirty(inputs, seeds, env);
+    Result<AgainState> found = findDirty(inputs, seeds, edits, env);
     if (!found) return found.failure();
     chained_ = true;
     touchedIsNew_ = false;

@@ -101,20 +101,6 @@ bool sameDirections(const RuleMap& a, const RuleMap& b) {
     return true;
 }
 
-// Chunks note of layers what any part of their grammar reads.
-uint32_t layersOf(const RuleMap& map) {
-    uint32_t layers = 0;
-    for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionSymbols); ++i)
-        layers |= RuleMapAccess::record<SymbolRecord>(map, kSectionSymbols, i).layers;
-    for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionRules); ++i) {
-        const auto rule = RuleMapAccess::record<RuleRecord>(map, kSectionRules, i);
-        layers |= rule.startLayers | rule.arriveLayers;
-    }
-    for (uint32_t i = 0; i < RuleMapAccess::count(map, kSectionExtrudes); ++i)
-        layers |= RuleMapAccess::record<ExtrudeRecord>(map, kSectionExtrudes, i).layers;
-    return layers;
-}
-
 }  // namespace
 
 bool RuleMap::growsAs(const RuleMap& other) const {
@@ -147,12 +133,15 @@ RuleChanges RuleMap::changesFrom(const RuleMap& before) const {
         changes.uses |= bit;
     }
     const uint32_t programs = std::min(count(*this, kSectionExtrudes), count(before, kSectionExtrudes));
-    const uint32_t noted = layersOf(before);
+    // Chunks have noted the layers of the text by which they grew, which may be older than `before`: that a program
+    // read a layer then and in every text since is all that is known of them.
+    const auto layersOf = [&](const RuleMap& map, uint32_t i) {
+        return RuleMapAccess::record<ExtrudeRecord>(map, kSectionExtrudes, i).layers;
+    };
     for (uint32_t i = 0; i < programs; ++i) {
         if (Part::extrude(*this, i) == Part::extrude(before, i)) continue;
         changes.extrudes = true;
-        const uint32_t read = RuleMapAccess::record<ExtrudeRecord>(*this, kSectionExtrudes, i).layers;
-        changes.all = changes.all || (read & ~noted) != 0;
+        changes.all = changes.all || (layersOf(*this, i) & ~layersOf(before, i)) != 0;
     }
     return changes;
 }

@@ -39,8 +39,8 @@ FN void settleAgain(ExpandEnv env, ChunkBuf before, uint i) {
     if (branch != kNoIndex) listBranch(env, branch);
     if ((AGAIN_MARKS.v[chunk].bits & kMarkAgain) == 0u) return;
     atomicAdd(AGAIN.goneNodes, chunkNodes(before.v[chunk].marks));
-    uint was = before.v[chunk].branch;
-    if (branch == kNoIndex && was != kNoIndex) {
+    uint was = before.v[chunk].branch;   // if it began that, it has none now, or goes on with its parent's
+    if (was != kNoIndex && branch != was && AGAIN.branchesBefore.v[was].firstChunk == chunk) {
         env.branches.v[was].firstChunk = kNoIndex;
         atomicAdd(AGAIN.goneBranches, 1u);
     }

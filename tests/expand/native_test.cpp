@@ -67,6 +67,20 @@ TEST_CASE("native code grows what shaders grow") {
     }
 }
 
+TEST_CASE("native code grows where shaders have grown by one surface's words, and there are more surfaces now") {
+    TestDevice gpu;
+    Scene scene = Scene::baked(cube());
+    scene.addGrammar(kGuided);
+    scene.plantMany(5);
+    auto growth = gpu.growth();
+    mustGrow(scene, gpu, *growth);
+    const uint64_t hash = growth->stats().hash;
+    scene.together = false;
+    scene.native = true;
+    mustGrow(scene, gpu, *growth);
+    CHECK(growth->stats().hash == hash);
+}
+
 TEST_CASE("edits of what native code has grown") {
     Session s(ball());
     s.scene.native = true;

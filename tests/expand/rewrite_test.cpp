@@ -1,6 +1,7 @@
 // A grammar's new text regrows what it changes, by RuleMap::changesFrom.
 #include <doctest/doctest.h>
 
+#include "shaders/shared/random.h"
 #include "tests/expand/session.hpp"
 
 using namespace espalier;
@@ -97,4 +98,56 @@ TEST_CASE("a text that changes a rule derives what used it: little of a rule of 
         s.dab(1, {0.5f, 0.5f}, 0.2f, 0);
         s.check();
     }
+}
+
+TEST_CASE("a dab and a text of both rules and leaves that come before anything grows again") {
+    Session s(flatSquare());
+    for (int i = 0; i < 40; ++i) s.scene.plant({-0.75f, 0, -0.78f + 0.04f * float(i)}, {1, 0, 0}, 0, uint64_t(i));
+    s.check();
+    s.dab(0, {0.5f, 0.5f}, 0.1f, 0);
+    s.rewrite("n < 3) {Tip(n + 1)", "n < 4) {Tip(n + 1)");
+    s.rewrite("S(leafSize * rand(0.6, 1))", "S(leafSize)");
+    s.check();
+}
+
+TEST_CASE("leaves that come to read a layer which rules of a text before read, but not where they grow") {
+    Session s(flatSquare());
+    for (int i = 0; i < 40; ++i) s.scene.plant({-0.75f, 0, -0.78f + 0.04f * float(i)}, {1, 0, 0}, 0, uint64_t(i));
+    s.set(0, "twigs", 0.05f);
+    s.rewrite("floor(rand(0, 3) * cover(texCoord))", "floor(rand(0, 3))");
+    s.changes.everything = true;
+    s.check();
+    const uint32_t nodes = s.growth->stats().nodes;
+    s.rewrite("n < 3) {Tip(n + 1)", "n < 3 and cover(texCoord) > 0.1) {Tip(n + 1)");
+    s.check();
+    CHECK(s.growth->stats().derived < nodes / 4);
+    s.rewrite("floor(rand(0, 3))", "floor(rand(0, 3) * cover(texCoord))");
+    s.check();
+    s.dab(1, {0.5f, 0.5f}, 0.2f, 0);
+    s.check();
+}
+
+// What goes on by itself where there is no mask is a branch where there is one: its key is the same, so that a chunk
+// that began a branch comes to go on with its parent's.
+TEST_CASE("branches that edits turn into what goes on, and back") {
+    Session s(cube());
+    const char* turning = R"(
+context mask = 1
+context cover = 1
+Stem(n) -> Marching(0.3, rand(-0.4, 0.4), n < 80) {Fork(n + 1), Cover}
+Fork(n) : mask(texCoord) > 0.5 -> Branch(2) {Twig(n), Stem(n)}
+Fork(n) -> Twig(n)
+Twig(n) -> Marching(0.3, rand(-0.6, 0.6), n < 90) {Twig(n + 7), Cover}
+Cover -> S(0.001) Shape("bark", C1)
+)";
+    s.write(0, turning);
+    s.changes.everything = true;
+    s.scene.plantMany(300);
+    s.check();
+    for (uint32_t i = 0; i < 24; ++i) {
+        const auto random = [&](uint32_t which) { return uniformRandom(mix64(i), which); };
+        s.dab(0, {random(1), random(2)}, 0.03f + 0.1f * random(3), float(i % 2));
+        s.check();
+    }
+    CHECK(s.growth->stats().regrowths >= 20);
 }
