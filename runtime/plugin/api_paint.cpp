@@ -169,8 +169,10 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     });
     std::vector<PaintJob> jobs;
     const float fill = declaredFill(context, name).value_or(0);
+    Undo made([&] { withdraw(context, stroke); });
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
     if (Status painted = context.painter->fill(jobs, value); !painted) return failGpu(&context, painted.failure());
+    made.done();
     town.done();
     if (EspResult bad = keepEnded(context, std::move(stroke), out)) return bad;
     filled = value;
@@ -187,9 +189,11 @@ EspResult replaceLayer(EspContext& context, uint32_t surface, const std::string&
     const uint32_t side = context.surfaces.find(surface)->data.levels.front().size;
     std::vector<PaintJob> jobs;
     const float fill = declaredFill(context, name).value_or(0);
+    Undo made([&] { withdraw(context, stroke); });
     if (EspResult bad = jobsFor(context, stroke, fill, {{surface, allBlocks(side)}}, jobs)) return bad;
     Status replaced = context.painter->replace(jobs.front(), texels);
     if (!replaced) return failGpu(&context, replaced.failure());
+    made.done();
     return keepEnded(context, std::move(stroke), out);
 }
 
@@ -236,9 +240,8 @@ EspResult espSwapStroke(EspContext* context, EspStroke id) {
 
 EspResult espDestroyStroke(EspContext* context, EspStroke id) {
     return guarded(context, [&] {
-        const PaintStroke* stroke = context->strokes.find(id.id);
-        if (!stroke) return fail(context, ESP_INVALID_ARGUMENT, "espDestroyStroke: no such stroke");
-        if (stroke->open) countOn(*context, *stroke);
+        if (!context->strokes.find(id.id))
+            return fail(context, ESP_INVALID_ARGUMENT, "espDestroyStroke: no such stroke");
         context->strokes.erase(id.id);
         return ESP_OK;
     });

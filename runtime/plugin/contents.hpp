@@ -144,6 +144,7 @@ struct PaintStroke {
         BlockRecord record;
         uint64_t made = 0;  // number of the layer that came into being by it, filled with `fill`; it goes when undone
         float fill = 0;
+        bool counts = false;  // among PaintedLayer::strokes
         bool undone = false;
     };
     std::vector<Part> parts;

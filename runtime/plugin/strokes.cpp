@@ -78,12 +78,19 @@ EspResult makeAgain(EspContext& context, const PaintStroke& stroke) {
     return ESP_OK;
 }
 
+// Whether what the stroke has painted on a layer is there: from its first dab on, while it is open too.
+void count(EspContext& context, const PaintStroke& stroke, PaintStroke::Part& part, bool counts) noexcept {
+    PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer);
+    if (layer && part.counts != counts) layer->strokes += counts ? 1 : -1;
+    part.counts = counts;
+}
+
 // Notes that the stroke has been undone, or done again.
 void turn(EspContext& context, PaintStroke& stroke) noexcept {
     for (PaintStroke::Part& part : stroke.parts)
-        if (PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer)) {
+        if (paintedLayer(context, part.surface, stroke.layer)) {
             part.undone = !part.undone;
-            layer->strokes += part.undone ? -1 : 1;
+            count(context, stroke, part, !part.undone);
         }
 }
 
@@ -94,29 +101,33 @@ void takeBack(EspContext& context, PaintStroke& stroke) noexcept {
     try {
         (void)context.painter->swap(jobsOf(context, stroke));
     } catch (const std::bad_alloc&) {
+        return;
     }
+    withdraw(context, stroke);
 }
 
 }  // namespace
+
+void withdraw(EspContext& context, PaintStroke& stroke) noexcept {
+    turn(context, stroke);
+    dropMade(context, stroke);
+}
 
 EspResult jobsFor(EspContext& context, PaintStroke& stroke, float fill, TouchedBlocks touched,
                   std::vector<PaintJob>& jobs) {
     context.device->hostSubmitted();  // as espUpdate does
     for (const auto& [surface, blocks] : touched) {
         PaintStroke::Part& part = partOf(stroke, surface);
-        if (paintedLayer(context, surface, stroke.layer)) continue;
-        if (EspResult bad = makeLayer(context, surface, stroke.layer, fill, context.layersMade + 1)) return bad;
-        part.made = ++context.layersMade;
-        part.fill = fill;
+        if (!paintedLayer(context, surface, stroke.layer)) {
+            if (EspResult bad = makeLayer(context, surface, stroke.layer, fill, context.layersMade + 1)) return bad;
+            part.made = ++context.layersMade;
+            part.fill = fill;
+        }
+        count(context, stroke, part, true);
     }
     for (auto& [surface, blocks] : touched)  // addresses stay from here on
         jobs.push_back({canvasOf(context, surface, stroke.layer), &partOf(stroke, surface).record, std::move(blocks)});
     return ESP_OK;
-}
-
-void countOn(EspContext& context, const PaintStroke& stroke) {
-    for (const PaintStroke::Part& part : stroke.parts)
-        if (PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer)) ++layer->strokes;
 }
 
 EspResult endStroke(EspContext& context, PaintStroke& stroke, const PartChanged& changed) {
@@ -130,9 +141,11 @@ EspResult endStroke(EspContext& context, PaintStroke& stroke, const PartChanged&
         if (!texels && context.device->lost()) return failGpu(&context, texels.failure());
         if (changed) changed(part, texels ? *texels : std::vector<uint64_t>());
     }
-    std::erase_if(stroke.parts,
-                  [](const PaintStroke::Part& part) { return part.record.blocks().empty() && part.made == 0; });
-    countOn(context, stroke);
+    std::erase_if(stroke.parts, [&](PaintStroke::Part& part) {
+        const bool idle = part.record.blocks().empty() && part.made == 0;
+        if (idle) count(context, stroke, part, false);
+        return idle;
+    });
     return ESP_OK;
 }
 

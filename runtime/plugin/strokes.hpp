@@ -27,9 +27,9 @@ EspResult endStroke(EspContext& context, PaintStroke& stroke, const PartChanged&
 // Ends a stroke that painted in one go, tells growth of it, and gives it an id; on failure what it painted is taken
 // back.
 EspResult keepEnded(EspContext& context, PaintStroke stroke, EspStroke* out);
+// Of a stroke that has painted nothing, or whose paint has been taken back: the layers that it made go.
+void withdraw(EspContext& context, PaintStroke& stroke) noexcept;
 // Undoes a stroke that has ended, or does it again: all of it or nothing.
 EspResult swapStroke(EspContext& context, PaintStroke& stroke);
-// Notes that a stroke that never ends stays on its layers.
-void countOn(EspContext& context, const PaintStroke& stroke);
 
 }  // namespace espalier

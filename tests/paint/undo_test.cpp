@@ -164,6 +164,17 @@ TEST_CASE("layers that a stroke made go when it is undone, and come back as they
         swapped(stroke);
         CHECK(espPaintedLayerCount(painting.context) == 1);
     }
+    SUBCASE("nor where a stroke that goes on has painted since") {
+        const EspStroke open = painting.begin(brush);
+        const EspDab dab = dabAt({0, 0, 1});
+        painting.ok(espStrokeDabs(painting.context, open, &dab, 1));
+        swapped(stroke);
+        CHECK(espPaintedLayerCount(painting.context) == 1);
+        const EspStats both = painting.grown();
+        painting.ok(espEndStroke(painting.context, open));
+        swapped(open);  // last done, though not first undone
+        CHECK(swapped(open).hash == both.hash);
+    }
     SUBCASE("nor one that has taken its place") {
         const std::vector<float> half(size_t(4), .5f);
         EspLayerDef def = espDefaultLayerDef();
