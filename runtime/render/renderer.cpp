@@ -33,6 +33,19 @@ float allowedModelError(const Look& look, bool grows) {
     return grows ? std::min(look.lodPixels, grown) : look.lodPixels;
 }
 
+// Rows of pixels from the top that lie above all hills. Both ends of a row above the horizon are lower than what is
+// between them.
+uint32_t rowsAboveHills(const FrameRecord& frame, uint32_t height) {
+    constexpr float kMargin = 1e-3f;
+    const auto lowest = [&](uint32_t row) {
+        const glm::vec3 middle = frame.rayForward - frame.rayUp * (2 * (float(row) + 0.5f) / float(height) - 1);
+        return std::min(glm::normalize(middle - frame.rayRight).y, glm::normalize(middle + frame.rayRight).y);
+    };
+    uint32_t rows = 0;
+    while (rows < height && lowest(rows) > kHighestHill + kMargin) ++rows;
+    return rows;
+}
+
 }  // namespace
 
 Result<std::vector<RoofMesh>> RendererImpl::loadRoofMeshes(TerminalData meshes) {
@@ -192,7 +205,20 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     return emit_.cull(commands, emitInputs(inputs), view, "emit", true);
 }
 
-void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post) {
+// Hills only where they may be: software devices look for them at each pixel.
+void RendererImpl::drawSky(DrawPass& pass, const FrameRecord& frame, const PostPush& post) {
+    const uint32_t width = targets_.width, height = targets_.height;
+    const uint32_t above = post.ground != 0 ? rowsAboveHills(frame, height) : height;
+    for (const bool hills : {false, true}) {
+        const uint32_t first = hills ? above : 0, end = hills ? height : above;
+        if (first == end) continue;
+        pass.setScissor(0, int32_t(first), width, end - first);
+        pass.draw(sky_[hills], 3, 1, post, {ground_.noiseBinding(true), ground_.skylineBinding(), *frame_});
+    }
+}
+
+void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame,
+                              const PostPush& post) {
     commands.transition(targets_.color, ImageState::colorTarget, ahead_);
     commands.transition(targets_.depth, ImageState::depthTarget);
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
@@ -207,8 +233,7 @@ void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, cons
         roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, shading_);
     }
     if (ahead_) drawSurroundings(pass, inputs, post);
-    if (!hosted_)
-        pass.draw(sky_[post.ground], 3, 1, post, {ground_.noiseBinding(true), ground_.skylineBinding(), *frame_});
+    if (!hosted_) drawSky(pass, frame, post);
 }
 
 void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
@@ -310,7 +335,7 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
     if (grows_)
         if (Status s = lightTerminals(commands); !s) return s;
-    drawGrowth(commands, inputs, push);
+    drawGrowth(commands, inputs, frame, push);
     commands.transition(targets_.color, ImageState::sampled);
     drawOcclusion(commands, push);
     return resolve(commands, target, push);

@@ -89,7 +89,8 @@ class RendererImpl final : public Renderer {
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
     Status findTiles(Commands& commands, EmitView& view);
     void lookBack(EmitView& view) const;
-    void drawGrowth(Commands& commands, const DrawInputs& inputs, const PostPush& post);
+    void drawGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame, const PostPush& post);
+    void drawSky(DrawPass& pass, const FrameRecord& frame, const PostPush& post);
     Status lightTerminals(Commands& commands);
     // Whether what the bucket draws has few enough vertices, and pixels, to be lit ahead; whether it has been.
     bool canBeLit(uint32_t bucket) const;
