@@ -29,7 +29,11 @@ int main(int argc, char** argv) {
     app.add_option("--repeats", options.repeats, "measured runs of each")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) ? 2 : 0;
+    }
 
     if (Result<std::unique_ptr<Device>> device = Device::create())
         std::printf("device: %s (%s)\n", (*device)->info().name.c_str(), (*device)->info().driver.c_str());

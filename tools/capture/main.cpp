@@ -15,6 +15,7 @@
 #include "tools/document/layer_files.hpp"
 #include "tools/document/run.hpp"
 #include "tools/scene/daylight.hpp"
+#include "tools/scene/layers.hpp"
 #include "tools/scene/moving.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene.hpp"
@@ -47,6 +48,12 @@ void warn(const std::string& message) {
 int fail(const std::string& message) {
     std::fprintf(stderr, "espalier-capture: %s\n", message.c_str());
     return 1;
+}
+
+// A command line that says nothing that can be done.
+int refuse(const std::string& message) {
+    fail(message);
+    return 2;
 }
 
 void addOptions(CLI::App& app, Options& options) {
@@ -123,16 +130,18 @@ bool parseView(const std::string& text, EspLook& look) {
 
 std::string statsJson(const EspStats& stats) {
     char text[2048];
-    std::snprintf(text, sizeof text,
-                  "{\"seeds\":%u,\"nodes\":%" PRIu64 ",\"branches\":%u,\"leaves\":%" PRIu64 ",\"polygons\":%" PRIu64
-                  ",\"ms\":{\"expand\":%.3f,\"emit\":%.3f,\"draw\":%.3f},"
-                  "\"bytes\":{\"nodes\":%" PRIu64 ",\"leaves\":%" PRIu64 ",\"chunks\":%" PRIu64 ",\"surfaces\":%" PRIu64
-                  ",\"layers\":%" PRIu64 ",\"total\":%" PRIu64
-                  "},\"overflow\":%u,\"enlarged\":%u,\"validation_messages\":%u,\"hash\":\"%016" PRIx64 "\"}\n",
-                  stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons, stats.expandMs, stats.emitMs,
-                  stats.drawMs, stats.nodeBytes, stats.leafBytes, stats.chunkBytes, stats.surfaceBytes,
-                  stats.layerBytes, stats.totalBytes, stats.overflow, stats.enlarged, stats.validationMessages,
-                  stats.hash);
+    std::snprintf(
+        text, sizeof text,
+        "{\"seeds\":%u,\"nodes\":%" PRIu64 ",\"branches\":%u,\"leaves\":%" PRIu64 ",\"polygons\":%" PRIu64
+        ",\"ms\":{\"expand\":%.3f,\"emit\":%.3f,\"draw\":%.3f},"
+        "\"bytes\":{\"nodes\":%" PRIu64 ",\"leaves\":%" PRIu64 ",\"chunks\":%" PRIu64 ",\"surfaces\":%" PRIu64
+        ",\"layers\":%" PRIu64 ",\"total\":%" PRIu64
+        "},\"overflow\":%u,\"cut\":%u,\"stopped\":%u,\"enlarged\":%u,\"validation_messages\":%u,\"hash\":\"%016" PRIx64
+        "\"}\n",
+        stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons, stats.expandMs, stats.emitMs,
+        stats.drawMs, stats.nodeBytes, stats.leafBytes, stats.chunkBytes, stats.surfaceBytes, stats.layerBytes,
+        stats.totalBytes, stats.overflow, stats.cut, stats.stopped, stats.enlarged, stats.validationMessages,
+        stats.hash);
     return text;
 }
 
@@ -250,10 +259,10 @@ int run(Options options) {
     film.draw.width = options.width;
     film.draw.height = options.height;
     film.draw.look = scene.look;
-    if (!parseView(options.view, film.draw.look)) return fail("--view: no such view: " + options.view);
+    if (!parseView(options.view, film.draw.look)) return refuse("--view: no such view: " + options.view);
     if (options.hour) applyDaylight(*options.hour, film.draw.look);
     if (!options.camera.empty() && !parseCamera(options.camera, scene.camera))
-        return fail("--camera takes six or seven numbers with commas between them, not '" + options.camera + "'");
+        return refuse("--camera takes six or seven numbers with commas between them, not '" + options.camera + "'");
     if (!film.begin(error)) return fail(error);
     uint32_t taken = replays ? 0 : options.frames;
     if (!(replays ? filmRun(recorded, options.every, document, film, taken, error)
@@ -261,8 +270,10 @@ int run(Options options) {
         return fail(replays ? options.replay + ": " + error : error);
     for (const std::string& asked : options.exports) {
         const size_t sign = asked.find('=');
-        if (sign == std::string::npos || sign == 0) return fail("--export takes NAME=FILE, not '" + asked + "'");
-        if (!exportLayer(document, asked.substr(0, sign), asked.substr(sign + 1), error)) return fail(error);
+        if (sign == std::string::npos || sign == 0) return refuse("--export takes NAME=FILE, not '" + asked + "'");
+        const std::string layer = asked.substr(0, sign);
+        if (!readsLayer(document.scene(), layer)) return fail("--export: this scene has no layer '" + layer + "'");
+        if (!exportLayer(document, layer, asked.substr(sign + 1), error)) return fail(error);
     }
     EspStats stats;
     if (espReadStats(made, &stats) != ESP_OK) return fail(espLastError(made));
@@ -297,12 +308,12 @@ int main(int argc, char** argv) {
     }
     if (options.seed >= 0) options.request.seed = uint32_t(options.seed);
     if (options.request.file.empty() && options.replay.empty())
-        return fail("FILE or --replay says what to show; see --help");
+        return refuse("FILE or --replay says what to show; see --help");
     if (!options.size.empty() && !parseSize(options.size, options.width, options.height))
-        return fail("--size takes WIDTHxHEIGHT, 1 to 16384 each, not '" + options.size + "'");
+        return refuse("--size takes WIDTHxHEIGHT, 1 to 16384 each, not '" + options.size + "'");
     for (const std::string& layer : options.layers) {
         const size_t sign = layer.find('=');
-        if (sign == std::string::npos || sign == 0) return fail("--layer takes NAME=FILE, not '" + layer + "'");
+        if (sign == std::string::npos || sign == 0) return refuse("--layer takes NAME=FILE, not '" + layer + "'");
         options.request.layers.push_back({layer.substr(0, sign), layer.substr(sign + 1)});
     }
     try {

@@ -25,7 +25,11 @@ int main(int argc, char** argv) {
     app.add_option("--town", options.town, "houses that the site is laid out around")
         ->needs(app.add_option("--grammar", options.grammar, "of these houses, for where their doors are"));
     app.set_version_flag("--version", "espalier-content " ESPALIER_VERSION);
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) ? 2 : 0;
+    }
     Status status = content::generate(options);
     if (!status) {
         std::fprintf(stderr, "%s\n", status.failure().text().c_str());

@@ -31,7 +31,7 @@ void JsonChecks::whole(const Json& json, const char* name, uint32_t& out) {
     if (value == std::floor(value))
         out = uint32_t(value);
     else
-        fail(json, std::string("'") + name + "' must be a whole number");
+        fail(*json.find(name), std::string("'") + name + "' must be a whole number");
 }
 
 void JsonChecks::word(const Json& json, const char* name, std::string& out) {

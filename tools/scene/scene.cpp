@@ -1,6 +1,5 @@
-// A scene file -> surfaces, grammars, layers in a context, and what to plant and how to look.
+// What a user asks for -> a scene in a context; and what scenes are asked about or change later.
 #include "tools/scene/scene.hpp"
-#include "tools/scene/layers.hpp"
 
 #include <unistd.h>
 
@@ -12,11 +11,10 @@
 
 #include "tools/scene/carried.hpp"
 #include "tools/scene/daylight.hpp"
+#include "tools/scene/layers.hpp"
 #include "tools/scene/named.hpp"
 #include "tools/scene/picture.hpp"
-#include "tools/scene/scene_file.hpp"
 #include "tools/scene/scene_parts.hpp"
-#include "tools/scene/site.hpp"
 #include "tools/scene/text_file.hpp"
 
 namespace espalier::scene {
@@ -43,182 +41,11 @@ bool compileFile(EspContext* context, LoadedGrammar& grammar, std::string& error
 
 namespace {
 
-// `carried`: the picture has nothing beside its charts.
-bool layChannel(EspContext* context, const Scene& scene, const std::string& name, const GreyPicture& picture,
-                int surface, bool carried, std::string& error) {
-    if (surface == SceneLayer::kTown)
-        return fromContext(
-            context,
-            espSetTownLayer(context, name.c_str(), picture.texels.data(), picture.width, picture.height, nullptr),
-            error);
-    for (size_t i = 0; i < scene.surfaces.size(); ++i) {
-        if (surface >= 0 && size_t(surface) != i) continue;
-        EspLayerDef def;
-        if (!fromContext(context, walkLayer(context, scene.surfaces[i].id, name, picture, def), error)) return false;
-        if (surface < 0) def.space = ESP_LAYER_MATERIAL_UV;
-        if (carried) def.space = ESP_LAYER_WALK_UV;
-        if (!fromContext(context, espSetLayer(context, &def), error)) return false;
-    }
-    return true;
-}
-
-bool layLayer(EspContext* context, Scene& scene, const SceneLayer& layer, Carrying& carrying, std::string& error) {
-    std::vector<GreyPicture> pictures;
-    // Projects have what the plugin has: a colour's channels, each by itself.
-    const bool colour = !scene.project && isColour(scene, layer.name);
-    if (!readChannels(layer.file, colour, pictures, error)) return false;
-    const std::vector<std::string> channels = colour ? channelsOf(scene, layer.name) : std::vector{layer.name};
-    for (size_t c = 0; c < channels.size(); ++c) {
-        std::string note;
-        const bool carried =
-            layer.surface >= 0 && carrying.carry(context, scene, channels[c], layer, pictures[c], note);
-        if (!layChannel(context, scene, channels[c], pictures[c], layer.surface, carried, error)) return false;
-        if (!note.empty()) scene.notes.push_back(note);
-    }
-    return true;
-}
-
 bool isTown(const std::string& file) {
     if (std::filesystem::path(file).extension() == ".geojson") return true;
     std::string text, ignored;
     return std::filesystem::path(file).extension() == ".json" && readText(file, text, ignored) &&
            (text.find("\"buildings\"") != std::string::npos || text.find("\"FeatureCollection\"") != std::string::npos);
-}
-
-// A project's text may not compile any more, since what it includes lies beside it: it opens with its message, and
-// until it is mended nothing grows by it.
-bool compileText(EspContext* context, Scene& out, LoadedGrammar& grammar, const std::string& text, std::string& error) {
-    if (compile(context, grammar, text, error)) return true;
-    std::string unheard;
-    if (!out.project || !compile(context, grammar, "Nothing -> Marching(1, 0, arc < 0) {Nothing}\n", unheard))
-        return false;
-    error.clear();
-    if (!setText(context, grammar, text))
-        out.notes.push_back("nothing grows by a text with mistakes: " + grammar.error);
-    return true;
-}
-
-bool loadGrammar(EspContext* context, const SceneGrammar& described, Scene& out, LoadedGrammar& grammar,
-                 std::string& error) {
-    const bool good = described.text
-                          ? compileText(context, out, grammar, described.grows.value_or(*described.text), error)
-                          : compileFile(context, grammar, error);
-    if (!good) return false;
-    // A project may have been saved with a mistake in its text: it stands there with its message, as it was.
-    if (described.grows) setText(context, grammar, *described.text);
-    for (const SceneParam& param : described.params) {
-        const ParamValue& v = param.value;
-        if (fromContext(context, espSetParam(context, grammar.id, v.name.c_str(), v.value.data(), v.count), error))
-            continue;
-        error = param.place + ": " + error;
-        if (!out.project) return false;
-        if (grammar.error.empty())
-            out.notes.push_back(error);
-        else
-            grammar.unset.push_back(v);
-        error.clear();
-    }
-    return true;
-}
-
-bool readFrozen(Seed& seed, std::string& error) {
-    std::string bytes;
-    if (!readText(seed.frozenFile, bytes, error)) return false;
-    const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
-    seed.frozen = std::make_shared<std::vector<std::byte>>(first, first + bytes.size());
-    return true;
-}
-
-// Counts the parts of a scene as they come.
-class Parts {
-  public:
-    Parts(const Request& request, size_t count) : told_(request.told), count_(std::max<size_t>(count, 1)) {}
-    void begin(const std::string& file) {
-        if (told_) told_(std::filesystem::path(file).filename().string(), float(done_) / float(count_));
-        ++done_;
-    }
-
-  private:
-    const std::function<void(const std::string&, float)>& told_;
-    size_t done_ = 0, count_;
-};
-
-bool openDescription(EspContext* context, const Request& request, Scene& out, std::string& error) {
-    SceneFile file;
-    if (!readSceneFile(request.file, file, error)) return false;
-    out.project = file.project > 0;
-    Parts parts(request, file.surfaces.size() + file.grammars.size() + file.layers.size() + file.town.has_value() +
-                             !file.site.empty());
-    for (const SceneSurface& described : file.surfaces) {
-        parts.begin(described.file);
-        LoadedSurface& surface =
-            out.surfaces.emplace_back(LoadedSurface{described.file, described.placing, described.drawn, {}});
-        const EspTransform place = surface.placing.transform();
-        surface.kept = KeptFile::open(surface.file);
-        const auto load = surface.drawn ? espLoadSurface : espLoadGround;
-        if (!fromContext(context, load(context, surface.file.c_str(), &place, &surface.id), error)) return false;
-    }
-    uint32_t number = request.seed.value_or(0);
-    for (size_t i = 0; i < file.grammars.size(); ++i) {
-        SceneGrammar described = file.grammars[i];
-        LoadedGrammar grammar;
-        if (i == 0 && !request.grammar.empty()) {
-            described.file = request.grammar;
-            described.text.reset();
-            described.grows.reset();
-        }
-        grammar.file = described.file;
-        parts.begin(grammar.file);
-        if (!loadGrammar(context, described, out, grammar, error)) return false;
-        out.grammars.push_back(grammar);
-        for (Seed seed : described.seeds) {
-            seed.grammar = uint32_t(i);
-            if (request.seed) seed.number = number++;
-            if (!seed.frozenFile.empty() && !readFrozen(seed, error)) return false;
-            out.seeds.push_back(seed);
-        }
-    }
-    for (uint64_t branch : file.pruned)
-        if (!fromContext(context, espPruneBranch(context, branch, 1), error)) return false;
-    out.town = file.town;
-    if (out.town) parts.begin(out.town->file);
-    if (out.town && !loadTown(context, out, error)) return false;
-    out.site = file.site;
-    out.grow.walk = file.walk;
-    if (!out.site.empty()) parts.begin(out.site);
-    if (!out.site.empty() && !furnish(context, out.site, error)) return false;
-    noteLayers(context, out);
-    for (const auto& [name, value] : file.filled) {
-        if (!readsLayer(out, name) && !file.project) continue;
-        for (const std::string& layer : file.project ? std::vector{name} : channelsOf(out, name)) {
-            EspStroke filled{};
-            if (!fromContext(context, espFillLayer(context, layer.c_str(), value, &filled), error)) return false;
-            espDestroyStroke(context, filled);
-        }
-    }
-    Carrying carrying;
-    for (const SceneLayer& layer : file.layers) {
-        parts.begin(layer.file);
-        // What was painted before a grammar's text lost its layer stays in a project; a scene may paint layers that
-        // only some grammar, given in place of its own, doesn't read.
-        if (!readsLayer(out, layer.name) && !file.project) continue;
-        if (layLayer(context, out, layer, carrying, error)) continue;
-        // A project opens with what can be read of it.
-        GreyPicture unread;
-        std::string why;
-        if (!out.project || readGrey(layer.file, unread, why)) return false;
-        out.notes.push_back(std::exchange(error, {}) + "; the layer '" + layer.name + "' isn't painted there");
-        out.unread.push_back(layer);
-    }
-    out.camera = espFrameAll(context);
-    if (file.hasCamera) {
-        std::copy(file.eye.begin(), file.eye.end(), out.camera.eye);
-        std::copy(file.target.begin(), file.target.end(), out.camera.target);
-    }
-    if (file.fov > 0) out.camera.fovY = fovOfDegrees(file.fov);
-    file.applyLook(out.ownLook);
-    out.hour = file.hour;
-    return true;
 }
 
 }  // namespace

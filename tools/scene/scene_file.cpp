@@ -296,16 +296,15 @@ class Reader : JsonChecks {
 }  // namespace
 
 void SceneFile::applyLook(EspLook& look) const {
-    const auto set = [](float* to, const std::optional<std::array<float, 3>>& from, float factor) {
-        if (from)
-            for (int i = 0; i < 3; ++i) to[i] = (*from)[i] * factor;
+    const auto set = [](float* to, const std::optional<std::array<float, 3>>& from) {
+        if (from) std::ranges::copy(*from, to);
     };
-    set(look.sunDirection, sunDirection, 1);
-    set(look.sunColour, sunColour, sunIntensity);
-    set(look.skyColour, skyColour, 1);
-    set(look.groundColour, groundColour, 1);
-    set(look.background, background, 1);
-    set(look.horizon, horizon, 1);
+    set(look.sunDirection, sunDirection);
+    for (int i = 0; i < 3; ++i) look.sunColour[i] = (sunColour ? (*sunColour)[i] : look.sunColour[i]) * sunIntensity;
+    set(look.skyColour, skyColour);
+    set(look.groundColour, groundColour);
+    set(look.background, background);
+    set(look.horizon, horizon);
     look.exposure = exposure;
     look.shadows = shadows;
     look.ground = groundLevel.has_value();

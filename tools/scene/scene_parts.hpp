@@ -1,7 +1,7 @@
 #pragma once
 
-// What scenes are opened with, between scene.cpp and bare_scene.cpp. Functions return false with what went wrong in
-// `error`.
+// What scenes are opened with, between scene.cpp, described_scene.cpp and bare_scene.cpp. Functions return false with
+// what went wrong in `error`.
 
 #include "tools/scene/scene.hpp"
 
@@ -14,9 +14,15 @@ bool fromContext(const EspContext* context, EspResult result, std::string& error
 bool compile(EspContext* context, LoadedGrammar& grammar, const std::string& text, std::string& error);
 bool compileFile(EspContext* context, LoadedGrammar& grammar, std::string& error);
 
+class Carrying;
+// Lays a picture over the surfaces that it is for. `carrying` knows the bakes that were compared.
+bool layLayer(EspContext* context, Scene& scene, const SceneLayer& layer, Carrying& carrying, std::string& error);
+
 // Loads out.town, which grows by the grammar that it names or the first that makes roofs.
 bool loadTown(EspContext* context, Scene& out, std::string& error);
 
+// A scene or a project, by its file.
+bool openDescription(EspContext* context, const Request& request, Scene& out, std::string& error);
 // A surface, or a town, on its own: with standard grammars, seeds where they have a chance, ground and a camera.
 bool openSurface(EspContext* context, const Request& request, Scene& out, std::string& error);
 bool openTown(EspContext* context, const Request& request, Scene& out, std::string& error);

@@ -19,7 +19,9 @@ class Site : JsonChecks {
         if (!readJsonFile(path_, json, error)) return false;
         if (isObject(json, "a site", {"models", "props", "ground"})) {
             if (const Json* models = need(json, "models")) models_ = file(*models);
-            if (const Json* props = need(json, "props"))
+            const Json* props = need(json, "props");
+            if (props && props->kind != Json::Kind::object) fail(*props, "'props' must be an object");
+            if (props)
                 for (const auto& [name, places] : props->members) readPlaces(name, places);
             if (const Json* ground = json.find("ground")) readGround(*ground);
         }

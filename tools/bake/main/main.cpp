@@ -220,7 +220,11 @@ int main(int argc, char** argv) {
     app.add_option("--house", arguments.town.houses, "of a town: only these, by id; may be repeated")->take_all();
     app.add_option("--meshes", arguments.town.meshes, "of a town: its terminals (default: roofs.glb of the content)");
     app.add_flag("-q,--quiet", arguments.quiet, "no progress, warnings only");
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) ? 2 : 0;
+    }
     if (from->count() > 0 && layer->count() + seeds->count() == 0)
         return fail(Failure("--from", "needs --layer or --seeds: what is to be carried"));
     if (!std::isfinite(float(arguments.tolerance))) return fail(Failure("--tolerance", "is not a number of metres"));
