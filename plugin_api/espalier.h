@@ -3,13 +3,16 @@
  * The life of a context: espCreate, espLoadSurface, espCompileGrammar, espPlant, then each frame espUpdate (grows
  * what changed; nothing if nothing did) and espDraw, at the end espDestroy.
  *
- * Threads: a context and its ids are used by one thread at a time; different contexts are independent.
+ * Threads: a context and its ids are used by one thread at a time; different contexts are independent, unless they share a
+ * VkQueue, which nobody may use while a function of theirs runs: then one thread at a time uses them all.
+ * Waiting: what loads, grows, reads back, paints, or undoes may wait for the GPU.
  * Errors: every function that can fail returns an EspResult and leaves the context as it was before the call: the
- * last good surface, grammar and growth go on. espLastError tells the cause.
- * Ownership: what the caller passes in is copied or used up before the call returns, unless said otherwise.
+ * last good surface, grammar and growth go on. espLastError tells the cause. Counts of what isn't there are 0, names "".
+ * Ownership: what the caller passes in is copied or used up before the call returns, unless said otherwise. Strings that are
+ * returned belong to the context and live until its next call, unless said otherwise.
  * Units: metres, radians, right-handed world space with Y up; colours linear unless said otherwise.
  * Ids: plain values, zero-initialised is no object; an id whose object was destroyed is refused, never reused.
- * Defs: always start from espDefault...Def(), so that new fields get sensible values.
+ * Defs: begin with espDefault...(), so that new fields get sensible values; those that have none, with zeros.
  */
 #ifndef ESPALIER_H
 #define ESPALIER_H
@@ -36,7 +39,7 @@ typedef enum EspResult {
     ESP_INVALID_ARGUMENT = 1,   /* a null pointer, a number out of range, an id of nothing */
     ESP_INVALID_CONTENT = 2,    /* a file or text that can't be used; espLastError names file, place and cause */
     ESP_IO_FAILED = 3,          /* can't read or write */
-    ESP_NO_DEVICE = 4,          /* no Vulkan device that can run Espalier */
+    ESP_NO_DEVICE = 4,          /* no Vulkan device that can run Espalier, or it can't be made */
     ESP_DEVICE_LOST = 5,        /* destroy the context and create it anew */
     ESP_OUT_OF_MEMORY = 6,
     ESP_STOPPED = 7             /* who watches growth gave it up (espWatchGrowth) */
@@ -50,6 +53,7 @@ typedef struct EspStroke { uint32_t id; } EspStroke;
 typedef struct EspBrush EspBrush;   /* espalier_paint.h */
 
 typedef enum EspLogLevel { ESP_LOG_INFO = 0, ESP_LOG_WARNING = 1, ESP_LOG_ERROR = 2 } EspLogLevel;
+/* Called by the context's functions, on their thread; it must not use the context, nor throw. */
 typedef void (*EspLogFn)(void* user, EspLogLevel level, const char* message);
 
 /* ---- Context ------------------------------------------------------------------------------------------------ */
@@ -72,7 +76,8 @@ typedef struct EspHostDevice {
 typedef struct EspContextDef {
     const EspHostDevice* host;   /* NULL: Espalier makes its own device */
     int validation;              /* own device only: 1 turns the validation layer on where it is installed */
-    EspLogFn log;                /* NULL: warnings and errors go to stderr */
+    EspLogFn log;                /* of what a context does once it is made, until espDestroy has returned; NULL: warnings and
+                                    errors go to stderr */
     void* logUser;
     const char* terminals;       /* path of the terminal meshes (terminals.glb), beside which towns look for roofs.glb; NULL:
                                     in the library's content */
@@ -88,8 +93,8 @@ ESP_API void espDestroy(EspContext* context);
 /* Gives back to the device what GPU memory is only kept for what comes: by itself a context keeps up to 1 GiB of it, as asking
  * for it again costs time. For when nothing is to come soon: a pause, a menu, a level that has been loaded, a window at
  * rest. Waits for the GPU; what was recorded into the host's command buffers has to be submitted, as before espUpdate.
- * What stands and is drawn stays; after growth that needed far more it moves to buffers of its own size, for which memory is
- * asked first, and the next frame takes a little longer. EspStats::reservedBytes tells what is left. */
+ * What stands and is drawn stays. Where an earlier growth needed far more, it is copied into buffers of its own size: both
+ * exist for a moment, and the next frame takes a little longer. EspStats::reservedBytes tells what is left. */
 ESP_API EspResult espTrim(EspContext* context);
 
 /* The VkPhysicalDeviceFeatures2 chain that a host's device must be created with; static memory, don't free. */
@@ -97,15 +102,15 @@ ESP_API const void* espRequiredFeatures(void);
 /* Names of the device extensions that it must have been created with besides. Static memory. */
 ESP_API const char* const* espRequiredExtensions(uint32_t* count);
 
-/* What went wrong last in this context (NULL: in this thread's last call without one, such as espCreate), several lines if
- * several mistakes were found. Valid until the next call. Never NULL. */
+/* Why the context's last call failed (NULL: this thread's last call without one, such as espCreate), several lines if several
+ * mistakes were found. Ask right after it: the next call, even one that succeeds, begins with "". Never NULL. */
 ESP_API const char* espLastError(const EspContext* context);
-ESP_API const char* espVersion(void);
-ESP_API const char* espDeviceName(const EspContext* context);
+ESP_API const char* espVersion(void);                             /* "0.1.0"; static */
+ESP_API const char* espDeviceName(const EspContext* context);     /* lives as long as the context */
 
 /* ---- Surfaces ----------------------------------------------------------------------------------------------- */
 
-/* Rows of a 3×4 object-to-world matrix. Scale must be even in all directions. */
+/* Rows of a 3×4 object-to-world matrix. Its scale must be even in all directions, 1e-6 to 1e6, and mirror nothing. */
 typedef struct EspTransform { float rows[3][4]; } EspTransform;
 ESP_API EspTransform espIdentity(void);
 
@@ -119,7 +124,7 @@ typedef struct EspSurfaceInfo {
 
 /* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from
  * one to the other. What lies within another surface's solid body is no ground until one of them is elsewhere: nothing
- * grows there, and seeds there wait. At most 255 surfaces a context. */
+ * grows there, and seeds there wait. place: NULL is the identity. At most 255 surfaces a context. */
 ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
 /* Likewise, of ground that something else draws, such as the walls of a town's houses: of it only ESP_VIEW_CHARTS and
  * ESP_VIEW_LAYER show anything, and it casts no shadow. */
@@ -127,7 +132,7 @@ ESP_API EspResult espLoadGround(EspContext* context, const char* path, const Esp
 /* Puts a surface elsewhere, with its seeds and layers. In the next espUpdate contacts with other surfaces are found anew,
  * and plants grow again that can get to it from where they stand; others are left alone. */
 ESP_API EspResult espMoveSurface(EspContext* context, EspSurface surface, const EspTransform* place);
-ESP_API EspResult espDestroySurface(EspContext* context, EspSurface surface);
+ESP_API EspResult espDestroySurface(EspContext* context, EspSurface surface);   /* its seeds and layers go with it */
 ESP_API EspResult espSurfaceInfo(const EspContext* context, EspSurface surface, EspSurfaceInfo* out);
 
 typedef struct EspHit {
@@ -138,7 +143,8 @@ typedef struct EspHit {
     float distance;                 /* along the ray, or from the point asked for; metres */
 } EspHit;
 
-/* The first point that the ray meets, ESP_INVALID_ARGUMENT if none; direction need not be a unit vector. */
+/* The first point of a surface that the ray meets; ESP_INVALID_ARGUMENT without a message if there is none. Of plants
+ * espPickPlant tells; towns are the host's to pick, by espHouseShape. direction need not be a unit vector. */
 ESP_API EspResult espPick(const EspContext* context, const float origin[3], const float direction[3], EspHit* out);
 /* The nearest point of all surfaces. */
 ESP_API EspResult espNearest(const EspContext* context, const float point[3], EspHit* out);
@@ -170,24 +176,24 @@ typedef struct EspLink {
     EspSurface toSurface;
     EspLinkKind kind;
 } EspLink;
-/* *count: room in links, set to how many there are. links NULL: only asks. */
+/* *count: room in links, set to how many there are; what there is no room for is left out. links NULL: only asks. */
 ESP_API EspResult espReadLinks(EspContext* context, EspSurface surface, EspLink* links, uint32_t* count);
 
 /* ---- Grammars ----------------------------------------------------------------------------------------------- */
 
+/* At most 1,024 a context. All that grow plants together read at most 16 layers, each one of colours counted as three. */
 typedef struct EspGrammarDef {
     const char* name;     /* for messages, usually the file's path; included files are looked for beside it */
     const char* text;
     size_t length;
 } EspGrammarDef;
 
-typedef enum EspParamKind { ESP_PARAM_FLOAT = 0, ESP_PARAM_INT = 1, ESP_PARAM_BOOL = 2, ESP_PARAM_COLOUR = 3 } EspParamKind;
+typedef enum EspParamKind { ESP_PARAM_FLOAT = 0, ESP_PARAM_BOOL = 1, ESP_PARAM_COLOUR = 2 } EspParamKind;
 
 typedef struct EspParamInfo {
-    const char* name;     /* these four strings live as long as the grammar and until it is compiled anew */
+    const char* name;     /* these three strings live as long as the grammar and until it is compiled anew */
     const char* label;
     const char* unit;
-    const char* group;
     EspParamKind kind;
     float value[3], initial[3];   /* colours use all three */
     float low, high;
@@ -205,7 +211,7 @@ ESP_API const char* espGrammarWarnings(const EspContext* context, EspGrammar gra
 ESP_API EspResult espDestroyGrammar(EspContext* context, EspGrammar grammar);   /* its seeds go with it */
 ESP_API uint32_t espParamCount(const EspContext* context, EspGrammar grammar);
 ESP_API EspResult espParamInfo(const EspContext* context, EspGrammar grammar, uint32_t index, EspParamInfo* out);
-/* Values outside the range are clamped to it. */
+/* Values outside the range are clamped to it. count: 3 for a colour, else 1. */
 ESP_API EspResult espSetParam(EspContext* context, EspGrammar grammar, const char* name, const float* value, uint32_t count);
 ESP_API uint32_t espLayerCount(const EspContext* context, EspGrammar grammar);
 ESP_API const char* espLayerName(const EspContext* context, EspGrammar grammar, uint32_t index);
@@ -235,7 +241,7 @@ typedef struct EspSiteDef {
     uint32_t width, height;
     float low[2], high[2];       /* world x and z of its corners, metres */
 } EspSiteDef;
-ESP_API EspResult espSetSite(EspContext* context, const EspSiteDef* def);
+ESP_API EspResult espSetSite(EspContext* context, const EspSiteDef* def);   /* NULL: nothing lies there */
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
@@ -252,7 +258,7 @@ typedef struct EspGrowDef {
                                     otherwise, with the same result; default 0 */
 } EspGrowDef;
 ESP_API EspGrowDef espDefaultGrowDef(void);
-ESP_API EspResult espSetGrow(EspContext* context, const EspGrowDef* def);
+ESP_API EspResult espSetGrow(EspContext* context, const EspGrowDef* def);   /* where it differs, all grows anew */
 
 /* Grows what changed since the last call. Does nothing, and costs nothing, if nothing did. A town and plants grow each for
  * itself: where one fails the other grows, what stood of it stands, and the town's failure is given first. What has failed
@@ -262,15 +268,16 @@ ESP_API EspResult espUpdate(EspContext* context);
 
 /* Plants that take long to grow may be watched: `growing` is called within espUpdate, on its thread, some ten times a second
  * from a tenth of a second on, on a GPU between its submissions, with the nodes grown so far (fewer again where room has run
- * out and growth begins anew). Where it returns 0 growth is given up: espUpdate returns ESP_STOPPED until its inputs change, what
- * was grown before stands, and the next growth is of all that has changed since that. `growing` must neither use the context nor
- * throw; it and `user` are used until they are replaced, or the context is destroyed. NULL: nobody watches. */
+ * out and growth begins anew). Where it returns 0 growth is given up: espUpdate returns ESP_STOPPED until its inputs change,
+ * what was grown before stands, and the next growth is of all that has changed since the last one that came to its end.
+ * `growing` must neither use the context nor throw; it and `user` are used until they are replaced, or the context is
+ * destroyed. NULL: nobody watches. */
 typedef int (*EspGrowingFn)(void* user, uint64_t nodes);
 ESP_API EspResult espWatchGrowth(EspContext* context, EspGrowingFn growing, void* user);
 
 typedef struct EspCamera {
-    float eye[3], target[3], up[3];
-    float fovY;                  /* radians */
+    float eye[3], target[3], up[3];   /* eye and target: two places */
+    float fovY;                  /* radians, 0.001 to 3.1 */
     float nearPlane;             /* metres; the far plane is at infinity */
     float shift[2];              /* moves the picture right and up, in halves of the frame, as a shift lens does: 0.2
                                     makes room for a panel at the left */
@@ -288,9 +295,9 @@ typedef struct EspLook {         /* all numbers finite */
     float exposure;              /* stops */
     float background[3], horizon[3];
     int shadows;
-    int shadowsLag;              /* 1: while growth or houses change in every frame, shadows follow a few frames later,
-                                    and what of them is new in a quick picture is coarse; wholly and finely once all
-                                    rests; default 0: each picture has its own */
+    int shadowsLag;              /* 1: while growth or houses change in every frame, shadows follow a few frames later, and
+                                    in quick pictures coarsely; once nothing changes they are whole and sharp. Default 0:
+                                    each picture has its own */
     int quick;                   /* 1: for pictures of what moves: a software device takes fewer samples of shadows and textures,
                                     leaves out growth that models hid in the picture before, draws twigs that follow each
                                     other as one where windowLodPixels allows it, and lights small leaves and twigs once
@@ -313,8 +320,8 @@ ESP_API EspLook espDefaultLook(void);
  * finest) or ESP_VIEW_CHARTS (a chart's number) shows `amount`, and the amount from which on nothing changes. */
 ESP_API EspResult espViewColour(EspView view, float amount, float rgb[3], float* most);
 
-/* As EspDrawDef::framesDone, in frames without espDraw: what the last picture took is known then, and what only waited for it is
- * free. */
+/* As EspDrawDef::framesDone, for frames without espDraw: completes the times of the last picture, and frees what was only kept
+ * for it. */
 ESP_API EspResult espFramesDone(EspContext* context, uint64_t framesDone);
 
 /* A picture that the host has begun: its opaque objects are in colourImage and in a depth buffer. Growth and roofs are
@@ -337,10 +344,12 @@ typedef struct EspHostScene {
  * `scene`: then it must come in that layout. Its colours are sRGB: encoded in 8-bit RGBA or BGRA and A2B10G10R10 or
  * A2R10G10B10, all UNORM; linear in 8-bit SRGB, R16G16B16A16_SFLOAT and B10G11R11_UFLOAT, where what we draw is within [0, 1].
  * Another format is refused. One sample a pixel: a multisampled picture has to be resolved first.
+ * The buffer is a primary one; pipelines, descriptor sets, push constants and dynamic state aren't what they were afterwards.
+ * On failure it may hold a part of the picture: record it anew, or call espDropFrame.
  * What was recorded has to be submitted to EspHostDevice::queue before the next call that changes the context
  * (espUpdate, espLoadSurface, espStrokeDabs ...): `frame` and `framesDone` tell Espalier how long it must keep what that
- * frame reads. Where no further espDraw tells, since nothing is drawn (a menu, a minimised window), work that a later
- * espUpdate or stroke submits behind it shows that the frame is done. */
+ * frame reads. A host that stops drawing (a menu, a minimised window) need not tell: the next espUpdate or stroke submits
+ * behind its last frame, and once that is done, so is the frame. */
 typedef struct EspDrawDef {
     uint32_t width, height;      /* 1 to 16384 */
     EspCamera camera;
@@ -356,8 +365,9 @@ typedef struct EspDrawDef {
 ESP_API EspDrawDef espDefaultDrawDef(void);
 ESP_API EspResult espDraw(EspContext* context, const EspDrawDef* def);
 /* What espDraw has recorded last into a command buffer of the host's won't be submitted after all (a swapchain that was
- * lost, an error). The next frame relies on nothing of it and draws its shadows anew. Without this call pictures stay wrong
- * until growth or the view changes: what was recorded there counts as done. Its `frame` is done when framesDone says so. */
+ * lost, an error). The next frame relies on nothing of it and draws its shadows anew. Without this call Espalier takes it
+ * that the commands have run, and pictures may be wrong until growth or the view changes. Its `frame` is done when framesDone
+ * says so. */
 ESP_API EspResult espDropFrame(EspContext* context);
 /* rgba: width * height * 4 bytes, rows top to bottom, sRGB, of the last espDraw into Espalier's own image, unless one into
  * a host's scene, of another size, or one that failed has taken its place since. */
@@ -369,11 +379,12 @@ ESP_API EspCamera espFrameAll(const EspContext* context);
 typedef struct EspStats {
     uint32_t seeds, chunks, branches;
     uint64_t nodes, leaves;
-    uint64_t polygons;           /* triangles of the growth at full detail */
+    uint64_t polygons;           /* triangles of the growth at full detail, once it has been drawn */
     uint64_t drawnPolygons;      /* triangles of the growth in the last frame */
     uint32_t expansions;         /* espUpdate calls that expanded anything, since creation */
-    uint32_t overflow;           /* 0: plants stand whole; else times that maxNodes cut them, and leaves left out */
-    uint32_t stopped;            /* branches that a depth or recursion limit ended */
+    uint32_t overflow;           /* times that maxNodes cut the growth, and leaves that were left out. Plants stand whole where
+                                    this and `stopped` are 0 */
+    uint32_t stopped;            /* branches that a limit ended: of depth, of recursion, or maxNodes */
     uint32_t deadEnds;           /* branches that found no direction that their condition allows */
     uint32_t validationMessages;
     double expandMs, emitMs, drawMs, compileMs;   /* GPU time of the latest run of each stage */
@@ -388,7 +399,7 @@ typedef struct EspStats {
     uint64_t drawnLeaves;        /* of the growth in the last frame */
     uint32_t enlarged;           /* times that the latest growth ran out of room and was given more, until it had enough */
     uint64_t reservedBytes;      /* taken from the device: totalBytes, and what is kept for what comes (espTrim) */
-    uint32_t cut;                /* times that maxNodes cut the growth that stands; 0: it is whole */
+    uint32_t cut;                /* times that maxNodes cut the growth that stands; 0: it didn't */
 } EspStats;
 ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
 

@@ -52,14 +52,15 @@ ESP_API void espDestroyCarry(EspCarry* carry);          /* NULL is allowed */
 /* ---- Painting ------------------------------------------------------------------------------------------------ */
 
 /* Painting happens in world space, on all surfaces at once: a dab reaches every texel whose point lies in its sphere,
- * so that seams don't show. A layer comes into being on a surface where it is first painted on: until then each
- * grammar reads its own fill there, from then on, where nothing was painted, that of the first grammar that declares the
- * layer, 0 if none does. Painting works for layers
- * that no grammar reads too. A layer that a town's grammar reads, and no grammar of plants, is painted over the town, and on
+ * so that seams don't show. A layer comes into being on a surface where it is first painted on. Before that each grammar
+ * reads its own fill there; the first stroke fills it with that of the first grammar that declares the layer, 0 if none does,
+ * and all read that. Painting works for layers that no grammar reads too. A layer that a town's grammar reads, and no grammar of plants, is painted over the town, and on
  * surfaces that have it already only.
  *
  * A stroke keeps what it painted over, in blocks of 8×8 texels. Once ended it is a record for undoing, until it is
- * destroyed. Layers that came into being by it go while it is undone, if nothing else has been painted on them since. Strokes of one layer are to be swapped in the order in which a history goes: last done, first undone. */
+ * destroyed. Layers that came into being by it on surfaces go while it is undone, if nothing else has been painted on them
+ * since; those of a town stay. Strokes of one layer are to be swapped in the order in which a history goes: last done, first
+ * undone. */
 typedef enum EspBrushMode {
     ESP_BRUSH_PAINT = 0,         /* towards `value` */
     ESP_BRUSH_ERASE = 1,         /* to what the whole layer was filled with last (espLayerFilled), else its fill */
@@ -69,7 +70,7 @@ typedef enum EspBrushMode {
 struct EspBrush {
     const char* layer;
     EspBrushMode mode;
-    float radius;                /* metres, over 0 */
+    float radius;                /* metres, 1e-6 to 1e6 */
     float value;                 /* 0 to 1 */
     float strength;              /* 0 to 1: of a dab, where it is strongest; dabs add up */
     float hardness;              /* 0 to 1: share of the radius that has full strength; beyond it falls off smoothly */
@@ -85,7 +86,7 @@ typedef struct EspDab {
     float pressure;              /* 0 to 1, scales the strength */
 } EspDab;
 
-ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre in radius, half strength */
+ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre in radius, half strength, without a hard core or limits */
 /* Several strokes may be open at a time, on unlike layers. */
 ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
 /* One pass on the GPU, applied in order; the next espUpdate and espDraw see it. */

@@ -16,7 +16,7 @@ typedef struct EspSeedDef {
     float position[3];        /* world; the nearest place on a surface is taken; from bare material ground beside it */
     float direction[3];       /* world; laid into the surface. Zero: upward, or any where the surface is level */
     uint32_t number;          /* the seed's random number: seeds of unlike numbers grow unlike plants */
-    uint32_t twin;            /* tells apart seeds of one number, from 1; 0: the first that isn't planted yet */
+    uint32_t twin;            /* tells apart seeds of one number, 1 to 2^20; 0: the first that isn't planted yet */
 } EspSeedDef;
 ESP_API EspSeedDef espDefaultSeedDef(void);
 ESP_API EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out);
@@ -24,9 +24,9 @@ ESP_API EspResult espRemoveSeed(EspContext* context, EspSeed seed);
 ESP_API EspResult espRemoveAllSeeds(EspContext* context);
 
 typedef struct EspSeedInfo {
-    EspSeedDef def;           /* as it was planted or last moved: planted again, it grows the same plant to the bit;
-                                 if its surface was moved since, one that rounding makes slightly another. symbol: "" or
-                                 valid as long as the seed */
+    EspSeedDef def;           /* as it was planted or last moved: planted by it again, the plant is the same to the bit, or,
+                                 if its surface was moved since, by rounding slightly another. symbol: "" or valid as long
+                                 as the seed */
     EspSurface surface;
     float position[3];        /* on the surface, world */
     float normal[3], direction[3];   /* unit, world; the direction is laid into the surface */

@@ -91,7 +91,7 @@ typedef struct EspHouseInfo {
     const char* note;        /* what couldn't be made as it was asked for, a line each; "": all was. Until the house changes */
     EspRoofShape shape;      /* as it was asked for */
     float slope;             /* tangent of the pitch; 0: the shape's own */
-    float baseHeight, eaveHeight, ridgeHeight;   /* metres above the ground */
+    float baseHeight, eaveHeight, ridgeHeight;   /* world y, metres */
     uint32_t cornerCount;    /* of all rings */
     uint32_t edgeCount;      /* edges with something of their own */
     float boundsMin[3], boundsMax[3];            /* world */

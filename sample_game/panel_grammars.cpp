@@ -19,12 +19,7 @@ using namespace espalier::document;
 // "%.2f m": as many digits as the range asks for; a unit may hold a percent sign.
 std::string formatOf(const EspParamInfo& param) {
     const float range = std::max(std::abs(param.low), std::abs(param.high));
-    const int digits = param.kind == ESP_PARAM_INT ? 0
-                       : range < .1f               ? 4
-                       : range < 1.5f              ? 3
-                       : range < 15                ? 2
-                       : range < 150               ? 1
-                                                   : 0;
+    const int digits = range < .1f ? 4 : range < 1.5f ? 3 : range < 15 ? 2 : range < 150 ? 1 : 0;
     std::string format = param.low > 0 && param.high / param.low > 200 ? "%.3g" : "%." + std::to_string(digits) + "f";
     if (param.unit[0]) format += " ";
     for (const char* c = param.unit; *c; ++c) format += *c == '%' ? std::string("%%") : std::string(1, *c);
@@ -33,7 +28,7 @@ std::string formatOf(const EspParamInfo& param) {
 
 // Its name in the text, and what is no matter of course about its slider.
 std::string paramTip(const EspParamInfo& param) {
-    if (param.kind != ESP_PARAM_FLOAT && param.kind != ESP_PARAM_INT) return param.name;
+    if (param.kind != ESP_PARAM_FLOAT) return param.name;
     char text[200];
     std::snprintf(text, sizeof text,
                   "%s in the grammar's text: %.4g to %.4g%s%s, there %.4g\nDouble click or Ctrl+click to type a value",

@@ -27,6 +27,10 @@ struct ParamInfo {
     uint32_t slot = 0;  // first bit in the masks of parameters
 };
 
+inline uint32_t numbersOf(const ParamInfo& param) {
+    return param.kind == ParamKind::colour ? 3 : 1;
+}
+
 // A layer of colours is three layers: its name with each of these behind it.
 inline constexpr const char* kChannels[3] = {".r", ".g", ".b"};
 

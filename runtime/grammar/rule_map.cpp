@@ -122,8 +122,7 @@ void RuleMapAccess::evaluate(RuleMap& map) {
     Machine machine;
     resetMachine(MACHINE_ONLY);
     for (const ParamInfo& p : map.params_)
-        for (uint32_t k = 0; k < (p.kind == ParamKind::colour ? 3u : 1u); ++k)
-            SLOT(grammar::kSlotParam + p.slot + k) = tamed(p.value[k]);
+        for (uint32_t k = 0; k < numbersOf(p); ++k) SLOT(grammar::kSlotParam + p.slot + k) = tamed(p.value[k]);
     CodeBuf code{map.uniformCode_.data()};
     std::vector<float> results;
     for (const RuleMap::Uniform& u : map.uniforms_) {
@@ -154,7 +153,7 @@ uint32_t RuleMap::setParam(uint32_t param, std::span<const float> values) {
     assert(param < params_.size());
     ParamInfo& p = params_[param];
     uint32_t changed = 0;
-    for (uint32_t k = 0; k < (p.kind == ParamKind::colour ? 3u : 1u) && k < values.size(); ++k) {
+    for (uint32_t k = 0; k < numbersOf(p) && k < values.size(); ++k) {
         float v = values[k];
         if (std::isnan(v)) continue;
         if (p.kind == ParamKind::colour)

@@ -70,8 +70,7 @@ struct RuleMapAccess {
     static uint32_t count(const RuleMap& map, uint32_t section) { return map.sections_[section].count; }
     // Slots that its parameters take.
     static uint32_t slotsOf(const RuleMap& map) {
-        return map.params_.empty() ? 0
-                                   : map.params_.back().slot + (map.params_.back().kind == ParamKind::colour ? 3 : 1);
+        return map.params_.empty() ? 0 : map.params_.back().slot + numbersOf(map.params_.back());
     }
     static std::vector<Diagnostic>& warnings(RuleMap& map) { return map.warnings_; }
 };

@@ -245,7 +245,7 @@ std::string RuleMapAccess::verify(const RuleMap& map) {
     uint32_t slots = 0;
     for (const ParamInfo& p : map.params_) {
         v.need(p.kind <= ParamKind::colour && p.slot == slots, "a parameter");
-        slots += p.kind == ParamKind::colour ? 3 : 1;
+        slots += numbersOf(p);
         v.need(sane(p.minimum) && sane(p.maximum) && p.minimum < p.maximum, "a parameter's range");
         for (int k = 0; k < 3; ++k) v.need(sane(p.standard[k]), "a parameter's default");
     }

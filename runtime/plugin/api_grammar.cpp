@@ -45,7 +45,7 @@ Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, con
         for (const ParamInfo& param : old->map.params())
             if (auto index = grammar.map.findParam(param.name))
                 if (grammar.map.params()[*index].kind == param.kind)
-                    grammar.map.setParam(*index, std::span(param.value, param.kind == ParamKind::colour ? 3 : 1));
+                    grammar.map.setParam(*index, std::span(param.value, numbersOf(param)));
     for (const ContextInfo& layer : grammar.map.contexts()) {
         const std::optional<uint32_t> number = sceneLayer(context, layer.name, layer.fill, grammar.layerOf);
         if (!number)
@@ -201,7 +201,6 @@ EspResult espParamInfo(const EspContext* context, EspGrammar id, uint32_t index,
         out->name = param.name.c_str();
         out->label = param.label.empty() ? param.name.c_str() : param.label.c_str();
         out->unit = param.unit.c_str();
-        out->group = "";
         out->kind = kindOf(param);
         std::memcpy(out->value, param.value, sizeof out->value);
         std::memcpy(out->initial, param.standard, sizeof out->initial);
@@ -222,6 +221,10 @@ EspResult espSetParam(EspContext* context, EspGrammar id, const char* name, cons
         const std::optional<uint32_t> index = grammar->map.findParam(name);
         if (!index)
             return fail(context, ESP_INVALID_ARGUMENT, grammar->name + ": there is no parameter '" + name + "'");
+        if (const uint32_t takes = numbersOf(grammar->map.params()[*index]); count != takes)
+            return fail(context, ESP_INVALID_ARGUMENT,
+                        grammar->name + ": '" + name + "' takes " + std::to_string(takes) +
+                            (takes == 1 ? " number" : " numbers"));
         if (const uint32_t slots = grammar->map.setParam(*index, std::span(value, count))) {
             grammar->stale = true;
             context->changes.markUses(context->grammarIndex(id.id), slots);

@@ -115,9 +115,14 @@ EspResult setParam(EspContext& context, PlantedSeed& seed, const char* name, con
         return ESP_OK;
     }
     const RuleMap& map = context.grammars.find(seed.grammar)->map;
-    if (!map.findParam(name))
+    const auto index = map.findParam(name);
+    if (!index)
         return fail(&context, ESP_INVALID_ARGUMENT,
                     std::string("espSetSeedParam: the seed's grammar has no parameter '") + name + "'");
+    if (const uint32_t takes = numbersOf(map.params()[*index]); count != takes)
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    std::string("espSetSeedParam: '") + name + "' takes " + std::to_string(takes) +
+                        (takes == 1 ? " number" : " numbers"));
     SeedParam param{name, {}, count};
     for (uint32_t i = 0; i < count; ++i) {
         if (!std::isfinite(value[i]))

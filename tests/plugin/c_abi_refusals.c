@@ -40,11 +40,12 @@ void badArguments(EspContext* context) {
     CHECK(strstr(espLastError(context), "empty.grammar") != NULL);
     REFUSED(espCompileGrammar(context, &null, &grammar));
     OK(context, espCompileGrammar(context, &def, &grammar));
-    const float nan = NAN, one = 1;
+    const float nan = NAN, one = 1, three[3] = {1, 1, 1};
     REFUSED(espSetParam(context, grammar, "reach", &nan, 1));
     REFUSED(espSetParam(context, grammar, "nothing", &one, 1));
     CHECK(strstr(espLastError(context), "nothing") != NULL);
-    REFUSED(espSetParam(context, grammar, "reach", &one, 4));
+    REFUSED(espSetParam(context, grammar, "reach", &one, 0));
+    REFUSED(espSetParam(context, grammar, "reach", three, 3));
 
     EspSeedDef seed = espDefaultSeedDef();
     EspSeed planted;
