@@ -74,7 +74,7 @@ void AtlasView::followBranch(const Workspace& work) {
 void AtlasView::surfaceChoice(const Workspace& work) {
     const auto& surfaces = work.scene().surfaces;
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
-    if (ImGui::BeginCombo("##surface", surfaceName(surfaces, wanted_.surface).c_str())) {
+    if (beginCombo("##surface", surfaceName(surfaces, wanted_.surface))) {
         for (size_t i = 0; i < surfaces.size(); ++i)
             if (ImGui::Selectable(surfaceName(surfaces, i).c_str(), i == wanted_.surface))
                 wanted_.surface = uint32_t(i);
@@ -110,7 +110,7 @@ void AtlasView::controls(Workspace& work) {
     toolTip("Borders, and at the mouse where they lead");
     sameLineIfRoom(room * 6);
     ImGui::SetNextItemWidth(room * 6);
-    if (ImGui::BeginCombo("##layer", wanted_.layer.empty() ? "No layer" : wanted_.layer.c_str())) {
+    if (beginCombo("##layer", wanted_.layer.empty() ? "No layer" : wanted_.layer)) {
         if (ImGui::Selectable("No layer", wanted_.layer.empty())) wanted_.layer.clear();
         for (const std::string& layer : scene.layers)
             if (!work.townLayer(layer) && ImGui::Selectable(layer.c_str(), layer == wanted_.layer))

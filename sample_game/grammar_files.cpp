@@ -97,6 +97,10 @@ std::vector<GrammarFiles::Change> GrammarFiles::look(const espalier::scene::Scen
     return changes;
 }
 
+void GrammarFiles::wrote(uint32_t grammar, const std::string& text) {
+    if (grammar < seen_.size()) seen_[grammar].text = text;
+}
+
 const std::string* FileText::of(const std::string& file) {
     const FileStamp stamp = stampOf(file);
     std::string ignored;

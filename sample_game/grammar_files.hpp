@@ -22,6 +22,9 @@ class GrammarFiles {
     void begin(const espalier::scene::Scene& scene, std::filesystem::file_time_type read = kNeverWritten);
     // Since begin() or the last call. A file that can't be read counts as it was.
     std::vector<Change> look(const espalier::scene::Scene& scene);
+    // Written from here, and no news whatever becomes of the grammar until the next look. What else reads the file is
+    // told of it then.
+    void wrote(uint32_t grammar, const std::string& text);
 
   private:
     struct Seen {

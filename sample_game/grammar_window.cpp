@@ -96,9 +96,14 @@ void lineNumbers(int lines, const std::vector<Remark>& remarks, ImVec2 place, Im
 void fileRow(Workspace& work, const std::string& file, const std::string* inFile) {
     const auto& grammar = work.scene().grammars[work.openGrammar];
     ImGui::BeginDisabled(inFile && sameText(*inFile, grammar.text));
-    if (ImGui::Button("Write to file") && writeGrammar(grammar.file, grammar.text, work.error))
-        work.message = "Written: " + grammar.file;
-    toolTip(("For all scenes with this grammar: " + grammar.file).c_str());
+    if (ImGui::Button("Write to file") && writeGrammar(grammar.file, grammar.text, work.error)) {
+        work.written = {work.openGrammar, grammar.text};
+        work.error.clear();  // an earlier try's
+        work.message = "Written, which undo doesn't take back: " + grammar.file;
+    }
+    toolTip(("For all scenes with this grammar: " + grammar.file +
+             "\nUndo leaves files alone: it goes back to what was typed, and another click writes that")
+                .c_str());
     ImGui::SameLine();
     ImGui::BeginDisabled(!inFile);
     if (ImGui::Button("Take from file") && inFile &&

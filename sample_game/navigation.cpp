@@ -98,13 +98,29 @@ void Navigation::wheel(Workspace& work, float steps, glm::vec2 mouse) {
         work.message = text;
         return;
     }
-    // There and back again ends where it began.
-    if (wheeled_ != mouse || open_) open_ = !aimAt(work, mouse);
-    const float distance = work.camera.distance();
-    work.camera.zoom(steps, within(work, mouse) ? work.rayThrough(mouse).direction : work.camera.ahead());
-    if (open_) work.camera.focus(distance);  // nothing stops one there
+    const glm::vec3 way = within(work, mouse) ? work.rayThrough(mouse).direction : work.camera.ahead();
+    // There and back again ends where it began: what is aimed at at first is, but for what comes near in the open.
+    const bool anew = wheeled_ != mouse;
+    if (anew || (open_ && steps > 0)) {
+        open_ = !aimAt(work, mouse);
+        metAt_ = work.camera.distance();
+    }
+    if (anew) stride_ = open_ ? metAt_ : 0;
+    if (open_)
+        work.camera.advance(steps, way, stride_);
+    else
+        approach(work, steps, way);
     wheeled_ = mouse;
     moved_ = true;
+}
+
+// Nearer to what is aimed at, or away from it. Where that came near in the open, the way back goes on by the steps that
+// led there.
+void Navigation::approach(Workspace& work, float steps, glm::vec3 way) {
+    const float back = -work.camera.stepsFrom(metAt_), beyond = std::min(0.f, steps - back);
+    open_ = stride_ > 0 && beyond < 0;
+    work.camera.zoom(open_ ? back : steps, way);
+    if (open_) work.camera.advance(beyond, way, stride_);
 }
 
 bool Navigation::step(Workspace& work, const Input& input, float seconds, bool typing) {

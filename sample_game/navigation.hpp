@@ -33,10 +33,12 @@ class Navigation {
   private:
     enum class Drag { none, orbit, pan, look };
     bool aimAt(Workspace& work, glm::vec2 mouse);  // false: nothing is under it
+    void approach(Workspace& work, float steps, glm::vec3 way);
     Drag drag_ = Drag::none;
     bool strayed_ = false;              // what the camera turns about isn't what lies in the middle any more
     std::optional<glm::vec2> wheeled_;  // where the wheel was turned last, if the camera hasn't moved otherwise since
-    bool open_ = false;                 // nothing was there
+    bool open_ = false;                 // nothing is there
+    float stride_ = 0, metAt_ = 0;      // of steps in the open, where it began there; how far what came near was then
     int button_ = 0;
     glm::vec2 last_{0};
     bool known_ = false, flying_ = false, jump_ = false, moved_ = false;

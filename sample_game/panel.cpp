@@ -183,7 +183,7 @@ void chosenSeeds(Workspace& work) {
     if (work.scene().grammars.size() > 1) {
         const uint32_t now = chosen[0].grammar;
         rowLabel("Grammar");
-        if (ImGui::BeginCombo("##grammar", grammarName(work.scene(), now).c_str())) {
+        if (beginCombo("##grammar", grammarName(work.scene(), now))) {
             for (uint32_t i = 0; i < work.scene().grammars.size(); ++i)
                 if (ImGui::Selectable(grammarName(work.scene(), i).c_str(), i == now)) {
                     for (SeedRecord& seed : chosen) seed.grammar = i;
@@ -280,7 +280,7 @@ void seedsPanel(Workspace& work) {
     const auto& scene = work.scene();
     if (scene.grammars.size() > 1) {
         rowLabel("Plant");
-        if (ImGui::BeginCombo("##plant", grammarName(scene, work.plantGrammar).c_str())) {
+        if (beginCombo("##plant", grammarName(scene, work.plantGrammar))) {
             for (uint32_t i = 0; i < scene.grammars.size(); ++i)
                 if (ImGui::Selectable(grammarName(scene, i).c_str(), i == work.plantGrammar)) work.plantGrammar = i;
             ImGui::EndCombo();
@@ -330,7 +330,7 @@ void lightPanel(Workspace& work) {
 
     rowLabel("View");
     const bool layer = scene.look.view == ESP_VIEW_LAYER;
-    if (ImGui::BeginCombo("##view", layer ? scene.viewLayer.c_str() : viewTitle(scene.look.view))) {
+    if (beginCombo("##view", layer ? scene.viewLayer.c_str() : viewTitle(scene.look.view))) {
         for (const EspView view : kViews)
             if (ImGui::Selectable(viewTitle(view), scene.look.view == view))
                 work.perform(SetView{espalier::scene::nameOf(view), ""});

@@ -1,5 +1,6 @@
 // Counts, memory and the time of each stage, over the picture at the right.
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,35 @@ std::string ms(double value) {
     return text;
 }
 
+// A window over the picture that takes no mouse: what lies behind it is clicked, dragged and painted as if it weren't
+// there, and seen through it while a tool is near. at: its corner that `pivot` says; width 0: as it needs.
+bool beginOverlay(const Workspace& work, const char* name, ImVec2 at, ImVec2 pivot, float width) {
+    constexpr float kFaint = .2f, kNear = 24;
+    const ImGuiWindow* before = ImGui::FindWindowByName(name);
+    ImRect around = before ? before->Rect() : ImRect();
+    around.Expand(kNear * work.scale);
+    const bool reached = work.tool != Tool::look && around.Contains(ImGui::GetIO().MousePos);
+    const float alpha = reached ? kFaint : 1;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);
+    ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+    if (width > 0) ImGui::SetNextWindowSize({width, 0});
+    ImGui::SetNextWindowBgAlpha(.72f * alpha);
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoInputs |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize;
+    return ImGui::Begin(name, nullptr, flags);
+}
+
+void endOverlay() {
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+// A colour of our own, as faint as ImGui's are now.
+ImU32 faded(ImU32 colour) {
+    return ImGui::GetColorU32(colour);
+}
+
 constexpr const char* kStages[] = {"Expand", "Emit", "Draw"};
 constexpr ImU32 kColours[] = {IM_COL32(120, 200, 90, 255), IM_COL32(90, 160, 230, 255), IM_COL32(230, 160, 70, 255)};
 
@@ -33,7 +63,7 @@ void graph(const Workspace& work) {
     const float s = work.scale, height = 56 * s, width = ImGui::GetContentRegionAvail().x;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(0, 0, 0, 90));
+    list.AddRectFilled(at, {at.x + width, at.y + height}, faded(IM_COL32(0, 0, 0, 90)));
     const float column = 2 * s;
     const size_t shown = std::min(work.history.size(), size_t(width / column));
     std::vector<float> sums;
@@ -48,13 +78,13 @@ void graph(const Workspace& work) {
         float y = at.y + height;
         for (int stage = 0; stage < 3; ++stage) {
             const float top = std::max(y - height * frame[stage] / highest, at.y);
-            if (y - top > .3f) list.AddRectFilled({x, top}, {x + column - 1, y}, kColours[stage]);
+            if (y - top > .3f) list.AddRectFilled({x, top}, {x + column - 1, y}, faded(kColours[stage]));
             y = top;
         }
     }
     const std::string top = ms(highest);
     const ImVec2 size = ImGui::CalcTextSize(top.c_str());
-    list.AddRectFilled(at, {at.x + size.x + 8, at.y + size.y + 4}, IM_COL32(0, 0, 0, 170));
+    list.AddRectFilled(at, {at.x + size.x + 8, at.y + size.y + 4}, faded(IM_COL32(0, 0, 0, 170)));
     list.AddText({at.x + 4, at.y + 2}, ImGui::GetColorU32(ImGuiCol_TextDisabled), top.c_str());
     ImGui::Dummy({width, height});
 }
@@ -64,10 +94,10 @@ void hatchedRow(float scale) {
     const float side = ImGui::GetFontSize(), step = side / 2.5f;
     const ImVec2 at = ImGui::GetCursorScreenPos(), end{at.x + 2 * side, at.y + side};
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(at, end, IM_COL32(80, 85, 97, 255));
+    list.AddRectFilled(at, end, faded(IM_COL32(80, 85, 97, 255)));
     list.PushClipRect(at, end, true);
     for (float x = 0; x < 3 * side; x += step)
-        list.AddLine({at.x + x, at.y}, {at.x + x - side, end.y}, IM_COL32(15, 16, 18, 255), 2.5f * scale);
+        list.AddLine({at.x + x, at.y}, {at.x + x - side, end.y}, faded(IM_COL32(15, 16, 18, 255)), 2.5f * scale);
     list.PopClipRect();
     ImGui::Dummy({2 * side, side});
     ImGui::SameLine();
@@ -82,19 +112,14 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
     const float s = work.scale, margin = 12 * s, room = work.window.x - work.panelUnits() - 2 * margin;
     const bool brief = room < 3 * 235 * s - 2 * margin, narrow = room < 235 * s;
     if (room < 120 * s) return;
-    ImGui::SetNextWindowPos({work.window.x - margin, margin + ImGui::GetFrameHeight()}, ImGuiCond_Always, {1, 0});
-    ImGui::SetNextWindowSize({std::min(235 * s, room), 0});
-    ImGui::SetNextWindowBgAlpha(.72f);
-    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize;
-    if (ImGui::Begin("figures", nullptr, flags)) {
+    if (beginOverlay(work, "figures", {work.window.x - margin, margin + ImGui::GetFrameHeight()}, {1, 0},
+                     std::min(235 * s, room))) {
         const auto row = [](const char* name, const std::string& value, ImU32 colour = 0) {
             if (colour) {
                 const ImVec2 at = ImGui::GetCursorScreenPos();
                 const float size = ImGui::GetFontSize() * .6f, down = ImGui::GetFontSize() * .25f;
                 ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + down}, {at.x + size, at.y + down + size},
-                                                          colour);
+                                                          faded(colour));
                 ImGui::SetCursorPosX(ImGui::GetCursorPosX() + size * 1.6f);
             }
             ImGui::TextDisabled("%s", name);
@@ -129,7 +154,7 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         if (validation) row("Validation messages", grouped(validationMessages));
         ImGui::PopStyleVar();
     }
-    ImGui::End();
+    endOverlay();
 }
 
 void showLegend(const Workspace& work) {
@@ -138,13 +163,8 @@ void showLegend(const Workspace& work) {
     const bool colours = view == ESP_VIEW_LAYER && isColour(work.scene(), work.scene().viewLayer);
     if (view == ESP_VIEW_CHARTS || colours || espViewColour(view, 0, rgb, &most) != ESP_OK) return;
     const float s = work.scale;
-    ImGui::SetNextWindowPos({work.panelUnits() + 12 * s, work.window.y - ImGui::GetFrameHeight() - 16 * s},
-                            ImGuiCond_Always, {0, 1});
-    ImGui::SetNextWindowBgAlpha(.72f);
-    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize;
-    if (ImGui::Begin("legend", nullptr, flags)) {
+    const ImVec2 corner{work.panelUnits() + 12 * s, work.window.y - ImGui::GetFrameHeight() - 16 * s};
+    if (beginOverlay(work, "legend", corner, {0, 1}, 0)) {
         const bool layer = view == ESP_VIEW_LAYER, levels = view == ESP_VIEW_LOD;
         const float room = work.window.x - work.panelUnits() - 24 * s - 2 * ImGui::GetStyle().WindowPadding.x;
         const float width = std::min((layer ? 120 : 260) * s, room), height = ImGui::GetFontSize();
@@ -159,7 +179,7 @@ void showLegend(const Workspace& work) {
         for (float i = 0; i < steps; ++i) {
             ImGui::GetWindowDrawList()->AddRectFilled({at.x + width * i / steps, at.y},
                                                       {at.x + width * (i + 1) / steps, at.y + height},
-                                                      viewColour(view, levels ? i : most * (i + .5f) / steps));
+                                                      faded(viewColour(view, levels ? i : most * (i + .5f) / steps)));
         }
         ImGui::Dummy({width, height});
         ImGui::TextDisabled("0");
@@ -168,7 +188,7 @@ void showLegend(const Workspace& work) {
         ImGui::TextDisabled("%s", last.c_str());
         if (limitingStroke(work)) hatchedRow(s);
     }
-    ImGui::End();
+    endOverlay();
 }
 
 }  // namespace sample

@@ -67,7 +67,7 @@ void edgePanel(Workspace& work, Edit& edit, House& house) {
     constexpr const char* kEndTitles[] = {"As the kind says", "Gable", "Eave"};
     rowLabel("Carries");
     const auto now = size_t(std::find(std::begin(kEnds), std::end(kEnds), edge.end) - std::begin(kEnds));
-    if (ImGui::BeginCombo("##end", kEndTitles[std::min(now, size_t(2))])) {
+    if (beginCombo("##end", kEndTitles[std::min(now, size_t(2))])) {
         for (size_t i = 0; i < std::size(kEnds); ++i)
             if (ImGui::Selectable(kEndTitles[i], i == now)) {
                 edge.end = kEnds[i];
@@ -98,7 +98,7 @@ void lookPanel(Workspace& work, Edit& edit, HouseLook& look) {
         rowLabel(label);
         const auto now = std::ranges::find(choices, chosen, [](const Choice& c) { return std::string(c.name); });
         ImGui::PushID(label);
-        if (ImGui::BeginCombo("##choice", now == choices.end() ? chosen.c_str() : now->title)) {
+        if (beginCombo("##choice", now == choices.end() ? chosen.c_str() : now->title)) {
             for (const Choice& choice : choices)
                 if (ImGui::Selectable(choice.title, chosen == choice.name)) {
                     chosen = choice.name;
@@ -153,7 +153,7 @@ void housesPanel(Workspace& work) {
     ImGui::TextDisabled("ridge %.1f m", info.ridgeHeight - info.baseHeight);
     Edit edit;
     rowLabel("Roof");
-    if (ImGui::BeginCombo("##kind", kTitles[info.shape])) {
+    if (beginCombo("##kind", kTitles[info.shape])) {
         for (int i = 0; i < int(std::size(kTitles)); ++i)
             if (ImGui::Selectable(kTitles[i], i == int(info.shape))) {
                 chooseKind(work, house, espalier::scene::nameOf(EspRoofShape(i)));

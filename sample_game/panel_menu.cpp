@@ -80,12 +80,17 @@ Hint hintOf(const Workspace& work, bool caught, bool flying) {
     return {text, "   Tab: walk   F1: all keys"};
 }
 
-// As much of it as there is room for: the last hints give way, each as a whole. Empty: there is no room.
+// As much of it as there is room for: the last hints give way, each as a whole, then the first. Empty: there is no
+// room.
 std::string fitted(const Hint& hint, float room) {
-    std::string text = hint.text;
-    const auto width = [&] { return ImGui::CalcTextSize((text + hint.always).c_str()).x; };
-    while (width() > room && text.rfind("   ") != std::string::npos) text.resize(text.rfind("   "));
-    return width() > room ? "" : text + hint.always;
+    for (std::string text = hint.text;;) {
+        const std::string line =
+            text.empty() ? hint.always.substr(std::min<size_t>(3, hint.always.size())) : text + hint.always;
+        if (ImGui::CalcTextSize(line.c_str()).x <= room) return line;
+        if (text.empty()) return "";
+        const size_t last = text.rfind("   ");
+        text.resize(last == std::string::npos ? 0 : last);
+    }
 }
 
 }  // namespace
@@ -156,9 +161,10 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
     if (ImGui::Begin("status", nullptr, flags)) {
         // News is short-lived: hints give way to it.
         const std::string& news = bad ? work.error : work.message;
-        const std::string line = news.substr(0, news.find('\n'));
+        const float room = work.window.x - 24 * work.scale;
+        const std::string line = shortened(news.substr(0, news.find('\n')), room);
         const float width = line.empty() ? 0 : ImGui::CalcTextSize(line.c_str()).x + 28 * work.scale;
-        const std::string hint = fitted(hintOf(work, caught, flying), work.window.x - 24 * work.scale - width);
+        const std::string hint = fitted(hintOf(work, caught, flying), room - width);
         ImGui::TextUnformatted(hint.c_str());
         if (!line.empty()) {
             if (hint.empty())

@@ -31,14 +31,23 @@ std::vector<Param> values(const Workspace& work, EspGrammar grammar, bool initia
     return all;
 }
 
-// One step of undo. What the grammar has lost since is told, and the rest taken.
-void apply(Workspace& work, uint32_t index, const std::vector<Param>& params) {
+// One step of undo by the preset's name. What the grammar has lost since is told, and the rest taken.
+void apply(Workspace& work, uint32_t index, const std::string& name, const std::vector<Param>& params) {
     const uint32_t gesture = work.newGesture();
+    const std::vector<Param> before = values(work, work.scene().grammars[index].id, false);
     std::string lost;
-    for (const Param& param : params)
-        if (!work.perform(SetParam{index, param}, gesture)) lost += (lost.empty() ? "" : ", ") + param.name;
+    bool changes = false;
+    for (const Param& param : params) {
+        if (std::ranges::find(before, param) != before.end()) continue;
+        const bool taken = work.perform(SetParam{index, param}, gesture);
+        changes |= taken;
+        if (!taken) lost += (lost.empty() ? "" : ", ") + param.name;
+    }
+    work.document->callStep(gesture, name + " of " + grammarName(work.scene(), index));
     work.error.clear();
-    if (!lost.empty()) work.message = "The grammar has no parameter any more that is called: " + lost;
+    work.message = !lost.empty() ? "The grammar has no parameter any more that is called: " + lost
+                   : changes     ? "Taken: " + name
+                                 : "It has these values already: " + name;
 }
 
 void renameRow(Workspace& work, const std::string& grammar, Names& names) {
@@ -77,7 +86,7 @@ void shippedRows(Workspace& work, uint32_t index) {
         std::vector<Param> params;
         const bool chosen = ImGui::Selectable(name.c_str());
         toolTip("Comes with the grammar; one step of undo");
-        if (chosen && readShippedPreset(file, name, params, work.error)) apply(work, index, params);
+        if (chosen && readShippedPreset(file, name, params, work.error)) apply(work, index, "Preset " + name, params);
     }
     ImGui::PopID();
 }
@@ -90,7 +99,7 @@ void presetRows(Workspace& work, uint32_t index, const std::string& grammar, Nam
         if (name == names.renamed)
             renameRow(work, grammar, names);
         else if (presetRow(work, grammar, name, names) && readPreset(grammar, name, params, work.error))
-            apply(work, index, params);
+            apply(work, index, "Preset " + name, params);
         ImGui::PopID();
     }
     const std::string removed = removedPreset(grammar);
@@ -115,6 +124,7 @@ void keepRow(Workspace& work, uint32_t index, const std::string& grammar, Names&
     toolTip("Keeps the values as they are now under this name, for this grammar in any scene");
     const std::vector<Param> params = values(work, work.scene().grammars[index].id, false);
     if (!keeps || !names.kept[0] || !writePreset(grammar, names.kept, params, work.error)) return;
+    work.error.clear();  // an earlier try's
     work.message = std::string(taken ? "Replaced: " : "Kept: ") + names.kept;
     names.kept[0] = 0;
     ImGui::CloseCurrentPopup();
@@ -132,7 +142,7 @@ void presetsPanel(Workspace& work, uint32_t index) {
     }
     if (ImGui::IsWindowAppearing()) names.renamed.clear();
     if (ImGui::Selectable("As the grammar says"))
-        apply(work, index, values(work, work.scene().grammars[index].id, true));
+        apply(work, index, "The text's own values", values(work, work.scene().grammars[index].id, true));
     shippedRows(work, index);
     if (!presetNames(grammar).empty()) ImGui::Separator();
     presetRows(work, index, grammar, names);

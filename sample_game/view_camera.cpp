@@ -3,12 +3,16 @@
 #include "sample_game/view_camera.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace sample {
 namespace {
 
 constexpr float kMaxPitch = 1.55f;
+constexpr float kWheel = .88f;  // of the distance that a step of the wheel leaves
 constexpr float kEyeHeight = 1.65f, kBody = .3f, kStep = .45f, kGravity = 9.81f;
 
 }  // namespace
@@ -55,8 +59,16 @@ void ViewCamera::pan(float x, float y) {
 
 void ViewCamera::zoom(float steps, glm::vec3 way) {
     const float before = distance_;
-    distance_ = std::clamp(distance_ * std::pow(.88f, steps), reach_ * 1e-3f, reach_ * 50);
+    distance_ = std::clamp(distance_ * std::pow(kWheel, steps), reach_ * 1e-3f, reach_ * 50);
     eye_ += (before - distance_) / std::max(glm::dot(way, ahead()), .1f) * way;
+}
+
+float ViewCamera::stepsFrom(float distance) const {
+    return std::log(distance_ / distance) / std::log(kWheel);
+}
+
+void ViewCamera::advance(float steps, glm::vec3 way, float distance) {
+    eye_ += steps * (1 - kWheel) * distance / std::max(glm::dot(way, ahead()), .1f) * way;
 }
 
 void ViewCamera::turnTo(float yaw, float pitch) {
@@ -74,18 +86,48 @@ void ViewCamera::focus(float distance) {
     distance_ = std::clamp(distance, reach_ * 1e-3f, reach_ * 50);
 }
 
-void ViewCamera::frame(glm::vec3 low, glm::vec3 high, float aspect) {
-    constexpr float kMargin = 1.15f;
-    const glm::vec3 centre = (low + high) * .5f;
-    const float upward = std::tan(fovY_ / 2) / kMargin, sideways = upward * std::max(aspect, .1f);
-    distance_ = reach_ * 1e-3f;
-    for (int i = 0; i < 8; ++i) {
-        const glm::vec3 c = glm::mix(low, high, glm::vec3(i & 1, i >> 1 & 1, i >> 2 & 1)) - centre;
-        const float across =
-            std::max(std::abs(glm::dot(c, above())) / upward, std::abs(glm::dot(c, right())) / sideways);
-        distance_ = std::max(distance_, across - glm::dot(c, ahead()));
+// The nearest eye from which all points lie between the view's four planes: a point that is `x` to the right and `z`
+// ahead lies before the right plane where x - eye.x <= slope * (z - eye.z), which bounds eye.x - slope * eye.z by the
+// greatest x - slope * z of all points; so the left one does, and above and below. Across the other axis there is room:
+// planes that are turned inwards until they touch leave as much on either side.
+void ViewCamera::frame(std::span<const glm::vec3> points, float aspect) {
+    constexpr float kMargin = 1.1f, kFar = std::numeric_limits<float>::infinity();
+    std::vector<glm::vec3> seen;  // right, above, ahead
+    float front = kFar, rear = -kFar;
+    for (const glm::vec3& point : points) {
+        seen.emplace_back(glm::dot(point, right()), glm::dot(point, above()), glm::dot(point, ahead()));
+        front = std::min(front, seen.back().z), rear = std::max(rear, seen.back().z);
     }
-    eye_ = centre - distance_ * ahead();
+    if (seen.empty()) return;
+    struct Wedge {
+        float middle, nearest;
+    };
+    const auto wedge = [&](int axis, float slope) {
+        float most = -kFar, least = kFar;
+        for (const glm::vec3& at : seen) {
+            most = std::max(most, at[axis] - slope * at.z);
+            least = std::min(least, at[axis] + slope * at.z);
+        }
+        return Wedge{(most + least) / 2, (least - most) / (2 * slope)};
+    };
+    const glm::vec2 slopes = glm::vec2(std::max(aspect, .1f), 1) * std::tan(fovY_ / 2) / kMargin;
+    const float depth = std::min({wedge(0, slopes.x).nearest, wedge(1, slopes.y).nearest, front - reach_ * 1e-3f});
+    eye_ = depth * ahead();
+    for (int axis = 0; axis < 2; ++axis) {
+        float low = 0, high = slopes[axis];
+        for (int i = 0; i < 24; ++i) {
+            const float slope = (low + high) / 2;
+            (wedge(axis, slope).nearest < depth ? low : high) = slope;
+        }
+        eye_ += wedge(axis, high).middle * (axis == 0 ? right() : above());
+    }
+    distance_ = std::max((front + rear) / 2 - depth, reach_ * 1e-3f);
+}
+
+void ViewCamera::frame(glm::vec3 low, glm::vec3 high, float aspect) {
+    std::array<glm::vec3, 8> corners;
+    for (int i = 0; i < 8; ++i) corners[size_t(i)] = glm::mix(low, high, glm::vec3(i & 1, i >> 1 & 1, i >> 2 & 1));
+    frame(corners, aspect);
 }
 
 void ViewCamera::fly(glm::vec3 steps, float seconds, bool fast) {

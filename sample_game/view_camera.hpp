@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <span>
 
 #include "plugin_api/espalier.h"
 
@@ -29,12 +30,17 @@ class ViewCamera {
     // where it is seen and isn't passed through.
     void zoom(float steps, glm::vec3 way);
     void zoom(float steps) { zoom(steps, ahead()); }
+    float stepsFrom(float distance) const;  // that led from such a distance to the one that there is
+    // Likewise where nothing lies: each step leads as far, in the measure of `distance`, and nothing stops one.
+    void advance(float steps, glm::vec3 way, float distance);
     void turnTo(float yaw, float pitch);  // about what is looked at; 0, 0: from the front, +z
     void turnBy(float yaw, float pitch);  // likewise, radians
     // What is turned about, stays under the mouse and is gone nearer to lies that far ahead. The view stays.
     void focus(float distance);
-    // So that the box fills the view, from where it is seen now. aspect: width by height of what nothing lies over.
-    void frame(glm::vec3 low, glm::vec3 high, float aspect);
+    // So that the points fill the view, from where they are seen now. aspect: width by height of what nothing lies
+    // over.
+    void frame(std::span<const glm::vec3> points, float aspect);
+    void frame(glm::vec3 low, glm::vec3 high, float aspect);  // a box
     // ---- Both
     void look(float x, float y);
     // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`.

@@ -44,6 +44,17 @@ Wanted& typed() {
     return value;
 }
 
+// What a list of choices shows of the one that is taken, where there is no room for the whole.
+struct Cut {
+    ImGuiID list = 0;  // the one that was laid out last; 0: none that is cut
+    std::string whole;
+};
+
+Cut& cut() {
+    static Cut last;
+    return last;
+}
+
 // What was there before a drag.
 struct Drag {
     ImGuiID owner = 0;   // 0: none
@@ -250,7 +261,9 @@ void tip(const char* text) {
 }
 
 void toolTip(const char* text) {
-    if (ImGui::IsItemHovered() && !ImGui::IsItemActive() && !toolTipWaits()) tip(text);
+    if (!ImGui::IsItemHovered() || ImGui::IsItemActive() || toolTipWaits()) return;
+    const bool list = cut().list != 0 && cut().list == ImGui::GetItemID();
+    tip(list ? (cut().whole + "\n" + text).c_str() : text);
 }
 
 void sameLineIfRoom(float width) {
@@ -344,6 +357,14 @@ bool checkBox(const char* label, bool* on) {
     const bool changed = ImGui::Checkbox(cut ? (shown + "###" + label).c_str() : label, on);
     if (cut) toolTip(label);
     return changed;
+}
+
+bool beginCombo(const char* id, const std::string& shown) {
+    const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x;
+    const std::string fits = shortened(shown, room);
+    const bool open = ImGui::BeginCombo(id, fits.c_str());
+    cut() = !open && fits != shown ? Cut{ImGui::GetItemID(), shown} : Cut{};
+    return open;
 }
 
 void rowLabel(const char* text) {

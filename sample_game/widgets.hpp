@@ -36,6 +36,7 @@ void rowLabel(const char* text);  // the words before a widget, which takes the 
 std::string shortened(const std::string& text, float room);
 void label(const char* text);
 bool checkBox(const char* label, bool* on);
+bool beginCombo(const char* id, const std::string& shown);  // ImGui::BeginCombo; what is cut stands first in its tip
 // ImGui::SameLine if something so wide still fits in the row.
 void sameLineIfRoom(float width);
 // A linear colour, as ImGui has colours.

@@ -67,15 +67,35 @@ void Workspace::lookFrom(const EspCamera& from) {
 }
 
 void Workspace::frameAll() {
-    constexpr float kFramed = 4 / 3.f;  // that espFrameAll makes room for
-    EspCamera all = espFrameAll(context.get());
-    const float times = std::max(1.f, kFramed / freeAspect());
-    for (int i = 0; i < 3; ++i) all.eye[i] = all.target[i] + times * (all.eye[i] - all.target[i]);
-    lookFrom(all);
-    if (scene().surfaces.empty() || espHouseCount(context.get()) == 0) return;
+    lookFrom(espFrameAll(context.get()));
+    if (scene().surfaces.empty() && espHouseCount(context.get()) == 0) return;
     // A village around what plants grow on isn't what is worked on.
     const auto [low, high] = bounds();
     camera.frame(low, high, freeAspect());
+    // A box is larger than what is in it: what of that is seen from here is gone nearer to.
+    if (const std::vector<glm::vec3> seen = seenGround(); !seen.empty()) camera.frame(seen, freeAspect());
+}
+
+// Points of surfaces in the view as it is, near enough to each other to tell how far these reach, and seeds. Floors at
+// the foot of what stands on them reach further than what is worked on: without them, unless hardly anything is left.
+std::vector<glm::vec3> Workspace::seenGround() const {
+    constexpr int kAcross = 80;
+    constexpr size_t kLeast = 200;
+    constexpr float kFoot = .12f, kFloor = .8f;
+    const auto [low, high] = bounds();
+    const float foot = low.y + kFoot * (high.y - low.y);
+    const float step = (window.x - panelUnits()) / kAcross;
+    std::vector<glm::vec3> standing, points;
+    for (float x = panelUnits() + step / 2; x < window.x; x += step)
+        for (float y = step / 2; y < window.y; y += step)
+            if (const auto met = pick({x, y})) {
+                points.push_back(vec(met->position));
+                if (met->normal[1] < kFloor || met->position[1] > foot) standing.push_back(points.back());
+            }
+    if (points.size() < kLeast) return {};
+    if (standing.size() > kLeast) points = std::move(standing);
+    for (const auto& seed : scene().seeds) points.push_back(vec(seed.position));
+    return points;
 }
 
 void Workspace::frameChosen() {

@@ -95,8 +95,9 @@ struct Workspace {
 
     // What the mouse points at in the scene, if it points at anything and isn't over a panel.
     std::optional<EspHit> hit;
-    bool redraw = true;       // the scene's picture is out of date
-    bool screenshot = false;  // the next frame is to be written as a picture
+    bool redraw = true;                                       // the scene's picture is out of date
+    bool screenshot = false;                                  // the next frame is to be written as a picture
+    std::optional<std::pair<uint32_t, std::string>> written;  // a grammar's text that has just gone into its file
 
     const espalier::scene::Scene& scene() const { return document->scene(); }
     float shift() const;
@@ -171,6 +172,7 @@ struct Workspace {
     bool visible(glm::vec3 point) const;
 
   private:
+    std::vector<glm::vec3> seenGround() const;
     uint32_t gesture_ = 0;
     std::optional<Ray> pointer_;  // that `pointed` is of
     uint32_t pointedAt_ = 0;      // and after how many expansions

@@ -150,6 +150,40 @@ TEST_CASE("the wheel goes to what the mouse points at, which stays under it and 
     }
 }
 
+TEST_CASE(
+    "the wheel over open sky leads there and back again to the same place, also past what comes near on the way") {
+    const Folder folder;
+    Visitor visitor(folder);
+    faceWall(visitor, 8);
+    visitor.mouse = visitor.at({-.5f, 3.8f, .3f});
+    REQUIRE(!visitor.work.pick(visitor.mouse));
+    const float reach = visitor.work.reach();
+    for (const std::vector<float>& steps :
+         {std::vector<float>{1, 1, 1, -1, -1, -1}, {3, -3}, {-2, -2, 4}, {2, -5, 3}}) {
+        const glm::vec3 start = visitor.camera().eye();
+        float away = 0;
+        for (const float step : steps) {
+            visitor.wheel(step);
+            away = std::max(away, between(visitor.camera().eye(), start));
+        }
+        CHECK(away > .01f * reach);
+        CHECK(between(visitor.camera().eye(), start) < 1e-4f * reach);
+    }
+    // From so far away that the wall counts as none, until it comes near.
+    faceWall(visitor, 3 * reach);
+    visitor.camera().focus(reach);
+    visitor.mouse = glm::floor(visitor.at({-1.1f, 1.3f, .36f}));
+    const glm::vec3 start = visitor.camera().eye(), wall = visitor.under(visitor.mouse);
+    std::vector<glm::vec3> way{start};
+    for (int i = 0; i < 25; ++i) visitor.wheel(1), way.push_back(visitor.camera().eye());
+    CHECK(between(way.back(), wall) < .5f * reach);
+    CHECK(glm::distance(visitor.at(wall), visitor.mouse) < 2);
+    for (way.pop_back(); !way.empty(); way.pop_back()) {
+        visitor.wheel(-1);
+        CHECK(between(visitor.camera().eye(), way.back()) < 2e-3f * reach);
+    }
+}
+
 TEST_CASE("Home shows what plants grow on, not the village around it") {
     const Folder folder;
     Editor editor(folder, wallScene(folder, true), Tool::look);  // 4 m wide, the houses 30 m behind it
@@ -162,7 +196,9 @@ TEST_CASE("Home shows what plants grow on, not the village around it") {
         CHECK(glm::clamp(at, glm::vec2(0), editor.work.window) == at);
         least = glm::min(least, at), most = glm::max(most, at);
     }
-    CHECK(most.y - least.y > .3f * editor.work.window.y);
+    const glm::vec2 filled =
+        (most - least) / glm::vec2(editor.work.window.x - editor.work.panelUnits(), editor.work.window.y);
+    CHECK(std::max(filled.x, filled.y) > .85f);
 }
 
 TEST_CASE(

@@ -1,13 +1,10 @@
 // The window with a grammar's text as it is typed into: what compiles, what goes on growing, and what the keys mean.
-
-#include <imgui_internal.h>
-
 #include <algorithm>
 #include <array>
 
 #include "sample_game/panels.hpp"
 #include "sample_game/remarks.hpp"
-#include "tests/editor/window.hpp"
+#include "tests/editor/widgets.hpp"
 
 using namespace espalier::document;
 using sample::Tool;
@@ -15,7 +12,8 @@ using sample::Tool;
 namespace {
 
 struct Writer : Editor {
-    explicit Writer(const Folder& folder) : Editor(folder, smallScene(folder), Tool::look) {
+    explicit Writer(const Folder& folder) : Writer(folder, smallScene(folder)) {}
+    Writer(const Folder& folder, const std::string& scene) : Editor(folder, scene, Tool::look) {
         work.window = {1280, 720};
         work.layout.grammar = true;
         ImGuiIO& io = ImGui::GetIO();
@@ -38,6 +36,17 @@ struct Writer : Editor {
             frame({});
         }
         rest();
+    }
+    // Of those above the text.
+    void clickButton(const char* label) {
+        const ImGuiID wanted = widget("###grammar", {label});
+        for (float y = 60; y < 140; y += 5)
+            for (float x = 680; x < 1280; x += 10) {
+                mouse = {x, y};
+                frame({});
+                if (ImGui::GetCurrentContext()->HoveredId == wanted) return clickOn({x, y});
+            }
+        FAIL(label << " isn't there");
     }
     // Behind its last letter.
     void enterText() {
@@ -195,4 +204,31 @@ TEST_CASE("letters that are typed into a grammar's text choose no tool, and neit
     CHECK(!sample::grammarFocused());
     writer.key(GLFW_KEY_B);
     CHECK(writer.work.tool == Tool::paint);
+}
+
+TEST_CASE("a text that was written to its file is taken back by undo, and the file stays; both are told, and unsaved") {
+    const Folder folder;
+    Writer writer(folder, sceneOfItsOwn(folder));
+    const std::string file = folder.file("own.grammar"), before = writer.grammar().text, typed = before + "// typed\n";
+    REQUIRE(writer.work.perform(writer.work.document->withText(0, typed)));
+    writer.rest();
+    writer.work.error = "what failed before";
+    writer.clickButton("Write to file");
+    CHECK(readAll(file) == typed);
+    CHECK_MESSAGE(writer.work.error.empty(), writer.work.error);
+    CHECK_MESSAGE(contains(writer.work.message, file), writer.work.message);
+    CHECK_MESSAGE(contains(writer.work.message, "undo"), writer.work.message);
+    CHECK(writer.session.modified(writer.work));  // the project's own text is saved with it
+    CHECK(writer.work.document->undoSteps() == 1);
+    // At once, before anybody has looked at files.
+    writer.undo();
+    writer.wait();
+    CHECK(writer.grammar().text == before);
+    CHECK(readAll(file) == typed);
+    CHECK(writer.work.document->undoSteps() == 0);
+    CHECK(!writer.session.modified(writer.work));
+    // What somebody else writes then is news all the same.
+    folder.write("own.grammar", before + "// theirs\n");
+    writer.wait();
+    CHECK(writer.grammar().text == before + "// theirs\n");
 }

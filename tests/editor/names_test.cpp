@@ -40,6 +40,14 @@ TEST_CASE("each step of undo is called by what it changed, and of what") {
     CHECK(named(SetParam{1, {"reach", {1}}}) == "Length (creeper)");
     REQUIRE(editing.perform(SetParam{1, {"bend", {.2f}}}, gesture));  // as a preset does
     CHECK(document.undoName() == std::string("Values of creeper"));
+    document.callStep(gesture, "Preset Long of creeper");
+    document.callStep(gesture + 1, "of another gesture");
+    document.callStep(0, "of none");
+    CHECK(document.undoName() == std::string("Preset Long of creeper"));
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(document.redoName() == std::string("Preset Long of creeper"));
+    REQUIRE(editing.perform(Redo{}));
+    CHECK(document.undoName() == std::string("Preset Long of creeper"));
     CHECK(named(document.withText(1, scene.grammars[1].text + "\n")) == "Edit the text of creeper");
 
     SeedRecord seed = document.recordOf(scene.seeds[0]);

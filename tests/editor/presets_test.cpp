@@ -8,6 +8,7 @@
 
 using namespace espalier::document;
 using namespace sample;
+using namespace std::string_literals;
 
 namespace {
 
@@ -22,6 +23,7 @@ TEST_CASE("a preset is kept, renamed, removed and brought back; a name that is t
     setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
     const std::vector<Param> long_{{"reach", {3}}, {"tint", {.1f, .2f, .3f}}}, short_{{"reach", {.5f}}};
     std::string error;
+    error = "what failed before is none of its business";
     REQUIRE_MESSAGE(writePreset("ivy", "long", long_, error), error);
     REQUIRE_MESSAGE(writePreset("ivy", "short", short_, error), error);
     REQUIRE_MESSAGE(writePreset("moss", "../../out", short_, error), error);
@@ -108,8 +110,24 @@ TEST_CASE("the presets that come with a grammar say values that it takes, and on
     CHECK(value("leafSize") > leaf);
     CHECK(value("twigLength") > twig);
     CHECK(editor.work.document->undoSteps() == 1);
-    CHECK(contains(editor.work.document->undoName(), "Values of ivy"));
+    CHECK(editor.work.document->undoName() == "Preset Lush of ivy_free"s);
     editor.undo();
     CHECK(value("leafSize") == leaf);
     CHECK(value("twigLength") == twig);
+    CHECK(editor.work.message == "Undone: Preset Lush of ivy_free");
+    editor.key(GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+    CHECK(editor.work.document->undoName() == "Preset Lush of ivy_free"s);
+
+    // The same again changes nothing, and is no step.
+    pressWidget(editor, "panel", {0, "##presets"});
+    pressWidget(editor, "##Combo_00", {"shipped", "Lush"});
+    CHECK(editor.work.document->undoSteps() == 1);
+    CHECK_MESSAGE(contains(editor.work.message, "already"), editor.work.message);
+    // What a slider does next is a step of its own, by its own name.
+    REQUIRE(editor.work.perform(SetParam{0, {"leafSize", {.1f}}}, editor.work.newGesture()));
+    CHECK(contains(editor.work.document->undoName(), "Size of the leaves"));
+    pressWidget(editor, "panel", {0, "##presets"});
+    pressWidget(editor, "##Combo_00", {"As the grammar says"});
+    CHECK(editor.work.document->undoName() == "The text's own values of ivy_free"s);
+    CHECK(value("leafSize") == leaf);
 }

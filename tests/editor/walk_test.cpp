@@ -123,6 +123,9 @@ TEST_CASE("what is framed lies in what a panel leaves free of the window, howeve
         CHECK(high.x <= window.x);
         CHECK(high.y <= window.y);
         const glm::vec2 filled = (high - low) / glm::vec2(window.x - panel, window.y);
-        CHECK(std::max(filled.x, filled.y) > .6f);
+        CHECK(std::max(filled.x, filled.y) > .85f);
+        // As much is free on either side.
+        CHECK(low.x - panel == doctest::Approx(window.x - high.x).epsilon(.01));
+        CHECK(low.y == doctest::Approx(window.y - high.y).epsilon(.01));
     }
 }

@@ -25,6 +25,14 @@ inline ImGuiID widget(const std::string& window, const std::vector<Part>& path) 
     return id;
 }
 
+// All words that are written while it lays something out: of one window, and of a tip that it shows.
+inline std::string wordsOf(const std::function<void()>& layOut) {
+    ImGui::SetClipboardText("");
+    ImGui::LogToClipboard();  // until the first window ends
+    layOut();
+    return ImGui::GetClipboardText();
+}
+
 // Presses a button, a box or a choice by its name, which like a click begins a gesture. Nothing of that name: nothing
 // happens; what is disabled is pressed, too.
 inline void pressWidget(Editor& editor, const std::string& window, const std::vector<Part>& path) {

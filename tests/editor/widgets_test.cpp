@@ -370,6 +370,47 @@ TEST_CASE("words that there is no room for end in an ellipsis, between letters, 
     CHECK(on);
 }
 
+TEST_CASE("what a list of choices has no room for ends in an ellipsis, and its tip says the whole") {
+    const Folder folder;
+    Editor editor(folder, smallScene(folder), sample::Tool::look);
+    const std::string words = "A choice of many words";
+    std::string text, chosen = words;
+    float width = 100;
+    const auto layOut = [&] {
+        ImGui::SetNextWindowPos({0, 0});
+        ImGui::SetNextWindowSize({400, 200});
+        ImGui::Begin("panel");
+        ImGui::SetNextItemWidth(width);
+        if (sample::beginCombo("##choice", chosen)) {
+            for (const char* choice : {words.c_str(), "None"})
+                if (ImGui::Selectable(choice)) chosen = choice;
+            ImGui::EndCombo();
+        }
+        sample::toolTip("What it is for");
+        ImGui::End();
+    };
+    editor.panels = [&] { text = wordsOf(layOut); };
+    const auto rest = [&](glm::vec2 at) {
+        editor.mouse = at;
+        for (int i = 0; i < 60; ++i) ImGui::GetIO().DeltaTime = .05f, editor.frame({});
+    };
+    rest({600, 400});
+    CHECK(contains(text, "\u2026"));
+    CHECK(!contains(text, words));
+    rest({40, 40});  // on it
+    CHECK_MESSAGE(contains(text, words), text);
+    CHECK(contains(text, "What it is for"));
+    width = 390;
+    rest({600, 400});
+    CHECK(contains(text, words));
+    CHECK(!contains(text, "\u2026"));
+    width = 100;
+    chooseFrom(editor, "panel", {"##choice"}, "None");
+    CHECK(chosen == "None");
+    rest({40, 40});
+    CHECK(!contains(text, words));
+}
+
 TEST_CASE("light and view stand before what grammars have, with every tool") {
     const Folder folder;
     Editor editor(folder, smallScene(folder), sample::Tool::look);

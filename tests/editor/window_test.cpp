@@ -20,7 +20,73 @@ Ran drive(const std::string& script, const std::string& scene, const Folder& fol
                                        folder.path.string() + " " + way);
 }
 
+// What grows in a scene, or at the end of a run, and its last picture.
+struct Shown {
+    std::string hash, picture;
+};
+Shown shown(const Folder& folder, const std::string& what) {
+    const std::string frames = folder.file("frames"), stats = folder.file("stats.json");
+    std::filesystem::remove_all(frames);
+    const Ran ran =
+        run(program("espalier-capture") + " " + what + " --size 320x180 -o " + frames + " --stats " + stats);
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    std::filesystem::path last;
+    for (const auto& entry : std::filesystem::directory_iterator(frames)) last = std::max(last, entry.path());
+    const std::string told = readAll(stats), key = R"("hash":")";
+    REQUIRE(contains(told, key));
+    REQUIRE(!last.empty());
+    return {told.substr(told.find(key) + key.size(), 16), readAll(last)};
+}
+
+// The small scene with a model of its own, and beside it `other` and `first`: that model with another byte, and as it
+// was. Both scene and model.
+std::pair<std::string, std::string> sceneOfOwnModel(const Folder& folder) {
+    std::string scene = readAll(smallScene(folder)), model = readAll(content("ruin.surface.glb"));
+    const std::string name = content("ruin.surface.glb"), own = folder.write("own.surface.glb", model);
+    scene.replace(scene.find(name), name.size(), own);
+    folder.write("first", model);
+    const std::string generator = R"("generator":")";
+    const size_t at = model.find(generator);
+    REQUIRE(at != std::string::npos);
+    model[at + generator.size()] = 'E';
+    folder.write("other", model);
+    return {folder.write("own.json", scene), own};
+}
+
 }  // namespace
+
+TEST_CASE("a drag of the atlas's level shows another, is nothing to undo, and is taken back by Esc") {
+    if (!hasDisplay()) return;
+    const Folder folder;
+    const Ran ran = drive("drive_atlas", smallScene(folder), folder);
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    const auto alike = [&](const char* a, const char* b) {
+        return run(program("espalier-compare") + " " + folder.file(a) + " " + folder.file(b)).code == 0;
+    };
+    CHECK(!alike("espalier-1.png", "espalier-2.png"));
+    CHECK(alike("espalier-2.png", "espalier-3.png"));
+    Run recorded;
+    std::string error;
+    REQUIRE_MESSAGE(readRun(folder.file("run.jsonl"), recorded, error), error);
+    for (const RunLine& line : recorded.lines) CHECK(std::holds_alternative<SetCamera>(line.action));
+}
+
+TEST_CASE("a picture that can't be written is told of, and the editor goes on") {
+    if (!hasDisplay()) return;
+    const Folder folder;
+    const Ran ran = drive("drive_faults", smallScene(folder), folder, "picture");
+    CHECK_MESSAGE(ran.code == 1, ran.output);
+    CHECK_MESSAGE(contains(ran.output, "espalier-1.png"), ran.output);
+}
+
+TEST_CASE("a model that changes while there is no place for what is read again is told of, and the editor goes on") {
+    if (!hasDisplay()) return;
+    const Folder folder;
+    const auto [scene, model] = sceneOfOwnModel(folder);
+    const Ran ran = drive("drive_faults", scene, folder, "reload " + model);
+    CHECK_MESSAGE(ran.code == 1, ran.output);
+    CHECK_MESSAGE(contains(ran.output, "Not reloaded: TMPDIR is no folder"), ran.output);
+}
 
 TEST_CASE("an editor that can't keep what isn't saved says so at its end, and by its exit code") {
     if (!hasDisplay()) return;
@@ -82,15 +148,8 @@ TEST_CASE("Esc stops growth that takes long, and the next change grows") {
 TEST_CASE("a model that changes on disk waits for an open dialogue, and what is typed there isn't the tools'") {
     if (!hasDisplay()) return;
     const Folder folder;
-    std::string scene = readAll(smallScene(folder)), model = readAll(content("ruin.surface.glb"));
-    const std::string name = content("ruin.surface.glb"), own = folder.write("own.surface.glb", model);
-    scene.replace(scene.find(name), name.size(), own);
-    const std::string generator = R"("generator":")";
-    const size_t at = model.find(generator);
-    REQUIRE(at != std::string::npos);
-    model[at + generator.size()] = 'E';
-    folder.write("other", model);
-    const Ran ran = drive("drive_reload", folder.write("own.json", scene), folder, own);
+    const auto [scene, model] = sceneOfOwnModel(folder);
+    const Ran ran = drive("drive_reload", scene, folder, model);
     REQUIRE_MESSAGE(ran.code == 0, ran.output);
     const std::string saved = readAll(folder.file("kept/project.json"));
     size_t seeds = 0;
@@ -161,7 +220,19 @@ TEST_CASE("in a window, drags paint, panels and the camera don't, seeds are plan
         return all;
     };
     CHECK(actions(again) == actions(recorded));
-    const Ran replayed = run(program("espalier-capture") + " --replay " + folder.file("run.jsonl") +
-                             " --size 160x90 --every 100000 -o " + folder.file("frames"));
-    CHECK_MESSAGE(replayed.code == 0, replayed.output);
+    // What came of it is the same wherever it was done: in the window, in the one that replayed it, and without any.
+    const std::string grown = shown(folder, folder.file("saved/project.json")).hash;
+    CHECK(shown(folder, folder.file("outcome/project.json")).hash == grown);
+    for (const char* name : {"run.jsonl", "again.jsonl"}) {
+        CAPTURE(name);
+        CHECK(shown(folder, "--replay " + folder.file(name) + " --every 100000").hash == grown);
+    }
+    CHECK(shown(folder, smallScene(folder)).hash != grown);
+    for (const char* view : {" --view shaded", " --view layer:mask"}) {
+        CAPTURE(view);
+        const std::string from = " --camera 2.3,1.9,8,-0.05,1.55,0.3,38" + std::string(view);
+        const std::string saved = shown(folder, folder.file("saved/project.json") + from).picture;
+        CHECK(shown(folder, folder.file("outcome/project.json") + from).picture == saved);
+        CHECK(shown(folder, smallScene(folder) + from).picture != saved);
+    }
 }

@@ -145,6 +145,10 @@ void Document::remember(const Action& action, std::string name, std::vector<Acti
     keep(done_);
 }
 
+void Document::callStep(uint32_t gesture, std::string name) {
+    if (gesture && undoGesture() == gesture) done_.back().name = std::move(name);
+}
+
 size_t Document::historyBytes() const {
     size_t bytes = 0;
     for (const std::vector<Step>* steps : {&done_, &undone_})

@@ -35,6 +35,8 @@ class Document {
     size_t undoSteps() const { return done_.size() - beyond_; }
     // Of the step that the next undo takes back; 0: it has none.
     uint32_t undoGesture() const { return undoSteps() == 0 ? 0 : done_.back().gesture; }
+    // That step, if it is of the gesture, is called so from now on: who asked for several things knows what for.
+    void callStep(uint32_t gesture, std::string name);
     // What is kept for undo and redo. Past maxHistoryBytes the oldest steps are forgotten, or, by undo, those that it
     // undid first; the latest one is kept however large it is.
     size_t historyBytes() const;

@@ -67,10 +67,13 @@ bool writeTextDurably(const std::string& path, const std::string& text, std::str
             if (wrote < 0) break;
             at += size_t(wrote);
         }
-        const bool good = file >= 0 && at == text.size();
+        bool good = file >= 0 && at == text.size();
         if (!good) why = path + ": can't be written: " + std::strerror(errno);
-        if (file >= 0 && ::close(file) != 0 && good) why = path + ": can't be written: " + std::strerror(errno);
-        return good && why.empty();
+        if (file >= 0 && ::close(file) != 0 && good) {
+            good = false;
+            why = path + ": can't be written: " + std::strerror(errno);
+        }
+        return good;
     };
     return writeDurably(path, write, error);
 }
