@@ -58,7 +58,7 @@ void main() {
     // light comes from the sky's rim, which shines into crowns from their sides.
     vec3 ambient = grass ? skyLight(v.normal) * open
                          : skyLight(0.55 * v.normal + vec3(0.0, 0.25, 0.0)) * vec3(1.12, 1.10, 0.84) *
-                               (0.50 + 0.50 * open + low * (0.55 + 0.25 * open));
+                               (0.50 + 0.50 * open + low * (0.42 + 0.22 * open));
     const vec3 weights = vec3(0.3, 0.6, 0.1);
     light = tone * (direct + ambient) * frame.exposure;
     if (explains && frame.view == kViewNormals) light = normalize(v.normal) * 0.5 + 0.5;

@@ -66,6 +66,11 @@ void Layout::feet() {
                              : "tuft_c",
                 p, turn, 0.55f + (0.30f + 0.55f * lush) * random01(i, 184), courtSink(p));
     }
+    // The end of the eastern wall lies before the eye that looks into the court.
+    for (uint32_t i = 0; i < 9; ++i) {
+        const vec2 p = vec2(3.9f + 0.78f * random01(i, 216), 4.24f + 0.30f * random01(i, 217) * random01(i, 218));
+        put("meadow_a", p, 360 * random01(i, 219), 0.16f + 0.30f * random01(i, 220), courtSink(p));
+    }
 }
 
 // Stones that fell from the walls, half sunk, the smaller ones farther away.

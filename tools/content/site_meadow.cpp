@@ -28,7 +28,7 @@ void Layout::paddocks() {
 void Layout::daisies() {
     const auto flower = [&](const char* kind, vec2 p, uint32_t i, float least) {
         if (noise(p / 2.1f, 93) + 0.4f * noise(p / 0.6f, 94) > least && clear(p, 0.2f, 0.5f))
-            put(kind, p, 360 * random01(i, 95), 0.4f + 0.3f * random01(i, 96), 0.02f);
+            put(kind, p, 360 * random01(i, 95), 0.32f + 0.3f * random01(i, 96), 0.02f);
     };
     const auto within = [](uint32_t i, float radius) {
         const float angle = 2 * kPi * random01(i, 91), r = radius * std::sqrt(random01(i, 92));
