@@ -31,7 +31,8 @@ void putTexel(uint8_t* texel, glm::vec3 color, float edge, int side);
 // Lays leaves over what has this edge and colour at p, each over those before it. True: one of them covers it.
 bool overLeaves(const std::vector<Leaf>& leaves, const Species& s, glm::vec2 p, float& edge, glm::vec3& color);
 
-// The atlas' small plants; side: of a cell, texels; kind: of flowers, below kFlowers; blooms: with flowers in the grass.
+// The atlas' small plants; side: of a cell, texels; kind: of flowers, below kFlowers; blooms: with flowers in the
+// grass.
 void paintFlowers(Picture& picture, int x0, int y0, int side, int kind, uint32_t salt);
 void paintMeadow(Picture& picture, int x0, int y0, int side, bool blooms, uint32_t salt);
 void paintClover(Picture& picture, int x0, int y0, int side, uint32_t salt);
