@@ -7,33 +7,12 @@
 #include <cmath>
 #include <vector>
 
+#include "runtime/render/meadow_noise.hpp"
+
 namespace espalier {
 namespace {
 
-constexpr uint32_t kSide = 512;
-
-float lattice(uint32_t x, uint32_t y, uint32_t salt) {
-    uint32_t h = x * 0x9E3779B1u ^ y * 0x85EBCA77u ^ salt * 0xC2B2AE3Du;
-    h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
-    h = (h ^ (h >> 13)) * 0x297A2D39u;
-    return float((h ^ (h >> 16)) >> 8) / 8388608.0f - 1;
-}
-
-// Sum of octaves of value noise in [-1, 1] or so; the coarsest has `cells` to the side, each next twice as many.
-float octaves(uint32_t x, uint32_t y, uint32_t cells, int count, uint32_t salt) {
-    float sum = 0, weight = 0.5f;
-    for (int o = 0; o < count; ++o, cells *= 2, weight *= 0.55f) {
-        const float fx = float(x) * float(cells) / kSide, fy = float(y) * float(cells) / kSide;
-        const auto ix = uint32_t(fx), iy = uint32_t(fy);
-        const auto ease = [](float t) { return t * t * (3 - 2 * t); };
-        const float u = ease(fx - float(ix)), v = ease(fy - float(iy));
-        const auto at = [&](uint32_t dx, uint32_t dy) {
-            return lattice((ix + dx) % cells, (iy + dy) % cells, salt + uint32_t(o));
-        };
-        sum += weight * std::lerp(std::lerp(at(0, 0), at(1, 0), u), std::lerp(at(0, 1), at(1, 1), u), v);
-    }
-    return sum;
-}
+constexpr uint32_t kSide = kNoiseSide;
 
 // Blades of grass over each other, each lighter from its root to its tip; of mean 0, so that they fade with distance.
 std::vector<float> bladeTile() {
@@ -62,19 +41,16 @@ std::vector<float> bladeTile() {
     return tile;
 }
 
-// r: patches; g: blades; b, a: slopes of a bumpy height. Of mean 0, so that they fade with distance as colours do.
+// meadowNoise, and blades in its y.
 std::vector<uint8_t> noiseTile() {
     std::vector<uint8_t> rgba(size_t(kSide) * kSide * 4);
     const std::vector<float> blades = bladeTile();
     const auto byte = [](float x) { return uint8_t(std::clamp(x * 0.5f + 0.5f, 0.0f, 1.0f) * 255 + 0.5f); };
-    const auto height = [](uint32_t x, uint32_t y) { return octaves(x % kSide, y % kSide, 16, 4, 31); };
     for (uint32_t y = 0; y < kSide; ++y)
         for (uint32_t x = 0; x < kSide; ++x) {
-            uint8_t* texel = &rgba[(size_t(y) * kSide + x) * 4];
-            texel[0] = byte(1.4f * octaves(x, y, 4, 5, 11));
-            texel[1] = byte(blades[size_t(y) * kSide + x]);
-            texel[2] = byte(6 * (height(x + 1, y) - height(x, y)));
-            texel[3] = byte(6 * (height(x, y + 1) - height(x, y)));
+            glm::vec4 noise = meadowNoise(x, y);
+            noise.y = blades[size_t(y) * kSide + x];
+            for (int k = 0; k < 4; ++k) rgba[(size_t(y) * kSide + x) * 4 + size_t(k)] = byte(noise[k]);
         }
     return rgba;
 }

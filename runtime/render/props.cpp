@@ -7,6 +7,7 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/gpu/color_texture.hpp"
+#include "runtime/render/meadow_noise.hpp"
 #include "runtime/render/view_sides.hpp"
 
 namespace espalier {
@@ -18,6 +19,18 @@ constexpr float kFadeZone = 0.15f, kFoliageZone = 0.05f;  // shares of the dista
 constexpr float kLeastPixels = 2;                         // radius below which a prop isn't drawn
 constexpr float kGrassReach = 24, kGrassShrinks = 10;     // metres from the eye; over which it sinks into the meadow
 constexpr float kTallGrass = 0.2f;                        // metres; what is lower sinks nearer by, down to half as far
+constexpr float kOwnHue = 0.28f;                          // how far apart the meadow's plants are at one place
+
+// 0 to 1, even over places near each other, and the same whatever else is placed.
+float ownTint(glm::vec2 place) {
+    return glm::fract(glm::dot(place, glm::vec2(0.7548777f, 0.5698403f)));
+}
+// PropInstance::tint of what grows in the meadow: its hue there, each plant a little off it.
+float meadowTint(glm::vec2 place, float own) {
+    const MeadowHue hue = meadowHue(place);
+    const float dry = std::clamp(hue.dry + kOwnHue * (own - 0.5f), 0.0f, 0.999f);
+    return std::round((hue.shade * (0.9f + 0.2f * own) - 1) / kShadeStep) + dry;
+}
 
 }  // namespace
 
@@ -55,6 +68,11 @@ Props::Box Props::boxOf(const PropPlace& place) const {
     const Room& room = rooms_[place.variant];
     return {place.position + place.scale * glm::vec3(-room.around, room.foot, -room.around),
             place.position + place.scale * glm::vec3(room.around, room.top, room.around)};
+}
+
+const TerminalMaterial& Props::materialOf(const PropPlace& place) const {
+    const TerminalTable& table = terminals_.table();
+    return terminals_.data().materials[table.buckets[table.variants[place.variant].firstBucket].material];
 }
 
 Status Props::makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
@@ -109,7 +127,10 @@ Status Props::place(Device& device, std::vector<PropPlace> places) {
     instances_.clear();
     for (size_t i = 0; i < places_.size(); ++i) {
         const PropPlace& p = places_[i];
-        const float tint = std::fmod(float(i) * 0.61803399f, 1.0f);
+        const glm::vec2 at(p.position.x, p.position.z);
+        const std::string& material = materialOf(p).name;
+        const bool ofMeadow = material == "grass" || material == "meadow";
+        const float tint = ofMeadow ? meadowTint(at, ownTint(at)) : ownTint(at);
         instances_.push_back({p.position, p.scale, {std::cos(p.turn), std::sin(p.turn)}, tint, 1});
     }
     chosenFor_ = {};
@@ -132,7 +153,7 @@ Status Props::choose(Commands& commands, const FrameRecord& frame) {
     const ViewSides sides(frame.viewProjection);
     for (size_t i = 0; i < places_.size(); ++i) {
         const VariantRecord& variant = table.variants[places_[i].variant];
-        const TerminalMaterial& material = terminals_.data().materials[table.buckets[variant.firstBucket].material];
+        const TerminalMaterial& material = materialOf(places_[i]);
         PropInstance instance = instances_[i];
         const Box box = boxOf(places_[i]);
         if (sides.misses(box.low, box.high)) continue;
@@ -176,8 +197,9 @@ Status Props::chooseCasters(Commands& commands, const glm::mat4& sunClip) {
     std::vector<Level> levels(table.buckets.size());
     for (size_t i = 0; i < places_.size(); ++i) {
         const VariantRecord& variant = table.variants[places_[i].variant];
-        const TerminalMaterial& material = terminals_.data().materials[table.buckets[variant.firstBucket].material];
-        if (material.name == "grass") continue;
+        const TerminalMaterial& material = materialOf(places_[i]);
+        const bool low = rooms_[places_[i].variant].top * places_[i].scale < kTallGrass;
+        if (material.name == "grass" || (material.name == "meadow" && low)) continue;
         const glm::vec4 at = sunClip * glm::vec4(places_[i].position, 1);
         const float reach = variant.extent * places_[i].scale * glm::length(glm::vec3(sunClip[0]));
         if (std::max(std::abs(at.x), std::abs(at.y)) > 1 + reach) continue;

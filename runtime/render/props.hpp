@@ -21,7 +21,7 @@ struct PropPlace {
 
 // Picks a level of detail for each prop in view on the CPU (there are thousands, not millions) and draws each level's
 // instances at once. Cut-out materials are foliage, lit at vertices; one called "grass" takes the meadow's colour and
-// is drawn near by only.
+// is drawn near by only, one called "meadow" has the meadow's hue where it stands.
 class Props {
   public:
     // Formats and samples of the picture that it draws into.
@@ -68,6 +68,7 @@ class Props {
     };
     void measure();
     Box boxOf(const PropPlace& place) const;
+    const TerminalMaterial& materialOf(const PropPlace& place) const;  // of its finest level
     Status makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples);
     Status upload(Commands& commands, std::vector<Level>& levels, Chosen& out) const;
     void drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Binding* shadow,

@@ -18,7 +18,7 @@ layout(location = 3) flat out float shown;   // of its leaves
 vec3 foliageColor(PropVertex v) {
     vec3 young = vec3(1.16, 1.06, 0.72), old = vec3(0.80, 0.92, 0.92);
     float own = fract(max(v.code, 0.0) * 0.618034) - 0.5;
-    return push.baseColor.rgb * mix(old, young, clamp(v.tint + 0.5 * own, 0.0, 1.0)) * (1.0 + 0.2 * own);
+    return push.baseColor.rgb * mix(old, young, clamp(v.tint + 0.5 * own, 0.0, 1.0)) * ((1.0 + 0.2 * own) * v.shade);
 }
 // What a card's code says, in the model's space; either side.
 vec3 cardNormal(float code) {
@@ -32,7 +32,7 @@ vec3 cardNormal(float code) {
 vec3 grassColor(PropVertex v) {
     vec3 green = frame.grassColor * (0.70 + 0.58 * v.uv.x);
     vec3 dry = frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.60 + 0.60 * v.uv.x);
-    return mix(green, dry, 0.65 * v.tint);
+    return mix(green, dry, v.tint) * v.shade;
 }
 
 void main() {
@@ -46,14 +46,19 @@ void main() {
     float into = grass ? 0.0 : 0.9 * frame.unit;
     float visible = mix(grass ? 0.0 : 0.22 + 0.30 * open, 1.0, sunVisibility(v.position + frame.sunDirection * into, v.normal));
     // Leaves turn every way: what falls on a crown's far side comes through, the more the thinner it is.
-    float facing = clamp(0.42 + 0.58 * side, 0.24, 1.0);
+    // How low the sun is, for what rises above its surroundings.
+    float above = clamp((v.position.y - frame.groundLevel) * 0.6 / frame.unit - 0.2, 0.0, 1.0);
+    float low = (1.0 - smoothstep(0.04, 0.42, frame.sunDirection.y)) * above;
+    float facing = clamp(0.42 + 0.58 * side, 0.24 + 0.16 * low, 1.0);
     vec3 tone = grass ? grassColor(v) : foliageColor(v);
     vec3 direct = frame.sunColor * (visible * facing * (0.45 + 0.55 * open));
     // Against the sun, leaves glow.
     if (!grass) direct *= 1.0 + vec3(0.9, 0.7, 0.1) * pow(max(dot(-eye, frame.sunDirection), 0.0), 3.0);
-    // They see the sky past each other from wherever they are, and what comes through them is yellower.
+    // They see the sky past each other from wherever they are, and what comes through them is yellower. Under a low sun most
+    // light comes from the sky's rim, which shines into crowns from their sides.
     vec3 ambient = grass ? skyLight(v.normal) * open
-                         : skyLight(0.55 * v.normal + vec3(0.0, 0.25, 0.0)) * vec3(1.12, 1.10, 0.84) * (0.50 + 0.50 * open);
+                         : skyLight(0.55 * v.normal + vec3(0.0, 0.25, 0.0)) * vec3(1.12, 1.10, 0.84) *
+                               (0.50 + 0.50 * open + low * (0.42 + 0.22 * open));
     const vec3 weights = vec3(0.3, 0.6, 0.1);
     light = tone * (direct + ambient) * frame.exposure;
     if (explains && frame.view == kViewNormals) light = normalize(v.normal) * 0.5 + 0.5;

@@ -3,6 +3,7 @@
 #ifndef ESPALIER_RENDER_MEADOW_GLSL
 #define ESPALIER_RENDER_MEADOW_GLSL
 #include "shaders/render/frame.glsl"
+#include "shaders/render/meadow_hue.h"
 
 struct Meadow {
     vec3 base, normal;
@@ -44,7 +45,7 @@ vec3 siteAt(sampler2D site, vec2 place, vec2 dx, vec2 dy) {
 Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy, float metres, vec3 laid, float pixel, bool fields) {
     const mat2 turned = mat2(0.8, 0.6, -0.6, 0.8) * (1.0 / 5.3);
     const mat2 mown = mat2(0.6, -0.8, 0.8, 0.6) * (1.0 / 1.3);
-    vec4 broad = textureGrad(noise, place * (1.0 / 97.0), dx * (1.0 / 97.0), dy * (1.0 / 97.0)) * 2.0 - 1.0;
+    vec4 broad = textureGrad(noise, place * (1.0 / kMeadowTile), dx * (1.0 / kMeadowTile), dy * (1.0 / kMeadowTile)) * 2.0 - 1.0;
     vec4 near = textureGrad(noise, turned * place, turned * dx, turned * dy) * 2.0 - 1.0;
     // Blades are told apart near by only, and seen too flatly for their mean to do.
     vec4 fine = vec4(0.0);
@@ -52,16 +53,18 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     if (share > 0.0)
         fine = (textureGrad(noise, mown * place, mown * dx * 0.5, mown * dy * 0.5) * 2.0 - 1.0) * share;
 
-    // Patches that lie flat to the eye run together into streaks: far away the meadow is one green, its hue changing slowly.
-    float calm = clamp(metres * 0.03 - 0.2, 0.0, 1.0);
+    // Patches that lie flat to the eye run together into streaks: far away the meadow is one green, its hue changing slowly,
+    // and what differs within some metres, as slopes do, is lost first.
+    float calm = clamp(metres * 0.04 - 0.24, 0.0, 1.0);
+    broad *= 1.0 - vec4(0.40, 0.0, 0.85, 0.85) * calm;
     float grass = smoothstep(-0.30, 0.25, 0.38 + 0.5 * calm + (0.7 * broad.x + 0.8 * near.x) * (1.0 - 0.7 * calm) + 0.75 * fine.y - 1.5 * laid.y);
     float blades = clamp(0.5 + 0.75 * fine.y + 0.2 * near.x * (1.0 - calm), 0.0, 1.0);
     // Here thicker, there thinner, in swathes of some metres.
-    vec3 green = frame.grassColor * ((0.35 + blades) * (1.0 + 0.6 * broad.z + 0.25 * broad.x));
-    float dry = clamp(0.28 + (0.75 * broad.x + 0.45 * near.z) * (1.0 - 0.35 * calm) + 0.25 * fine.y, 0.0, 0.75);
+    vec3 green = frame.grassColor * ((0.35 + blades) * broadGrowth(broad));
+    float dry = clamp(kMeadowDry + (broadDryness(broad) + 0.45 * near.z) * (1.0 - 0.35 * calm) + 0.25 * fine.y, 0.0, 0.75);
     green = mix(green, frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.55 + 0.75 * blades), dry);
     // Clover and sorrel, and swathes that were cut earlier, over tens of metres.
-    float swathe = clamp(0.5 + 1.2 * broad.w + 0.7 * broad.x + 0.45 * near.y * (1.0 - calm), 0.0, 1.0);
+    float swathe = clamp(broadSwathe(broad) + 0.45 * near.y * (1.0 - calm), 0.0, 1.0);
     green *= mix(vec3(0.66, 0.82, 0.74), vec3(1.20, 1.10, 0.86), swathe);
     vec3 earth = mix(vec3(0.068, 0.056, 0.036), vec3(0.146, 0.122, 0.082), 0.5 + 0.5 * fine.x + 0.2 * near.z) * (1.0 + 0.55 * fine.y);   // and straw on it
     // Far off lie fields, and woods between them.

@@ -7,12 +7,14 @@ ESPALIER_BEGIN
 
 CONST_UINT(kFacingSide, 32u);   // directions of foliage's cards are told in so many squares along a side of the octahedron
 
+CONST_FLOAT(kShadeStep, 0.06f);   // of PropInstance::tint, a share
+
 // Two texels of four words.
 struct PropInstance {
     vec3 position;
     float scale;
     vec2 turn;      // cosine and sine about the vertical, counterclockwise from above
-    float tint;     // 0 to 1, how it differs from others of its kind
+    float tint;     // its fraction: how it differs from others of its kind; its whole part: by how many steps it is lighter
     float fade;     // 1: all pixels; above 0: this share of them; below: those that -fade leaves out
 };
 STATIC_SIZE(PropInstance, 32);

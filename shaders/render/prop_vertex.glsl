@@ -13,7 +13,7 @@ struct PropVertex {
     vec2 uv;
     float open;   // 0 to 1, of foliage: what its texture u carries, see foliage.vert
     float code;   // of a card: where it faces; -1: none
-    float tint, fade;
+    float tint, shade, fade;   // tint: 0 to 1; shade: a factor of its brightness
     vec2 turn;   // PropInstance::turn
 };
 
@@ -34,7 +34,9 @@ PropVertex propVertex(uint vertex, uint instance) {
     v.open = floor(v.uv.x) * 0.125;
     v.code = card ? -1.0 - floor(v.uv.y) : -1.0;
     v.uv = card ? fract(v.uv) : v.uv;
-    v.tint = uintBitsToFloat(b.z);
+    float tint = uintBitsToFloat(b.z);
+    v.tint = fract(tint);
+    v.shade = 1.0 + kShadeStep * floor(tint);
     v.fade = uintBitsToFloat(b.w);
     return v;
 }

@@ -147,7 +147,8 @@ Status writeProps(const Options& options) {
     glb.images = {{"foliage", encodePng(paintFoliage(1024), 4), true}, {"palette", encodePng(paintPalette(), 3), true}};
     glb.materials = {{"foliage", 0, -1, 0.7f, 0.57f, true, true},
                      {"built", 1, -1, 0.92f, 0, false, false},
-                     {"grass", -1, -1, 0.8f, 0, true, false}};
+                     {"grass", -1, -1, 0.8f, 0, true, false},
+                     {"meadow", 0, -1, 0.7f, 0.57f, true, true}};
     for (const PropMeshes::Entry& e : meshes.all) glb.meshes.push_back({e.name, &e.mesh, e.material});
     return writeGlb(options.directory + "/props.glb", glb);
 }

@@ -4,31 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/content/foliage.hpp"
 #include "tools/content/noise.hpp"
-#include "tools/content/props.hpp"
 
 namespace espalier::content {
 namespace {
 
-constexpr float kPi = 3.14159265f;
-
-struct Species {
-    float length, width;    // of a leaf, in cells
-    int sprigs;             // on a twig
-    float spread;           // radians that its sprigs stand off
-    glm::vec3 dark, light;  // linear
-    float serrated;         // of its edge
-};
 // Rows of the atlas: lime, apple, birch, shrub.
 const Species kSpecies[] = {{0.080f, 0.058f, 18, 1.25f, {0.019f, 0.038f, 0.011f}, {0.116f, 0.160f, 0.042f}, 0.05f},
                             {0.074f, 0.042f, 19, 1.20f, {0.022f, 0.037f, 0.016f}, {0.120f, 0.150f, 0.062f}, 0.03f},
                             {0.056f, 0.044f, 19, 1.10f, {0.026f, 0.046f, 0.013f}, {0.132f, 0.176f, 0.050f}, 0.06f},
                             {0.066f, 0.042f, 20, 1.15f, {0.021f, 0.037f, 0.014f}, {0.112f, 0.146f, 0.048f}, 0.02f}};
-
-struct Leaf {
-    glm::vec2 foot, along;
-    float length, width, bright, lie;  // what lies higher hides the rest
-};
 
 // A line of leaves.
 struct Sprig {
@@ -98,46 +84,6 @@ std::vector<Leaf> farLeaves(const Species& s, uint32_t salt) {
     return leaves;
 }
 
-// Distance to a leaf's edge, positive inside, in cells; across: where in the leaf, -1 to 1.
-float leafEdge(const Leaf& leaf, const Species& s, glm::vec2 p, float& across) {
-    const glm::vec2 d = p - leaf.foot;
-    const float along = glm::dot(d, leaf.along) / leaf.length;
-    const float side = leaf.along.x * d.y - leaf.along.y * d.x;
-    if (along < -0.3f || along > 1.3f) return -1;
-    const float t = glm::clamp(along, 0.0f, 1.0f);
-    float half = 0.5f * leaf.width * std::pow(std::max(std::sin(kPi * std::pow(t, 0.75f)), 0.0f), 0.8f);
-    half *= 1 + s.serrated * std::sin(60 * t);
-    across = half > 1e-5f ? side / half : 0;
-    const float beyond = std::max(-along, along - 1) * leaf.length;
-    return std::min(half - std::abs(side), -beyond);
-}
-
-glm::vec3 leafColor(const Leaf& leaf, const Species& s, float edge, float across) {
-    glm::vec3 color = glm::mix(s.dark, s.light, leaf.bright);
-    color *= 0.86f + 0.20f * across * (leaf.bright > 0.5f ? 1.0f : -1.0f);  // one half towards the light
-    color = glm::mix(color, s.light * 1.25f, 0.35f * ramp(0.16f, 0.03f, std::abs(across)));
-    return color * (0.72f + 0.28f * ramp(0.0f, 0.010f, edge));  // the next leaf's shadow
-}
-
-// edge: how far inside what is painted, in cells; beside it, negative.
-void putTexel(uint8_t* texel, glm::vec3 color, float edge, int side) {
-    for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(toSrgb(color[k])) * 255 + 0.5f);
-    texel[3] = uint8_t(saturate(0.5f + edge * float(side) / 10) * 255 + 0.5f);
-}
-
-// Lays leaves over what has this edge and colour at p, each over those before it. True: one of them covers it.
-bool overLeaves(const std::vector<Leaf>& leaves, const Species& s, glm::vec2 p, float& edge, glm::vec3& color) {
-    bool covered = false;
-    for (const Leaf& leaf : leaves) {
-        float across = 0;
-        const float e = leafEdge(leaf, s, p, across);
-        edge = std::max(edge, e);
-        covered = covered || e >= 0;
-        if (e >= 0) color = leafColor(leaf, s, e, across);
-    }
-    return covered;
-}
-
 void paintTwig(Picture& picture, int x0, int y0, int side, const Species& s, uint32_t salt, bool far) {
     std::vector<glm::vec3> colors(size_t(side) * size_t(side), 0.35f * (s.dark + s.light));
     std::vector<float> edges(colors.size(), -1.0f);
@@ -176,91 +122,6 @@ glm::vec3 barkColor(glm::vec2 p, bool birch) {
     return ridge * (1 + 0.4f * fine);
 }
 
-struct Blossom {
-    glm::vec3 petals, middle;  // linear
-    float radius;              // in cells
-    int count;
-};
-// Daisies, geraniums, cornflowers.
-const Blossom kBlossoms[kFlowers] = {{{0.72f, 0.70f, 0.62f}, {0.62f, 0.40f, 0.03f}, 0.055f, 11},
-                                     {{0.56f, 0.045f, 0.035f}, {0.30f, 0.02f, 0.02f}, 0.085f, 10},
-                                     {{0.20f, 0.19f, 0.52f}, {0.12f, 0.07f, 0.30f}, 0.060f, 15}};
-
-// A clump of narrow leaves about its foot, blossoms on stems above them.
-void paintFlowers(Picture& picture, int x0, int y0, int side, const Blossom& b, uint32_t salt) {
-    const Species green{0.30f, 0.055f, 0, 0, {0.030f, 0.055f, 0.018f}, {0.090f, 0.130f, 0.040f}, 0};
-    std::vector<Leaf> leaves;
-    for (uint32_t i = 0; i < 46; ++i) {
-        const auto random = [&](uint32_t which) { return random01(salt, i, which); };
-        const float turn = 2.2f * (random(1) - 0.5f), size = 0.7f + 0.6f * random(2);
-        const glm::vec2 foot(0.5f + 0.5f * (random(3) - 0.5f), 0.97f - 0.25f * random(4));
-        leaves.push_back(
-            {foot, {std::sin(turn), -std::cos(turn)}, green.length * size, green.width * size, random(5), 0});
-    }
-    std::vector<glm::vec2> blossoms;
-    for (uint32_t i = 0; i < uint32_t(b.count); ++i) {
-        const glm::vec2 at(0.12f + 0.76f * random01(salt + 31, i, 0), 0.10f + 0.48f * random01(salt + 31, i, 1));
-        const glm::vec2 foot(glm::mix(0.5f, at.x, 0.35f), 0.9f);
-        blossoms.push_back(at);
-        leaves.push_back({foot, glm::normalize(at - foot), glm::distance(at, foot), 0.03f, 0.3f, 0});
-    }
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-            const glm::vec2 p = (glm::vec2(x, y) + 0.5f) / float(side);
-            glm::vec3 color = green.dark;
-            float edge = -1;
-            overLeaves(leaves, green, p, edge, color);
-            for (glm::vec2 at : blossoms) {
-                const glm::vec2 d = (p - at) / b.radius;
-                const float far = glm::length(d), e = 1 + 0.18f * std::cos(8 * std::atan2(d.y, d.x)) - far;
-                edge = std::max(edge, e * b.radius);
-                if (e >= 0) color = (far < 0.35f ? b.middle : b.petals) * (0.92f - 0.2f * d.y);
-            }
-            putTexel(picture.at(x0 + x, y0 + y), color, edge, side);
-        }
-}
-
-struct Bloom {
-    glm::vec2 at;
-    float radius;
-    glm::vec3 color;
-};
-// Blades and stems that lean apart and end in ears, in places yellow; between them, if it blooms, a few poppies and
-// buttercups.
-void paintMeadow(Picture& picture, int x0, int y0, int side, bool blooms, uint32_t salt) {
-    const Species grass{1, 1, 0, 0, {0.050f, 0.066f, 0.022f}, {0.145f, 0.152f, 0.056f}, 0};
-    const glm::vec3 poppy(0.46f, 0.040f, 0.024f), buttercup(0.56f, 0.42f, 0.04f);
-    std::vector<Leaf> leaves;
-    std::vector<Bloom> flowers;
-    for (uint32_t i = 0; i < 74; ++i) {
-        const auto random = [&](uint32_t which) { return random01(salt, i, which); };
-        const bool stem = i % 4 == 3;
-        const float aside = 2 * random(3) - 1, turn = 0.42f * aside + 0.5f * (random(1) - 0.5f);
-        const float length =
-            (stem ? 0.50f + 0.42f * random(2) : 0.26f + 0.40f * random(2)) * (1 - 0.35f * aside * aside);
-        const glm::vec2 foot(0.5f + 0.30f * aside, 1.0f), along(std::sin(turn), -std::cos(turn));
-        const glm::vec2 tip = foot + length * along;
-        leaves.push_back({foot, along, length, stem ? 0.020f : 0.034f, random(5), 0});
-        if (stem && blooms && i % 20 == 3)
-            flowers.push_back({tip, i % 40 == 3 ? 0.042f : 0.030f, i % 40 == 3 ? poppy : buttercup});
-        else if (stem)  // an ear
-            leaves.push_back({tip - 0.05f * along, along, 0.14f, 0.034f, 0.6f + 0.4f * random(6), 0});
-    }
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-            const glm::vec2 p = (glm::vec2(x, y) + 0.5f) / float(side);
-            glm::vec3 color = grass.dark;
-            float edge = -1;
-            if (overLeaves(leaves, grass, p, edge, color)) color *= 0.75f + 0.25f * ramp(1.0f, 0.5f, p.y);
-            for (const Bloom& b : flowers) {
-                const float e = b.radius - glm::length((p - b.at) * glm::vec2(1, 1.2f));
-                edge = std::max(edge, e);
-                if (e >= 0) color = b.color * (0.95f - 2.5f * (p.y - b.at.y));
-            }
-            putTexel(picture.at(x0 + x, y0 + y), color, edge, side);
-        }
-}
-
 }  // namespace
 
 Picture paintFoliage(int size) {
@@ -281,9 +142,10 @@ Picture paintFoliage(int size) {
                       450u + uint32_t(row) * 8 + uint32_t(column), column == kFarColumn);
     const int flowers = int(float(size) * kFlowerSide);
     for (int kind = 0; kind < kFlowers; ++kind)
-        paintFlowers(picture, size - flowers, kind * flowers, flowers, kBlossoms[kind], 490u + uint32_t(kind));
+        paintFlowers(picture, size - flowers, kind * flowers, flowers, kind, 490u + uint32_t(kind));
     for (int kind = 0; kind < kMeadows; ++kind)
         paintMeadow(picture, size - flowers, (kFlowers + kind) * flowers, flowers, kind == 1, 500u + uint32_t(kind));
+    paintClover(picture, size - flowers, kCloverCell * flowers, flowers, 510);
     return picture;
 }
 

@@ -222,6 +222,18 @@ Mesh rubble(int) {
     return b.mesh;
 }
 
+// A stone that fell, half sunk: a thick one, a flat one.
+Mesh thickStone(int) {
+    Builder b;
+    addHewn(b, {{0, 0.03f, 0}, {0.19f, 0.17f, 0.17f}, 0.4f, 0.34f}, 0.052f, 105);
+    return b.mesh;
+}
+Mesh flatStone(int) {
+    Builder b;
+    addHewn(b, {{0, 0, 0}, {0.23f, 0.12f, 0.18f}, 1.1f, -0.20f}, 0.046f, 112);
+    return b.mesh;
+}
+
 }  // namespace
 
 Picture paintPalette() {
@@ -247,8 +259,9 @@ void addFurniture(PropMeshes& out) {
         const char* name;
         Mesh (*make)(int lod);
         int lods;
-    } rows[] = {{"wall", wall, 2}, {"pier", pier, 2},   {"fence", fence, 2},  {"rails", rails, 2},
-                {"well", well, 1}, {"bench", bench, 1}, {"rubble", rubble, 1}};
+    } rows[] = {{"wall", wall, 2},     {"pier", pier, 2},          {"fence", fence, 2},
+                {"rails", rails, 2},   {"well", well, 1},          {"bench", bench, 1},
+                {"rubble", rubble, 1}, {"stone_a", thickStone, 1}, {"stone_b", flatStone, 1}};
     for (const auto& row : rows)
         for (int lod = 0; lod < row.lods; ++lod) out.add(row.name, lod, row.make(lod), PropMeshes::kBuilt);
 }

@@ -8,7 +8,7 @@
 namespace espalier::content {
 
 struct PropMeshes {
-    enum Material { kFoliage, kBuilt, kGrass };
+    enum Material { kFoliage, kBuilt, kGrass, kMeadow };  // kMeadow: foliage of the meadow's hue
     struct Entry {
         std::string name;  // MODEL_lodN
         Mesh mesh;
@@ -27,10 +27,11 @@ void addYard(PropMeshes& out);
 
 // Twigs full of leaves, cut out along a distance ramp, and bark. Cells are a quarter of the picture wide, from u = 1/8;
 // bark fills the strip before them, birch its right half, and repeats along v. Cells of the last column are for the
-// larger cards of coarse levels: more and smaller leaves. Beyond them stand, in cells of half the size, flowers and
-// below them tall grass, the second with poppies and buttercups.
+// larger cards of coarse levels: more and smaller leaves. Beyond them stand, in cells of half the size, flowers, below
+// them tall grass, the second with poppies and buttercups, and clover.
 constexpr float kCellSide = 0.25f, kFirstCell = 0.125f, kFlowerSide = 0.125f;
 constexpr int kFarColumn = 2, kFlowers = 3, kMeadows = 2;
+constexpr int kCloverCell = kFlowers + kMeadows;
 Picture paintFoliage(int size);
 
 // Built props' colours: u is how bright, v picks the material.

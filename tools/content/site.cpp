@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/core/file.hpp"
+#include "tools/content/lawn.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/site_layout.hpp"
 
@@ -40,10 +41,15 @@ void paintMap(const Plan& plan, const std::vector<glm::vec3>& shades, Site& site
             float earth = 0.62f * ramp(-0.55f - 0.4f * uneven, -0.05f, paved);        // beside kerbs
             earth = std::max(earth, 0.7f * ramp(1.1f + 0.6f * uneven, 0.2f, house));  // around houses
             earth = std::max(earth, 0.16f * ramp(0.9f + uneven, 0.0f, court));
-            earth = std::max(earth, 0.95f * ramp(-0.40f - 0.25f * uneven, 0.10f, plan.trodden(p)));
+            earth = std::max(earth, (0.82f + 0.2f * uneven) * ramp(-0.28f - 0.25f * uneven, 0.16f, plan.trodden(p)));
             for (glm::vec3 w : worn)
                 earth = std::max(earth, 0.55f * ramp(1.2f + 0.4f * uneven, 0.3f, glm::distance(p, vec2(w)) / w.z));
-            float open = 1 - 0.55f * std::exp(-std::max(house, 0.0f) / 0.9f);
+            // Feet that come from the arch carry soil over the last kerb.
+            earth =
+                std::max(earth, 0.6f * ramp(1.0f + 0.3f * uneven, 0.3f, glm::distance(p, vec2(0.6f, kSill + 0.2f))));
+            const Lawn lawn = lawnAt(p);
+            earth = std::max(earth, 0.75f * lawn.bare);
+            float open = (1 - 0.22f * lawn.clover) * (1 - 0.55f * std::exp(-std::max(house, 0.0f) / 0.9f));
             for (glm::vec3 s : shades) {
                 const float d = glm::distance(p, vec2(s)) / s.z;
                 if (d < 1.5f) open *= 1 - 0.42f * ramp(1.4f, 0.1f, d);

@@ -25,6 +25,8 @@ void Layout::lay() {
     tallGrass();
     turf();
     tufts();
+    feet();
+    fallen();
 }
 
 void Layout::put(const std::string& model, vec2 at, float degrees, float scale, float sink) {

@@ -53,6 +53,8 @@ class Layout {
     void tallGrass();
     void turf();
     void tufts();
+    void feet();
+    void fallen();
 
     const Plan& plan_;
     Site& site_;

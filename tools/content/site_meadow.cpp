@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/content/lawn.hpp"
 #include "tools/content/noise.hpp"
-#include "tools/content/ruin.hpp"
 #include "tools/content/site_layout.hpp"
 
 namespace espalier::content {
@@ -28,7 +28,7 @@ void Layout::paddocks() {
 void Layout::daisies() {
     const auto flower = [&](const char* kind, vec2 p, uint32_t i, float least) {
         if (noise(p / 2.1f, 93) + 0.4f * noise(p / 0.6f, 94) > least && clear(p, 0.2f, 0.5f))
-            put(kind, p, 360 * random01(i, 95), 0.4f + 0.3f * random01(i, 96), 0.02f);
+            put(kind, p, 360 * random01(i, 95), 0.32f + 0.3f * random01(i, 96), 0.02f);
     };
     const auto within = [](uint32_t i, float radius) {
         const float angle = 2 * kPi * random01(i, 91), r = radius * std::sqrt(random01(i, 92));
@@ -46,7 +46,7 @@ void Layout::daisies() {
 }
 
 // Where nobody mows: on both sides of tracks and rails, about trunks and what has been left lying or fenced in, and in
-// islands. Not before the court, where pictures are taken from.
+// islands; before the court, where pictures are taken from, only in the lawn's own, and low.
 void Layout::tallGrass() {
     constexpr float kCell = 0.72f, kReach = 46;
     const vec2 middle(0, -12), before(1.8f, 8.5f);
@@ -64,7 +64,9 @@ void Layout::tallGrass() {
         for (int x = -cells; x <= cells; ++x) {
             const uint32_t i = uint32_t((y + cells) * (2 * cells + 1) + x + cells);
             const vec2 p = middle + kCell * (vec2(x, y) + vec2(random01(i, 171), random01(i, 172)));
-            if (glm::distance(p, middle) > kReach || glm::distance(p, before) < 6.5f || !clear(p, 0.3f, 0.9f)) continue;
+            if (glm::distance(p, middle) > kReach || !clear(p, 0.3f, 0.9f)) continue;
+            const bool lawn = glm::distance(p, before) < 6.5f;
+            if (lawn && random01(i, 178) > 0.8f * lawnAt(p).tall) continue;
             const float track = -plan_.trodden(p), kerb = -plan_.paved(p);
             if (track < 0.25f || nearest(p, site_.props["bench"], placeOf) < 1.1f) continue;  // one sits there
             const float rail = nearest(p, rails, placeOf), lying = nearest(p, left, placeOf);
@@ -72,32 +74,16 @@ void Layout::tallGrass() {
             float wild = noise(p / 6.5f, 173) + 0.5f * noise(p / 2.1f, 174) - 0.70f;
             wild += 0.45f * ramp(1.2f, 0.5f, track) + 0.75f * ramp(1.3f, 0.4f, rail) + 0.7f * ramp(1.3f, 0.5f, trunk) +
                     0.7f * ramp(2.0f, 0.9f, lying) + 0.25f * ramp(1.6f, 0.5f, kerb);
+            if (lawn) wild = 0.02f;
             if (wild < 0) continue;
             const char* model = noise(p / 3.1f, 175) > 0.22f ? "meadow_b" : "meadow_a";
-            put(model, p, 360 * random01(i, 176), 0.52f + 0.3f * random01(i, 177) + 0.45f * saturate(1.5f * wild),
+            const float high = lawn ? 0.30f + 0.25f * random01(i, 177) : 0.48f + 0.36f * random01(i, 177);
+            put(model, p, 360 * random01(i, 176), high + 0.45f * saturate(1.5f * wild),
                 0.03f);  // lower towards the border
         }
 }
 
-// Short grass in the court and around it, thinner farther away.
-void Layout::turf() {
-    constexpr float kCell = 0.29f, kReach = 15;
-    const int cells = int(kReach / kCell);
-    for (int y = -cells; y <= cells; ++y)
-        for (int x = -cells; x <= cells; ++x) {
-            const uint32_t i = uint32_t((y + cells) * (2 * cells + 1) + x + cells);
-            const vec2 p = kCourt + kCell * (vec2(x, y) + 0.9f * vec2(random01(i, 191), random01(i, 192)));
-            const bool court = Plan::toCourt(p) < 0.1f;
-            const float thin = glm::distance(p, kCourt) / kReach;
-            const bool grows = court ? grassShare(p) > 0.35f && footDistance(p) > 0.2f
-                                     : thin + 0.5f * noise(p / 1.9f, 193) < 0.95f && plan_.trodden(p) < -0.2f;
-            if (!grows || plan_.paved(p) > -0.2f) continue;
-            put("turf", p, 360 * random01(i, 194), 0.75f + 0.5f * random01(i, 195),
-                court ? kLevel - groundHeight(p) + 0.01f : 0);
-        }
-}
-
-// Grass stands higher where nobody mows or treads: at feet of walls and stones, along kerbs, around the court.
+// Grass stands higher where nobody mows or treads: at feet of what is built, along kerbs, around the court.
 void Layout::tufts() {
     uint32_t index = 0;
     const auto tuft = [&](vec2 p, float most) {
@@ -112,18 +98,11 @@ void Layout::tufts() {
     for (uint32_t i = 0; i < 24000; ++i) {
         const float angle = 2 * kPi * random01(i, 64), r = 22 * std::sqrt(random01(i, 65));
         const vec2 p = kCourt + r * vec2(std::cos(angle), std::sin(angle));
-        const float rank = noise(p / 1.7f, 66) + 0.5f * noise(p / 5.0f, 67) + 0.9f * ramp(1.8f, 0.3f, Plan::toCourt(p));
+        const Lawn lawn = lawnAt(p);
+        const float rank = noise(p / 1.7f, 66) + 0.5f * noise(p / 5.0f, 67) +
+                           0.9f * ramp(1.8f, 0.3f, Plan::toCourt(p)) + 0.8f * lawn.tall - 1.2f * lawn.bare -
+                           0.6f * lawn.clover;
         if (rank > 0.06f) tuft(p, 0.75f + 0.4f * saturate(rank - 0.3f));
-    }
-    for (uint32_t i = 0; i < 9000; ++i) {
-        const vec2 p = kCourt + 1.1f * kCourtHalf * (2.0f * vec2(random01(i, 181), random01(i, 182)) - 1.0f);
-        const float foot = footDistance(p), rank = noise(p / 0.7f, 183), sink = kLevel - groundHeight(p) + 0.01f;
-        if (foot < 0.02f || foot > 0.30f || pavedShare(p) > 0.2f || rank < -0.1f) continue;
-        const float turn = 360 * random01(i, 185), size = random01(i, 186);
-        if (foot < 0.20f) put(random01(i, 184) < 0.35f ? "tuft_a" : "tuft_c", p, turn, 0.6f + 0.5f * size, sink);
-        // Taller where a clump has come up, so that no wall meets the ground in a line.
-        if (foot > 0.07f && random01(i, 187) < 0.10f + 0.25f * rank)
-            put(rank > 0.4f && random01(i, 188) < 0.15f ? "meadow_b" : "meadow_a", p, turn, 0.26f + 0.34f * size, sink);
     }
     const std::map<std::string, std::vector<SitePlace>> built = site_.props;
     for (const char* foot : {"wall", "pier", "fence", "rubble", "bench", "boards", "cart", "hives", "barrel"}) {

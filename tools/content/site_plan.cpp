@@ -77,7 +77,7 @@ float Plan::paved(vec2 p) const {
     for (const auto& [line, half] : streets)
         for (size_t i = 0; i + 1 < line.size(); ++i)
             inside = std::max(inside, half - segmentDistance(p, line[i], line[i + 1]));
-    return inside;
+    return toCourt(p) < 2 ? std::min(inside, kSill - p.y) : inside;
 }
 
 float Plan::trodden(vec2 p) const {

@@ -81,6 +81,24 @@ Mesh makeMeadow(int kind, int lod) {
     return mesh;
 }
 
+// A patch of clover, on cards that lean outward all around.
+Mesh makeClover(int lod) {
+    constexpr float kLean = 1.08f;  // radians
+    Mesh mesh;
+    const int count = lod == 0 ? 5 : lod == 1 ? 3 : 2;
+    const float side = lod == 0 ? 0.24f : lod == 1 ? 0.30f : 0.36f;
+    const Cell cell{{1 - kFlowerSide, kFlowerSide * float(kCloverCell)}, kFlowerSide};
+    for (int i = 0; i < count; ++i) {
+        const float angle = 6.2832f * (float(i) + 0.3f * random01(37, uint32_t(i))) / float(count);
+        const glm::vec3 level(std::cos(angle), 0, std::sin(angle));
+        const glm::vec3 up = glm::vec3(0, std::cos(kLean), 0) + std::sin(kLean) * level;
+        const glm::vec3 out = std::cos(kLean) * level - glm::vec3(0, std::sin(kLean), 0);
+        const auto litAt = [&](glm::vec3 p) -> Lit { return {glm::normalize(glm::vec3(0, 1, 0) + 1.2f * p), 0.85f}; };
+        addCard(mesh, 0.45f * side * up - glm::vec3(0, 0.015f, 0), -out, up, side, cell, litAt);
+    }
+    return mesh;
+}
+
 // Blades of grass. roots: within so many metres of the middle; spread: how far blades lean, metres; wide: their half
 // width, metres. u is how far up the blade.
 Mesh makeTuft(uint32_t salt, int blades, float tall, float roots, float spread, float wide, int lod) {
@@ -126,7 +144,8 @@ void addSmallPlants(PropMeshes& out) {
         for (int kind = 0; kind < kFlowers; ++kind)
             out.add("flowers_" + std::string(1, char('a' + kind)), lod, makeFlowers(kind, lod), PropMeshes::kFoliage);
         for (int kind = 0; kind < kMeadows; ++kind)
-            out.add("meadow_" + std::string(1, char('a' + kind)), lod, makeMeadow(kind, lod), PropMeshes::kFoliage);
+            out.add("meadow_" + std::string(1, char('a' + kind)), lod, makeMeadow(kind, lod), PropMeshes::kMeadow);
+        out.add("clover", lod, makeClover(lod), PropMeshes::kMeadow);
         out.add("tuft_a", lod, makeTuft(31, 18, 0.20f, 0.045f, 0.13f, 0.0042f, lod), PropMeshes::kGrass);
         out.add("tuft_b", lod, makeTuft(32, 26, 0.32f, 0.07f, 0.20f, 0.0042f, lod), PropMeshes::kGrass);
         out.add("tuft_c", lod, makeTuft(33, 14, 0.12f, 0.042f, 0.12f, 0.0042f, lod), PropMeshes::kGrass);

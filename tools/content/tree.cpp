@@ -35,7 +35,7 @@ const Habit kHabits[] = {
     {"lime_b", 0, 22, 2.2f, 11.2f, 3.9f, 0.40f, 0.45f, 15, {560, 165, 46}, 1.03f, 0.36f, 10, false},
     {"apple_a", 1, 23, 1.3f, 4.3f, 2.1f, 0.45f, 0.35f, 8, {270, 86, 26}, 0.74f, 0.14f, 7, false},
     {"apple_b", 1, 24, 1.2f, 4.9f, 2.4f, 0.50f, 0.35f, 9, {290, 92, 28}, 0.78f, 0.15f, 7, false},
-    {"birch_a", 2, 25, 1.8f, 9.4f, 1.75f, 0.33f, 0.15f, 13, {340, 104, 30}, 0.62f, 0.13f, 6, true},
+    {"birch_a", 2, 25, 1.9f, 9.2f, 2.65f, 0.40f, 0.30f, 14, {350, 104, 30}, 0.68f, 0.13f, 7, true},
     {"bush_a", 3, 26, 0.0f, 1.5f, 1.05f, 0.45f, 0.30f, 6, {150, 48, 16}, 0.54f, 0.0f, 0, false},
     {"bush_b", 3, 27, 0.0f, 1.0f, 0.85f, 0.50f, 0.30f, 5, {125, 42, 14}, 0.47f, 0.0f, 0, false},
 };
@@ -83,7 +83,7 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
         const auto random = [&](uint32_t which) { return random01(h.salt * 5, uint32_t(k), which); };
         const bool top = k + 1 == h.lobes;
         const bool bush = h.trunk == 0;  // its lobes run into each other
-        const float highest = h.birch ? 0.91f : bush ? 0.62f : 0.84f, rise = bush ? 0.40f : h.birch ? 0.78f : 0.72f;
+        const float highest = h.birch ? 0.88f : bush ? 0.62f : 0.84f, rise = bush ? 0.40f : h.birch ? 0.74f : 0.72f;
         const float t = top ? highest : 0.10f + rise * (float(k) + 0.5f * random(0)) / float(h.lobes - 1);
         const float angle = 2.399963f * float(k) + 0.6f * random(1), wide = crownRadius(h, t);
         const float most = (bush ? 0.44f : 0.26f) * tall;
@@ -91,7 +91,7 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
         const float radius = std::min(broad * (bush ? 0.8f + 0.4f * random(2) : 0.70f + 0.50f * random(2)), most);
         const float reach = std::max(wide * (0.84f + 0.16f * random(3)) - 0.82f * radius, 0.25f * wide);
         // A birch's boughs are too thin to be seen: none of its lobes stands off by itself.
-        const float r = top ? 0 : h.birch ? 0.7f * reach : bush ? std::min(reach, 0.7f * radius) : reach;
+        const float r = top ? 0 : h.birch ? 0.9f * reach : bush ? std::min(reach, 0.7f * radius) : reach;
         const glm::vec3 out(std::cos(angle), 0, std::sin(angle));
         lobes.push_back({r * out + glm::vec3(0, h.crownFoot + tall * t, 0) + lean * (0.4f * tall * t),
                          glm::normalize(top ? glm::vec3(0, 1, 0) : out + glm::vec3(0, 0.5f * t, 0)), radius});
@@ -222,7 +222,8 @@ Mesh makeTree(const Habit& h, int lod) {
             const glm::vec3 root = glm::vec3(0, from, 0) + lean * (0.1f * from);
             const glm::vec3 end(reach * std::cos(angle), h.crownFoot + tall * (t + 0.08f), reach * std::sin(angle));
             const glm::vec3 bend = glm::mix(root, end, 0.5f) + glm::vec3(0, h.birch ? 0.5f : -0.18f, 0);
-            addTube(mesh, {root, bend, end}, h.trunk * 0.45f, h.trunk * 0.10f, lod == 0 ? 4 : 3, bark, 0.5f);
+            addTube(mesh, {root, bend, end}, h.trunk * (h.birch ? 0.28f : 0.45f), h.trunk * 0.10f, lod == 0 ? 4 : 3, 0,
+                    0.5f);
         }
     const int cards = h.cards[lod];
     const float side = h.side * std::pow(float(h.cards[0]) / float(cards), 0.43f);
