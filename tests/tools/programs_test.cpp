@@ -35,6 +35,37 @@ std::string sceneOf(std::string surface, std::string grammar) {
 
 }  // namespace
 
+TEST_CASE("layers that no grammar of a scene reads are warned of, and aren't there to be exported") {
+    const Folder folder;
+    std::string scene = sceneOf(content("ruin.surface.glb"), content("grammars/ivy_free.grammar"));
+    scene.replace(scene.rfind('}'), 1, R"(, "layers": {"maks": "nosuch.png"}, "filled": {"tnit": 0}})");
+    folder.write("scene.json", scene);
+    const std::string capture =
+        program("espalier-capture") + " " + folder.file("scene.json") + " --size 64x36 -o " + folder.file("out");
+    const Ran ran = run(capture);
+    CHECK_MESSAGE(ran.code == 0, ran.output);
+    for (const char* layer : {"'maks'", "'tnit'"}) CHECK_MESSAGE(contains(ran.output, layer), ran.output);
+    const Ran exported = run(capture + " --export maks=" + folder.file("maks.png"));
+    CHECK(exported.code == 1);
+    CHECK_MESSAGE(contains(exported.output, "has no layer 'maks'"), exported.output);
+    CHECK(!std::filesystem::exists(folder.file("maks.png")));
+    CHECK(run(capture + " --view nope").code == 2);
+}
+
+TEST_CASE("a sun's intensity counts without a colour") {
+    const Folder folder;
+    const auto picture = [&](const char* name, const char* intensity) {
+        std::string scene = sceneOf(content("ruin.surface.glb"), content("grammars/ivy_free.grammar"));
+        scene.replace(scene.rfind('}'), 1, std::string(R"(, "sun": {"intensity": )") + intensity + "}}");
+        folder.write((std::string(name) + ".json").c_str(), scene);
+        const Ran ran = run(program("espalier-capture") + " " + folder.file(std::string(name) + ".json") +
+                            " --size 64x36 -o " + folder.file(name));
+        CHECK_MESSAGE(ran.code == 0, ran.output);
+        return readAll(folder.file(name) + "/frame_0000.png");
+    };
+    CHECK(picture("dim", "0.1") != picture("bright", "3"));
+}
+
 TEST_CASE("every program has a version and a help") {
     for (const char* name : {"espalier-bake", "espalier-capture", "espalier-compare", "espalier-sample"}) {
         CAPTURE(name);
@@ -44,7 +75,7 @@ TEST_CASE("every program has a version and a help") {
         const Ran help = run(program(name) + " --help");
         CHECK(help.code == 0);
         CHECK(help.output.size() > 200);
-        CHECK(run(program(name) + " --no-such-option").code > 0);
+        CHECK(run(program(name) + " --no-such-option").code == 2);
     }
     CHECK(run("tools/run --help").code == 0);
     CHECK(run("tools/test --help").code == 0);
