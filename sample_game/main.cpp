@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "sample_game/app.hpp"
+#include "tools/command_line.hpp"
 #include "tools/scene/heap.hpp"
 
 int main(int argc, char** argv) {
@@ -39,11 +40,7 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::Range(1., 86400.));
     cli.add_flag("--validation", options.validation, "with Vulkan's validation layer (also: ESPALIER_VALIDATION=1)");
-    try {
-        cli.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return cli.exit(e) ? 2 : 0;
-    }
+    if (const auto ends = espalier::parseCommandLine(cli, argc, argv)) return *ends;
     const auto fail = [](const std::string& message) {
         std::fprintf(stderr, "espalier-sample: %s\n", message.c_str());
         return 2;

@@ -5,6 +5,7 @@
 
 #include "runtime/gpu/device.hpp"
 #include "tools/bench/bench.hpp"
+#include "tools/command_line.hpp"
 #include "tools/scene/heap.hpp"
 
 int main(int argc, char** argv) {
@@ -29,11 +30,7 @@ int main(int argc, char** argv) {
     app.add_option("--repeats", options.repeats, "measured runs of each")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return app.exit(e) ? 2 : 0;
-    }
+    if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
 
     if (Result<std::unique_ptr<Device>> device = Device::create())
         std::printf("device: %s (%s)\n", (*device)->info().name.c_str(), (*device)->info().driver.c_str());

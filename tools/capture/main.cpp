@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 
+#include "tools/command_line.hpp"
 #include "tools/document/document.hpp"
 #include "tools/document/layer_files.hpp"
 #include "tools/document/run.hpp"
@@ -301,11 +302,7 @@ int main(int argc, char** argv) {
     CLI::App app{"Grows a scene and writes frames and figures, without a window.", "espalier-capture"};
     Options options;
     addOptions(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return app.exit(e) ? 2 : 0;
-    }
+    if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
     if (options.seed >= 0) options.request.seed = uint32_t(options.seed);
     if (options.request.file.empty() && options.replay.empty())
         return refuse("FILE or --replay says what to show; see --help");

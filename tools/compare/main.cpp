@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "tools/command_line.hpp"
 #include "tools/scene/picture.hpp"
 
 using namespace espalier::scene;
@@ -75,11 +76,7 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(isShare, "FLOAT in [0 - 1]");
     app.add_option("--diff", diff, "writes a PNG of the differences, brightest where they are largest");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return app.exit(e) ? 2 : 0;
-    }
+    if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
 
     FloatPicture a, b;
     std::string error;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "tools/command_line.hpp"
 #include "tools/content/content.hpp"
 
 int main(int argc, char** argv) {
@@ -25,11 +26,7 @@ int main(int argc, char** argv) {
     app.add_option("--town", options.town, "houses that the site is laid out around")
         ->needs(app.add_option("--grammar", options.grammar, "of these houses, for where their doors are"));
     app.set_version_flag("--version", "espalier-content " ESPALIER_VERSION);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return app.exit(e) ? 2 : 0;
-    }
+    if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
     Status status = content::generate(options);
     if (!status) {
         std::fprintf(stderr, "%s\n", status.failure().text().c_str());

@@ -16,6 +16,7 @@
 #include "tools/bake/main/folder.hpp"
 #include "tools/bake/main/town.hpp"
 #include "tools/bake/pictures.hpp"
+#include "tools/command_line.hpp"
 
 using namespace espalier;
 
@@ -220,11 +221,7 @@ int main(int argc, char** argv) {
     app.add_option("--house", arguments.town.houses, "of a town: only these, by id; may be repeated")->take_all();
     app.add_option("--meshes", arguments.town.meshes, "of a town: its terminals (default: roofs.glb of the content)");
     app.add_flag("-q,--quiet", arguments.quiet, "no progress, warnings only");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return app.exit(e) ? 2 : 0;
-    }
+    if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
     if (from->count() > 0 && layer->count() + seeds->count() == 0)
         return fail(Failure("--from", "needs --layer or --seeds: what is to be carried"));
     if (!std::isfinite(float(arguments.tolerance))) return fail(Failure("--tolerance", "is not a number of metres"));
