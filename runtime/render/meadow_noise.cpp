@@ -39,9 +39,10 @@ glm::vec4 meadowNoise(uint32_t x, uint32_t y) {
 MeadowHue meadowHue(glm::vec2 place) {
     const glm::vec2 tile = place / kMeadowTile, texel = (tile - glm::floor(tile)) * float(kNoiseSide);
     const glm::vec4 broad = meadowNoise(uint32_t(texel.x) % kNoiseSide, uint32_t(texel.y) % kNoiseSide);
-    const float swathe = std::clamp(broadSwathe(broad), 0.0f, 1.0f);
-    return {std::clamp(kMeadowDry + broadDryness(broad), 0.0f, 0.75f),
-            broadGrowth(broad) * std::lerp(0.78f, 1.1f, swathe)};
+    const glm::vec3 weights(0.3f, 0.6f, 0.1f);  // of brightness
+    const glm::vec3 tint = swatheTint(std::clamp(broadSwathe(broad), 0.0f, 1.0f));
+    return {std::clamp(kMeadowDry + broadDryness(broad), 0.0f, kMeadowMostDry),
+            broadGrowth(broad) * glm::dot(tint, weights)};
 }
 
 }  // namespace espalier

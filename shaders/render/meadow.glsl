@@ -61,11 +61,11 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     float blades = clamp(0.5 + 0.75 * fine.y + 0.2 * near.x * (1.0 - calm), 0.0, 1.0);
     // Here thicker, there thinner, in swathes of some metres.
     vec3 green = frame.grassColor * ((0.35 + blades) * broadGrowth(broad));
-    float dry = clamp(kMeadowDry + (broadDryness(broad) + 0.45 * near.z) * (1.0 - 0.35 * calm) + 0.25 * fine.y, 0.0, 0.75);
+    float dry = clamp(kMeadowDry + (broadDryness(broad) + 0.45 * near.z) * (1.0 - 0.35 * calm) + 0.25 * fine.y, 0.0, kMeadowMostDry);
     green = mix(green, frame.grassColor.yyy * vec3(1.25, 1.15, 0.48) * (0.55 + 0.75 * blades), dry);
     // Clover and sorrel, and swathes that were cut earlier, over tens of metres.
     float swathe = clamp(broadSwathe(broad) + 0.45 * near.y * (1.0 - calm), 0.0, 1.0);
-    green *= mix(vec3(0.66, 0.82, 0.74), vec3(1.20, 1.10, 0.86), swathe);
+    green *= swatheTint(swathe);
     vec3 earth = mix(vec3(0.068, 0.056, 0.036), vec3(0.146, 0.122, 0.082), 0.5 + 0.5 * fine.x + 0.2 * near.z) * (1.0 + 0.55 * fine.y);   // and straw on it
     // Far off lie fields, and woods between them.
     float far = clamp(metres * 0.012 - 0.9, 0.0, 1.0);
