@@ -40,14 +40,11 @@ std::vector<glm::vec3> eavesOf(const Workspace& work, const House& house) {
     return eaves;
 }
 
-// Those in the window; empty where a corner is behind the camera.
-std::vector<glm::vec2> outline(const Workspace& work, const House& house) {
-    std::vector<glm::vec2> points;
-    for (const glm::vec3 corner : eavesOf(work, house)) {
-        const auto at = work.place(corner);
-        if (!at) return {};
-        points.push_back(*at);
-    }
+// Those in the window; none for corners behind the camera.
+using Outline = std::vector<std::optional<glm::vec2>>;
+Outline outline(const Workspace& work, const House& house) {
+    Outline points;
+    for (const glm::vec3 corner : eavesOf(work, house)) points.push_back(work.place(corner));
     return points;
 }
 
@@ -71,6 +68,31 @@ void drawEdge(const Workspace& work, glm::vec3 from, glm::vec3 to, ImU32 colour,
     }
 }
 
+// Where along an edge, 0 to 1, the mouse is on it; none: beside it. An edge that begins or ends behind the camera is as
+// long as its dashes that don't.
+std::optional<float> shareAt(const Workspace& work, glm::vec3 from, glm::vec3 to, glm::vec2 at) {
+    std::optional<float> best;
+    float nearest = kEdgeReach * work.scale;
+    for (int i = 0; i < kDashes; ++i) {
+        const auto a = work.place(dashOf(from, to, float(i))), b = work.place(dashOf(from, to, float(i) + 1));
+        if (!a || !b) continue;
+        const auto [share, distance] = nearestOn(*a, *b, at);
+        if (distance > nearest) continue;
+        nearest = distance;
+        best = (float(i) + share) / kDashes;
+    }
+    return best;
+}
+
+// What one edge has of its own another one has, too.
+void copyEdge(House& house, uint32_t from, uint32_t to) {
+    const auto own = std::ranges::find(house.edges, from, &House::Edge::edge);
+    if (own == house.edges.end()) return;
+    House::Edge copy = *own;
+    copy.edge = to;
+    house.edges.push_back(copy);
+}
+
 // Edges from `first` on have another number now.
 void renumber(House& house, uint32_t first, int by) {
     for (auto& edge : house.edges)
@@ -82,27 +104,29 @@ void renumber(House& house, uint32_t first, int by) {
 void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
     if (work.house) {
         House house = houseNow(work.context.get(), *work.house);
-        const std::vector<glm::vec2> points = outline(work, house);
+        const Outline points = outline(work, house);
         for (size_t i = 0; i < points.size() && !insert; ++i)
-            if (glm::distance(points[i], at) < kCornerReach * work.scale) {
+            if (points[i] && glm::distance(*points[i], at) < kCornerReach * work.scale) {
                 work.houseEdge = uint32_t(i);
                 changed_ = false;
                 gesture_ = work.newGesture();
                 beginDrag(work, std::move(house), i, at);
                 return;
             }
+        const std::vector<glm::vec3> eaves = eavesOf(work, house);
         for (size_t i = 0; i < points.size(); ++i) {
             const Ring ring = ringOf(house, i);
             const size_t next = ring.after(i);
-            const auto [share, distance] = nearestOn(points[i], points[next], at);
-            if (distance > kEdgeReach * work.scale) continue;
+            const std::optional<float> share = shareAt(work, eaves[i], eaves[next], at);
+            if (!share) continue;
             work.houseEdge = uint32_t(i);
             if (!insert) return;
             const auto &a = house.corners[i], &b = house.corners[next];
             house.corners.insert(house.corners.begin() + std::ptrdiff_t(i) + 1,
-                                 {a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share});
+                                 {a[0] + (b[0] - a[0]) * *share, a[1] + (b[1] - a[1]) * *share});
             house.rings.at(ring.number) += 1;
             renumber(house, uint32_t(i) + 1, 1);
+            copyEdge(house, uint32_t(i), uint32_t(i) + 1);
             gesture_ = work.newGesture();
             changed_ = work.perform(SetHouse{house}, gesture_);
             if (changed_) beginDrag(work, std::move(house), i + 1, at);
@@ -114,12 +138,12 @@ void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
 }
 
 void HouseTool::beginDrag(Workspace& work, House house, size_t corner, glm::vec2 at) {
-    const std::vector<glm::vec2> points = outline(work, house);
+    const Outline points = outline(work, house);
     corner_ = corner;
     dragged_ = std::move(house);
     from_ = at;
     refused_ = false;
-    grip_ = corner < points.size() ? points[corner] - at : glm::vec2(0);
+    grip_ = corner < points.size() ? points[corner].value_or(at) - at : glm::vec2(0);
     moved_ = false;
 }
 
@@ -204,12 +228,13 @@ void HouseTool::removeCorner(Workspace& work) {
 
 namespace {
 
-void noteLength(const Workspace& work, const House& house, const std::vector<glm::vec2>& points, size_t edge) {
+void noteLength(const Workspace& work, const House& house, const Outline& points, size_t edge) {
     const size_t next = ringOf(house, edge).after(edge);
+    if (!points[edge] || !points[next]) return;
     const auto &a = house.corners[edge], &b = house.corners[next];
     char text[32];
     std::snprintf(text, sizeof text, "%.2f m", std::hypot(b[0] - a[0], b[1] - a[1]));
-    noteAt(work, (points[edge] + points[next]) / 2.f, text);
+    noteAt(work, (*points[edge] + *points[next]) / 2.f, text);
 }
 
 }  // namespace
@@ -217,7 +242,7 @@ void noteLength(const Workspace& work, const House& house, const std::vector<glm
 void HouseTool::draw(const Workspace& work) const {
     if (!work.house) return;
     const House house = houseNow(work.context.get(), *work.house);
-    const std::vector<glm::vec2> points = outline(work, house);
+    const Outline points = outline(work, house);
     const std::vector<glm::vec3> eaves = eavesOf(work, house);
     std::vector<glm::vec3> places = eaves;  // then of each edge's dashes
     for (size_t i = 0; i < eaves.size(); ++i)
@@ -237,10 +262,11 @@ void HouseTool::draw(const Workspace& work) const {
                  hidden.begin() + std::ptrdiff_t(eaves.size() + i * kDashes));
     }
     for (size_t i = 0; i < points.size(); ++i) {
+        if (!points[i]) continue;
         const ImU32 colour = corner_ && work.houseEdge == i ? kChosen : kOutline;
         const bool faint = hidden[i];
-        list.AddCircleFilled({points[i].x, points[i].y}, 6 * s, faint ? dimmed(kShade) : kShade);
-        list.AddCircleFilled({points[i].x, points[i].y}, 4.5f * s, faint ? dimmed(colour) : colour);
+        list.AddCircleFilled({points[i]->x, points[i]->y}, 6 * s, faint ? dimmed(kShade) : kShade);
+        list.AddCircleFilled({points[i]->x, points[i]->y}, 4.5f * s, faint ? dimmed(colour) : colour);
     }
     if (!work.houseEdge || *work.houseEdge >= points.size()) return;
     noteLength(work, house, points, *work.houseEdge);

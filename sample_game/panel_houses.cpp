@@ -16,7 +16,8 @@ using espalier::scene::HouseLook;
 using espalier::scene::houseNow;
 
 constexpr float kDegrees = 180 / 3.14159265f;
-constexpr float kUsualPitch = 40;  // degrees, where a pitch of its own begins
+constexpr float kUsualPitch = 40;                       // degrees, where a pitch of its own begins
+constexpr float kLowestWalls = 1, kHighestWalls = 100;  // metres
 constexpr const char* kTitles[] = {"Hip",  "Gable",   "Half-hip", "Pyramid",
                                    "Shed", "Gambrel", "Mansard",  "Flat"};  // by EspRoofShape
 
@@ -57,6 +58,18 @@ void chooseKind(const Workspace& work, House& house, const std::string& kind) {
     house.shape = kind;
 }
 
+// A flat roof has the same edge all around, a shed one that is low; what others carry is chosen edge by edge.
+const char* endTitle(const std::string& end, const std::string& shape) {
+    if (end.empty()) return "As the kind says";
+    return end == "gable" ? "Gable" : shape == "shed" ? "Low side" : "Eave";
+}
+bool carriesEnds(const House& house) {
+    return house.shape != "flat";
+}
+bool carriesPitches(const House& house) {
+    return house.shape != "flat" && house.shape != "shed";
+}
+
 void edgePanel(Workspace& work, Edit& edit, House& house) {
     const uint32_t number = *work.houseEdge;
     auto own = std::find_if(house.edges.begin(), house.edges.end(),
@@ -64,24 +77,30 @@ void edgePanel(Workspace& work, Edit& edit, House& house) {
     House::Edge edge = own == house.edges.end() ? House::Edge{number, "", 0} : *own;
     ImGui::Text("Edge %u of %zu", number + 1, house.corners.size());
     constexpr const char* kEnds[] = {"", "gable", "eave"};
-    constexpr const char* kEndTitles[] = {"As the kind says", "Gable", "Eave"};
+    const bool shed = house.shape == "shed";
+    ImGui::BeginDisabled(!carriesEnds(house));
     rowLabel("Carries");
-    const auto now = size_t(std::find(std::begin(kEnds), std::end(kEnds), edge.end) - std::begin(kEnds));
-    if (beginCombo("##end", kEndTitles[std::min(now, size_t(2))])) {
-        for (size_t i = 0; i < std::size(kEnds); ++i)
-            if (ImGui::Selectable(kEndTitles[i], i == now)) {
-                edge.end = kEnds[i];
+    if (beginCombo("##end", endTitle(edge.end, house.shape))) {
+        for (const char* end : kEnds)
+            if (!(shed && end == std::string("gable")) &&
+                ImGui::Selectable(endTitle(end, house.shape), edge.end == end)) {
+                edge.end = end;
                 edit.note(work, true);
             }
         ImGui::EndCombo();
     }
-    toolTip("What the roof does over the chosen edge");
-    ImGui::BeginDisabled(edge.end == "gable");  // a wall
+    ImGui::EndDisabled();
+    toolTip(shed ? "The edge that the roof falls to; the others are walls" : "What the roof does over the chosen edge");
+    ImGui::BeginDisabled(edge.end == "gable" || !carriesPitches(house));  // a wall
     ImGui::PushID(int(number));
+    const bool plain = edge.slope == 0;
     pitch(work, edit, "Pitch##edge", edge.slope);
+    if (plain && edge.slope > 0 && edge.end.empty()) edge.end = "eave";  // where the kind has a gable it no longer does
     ImGui::PopID();
     ImGui::EndDisabled();
     if (!edit.changed) return;
+    if (shed && edge.end == "eave") std::erase_if(house.edges, [](const House::Edge& e) { return e.end == "eave"; });
+    own = std::find_if(house.edges.begin(), house.edges.end(), [&](const House::Edge& e) { return e.edge == number; });
     if (own == house.edges.end())
         house.edges.push_back(edge);
     else
@@ -163,10 +182,14 @@ void housesPanel(Workspace& work) {
     }
     toolTip("Of the whole house; a chosen edge may differ");
     if (info.note[0]) hint(info.note);
-    edit.note(work, labelledSlider("Walls", &house.eaveHeight, std::min(2.f, house.eaveHeight),
-                                   std::max(20.f, house.eaveHeight), "%.1f m"));
+    const float planned = work.scene().plannedRoofs[*work.house].eaveHeight;
+    const float lowest = planned > 0 ? std::min(kLowestWalls, planned) : kLowestWalls;
+    edit.note(work,
+              labelledSlider("Walls", &house.eaveHeight, lowest, std::max(kHighestWalls, planned), "%.1f m", true));
     toolTip("Height of the eaves above the house's foot");
+    ImGui::BeginDisabled(house.shape == "flat");
     pitch(work, edit, "Pitch", house.slope);
+    ImGui::EndDisabled();
     if (house.look) lookPanel(work, edit, *house.look);
     if (work.houseEdge && *work.houseEdge < house.corners.size()) {
         ImGui::Separator();

@@ -56,6 +56,7 @@ Result<std::unique_ptr<Device>> makeDevice(const EspContextDef& def, const Log& 
     host.queue = static_cast<VkQueue>(def.host->queue);
     host.queueFamily = def.host->queueFamily;
     host.debugUtils = def.host->debugUtils != 0;
+    host.anisotropy = def.host->anisotropy != 0;
     host.log = log;
     return Device::adopt(host);
 }

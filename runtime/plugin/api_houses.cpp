@@ -1,11 +1,11 @@
-// Single houses of a town: what they are, and a designer's changes, which make one footprint's structure and atoms
-// anew.
+// Single houses of a town: what they are, and a designer's changes (house_wish.hpp), which make one footprint's
+// structure and atoms anew.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "runtime/core/srgb.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/house_wish.hpp"
 #include "runtime/roof/shapes.hpp"
 
 namespace espalier {
@@ -25,15 +25,6 @@ bool finiteDef(const EspHouseDef& def) {
     return true;
 }
 
-// World x and z of a corner of a ring.
-glm::vec2 cornerOf(const RoofHouse& house, glm::vec2 p) {
-    return {float(house.origin.x + p.x), float(-house.origin.y - p.y)};
-}
-
-EspHouseEdge edgeOf(const EdgeRoof& e) {
-    return {e.edge, e.gable ? int(*e.gable) : -1, e.slope ? float(*e.slope) : 0};
-}
-
 static_assert(uint32_t(RoofMaterial::tiles) == ESP_COVERING_TILES &&
               uint32_t(RoofMaterial::grass) == ESP_COVERING_GRASS &&
               uint32_t(RoofMaterial::plainTiles) == ESP_COVERING_PLAIN_TILES &&
@@ -44,27 +35,6 @@ bool lookFits(const EspHouseLook& look) {
     return isAmong(look.covering, ESP_COVERING_ANY, ESP_COVERING_BARREL_TILES) &&
            isAmong(look.chimneys, ESP_CHIMNEYS_ANY, ESP_CHIMNEYS_ALL) && share(look.overhang) &&
            (!look.coloured || std::ranges::all_of(look.colour, share));
-}
-
-void takeLook(const EspHouseLook& look, Footprint& f) {
-    f.material = RoofMaterial(look.covering);
-    f.colour = 0;
-    for (int c = 0; look.coloured && c < 3; ++c)
-        f.colour |= uint32_t(std::lround(255 * srgbOfLinear(look.colour[c]))) << (8 * c);
-    if (look.coloured) f.colour |= 0xFF000000u;
-    f.overhang = look.overhang;
-    f.chimneys = uint32_t(look.chimneys);
-}
-
-EspHouseLook lookOf(const RoofHouse& house) {
-    EspHouseLook look{};
-    look.covering = EspCovering(house.material);
-    look.coloured = house.colour >> 24 != 0;
-    for (int c = 0; look.coloured && c < 3; ++c)
-        look.colour[c] = linearOfSrgb(float(house.colour >> (8 * c) & 255) / 255);
-    look.overhang = house.overhang;
-    look.chimneys = EspChimneys(house.chimneys);
-    return look;
 }
 
 // Rings are made of the corners, all of them.
@@ -81,7 +51,13 @@ bool ringsFit(const EspHouseDef& def) {
 
 const Footprint& footprintOf(const LoadedTown& town, uint32_t house) {
     const auto changed = town.changedHouses.find(house);
-    return changed == town.changedHouses.end() ? town.footprints[town.footprintOf[house]] : changed->second;
+    return changed == town.changedHouses.end() ? town.footprints[town.footprintOf[house]] : changed->second.footprint;
+}
+
+// As its plan has it.
+const RoofHouse& plannedHouse(const LoadedTown& town, uint32_t house) {
+    const auto changed = town.changedHouses.find(house);
+    return changed == town.changedHouses.end() ? town.structure.houses[house] : changed->second.planned;
 }
 
 // Which it is of the houses that its footprint, as it was loaded, makes.
@@ -89,67 +65,6 @@ size_t partOf(const LoadedTown& town, uint32_t house) {
     size_t part = 0;
     while (house > part && town.footprintOf[house - part - 1] == town.footprintOf[house]) ++part;
     return part;
-}
-
-// Whether all but its look is what it is already: then heights that its plan gives it stay.
-bool standsAs(const Footprint& from, const RoofHouse& house, const EspHouseDef& def) {
-    const float slope = from.slope ? float(*from.slope) : 0;
-    if (def.shape != EspRoofShape(from.shape) || def.slope != slope || def.edgeCount != house.edges.size())
-        return false;
-    if (def.eaveHeight != 0 && def.eaveHeight != house.eaveHeight - house.baseHeight) return false;
-    for (uint32_t i = 0; i < def.edgeCount; ++i) {
-        const EspHouseEdge now = edgeOf(house.edges[i]), &edge = def.edges[i];
-        if (edge.edge != now.edge || edge.gable != now.gable || edge.slope != now.slope) return false;
-    }
-    if (!def.corners) return true;
-    if (def.ringCount != (def.ringCount > 0 ? house.rings.size() : 0)) return false;
-    const float* corner = def.corners;
-    for (size_t r = 0; r < (def.ringCount > 0 ? house.rings.size() : 1); ++r) {
-        const size_t count = def.ringCount > 0 ? def.rings[r] : def.cornerCount;
-        if (count != house.rings[r].size()) return false;
-        for (glm::vec2 p : house.rings[r]) {
-            const glm::vec2 at = cornerOf(house, p);
-            if (*corner++ != at.x || *corner++ != at.y) return false;
-        }
-    }
-    return true;
-}
-
-// The house's footprint with the changes of `def`. Its outline is the one that stands, by which callers count edges;
-// world x and z are plan x and -y.
-Footprint changed(const Footprint& from, const RoofHouse& house, const EspHouseDef& def) {
-    Footprint f = from;
-    if (def.look) takeLook(*def.look, f);
-    if (standsAs(from, house, def)) return f;
-    f.shape = RoofShape(def.shape);
-    f.roofHeight.reset();
-    f.slope.reset();
-    if (def.slope > 0) f.slope = def.slope;
-    if (def.eaveHeight > 0 || f.height) {
-        // Heights to the ridge depend on the roof; walls shall stay what they are.
-        const double walls = def.eaveHeight > 0 ? def.eaveHeight : house.eaveHeight - house.baseHeight;
-        f.height.reset();
-        f.levels = walls / 3.0;
-    }
-    f.edges.clear();
-    for (uint32_t i = 0; i < def.edgeCount; ++i) {
-        EdgeRoof e{def.edges[i].edge, {}, {}};
-        if (def.edges[i].gable >= 0) e.gable = def.edges[i].gable != 0;
-        if (def.edges[i].slope > 0) e.slope = def.edges[i].slope;
-        f.edges.push_back(e);
-    }
-    f.rings.clear();
-    for (const auto& ring : house.rings)
-        for (f.rings.emplace_back(); glm::vec2 p : ring) f.rings.back().push_back(house.origin + glm::dvec2(p));
-    if (!def.corners) return f;
-    if (def.ringCount > 0) f.rings.assign(def.ringCount, {});
-    const float* corner = def.corners;
-    for (uint32_t r = 0; r < std::max(def.ringCount, 1u); ++r) {
-        f.rings[r].clear();
-        const uint32_t count = def.ringCount > 0 ? def.rings[r] : def.cornerCount;
-        for (uint32_t i = 0; i < count; ++i, corner += 2) f.rings[r].emplace_back(corner[0], -corner[1]);
-    }
-    return f;
 }
 
 // Why a footprint makes no house, without what becomes of one that is loaded.
@@ -192,17 +107,18 @@ EspResult setHouse(EspContext& context, uint32_t index, const Footprint& footpri
         return fail(&context, ESP_INVALID_CONTENT,
                     footprint.id + ": the outline crosses or touches itself, so that the house would fall into " +
                         std::to_string(made.houses.size()) + " parts; it stands as it did");
-    town.changedHouses.insert_or_assign(index, footprint);
+    town.changedHouses.insert_or_assign(index, ChangedHouse{footprint, RoofHouse(plannedHouse(town, index))});
     replaceHouse(town, index, made, part);
     return ESP_OK;
 }
 
 EspResult resetHouse(EspContext& context, uint32_t index) {
     LoadedTown& town = *context.town;
-    if (town.changedHouses.erase(index) == 0) return ESP_OK;
+    if (!town.changedHouses.count(index)) return ESP_OK;
     RoofStructure made;
     std::vector<Diagnostic> ignored;  // told when the town was loaded
-    appendRoof(footprintOf(town, index), made, ignored);
+    appendRoof(town.footprints[town.footprintOf[index]], made, ignored);
+    town.changedHouses.erase(index);
     replaceHouse(town, index, made, partOf(town, index));
     return ESP_OK;
 }
@@ -256,7 +172,7 @@ EspResult espHouseShape(const EspContext* context, uint32_t index, float* corner
         for (const auto& ring : house->rings)
             for (glm::vec2 p : ring) {
                 if (!corners) break;
-                const glm::vec2 at = cornerOf(*house, p);
+                const glm::vec2 at = worldCorner(*house, p);
                 *corners++ = at.x;
                 *corners++ = at.y;
             }
@@ -284,8 +200,10 @@ EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* de
             def->edgeCount > kMostCorners || !finiteDef(*def) || !ringsFit(*def) ||
             (def->look && !lookFits(*def->look)))
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: a value out of its range");
-        const Footprint& now = footprintOf(*context->town, index);
-        return setHouse(*context, index, changed(now, *houseOf(context, index), *def));
+        const LoadedTown& town = *context->town;
+        const HouseWish wish = wishOf(town.structure.houses[index], *def);
+        return setHouse(*context, index,
+                        footprintFor(town.footprints[town.footprintOf[index]], plannedHouse(town, index), wish));
     });
 }
 

@@ -187,12 +187,18 @@ class FailedInputs {
     std::string why_;
 };
 
+// A house that a designer has changed.
+struct ChangedHouse {
+    Footprint footprint;  // of one house
+    RoofHouse planned;    // as its plan has it
+};
+
 // A town and what has been made of it.
 struct LoadedTown {
     std::string name;
-    std::vector<Footprint> footprints;            // as they were loaded
-    std::vector<uint32_t> footprintOf;            // [house]; an outline that crosses itself makes several
-    std::map<uint32_t, Footprint> changedHouses;  // [house]: what a designer has made of it, one house each
+    std::vector<Footprint> footprints;               // as they were loaded
+    std::vector<uint32_t> footprintOf;               // [house]; an outline that crosses itself makes several
+    std::map<uint32_t, ChangedHouse> changedHouses;  // [house]
     RoofStructure structure;
     RoofTables tables;
     uint32_t grammar = 0;           // id; 0: none yet

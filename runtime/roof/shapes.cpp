@@ -40,6 +40,7 @@ class HouseMaker {
     // As asked, or as near to it as passes the check.
     bool appendAny(RoofStructure& out) {
         RoofShape shape = footprint_.shape;
+        nameUnused(shape);
         if (make(shape, false, out)) return true;
         if (shape != RoofShape::hip && shape != RoofShape::flat) {
             planner_.say("its roof could not be made as asked: a hip roof instead");
@@ -65,9 +66,27 @@ class HouseMaker {
         return own;
     }
 
+    // Where a designer wants a shed's eave.
+    std::optional<uint32_t> lowEdge() const {
+        for (uint32_t e = 0; e < outline_.sourceEdges.size(); ++e)
+            for (const EdgeRoof& given : footprint_.edges)
+                if (given.edge == outline_.sourceEdges[e] && given.gable && !*given.gable) return e;
+        return {};
+    }
+
+    // What edges ask for that the shape has no use for.
+    void nameUnused(RoofShape shape) {
+        const auto asks = [&](const EdgeRoof& e) {
+            return shape == RoofShape::flat ? e.gable || e.slope : e.slope || (e.gable && *e.gable);
+        };
+        if (!std::ranges::any_of(footprint_.edges, asks)) return;
+        if (shape == RoofShape::flat) planner_.say("a flat roof has neither gables nor pitches of single edges");
+        if (shape == RoofShape::shed) planner_.say("a shed has neither gables nor pitches of single edges");
+    }
+
     bool make(RoofShape shape, bool plain, RoofStructure& out) {
         if (shape == RoofShape::shed) {
-            Facets facets = shedFacets(outline_.rings, footprint_.direction, planner_.slopeOf(shape));
+            Facets facets = shedFacets(outline_.rings, lowEdge(), footprint_.direction, planner_.slopeOf(shape));
             cutFacets(facets);
             return finish(facets, shape, out);
         }

@@ -1,11 +1,13 @@
-// In: an outline, a direction, a slope. Out: one slope and a wall below it over every edge but the low one.
+// In: an outline, a low edge or a direction, a slope. Out: one slope and a wall below it over every edge but the low
+// one.
 #include "runtime/roof/shapes_shed.hpp"
 
 #include <cmath>
 
 namespace espalier {
 
-Facets shedFacets(const std::vector<std::vector<glm::dvec2>>& rings, std::optional<double> direction, double slope) {
+Facets shedFacets(const std::vector<std::vector<glm::dvec2>>& rings, std::optional<uint32_t> lowEdge,
+                  std::optional<double> direction, double slope) {
     constexpr double kLow = 2e-5;  // metres above the eave that need no wall
     glm::dvec2 fall(0), uphill(0);
     if (direction) fall = {std::sin(*direction), std::cos(*direction)};
@@ -17,6 +19,7 @@ Facets shedFacets(const std::vector<std::vector<glm::dvec2>>& rings, std::option
             double length = glm::length(d);
             glm::dvec2 in = glm::dvec2(-d.y, d.x) / length;
             double fit = direction ? -glm::dot(in, fall) + 1e-3 * length / (1 + length) : length;
+            if (edge == lowEdge) fit = INFINITY;
             if (fit > best) best = fit, eaveEdge = edge, uphill = in;
         }
     for (const auto& ring : rings)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -7,8 +8,10 @@
 
 namespace espalier {
 
-// One plane over the whole outline, falling to the edge that faces `direction` (radians clockwise from north) best, or
-// to the longest edge, and walls up to it. The plane's facet is neither cut nor free of holes yet.
-Facets shedFacets(const std::vector<std::vector<glm::dvec2>>& rings, std::optional<double> direction, double slope);
+// One plane over the whole outline, falling to `lowEdge`, else to the one that faces `direction` (radians clockwise
+// from north) best, else to the longest edge, and walls up to it. The plane's facet is neither cut nor free of holes
+// yet.
+Facets shedFacets(const std::vector<std::vector<glm::dvec2>>& rings, std::optional<uint32_t> lowEdge,
+                  std::optional<double> direction, double slope);
 
 }  // namespace espalier

@@ -207,6 +207,20 @@ TEST_CASE("Ctrl and a drag of an edge make a corner there as one step, and edges
     CHECK(builder.roofs().hash == planned);
 }
 
+TEST_CASE("both halves of an edge that a new corner divides carry what the whole did") {
+    const Folder folder;
+    Builder builder(folder);
+    const uint32_t index = builder.named("one-gable");
+    builder.choose(index);
+    const uint32_t gable = builder.house(index).edges.at(0).edge;
+    const glm::vec2 from = builder.edge(index, gable), outward = glm::normalize(from - builder.middle(index));
+    builder.drag(from, from + 20.f * outward, GLFW_MOD_CONTROL);
+    const House after = builder.house(index);
+    REQUIRE(after.edges.size() == 2);
+    for (const House::Edge& edge : after.edges) CHECK(edge.end == "gable");
+    CHECK(after.edges[1].edge == after.edges[0].edge + 1);
+}
+
 TEST_CASE("Del takes away the corner where the chosen edge begins, down to three, and undo gives it back") {
     const Folder folder;
     Builder builder(folder);

@@ -20,13 +20,12 @@ bool Document::carryOut(const SetHouse& action, std::vector<Action>& back, std::
         error = "there is no house " + std::to_string(index);
         return false;
     }
-    if (!scene::setHouse(context_, action.house, error)) return false;
+    House set = scene::completed(context_, action.house);  // so that taking back what follows knows all of it
+    if (!scene::setHouse(context_, set, error)) return false;
     back.push_back(houseBack(index));
     std::vector<House>& houses = scene_.town->houses;
     std::erase_if(houses, [&](const House& house) { return house.index == index; });
     const auto place = std::find_if(houses.begin(), houses.end(), [&](const House& h) { return h.index > index; });
-    House set = action.house;
-    if (!set.look) set.look = scene::houseNow(context_, index).look;  // so that taking back what follows knows it
     houses.insert(place, std::move(set));
     return true;
 }

@@ -31,8 +31,8 @@ bool changeHouses(EspContext* context, Scene& out, std::string& error) {
         house.id.clear();
         house.index = place.value_or(house.index);
         std::string why = "the plan has none of this name any more";
+        if (place) house = completed(context, std::move(house));
         if (place && setHouse(context, house, why)) {
-            if (!house.look) house.look = houseNow(context, house.index).look;
             kept.push_back(std::move(house));
             continue;
         }
@@ -63,7 +63,7 @@ bool loadTown(EspContext* context, Scene& out, std::string& error) {
     out.plannedRoofs.clear();
     for (uint32_t i = 0; i < espHouseCount(context); ++i) {
         const House house = houseNow(context, i);
-        out.plannedRoofs.push_back({house.shape, house.slope});
+        out.plannedRoofs.push_back({house.shape, house.slope, house.eaveHeight});
     }
     if (!changeHouses(context, out, error)) return false;
     if (setTownGrammar(context, out, error)) return true;

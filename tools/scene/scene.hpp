@@ -110,6 +110,7 @@ struct Scene {
     struct PlannedRoof {
         std::string shape;
         float slope = 0;
+        float eaveHeight = 0;
     };
     std::vector<PlannedRoof> plannedRoofs;  // [house] as the town's file says
     std::string site;                       // file of what furnishes it; empty: nothing does

@@ -38,6 +38,21 @@ House houseNow(const EspContext* context, uint32_t index) {
     return house;
 }
 
+House completed(const EspContext* context, House house) {
+    const House now = houseNow(context, house.index);
+    if (!house.look) house.look = now.look;
+    if (house.eaveHeight == 0) house.eaveHeight = now.eaveHeight;
+    if (house.corners.empty()) {
+        house.corners = now.corners;
+        house.rings = now.rings;
+    } else if (house.rings.empty() && !now.rings.empty()) {  // courtyards stay
+        house.rings = now.rings;
+        house.rings[0] = uint32_t(house.corners.size());
+        house.corners.insert(house.corners.end(), now.corners.begin() + now.rings[0], now.corners.end());
+    }
+    return house;
+}
+
 namespace {
 
 bool lookOf(const HouseLook& look, EspHouseLook& out, std::string& error) {

@@ -65,6 +65,8 @@ Ring ringOf(const House& house, size_t corner);
 
 // As it stands; without edges and corners if there is no such house.
 House houseNow(const EspContext* context, uint32_t index);
+// With what it leaves out as that stands: so the record says all of the house, whatever becomes of it meanwhile.
+House completed(const EspContext* context, House house);
 // False: `error` tells why, and the house stands as it did.
 bool setHouse(EspContext* context, const House& house, std::string& error);
 
