@@ -48,8 +48,11 @@ inline float uintBitsToFloat(uint b) { float x; std::memcpy(&x, &b, 4); return x
 #define OUT(T) out T
 #define CONST_UINT(name, value) const uint name = value
 #define CONST_FLOAT(name, value) const float name = value
+// 8: what is read by address has to be as aligned as its largest number, and records hold numbers and addresses of 8
+// bytes. All begin there, so that a compiler that joins the alignments of what holds an address and of what it leads to
+// comes to no less.
 #define BUFFER(Name, T) \
-    layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { T v[]; };
+    layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Name { T v[]; };
 #define STATIC_SIZE(T, bytes)
 #define IS_GIVEN(buffer) (uint64_t(buffer) != 0ul)
 #define UNUSED(x)
