@@ -71,6 +71,7 @@ typedef struct EspHostDevice {
     void* queue;                 /* VkQueue: graphics and compute */
     uint32_t queueFamily;
     int debugUtils;              /* 1: VK_EXT_debug_utils is on: objects get names and passes labels */
+    int anisotropy;              /* 1: so is the feature samplerAnisotropy: what is seen from a flat angle stays sharp */
 } EspHostDevice;
 
 typedef struct EspContextDef {

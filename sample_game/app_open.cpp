@@ -132,6 +132,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     device.queue = host_->queue();
     device.queueFamily = host_->queueFamily();
     device.debugUtils = host_->validation();
+    device.anisotropy = host_->anisotropy();
     EspContextDef def = espDefaultContextDef();
     def.host = &device;
     const std::string cache = cacheFolder();

@@ -123,17 +123,21 @@ bool VulkanHost::makeDevice(const void* features, const char* const* extensions,
         std::vector<VkQueueFamilyProperties> properties(families);
         vkGetPhysicalDeviceQueueFamilyProperties(candidate, &families, properties.data());
         for (uint32_t family = 0; family < families; ++family) {
-            const VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+            const VkQueueFlags works = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
             VkBool32 shows = VK_FALSE;
             vkGetPhysicalDeviceSurfaceSupportKHR(candidate, family, surface_, &shows);
-            if ((properties[family].queueFlags & wanted) != wanted || !shows) continue;
+            if ((properties[family].queueFlags & works) != works || !shows) continue;
             const float priority = 1;
             VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
             queue.queueFamilyIndex = family;
             queue.queueCount = 1;
             queue.pQueuePriorities = &priority;
+            VkPhysicalDeviceFeatures have;
+            vkGetPhysicalDeviceFeatures(candidate, &have);
+            auto wanted = *static_cast<const VkPhysicalDeviceFeatures2*>(features);
+            wanted.features.samplerAnisotropy = have.samplerAnisotropy;
             VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-            info.pNext = features;
+            info.pNext = &wanted;
             info.queueCreateInfoCount = 1;
             info.pQueueCreateInfos = &queue;
             info.enabledExtensionCount = uint32_t(names.size());
@@ -141,6 +145,7 @@ bool VulkanHost::makeDevice(const void* features, const char* const* extensions,
             // A device that lacks something says so, and the next one is tried.
             if (vkCreateDevice(candidate, &info, nullptr, &device_) != VK_SUCCESS) break;
             physicalDevice_ = candidate;
+            anisotropy_ = have.samplerAnisotropy != 0;
             overlaps_ = preference(candidate) < kSoftware;
             queueFamily_ = family;
             volkLoadDevice(device_);

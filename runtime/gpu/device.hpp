@@ -40,6 +40,7 @@ struct HostDevice {
     VkQueue queue = VK_NULL_HANDLE;
     uint32_t queueFamily = 0;
     bool debugUtils = false;         // VK_EXT_debug_utils is enabled on the instance: name objects, label passes
+    bool anisotropy = false;         // samplerAnisotropy is enabled on the device
     MemorySource* memory = nullptr;  // null: our own pools
     Log log = logToStderr();
 };

@@ -18,6 +18,8 @@ namespace {
 
 constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
 constexpr std::string_view kPlace = "Vulkan";
+constexpr float kMostAnisotropy = 16;
+constexpr uint32_t kUniformBytes = 65536;  // of the largest uniform block that growth binds
 
 std::string joined(const std::vector<std::string>& names) {
     std::string text;
@@ -92,6 +94,8 @@ Candidate examine(const InstanceFunctions& vk, VkPhysicalDevice device) {
         Features have;
         vk.vkGetPhysicalDeviceFeatures2(device, &have.core);
         missing = missingFeatures(have);
+        if (properties.properties.limits.maxUniformBufferRange < kUniformBytes)
+            missing.push_back("uniform blocks of " + std::to_string(kUniformBytes) + " bytes");
         if (!sharesInSubgroups(vk, device)) missing.push_back("votes, ballots and arithmetic of subgroups in compute");
     }
     if (!hasExtension(deviceExtensions(vk, device), VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME))
@@ -230,7 +234,7 @@ struct DeviceSetup {
         if (result != VK_SUCCESS)
             return Failure(kPlace, "the device could not be opened (VkResult " + std::to_string(int(result)) + ")");
         d.ownsDevice_ = true;
-        d.info_.maxAnisotropy = have.core.features.samplerAnisotropy ? 16 : 1;
+        d.info_.maxAnisotropy = have.core.features.samplerAnisotropy ? kMostAnisotropy : 1;
         return Done{};
     }
 
@@ -308,6 +312,7 @@ Result<std::unique_ptr<Device>> Device::adopt(const HostDevice& host) {
     d.queue_ = host.queue;
     d.info_.queueFamily = host.queueFamily;
     d.debugUtils_ = host.debugUtils;
+    d.info_.maxAnisotropy = host.anisotropy ? kMostAnisotropy : 1;
     if (auto missing = loadInstanceFunctions(d.vkInstance_, host.getInstanceProcAddr, host.instance); !missing.empty())
         return Failure(kPlace, "the host's instance lacks " + missing);
     if (Candidate c = examine(d.vkInstance_, host.physicalDevice); !c.unfit.empty())

@@ -90,6 +90,14 @@ TEST_CASE("an incomplete host is refused") {
     CHECK(adopted.failure().text().find("queue family 77") != std::string::npos);
 }
 
+TEST_CASE("textures of a host's device are filtered by angle where the host says that it may be") {
+    TestDevice t;
+    HostDevice host = hostOf(t.device);
+    CHECK(must(Device::adopt(host))->info().maxAnisotropy == 1);
+    host.anisotropy = true;
+    CHECK(must(Device::adopt(host))->info().maxAnisotropy == t.device.info().maxAnisotropy);
+}
+
 TEST_CASE("a host's device works, with the host's memory, commands and frames") {
     TestDevice t;
     HostDevice host = hostOf(t.device);

@@ -31,6 +31,22 @@ VKAPI_ATTR void VKAPI_CALL withoutBallots(VkPhysicalDevice device, VkPhysicalDev
                 VK_SUBGROUP_FEATURE_BASIC_BIT;
 }
 
+VKAPI_ATTR void VKAPI_CALL smallUniforms(VkPhysicalDevice device, VkPhysicalDeviceProperties2* all) {
+    realProperties(device, all);
+    all->properties.limits.maxUniformBufferRange = 16384;  // Vulkan's least
+}
+
+// Why a device whose properties are told by `properties` isn't taken.
+std::string refusal(Device& real, PFN_vkGetPhysicalDeviceProperties2 properties) {
+    realProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
+        real.getInstanceProcAddr()(real.instance(), "vkGetPhysicalDeviceProperties2"));
+    test::DriverBetween driver(real);
+    driver.replace("vkGetPhysicalDeviceProperties2", properties);
+    const Result<std::unique_ptr<Device>> adopted = Device::adopt(driver.host());
+    REQUIRE_FALSE(adopted);
+    return adopted.failure().text();
+}
+
 // A device whose barriers are noted.
 std::unique_ptr<Device> notingBarriers(Device& real) {
     realBarrier = real.vk().vkCmdPipelineBarrier2;
@@ -101,15 +117,10 @@ TEST_CASE("nothing is destroyed while nobody knows what the GPU has finished") {
     CHECK(adopted->retiredCount() == 0);
 }
 
-TEST_CASE("a device whose subgroups can't vote is refused by name") {
+TEST_CASE("a device whose subgroups can't vote, or whose uniform blocks are small, is refused by name") {
     TestDevice t;
-    realProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
-        t.device.getInstanceProcAddr()(t.device.instance(), "vkGetPhysicalDeviceProperties2"));
-    test::DriverBetween driver(t.device);
-    driver.replace("vkGetPhysicalDeviceProperties2", withoutBallots);
-    const Result<std::unique_ptr<Device>> adopted = Device::adopt(driver.host());
-    REQUIRE_FALSE(adopted);
-    CHECK(adopted.failure().text().find("ballots") != std::string::npos);
+    CHECK(refusal(t.device, withoutBallots).find("ballots") != std::string::npos);
+    CHECK(refusal(t.device, smallUniforms).find("uniform blocks of 65536 bytes") != std::string::npos);
 }
 
 TEST_CASE("more texels than the GPU reads of a buffer are refused") {
