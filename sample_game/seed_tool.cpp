@@ -70,6 +70,7 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
     from_ = last_ = at;
     moved_ = changed_ = false;
     gesture_ = work.newGesture();
+    if ((event.mods & GLFW_MOD_CONTROL) && !(event.mods & GLFW_MOD_SHIFT)) return beginRow(work, at);
     if (const uint32_t key = seedAt(work, at)) {
         const bool more = event.mods & GLFW_MOD_SHIFT;
         if (more && work.selected.erase(key)) return;
@@ -92,11 +93,25 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
     if (!hit) work.message = kNoGround;
     if (!hit) return;
     pending_ = newSeed(work, *hit);
-    drag_ = event.mods & GLFW_MOD_CONTROL ? Drag::row : Drag::direction;
-    if (drag_ != Drag::row) return;
+    drag_ = Drag::direction;
+}
+
+// At a seed it goes on from that one, which stays as it is.
+void SeedTool::beginRow(Workspace& work, glm::vec2 at) {
+    work.selected.clear();
+    const Seed* seed = work.document->seed(seedAt(work, at));
+    const auto hit = work.pick(at);
+    if (!hit && !seed) work.message = kNoGround;
+    if (!hit && !seed) return;
+    drag_ = Drag::row;
+    firstInRow_ = !seed;
+    lastInRow_ = seed ? vec(seed->position) : vec(hit->position);
+    if (seed) {
+        work.selected = {seed->key};
+        return;
+    }
+    pending_ = newSeed(work, *hit);
     plant(work, pending_, gesture_);
-    lastInRow_ = vec(hit->position);
-    firstInRow_ = true;
 }
 
 void SeedTool::follow(Workspace& work, glm::vec2 at) {

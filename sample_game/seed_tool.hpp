@@ -7,7 +7,7 @@ namespace sample {
 
 // Seeds: a click plants one that grows upward, a drag gives the direction. A click on a seed chooses it (Shift: one
 // more), Shift and a drag those that it goes around; a drag of a chosen one moves all that are, a drag of its arrow
-// turns them. Ctrl and a drag plant along the way.
+// turns them. Ctrl and a drag plant along the way, wherever they begin.
 class SeedTool {
   public:
     bool take(Workspace& work, const PointerEvent& event);
@@ -30,6 +30,7 @@ class SeedTool {
     uint32_t seedAt(const Workspace& work, glm::vec2 at) const;
     bool arrowAt(const Workspace& work, glm::vec2 at) const;  // of a chosen one
     void press(Workspace& work, const PointerEvent& event);
+    void beginRow(Workspace& work, glm::vec2 at);
     void follow(Workspace& work, glm::vec2 at);
     void plantRow(Workspace& work, glm::vec2 at);  // from where the mouse was
     void selectBox(Workspace& work) const;         // from where the drag began to where it is, besides what is chosen

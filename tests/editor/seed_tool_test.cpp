@@ -150,6 +150,41 @@ TEST_CASE("seeds of a row look along it if that is wanted, the first too") {
     CHECK(gardener.seeds() == after);
 }
 
+TEST_CASE("a row that begins at a seed goes on from it, and moves none, chosen or not, nor an arrow") {
+    const Folder folder;
+    Gardener gardener(folder);
+    gardener.work.layout.rowStep = .1f;
+    const uint32_t key = gardener.plant(gardener.onWall(-1.2f, .8f));
+    const std::vector<SeedRecord> before = gardener.seeds();
+    const glm::vec2 arrow = gardener.at(vec(gardener.seed(key).position) + glm::vec3(0, .3f, 0));
+    const auto row = [&](glm::vec2 from) {
+        gardener.drag(from, from + glm::vec2(300, 0), GLFW_MOD_CONTROL, 20);
+        const std::vector<SeedRecord> after = gardener.seeds();
+        REQUIRE(after.size() > before.size() + 2);
+        CHECK(std::equal(before.begin(), before.end(), after.begin()));
+        CHECK(gardener.steps() == 2);
+        return std::vector(after.begin() + std::ptrdiff_t(before.size()), after.end());
+    };
+    for (const bool chosen : {true, false}) {
+        CAPTURE(chosen);
+        gardener.work.selected = chosen ? Keys{key} : Keys{};
+        const std::vector<SeedRecord> made = row(gardener.marker(key));
+        const float apart = glm::distance(vec(made[0].position), vec(before.back().position));
+        CHECK(apart >= .1f);
+        CHECK(apart < .15f);
+        CHECK(gardener.work.selected.size() == made.size() + 1);
+        gardener.undo();
+        REQUIRE(gardener.seeds() == before);
+    }
+    gardener.work.selected = {key};
+    CHECK(row(arrow)[0].position == array(gardener.under(arrow)));
+    gardener.undo();
+
+    gardener.click(gardener.marker(key), GLFW_MOD_CONTROL);  // and without a drag it is chosen
+    CHECK(gardener.seeds() == before);
+    CHECK(gardener.work.selected == Keys{key});
+}
+
 TEST_CASE("a click chooses a seed, Shift one more or one less, Shift and a drag those within, A all or none") {
     const Folder folder;
     Gardener gardener(folder);
