@@ -86,8 +86,8 @@ void Controls::takeKey(const KeyEvent& event) {
         const bool undoes = key == GLFW_KEY_Z && !shift, redoes = (key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y;
         if (undoes && work_.document->undoName()) return void(work_.perform(Undo{}));
         if (redoes && work_.document->redoName()) return void(work_.perform(Redo{}));
-        if (undoes && session_.recording()) return void(work_.message = "Nothing to undo since the recording began");
-        if (undoes || redoes) work_.message = undoes ? "Nothing to undo" : "Nothing to redo";
+        if (undoes && session_.recording()) return work_.say("Nothing to undo since the recording began");
+        if (undoes || redoes) work_.say(undoes ? "Nothing to undo" : "Nothing to redo");
         return;
     }
     if (key == GLFW_KEY_TAB) return setEditing(!work_.editing);

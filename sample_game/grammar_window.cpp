@@ -64,8 +64,8 @@ void takeUndoKeys(Workspace& work, TextState& state) {
     if (step && std::string(step).starts_with(kEditText))
         back ? work.perform(Undo{}) : work.perform(Redo{});
     else
-        work.message = std::string(back ? "Nothing more of the text to undo" : "Nothing of the text to redo") +
-                       (step ? std::string("; outside it: ") + step : "");
+        work.say(std::string(back ? "Nothing more of the text to undo" : "Nothing of the text to redo") +
+                 (step ? std::string("; outside it: ") + step : ""));
 }
 
 constexpr ImU32 kBadLine = IM_COL32(150, 40, 30, 255), kWarningLine = IM_COL32(125, 90, 15, 255);

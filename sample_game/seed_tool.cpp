@@ -61,8 +61,9 @@ void SeedTool::changeChosen(Workspace& work, Change&& change) {
         } else {
             frozen = frozen || seed;
         }
-    if (!action.seeds.empty() && work.perform(action, gesture_)) changed_ = true;
-    if (frozen) work.message = "A frozen plant stays where it is: thaw it to move or turn it";
+    if (!action.seeds.empty() && !work.perform(action, gesture_)) return;
+    changed_ = changed_ || !action.seeds.empty();
+    if (frozen) work.say("A frozen plant stays where it is: thaw it to move or turn it");
 }
 
 void SeedTool::press(Workspace& work, const PointerEvent& event) {
@@ -90,8 +91,7 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
     }
     work.selected.clear();
     const auto hit = work.pick(at);
-    if (!hit) work.message = kNoGround;
-    if (!hit) return;
+    if (!hit) return work.say(kNoGround);
     pending_ = newSeed(work, *hit);
     drag_ = Drag::direction;
 }
@@ -101,8 +101,7 @@ void SeedTool::beginRow(Workspace& work, glm::vec2 at) {
     work.selected.clear();
     const Seed* seed = work.document->seed(seedAt(work, at));
     const auto hit = work.pick(at);
-    if (!hit && !seed) work.message = kNoGround;
-    if (!hit && !seed) return;
+    if (!hit && !seed) return work.say(kNoGround);
     drag_ = Drag::row;
     firstInRow_ = !seed;
     lastInRow_ = seed ? vec(seed->position) : vec(hit->position);
@@ -239,7 +238,7 @@ void SeedTool::remove(Workspace& work) {
     for (const Seed& seed : work.scene().seeds)
         if (work.selected.count(seed.key)) action.keys.push_back(seed.key);
     if (action.keys.empty())
-        work.message = "No seed is chosen: click one";
+        work.say("No seed is chosen: click one");
     else
         work.perform(action);
     work.selected.clear();

@@ -240,7 +240,7 @@ void Workspace::pickBranch(glm::vec2 at) {
     if (espPickPlant(context.get(), &ray.origin.x, &ray.direction.x, &found) == ESP_OK)
         branch = found.branch;
     else
-        message = "No branch there: click a stem or a leaf";
+        say("No branch there: click a stem or a leaf");
     readPath();
 }
 
@@ -269,7 +269,7 @@ void Workspace::pickParent() {
 
 void Workspace::prune() {
     if (!branch || path.empty()) {
-        message = "No branch is picked: click one";
+        say("No branch is picked: click one");
         return;
     }
     char key[20];

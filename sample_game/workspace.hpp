@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sample_game/view_camera.hpp"
@@ -112,6 +113,8 @@ struct Workspace {
     // A message appears where it fails.
     bool perform(const espalier::document::Action& action, uint32_t gesture = 0);
     void takeBack(uint32_t gesture);  // undoes it, if nothing else was done since
+    // News of what the user has just tried; what failed before doesn't hide it.
+    void say(std::string text) { message = std::move(text), error.clear(); }
     // What was told isn't so any more.
     void remedied(const std::string& told) {
         if (error == told) error.clear();

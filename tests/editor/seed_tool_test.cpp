@@ -425,3 +425,30 @@ TEST_CASE("a frozen plant stays where it is, and says so") {
     CHECK(glm::distance(vec(gardener.seed(b).position), stood) > .3f);
     CHECK_MESSAGE(contains(gardener.work.message, "frozen"), gardener.work.message);
 }
+
+TEST_CASE("why nothing is done is told, also where something else has failed before") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t key = gardener.plant(gardener.onWall(-1, .8f));
+    gardener.work.freeze({key}, true);
+    const glm::vec2 frozen = gardener.marker(key), there = gardener.onWall(-.8f, 1.2f);
+    const auto told = [&](const char* what, const std::function<void()>& act) {
+        CAPTURE(what);
+        gardener.work.error = "what failed before";
+        act();
+        CHECK_MESSAGE(gardener.work.error.empty(), gardener.work.error);
+        CHECK_MESSAGE(contains(gardener.work.message, what), gardener.work.message);
+    };
+    told("A frozen plant stays", [&] { gardener.drag(frozen, there); });
+    faceWall(gardener, 8);
+    const glm::vec2 sky = gardener.at({-.95f, 3.8f, .3f});
+    REQUIRE(!gardener.work.pick(sky));
+    told(sample::kNoGround, [&] { gardener.click(sky); });
+    told(sample::kNoGround, [&] { gardener.click(sky, GLFW_MOD_CONTROL); });
+    told("No seed is chosen", [&] { gardener.key(GLFW_KEY_DELETE); });
+    while (gardener.steps() > 0) gardener.undo();
+    told("Nothing to undo", [&] { gardener.undo(); });
+    gardener.key(GLFW_KEY_P);
+    told("No branch there", [&] { gardener.click(sky); });
+    told("No branch is picked", [&] { gardener.key(GLFW_KEY_DELETE); });
+}
