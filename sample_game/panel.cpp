@@ -133,7 +133,7 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
             std::erase_if(seed.params, named);
             if (has) seed.params.push_back({info.name, {value.begin(), value.begin() + count}});
         }
-        work.perform(ChangeSeeds{chosen}, gesture);
+        work.changeSeeds({chosen}, gesture);
     }
     ImGui::PopID();
     ImGui::TreePop();
@@ -193,7 +193,7 @@ void chosenSeeds(Workspace& work) {
         }
         toolTip("What grows from the chosen seeds");
     }
-    if (changed) work.perform(ChangeSeeds{chosen}, widgetGesture(work));
+    if (changed) work.changeSeeds({chosen}, widgetGesture(work));
     ownValues(work, chosen);
     std::vector<uint32_t> growing, frozen;
     for (const SeedRecord& seed : chosen) (seed.frozen ? frozen : growing).push_back(seed.key);

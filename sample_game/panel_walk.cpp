@@ -49,11 +49,14 @@ void branchButtons(Workspace& work, bool hasParent) {
 // seed: of the picked branch; null: none is picked.
 void plantButtons(Workspace& work, const espalier::scene::Seed* seed) {
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    ImGui::BeginDisabled(!seed);
-    const bool prunes = ImGui::Button("Prune  Del", {half, 0});
-    toolTip("Cuts the branch away with all that grows from it, for good");
-    ImGui::SameLine();
     const bool frozen = seed && seed->frozen;
+    ImGui::BeginDisabled(!seed || frozen);
+    const bool prunes = ImGui::Button("Prune  Del", {half, 0});
+    toolTip(frozen ? "A frozen plant stays as it is: thaw it to prune"
+                   : "Cuts the branch away with all that grows from it, for good");
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!seed);
     const bool freezes = ImGui::Button(frozen ? "Thaw plant" : "Freeze plant", {-1, 0});
     toolTip("A frozen plant stands as it is: neither paint nor sliders change it");
     ImGui::EndDisabled();
@@ -67,9 +70,6 @@ void plantButtons(Workspace& work, const espalier::scene::Seed* seed) {
 void branchPanel(Workspace& work) {
     const bool picked = work.branch && !work.path.empty();
     const EspBranchInfo& info = work.branchInfo;
-    const espalier::scene::Seed* seed = nullptr;
-    for (const auto& planted : work.scene().seeds)
-        if (picked && planted.planted.id == info.seed.id) seed = &planted;
     if (picked) {
         const size_t crossings = size_t(std::ranges::count(work.crossings, true));
         ImGui::Text("Depth %u, %zu samples, %zu crossing%s", info.depth, work.path.size(), crossings,
@@ -83,7 +83,7 @@ void branchPanel(Workspace& work) {
         ImGui::TextDisabled("Click a branch");
     }
     branchButtons(work, picked && info.depth > 0);
-    plantButtons(work, seed);
+    plantButtons(work, work.branchSeed());
     prunedRow(work);
 }
 

@@ -261,7 +261,7 @@ void tip(const char* text) {
 }
 
 void toolTip(const char* text) {
-    if (!ImGui::IsItemHovered() || ImGui::IsItemActive() || toolTipWaits()) return;
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsItemActive() || toolTipWaits()) return;
     const bool list = cut().list != 0 && cut().list == ImGui::GetItemID();
     tip(list ? (cut().whole + "\n" + text).c_str() : text);
 }

@@ -267,11 +267,17 @@ void Workspace::pickParent() {
     readPath();
 }
 
+const espalier::scene::Seed* Workspace::branchSeed() const {
+    if (!branch || path.empty()) return nullptr;
+    const auto grows = [&](const espalier::scene::Seed& seed) { return seed.planted.id == branchInfo.seed.id; };
+    const auto found = std::ranges::find_if(scene().seeds, grows);
+    return found == scene().seeds.end() ? nullptr : &*found;
+}
+
 void Workspace::prune() {
-    if (!branch || path.empty()) {
-        say("No branch is picked: click one");
-        return;
-    }
+    if (!branch || path.empty()) return say("No branch is picked: click one");
+    if (const auto* seed = branchSeed(); seed && seed->frozen)
+        return say("A frozen plant stays as it is: thaw it to prune");
     char key[20];
     std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(*branch));
     if (!perform(espalier::document::PruneBranch{key, true})) return;
@@ -286,7 +292,13 @@ void Workspace::renumberSeeds() {
         change.seeds.push_back(document->recordOf(seed));
         change.seeds.back().number = seed.number * 747796405u + 2891336453u;
     }
-    if (!change.seeds.empty()) perform(change);
+    if (!change.seeds.empty()) changeSeeds(change);
+}
+
+void Workspace::changeSeeds(const espalier::document::ChangeSeeds& change, uint32_t gesture) {
+    const bool done = perform(change, gesture);
+    if (done && std::ranges::any_of(change.seeds, [](const auto& seed) { return bool(seed.frozen); }))
+        say("A frozen plant stays as it is: what was changed is seen once it is thawed");
 }
 
 void Workspace::freeze(const std::vector<uint32_t>& keys, bool frozen) {

@@ -157,10 +157,13 @@ struct Workspace {
     std::optional<uint32_t> pickHouse(glm::vec2 at) const;
     // What stops who walks: surfaces, houses and the ground; see Meets.
     bool meets(const Ray& ray, float reach, EspHit& met) const;
-    // Cuts the picked branch away, if it is still there.
+    const espalier::scene::Seed* branchSeed() const;  // of the picked branch; null: none is picked
+    // Cuts the picked branch away, if it is still there and its plant isn't frozen.
     void prune();
     // All seeds get other random numbers.
     void renumberSeeds();
+    // Of frozen ones it is said that nothing will be seen of it yet.
+    void changeSeeds(const espalier::document::ChangeSeeds& change, uint32_t gesture = 0);
     // Lets the chosen seeds' plants stand as they are, or grow again.
     void freeze(const std::vector<uint32_t>& keys, bool frozen);
     void readPath();  // of the branch, from the last growth

@@ -1,5 +1,6 @@
 // Branches under a user's mouse: what a click would pick is shown before, and F shows the whole of what is chosen.
-#include "tests/editor/window.hpp"
+#include "sample_game/panels.hpp"
+#include "tests/editor/widgets.hpp"
 
 using sample::Tool;
 using sample::vec;
@@ -50,6 +51,48 @@ TEST_CASE("the branch under the mouse is the one that a click picks") {
     REQUIRE(!pruner.work.pointed.empty());
     pruner.key(GLFW_KEY_S);
     CHECK(pruner.work.pointed.empty());
+}
+
+TEST_CASE("a branch of a frozen plant isn't pruned before it is thawed, and that is told") {
+    const Folder folder;
+    Pruner pruner(folder);
+    auto& work = pruner.work;
+    std::string words;
+    pruner.panels = [&] {
+        words = wordsOf([&] {
+            ImGui::SetNextWindowPos({0, 0});
+            ImGui::SetNextWindowSize({work.panelUnits(), 300});
+            ImGui::Begin("panel");
+            sample::branchPanel(work);
+            ImGui::End();
+        });
+    };
+    pruner.click(pruner.someBranch().first);
+    REQUIRE(work.branchSeed());
+    const uint32_t key = work.branchSeed()->key;
+    work.freeze({key}, true);
+    const size_t steps = work.document->undoSteps();
+    pruner.key(GLFW_KEY_DELETE);
+    CHECK_MESSAGE(contains(work.message, "thaw it to prune"), work.message);
+    CHECK(work.branch);
+    pressWidget(pruner, "panel", {"Prune  Del"});
+    CHECK(work.document->undoSteps() == steps);
+    CHECK(espPrunedCount(work.context.get()) == 0);
+    // The disabled button says why it is.
+    const ImGuiID button = widget("panel", {"Prune  Del"});
+    for (pruner.mouse = {80, 0}; ImGui::GetCurrentContext()->HoveredId != button; pruner.mouse.y += 4) {
+        REQUIRE(pruner.mouse.y < 300);
+        pruner.frame({});
+    }
+    pruner.mouse.y -= 4;
+    ImGui::GetIO().DeltaTime = .3f;
+    for (int i = 0; i < 4; ++i) pruner.frame({});
+    CHECK_MESSAGE(contains(words, "thaw it to prune"), words);
+
+    work.freeze({key}, false);
+    pruner.key(GLFW_KEY_DELETE);
+    CHECK(work.document->undoSteps() == steps + 2);
+    CHECK(espPrunedCount(work.context.get()) == 1);
 }
 
 TEST_CASE("F shows the whole plant of the chosen seed") {

@@ -2,7 +2,8 @@
 // back by one step of undo.
 #include <algorithm>
 
-#include "tests/editor/window.hpp"
+#include "sample_game/panels.hpp"
+#include "tests/editor/widgets.hpp"
 
 using namespace espalier::document;
 using sample::array;
@@ -451,4 +452,33 @@ TEST_CASE("why nothing is done is told, also where something else has failed bef
     gardener.key(GLFW_KEY_P);
     told("No branch there", [&] { gardener.click(sky); });
     told("No branch is picked", [&] { gardener.key(GLFW_KEY_DELETE); });
+}
+
+TEST_CASE("what is changed of a frozen plant's seed is kept for when it is thawed, and that is told") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t key = gardener.plant(gardener.onWall(-1, .8f));
+    gardener.panels = [&] {
+        ImGui::SetNextWindowSize({500, 700});
+        ImGui::Begin("panel");
+        sample::seedsPanel(gardener.work);
+        ImGui::End();
+    };
+    for (int i = 0; i < 3; ++i) gardener.frame({});
+    pressWidget(gardener, "panel", {"Values of their own"});
+    const std::vector<Part> box{"Values of their own", int(key), 0, "Scale of all lengths (a 3 m wall: 1)"};
+    const auto& news = gardener.work.message;
+    for (const bool frozen : {true, false}) {
+        CAPTURE(frozen);
+        gardener.work.freeze({key}, frozen);
+        const uint32_t number = gardener.seed(key).number;
+        pressWidget(gardener, "panel", {"Another"});
+        CHECK(gardener.seed(key).number != number);
+        CHECK_MESSAGE(contains(news, "frozen") == frozen, news);
+        pressWidget(gardener, "panel", box);
+        CHECK(gardener.seed(key).params.size() == (frozen ? 1 : 0));
+        CHECK_MESSAGE(contains(news, "frozen") == frozen, news);
+        gardener.key(GLFW_KEY_R, GLFW_MOD_SHIFT);
+        CHECK_MESSAGE(contains(news, "frozen") == frozen, news);
+    }
 }
