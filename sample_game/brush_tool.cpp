@@ -133,8 +133,7 @@ void BrushTool::takeBack(Workspace& work) {
 
 // Nothing is painted that isn't seen: beneath a panel or outside the window.
 void BrushTool::layDab(const Workspace& work, glm::vec2 place) {
-    const bool outside = place.x < 0 || place.y < 0 || place.x > work.window.x || place.y > work.window.y;
-    if (outside || overPanel(place.x, place.y)) return;
+    if (!inScene(place.x, place.y)) return;
     const std::optional<EspHit> hit = work.aim(place);
     if (!hit) return;
     const glm::vec3 at = vec(hit->position);

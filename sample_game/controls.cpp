@@ -267,9 +267,9 @@ bool Controls::step(const Input& input, float seconds) {
 void Controls::hover() {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     work_.hit.reset();
-    const bool inScene = work_.editing && ImGui::IsMousePosValid(&mouse) && !overPanel(mouse.x, mouse.y);
-    if (inScene && work_.tool == Tool::paint) work_.hit = work_.aim({mouse.x, mouse.y});
-    const bool points = inScene && work_.tool == Tool::branch && !navigation_.dragging();
+    const bool seen = work_.editing && inScene(mouse.x, mouse.y);
+    if (seen && work_.tool == Tool::paint) work_.hit = work_.aim({mouse.x, mouse.y});
+    const bool points = seen && work_.tool == Tool::branch && !navigation_.dragging();
     work_.pointAtBranch(points ? std::optional(glm::vec2(mouse.x, mouse.y)) : std::nullopt);
 }
 

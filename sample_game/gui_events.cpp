@@ -47,6 +47,11 @@ bool overPanel(float x, float y) {
     return false;
 }
 
+bool inScene(float x, float y) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    return x >= 0 && y >= 0 && x <= window.x && y <= window.y && !overPanel(x, y);
+}
+
 void GuiEvents::key(const KeyEvent& event, int scancode, int action) {
     events_.push_back(Key{event, event.key, scancode, action});
     std::get<Key>(events_.back()).event.repeated = action == GLFW_REPEAT;

@@ -28,6 +28,8 @@ using InputEvent = std::variant<PointerEvent, KeyEvent>;
 // As of the last frame: whether a press there is the panels' own. ImGui knows only what lies under the mouse at the
 // beginning of a frame, which with slow frames isn't where it was pressed.
 bool overPanel(float x, float y);
+// Neither that nor outside the window: what tools do there is seen.
+bool inScene(float x, float y);
 
 // Keys, letters, moves and clicks on their way to ImGui and the tools, in the order in which they came. ImGui sees only
 // how things stand once a frame: with frames that take long, a key that went down and up in between would be lost to

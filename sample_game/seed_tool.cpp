@@ -18,6 +18,11 @@ using espalier::scene::Seed;
 constexpr float kReach = 11;   // pixels at 96 dpi around a seed's marker
 constexpr float kArrow = .3f;  // metres
 
+// The ground there, unless that is beneath a panel or outside the window.
+std::optional<EspHit> seen(const Workspace& work, glm::vec2 at) {
+    return inScene(at.x, at.y) ? work.pick(at) : std::nullopt;
+}
+
 }  // namespace
 
 SeedRecord SeedTool::newSeed(Workspace& work, const EspHit& hit) const {
@@ -119,8 +124,14 @@ void SeedTool::follow(Workspace& work, glm::vec2 at) {
         last_ = at;
         return;
     }
-    const auto hit = work.pick(at);
-    if (!moved_ || !hit) return;
+    if (!moved_) return;
+    if (drag_ == Drag::row) {
+        plantRow(work, at);
+        last_ = at;
+        return;
+    }
+    const auto hit = seen(work, at);
+    if (!hit) return;
     const glm::vec3 point = vec(hit->position);
     const auto towards = [&](SeedRecord& seed) {
         const glm::vec3 to = point - vec(seed.position);
@@ -130,11 +141,9 @@ void SeedTool::follow(Workspace& work, glm::vec2 at) {
         towards(pending_);
     } else if (drag_ == Drag::turn) {
         changeChosen(work, towards);
-    } else if (drag_ == Drag::row) {
-        plantRow(work, at);
     } else if (drag_ == Drag::move) {
         // A single one follows the mouse onto whatever surface is under it, several stand to each other as they did.
-        const auto before = work.pick(last_);
+        const auto before = seen(work, last_);
         if (work.selected.size() == 1)
             changeChosen(work, [&](SeedRecord& seed) { seed.position = array(point); });
         else if (before)
@@ -149,7 +158,7 @@ void SeedTool::follow(Workspace& work, glm::vec2 at) {
 void SeedTool::plantRow(Workspace& work, glm::vec2 at) {
     const int parts = 1 + int(glm::distance(last_, at) / (4 * work.scale));
     for (int i = 1; i <= parts; ++i) {
-        const auto hit = work.pick(glm::mix(last_, at, float(i) / float(parts)));
+        const auto hit = seen(work, glm::mix(last_, at, float(i) / float(parts)));
         if (!hit || !lastInRow_ || glm::distance(vec(hit->position), *lastInRow_) < work.layout.rowStep) continue;
         SeedRecord next = newSeed(work, *hit);
         if (work.layout.rowAlong) next.direction = array(glm::normalize(vec(hit->position) - *lastInRow_));

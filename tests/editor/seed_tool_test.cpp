@@ -186,6 +186,75 @@ TEST_CASE("a row that begins at a seed goes on from it, and moves none, chosen o
     CHECK(gardener.work.selected == Keys{key});
 }
 
+TEST_CASE("no seed is planted, moved or turned to where it isn't seen: outside of the window, and beneath a panel") {
+    const Folder folder;
+    Gardener gardener(folder);
+    faceWall(gardener, 1.5f);
+    gardener.work.layout.rowStep = .06f;
+    const glm::vec2 low(760, 300), high(860, 400);  // of a panel
+    gardener.panels = [&] {
+        ImGui::SetNextWindowPos({low.x, low.y});
+        ImGui::SetNextWindowSize({high.x - low.x, high.y - low.y});
+        ImGui::Begin("panel");
+        ImGui::End();
+    };
+    for (int i = 0; i < 3; ++i) gardener.frame({});
+    const size_t before = gardener.seeds().size();
+    const auto hidden = [&](const SeedRecord& seed) {
+        const glm::vec2 at = gardener.at(vec(seed.position));
+        return at.y > gardener.work.window.y + 1 || glm::clamp(at, low + 1.f, high - 1.f) == at;
+    };
+    const auto rowIsSeen = [&] {
+        const std::vector<SeedRecord> seeds = gardener.seeds();
+        CHECK(seeds.size() > before + 2);
+        CHECK(std::none_of(seeds.begin() + std::ptrdiff_t(before), seeds.end(), hidden));
+    };
+    const glm::vec2 beneath(810, 350), below(800, 900);
+    (void)gardener.under(beneath), (void)gardener.under(below);  // there is something that they could go to
+    for (const int events : {1, 30}) {
+        CAPTURE(events);
+        gardener.drag({600, 350}, {1000, 350}, GLFW_MOD_CONTROL, events);
+        rowIsSeen();
+        CHECK(gardener.at(vec(gardener.seeds().back().position)).x > high.x - 1);
+        gardener.undo();
+    }
+    gardener.drag({700, 500}, below, GLFW_MOD_CONTROL, 30);
+    rowIsSeen();
+    gardener.undo();
+
+    const uint32_t a = gardener.plant({650, 350}), b = gardener.plant({650, 500});
+    for (const glm::vec2 to : {beneath, below}) {
+        gardener.work.selected = {b};
+        const glm::vec2 from = gardener.marker(b);
+        gardener.press(from);
+        gardener.moveTo(glm::mix(from, to, .2f), 4);
+        const SeedRecord seen = gardener.seed(b);
+        gardener.move(to);
+        CHECK(gardener.seed(b) == seen);
+        gardener.release(to);
+        gardener.undo();
+        // Several go on from where they were seen last.
+        gardener.work.selected = {a, b};
+        const glm::vec3 apart = vec(gardener.seed(a).position) - vec(gardener.seed(b).position);
+        gardener.press(from);
+        gardener.move(to);
+        CHECK(gardener.marker(b) == from);
+        gardener.move(from + glm::vec2(20, 0));
+        gardener.release(gardener.mouse);
+        CHECK(glm::distance(gardener.marker(b), from + glm::vec2(20, 0)) < 5);
+        CHECK(glm::distance(vec(gardener.seed(a).position) - vec(gardener.seed(b).position), apart) < .001f);
+        gardener.undo();
+    }
+    gardener.work.selected = {b};
+    gardener.move(gardener.marker(b) + glm::vec2(60, 0));
+    gardener.key(GLFW_KEY_R);
+    gardener.moveTo(gardener.mouse + glm::vec2(0, 20), 2);
+    const SeedRecord turned = gardener.seed(b);
+    gardener.move(beneath);
+    CHECK(gardener.seed(b) == turned);
+    gardener.key(GLFW_KEY_ESCAPE);
+}
+
 TEST_CASE("a click chooses a seed, Shift one more or one less, Shift and a drag those within, A all or none") {
     const Folder folder;
     Gardener gardener(folder);
