@@ -92,8 +92,10 @@ bool GuiEvents::tell(const Pointer& pointer, Told& told, std::vector<InputEvent>
     if (e.kind != PointerEvent::Kind::move) {
         const bool panels = press ? overPanel(e.x, e.y) : ofPanel_[e.button];
         // What is typed is about what is chosen before the click. Over panels ImGui itself ends it.
-        const bool left = press && e.button == GLFW_MOUSE_BUTTON_LEFT;
-        if (left && ((told.typing && !panels) || sliderWaits(e.x, e.y)) && waitsForPanels(told)) return false;
+        // Beside them any button does: what it begins takes letters as keys.
+        const bool left = e.button == GLFW_MOUSE_BUTTON_LEFT;
+        const bool leaves = press && ((told.typing && !panels) || (left && sliderWaits(e.x, e.y)));
+        if (leaves && waitsForPanels(told)) return false;
         if (press && panels && told.handed) return false;  // the tools may have begun what this ends
         // A slider looks where the mouse is only while its button is down: the end of a fast drag is a frame of its
         // own.

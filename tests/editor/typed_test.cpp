@@ -81,6 +81,28 @@ TEST_CASE("a random number that is typed stays within what there is") {
     }
 }
 
+TEST_CASE("any button that is pressed beside panels leaves the field that is typed into") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t a = gardener.plant(gardener.onWall(-1.1f, 1));
+    for (const auto& [button, number] : {std::pair(GLFW_MOUSE_BUTTON_RIGHT, "12"), {GLFW_MOUSE_BUTTON_MIDDLE, "34"}}) {
+        CAPTURE(button);
+        gardener.tap(gardener.placeOf({int(a), "##number"}));
+        gardener.type(number);
+        REQUIRE(ImGui::IsAnyItemActive());
+        const glm::vec2 at = gardener.onWall(-.8f, 1.4f);
+        gardener.point(at);
+        gardener.events.pointer({sample::PointerEvent::Kind::press, button, 0, at.x, at.y});
+        gardener.rest();
+        CHECK(!ImGui::IsAnyItemActive());
+        gardener.type("5");
+        CHECK(!ImGui::GetIO().WantTextInput);
+        gardener.events.pointer({sample::PointerEvent::Kind::release, button, 0, at.x, at.y});
+        gardener.rest();
+        CHECK(gardener.seed(a).number == uint32_t(std::stoi(number)));
+    }
+}
+
 TEST_CASE("a height that is typed is the house's that was chosen, whatever is clicked next") {
     const Folder folder;
     Builder builder(folder);
