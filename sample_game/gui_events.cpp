@@ -35,6 +35,11 @@ bool keeps(int key, int mods) {
     return asks(key, mods) || ((mods & GLFW_MOD_CONTROL) && key == GLFW_KEY_Q);
 }
 
+// What was done last is taken back, or done again: a click that waits has been done before it.
+bool steps(int key, int mods) {
+    return (mods & GLFW_MOD_CONTROL) && (key == GLFW_KEY_Z || key == GLFW_KEY_Y);
+}
+
 }  // namespace
 
 bool overPanel(float x, float y) {
@@ -127,7 +132,9 @@ bool GuiEvents::tell(const Key& key, Told& told, std::vector<InputEvent>& taken)
     const bool shifts = code >= GLFW_KEY_LEFT_SHIFT && code <= GLFW_KEY_RIGHT_SUPER;
     const bool apart = told.typing && !writes(code, mods) && !(shifts && key.action == GLFW_PRESS);
     if (apart && (told.keyed || told.wrote)) return false;
-    if (key.action != GLFW_RELEASE && keeps(code, mods) && sliderWaits() && waitsForPanels(told)) return false;
+    const bool panelsFirst =
+        (keeps(code, mods) && sliderWaits()) || (steps(code, mods) && clickWaits() && !told.typing);
+    if (key.action != GLFW_RELEASE && panelsFirst && waitsForPanels(told)) return false;
     ImGui_ImplGlfw_KeyCallback(window_, key.code, key.scancode, key.action, mods);
     told.keyed = told.keyed || apart;
     if (key.action == GLFW_RELEASE) return true;

@@ -197,6 +197,40 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("undo and redo right behind a click on a slider are of what it does") {
+    const Folder folder;
+    Gardener user(folder);
+    auto& document = *user.work.document;
+    float value = 10;
+    glm::vec2 place{0};
+    user.panel = [&] {
+        value = user.work.scene().hour;
+        ImGui::SetNextItemWidth(200);
+        if (sample::slider("##value", &value, 0, 24, "%.0f"))
+            user.work.perform(SetLight{value, 0, true}, sample::widgetGesture(user.work));
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        place = {low.x + .75f * (high.x - low.x), (low.y + high.y) / 2};
+    };
+    REQUIRE(user.work.perform(SetLight{4, 0, true}));
+    REQUIRE(user.work.perform(SetLight{10, 0, true}));
+    user.undo();
+    user.rest();
+    REQUIRE(document.redoName());
+    const size_t before = document.undoSteps();
+    user.tap(place);
+    CHECK(sample::clickWaits());
+    user.strike(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+    user.rest();
+    CHECK(!sample::clickWaits());
+    CHECK(document.undoSteps() == before);
+    CHECK(user.work.scene().hour == 4);
+    user.strike(GLFW_KEY_Y, GLFW_MOD_CONTROL);
+    user.rest();
+    CHECK(user.work.scene().hour == doctest::Approx(18).epsilon(.05));
+    user.rest(30);
+    CHECK(document.undoSteps() == before + 1);
+}
+
 TEST_CASE("what was typed into a panel that has been closed since isn't typed any more") {
     const Folder folder;
     Gardener user(folder);
