@@ -100,7 +100,8 @@ void BrushTool::begin(Workspace& work, int mods) {
         return;
     }
     gesture_ = work.newGesture();
-    painting_ = work.perform(strokeOf(work, mods), gesture_);
+    stroke_ = strokeOf(work, mods);
+    painting_ = work.perform(stroke_, gesture_);
     lastDab_.reset();
     dabs_.dabs.clear();
 }
@@ -181,7 +182,7 @@ bool BrushTool::take(Workspace& work, const PointerEvent& event) {
 }
 
 void BrushTool::startSizing(Workspace& work, glm::vec2 at, bool strength) {
-    if (painting_) return;
+    if (painting_ || sizing()) return;
     sizing_ = strength ? Sizing::strength : Sizing::radius;
     before_ = strength ? work.brush.strength : work.brushRadius();
     sizingFrom_ = at;
@@ -189,12 +190,12 @@ void BrushTool::startSizing(Workspace& work, glm::vec2 at, bool strength) {
 }
 
 void BrushTool::drawCircle(const Workspace& work, int mods, const EspHit& hit) const {
-    const std::string mode = modeOf(work.brush, mods);
-    const ImU32 colour = mode == "erase"    ? IM_COL32(255, 120, 90, 255)
-                         : mode == "smooth" ? IM_COL32(110, 180, 255, 255)
-                                            : IM_COL32(160, 240, 120, 255);
-    Disc disc{work, vec(hit.position),  glm::normalize(vec(hit.normal)), {},
-              {},   work.brushRadius(), work.townLayer(work.brush.layer)};
+    const StrokeBegin stroke = painting_ ? stroke_ : strokeOf(work, mods);
+    const ImU32 colour = stroke.mode == "erase"    ? IM_COL32(255, 120, 90, 255)
+                         : stroke.mode == "smooth" ? IM_COL32(110, 180, 255, 255)
+                                                   : IM_COL32(160, 240, 120, 255);
+    Disc disc{work, vec(hit.position), glm::normalize(vec(hit.normal)), {},
+              {},   stroke.radius,     work.townLayer(stroke.layer)};
     tangents(disc.normal, disc.u, disc.v);
     constexpr int kPoints = 40;
     const auto ring = [&](float share, ImVec2* points) {
@@ -213,8 +214,8 @@ void BrushTool::drawCircle(const Workspace& work, int mods, const EspHit& hit) c
         list.AddPolyline(outer, count, IM_COL32(0, 0, 0, 160), ImDrawFlags_Closed, 4 * work.scale);
         list.AddPolyline(outer, count, colour, ImDrawFlags_Closed, 2 * work.scale);
     }
-    if (work.brush.hardness > .05f) {
-        const int few = ring(work.brush.hardness, inner);
+    if (stroke.hardness > .05f) {
+        const int few = ring(stroke.hardness, inner);
         if (few > 2) list.AddPolyline(inner, few, (colour & 0xFFFFFF) | 0x70000000, ImDrawFlags_Closed, work.scale);
     }
     if (const auto at = work.place(disc.centre)) list.AddCircleFilled({at->x, at->y}, 2.5f * work.scale, colour);

@@ -22,7 +22,8 @@ class BrushTool {
     void takeBack(Workspace& work);
     bool painting() const { return painting_; }
     bool sizing() const { return sizing_ != Sizing::none; }
-    // The circle on the surface, in what the keys would do now; with limits also the place's slope and height.
+    // The circle on the surface, in what the stroke does or, before it, the keys would do now; with limits also the
+    // place's slope and height.
     void draw(const Workspace& work, int mods) const;
 
   private:
@@ -34,6 +35,7 @@ class BrushTool {
     void layDab(const Workspace& work, glm::vec2 at);
 
     bool painting_ = false;
+    espalier::document::StrokeBegin stroke_;  // the one that goes on, or went on last
     glm::vec2 last_{0};
     std::optional<glm::vec3> lastDab_;
     espalier::document::StrokeDabs dabs_;

@@ -156,13 +156,15 @@ void Controls::takeToolKey(const KeyEvent& event) {
     if (key == GLFW_KEY_S) chooseTool(Tool::seeds);
     if (key == GLFW_KEY_P) chooseTool(Tool::branch);
     if (key == GLFW_KEY_H) chooseTool(Tool::houses);
-    if (work_.tool == Tool::paint) {
+    const bool paints = work_.tool == Tool::paint;
+    if (paints && !brush_.painting() && !brush_.sizing()) {  // a stroke goes on as it began
         float& radius = work_.brushRadius();
         if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, .005f);
         if (key == GLFW_KEY_RIGHT_BRACKET) radius = std::min(radius * 1.15f, 20.f);
         if (key == GLFW_KEY_X) work_.brush.value = 1 - work_.brush.value;
         if (key == GLFW_KEY_F) brush_.startSizing(work_, {event.x, event.y}, event.mods & GLFW_MOD_SHIFT);
-    } else if (key == GLFW_KEY_F) {
+    }
+    if (!paints && key == GLFW_KEY_F) {
         work_.frameChosen();
         navigation_.moved();
     }

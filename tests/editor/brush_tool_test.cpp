@@ -356,3 +356,60 @@ TEST_CASE("X paints the opposite value") {
     REQUIRE(painter.all<StrokeBegin>().size() == 1);
     CHECK(painter.all<StrokeBegin>()[0].value == .25f);
 }
+
+TEST_CASE("a stroke goes on as it began, and so it is shown, whichever keys are pressed meanwhile") {
+    const Folder folder;
+    Painter painter(folder);
+    sample::Brush& brush = painter.work.brush;
+    brush.value = .75f;
+    const glm::vec2 from = painter.onWall(-1.1f, 1), to = painter.onWall(-.8f, 1);
+    // The vertices of the circle that is drawn around a place where it has been let lie.
+    const auto circle = [&](glm::vec2 at, int mods) {
+        painter.mouse = at;
+        painter.frame({}, mods);
+        std::vector<std::pair<ImVec2, ImU32>> drawn;
+        for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer)
+            drawn.emplace_back(vertex.pos, vertex.col);
+        return drawn;
+    };
+    const auto same = [](const auto& a, const auto& b) {
+        return std::ranges::equal(a, b, [](const auto& v, const auto& w) {
+            return v.first.x == w.first.x && v.first.y == w.first.y && v.second == w.second;
+        });
+    };
+    const auto before = circle(to, 0);
+    REQUIRE(before.size() > 40);
+    REQUIRE(!same(circle(to, GLFW_MOD_CONTROL), before));
+    const float radius = brush.radius;
+    painter.press(from);
+    painter.moveTo(to, 5);
+    for (const int key : {GLFW_KEY_LEFT_BRACKET, GLFW_KEY_LEFT_BRACKET, GLFW_KEY_RIGHT_BRACKET, GLFW_KEY_X, GLFW_KEY_F})
+        painter.key(key);
+    CHECK(brush.radius == radius);
+    CHECK(brush.value == .75f);
+    for (const int mods : {0, GLFW_MOD_CONTROL, GLFW_MOD_SHIFT}) CHECK(same(circle(to, mods), before));
+    painter.release(to);
+    CHECK(!same(circle(to, GLFW_MOD_CONTROL), before));
+    painter.key(GLFW_KEY_LEFT_BRACKET);
+    CHECK(brush.radius < radius);
+}
+
+TEST_CASE("Esc gives back the radius that was there before F, whichever keys are pressed until then") {
+    const Folder folder;
+    Painter painter(folder);
+    const sample::Brush before = painter.work.brush;
+    const sample::Brush& brush = painter.work.brush;
+    painter.move(painter.onWall(-1, 1));
+    painter.key(GLFW_KEY_F);
+    painter.moveTo(painter.mouse + glm::vec2(90, 0), 3);
+    painter.key(GLFW_KEY_F);
+    painter.key(GLFW_KEY_F, GLFW_MOD_SHIFT);
+    painter.key(GLFW_KEY_RIGHT_BRACKET);
+    painter.key(GLFW_KEY_X);
+    painter.moveTo(painter.mouse + glm::vec2(90, 0), 3);
+    CHECK(brush.radius > 2 * before.radius);
+    painter.key(GLFW_KEY_ESCAPE);
+    CHECK(brush.radius == before.radius);
+    CHECK(brush.strength == before.strength);
+    CHECK(brush.value == before.value);
+}
