@@ -23,6 +23,11 @@ std::optional<EspHit> seen(const Workspace& work, glm::vec2 at) {
     return inScene(at.x, at.y) ? work.pick(at) : std::nullopt;
 }
 
+// How many are chosen and there: undo may have taken some away, which redo brings back as chosen.
+ptrdiff_t chosenCount(const Workspace& work) {
+    return std::ranges::count_if(work.selected, [&](uint32_t key) { return work.document->seed(key) != nullptr; });
+}
+
 }  // namespace
 
 SeedRecord SeedTool::newSeed(Workspace& work, const EspHit& hit) const {
@@ -144,7 +149,7 @@ void SeedTool::follow(Workspace& work, glm::vec2 at) {
     } else if (drag_ == Drag::move) {
         // A single one follows the mouse onto whatever surface is under it, several stand to each other as they did.
         const auto before = seen(work, last_);
-        if (work.selected.size() == 1)
+        if (chosenCount(work) == 1)
             changeChosen(work, [&](SeedRecord& seed) { seed.position = array(point); });
         else if (before)
             changeChosen(work, [&, by = point - vec(before->position)](SeedRecord& seed) {
@@ -199,7 +204,10 @@ bool SeedTool::take(Workspace& work, const PointerEvent& event) {
 }
 
 void SeedTool::grab(Workspace& work, glm::vec2 at, bool turns) {
-    if (work.selected.empty() || drag_ != Drag::none) return;
+    if (chosenCount(work) > 0 && drag_ == Drag::none) followMouse(work, at, turns);
+}
+
+void SeedTool::followMouse(Workspace& work, glm::vec2 at, bool turns) {
     from_ = last_ = at;
     moved_ = byKey_ = true;
     changed_ = false;
@@ -224,7 +232,7 @@ void SeedTool::duplicate(Workspace& work, glm::vec2 at) {
     if (copies.seeds.empty()) return;  // what was chosen has gone
     copied_ = std::exchange(work.selected, {});
     for (const SeedRecord& copy : copies.seeds) work.selected.insert(copy.key);
-    grab(work, at, false);
+    followMouse(work, at, false);
     changed_ = work.perform(copies, gesture_);
     if (!changed_) cancel(work);
 }

@@ -30,6 +30,7 @@ class SeedTool {
     uint32_t seedAt(const Workspace& work, glm::vec2 at) const;
     bool arrowAt(const Workspace& work, glm::vec2 at) const;  // of a chosen one
     void press(Workspace& work, const PointerEvent& event);
+    void followMouse(Workspace& work, glm::vec2 at, bool turns);
     void beginRow(Workspace& work, glm::vec2 at);
     void follow(Workspace& work, glm::vec2 at);
     void plantRow(Workspace& work, glm::vec2 at);  // from where the mouse was

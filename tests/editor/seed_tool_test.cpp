@@ -459,6 +459,26 @@ TEST_CASE("G moves what is chosen without a button, until a click keeps it, or E
     CHECK(gardener.steps() == steps + 1);
 }
 
+TEST_CASE("seeds that undo has taken away count as chosen only once redo has brought them back") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t a = gardener.plant(gardener.onWall(-1.2f, .8f)), b = gardener.plant(gardener.onWall(-1, .8f));
+    const glm::vec2 to = gardener.onWall(-.7f, 1.2f);
+    gardener.undo();
+    REQUIRE(gardener.work.selected == Keys{b});
+    gardener.key(GLFW_KEY_G);  // nothing that it could move is chosen
+    CHECK(!gardener.work.underWay);
+    gardener.key(GLFW_KEY_Y, GLFW_MOD_CONTROL);
+    gardener.key(GLFW_KEY_G);
+    CHECK(gardener.work.underWay);
+    gardener.key(GLFW_KEY_ESCAPE);
+    gardener.undo();
+    gardener.click(gardener.marker(a), GLFW_MOD_SHIFT);
+    REQUIRE(gardener.work.selected == Keys{a, b});
+    gardener.drag(gardener.marker(a) + glm::vec2(8, 0), to, 0, 5);  // the only one goes where the mouse is
+    CHECK(gardener.seed(a).position == array(gardener.under(to)));
+}
+
 TEST_CASE("Del and X remove what is chosen, and undo brings all of it back") {
     const Folder folder;
     Gardener gardener(folder);
