@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "sample_game/widgets.hpp"
@@ -29,6 +30,28 @@ ImU32 mixed(ImU32 a, ImU32 b, float share) {
 
 const uint32_t AtlasPicture::kLinkColours[4] = {IM_COL32(150, 170, 190, 255), IM_COL32(90, 210, 210, 255),
                                                 IM_COL32(240, 200, 60, 255), IM_COL32(225, 80, 70, 255)};
+
+void AtlasShown::keepTo(const espalier::scene::Scene& scene) {
+    if (surface >= scene.surfaces.size()) surface = 0;
+    if (std::ranges::find(scene.layers, layer) == scene.layers.end()) layer.clear();
+}
+
+std::string surfaceName(const std::vector<espalier::scene::LoadedSurface>& surfaces, size_t index) {
+    std::string name = std::filesystem::path(surfaces[index].file).filename().string();
+    name = name.substr(0, name.find('.'));
+    return surfaces.size() > 1 ? std::to_string(index + 1) + "  " + name : name;
+}
+
+std::string leadsTo(const espalier::scene::Scene& scene, uint32_t shown, const EspLink& link) {
+    if (link.kind == ESP_LINK_OPEN) return "a border of the model";
+    const std::string from = "leads from chart " + std::to_string(link.chart) + " to ",
+                      to = std::to_string(link.toChart);
+    const auto& surfaces = scene.surfaces;
+    const auto at = std::ranges::find(surfaces, link.toSurface.id, [](const auto& surface) { return surface.id.id; });
+    const size_t index = size_t(at - surfaces.begin());
+    if (index == shown) return from + to;
+    return from + "chart " + to + " of " + (at == surfaces.end() ? "another surface" : surfaceName(surfaces, index));
+}
 
 void AtlasPicture::forget() {
     shown_ = {};

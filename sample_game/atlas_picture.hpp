@@ -17,7 +17,14 @@ struct AtlasShown {
     float opacity = .8f;
     uint64_t revision = 0;  // of the document; counts with a layer only
     bool operator==(const AtlasShown&) const = default;
+    // Another surface in place of one that isn't there any more, and no such layer.
+    void keepTo(const espalier::scene::Scene& scene);
 };
+
+// By its file; one of several of a file has its number.
+std::string surfaceName(const std::vector<espalier::scene::LoadedSurface>& surfaces, size_t index);
+// Where walks over a link of the surface `shown` arrive, in words.
+std::string leadsTo(const espalier::scene::Scene& scene, uint32_t shown, const EspLink& link);
 
 // A surface's atlas as a picture: charts, links and a painted layer. Colours are ImGui's, as IM_COL32 packs them. One
 // thread, the context's.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "sample_game/panels.hpp"
@@ -17,13 +16,6 @@ constexpr float kLinkReach = 7;  // pixels from the mouse to a link
 constexpr const char* kLinkNames[] = {"Seams", "Nearest points", "Contacts", "Open borders"};
 constexpr ImU32 kSample = IM_COL32(255, 255, 255, 255), kInserted = IM_COL32(120, 200, 255, 255),
                 kJump = IM_COL32(110, 230, 90, 255), kPointed = IM_COL32(255, 240, 150, 255);
-
-// By its file; one of several of a file has its number.
-std::string surfaceName(const std::vector<espalier::scene::LoadedSurface>& surfaces, size_t index) {
-    std::string name = std::filesystem::path(surfaces[index].file).filename().string();
-    name = name.substr(0, name.find('.'));
-    return surfaces.size() > 1 ? std::to_string(index + 1) + "  " + name : name;
-}
 
 void arrow(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float scale) {
     list.AddLine(a, b, colour, 1.5f * scale);
@@ -52,6 +44,7 @@ struct AtlasView::View {
 void AtlasView::forget() {
     atlas_.forget();
     wanted_.surface = ~0u;
+    wanted_.layer.clear();
     followed_.reset();
     zoom_ = 1;
 }
@@ -193,7 +186,7 @@ const EspLink* AtlasView::linkAt(const View& view, ImVec2 at) const {
     return best;
 }
 
-void AtlasView::tellAt(const View& view) const {
+void AtlasView::tellAt(const Workspace& work, const View& view) const {
     const ImVec2 at = ImGui::GetIO().MousePos;
     const auto [u, v] = view.uvAt(at);
     const int size = int(atlas_.size()), x = int(u * float(size)), y = int(v * float(size));
@@ -210,18 +203,20 @@ void AtlasView::tellAt(const View& view) const {
             used += std::snprintf(text + used, sizeof text - size_t(used), " %.2f", value);
     }
     const EspLink* link = atlas_.shown().links ? linkAt(view, at) : nullptr;
-    if (link && link->kind != ESP_LINK_OPEN) {
-        ImDrawList& list = *ImGui::GetWindowDrawList();
-        const ImVec2 a = view.place(link->a), b = view.place(link->b), toA = view.place(link->toA),
-                     toB = view.place(link->toB);
-        list.AddLine(a, b, kPointed, 3 * view.scale);
-        list.AddLine(toA, toB, kPointed, 3 * view.scale);
-        arrow(list, {(a.x + b.x) / 2, (a.y + b.y) / 2}, {(toA.x + toB.x) / 2, (toA.y + toB.y) / 2}, kPointed,
-              view.scale);
-        ImGui::SetTooltip("%s\nleads from chart %u to %u", text, link->chart, link->toChart);
-    } else {
-        ImGui::SetTooltip("%s%s", text, link ? "\na border of the model" : "");
-    }
+    if (!link) return ImGui::SetTooltip("%s", text);
+    if (link->kind != ESP_LINK_OPEN) drawLink(view, *link, work.scene().surfaces[wanted_.surface].id);
+    ImGui::SetTooltip("%s\n%s", text, leadsTo(work.scene(), wanted_.surface, *link).c_str());
+}
+
+// On another surface than `shown` its end is a place of another atlas.
+void AtlasView::drawLink(const View& view, const EspLink& link, EspSurface shown) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 a = view.place(link.a), b = view.place(link.b);
+    list.AddLine(a, b, kPointed, 3 * view.scale);
+    if (link.toSurface.id != shown.id) return;
+    const ImVec2 toA = view.place(link.toA), toB = view.place(link.toB);
+    list.AddLine(toA, toB, kPointed, 3 * view.scale);
+    arrow(list, {(a.x + b.x) / 2, (a.y + b.y) / 2}, {(toA.x + toB.x) / 2, (toA.y + toB.y) / 2}, kPointed, view.scale);
 }
 
 void AtlasView::show(Workspace& work) {
@@ -232,7 +227,7 @@ void AtlasView::show(Workspace& work) {
     if (!beginWindow(work, "Atlas", &work.layout.atlas, {work.panelUnits() + 12 * s, 40 * s}, {wide, high},
                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
         return ImGui::End();
-    if (wanted_.surface >= work.scene().surfaces.size()) wanted_.surface = 0;
+    wanted_.keepTo(work.scene());
     followBranch(work);
     controls(work);
     wanted_.revision = wanted_.layer.empty() ? 0 : work.document->revision();
@@ -263,7 +258,7 @@ void AtlasView::show(Workspace& work) {
                                          {view.left + view.extent, view.top + view.extent});
     ImGui::PushClipRect(view.corner, end, true);
     drawWalk(work, view);
-    if (over) tellAt(view);
+    if (over) tellAt(work, view);
     ImGui::PopClipRect();
     moveView(view);
     ImGui::End();

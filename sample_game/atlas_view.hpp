@@ -30,7 +30,8 @@ class AtlasView {
     void controls(Workspace& work);
     void moveView(const View& view);
     void drawWalk(const Workspace& work, const View& view) const;
-    void tellAt(const View& view) const;
+    void tellAt(const Workspace& work, const View& view) const;
+    static void drawLink(const View& view, const EspLink& link, EspSurface shown);
     const EspLink* linkAt(const View& view, ImVec2 at) const;
 
     HostImage picture_;

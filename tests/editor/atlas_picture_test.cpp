@@ -210,3 +210,46 @@ TEST_CASE("an atlas that can't be read stays what it was") {
     CHECK(atlas.picture.shown() == other);
     CHECK(atlas.pixels != before);
 }
+
+TEST_CASE("where a link leads is told, and on which surface if that is another") {
+    const Folder folder;
+    const std::string ruin = content("ruin.surface.glb");
+    const Window window(folder,
+                        folder.write("two.json", R"({"surfaces": [{"file": ")" + ruin + R"("}, {"file": ")" + ruin +
+                                                     R"(", "position": [0.4, 0, 0]}], "grammars": [{"file": ")" +
+                                                     content("grammars/ivy_guided.grammar") + R"("}]})"));
+    const auto& scene = window.work.scene();
+    REQUIRE(scene.surfaces.size() == 2);
+    REQUIRE(espUpdate(window.work.context.get()) == ESP_OK);  // which finds where they touch
+    uint32_t count = 0;
+    REQUIRE(espReadLinks(window.work.context.get(), scene.surfaces[0].id, nullptr, &count) == ESP_OK);
+    std::vector<EspLink> links(count);
+    REQUIRE(espReadLinks(window.work.context.get(), scene.surfaces[0].id, links.data(), &count) == ESP_OK);
+    size_t here = 0, there = 0, wrong = 0;
+    for (const EspLink& link : links) {
+        const std::string from = "leads from chart " + std::to_string(link.chart), to = std::to_string(link.toChart);
+        const bool open = link.kind == ESP_LINK_OPEN, own = link.toSurface.id == scene.surfaces[0].id.id;
+        here += !open && own;
+        there += !open && !own;
+        wrong += sample::leadsTo(scene, 0, link) != (open  ? "a border of the model"
+                                                     : own ? from + " to " + to
+                                                           : from + " to chart " + to + " of 2  ruin");
+    }
+    CHECK(here > 0);
+    CHECK(there > 0);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("an atlas leaves the surface and the layer that are there no more") {
+    const Folder folder;
+    const Atlas atlas(folder);
+    AtlasShown shown = charts();
+    shown.layer = "mask";
+    shown.keepTo(atlas.work.scene());
+    CHECK(shown.layer == "mask");
+    shown.layer = "gone";
+    shown.surface = 7;
+    shown.keepTo(atlas.work.scene());
+    CHECK(shown.layer.empty());
+    CHECK(shown.surface == 0);
+}
