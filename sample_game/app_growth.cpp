@@ -57,6 +57,7 @@ bool App::update() {
     if (plants && work_.branch) work_.readPath();
     grownMs_ = (plants ? work_.stats.expandMs : 0) + (houses ? work_.roofs.expandMs : 0);
     if (grown == ESP_OK && plants && work_.stats.cut > 0) work_.message = kCut;
+    if (plants || houses) work_.grownMs = grownMs_;
     if (plants || houses) pace_.grew(grownMs_, plants && 2 * work_.stats.derivedNodes > work_.stats.nodes);
     work_.redraw |= plants || houses;
     return plants || houses;

@@ -174,6 +174,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.brush.layer = work_.scene().layers.empty() ? "" : work_.scene().layers.front();
     work_.stats = {};
     work_.roofs = {};
+    work_.grownMs = 0;
     work_.redraw = true;
     work_.grownRevision = ~0ull;
     pace_ = {};

@@ -141,16 +141,20 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
         if (!narrow && roofs.houses) row("Tiles and parts", grouped(roofs.tiles));
         if (!brief && roofs.houses) row("Houses' triangles", grouped(roofs.drawnTriangles));
         ImGui::Spacing();
-        const double times[] = {stats.expandMs + roofs.expandMs, stats.emitMs, stats.drawMs};
+        const double times[] = {work.grownMs, stats.emitMs, stats.drawMs};
         for (int i = 0; i < 3 && !brief; ++i) row(kStages[i], ms(times[i]), kColours[i]);
         row("Frame", ms(work.pictureMs));
         if (!brief) graph(work);
         if (!brief) row("Times grown", grouped(stats.expansions));
-        row(narrow ? "Memory" : "GPU memory", grouped(stats.totalBytes >> 20) + " MiB");
+        // In use, of what is taken from the device.
+        const std::string taken = narrow ? "" : " of " + grouped(stats.reservedBytes >> 20);
+        row(narrow ? "Memory" : "GPU memory", grouped(stats.totalBytes >> 20) + taken + " MiB");
         if (!brief)
             row("Undo", grouped(work.document->undoSteps()) + (work.document->undoSteps() == 1 ? " step" : " steps"));
         if (stats.overflow) row("Ran out of room", grouped(stats.overflow));
         if (stats.stopped) row("Stopped by a limit", grouped(stats.stopped));
+        if (roofs.overflow) row("Tiles left out", grouped(roofs.overflow));
+        if (roofs.stopped) row("Roofs' parts stopped", grouped(roofs.stopped));
         if (validation) row("Validation messages", grouped(validationMessages));
         ImGui::PopStyleVar();
     }

@@ -90,6 +90,7 @@ struct Workspace {
     const char* underWay = nullptr;  // what the next click does, while a tool follows the mouse without one
     EspStats stats{};
     EspRoofStats roofs{};
+    double grownMs = 0;                         // of the latest growth, plants and houses that grew in it
     double frameMs = 0;                         // of the window, the last one
     double pictureMs = 0;                       // and of the last in which the scene was drawn
     std::vector<std::array<float, 4>> history;  // expand, emit, draw, frame; milliseconds of the latest frames

@@ -65,3 +65,22 @@ TEST_CASE("seeds behind the figures and a legend are clicked and dragged, and se
         user.done.clear();
     }
 }
+
+TEST_CASE("figures tell the latest growth alone, memory in use and taken, and what roofs had no room for") {
+    const Folder folder;
+    Editor editor(folder, smallScene(folder), Tool::look);
+    auto& work = editor.work;
+    std::string words;
+    editor.panels = [&] { words = wordsOf([&] { sample::showFigures(work, 0, false); }); };
+    work.stats.expandMs = 40, work.roofs.expandMs = 500;
+    work.grownMs = 41;  // the houses grew long before
+    work.stats.totalBytes = 123u << 20, work.stats.reservedBytes = 456u << 20;
+    for (int i = 0; i < 3; ++i) editor.frame({});
+    CHECK_MESSAGE(contains(words, "41 ms"), words);
+    CHECK_MESSAGE(contains(words, "123 of 456 MiB"), words);
+    for (const char* row : {"Tiles left out", "Roofs' parts stopped"}) CHECK(!contains(words, row));
+    work.roofs.overflow = 17, work.roofs.stopped = 19;
+    editor.frame({});
+    for (const char* row : {"Tiles left out", "17", "Roofs' parts stopped", "19"})
+        CHECK_MESSAGE(contains(words, row), words);
+}
