@@ -69,7 +69,7 @@ void Controls::takeKey(const KeyEvent& event) {
     if (key == GLFW_KEY_F2) work_.layout.panel = !work_.layout.panel, work_.redraw = true;
     if (key == GLFW_KEY_F3) work_.layout.figures = !work_.layout.figures;
     if (key == GLFW_KEY_F4) work_.showGrammar(!work_.layout.grammar, work_.shownGrammar);
-    if (key == GLFW_KEY_F5) work_.layout.atlas = !work_.layout.atlas;
+    if (key == GLFW_KEY_F5) work_.showAtlas(!work_.layout.atlas);
     if (key == GLFW_KEY_F12) work_.screenshot = true, work_.message.clear();  // the last one's isn't in the picture
     if (control && takeViewKey(event)) return;
     if (control) {

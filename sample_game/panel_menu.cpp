@@ -122,7 +122,7 @@ void showMenu(Workspace& work, Session& session) {
             ImGui::MenuItem("Figures", "F3", &work.layout.figures);
             if (ImGui::MenuItem("Grammar", "F4", work.layout.grammar))
                 work.showGrammar(!work.layout.grammar, work.shownGrammar);
-            ImGui::MenuItem("Atlas", "F5", &work.layout.atlas);
+            if (ImGui::MenuItem("Atlas", "F5", work.layout.atlas)) work.showAtlas(!work.layout.atlas);
             if (ImGui::MenuItem("Windows as at first")) {
                 work.windowsAnew = 2;
                 work.layout.panelWidth = Layout{}.panelWidth;

@@ -42,7 +42,7 @@ void branchButtons(Workspace& work, bool hasParent) {
     toolTip("Picks the branch that this one grows from");
     ImGui::EndDisabled();
     ImGui::SameLine();
-    if (ImGui::Button("Atlas  F5", {-1, 0})) work.layout.atlas = !work.layout.atlas;
+    if (ImGui::Button("Atlas  F5", {-1, 0})) work.showAtlas(!work.layout.atlas);
     toolTip("The same walk over the charts of the surface");
 }
 

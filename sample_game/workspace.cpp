@@ -167,6 +167,11 @@ void Workspace::choose(Tool chosen) {
     tool = chosen;
 }
 
+void Workspace::showAtlas(bool shown) {
+    if (scene().surfaces.empty()) return say("No surface is here: an atlas is one's, and roofs have none");
+    layout.atlas = shown;
+}
+
 bool Workspace::readStats() {
     if (espReadStats(context.get(), &stats) == ESP_OK && espReadRoofStats(context.get(), &roofs) == ESP_OK) return true;
     error = espLastError(context.get());

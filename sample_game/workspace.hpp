@@ -131,6 +131,7 @@ struct Workspace {
     // Painting shows what is painted, everything else the scene.
     void choose(Tool chosen);
     void showGrammar(bool shown, uint32_t index) { layout.grammar = shown, openGrammar = index; }
+    void showAtlas(bool shown);  // where there is none, that is told
     // A number for the actions that belong together from now on.
     uint32_t newGesture() { return ++gesture_; }
     uint32_t gesture() const { return gesture_; }

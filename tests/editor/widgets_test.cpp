@@ -323,6 +323,21 @@ TEST_CASE("F4 opens the text of the grammar whose group is open") {
     CHECK(opens(sample::Tool::look).starts_with("ivy"));
 }
 
+TEST_CASE("F5 tells where a scene has no atlas, and leaves what was chosen for others") {
+    const Folder folder;
+    for (const bool there : {true, false}) {
+        CAPTURE(there);
+        Editor editor(folder, there ? smallScene(folder) : content("town.json"), sample::Tool::look);
+        for (const bool before : {false, true}) {
+            editor.work.layout.atlas = before;
+            editor.work.message.clear();
+            editor.key(GLFW_KEY_F5);
+            CHECK(editor.work.layout.atlas == (there ? !before : before));
+            CHECK_MESSAGE(editor.work.message.empty() == there, editor.work.message);
+        }
+    }
+}
+
 TEST_CASE("buttons that have nothing to act on do nothing, even if they are pressed") {
     const Folder folder;
     folder.write("own.grammar", readAll(content("grammars/ivy_guided.grammar")));
