@@ -111,21 +111,22 @@ void presetRows(Workspace& work, uint32_t index, const std::string& grammar, Nam
 }
 
 void keepRow(Workspace& work, uint32_t index, const std::string& grammar, Names& names) {
-    const std::vector<std::string> all = presetNames(grammar);
-    const bool taken = std::ranges::find(all, std::string(names.kept)) != all.end();
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     bool keeps = ImGui::InputTextWithHint("##name", "name for these values", names.kept, sizeof names.kept,
                                           ImGuiInputTextFlags_EnterReturnsTrue);
+    const std::vector<std::string> all = presetNames(grammar);
+    const std::string name = presetCalled(names.kept);
+    const bool taken = std::ranges::find(all, name) != all.end();
     ImGui::SameLine();
     ImGui::BeginDisabled(!names.kept[0]);
     keeps |= ImGui::Button(taken ? "Replace" : "Keep");
     ImGui::EndDisabled();
     toolTip("Keeps the values as they are now under this name, for this grammar in any scene");
     const std::vector<Param> params = values(work, work.scene().grammars[index].id, false);
-    if (!keeps || !names.kept[0] || !writePreset(grammar, names.kept, params, work.error)) return;
+    if (!keeps || !names.kept[0] || !writePreset(grammar, name, params, work.error)) return;
     work.error.clear();  // an earlier try's
-    work.message = std::string(taken ? "Replaced: " : "Kept: ") + names.kept;
+    work.message = (taken ? "Replaced: " : "Kept: ") + name;
     names.kept[0] = 0;
     ImGui::CloseCurrentPopup();
 }

@@ -76,10 +76,8 @@ fs::path presetFolder(const std::string& grammar) {
     return configFolder() + "/presets/" + grammar;
 }
 
-// A name is one of a file: it can't lead elsewhere.
-fs::path presetFile(const std::string& grammar, std::string name, const char* extension = kKept) {
-    std::replace(name.begin(), name.end(), '/', '-');
-    return presetFolder(grammar) / (name + extension);
+fs::path presetFile(const std::string& grammar, const std::string& name, const char* extension = kKept) {
+    return presetFolder(grammar) / (presetCalled(name) + extension);
 }
 
 // Stems of the files that end so.
@@ -158,6 +156,12 @@ void writeLayout(const Layout& layout, const Brush& brush) {
 
 std::string presetsOf(const std::string& grammarFile) {
     return fs::path(grammarFile).stem().string();
+}
+
+// It can't lead elsewhere.
+std::string presetCalled(std::string wanted) {
+    std::replace(wanted.begin(), wanted.end(), '/', '-');
+    return wanted;
 }
 
 std::vector<std::string> presetNames(const std::string& grammar) {

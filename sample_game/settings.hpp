@@ -20,6 +20,7 @@ void writeLayout(const Layout& layout, const Brush& brush);
 // Values of a grammar's parameters under a name, for all grammars whose files have the same one.
 std::string presetsOf(const std::string& grammarFile);
 std::vector<std::string> presetNames(const std::string& grammar);
+std::string presetCalled(std::string wanted);  // what it is called in the end, for it is a file's name, too
 bool readPreset(const std::string& grammar, const std::string& name, std::vector<espalier::document::Param>& params,
                 std::string& error);
 // Those that come with a grammar, in presets/NAME/ beside NAME.grammar.

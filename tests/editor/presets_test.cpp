@@ -131,3 +131,27 @@ TEST_CASE("the presets that come with a grammar say values that it takes, and on
     CHECK(editor.work.document->undoName() == "The text's own values of ivy_free"s);
     CHECK(value("leafSize") == leaf);
 }
+
+TEST_CASE("a name that is another's once it is a file's is told to replace that one") {
+    const Folder folder;
+    Editor editor(folder, smallScene(folder), Tool::look);
+    editor.panels = [&] {
+        ImGui::Begin("panel");
+        presetsPanel(editor.work, 0);
+        ImGui::End();
+    };
+    for (int i = 0; i < 3; ++i) editor.frame({});
+    std::string error;
+    REQUIRE_MESSAGE(writePreset("ivy_guided", "a-b", {}, error), error);
+    pressWidget(editor, "panel", {"##presets"});
+    for (const char letter : {'a', '/', 'b'}) {
+        ImGui::GetIO().AddInputCharacter(unsigned(letter));
+        editor.frame({});
+    }
+    pressWidget(editor, "##Combo_00", {"Replace"});
+    CHECK(editor.work.message == "Replaced: a-b");
+    CHECK(presetNames("ivy_guided") == Names{"a-b"});
+    std::vector<Param> kept;
+    REQUIRE(readPreset("ivy_guided", "a-b", kept, error));
+    CHECK(!kept.empty());
+}
