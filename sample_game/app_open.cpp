@@ -157,7 +157,9 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
         const auto now = std::chrono::steady_clock::now();
         if (now - shown > kOpeningEvery && showOpening(request.file, part, share)) shown = now;
     };
-    if (!document->open(told, error)) return false;
+    const bool opened = document->open(told, error);
+    dropClicks();
+    if (!opened) return false;
     host_->waitIdle();
     if (work_.document) session_.end(work_);
     dropReloaded();
@@ -236,8 +238,16 @@ bool App::rescale() {
     return !ui_ || ui_->updateFonts() || fail(ui_->error());
 }
 
-bool App::showOpening(const std::string& file, const std::string& part, float share) {
+// What is clicked while something is opened isn't meant for what will be there.
+void App::dropClicks() {
+    const size_t before = input_->gui.count();
     glfwPollEvents();
+    input_->gui.dropPresses(before);
+    (void)input_->takeWheel();
+}
+
+bool App::showOpening(const std::string& file, const std::string& part, float share) {
+    dropClicks();
     const std::optional<Frame> frame = host_->begin();
     if (!frame) return host_->error().empty() || fail(host_->error());
     ImGui_ImplGlfw_NewFrame();

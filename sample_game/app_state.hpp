@@ -47,6 +47,7 @@ class App {
     bool update();
     bool growing(uint64_t nodes);
     void showWaiting();
+    void dropClicks();
     bool showOpening(const std::string& file, const std::string& part = {}, float share = 0);
     bool drawFrame(bool moving, bool grew, bool last);
     void screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height);

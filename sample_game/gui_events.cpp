@@ -155,6 +155,18 @@ bool GuiEvents::takeEscape(size_t behind) {
     return any;
 }
 
+void GuiEvents::dropPresses(size_t behind) {
+    bool dropped[std::size(buttons_)] = {};
+    const auto from = events_.begin() + std::ptrdiff_t(std::min(behind, events_.size()));
+    const auto gone = std::remove_if(from, events_.end(), [&](const Event& event) {
+        const Pointer* pointer = std::get_if<Pointer>(&event);
+        if (!pointer || pointer->event.kind == PointerEvent::Kind::move) return false;
+        const bool press = pointer->event.kind == PointerEvent::Kind::press;
+        return std::exchange(dropped[pointer->event.button], press) || press;
+    });
+    events_.erase(gone, events_.end());
+}
+
 void GuiEvents::feed(std::vector<InputEvent>& taken) {
     ImGuiIO& io = ImGui::GetIO();
     const ImGuiContext& gui = *ImGui::GetCurrentContext();

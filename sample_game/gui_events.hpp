@@ -52,6 +52,9 @@ class GuiEvents {
     size_t count() const { return events_.size(); }  // that wait
     // Esc was pressed, behind so many events that wait; nobody else is told of that.
     bool takeEscape(size_t behind);
+    // Buttons that were pressed behind so many events that wait weren't; those that were down before go up all the
+    // same.
+    void dropPresses(size_t behind);
     // There is more for the next frame.
     bool waiting() const { return !events_.empty(); }
 

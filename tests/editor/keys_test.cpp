@@ -89,6 +89,35 @@ TEST_CASE("a key that is held tells that it is, and asks for a dialogue once") {
     for (const KeyEvent& key : keys) CHECK(key.repeated);
 }
 
+TEST_CASE("clicks behind so many events are dropped, but for what lets go of a button that was down, and keys stay") {
+    Keyboard keyboard;
+    using sample::PointerEvent;
+    using Kind = PointerEvent::Kind;
+    auto& events = keyboard.events;
+    events.pointer({Kind::press, GLFW_MOUSE_BUTTON_LEFT, 0, 1, 1});
+    const size_t before = events.count();
+    events.pointer({Kind::release, GLFW_MOUSE_BUTTON_LEFT, 0, 2, 2});
+    for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT}) {
+        events.pointer({Kind::press, button, 0, 3, 3});
+        events.key({GLFW_KEY_F2, 0, 3, 3}, 0, GLFW_PRESS);
+        events.pointer({Kind::move, 0, 0, 4, 4});
+        events.pointer({Kind::release, button, 0, 4, 4});
+    }
+    events.pointer({Kind::press, GLFW_MOUSE_BUTTON_LEFT, 0, 5, 5});
+    events.dropPresses(before);
+    std::vector<sample::InputEvent> all;
+    for (int i = 0; i < 9 && events.waiting(); ++i) events.feed(all);
+    std::vector<Kind> kinds;
+    size_t keys = 0;
+    for (const auto& event : all)
+        if (const auto* pointer = std::get_if<PointerEvent>(&event))
+            kinds.push_back(pointer->kind);
+        else
+            ++keys;
+    CHECK(kinds == std::vector{Kind::press, Kind::release, Kind::move, Kind::move});
+    CHECK(keys == 2);
+}
+
 TEST_CASE("V shows the brush's layer, on surfaces and on roofs") {
     const Folder folder;
     Typist typist(folder, content("hamlet.json"), Tool::paint);
