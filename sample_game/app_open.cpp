@@ -361,6 +361,7 @@ bool App::openNext() {
 void App::beginReplay() {
     session_.replays(replay_.path());
     controls_->setEditing(true);
+    controls_->forgetButtons();  // of the click that chose it: the replay takes all that the mouse does
     replay_.begin(glfwGetTime());
 }
 

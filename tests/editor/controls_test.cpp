@@ -150,6 +150,23 @@ TEST_CASE("Esc leaves alone what has been done since by somebody else") {
     CHECK(std::string(hands.work.document->undoName()).find("ill") != std::string::npos);
 }
 
+TEST_CASE("the first click after a panel's press whose end nobody was told of plants, once that is forgotten") {
+    const Folder folder;
+    Hands hands(folder);
+    hands.panels = [] {
+        ImGui::SetNextWindowPos({0, 0});
+        ImGui::SetNextWindowSize({100, 100});
+        ImGui::Begin("panel");
+        ImGui::End();
+    };
+    for (int i = 0; i < 3; ++i) hands.frame({});
+    const size_t seeds = hands.work.scene().seeds.size();
+    hands.press({50, 50});
+    hands.controls.forgetButtons();
+    hands.click(hands.on(-.8f, 1.2f));
+    CHECK(hands.work.scene().seeds.size() == seeds + 1);
+}
+
 TEST_CASE("keys that have nothing to act on leave no step behind") {
     const Folder folder;
     Hands hands(folder);
