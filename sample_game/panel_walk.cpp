@@ -19,6 +19,7 @@ void prunedRow(Workspace& work) {
     const uint32_t count = espPrunedCount(work.context.get());
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("%u pruned", count);
+    toolTip("Prunings that are kept. Some may wait for a branch that isn't there now, as where paint has gone");
     ImGui::SameLine();
     ImGui::BeginDisabled(count == 0);
     if (ImGui::Button("Let all grow again", {-1, 0})) {
@@ -30,8 +31,9 @@ void prunedRow(Workspace& work) {
             std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(key));
             work.perform(espalier::document::PruneBranch{text, false}, gesture);
         }
+        work.document->callStep(gesture, "Let all grow again");
     }
-    toolTip("Takes all prunings back");
+    toolTip("Takes all prunings back, those of branches that aren't there now, too");
     ImGui::EndDisabled();
 }
 

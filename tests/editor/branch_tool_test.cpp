@@ -119,3 +119,23 @@ TEST_CASE("F shows the whole plant of the chosen seed") {
     CHECK(high.y <= pruner.work.window.y);
     CHECK(std::max(high.x - low.x, high.y - low.y) > .3f * pruner.work.window.y);
 }
+
+TEST_CASE("all that was pruned grows again by one step, which is called so") {
+    const Folder folder;
+    Pruner pruner(folder);
+    auto& work = pruner.work;
+    pruner.panels = [&] {
+        ImGui::Begin("panel");
+        sample::branchPanel(work);
+        ImGui::End();
+    };
+    for (const char* branch : {"0000000000000001", "0000000000000002"})
+        REQUIRE(work.perform(espalier::document::PruneBranch{branch, true}));
+    for (int i = 0; i < 3; ++i) pruner.frame({});
+    pressWidget(pruner, "panel", {"Let all grow again"});
+    CHECK(espPrunedCount(work.context.get()) == 0);
+    CHECK(work.document->undoSteps() == 3);
+    CHECK(std::string(work.document->undoName()) == "Let all grow again");
+    pruner.undo();
+    CHECK(espPrunedCount(work.context.get()) == 2);
+}
