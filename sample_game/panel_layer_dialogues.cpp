@@ -19,24 +19,35 @@ void tell(Workspace& work, const Work& over, const std::string& message) {
     endWait(work, over.state() == Work::State::done);
 }
 
+// The path that was asked for and, beside it, those of the other surfaces' pictures that are there.
+std::string named(const Workspace& work, bool town, const std::string& file) {
+    std::string text = wholePath(file);
+    for (size_t i = 1; !town && i < work.scene().surfaces.size(); ++i) {
+        const std::filesystem::path other = pictureOf(*work.document, file, i);
+        std::error_code ignored;
+        if (std::filesystem::exists(other, ignored)) text += ", " + other.filename().string();
+    }
+    return text;
+}
+
 void importFrom(Workspace& work, Session& session, bool town, const std::string& file) {
     const uint32_t gesture = work.newGesture();
     session.background().ask({"Importing " + file,
                               [&work, layer = dialogues().layer, town, file, gesture] {
                                   return importing(*work.document, layer, town, file, gesture);
                               },
-                              [&work, file](const Work& over) {
+                              [&work, town, file](const Work& over) {
                                   const std::string note = over.note();
                                   tell(work, over,
-                                       "Read: " + wholePath(file) + (note.empty() ? "" : " (" + note + ")"));
+                                       "Read: " + named(work, town, file) + (note.empty() ? "" : " (" + note + ")"));
                               }});
 }
 
 void exportTo(Workspace& work, Session& session, bool town, const std::string& file) {
     const std::string layer = dialogues().layer;
-    session.background().ask({"Exporting " + layer,
-                              [&work, layer, town, file] { return exporting(*work.document, layer, town, file); },
-                              [&work, file](const Work& over) { tell(work, over, "Written: " + wholePath(file)); }});
+    session.background().ask(
+        {"Exporting " + layer, [&work, layer, town, file] { return exporting(*work.document, layer, town, file); },
+         [&work, town, file](const Work& over) { tell(work, over, "Written: " + named(work, town, file)); }});
 }
 
 }  // namespace
@@ -44,22 +55,25 @@ void exportTo(Workspace& work, Session& session, bool town, const std::string& f
 void layerDialogues(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
     const bool town = work.townLayer(d.layer);
-    const char* asked = town ? "Picture of the town from above, north up (.png, .exr):"
-                             : "Picture in the surface's walk UVs, as Export writes it (.png, .exr):";
+    const size_t surfaces = town ? 1 : work.scene().surfaces.size();
+    const std::string others =
+        surfaces > 1 ? "\nIt is the first surface's; those of the others are called so, with -1, -2 ..." : "";
+    const std::string read = (town ? "Picture of the town from above, north up (.png, .exr):"
+                                   : "Picture in the surface's walk UVs, as Export writes it (.png, .exr):") +
+                             others;
+    const std::string written = "File of the picture (.png: 16 bits, .exr: floats):" + others;
     const std::vector<std::string> endings{".png", ".exr"};
-    askPath(work, session, {"Import a layer", asked, "Import", d.picture, endings},
+    askPath(work, session, {"Import a layer", read.c_str(), "Import", d.picture, endings},
             [&](const char* file) { importFrom(work, session, town, file); });
     const auto taken = [&](const std::string& file) -> Doubt {
-        for (size_t i = 0; i < (town ? 1 : work.scene().surfaces.size()); ++i) {
+        for (size_t i = 0; i < surfaces; ++i) {
             const std::string each = town ? file : pictureOf(*work.document, file, i);
             std::error_code ignored;
             if (std::filesystem::exists(each, ignored)) return {wholePath(each) + " is there already."};
         }
         return {};
     };
-    askPath(work, session,
-            {"Export a layer", "File of the picture (.png: 16 bits, .exr: floats):", "Export", d.picture, endings,
-             false, taken},
+    askPath(work, session, {"Export a layer", written.c_str(), "Export", d.picture, endings, false, taken},
             [&](const char* file) { exportTo(work, session, town, file); });
 }
 

@@ -5,13 +5,14 @@
 
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
-#include "tests/editor/window.hpp"
+#include "tests/editor/widgets.hpp"
 
 namespace {
 
 // A window whose dialogues are laid out, and a mouse that ImGui sees.
 struct Asked : Editor {
-    explicit Asked(const Folder& folder) : Editor(folder, smallScene(folder), sample::Tool::look) {
+    explicit Asked(const Folder& folder) : Asked(folder, smallScene(folder)) {}
+    Asked(const Folder& folder, const std::string& scene) : Editor(folder, scene, sample::Tool::look) {
         panels = [this] { sample::showDialogues(work, session); };
     }
     ~Asked() { sample::closeDialogues(); }
@@ -128,6 +129,40 @@ TEST_CASE("a project is saved among other files only when that is said twice, an
         CHECK(std::filesystem::exists(folder.file("full/note.txt")));
         CHECK(!sample::usesPanels());
     }
+}
+
+TEST_CASE("each file that an export of several surfaces writes is told, and each that an import reads") {
+    const Folder folder;
+    const std::string ruin = content("ruin.surface.glb"), ivy = content("grammars/ivy_guided.grammar");
+    Asked asked(folder, folder.write("walls.json", R"({"surfaces": [{"file": ")" + ruin + R"("}, {"file": ")" + ruin +
+                                                       R"(", "position": [0, 0, 40]}], "grammars": [{"file": ")" + ivy +
+                                                       R"("}]})"));
+    std::string words;
+    asked.panels = [&] { words = wordsOf([&] { sample::showDialogues(asked.work, asked.session); }); };
+    const std::string file = folder.file("mask.exr");
+    const auto enter = [&](bool import) {
+        sample::askForLayer("mask", import);
+        sample::put(sample::dialogues().picture, file);
+        asked.settle();
+        CHECK_MESSAGE(contains(words, "first surface"), words);
+        CHECK_MESSAGE(contains(words, "-1, -2"), words);
+        ImGui::GetIO().KeyMap[ImGuiKey_Enter] = ImGuiKey_Enter;
+        ImGui::GetIO().KeysDown[ImGuiKey_Enter] = true;
+        asked.frame({});
+        ImGui::GetIO().KeysDown[ImGuiKey_Enter] = false;
+        asked.settle();
+        asked.session.background().finish();
+        asked.settle();
+        CHECK_MESSAGE(asked.work.error.empty(), asked.work.error);
+    };
+    enter(false);
+    CHECK(std::filesystem::exists(folder.file("mask-1.exr")));
+    CHECK(asked.work.message == "Written: " + file + ", mask-1.exr");
+    enter(true);
+    CHECK(asked.work.message == "Read: " + file + ", mask-1.exr");
+    std::filesystem::remove(folder.file("mask-1.exr"));
+    enter(true);
+    CHECK_MESSAGE(asked.work.message.starts_with("Read: " + file + " (mask-1.exr isn't there"), asked.work.message);
 }
 
 TEST_CASE("what went wrong with one path isn't said of another") {
