@@ -1,6 +1,6 @@
 // Closing the gaps that edits have left. In: what is drawn. Out: its nodes and leaves without gaps, where all anew
-// would be ten times the work. Chunks and branches keep their places. Native code moves nodes and leaves up in place;
-// kernels copy them to the other set of buffers, which is drawn from then on.
+// would be ten times the work. Chunks and branches keep their places, until all grows anew. Native code moves nodes and
+// leaves up in place; kernels copy them to the other set of buffers, which is drawn from then on.
 #include "runtime/core/check.hpp"
 #include "runtime/expand/gpu_growth.hpp"
 
@@ -18,6 +18,14 @@ bool GpuGrowth::gappy(const GrowthInputs& inputs) const {
     const Plants& plants = plants_.drawn();
     return wide(view_.nodeCount, stats_.nodes, capacityOf<Node>(plants.nodes)) ||
            wide(view_.leafCount, stats_.leaves, capacityOf<Leaf>(plants.leaves));
+}
+
+// Chunks and branches leave gaps more slowly, which only a full growth closes, the longest wait of a stroke: when there
+// are three for each that stands, and more of both than there is room for to begin with.
+bool GpuGrowth::gappyLinks() const {
+    const auto wide = [](uint32_t taken, uint32_t live, uint32_t least) { return taken > least && taken / 4 > live; };
+    return wide(view_.chunkCount, stats_.chunks, least_.chunks) ||
+           wide(view_.branchCount, stats_.branches, least_.branches);
 }
 
 Status GpuGrowth::compact(const GrowthInputs& inputs) {

@@ -178,6 +178,7 @@ class GpuGrowth final : public Growth {
 
     // Gaps that edits have left: compaction.cpp.
     bool gappy(const GrowthInputs& inputs) const;
+    bool gappyLinks() const;
     Status makePlantRoom(Plants& plants);
     Status compact(const GrowthInputs& inputs);
     Status closeGaps();

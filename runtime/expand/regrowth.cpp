@@ -38,8 +38,8 @@ GpuGrowth::AgainBytes GpuGrowth::againBytes(const Links& from) const {
     };
     const uint64_t chunks = roomOf(view_.chunkCount, room_.chunks, capacityOf<Chunk>(from.chunks));
     const uint64_t branches = roomOf(view_.branchCount, room_.branches, capacityOf<BranchRecord>(from.branches));
-    return {chunks * sizeof(Chunk), branches * sizeof(BranchRecord), chunks * sizeof(AgainMark), chunks * kLists * 4,
-            chunks / 4 * kChunkNodes * (1 + kResultWords) * 4};
+    return {chunks * sizeof(Chunk), branches * sizeof(BranchRecord), std::max(chunks, branches) * sizeof(AgainMark),
+            chunks * kLists * 4, chunks / 4 * kChunkNodes * (1 + kResultWords) * 4};
 }
 
 Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) {
@@ -96,7 +96,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     s.chunkCapacity =
         std::min({capacityOf<Chunk>(to.chunks), capacityOf<AgainMark>(marks_), uint32_t(lists_.size() / 4 / kLists)});
     s.nodeCapacity = std::min(capacityOf<Node>(plants.nodes), uint32_t(firstLeaves_.size() / 4));
-    s.branchCapacity = capacityOf<BranchRecord>(to.branches);
+    s.branchCapacity = std::min(capacityOf<BranchRecord>(to.branches), capacityOf<AgainMark>(marks_));
     s.leafCapacity = std::min({capacityOf<Leaf>(plants.leaves), uint32_t(nextLeaves_.size() / 4), s.mostLeaves});
     s.again = again_.address();
 
@@ -307,6 +307,7 @@ Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const S
         stats_.derived = 0;
         return Regrown::done;
     }
+    if (gappyLinks()) return Regrown::tooMuch;
     room_.items = std::max(room_.items, uint32_t(seeds.planted.size()));
     const std::vector<uint32_t> edits = editWords(inputs, seeds);
     if (Status made = makeAgainRoom(inputs, edits.size()); !made) return made.failure();

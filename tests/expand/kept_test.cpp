@@ -58,6 +58,41 @@ TEST_CASE("a pruned branch is gone with what follows from it, stays so, and come
     CHECK(!s.scene.growOnCpu());
 }
 
+// A chunk that begins a branch keeps its place as it loses its nodes and gets some again; the branch gets another each
+// time.
+TEST_CASE("branches that go and come back, over and over, leave no more than three gaps for each that stands") {
+    for (const bool native : {false, true}) {
+        CAPTURE(native);
+        constexpr GrowthRoom kLittle{64, 256, 64, 256, 64};
+        Session s(ball(), kLittle);
+        s.scene.native = native;
+        s.scene.plantMany(60, 0, 1);
+        s.check();
+        const GrowthStats before = s.growth->stats();
+        Result<GrowthRecords> records = s.growth->read();
+        REQUIRE(records);
+        std::vector<uint64_t> twigs;
+        for (const BranchRecord& b : records->branches) {
+            const Chunk& c = records->chunks[b.firstChunk];
+            if ((c.depth & 0xFFFF) > 0 && c.firstChild == kNoIndex) twigs.push_back(c.key);
+        }
+        std::ranges::sort(twigs);
+        twigs.resize(std::min(twigs.size(), records->chunks.size() / 5));  // more would be too much for a regrowth
+        REQUIRE(twigs.size() > 40);
+        for (int i = 0; i < 80; ++i) {
+            s.scene.pruned = i % 2 == 0 ? twigs : std::vector<uint64_t>();
+            s.grow();
+            const GrowthView view = s.growth->view();
+            const GrowthStats now = s.growth->stats();
+            CHECK(view.branchCount <= std::max(kLittle.branches, 4 * now.branches + 4) + twigs.size());
+            CHECK(view.chunkCount <= std::max(kLittle.chunks, 4 * now.chunks + 4) + twigs.size());
+        }
+        CHECK(s.growth->stats().regrowths > 20);
+        s.check();
+        CHECK(s.growth->stats().hash == before.hash);
+    }
+}
+
 TEST_CASE("a frozen plant stands as it was through every edit, and grows from what is there when it thaws") {
     Session s(ball());
     s.scene.plantMany(12, 0, 1);
