@@ -84,6 +84,60 @@ TEST_CASE("every place whose read takes in a changed texel is marked, and few ot
     }
 }
 
+namespace {
+
+// Long steps on a coarse ball: edges of triangles lie between their ends. Leaves alone read the layer.
+constexpr const char* kLongSteps = R"(
+context mask = 1
+Stem(n) -> Marching(rand(0.1, 0.22), rand(-0.5, 0.5), n < 3) {Fork(n + 1), Cover}
+Fork(n) -> Branch(2) {Twig(0), Stem(n)}
+Twig(n) -> Marching(rand(0.1, 0.22), rand(-0.6, 0.6), n < 3) {Twig(n + 1), Cover}
+Cover -> Bark Leaf
+Bark -> S(0.005) Shape("bark", C1)
+Leaf -> S(0.01 + 0.1 * mask(texCoord)) Shape("leaf")
+)";
+
+// Whether the tile of a place is among those that the chunk has read.
+bool hasRead(const Chunk& chunk, glm::vec2 uv) {
+    const uint32_t level = (chunk.reads[0] >> 8) & 15;
+    if (level > kMaxReadLevel) return true;
+    const glm::uvec2 tile = glm::min(glm::uvec2(uv * float(kLayerTiles)), kLayerTiles - 1) >> level;
+    bool found = false;
+    for (uint32_t i = 1; i <= kReadTiles; ++i)
+        found = found || ((chunk.reads[i >> 1] >> (16 * (i & 1))) & 0xFFFF) == (tile.y << 8 | tile.x);
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("what a leaf reads between the ends of a step is known of, and regrown when it is painted") {
+    Session s(ball());
+    s.write(0, kLongSteps);
+    s.changes.everything = true;
+    s.scene.plantMany(200, 0, 1);
+    s.check();
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    uint32_t inserted = 0, unread = 0;
+    for (const Node& node : records->nodes) {
+        if ((node.flags & kNodeInserted) == 0) continue;
+        const glm::vec2 uv = unpackUv(node.uv);
+        const bool known = hasRead(records->chunks[node.chunk], uv);
+        unread += known ? 0 : 1;
+        if (++inserted % 16 != 0 && (known || unread > 40)) continue;
+        constexpr uint32_t kSide = Session::kSize;
+        const glm::uvec2 texel(uv * float(kSide));  // the nearest of those that a bilinear read takes in
+        s.layers[0][texel.y * kSide + texel.x] = 0.25f;
+        s.upload(0);
+        s.changes.markTexels(0, 0, kSide, texel.x, texel.y, texel.x + 1, texel.y + 1);
+        s.grow();
+        CHECK(s.growth->stats().derived > 0);
+    }
+    CHECK(inserted > 100);
+    CHECK(unread == 0);
+    s.check();
+}
+
 TEST_CASE("where a condition fails for what isn't asked of the place, no other direction is tried") {
     const char* text = R"(
 context mask = 1
