@@ -26,7 +26,7 @@ ESP_API EspResult espRemoveAllSeeds(EspContext* context);
 typedef struct EspSeedInfo {
     EspSeedDef def;           /* as it was planted or last moved: planted by it again, the plant is the same to the bit, or,
                                  if its surface was moved since, by rounding slightly another. symbol: "" or valid as long
-                                 as the seed */
+                                 as the seed: for later it is copied */
     EspSurface surface;
     float position[3];        /* on the surface, world */
     float normal[3], direction[3];   /* unit, world; the direction is laid into the surface */

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,7 +10,8 @@ namespace espalier {
 
 // Objects by plain 32-bit ids: bits 31..20 generation (from 1), 19..0 place + 1, so that 0 is no object. A place
 // is used again with the next generation; once its generations are used up it stays empty, so no id ever comes
-// twice. T: movable. References stay good until the next insert.
+// twice. T: movable. A value stays where it is until it is erased, so that
+// strings of its own may be handed out.
 template <class T>
 class IdTable {
   public:
@@ -47,7 +49,7 @@ class IdTable {
         --count_;
         if (slot->generation < kLastGeneration) {
             ++slot->generation;
-            free_.push_back(uint32_t(slot - slots_.data()));
+            free_.push_back(placeOf(id));
         }
         return true;
     }
@@ -72,14 +74,15 @@ class IdTable {
         uint32_t generation = 1;
     };
 
+    static uint32_t placeOf(uint32_t id) { return (id & ((1u << kPlaceBits) - 1)) - 1; }
     Slot* slotOf(uint32_t id) {
-        const uint32_t place = (id & ((1u << kPlaceBits) - 1)) - 1;
+        const uint32_t place = placeOf(id);
         if (id == 0 || place >= slots_.size()) return nullptr;
         Slot& slot = slots_[place];
         return slot.value && slot.generation == id >> kPlaceBits ? &slot : nullptr;
     }
 
-    std::vector<Slot> slots_;
+    std::deque<Slot> slots_;
     std::vector<uint32_t> free_;
     uint32_t count_ = 0;
 };

@@ -66,13 +66,16 @@ TEST_CASE("seeds are listed, moved and given other numbers, and planted again fr
     EspSeed none{};
     CHECK(espSeedAt(painting.context, 2, &none) == ESP_INVALID_ARGUMENT);
 
-    const EspSeedInfo info = infoOf(painting, first), other = infoOf(painting, second);
+    EspSeedInfo info = infoOf(painting, first), other = infoOf(painting, second);
     CHECK(info.def.number == 1);
     CHECK(info.def.twin == 1);
     CHECK(other.def.twin == 2);
     CHECK(info.normal[0] == doctest::Approx(1));
     CHECK(info.position[1] == doctest::Approx(-.8));
     CHECK(info.direction[1] == doctest::Approx(1));
+    const std::string symbols[] = {info.def.symbol, other.def.symbol};  // they go with their seeds
+    info.def.symbol = symbols[0].c_str();
+    other.def.symbol = symbols[1].c_str();
     // Away and planted again: the same plant, whichever of the two comes back first.
     painting.ok(espRemoveSeed(painting.context, first));
     painting.ok(espRemoveSeed(painting.context, second));
@@ -100,6 +103,24 @@ TEST_CASE("seeds are listed, moved and given other numbers, and planted again fr
     const float nowhere[3] = {NAN, 0, 0};
     CHECK(espMoveSeed(painting.context, back, nowhere, up) == ESP_INVALID_ARGUMENT);
     CHECK(espMoveSeed(painting.context, EspSeed{999}, home, up) == ESP_INVALID_ARGUMENT);
+}
+
+TEST_CASE("what a seed and a grammar tell as text stays where it is while others come") {
+    Painting painting;
+    const EspGrammar grammar = painting.grammar(kMaskedIvy);
+    EspSeedDef def = espDefaultSeedDef();
+    def.grammar = grammar;
+    def.symbol = "Ivy";
+    EspSeed first{};
+    painting.ok(espPlant(painting.context, &def, &first));
+    const char *symbol = infoOf(painting, first).def.symbol, *warnings = espGrammarWarnings(painting.context, grammar);
+    for (int i = 0; i < 40; ++i) {
+        painting.plant(grammar, kFoot, kUp);
+        painting.grammar(kMaskedIvy);
+    }
+    CHECK(infoOf(painting, first).def.symbol == symbol);
+    CHECK(std::string(symbol) == "Ivy");
+    CHECK(espGrammarWarnings(painting.context, grammar) == warnings);
 }
 
 TEST_CASE("a seed's own settings are those of a grammar with these settings, and outlive a recompilation") {

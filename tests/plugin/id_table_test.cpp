@@ -28,6 +28,19 @@ TEST_CASE("an id finds its object until it is erased, and nothing after") {
     CHECK(table.size() == 2);
 }
 
+TEST_CASE("an object stays where it is until it is erased, however many come and go") {
+    IdTable<std::string> table;
+    const uint32_t id = table.insert("short");
+    const char* text = table.find(id)->c_str();
+    for (int round = 0; round < 100; ++round) {
+        const uint32_t gone = table.insert("gone");
+        table.insert("stays");
+        REQUIRE(table.erase(gone));
+    }
+    CHECK(table.find(id)->c_str() == text);
+    CHECK(std::string(text) == "short");
+}
+
 TEST_CASE("no id ever comes twice, even when a place has used up its generations") {
     IdTable<int> table;
     std::set<uint32_t> seen;
