@@ -94,7 +94,8 @@ ESP_API EspResult espStrokeDabs(EspContext* context, EspStroke stroke, const Esp
 /* Waits for the GPU and keeps only the blocks that changed, or all that it has come to where memory is short. */
 ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);
 /* Exchanges the layer's blocks with those kept, bit for bit: undoes an ended stroke, the next time redoes it. On
- * failure nothing is exchanged. Surfaces and layers that are gone are passed over. */
+ * failure nothing is exchanged. Surfaces and layers that are gone are passed over, also where espSetLayer has put another in
+ * a layer's place. */
 ESP_API EspResult espSwapStroke(EspContext* context, EspStroke stroke);
 /* Forgets the record; what is painted stays. An open stroke is ended by it. */
 ESP_API EspResult espDestroyStroke(EspContext* context, EspStroke stroke);

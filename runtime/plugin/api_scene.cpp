@@ -30,7 +30,7 @@ EspResult setLayer(EspContext& context, const EspLayerDef& def) {
     };
     if (def.texels) {
         const PlacedSurface& surface = *context.surfaces.find(def.surface.id);
-        PaintedLayer layer{def.name, def.surface.id, surface.data.levels.front().size, {}, 0, 0};
+        PaintedLayer layer{def.name, def.surface.id, surface.data.levels.front().size, {}, ++context.layersMade, 0};
         Result<Buffer> texels = makeBuffer(*context.device, "layer", laidOut(surface.data, def));
         if (!texels) return failGpu(&context, texels.failure());
         layer.texels = std::move(*texels);

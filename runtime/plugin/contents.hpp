@@ -64,9 +64,8 @@ struct PaintedLayer {
     uint32_t surface = 0;  // id
     uint32_t size = 0;     // texels a side
     Buffer texels;
-    // Of one that a stroke has made: unlike any other layer's, and how many strokes have changed it that aren't undone.
-    uint64_t number = 0;
-    int strokes = 0;
+    uint64_t number = 0;  // unlike any other layer's of the context, those before it included
+    int strokes = 0;      // that have changed it since it came and aren't undone
 };
 
 struct LoadedGrammar {
@@ -142,7 +141,8 @@ struct PaintStroke {
     struct Part {
         uint32_t surface = 0;  // id
         BlockRecord record;
-        uint64_t made = 0;  // number of the layer that came into being by it, filled with `fill`; it goes when undone
+        uint64_t layer = 0;  // number of the layer that the record is of
+        bool made = false;   // that came into being by it, filled with `fill`; it goes when undone
         float fill = 0;
         bool counts = false;  // among PaintedLayer::strokes
         bool undone = false;

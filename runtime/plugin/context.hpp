@@ -44,7 +44,7 @@ struct EspContext {
     espalier::IdTable<espalier::LoadedGrammar> grammars;
     espalier::IdTable<espalier::PlantedSeed> seeds;
     std::vector<espalier::PaintedLayer> layers;
-    uint64_t layersMade = 0;  // by strokes, ever
+    uint64_t layersMade = 0;  // ever
     espalier::IdTable<espalier::PaintStroke> strokes;
     std::map<std::string, std::optional<float>> filled;  // what layers were filled with as a whole: erasing leads there
     std::unique_ptr<espalier::Painter> painter;          // made with the first stroke

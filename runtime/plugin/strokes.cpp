@@ -52,11 +52,17 @@ PaintStroke::Part& partOf(PaintStroke& stroke, uint32_t surface) {
     return part;
 }
 
+// The layer that a part has painted; null if it is gone, though there may be another of its name.
+PaintedLayer* layerOf(EspContext& context, const PaintStroke& stroke, const PaintStroke::Part& part) {
+    PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer);
+    return layer && layer->number == part.layer ? layer : nullptr;
+}
+
 // The parts of an ended stroke whose layers there are.
 std::vector<PaintJob> jobsOf(EspContext& context, PaintStroke& stroke) {
     std::vector<PaintJob> jobs;
     for (PaintStroke::Part& part : stroke.parts)
-        if (paintedLayer(context, part.surface, stroke.layer) && !part.record.blocks().empty())
+        if (layerOf(context, stroke, part) && !part.record.blocks().empty())
             jobs.push_back({canvasOf(context, part.surface, stroke.layer), &part.record, {}});
     return jobs;
 }
@@ -64,23 +70,23 @@ std::vector<PaintJob> jobsOf(EspContext& context, PaintStroke& stroke) {
 // Layers that the stroke has made go while it is undone, unless something else has been painted on them.
 void dropMade(EspContext& context, const PaintStroke& stroke) noexcept {
     for (const PaintStroke::Part& part : stroke.parts) {
-        const auto made = [&](const PaintedLayer& layer) { return layer.number == part.made && layer.strokes == 0; };
-        if (part.undone && part.made != 0 && std::erase_if(context.layers, made) > 0) context.tablesStale = true;
+        const auto made = [&](const PaintedLayer& layer) { return layer.number == part.layer && layer.strokes == 0; };
+        if (part.undone && part.made && std::erase_if(context.layers, made) > 0) context.tablesStale = true;
     }
 }
 
 // Before the stroke is done again.
 EspResult makeAgain(EspContext& context, const PaintStroke& stroke) {
     for (const PaintStroke::Part& part : stroke.parts)
-        if (part.undone && part.made != 0 && context.surfaces.find(part.surface) &&
+        if (part.undone && part.made && context.surfaces.find(part.surface) &&
             !paintedLayer(context, part.surface, stroke.layer))
-            if (EspResult bad = makeLayer(context, part.surface, stroke.layer, part.fill, part.made)) return bad;
+            if (EspResult bad = makeLayer(context, part.surface, stroke.layer, part.fill, part.layer)) return bad;
     return ESP_OK;
 }
 
 // Whether what the stroke has painted on a layer is there: from its first dab on, while it is open too.
 void count(EspContext& context, const PaintStroke& stroke, PaintStroke::Part& part, bool counts) noexcept {
-    PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer);
+    PaintedLayer* layer = layerOf(context, stroke, part);
     if (layer && part.counts != counts) layer->strokes += counts ? 1 : -1;
     part.counts = counts;
 }
@@ -88,7 +94,7 @@ void count(EspContext& context, const PaintStroke& stroke, PaintStroke::Part& pa
 // Notes that the stroke has been undone, or done again.
 void turn(EspContext& context, PaintStroke& stroke) noexcept {
     for (PaintStroke::Part& part : stroke.parts)
-        if (paintedLayer(context, part.surface, stroke.layer)) {
+        if (layerOf(context, stroke, part)) {
             part.undone = !part.undone;
             count(context, stroke, part, !part.undone);
         }
@@ -118,9 +124,13 @@ EspResult jobsFor(EspContext& context, PaintStroke& stroke, float fill, TouchedB
     context.device->hostSubmitted();  // as espUpdate does
     for (const auto& [surface, blocks] : touched) {
         PaintStroke::Part& part = partOf(stroke, surface);
-        if (!paintedLayer(context, surface, stroke.layer)) {
+        if (!layerOf(context, stroke, part)) part = {.surface = surface};  // nothing yet, or on a layer that is gone
+        if (const PaintedLayer* there = paintedLayer(context, surface, stroke.layer)) {
+            part.layer = there->number;
+        } else {
             if (EspResult bad = makeLayer(context, surface, stroke.layer, fill, context.layersMade + 1)) return bad;
-            part.made = ++context.layersMade;
+            part.layer = ++context.layersMade;
+            part.made = true;
             part.fill = fill;
         }
         count(context, stroke, part, true);
@@ -135,14 +145,14 @@ EspResult endStroke(EspContext& context, PaintStroke& stroke, const PartChanged&
     stroke.open = false;
     closeTown(context, stroke);
     for (PaintStroke::Part& part : stroke.parts) {
-        if (!paintedLayer(context, part.surface, stroke.layer)) continue;
+        if (!layerOf(context, stroke, part)) continue;
         Result<std::vector<uint64_t>> texels =
             context.painter->close(canvasOf(context, part.surface, stroke.layer), part.record);
         if (!texels && context.device->lost()) return failGpu(&context, texels.failure());
         if (changed) changed(part, texels ? *texels : std::vector<uint64_t>());
     }
     std::erase_if(stroke.parts, [&](PaintStroke::Part& part) {
-        const bool idle = part.record.blocks().empty() && part.made == 0;
+        const bool idle = (part.record.blocks().empty() && !part.made) || !layerOf(context, stroke, part);
         if (idle) count(context, stroke, part, false);
         return idle;
     });
@@ -155,9 +165,8 @@ EspResult swapStroke(EspContext& context, PaintStroke& stroke) {
     Undo made([&] { dropMade(context, stroke); });
     if (EspResult bad = makeAgain(context, stroke)) return bad;
     for (PaintStroke::Part& part : stroke.parts) {
-        const PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer);
-        if (!layer) continue;
-        if (part.made != 0 && layer->number == part.made) tellFill(context, part.surface, stroke.layer, part.fill);
+        if (!layerOf(context, stroke, part)) continue;
+        if (part.made) tellFill(context, part.surface, stroke.layer, part.fill);
         Result<std::vector<uint64_t>> texels =
             context.painter->differences(canvasOf(context, part.surface, stroke.layer), part.record);
         if (!texels) return failGpu(&context, texels.failure());

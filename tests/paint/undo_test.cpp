@@ -120,6 +120,46 @@ TEST_CASE("a stroke keeps what it changed and no more") {
     CHECK(espSwapStroke(painting.context, dab) == ESP_INVALID_ARGUMENT);
 }
 
+TEST_CASE("a stroke that goes on where another layer has come in its layer's place undoes what it did to that") {
+    Painting painting;
+    const auto set = [&](float value) {  // below 0: takes the layer away
+        EspLayerDef def = espDefaultLayerDef();
+        def.surface = painting.surface;
+        def.name = "mask";
+        def.texels = value < 0 ? nullptr : &value;
+        def.width = def.height = 1;
+        painting.ok(espSetLayer(painting.context, &def));
+    };
+    const EspDab dab = dabAt({1, 0, 0});
+    set(.5f);
+    const EspStroke stroke = painting.begin(brushOn("mask", .4f));
+    painting.ok(espStrokeDabs(painting.context, stroke, &dab, 1));
+    float there = -1;
+    bool goesOn = true;
+    SUBCASE("none: it makes one") {}
+    SUBCASE("one that was set") {
+        there = .25f;
+    }
+    SUBCASE("one that was set, and the stroke has ended") {
+        there = .25f;
+        goesOn = false;
+    }
+    set(there);
+    const std::vector<float> before = painting.layer("mask");
+    if (goesOn) painting.ok(espStrokeDabs(painting.context, stroke, &dab, 1));
+    painting.ok(espEndStroke(painting.context, stroke));
+    const std::vector<float> after = painting.layer("mask");
+    CHECK(sameBits(before, after) == !goesOn);
+    for (int i = 0; i < 2; ++i) {
+        painting.ok(espSwapStroke(painting.context, stroke));
+        CHECK(espPaintedLayerCount(painting.context) == (there < 0 ? 0 : 1));
+        CHECK(sameBits(painting.layer("mask"), before));
+        painting.ok(espSwapStroke(painting.context, stroke));
+        CHECK(espPaintedLayerCount(painting.context) == 1);
+        CHECK(sameBits(painting.layer("mask"), after));
+    }
+}
+
 TEST_CASE("layers that a stroke made go when it is undone, and come back as they were") {
     Painting painting;
     // Two grammars that want another value each where nothing is painted.
