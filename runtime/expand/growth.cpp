@@ -255,10 +255,8 @@ Status GpuGrowth::growWhole(const GrowthInputs& inputs) {
     const FrozenSum frozen = sumOf(inputs.frozen, uint32_t(inputs.seeds.size()));
     if (frozen.records.leaves.size() > inputs.limits.maxLeaves)
         return limitFailure(Verdict::tooManyLeaves, inputs.limits);
-    GrowthLimits limits = inputs.limits;  // for the rest
-    const bool fits = frozen.records.nodes.size() < limits.maxNodes || inputs.seeds.empty();
-    limits.maxNodes -= std::min(limits.maxNodes - 1, uint32_t(frozen.records.nodes.size()));
-    limits.maxLeaves -= std::min(limits.maxLeaves, uint32_t(frozen.records.leaves.size()));
+    const bool fits = frozen.records.nodes.size() < inputs.limits.maxNodes || inputs.seeds.empty();
+    const GrowthLimits limits = limitsBeside(inputs.frozen, inputs.limits);
     GrowthCut cut = noCut(inputs.limits);
     Verdict verdict = Verdict::impossible;
     uint32_t overflow = 0, enlarged = 0;

@@ -55,6 +55,14 @@ uint32_t chunkLimit(const GrowthLimits& limits) {
     return std::max(limits.maxNodes / 2, 4096u);
 }
 
+GrowthLimits limitsBeside(std::span<const FrozenPlant> frozen, GrowthLimits limits) {
+    for (const FrozenPlant& plant : frozen) {
+        limits.maxNodes -= std::min(limits.maxNodes - 1, uint32_t(plant.records->nodes.size()));
+        limits.maxLeaves -= std::min(limits.maxLeaves, uint32_t(plant.records->leaves.size()));
+    }
+    return limits;
+}
+
 Status checkInputs(const GrowthInputs& inputs) {
     if (inputs.limits.maxDepth < 1 || inputs.limits.maxDepth > 65534)
         return Failure("growth", "maxDepth must be 1 to 65534, not " + std::to_string(inputs.limits.maxDepth));

@@ -121,7 +121,8 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     a.liveNodes = stats_.nodes;
     a.liveChunks = stats_.chunks;
     a.mostNodes = inputs.limits.maxNodes;
-    a.mostChunks = chunkLimit(inputs.limits);
+    a.mostChunks = chunkLimit(limitsBeside(inputs.frozen, inputs.limits));
+    for (const FrozenPlant& plant : inputs.frozen) a.mostChunks += uint32_t(plant.records->chunks.size());
     a.firstFrozen = uint32_t(inputs.seeds.size());
 
     std::vector<WorkItem> all = itemsOfSeeds(inputs.seeds), items;

@@ -179,6 +179,39 @@ TEST_CASE("a frozen plant stands as it was through every edit, and grows from wh
     CHECK(s.growth->stats().regrowths == 1);
 }
 
+TEST_CASE("chunks of frozen plants count neither against those that grow anew nor against those that edits grow") {
+    Session s(flatSquare());
+    s.write(0, R"(
+Stem(n) -> Marching(0.02, rand(-0.6, 0.6), n < 30) {Fork(n + 1), Bark}
+Fork(n) -> Branch(3) {Tip, None, Stem(n)}
+Tip -> Marching(0.01, 1, true) {NULL, Bark}
+None -> Marching(0.01, 1, false) {NULL, Bark}
+Bark -> S(0.001) Shape("bark", C1)
+)");
+    s.changes.everything = true;
+    s.scene.plantMany(160, 0, 1);
+    s.check();
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    std::vector<Seed>& seeds = s.scene.seeds();
+    for (uint32_t i = 60; i < 160; ++i)
+        s.scene.frozen.push_back({seeds[i].key, std::make_shared<PlantRecords>(plantOf(*records, i))});
+    seeds.resize(60);
+    s.scene.limits.maxNodes = s.growth->stats().nodes;
+    s.changes.everything = true;
+    s.grow();
+    const GrowthStats before = s.growth->stats();
+    REQUIRE(before.overflow == 0);
+    REQUIRE(before.chunks > std::max(s.scene.limits.maxNodes / 2, 4096u));
+    seeds[3].walk.direction = -seeds[3].walk.direction;
+    s.grow();
+    const GrowthStats edited = s.growth->stats();
+    CHECK(edited.regrowths == before.regrowths + 1);
+    s.changes.everything = true;
+    s.grow();
+    CHECK(s.growth->stats().hash == edited.hash);
+}
+
 TEST_CASE("frozen plants with more leaves than the limit are refused by name, and what stood before stands") {
     Session s(ball());
     s.scene.plantMany(2, 0, 1);
