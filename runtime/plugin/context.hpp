@@ -120,8 +120,8 @@ constexpr const char* kNoMemory = "out of memory";  // short enough to take none
 Status knowRoofMeshes(EspContext& context);
 // Grows what has changed of the town; on failure the last roofs stand, and what changed waits.
 EspResult updateTown(EspContext& context);
-// What strokes do to layers of the town; those that its grammar doesn't read are left alone. True: it has one of this
-// name.
+// What strokes do to layers of the town: those that it has or that its grammar reads. True: it has one of this name.
+// Its grammar may be none yet.
 bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs);
 bool fillTown(EspContext& context, PaintStroke& stroke, float value);
 void closeTown(EspContext& context, PaintStroke& stroke);

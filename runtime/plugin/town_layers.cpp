@@ -34,12 +34,12 @@ float fillOverTown(const EspContext& context, const std::string& name) {
     return index ? grammar->map.contexts()[*index].fill : declaredFill(context, name).value_or(0);
 }
 
-// The layer that strokes reach, made if it is one that the town's grammar reads; else null.
+// The layer that strokes reach, made if there is none and the town's grammar reads it; else null.
 PlanLayer* townLayer(EspContext& context, const std::string& name) {
-    const LoadedGrammar* grammar = grammarOf(context);
-    if (!grammar) return nullptr;
+    if (!context.town) return nullptr;
     if (PlanLayer* known = context.town->layers.find(name)) return known;
-    const auto index = grammar->map.findContext(name);
+    const LoadedGrammar* grammar = grammarOf(context);
+    const auto index = grammar ? grammar->map.findContext(name) : std::nullopt;
     if (!index || *index >= kRoofLayers) return nullptr;
     return &context.town->layers.make(name, fillOverTown(context, name));
 }

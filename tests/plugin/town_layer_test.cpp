@@ -1,6 +1,7 @@
 // What is painted over a town and what is painted on surfaces.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -100,6 +101,25 @@ struct Bare {
 };
 
 }  // namespace
+
+TEST_CASE("a layer that was set over a town without a grammar is filled and painted") {
+    FailingDevice device;
+    Life life;
+    REQUIRE((life.create(device) && life.load()));
+    EspContext* context = life.context;
+    load(context, {}, "{\"buildings\": [{\"id\": \"h\", \"outer\": [[0,0],[10,0],[10,8],[0,8]]}]}");
+    const float half = .5f;
+    REQUIRE(espSetTownLayer(context, "x", &half, 1, 1, nullptr) == ESP_OK);
+    EspStroke filled{};
+    REQUIRE(espFillLayer(context, "x", 1, &filled) == ESP_OK);
+    CHECK(std::ranges::all_of(layerOf(context, "x"), [](float v) { return v == 1; }));
+    CHECK(espPaintedLayerCount(context) == 0);
+    EspBrush brush = brushOn("x", 3);
+    brush.value = 0;
+    stroke(context, brush, {{5, 0, -4}, {0, 1, 0}, 1});
+    CHECK(std::ranges::any_of(layerOf(context, "x"), [](float v) { return v < 1; }));
+    REQUIRE(espUpdate(context) == ESP_OK);
+}
 
 TEST_CASE("a stroke that goes on over another town takes back what it did to that one") {
     const Bare host;
