@@ -92,9 +92,10 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
         look.layer = shownLayers(name, [&](const std::string& layer, std::span<const uint32_t> kept) {
             return layerToShow(context, layer, kept);
         });
-        const bool overTown =
-            context.town && (context.town->layers.find(name) || context.town->layers.find(name + kChannels[0]));
-        if (look.layer == kNoIndex && !overTown)
+        const auto overTown = [&](const std::string& layer) {
+            return declaredFill(context, layer) || (context.town && context.town->layers.find(layer));
+        };
+        if (look.layer == kNoIndex && !overTown(name) && !overTown(name + kChannels[0]))
             return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
     }
     return ESP_OK;

@@ -1,9 +1,11 @@
 // Compiling grammars and setting their parameters; the layers that they read get their numbers here.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
 
 #include "runtime/core/file.hpp"
+#include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
 
 namespace espalier {
@@ -27,9 +29,29 @@ Result<RuleMap> compile(const EspContext& context, const EspGrammarDef& def) {
     return compileGrammar({def.text, def.length}, options, context.cacheFolder);
 }
 
-// Everything of a grammar but its seeds, ready to take the place of what stood there. `old`: null, or whose
+// Gives the layers that a grammar of plants reads their numbers; those of roofs lie over the town. old: id of the
+// grammar in whose place it comes, whose layers it may take; 0.
+Status bindLayers(EspContext& context, LoadedGrammar& grammar, uint32_t old) {
+    if (grammar.map.roofs()) return Done{};
+    std::vector<uint32_t> kept;
+    for (const ContextInfo& layer : grammar.map.contexts())
+        if (const auto known = std::ranges::find(context.sceneLayers, SceneLayer{layer.name, layer.fill});
+            known != context.sceneLayers.end())
+            kept.push_back(uint32_t(known - context.sceneLayers.begin()));
+    for (const ContextInfo& layer : grammar.map.contexts()) {
+        const std::optional<uint32_t> number = sceneLayer(context, layer.name, layer.fill, kept, old);
+        if (!number)
+            return Failure(grammar.name, "layer '" + layer.name + "': the grammars of this scene read more than " +
+                                             std::to_string(kMaxLayers) + " layers");
+        grammar.layerOf.push_back(*number);
+        kept.push_back(*number);
+    }
+    return Done{};
+}
+
+// Everything of a grammar but its seeds, ready to take the place of what stood there. oldId: 0, or the grammar whose
 // parameters are taken over by name.
-Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, const LoadedGrammar* old) {
+Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, uint32_t oldId) {
     const auto begin = std::chrono::steady_clock::now();
     // Without their file, grammars of roofs know no meshes; ivy doesn't mind.
     (void)knowRoofMeshes(context);
@@ -41,18 +63,12 @@ Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, con
     grammar.revision = ++context.grammarRevisions;
     grammar.warnings = toString(grammar.map.warnings());
     for (const Diagnostic& warning : grammar.map.warnings()) context.log(Severity::warning, toString(warning));
-    if (old)
+    if (const LoadedGrammar* old = context.grammars.find(oldId))
         for (const ParamInfo& param : old->map.params())
             if (auto index = grammar.map.findParam(param.name))
                 if (grammar.map.params()[*index].kind == param.kind)
                     grammar.map.setParam(*index, std::span(param.value, numbersOf(param)));
-    for (const ContextInfo& layer : grammar.map.contexts()) {
-        const std::optional<uint32_t> number = sceneLayer(context, layer.name, layer.fill, grammar.layerOf);
-        if (!number)
-            return Failure(grammar.name, "layer '" + layer.name + "': the grammars of this scene read more than " +
-                                             std::to_string(kMaxLayers) + " layers");
-        grammar.layerOf.push_back(*number);
-    }
+    if (Status bound = bindLayers(context, grammar, oldId); !bound) return bound.failure();
     grammar.compileMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return grammar;
 }
@@ -132,7 +148,7 @@ EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGr
         if (EspResult bad = checkDef(context, def)) return bad;
         if (context->grammars.size() >= kMaxGrammars)
             return fail(context, ESP_INVALID_ARGUMENT, "espCompileGrammar: there are 1024 grammars already");
-        Result<LoadedGrammar> grammar = prepare(*context, *def, nullptr);
+        Result<LoadedGrammar> grammar = prepare(*context, *def, 0);
         if (!grammar) return failContent(context, grammar.failure());
         context->compileMs = grammar->compileMs;
         const uint32_t id = context->grammars.insert(std::move(*grammar));
@@ -147,7 +163,9 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
         LoadedGrammar* old = find(context, id);
         if (!old) return fail(context, ESP_INVALID_ARGUMENT, "espRecompileGrammar: no such grammar");
         if (EspResult bad = checkDef(context, def)) return bad;
-        Result<LoadedGrammar> grammar = prepare(*context, *def, old);
+        std::vector<SceneLayer> before = context->sceneLayers;
+        Undo binding([&] { context->sceneLayers.swap(before); });
+        Result<LoadedGrammar> grammar = prepare(*context, *def, id.id);
         if (!grammar) return failContent(context, grammar.failure());
         const std::string lost = lostSymbol(*context, id.id, grammar->map);
         if (!lost.empty())
@@ -159,8 +177,12 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
                         grammar->name +
                             (grammar->map.roofs() ? ": would make roofs, yet " : ": would make plants, yet ") + use);
         context->compileMs = grammar->compileMs;
-        if (takeText(*old, *grammar)) return ESP_OK;
+        if (takeText(*old, *grammar)) {
+            binding.done();
+            return ESP_OK;
+        }
         noteRules(*context, context->grammarIndex(id.id), {old->map, old->layerOf}, {grammar->map, grammar->layerOf});
+        binding.done();
         *old = std::move(*grammar);
         old->edition = ++context->revision;
         return ESP_OK;

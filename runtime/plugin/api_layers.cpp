@@ -7,14 +7,17 @@
 namespace espalier {
 namespace {
 
-bool isRead(const EspContext& context, uint32_t number) {
+// without: id of a grammar that is of no account.
+bool isRead(const EspContext& context, uint32_t number, uint32_t without) {
     bool read = false;
     const auto look = [&](const std::vector<uint32_t>& layerOf) {
         read = read || std::ranges::find(layerOf, number) != layerOf.end();
     };
-    context.grammars.forEach([&](uint32_t, const LoadedGrammar& grammar) { look(grammar.layerOf); });
+    context.grammars.forEach([&](uint32_t id, const LoadedGrammar& grammar) {
+        if (id != without) look(grammar.layerOf);
+    });
     for (const GrammarVariant& variant : context.variants)
-        if (variant.used && context.grammars.find(variant.grammar)) look(variant.layerOf);
+        if (variant.used && variant.grammar != without && context.grammars.find(variant.grammar)) look(variant.layerOf);
     return read;
 }
 
@@ -50,7 +53,7 @@ void forEachPaintedName(const EspContext& context, Tell&& tell) {
 }  // namespace
 
 std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill,
-                                   std::span<const uint32_t> kept) {
+                                   std::span<const uint32_t> kept, uint32_t without) {
     const SceneLayer wanted{name, fill};
     std::vector<SceneLayer>& layers = context.sceneLayers;
     if (const auto found = std::ranges::find(layers, wanted); found != layers.end())
@@ -61,7 +64,8 @@ std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name,
         layers.push_back(wanted);
     } else {
         // One that grammars have read, or a view has shown, and that nobody reads any more.
-        while (number < kMaxLayers && (isRead(context, number) || std::ranges::find(kept, number) != kept.end()))
+        while (number < kMaxLayers &&
+               (isRead(context, number, without) || std::ranges::find(kept, number) != kept.end()))
             ++number;
         if (number == kMaxLayers) return std::nullopt;
         layers[number] = wanted;

@@ -246,10 +246,10 @@ BrushLimits limitsOf(const EspBrush& brush);
 // The numbers by which a kernel applies the brush; `fill` is the layer's.
 BrushRecord recordOf(const EspBrush& brush, float fill);
 
-// The number of the layer that a grammar's context reads; made if need be, from one that no grammar reads any more and
-// that isn't among `kept` where there are kMaxLayers already. Nothing: all of those are read.
+// The number of the layer that a grammar's context reads; made if need be, from one that no grammar but `without` reads
+// any more and that isn't among `kept` where there are kMaxLayers already. Nothing: all of those are read.
 std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill,
-                                   std::span<const uint32_t> kept = {});
+                                   std::span<const uint32_t> kept = {}, uint32_t without = 0);
 PaintedLayer* paintedLayer(EspContext& context, uint32_t surface, const std::string& name);
 // What the first grammar that declares the layer fills it with; nothing if none does.
 std::optional<float> declaredFill(const EspContext& context, const std::string& name);

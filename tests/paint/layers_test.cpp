@@ -47,6 +47,70 @@ TEST_CASE("a layer that no grammar reads any more makes room for another") {
     CHECK(std::string(espLastError(painting.context)).find("16 are the most") != std::string::npos);
 }
 
+namespace {
+
+// Reads the mask and 15 layers more.
+std::string atTheBound(const char* letter) {
+    std::string text;
+    for (int i = 0; i < 15; ++i) text += std::string("context ") + letter + std::to_string(i) + " = 1\n";
+    return text + kMaskedIvy;
+}
+
+}  // namespace
+
+TEST_CASE("a grammar that reads as many layers as there may be is compiled anew with others in their place") {
+    const Painting painting;
+    const EspGrammar grammar = painting.grammar(atTheBound("a").c_str());
+    EspSeedDef seed = espDefaultSeedDef();
+    seed.grammar = grammar;
+    seed.symbol = "Ivy";
+    seed.position[1] = -.9f;
+    seed.position[2] = 1;
+    EspSeed planted{};
+    painting.ok(espPlant(painting.context, &seed, &planted));
+    const float own = 1.5f;  // its copy of the rules counts no more than these
+    painting.ok(espSetSeedParam(painting.context, planted, "reach", &own, 1));
+    const uint64_t free = painting.grown().nodes;
+    REQUIRE(free > 20);
+    std::string text = atTheBound("b");
+    SUBCASE("which fails") {
+        text.replace(text.find("Ivy ->"), 6, "Oak ->");
+        text.replace(text.find("mask = 1"), 8, "cover = 1");
+        text.replace(text.find("mask(texCoord)"), 4, "cover");
+        const EspGrammarDef def{"lost", text.c_str(), text.size()};
+        CHECK(espRecompileGrammar(painting.context, grammar, &def) == ESP_INVALID_CONTENT);
+        CHECK(std::string(espLastError(painting.context)).find("'Ivy'") != std::string::npos);
+    }
+    SUBCASE("which succeeds") {
+        const EspGrammarDef def{"bound", text.c_str(), text.size()};
+        painting.ok(espRecompileGrammar(painting.context, grammar, &def));
+    }
+    CHECK(painting.grown().nodes == free);
+    EspStroke filled{};
+    painting.ok(espFillLayer(painting.context, "mask", 0, &filled));
+    CHECK(painting.grown().nodes < free / 4);
+}
+
+TEST_CASE("layers that roofs read count nothing among those of plants") {
+    const Painting painting;
+    std::string roofs;
+    for (int i = 0; i < 8; ++i) roofs += "context roof" + std::to_string(i) + " = 0\n";
+    painting.grammar((roofs + "House -> Extrude(wallHeight) {NULL, NULL}\n").c_str());
+    painting.plant(painting.grammar(atTheBound("a").c_str()), {0, -.9f, 1}, {0, 1, 0});
+    CHECK(painting.grown().nodes > 20);
+    EspDrawDef def = espDefaultDrawDef();
+    def.width = 32;
+    def.height = 18;
+    def.camera = espFrameAll(painting.context);
+    def.look.view = ESP_VIEW_LAYER;
+    for (const char* name : {"mask", "roof3"}) {
+        def.look.viewLayer = name;
+        painting.ok(espDraw(painting.context, &def));
+    }
+    def.look.viewLayer = "none";
+    CHECK(espDraw(painting.context, &def) == ESP_INVALID_ARGUMENT);
+}
+
 TEST_CASE("a layer that comes into being is read by grammars that wanted another value where there was none") {
     const Painting painting;
     painting.grammar(kMaskedIvy);  // what it wants is the layer's fill
