@@ -42,7 +42,8 @@ ESP_API EspResult espMoveSeed(EspContext* context, EspSeed seed, const float pos
 /* twin: as in EspSeedDef. */
 ESP_API EspResult espSetSeedNumber(EspContext* context, EspSeed seed, uint32_t number, uint32_t twin);
 /* A value for this seed alone in place of its grammar's; count 0: the grammar's again. Limited to the range. Kept by
- * name when the grammar is compiled anew. Seeds of the same settings share one copy of the grammar's rule map. */
+ * name when the grammar is compiled anew. Seeds of the same settings share one copy of the grammar's rule map; with more
+ * than 65,536 of these and grammars together espUpdate fails. */
 ESP_API EspResult espSetSeedParam(EspContext* context, EspSeed seed, const char* name, const float* value,
                                   uint32_t count);
 /* *count: 0 where the seed has no value of its own. */

@@ -13,6 +13,7 @@ namespace espalier {
 namespace {
 
 constexpr uint64_t kWholeWave = 1ull << 32;
+constexpr size_t kMostGrammars = 1u << 16;  // as an item's symbol holds them
 
 bool finite(const Seed& seed) {
     const Walk& w = seed.walk;
@@ -72,6 +73,10 @@ Status checkInputs(const GrowthInputs& inputs) {
     if (inputs.limits.maxLeaves > 1u << 31) return Failure("growth", "maxLeaves must be at most 2^31");
     if (!(inputs.limits.leafDensityCap >= 0) || !std::isfinite(inputs.limits.leafDensityCap))
         return Failure("growth", "the density cap must be a finite number of leaves, 0 or more");
+    if (inputs.grammars.size() > kMostGrammars)
+        return Failure("growth", "there are " + std::to_string(inputs.grammars.size()) +
+                                     " grammars, each counted once more for every set of values of seeds' own; " +
+                                     std::to_string(kMostGrammars) + " are the most");
     if (!inputs.widths.empty() && inputs.widths.size() != inputs.grammars.size())
         return Failure("growth", std::to_string(inputs.widths.size()) + " widths for " +
                                      std::to_string(inputs.grammars.size()) + " grammars");

@@ -2,6 +2,7 @@
 #include <limits>
 #include <string>
 
+#include "runtime/expand/growth_plan.hpp"
 #include "tests/expand/growing.hpp"
 
 using namespace espalier;
@@ -137,6 +138,17 @@ TEST_CASE("what one large growth took is given back, and what is smaller grows o
         CHECK(growth->stats().enlarged > 0);
         checkAlike(scene, *growth);
     }
+}
+
+TEST_CASE("more grammars than work items can name are refused") {
+    const std::vector<RuleMapRef> maps(65537);
+    GrowthInputs inputs;
+    inputs.grammars = std::span(maps).first(65536);
+    CHECK(checkInputs(inputs));
+    inputs.grammars = maps;
+    const Status refused = checkInputs(inputs);
+    REQUIRE(!refused);
+    CHECK(refused.failure().text().find("65537 grammars") != std::string::npos);
 }
 
 TEST_CASE("inputs that can't be grown are refused and the last growth stands") {
