@@ -10,11 +10,11 @@ layout(set = 0, binding = 0) uniform usamplerBuffer noteTexels;
 
 void main() {
     uint i = itemIndex();
+    uint block = i / kBlockItems;
+    if (block >= push.state.v[0].blocks[0] + push.state.v[0].blocks[1]) return;
     uvec4 note = texelFetch(noteTexels, int(i));
     uint bucket = note.w >> 24u;
-    uint block = i / kBlockItems;
-    bool there = block < push.state.v[0].blocks[0] + push.state.v[0].blocks[1];
-    if (there && bucket != kNoBucket) {
+    if (bucket != kNoBucket) {
         uint at = push.state.v[0].starts[bucket] + push.rows.v[block * kMaxBuckets + bucket] + (note.w & 0xFFFFFFu);
         push.drawn.v[at] = DrawnItem(note.x, note.y, uintBitsToFloat(note.z), 0u);
     }
