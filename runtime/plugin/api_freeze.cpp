@@ -56,8 +56,9 @@ EspResult freezeAs(EspContext& context, PlantedSeed& seed, std::span<const std::
     for (const Node& node : plant->nodes)
         if (!there[node.place >> 16])
             return fail(&context, ESP_INVALID_CONTENT, "espFreezeAs: a surface that the plant has grown on is missing");
-    seed.frozen = std::make_shared<PlantRecords>(std::move(*plant));
+    auto frozen = std::make_shared<PlantRecords>(std::move(*plant));
     context.changes.frozen.push_back(seedKey(seed));  // unlike a plant that is frozen as it stands
+    seed.frozen = std::move(frozen);
     ++context.revision;
     return ESP_OK;
 }

@@ -131,12 +131,14 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
     std::vector<PaintJob> jobs;
     const float fill = declaredFill(context, stroke.layer).value_or(0);
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
+    Undo untold([&] { context.touch(); });
     Status painted =
         stroke.smooths ? smooth(context, jobs, stroke, records) : context.painter->dabs(jobs, stroke.brush, records);
     for (const auto& [id, blocks] : touched) {  // smoothing that failed may have come to some of the surfaces
         const PlacedSurface& surface = *context.surfaces.find(id);
         layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, records, stroke.radius));
     }
+    untold.done();
     return painted ? ESP_OK : failGpu(&context, painted.failure());
 }
 
@@ -265,7 +267,7 @@ EspResult espFillLayer(EspContext* context, const char* layer, float value, EspS
 
 int espLayerFilled(const EspContext* context, const char* layer, float* value) {
     if (!context || !layer || !value) return 0;
-    const auto found = context->filled.find(layer);
+    const auto found = context->filled.find(std::string_view(layer));
     if (found == context->filled.end() || !found->second) return 0;
     *value = *found->second;
     return 1;

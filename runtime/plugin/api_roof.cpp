@@ -15,7 +15,9 @@ Status knowRoofMeshes(EspContext& context) {
     if (!context.roofMeshNames.empty()) return Done{};
     Result<TerminalData> meshes = readTerminals(context.roofMeshFile, {"none"});
     if (!meshes) return meshes.failure();
-    for (const std::string& kind : meshes->kinds) context.roofMeshNames.push_back({kind, false});
+    std::vector<TerminalMesh> names;
+    for (const std::string& kind : meshes->kinds) names.push_back({kind, false});
+    context.roofMeshNames = std::move(names);
     context.roofMeshes = std::move(*meshes);
     return Done{};
 }

@@ -1,6 +1,7 @@
 // Layers: pictures laid into the walk's UV.
 #include <algorithm>
 
+#include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/layer_resample.hpp"
 
@@ -28,19 +29,28 @@ EspResult setLayer(EspContext& context, const EspLayerDef& def) {
     const auto isIt = [&](const PaintedLayer& layer) {
         return layer.surface == def.surface.id && layer.name == def.name;
     };
+    // First of all, since there may be no memory for it.
+    const auto tell = [&] {
+        Undo untold([&] { context.touch(); });
+        wholeLayerChanged(context, def.surface.id, def.name);
+        untold.done();
+        context.tablesStale = true;
+    };
     if (def.texels) {
         const PlacedSurface& surface = *context.surfaces.find(def.surface.id);
-        PaintedLayer layer{def.name, def.surface.id, surface.data.levels.front().size, {}, ++context.layersMade, 0};
+        PaintedLayer layer{def.name, def.surface.id, surface.data.levels.front().size, {}, context.layersMade + 1, 0};
         Result<Buffer> texels = makeBuffer(*context.device, "layer", laidOut(surface.data, def));
         if (!texels) return failGpu(&context, texels.failure());
         layer.texels = std::move(*texels);
+        tell();
+        context.layers.reserve(context.layers.size() + 1);
         std::erase_if(context.layers, isIt);
         context.layers.push_back(std::move(layer));
-    } else if (std::erase_if(context.layers, isIt) == 0) {
-        return ESP_OK;
+        context.layersMade += 1;
+    } else if (std::ranges::any_of(context.layers, isIt)) {
+        tell();
+        std::erase_if(context.layers, isIt);
     }
-    context.tablesStale = true;
-    wholeLayerChanged(context, def.surface.id, def.name);
     return ESP_OK;
 }
 

@@ -87,6 +87,10 @@ EspResult plant(EspContext& context, const EspSeedDef& def, EspSeed* out) {
     return ESP_OK;
 }
 
+uint64_t keyOf(uint32_t number, uint32_t twin) {
+    return combineKeys(mix64(number), twin - 1);
+}
+
 PlantedSeed* find(const EspContext* context, EspSeed seed) {
     return const_cast<EspContext*>(context)->seeds.find(seed.id);
 }
@@ -98,10 +102,12 @@ EspResult setNumber(EspContext& context, PlantedSeed& seed, uint32_t number, uin
         return fail(&context, ESP_INVALID_ARGUMENT,
                     "espSetSeedNumber: twin " + std::to_string(twin) + " of number " + std::to_string(number) +
                         " is planted already");
+    Undo taking([&] { context.twins.release(number, taken); });
+    context.changes.frozen.push_back(keyOf(number, taken));  // what has grown under this number isn't its plant
+    taking.done();
     context.twins.release(seed.number, seed.twin);
     seed.number = number;
     seed.twin = taken;
-    context.changes.frozen.push_back(seedKey(seed));  // what has grown under this number isn't its plant
     ++context.revision;
     return ESP_OK;
 }
@@ -143,7 +149,7 @@ EspResult setParam(EspContext& context, PlantedSeed& seed, const char* name, con
 }  // namespace
 
 uint64_t seedKey(const PlantedSeed& seed) {
-    return combineKeys(mix64(seed.number), seed.twin - 1);
+    return keyOf(seed.number, seed.twin);
 }
 
 bool TwinTable::take(uint32_t number, uint32_t wanted, uint32_t& twin) {

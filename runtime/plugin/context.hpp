@@ -46,8 +46,8 @@ struct EspContext {
     std::vector<espalier::PaintedLayer> layers;
     uint64_t layersMade = 0;  // ever
     espalier::IdTable<espalier::PaintStroke> strokes;
-    std::map<std::string, std::optional<float>> filled;  // what layers were filled with as a whole: erasing leads there
-    std::unique_ptr<espalier::Painter> painter;          // made with the first stroke
+    std::map<std::string, std::optional<float>, std::less<>> filled;  // with what, as a whole: erasing leads there
+    std::unique_ptr<espalier::Painter> painter;                       // made with the first stroke
     std::vector<espalier::SceneLayer> sceneLayers;
     espalier::TwinTable twins;
     std::vector<espalier::GrammarVariant> variants;

@@ -31,7 +31,12 @@ EspResult makeLayer(EspContext& context, uint32_t surface, const std::string& na
     Result<uint64_t> submitted = commands->submit();
     if (!submitted) return failGpu(&context, submitted.failure());
     context.layers.push_back({name, surface, size, std::move(*texels), number, 0});
+    Undo untold([&] {
+        context.layers.pop_back();
+        context.touch();
+    });
     tellFill(context, surface, name, fill);
+    untold.done();
     return ESP_OK;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/shown_layers.hpp"
 
@@ -15,16 +16,11 @@ const LoadedGrammar* grammarOf(const EspContext& context) {
     return context.town ? context.grammars.find(context.town->grammar) : nullptr;
 }
 
-// Where what changes of a layer is noted.
+// Where what changes of a layer is noted. May find no memory for it.
 PlanRect& notesOf(LoadedTown& town, const std::string& name) {
     for (auto& [known, changed] : town.painted)
         if (known == name) return changed;
     return town.painted.emplace_back(name, PlanRect()).second;
-}
-
-void note(LoadedTown& town, const std::string& name, const PlanRect& rect) {
-    town.revision += 1;
-    notesOf(town, name).add(rect);
 }
 
 // What the town's roofs read where nothing of the layer is painted.
@@ -79,16 +75,26 @@ bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabReco
     float filled = 0;
     if (stroke.erases && !espLayerFilled(&context, stroke.layer.c_str(), &filled))
         brush.target = fillOverTown(context, stroke.layer);
+    Undo untold([&] {  // some of the dabs may be painted
+        town.stale = true;
+        town.revision += 1;
+    });
     const PlanRect rect = town.layers.dabs(*layer, brush, stroke.smooths, dabs, stroke.plan);
-    if (!rect.empty()) note(town, stroke.layer, rect);
+    if (!rect.empty()) {
+        notesOf(town, stroke.layer).add(rect);
+        town.revision += 1;
+    }
+    untold.done();
     return true;
 }
 
 bool fillTown(EspContext& context, PaintStroke& stroke, float value) {
     PlanLayer* layer = townLayer(context, stroke.layer);
     if (!layer) return false;
-    stroke.town = context.town->number;
-    note(*context.town, stroke.layer, context.town->layers.fill(*layer, value, stroke.plan));
+    LoadedTown& town = *context.town;
+    stroke.town = town.number;
+    notesOf(town, stroke.layer).add(town.layers.fill(*layer, value, stroke.plan));
+    town.revision += 1;
     return true;
 }
 
@@ -102,7 +108,7 @@ void swapTown(EspContext& context, PaintStroke& stroke) {
     const bool ours = context.town && context.town->number == stroke.town && !stroke.plan.blocks.empty();
     PlanLayer* layer = ours ? context.town->layers.find(stroke.layer) : nullptr;
     if (!layer) return;
-    PlanRect& changed = notesOf(*context.town, stroke.layer);  // takes what memory there has to be, so comes first
+    PlanRect& changed = notesOf(*context.town, stroke.layer);
     changed.add(context.town->layers.swap(*layer, stroke.plan));
     context.town->revision += 1;
 }
@@ -184,7 +190,9 @@ EspResult espSetTownLayer(EspContext* context, const char* name, const float* te
         stroke.open = false;
         PlanLayer& layer = town.layers.make(name, fillOverTown(*context, name));
         const std::vector<float> values = resampled(texels, width, height, town.layers.site().size);
-        note(town, name, town.layers.replace(layer, values, stroke.plan));
+        PlanRect& changed = notesOf(town, name);
+        changed.add(town.layers.replace(layer, values, stroke.plan));
+        town.revision += 1;
         town.layers.close(layer, stroke.plan);
         if (!out) return ESP_OK;
         out->id = context->strokes.insert(std::move(stroke));

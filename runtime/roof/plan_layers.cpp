@@ -83,12 +83,13 @@ void PlanLayers::keep(const PlanLayer& layer, PlanRecord& kept, const PlanRect& 
         for (uint32_t bx = rect.x0 / kBlock; bx * kBlock < rect.x1; ++bx) {
             const uint32_t block = by * side + bx;
             if (kept.holds[block]) continue;
-            kept.holds[block] = true;
+            // Where there is no memory for it the block isn't among those that are held.
+            kept.texels.resize((kept.blocks.size() + 1) * kBlock * kBlock);
             kept.blocks.push_back(block);
-            for (uint32_t y = by * kBlock; y < (by + 1) * kBlock; ++y) {
-                const float* row = &layer.texels[size_t(y) * site_.size + bx * kBlock];
-                kept.texels.insert(kept.texels.end(), row, row + kBlock);
-            }
+            kept.holds[block] = true;
+            float* to = &kept.texels[(kept.blocks.size() - 1) * kBlock * kBlock];
+            for (uint32_t y = by * kBlock; y < (by + 1) * kBlock; ++y, to += kBlock)
+                std::copy_n(&layer.texels[size_t(y) * site_.size + bx * kBlock], kBlock, to);
         }
 }
 

@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/plugin/life.hpp"
 
@@ -278,4 +279,243 @@ TEST_CASE("a surface that the host has no memory for is neither drawn nor kept")
         REQUIRE(life.stats().modelTriangles == before.modelTriangles);
     }
     CHECK(failures > 0);
+}
+
+namespace {
+
+// Ivy that heeds a layer, and other ivy that wants another value of it where nothing is painted.
+struct Masked {
+    FailingDevice device;
+    Life life;
+    EspContext* context = nullptr;
+
+    Masked() {
+        REQUIRE((life.create(device) && life.load()));
+        context = life.context;
+        EspSeedDef seed = espDefaultSeedDef();
+        for (const char* fill : {"1", "0.6"}) {
+            const std::string text = std::string("context maskOfManyLetters = ") + fill +
+                                     "\nIvy -> Marching(0.05, rand(-0.3, 0.3), "
+                                     "arc < 0.8 and maskOfManyLetters(texCoord) > 0.5) {Ivy, Wood}\n"
+                                     "Wood -> S(0.01) Shape(\"bark\", C1)\n";
+            const EspGrammarDef def{"masked", text.c_str(), text.size()};
+            REQUIRE(espCompileGrammar(context, &def, &seed.grammar) == ESP_OK);
+            seed.direction[1] = 1;
+            seed.number += 1;
+            EspSeed planted{};
+            for (int i = 0; i < 4; ++i) {
+                seed.position[0] = .1f + .2f * float(i);
+                seed.position[1] = .1f;
+                REQUIRE(espPlant(context, &seed, &planted) == ESP_OK);
+            }
+        }
+        REQUIRE(life.update());
+    }
+    // What stands is what growing all anew gives.
+    void check() {
+        REQUIRE(life.update());
+        const uint64_t hash = life.stats().hash;
+        EspGrowDef grow = espDefaultGrowDef();
+        grow.maxDepth = ++depth_;
+        REQUIRE(espSetGrow(context, &grow) == ESP_OK);
+        REQUIRE(life.update());
+        CHECK(life.stats().hash == hash);
+    }
+    EspResult setLayer(uint32_t pieces, const float* value) {
+        EspLayerDef def = espDefaultLayerDef();
+        def.surface = life.surface;
+        def.name = kLayer;
+        def.texels = value;
+        def.width = def.height = 1;
+        return with(pieces, [&] { return espSetLayer(context, &def); });
+    }
+    template <class Call>
+    static EspResult with(uint32_t pieces, const Call& call) {
+        left = pieces;
+        const EspResult result = call();
+        left = kPlenty;
+        return result;
+    }
+    static constexpr const char* kLayer = "maskOfManyLetters";
+
+  private:
+    uint32_t depth_ = 4000;
+};
+
+}  // namespace
+
+TEST_CASE("what want of the host's memory leaves of a dab or a layer that is set, growth hears of") {
+    Masked masked;
+    const float none = 0;
+    bool dabs = true;
+    SUBCASE("dabs") {}
+    SUBCASE("layers") {
+        dabs = false;
+    }
+    uint32_t failures = 0;
+    for (uint32_t at = 0;; ++at) {
+        CAPTURE(at);
+        REQUIRE(masked.setLayer(kPlenty, nullptr) == ESP_OK);
+        REQUIRE(masked.life.update());
+        EspResult result = ESP_OK;
+        if (dabs) {
+            EspBrush brush = espDefaultBrush();
+            brush.layer = Masked::kLayer;
+            brush.value = 0;
+            brush.strength = 1;
+            EspStroke stroke{};
+            REQUIRE(espBeginStroke(masked.context, &brush, &stroke) == ESP_OK);
+            const EspDab dab{{.3f, .3f, 0}, {0, 0, 1}, 1};
+            result = Masked::with(at, [&] { return espStrokeDabs(masked.context, stroke, &dab, 1); });
+            masked.check();
+            REQUIRE(espEndStroke(masked.context, stroke) == ESP_OK);
+            REQUIRE(espSwapStroke(masked.context, stroke) == ESP_OK);
+            CHECK(espPaintedLayerCount(masked.context) == 0);
+        } else {
+            result = masked.setLayer(at, &none);
+            CHECK(espPaintedLayerCount(masked.context) == (result == ESP_OK ? 1 : 0));
+        }
+        masked.check();
+        if (result == ESP_OK) break;
+        REQUIRE(result == ESP_OUT_OF_MEMORY);
+        failures += 1;
+    }
+    CHECK(failures > 3);
+}
+
+TEST_CASE("what a layer was filled with is told without memory") {
+    Masked masked;
+    EspStroke filled{};
+    REQUIRE(espFillLayer(masked.context, Masked::kLayer, .25f, &filled) == ESP_OK);
+    float value = 0;
+    left = 0;
+    const int told = espLayerFilled(masked.context, Masked::kLayer, &value);
+    left = kPlenty;
+    CHECK(told == 1);
+    CHECK(value == .25f);
+}
+
+TEST_CASE("a seed that the host has no memory to rename, or to give a plant to, is as it was") {
+    FailingDevice device;
+    Life life;
+    REQUIRE(life.all(device));
+    const uint64_t hash = life.stats().hash;
+    size_t size = 0;
+    REQUIRE(espFreezePlant(life.context, life.seed, 1) == ESP_OK);
+    REQUIRE(espReadFrozen(life.context, life.seed, nullptr, &size) == ESP_OK);
+    std::vector<char> bytes(size);
+    REQUIRE(espReadFrozen(life.context, life.seed, bytes.data(), &size) == ESP_OK);
+    REQUIRE(espFreezePlant(life.context, life.seed, 0) == ESP_OK);
+    REQUIRE(life.update());
+    bool renamed = true;
+    SUBCASE("to rename") {}
+    SUBCASE("to give a plant to") {
+        renamed = false;
+    }
+    uint32_t failures = 0;
+    for (uint32_t at = 0;; ++at, ++failures) {
+        CAPTURE(at);
+        left = at;
+        const EspResult result = renamed ? espSetSeedNumber(life.context, life.seed, 77 + at, 3)
+                                         : espFreezeAs(life.context, life.seed, bytes.data(), size);
+        left = kPlenty;
+        EspSeedInfo info{};
+        REQUIRE(espSeedInfo(life.context, life.seed, &info) == ESP_OK);
+        REQUIRE(life.update());
+        if (result == ESP_OK) break;
+        REQUIRE(result == ESP_OUT_OF_MEMORY);
+        CHECK(info.def.number == 1);
+        CHECK(info.def.twin == 1);
+        CHECK(info.frozen == 0);
+        CHECK(life.stats().hash == hash);
+    }
+    CHECK(failures > 0);
+    CHECK((life.stats().hash != hash) == renamed);
+}
+
+TEST_CASE("a stroke over a town that the host has no memory for is undone as far as it got") {
+    FailingDevice device;
+    Life life;
+    REQUIRE(life.create(device));
+    const std::string text = townOf(3);
+    EspTownDef town = espDefaultTownDef();
+    town.text = text.c_str();
+    town.length = text.size();
+    REQUIRE(espLoadTown(life.context, &town) == ESP_OK);
+    const float half[4] = {.2f, .4f, .6f, .8f};
+    REQUIRE(espSetTownLayer(life.context, "moss", half, 2, 2, nullptr) == ESP_OK);
+    uint32_t side = 0;
+    REQUIRE(espReadTownLayer(life.context, "moss", nullptr, &side) == ESP_OK);
+    const auto texels = [&] {
+        std::vector<float> all(size_t(side) * side);
+        REQUIRE(espReadTownLayer(life.context, "moss", all.data(), &side) == ESP_OK);
+        return all;
+    };
+    const std::vector<float> before = texels();
+    EspBrush brush = espDefaultBrush();
+    brush.layer = "moss";
+    brush.radius = 4;
+    const EspDab dabs[] = {{{0, 0, 0}, {0, 1, 0}, 1}, {{14, 0, 0}, {0, 1, 0}, 1}, {{6, 0, 2}, {0, 1, 0}, 1}};
+    uint32_t failures = 0;
+    for (uint32_t at = 0;; ++at, ++failures) {
+        CAPTURE(at);
+        EspStroke stroke{};
+        REQUIRE(espBeginStroke(life.context, &brush, &stroke) == ESP_OK);
+        left = at;
+        const EspResult result = espStrokeDabs(life.context, stroke, dabs, 3);
+        left = kPlenty;
+        REQUIRE(espStrokeDabs(life.context, stroke, dabs, 3) == ESP_OK);
+        REQUIRE(espEndStroke(life.context, stroke) == ESP_OK);
+        CHECK(texels() != before);
+        REQUIRE(espSwapStroke(life.context, stroke) == ESP_OK);
+        CHECK(texels() == before);
+        if (result == ESP_OK) break;
+        REQUIRE(result == ESP_OUT_OF_MEMORY);
+    }
+    CHECK(failures > 2);
+}
+
+TEST_CASE("a town whose roofs' meshes the host had no memory to name gets them all the next time") {
+    constexpr const char* kRoofs = "House -> Extrude(wallHeight) {Wall, NULL}\nWall -> Shape(\"slate\")\n";
+    constexpr uint32_t kMany = 10'000'000;
+    const std::string text = townOf(3);
+    EspTownDef town = espDefaultTownDef();
+    town.text = text.c_str();
+    // Pieces that an empty town takes, with the meshes and without.
+    uint32_t used[2] = {};
+    const auto load = [&](Life& life, uint32_t pieces) {
+        town.length = 0;
+        left = pieces;
+        const EspResult result = espLoadTown(life.context, &town);
+        const uint32_t rest = std::exchange(left, kPlenty);
+        return std::pair(result, pieces - rest);
+    };
+    {
+        FailingDevice device;
+        Life life;
+        REQUIRE(life.create(device));
+        for (uint32_t& pieces : used) {
+            const auto [result, took] = load(life, kMany);
+            REQUIRE(result == ESP_INVALID_CONTENT);
+            pieces = took;
+        }
+        REQUIRE(used[0] > used[1] + 4);
+    }
+    for (uint32_t missing = 1; missing <= 4; ++missing) {
+        CAPTURE(missing);
+        FailingDevice device;
+        Life life;
+        REQUIRE(life.create(device));
+        REQUIRE(load(life, used[0] - used[1] - missing).first == ESP_OUT_OF_MEMORY);
+        const EspGrammarDef roofs{"roofs", kRoofs, std::strlen(kRoofs)};
+        REQUIRE(espCompileGrammar(life.context, &roofs, &town.grammar) == ESP_OK);
+        town.length = text.size();
+        REQUIRE(espLoadTown(life.context, &town) == ESP_OK);
+        REQUIRE(life.update());
+        REQUIRE(life.draw());
+        EspRoofStats drawn{};
+        REQUIRE(espReadRoofStats(life.context, &drawn) == ESP_OK);
+        CHECK(drawn.drawnTriangles > 0);
+        town.grammar = {};
+    }
 }
