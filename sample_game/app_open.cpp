@@ -354,7 +354,10 @@ bool App::openNext() {
     }
     replay_.forget();
     session_.givesUp = false;
-    askToOpen(file, work_.error);
+    if (file == session_.recovery())
+        session_.refuseRecovery(std::exchange(work_.error, {}));
+    else
+        askToOpen(file, work_.error);
     return true;
 }
 

@@ -26,14 +26,15 @@ std::string keptAt(const std::string& file) {
 }
 
 void recoveryDialogue(Session& session) {
-    if (!session.recovery().empty()) ImGui::OpenPopup("Unsaved work");
+    const bool asks = !session.recovery().empty() && session.openNext != session.recovery();
+    if (asks) ImGui::OpenPopup("Unsaved work");
     if (beginDialogue("Unsaved work")) {
         say("The last session ended without saving. What it had changed was kept" + keptAt(session.recovery()) + ".");
+        if (!session.refused().empty()) say("It couldn't be opened: " + session.refused());
         // A key that was meant for something else, such as the Esc that ends a replay, is no answer.
         const bool answers = !ImGui::IsWindowAppearing();
         if (ImGui::Button("Open it") || (answers && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false))) {
             session.openNext = session.recovery();
-            session.forgetRecovery(false);
             ImGui::CloseCurrentPopup();
         }
         ImGui::SameLine();

@@ -62,6 +62,7 @@ void Session::begin(Workspace& work, const std::string& file, fs::file_time_type
     unsaved_.clear();
     run_.clear();
     putOff_.clear();
+    refused_.clear();
     missing_ = replaying_ = saving_ = false;
     whole_ = whole && !work.scene().project;
     project_ = stampOf(fs::path(folder_) / kProject);
@@ -221,7 +222,10 @@ void Session::end(Workspace& work) {
     background_.giveWay();
     background_.finish();
     work.document->beforeEdits({});
-    if (!goesOn && !replaying_ && recovery_.empty()) {
+    // What lies in the project and is to be decided on isn't written over, nor what is opened now instead of this.
+    const bool waits = !recovery_.empty() && recovery_ == ownAutosave();
+    recovery_.clear();
+    if (!goesOn && !replaying_ && !waits) {
         if (givesUp)
             dropKept();
         else
@@ -361,6 +365,7 @@ void Session::saved(const std::string& folder, uint64_t state) {
 void Session::forgetRecovery(bool deleteIt) {
     if (deleteIt) removeKept(fs::path(recovery_).parent_path());
     recovery_.clear();
+    refused_.clear();
     unsavedLock_.release();
 }
 

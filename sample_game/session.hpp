@@ -43,9 +43,13 @@ class Session {
     Background& background() { return background_; }
     // Nothing that was asked for is: what is open may go.
     bool idle();
-    // Of an earlier run that ended without saving; empty: there is none. Asked until answered.
+    // Of an earlier run that ended without saving; empty: there is none. Asked until answered: by opening it, too, once
+    // it is open.
     const std::string& recovery() const { return recovery_; }
     void forgetRecovery(bool deleteIt);
+    // It couldn't be opened, and is asked about again.
+    void refuseRecovery(const std::string& why) { refused_ = why; }
+    const std::string& refused() const { return refused_; }  // why; empty: it wasn't
     // Whether it can be decided on another time, what is done meanwhile being kept elsewhere.
     bool recoveryWaits() const;
     // A project's own was put off: it lies in the folder until the project is saved there.
@@ -108,7 +112,7 @@ class Session {
     void saved(const std::string& folder, uint64_t state);
     bool watchGrammars(Workspace& work);
 
-    std::string file_, folder_, recovery_, recordingTo_;
+    std::string file_, folder_, recovery_, refused_, recordingTo_;
     std::set<std::string> putOff_;  // of recovery_'s, for as long as this is open
     std::string recoveredFrom_;     // the autosave's folder of what was never saved; it goes on there
     std::string unsaved_;           // the folder beside the user's settings that it is kept in; empty: none yet

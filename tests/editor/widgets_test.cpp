@@ -153,6 +153,40 @@ TEST_CASE("Esc puts off what waits, but not the Esc that was pressed before it w
     CHECK(autosavesIn(folder.path / "config").size() == 1);
 }
 
+TEST_CASE("what was left behind and can't be opened is asked about again, and isn't written over") {
+    const Folder folder;
+    const std::string garden = folder.file("garden");
+    {
+        Window window(folder, smallScene(folder));
+        REQUIRE(window.save(garden));
+    }
+    crash(folder, garden, .25f);
+    const std::string kept = readAll(garden + "/autosave.json");
+    Dialogue dialogue(folder, garden);
+    dialogue.press("Open it");
+    CHECK(dialogue.session.openNext == garden + "/autosave.json");
+    CHECK(!dialogue.asks());
+    // As the application does when it fails.
+    dialogue.session.openNext.clear();
+    dialogue.session.refuseRecovery("out of memory");
+    for (int i = 0; i < 3; ++i) dialogue.frame({});
+    CHECK(dialogue.asks());
+    std::string words;
+    const auto layOut = dialogue.panels;
+    dialogue.panels = [&] { words = wordsOf(layOut); };
+    dialogue.frame({});
+    dialogue.panels = layOut;
+    CHECK_MESSAGE(contains(words, "out of memory"), words);
+    dialogue.fill(.75f);
+    dialogue.wait();
+    CHECK(readAll(garden + "/autosave.json") == kept);
+    dialogue.press("Decide later");
+    CHECK(!dialogue.asks());
+    dialogue.wait();
+    CHECK(readAll(garden + "/autosave.json") == kept);
+    CHECK(autosavesIn(folder.path / "config").size() == 1);
+}
+
 TEST_CASE("a project's own autosave can wait, too, until the project is saved") {
     const Folder folder;
     const std::string garden = folder.file("garden");
