@@ -56,7 +56,7 @@ void Session::begin(Workspace& work, const std::string& file, fs::file_time_type
     folder_ = fs::exists(place / kProject, ignored) ? place.string() : "";
     recoveredFrom_ = recovered && folder_.empty() ? place.string() : "";
     savedState_ = recovered ? kNever : work.document->state();
-    autosavedState_ = work.document->state();
+    autosavedState_ = recovered ? kNever : work.document->state();  // who knows what lies there by now
     cannotKeep_.clear();
     toldKept_.clear();
     unsaved_.clear();
@@ -152,8 +152,10 @@ bool Session::step(Workspace& work, double now) {
         nextAutosave_ = now + autosaveEvery;
         keepSoon(work);
     }
-    // What others write waits for a tool in use, since its Esc takes back the latest step, and for a replay's end.
-    if (now < nextLook_ || background_.busy() || replaying_ || work.document->stroking() || work.busy) return moved;
+    // What others write waits for a tool in use, since its Esc takes back the latest step, for a replay's end, and for
+    // what is to be opened instead of this.
+    const bool waits = replaying_ || !recovery_.empty() || work.document->stroking() || work.busy;
+    if (now < nextLook_ || background_.busy() || waits) return moved;
     nextLook_ = now + kLookEvery;
     noticeLoss(work);
     const bool models = models_.changed(), grammars = watchGrammars(work);

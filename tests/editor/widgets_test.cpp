@@ -187,6 +187,31 @@ TEST_CASE("what was left behind and can't be opened is asked about again, and is
     CHECK(autosavesIn(folder.path / "config").size() == 1);
 }
 
+TEST_CASE("a grammar that is saved elsewhere while one is asked about what was left behind doesn't take its place") {
+    const Folder folder;
+    const std::string garden = folder.file("garden"), autosave = garden + "/autosave.json";
+    {
+        Window window(folder, sceneOfItsOwn(folder));
+        REQUIRE(window.save(garden));
+    }
+    crash(folder, garden, .25f);
+    const std::string kept = readAll(autosave);
+    {
+        Dialogue dialogue(folder, garden);
+        std::ofstream(folder.path / "own.grammar", std::ios::app) << "// saved elsewhere\n";
+        dialogue.wait();
+        CHECK(dialogue.all<SetText>().empty());
+        dialogue.press("Open it");
+        dialogue.session.end(dialogue.work);  // as it is open
+        CHECK(readAll(autosave) == kept);
+    }
+    Window recovered(folder, autosave);
+    std::ofstream(autosave) << "{}";
+    recovered.wait();  // it is kept once more, whatever lay there
+    const std::string now = readAll(autosave);
+    CHECK_MESSAGE(contains(now, "\"mask\": 0.25"), now);
+}
+
 TEST_CASE("a project's own autosave can wait, too, until the project is saved") {
     const Folder folder;
     const std::string garden = folder.file("garden");
