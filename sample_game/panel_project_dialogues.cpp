@@ -67,7 +67,7 @@ Doubt doubtOfSaving(const Session& session, const std::string& folder) {
     if (place == session.folder() && session.changedByOthers())
         return {place + " has been saved by somebody else since it was opened."};
     if (place == session.folder() && session.holdsBack())
-        return {place + " still holds what the last session left unsaved.", "Throw that away?", "Throw away, save"};
+        return {place + " still holds what another session left unsaved.", "Throw that away?", "Throw away, save"};
     if (place == session.folder()) return {};
     if (fs::exists(fs::path(place) / "project.json", ignored)) return {place + " is a project already."};
     if (fs::directory_iterator(place, ignored) == fs::directory_iterator()) return {};  // empty, or to be made

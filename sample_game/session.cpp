@@ -371,6 +371,12 @@ void Session::forgetRecovery(bool deleteIt) {
     unsavedLock_.release();
 }
 
+bool Session::holdsBack() const {
+    std::error_code ignored;
+    if (folder_.empty()) return false;
+    return putOff_.contains(ownAutosave()) || (!lock_.held() && fs::exists(ownAutosave(), ignored));
+}
+
 bool Session::recoveryWaits() const {
     return !recovery_.empty() && (recovery_ != ownAutosave() || !unsavedFolder().empty());
 }

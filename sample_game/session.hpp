@@ -52,8 +52,9 @@ class Session {
     const std::string& refused() const { return refused_; }  // why; empty: it wasn't
     // Whether it can be decided on another time, what is done meanwhile being kept elsewhere.
     bool recoveryWaits() const;
-    // A project's own was put off: it lies in the folder until the project is saved there.
-    bool holdsBack() const { return putOff_.contains(ownAutosave()); }
+    // One lies in the project's folder until the project is saved there, and that isn't to take it unasked: it was put
+    // off, or is another editor's.
+    bool holdsBack() const;
     // Until this is opened again; the next one, if there is another, is offered.
     void putOffRecovery();
     // What is done in the document from now on is a recorded run's, and isn't kept before its end.

@@ -212,6 +212,25 @@ TEST_CASE("a grammar that is saved elsewhere while one is asked about what was l
     CHECK_MESSAGE(contains(now, "\"mask\": 0.25"), now);
 }
 
+TEST_CASE("the second editor of a project asks before its save takes what the first had kept") {
+    const Folder folder;
+    const std::string garden = folder.file("garden");
+    Window one(folder, smallScene(folder));
+    REQUIRE(one.save(garden));
+    Dialogue two(folder, garden);
+    two.fill(.5f);
+    CHECK(!two.session.holdsBack());
+    one.fill(.25f);
+    one.wait();
+    CHECK(two.session.holdsBack());
+    CHECK(!sample::askToSave(two.work, two.session));
+    CHECK_MESSAGE(contains(sample::dialogues().why, "left unsaved"), sample::dialogues().why);
+    CHECK(autosavesIn(garden).size() == 1);
+    REQUIRE(two.save(garden));
+    CHECK(autosavesIn(garden).empty());
+    CHECK(!two.session.holdsBack());
+}
+
 TEST_CASE("a project's own autosave can wait, too, until the project is saved") {
     const Folder folder;
     const std::string garden = folder.file("garden");
