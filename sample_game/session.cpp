@@ -1,6 +1,8 @@
 // Saves and autosaves by tools/document, files of others by what they hold, runs by the document's listener.
 #include "sample_game/session.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <memory>
 #include <set>
 #include <utility>
@@ -70,8 +72,7 @@ void Session::begin(Workspace& work, const std::string& file, fs::file_time_type
     unsavedLock_.release();
     claim();
     if (!cannotKeep_.empty()) work.message += (work.message.empty() ? "" : "\n") + cannotKeep_;
-    recovery_ = recovered || folder_.empty() || !cannotKeep_.empty() ? "" : recoverable(folder_);
-    if (recovery_.empty() && !recovered) recovery_ = leftBehind();
+    recovery_ = recovered ? "" : leftBehind();
     grammarFiles_.begin(work.scene(), read);
     models_.begin(modelFiles(work.scene()), read);
     reload = givesUp = goesOn = false;
@@ -130,12 +131,19 @@ void Session::takePlace() {
     }
 }
 
-// The autosave of an editor that is gone.
+// Of editors that are gone, which may have kept what they had in the project's folder until that took no more.
 std::string Session::leftBehind() {
-    for (int i = 1; i <= kMostPlaces && !unsavedFolder().empty(); ++i)
-        if (const std::string kept = recoverable(unsavedFolder(i));
-            !kept.empty() && !putOff_.contains(kept) && unsavedLock_.take(unsavedFolder(i)))
-            return kept;
+    std::vector<std::pair<fs::file_time_type, std::string>> found;
+    const auto look = [&](const std::string& place) {
+        const std::string kept = recoverable(place);
+        std::error_code ignored;
+        if (!kept.empty() && !putOff_.contains(kept)) found.push_back({fs::last_write_time(kept, ignored), kept});
+    };
+    if (!folder_.empty() && cannotKeep_.empty()) look(folder_);
+    for (int i = 1; i <= kMostPlaces && !unsavedFolder().empty(); ++i) look(unsavedFolder(i));
+    std::ranges::stable_sort(found, std::greater(), [](const auto& one) { return one.first; });
+    for (const auto& [time, kept] : found)
+        if (kept == ownAutosave() || unsavedLock_.take(fs::path(kept).parent_path().string())) return kept;
     return {};
 }
 
@@ -280,6 +288,8 @@ void Session::keepSoon(Workspace& work) {
 
 void Session::kept(Workspace& work, uint64_t state) {
     autosavedState_ = state;
+    // What the project's folder took before isn't the latest any more.
+    if (!cannotKeep_.empty() && !folder_.empty() && lock_.held() && !holdsBack()) dropAutosave(folder_);
     tellKept(work, cannotKeep_.empty() ? "" : cannotKeep_ + "; what isn't saved is kept in " + autosaveFolder());
 }
 
@@ -369,6 +379,7 @@ void Session::forgetRecovery(bool deleteIt) {
     recovery_.clear();
     refused_.clear();
     unsavedLock_.release();
+    if (deleteIt) recovery_ = leftBehind();
 }
 
 bool Session::holdsBack() const {

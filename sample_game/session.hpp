@@ -98,7 +98,7 @@ class Session {
     std::string unsavedFolder(int number = 1) const;
     void claim();                             // what it is kept in, before others do
     void takePlace();                         // one of those, if it is to be kept there
-    std::string leftBehind();                 // none that is put off
+    std::string leftBehind();                 // the latest, none that is put off
     bool keeps(const Workspace& work) const;  // what isn't saved is to become an autosave
     void keepSoon(Workspace& work);
     void keepNow(Workspace& work);

@@ -1,6 +1,7 @@
 // A session over projects that others delete or that can't be written: what is told, and where what isn't saved is
 // kept.
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 
 #include "tests/editor/window.hpp"
@@ -127,6 +128,43 @@ TEST_CASE(
     CHECK(maskOf(again.session.recovery()) == .75f);
     again.session.forgetRecovery(true);
     CHECK(keptIn(folder) == "");
+}
+
+TEST_CASE(
+    "of what was kept in a project's folder, and beside the settings once that took no more, the latest is offered") {
+    const Folder folder;
+    const std::string garden = folder.file("garden"), layers = garden + "/layers", copy = folder.file("copy");
+    const std::string own = garden + "/autosave.json";
+    {
+        Window window(folder, smallScene(folder));
+        REQUIRE_MESSAGE(window.save(garden), window.work.error);
+        window.fill(.25f);
+        window.wait();
+        CHECK(maskOf(own) == .25f);
+        fs::copy(garden, copy, fs::copy_options::recursive);
+        fs::remove_all(layers);
+        folder.write("garden/layers", "a file where the folder should be");
+        window.fill(.5f);
+        window.wait();
+        CHECK(maskOf(keptIn(folder)) == .5f);
+        CHECK(!fs::exists(own));  // what it holds is older
+        fs::copy(folder.file("config"), folder.file("kept"), fs::copy_options::recursive);
+    }
+    // As if it had ended there, and the older one couldn't be removed.
+    fs::remove_all(garden);
+    fs::rename(copy, garden);
+    fs::remove_all(folder.file("config"));
+    fs::rename(folder.file("kept"), folder.file("config"));
+    const std::string kept = keptIn(folder);
+    const auto now = fs::file_time_type::clock::now();
+    fs::last_write_time(own, now + std::chrono::seconds(2));
+    fs::last_write_time(kept, now + std::chrono::seconds(4));
+    Window again(folder, garden);
+    CHECK(again.session.recovery() == kept);
+    again.session.forgetRecovery(true);
+    CHECK(again.session.recovery() == own);
+    again.session.putOffRecovery();
+    CHECK(again.session.recovery() == "");
 }
 
 TEST_CASE(
