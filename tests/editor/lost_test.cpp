@@ -113,6 +113,53 @@ TEST_CASE("a project whose grammar has lost a parameter opens and tells of it; a
     espDestroy(context);
 }
 
+TEST_CASE("a project that has lost a frozen plant's file and its site opens, and has both when they are there again") {
+    const Folder folder;
+    const std::string project = folder.file("project"), json = project + "/project.json";
+    const std::string site = R"({"models": ")" + content("props.glb") + R"(", "props": {}})";
+    const std::string scene = folder.write(
+        "sited.json", replaced(readAll(smallScene(folder)), "\"grammars\"", "\"site\": \"site.json\", \"grammars\""));
+    folder.write("site.json", site);
+    uint32_t key = 0;
+    {
+        Editing editing(scene);
+        editing.hash();
+        key = editing.document->scene().seeds[0].key;
+        REQUIRE_MESSAGE(editing.perform(FreezeSeeds{{key}, true}), editing.error);
+        REQUIRE_MESSAGE(saveProject(*editing.document, project, editing.error), editing.error);
+    }
+    const std::string whole = readAll(json);
+    std::filesystem::rename(project + "/plants", folder.path / "aside");
+    std::filesystem::remove(folder.path / "site.json");
+    {
+        Editing opened(project);
+        const auto& notes = opened.document->scene().notes;
+        REQUIRE(notes.size() == 2);
+        CHECK_MESSAGE(contains(notes[0], ".plant"), notes[0]);
+        CHECK_MESSAGE(contains(notes[1], "site.json"), notes[1]);
+        REQUIRE(opened.document->scene().seeds.size() == 2);
+        CHECK(!opened.document->scene().seeds[0].frozen);
+        CHECK(opened.hash() != 0);
+        // What is done to the seed and undone changes nothing of it.
+        REQUIRE(opened.perform(RemoveSeeds{{key}}));
+        REQUIRE(opened.perform(Undo{}));
+        REQUIRE_MESSAGE(saveProject(*opened.document, project, opened.error), opened.error);
+        CHECK(readAll(json) == whole);
+        // One that is frozen anew stands as it is now, and is thawed.
+        opened.hash();
+        REQUIRE(opened.perform(FreezeSeeds{{key}, true}));
+        REQUIRE(opened.perform(FreezeSeeds{{key}, false}));
+        REQUIRE_MESSAGE(saveProject(*opened.document, folder.file("thawed"), opened.error), opened.error);
+        CHECK(!contains(readAll(folder.file("thawed/project.json")), ".plant"));
+    }
+    std::filesystem::remove_all(project + "/plants");
+    std::filesystem::rename(folder.path / "aside", project + "/plants");
+    folder.write("site.json", site);
+    Editing again(project);
+    CHECK(again.document->scene().notes.empty());
+    CHECK(again.document->scene().seeds[0].frozen);
+}
+
 TEST_CASE("a project whose text has lost what it includes opens with its mistake, and grows when that is there again") {
     const Folder folder;
     const std::string scene = wallScene(folder, false), project = folder.file("project");

@@ -73,6 +73,9 @@ std::vector<uint32_t> Document::beginAnew() {
         if (fresh) ++lastKey_;
         return at->second;
     };
+    std::map<uint32_t, std::string> unread;
+    for (auto& [key, file] : scene_.unreadPlants) unread[newKey(key)] = std::move(file);
+    scene_.unreadPlants = std::move(unread);
     for (Step& step : done_)
         for (Action& action : step.back) std::visit(RenameSeeds<decltype(newKey)>{newKey}, action);
     if (sorted) return keys;

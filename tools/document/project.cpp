@@ -48,11 +48,10 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
     out.fov = scene::degreesOf(scene.camera.fovY, scene::fovOfDegrees);
 }
 
-// Each frozen plant into a file, likewise.
+// Each frozen plant into a file, likewise. One that couldn't be read stays what it is.
 bool writePlants(const fs::path& folder, SceneFile& out, std::string& error) {
     for (scene::SceneGrammar& grammar : out.grammars)
         for (scene::Seed& seed : grammar.seeds) {
-            seed.frozenFile.clear();
             if (!seed.frozen) continue;
             const std::string bytes(reinterpret_cast<const char*>(seed.frozen->data()), seed.frozen->size());
             const fs::path path = folder / kPlants / (scene::hashName(bytes.data(), bytes.size()) + ".plant");
@@ -136,8 +135,12 @@ SceneFile describe(const Document& document) {
         for (const scene::ParamValue& value : scene::changedParams(document.context(), grammar.id))
             described.params.push_back({value, {}});
         for (const scene::ParamValue& value : grammar.unset) described.params.push_back({value, {}});
-        for (const scene::Seed& seed : scene.seeds)
-            if (seed.grammar == i) described.seeds.push_back(seed);
+        for (const scene::Seed& seed : scene.seeds) {
+            if (seed.grammar != i) continue;
+            const auto unread = scene.unreadPlants.find(seed.key);
+            described.seeds.push_back(seed);
+            described.seeds.back().frozenFile = unread != scene.unreadPlants.end() ? unread->second : "";
+        }
     }
     out.town = scene.town;
     if (out.town)

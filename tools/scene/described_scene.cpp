@@ -123,7 +123,10 @@ bool loadGrammars(EspContext* context, const Request& request, const SceneFile& 
         for (Seed seed : described.seeds) {
             seed.grammar = uint32_t(i);
             if (request.seed) seed.number = number++;
-            if (!seed.frozenFile.empty() && !readFrozen(seed, error)) return false;
+            if (!seed.frozenFile.empty() && !readFrozen(seed, error)) {
+                if (!out.project) return false;
+                out.notes.push_back(std::exchange(error, {}) + "; the plant grows again");
+            }
             out.seeds.push_back(seed);
         }
     }
@@ -202,7 +205,10 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
     out.site = file.site;
     out.grow.walk = file.walk;
     if (!out.site.empty()) parts.begin(out.site);
-    if (!out.site.empty() && !furnish(context, out.site, error)) return false;
+    if (!out.site.empty() && !furnish(context, out.site, error)) {
+        if (!out.project) return false;
+        out.notes.push_back(std::exchange(error, {}));
+    }
     noteLayers(context, out);
     if (!fillLayers(context, request, file, out, error)) return false;
     if (!layLayers(context, request, file, parts, out, error)) return false;

@@ -113,7 +113,10 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     out.look = out.ownLook;
     if (out.hour != kOwnSun) applyDaylight(out.hour, out.look);
     uint32_t key = 0;
-    for (Seed& seed : out.seeds) seed.key = ++key;
+    for (Seed& seed : out.seeds) {
+        seed.key = ++key;
+        if (!seed.frozen && !seed.frozenFile.empty()) out.unreadPlants[key] = seed.frozenFile;
+    }
     return true;
 }
 

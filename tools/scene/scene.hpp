@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -119,6 +120,7 @@ struct Scene {
     std::vector<std::string> colourLayers;  // those of them that are colours (tools/scene/layers.hpp)
     std::vector<std::string> notes;         // what of the file couldn't be kept, a line each
     std::vector<SceneLayer> unread;         // of a project: pictures that couldn't be read, and are kept as they are
+    std::map<uint32_t, std::string> unreadPlants;  // likewise files of frozen plants, by seeds' keys; they grow
     EspCamera camera{};
     EspLook ownLook{};      // as the file says
     EspLook look{};         // that, with the light of the hour
