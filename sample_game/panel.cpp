@@ -108,7 +108,8 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
         const auto named = [&](const Param& param) { return param.name == info.name; };
         std::vector<Value> own;  // of those that have one
         for (const SeedRecord& seed : chosen)
-            if (const auto param = std::ranges::find_if(seed.params, named); param != seed.params.end())
+            if (const auto param = std::ranges::find_if(seed.params, named);
+                param != seed.params.end() && param->value.size() == count)
                 own.push_back(valueOf(param->value.data()));
         bool has = !own.empty();
         Value value = has ? own[0] : valueOf(info.value);

@@ -127,6 +127,40 @@ TEST_CASE("a seed's own values wait while its grammar's text has no such paramet
     CHECK(editing.hash() == plain);
 }
 
+TEST_CASE("a seed's own value waits while its grammar's parameter is of another kind, and its plant stands") {
+    const Folder folder;
+    Editing editing(wallScene(folder, false));
+    const std::string number = std::string("param spare = 1 [0 .. 2] \"m\" \"Spare\"\n") + kCreeper;
+    const std::string colour = std::string("param spare = #ff8000 \"Spare\"\n") + kCreeper;
+    REQUIRE(editing.perform(editing.document->withText(1, number)));
+    REQUIRE(editing.perform(SetParam{1, {"spare", {.5f}}}));
+    SeedRecord seed = editing.document->recordOf(editing.document->scene().seeds[1]);
+    seed.params = {{"reach", {.4f}}, {"spare", {1.5f}}};
+    REQUIRE_MESSAGE(editing.perform(ChangeSeeds{{seed}}), editing.error);
+    const uint64_t before = editing.hash();
+    const auto planted = [](const Editing& of) { return of.document->scene().seeds[1].planted.id != 0; };
+    REQUIRE(editing.perform(editing.document->withText(1, colour)));
+    REQUIRE_MESSAGE(editing.document->scene().grammars[1].error == "", editing.document->scene().grammars[1].error);
+    CHECK(planted(editing));
+    CHECK(editing.hash() == before);
+    CHECK(editing.param(1, "spare") == 1);  // the text's own red
+
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("project"), editing.error), editing.error);
+    Editing opened(folder.file("project"));
+    CHECK(planted(opened));
+    CHECK(opened.hash() == before);
+    REQUIRE(opened.document->scene().notes.size() == 1);
+    CHECK_MESSAGE(contains(opened.document->scene().notes[0], "'spare'"), opened.document->scene().notes[0]);
+    REQUIRE(opened.perform(opened.document->withText(1, number)));
+    CHECK(opened.document->scene().seeds[1].params.size() == 2);
+    float value[3] = {};
+    uint32_t count = 0;
+    REQUIRE(espSeedParam(opened.context.get(), opened.document->scene().seeds[1].planted, "spare", value, &count) ==
+            ESP_OK);
+    CHECK(count == 1);
+    CHECK(value[0] == 1.5f);
+}
+
 TEST_CASE("a seed that is named twice is frozen once, and thawed by one undo") {
     const Folder folder;
     Editing editing(wallScene(folder, false));

@@ -80,8 +80,9 @@ bool Document::open(const scene::Request& request, std::string& error) {
         lastKey_ = std::max(lastKey_, seed.key);
         const scene::LoadedGrammar& grammar = scene_.grammars[seed.grammar];
         for (const scene::ParamValue& own : seed.params)
-            if (!hasParam(context_, grammar.id, own.name))
-                scene_.notes.push_back(grammar.file + ": there is no parameter '" + own.name + "', which a seed sets");
+            if (!takesParam(context_, grammar.id, own))
+                scene_.notes.push_back(grammar.file + ": there is no parameter '" + own.name + "' of " +
+                                       (own.count == 3 ? "a colour" : "a number") + ", which a seed sets");
     }
     return true;
 }
@@ -300,12 +301,13 @@ bool Document::replant(const std::vector<Seed>& before, std::string& error) {
     return false;
 }
 
-// Values that a text has lost, or that another grammar's seed had, wait in the list for a text that has them.
+// Values that a text has lost or has of another kind, or that another grammar's seed had, wait in the list for a text
+// that has them.
 bool Document::plant(std::string& error) {
     const std::vector<Seed> listed = scene_.seeds;
     for (Seed& seed : scene_.seeds)
         std::erase_if(seed.params, [&](const scene::ParamValue& own) {
-            return !hasParam(context_, scene_.grammars[seed.grammar].id, own.name);
+            return !takesParam(context_, scene_.grammars[seed.grammar].id, own);
         });
     allPlanted_ = plantAll(context_, scene_, error);
     for (size_t i = 0; i < listed.size(); ++i) scene_.seeds[i].params = listed[i].params;

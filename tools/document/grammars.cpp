@@ -20,10 +20,19 @@ scene::ParamValue valueOf(const Param& param) {
     return value;
 }
 
-bool hasParam(const EspContext* context, EspGrammar grammar, const std::string& name) {
+namespace {
+
+uint32_t countOf(const EspParamInfo& info) {
+    return info.kind == ESP_PARAM_COLOUR ? 3 : 1;
+}
+
+}  // namespace
+
+bool takesParam(const EspContext* context, EspGrammar grammar, const scene::ParamValue& value) {
     for (uint32_t i = 0; i < espParamCount(context, grammar); ++i) {
         EspParamInfo info;
-        if (espParamInfo(context, grammar, i, &info) == ESP_OK && info.name == name) return true;
+        if (espParamInfo(context, grammar, i, &info) == ESP_OK && info.name == value.name)
+            return countOf(info) == value.count;
     }
     return false;
 }
@@ -50,7 +59,7 @@ bool Document::carryOut(const SetParam& action, std::vector<Action>& back, std::
     for (uint32_t i = 0; i < espParamCount(context_, grammar); ++i) {
         EspParamInfo info;
         if (espParamInfo(context_, grammar, i, &info) == ESP_OK && info.name == action.param.name)
-            before.param.value.assign(info.value, info.value + (info.kind == ESP_PARAM_COLOUR ? 3 : 1));
+            before.param.value.assign(info.value, info.value + countOf(info));
     }
     if (failed(espSetParam(context_, grammar, action.param.name.c_str(), action.param.value.data(),
                            uint32_t(action.param.value.size())),
@@ -80,17 +89,17 @@ bool Document::carryOut(const SetText& action, std::vector<Action>& back, std::s
     for (uint32_t i = 0; i < espParamCount(context_, grammar.id); ++i) {
         EspParamInfo info;
         if (espParamInfo(context_, grammar.id, i, &info) != ESP_OK) continue;
-        const auto own = std::find_if(action.params.begin(), action.params.end(),
-                                      [&](const Param& param) { return param.name == info.name; });
-        const uint32_t count = info.kind == ESP_PARAM_COLOUR ? 3 : 1;
+        const uint32_t count = countOf(info);
+        const auto own = std::ranges::find_if(
+            action.params, [&](const Param& param) { return param.name == info.name && param.value.size() == count; });
         if (own == action.params.end())
             espSetParam(context_, grammar.id, info.name, info.initial, count);
         else
-            espSetParam(context_, grammar.id, info.name, own->value.data(), uint32_t(own->value.size()));
+            espSetParam(context_, grammar.id, info.name, own->value.data(), count);
     }
     grammar.unset.clear();
     for (const Param& param : action.params)
-        if (!grammar.error.empty() && !hasParam(context_, grammar.id, param.name))
+        if (!grammar.error.empty() && !takesParam(context_, grammar.id, valueOf(param)))
             grammar.unset.push_back(valueOf(param));
     // A town, or seeds, that wait for the text to make roofs, to have their values, or to be one that can be planted.
     std::string ignored;
