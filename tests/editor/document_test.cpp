@@ -186,6 +186,72 @@ TEST_CASE("a project opens as it was saved, in another context and from another 
     CHECK(readAll(folder.file("garden2/project.json")) == readAll(folder.file("garden/project.json")));
 }
 
+TEST_CASE("what a project couldn't say isn't done, whatever a run asks for") {
+    const Folder folder;
+    Editing editing(wallScene(folder, true));
+    for (const char* name : {"../../../x", "my-layer", "a b", "", ".r"}) {
+        CAPTURE(name);
+        StrokeBegin stroke;
+        stroke.layer = name;
+        CHECK(!editing.perform(stroke));
+        CHECK(!editing.document->stroking());
+        const auto picture = std::make_shared<std::vector<espalier::scene::GreyPicture>>(1);
+        (*picture)[0] = {2, 2, std::vector<float>(4)};
+        const Action asked[] = {FillLayer{name, .5f}, LoadLayer{name, "", 0, picture},
+                                LoadTownLayer{name, "", picture}};
+        for (const Action& action : asked) {
+            CHECK(!editing.perform(action));
+            CHECK_MESSAGE(contains(editing.error, "no layer's name"), editing.error);
+        }
+    }
+    CHECK(!editing.perform(SetLight{12, 25, true}));
+    CHECK(!editing.perform(SetLight{12, -25, true}));
+    for (const float fov : {.012f, 3.f}) CHECK(!editing.perform(SetCamera{{1, 2, 3}, {0, 1, 0}, fov}));
+    espalier::scene::House house = espalier::scene::houseNow(editing.context.get(), 0);
+    house.edges = {{2000000, "gable", 0}};
+    CHECK(!editing.perform(SetHouse{house}));
+    CHECK(editing.document->undoSteps() == 0);
+    // What is at the limits is saved and opens.
+    for (const float degrees : {1.f, 170.f}) {
+        CAPTURE(degrees);
+        const float fov = espalier::scene::fovOfDegrees(degrees);
+        REQUIRE_MESSAGE(editing.perform(SetCamera{{1, 2, 3}, {0, 1, 0}, fov}), editing.error);
+        REQUIRE_MESSAGE(editing.perform(SetLight{12, 20, true}), editing.error);
+        REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("garden"), editing.error), editing.error);
+        CHECK(Editing(folder.file("garden")).document->scene().camera.fovY == fov);
+    }
+}
+
+TEST_CASE("what couldn't be opened again is never saved over what can") {
+    const Folder folder;
+    const std::string garden = folder.file("garden");
+    Editing editing(smallScene(folder));
+    REQUIRE_MESSAGE(saveProject(*editing.document, garden, editing.error), editing.error);
+    const std::string before = readAll(garden + "/project.json");
+    ProjectData data;
+    REQUIRE(gather(*editing.document, data, editing.error));
+    data.file.exposure = 25;
+    Progress progress;
+    CHECK(!writeProject(data, garden, progress, editing.error));
+    CHECK_MESSAGE(contains(editing.error, "'exposure'"), editing.error);
+    CHECK(readAll(garden + "/project.json") == before);
+    CHECK(Editing(garden).hash() == editing.hash());
+}
+
+TEST_CASE("a bare model of another unit is shown at a living size, and so is the project that it is saved as") {
+    const Folder folder;
+    folder.write("huge.obj", "v -20000 0 0\nv 20000 0 0\nv 20000 25000 0\nv -20000 25000 0\nf 1 2 3 4\n");
+    const std::string surface = folder.file("huge.surface.glb");
+    const Ran baked =
+        run(program("espalier-bake") + " -q --resolution 64 -o " + surface + " " + folder.file("huge.obj"));
+    REQUIRE_MESSAGE(baked.code == 0, baked.output);
+    Editing editing(surface);
+    const float scale = editing.document->scene().surfaces[0].placing.scale;
+    CHECK(scale < 1e-4f);
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("garden"), editing.error), editing.error);
+    CHECK(Editing(folder.file("garden")).document->scene().surfaces[0].placing.scale == scale);
+}
+
 TEST_CASE("angles are read from the degrees that are written of them, to the bit") {
     using namespace espalier::scene;
     for (int i = 0; i < 1700; ++i)

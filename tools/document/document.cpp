@@ -9,6 +9,7 @@
 #include "tools/document/layer_history.hpp"
 #include "tools/document/params.hpp"
 #include "tools/scene/daylight.hpp"
+#include "tools/scene/scene_file.hpp"
 
 namespace espalier::document {
 namespace {
@@ -321,6 +322,10 @@ bool Document::carryOut(const SetLight& action, std::vector<Action>& back, std::
         error = "an hour is 0 to 24, or -1 for the scene's own light";
         return false;
     }
+    if (!(std::abs(action.exposure) <= scene::kMostExposure)) {
+        error = "an exposure is -20 to 20 stops";
+        return false;
+    }
     const EspLook view = scene_.look;
     back.push_back(SetLight{scene_.hour, view.exposure, view.shadows != 0});
     scene_.hour = action.hour;
@@ -346,7 +351,7 @@ bool Document::carryOut(const SetWalk& action, std::vector<Action>& back, std::s
 
 bool Document::carryOut(const SetCamera& action, std::vector<Action>&, std::string& error) {
     if (!finite(action.eye) || !finite(action.target) || action.eye == action.target ||
-        !(action.fov > .01f && action.fov < 3.1f)) {
+        !(action.fov >= scene::fovOfDegrees(scene::kLeastFov) && action.fov <= scene::fovOfDegrees(scene::kMostFov))) {
         error = "a camera that sees nothing";
         return false;
     }

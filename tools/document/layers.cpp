@@ -84,7 +84,7 @@ bool Document::readTownLayer(const std::string& layer, scene::GreyPicture& out, 
 
 bool Document::carryOut(const StrokeBegin& action, std::vector<Action>&, std::string& error) {
     EspBrush brush;
-    if (!brushOf(action, brush, error)) return false;
+    if (!scene::isLayersName(action.layer, error) || !brushOf(action, brush, error)) return false;
     strokeHasDabs_ = false;
     strokeName_ = nameOf(*this, action);
     const std::vector<std::string> channels = channelsOf(scene_, action.layer);
@@ -130,6 +130,7 @@ bool Document::carryOut(const StrokeEnd&, std::vector<Action>& back, std::string
 }
 
 bool Document::carryOut(const FillLayer& action, std::vector<Action>& back, std::string& error) {
+    if (!scene::isLayersName(action.layer, error)) return false;
     const std::vector<std::string> channels = channelsOf(scene_, action.layer);
     for (size_t c = 0; c < channels.size(); ++c) {
         EspStroke filled{};
@@ -158,6 +159,7 @@ bool Document::carryOut(const LoadLayer& action, std::vector<Action>& back, std:
         error = "there is no surface " + std::to_string(action.surface);
         return false;
     }
+    if (!scene::isLayersName(action.layer, error)) return false;
     const Picture picture = pictureIn(action.picture, scene_, action.layer, action.file, error);
     if (!picture) return false;
     const std::vector<std::string> channels = channelsOf(scene_, action.layer);
@@ -174,6 +176,7 @@ bool Document::carryOut(const LoadLayer& action, std::vector<Action>& back, std:
 }
 
 bool Document::carryOut(const LoadTownLayer& action, std::vector<Action>& back, std::string& error) {
+    if (!scene::isLayersName(action.layer, error)) return false;
     const Picture picture = pictureIn(action.picture, scene_, action.layer, action.file, error);
     if (!picture) return false;
     const std::vector<std::string> channels = channelsOf(scene_, action.layer);

@@ -45,7 +45,8 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
     out.hasCamera = true;
     out.eye = three(scene.camera.eye);
     out.target = three(scene.camera.target);
-    out.fov = scene::degreesOf(scene.camera.fovY, scene::fovOfDegrees);
+    // At its limits it may be written as a neighbour beyond them.
+    out.fov = std::clamp(scene::degreesOf(scene.camera.fovY, scene::fovOfDegrees), scene::kLeastFov, scene::kMostFov);
 }
 
 // Each frozen plant into a file, likewise. One that couldn't be read stays what it is.
@@ -178,12 +179,21 @@ void sweep(const fs::path& folder) {
         }
 }
 
+// What couldn't be opened again never takes the place of what can.
+bool writeScene(const std::string& path, const SceneFile& file, std::string& error) {
+    const std::string text = writeSceneText(path, file);
+    SceneFile read;
+    if (readSceneText(path, text, read, error)) return writeTextDurably(path, text, error);
+    error = path + ": not saved, since it couldn't be opened again: " + error;
+    return false;
+}
+
 // What isn't complete in the end leaves no files: a disk that was full has room again.
 bool write(ProjectData data, const std::string& folder, const char* name, Progress& progress, std::string& error) {
     const std::string path = (fs::path(folder) / name).string();
     const bool good = canName(folder, data.file, error) && makeFolderDurably(folder, error) &&
                       writeLayers(data, folder, progress, error) && writePlants(folder, data.file, error) &&
-                      progress.at(1) && writeTextDurably(path, writeSceneText(path, data.file), error);
+                      progress.at(1) && writeScene(path, data.file, error);
     if (good && name == kProject) dropAutosave(folder);
     sweep(folder);
     return good;

@@ -11,6 +11,8 @@ namespace espalier::scene {
 // A layer of colours, which grammars declare as `context NAME = #rrggbb`, is three to the plugin: NAME.r, .g and .b. A
 // scene lists it once, in Scene::layers and Scene::colourLayers.
 
+// Projects name files by their layers, so that a name must be no path. False: `why` says what it should be.
+bool isLayersName(const std::string& name, std::string& why);
 bool isColour(const Scene& scene, const std::string& layer);
 // Whether the scene lists the layer, or one of colours whose channel it is.
 bool readsLayer(const Scene& scene, const std::string& name);

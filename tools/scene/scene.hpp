@@ -98,7 +98,9 @@ struct SceneLayer {
     std::string over = {};  // of a surface: the bake that it was painted over, named by its hash; empty: isn't known
 };
 
-constexpr float kOwnSun = -1;  // no hour: the scene's own light
+constexpr float kMostExposure = 20;             // stops, up or down
+constexpr float kLeastFov = 1, kMostFov = 170;  // degrees
+constexpr float kOwnSun = -1;                   // no hour: the scene's own light
 
 // A scene whose surfaces, grammars and layers are in a context. Seeds are planted by plantAll.
 struct Scene {

@@ -3,11 +3,12 @@
 #include "tools/scene/scene_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 
 #include "tools/scene/json_checks.hpp"
+#include "tools/scene/layers.hpp"
+#include "tools/scene/text_file.hpp"
 
 namespace espalier::scene {
 namespace {
@@ -61,7 +62,7 @@ class Reader : JsonChecks {
         }
         if (const Json* ground = json.find("ground"); ground && isObject(*ground, "'ground'", {"level"}))
             number(*ground, "level", -1e5f, 1e5f, out_.groundLevel.emplace(0.f));
-        number(json, "exposure", -20, 20, out_.exposure);
+        number(json, "exposure", -kMostExposure, kMostExposure, out_.exposure);
     }
 
   private:
@@ -94,7 +95,7 @@ class Reader : JsonChecks {
             SceneSurface& placed = out_.surfaces.emplace_back();
             if (const Json* name = need(surface, "file")) placed.file = file(*name);
             readPlace(surface, placed.placing);
-            number(surface, "scale", 1e-4f, 1e4f, placed.placing.scale);
+            number(surface, "scale", 1e-6f, 1e6f, placed.placing.scale);
             flag(surface, "drawn", placed.drawn);
         }
     }
@@ -184,16 +185,8 @@ class Reader : JsonChecks {
                 out_.pruned.push_back(value);
         }
     }
-    // Projects name files by their layers, so that a name must be no path.
     void needLayersName(const std::string& name, const Json& json) {
-        const auto part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-        const bool channel = name.ends_with(".r") || name.ends_with(".g") || name.ends_with(".b");
-        const std::string stem = name.substr(0, name.size() - (channel ? 2 : 0));
-        if (stem.empty() || !std::ranges::all_of(stem, part))
-            fail(json,
-                 "'" + name +
-                     "' is no layer's name: a grammar's are of letters, digits and _, and a colour's channels end in "
-                     ".r, .g or .b");
+        if (std::string why; !isLayersName(name, why)) fail(json, why);
     }
     void readFilled(const std::string& name, const Json& json) {
         needLayersName(name, json);
@@ -287,7 +280,7 @@ class Reader : JsonChecks {
             if (*eye == *target) fail(json, "'eye' and 'target' are the same point");
         }
         out_.fov = 40;
-        number(json, "fov", 1, 170, out_.fov);
+        number(json, "fov", kLeastFov, kMostFov, out_.fov);
     }
 
     SceneFile& out_;
@@ -312,8 +305,16 @@ void SceneFile::applyLook(EspLook& look) const {
 }
 
 bool readSceneFile(const std::string& path, SceneFile& out, std::string& error) {
+    std::string text;
+    return readText(path, text, error) && readSceneText(path, text, out, error);
+}
+
+bool readSceneText(const std::string& path, const std::string& text, SceneFile& out, std::string& error) {
     Json json;
-    if (!readJsonFile(path, json, error)) return false;
+    if (!readJson(text, json, error)) {
+        error = path + ":" + error;
+        return false;
+    }
     Reader reader(path, out);
     reader.readScene(json);
     error = reader.errors();

@@ -63,6 +63,8 @@ float degreesOf(float angle, float (*read)(float degrees));
 
 // False: `error` holds a line "file:line:column: message" for every mistake found.
 bool readSceneFile(const std::string& path, SceneFile& out, std::string& error);
+// The same of a text that is to lie at `path`.
+bool readSceneText(const std::string& path, const std::string& text, SceneFile& out, std::string& error);
 
 // The text of a scene file that lies at `path`: names of files are written relative to its folder. Reading it gives
 // the same SceneFile again, but for places and the file names' spelling.

@@ -55,6 +55,8 @@ House completed(const EspContext* context, House house) {
 
 namespace {
 
+constexpr uint32_t kMostEdge = 1000000;  // that a scene file may name
+
 bool lookOf(const HouseLook& look, EspHouseLook& out, std::string& error) {
     const auto fail = [&](const std::string& message) {
         error = message;
@@ -83,6 +85,10 @@ bool setHouse(EspContext* context, const House& house, std::string& error) {
     for (const House::Edge& edge : house.edges) {
         if (edge.end != "" && edge.end != "gable" && edge.end != "eave") {
             error = "an edge carries a 'gable' or an 'eave', not '" + edge.end + "'";
+            return false;
+        }
+        if (edge.edge > kMostEdge) {
+            error = "there is no edge " + std::to_string(edge.edge);
             return false;
         }
         edges.push_back({edge.edge, edge.end.empty() ? -1 : edge.end == "gable", edge.slope});
