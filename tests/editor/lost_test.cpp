@@ -1,6 +1,10 @@
 // Projects whose town or grammars have become others since they were saved.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
+#include <memory>
+#include <regex>
 
 #include "sample_game/grammar_files.hpp"
 #include "sample_game/settings.hpp"
@@ -80,6 +84,76 @@ TEST_CASE("a project finds a house by its id, wherever the plan has it, and tell
     Editing lost(project);
     REQUIRE(lost.document->scene().notes.size() == 1);
     CHECK_MESSAGE(contains(lost.document->scene().notes[0], "house 1"), lost.document->scene().notes[0]);
+}
+
+TEST_CASE("what was painted over a town stays at its place when the plan gets another house, and loses it again") {
+    using espalier::scene::GreyPicture;
+    const Folder folder;
+    const std::string scene = wallScene(folder, true), project = folder.file("project");
+    const auto read = [](Editing& of) {
+        GreyPicture moss;
+        REQUIRE_MESSAGE(of.document->readTownLayer("moss", moss, of.error), of.error);
+        return moss;
+    };
+    // The layer at a place of the world; -1: it isn't over that.
+    const auto at = [&](Editing& of, float x, float z) {
+        const auto square = espalier::scene::squareOf(of.context.get());
+        REQUIRE(square);
+        const GreyPicture moss = read(of);
+        const float u = (x - square->low[0]) / square->side, v = (z - square->low[1]) / square->side;
+        if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return -1.f;
+        return moss.texels[size_t(v * float(moss.height)) * moss.width + size_t(u * float(moss.width))];
+    };
+    std::vector<std::array<float, 3>> before;  // x, z and value
+    GreyPicture painted;
+    espalier::scene::TownSquare over;
+    {
+        Editing editing(scene);
+        over = *espalier::scene::squareOf(editing.context.get());
+        REQUIRE(editing.perform(FillLayer{"moss", .25f}));
+        StrokeBegin stroke;
+        stroke.layer = "moss";
+        stroke.radius = 4;
+        stroke.value = 1;
+        REQUIRE_MESSAGE(editing.perform(stroke), editing.error);
+        REQUIRE(editing.perform(StrokeDabs{{{16, 3, -34, 0, 1, 0, 1}}}));
+        REQUIRE(editing.perform(StrokeEnd{}));
+        for (float x = 8; x < 40; x += 1.3f)
+            for (float z = -40; z < -28; z += 1.3f) before.push_back({x, z, at(editing, x, z)});
+        CHECK(at(editing, 16, -34) > .6f);
+        painted = read(editing);
+        REQUIRE_MESSAGE(saveProject(*editing.document, project, editing.error), editing.error);
+    }
+    CHECK(read(*std::make_unique<Editing>(project)).texels == painted.texels);
+    folder.write("houses.json", plan(std::string(kA) + "," + kB + "," + kNew));
+    {
+        Editing wider(project);
+        CHECK(wider.document->scene().notes.empty());
+        REQUIRE(read(wider).texels != painted.texels);
+        for (const auto& [x, z, value] : before) {
+            CAPTURE(x);
+            CAPTURE(z);
+            CHECK(std::abs(at(wider, x, z) - value) < .15f);  // of the stroke's slope in a texel
+        }
+        CHECK(at(wider, -5, -34) == .25f);  // at the new house, as all was filled
+        REQUIRE_MESSAGE(saveProject(*wider.document, folder.file("again"), wider.error), wider.error);
+    }
+    folder.write("houses.json", plan(std::string(kA) + "," + kB));
+    Editing again(folder.file("again"));
+    for (const auto& [x, z, value] : before) CHECK(std::abs(at(again, x, z) - value) < .2f);
+    // An older program's says nothing of it: its picture lies over all.
+    const std::regex square(R"(,\s*"low": \[[^\]]*\],\s*"side": [-+.e0-9]+)");
+    const std::string json = readAll(project + "/project.json"), old = std::regex_replace(json, square, "");
+    REQUIRE(old.size() < json.size());
+    folder.write("project/project.json", old);
+    CHECK(read(*std::make_unique<Editing>(project)).texels == painted.texels);
+    folder.write("houses.json", plan(std::string(kA) + "," + kB + "," + kNew));
+    Editing stretched(project);
+    CHECK(stretched.document->scene().notes.empty());
+    const auto now = espalier::scene::squareOf(stretched.context.get());
+    const float x = now->low[0] + (16 - over.low[0]) / over.side * now->side;
+    const float z = now->low[1] + (-34 - over.low[1]) / over.side * now->side;
+    CHECK(at(stretched, x, z) > .6f);
 }
 
 TEST_CASE("a project whose grammar has lost a parameter opens and tells of it; a scene is refused") {

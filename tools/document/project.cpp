@@ -95,7 +95,7 @@ bool writeLayers(ProjectData& data, const fs::path& folder, Progress& progress, 
             if (!writeBake(bake, folder, error)) return false;
             over = (folder / kSurfaces / bake.name).string();
         }
-        data.file.layers.push_back({layer.name, path.string(), layer.surface, over});
+        data.file.layers.push_back({layer.name, path.string(), layer.surface, over, town ? data.square : std::nullopt});
         ++written;
     }
     return true;
@@ -201,8 +201,9 @@ bool write(ProjectData data, const std::string& folder, const char* name, Progre
 
 // All but the layers' texels.
 ProjectData outline(const Document& document) {
-    ProjectData out{describe(document), {}, {}};
+    ProjectData out{describe(document), {}, {}, {}};
     EspContext* context = document.context();
+    out.square = scene::squareOf(context);
     for (const scene::LoadedSurface& surface : document.scene().surfaces)
         out.bakes.push_back({scene::keptName(context, surface.id), surface.kept});
     for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i)

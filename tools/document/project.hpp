@@ -27,7 +27,8 @@ struct ProjectData {
     };
     scene::SceneFile file;
     std::vector<Layer> layers;
-    std::vector<Bake> bakes;  // [surface]
+    std::vector<Bake> bakes;                       // [surface]
+    std::optional<scene::TownSquare> square = {};  // that the town's layers lie over
 };
 bool gather(const Document& document, ProjectData& out, std::string& error);
 // False: `error` tells file and cause, and the project is as it was. Texels are given back as they are written.

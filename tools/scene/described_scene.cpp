@@ -181,6 +181,7 @@ bool layLayer(EspContext* context, Scene& scene, const SceneLayer& layer, Carryi
     const std::vector<std::string> channels = colour ? channelsOf(scene, layer.name) : std::vector{layer.name};
     for (size_t c = 0; c < channels.size(); ++c) {
         std::string note;
+        if (layer.square && !moveOver(context, channels[c], *layer.square, pictures[c], error)) return false;
         const bool carried =
             layer.surface >= 0 && carrying.carry(context, scene, channels[c], layer, pictures[c], note);
         if (!layChannel(context, scene, channels[c], pictures[c], layer.surface, carried, error)) return false;

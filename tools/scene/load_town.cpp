@@ -1,5 +1,7 @@
-// A scene's town -> houses in a context, those that the scene has changed as it says, and what their roofs grow by.
+// A scene's town -> houses in a context, those that the scene has changed as it says, what their roofs grow by, and
+// what was painted over it.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -70,6 +72,44 @@ bool loadTown(EspContext* context, Scene& out, std::string& error) {
     error = town.file + ": its houses have no roofs: " + error;
     if (out.project) out.notes.push_back(std::exchange(error, {}));
     return out.project;
+}
+
+namespace {
+
+// Between the centres of texels, in texels from the picture's corner.
+float bilinear(const GreyPicture& picture, float x, float y) {
+    const float u = std::clamp(x - .5f, 0.f, float(picture.width - 1));
+    const float v = std::clamp(y - .5f, 0.f, float(picture.height - 1));
+    const uint32_t x0 = uint32_t(u), y0 = uint32_t(v);
+    const uint32_t x1 = std::min(x0 + 1, picture.width - 1), y1 = std::min(y0 + 1, picture.height - 1);
+    const auto at = [&](uint32_t column, uint32_t row) { return picture.texels[size_t(row) * picture.width + column]; };
+    const float fx = u - float(x0), fy = v - float(y0);
+    return std::lerp(std::lerp(at(x0, y0), at(x1, y0), fx), std::lerp(at(x0, y1), at(x1, y1), fx), fy);
+}
+
+}  // namespace
+
+bool moveOver(EspContext* context, const std::string& channel, const TownSquare& from, GreyPicture& picture,
+              std::string& error) {
+    const std::optional<TownSquare> now = squareOf(context);
+    if (!now || *now == from) return true;
+    uint32_t side = 0;
+    if (!fromContext(context, espReadTownLayer(context, channel.c_str(), nullptr, &side), error)) return false;
+    GreyPicture moved{side, side, std::vector<float>(size_t(side) * side)};
+    if (!fromContext(context, espReadTownLayer(context, channel.c_str(), moved.texels.data(), &side), error))
+        return false;
+    const auto inPicture = [&](uint32_t texel, size_t axis, uint32_t count) {
+        const float at = now->low[axis] + (float(texel) + .5f) * now->side / float(side);
+        return (at - from.low[axis]) * float(count) / from.side;
+    };
+    for (uint32_t row = 0; row < side; ++row)
+        for (uint32_t column = 0; column < side; ++column) {
+            const float x = inPicture(column, 0, picture.width), y = inPicture(row, 1, picture.height);
+            const bool inside = x >= 0 && y >= 0 && x <= float(picture.width) && y <= float(picture.height);
+            if (inside) moved.texels[size_t(row) * side + column] = bilinear(picture, x, y);
+        }
+    picture = std::move(moved);
+    return true;
 }
 
 bool setTownGrammar(EspContext* context, const Scene& scene, std::string& error) {

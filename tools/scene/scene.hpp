@@ -96,6 +96,7 @@ struct SceneLayer {
     static constexpr int kTown = -2;
     int surface = -1;  // index into SceneFile::surfaces; -1: all, in the model's UVs; kTown: seen from above, north up
     std::string over = {};  // of a surface: the bake that it was painted over, named by its hash; empty: isn't known
+    std::optional<TownSquare> square = {};  // of the town: what it was painted over; none: what the layers lie over now
 };
 
 constexpr float kMostExposure = 20;             // stops, up or down

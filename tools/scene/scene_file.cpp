@@ -199,7 +199,7 @@ class Reader : JsonChecks {
         needLayersName(name, json);
         if (json.kind != Json::Kind::list) return out_.layers.push_back({name, file(json), -1});
         for (const Json& picture : json.items) {
-            if (!isObject(picture, "a layer's picture", {"surface", "town", "file", "over"})) continue;
+            if (!isObject(picture, "a layer's picture", {"surface", "town", "file", "over", "low", "side"})) continue;
             int surface = 0;
             bool town = false;
             flag(picture, "town", town);
@@ -211,8 +211,17 @@ class Reader : JsonChecks {
             const Json* over = picture.find("over");
             if (over && town) fail(*over, "a town has no bakes");
             if (const Json* on = need(picture, "file"))
-                out_.layers.push_back({name, file(*on), surface, over ? file(*over) : ""});
+                out_.layers.push_back({name, file(*on), surface, over ? file(*over) : "", readSquare(picture, town)});
         }
+    }
+    std::optional<TownSquare> readSquare(const Json& picture, bool town) {
+        const Json* low = picture.find("low");
+        if (!low && !picture.find("side")) return {};
+        if (!town) fail(picture, "only a town's layers have 'low' and 'side'");
+        TownSquare square;
+        if (need(picture, "side")) number(picture, "side", 1e-3f, 1e9f, square.side);
+        if (need(picture, "low") && !numbers(*low, square.low)) fail(*low, "'low' must be two numbers");
+        return square;
     }
     void params(const Json& json, std::vector<SceneParam>& out) {
         const Json* found = json.find("params");

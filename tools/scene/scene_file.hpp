@@ -31,8 +31,10 @@ struct SceneGrammar {
 
 // A scene file as it is written (docs/scene_format.md), with paths made relative to the caller's folder.
 struct SceneFile {
-    static constexpr int kProjectVersion = 3;  // 2: `filled`, layers of colours; 3: bakes that layers lie over
-    int project = 0;                           // version of a project file; 0: a scene that was written by hand
+    // 2: `filled`, layers of colours; 3: bakes that layers lie over; 4: squares that a town's layers lie over, the
+    // order of seeds among grammars, and what an autosave follows
+    static constexpr int kProjectVersion = 4;
+    int project = 0;  // version of a project file; 0: a scene that was written by hand
     std::vector<SceneSurface> surfaces;
     std::vector<SceneGrammar> grammars;
     std::optional<SceneTown> town;

@@ -21,6 +21,11 @@ bool layLayer(EspContext* context, Scene& scene, const SceneLayer& layer, Carryi
 // Loads out.town, which grows by the grammar that it names or the first that makes roofs.
 bool loadTown(EspContext* context, Scene& out, std::string& error);
 
+// A picture of a town's layer that was painted over another square becomes one over what they lie over now: what is in
+// both stays at its place, all else is as the layer is.
+bool moveOver(EspContext* context, const std::string& channel, const TownSquare& from, GreyPicture& picture,
+              std::string& error);
+
 // A scene or a project, by its file.
 bool openDescription(EspContext* context, const Request& request, Scene& out, std::string& error);
 // A surface, or a town, on its own: with standard grammars, seeds where they have a chance, ground and a camera.

@@ -105,9 +105,14 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     for (const SceneGrammar& grammar : file.grammars) json["grammars"].push_back(grammarJson(grammar, beside));
     for (const auto& [name, value] : file.filled) json["filled"][name] = shortest(value);
     for (const SceneLayer& layer : file.layers) {
-        if (layer.surface == SceneLayer::kTown)
-            json["layers"][layer.name].push_back({{"town", true}, {"file", beside(layer.file)}});
-        else if (layer.surface < 0)
+        if (layer.surface == SceneLayer::kTown) {
+            ordered_json picture{{"town", true}, {"file", beside(layer.file)}};
+            if (layer.square) {
+                picture["low"] = shortestList(layer.square->low);
+                picture["side"] = shortest(layer.square->side);
+            }
+            json["layers"][layer.name].push_back(std::move(picture));
+        } else if (layer.surface < 0)
             json["layers"][layer.name] = beside(layer.file);
         else {
             ordered_json picture{{"surface", layer.surface}, {"file", beside(layer.file)}};

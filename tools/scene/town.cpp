@@ -109,6 +109,12 @@ bool setHouse(EspContext* context, const House& house, std::string& error) {
     return false;
 }
 
+std::optional<TownSquare> squareOf(const EspContext* context) {
+    EspTownInfo info;
+    if (espHouseCount(context) == 0 || espTownInfo(context, &info) != ESP_OK) return {};
+    return TownSquare{{info.layerLow[0], info.layerLow[1]}, info.layerSide};
+}
+
 std::vector<TownLayer> townLayers(const EspContext* context) {
     std::vector<TownLayer> layers;
     EspGrammar grammar{};

@@ -70,6 +70,16 @@ House completed(const EspContext* context, House house);
 // False: `error` tells why, and the house stands as it did.
 bool setHouse(EspContext* context, const House& house, std::string& error);
 
+// What the town's layers lie over: from `low`, x and z, so many metres to the east and to the south. A plan that has
+// got or lost houses has another.
+struct TownSquare {
+    std::array<float, 2> low{};
+    float side = 0;
+    bool operator==(const TownSquare&) const = default;
+};
+// None without a town.
+std::optional<TownSquare> squareOf(const EspContext* context);
+
 // A layer that can be painted over the town: its grammar reads it, or it was painted before.
 struct TownLayer {
     std::string name;
