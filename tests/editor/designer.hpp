@@ -207,7 +207,6 @@ class Designer {
     Actions make(StrokeEnd) { return {}; }
     Actions make(SwapStroke) { return {}; }
     Actions make(RestoreFrozen) { return {}; }
-    Actions make(OrderSeeds) { return {}; }
 
     std::string anyLayer(bool town) {
         return town ? kTownLayers[pick(std::size(kTownLayers))] : kWallLayers[pick(std::size(kWallLayers))];

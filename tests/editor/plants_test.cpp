@@ -161,6 +161,28 @@ TEST_CASE("a seed's own value waits while its grammar's parameter is of another 
     CHECK(value[0] == 1.5f);
 }
 
+TEST_CASE("seeds of one number grow on as they do, whatever grammars they are of, in a project too") {
+    const Folder folder;
+    Editing editing(wallScene(folder, false));
+    const uint64_t plain = editing.hash();
+    // The creeper is the first of its number, the ivy the second.
+    REQUIRE(editing.perform(AddSeeds{{{editing.document->freshKey(), 1, {0, .1f, 0}, {0, 1, 0}, 1}}, {0}}));
+    const uint64_t before = editing.hash();
+    REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("project"), editing.error), editing.error);
+    Editing opened(folder.file("project"));
+    const auto& seeds = opened.document->scene().seeds;
+    REQUIRE(seeds.size() == 3);
+    CHECK(seeds[0].grammar == 1);
+    CHECK(seeds[1].grammar == 0);
+    CHECK(opened.hash() == before);
+    REQUIRE_MESSAGE(saveProject(*opened.document, folder.file("again"), opened.error), opened.error);
+    CHECK(readAll(folder.file("again/project.json")) == readAll(folder.file("project/project.json")));
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(editing.hash() == plain);
+    REQUIRE(saveProject(*editing.document, folder.file("plain"), editing.error));
+    CHECK(!contains(readAll(folder.file("plain/project.json")), "\"place\""));
+}
+
 TEST_CASE("a seed that is named twice is frozen once, and thawed by one undo") {
     const Folder folder;
     Editing editing(wallScene(folder, false));

@@ -108,7 +108,7 @@ TEST_CASE("what was done before a run can be undone and done again when it has e
 
     begin(window, path);
     CHECK(document.undoSteps() == 0);
-    CHECK(listed() != seeds.back());
+    CHECK(listed() == seeds.back());
     const SeedRecord late{document.freshKey(), 0, {-.4f, .1f, 0}, {0, 1, 0}, 99};
     REQUIRE(window.work.perform(AddSeeds{{late}, {0}}));
     REQUIRE(window.work.perform(Undo{}));

@@ -254,16 +254,9 @@ struct RestoreFrozen {
     template <class V>
     void fields(V&&) {}
 };
-// Likewise: the list of seeds in the order that it had, which tells seeds of one number apart.
-struct OrderSeeds {
-    static constexpr const char* kName = "";
-    std::vector<uint32_t> keys;
-    template <class V>
-    void fields(V&&) {}
-};
 using Action = std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, SetWalk, StrokeBegin,
                             StrokeDabs, StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse,
-                            LoadTownLayer, SetCamera, SetView, Undo, Redo, SwapStroke, RestoreFrozen, OrderSeeds>;
+                            LoadTownLayer, SetCamera, SetView, Undo, Redo, SwapStroke, RestoreFrozen>;
 
 // One line of a run: {"frame": 3, "gesture": 2, "NAME": {fields}}; see run.hpp.
 struct RunLine {

@@ -1,10 +1,8 @@
 // A document as its own project's reader would have it, so that who replays what follows begins with the same; and what
 // was done before, by the keys that seeds have then.
-#include <algorithm>
 #include <map>
 
 #include "tools/document/document.hpp"
-#include "tools/document/layer_history.hpp"
 
 namespace espalier::document {
 namespace {
@@ -17,7 +15,6 @@ struct RenameSeeds {
     void operator()(ChangeSeeds& action) const { rename(action.seeds); }
     void operator()(RemoveSeeds& action) const { rename(action.keys); }
     void operator()(FreezeSeeds& action) const { rename(action.keys); }
-    void operator()(OrderSeeds& action) const { rename(action.keys); }
     void operator()(RestoreFrozen& action) const {
         for (auto& [key, plant] : action.plants) key = newKey(key);
     }
@@ -55,15 +52,10 @@ struct RenameSeeds {
 std::vector<uint32_t> Document::beginAnew() {
     undone_.clear();
     beyond_ = done_.size();
-    const std::vector<scene::Seed> before = scene_.seeds;
-    std::ranges::stable_sort(scene_.seeds, {}, &scene::Seed::grammar);
     std::vector<uint32_t> keys;
     std::map<uint32_t, uint32_t> renamed;
     lastKey_ = 0;
-    bool sorted = true;
-    for (size_t i = 0; i < before.size(); ++i) {
-        scene::Seed& seed = scene_.seeds[i];
-        sorted = sorted && before[i].key == seed.key;
+    for (scene::Seed& seed : scene_.seeds) {
         keys.push_back(seed.key);
         seed.key = renamed[seed.key] = ++lastKey_;
     }
@@ -78,28 +70,7 @@ std::vector<uint32_t> Document::beginAnew() {
     scene_.unreadPlants = std::move(unread);
     for (Step& step : done_)
         for (Action& action : step.back) std::visit(RenameSeeds<decltype(newKey)>{newKey}, action);
-    if (sorted) return keys;
-    std::string ignored;
-    (void)plant(ignored);
-    // What was done before was done to the list as it was.
-    OrderSeeds order;
-    for (const scene::Seed& seed : before) order.keys.push_back(renamed[seed.key]);
-    if (!done_.empty()) {
-        done_.back().back.push_back(std::move(order));
-        done_.back().bytes += keptBytes(done_.back().back.back());
-    }
     return keys;
-}
-
-bool Document::carryOut(const OrderSeeds& action, std::vector<Action>& back, std::string& error) {
-    const std::vector<scene::Seed> before = scene_.seeds;
-    OrderSeeds inverse;
-    for (const scene::Seed& seed : before) inverse.keys.push_back(seed.key);
-    std::ranges::stable_sort(scene_.seeds, {},
-                             [&](const scene::Seed& seed) { return std::ranges::find(action.keys, seed.key); });
-    if (!replant(before, error)) return false;
-    back.push_back(std::move(inverse));
-    return true;
 }
 
 }  // namespace espalier::document

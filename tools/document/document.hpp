@@ -46,9 +46,9 @@ class Document {
     // Of what a project holds as it is now: undone and done again it is the same state.
     uint64_t state() const { return stroking() ? ~0ull : done_.empty() ? bottom_ : done_.back().state; }
 
-    // For a recording, from here on as if it had been opened as a project of it: seeds stand in the order, and have the
-    // keys, that its reader gives them. What their keys were, in that order. No stroke is open. What was done before is
-    // out of undo's reach until reachBack(); nothing can be done again.
+    // For a recording, from here on as if it had been opened as a project of it: seeds have the keys that its reader
+    // gives them. What their keys were, in the list's order. No stroke is open. What was done before is out of undo's
+    // reach until reachBack(); nothing can be done again.
     std::vector<uint32_t> beginAnew();
     void reachBack() { beyond_ = 0; }
 
@@ -98,7 +98,6 @@ class Document {
     bool carryOut(const SwapStroke& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const FreezeSeeds& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const RestoreFrozen& action, std::vector<Action>& back, std::string& error);
-    bool carryOut(const OrderSeeds& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const PruneBranch& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetHouse& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const ResetHouse& action, std::vector<Action>& back, std::string& error);

@@ -60,7 +60,6 @@ size_t keptBytes(Action& action) {
         for (const auto& plant : restore->plants) bytes += sizeof plant, frozen(plant.second);
     if (const auto* add = std::get_if<AddSeeds>(&action))
         for (const SeedRecord& seed : add->seeds) frozen(seed.frozen);
-    if (const auto* order = std::get_if<OrderSeeds>(&action)) bytes += order->keys.size() * sizeof order->keys[0];
     if (const auto* text = std::get_if<SetText>(&action)) bytes += text->grows.size();
     return bytes;
 }

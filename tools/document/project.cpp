@@ -127,6 +127,8 @@ SceneFile describe(const Document& document) {
     out.project = SceneFile::kProjectVersion;
     for (const scene::LoadedSurface& surface : scene.surfaces)
         out.surfaces.push_back({surface.file, surface.placing, surface.drawn});
+    // Their order tells seeds of one number apart, whichever grammars they are of.
+    const bool mixed = !std::ranges::is_sorted(scene.seeds, {}, &scene::Seed::grammar);
     for (size_t i = 0; i < scene.grammars.size(); ++i) {
         const scene::LoadedGrammar& grammar = scene.grammars[i];
         scene::SceneGrammar& described = out.grammars.emplace_back();
@@ -136,11 +138,12 @@ SceneFile describe(const Document& document) {
         for (const scene::ParamValue& value : scene::changedParams(document.context(), grammar.id))
             described.params.push_back({value, {}});
         for (const scene::ParamValue& value : grammar.unset) described.params.push_back({value, {}});
-        for (const scene::Seed& seed : scene.seeds) {
-            if (seed.grammar != i) continue;
+        for (uint32_t place = 0; place < scene.seeds.size(); ++place) {
+            if (scene.seeds[place].grammar != i) continue;
+            scene::Seed& seed = described.seeds.emplace_back(scene.seeds[place]);
             const auto unread = scene.unreadPlants.find(seed.key);
-            described.seeds.push_back(seed);
-            described.seeds.back().frozenFile = unread != scene.unreadPlants.end() ? unread->second : "";
+            seed.frozenFile = unread != scene.unreadPlants.end() ? unread->second : "";
+            seed.place = mixed ? place : 0;
         }
     }
     out.town = scene.town;

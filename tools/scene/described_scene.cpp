@@ -130,6 +130,7 @@ bool loadGrammars(EspContext* context, const Request& request, const SceneFile& 
             out.seeds.push_back(seed);
         }
     }
+    std::ranges::stable_sort(out.seeds, {}, &Seed::place);
     return true;
 }
 

@@ -87,6 +87,7 @@ struct Seed {
     std::vector<ParamValue> params;  // in place of its grammar's
     FrozenPlant frozen = {};         // null: it grows
     std::string frozenFile;          // where a scene file keeps that
+    uint32_t place = 0;              // in a scene file: among the seeds of all its grammars
     EspSeed planted{};
 };
 

@@ -256,7 +256,7 @@ class Reader : JsonChecks {
         return value.kind == Json::Kind::number || value.kind == Json::Kind::flag || param.value.count == 3;
     }
     void readSeed(SceneGrammar& grammar, const Json& json) {
-        if (!isObject(json, "a seed", {"position", "direction", "seed", "params", "frozen"})) return;
+        if (!isObject(json, "a seed", {"position", "direction", "seed", "params", "frozen", "place"})) return;
         Seed seed;
         seed.number = uint32_t(grammar.seeds.size() + 1);
         if (const Json* position = need(json, "position"); position && !numbers(*position, seed.position))
@@ -270,6 +270,7 @@ class Reader : JsonChecks {
             else
                 seed.number = uint32_t(n->number);
         }
+        whole(json, "place", seed.place);
         if (const Json* frozen = json.find("frozen")) seed.frozenFile = file(*frozen);
         std::vector<SceneParam> own;
         params(json, own);

@@ -72,6 +72,7 @@ ordered_json grammarJson(const SceneGrammar& grammar, const Beside& beside) {
         ordered_json& out = seeds.emplace_back(ordered_json{{"position", shortestList(seed.position)},
                                                             {"direction", shortestList(seed.direction)},
                                                             {"seed", seed.number}});
+        if (seed.place) out["place"] = seed.place;
         if (!seed.frozenFile.empty()) out["frozen"] = beside(seed.frozenFile);
         for (const ParamValue& own : seed.params) out["params"][own.name] = valueJson(own);
     }
