@@ -1,5 +1,6 @@
 // Steps of undo and states; projects, judged by opening them in another context.
 
+#include <chrono>
 #include <filesystem>
 #include <set>
 
@@ -220,6 +221,39 @@ TEST_CASE("what a project couldn't say isn't done, whatever a run asks for") {
         REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("garden"), editing.error), editing.error);
         CHECK(Editing(folder.file("garden")).document->scene().camera.fovY == fov);
     }
+}
+
+TEST_CASE("an autosave is known by the project that it follows, of whatever time the copies of both are") {
+    namespace fs = std::filesystem;
+    const Folder folder;
+    const std::string garden = folder.file("garden"), kept = garden + "/autosave.json";
+    const auto age = [&](int project, int autosave) {
+        const auto now = fs::file_time_type::clock::now();
+        fs::last_write_time(garden + "/project.json", now + std::chrono::seconds(project));
+        fs::last_write_time(kept, now + std::chrono::seconds(autosave));
+    };
+    Editing editing(smallScene(folder));
+    REQUIRE_MESSAGE(saveProject(*editing.document, garden, editing.error), editing.error);
+    REQUIRE(editing.perform(FillLayer{"mask", .25f}));
+    REQUIRE_MESSAGE(autosave(*editing.document, garden, editing.error), editing.error);
+    age(9, 1);
+    CHECK(recoverable(garden) == kept);
+    age(1, 9);
+    CHECK(recoverable(garden) == kept);
+    // Another project has come since.
+    const std::string text = readAll(garden + "/project.json");
+    folder.write("garden/project.json", text + "\n");
+    age(1, 9);
+    CHECK(recoverable(garden) == "");
+    // An older program's says nothing of it.
+    std::string old = readAll(kept);
+    const size_t from = old.find("\"follows\"");
+    REQUIRE(from != std::string::npos);
+    folder.write("garden/autosave.json", old.erase(from, old.find('\n', from) + 1 - from));
+    age(1, 9);
+    CHECK(recoverable(garden) == kept);
+    age(9, 1);
+    CHECK(recoverable(garden) == "");
 }
 
 TEST_CASE("what couldn't be opened again is never saved over what can") {

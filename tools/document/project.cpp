@@ -9,6 +9,7 @@
 #include "tools/document/durable.hpp"
 #include "tools/scene/carried.hpp"
 #include "tools/scene/hash.hpp"
+#include "tools/scene/json_checks.hpp"
 #include "tools/scene/json_out.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/text_file.hpp"
@@ -191,9 +192,17 @@ bool writeScene(const std::string& path, const SceneFile& file, std::string& err
     return false;
 }
 
+// What project.json of the folder holds, as an autosave names it; empty: there is none.
+std::string projectIn(const fs::path& folder) {
+    std::string text, ignored;
+    return scene::readText((folder / kProject).string(), text, ignored) ? scene::hashName(text.data(), text.size())
+                                                                        : "";
+}
+
 // What isn't complete in the end leaves no files: a disk that was full has room again.
 bool write(ProjectData data, const std::string& folder, const char* name, Progress& progress, std::string& error) {
     const std::string path = (fs::path(folder) / name).string();
+    if (name == kAutosave) data.file.follows = projectIn(folder);
     const bool good = canName(folder, data.file, error) && makeFolderDurably(folder, error) &&
                       writeLayers(data, folder, progress, error) && writePlants(folder, data.file, error) &&
                       progress.at(1) && writeScene(path, data.file, error);
@@ -280,6 +289,13 @@ std::string recoverable(const std::string& folder) {
     std::error_code none;
     const fs::path kept = fs::path(folder) / kAutosave, project = fs::path(folder) / kProject;
     if (!fs::exists(kept, none)) return {};
+    // By what it says; files that are copied or checked out are of any time.
+    scene::Json json;
+    std::string ignored;
+    const std::string now = projectIn(folder);
+    const bool read = !now.empty() && scene::readJsonFile(kept.string(), json, ignored);
+    if (const scene::Json* follows = read ? json.find("follows") : nullptr)
+        return follows->text == now ? kept.string() : "";
     if (fs::exists(project, none) && fs::last_write_time(kept, none) < fs::last_write_time(project, none)) return {};
     return kept.string();
 }

@@ -43,8 +43,8 @@ bool saveProject(const Document& document, const std::string& folder, std::strin
 // The same into autosave.json of the folder, which leaves project.json alone; saving removes it.
 Work::Plan autosaving(const Document& document, const std::string& folder);
 bool autosave(const Document& document, const std::string& folder, std::string& error);
-// The autosave of a folder that is younger than its project, empty if there is none: a program has ended without
-// saving. It is opened as any scene file.
+// The autosave of a folder that was made since its project was saved, empty if there is none: a program has ended
+// without saving. It is opened as any scene file.
 std::string recoverable(const std::string& folder);
 void dropAutosave(const std::string& folder);
 

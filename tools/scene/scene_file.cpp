@@ -21,9 +21,10 @@ class Reader : JsonChecks {
     void readScene(const Json& json) {
         if (!readVersion(json)) return;
         if (!isObject(json, "a scene",
-                      {"project", "surface", "surfaces", "town", "pruned", "walk", "grammars", "filled", "layers",
-                       "camera", "sun", "sky", "ground", "site", "exposure"}))
+                      {"project", "follows", "surface", "surfaces", "town", "pruned", "walk", "grammars", "filled",
+                       "layers", "camera", "sun", "sky", "ground", "site", "exposure"}))
             return;
+        if (json.find("follows")) word(json, "follows", out_.follows);
         readSurfaces(json);
         if (const Json* grammars = need(json, "grammars")) {
             if (grammars->kind != Json::Kind::list || grammars->items.empty())

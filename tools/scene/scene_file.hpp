@@ -34,7 +34,8 @@ struct SceneFile {
     // 2: `filled`, layers of colours; 3: bakes that layers lie over; 4: squares that a town's layers lie over, the
     // order of seeds among grammars, and what an autosave follows
     static constexpr int kProjectVersion = 4;
-    int project = 0;  // version of a project file; 0: a scene that was written by hand
+    int project = 0;      // version of a project file; 0: a scene that was written by hand
+    std::string follows;  // of an autosave: scene::hashName of the project.json that it was made beside
     std::vector<SceneSurface> surfaces;
     std::vector<SceneGrammar> grammars;
     std::optional<SceneTown> town;

@@ -90,6 +90,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     };
     ordered_json json;
     if (file.project) json["project"] = file.project;
+    if (!file.follows.empty()) json["follows"] = file.follows;
     for (const SceneSurface& surface : file.surfaces) {
         json["surfaces"].push_back(placedJson(beside(surface.file), surface.placing));
         if (!surface.drawn) json["surfaces"].back()["drawn"] = false;
