@@ -1,11 +1,16 @@
 // Saves, exports and imports beside what else is done: what an edit, a cancel or an end at any of their steps leaves.
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
 #include <map>
+#include <thread>
 
 #include "sample_game/background.hpp"
 #include "tests/editor/editing.hpp"
 #include "tools/document/layer_files.hpp"
 #include "tools/document/project.hpp"
+#include "tools/document/write_lock.hpp"
 
 using namespace espalier::document;
 using sample::Background;
@@ -117,6 +122,47 @@ TEST_CASE("autosaves don't pile up, and files that aren't a project's own stay i
     REQUIRE(saveProject(*editing.document, garden, editing.error));
     CHECK(filesIn(garden).size() == 4);
     CHECK(readAll(garden + "/layers/own.exr") == "a user's");
+}
+
+TEST_CASE("a save waits for what another program writes into the project, and takes none of it away") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    const std::string garden = folder.file("garden");
+    REQUIRE(editing.perform(FillLayer{"mask", .25f}));
+    REQUIRE(saveProject(*editing.document, garden, editing.error));
+    const size_t files = filesIn(garden).size();
+    // A layer that no text names yet, and files that are being written or were left behind.
+    const std::string layer = "garden/layers/mask-0-0123456789abcdef.exr";
+    const std::string mine = "garden/.unfinished-" + std::to_string(::getpid()) + "-own.grammar";
+    const char* const gone = "garden/.unfinished-999999999-project.json";
+    folder.write(layer.c_str(), "");
+    folder.write(mine.c_str(), "");
+    folder.write(gone, "");
+    {
+        WriteLock other;
+        Progress progress;
+        REQUIRE(other.take(garden, progress, editing.error));
+        REQUIRE(editing.perform(FillLayer{"mask", .5f}));
+        Work waits(saving(*editing.document, garden)), given(saving(*editing.document, garden));
+        for (int i = 0; i < 20; ++i) {
+            CHECK(waits.step());
+            CHECK(given.step());
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        CHECK(std::filesystem::exists(folder.file(layer.c_str())));
+        CHECK(std::filesystem::exists(folder.file(gone)));
+        given.cancel();
+        CHECK(!given.finish(editing.error));
+        CHECK(given.state() == Work::State::cancelled);
+        waits.cancel();
+    }
+    REQUIRE_MESSAGE(saveProject(*editing.document, garden, editing.error), editing.error);
+    CHECK(!std::filesystem::exists(folder.file(layer.c_str())));
+    CHECK(!std::filesystem::exists(folder.file(gone)));
+    CHECK(std::filesystem::exists(folder.file(mine.c_str())));
+    CHECK(filesIn(garden).size() == files + 1);
+    Editing saved(garden);
+    CHECK(lowest(saved) == .5f);
 }
 
 TEST_CASE("an export of several pictures is all of them or, cancelled, none") {

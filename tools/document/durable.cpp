@@ -2,10 +2,12 @@
 #include "tools/document/durable.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <vector>
@@ -25,9 +27,15 @@ bool flush(const std::string& path, int flags, std::string& error) {
     return good;
 }
 
+constexpr const char* kUnfinished = ".unfinished-";
+
 }  // namespace
 
-const char* const kUnfinished = ".unfinished-";
+bool isAbandoned(const std::string& name) {
+    if (!name.starts_with(kUnfinished)) return false;
+    const long writer = std::strtol(name.c_str() + std::strlen(kUnfinished), nullptr, 10);
+    return writer <= 0 || (::kill(pid_t(writer), 0) != 0 && errno == ESRCH);
+}
 
 Unfinished::Unfinished(const std::string& path) : path_(path), place_(scene::behindLinks(path).string()) {
     const fs::path place(place_), folder = place.has_parent_path() ? place.parent_path() : ".";

@@ -32,7 +32,7 @@ bool writeTextDurably(const std::string& path, const std::string& text, std::str
 // With all folders on the way to it, each known to the disk. False: `error` tells folder and cause.
 bool makeFolderDurably(const std::string& folder, std::string& error);
 
-// Names of files that an interrupted write left behind begin with this.
-extern const char* const kUnfinished;
+// Whether a file of this name is what an interrupted write left behind: its program has ended.
+bool isAbandoned(const std::string& name);
 
 }  // namespace espalier::document

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "tools/document/durable.hpp"
+#include "tools/document/write_lock.hpp"
 #include "tools/scene/carried.hpp"
 #include "tools/scene/hash.hpp"
 #include "tools/scene/json_checks.hpp"
@@ -166,7 +167,7 @@ bool named(const fs::path& file) {
            hash.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// What interrupted saves have left behind, and layers, plants and bakes that no file of the project names.
+// Under lock: what interrupted saves have left behind, and layers, plants and bakes that no file of the project names.
 void sweep(const fs::path& folder) {
     std::error_code ignored;
     std::string wanted, text, error;
@@ -179,7 +180,7 @@ void sweep(const fs::path& folder) {
         for (const auto& entry : fs::directory_iterator(place, ignored)) {
             const std::string name = entry.path().filename().string();
             const bool unwanted = place != folder && named(name) && wanted.find(name) == std::string::npos;
-            if (name.starts_with(kUnfinished) || unwanted) fs::remove(entry.path(), ignored);
+            if (isAbandoned(name) || unwanted) fs::remove(entry.path(), ignored);
         }
 }
 
@@ -202,9 +203,11 @@ std::string projectIn(const fs::path& folder) {
 // What isn't complete in the end leaves no files: a disk that was full has room again.
 bool write(ProjectData data, const std::string& folder, const char* name, Progress& progress, std::string& error) {
     const std::string path = (fs::path(folder) / name).string();
+    WriteLock lock;
+    if (!canName(folder, data.file, error) || !makeFolderDurably(folder, error) || !lock.take(folder, progress, error))
+        return false;
     if (name == kAutosave) data.file.follows = projectIn(folder);
-    const bool good = canName(folder, data.file, error) && makeFolderDurably(folder, error) &&
-                      writeLayers(data, folder, progress, error) && writePlants(folder, data.file, error) &&
+    const bool good = writeLayers(data, folder, progress, error) && writePlants(folder, data.file, error) &&
                       progress.at(1) && writeScene(path, data.file, error);
     if (good && name == kProject) dropAutosave(folder);
     sweep(folder);

@@ -1,0 +1,63 @@
+// flock of a file that is there only meanwhile. The folder itself is what editors lock for as long as they have it
+// open.
+#include "tools/document/write_lock.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+namespace espalier::document {
+namespace {
+
+constexpr std::chrono::milliseconds kLookEvery{20};
+constexpr std::chrono::seconds kLongest{60};
+
+}  // namespace
+
+WriteLock::~WriteLock() {
+    if (file_ < 0) return;
+    ::unlink(path_.c_str());
+    ::close(file_);
+}
+
+bool WriteLock::take(const std::string& folder, Progress& progress, std::string& error) {
+    path_ = (std::filesystem::path(folder) / ".writing").string();
+    for (;;) {
+        file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+        if (file_ < 0) return true;  // nor can what is to be written, which will say why
+        const bool good = wait(progress, error);
+        if (good && isThere()) return true;
+        ::close(file_);
+        file_ = -1;
+        if (!good) return false;
+    }
+}
+
+bool WriteLock::wait(Progress& progress, std::string& error) const {
+    const auto begin = std::chrono::steady_clock::now();
+    while (::flock(file_, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR)) {
+        if (!progress.at(0)) return false;
+        if (std::chrono::steady_clock::now() - begin > kLongest) {
+            error = path_ + ": another program has been writing there for a minute";
+            return false;
+        }
+        std::this_thread::sleep_for(kLookEvery);
+    }
+    return true;
+}
+
+// Who had it before has removed the file that this one waited for.
+bool WriteLock::isThere() const {
+    struct stat ours {
+    }, now{};
+    return ::fstat(file_, &ours) == 0 && ::stat(path_.c_str(), &now) == 0 && ours.st_ino == now.st_ino &&
+           ours.st_dev == now.st_dev;
+}
+
+}  // namespace espalier::document
