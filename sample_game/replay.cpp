@@ -28,8 +28,10 @@ bool Replay::step(Workspace& work, double now) {
             ours_ = work.newGesture();
         }
         if (!work.perform(line.action, line.gesture ? ours_ : 0)) {
-            work.error = path_ + ":" + std::to_string(next_ + 2) + ": " + work.error;
-            return stop(work), false;
+            const std::string why = path_ + ":" + std::to_string(next_ + 2) + ": " + work.error;
+            stop(work);  // which may end a stroke, and then there is no news but that
+            work.error = why;
+            return false;
         }
         if (std::holds_alternative<SetCamera>(line.action)) work.lookFrom(work.scene().camera);
     }

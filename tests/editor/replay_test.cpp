@@ -36,3 +36,26 @@ TEST_CASE("what was one step of undo in a run is one step in its replay, whereve
     REQUIRE(window.work.perform(Undo{}));
     CHECK(!window.work.document->undoName());
 }
+
+TEST_CASE("a replay that fails within a stroke ends it and says where") {
+    const Folder folder;
+    const std::string scene = smallScene(folder), path = folder.file("run.jsonl");
+    Window window(folder, scene);
+    std::string error;
+    Recorder recorder;
+    REQUIRE(recorder.begin(path, {1, scene, 96, 54, .1f}, error));
+    StrokeBegin stroke;
+    stroke.layer = "mask";
+    recorder.note(stroke, 7);
+    recorder.note(StrokeDabs{{{0, .5f, .4f, 0, 0, 1, 1}}}, 7);
+    recorder.note(FillLayer{"mask", .5f}, 8);  // amid a stroke
+    REQUIRE_MESSAGE(recorder.end(error), error);
+
+    sample::Replay replay;
+    REQUIRE_MESSAGE(replay.read(path, error), error);
+    replay.begin(0);
+    for (double now = 0; replay.step(window.work, now); now += .1) REQUIRE(now < 10);
+    CHECK(!replay.on());
+    CHECK(!window.work.document->stroking());
+    CHECK_MESSAGE(contains(window.work.error, path + ":4: "), window.work.error);
+}
