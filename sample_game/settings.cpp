@@ -21,7 +21,9 @@ std::string below(const char* variable, const char* inHome) {
     return {};
 }
 
+// As this version or another has written it.
 struct LayoutRecord {
+    static constexpr bool kWhole = false;
     Layout layout;
     Brush brush;
     template <class V>
@@ -38,6 +40,7 @@ struct LayoutRecord {
 };
 
 struct Preset {
+    static constexpr bool kWhole = true;
     std::vector<document::Param> params;
     template <class V>
     void fields(V&& v) {
@@ -54,6 +57,16 @@ bool write(const std::string& path, Record record, std::string& error) {
     return document::writeTextDurably(path, scene::textOf(json, 1) + "\n", error);
 }
 
+// Reads what is there, and passes over all else.
+struct PartReader {
+    document::FieldReader& reader;
+    const scene::Json& json;
+    template <class T>
+    void operator()(const char* name, T& value) {
+        if (json.find(name)) reader(name, value);
+    }
+};
+
 template <class Record>
 bool read(const std::string& path, Record& record, std::string& error) {
     std::string text;
@@ -62,8 +75,12 @@ bool read(const std::string& path, Record& record, std::string& error) {
     if (!scene::readText(path, text, error)) return false;
     if (scene::readJson(text, json, error)) {
         document::FieldReader reader(json, error);
-        record.fields(reader);
-        reader.end();
+        if (json.kind != scene::Json::Kind::object)
+            error = "1:1: this isn't an object";
+        else if constexpr (Record::kWhole)
+            record.fields(reader), reader.end();
+        else
+            record.fields(PartReader{reader, json});
     }
     if (!error.empty()) error = path + ":" + error;
     return error.empty();

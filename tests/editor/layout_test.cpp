@@ -136,6 +136,21 @@ TEST_CASE("what a layout says beyond what can be used is brought back to that") 
     }
 }
 
+TEST_CASE("a layout of another version is read as far as both know it") {
+    const Home home;
+    home.folder.write("espalier/layout.json", R"({"panel_width": 420, "of_a_newer_version": [1, {"a": 2}]})");
+    Layout layout = unlikeLayout(), expected = layout;
+    Brush brush;
+    const float radius = brush.radius;
+    std::string error;
+    readLayout(layout, brush, error);
+    CHECK(error == "");
+    expected.panelWidth = 420;
+    CHECK(remembered(layout) == remembered(expected));
+    CHECK(brush.radius == radius);
+    CHECK(!std::filesystem::exists(home.layout() + ".damaged"));
+}
+
 TEST_CASE("a damaged layout is told with its place and kept beside the next one") {
     const Home home;
     for (const char* text : {"{\"panel\": true,", "{\"panel\": 3}", "[]", ""}) {

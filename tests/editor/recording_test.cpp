@@ -51,7 +51,7 @@ TEST_CASE("a run that begins after edits names the seeds that its replay has, an
     };
     plant(0, .3f);
     REQUIRE(window.work.perform(Undo{}));
-    const SeedRecord ivy = plant(0, .5f);  // stands behind the other grammar's seeds here, before them in a project
+    const SeedRecord ivy = plant(0, .5f);  // stands behind the other grammar's seeds
     window.work.selected = {ivy.key};
     begin(window, path);
     CHECK(!document.undoName());
