@@ -6,6 +6,7 @@
 
 #include "tests/editor/editing.hpp"
 #include "tools/document/project.hpp"
+#include "tools/document/run.hpp"
 #include "tools/scene/scene_file.hpp"
 
 using namespace espalier::document;
@@ -254,6 +255,28 @@ TEST_CASE("an autosave is known by the project that it follows, of whatever time
     CHECK(recoverable(garden) == kept);
     age(9, 1);
     CHECK(recoverable(garden) == "");
+}
+
+TEST_CASE("what was opened by a relative path is saved and recorded after the folder that it was named in has gone") {
+    namespace fs = std::filesystem;
+    const Folder folder;
+    const fs::path before = fs::current_path(), gone = folder.path / "gone/deep";
+    (void)sceneOfItsOwn(folder);
+    fs::create_directories(gone);
+    fs::current_path(gone);
+    Editing editing("../../own.json");
+    fs::remove_all(gone);
+    CHECK(saveProject(*editing.document, folder.file("garden"), editing.error));
+    CHECK_MESSAGE(editing.error == "", editing.error);
+    CHECK(!saveProject(*editing.document, "here", editing.error));
+    CHECK_MESSAGE(contains(editing.error, "here"), editing.error);
+    Recorder recorder;
+    CHECK(recorder.begin(folder.file("run.jsonl"), {1, "own.json", 96, 54, .1f}, editing.error));
+    CHECK(recorder.end(editing.error));
+    CHECK(!recorder.begin("run.jsonl", {1, folder.file("own.json"), 96, 54, .1f}, editing.error));
+    CHECK_MESSAGE(contains(editing.error, "run.jsonl"), editing.error);
+    fs::current_path(before);
+    CHECK(Editing(folder.file("garden")).document->scene().grammars[0].file == folder.file("own.grammar"));
 }
 
 TEST_CASE("what couldn't be opened again is never saved over what can") {

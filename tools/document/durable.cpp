@@ -89,7 +89,8 @@ bool writeTextDurably(const std::string& path, const std::string& text, std::str
 bool makeFolderDurably(const std::string& folder, std::string& error) {
     std::vector<fs::path> missing;
     std::error_code code;
-    for (fs::path at = fs::absolute(folder); at.has_relative_path() && !fs::exists(at, code); at = at.parent_path())
+    for (fs::path at = scene::absolutePath(folder); at.has_relative_path() && !fs::exists(at, code);
+         at = at.parent_path())
         missing.push_back(at);
     fs::create_directories(folder, code);
     if (code) error = folder + ": can't be made: " + code.message();

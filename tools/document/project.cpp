@@ -115,9 +115,10 @@ bool canName(const std::string& folder, const SceneFile& file, std::string& erro
     std::vector<std::string> names{file.site, file.town ? file.town->file : ""};
     for (const scene::SceneSurface& surface : file.surfaces) names.push_back(surface.file);
     for (const scene::SceneGrammar& grammar : file.grammars) names.push_back(grammar.file);
-    const fs::path from = fs::absolute(folder).lexically_normal();
+    const fs::path from = scene::absolutePath(folder).lexically_normal();
     const auto bad = std::ranges::find_if(names, [&](const std::string& name) {
-        return !name.empty() && !scene::isUtf8(fs::absolute(name).lexically_normal().lexically_relative(from).string());
+        return !name.empty() &&
+               !scene::isUtf8(scene::absolutePath(name).lexically_normal().lexically_relative(from).string());
     });
     if (bad != names.end()) error = *bad + ": its name isn't UTF-8, which a project can't hold";
     return bad == names.end();

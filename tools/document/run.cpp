@@ -98,7 +98,7 @@ bool readRun(const std::string& path, Run& out, std::string& error) {
 }
 
 bool Recorder::begin(const std::string& path, RunHead head, std::string& error) {
-    folder_ = fs::absolute(path).parent_path().lexically_normal().string();
+    folder_ = scene::absolutePath(path).parent_path().lexically_normal().string();
     head.scene = beside(head.scene);
     if (!scene::isUtf8(head.scene)) {
         error = head.scene + ": its name isn't UTF-8, which a run can't hold";
@@ -121,7 +121,7 @@ bool Recorder::begin(const std::string& path, RunHead head, std::string& error) 
 
 // A file's name as the run has it: it and what lies beside it may be moved together.
 std::string Recorder::beside(const std::string& file) const {
-    const fs::path near = fs::absolute(file).lexically_normal().lexically_relative(folder_);
+    const fs::path near = scene::absolutePath(file).lexically_normal().lexically_relative(folder_);
     return near.empty() ? file : near.string();
 }
 

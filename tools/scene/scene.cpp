@@ -66,8 +66,7 @@ namespace {
 // Also of a folder's name that a shell has completed with a slash.
 std::string lastPart(const std::string& file) {
     namespace fs = std::filesystem;
-    std::error_code ignored;
-    const fs::path whole = fs::absolute(file, ignored).lexically_normal();
+    const fs::path whole = absolutePath(file).lexically_normal();
     return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
@@ -89,6 +88,9 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     namespace fs = std::filesystem;
     Request request = asked;
     std::error_code ignored;
+    // What is named from there stays what it is, wherever the program is told to work later.
+    request.file = absolutePath(request.file).string();
+    if (!request.grammar.empty()) request.grammar = absolutePath(request.grammar).string();
     if (fs::is_directory(request.file, ignored) && fs::exists(fs::path(request.file) / "project.json", ignored))
         request.file = (fs::path(request.file) / "project.json").string();
     out = Scene{};

@@ -5,6 +5,7 @@
 
 #include "tools/scene/json_out.hpp"
 #include "tools/scene/scene_file.hpp"
+#include "tools/scene/text_file.hpp"
 
 namespace espalier::scene {
 namespace {
@@ -83,10 +84,10 @@ ordered_json grammarJson(const SceneGrammar& grammar, const Beside& beside) {
 
 std::string writeSceneText(const std::string& path, const SceneFile& file) {
     namespace fs = std::filesystem;
-    const fs::path folder = fs::absolute(path).parent_path();
+    const fs::path folder = absolutePath(path).parent_path();
     const auto beside = [&](const std::string& name) {
-        const fs::path near = fs::absolute(name).lexically_normal().lexically_relative(folder.lexically_normal());
-        return near.empty() ? fs::absolute(name).string() : near.string();
+        const fs::path near = absolutePath(name).lexically_normal().lexically_relative(folder.lexically_normal());
+        return near.empty() ? absolutePath(name).string() : near.string();
     };
     ordered_json json;
     if (file.project) json["project"] = file.project;

@@ -41,6 +41,12 @@ bool isSpecial(const fs::path& path) {
 
 }  // namespace
 
+fs::path absolutePath(const std::string& path) {
+    std::error_code gone;
+    const fs::path whole = fs::absolute(path, gone);
+    return gone ? fs::path(path) : whole;
+}
+
 fs::path behindLinks(const fs::path& path) {
     std::error_code code;
     if (!fs::is_symlink(path, code)) return path;

@@ -12,6 +12,9 @@ namespace espalier::scene {
 // not the link; devices and pipes are written to as they are.
 bool writeText(const std::string& path, std::string_view text, std::string& error);
 
+// With the current folder before it, unless that is gone.
+std::filesystem::path absolutePath(const std::string& path);
+
 // What a link leads to, or else the path itself.
 std::filesystem::path behindLinks(const std::filesystem::path& path);
 
