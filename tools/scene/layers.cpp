@@ -60,13 +60,15 @@ void noteLayers(const EspContext* context, Scene& scene) {
     for (const LoadedGrammar& grammar : scene.grammars)
         for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i)
             declared.push_back(espLayerName(context, grammar.id, i));
-    std::vector<std::string> names = declared;
     // Numbers that were painted by a name which has become a colour's wait unseen for a text that reads them.
-    const auto painted = [&](const std::string& name) {
-        if (!areColour(declared, name)) names.push_back(name);
+    std::vector<std::string> names = declared, painted;
+    const auto note = [&](const std::string& name) {
+        if (!areColour(declared, name)) painted.push_back(name);
     };
-    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i) painted(espPaintedLayerName(context, i));
-    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) painted(espTownLayerName(context, i));
+    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i) note(espPaintedLayerName(context, i));
+    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) note(espTownLayerName(context, i));
+    std::ranges::sort(painted);  // not by when each was painted, which a project doesn't know
+    names.insert(names.end(), painted.begin(), painted.end());
     scene.layers.clear();
     scene.colourLayers.clear();
     for (const std::string& name : names) {
