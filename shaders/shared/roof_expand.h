@@ -49,17 +49,11 @@ inline void addTally(RoofStatus& to, const RoofTally& t) {
     roofAdd(to.hash[1], t.hash.y);
 }
 #else
-// The lanes of a subgroup together.
+// Each lane for itself: lanes that part and would have to meet again between a sum and its use may not.
 RoofPlace takePlace(RoofEnv env, uint rows) {
-    uint rowsBefore = subgroupExclusiveAdd(rows);
-    uint allRows = subgroupAdd(rows);
-    uvec4 lanes = subgroupBallot(true);
-    uvec2 base = uvec2(0u);
-    if (subgroupElect())
-        base = uvec2(atomicAdd(env.status.v[0].grids, subgroupBallotBitCount(lanes)), atomicAdd(env.status.v[0].rows, allRows));
-    base = subgroupBroadcastFirst(base);
-    return RoofPlace(base.x + subgroupBallotExclusiveBitCount(lanes), base.y + rowsBefore);
+    return RoofPlace(atomicAdd(env.status.v[0].grids, 1u), rows != 0u ? atomicAdd(env.status.v[0].rows, rows) : 0u);
 }
+// The lanes of a subgroup together.
 void addTally(RoofEnv env, RoofTally t) {
     uvec2 cells = subgroupAdd(uvec2(t.touched, t.whole));
     uvec2 shapes = subgroupAdd(uvec2(t.terminals, t.stopped));

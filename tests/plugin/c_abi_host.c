@@ -33,7 +33,7 @@ EspHostDevice makeHost(void) {
     CHECK(vkCreateDevice(physical, &deviceInfo, NULL, &device) == VK_SUCCESS);
     VkQueue queue;
     vkGetDeviceQueue(device, 0, 0, &queue);
-    EspHostDevice host = {(void*)vkGetInstanceProcAddr, instance, physical, device, queue, 0, 0};
+    EspHostDevice host = {(void*)vkGetInstanceProcAddr, instance, physical, device, queue, 0, 0, 0};
     return host;
 }
 
