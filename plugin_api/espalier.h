@@ -59,8 +59,8 @@ typedef void (*EspLogFn)(void* user, EspLogLevel level, const char* message);
 /* ---- Context ------------------------------------------------------------------------------------------------ */
 
 /* A host's Vulkan objects; handles as they are in vulkan.h. The device must have been created with the features that
- * espRequiredFeatures chains into a VkDeviceCreateInfo; its subgroups must vote, ballot and do arithmetic in compute. What
- * the physical device lacks is named in espCreate's error. Espalier submits to `queue` only inside its functions; what it
+ * espRequiredFeatures chains into a VkDeviceCreateInfo; its subgroups must vote, ballot and do arithmetic in compute, and its
+ * uniform blocks hold 65,536 bytes. What the physical device lacks is named in espCreate's error. Espalier submits to `queue` only inside its functions; what it
  * submits waits for the frames before it that espDraw has recorded into, and later ones see what it wrote. The host keeps
  * all objects alive until espDestroy has returned. */
 typedef struct EspHostDevice {
@@ -71,7 +71,7 @@ typedef struct EspHostDevice {
     void* queue;                 /* VkQueue: graphics and compute */
     uint32_t queueFamily;
     int debugUtils;              /* 1: VK_EXT_debug_utils is on: objects get names and passes labels */
-    int anisotropy;              /* 1: so is the feature samplerAnisotropy: what is seen from a flat angle stays sharp */
+    int anisotropy;              /* 1: so is the feature samplerAnisotropy: what is seen at a grazing angle stays sharp */
 } EspHostDevice;
 
 typedef struct EspContextDef {

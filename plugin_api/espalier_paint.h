@@ -54,8 +54,8 @@ ESP_API void espDestroyCarry(EspCarry* carry);          /* NULL is allowed */
 /* Painting happens in world space, on all surfaces at once: a dab reaches every texel whose point lies in its sphere,
  * so that seams don't show. A layer comes into being on a surface where it is first painted on. Before that each grammar
  * reads its own fill there; the first stroke fills it with that of the first grammar that declares the layer, 0 if none does,
- * and all read that. Painting works for layers that no grammar reads too. A layer that a town's grammar reads, and no grammar of plants, is painted over the town, and on
- * surfaces that have it already only.
+ * and all read that. Painting works for layers that no grammar reads too. A layer that a town's grammar reads or that was
+ * set over the town, and that no grammar of plants reads, is painted over the town, and on surfaces that have it already only.
  *
  * A stroke keeps what it painted over, in blocks of 8×8 texels. Once ended it is a record for undoing, until it is
  * destroyed. Layers that came into being by it on surfaces go while it is undone, if nothing else has been painted on them
@@ -94,8 +94,8 @@ ESP_API EspResult espStrokeDabs(EspContext* context, EspStroke stroke, const Esp
 /* Waits for the GPU and keeps only the blocks that changed, or all that it has come to where memory is short. */
 ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);
 /* Exchanges the layer's blocks with those kept, bit for bit: undoes an ended stroke, the next time redoes it. On
- * failure nothing is exchanged. Surfaces and layers that are gone are passed over, also where espSetLayer has put another in
- * a layer's place. */
+ * failure nothing is exchanged. Surfaces and layers that are gone are passed over, also where espSetLayer has put another
+ * in a layer's place. */
 ESP_API EspResult espSwapStroke(EspContext* context, EspStroke stroke);
 /* Forgets the record; what is painted stays. An open stroke is ended by it. */
 ESP_API EspResult espDestroyStroke(EspContext* context, EspStroke stroke);

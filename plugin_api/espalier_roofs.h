@@ -108,11 +108,12 @@ ESP_API EspResult espHouseShape(const EspContext* context, uint32_t house, float
 /* How many of these corners each ring has. Room for EspHouseInfo::ringCount numbers. */
 ESP_API EspResult espHouseRings(const EspContext* context, uint32_t house, uint32_t* corners);
 
-/* Changes one house; it alone grows anew in the next espUpdate. What counts is its plan and this, not what it was made into
- * before. Outlines that cross themselves or have no area are refused with ESP_INVALID_CONTENT: the house stands as it did. */
+/* Changes one house; it alone grows anew in the next espUpdate. What is left out is as it stands; all else comes from the
+ * house's plan and from this alone. An outline that crosses itself or has no area is refused with ESP_INVALID_CONTENT, and
+ * the house stands as it did. */
 typedef struct EspHouseDef {
     EspRoofShape shape;
-    float slope;             /* 0: the shape's own, or what makes the height that the plan gives such a roof */
+    float slope;             /* 0: the shape's own; where that is the plan's shape, by the height that the plan gives the roof */
     float eaveHeight;        /* metres above the house's base; 0: as it is */
     const EspHouseEdge* edges;   /* of the corners below, then of the rings that stay as they are */
     uint32_t edgeCount;

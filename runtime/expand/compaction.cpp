@@ -20,8 +20,8 @@ bool GpuGrowth::gappy(const GrowthInputs& inputs) const {
            wide(view_.leafCount, stats_.leaves, capacityOf<Leaf>(plants.leaves));
 }
 
-// Chunks and branches leave gaps more slowly, which only a full growth closes, the longest wait of a stroke: when there
-// are three for each that stands, and more of both than there is room for to begin with.
+// Chunks and branches leave gaps more slowly, which only a full growth closes, the longest wait of a stroke: when of
+// either there are three for each that stands, and more than there is room for to begin with.
 bool GpuGrowth::gappyLinks() const {
     const auto wide = [](uint32_t taken, uint32_t live, uint32_t least) { return taken > least && taken / 4 > live; };
     return wide(view_.chunkCount, stats_.chunks, least_.chunks) ||

@@ -226,7 +226,7 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
     if (canRegrow(inputs)) {
-        const bool closes = gappy(inputs);
+        const bool closes = !gappyLinks() && gappy(inputs);
         if (closes)
             if (Status closed = compact(inputs); !closed) return closed;
         Result<Regrown> done = regrowWithFrozen(inputs);

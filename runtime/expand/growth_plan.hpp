@@ -43,7 +43,7 @@ Failure stoppedFailure();
 // Takes out what edits have left as gaps and renumbers the rest.
 void compactRecords(GrowthRecords& records);
 
-// What grows beside frozen plants may have so much.
+// What the limits leave to that which grows beside frozen plants.
 GrowthLimits limitsBeside(std::span<const FrozenPlant> frozen, GrowthLimits limits);
 // Chunks at most.
 uint32_t chunkLimit(const GrowthLimits& limits);

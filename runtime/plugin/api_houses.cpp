@@ -107,8 +107,10 @@ EspResult setHouse(EspContext& context, uint32_t index, const Footprint& footpri
         return fail(&context, ESP_INVALID_CONTENT,
                     footprint.id + ": the outline crosses or touches itself, so that the house would fall into " +
                         std::to_string(made.houses.size()) + " parts; it stands as it did");
-    town.changedHouses.insert_or_assign(index, ChangedHouse{footprint, RoofHouse(plannedHouse(town, index))});
+    std::map<uint32_t, ChangedHouse> changed{{index, ChangedHouse{footprint, RoofHouse(plannedHouse(town, index))}}};
     replaceHouse(town, index, made, part);
+    town.changedHouses.erase(index);
+    town.changedHouses.merge(changed);  // takes no memory
     return ESP_OK;
 }
 
@@ -118,8 +120,8 @@ EspResult resetHouse(EspContext& context, uint32_t index) {
     RoofStructure made;
     std::vector<Diagnostic> ignored;  // told when the town was loaded
     appendRoof(town.footprints[town.footprintOf[index]], made, ignored);
-    town.changedHouses.erase(index);
     replaceHouse(town, index, made, partOf(town, index));
+    town.changedHouses.erase(index);
     return ESP_OK;
 }
 

@@ -16,8 +16,11 @@ bool isRead(const EspContext& context, uint32_t number, uint32_t without) {
     context.grammars.forEach([&](uint32_t id, const LoadedGrammar& grammar) {
         if (id != without) look(grammar.layerOf);
     });
-    for (const GrammarVariant& variant : context.variants)
-        if (variant.used && variant.grammar != without && context.grammars.find(variant.grammar)) look(variant.layerOf);
+    for (const GrammarVariant& variant : context.variants) {
+        const LoadedGrammar* grammar = context.grammars.find(variant.grammar);
+        const bool stands = grammar && variant.edition == grammar->edition;  // else it takes its grammar's next
+        if (variant.used && variant.grammar != without && stands) look(variant.layerOf);
+    }
     return read;
 }
 

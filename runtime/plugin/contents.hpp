@@ -189,7 +189,7 @@ class FailedInputs {
 
 // A house that a designer has changed.
 struct ChangedHouse {
-    Footprint footprint;  // of one house
+    Footprint footprint;  // as it is wanted; where only its look is, it may make several houses as the plan's does
     RoofHouse planned;    // as its plan has it
 };
 

@@ -8,6 +8,8 @@
 namespace espalier {
 namespace {
 
+constexpr size_t kManyPlaces = 32768;
+
 // The variant that a seed asks for, if there is one.
 uint32_t placeOf(const std::vector<GrammarVariant>& variants, const PlantedSeed& seed) {
     for (uint32_t i = 0; i < variants.size(); ++i)
@@ -86,6 +88,9 @@ Status refreshVariants(EspContext& context) {
         if (wanted[i] && variants[i].edition != context.grammars.find(variants[i].grammar)->edition)
             status = fill(context, variants[i], i);
     }
+    // Growth names so many grammars at most. Who has more places than that has had very many: a shorter list makes all
+    // grow anew.
+    while (variants.size() > kManyPlaces && !variants.back().used) variants.pop_back();
     return status;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "runtime/core/srgb.hpp"
 
@@ -44,11 +45,12 @@ bool sameRings(const RoofHouse& house, const std::vector<std::vector<glm::dvec2>
                               [&](const auto& a, const auto& b) { return std::ranges::equal(a, b, same); });
 }
 
-// Those that have a pitch of their own, alone.
-std::vector<EspHouseEdge> pitchesOf(std::vector<EspHouseEdge> edges) {
-    std::erase_if(edges, [](const EspHouseEdge& e) { return e.slope == 0; });
-    for (EspHouseEdge& e : edges) e.gable = -1;
-    return edges;
+// The pitches that edges have of their own; not which, since new corners give edges other numbers.
+std::set<float> pitchesOf(const std::vector<EspHouseEdge>& edges) {
+    std::set<float> pitches;
+    for (const EspHouseEdge& e : edges)
+        if (e.slope > 0) pitches.insert(e.slope);
+    return pitches;
 }
 std::vector<EspHouseEdge> edgesOf(const RoofHouse& house) {
     std::vector<EspHouseEdge> edges;
@@ -62,7 +64,7 @@ bool sameEdges(const std::vector<EspHouseEdge>& a, const std::vector<EspHouseEdg
 // Whether nothing is asked of the roof's pitch that the plan doesn't say.
 bool pitchStands(const Footprint& plan, const RoofHouse& planned, const HouseWish& wish) {
     return wish.shape == plan.shape && wish.slope == slopeOf(plan) &&
-           sameEdges(pitchesOf(wish.edges), pitchesOf(edgesOf(planned)));
+           pitchesOf(wish.edges) == pitchesOf(edgesOf(planned));
 }
 
 // Whether all but its look is as planned.
@@ -120,7 +122,7 @@ Footprint footprintFor(const Footprint& plan, const RoofHouse& planned, const Ho
     // higher walls leave it as it is.
     f.roofHeight.reset();
     f.roofLevels.reset();
-    const bool given = plan.roofHeight || plan.height || plan.roofLevels;
+    const bool given = plan.roofHeight || (!plan.slope && (plan.roofLevels || (plan.height && plan.levels)));
     if (given && pitchStands(plan, planned, wish)) f.roofHeight = planned.ridgeHeight - planned.eaveHeight;
     if (wish.eaveHeight != wallsOf(planned) || f.height) {
         // Heights to the ridge depend on the roof; walls shall stay what they are.

@@ -10,8 +10,7 @@ namespace espalier {
 
 // Objects by plain 32-bit ids: bits 31..20 generation (from 1), 19..0 place + 1, so that 0 is no object. A place
 // is used again with the next generation; once its generations are used up it stays empty, so no id ever comes
-// twice. T: movable. A value stays where it is until it is erased, so that
-// strings of its own may be handed out.
+// twice. T: movable. A value stays where it is until it is erased, so that strings of its own may be handed out.
 template <class T>
 class IdTable {
   public:

@@ -108,7 +108,7 @@ void swapTown(EspContext& context, PaintStroke& stroke) {
     const bool ours = context.town && context.town->number == stroke.town && !stroke.plan.blocks.empty();
     PlanLayer* layer = ours ? context.town->layers.find(stroke.layer) : nullptr;
     if (!layer) return;
-    PlanRect& changed = notesOf(*context.town, stroke.layer);
+    PlanRect& changed = notesOf(*context.town, stroke.layer);  // there already where a call is taken back
     changed.add(context.town->layers.swap(*layer, stroke.plan));
     context.town->revision += 1;
 }

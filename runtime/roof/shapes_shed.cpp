@@ -5,25 +5,44 @@
 #include <cmath>
 
 namespace espalier {
+namespace {
+
+constexpr double kAlike = 1e-9;  // of the cosine between edges that face alike
+constexpr double kLower = 1e-6;  // metres
+
+// Across the edge from corner i, into the house; unit.
+glm::dvec2 inward(const std::vector<glm::dvec2>& ring, size_t i) {
+    const glm::dvec2 d = ring[(i + 1) % ring.size()] - ring[i];
+    return glm::dvec2(-d.y, d.x) / glm::length(d);
+}
+
+}  // namespace
 
 Facets shedFacets(const std::vector<std::vector<glm::dvec2>>& rings, std::optional<uint32_t> lowEdge,
                   std::optional<double> direction, double slope) {
     constexpr double kLow = 2e-5;  // metres above the eave that need no wall
     glm::dvec2 fall(0), uphill(0);
     if (direction) fall = {std::sin(*direction), std::cos(*direction)};
-    double best = -INFINITY, lowest = INFINITY;
+    double best = -INFINITY, lowest = INFINITY, least = 0;
     uint32_t edge = 0, eaveEdge = 0;
     for (const auto& ring : rings)
         for (size_t i = 0; i < ring.size(); i++, edge++) {
-            glm::dvec2 d = ring[(i + 1) % ring.size()] - ring[i];
-            double length = glm::length(d);
-            glm::dvec2 in = glm::dvec2(-d.y, d.x) / length;
+            glm::dvec2 in = inward(ring, i);
+            double length = glm::distance(ring[(i + 1) % ring.size()], ring[i]);
             double fit = direction ? -glm::dot(in, fall) + 1e-3 * length / (1 + length) : length;
             if (edge == lowEdge) fit = INFINITY;
-            if (fit > best) best = fit, eaveEdge = edge, uphill = in;
+            if (fit > best) best = fit, eaveEdge = edge, uphill = in, least = glm::dot(ring[i], in);
         }
     for (const auto& ring : rings)
         for (glm::dvec2 p : ring) lowest = std::min(lowest, glm::dot(p, uphill));
+    // Of edges that face alike the outermost is the eave: a notch's or a courtyard's is higher up.
+    edge = 0;
+    for (const auto& ring : rings)
+        for (size_t i = 0; i < ring.size(); i++, edge++) {
+            const double height = glm::dot(ring[i], uphill);
+            if (glm::dot(inward(ring, i), uphill) > 1 - kAlike && height < least - kLower)
+                least = height, eaveEdge = edge;
+        }
 
     Facets f;
     f.facets.push_back({eaveEdge, 0, FaceKind::slope, slope, {}, {uphill.y, -uphill.x}, uphill, 0});

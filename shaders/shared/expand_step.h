@@ -331,7 +331,7 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
     takeStretch(env, site, g, event, packOct(normal), packOct(headingOf(env, g.trial)));
 }
 
-// Terminals read layers at the samples that a step got between its ends, too: any of those staged from `first` on.
+// Terminals read layers at the samples that a step got between its ends, too; `first` to `end`: staged, those among them.
 FN_SELDOM void noteStaged(ExpandEnv env, uint first, uint end, INOUT(ReadSet) reads) {
     for (uint i = first; i < end; ++i) {
         StagedNode s = stagedNode(env.scratch, i);
@@ -363,7 +363,8 @@ FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, INO
         float texel = texelOf(env, site, start.place >> 16u);
         float size = float(levelSize(env.surfaces, start.place >> 16u, site.level));
         uint end = g.count + g.pending;
-        uint laid = layOnMesh(env.surfaces, env.scratch, start, texel, size, g.laying == kStepFollowed, g.count, end, g.ground);
+        bool followed = g.laying == kStepFollowed;
+        uint laid = layOnMesh(env.surfaces, env.scratch, start, texel, size, followed, g.count, end, g.ground);
         g.pending = g.pending + laid;
         bool reads = (kFeatures & kFeatureSurface) != 0u && site.sceneLayers != 0u && laid > 0u;
         if (reads) noteStaged(env, g.count, end + laid, g.reads);

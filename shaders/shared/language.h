@@ -49,8 +49,8 @@ inline float uintBitsToFloat(uint b) { float x; std::memcpy(&x, &b, 4); return x
 #define CONST_UINT(name, value) const uint name = value
 #define CONST_FLOAT(name, value) const float name = value
 // 8: what is read by address has to be as aligned as its largest number, and records hold numbers and addresses of 8
-// bytes. All begin there, so that a compiler that joins the alignments of what holds an address and of what it leads to
-// comes to no less.
+// bytes. The same for all, since a compiler joins the alignments of what holds an address and of what that leads to; lists
+// of words may begin at any word all the same, as their stride is joined, too.
 #define BUFFER(Name, T) \
     layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Name { T v[]; };
 #define STATIC_SIZE(T, bytes)

@@ -72,6 +72,35 @@ TEST_CASE("who asks for another pitch or kind gets it, whatever height the plan 
     }
 }
 
+TEST_CASE("a pitch that the plan gives stays, however high the plan says that the house is") {
+    const Folder folder;
+    Built angle(folder, R"("roof:shape": "gabled", "roof:angle": 30, "height": 9, "building:levels": 2)"),
+        whole(folder, R"("roof:shape": "gabled", "height": 12)");
+    const float walls = angle.info().eaveHeight;
+    for (Built* built : {&angle, &whole}) {
+        const float pitch = built->roof() / 4;
+        built->change([](House& h) {
+            h.corners[2][1] -= 1;  // 9 metres wide
+            h.corners[3][1] -= 1;
+        });
+        CHECK(built->roof() == doctest::Approx(pitch * 4.5));
+    }
+    CHECK(angle.info().slope == doctest::Approx(std::tan(30 / 57.29578f)));
+    CHECK(angle.info().eaveHeight == doctest::Approx(walls));
+}
+
+TEST_CASE("a roof keeps its planned height where an edge with a pitch of its own gets another number") {
+    const Folder folder;
+    Built built(folder, std::string(kByHeight) + R"(, "edges": [{"edge": 2, "angle": 50}])");
+    const float planned = built.roof();
+    built.change([](House& h) {
+        h.corners.insert(h.corners.begin() + 1, {5, .5f});
+        h.rings[0] = 5;
+        h.edges[0].edge += 1;
+    });
+    CHECK(built.roof() == doctest::Approx(planned));
+}
+
 TEST_CASE("a shed falls to the edge that is to be low, and says what it has no use for") {
     const Folder folder;
     Built built(folder, R"("roof:shape": "skillion", "roof:direction": "S", "building:levels": 1)");
@@ -86,6 +115,26 @@ TEST_CASE("a shed falls to the edge that is to be low, and says what it has no u
     CHECK(std::string(built.info().note).find("a shed has neither") != std::string::npos);
     built.change([](House& h) { h.shape = "flat"; });
     CHECK(std::string(built.info().note).find("a flat roof has neither") != std::string::npos);
+}
+
+TEST_CASE("a shed falls towards a notch that is to be low: as low as what lies before it") {
+    const Folder folder;
+    // An L whose edge 3 looks south, as edge 0 does, three metres behind it; world z is south.
+    Editing editing(
+        folder.write("plan.json", R"({"buildings": [{"id": "one", "roof:shape": "skillion", "building:levels": 1,
+ "outer": [[0,0],[6,0],[6,3],[10,3],[10,8],[0,8]]}]})"));
+    House house = houseNow(editing.context.get(), 0);
+    REQUIRE(house.corners.size() == 6);
+    uint32_t notch = 6;
+    for (uint32_t i = 0; i < 6; ++i)
+        if (house.corners[i][1] == -3 && house.corners[(i + 1) % 6][1] == -3) notch = i;
+    REQUIRE(notch < 6);
+    house.edges = {{notch, "eave", 0}};
+    REQUIRE_MESSAGE(editing.perform(SetHouse{house}), editing.error);
+    EspHouseInfo info;
+    REQUIRE(espHouseInfo(editing.context.get(), 0, &info) == ESP_OK);
+    CHECK(std::string(info.note) == "");
+    CHECK(info.ridgeHeight - info.eaveHeight == doctest::Approx(.268 * 8));
 }
 
 TEST_CASE("the slider of a high house's walls goes where it is dragged and stays there") {

@@ -62,7 +62,8 @@ Found judge(std::span<const uint32_t> code) {
         const uint32_t op = code[at] & 0xFFFF;
         const std::span<const uint32_t> w = code.subspan(at, code[at] >> 16);
         types.take(op, w);
-        if (w.size() > 2 && types.pointee.count(w[1])) types.typeOf[w[2]] = w[1];
+        // Of what has a type that is its first word; in types' own declarations that is their number.
+        if (op != kTypePointer && w.size() > 2 && types.pointee.count(w[1])) types.typeOf[w[2]] = w[1];
         const bool load = op == kLoad;
         if (!load && op != kStore) continue;
         const uint32_t pointer = load ? w[3] : w[1];
