@@ -64,11 +64,14 @@ void recoveryDialogue(Session& session) {
 Doubt doubtOfSaving(const Session& session, const std::string& folder) {
     std::error_code ignored;
     const std::string place = wholePath(folder);
-    if (place == session.folder() && session.changedByOthers())
-        return {place + " has been saved by somebody else since it was opened."};
-    if (place == session.folder() && session.holdsBack())
-        return {place + " still holds what another session left unsaved.", "Throw that away?", "Throw away, save"};
-    if (place == session.folder()) return {};
+    if (place == session.folder()) {
+        const std::string changed = " has been saved by somebody else since it was opened",
+                          holds = " holds what another session hasn't saved";
+        if (session.holdsBack())
+            return {place + (session.changedByOthers() ? changed + ", and" + holds : holds) + ".", "Throw that away?",
+                    "Throw away, save"};
+        return session.changedByOthers() ? Doubt{place + changed + "."} : Doubt{};
+    }
     if (fs::exists(fs::path(place) / "project.json", ignored)) return {place + " is a project already."};
     if (fs::directory_iterator(place, ignored) == fs::directory_iterator()) return {};  // empty, or to be made
     return {place + " holds other files.", "Save the project among them?", "Save there"};

@@ -58,7 +58,8 @@ void Session::begin(Workspace& work, const std::string& file, fs::file_time_type
     folder_ = fs::exists(place / kProject, ignored) ? place.string() : "";
     recoveredFrom_ = recovered && folder_.empty() ? place.string() : "";
     savedState_ = recovered ? kNever : work.document->state();
-    autosavedState_ = recovered ? kNever : work.document->state();  // who knows what lies there by now
+    // Who knows what lies there by now; but what has lost something on being opened isn't written over it unchanged.
+    autosavedState_ = recovered && work.scene().notes.empty() ? kNever : work.document->state();
     cannotKeep_.clear();
     toldKept_.clear();
     unsaved_.clear();
@@ -67,7 +68,7 @@ void Session::begin(Workspace& work, const std::string& file, fs::file_time_type
     refused_.clear();
     missing_ = replaying_ = saving_ = false;
     whole_ = whole && !work.scene().project;
-    project_ = stampOf(fs::path(folder_) / kProject);
+    project_ = keptBeside_ = projectNow();
     if (writtenSince(project_, read)) project_ = {};
     unsavedLock_.release();
     claim();
@@ -83,6 +84,10 @@ void Session::begin(Workspace& work, const std::string& file, fs::file_time_type
 std::string Session::name(const Workspace& work) const {
     if (!folder_.empty()) return fs::path(folder_).filename().string();
     return !recoveredFrom_.empty() ? "recovered work" : work.scene().name;
+}
+
+FileStamp Session::projectNow() const {
+    return folder_.empty() ? FileStamp{} : stampOf(fs::path(folder_) / kProject);
 }
 
 std::string Session::ownAutosave() const {
@@ -148,7 +153,7 @@ std::string Session::leftBehind() {
 }
 
 bool Session::changedByOthers() const {
-    const FileStamp now = stampOf(fs::path(folder_) / kProject);
+    const FileStamp now = projectNow();
     return !folder_.empty() && !saving_ && now != FileStamp{} && now != project_;
 }
 
@@ -172,12 +177,13 @@ bool Session::step(Workspace& work, double now) {
 }
 
 // Whoever deletes or moves a project's folder while it is open: what is open is all that is left of it. Who saves over
-// the project drops the autosave there: what isn't saved is kept anew.
+// the project drops the autosave there, and who puts another project.json in its place makes it one of an earlier
+// state: what isn't saved is kept anew.
 void Session::noticeLoss(Workspace& work) {
     std::error_code ignored;
     const uint64_t state = work.document->state();
-    if (state == autosavedState_ && state != savedState_ &&
-        !fs::exists(fs::path(autosaveFolder()) / kAutosave, ignored)) {
+    const bool gone = !fs::exists(fs::path(autosaveFolder()) / kAutosave, ignored);
+    if (state == autosavedState_ && state != savedState_ && (gone || keptBeside_ != projectNow())) {
         autosavedState_ = kNever;
         nextAutosave_ = 0;
     }
@@ -212,6 +218,10 @@ void Session::setOrigin(const Workspace& work, const Origin& origin) {
     putOff_ = origin.putOff;
     if (putOff_.contains(recovery_)) putOffRecovery();
     claim();
+    // What an editor that had the project has left there since it was opened isn't this one's.
+    std::error_code ignored;
+    if (!folder_.empty() && !cannotKeep_.empty() && lock_.held() && fs::exists(ownAutosave(), ignored))
+        putOff_.insert(ownAutosave());
     if (!unsaved_.empty() && !unsavedLock_.take(unsaved_)) unsaved_.clear();
     savedState_ = autosavedState_ = origin.modified ? kNever : work.document->state();
 }
@@ -288,6 +298,7 @@ void Session::keepSoon(Workspace& work) {
 
 void Session::kept(Workspace& work, uint64_t state) {
     autosavedState_ = state;
+    keptBeside_ = projectNow();
     // What the project's folder took before isn't the latest any more.
     if (!cannotKeep_.empty() && !folder_.empty() && lock_.held() && !holdsBack()) dropAutosave(folder_);
     tellKept(work, cannotKeep_.empty() ? "" : cannotKeep_ + "; what isn't saved is kept in " + autosaveFolder());
@@ -368,7 +379,7 @@ void Session::saved(const std::string& folder, uint64_t state) {
     missing_ = replaying_ = whole_ = false;
     folder_ = wholePath(folder);
     putOff_.erase(ownAutosave());
-    project_ = stampOf(fs::path(folder_) / kProject);
+    project_ = projectNow();
     claim();
     savedState_ = autosavedState_ = state;
     recovery_.clear();

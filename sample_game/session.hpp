@@ -92,6 +92,7 @@ class Session {
 
   private:
     std::string ownAutosave() const;  // the file in the project's folder
+    FileStamp projectNow() const;     // of its file; none without a folder
     std::string autosaveFolder() const;
     // Beside the user's settings, for what has no folder or can't write to it: the first that editors of the same would
     // take, or another of them. Empty: there is no place.
@@ -125,6 +126,7 @@ class Session {
     bool whole_ = false;  // file_ says all that was opened
     bool saving_ = false;
     FileStamp project_;                             // its file when it was opened or saved
+    FileStamp keptBeside_;                          // likewise when the latest autosave was made
     FolderLock lock_;                               // of the project's folder, or of the recovered one
     FolderLock unsavedLock_;                        // of unsaved_, or of what is offered
     uint64_t savedState_ = 0, autosavedState_ = 0;  // see Document::state

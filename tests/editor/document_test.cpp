@@ -257,10 +257,22 @@ TEST_CASE("an autosave is known by the project that it follows, of whatever time
     CHECK(recoverable(garden) == "");
 }
 
+namespace {
+
+// Works in the folder where it did before, in the end.
+struct Elsewhere {
+    const std::filesystem::path before = std::filesystem::current_path();
+    void leave() const { std::filesystem::current_path(before); }
+    ~Elsewhere() { leave(); }
+};
+
+}  // namespace
+
 TEST_CASE("what was opened by a relative path is saved and recorded after the folder that it was named in has gone") {
     namespace fs = std::filesystem;
     const Folder folder;
-    const fs::path before = fs::current_path(), gone = folder.path / "gone/deep";
+    const Elsewhere back;
+    const fs::path gone = folder.path / "gone/deep";
     (void)sceneOfItsOwn(folder);
     fs::create_directories(gone);
     fs::current_path(gone);
@@ -275,7 +287,7 @@ TEST_CASE("what was opened by a relative path is saved and recorded after the fo
     CHECK(recorder.end(editing.error));
     CHECK(!recorder.begin("run.jsonl", {1, folder.file("own.json"), 96, 54, .1f}, editing.error));
     CHECK_MESSAGE(contains(editing.error, "run.jsonl"), editing.error);
-    fs::current_path(before);
+    back.leave();
     CHECK(Editing(folder.file("garden")).document->scene().grammars[0].file == folder.file("own.grammar"));
 }
 

@@ -103,6 +103,29 @@ TEST_CASE("any button that is pressed beside panels leaves the field that is typ
     }
 }
 
+TEST_CASE("any button that is pressed beside a grammar's text gives letters back to the tools") {
+    const Folder folder;
+    Gardener gardener(folder);
+    gardener.work.window = {1280, 720};
+    gardener.work.layout.grammar = true;
+    gardener.panel = [&] { sample::showGrammarWindow(gardener.work); };
+    gardener.rest();
+    for (const int button : {GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE}) {
+        CAPTURE(button);
+        gardener.tap({1000, 300});
+        REQUIRE(sample::grammarFocused());
+        const glm::vec2 at(500, 400);  // between the panel and the window
+        REQUIRE(sample::inScene(at.x, at.y));
+        gardener.point(at);
+        gardener.events.pointer({sample::PointerEvent::Kind::press, button, 0, at.x, at.y});
+        gardener.rest();
+        CHECK(!sample::grammarFocused());
+        gardener.events.pointer({sample::PointerEvent::Kind::release, button, 0, at.x, at.y});
+        gardener.rest();
+    }
+    sample::leaveGrammar();
+}
+
 TEST_CASE("a height that is typed is the house's that was chosen, whatever is clicked next") {
     const Folder folder;
     Builder builder(folder);

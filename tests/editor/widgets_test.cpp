@@ -5,6 +5,7 @@
 
 #include "sample_game/dialogue.hpp"
 #include "sample_game/panels.hpp"
+#include "tools/document/project.hpp"
 
 using namespace espalier::document;
 using espalier::scene::House;
@@ -224,11 +225,75 @@ TEST_CASE("the second editor of a project asks before its save takes what the fi
     one.wait();
     CHECK(two.session.holdsBack());
     CHECK(!sample::askToSave(two.work, two.session));
-    CHECK_MESSAGE(contains(sample::dialogues().why, "left unsaved"), sample::dialogues().why);
+    CHECK_MESSAGE(contains(sample::dialogues().why, "hasn't saved"), sample::dialogues().why);
     CHECK(autosavesIn(garden).size() == 1);
+    // Of two doubts both are told.
+    REQUIRE(one.save(garden));
+    one.fill(.75f);
+    one.wait();
+    REQUIRE(two.session.changedByOthers());
+    CHECK(!sample::askToSave(two.work, two.session));
+    for (const char* doubt : {"saved by somebody else", "hasn't saved"})
+        CHECK_MESSAGE(contains(sample::dialogues().why, doubt), sample::dialogues().why);
     REQUIRE(two.save(garden));
     CHECK(autosavesIn(garden).empty());
     CHECK(!two.session.holdsBack());
+}
+
+TEST_CASE("what the first editor of a project left stays when the second reads its files again") {
+    const Folder folder;
+    const std::string garden = folder.file("garden"), autosave = garden + "/autosave.json";
+    auto one = std::make_unique<Window>(folder, smallScene(folder));
+    REQUIRE(one->save(garden));
+    Dialogue two(folder, garden);
+    const auto origin = two.session.origin(two.work);
+    one->fill(.25f);
+    one->wait();
+    const std::string kept = readAll(autosave);
+    one.reset();
+    folder.write("garden/autosave.json", kept);  // it came to a sudden end
+    two.session.setOrigin(two.work, origin);
+    CHECK(two.session.holdsBack());
+    two.fill(.5f);
+    two.wait();
+    CHECK(readAll(autosave) == kept);
+}
+
+TEST_CASE("what has lost something on being opened isn't written over before it is edited") {
+    const Folder folder;
+    const std::string garden = folder.file("garden"), autosave = garden + "/autosave.json";
+    {
+        Window window(folder, smallScene(folder));
+        REQUIRE(window.save(garden));
+    }
+    crash(folder, garden, .25f);
+    std::string kept = readAll(autosave);
+    const size_t reach = kept.find("\"reach\"");
+    REQUIRE(reach != std::string::npos);
+    kept.replace(reach, 7, "\"gone\"");
+    folder.write("garden/autosave.json", kept);
+    Window window(folder, autosave);
+    REQUIRE(!window.work.scene().notes.empty());
+    window.wait();
+    CHECK(readAll(autosave) == kept);
+    window.fill(.5f);
+    window.wait();
+    CHECK(readAll(autosave) != kept);
+}
+
+TEST_CASE("an autosave is made anew when another program puts another project in its project's place") {
+    const Folder folder;
+    const std::string garden = folder.file("garden");
+    Window window(folder, smallScene(folder));
+    REQUIRE(window.save(garden));
+    window.fill(.25f);
+    window.wait();
+    REQUIRE(recoverable(garden) == garden + "/autosave.json");
+    folder.write("garden/project.json", readAll(garden + "/project.json") + "\n");
+    CHECK(recoverable(garden) == "");
+    window.wait();
+    window.wait();
+    CHECK(recoverable(garden) == garden + "/autosave.json");
 }
 
 TEST_CASE("a project's own autosave can wait, too, until the project is saved") {
@@ -269,7 +334,7 @@ TEST_CASE("a project's own autosave can wait, too, until the project is saved") 
         CHECK(again.session.holdsBack());
         again.fill(1);
         CHECK(!sample::askToSave(again.work, again.session));  // that it would go is asked about
-        CHECK_MESSAGE(contains(sample::dialogues().why, "left unsaved"), sample::dialogues().why);
+        CHECK_MESSAGE(contains(sample::dialogues().why, "hasn't saved"), sample::dialogues().why);
         CHECK(autosavesIn(garden) == std::vector{offered});
         CHECK(again.save(garden));
         CHECK(!again.session.holdsBack());

@@ -141,7 +141,11 @@ TEST_CASE("a save waits for what another program writes into the project, and ta
     {
         WriteLock other;
         Progress progress;
-        REQUIRE(other.take(garden, progress, editing.error));
+        REQUIRE(other.take(garden, std::chrono::seconds(1), progress, editing.error));
+        WriteLock late;
+        CHECK(!late.take(garden, std::chrono::seconds(0), progress, editing.error));
+        CHECK_MESSAGE(contains(editing.error, ".writing: another program"), editing.error);
+        editing.error.clear();
         REQUIRE(editing.perform(FillLayer{"mask", .5f}));
         Work waits(saving(*editing.document, garden)), given(saving(*editing.document, garden));
         for (int i = 0; i < 20; ++i) {

@@ -40,7 +40,7 @@ bool Document::carryOut(const FreezeSeeds& action, std::vector<Action>& back, st
             scene::Seed& seed = scene_.seeds[i];
             if (failed(espFreezePlant(context_, seed.planted, action.frozen), error)) return false;
             before.plants.push_back({key, seed.frozen});
-            scene_.unreadPlants.erase(key);
+            if (!action.frozen) scene_.unreadPlants.erase(key);
             scene::FrozenPlant records;
             if (action.frozen && failed(readRecords(context_, seed.planted, records), error)) return false;
             seed.frozen = std::move(records);

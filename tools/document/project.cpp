@@ -3,6 +3,7 @@
 #include "tools/document/project.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 
@@ -27,6 +28,7 @@ constexpr const char* kAutosave = "autosave.json";
 constexpr const char* kLayers = "layers";
 constexpr const char* kPlants = "plants";
 constexpr const char* kSurfaces = "surfaces";
+constexpr std::chrono::seconds kKeepsAfter{5}, kSavesAfter{60};  // others' writing, at most
 
 std::array<float, 3> three(const float* v) {
     return {v[0], v[1], v[2]};
@@ -204,10 +206,12 @@ std::string projectIn(const fs::path& folder) {
 // What isn't complete in the end leaves no files: a disk that was full has room again.
 bool write(ProjectData data, const std::string& folder, const char* name, Progress& progress, std::string& error) {
     const std::string path = (fs::path(folder) / name).string();
+    const bool keeps = name == kAutosave;  // which has other places, and nobody waits for
     WriteLock lock;
-    if (!canName(folder, data.file, error) || !makeFolderDurably(folder, error) || !lock.take(folder, progress, error))
+    if (!canName(folder, data.file, error) || !makeFolderDurably(folder, error) ||
+        !lock.take(folder, keeps ? kKeepsAfter : kSavesAfter, progress, error))
         return false;
-    if (name == kAutosave) data.file.follows = projectIn(folder);
+    if (keeps) data.file.follows = projectIn(folder);
     const bool good = writeLayers(data, folder, progress, error) && writePlants(folder, data.file, error) &&
                       progress.at(1) && writeScene(path, data.file, error);
     if (good && name == kProject) dropAutosave(folder);

@@ -16,7 +16,6 @@ namespace espalier::document {
 namespace {
 
 constexpr std::chrono::milliseconds kLookEvery{20};
-constexpr std::chrono::seconds kLongest{60};
 
 }  // namespace
 
@@ -26,12 +25,14 @@ WriteLock::~WriteLock() {
     ::close(file_);
 }
 
-bool WriteLock::take(const std::string& folder, Progress& progress, std::string& error) {
+bool WriteLock::take(const std::string& folder, std::chrono::seconds longest, Progress& progress, std::string& error) {
     path_ = (std::filesystem::path(folder) / ".writing").string();
+    const Clock::time_point end = Clock::now() + longest;
     for (;;) {
         file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+        if (file_ < 0) file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);  // another user's
         if (file_ < 0) return true;  // nor can what is to be written, which will say why
-        const bool good = wait(progress, error);
+        const bool good = wait(end, progress, error);
         if (good && isThere()) return true;
         ::close(file_);
         file_ = -1;
@@ -39,12 +40,11 @@ bool WriteLock::take(const std::string& folder, Progress& progress, std::string&
     }
 }
 
-bool WriteLock::wait(Progress& progress, std::string& error) const {
-    const auto begin = std::chrono::steady_clock::now();
+bool WriteLock::wait(Clock::time_point end, Progress& progress, std::string& error) const {
     while (::flock(file_, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR)) {
         if (!progress.at(0)) return false;
-        if (std::chrono::steady_clock::now() - begin > kLongest) {
-            error = path_ + ": another program has been writing there for a minute";
+        if (Clock::now() > end) {
+            error = path_ + ": another program is writing there and doesn't come to an end";
             return false;
         }
         std::this_thread::sleep_for(kLookEvery);
@@ -54,8 +54,8 @@ bool WriteLock::wait(Progress& progress, std::string& error) const {
 
 // Who had it before has removed the file that this one waited for.
 bool WriteLock::isThere() const {
-    struct stat ours {
-    }, now{};
+    struct stat ours;
+    struct stat now;
     return ::fstat(file_, &ours) == 0 && ::stat(path_.c_str(), &now) == 0 && ours.st_ino == now.st_ino &&
            ours.st_dev == now.st_dev;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "tools/document/work.hpp"
@@ -15,10 +16,11 @@ class WriteLock {
     WriteLock(const WriteLock&) = delete;
     // Waits until others have written. False: it was called off, or `error` says that this took them too long. Where
     // nothing can be locked nobody is waited for.
-    bool take(const std::string& folder, Progress& progress, std::string& error);
+    bool take(const std::string& folder, std::chrono::seconds longest, Progress& progress, std::string& error);
 
   private:
-    bool wait(Progress& progress, std::string& error) const;
+    using Clock = std::chrono::steady_clock;
+    bool wait(Clock::time_point end, Progress& progress, std::string& error) const;
     bool isThere() const;
 
     std::string path_;

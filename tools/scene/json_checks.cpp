@@ -25,9 +25,9 @@ void JsonChecks::index(const Json& json, const char* name, size_t count, int& ou
         fail(*found, std::string("'") + name + "' must be a place in the list of " + name + "s, from 0");
 }
 
-void JsonChecks::whole(const Json& json, const char* name, uint32_t& out) {
+void JsonChecks::whole(const Json& json, const char* name, uint32_t& out, uint32_t most) {
     float value = float(out);
-    number(json, name, 0, 1e6f, value);
+    number(json, name, 0, float(most), value);
     if (value == std::floor(value))
         out = uint32_t(value);
     else

@@ -36,7 +36,7 @@ class JsonChecks {
 
     void flag(const Json& json, const char* name, bool& out);
     void number(const Json& json, const char* name, float low, float high, float& out);
-    void whole(const Json& json, const char* name, uint32_t& out);
+    void whole(const Json& json, const char* name, uint32_t& out, uint32_t most = 1000000);  // up to 2^24
     // A place in a list of so many, from 0.
     void index(const Json& json, const char* name, size_t count, int& out);
     void word(const Json& json, const char* name, std::string& out);  // not optional

@@ -156,6 +156,7 @@ bool plantOne(EspContext* context, Scene& scene, Seed& seed, std::string& error)
     if (seed.frozen && espFreezeAs(context, seed.planted, seed.frozen->data(), seed.frozen->size()) != ESP_OK) {
         scene.notes.push_back("a frozen plant grows again: " + std::string(espLastError(context)));
         seed.frozen = nullptr;
+        if (!seed.frozenFile.empty()) scene.unreadPlants[seed.key] = seed.frozenFile;
     }
     return true;
 }

@@ -271,7 +271,7 @@ class Reader : JsonChecks {
             else
                 seed.number = uint32_t(n->number);
         }
-        whole(json, "place", seed.place);
+        whole(json, "place", seed.place, 1u << 24);
         if (const Json* frozen = json.find("frozen")) seed.frozenFile = file(*frozen);
         std::vector<SceneParam> own;
         params(json, own);
