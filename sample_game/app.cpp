@@ -27,11 +27,11 @@ namespace {
 using namespace espalier::document;
 namespace fs = std::filesystem;
 
-constexpr double kLookEvery = .3, kLookAtWorkEvery = .05;  // seconds
-constexpr double kNewsSeconds = 12;                        // that a message is shown
-constexpr size_t kHistory = 240;                           // frames in the graph
-constexpr float kTurnDegrees = 2;                          // a frame
-constexpr uint64_t kSettling = 60;                         // frames in which detail and size follow the time
+constexpr double kLookEvery = .3, kLookAtWorkEvery = .05, kWaking = 1 / 60.;  // seconds
+constexpr double kNewsSeconds = 12;                                           // that a message is shown
+constexpr size_t kHistory = 240;                                              // frames in the graph
+constexpr float kTurnDegrees = 2;                                             // a frame
+constexpr uint64_t kSettling = 60;  // frames in which detail and size follow the time
 
 }  // namespace
 
@@ -273,6 +273,7 @@ bool App::loop() {
             const double asleep = glfwGetTime(), most = session_.background().busy() ? kLookAtWorkEvery : kLookEvery;
             glfwWaitEventsTimeout(most);
             if (input_->pending() || glfwGetTime() - asleep < .9 * most) wake();
+            before = std::max(before, glfwGetTime() - kWaking);  // what is held now wasn't all the while
         }
         const double now = glfwGetTime();
         input_->gui.polled(now);

@@ -133,7 +133,7 @@ bool Navigation::step(Workspace& work, const Input& input, float seconds, bool t
     const glm::vec3 before = work.camera.eye();
     if (work.editing || flying_) {
         if (steps != glm::vec3(0)) work.camera.fly(steps, seconds, fast);
-    } else if (steps != glm::vec3(0) || jump_ || work.camera.falling()) {
+    } else if (steps != glm::vec3(0) || jump_ || work.camera.inAir()) {
         // Small steps, so that a slow frame doesn't walk through a wall.
         constexpr float kStep = .05f;
         const auto meets = [&](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {

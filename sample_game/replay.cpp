@@ -28,7 +28,7 @@ bool Replay::step(Workspace& work, double now) {
             ours_ = work.newGesture();
         }
         if (!work.perform(line.action, line.gesture ? ours_ : 0)) {
-            const std::string why = path_ + ":" + std::to_string(next_ + 2) + ": " + work.error;
+            const std::string why = path_ + ":" + std::to_string(line.number) + ": " + work.error;
             stop(work);  // which may end a stroke, and then there is no news but that
             work.error = why;
             return false;

@@ -131,7 +131,7 @@ void ViewCamera::frame(glm::vec3 low, glm::vec3 high, float aspect) {
 }
 
 void ViewCamera::fly(glm::vec3 steps, float seconds, bool fast) {
-    const float speed = hurry(0) * (fast ? 3.f : 1.f);
+    const float speed = hurry(0) * (fast ? 3.f : 1.f) / std::max(1.f, glm::length(steps));
     eye_ += seconds * speed * (steps.x * right() + steps.y * glm::vec3(0, 1, 0) + steps.z * ahead());
     fall_ = 0;
 }
@@ -143,7 +143,8 @@ float ViewCamera::hurry(float steps) {
 
 void ViewCamera::walk(const Meets& meets, glm::vec2 rightAhead, float seconds, bool fast, bool jump) {
     const glm::vec3 level{-std::sin(yaw_), 0, -std::cos(yaw_)};
-    glm::vec3 move = (rightAhead.x * right() + rightAhead.y * level) * (fast ? 3.4f : 1.7f) * seconds;
+    const float speed = (fast ? 3.4f : 1.7f) / std::max(1.f, glm::length(rightAhead));
+    glm::vec3 move = (rightAhead.x * right() + rightAhead.y * level) * speed * seconds;
     // Against a wall only what goes along it is left; in a corner nothing.
     for (int wall = 0; wall < 2 && glm::length(move) > 1e-5f; ++wall) {
         EspHit hit, high;
@@ -166,7 +167,8 @@ void ViewCamera::walk(const Meets& meets, glm::vec2 rightAhead, float seconds, b
     EspHit ground;
     const float drop = std::max(0.f, -fall_ * seconds);
     const glm::vec3 hip = eye_ - glm::vec3(0, kEyeHeight - kStep, 0);
-    const bool stands = fall_ <= 0 && meets(hip, {0, -1, 0}, 2 * kStep + drop, ground);
+    // Who stands is held by a step down, who falls not before the feet are there.
+    const bool stands = fall_ <= 0 && meets(hip, {0, -1, 0}, kStep + (fall_ < 0 ? drop : kStep), ground);
     if (stands && jump) {
         fall_ = 3.4f;
     } else if (stands) {
@@ -176,13 +178,14 @@ void ViewCamera::walk(const Meets& meets, glm::vec2 rightAhead, float seconds, b
         fall_ = 0;
         return;
     }
+    const float before = fall_;
     fall_ -= kGravity * seconds;
     // Off the world's rim there is nothing to fall onto.
     if (fall_ < 0 && !meets(eye_, {0, -1, 0}, 1e6f, ground)) {
         fall_ = 0;
         return;
     }
-    eye_.y += fall_ * seconds;
+    eye_.y += (before + fall_) / 2 * seconds;
 }
 
 EspCamera ViewCamera::camera() const {
@@ -194,7 +197,7 @@ EspCamera ViewCamera::camera() const {
     }
     camera.up[1] = 1;
     camera.fovY = fovY_;
-    camera.nearPlane = std::clamp(distance_ * .02f, reach_ * 1e-4f, std::min(.08f, reach_ * .02f));
+    camera.nearPlane = std::min(std::max(distance_ * .02f, reach_ * 1e-4f), std::min(.08f, reach_ * .02f));
     return camera;
 }
 

@@ -43,12 +43,12 @@ class ViewCamera {
     void frame(glm::vec3 low, glm::vec3 high, float aspect);  // a box
     // ---- Both
     void look(float x, float y);
-    // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`.
+    // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`; several together are no faster.
     void fly(glm::vec3 steps, float seconds, bool fast);
     float hurry(float steps);  // flies faster (positive) or slower from now on; returns how fast, metres a second
     // ---- Game: on the ground, with a body that walls stop and steps don't. Falls if there is nothing below.
     void walk(const Meets& meets, glm::vec2 rightAhead, float seconds, bool fast, bool jump);
-    bool falling() const { return fall_ < 0; }
+    bool inAir() const { return fall_ != 0; }  // jumping or falling, so that there is more to walk without steps
 
     EspCamera camera() const;
     // Through a point of the window, 0 to 1, the first at the left and top. shift: how far right of its middle the

@@ -30,6 +30,12 @@ TEST_CASE("a run whose last line is cut off is read up to it, and says so; one t
         CHECK(lines == 1);
         CHECK(note.find("run.jsonl:3: the last line is cut off") != std::string::npos);
     }
+    Run spaced;
+    std::string error;
+    REQUIRE(readRun(folder.write("run.jsonl", head + "\n" + fill + "\n\n\n" + fill + "\n"), spaced, error));
+    REQUIRE(spaced.lines.size() == 2);
+    CHECK(spaced.lines[0].number == 3);  // by which mistakes are told
+    CHECK(spaced.lines[1].number == 6);
     CHECK(std::get<0>(read(head + fill.substr(0, 9) + "\n" + fill + "\n")) == -1);
     CHECK(std::get<0>(read(head + fill + "\n" + fill.substr(0, 9) + "\n")) == -1);  // whole, but no action
     CHECK(std::get<0>(read(head + fill + "\n{\"frame\": 9, \"fly\": {}}")) == -1);  // likewise

@@ -100,6 +100,35 @@ TEST_CASE("who is let go of in the air comes down on the ground") {
     CHECK(world.go({0, 0}, 4).y == doctest::Approx(kEyes).epsilon(.01));
 }
 
+TEST_CASE("a jump on the spot goes as high at any frame rate, and comes down again") {
+    for (const float frame : {1 / 60.f, kFrame}) {
+        CAPTURE(frame);
+        World world({});
+        const sample::Meets rays = [&](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
+            return world.meets(from, along, reach, hit);
+        };
+        world.walker.walk(rays, {0, 0}, frame, false, true);
+        float highest = 0, seconds = frame;
+        for (; world.walker.inAir() && seconds < 3; seconds += frame) {
+            world.walker.walk(rays, {0, 0}, frame, false, false);
+            highest = std::max(highest, world.walker.eye().y);
+        }
+        CHECK(highest == doctest::Approx(kEyes + 3.4f * 3.4f / (2 * 9.81f)).epsilon(.01));
+        CHECK(seconds == doctest::Approx(2 * 3.4f / 9.81f).epsilon(.15));
+        CHECK(world.walker.eye().y == doctest::Approx(kEyes).epsilon(.001));
+    }
+}
+
+TEST_CASE("two keys walk and fly no faster than one") {
+    World ahead({}), across({});
+    const auto way = [](glm::vec3 to) { return glm::length(glm::vec2(to.x, to.z)); };
+    CHECK(way(across.go({1, 1}, 1)) == doctest::Approx(way(ahead.go({0, 1}, 1))));
+    const glm::vec3 from = ahead.walker.eye(), other = across.walker.eye();
+    ahead.walker.fly({0, 0, 1}, 1, false);
+    across.walker.fly({1, 1, 1}, 1, false);
+    CHECK(glm::distance(other, across.walker.eye()) == doctest::Approx(glm::distance(from, ahead.walker.eye())));
+}
+
 TEST_CASE("what is framed lies in what a panel leaves free of the window, however narrow that is") {
     for (const float panel : {0.f, 320.f, 640.f}) {
         const glm::vec2 window(1280, 800);

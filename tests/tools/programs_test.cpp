@@ -84,6 +84,21 @@ TEST_CASE("every program has a version and a help") {
     CHECK(run("tools/run no/such/model.glb").code > 0);
 }
 
+TEST_CASE("what a capture's options can't do is told before anything is grown") {
+    const Folder folder;
+    const std::string capture = program("espalier-capture") + " ", frames = folder.file("frames"),
+                      out = " -o " + frames, run1 = " --replay tests/goldens/painting.jsonl",
+                      scene = content("sample.json");
+    for (const std::string& options :
+         {run1 + " --view charts", run1 + " --camera 0,1,9,0,1,0", scene + " --every 3", scene + " --view blue",
+          scene + " --camera 0,0,0,0,0,0", scene + " --camera 0,0,nan,0,0,0", scene + " --export mask",
+          scene + " --hour nan"}) {
+        CAPTURE(options);
+        CHECK(run(capture + options + out).code == 2);
+        CHECK(!std::filesystem::exists(frames));
+    }
+}
+
 TEST_CASE("files that are missing, or aren't what they should be") {
     const Folder folder;
     const std::string out = " -o " + folder.file("frames"), capture = program("espalier-capture") + " ";

@@ -28,9 +28,14 @@ using espalier::document::Run;
 
 namespace {
 
+struct LayerFile {
+    std::string layer, file;
+};
+
 struct Options {
     Request request;
-    std::vector<std::string> layers, exports;
+    std::vector<std::string> layersSaid, exportsSaid;  // as they were written
+    std::vector<LayerFile> exports;
     uint32_t frames = 1;
     uint32_t width = 1280, height = 720;
     std::optional<float> hour;
@@ -66,7 +71,8 @@ void addOptions(CLI::App& app, Options& options) {
         "a recorded run: opens what it was recorded on (or FILE), does what was done and writes its frames");
     app.add_option("--every", options.every, "of a run, writes each N-th frame and the last")
         ->capture_default_str()
-        ->check(CLI::Range(1, 1000000));
+        ->check(CLI::Range(1, 1000000))
+        ->needs(replay);
     const auto frames = app.add_option("--frames", options.frames, "how many; they go once around the scene's target")
                             ->capture_default_str()
                             ->check(CLI::Range(1, 100000));
@@ -80,12 +86,14 @@ void addOptions(CLI::App& app, Options& options) {
         ->check(CLI::Range(1, 1000))
         ->excludes(replay);
     app.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
-    app.add_option("--layer", options.layers, "NAME=FILE: a picture drawn in the model's UVs");
-    app.add_option("--export", options.exports,
+    app.add_option("--layer", options.layersSaid, "NAME=FILE: a picture drawn in the model's UVs");
+    app.add_option("--export", options.exportsSaid,
                    "NAME=FILE: after the last frame writes a layer over the surface's walk UVs (.exr, .png)");
     app.add_option("--view", options.view, "shaded, charts, normals, lod, depth, overdraw or layer:NAME")
-        ->capture_default_str();
-    app.add_option("--camera", options.camera, "EX,EY,EZ,TX,TY,TZ[,FOV]: eye, target, vertical angle in degrees");
+        ->capture_default_str()
+        ->excludes(replay);
+    app.add_option("--camera", options.camera, "EX,EY,EZ,TX,TY,TZ[,FOV]: eye, target, vertical angle in degrees")
+        ->excludes(replay);
     app.add_option("--hour", options.hour, "light of this time of the day, 0 to 24, instead of the scene's")
         ->check(CLI::Range(0.0, 24.0))
         ->excludes(replay);
@@ -118,7 +126,7 @@ bool parseCamera(const std::string& text, EspCamera& camera) {
         camera.target[i] = v[3 + i];
     }
     if (count == 7) camera.fovY = v[6] * 3.14159265f / 180;
-    return true;
+    return std::all_of(v, v + count, [](float x) { return std::isfinite(x); }) && !std::equal(v, v + 3, v + 3);
 }
 
 bool parseView(const std::string& text, EspLook& look) {
@@ -199,7 +207,8 @@ bool filmRun(const Run& run, uint32_t every, Document& document, Film& film, uin
     for (uint32_t frame = 0; frame < frames; ++frame) {
         for (; next < run.lines.size() && run.lines[next].frame == frame; ++next)
             if (!document.perform(run.lines[next].action, error, run.lines[next].gesture)) {
-                error = "frame " + std::to_string(frame) + ", line " + std::to_string(next + 2) + ": " + error;
+                error = "frame " + std::to_string(frame) + ", line " + std::to_string(run.lines[next].number) + ": " +
+                        error;
                 return false;
             }
         const std::string of = "frame " + std::to_string(frame) + ": ";
@@ -260,22 +269,19 @@ int run(Options options) {
     film.draw.width = options.width;
     film.draw.height = options.height;
     film.draw.look = scene.look;
-    if (!parseView(options.view, film.draw.look)) return refuse("--view: no such view: " + options.view);
+    (void)parseView(options.view, film.draw.look);
     if (options.hour) applyDaylight(*options.hour, film.draw.look);
-    if (!options.camera.empty() && !parseCamera(options.camera, scene.camera))
-        return refuse("--camera takes six or seven numbers with commas between them, not '" + options.camera + "'");
+    (void)parseCamera(options.camera, scene.camera);
+    for (const LayerFile& asked : options.exports)
+        if (!readsLayer(document.scene(), asked.layer))
+            return fail("--export: this scene has no layer '" + asked.layer + "'");
     if (!film.begin(error)) return fail(error);
     uint32_t taken = replays ? 0 : options.frames;
     if (!(replays ? filmRun(recorded, options.every, document, film, taken, error)
                   : filmTurn(scene, options.frames, film, error)))
         return fail(replays ? options.replay + ": " + error : error);
-    for (const std::string& asked : options.exports) {
-        const size_t sign = asked.find('=');
-        if (sign == std::string::npos || sign == 0) return refuse("--export takes NAME=FILE, not '" + asked + "'");
-        const std::string layer = asked.substr(0, sign);
-        if (!readsLayer(document.scene(), layer)) return fail("--export: this scene has no layer '" + layer + "'");
-        if (!exportLayer(document, layer, asked.substr(sign + 1), error)) return fail(error);
-    }
+    for (const LayerFile& asked : options.exports)
+        if (!exportLayer(document, asked.layer, asked.file, error)) return fail(error);
     EspStats stats;
     if (espReadStats(made, &stats) != ESP_OK) return fail(espLastError(made));
     if (stats.cut > 0) warn("growth was cut at its limit of " + std::to_string(grow.maxNodes) + " nodes");
@@ -296,6 +302,34 @@ int run(Options options) {
     return 0;
 }
 
+// What options say in words of their own; else what is wrong with it.
+std::string readTexts(Options& options) {
+    if (!options.size.empty() && !parseSize(options.size, options.width, options.height))
+        return "--size takes WIDTHxHEIGHT, 1 to 16384 each, not '" + options.size + "'";
+    EspLook look{};
+    if (!parseView(options.view, look)) return "--view: no such view: " + options.view;
+    EspCamera camera{};
+    if (!options.camera.empty() && !parseCamera(options.camera, camera))
+        return "--camera takes six or seven numbers with commas between them, eye and target apart, not '" +
+               options.camera + "'";
+    if (options.hour && !std::isfinite(*options.hour)) return "--hour takes 0 to 24";
+    const auto split = [](const std::string& said, LayerFile& out) {
+        const size_t sign = std::min(said.find('='), said.size());
+        out = {said.substr(0, sign), said.substr(std::min(sign + 1, said.size()))};
+        return sign > 0 && sign < said.size();
+    };
+    LayerFile read;
+    for (const std::string& said : options.layersSaid) {
+        if (!split(said, read)) return "--layer takes NAME=FILE, not '" + said + "'";
+        options.request.layers.push_back({read.layer, read.file});
+    }
+    for (const std::string& said : options.exportsSaid) {
+        if (!split(said, read)) return "--export takes NAME=FILE, not '" + said + "'";
+        options.exports.push_back(read);
+    }
+    return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -306,13 +340,7 @@ int main(int argc, char** argv) {
     if (options.seed >= 0) options.request.seed = uint32_t(options.seed);
     if (options.request.file.empty() && options.replay.empty())
         return refuse("FILE or --replay says what to show; see --help");
-    if (!options.size.empty() && !parseSize(options.size, options.width, options.height))
-        return refuse("--size takes WIDTHxHEIGHT, 1 to 16384 each, not '" + options.size + "'");
-    for (const std::string& layer : options.layers) {
-        const size_t sign = layer.find('=');
-        if (sign == std::string::npos || sign == 0) return refuse("--layer takes NAME=FILE, not '" + layer + "'");
-        options.request.layers.push_back({layer.substr(0, sign), layer.substr(sign + 1)});
-    }
+    if (const std::string wrong = readTexts(options); !wrong.empty()) return refuse(wrong);
     try {
         return run(options);
     } catch (const std::exception& e) {

@@ -91,8 +91,13 @@ int main(int argc, char** argv) {
     }
     const Comparison found = compare(a, b, tolerance);
     const bool alike = found.within >= share;
-    std::printf("%s: %.5f of the pixels differ by at most %d, the largest difference is %.4g (wanted: %.5f)\n",
-                alike ? "alike" : "not alike", found.within, tolerance, double(found.largest), share);
+    const double pixels = double(a.width) * double(a.height);
+    std::printf(
+        "%s: %.5f of the pixels differ by at most %d, the largest difference is %.4g (wanted: %.5f; %.0f of %.0f "
+        "differ by "
+        "more)\n",
+        alike ? "alike" : "not alike", found.within, tolerance, double(found.largest), share,
+        std::round((1 - found.within) * pixels), pixels);
     if (!diff.empty() && !writePng(diff, found.difference.data(), a.width, a.height, error)) {
         std::fprintf(stderr, "espalier-compare: %s\n", error.c_str());
         return 2;

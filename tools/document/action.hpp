@@ -263,6 +263,7 @@ struct RunLine {
     uint32_t frame = 0;
     uint32_t gesture = 0;
     Action action;
+    size_t number = 0;  // in the file that it was read from, from 1
 };
 std::string toJson(const RunLine& line);
 // False: `error` is "line:column: message".

@@ -80,6 +80,7 @@ bool readRun(const std::string& path, Run& out, std::string& error) {
             out.note = path + ":" + std::to_string(number + 1) + ": the last line is cut off and left out";
             break;
         }
+        entry.number = number + 1;
         if (out.lines.size() > 1 && entry.frame < out.lines[out.lines.size() - 2].frame)
             return fail("1:1: frame " + std::to_string(entry.frame) + " comes after a later one");
         if (entry.frame > kMaxFrames) return fail("1:1: more than a million frames");
@@ -125,7 +126,9 @@ std::string Recorder::beside(const std::string& file) const {
     return near.empty() ? file : near.string();
 }
 
+// Half a line is the last one, or what follows would be read as its end.
 void Recorder::write(const std::string& line) {
+    if (failed_ != 0) return;
     errno = 0;
     const bool good = std::fprintf(file_.get(), "%s\n", line.c_str()) > 0 && std::fflush(file_.get()) == 0;
     if (!good && failed_ == 0) failed_ = errno != 0 ? errno : EIO;
@@ -134,7 +137,7 @@ void Recorder::write(const std::string& line) {
 void Recorder::note(const Action& action, uint32_t gesture) {
     if (!file_) return;
     if (std::holds_alternative<SetCamera>(action)) camera_ = action;
-    RunLine line{frame_, gesture, action};
+    RunLine line{frame_, gesture, action, 0};
     if (std::string* file = fileOf(line.action)) *file = beside(*file);
     write(toJson(line));
 }

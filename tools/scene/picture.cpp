@@ -17,13 +17,13 @@
 namespace espalier::scene {
 namespace {
 
-constexpr int kMaxSide = 8192;
+constexpr int kMaxSide = 8192, kMaxFrameSide = 16384;  // of layers; of pictures that are compared
 
 std::string systemReason() {
     return std::strerror(errno ? errno : EIO);
 }
 
-std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path, std::string& error) {
+std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path, int maxSide, std::string& error) {
     if (refused(path, error)) return nullptr;
     errno = 0;
     if (!std::ifstream(path, std::ios::binary)) {
@@ -38,9 +38,9 @@ std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path, std::stri
         return nullptr;
     }
     const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide) {
-        error = path + ": " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                " texels; 1 to 8192 a side are allowed";
+    if (spec.width < 1 || spec.height < 1 || spec.width > maxSide || spec.height > maxSide) {
+        error = path + ": " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " texels; 1 to " +
+                std::to_string(maxSide) + " a side are allowed";
         return nullptr;
     }
     return input;
@@ -61,20 +61,26 @@ bool damaged(const std::string& path, const OIIO::ImageInput& input, std::string
     return false;
 }
 
+// all: what can't be held of its channels is a mistake.
 template <class T>
 bool read(const std::string& path, int channels, OIIO::TypeDesc type, uint32_t& width, uint32_t& height,
-          std::vector<T>& texels, std::string& error) {
-    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, error);
+          std::vector<T>& texels, std::string& error, bool all = false) {
+    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, all ? kMaxFrameSide : kMaxSide, error);
     if (!input) return false;
     const OIIO::ImageSpec& spec = input->spec();
     const int read = std::min(channels, spec.nchannels);
+    if (all && spec.nchannels > channels) {
+        error = path + ": has " + std::to_string(spec.nchannels) + " channels; " + std::to_string(channels) +
+                " at most can be compared";
+        return false;
+    }
     width = uint32_t(spec.width);
     height = uint32_t(spec.height);
     texels.assign(size_t(width) * height * channels, T(channels < 4 ? 0 : type.is_floating_point() ? 1 : 255));
     if (!input->read_image(0, 0, 0, read, type, texels.data(), channels * sizeof(T)))
         return damaged(path, *input, error);
     const bool greyAlpha = read == 2 && spec.alpha_channel == 1;
-    if (channels == 4 && read < 3)
+    if (channels == 4 && (read == 1 || greyAlpha))
         for (size_t i = 0; i < texels.size(); i += 4) {
             if (greyAlpha) texels[i + 3] = texels[i + 1];
             texels[i + 1] = texels[i + 2] = texels[i];
@@ -98,7 +104,7 @@ bool readGrey(const std::string& path, GreyPicture& out, std::string& error) {
 }
 
 bool readColours(const std::string& path, std::vector<GreyPicture>& channels, std::string& error) {
-    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, error);
+    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, kMaxSide, error);
     if (!input) return false;
     const OIIO::ImageSpec& spec = input->spec();
     const int count = spec.nchannels < 3 ? 1 : 3;
@@ -114,14 +120,14 @@ bool readColours(const std::string& path, std::vector<GreyPicture>& channels, st
 }
 
 bool readShape(const std::string& path, PictureShape& out, std::string& error) {
-    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, error);
+    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, kMaxSide, error);
     if (!input) return false;
     out = {uint32_t(input->spec().width), uint32_t(input->spec().height), uint32_t(input->spec().nchannels)};
     return true;
 }
 
 bool readFloats(const std::string& path, FloatPicture& out, std::string& error) {
-    return read(path, 4, OIIO::TypeDesc::FLOAT, out.width, out.height, out.rgba, error);
+    return read(path, 4, OIIO::TypeDesc::FLOAT, out.width, out.height, out.rgba, error, true);
 }
 
 bool readColour(const std::string& path, ColourPicture& out, std::string& error) {

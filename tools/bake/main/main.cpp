@@ -146,7 +146,7 @@ int runFolder(const Arguments& arguments, const CLI::App& app) {
 
 int runTown(Arguments& arguments) {
     std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.model, arguments.output, ignored))
+    if (sameFile(arguments.model, arguments.output))
         return fail(Failure(arguments.output, "the town would overwrite its footprints"));
     arguments.town.footprints = arguments.model;
     arguments.town.output = arguments.output;
