@@ -4,6 +4,7 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/expand/gpu_growth.hpp"
+#include "runtime/gpu/limits.hpp"
 
 namespace espalier {
 
@@ -77,7 +78,7 @@ Status GpuGrowth::makeTables(const GrowthInputs& inputs) {
     uint64_t words = 0;
     placeTables(inputs, words);
     access_.tablesByAddress = words > kUniformTableWords;
-    constexpr uint64_t kUniformBytes = kUniformTableWords * 4;  // a uniform buffer may have no more
+    static_assert(kUniformTableWords * 4 == kUniformBytes);
     const uint64_t tables = access_.tablesByAddress ? words * 4 : kUniformBytes;
     const uint64_t grammars = inputs.grammars.size() * sizeof(RuleMapRef);
     if (!access_.tablesByAddress && tables_.size() > kUniformBytes) tables_ = {};

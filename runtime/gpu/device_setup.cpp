@@ -9,6 +9,7 @@
 #include "runtime/gpu/command_pools.hpp"
 #include "runtime/gpu/device.hpp"
 #include "runtime/gpu/features.hpp"
+#include "runtime/gpu/limits.hpp"
 #include "runtime/gpu/retire.hpp"
 #include "runtime/gpu/timer.hpp"
 #include "runtime/gpu/validation.hpp"
@@ -19,7 +20,6 @@ namespace {
 constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
 constexpr std::string_view kPlace = "Vulkan";
 constexpr float kMostAnisotropy = 16;
-constexpr uint32_t kUniformBytes = 65536;  // of the largest uniform block that growth binds
 
 std::string joined(const std::vector<std::string>& names) {
     std::string text;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/core/undo.hpp"
+#include "runtime/gpu/limits.hpp"
 #include "runtime/roof/gpu_roofs.hpp"
 #include "shaders/shared/roof_tables.h"
 
@@ -12,6 +13,7 @@ Status GpuRoofs::ensure(Buffer& buffer, const char* name, uint64_t bytes, Buffer
     if (buffer && buffer.size() >= bytes) return Done{};
     buffer = {};
     // What may be bound as a uniform buffer stays as small as that.
+    static_assert(kUniformMapWords * 4 == kUniformBytes);
     const uint64_t spare = bytes > kUniformMapWords * 4 ? bytes / 8 : 0;
     Result<Buffer> made = Buffer::create(device_, name, bytes + spare, use);
     if (!made) return made.failure();
