@@ -44,9 +44,6 @@ void paintMap(const Plan& plan, const std::vector<glm::vec3>& shades, Site& site
             earth = std::max(earth, (0.82f + 0.2f * uneven) * ramp(-0.28f - 0.25f * uneven, 0.16f, plan.trodden(p)));
             for (glm::vec3 w : worn)
                 earth = std::max(earth, 0.55f * ramp(1.2f + 0.4f * uneven, 0.3f, glm::distance(p, vec2(w)) / w.z));
-            // Feet that come from the arch carry soil over the last setts.
-            earth =
-                std::max(earth, 0.6f * ramp(1.0f + 0.3f * uneven, 0.3f, glm::distance(p, vec2(0.6f, kSill + 0.2f))));
             const Lawn lawn = lawnAt(p);
             earth = std::max(earth, 0.75f * lawn.bare);
             float open = (1 - 0.22f * lawn.clover) * (1 - 0.55f * std::exp(-std::max(house, 0.0f) / 0.9f));

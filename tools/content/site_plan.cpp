@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/content/noise.hpp"
-
 namespace espalier::content {
 namespace {
 
@@ -79,10 +77,7 @@ float Plan::paved(vec2 p) const {
     for (const auto& [line, half] : streets)
         for (size_t i = 0; i + 1 < line.size(); ++i)
             inside = std::max(inside, half - segmentDistance(p, line[i], line[i + 1]));
-    if (toCourt(p) >= 2) return inside;
-    // No kerb ends the setts there: over as little way as a map's texel they are gone, here sooner, there later.
-    const float end = kSill + 0.2f * noise(p / 0.4f, 73);
-    return std::min(inside, 6 * (end - p.y));
+    return toCourt(p) < 2 ? std::min(inside, kSill - p.y) : inside;
 }
 
 float Plan::trodden(vec2 p) const {

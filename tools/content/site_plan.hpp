@@ -10,7 +10,7 @@ namespace espalier::content {
 constexpr float kLevel = -0.06f;  // of the meadow, as in sample.json
 constexpr float kHalfMap = 104;   // metres
 const glm::vec2 kCourt{0.35f, 1.7f}, kCourtHalf{5.2f, 4.0f};
-constexpr float kSill = -1.45f;          // z about which the setts of the court's path end before older flags
+constexpr float kSill = -0.95f;          // z where the setts of the court's path end, beneath its older flags
 const glm::vec2 kSquare{-0.8f, -46.0f};  // before the school, with the well
 constexpr float kSquareRadius = 4.8f;
 
