@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/srgb.hpp"
 #include "tools/content/leaf.hpp"
 #include "tools/content/noise.hpp"
 
@@ -33,7 +34,7 @@ Tile paintTile(int size, const At& at) {
             float dy = (at(p + glm::vec2(0, step)).height - at(p - glm::vec2(0, step)).height) / (2 * step);
             glm::vec3 n = glm::normalize(glm::vec3(-dx, dy, 1));
             for (int k = 0; k < 3; ++k) {
-                tile.color.at(x, y)[k] = toByte(toSrgb(t.color[k]));
+                tile.color.at(x, y)[k] = toByte(srgbOfLinear(t.color[k]));
                 tile.normal.at(x, y)[k] = toByte(n[k] * 0.5f + 0.5f);
             }
             tile.color.at(x, y)[3] = tile.normal.at(x, y)[3] = 255;

@@ -35,17 +35,9 @@ Terminals roofTerminals() {
 }
 
 Result<RuleMap> compileFile(const std::string& path, const std::vector<std::string>& terminals) {
-    Result<std::string> text = readTextFile(path);
-    if (!text) return text.failure();
-    const std::filesystem::path file(path);
     CompileOptions options;
-    options.fileName = file.filename().string();
     for (const std::string& name : terminals) options.roofMeshes.push_back({name, false});
-    options.readInclude = [&](const std::string& name) -> std::optional<std::string> {
-        Result<std::string> included = readTextFile((file.parent_path() / name).string());
-        return included ? std::optional<std::string>(std::move(*included)) : std::nullopt;
-    };
-    return compileGrammar(*text, options);
+    return compileGrammarFile(path, options);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/srgb.hpp"
 #include "tools/content/foliage.hpp"
 #include "tools/content/noise.hpp"
 
@@ -65,7 +66,7 @@ glm::vec3 leafColor(const Leaf& leaf, const Species& s, float edge, float across
 }
 
 void putTexel(uint8_t* texel, glm::vec3 color, float edge, int side) {
-    for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(toSrgb(color[k])) * 255 + 0.5f);
+    for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(srgbOfLinear(color[k])) * 255 + 0.5f);
     texel[3] = uint8_t(saturate(0.5f + edge * float(side) / 10) * 255 + 0.5f);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "runtime/core/srgb.hpp"
 #include "tools/content/builder.hpp"
 #include "tools/content/noise.hpp"
 
@@ -162,55 +163,53 @@ Mesh bench(int) {
     return b.mesh;
 }
 
-// A hewn stone, its edges broken by `bevel` and its corners uneven.
-struct Hewn {
+// A stone that fell: a block that rain has rounded, uneven, darker where it lies in the soil.
+struct Worn {
     vec3 middle, half;  // metres
     float turn, tilt;   // about the vertical, then about its own x
 };
-void addHewn(Builder& b, const Hewn& stone, float bevel, uint32_t salt) {
-    const float bright = 0.24f + 0.24f * random01(salt, 93);
+void addWorn(Builder& b, const Worn& stone, int steps, uint32_t salt) {
+    constexpr float kBlocky = 5, kUneven = 0.13f, kApart = 0.02f;
+    const float bright = 0.22f + 0.14f * random01(salt, 93);
     const glm::mat3 pose = glm::mat3(glm::rotate(glm::mat4(1), stone.turn, vec3(0, 1, 0)) *
                                      glm::rotate(glm::mat4(1), stone.tilt, vec3(1, 0, 0)));
-    // Of the corner with these signs, what lies on the face across `axis`.
-    const auto at = [&](glm::ivec3 sign, int axis) {
-        const uint32_t corner = uint32_t(sign.x + 1) * 9 + uint32_t(sign.y + 1) * 3 + uint32_t(sign.z + 1);
-        vec3 p = stone.half *
-                 (1.0f - 0.20f * vec3(random01(salt, corner, 1), random01(salt, corner, 2), random01(salt, corner, 3)));
-        for (int k = 0; k < 3; ++k) p[k] -= k == axis ? 0 : bevel;
-        return stone.middle + pose * (vec3(sign) * p);
+    const auto at = [&](vec3 way) {
+        const vec3 a = glm::pow(glm::abs(way), vec3(kBlocky));
+        const float far = (1 + kUneven * fractal(1.3f * way, salt, 3)) / std::pow(a.x + a.y + a.z, 1 / kBlocky);
+        return stone.middle + pose * (stone.half * way * far);
     };
-    const auto outward = [&](vec3 p, vec3 q, vec3 r, vec3 s, float shade) {
-        const bool turned = glm::dot(glm::cross(r - p, s - q), 0.25f * (p + q + r + s) - stone.middle) < 0;
-        turned ? b.quad(s, r, q, p, Paint::stone, bright * shade) : b.quad(p, q, r, s, Paint::stone, bright * shade);
+    const auto corner = [&](vec3 way) {
+        const vec3 u = glm::normalize(glm::cross(way, std::abs(way.y) < 0.7f ? vec3(0, 1, 0) : vec3(1, 0, 0))),
+                   v = glm::cross(way, u), p = at(way);
+        const vec3 n =
+            glm::cross(at(way + kApart * u) - at(way - kApart * u), at(way + kApart * v) - at(way - kApart * v));
+        const float sunk = ramp(-0.02f, 0.12f, p.y), stained = 1 + 0.5f * fractal(3.1f * way, salt + 1, 3);
+        b.mesh.positions.push_back(p);
+        b.mesh.normals.push_back(glm::normalize(n));
+        b.mesh.uvs.push_back(paletteUv(Paint::stone, bright * stained * (0.55f + 0.45f * sunk)));
     };
-    for (int axis = 0; axis < 3; ++axis) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const auto corner = [&](int a, int su, int sv) {
-            glm::ivec3 sign;
-            sign[axis] = a, sign[u] = su, sign[v] = sv;
-            return sign;
-        };
-        for (int a : {-1, 1}) {
-            const float shade = axis == 1 && a > 0 ? 1.06f : 0.94f + 0.1f * random01(salt, uint32_t(3 * axis + a), 4);
-            outward(at(corner(a, -1, -1), axis), at(corner(a, 1, -1), axis), at(corner(a, 1, 1), axis),
-                    at(corner(a, -1, 1), axis), shade);
+    // The faces of a cube, blown up.
+    for (int axis = 0; axis < 3; ++axis)
+        for (float side : {-1.0f, 1.0f}) {
+            const uint32_t first = uint32_t(b.mesh.positions.size()), row = uint32_t(steps) + 1;
+            for (int y = 0; y <= steps; ++y)
+                for (int x = 0; x <= steps; ++x) {
+                    vec3 way;
+                    way[axis] = side;
+                    way[(axis + 1) % 3] = side * (2 * float(x) / float(steps) - 1);
+                    way[(axis + 2) % 3] = 2 * float(y) / float(steps) - 1;
+                    corner(glm::normalize(way));
+                }
+            for (uint32_t y = 0; y < uint32_t(steps); ++y)
+                for (uint32_t x = 0; x < uint32_t(steps); ++x)
+                    for (uint32_t k : {0u, 1u, row + 1, 0u, row + 1, row})
+                        b.mesh.indices.push_back(first + y * row + x + k);
         }
-        for (int su : {-1, 1})  // edges along the axis, paler as they are worn
-            for (int sv : {-1, 1})
-                outward(at(corner(-1, su, sv), u), at(corner(1, su, sv), u), at(corner(1, su, sv), v),
-                        at(corner(-1, su, sv), v), 1.07f);
-    }
-    for (int k = 0; k < 8; ++k) {
-        const glm::ivec3 sign(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
-        const vec3 p = at(sign, 0), q = at(sign, 1), r = at(sign, 2);
-        const bool turned = glm::dot(glm::cross(q - p, r - p), p - stone.middle) < 0;
-        b.triangle(p, turned ? r : q, turned ? q : r, Paint::stone, bright * 1.07f);
-    }
 }
 
-// A heap of hewn stones, left over: some sunk into the ground, one on two others.
-Mesh rubble(int) {
-    const Hewn stones[] = {{{0, 0.13f, 0}, {0.34f, 0.21f, 0.25f}, 0.3f, 0.05f},
+// A heap of them: some sunk into the ground, one on two others.
+Mesh rubble(int lod) {
+    const Worn stones[] = {{{0, 0.13f, 0}, {0.34f, 0.21f, 0.25f}, 0.3f, 0.05f},
                            {{0.60f, 0.09f, 0.10f}, {0.27f, 0.18f, 0.23f}, 1.2f, -0.10f},
                            {{0.10f, 0.07f, -0.50f}, {0.28f, 0.16f, 0.20f}, 2.3f, 0.16f},
                            {{0.30f, 0.40f, 0.04f}, {0.30f, 0.14f, 0.20f}, 0.2f, 0.06f},
@@ -218,19 +217,19 @@ Mesh rubble(int) {
                            {{0.78f, 0.03f, -0.52f}, {0.16f, 0.10f, 0.13f}, 2.8f, -0.24f},
                            {{-0.26f, 0.02f, 0.68f}, {0.13f, 0.09f, 0.11f}, 1.7f, 0.20f}};
     Builder b;
-    for (const Hewn& stone : stones) addHewn(b, stone, 0.028f, 91 + uint32_t(&stone - stones));
+    for (const Worn& stone : stones) addWorn(b, stone, lod == 0 ? 4 : 2, 91 + uint32_t(&stone - stones));
     return b.mesh;
 }
 
-// A stone that fell, half sunk: a thick one, a flat one.
-Mesh thickStone(int) {
+// One of them, half sunk: a thick one, a flat one.
+Mesh thickStone(int lod) {
     Builder b;
-    addHewn(b, {{0, 0.03f, 0}, {0.19f, 0.17f, 0.17f}, 0.4f, 0.34f}, 0.052f, 105);
+    addWorn(b, {{0, 0.03f, 0}, {0.19f, 0.17f, 0.17f}, 0.4f, 0.34f}, lod == 0 ? 6 : 3, 105);
     return b.mesh;
 }
-Mesh flatStone(int) {
+Mesh flatStone(int lod) {
     Builder b;
-    addHewn(b, {{0, 0, 0}, {0.23f, 0.12f, 0.18f}, 1.1f, -0.20f}, 0.046f, 112);
+    addWorn(b, {{0, 0, 0}, {0.23f, 0.12f, 0.18f}, 1.1f, -0.20f}, lod == 0 ? 6 : 3, 112);
     return b.mesh;
 }
 
@@ -248,7 +247,7 @@ Picture paintPalette() {
         for (int x = 0; x < 64; ++x) {
             const auto& row = ends[std::min(y / 8, int(Paint::count) - 1)];
             const vec3 color = glm::mix(row[0], row[1], float(x) / 63);
-            for (int k = 0; k < 3; ++k) picture.at(x, y)[k] = uint8_t(saturate(toSrgb(color[k])) * 255 + 0.5f);
+            for (int k = 0; k < 3; ++k) picture.at(x, y)[k] = uint8_t(saturate(srgbOfLinear(color[k])) * 255 + 0.5f);
             picture.at(x, y)[3] = 255;
         }
     return picture;
@@ -261,7 +260,7 @@ void addFurniture(PropMeshes& out) {
         int lods;
     } rows[] = {{"wall", wall, 2},     {"pier", pier, 2},          {"fence", fence, 2},
                 {"rails", rails, 2},   {"well", well, 1},          {"bench", bench, 1},
-                {"rubble", rubble, 1}, {"stone_a", thickStone, 1}, {"stone_b", flatStone, 1}};
+                {"rubble", rubble, 2}, {"stone_a", thickStone, 2}, {"stone_b", flatStone, 2}};
     for (const auto& row : rows)
         for (int lod = 0; lod < row.lods; ++lod) out.add(row.name, lod, row.make(lod), PropMeshes::kBuilt);
 }

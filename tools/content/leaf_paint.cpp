@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/srgb.hpp"
 #include "tools/content/leaf.hpp"
 #include "tools/content/leaf_shape.hpp"
 #include "tools/content/noise.hpp"
@@ -110,7 +111,7 @@ LeafAtlas paintLeaves(int size) {
                     uint8_t* c = atlas.color.at(x, y + side * half);
                     uint8_t* m = atlas.normal.at(x, y + side * half);
                     for (int k = 0; k < 3; ++k) {
-                        c[k] = toByte(toSrgb(color[k]));
+                        c[k] = toByte(srgbOfLinear(color[k]));
                         m[k] = toByte(n[k] * 0.5f + 0.5f);
                     }
                     c[3] = toByte(alpha);

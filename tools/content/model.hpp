@@ -110,7 +110,4 @@ struct GridPoint {
 void gridChart(Chart& chart, uint32_t columns, uint32_t rows,
                const std::function<GridPoint(uint32_t column, uint32_t row)>& at);
 
-// From linear to sRGB, [0, 1].
-float toSrgb(float linear);
-
 }  // namespace espalier::content

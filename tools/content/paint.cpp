@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/srgb.hpp"
 #include "tools/content/model.hpp"
 #include "tools/content/noise.hpp"
 
@@ -57,10 +58,6 @@ glm::vec2 uvOf(int x, int y, int side) {
 }
 
 }  // namespace
-
-float toSrgb(float x) {
-    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-}
 
 void dilate(Picture& picture, std::vector<uint8_t> filled, int rounds) {
     std::vector<size_t> fresh;
@@ -123,7 +120,7 @@ Painted paint(const std::vector<Chart>& charts, const Assembly& assembly, int si
             if (cover.chart[at] < 0) continue;
             size_t c = static_cast<size_t>(cover.chart[at]);
             Detail d = charts[c].detail(assembly.toSt(c, uvOf(x, y, size)));
-            for (int k = 0; k < 3; ++k) color[k] = toByte(toSrgb(saturate(d.albedo[k])));
+            for (int k = 0; k < 3; ++k) color[k] = toByte(srgbOfLinear(saturate(d.albedo[k])));
             relief[at] = d.height + d.bump - cover.meshHeight[at];
             filled[at] = 1;
         }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "runtime/core/srgb.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {
@@ -158,7 +159,8 @@ Picture preview(const std::vector<PreviewItem>& items, const PreviewView& view) 
                 sum += colors[static_cast<size_t>(2 * y + k / 2) * static_cast<size_t>(width) +
                               static_cast<size_t>(2 * x + k % 2)];
             for (int k = 0; k < 3; ++k)
-                out.at(x, y)[k] = static_cast<uint8_t>(saturate(toSrgb(saturate(sum[k] * 0.25f))) * 255.0f + 0.5f);
+                out.at(x, y)[k] =
+                    static_cast<uint8_t>(saturate(srgbOfLinear(saturate(sum[k] * 0.25f))) * 255.0f + 0.5f);
             out.at(x, y)[3] = 255;
         }
     return out;
