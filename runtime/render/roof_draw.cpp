@@ -13,16 +13,9 @@ namespace {
 
 constexpr uint32_t kSlots = 8;  // views that recordings in flight may still read
 constexpr uint32_t kMostRows = 1u << 20, kMostTiles = 3u << 20, kMostCuts = 1u << 19, kMostRectangles = 1u << 19;
-constexpr float kLeastCell = 4.5f;  // pixels below which cells are a pattern
+constexpr float kLeastCellPixels = 4.5f;  // pixels below which cells are a pattern
 // Meshes are measured in cells, though their heights are metres: errors count for more than they seem.
 constexpr float kErrorScale = 5;
-
-template <class Buf>
-Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
-    Buf b{};
-    b.v = reinterpret_cast<decltype(b.v)>(buffer.address() + offset);
-    return b;
-}
 
 }  // namespace
 
@@ -66,8 +59,8 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
 
 Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
     for (auto [program, shader] :
-         {std::pair{&cullGrids_, "roof/cull_grids.comp"}, std::pair{&cullRows_, "roof/cull_rows.comp"},
-          std::pair{&scan_, "roof/scan.comp"}, std::pair{&writeRows_, "roof/write_rows.comp"}}) {
+         {std::pair{&cullGrids_, "render/roof_cull_grids.comp"}, std::pair{&cullRows_, "render/roof_cull_rows.comp"},
+          std::pair{&scan_, "render/roof_scan.comp"}, std::pair{&writeRows_, "render/roof_write_rows.comp"}}) {
         // Exact, so that counting and writing decide alike, whatever a compiler makes of either.
         Result<Program> made = Program::compute(device, shader, {.exact = true, .constants = {}});
         if (!made) return made.failure();
@@ -80,14 +73,16 @@ Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, ui
         const char* fragment;
         Shading shading = Shading::full;
     };
-    std::vector<Row> rows{{tileDepth_, "roof tile shadow", "roof/tile.vert", ""},
-                          {cutTileDepth_, "cut roof tile shadow", "roof/cut_tile.vert", ""},
-                          {rectangleDepth_, "far roof shadow", "roof/rectangle.vert", ""}};
+    std::vector<Row> rows{{tileDepth_, "roof tile shadow", "render/roof_tile.vert", ""},
+                          {cutTileDepth_, "cut roof tile shadow", "render/roof_cut_tile.vert", ""},
+                          {rectangleDepth_, "far roof shadow", "render/roof_rectangle.vert", ""}};
     for (uint32_t s = 0; s < kShadings; ++s) {
         if (!isAskedOf(*device_, Shading(s))) continue;
-        rows.push_back({tile_[s], "roof tile", "roof/tile.vert", "roof/tile.frag", Shading(s)});
-        rows.push_back({cutTile_[s], "cut roof tile", "roof/cut_tile.vert", "roof/tile.frag", Shading(s)});
-        rows.push_back({rectangle_[s], "far roof", "roof/rectangle.vert", "roof/rectangle.frag", Shading(s)});
+        rows.push_back({tile_[s], "roof tile", "render/roof_tile.vert", "render/roof_tile.frag", Shading(s)});
+        rows.push_back(
+            {cutTile_[s], "cut roof tile", "render/roof_cut_tile.vert", "render/roof_tile.frag", Shading(s)});
+        rows.push_back(
+            {rectangle_[s], "far roof", "render/roof_rectangle.vert", "render/roof_rectangle.frag", Shading(s)});
     }
     for (const Row& r : rows) {
         GraphicsDesc desc;
@@ -158,7 +153,7 @@ Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView&
     env.tileRoom = uint32_t(tiles_.size() / sizeof(RoofTile));
     env.cutRoom = uint32_t(cuts_.size() / sizeof(RoofCutTile));
     env.rectangleRoom = uint32_t(rectangles_.size() / sizeof(RoofTile));
-    env.leastCell = kLeastCell;
+    env.leastCell = kLeastCellPixels;
     env.flags = shadow ? kRoofShadow : 0;
     RoofDrawState fresh{};
     fresh.rowGroups[1] = fresh.rowGroups[2] = 1;

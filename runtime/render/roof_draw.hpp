@@ -5,7 +5,7 @@
 #include "runtime/emit/emit.hpp"
 #include "runtime/render/shading.hpp"
 #include "runtime/roof/roof_growth.hpp"
-#include "shaders/roof/draw_records.h"
+#include "shaders/render/roof_draw_records.h"
 
 namespace espalier {
 

@@ -3,7 +3,7 @@
 #include "shaders/shared/extensions.glsl"
 // A grid each: is it seen, and as cells or as a pattern? Cells' rows are listed for cull_rows.
 #include "shaders/emit/sight.h"
-#include "shaders/roof/clarity.glsl"
+#include "shaders/render/roof_clarity.glsl"
 #include "shaders/shared/dispatch.glsl"
 
 layout(local_size_x = 64) in;

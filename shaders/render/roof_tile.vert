@@ -1,5 +1,4 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-#define ESPALIER_CUT
-#include "shaders/roof/tile.glsl"
+#include "shaders/render/roof_tile.glsl"

@@ -1,7 +1,7 @@
 // Where a point of a grid lies in the world, and its distances from the planes that cut it.
 #ifndef ESPALIER_ROOF_PLACE_GLSL
 #define ESPALIER_ROOF_PLACE_GLSL
-#include "shaders/roof/draw_records.h"
+#include "shaders/render/roof_draw_records.h"
 #include "shaders/shared/roof_layers.h"
 
 vec3 gridPoint(RoofGrid g, vec3 p) {

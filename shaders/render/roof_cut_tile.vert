@@ -1,4 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
-#include "shaders/roof/tile.glsl"
+#define ESPALIER_CUT
+#include "shaders/render/roof_tile.glsl"

@@ -3,7 +3,7 @@
 #define ESPALIER_ROOF_LOOK_GLSL
 #include "shaders/render/light.glsl"
 #include "shaders/render/sky.glsl"
-#include "shaders/roof/draw_records.h"
+#include "shaders/render/roof_draw_records.h"
 #include "shaders/shared/roof_layers.h"
 
 vec3 unpackColour(uint c) {

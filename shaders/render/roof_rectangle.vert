@@ -3,8 +3,8 @@
 #include "shaders/shared/extensions.glsl"
 // A far grid as one rectangle a part of its region; a row of caps as the two sides of a small roof.
 #include "shaders/render/frame.glsl"
-#include "shaders/roof/clarity.glsl"
-#include "shaders/roof/place.glsl"
+#include "shaders/render/roof_clarity.glsl"
+#include "shaders/render/roof_place.glsl"
 
 layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
 layout(location = 0) out vec3 position;

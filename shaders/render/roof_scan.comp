@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // Counts -> starts and indirect draws. One invocation: there are 64 buckets.
-#include "shaders/roof/draw_records.h"
+#include "shaders/render/roof_draw_records.h"
 
 layout(local_size_x = 1) in;
 layout(push_constant, scalar) uniform Data { RoofCullPush push; };

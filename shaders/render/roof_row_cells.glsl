@@ -2,7 +2,7 @@
 #ifndef ESPALIER_ROOF_ROW_CELLS_GLSL
 #define ESPALIER_ROOF_ROW_CELLS_GLSL
 #include "shaders/emit/sight.h"
-#include "shaders/roof/clarity.glsl"
+#include "shaders/render/roof_clarity.glsl"
 #include "shaders/shared/roof_cells.h"
 
 // A cell outside of its row's run of whole ones. `whole`: nothing cuts it after all. Otherwise rectangleCuts are what the

@@ -1,7 +1,7 @@
 // How clearly cells are seen: below 1 a pattern stands for all of them, from kFadeEnd on each is drawn.
 #ifndef ESPALIER_ROOF_CLARITY_GLSL
 #define ESPALIER_ROOF_CLARITY_GLSL
-#include "shaders/roof/draw_records.h"
+#include "shaders/render/roof_draw_records.h"
 
 const float kFadeEnd = 1.7;
 const float kReliefEnd = 2.6;   // from here on cells are lit as their meshes are; below ever more as the pattern is

@@ -1,8 +1,8 @@
 // Cells as meshes. ESPALIER_CUT: those that planes cut, by clip distances.
 #include "shaders/emit/triangle_vertex.glsl"
 #include "shaders/render/frame.glsl"
-#include "shaders/roof/clarity.glsl"
-#include "shaders/roof/place.glsl"
+#include "shaders/render/roof_clarity.glsl"
+#include "shaders/render/roof_place.glsl"
 
 layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
 layout(location = 0) out vec3 position;

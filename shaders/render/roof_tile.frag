@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // Cells drawn as meshes.
-#include "shaders/roof/draw_records.h"
-#include "shaders/roof/look.glsl"
+#include "shaders/render/roof_draw_records.h"
+#include "shaders/render/roof_look.glsl"
 
 layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
 layout(location = 0) in vec3 position;

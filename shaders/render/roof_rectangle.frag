@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // A far grid: its cells' colours and the shadows of their lower edges, fading into their mean as cells get small.
-#include "shaders/roof/look.glsl"
-#include "shaders/roof/place.glsl"
+#include "shaders/render/roof_look.glsl"
+#include "shaders/render/roof_place.glsl"
 
 layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
 layout(location = 0) in vec3 position;

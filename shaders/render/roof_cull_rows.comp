@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // A row of cells each: its bucket, and how many whole and cut cells it adds to that.
-#include "shaders/roof/row_cells.glsl"
+#include "shaders/render/roof_row_cells.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Data { RoofCullPush push; };
