@@ -19,4 +19,10 @@ std::string toString(const std::vector<Diagnostic>& diagnostics) {
     return text;
 }
 
+Failure deviceFailure(std::string_view object, std::string message) {
+    Failure failure(object, std::move(message));
+    failure.ofDevice = true;
+    return failure;
+}
+
 }  // namespace espalier

@@ -27,6 +27,7 @@ std::string toString(const std::vector<Diagnostic>& diagnostics);
 // A content mistake or an outside failure: at least one diagnostic.
 struct Failure {
     std::vector<Diagnostic> diagnostics;
+    bool ofDevice = false;  // its memory, a limit of it or its loss: what it was given is sound
 
     Failure(Diagnostic d) { diagnostics.push_back(std::move(d)); }
     explicit Failure(std::vector<Diagnostic> all) : diagnostics(std::move(all)) { assert(!diagnostics.empty()); }
@@ -34,6 +35,9 @@ struct Failure {
         : Failure(Diagnostic{std::string(file), 0, 0, {}, std::move(message)}) {}
     std::string text() const { return toString(diagnostics); }
 };
+
+// What the device can't do, whatever the content.
+Failure deviceFailure(std::string_view object, std::string message);
 
 // A value or why there is none. Content mistakes and outside failures travel in it; programming mistakes assert.
 template <class T>

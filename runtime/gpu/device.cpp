@@ -127,7 +127,7 @@ bool Device::succeeded(VkResult result, const char* expression, std::string_view
 
 Failure gpuFailure(const Device& device, std::string_view object, std::string_view what) {
     const std::string_view cause = device.lost() ? "the GPU was lost while " : "out of GPU memory while ";
-    return Failure(object, std::string(cause) + std::string(what));
+    return deviceFailure(object, std::string(cause) + std::string(what));
 }
 
 }  // namespace espalier

@@ -22,16 +22,15 @@ struct DeviceOptions {
     std::string applicationName = "espalier";
     bool validation = false;  // the Khronos validation layer; it is an error if it isn't installed
     bool synchronizationValidation =
-        false;                   // with validation: look for missing barriers too; sees no buffers by address
-    bool preferDiscrete = true;  // else the first device that will do
-    std::string deviceName;      // if not empty: only a device whose name contains this
+        false;               // with validation: look for missing barriers too; sees no buffers by address
+    std::string deviceName;  // if not empty: only a device whose name contains this
     Log log = logToStderr();
 };
 
 // A device that a host already has. All handles stay the host's and must outlive the Device. The VkDevice must
-// have been created with Vulkan 1.3, VK_KHR_push_descriptor and the features of requiredFeatures(). The queue must
-// do graphics and compute; the host doesn't use it while a call into Espalier runs. Before the Device goes, the GPU
-// must be done with what was recorded into the host's command buffers.
+// have been created with Vulkan 1.3, VK_KHR_push_descriptor and the features of chooseFeatures() (features.hpp). The
+// queue must do graphics and compute; the host doesn't use it while a call into Espalier runs. Before the Device goes,
+// the GPU must be done with what was recorded into the host's command buffers.
 struct HostDevice {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     VkInstance instance = VK_NULL_HANDLE;
@@ -45,14 +44,10 @@ struct HostDevice {
     Log log = logToStderr();
 };
 
-// Names of the features that a device must have, as Vulkan spells them, to tell a host.
-std::vector<std::string> requiredFeatures();
-
 struct DeviceInfo {
     std::string name;
     std::string driver;
     bool cpu = false;  // a software device
-    uint32_t apiVersion = 0;
     uint32_t subgroupSize = 0;
     uint32_t queueFamily = 0;
     float timestampNanoseconds = 0;  // 0: no timestamps

@@ -78,10 +78,11 @@ Result<Image> Image::create(Device& device, const ImageDesc& desc) {
     require(desc.width && desc.height && desc.layers, "an image has at least one texel");
     const VkPhysicalDeviceLimits& limits = device.info().limits;
     if (std::max(desc.width, desc.height) > limits.maxImageDimension2D || desc.layers > limits.maxImageArrayLayers)
-        return Failure(desc.name, "an image of " + std::to_string(desc.width) + "x" + std::to_string(desc.height) +
-                                      "x" + std::to_string(desc.layers) + " is larger than the GPU allows (" +
-                                      std::to_string(limits.maxImageDimension2D) + ", layers " +
-                                      std::to_string(limits.maxImageArrayLayers) + ")");
+        return deviceFailure(desc.name, "an image of " + std::to_string(desc.width) + "x" +
+                                            std::to_string(desc.height) + "x" + std::to_string(desc.layers) +
+                                            " is larger than the GPU allows (" +
+                                            std::to_string(limits.maxImageDimension2D) + ", layers " +
+                                            std::to_string(limits.maxImageArrayLayers) + ")");
     const uint32_t fullChain = uint32_t(std::bit_width(std::max(desc.width, desc.height)));
     Image image;
     image.levels_ = desc.levels ? std::min(desc.levels, fullChain) : fullChain;

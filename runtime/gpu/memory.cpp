@@ -108,7 +108,7 @@ class PooledMemory : public MemorySource {
 
     Result<MemoryBlock> allocate(const MemoryRequest& request) override {
         const std::optional<uint32_t> type = chooseType(request);
-        if (!type) return Failure(request.name, "no memory type of the GPU suits it");
+        if (!type) return deviceFailure(request.name, "no memory type of the GPU suits it");
         const VkMemoryRequirements& need = request.requirements;
         const bool shared = need.size < kLargeBytes;
         for (auto& [token, block] : blocks_) {
@@ -238,8 +238,8 @@ class PooledMemory : public MemorySource {
     }
 
     Failure outOfMemory(const MemoryRequest& request) const {
-        return Failure(request.name, "out of GPU memory: " + std::to_string(request.requirements.size) +
-                                         " bytes asked for, " + std::to_string(reserved_) + " taken so far");
+        return deviceFailure(request.name, "out of GPU memory: " + std::to_string(request.requirements.size) +
+                                               " bytes asked for, " + std::to_string(reserved_) + " taken so far");
     }
 
     const DeviceFunctions& vk_;

@@ -119,9 +119,7 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
         grown = context.roofs->growHouses(inputs, town.changed);
     else if (!town.painted.empty())
         grown = context.roofs->showLayers(inputs);
-    if (!grown && grown.failure().diagnostics.front().file == "roofs")
-        return fail(&context, ESP_INVALID_CONTENT, grown.failure().text());
-    if (!grown) return failGpu(&context, grown.failure());
+    if (!grown) return failWork(&context, grown.failure());
     const RoofView view = context.roofs->view();
     if (view.revision != town.view.revision) context.dropTriangles();
     town.stale = false;
