@@ -20,11 +20,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(_WIN32)
-#define ESP_API __declspec(dllexport)
-#else
 #define ESP_API __attribute__((visibility("default")))
-#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -104,7 +100,7 @@ ESP_API const void* espRequiredFeatures(void);
 ESP_API const char* const* espRequiredExtensions(uint32_t* count);
 
 /* Why the context's last call failed (NULL: this thread's last call without one, such as espCreate), several lines if several
- * mistakes were found. Ask right after it: the next call, even one that succeeds, begins with "". Never NULL. */
+ * mistakes were found. Ask right after it: the next call that returns an EspResult, even ESP_OK, begins with "". Never NULL. */
 ESP_API const char* espLastError(const EspContext* context);
 ESP_API const char* espVersion(void);                             /* "0.1.0"; static */
 ESP_API const char* espDeviceName(const EspContext* context);     /* lives as long as the context */
@@ -186,7 +182,7 @@ ESP_API EspResult espReadLinks(EspContext* context, EspSurface surface, EspLink*
 typedef struct EspGrammarDef {
     const char* name;     /* for messages, usually the file's path; included files are looked for beside it */
     const char* text;
-    size_t length;
+    size_t length;        /* bytes, up to 1 MiB */
 } EspGrammarDef;
 
 typedef enum EspParamKind { ESP_PARAM_FLOAT = 0, ESP_PARAM_BOOL = 1, ESP_PARAM_COLOUR = 2 } EspParamKind;
@@ -301,7 +297,7 @@ typedef struct EspLook {         /* all numbers finite */
                                     each picture has its own */
     int quick;                   /* 1: for pictures of what moves: a software device takes fewer samples of shadows and textures,
                                     leaves out growth that models hid in the picture before, draws twigs that follow each
-                                    other as one where windowLodPixels allows it, and lights small leaves and twigs once
+                                    other as one where lodPixels allows it, and lights small leaves and twigs once
                                     instead of at each vertex; models' levels of detail take over at once;
                                     default 0 */
     EspView view;
@@ -310,7 +306,7 @@ typedef struct EspLook {         /* all numbers finite */
     const EspBrush* viewBrush;   /* for ESP_VIEW_LAYER: where its slopes and heights let no paint pass the surfaces are hatched, and
                                     the more faintly the more passes; NULL: nowhere */
     uint32_t viewLevel;          /* for ESP_VIEW_CHARTS: the level whose charts and links are shown */
-    float windowLodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
+    float lodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
     float leafPixels;            /* leaves of at least so many pixels are all drawn, of smaller ones fewer and larger;
                                     beyond 8 fewer twigs, too; default 8 */
     int ground;                  /* 1: a meadow to the horizon under it all, only to be looked at; default 0 */
@@ -382,13 +378,15 @@ typedef struct EspStats {
     uint64_t nodes, leaves;
     uint64_t polygons;           /* triangles of the growth at full detail, once it has been drawn */
     uint64_t drawnPolygons;      /* triangles of the growth in the last frame */
-    uint32_t expansions;         /* espUpdate calls that expanded anything, since creation */
+    uint32_t expansions;         /* espUpdate calls that expanded anything of the plants, since creation */
     uint32_t overflow;           /* times that maxNodes cut the growth, and leaves that were left out. Plants stand whole where
                                     this and `stopped` are 0 */
     uint32_t stopped;            /* branches that a limit ended: of depth, of recursion, or maxNodes */
     uint32_t deadEnds;           /* branches that found no direction that their condition allows */
     uint32_t validationMessages;
-    double expandMs, emitMs, drawMs, compileMs;   /* GPU time of the latest run of each stage */
+    double expandMs;             /* of the latest growth: GPU time, or wall time where it ran on the CPU */
+    double emitMs, drawMs;       /* GPU time of the last picture's stages */
+    double compileMs;            /* on the CPU: the grammar compiled last */
     uint64_t nodeBytes, leafBytes, chunkBytes, surfaceBytes, layerBytes, totalBytes;
     uint64_t hash;               /* canonical: of positions, radii and all terminals, in no order */
     uint64_t modelTriangles;     /* triangles drawn of the surfaces' meshes in the last frame */

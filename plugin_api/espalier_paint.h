@@ -31,7 +31,7 @@ ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
 
 /* A surface that was baked anew, as another resolution or after its model has changed: its charts lie elsewhere, places in
  * space don't. Each texel of the later bake takes the value of the nearest place of the earlier one that faces the same way
- * within 60 degrees, up to a hundredth of the surface's radius away. These need no context and may be called by any thread;
+ * within 60 degrees, up to a hundredth of the surface's radius or two texels away, whichever is more. These need no context and may be called by any thread;
  * espLastError(NULL) tells what went wrong. */
 typedef struct EspCarry EspCarry;
 typedef struct EspCarried {

@@ -47,6 +47,8 @@ EspResult readLinks(EspContext& context, uint32_t id, EspLink* out, uint32_t* co
         set(link.toB, crossing.tb);
         link.chart = crossing.flags >> 16;
         link.toChart = crossing.target & 0xFFFFu;
+        static_assert(kCrossingSeam == ESP_LINK_SEAM && kCrossingNearest == ESP_LINK_NEAREST &&
+                      kCrossingContact == ESP_LINK_CONTACT && kCrossingOpen == ESP_LINK_OPEN);
         link.kind = EspLinkKind(crossing.flags & 3u);
         const uint32_t instance = crossing.target >> 16;
         link.toSurface.id = instance == 0xFFFFu ? id : 0;

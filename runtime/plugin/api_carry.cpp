@@ -23,7 +23,7 @@ EspResult espCreateCarry(const char* earlier, const char* later, EspCarry** out)
         if (!earlier || !later || !out) return failAlone(ESP_INVALID_ARGUMENT, "espCreateCarry: null pointer");
         *out = nullptr;
         for (const char* path : {earlier, later})
-            if (std::string why = whyUnreadable(path); !why.empty()) return failAlone(ESP_IO_FAILED, std::move(why));
+            if (std::string why = whyUnreadable(path); !why.empty()) return failAlone(ESP_IO_FAILED, why);
         Result<SurfaceData> from = readSurface(earlier);
         if (!from) return failAlone(ESP_INVALID_CONTENT, from.failure().text());
         Result<SurfaceData> to = readSurface(later);

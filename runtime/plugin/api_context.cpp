@@ -27,6 +27,7 @@ Log logInto(EspLogFn log, void* user) {
             if (severity != Severity::info) stderrLog(severity, text);
         };
     }
+    static_assert(uint32_t(Severity::warning) == ESP_LOG_WARNING && uint32_t(Severity::error) == ESP_LOG_ERROR);
     return [log, user](Severity severity, std::string_view text) {
         log(user, EspLogLevel(severity), std::string(text).c_str());
     };
@@ -129,6 +130,10 @@ EspResult failGpu(const EspContext* context, const Failure& failure) {
     return fail(context, gpuCode(*context), failure.text());
 }
 
+EspResult failWork(const EspContext* context, const Failure& failure) {
+    return failure.ofDevice ? failGpu(context, failure) : failContent(context, failure);
+}
+
 std::string whyUnreadable(const char* path) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) return std::string(path) + ": is a folder";
@@ -196,6 +201,11 @@ const char* const* espRequiredExtensions(uint32_t* count) {
 const char* espLastError(const EspContext* context) {
     return context ? context->error.c_str() : errorAlone().c_str();
 }
+
+#define ESPALIER_TEXT(major, minor, patch) #major "." #minor "." #patch
+#define ESPALIER_TEXT_OF(major, minor, patch) ESPALIER_TEXT(major, minor, patch)
+static_assert(std::string_view(ESPALIER_VERSION) ==
+              ESPALIER_TEXT_OF(ESP_VERSION_MAJOR, ESP_VERSION_MINOR, ESP_VERSION_PATCH));
 
 const char* espVersion(void) {
     return ESPALIER_VERSION;

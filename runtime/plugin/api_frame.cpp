@@ -22,7 +22,7 @@ bool finite(const EspLook& look) {
     for (const float* v :
          {look.sunDirection, look.sunColour, look.skyColour, look.groundColour, look.background, look.horizon})
         if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2])) return false;
-    for (float v : {look.exposure, look.viewOpacity, look.windowLodPixels, look.leafPixels, look.groundLevel})
+    for (float v : {look.exposure, look.viewOpacity, look.lodPixels, look.leafPixels, look.groundLevel})
         if (!std::isfinite(v)) return false;
     return true;
 }
@@ -77,8 +77,11 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     look.shadows = from.shadows != 0;
     look.shadowsLag = from.shadowsLag != 0;
     look.quick = from.quick != 0;
+    static_assert(uint32_t(ViewMode::charts) == ESP_VIEW_CHARTS && uint32_t(ViewMode::normals) == ESP_VIEW_NORMALS &&
+                  uint32_t(ViewMode::lod) == ESP_VIEW_LOD && uint32_t(ViewMode::layer) == ESP_VIEW_LAYER &&
+                  uint32_t(ViewMode::depth) == ESP_VIEW_DEPTH && uint32_t(ViewMode::overdraw) == ESP_VIEW_OVERDRAW);
     look.view = ViewMode(from.view);
-    look.lodPixels = from.windowLodPixels;
+    look.lodPixels = from.lodPixels;
     look.leafPixels = from.leafPixels;
     look.layerOpacity = from.viewOpacity;
     look.level = from.viewLevel;
@@ -117,9 +120,9 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
         inputs.ground.drawn = true;
         inputs.ground.height = def.look.groundLevel;
     }
-    inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
+    inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
     inputs.surfacesRevision = context.tablesRevision;
-    inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
+    inputs.layers = addressOf<LayerBuf>(context.layerTable);
     inputs.camera = {vec(def.camera.eye), vec(def.camera.target), vec(def.camera.up),
                      def.camera.fovY,     def.camera.nearPlane,   {def.camera.shift[0], def.camera.shift[1]}};
     DrawTarget target;
@@ -219,38 +222,40 @@ EspLook espDefaultLook(void) {
     out.shadows = look.shadows;
     out.shadowsLag = look.shadowsLag;
     out.quick = look.quick;
-    out.windowLodPixels = look.lodPixels;
+    out.lodPixels = look.lodPixels;
     out.leafPixels = look.leafPixels;
     out.viewOpacity = look.layerOpacity;
     return out;
 }
 
 EspResult espViewColour(EspView view, float amount, float rgb[3], float* most) {
-    if (!rgb || !most) return ESP_INVALID_ARGUMENT;
-    glm::vec3 colour;
-    switch (view) {
-        case ESP_VIEW_LOD:
-            *most = float(kCoarsestLod);
-            colour = lodColor(uint32_t(std::clamp(amount, 0.0f, *most)));
-            break;
-        case ESP_VIEW_CHARTS:
-            *most = float(kMostCharts);
-            colour = chartColor(uint32_t(std::clamp(amount, 0.0f, *most)));
-            break;
-        case ESP_VIEW_LAYER:
-            *most = 1;
-            colour = layerColor(amount);
-            break;
-        case ESP_VIEW_DEPTH:
-        case ESP_VIEW_OVERDRAW:
-            *most = view == ESP_VIEW_DEPTH ? kHottestDepth : kHottestOverdraw;
-            colour = heatColor(amount / *most);
-            break;
-        default:
-            return ESP_INVALID_ARGUMENT;
-    }
-    std::memcpy(rgb, &colour, sizeof colour);
-    return ESP_OK;
+    return guardedAlone([&] {
+        if (!rgb || !most) return failAlone(ESP_INVALID_ARGUMENT, "espViewColour: null pointer");
+        glm::vec3 colour;
+        switch (view) {
+            case ESP_VIEW_LOD:
+                *most = float(kCoarsestLod);
+                colour = lodColor(uint32_t(std::clamp(amount, 0.0f, *most)));
+                break;
+            case ESP_VIEW_CHARTS:
+                *most = float(kMostCharts);
+                colour = chartColor(uint32_t(std::clamp(amount, 0.0f, *most)));
+                break;
+            case ESP_VIEW_LAYER:
+                *most = 1;
+                colour = layerColor(amount);
+                break;
+            case ESP_VIEW_DEPTH:
+            case ESP_VIEW_OVERDRAW:
+                *most = view == ESP_VIEW_DEPTH ? kHottestDepth : kHottestOverdraw;
+                colour = heatColor(amount / *most);
+                break;
+            default:
+                return failAlone(ESP_INVALID_ARGUMENT, "espViewColour: no legend for this view");
+        }
+        std::memcpy(rgb, &colour, sizeof colour);
+        return ESP_OK;
+    });
 }
 
 EspDrawDef espDefaultDrawDef(void) {
@@ -358,7 +363,7 @@ EspResult espMaterialise(EspContext* context, EspTriangles* out) {
         if (!tables) return failGpu(context, tables.failure());
         EmitInputs inputs;
         inputs.growth = context->growth->view();
-        inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context->surfaceTable.address());
+        inputs.surfaces = addressOf<SurfaceBuf>(context->surfaceTable);
         inputs.surfacesRevision = context->tablesRevision;
         context->dropTriangles();
         if (inputs.growth.nodeCount > 0) {

@@ -11,20 +11,13 @@
 namespace espalier {
 namespace {
 
-constexpr size_t kMaxTextBytes = 16u << 20;
 constexpr uint32_t kMaxGrammars = 1024;
 
 Result<RuleMap> compile(const EspContext& context, const EspGrammarDef& def) {
     const std::filesystem::path file = def.name ? def.name : "grammar";
     CompileOptions options;
     options.fileName = file.string();
-    options.readInclude = [folder = file.parent_path()](const std::string& name) -> std::optional<std::string> {
-        // Files of the same folder only, so that a grammar from elsewhere can't read what isn't its own.
-        if (name.empty() || std::filesystem::path(name).filename() != name || name == "..") return std::nullopt;
-        Result<std::string> text = readTextFile(folder / name);
-        if (!text) return std::nullopt;
-        return std::move(*text);
-    };
+    options.readInclude = includesBeside(file);
     options.roofMeshes = context.roofMeshNames;
     return compileGrammar({def.text, def.length}, options, context.cacheFolder);
 }
@@ -76,8 +69,6 @@ Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, uin
 EspResult checkDef(const EspContext* context, const EspGrammarDef* def) {
     if (!def || (!def->text && def->length))
         return fail(context, ESP_INVALID_ARGUMENT, "compiling a grammar: null pointer");
-    if (def->length > kMaxTextBytes)
-        return fail(context, ESP_INVALID_CONTENT, "compiling a grammar: more than 16 MiB of text");
     return ESP_OK;
 }
 

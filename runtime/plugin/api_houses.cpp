@@ -25,6 +25,10 @@ bool finiteDef(const EspHouseDef& def) {
     return true;
 }
 
+static_assert(uint32_t(RoofShape::gable) == ESP_ROOF_GABLE && uint32_t(RoofShape::halfHip) == ESP_ROOF_HALF_HIP &&
+              uint32_t(RoofShape::pyramid) == ESP_ROOF_PYRAMID && uint32_t(RoofShape::shed) == ESP_ROOF_SHED &&
+              uint32_t(RoofShape::gambrel) == ESP_ROOF_GAMBREL && uint32_t(RoofShape::mansard) == ESP_ROOF_MANSARD &&
+              uint32_t(RoofShape::flat) == ESP_ROOF_FLAT);
 static_assert(uint32_t(RoofMaterial::tiles) == ESP_COVERING_TILES &&
               uint32_t(RoofMaterial::grass) == ESP_COVERING_GRASS &&
               uint32_t(RoofMaterial::plainTiles) == ESP_COVERING_PLAIN_TILES &&

@@ -90,7 +90,7 @@ Status smooth(EspContext& context, std::vector<PaintJob>& jobs, const PaintStrok
     if (!tables) return tables;
     Status smoothed = Done{};
     for (PaintJob& job : jobs) {
-        job.canvas.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
+        job.canvas.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
         Reach reach;
         context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
             if (surface.instance != job.canvas.instance) return;

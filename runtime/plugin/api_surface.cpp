@@ -212,7 +212,7 @@ Status EspContext::refreshTables() {
                 LayerRef& ref = layerRefs[surface.instance * kMaxLayers + i];
                 ref.size = surface.data.levels.front().size;
                 if (const PaintedLayer* painted = paintedLayer(*this, id, sceneLayers[i].name))
-                    ref.texels.v = reinterpret_cast<float*>(painted->texels.address());
+                    ref.texels = addressOf<FloatBuf>(painted->texels);
             }
         });
         Result<Buffer> newSurfaces = makeBuffer(*device, "surface table", refs);

@@ -73,20 +73,21 @@ EspResult growPlants(EspContext& context) {
     });
 
     GrowthInputs inputs;
-    inputs.surfaces.v = reinterpret_cast<SurfaceRef*>(context.surfaceTable.address());
+    inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
     inputs.surfaceCount = std::max(context.surfaceSlots(), 1u);
     uint32_t placedSurfaces = 0;
     context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
         placedSurfaces += 1;
         inputs.surfaceData = placedSurfaces == 1 ? &surface.gpu.data() : nullptr;
     });
-    inputs.layers.v = reinterpret_cast<LayerRef*>(context.layerTable.address());
+    inputs.layers = addressOf<LayerBuf>(context.layerTable);
     inputs.grammars = maps;
     inputs.widths = widths;
     inputs.seeds = seeds;
     inputs.pruned = context.pruned;
     inputs.frozen = frozen;
     seedIds.insert(seedIds.end(), frozenIds.begin(), frozenIds.end());
+    static_assert(uint32_t(WalkMode::paper) == ESP_WALK_PAPER && uint32_t(TangentMode::paper) == ESP_TANGENT_PAPER);
     inputs.limits.walk = WalkMode(context.grow.walk);
     inputs.limits.tangents = TangentMode(context.grow.tangents);
     inputs.limits.maxNodes = context.grow.maxNodes;
@@ -104,9 +105,7 @@ EspResult growPlants(EspContext& context) {
     inputs.watch = context.watch.get();
     Status grown = context.growth->grow(inputs);
     if (!grown && inputs.watch && inputs.watch->stopped()) return fail(&context, ESP_STOPPED, grown.failure().text());
-    if (!grown && grown.failure().diagnostics.front().file == "growth")
-        return fail(&context, ESP_INVALID_CONTENT, grown.failure().text());
-    if (!grown) return failGpu(&context, grown.failure());
+    if (!grown) return failWork(&context, grown.failure());
     context.grownRevision = context.revision;
     context.grownGrammars = std::move(ids);
     context.grownSeeds = std::move(seedIds);

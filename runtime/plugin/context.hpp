@@ -136,6 +136,8 @@ EspResult failContent(const EspContext* context, const Failure& failure);
 // For failures of GPU work: DEVICE_LOST or OUT_OF_MEMORY, as the device says.
 EspResult gpuCode(const EspContext& context);
 EspResult failGpu(const EspContext* context, const Failure& failure);
+// For work that may also refuse what it is given, as INVALID_CONTENT.
+EspResult failWork(const EspContext* context, const Failure& failure);
 // Why a file can't be read at all; empty: it can.
 std::string whyUnreadable(const char* path);
 // OK, or IO_FAILED with the system's reason, for a file that is to be read.
@@ -169,8 +171,12 @@ EspResult guarded(const EspContext* context, F&& body) noexcept {
 
 // The same for functions without a context. What espLastError(NULL) tells: why this thread's last call of one failed.
 std::string& errorAlone();
-inline EspResult failAlone(EspResult code, std::string message) {
-    errorAlone() = std::move(message);
+inline EspResult failAlone(EspResult code, std::string_view message) noexcept {
+    try {
+        errorAlone() = message;
+    } catch (...) {  // no memory for it: the code has to do
+        errorAlone().clear();
+    }
     return code;
 }
 template <class F>
@@ -179,13 +185,11 @@ EspResult guardedAlone(F&& body) noexcept {
         errorAlone().clear();
         return body();
     } catch (const std::bad_alloc&) {
-        return ESP_OUT_OF_MEMORY;
+        return failAlone(ESP_OUT_OF_MEMORY, kNoMemory);
     } catch (const std::exception& e) {
-        try {
-            errorAlone() = e.what();
-        } catch (...) {
-        }
-        return ESP_INVALID_CONTENT;
+        return failAlone(ESP_INVALID_CONTENT, e.what());
+    } catch (...) {
+        return failAlone(ESP_INVALID_CONTENT, "unknown error");
     }
 }
 

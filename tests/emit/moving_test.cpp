@@ -13,7 +13,7 @@ namespace {
 
 EspDrawDef asked() {
     EspDrawDef draw{};
-    draw.look.windowLodPixels = 1;
+    draw.look.lodPixels = 1;
     draw.look.leafPixels = 8;
     return draw;
 }
@@ -36,7 +36,7 @@ TEST_CASE("a slow device draws what moves coarsely, at half the size, and all of
     EspDrawDef draw = asked();
     CHECK(picture.prepare(draw, true, 200, true) == 0.5f);
     CHECK(draw.look.quick == 1);
-    CHECK(draw.look.windowLodPixels > 1);
+    CHECK(draw.look.lodPixels > 1);
     CHECK(draw.look.leafPixels > 8);
     CHECK(!picture.coarse());  // it wasn't drawn
     picture.drew(200, 100'000);
@@ -48,7 +48,7 @@ TEST_CASE("a slow device draws what moves coarsely, at half the size, and all of
     CHECK(picture.prepare(draw, false, 200, true) == 1);
     picture.drew(200, 100'000);
     CHECK(draw.look.quick == 0);
-    CHECK(draw.look.windowLodPixels == 1);
+    CHECK(draw.look.lodPixels == 1);
     CHECK(draw.look.leafPixels == 8);
     CHECK(!picture.coarse());
 }
@@ -94,7 +94,7 @@ struct Device {
             EspDrawDef draw = asked();
             const float before = std::exchange(share, picture.prepare(draw, true, 200, true));
             if (i > 0 && before != share) ++changes;
-            CHECK(draw.look.windowLodPixels == doctest::Approx(scene::MovingDetail::kLod * share / 0.5f));
+            CHECK(draw.look.lodPixels == doctest::Approx(scene::MovingDetail::kLod * share / 0.5f));
             took.push_back(cost(share) * (i % 2 == 0 ? 1.05 : 0.95));
             picture.drew(took[took.size() > lag ? took.size() - 1 - lag : 0], 30'000, strokes);
         }
@@ -161,5 +161,5 @@ TEST_CASE("whole pictures of what moves are as coarse as half ones are in their 
     scene::MovingPicture picture;
     EspDrawDef draw = asked();
     CHECK(picture.prepare(draw, true, 200, false) == 1);
-    CHECK(draw.look.windowLodPixels == scene::MovingDetail::kLod);
+    CHECK(draw.look.lodPixels == scene::MovingDetail::kLod);
 }

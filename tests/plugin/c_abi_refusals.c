@@ -83,7 +83,7 @@ void badArguments(EspContext* context) {
     REFUSED(espDraw(context, &draw));
     draw = espDefaultDrawDef();
     float* const numbers[] = {&draw.look.sunColour[1],    &draw.look.horizon[2], &draw.look.exposure,
-                              &draw.look.windowLodPixels, &draw.look.leafPixels, &draw.look.groundLevel};
+                              &draw.look.lodPixels, &draw.look.leafPixels, &draw.look.groundLevel};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i) {
         const float before = *numbers[i];
         *numbers[i] = i % 2 ? NAN : INFINITY;

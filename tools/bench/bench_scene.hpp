@@ -42,7 +42,6 @@ class BenchScene {
     float texelMetres() const;
     SurfaceBuf surfaces() const { return {reinterpret_cast<SurfaceRef*>(table_.address())}; }
     const SurfaceData& surface() const { return surface_; }
-    uint32_t seedCount() const { return uint32_t(seeds_.size()); }
 
   private:
     Device* device_ = nullptr;

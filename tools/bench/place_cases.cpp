@@ -91,7 +91,7 @@ struct PlaceFilm {
         share = picture.prepare(draw, moving, stats.drawMs, !fixed);
         if (draw.look.quick && fixed) {
             share = *fixed;
-            draw.look.windowLodPixels *= share / scene::MovingDetail::kLeastShare;
+            draw.look.lodPixels *= share / scene::MovingDetail::kLeastShare;
             draw.look.leafPixels *= share / scene::MovingDetail::kLeastShare;
         }
         draw.width = uint32_t(kWidth * share);

@@ -24,7 +24,7 @@ class MovingDetail {
     // Makes a picture as coarse as that. share: of the window's width that is drawn; larger pictures show no more
     // detail than the least one, so that they cost more pixels and nothing else.
     void apply(EspLook& look, float share = kLeastShare) const {
-        look.windowLodPixels *= kLod * share / kLeastShare;
+        look.lodPixels *= kLod * share / kLeastShare;
         look.leafPixels *= leaf_ * share / kLeastShare;
         look.quick = 1;
     }
