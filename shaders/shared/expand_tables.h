@@ -188,7 +188,7 @@ FN TableBases basesOf(ExpandEnv env, uint grammar) {
     return b;
 }
 
-// Runs the code that `pair` (first | count << 16) names; draws sites as drawSites does.
+// Runs the code that `pair` (first | count << 16) names; drawTable draws sites, see drawSite.
 FN void runTable(MACHINE_PARAM ExpandEnv env, TableBases map, uint pair) {
     uint at = map.code + 2u * (pair & 0xFFFFu);
     uint end = at + 2u * (pair >> 16u);

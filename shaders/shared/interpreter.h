@@ -146,23 +146,10 @@ FN int selectedRule(MACHINE_PARAM SymbolRecord symbol) {
     return n < 0.0f ? -1 : int(smaller(n, float(symbol.ruleCount) - 1.0f));
 }
 
-// Fills the draw slots of a stage. instanceKey: for sites inside a Repeat; elsewhere hand the same key twice.
+// What a draw slot of a stage gets. instanceKey: for sites inside a Repeat; elsewhere hand the same key twice.
 FN float drawSite(uint site, u64 key, u64 instanceKey) {
     return uniformRandom((site & kSiteOfInstance) != 0u ? instanceKey : key, site & 0x7FFFFFFFu);
 }
-FN void drawSites(MACHINE_PARAM UintBuf sites, uint firstSite, uint siteCount, u64 key, u64 instanceKey) {
-    uint j = 0u;
-    if (siteCount != 0u) do SLOT(kSlotDraw + j) = drawSite(sites.v[firstSite + j], key, instanceKey);
-        while (++j < siteCount);
-}
-
-// Where a shape stands, in the world. lowest: height of the lowest point of its surface instance.
-struct ScopePlace {
-    vec3 position, normal, heading;
-    vec2 texCoord;
-    float curvature;
-    float lowest;
-};
 
 // Signed angle from `heading` to `direction` laid into the surface, positive to the left as seen from outside;
 // 0 where the direction stands upright on the surface.
@@ -170,32 +157,6 @@ FN float angleInSurface(vec3 heading, vec3 normal, vec3 direction) {
     float x = dot3(heading, direction);
     float y = dot3(cross3(heading, direction), normal);
     return x * x + y * y < 1e-6f ? 0.0f : atan2Exact(y, x);
-}
-
-// Fills the slots of a place that `inputs` names. Layers, arguments and the branch's counts are the expander's.
-FN void givePlace(MACHINE_PARAM RuleMapRef map, uint inputs, ScopePlace place) {
-    SLOT(kSlotTexCoord) = place.texCoord.x;
-    SLOT(kSlotTexCoord + 1u) = place.texCoord.y;
-    SLOT(kSlotNormal) = place.normal.x;
-    SLOT(kSlotNormal + 1u) = place.normal.y;
-    SLOT(kSlotNormal + 2u) = place.normal.z;
-    SLOT(kSlotHeading) = place.heading.x;
-    SLOT(kSlotHeading + 1u) = place.heading.y;
-    SLOT(kSlotHeading + 2u) = place.heading.z;
-    SLOT(kSlotPosition) = place.position.x;
-    SLOT(kSlotPosition + 1u) = place.position.y;
-    SLOT(kSlotPosition + 2u) = place.position.z;
-    SLOT(kSlotCurvature) = place.curvature;
-    SLOT(kSlotHeight) = place.position.y - place.lowest;
-    if ((inputs & kInputSlope) != 0u) {
-        float level = sqrtExact(place.normal.x * place.normal.x + place.normal.z * place.normal.z);
-        SLOT(kSlotSlope) = atan2Exact(level, place.normal.y);
-    }
-    for (uint i = 0u; i < kMaxDirections; ++i) {
-        if (((inputs >> i) & 1u) == 0u) continue;
-        vec4 d = map.directions[i];
-        SLOT(kSlotAngle + i) = angleInSurface(place.heading, place.normal, vec3(d.x, d.y, d.z));
-    }
 }
 
 ESPALIER_END

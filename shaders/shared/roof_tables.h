@@ -87,7 +87,7 @@ CodeWord roofCode(RoofEnv env, uint i) {
 uint roofSiteAt(RoofEnv env, uint i) { return MAP_WORD(roofMap.sites, i); }
 #endif
 
-// As runCode and drawSites. Software devices go through a loop's body once more where the test comes first.
+// As runCode, and draws of sites. Software devices go through a loop's body once more where the test comes first.
 FN void runRoofCode(MACHINE_PARAM RoofEnv env, CodeRange range) {
     uint i = 0u;
     if (range.count != 0u) do {

@@ -19,7 +19,7 @@
 //      (kTerminalBark) sets the span's radius (= size), and kSlotRadius for what follows it; the first bark with
 //      count >= 1 counts. Bark stands first in a program.
 // "Draw" means: for j < siteCount: machine slot kSlotDraw + j = uniformRandom(key, sites[firstSite + j]), see
-// drawSites. "Give inputs" means: fill the slots that the masks name; unnamed ones need not be filled.
+// drawSite. "Give inputs" means: fill the slots that the masks name; unnamed ones need not be filled.
 #ifndef ESPALIER_SHARED_RULE_MAP_H
 #define ESPALIER_SHARED_RULE_MAP_H
 #include "shaders/shared/growth_records.h"
@@ -217,7 +217,7 @@ struct ExtrudeRecord {
 STATIC_SIZE(ExtrudeRecord, 32);
 
 CONST_UINT(kTerminalBark, 1u);      // bent along the span; else a loose instance on it
-CONST_UINT(kSiteOfInstance, 0x80000000u);   // a site drawn with the instance's key, see drawSites
+CONST_UINT(kSiteOfInstance, 0x80000000u);   // a site drawn with the instance's key, see drawSite
 struct TerminalRecord {
     uint mesh;           // index into the compile options' terminal meshes
     uint smoothness;     // kSmooth...

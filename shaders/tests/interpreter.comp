@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 #include "shaders/shared/dispatch.glsl"
-#include "shaders/shared/interpreter.h"
+#include "shaders/tests/interpreter_case.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -18,18 +18,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     uint i = itemIndex();
     if (i >= count) return;
-    u64 key = u64(i);
-    resetMachine(MACHINE_ONLY);
-    for (uint s = kSlotArg; s < kSlotZero; ++s) SLOT(s) = uniformRandom(key, s) * 8.0f - 4.0f;
-    ScopePlace place;
-    place.position = vec3(uniformRandom(key, 100u), uniformRandom(key, 101u), uniformRandom(key, 102u));
-    place.normal = unit3(place.position - vec3(0.5f));
-    place.heading = unit3(cross3(place.normal, vec3(uniformRandom(key, 103u), 0.3f, 0.7f)));
-    place.texCoord = vec2(0.25f, 0.75f);
-    place.curvature = 2.0f;
-    place.lowest = 0.25f;
-    givePlace(MACHINE map.v[0], kInputSlope | 15u, place);
-    drawSites(MACHINE map.v[0].sites, 0u, siteCount, key, key + u64(1u));
+    giveCase(MACHINE map.v[0], u64(i), siteCount);
     CodeRange range;
     range.first = 0u;
     range.count = words;

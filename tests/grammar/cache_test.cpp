@@ -170,10 +170,10 @@ TEST_CASE("compiled grammars are kept by content and compiled again when the tex
         for (const auto& entry : std::filesystem::directory_iterator(cache)) n += entry.is_regular_file() ? 1 : 0;
         return n;
     };
-    Result<RuleMap> first = compileGrammarFile(folder.path / "a.grammar", cache);
+    Result<RuleMap> first = compileGrammarFile(folder.path / "a.grammar", {}, cache);
     if (!first) FAIL(first.failure().text());
     CHECK(files() == 1);
-    Result<RuleMap> again = compileGrammarFile(folder.path / "a.grammar", cache);
+    Result<RuleMap> again = compileGrammarFile(folder.path / "a.grammar", {}, cache);
     REQUIRE(again);
     CHECK(files() == 1);
     CHECK(std::equal(first->words().begin(), first->words().end(), again->words().begin()));
@@ -182,19 +182,19 @@ TEST_CASE("compiled grammars are kept by content and compiled again when the tex
     std::filesystem::path kept = std::filesystem::directory_iterator(cache)->path();
     std::string bytes = contentsOf(kept);
     write(kept, bytes.substr(0, bytes.size() / 2));
-    Result<RuleMap> mended = compileGrammarFile(folder.path / "a.grammar", cache);
+    Result<RuleMap> mended = compileGrammarFile(folder.path / "a.grammar", {}, cache);
     REQUIRE(mended);
     CHECK(contentsOf(kept) == bytes);
 
     write(folder.path / "base.grammar", "param p = 0.2\n");
-    Result<RuleMap> changed = compileGrammarFile(folder.path / "a.grammar", cache);
+    Result<RuleMap> changed = compileGrammarFile(folder.path / "a.grammar", {}, cache);
     REQUIRE(changed);
     CHECK(files() == 2);
     CHECK(ruleOf(*changed, "A").distance.immediate == 0.2f);
 
     // A file stands where the folder should be.
     write(folder.path / "blocked", "x");
-    Result<RuleMap> uncached = compileGrammarFile(folder.path / "a.grammar", folder.path / "blocked");
+    Result<RuleMap> uncached = compileGrammarFile(folder.path / "a.grammar", {}, folder.path / "blocked");
     REQUIRE(uncached);
     CHECK(toString(uncached->warnings()).find("can't be cached") != std::string::npos);
 }

@@ -19,18 +19,7 @@ T must(Result<T> result) {
 
 void onHost(const RuleMapRef& map, uint32_t i, uint32_t words, uint32_t siteCount, float* row) {
     Machine machine;
-    resetMachine(MACHINE_ONLY);
-    uint64_t key = i;
-    for (uint s = kSlotArg; s < kSlotZero; ++s) SLOT(s) = uniformRandom(key, s) * 8.0f - 4.0f;
-    ScopePlace place;
-    place.position = vec3(uniformRandom(key, 100u), uniformRandom(key, 101u), uniformRandom(key, 102u));
-    place.normal = unit3(place.position - vec3(0.5f));
-    place.heading = unit3(cross3(place.normal, vec3(uniformRandom(key, 103u), 0.3f, 0.7f)));
-    place.texCoord = vec2(0.25f, 0.75f);
-    place.curvature = 2.0f;
-    place.lowest = 0.25f;
-    givePlace(MACHINE map, kInputSlope | 15u, place);
-    drawSites(MACHINE map.sites, 0, siteCount, key, key + 1);
+    giveCase(MACHINE map, i, siteCount);
     runCode(MACHINE map.code, CodeRange{0, words});
     for (uint r = 0; r < kRegisters; ++r) row[r] = SLOT(r);
     row[kRegisters] = SLOT(kSlotAngle);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "shaders/shared/expand_scope.h"
 #include "tests/grammar/support.hpp"
 
 using namespace grammar_test;
@@ -243,13 +244,19 @@ TEST_CASE("angleTo and facing: directions, and what rules read") {
     CHECK(map.ref().directions[1].z == doctest::Approx(1.0));
 
     // On a wall that faces +z, heading +x: up is a quarter turn to the left as seen from outside.
-    ScopePlace place{};
-    place.normal = vec3(0, 0, 1);
-    place.heading = vec3(1, 0, 0);
-    place.position = vec3(0, 3, 0);
-    place.lowest = 1;
+    SurfaceRef wall{};
+    for (int k = 0; k < 3; ++k) wall.toWorld[k][k] = 1;
+    wall.scale = 1;
+    wall.boundsMin.y = 1;
+    wall.boundsMax.y = 4;
+    ref = map.ref();
+    ExpandEnv env{};
+    env.surfaces.v = &wall;
+    env.grammars.v = &ref;
+    const uint32_t inputs = rule.startInputs | kInputSlope | kInputHeight;
+    const Place place{vec3(0, 3, 0), vec3(0, 0, 1), vec3(1, 0, 0), vec2(0), 0, 0};
     Machine machine = machineFor({});
-    givePlace(MACHINE ref, rule.startInputs | kInputSlope, place);
+    giveInputs(MACHINE env, frameOf(env.surfaces, 0, inputs), 0, inputs, 0, place, 0, 0, 0);
     CHECK(SLOT(kSlotAngle) == doctest::Approx(kPi / 2).epsilon(1e-4));
     CHECK(SLOT(kSlotSlope) == doctest::Approx(kPi / 2).epsilon(1e-4));
     CHECK(SLOT(kSlotHeight) == 2.0f);

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "runtime/grammar/grammar.hpp"
-#include "shaders/shared/interpreter.h"
+#include "shaders/tests/interpreter_case.h"
 
 // What the grammar's tests share: compile or fail the test, run a stage of a rule as the expander does.
 namespace grammar_test {
