@@ -118,15 +118,15 @@ bool Emit::sharesMemory() const {
 
 EmitPush Emit::cullPush() const {
     EmitPush push{};
-    push.state.v = reinterpret_cast<EmitState*>(state_.address());
-    push.cells.v = reinterpret_cast<EmitCell*>(cells_.address());
-    push.bins.v = reinterpret_cast<uint32_t*>(bins_.address());
-    push.order.v = reinterpret_cast<uint32_t*>(held_.order.address());
-    push.seen.v = reinterpret_cast<uint32_t*>(seen_.address());
-    push.list.v = reinterpret_cast<uint32_t*>(list_.address());
-    push.rows.v = reinterpret_cast<uint32_t*>(rows_.address());
-    push.notes.v = reinterpret_cast<DrawnItem*>(notes_.address());
-    push.drawn.v = reinterpret_cast<DrawnItem*>(drawn_.address());
+    push.state = addressOf<EmitStateBuf>(state_);
+    push.cells = addressOf<EmitCellBuf>(cells_);
+    push.bins = addressOf<UintBuf>(bins_);
+    push.order = addressOf<UintBuf>(held_.order);
+    push.seen = addressOf<UintBuf>(seen_);
+    push.list = addressOf<UintBuf>(list_);
+    push.rows = addressOf<UintBuf>(rows_);
+    push.notes = addressOf<DrawnBuf>(notes_);
+    push.drawn = addressOf<DrawnBuf>(drawn_);
     push.grid = grid_;
     push.leafBase = held_.leafBase;
     return push;
@@ -222,7 +222,7 @@ Status Emit::watch(Commands& commands, const EmitView& view) {
     }
     usedBy_ = tilesBy_ = commands.serial();
     EmitView watched = view;
-    watched.tiles.v = reinterpret_cast<float*>(watchTiles_.address());
+    watched.tiles = addressOf<FloatBuf>(watchTiles_);
     commands.barrier(Use::compute, Use::transfer);
     if (Status s = commands.upload(watch_, std::as_bytes(std::span(&watched, 1))); !s) return s;
     watched_ = watched;
@@ -237,7 +237,7 @@ EmitView Emit::takeChanges(Commands& commands, const EmitInputs& inputs, uint32_
     const bool atOnce = inputs.native && sharesMemory() && device_->finished(boundBy_) && device_->finished(tilesBy_);
     usedBy_ = tilesBy_ = commands.serial();
     EmitView view = watched_;
-    view.tiles.v = reinterpret_cast<float*>(takenTiles_.address());
+    view.tiles = addressOf<FloatBuf>(takenTiles_);
     view.scene = ++timesTaken_;  // others each time
     TakePush push{};
     push.watched = watched_.tiles;

@@ -7,13 +7,6 @@
 #include "runtime/emit/native_carry.hpp"
 
 namespace espalier {
-namespace {
-
-UintBuf words(const Buffer& buffer) {
-    return {reinterpret_cast<uint32_t*>(buffer.address())};
-}
-
-}  // namespace
 
 // Whether cells that outgrow their room may soon find none.
 bool Emit::nearlyCrowded() const {
@@ -73,20 +66,20 @@ Status Emit::carry(Commands& commands, const EmitInputs& inputs, uint32_t leaves
 
     CarryPush push{};
     if (moved) {
-        push.nodesWent = words(*growth.moved.nodes);
-        push.leavesWent = words(*growth.moved.leaves);
+        push.nodesWent = addressOf<UintBuf>(*growth.moved.nodes);
+        push.leavesWent = addressOf<UintBuf>(*growth.moved.leaves);
     }
-    push.cells.v = reinterpret_cast<EmitCell*>(cells_.address());
-    push.order = words(held_.order);
-    push.orderTo = words(spareOrder_);
-    push.keys = words(held_.keys);
-    push.keysTo = words(to.keys);
-    push.leafHeads = words(held_.leafHeads);
-    push.leafHeadsTo = words(to.leafHeads);
-    push.leafNext = words(held_.leafNext);
-    push.leafNextTo = words(to.leafNext);
-    push.spansTo.v = reinterpret_cast<SpanInstance*>(to.spans.address());
-    push.leavesTo.v = reinterpret_cast<LeafInstance*>(to.leaves.address());
+    push.cells = addressOf<EmitCellBuf>(cells_);
+    push.order = addressOf<UintBuf>(held_.order);
+    push.orderTo = addressOf<UintBuf>(spareOrder_);
+    push.keys = addressOf<UintBuf>(held_.keys);
+    push.keysTo = addressOf<UintBuf>(to.keys);
+    push.leafHeads = addressOf<UintBuf>(held_.leafHeads);
+    push.leafHeadsTo = addressOf<UintBuf>(to.leafHeads);
+    push.leafNext = addressOf<UintBuf>(held_.leafNext);
+    push.leafNextTo = addressOf<UintBuf>(to.leafNext);
+    push.spansTo = addressOf<SpanInstanceBuf>(to.spans);
+    push.leavesTo = addressOf<LeafInstanceBuf>(to.leaves);
     push.nodeCount = bound.nodeCount;
     push.leafCount = bound.leafCount;
     push.leafBase = held_.leafBase;

@@ -84,7 +84,7 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
     const TerminalTable& table = terminals_->table();
     const std::vector<Block> blocks = layOut(state, table, out.vertexCount, out.indexCount);
     if (overflow_ > 0 || out.vertexCount > 0x7FFFFFFFu || out.indexCount > 0xFFFFFFFFu)
-        return Failure("growth", "it has too many triangles to be written at once");
+        return deviceFailure("growth", "it has too many triangles to be written at once");
     Result<Buffer> vertices = Buffer::create(*device_, "growth vertices", out.vertexCount * sizeof(TriangleVertex));
     if (!vertices) return vertices.failure();
     Result<Buffer> indices = Buffer::create(*device_, "growth indices", out.indexCount * sizeof(uint32_t));
@@ -105,10 +105,10 @@ Result<EmittedTriangles> Emit::materialise(const EmitInputs& inputs) {
     {
         Pass pass(*commands, "materialise");
         TrianglesPush push{};
-        push.drawn.v = reinterpret_cast<DrawnItem*>(drawn_.address());
-        push.leaves.v = reinterpret_cast<LeafInstance*>(held_.leaves.address());
-        push.meshVertices.v = reinterpret_cast<TerminalVertex*>(terminals_->vertices().address());
-        push.meshIndices.v = reinterpret_cast<uint32_t*>(terminals_->indices().address());
+        push.drawn = addressOf<DrawnBuf>(drawn_);
+        push.leaves = addressOf<LeafInstanceBuf>(held_.leaves);
+        push.meshVertices = addressOf<TerminalVertexBuf>(terminals_->vertices());
+        push.meshIndices = addressOf<UintBuf>(terminals_->indices());
         push.vertices.v = reinterpret_cast<uint64_t*>(out.vertices.address());
         push.indices.v = reinterpret_cast<uint64_t*>(out.indices.address());
         push.count = native ? 0 : state.spanCount;

@@ -65,11 +65,11 @@ Status GpuGrowth::closeGaps() {
     closing.leaves = view_.leaves.v;
     closing.chunks = view_.chunks.v;
     if (chained_) {
-        closing.firstLeaves = addressOf<UintBuf, uint32_t>(firstLeaves_).v;
-        closing.nextLeaves = addressOf<UintBuf, uint32_t>(nextLeaves_).v;
+        closing.firstLeaves = addressOf<UintBuf>(firstLeaves_).v;
+        closing.nextLeaves = addressOf<UintBuf>(nextLeaves_).v;
     }
-    closing.nodesWent = addressOf<UintBuf, uint32_t>(nodesWent_).v;
-    closing.leavesWent = addressOf<UintBuf, uint32_t>(leavesWent_).v;
+    closing.nodesWent = addressOf<UintBuf>(nodesWent_).v;
+    closing.leavesWent = addressOf<UintBuf>(leavesWent_).v;
     closing.chunkCount = view_.chunkCount;
     closing.nodeCount = view_.nodeCount;
     closing.leafCount = view_.leafCount;
@@ -177,12 +177,12 @@ CompactEnv GpuGrowth::compactEnvironment() const {
     env.nodes = view_.nodes;
     env.leaves = view_.leaves;
     env.chunks = view_.chunks;
-    env.toNodes = addressOf<NodeBuf, Node>(plants_.spare().nodes);
-    env.toLeaves = addressOf<LeafBuf, Leaf>(plants_.spare().leaves);
-    env.toChunks = addressOf<ChunkBuf, Chunk>(links_.spare().chunks);
-    env.nodesWent = addressOf<UintBuf, uint32_t>(nodesWent_);
-    env.leavesWent = addressOf<UintBuf, uint32_t>(leavesWent_);
-    env.status = addressOf<GrowStatusBuf, GrowStatus>(status_);
+    env.toNodes = addressOf<NodeBuf>(plants_.spare().nodes);
+    env.toLeaves = addressOf<LeafBuf>(plants_.spare().leaves);
+    env.toChunks = addressOf<ChunkBuf>(links_.spare().chunks);
+    env.nodesWent = addressOf<UintBuf>(nodesWent_);
+    env.leavesWent = addressOf<UintBuf>(leavesWent_);
+    env.status = addressOf<GrowStatusBuf>(status_);
     env.chunkCount = view_.chunkCount;
     env.leafCount = view_.leafCount;
     return env;

@@ -23,11 +23,6 @@
 
 namespace espalier {
 
-template <class Buf, class T>
-Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
-    return Buf{reinterpret_cast<T*>(buffer.address() + offset)};
-}
-
 // Bytes of a buffer that is read as texels to its end.
 inline uint64_t wholeTexels(uint64_t bytes) {
     return (bytes + 15) / 16 * 16;
@@ -161,9 +156,7 @@ class GpuGrowth final : public Growth {
     void growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
     void recordAgain(Commands& commands, ExpandEnv env);
     void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state, Origin&& origin);
-    ItemQueues itemQueues() const {
-        return {addressOf<WorkItemBuf, WorkItem>(items_[0]).v, addressOf<WorkItemBuf, WorkItem>(items_[1]).v};
-    }
+    ItemQueues itemQueues() const { return {addressOf<WorkItemBuf>(items_[0]).v, addressOf<WorkItemBuf>(items_[1]).v}; }
     // Groups of a pass whose kernels go through chunks or lists of them by themselves: few, since each costs, but none
     // with more than some 512 chunks to go through, see kMaxTrips.
     std::array<uint32_t, 3> spreadGroups() const {

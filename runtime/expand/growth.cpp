@@ -70,8 +70,8 @@ void GpuGrowth::recordWaves(Pass& pass, const Program& march, bool fetching, con
     ExpandEnv env = base;
     for (uint32_t w = first; w < last; ++w) {
         env.wave = w;
-        env.items = addressOf<WorkItemBuf, WorkItem>(items_[w & 1]);
-        env.nextItems = addressOf<WorkItemBuf, WorkItem>(items_[(w + 1) & 1]);
+        env.items = addressOf<WorkItemBuf>(items_[w & 1]);
+        env.nextItems = addressOf<WorkItemBuf>(items_[(w + 1) & 1]);
         const uint64_t groups = w * sizeof(Wave) + offsetof(Wave, groups);
         if (fetching) {
             pass.dispatchIndirect(march, waves_, groups, env, {uniformTables(), surfaceView_});

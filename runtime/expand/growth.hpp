@@ -93,7 +93,7 @@ struct GrowthView {
 };
 
 struct GrowthStats {
-    uint32_t seeds = 0, chunks = 0, branches = 0, nodes = 0, steps = 0, leaves = 0, spans = 0;
+    uint32_t seeds = 0, chunks = 0, branches = 0, nodes = 0, steps = 0, leaves = 0;
     uint32_t inserted = 0;    // nodes that seams, creases and split spans put in
     uint32_t waves = 0;       // of the queue, in the latest grow()
     uint32_t expansions = 0;  // grow() calls since creation that had something to do

@@ -220,7 +220,6 @@ Failure stoppedFailure() {
 }
 
 void countBytes(GrowthStats& stats) {
-    stats.spans = stats.nodes - std::min(stats.seeds, stats.nodes);
     stats.nodeBytes = uint64_t(stats.nodes) * sizeof(Node);
     // With the links to leaves, GrowStatus::firstLeaves and nextLeaves.
     constexpr uint64_t kLink = sizeof(uint32_t);

@@ -159,18 +159,18 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plant
     ExpandEnv env{};
     env.surfaces = inputs.surfaces;
     if (access_.surfacesAsTexels && inputs.surfaceData)  // native code sets up no views, and needs none
-        env.scratch = addressOf<UintBuf, uint32_t>(*inputs.surfaceData);
+        env.scratch = addressOf<UintBuf>(*inputs.surfaceData);
     env.layers = inputs.layers;
-    env.grammars = addressOf<RuleMapBuf, RuleMapRef>(grammars_);
-    env.tables = addressOf<UintBuf, uint32_t>(tables_);
-    env.nodes = addressOf<NodeBuf, Node>(plants.nodes);
-    env.chunks = addressOf<ChunkBuf, Chunk>(links.chunks);
-    env.branches = addressOf<BranchBuf, BranchRecord>(links.branches);
-    env.leaves = addressOf<LeafBuf, Leaf>(plants.leaves);
+    env.grammars = addressOf<RuleMapBuf>(grammars_);
+    env.tables = addressOf<UintBuf>(tables_);
+    env.nodes = addressOf<NodeBuf>(plants.nodes);
+    env.chunks = addressOf<ChunkBuf>(links.chunks);
+    env.branches = addressOf<BranchBuf>(links.branches);
+    env.leaves = addressOf<LeafBuf>(plants.leaves);
     env.itemCapacity = room_.items;
-    env.status = addressOf<GrowStatusBuf, GrowStatus>(status_);
-    env.waves = addressOf<WaveBuf, Wave>(waves_);
-    env.density = addressOf<UintBuf, uint32_t>(density_);
+    env.status = addressOf<GrowStatusBuf>(status_);
+    env.waves = addressOf<WaveBuf>(waves_);
+    env.density = addressOf<UintBuf>(density_);
     return env;
 }
 
@@ -195,11 +195,11 @@ Status GpuGrowth::uploadStatus(Commands& commands, const GrowthInputs& inputs, G
         Status made = ensure(pruned_, "growth pruned", inputs.pruned.size_bytes());
         if (made) made = commands.upload(pruned_, keyWords(inputs.pruned));
         if (!made) return made;
-        status.pruned = addressOf<UintBuf, uint32_t>(pruned_);
+        status.pruned = addressOf<UintBuf>(pruned_);
         status.prunedCount = uint32_t(inputs.pruned.size());
     }
-    status.firstLeaves = addressOf<UintBuf, uint32_t>(firstLeaves_);
-    status.nextLeaves = addressOf<UintBuf, uint32_t>(nextLeaves_);
+    status.firstLeaves = addressOf<UintBuf>(firstLeaves_);
+    status.nextLeaves = addressOf<UintBuf>(nextLeaves_);
     return commands.upload(status_, std::vector<GrowStatus>{status});
 }
 
@@ -214,10 +214,10 @@ GpuGrowth::Outcome GpuGrowth::readOutcome(uint32_t last) {
 void GpuGrowth::lookAtFront() {
     const Plants& plants = plants_.drawn();
     const Links& links = links_.drawn();
-    view_.nodes = addressOf<NodeBuf, Node>(plants.nodes);
-    view_.chunks = addressOf<ChunkBuf, Chunk>(links.chunks);
-    view_.branches = addressOf<BranchBuf, BranchRecord>(links.branches);
-    view_.leaves = addressOf<LeafBuf, Leaf>(plants.leaves);
+    view_.nodes = addressOf<NodeBuf>(plants.nodes);
+    view_.chunks = addressOf<ChunkBuf>(links.chunks);
+    view_.branches = addressOf<BranchBuf>(links.branches);
+    view_.leaves = addressOf<LeafBuf>(plants.leaves);
     view_.nodeBuffer = &plants.nodes;
     view_.chunkBuffer = &links.chunks;
     view_.leafBuffer = &plants.leaves;

@@ -103,13 +103,13 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     std::vector<AgainState> state(1);
     AgainState& a = state[0];
     a = {};
-    a.chunksBefore = addressOf<ChunkBuf, Chunk>(from.chunks);
-    a.branchesBefore = addressOf<BranchBuf, BranchRecord>(from.branches);
-    a.marks = addressOf<AgainMarkBuf, AgainMark>(marks_);
-    a.lists = addressOf<UintBuf, uint32_t>(lists_);
-    a.edits = addressOf<UintBuf, uint32_t>(edits_);
-    a.results = addressOf<UintBuf, uint32_t>(results_);
-    a.touched = addressOf<UintBuf, uint32_t>(touched_);
+    a.chunksBefore = addressOf<ChunkBuf>(from.chunks);
+    a.branchesBefore = addressOf<BranchBuf>(from.branches);
+    a.marks = addressOf<AgainMarkBuf>(marks_);
+    a.lists = addressOf<UintBuf>(lists_);
+    a.edits = addressOf<UintBuf>(edits_);
+    a.results = addressOf<UintBuf>(results_);
+    a.touched = addressOf<UintBuf>(touched_);
     a.number = view_.number + 1;
     a.chainedLeaves = chained_ ? view_.leafCount : 0;
     a.listCapacity = s.chunkCapacity;
@@ -153,7 +153,7 @@ Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedCh
     Result<Commands> commands = Commands::begin(device_, "find what changed");
     if (!commands) return commands.failure();
     if (Status ok = uploadAgain(*commands, inputs, seeds, edits); !ok) return ok.failure();
-    env.items = addressOf<WorkItemBuf, WorkItem>(items_[0]);
+    env.items = addressOf<WorkItemBuf>(items_[0]);
     if (runsNative(inputs)) {
         if (Status finished = commands->finish(); !finished) return finished.failure();
         packTablesNative(env, uint32_t(inputs.grammars.size()));

@@ -27,8 +27,8 @@ Result<Buffer> Buffer::create(Device& device, std::string_view name, uint64_t si
     b.size_ = sizeBytes;
     const uint64_t limit = device.info().maxBufferBytes;
     if (sizeBytes > limit)
-        return Failure(name, "out of GPU memory: " + std::to_string(sizeBytes) + " bytes asked for, a buffer holds " +
-                                 std::to_string(limit));
+        return deviceFailure(name, "out of GPU memory: " + std::to_string(sizeBytes) +
+                                       " bytes asked for, a buffer holds " + std::to_string(limit));
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = std::max(sizeBytes, kLeastBytes);
     info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
@@ -59,8 +59,9 @@ Result<Buffer> Buffer::create(Device& device, std::string_view name, uint64_t si
 Result<TexelView> TexelView::create(Device& device, const Buffer& buffer, VkFormat format) {
     const uint64_t texels = buffer.size() / texelBytes(format), most = device.info().limits.maxTexelBufferElements;
     if (texels > most)
-        return Failure(buffer.name(), std::to_string(texels) + " texels are more than the GPU reads of a buffer (" +
-                                          std::to_string(most) + ")");
+        return deviceFailure(
+            buffer.name(),
+            std::to_string(texels) + " texels are more than the GPU reads of a buffer (" + std::to_string(most) + ")");
     VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     info.buffer = buffer.handle();
     info.format = format;

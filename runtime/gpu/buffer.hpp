@@ -68,6 +68,12 @@ Result<Buffer> makeBuffer(Device& device, std::string_view name, const std::vect
     return makeBuffer(device, name, std::as_bytes(std::span(values)));
 }
 
+// The buffer from `offset` on as shaders know it. Buf: a struct that BUFFER makes (shaders/shared/language.h).
+template <class Buf>
+Buf addressOf(const Buffer& buffer, uint64_t offset = 0) {
+    return Buf{reinterpret_cast<decltype(Buf::v)>(buffer.address() + offset)};
+}
+
 // Waits for all submitted work and returns bytes [offset, offset + sizeBytes) of the buffer.
 Result<std::vector<std::byte>> readBuffer(Device& device, const Buffer& buffer, uint64_t offset, uint64_t sizeBytes);
 template <class T>

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <vector>
 
+#include "runtime/core/srgb.hpp"
+
 namespace espalier {
 namespace {
 
 std::array<uint8_t, 256> rootsOfSrgb() {
     std::array<uint8_t, 256> roots{};
     for (size_t i = 0; i < roots.size(); ++i) {
-        const double s = double(i) / 255, linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-        roots[i] = uint8_t(std::sqrt(linear) * 255 + 0.5);
+        roots[i] = uint8_t(std::sqrt(linearOfSrgb(float(i) / 255)) * 255 + 0.5f);
     }
     return roots;
 }

@@ -142,8 +142,6 @@ struct DrawTargets {
 class DrawPass : public Pass {
   public:
     DrawPass(Commands& commands, std::string_view name, const DrawTargets& targets);
-    // Inside a rendering that the host has begun and will end.
-    DrawPass(Commands& commands, std::string_view name, VkExtent2D extent);
     ~DrawPass();
 
     void setScissor(int32_t x, int32_t y, uint32_t width, uint32_t height);
@@ -167,10 +165,6 @@ class DrawPass : public Pass {
                       Bindings bindings = {});
     void drawIndexedIndirect(const Program& program, const Buffer& arguments, uint64_t offset, uint32_t count,
                              Push push = {}, Bindings bindings = {});
-
-  private:
-    void start(VkExtent2D extent);
-    bool ours_ = false;
 };
 
 }  // namespace espalier

@@ -207,8 +207,7 @@ struct DeviceSetup {
                 unfit += "; " + c.name + " " + c.unfit;
         }
         if (fit.empty()) return Failure(kPlace, "no Vulkan device will do" + unfit);
-        if (options.preferDiscrete)
-            std::ranges::stable_sort(fit, {}, [](const Candidate& c) { return c.discrete ? 0 : c.cpu ? 2 : 1; });
+        std::ranges::stable_sort(fit, {}, [](const Candidate& c) { return c.discrete ? 0 : c.cpu ? 2 : 1; });
         d.physicalDevice_ = fit.front().device;
         return Done{};
     }
@@ -276,7 +275,6 @@ struct DeviceSetup {
         info.name = all.properties.deviceName;
         info.driver = std::string(v12.driverName) + " " + v12.driverInfo;
         info.cpu = all.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-        info.apiVersion = all.properties.apiVersion;
         info.subgroupSize = v11.subgroupSize;
         info.limits = all.properties.limits;
         info.maxBufferBytes = v13.maxBufferSize;

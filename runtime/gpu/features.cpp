@@ -1,8 +1,6 @@
-// Which Vulkan features we need, and which we take where they are. Nothing may be required that Debian 12's software
+// Which Vulkan features we need. Nothing may be required that Debian 12's software
 // device lacks.
 #include "runtime/gpu/features.hpp"
-
-#include "runtime/gpu/device.hpp"
 
 // A line each.
 // clang-format off
@@ -25,24 +23,6 @@
     F(v13, shaderDemoteToHelperInvocation) \
     F(v13, shaderTerminateInvocation) \
     F(v13, maintenance4)
-#define ESPALIER_WELCOME(F) \
-    F(core.features, samplerAnisotropy) \
-    F(core.features, fillModeNonSolid) \
-    F(core.features, independentBlend) \
-    F(core.features, fragmentStoresAndAtomics) \
-    F(core.features, vertexPipelineStoresAndAtomics) \
-    F(core.features, textureCompressionBC) \
-    F(core.features, shaderFloat64) \
-    F(v11, storagePushConstant16) \
-    F(v11, uniformAndStorageBuffer16BitAccess) \
-    F(v12, shaderBufferInt64Atomics) \
-    F(v12, uniformAndStorageBuffer8BitAccess) \
-    F(v12, storagePushConstant8) \
-    F(v12, shaderSubgroupExtendedTypes) \
-    F(v12, vulkanMemoryModel) \
-    F(v12, vulkanMemoryModelDeviceScope) \
-    F(v13, subgroupSizeControl) \
-    F(v13, computeFullSubgroups)
 // clang-format on
 
 namespace espalier {
@@ -57,13 +37,8 @@ std::vector<std::string> missingFeatures(const Features& have) {
 
 void chooseFeatures(const Features& have, Features& enable) {
 #define ESPALIER_ENABLE(group, name) enable.group.name = VK_TRUE;
-#define ESPALIER_TAKE(group, name) enable.group.name = have.group.name;
     ESPALIER_REQUIRED(ESPALIER_ENABLE)
-    ESPALIER_WELCOME(ESPALIER_TAKE)
-}
-
-std::vector<std::string> requiredFeatures() {
-    return missingFeatures(Features());
+    enable.core.features.samplerAnisotropy = have.core.features.samplerAnisotropy;
 }
 
 }  // namespace espalier

@@ -25,7 +25,7 @@ struct Features {
 
 // Names of the required features that `have` lacks.
 std::vector<std::string> missingFeatures(const Features& have);
-// Sets in `enable` what is required, and what is merely welcome and there.
+// Sets in `enable` what is required, and anisotropic filtering where it is there.
 void chooseFeatures(const Features& have, Features& enable);
 
 }  // namespace espalier

@@ -125,24 +125,15 @@ void Pass::dispatchIndirect(const Program& program, const Buffer& arguments, uin
     vk_.vkCmdDispatchIndirect(cmd_, arguments.handle(), offset);
 }
 
-DrawPass::DrawPass(Commands& commands, std::string_view name, const DrawTargets& targets)
-    : Pass(commands, name), ours_(true) {
+DrawPass::DrawPass(Commands& commands, std::string_view name, const DrawTargets& targets) : Pass(commands, name) {
     beginRendering(vk_, cmd_, targets);
-    start(targets.extent);
-}
-
-DrawPass::DrawPass(Commands& commands, std::string_view name, VkExtent2D extent) : Pass(commands, name) {
-    start(extent);
+    setViewport({0, 0, float(targets.extent.width), float(targets.extent.height), 0, 1});
+    setScissor(0, 0, targets.extent.width, targets.extent.height);
+    drawBacks(true);
 }
 
 DrawPass::~DrawPass() {
-    if (ours_) vk_.vkCmdEndRendering(cmd_);
-}
-
-void DrawPass::start(VkExtent2D extent) {
-    setViewport({0, 0, float(extent.width), float(extent.height), 0, 1});
-    setScissor(0, 0, extent.width, extent.height);
-    drawBacks(true);
+    vk_.vkCmdEndRendering(cmd_);
 }
 
 void DrawPass::drawBacks(bool drawn) {

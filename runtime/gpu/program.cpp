@@ -72,10 +72,8 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
     state.colorWriteMask = 0xF;
     if (blend == Blend::none) return state;
     state.blendEnable = VK_TRUE;
-    state.srcColorBlendFactor = blend == Blend::alpha ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
-    state.dstColorBlendFactor = blend == Blend::additive ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-    state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    state.dstAlphaBlendFactor = state.dstColorBlendFactor;
+    state.srcColorBlendFactor = state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    state.srcAlphaBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     return state;
 }
 
@@ -84,13 +82,12 @@ struct FixedFunctions {
     explicit FixedFunctions(const GraphicsDesc& d) : blends(d.colors.size(), blendState(d.blend)) {
         assembly.topology = d.topology;
         viewport.viewportCount = viewport.scissorCount = 1;
-        raster.frontFace = d.front;
+        raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
         raster.lineWidth = 1;
         raster.depthBiasEnable = d.depthBiasConstant != 0 || d.depthBiasSlope != 0;
         raster.depthBiasConstantFactor = d.depthBiasConstant;
         raster.depthBiasSlopeFactor = d.depthBiasSlope;
         multisample.rasterizationSamples = VkSampleCountFlagBits(d.samples);
-        multisample.alphaToCoverageEnable = d.alphaToCoverage;
         depth.depthTestEnable = d.depth != VK_FORMAT_UNDEFINED && d.depthTest;
         depth.depthWriteEnable = d.depth != VK_FORMAT_UNDEFINED && d.depthWrite;
         depth.depthCompareOp = d.depthCompare;
@@ -137,8 +134,8 @@ Status Program::makeLayout(Device& device, std::span<const ShaderInterface> shap
     std::ranges::sort(slots_);
     slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
     if (pushBytes_ > device.info().limits.maxPushConstantsSize)
-        return Failure(name_, std::to_string(pushBytes_) + " bytes of push data are more than the GPU takes (" +
-                                  std::to_string(device.info().limits.maxPushConstantsSize) + ")");
+        return deviceFailure(name_, std::to_string(pushBytes_) + " bytes of push data are more than the GPU takes (" +
+                                        std::to_string(device.info().limits.maxPushConstantsSize) + ")");
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const ShaderInterface::Slot& slot : slots_) {
         if (!bindings.empty() && bindings.back().binding == slot.binding)
@@ -169,16 +166,11 @@ Status Program::makeLayout(Device& device, std::span<const ShaderInterface> shap
 }
 
 Result<Program> Program::compute(Device& device, std::string_view shader, const ProgramOptions& options) {
-    return computeFrom(device, shader, builtIn(shader), options);
-}
-
-Result<Program> Program::computeFrom(Device& device, std::string_view name, std::span<const uint32_t> code,
-                                     const ProgramOptions& options) {
-    Result<Module> module = Module::create(device, name, code, options);
+    Result<Module> module = Module::create(device, shader, builtIn(shader), options);
     if (!module) return module.failure();
-    if (module->shape.stage != VK_SHADER_STAGE_COMPUTE_BIT) return Failure(name, "is not a compute shader");
+    require(module->shape.stage == VK_SHADER_STAGE_COMPUTE_BIT, std::string(shader) + " is not a compute shader");
     Program p;
-    p.name_ = name;
+    p.name_ = shader;
     p.localSize_ = module->shape.localSize;
     if (Status status = p.makeLayout(device, {&module->shape, 1}); !status) return status.failure();
     const Specialization constants(options.constants);
@@ -186,11 +178,11 @@ Result<Program> Program::computeFrom(Device& device, std::string_view name, std:
     info.stage = module->stage(constants.info);
     info.layout = p.layout();
     VkPipeline pipeline = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, name,
+    if (!ESPALIER_VK(device, shader,
                      device.vk().vkCreateComputePipelines(device.handle(), nullptr, 1, &info, nullptr, &pipeline)))
-        return gpuFailure(device, name, "making its pipeline");
+        return gpuFailure(device, shader, "making its pipeline");
     p.pipeline_ = Owned(device, pipeline);
-    device.setName(VK_OBJECT_TYPE_PIPELINE, uint64_t(pipeline), name);
+    device.setName(VK_OBJECT_TYPE_PIPELINE, uint64_t(pipeline), shader);
     return p;
 }
 

@@ -19,7 +19,7 @@ struct ProgramOptions {
     std::vector<SpecConstant> constants;
 };
 
-enum class Blend { none, alpha, premultiplied, additive };
+enum class Blend { none, additive };
 
 // Input `location` of a vertex shader: so many bytes into a vertex.
 struct VertexInput {
@@ -42,8 +42,6 @@ struct GraphicsDesc {
     float depthBiasConstant = 0;
     float depthBiasSlope = 0;
     Blend blend = Blend::none;
-    bool alphaToCoverage = false;
-    VkFrontFace front = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     uint32_t samples = 1;
     ProgramOptions options;
@@ -70,9 +68,6 @@ class Program {
     // Fails when memory has run out.
     static Result<Program> compute(Device& device, std::string_view shader, const ProgramOptions& options = {});
     static Result<Program> graphics(Device& device, const GraphicsDesc& desc);
-    // SPIR-V from elsewhere; fails if it isn't well-formed.
-    static Result<Program> computeFrom(Device& device, std::string_view name, std::span<const uint32_t> code,
-                                       const ProgramOptions& options = {});
 
     VkPipeline pipeline() const { return pipeline_.get(); }
     VkPipelineLayout layout() const { return layout_.get(); }

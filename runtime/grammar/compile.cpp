@@ -102,21 +102,21 @@ Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& opti
     return map;
 }
 
-Result<RuleMap> compileGrammarFile(const std::filesystem::path& file, const std::filesystem::path& cacheFolder,
-                                   std::vector<TerminalMesh> meshes) {
+IncludeReader includesBeside(const std::filesystem::path& file) {
+    return [folder = file.parent_path()](const std::string& name) -> std::optional<std::string> {
+        if (name.empty() || std::filesystem::path(name).filename() != name || name == "..") return std::nullopt;
+        Result<std::string> text = readTextFile(folder / name);
+        if (!text) return std::nullopt;
+        return std::move(*text);
+    };
+}
+
+Result<RuleMap> compileGrammarFile(const std::filesystem::path& file, CompileOptions options,
+                                   const std::filesystem::path& cacheFolder) {
     Result<std::string> text = readTextFile(file);
     if (!text) return std::move(text.failure());
-    CompileOptions options;
     options.fileName = file.filename().string();
-    options.meshes = std::move(meshes);
-    std::filesystem::path folder = file.parent_path();
-    options.readInclude = [&folder](const std::string& name) -> std::optional<std::string> {
-        // Includes name files of the same folder only, so that a grammar from the net can't read elsewhere.
-        if (name.empty() || std::filesystem::path(name).filename() != name || name == "..") return std::nullopt;
-        Result<std::string> content = readTextFile(folder / name);
-        if (!content) return std::nullopt;
-        return std::move(content.value());
-    };
+    options.readInclude = includesBeside(file);
     return compileGrammar(*text, options, cacheFolder);
 }
 

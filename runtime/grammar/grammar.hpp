@@ -58,6 +58,8 @@ std::vector<TerminalMesh> standardTerminalMeshes();
 
 // Text of an included file, or nothing. `name` is as written between the quotes.
 using IncludeReader = std::function<std::optional<std::string>(const std::string& name)>;
+// Reads files of the same folder only, so that a grammar from elsewhere can't read what isn't its own.
+IncludeReader includesBeside(const std::filesystem::path& file);
 
 struct CompileOptions {
     std::string fileName = "grammar";  // for diagnostics
@@ -154,8 +156,9 @@ class RuleMap {
 Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& options = {},
                                const std::filesystem::path& cacheFolder = {});
 
-// Reads and compiles a file, likewise; includes are looked for next to it.
-Result<RuleMap> compileGrammarFile(const std::filesystem::path& file, const std::filesystem::path& cacheFolder = {},
-                                   std::vector<TerminalMesh> meshes = standardTerminalMeshes());
+// Reads and compiles a file, likewise; includes are looked for beside it. Its name and how includes are read are set
+// here.
+Result<RuleMap> compileGrammarFile(const std::filesystem::path& file, CompileOptions options = {},
+                                   const std::filesystem::path& cacheFolder = {});
 
 }  // namespace espalier

@@ -150,7 +150,7 @@ Status RendererImpl::findTiles(Commands& commands, EmitView& view) {
         if (!made) return made.failure();
         to.buffer = std::move(*made);
     }
-    view.tiles.v = reinterpret_cast<float*>(to.buffer.address());
+    view.tiles = addressOf<FloatBuf>(to.buffer);
     to.view = view;
     to.serial = commands.serial();
     to.models = hosted_ ? 0 : models_.revision();
@@ -361,7 +361,6 @@ RenderStats RendererImpl::stats() const {
     stats.shadowsBehind = shadowsBehind_;
     stats.emitMs = device_.milliseconds("emit");
     stats.drawMs = std::max(0.0, device_.milliseconds("draw") - stats.emitMs);
-    stats.shadowMs = device_.milliseconds("shadow emit") + device_.milliseconds("shadow draw");
     return stats;
 }
 

@@ -48,7 +48,6 @@ struct Footprint {
     std::optional<double> height;      // from the ground to the ridge
     std::optional<double> levels;      // storeys below the roof
     std::optional<double> roofLevels;  // storeys in the roof
-    double parapet = 0.6;              // metres, flat roofs
     RoofMaterial material = RoofMaterial::unknown;
     uint32_t colour = 0;    // 0xAABBGGRR
     float overhang = 0;     // of the eaves, metres; 0: as the grammar says

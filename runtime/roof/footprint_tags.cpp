@@ -89,7 +89,7 @@ class Tags {
         number("roof:levels", 0, 50, f_.roofLevels);
         number("roof:height", 0, 500, f_.roofHeight);
         if (f_.roofHeight && *f_.roofHeight == 0) f_.roofHeight.reset(), f_.shape = RoofShape::flat;
-        std::optional<double> angle = f_.slope ? std::optional(std::atan(*f_.slope)) : std::nullopt, parapet;
+        std::optional<double> angle = f_.slope ? std::optional(std::atan(*f_.slope)) : std::nullopt;
         if (number("roof:angle", 0, 85, angle)) {
             f_.slope = std::tan(glm::radians(*angle));
             if (*angle == 0) f_.slope.reset(), f_.shape = RoofShape::flat;
@@ -101,7 +101,6 @@ class Tags {
             warn("height", "is not above min_height");
             f_.baseHeight = 0;
         }
-        if (number("parapet", 0, 10, parapet)) f_.parapet = *parapet;
         direction();
         orientation();
         material();

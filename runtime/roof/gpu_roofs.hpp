@@ -15,13 +15,6 @@ namespace espalier {
 
 constexpr uint32_t kRoofWaves = kMaxRoofDepth + 2;
 
-template <class Buf>
-Buf addressOf(const Buffer& buffer) {
-    Buf b{};
-    b.v = reinterpret_cast<decltype(b.v)>(buffer.address());
-    return b;
-}
-
 class GpuRoofs final : public RoofGrowth {
   public:
     explicit GpuRoofs(Device& device) : device_(device) {}

@@ -279,7 +279,6 @@ Status GpuRoofs::growAll(const RoofInputs& inputs) {
     noticeTown(inputs);
     generationOf_.assign(t.houses.size(), 0);
     own_ = Counts::of(t).withSlack();
-    stats_.overflow = 0;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
         RoofStatus status{};
         status.regions = own_.regions;
@@ -298,7 +297,6 @@ Status GpuRoofs::growAll(const RoofInputs& inputs) {
             stats_.housesGrown += t.houses.size();
             return Done{};
         }
-        stats_.overflow += 1;
     }
     return Failure("roofs", "the grammar makes more shapes of these houses than memory holds");
 }

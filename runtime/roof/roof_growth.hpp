@@ -62,7 +62,7 @@ struct RoofStats {
     uint32_t grids = 0, terminals = 0;  // records, also of houses that grew anew since; drawn ones of one cell
     uint64_t tiles = 0, clipped = 0;    // cells that are drawn; those of them that an outline crosses
     uint32_t waves = 0, stopped = 0;    // of the latest expansion; shapes that a limit ended
-    uint32_t expansions = 0, overflow = 0;
+    uint32_t expansions = 0;
     uint64_t housesGrown = 0;  // by all expansions together
     uint64_t bytes = 0;        // of grids, runs and the regions that Join made
     uint64_t reservedBytes = 0;

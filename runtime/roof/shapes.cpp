@@ -115,7 +115,6 @@ class HouseMaker {
         house.origin = outline_.origin;
         house.baseHeight = float(footprint_.baseHeight);
         house.eaveHeight = float(h.eave);
-        house.parapetHeight = shape == RoofShape::flat ? float(footprint_.parapet) : 0;
         house.shape = shape;
         house.material = uint32_t(footprint_.material);
         house.colour = footprint_.colour;

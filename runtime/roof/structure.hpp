@@ -73,7 +73,6 @@ struct RoofHouse {
     std::string id;                             // the feature's
     glm::dvec2 origin;                          // plan, metres east and north of the town's origin
     float baseHeight, eaveHeight, ridgeHeight;  // metres above the ground plane y = 0; base: the wall's foot
-    float parapetHeight;                        // above eaveHeight; 0: none. Walls go up to it on flat roofs
     RoofShape shape;
     std::vector<std::vector<glm::vec2>> rings;  // repaired footprint: outer ring, holes
     std::vector<EdgeRoof> edges;                // of these rings, as was asked for

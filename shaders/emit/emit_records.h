@@ -198,7 +198,6 @@ BUFFER(EmitStateBuf, EmitState)
 BUFFER(SpanInstanceBuf, SpanInstance)
 BUFFER(LeafInstanceBuf, LeafInstance)
 BUFFER(TerminalVertexBuf, TerminalVertex)
-BUFFER(TriangleVertexBuf, TriangleVertex)
 
 // The grid: cell (x, y, z) of size[0] * size[1] * size[2] is the cube of 1 / rcpCell metres at low + (x, y, z) / rcpCell.
 // Those at the border hold what lies beyond, too.

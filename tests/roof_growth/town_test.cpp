@@ -38,15 +38,8 @@ struct Meshes {
 
 Result<RuleMap> compiled(const std::filesystem::path& file, const Meshes& meshes) {
     CompileOptions options;
-    options.fileName = file.filename().string();
     options.roofMeshes = meshes.names;
-    options.readInclude = [&](const std::string& name) -> std::optional<std::string> {
-        Result<std::string> text = readTextFile((kGrammars / name).string());
-        return text ? std::optional<std::string>(std::move(*text)) : std::nullopt;
-    };
-    Result<std::string> text = readTextFile(file.string());
-    REQUIRE(text);
-    return compileGrammar(*text, options);
+    return compileGrammarFile(file, options);
 }
 
 RoofStructure townStructure() {

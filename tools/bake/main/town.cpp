@@ -78,17 +78,9 @@ class GlbWriter {
 };
 
 Result<RuleMap> compileFor(const TownArguments& arguments, const TerminalData& meshes) {
-    Result<std::string> text = readTextFile(arguments.grammar);
-    if (!text) return text.failure();
-    const std::filesystem::path file(arguments.grammar);
     CompileOptions options;
-    options.fileName = file.filename().string();
     for (const std::string& kind : meshes.kinds) options.roofMeshes.push_back({kind, false});
-    options.readInclude = [&](const std::string& name) -> std::optional<std::string> {
-        Result<std::string> included = readTextFile((file.parent_path() / name).string());
-        return included ? std::optional<std::string>(std::move(*included)) : std::nullopt;
-    };
-    Result<RuleMap> map = compileGrammar(*text, options);
+    Result<RuleMap> map = compileGrammarFile(arguments.grammar, options);
     if (map && !map->roofs()) return Failure(arguments.grammar, "makes no roofs");
     return map;
 }
