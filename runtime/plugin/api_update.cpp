@@ -1,6 +1,7 @@
 // Growing what has changed: seeds, grammars, layers and surfaces of a context become the inputs of growth.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "runtime/plugin/context.hpp"
 
@@ -24,95 +25,134 @@ void noteSurfaces(EspContext& context) {
     });
 }
 
-EspResult growPlants(EspContext& context) {
-    Status tables = context.refreshTables();
-    if (!tables) return failGpu(&context, tables.failure());
-    noteMoved(context);
-    Status variants = refreshVariants(context);
-    if (!variants) return failGpu(&context, variants.failure());
-
-    std::vector<RuleMapRef> maps;
+// The rule maps of growth: those of grammars, then those of variants.
+struct Maps {
+    std::vector<RuleMapRef> refs;
     std::vector<float> widths;
-    std::vector<std::pair<uint32_t, uint32_t>> places;  // grammar id -> index in maps
-    const auto addMap = [&](const RuleMap& map, const Buffer& words, const std::vector<uint32_t>& layerOf) {
+    std::vector<uint32_t> ids;             // of grammars; of variants their places: no grammar's id is so small
+    std::map<uint32_t, uint32_t> indices;  // of grammars by their ids
+    uint32_t firstVariant = 0;
+
+    void add(const RuleMap& map, const Buffer& words, const std::vector<uint32_t>& layerOf) {
         RuleMapRef ref = map.refAt(words.address());
         if (map.roofs()) {  // keeps its number, but growth has nothing to do with it
             ref = RuleMapRef{};
             ref.features = kFeatureKnown;
         }
         for (size_t i = 0; i < layerOf.size() && i < kMaxLayers; ++i) ref.layerOf[i] = layerOf[i];
-        maps.push_back(ref);
+        refs.push_back(ref);
         widths.push_back(map.width());
-    };
+    }
+};
+
+Maps mapsOf(const EspContext& context) {
+    Maps maps;
     context.grammars.forEach([&](uint32_t id, const LoadedGrammar& grammar) {
-        places.push_back({id, uint32_t(maps.size())});
-        addMap(grammar.map, grammar.words, grammar.layerOf);
+        maps.indices[id] = uint32_t(maps.ids.size());
+        maps.ids.push_back(id);
+        maps.add(grammar.map, grammar.words, grammar.layerOf);
     });
-    const uint32_t firstVariant = uint32_t(maps.size());
-    for (const GrammarVariant& variant : context.variants) addMap(variant.map, variant.words, variant.layerOf);
+    maps.firstVariant = uint32_t(maps.ids.size());
+    for (const GrammarVariant& variant : context.variants) {
+        maps.ids.push_back(uint32_t(maps.ids.size()) - maps.firstVariant);
+        maps.add(variant.map, variant.words, variant.layerOf);
+    }
+    return maps;
+}
+
+// What grows, and what stands frozen.
+struct Planting {
     std::vector<Seed> seeds;
     std::vector<FrozenPlant> frozen;
-    std::vector<uint32_t> seedIds, frozenIds;
-    context.seeds.forEach([&](uint32_t seedId, const PlantedSeed& planted) {
+    std::vector<uint32_t> ids;  // of seeds, then of frozen ones
+};
+
+Planting plantingOf(const EspContext& context, const Maps& maps) {
+    Planting out;
+    std::vector<uint32_t> frozenIds;
+    context.seeds.forEach([&](uint32_t id, const PlantedSeed& planted) {
         Seed seed{};
         seed.key = seedKey(planted);
         if (planted.frozen) {
-            frozen.push_back({seed.key, planted.frozen});
-            frozenIds.push_back(seedId);
+            out.frozen.push_back({seed.key, planted.frozen});
+            frozenIds.push_back(id);
             return;
         }
         if (planted.onBare || buriedByOthers(context, planted)) return;
         seed.walk = planted.walk;
-        for (const auto& [id, index] : places)
-            if (id == planted.grammar) seed.grammar = index;
-        if (planted.variant != kNoIndex) seed.grammar = firstVariant + planted.variant;
+        seed.grammar =
+            planted.variant == kNoIndex ? maps.indices.at(planted.grammar) : maps.firstVariant + planted.variant;
         const RuleMap& map = context.grammars.find(planted.grammar)->map;
         seed.symbol = planted.symbol.empty() ? map.startSymbol() : *map.findSymbol(planted.symbol);
-        seeds.push_back(seed);
-        seedIds.push_back(seedId);
+        out.seeds.push_back(seed);
+        out.ids.push_back(id);
     });
+    out.ids.insert(out.ids.end(), frozenIds.begin(), frozenIds.end());
+    return out;
+}
+
+GrowthLimits growthLimits(const EspGrowDef& def) {
+    static_assert(uint32_t(WalkMode::paper) == ESP_WALK_PAPER && uint32_t(TangentMode::paper) == ESP_TANGENT_PAPER);
+    GrowthLimits limits;
+    limits.walk = WalkMode(def.walk);
+    limits.tangents = TangentMode(def.tangents);
+    limits.maxNodes = def.maxNodes;
+    limits.maxDepth = def.maxDepth;
+    limits.leafDensityCap = def.leafDensityCap;
+    return limits;
+}
+
+// The texels of the one surface that there is; of several growth knows the tables alone.
+const Buffer* onlySurface(const EspContext& context) {
+    const Buffer* only = nullptr;
+    uint32_t count = 0;
+    context.surfaces.forEach(
+        [&](uint32_t, const PlacedSurface& surface) { only = ++count == 1 ? &surface.gpu.data() : nullptr; });
+    return only;
+}
+
+// All is as it has grown.
+void noteGrown(EspContext& context, std::vector<uint32_t> grammars, std::vector<uint32_t> seeds) {
+    context.grownRevision = context.revision;
+    context.grownGrammars = std::move(grammars);
+    context.grownSeeds = std::move(seeds);
+    context.changes = {.everything = false, .cells = {}, .uses = {}, .grammars = {}};
+    context.moved.clear();
+    noteSurfaces(context);
+    context.dropTriangles();
+}
+
+EspResult growPlants(EspContext& context) {
+    Status tables = context.refreshTables();
+    if (!tables) return failGpu(&context, tables.failure());
+    noteMoved(context);
+    Status variants = refreshVariants(context);
+    if (!variants) return failGpu(&context, variants.failure());
+    Maps maps = mapsOf(context);
+    Planting planting = plantingOf(context, maps);
+    // Indices of grammars stay what they were only as long as none goes.
+    const std::vector<uint32_t>& known = context.grownGrammars;
+    if (known.size() > maps.ids.size() || !std::equal(known.begin(), known.end(), maps.ids.begin()))
+        context.changes.everything = true;
 
     GrowthInputs inputs;
     inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
     inputs.surfaceCount = std::max(context.surfaceSlots(), 1u);
-    uint32_t placedSurfaces = 0;
-    context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
-        placedSurfaces += 1;
-        inputs.surfaceData = placedSurfaces == 1 ? &surface.gpu.data() : nullptr;
-    });
+    inputs.surfaceData = onlySurface(context);
     inputs.layers = addressOf<LayerBuf>(context.layerTable);
-    inputs.grammars = maps;
-    inputs.widths = widths;
-    inputs.seeds = seeds;
+    inputs.grammars = maps.refs;
+    inputs.widths = maps.widths;
+    inputs.seeds = planting.seeds;
+    inputs.frozen = planting.frozen;
     inputs.pruned = context.pruned;
-    inputs.frozen = frozen;
-    seedIds.insert(seedIds.end(), frozenIds.begin(), frozenIds.end());
-    static_assert(uint32_t(WalkMode::paper) == ESP_WALK_PAPER && uint32_t(TangentMode::paper) == ESP_TANGENT_PAPER);
-    inputs.limits.walk = WalkMode(context.grow.walk);
-    inputs.limits.tangents = TangentMode(context.grow.tangents);
-    inputs.limits.maxNodes = context.grow.maxNodes;
-    inputs.limits.maxDepth = context.grow.maxDepth;
-    inputs.limits.leafDensityCap = context.grow.leafDensityCap;
+    inputs.limits = growthLimits(context.grow);
     inputs.native = !context.grow.shadersOnly;
-    std::vector<uint32_t> ids;
-    for (const auto& [id, index] : places) ids.push_back(id);
-    for (uint32_t i = 0; i < context.variants.size(); ++i) ids.push_back(i);  // no grammar's id is so small
-    // Indices of grammars stay what they were only as long as none goes.
-    const std::vector<uint32_t>& known = context.grownGrammars;
-    if (known.size() > ids.size() || !std::equal(known.begin(), known.end(), ids.begin()))
-        context.changes.everything = true;
     inputs.changes = &context.changes;
     inputs.watch = context.watch.get();
     Status grown = context.growth->grow(inputs);
     if (!grown && inputs.watch && inputs.watch->stopped()) return fail(&context, ESP_STOPPED, grown.failure().text());
     if (!grown) return failWork(&context, grown.failure());
-    context.grownRevision = context.revision;
-    context.grownGrammars = std::move(ids);
-    context.grownSeeds = std::move(seedIds);
-    context.changes = {.everything = false, .cells = {}, .uses = {}, .grammars = {}};
-    context.moved.clear();
-    noteSurfaces(context);
-    context.dropTriangles();
+    noteGrown(context, std::move(maps.ids), std::move(planting.ids));
     return ESP_OK;
 }
 
