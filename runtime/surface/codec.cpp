@@ -328,6 +328,10 @@ std::string decodeLevel(std::span<const std::byte> bytes, std::span<const Triang
         if (length > bytes.size() - at) return "band " + std::to_string(i) + " reaches past the end";
         frames[i] = bytes.subspan(at, length);
         at += length;
+        // Before there is room made for the texels.
+        const unsigned long long states = ZSTD_getFrameContentSize(frames[i].data(), length);
+        if (i < bands && (states >= ZSTD_CONTENTSIZE_ERROR || states < uint64_t(rows) * level.size))
+            return "band " + std::to_string(i) + " is damaged";
     }
     level.texels.resize(texels);
     level.aux.resize(texels);

@@ -85,7 +85,7 @@ const json& Container::walk() const {
 }
 
 std::span<const std::byte> Container::view(uint64_t index, const std::string& place) const {
-    const json& views = array(root_, "bufferViews", "glTF", 1 << 20);
+    const json& views = array(root_, "bufferViews", "glTF", kMaxViews);
     if (index >= views.size()) fail(place, indexed("bufferViews", index) + " does not exist");
     std::string here = indexed("bufferViews", index);
     uint64_t buffer = whole(views[index], "buffer", here, 0),

@@ -24,7 +24,7 @@ int imageOf(const Container& file, const SurfaceData& data, const json& material
 
 void readPictures(Container& file, SurfaceData& data) {
     if (!file.root().contains("images")) return;
-    const json& images = array(file.root(), "images", "glTF", 4096);
+    const json& images = array(file.root(), "images", "glTF", kMaxImages);
     data.images.resize(images.size());
     if (file.partial()) return;  // they stand at the end
     std::vector<std::span<const std::byte>> bytes;
@@ -50,7 +50,7 @@ void readPictures(Container& file, SurfaceData& data) {
 void readMaterials(Container& file, SurfaceData& data) {
     readPictures(file, data);
     if (file.root().contains("materials"))
-        for (const json& m : array(file.root(), "materials", "glTF", 1 << 16)) {
+        for (const json& m : array(file.root(), "materials", "glTF", kMaxMaterials)) {
             Material out;
             json none = json::object();
             const json& pbr = m.is_object() && m.contains("pbrMetallicRoughness") ? m["pbrMetallicRoughness"] : none;

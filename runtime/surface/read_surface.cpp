@@ -44,7 +44,7 @@ std::vector<std::byte> readUpTo(const std::string& path, uint32_t finest) {
     const json& levels = array(document.walk(), "levels", kExtension, kMaxLevels);
     if (levels.empty()) fail(kExtension, "no levels");
     const size_t last = std::min<size_t>(finest, levels.size() - 1);
-    const json& views = array(document.root(), "bufferViews", "glTF", 1 << 20);
+    const json& views = array(document.root(), "bufferViews", "glTF", kMaxViews);
     const uint64_t view = whole(levels[last], "bufferView", kExtension, 1 << 20);
     if (view >= views.size()) fail(kExtension, indexed("bufferViews", view) + " does not exist");
     head += whole(views[view], "byteOffset", "bufferViews", 0xFFFFFFFFu) +

@@ -34,6 +34,8 @@ class Writer {
     Writer(const SurfaceData& data, const std::string& path) : data_(data), path_(path) {}
 
     Status run() {
+        if (data_.images.size() > kMaxImages) return tooMany(data_.images.size(), "images", kMaxImages);
+        if (data_.materials.size() > kMaxMaterials) return tooMany(data_.materials.size(), "materials", kMaxMaterials);
         root_["asset"] = {{"version", "2.0"}, {"generator", "espalier-bake " ESPALIER_VERSION}};
         root_["extensionsUsed"] = {kDraco, kExtension};
         root_["extensionsRequired"] = {kDraco};
@@ -51,6 +53,8 @@ class Writer {
         if (done && !data_.coarser.empty()) done = writeMesh(0);
         if (!done) return done;
         writeMaterials();
+        const size_t views = root_["bufferViews"].size();
+        if (views > kMaxViews) return tooMany(views, "buffer views", kMaxViews);
         root_["extensions"][kExtension] = std::move(walk_);
         binary_.resize((binary_.size() + 3) / 4 * 4, 0);
         if (binary_.size() > kMaxBinary) return Failure(path_, "the surface is larger than a .glb can be (4 GiB)");
@@ -60,6 +64,11 @@ class Writer {
     }
 
   private:
+    Failure tooMany(size_t count, const char* things, size_t most) const {
+        return Failure(path_, "the surface has " + std::to_string(count) + " " + things + "; " + std::to_string(most) +
+                                  " can be read back");
+    }
+
     int addView(const void* bytes, size_t length) {
         binary_.resize((binary_.size() + 3) / 4 * 4, 0);
         root_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", length}});

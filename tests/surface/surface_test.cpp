@@ -259,3 +259,35 @@ TEST_CASE("indices out of range are refused even when the hashes fit") {
     }));
     CHECK(refuses([](SurfaceData& s) { s.levels[2].texels.resize(64); }));
 }
+
+TEST_CASE("a plain surface of many texels, which packs to next to nothing, is read") {
+    Folder folder;
+    Model plate;
+    plate.name = "plate";
+    addPatch(
+        plate, 1, [](float s, float t) { return glm::vec3(s, 0, -t); },
+        [](float s, float t) { return glm::vec2(0.05f + 0.9f * s, 0.05f + 0.9f * t); });
+    BakeOptions options;
+    options.resolution = 4096;
+    options.levels = 1;
+    auto baked = bake(plate, options);
+    REQUIRE(baked);
+    REQUIRE(writeSurface(baked->surface, folder.file("plate.glb")));
+    CHECK(std::filesystem::file_size(folder.file("plate.glb")) < 1'000'000);
+    auto read = readSurface(folder.file("plate.glb"));
+    if (!read) FAIL(read.failure().text());
+    CHECK(read->hash == baked->surface.hash);
+}
+
+TEST_CASE("what a reader would refuse isn't written") {
+    Folder folder;
+    const auto refusal = [&](auto&& change) {
+        SurfaceData surface = sample();
+        change(surface);
+        const Status written = writeSurface(surface, folder.file("many.glb"));
+        CHECK(!std::filesystem::exists(folder.file("many.glb")));
+        return written ? std::string() : written.failure().text();
+    };
+    CHECK(refusal([](SurfaceData& s) { s.images.resize(4097, s.images[0]); }).find("4097 images") != std::string::npos);
+    CHECK(refusal([](SurfaceData& s) { s.materials.resize(65537); }).find("65537 materials") != std::string::npos);
+}
