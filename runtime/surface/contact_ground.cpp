@@ -118,18 +118,18 @@ ContactGround::ContactGround(const SurfaceData& data) {
     for (const Crossing& c : data.crossings)
         if ((c.flags & 3u) == kCrossingSeam || (c.flags & 3u) == kCrossingOpen)
             together.join(c.flags >> 16, c.target & 0xFFFFu);
-    std::vector<uint32_t> shell, body;
+    std::vector<uint32_t> shell;
     together.number(shell);
     for (const Crossing& c : data.crossings)
         if ((c.flags & 3u) == kCrossingNearest) together.join(c.flags >> 16, c.target & 0xFFFFu);
-    together.number(body);
-    for (ContactMesh::Triangle& t : mesh_.triangles) t.shell = shell[t.chart], t.body = body[t.chart];
-    bodyOfChart_ = std::move(body);
+    const uint32_t count = together.number(bodyOfChart_);
+    for (ContactMesh::Triangle& t : mesh_.triangles) t.shell = shell[t.chart], t.body = bodyOfChart_[t.chart];
     for (const SurfaceLevelData& each : data.levels) tiles_.emplace_back(each);
     setReach(mesh_, texel_);
     std::vector<float> open(mesh_.twin.size());
     for (size_t h = 0; h < open.size(); ++h) open[h] = mesh_.twin[h] == kNoIndex ? 1.0f : 0.0f;
     bodies_ = Bodies(mesh_, open);
+    mesh_.solid.resize(count);  // the last bodies may have no triangles: they are sheets
 }
 
 namespace {

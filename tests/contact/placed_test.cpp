@@ -409,3 +409,35 @@ TEST_CASE("lists and clearances tell of added crossings") {
             CHECK(lost == 0);
         }
 }
+
+TEST_CASE("a body of which nothing is drawn has ground that others bury, and buries none") {
+    test::Kit kit;
+    kit.box(dvec3(0), dvec3(0.2));
+    kit.box(dvec3(2, 0, 0), dvec3(0.2));
+    SurfaceData data = throughFile(kit.model(), 128);
+    // Left of the mesh is the box whose charts come first.
+    const bool firstIsLeft = data.triangles[data.charts[0].firstTriangle].position.x < 1;
+    const auto isFirst = [&](glm::vec3 p) { return (p.x < 1) == firstIsLeft; };
+    std::vector<uint32_t> drawn;
+    for (size_t i = 0; i < data.indices.size(); i += 3)
+        if (isFirst(data.vertices[data.indices[i]].position))
+            drawn.insert(drawn.end(), &data.indices[i], &data.indices[i] + 3);
+    data.indices = drawn;
+    const ContactGround ground(data);
+    CHECK(ground.bodyCount() == 2);
+    for (uint32_t c = 0; c < data.charts.size(); ++c)
+        CHECK(ground.solidChart(c) == isFirst(data.triangles[data.charts[c].firstTriangle].position));
+    World world;
+    world.add(data, glm::mat4(1));
+    world.add(throughFile(block(dvec3(0.5)), 128), standing({firstIsLeft ? 2 : 0, 0, 0}, 0));
+    world.join();
+    const std::vector<Texel>&now = world.joined(0).levels[0].texels, &before = world.baked(0).levels[0].texels;
+    int wrong = 0, buried = 0;
+    for (size_t i = 0; i < now.size(); ++i) {
+        if (texelClass(before[i].bits) != kTexelInner) continue;
+        buried += texelClass(now[i].bits) == kTexelLink;
+        wrong += (texelClass(now[i].bits) == kTexelLink) == isFirst(before[i].position);
+    }
+    CHECK(buried > 1000);
+    CHECK(wrong == 0);
+}
