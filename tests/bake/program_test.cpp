@@ -1,5 +1,6 @@
 // espalier-bake as a user runs it: exit codes, messages, files.
 #include <doctest/doctest.h>
+#include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -33,14 +34,15 @@ struct Runner {
     bool has(const char* name) const { return std::filesystem::exists(folder / name); }
     bool says(const char* text) const { return output.find(text) != std::string::npos; }
 
-    bool run(const std::string& arguments) {
+    // The exit code; above 128 where a signal ended it.
+    int run(const std::string& arguments) {
         std::string log = file("log.txt");
         std::string command =
             "cd '" + folder.string() + "' && '" ESPALIER_BAKE_PROGRAM "' " + arguments + " > '" + log + "' 2>&1";
-        int code = std::system(command.c_str());
+        const int status = std::system(command.c_str());
         auto text = readTextFile(log);
         output = text ? *text : "";
-        return code == 0;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
 
     // Of a PNG, as its first bytes state it: width and height.
@@ -62,7 +64,9 @@ struct Runner {
 TEST_CASE("espalier-bake writes surface, report and pictures") {
     Runner r;
     CAPTURE(r.output);
-    REQUIRE(r.run("cube.glb -o out/surface.glb --resolution 128 --levels 2 --report out/r.json --images out/pictures"));
+    REQUIRE(
+        r.run("cube.glb -o out/surface.glb --resolution 128 --levels 2 --report out/r.json --images out/pictures") ==
+        0);
     auto surface = readSurface(r.file("out/surface.glb"));
     if (!surface) FAIL(surface.failure().text());
     CHECK(surface->levels.size() == 2);
@@ -86,7 +90,7 @@ TEST_CASE("espalier-bake writes surface, report and pictures") {
     CHECK(report["warnings"].is_array());
     CHECK(r.says("100 %"));
     // Where there is room for words, a legend stands below.
-    REQUIRE(r.run("cube.glb -o out/surface.glb --resolution 512 --levels 1 --images out/pictures"));
+    REQUIRE(r.run("cube.glb -o out/surface.glb --resolution 512 --levels 1 --images out/pictures") == 0);
     for (const char* picture : {"charts.png", "links.png", "contacts.png", "stretch.png"}) {
         CHECK(r.sizeOf(std::string("out/pictures/") + picture).first == 512);
         CHECK(r.sizeOf(std::string("out/pictures/") + picture).second >= 512 + 30);
@@ -96,25 +100,26 @@ TEST_CASE("espalier-bake writes surface, report and pictures") {
 TEST_CASE("layers painted over an earlier surface are carried to the new one, and what is lost is told") {
     Runner r;
     CAPTURE(r.output);
-    REQUIRE(r.run("cube.glb -o old/s.glb --resolution 64 --images old"));  // any picture will do as a layer
-    CHECK(r.run("cube.glb -o new/s.glb --resolution 128 --from old/s.glb --layer old/charts.png --report new/r.json"));
+    REQUIRE(r.run("cube.glb -o old/s.glb --resolution 64 --images old") == 0);  // any picture will do as a layer
+    CHECK(r.run("cube.glb -o new/s.glb --resolution 128 --from old/s.glb --layer old/charts.png --report new/r.json") ==
+          0);
     CHECK(r.says("old/charts.png: carried: 0 m² of new ground"));
     CHECK(r.has("new/charts.png"));
-    CHECK(!r.run("cube.glb -o old/t.glb --from old/s.glb --layer old/charts.png"));
+    CHECK(r.run("cube.glb -o old/t.glb --from old/s.glb --layer old/charts.png") == 1);
     CHECK(r.says("would overwrite"));
-    CHECK(!r.run("cube.glb -o new/t.glb --from cube.glb --layer log.txt"));
+    CHECK(r.run("cube.glb -o new/t.glb --from cube.glb --layer log.txt") == 1);
     CHECK(r.says("log.txt: "));
     CHECK(!r.has("new/t.glb"));
     // Nothing of a bake stays whose surface has no place, and what it would have replaced does.
     std::filesystem::create_directories(r.folder / "taken/s.glb");
     const std::string bakes = "cube.glb -o taken/s.glb --resolution 64 --from old/s.glb --report taken/r.json --layer ";
     REQUIRE(writeFile(r.file("taken/links.png"), "what was there"));
-    CHECK(!r.run(bakes + "old/charts.png --layer old/links.png"));
+    CHECK(r.run(bakes + "old/charts.png --layer old/links.png") == 1);
     CHECK(r.says("taken/s.glb"));
     CHECK(!r.has("taken/charts.png"));
     CHECK(!r.has("taken/r.json"));
     CHECK(readTextFile(r.file("taken/links.png")).value() == "what was there");
-    CHECK(!r.run("cube.glb -o new/u.glb --from old/s.glb --layer old/charts.png --layer taken/../old/charts.png"));
+    CHECK(r.run("cube.glb -o new/u.glb --from old/s.glb --layer old/charts.png --layer taken/../old/charts.png") == 1);
     CHECK(r.says("two carried layers have this name"));
 }
 
@@ -132,11 +137,11 @@ TEST_CASE("seeds whose ground a change takes away are listed, by scenes of one s
     const std::string seeds = R"({"file": "ivy.grammar", "seeds": [{"position": )";
     write("one.json",
           R"({"surface": "cube.glb", "grammars": [)" + seeds + R"([1.02, 0, 0]}, {"position": [0, 1, 0]}]}]})");
-    REQUIRE(r.run("higher.glb -o new/cube.glb --resolution 64 --from cube.glb --seeds one.json"));
+    REQUIRE(r.run("higher.glb -o new/cube.glb --resolution 64 --from cube.glb --seeds one.json") == 0);
     CHECK(r.says("grammars[0].seeds[1] at 0, 1, 0 has lost its ground"));
     CHECK(!r.says("seeds[0]"));
     CHECK(r.says("one.json: warning: 1 of 2 seeds"));
-    REQUIRE(r.run("cube.glb -o new/same.glb --resolution 64 --from cube.glb --seeds one.json"));
+    REQUIRE(r.run("cube.glb -o new/same.glb --resolution 64 --from cube.glb --seeds one.json") == 0);
     CHECK(r.says("one.json: all 2 seeds on this surface keep their ground"));
     CHECK(!r.says("warning: "));
     // Turned by 90° and twice as large, the side towards +x looks to -z; the third seed is of the other surface.
@@ -144,7 +149,7 @@ TEST_CASE("seeds whose ground a change takes away are listed, by scenes of one s
           R"({"surfaces": [{"file": "other.glb"}, {"file": "cube.glb", "position": [9, 0, 0], "turn": 90, "scale": 2}],
                           "grammars": [)" +
               seeds + R"([9, 2, 0]}, {"position": [9.5, 0.5, -2]}, {"position": [0, 1, 0]}]}]})");
-    REQUIRE(r.run("higher.glb -o new/cube.glb --resolution 64 --from cube.glb --seeds two.json"));
+    REQUIRE(r.run("higher.glb -o new/cube.glb --resolution 64 --from cube.glb --seeds two.json") == 0);
     CHECK(r.says("grammars[0].seeds[0] at 9, 2, 0 has lost its ground"));
     CHECK(r.says("1 of 2 seeds"));
     const std::string deep = R"({"surface": "cube.glb", "grammars": )" + std::string(1'000'000, '[');
@@ -154,40 +159,79 @@ TEST_CASE("seeds whose ground a change takes away are listed, by scenes of one s
                               R"({"seeds": [{"position": [1, 2]}]}]})",
                               R"({"surfaces": [{"file": "cube.glb", "scale": 0}]})", R"({"surfaces": [7, 7]})"}) {
         write("wrong.json", wrong);
-        CHECK(!r.run("higher.glb -o bad/cube.glb --from cube.glb --seeds wrong.json"));
+        CHECK(r.run("higher.glb -o bad/cube.glb --from cube.glb --seeds wrong.json") == 1);
         CHECK(r.says("wrong.json"));
         CHECK(!r.has("bad/cube.glb"));
     }
-    CHECK(!r.run("higher.glb -o bad/cube.glb --from cube.glb"));
+    CHECK(r.run("higher.glb -o bad/cube.glb --from cube.glb") == 2);
     CHECK(r.says("--seeds"));
 }
 
 TEST_CASE("--help and --version answer; mistakes end with a message, a code and no files") {
     Runner r;
-    CHECK(r.run("--help"));
+    CHECK(r.run("--help") == 0);
     CHECK(r.says("--resolution"));
-    CHECK(r.run("--version"));
+    CHECK(r.run("--version") == 0);
     CHECK(r.says("espalier-bake"));
-    CHECK(!r.run(""));
-    CHECK(!r.run("cube.glb"));
-    CHECK(!r.run("cube.glb -o s.glb --resolution 100 --report r.json"));
+    CHECK(r.run("") == 2);
+    CHECK(r.run("cube.glb") == 2);
+    CHECK(r.run("cube.glb -o s.glb --resolution 100 --report r.json") == 2);
     CHECK(r.says("resolution"));
-    CHECK(!r.run("cube.glb -o s.glb --scene 5 --report r.json"));
+    CHECK(r.run("cube.glb -o s.glb --scene 5 --report r.json") == 1);
     CHECK(r.says("scene 5 does not exist"));
     for (const char* tolerance : {"nan", "1e300", "-1"})
-        CHECK(!r.run("cube.glb -o s.glb --report r.json --tolerance " + std::string(tolerance)));
-    CHECK(!r.run("cube.glb -o s.glb --report cube.glb"));
-    CHECK(!r.run("cube.glb -o s.glb --report ./s.glb"));
+        CHECK(r.run("cube.glb -o s.glb --report r.json --tolerance " + std::string(tolerance)) == 2);
+    CHECK(r.run("cube.glb -o s.glb --report cube.glb") == 2);
+    CHECK(r.run("cube.glb -o s.glb --report ./s.glb") == 2);
     CHECK(r.says("would overwrite"));
-    CHECK(!r.run("missing.glb -o s.glb --report r.json"));
+    CHECK(r.run("missing.glb -o s.glb --report r.json") == 1);
     CHECK(r.says("missing.glb"));
-    CHECK(!r.run("cube.glb -o cube.glb"));
-    CHECK(!r.run("cube.glb -o cube.glb/s.glb --report r.json"));
+    CHECK(r.run("cube.glb -o cube.glb") == 2);
+    CHECK(r.run("cube.glb -o cube.glb/s.glb --report r.json") == 1);
     CHECK(r.says("cube.glb/s.glb"));
     REQUIRE(writeFile(r.file("bad.glb"), std::string_view("glTF and no more")));
-    CHECK(!r.run("bad.glb -o s.glb --report r.json"));
+    CHECK(r.run("bad.glb -o s.glb --report r.json") == 1);
     CHECK(r.says("bad.glb"));
     CHECK(!r.has("s.glb"));
     CHECK(!r.has("r.json"));
     CHECK(readSurface(r.file("cube.glb")));
+}
+
+TEST_CASE("what isn't for a model, a folder or a town is refused by its name, and nothing is made") {
+    Runner r;
+    std::filesystem::create_directories(r.folder / "models");
+    std::filesystem::copy_file(r.folder / "cube.glb", r.folder / "models/cube.glb");
+    REQUIRE(writeFile(r.file("plan.json"), std::string_view(R"({"buildings": [{"id": "a", "outer": )"
+                                                            R"([[0, 0], [9, 0], [9, 9], [0, 9]]}]})")));
+    const std::vector<const char*> ofModel{"--report r.json", "--images out", "--from cube.glb --layer log.txt",
+                                           "--from cube.glb --seeds log.txt", "--weights log.txt"},
+        ofModels{"--resolution 64", "--levels 1", "--tolerance 0", "--uv-set 0",
+                 "--scene 0",       "--bare a",   "--ground a",    "--keep-layout"},
+        ofFolder{"--jobs 1", "--shard 1/1"},
+        ofTown{"--grammar a.grammar", "--grammar a --walls", "--grammar a --meshes a", "--house a"};
+    const auto refuses = [&](const char* input, const char* kind, const std::vector<const char*>& options) {
+        for (const char* option : options) {
+            CAPTURE(option);
+            CHECK(r.run(std::string(input) + " -o out " + option) == 2);
+            CAPTURE(r.output);
+            const std::string name = std::string(option).substr(0, std::string_view(option).find(' '));
+            CHECK(r.says((name + ": is not for " + kind + ", ").c_str()));
+            CHECK(!r.has("out"));
+        }
+    };
+    refuses("cube.glb", "a model", ofFolder);
+    refuses("cube.glb", "a model", ofTown);
+    refuses("models", "a folder of models", ofModel);
+    refuses("models", "a folder of models", ofTown);
+    refuses("plan.json", "a town", ofModel);
+    refuses("plan.json", "a town", ofModels);
+    refuses("plan.json", "a town", ofFolder);
+    for (const char* wrong : {"plan.json --walls", "plan.json --meshes a", "cube.glb --weights log.txt --keep-layout",
+                              "cube.glb --resolution 64 --levels 5", "cube.glb --resolution 16384"}) {
+        CAPTURE(wrong);
+        CHECK(r.run(std::string(wrong) + " -o out") == 2);
+        CHECK(!r.has("out"));
+    }
+    CHECK(r.run("plan.json -o out --house a -q") == 0);
+    CHECK(r.has("out"));
 }

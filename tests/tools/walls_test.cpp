@@ -105,8 +105,8 @@ TEST_CASE("walls as ground have none where windows and doors stand out, and stan
     CHECK(contains(unknown.output, "plan.json: holds no building 'nobody'"));
     const Ran bare =
         run("cd " + folder.path.string() + " && " + program("espalier-bake") + " plan.json --walls -o x.glb");
-    CHECK(bare.code == 1);
-    CHECK(contains(bare.output, "--walls needs --grammar"));
+    CHECK(bare.code == 2);
+    CHECK(contains(bare.output, "--walls requires --grammar"));
 }
 
 TEST_CASE("walls as ground go up gables to a little below the verges, also where the roof breaks") {

@@ -142,6 +142,18 @@ void reportLevels(const std::string& name, const SurfaceData& surface,
     }
 }
 
+double nearestTolerance(const SurfaceData& surface, const BakeOptions& options) {
+    if (options.nearestTolerance > 0) return options.nearestTolerance;
+    double area = 0, uv = 0;
+    for (const Chart& c : surface.charts) {
+        area += c.area;
+        uv += double(c.area) / (double(c.metresPerUv) * c.metresPerUv);
+    }
+    return std::sqrt(area / uv) / options.resolution;
+}
+
+}  // namespace
+
 Status checkOptions(const std::string& name, BakeOptions& options) {
     if (!std::has_single_bit(options.resolution) || options.resolution < 64 || options.resolution > 8192)
         return Failure(name,
@@ -157,18 +169,6 @@ Status checkOptions(const std::string& name, BakeOptions& options) {
                                  " (down to 8 texels)");
     return Done{};
 }
-
-double nearestTolerance(const SurfaceData& surface, const BakeOptions& options) {
-    if (options.nearestTolerance > 0) return options.nearestTolerance;
-    double area = 0, uv = 0;
-    for (const Chart& c : surface.charts) {
-        area += c.area;
-        uv += double(c.area) / (double(c.metresPerUv) * c.metresPerUv);
-    }
-    return std::sqrt(area / uv) / options.resolution;
-}
-
-}  // namespace
 
 Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     BakeOptions options = given;

@@ -103,5 +103,7 @@ Result<Model> importModel(const std::string& path, int uvSet = 0);
 
 // Refuses models whose UVs can't serve, saying what is wrong and how much of the area it concerns.
 Result<Baked> bake(const Model& model, const BakeOptions& options);
+// What bake() asks of its options before all else; sets how many levels there will be. name: for the message.
+Status checkOptions(const std::string& name, BakeOptions& options);
 
 }  // namespace espalier

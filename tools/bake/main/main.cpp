@@ -1,8 +1,6 @@
 // espalier-bake: a model becomes a surface that plants can grow on, or a folder of models a folder of surfaces.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -14,24 +12,13 @@
 #include "tools/bake/main/beforehand.hpp"
 #include "tools/bake/main/carry_layers.hpp"
 #include "tools/bake/main/folder.hpp"
-#include "tools/bake/main/town.hpp"
+#include "tools/bake/main/options.hpp"
 #include "tools/bake/pictures.hpp"
 #include "tools/command_line.hpp"
 
 using namespace espalier;
 
 namespace {
-
-struct Arguments {
-    std::string model, output, report, images, shard, weights;
-    TownArguments town;
-    CarryArguments carry;
-    ImportOptions importing;
-    BakeOptions bake;
-    double tolerance = 0;
-    unsigned jobs = 0;
-    bool quiet = false;
-};
 
 // While one lives, signals that would end the program wait: what is being written gets whole or not there.
 class Uninterrupted {
@@ -51,6 +38,18 @@ class Uninterrupted {
 int fail(const Failure& failure) {
     std::fprintf(stderr, "espalier-bake: %s\n", failure.text().c_str());
     return 1;
+}
+
+// A command line that says nothing that can be done.
+int refuse(const Failure& failure) {
+    fail(failure);
+    return 2;
+}
+
+InputKind kindOf(const std::string& path) {
+    if (isTown(path)) return InputKind::town;
+    std::error_code ignored;
+    return std::filesystem::is_directory(path, ignored) ? InputKind::folder : InputKind::model;
 }
 
 void showProgress(float done, const char* stage) {
@@ -73,10 +72,10 @@ bool sameFile(const std::string& a, const std::string& b) {
 int runModel(Arguments& arguments) {
     if (!arguments.quiet) showProgress(0, "read");
     if (sameFile(arguments.model, arguments.output))
-        return fail(Failure(arguments.output, "the surface would overwrite its model"));
+        return refuse(Failure(arguments.output, "the surface would overwrite its model"));
     if (!arguments.report.empty() &&
         (sameFile(arguments.report, arguments.model) || sameFile(arguments.report, arguments.output)))
-        return fail(Failure(arguments.report, "the report would overwrite the model, or the surface the report"));
+        return refuse(Failure(arguments.report, "the report would overwrite the model, or the surface the report"));
     auto model = importModel(arguments.model, arguments.importing);
     if (!model) return fail(model.failure());
     if (!arguments.quiet)
@@ -122,15 +121,11 @@ int runFolder(const Arguments& arguments, const CLI::App& app) {
     options.bake = arguments.bake;
     options.jobs = arguments.jobs;
     options.quiet = arguments.quiet;
-    if (!arguments.report.empty() || !arguments.images.empty())
-        return fail(Failure(arguments.model, "is a folder: --report and --images are for one model"));
-    if (!arguments.carry.from.empty() || !arguments.weights.empty())
-        return fail(Failure(arguments.model, "is a folder: --from and --weights are for one model"));
     if (!arguments.shard.empty()) {
         char rest = 0;
         if (std::sscanf(arguments.shard.c_str(), "%u/%u%c", &options.shard, &options.shards, &rest) != 2 ||
             options.shard < 1 || options.shard > options.shards)
-            return fail(Failure("--shard " + arguments.shard, "is not i/n with i from 1 to n"));
+            return refuse(Failure("--shard " + arguments.shard, "is not i/n with i from 1 to n"));
     }
     // What changes a surface is all but where things lie and how the work is spread.
     for (const CLI::Option* option : app.get_options()) {
@@ -147,7 +142,7 @@ int runFolder(const Arguments& arguments, const CLI::App& app) {
 int runTown(Arguments& arguments) {
     std::error_code ignored;
     if (sameFile(arguments.model, arguments.output))
-        return fail(Failure(arguments.output, "the town would overwrite its footprints"));
+        return refuse(Failure(arguments.output, "the town would overwrite its footprints"));
     arguments.town.footprints = arguments.model;
     arguments.town.output = arguments.output;
     arguments.town.quiet = arguments.quiet;
@@ -166,72 +161,15 @@ int main(int argc, char** argv) {
                  "espalier-bake");
     Arguments arguments;
     app.set_version_flag("--version", std::string("espalier-bake ") + ESPALIER_VERSION);
-    app.add_option("MODEL", arguments.model,
-                   ".gltf, .glb, .obj or .ply; a folder of such; or footprints: .geojson, or a plan in .json")
-        ->required();
-    app.add_option("-o,--output", arguments.output,
-                   "the surface to write (.glb); or the folder for surfaces and their report")
-        ->required();
-    app.add_option("--resolution", arguments.bake.resolution,
-                   "texels a side of the finest level, a power of two, 64 to 8192")
-        ->capture_default_str();
-    app.add_option("--levels", arguments.bake.levels,
-                   "levels, each half as fine as the one before; 0: down to 64 texels")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 8));
-    app.add_option("--report", arguments.report, "write the report (JSON) here");
-    app.add_option("--images", arguments.images, "write charts, links, contacts and stretch as .png into this folder");
-    auto* from = app.add_option("--from", arguments.carry.from,
-                                "the model's surface before its change (.glb): with --layer or --seeds");
-    auto* layer = app.add_option("--layer", arguments.carry.layers,
-                                 "a layer that was painted over that surface's walk UVs (.png); written beside the new "
-                                 "surface")
-                      ->needs(from);
-    auto* seeds = app.add_option("--seeds", arguments.carry.seeds,
-                                 "a scene (.json) or a project's folder: lists its seeds that lose their ground")
-                      ->needs(from);
-    app.add_option(
-        "--weights", arguments.weights,
-        "a picture drawn in the model's UVs: white charts get the most texels a metre, grey ones that share, at "
-        "least an eighth");
-    app.add_option("--tolerance", arguments.tolerance,
-                   "metres within which borders without a twin are linked; 0: one texel's footprint")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--uv-set", arguments.importing.uvSet, "the TEXCOORD set that is unwrapped")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 7));
-    app.add_option("--scene", arguments.importing.scene, "which of a glTF file's scenes, from 0; else its default one")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--bare", arguments.importing.bare,
-                   "nothing grows on materials of this name, as '*window*', small and capital letters alike; may be "
-                   "repeated. Nor does it on transparent ones")
-        ->allow_extra_args(false);
-    app.add_option(
-           "--ground", arguments.importing.ground,
-           "it does on materials of this name, though they are transparent or --bare names them; may be repeated")
-        ->allow_extra_args(false);
-    app.add_option("--jobs", arguments.jobs, "of a folder: models at once; 0: as many as there are cores");
-    app.add_option("--shard", arguments.shard, "of a folder: i/n bakes every nth model from the ith on");
-    app.add_flag("--keep-layout", arguments.bake.keepLayout, "never move charts apart");
-    app.add_option("--grammar", arguments.town.grammar,
-                   "of a town: writes all that this grammar of roofs makes, as triangles; else walls and roof planes");
-    app.add_flag(
-        "--walls", arguments.town.walls,
-        "of a town, with --grammar: its walls alone, without windows and doors: bake that as ground for plants");
-    app.add_option("--house", arguments.town.houses, "of a town: only these, by id; may be repeated")->take_all();
-    app.add_option("--meshes", arguments.town.meshes, "of a town: its terminals (default: roofs.glb of the content)");
-    app.add_flag("-q,--quiet", arguments.quiet, "no progress, warnings only");
+    addOptions(app, arguments);
     if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
-    if (from->count() > 0 && layer->count() + seeds->count() == 0)
-        return fail(Failure("--from", "needs --layer or --seeds: what is to be carried"));
-    if (!std::isfinite(float(arguments.tolerance))) return fail(Failure("--tolerance", "is not a number of metres"));
     ::signal(SIGXFSZ, SIG_IGN);  // too large a file is an error like a full disk, with a message
-    arguments.bake.nearestTolerance = float(arguments.tolerance);
     try {
-        std::error_code ignored;
-        if (isTown(arguments.model)) return runTown(arguments);
-        return std::filesystem::is_directory(arguments.model, ignored) ? runFolder(arguments, app)
-                                                                       : runModel(arguments);
+        const InputKind kind = kindOf(arguments.model);
+        if (const auto mistake = mistakeIn(app, arguments, kind)) return refuse(*mistake);
+        arguments.bake.nearestTolerance = float(arguments.tolerance);
+        if (kind == InputKind::town) return runTown(arguments);
+        return kind == InputKind::folder ? runFolder(arguments, app) : runModel(arguments);
     } catch (const std::bad_alloc&) {
         return fail(Failure(arguments.model, "baking it at this resolution takes more memory than there is"));
     } catch (const std::exception& e) {  // of the file system, say

@@ -152,8 +152,6 @@ Status bakeTown(const TownArguments& arguments) {
     if (!text) return text.failure();
     Result<Town> town = parseFootprints(*text, arguments.footprints);
     if (!town) return town.failure();
-    if (arguments.walls && arguments.grammar.empty())
-        return Failure(arguments.footprints, "--walls needs --grammar: it says where windows and doors are");
     if (Status s = keepHouses(arguments, town->footprints); !s) return s;
     std::vector<Diagnostic> diagnostics = std::move(town->diagnostics);
     const RoofStructure structure = roofsOf(town->footprints, diagnostics);
