@@ -99,10 +99,10 @@ class Target {
 std::vector<SurfaceMatch::Ground> SurfaceMatch::match(const SurfaceData& here, const SurfaceData& there,
                                                       double within) {
     const SurfaceLevelData& level = here.levels[0];
-    std::vector<Ground> ground;
+    std::vector<Ground> ground;  // and gutters, which reads at a border take in
     for (uint32_t y = 0; y < level.size; ++y)
         for (uint32_t x = 0; x < level.size; ++x)
-            if (texelClass(level.texels[texelIndex(level.size, x, y)].bits) == kTexelInner)
+            if (texelClass(level.texels[texelIndex(level.size, x, y)].bits) != kTexelEmpty)
                 ground.push_back({x, y, 0, glm::vec2(-1)});
     const Target target(there);
     parallelFor(ground.size(), 4096, [&](size_t begin, size_t end) {
@@ -111,7 +111,8 @@ std::vector<SurfaceMatch::Ground> SurfaceMatch::match(const SurfaceData& here, c
             const uint32_t at = texelIndex(level.size, g.x, g.y);
             const TrianglePlane& plane = here.triangles[level.aux[at].triangle];
             const glm::dvec3 across = glm::cross(glm::dvec3(plane.du), glm::dvec3(plane.dv));
-            g.area = float(glm::length(across) / (double(level.size) * level.size));
+            if (texelClass(level.texels[at].bits) == kTexelInner)
+                g.area = float(glm::length(across) / (double(level.size) * level.size));
             const glm::dvec3 outside = glm::normalize(across) * double(here.charts[plane.chart].orientation);
             g.other = target.nearest(glm::dvec3(level.texels[at].position), outside, within).uv;
         }

@@ -12,7 +12,7 @@
 namespace espalier {
 
 struct CarriedLayer {
-    UvPicture layer;   // over the walk's UV square, of the new surface's finest level; 0 outside of its charts
+    UvPicture layer;   // over the walk's UV square, of the new surface's finest level; 0 beyond charts and gutters
     double fresh = 0;  // m² of new ground with no old one near
     double lost = 0;   // m² of old ground, painted above 0, that no new one is near
 };
@@ -29,7 +29,7 @@ class SurfaceMatch {
   private:
     struct Ground {
         uint32_t x, y;
-        float area;       // m²
+        float area;       // m²; 0: gutter
         glm::vec2 other;  // place on the other surface's UV square; x < 0: none
     };
     static std::vector<Ground> match(const SurfaceData& here, const SurfaceData& there, double within);

@@ -93,3 +93,15 @@ TEST_CASE("what a change adds is fresh, what it takes away is lost, and a thin w
     CHECK(shrunk.fresh == 0);
     CHECK(shrunk.lost == doctest::Approx(6).epsilon(0.03));
 }
+
+TEST_CASE("a mask that is carried again and again keeps its borders") {
+    Model bare = cube(5);
+    bare.uvs.clear();
+    const SurfaceData one = surfaceOf(cube(3)), other = surfaceOf(bare, 128);
+    const SurfaceMatch there(one, other), back(other, one);
+    UvPicture mask = paint(one, [](glm::vec3) { return 1.0f; });
+    for (int i = 0; i < 2; ++i) mask = back.carry(there.carry(mask).layer).layer;
+    float least = 1;
+    forGround(one, mask, [&](glm::vec3, glm::vec3, float v) { least = std::min(least, v); });
+    CHECK(least > 0.999f);
+}
