@@ -150,6 +150,19 @@ TEST_CASE("a folder is baked with a row a model; what fails stops nothing else; 
     CHECK(b.said.empty());
 }
 
+TEST_CASE("a model whose name can't be noted is baked each time") {
+    Bench b;
+    b.write("in/two\nlines.obj", square(3));
+    for (int i = 0; i < 2; ++i) {
+        CHECK(b.run("-o out") == 1);  // broken.obj
+        CAPTURE(b.said);
+        CHECK(has(b.said, "6 of 7 models baked"));
+        CHECK(b.times(" already ") == (i == 0 ? 0 : 6));
+        CHECK(readSurface(b.path("out/two\nlines.surface.glb")));
+        fs::remove(b.path("out/two\nlines.surface.glb"));
+    }
+}
+
 TEST_CASE("shards make byte for byte what one run makes") {
     Bench b;
     CHECK(b.run("-o whole") == 1);

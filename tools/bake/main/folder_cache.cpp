@@ -72,8 +72,9 @@ Row Cache::find(const Item& item) {
 Status Cache::store(const Item& item, const Row& row, const std::vector<InputFile>& inputs,
                     const std::string& surface) {
     std::string entry = keyOf(item, inputs), note;
+    bool canBeNoted = true;
     for (const InputFile& input : inputs) {
-        if (input.path.find('\n') != std::string::npos) return Done{};  // can't be noted, so is baked each time
+        canBeNoted = canBeNoted && input.path.find('\n') == std::string::npos;
         note += input.path + "\n";
     }
     Row kept = row;
@@ -86,6 +87,7 @@ Status Cache::store(const Item& item, const Row& row, const std::vector<InputFil
         Status placed = place(entry, item);
         if (!placed) return placed;
     }
+    if (!canBeNoted) return Done{};  // so it is baked each time
     Status written = writeFile(entry + ".json", kept.dump(-1, ' ', false, Row::error_handler_t::replace));
     if (!written) return written;
     return writeFile(notePath(item), std::string_view(note));
