@@ -12,6 +12,11 @@ namespace {
 
 constexpr int kMaxSide = 16384;
 
+// By the library's words, as it was built for programs or for users.
+bool wantsMemory(std::string_view reason) {
+    return reason == "outofmem" || reason == "Out of memory";
+}
+
 }  // namespace
 
 bool isPicture(std::span<const std::byte> bytes) {
@@ -43,16 +48,13 @@ Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view
         stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), int(bytes.size()), &width, &height,
                               &channels, 4),
         stbi_image_free);
+    if (!texels && wantsMemory(stbi_failure_reason())) throw std::bad_alloc();
     if (!texels) return Failure(file, std::string("damaged image: ") + stbi_failure_reason());
-    try {
-        Picture out;
-        out.width = uint32_t(width);
-        out.height = uint32_t(height);
-        out.rgba.assign(texels.get(), texels.get() + size_t(width) * size_t(height) * 4);
-        return out;
-    } catch (const std::bad_alloc&) {
-        return Failure(file, "it does not fit into memory");
-    }
+    Picture out;
+    out.width = uint32_t(width);
+    out.height = uint32_t(height);
+    out.rgba.assign(texels.get(), texels.get() + size_t(width) * size_t(height) * 4);
+    return out;
 }
 
 }  // namespace espalier

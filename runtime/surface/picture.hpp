@@ -16,7 +16,7 @@ Result<uint64_t> texelsOf(std::span<const std::byte> bytes, std::string_view fil
 bool isPicture(std::span<const std::byte> bytes);
 
 // Decodes a PNG or JPEG of 1 to 16384 texels a side; `encoded` stays empty. A failure names `file` and the cause: other
-// formats, damage, want of memory, more than maxTexels. Never throws; may be called from any thread.
+// formats, damage, more than maxTexels. Throws std::bad_alloc alone, for want of memory; may be called from any thread.
 Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view file,
                               uint64_t maxTexels = uint64_t(1) << 28);
 

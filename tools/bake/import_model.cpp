@@ -44,19 +44,15 @@ Result<Model> importModel(const std::string& path, int uvSet) {
 }
 
 Result<Model> importModel(const std::string& path, const ImportOptions& options) {
-    try {
-        Intake intake(options.inputs);
-        auto file = intake.read(path, path);
-        if (!file) return std::move(file.failure());
-        Model model;
-        model.name = path;
-        Status done = importAny(path, *file, options, intake, model);
-        if (!done) return std::move(done.failure());
-        decideBare(options, model);
-        return model;
-    } catch (const std::bad_alloc&) {
-        return Failure(path, "states sizes that do not fit into memory");
-    }
+    Intake intake(options.inputs);
+    auto file = intake.read(path, path);
+    if (!file) return std::move(file.failure());
+    Model model;
+    model.name = path;
+    Status done = importAny(path, *file, options, intake, model);
+    if (!done) return std::move(done.failure());
+    decideBare(options, model);
+    return model;
 }
 
 }  // namespace espalier

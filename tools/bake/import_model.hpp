@@ -25,7 +25,7 @@ struct ImportOptions {
 // Reads glTF 2.0 (.gltf, .glb: Draco, quantisation, meshopt, sparse accessors, every triangle mode, GPU instances), OBJ
 // with its materials, or PLY (text or binary, also .ply.gz). What a file holds tells its format, its name only where
 // that doesn't. Takes at most 256 MiB and 256 times the files' bytes of memory for what it decodes. Fails naming the
-// file and the accessor, line or byte that is wrong.
+// file and the accessor, line or byte that is wrong; throws std::bad_alloc where the machine has less memory than that.
 Result<Model> importModel(const std::string& path, const ImportOptions& options);
 
 }  // namespace espalier
