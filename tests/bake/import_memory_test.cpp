@@ -77,3 +77,34 @@ TEST_CASE("a picture that there is no memory for is no damaged one, but want of 
     CHECK(withRoom(size_t(32) << 20, outcome) == kNoMemory);
 #endif
 }
+
+TEST_CASE("pictures that share a part of the file count each, and those beyond its bound are left out") {
+    constexpr size_t kImages = 2048, kView = size_t(256) << 10;
+    std::string binary = png(1);
+    binary.resize(kView + 36);
+    const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    std::memcpy(binary.data() + kView, corners, sizeof corners);
+    std::string images, textures, materials;
+    for (size_t i = 0; i < kImages; ++i) {
+        const std::string comma = i > 0 ? "," : "", index = std::to_string(i);
+        images += comma + R"({"bufferView":0,"mimeType":"image/png"})";
+        textures += comma + R"({"source":)" + index + "}";
+        materials += comma + R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":)" + index + "}}}";
+    }
+    const std::string view = std::to_string(kView);
+    const std::string text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+                             R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                             R"("accessors":[{"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"}],)"
+                             R"("buffers":[{"byteLength":)" +
+                             std::to_string(binary.size()) + R"(}],"bufferViews":[{"buffer":0,"byteLength":)" + view +
+                             R"(},{"buffer":0,"byteOffset":)" + view + R"(,"byteLength":36}],"images":[)" + images +
+                             R"(],"textures":[)" + textures + R"(],"materials":[)" + materials + "]}";
+    ScratchFolder folder;
+    REQUIRE(writeGlb(folder.file("many.glb"), text, std::as_bytes(std::span(binary))));
+    auto model = importModel(folder.file("many.glb"));
+    if (!model) FAIL(model.failure().text());
+    CHECK(model->images.size() > 512);
+    CHECK(model->images.size() * kView < (size_t(256) << 20) + 256 * (text.size() + binary.size() + 64));
+    REQUIRE(!model->warnings.empty());
+    CHECK(toString(model->warnings.back()).find("absurdly much for a file of its size") != std::string::npos);
+}

@@ -21,6 +21,8 @@ Result<std::vector<uint8_t>> imageBytes(const Document& document, int index, con
         image["bufferView"].get<uint64_t>() >= document.views.size())
         return Failure(document.path, place + ": neither a file nor a buffer view");
     Bytes bytes = document.views[image["bufferView"].get<size_t>()];
+    if (!document.intake->take(bytes.size()))
+        return Failure(document.path, place + ": absurdly much for a file of its size");
     return std::vector<uint8_t>(bytes.begin(), bytes.end());
 }
 
