@@ -109,6 +109,33 @@ TEST_CASE("walls as ground have none where windows and doors stand out, and stan
     CHECK(contains(bare.output, "--walls requires --grammar"));
 }
 
+TEST_CASE("a town's triangles are the same in every run") {
+    constexpr int kCorners = 720;  // of one house, whose walls several threads share
+    const Folder folder;
+    std::string outer;
+    for (int i = 0; i < kCorners; ++i) {
+        const double turn = 6.283185307179586 * i / kCorners;
+        outer += (i > 0 ? ",[" : "[") + std::to_string(60 * std::cos(turn)) + "," +
+                 std::to_string(60 * std::sin(turn)) + "]";
+    }
+    folder.write("round.json",
+                 R"({"buildings": [{"id": "a", "roof:shape": "flat", "height": 10, "outer": [)" + outer + "]}]}");
+    folder.write("cells.grammar",
+                 "House -> Extrude(wallHeight) {Wall, NULL}\n"
+                 "Wall -> Repeat(XY, vec2(0.2, 0.4), clip) {Cell}\n"
+                 "Cell : rand() > 0.5 -> Shape(\"slate\")\n"
+                 "Cell -> NULL\n");
+    std::string first;
+    for (int i = 0; i < 3; ++i) {
+        const Ran ran = run("cd " + folder.path.string() + " && " + program("espalier-bake") +
+                            " round.json -q --grammar cells.grammar -o town.glb");
+        REQUIRE_MESSAGE(ran.code == 0, ran.output);
+        const std::string bytes = readAll(folder.file("town.glb"));
+        if (i == 0) first = bytes;
+        CHECK((bytes == first));
+    }
+}
+
 TEST_CASE("walls as ground go up gables to a little below the verges, also where the roof breaks") {
     const Folder folder;
     folder.write("plan.json", R"({"buildings": [

@@ -110,6 +110,9 @@ Status addTiles(const TownArguments& arguments, const RoofStructure& structure, 
     std::vector<std::vector<uint32_t>> gridsOf(structure.houses.size());
     for (uint32_t i = 0; i < roofs.records.grids.size(); ++i)
         gridsOf[roofs.records.grids[i].house & 0xFFFFFFu].push_back(i);
+    // Threads have drawn the grids' places, keys are the same in every run.
+    for (std::vector<uint32_t>& grids : gridsOf)
+        std::ranges::sort(grids, {}, [&](uint32_t i) { return roofs.records.grids[i].key; });
     for (uint32_t h = 0; h < structure.houses.size(); ++h) {
         RoofTriangles mesh;
         if (arguments.walls)
