@@ -196,28 +196,59 @@ TEST_CASE("a disk without room is a message and a code, and leaves no halves") {
     CHECK(has(b.said, "/proc/nowhere"));
 }
 
-TEST_CASE("an interrupted run ends at once, with whole files only, and can be gone on with") {
-    Bench b;
-    for (int i = 0; i < 24; ++i) b.write("in/more" + std::to_string(i) + ".obj", square(100 + i));
-    pid_t child = ::fork();
+namespace {
+
+// A run on its own, which is told to end; told: as it begins.
+pid_t start(const Bench& b, bool told = false) {
+    const pid_t child = ::fork();
     if (child == 0) {
         int quiet = ::open("/dev/null", O_RDWR);
         ::dup2(quiet, 1);
         ::dup2(quiet, 2);
+        ::signal(SIGHUP, SIG_DFL);
+        sigset_t waits;
+        sigemptyset(&waits);
+        sigaddset(&waits, SIGINT);
+        if (told) ::sigprocmask(SIG_BLOCK, &waits, nullptr), ::raise(SIGINT);
         ::execl(ESPALIER_BAKE_PROGRAM, "espalier-bake", b.path("in").c_str(), "-o", b.path("out").c_str(), "--jobs",
-                "2", nullptr);
+                "2", "--resolution", "64", nullptr);
         ::_exit(99);
     }
     REQUIRE(child > 0);
-    // As soon as some are done.
-    for (int i = 0; i < 2000 && !fs::exists(b.path("out/deeper/square0.surface.glb")); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    ::kill(child, SIGINT);
+    return child;
+}
+
+int endOf(pid_t child) {
     int status = 0;
     REQUIRE(::waitpid(child, &status, 0) == child);
-    REQUIRE(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 130);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+}  // namespace
+
+TEST_CASE("an interrupted run ends at once, with whole files only, and can be gone on with") {
+    for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGKILL}) {
+        CAPTURE(signal);
+        Bench b;
+        for (int i = 0; i < 24; ++i) b.write("in/more" + std::to_string(i) + ".obj", square(100 + i));
+        const pid_t child = start(b);
+        // As soon as some are done.
+        for (int i = 0; i < 2000 && !fs::exists(b.path("out/deeper/square0.surface.glb")); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        ::kill(child, signal);
+        CHECK(endOf(child) == (signal == SIGKILL ? -SIGKILL : 130));
+        CHECK((b.partials("out") > 0) == (signal == SIGKILL));
+        CHECK(!fs::exists(b.path("out/report.json")));
+        for (const auto& [name, bytes] : b.files("out")) CHECK(readSurface(b.path("out/" + name)));
+        if (signal != SIGKILL) continue;
+        CHECK(b.run("-o out") == 1);
+        CHECK(b.partials("out") == 0);
+    }
+}
+
+TEST_CASE("a run that finds all baked can be interrupted, too") {
+    Bench b;
+    CHECK(b.run("-o out") == 1);
+    CHECK(endOf(start(b, true)) == 130);
     CHECK(b.partials("out") == 0);
-    CHECK(!fs::exists(b.path("out/report.json")));
-    for (const auto& [name, bytes] : b.files("out")) CHECK(readSurface(b.path("out/" + name)));
 }

@@ -14,6 +14,7 @@
 
 #include "runtime/core/file.hpp"
 #include "tools/bake/main/folder.hpp"
+#include "tools/bake/main/scratch.hpp"
 
 namespace espalier::folder {
 namespace {
@@ -67,7 +68,7 @@ Row bakeOne(const Options& options, const Item& item, const std::string& surface
 
 [[noreturn]] void childMain(const Options& options, const Item& item, const std::string& surface, int pipe) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    ::signal(SIGINT, SIG_IGN);  // a terminal sends it to all; the parent decides
+    for (int signal : {SIGINT, SIGHUP}) ::signal(signal, SIG_IGN);  // a terminal sends them to all; the parent decides
     ::signal(SIGTERM, SIG_DFL);
     sigset_t none;
     sigemptyset(&none);
@@ -96,40 +97,53 @@ class Runner {
           progress_(items_.size(), options.quiet) {}
 
     Result<std::vector<Row>> run() {
-        std::error_code error;
-        fs::create_directories(cache_.folder(), error);
-        std::string name = cache_.folder() + "/.run-XXXXXX";
-        if (error || !::mkdtemp(name.data()))
-            return Failure(options_.out, std::string("cannot be written into: ") + std::strerror(errno));
-        scratch_ = name;
-        sigset_t blocked, before;
-        sigemptyset(&blocked);
-        sigaddset(&blocked, SIGINT);
-        sigaddset(&blocked, SIGTERM);
-        // Signals come through while we wait, and at no other time.
-        ::sigprocmask(SIG_BLOCK, &blocked, &before);
-        struct sigaction action {};
-        action.sa_handler = onSignal;
-        ::sigaction(SIGINT, &action, nullptr);
-        ::sigaction(SIGTERM, &action, nullptr);
+        sigset_t before, open;
+        takeSignals(before, open);
+        if (Status made = scratch_.make(cache_.folder()); !made) return std::move(made.failure());
         size_t jobs = options_.jobs ? options_.jobs : std::max(1u, std::thread::hardware_concurrency());
         size_t next = 0;
         while (!interrupted && (next < items_.size() || !children_.empty())) {
-            while (!interrupted && next < items_.size() && children_.size() < jobs) begin(next++, before);
-            if (!children_.empty()) wait(before);
+            while (!interrupted && next < items_.size() && children_.size() < jobs) {
+                begin(next++);
+                heedSignals(open);  // what is known needs no waiting
+            }
+            if (!children_.empty()) wait(open);
         }
         for (Child& child : children_) {
             ::kill(child.pid, SIGTERM);
             ::waitpid(child.pid, nullptr, 0);
             ::close(child.pipe);
         }
-        fs::remove_all(scratch_, error);
         ::sigprocmask(SIG_SETMASK, &before, nullptr);
         return std::move(rows_);
     }
 
   private:
-    void begin(size_t index, const sigset_t&) {
+    // Those that end a run come through while we wait by the mask `open`, and at no other time. before: the mask so
+    // far.
+    static void takeSignals(sigset_t& before, sigset_t& open) {
+        sigset_t blocked;
+        sigemptyset(&blocked);
+        ::sigprocmask(SIG_SETMASK, nullptr, &before);
+        open = before;
+        struct sigaction action {
+        }, given{};
+        action.sa_handler = onSignal;
+        for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
+            ::sigaction(signal, nullptr, &given);
+            if (signal == SIGHUP && given.sa_handler == SIG_IGN) continue;  // nohup
+            ::sigaction(signal, &action, nullptr);
+            sigaddset(&blocked, signal);
+            sigdelset(&open, signal);
+        }
+        ::sigprocmask(SIG_BLOCK, &blocked, nullptr);
+    }
+    static void heedSignals(const sigset_t& open) {
+        const timespec atOnce{};
+        ::ppoll(nullptr, 0, &atOnce, &open);
+    }
+
+    void begin(size_t index) {
         const Item& item = items_[index];
         Row known = cache_.find(item);
         if (!known.is_null()) {
@@ -140,7 +154,7 @@ class Runner {
         int ends[2];
         Child child;
         child.item = index;
-        child.surface = scratch_ + "/" + std::to_string(index) + ".glb";
+        child.surface = scratch_.path() + "/" + std::to_string(index) + ".glb";
         if (::pipe2(ends, O_CLOEXEC) != 0) return finish(child, rowOf(item, "failed", item.model + ": no pipe left"));
         child.pid = ::fork();
         if (child.pid == 0) childMain(options_, item, child.surface, ends[1]);
@@ -213,7 +227,7 @@ class Runner {
     std::vector<Row> rows_;
     Progress progress_;
     std::vector<Child> children_;
-    std::string scratch_;
+    Scratch scratch_;
 };
 
 }  // namespace
