@@ -66,7 +66,7 @@ std::vector<Patch> flattenRegions(const BakeMesh& mesh, const Facets& facets, co
     std::vector<uint8_t> cut(label.size() * 3, 0);
     parallelFor(count, 1, [&](size_t begin, size_t) {
         uint32_t r = order[begin];
-        made[r] = makeCharts(mesh, facets, makePatch(mesh, regions[r], cut, local));
+        made[r] = makeCharts(mesh, facets, makePatch(mesh, regions[r], label, cut, local));
         regions[r] = {};
     });
     std::vector<Patch> all;

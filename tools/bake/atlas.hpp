@@ -50,10 +50,11 @@ struct Patch {
     std::vector<glm::dvec2> uv;                   // per vertex, metres; empty until flattened; a part has the whole's
 };
 
-// Glues the triangles along the edges that two of them share, but for those with cut[half-edge of the mesh]. local:
-// scratch of the mesh's size; only the entries of these triangles are touched.
-Patch makePatch(const BakeMesh& mesh, std::span<const uint32_t> triangles, const std::vector<uint8_t>& cut,
-                std::vector<uint32_t>& local);
+// Glues the triangles along the edges that two of them share, but for those with cut[half-edge of the mesh]. region: of
+// each triangle of the mesh; that of these is theirs alone. local: scratch of the mesh's size; only the entries of
+// these triangles are touched, so that other threads may make patches of other regions.
+Patch makePatch(const BakeMesh& mesh, std::span<const uint32_t> triangles, const std::vector<uint32_t>& region,
+                const std::vector<uint8_t>& cut, std::vector<uint32_t>& local);
 
 // Border loops as lists of local half-edges, the longest first.
 std::vector<std::vector<uint32_t>> borderLoops(const Patch& patch);

@@ -161,7 +161,7 @@ Islands judgeUvs(const Model& model, BakeMesh& mesh, uint32_t resolution, bool k
                      [&](uint32_t a, uint32_t b) { return out.triangles[a].size() > out.triangles[b].size(); });
     parallelFor(order.size(), 1, [&](size_t begin, size_t end) {
         for (uint32_t i : std::span(order).subspan(begin, end - begin)) {
-            Patch patch = makePatch(mesh, out.triangles[i], out.cut, local);
+            Patch patch = makePatch(mesh, out.triangles[i], out.island, out.cut, local);
             out.fault[i] = judgeIsland(mesh, patch, texel);
             double area = 0;
             for (uint32_t t : out.triangles[i]) area += area3(mesh, mesh.triangles[t]);

@@ -140,8 +140,8 @@ std::vector<uint8_t> halve(const BakeMesh& mesh, const Facets& facets, const Pat
 
 }  // namespace
 
-Patch makePatch(const BakeMesh& mesh, std::span<const uint32_t> triangles, const std::vector<uint8_t>& cut,
-                std::vector<uint32_t>& local) {
+Patch makePatch(const BakeMesh& mesh, std::span<const uint32_t> triangles, const std::vector<uint32_t>& region,
+                const std::vector<uint8_t>& cut, std::vector<uint32_t>& local) {
     Patch patch;
     patch.triangles.assign(triangles.begin(), triangles.end());
     size_t count = triangles.size();
@@ -149,9 +149,8 @@ Patch makePatch(const BakeMesh& mesh, std::span<const uint32_t> triangles, const
     patch.twin.assign(count * 3, kNone);
     for (uint32_t h = 0; h < count * 3; ++h) {
         uint32_t own = triangles[h / 3] * 3 + h % 3, twin = mesh.twin[own];
-        if (twin == kNone || cut[own]) continue;
-        uint32_t i = local[twin / 3];
-        if (i < count && triangles[i] == twin / 3 && i != h / 3) patch.twin[h] = i * 3 + twin % 3;
+        if (twin == kNone || cut[own] || twin / 3 == own / 3 || region[twin / 3] != region[own / 3]) continue;
+        patch.twin[h] = local[twin / 3] * 3 + twin % 3;
     }
     glue(patch, [&](uint32_t h) { patch.point.push_back(mesh.pointAt(triangles[h / 3] * 3 + h % 3)); });
     return patch;
