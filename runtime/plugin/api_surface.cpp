@@ -146,6 +146,11 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
         return fail(&context, ESP_INVALID_ARGUMENT,
                     "espMoveSurface: the transform must move, turn and scale evenly, without mirroring");
     if (toWorld == surface.toWorld) return ESP_OK;
+    // All that asks for memory comes first. What it touches from now on is known when contacts have been found anew.
+    std::vector<bool> reached = context.moved;
+    reached.resize(context.surfaceSlots());
+    reached[surface.instance] = true;
+    addReached(context, reached);
     // A frozen plant stands in its surface's own space, but for its thickness.
     thawPlantsOn(context, surface.instance, sameScale(*scale, surface.scale));
     const glm::mat4 shift = toWorld * surface.toObject;
@@ -165,10 +170,7 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
         seed.givenPosition = moved(seed.givenPosition);
         seed.givenDirection = turned(seed.givenDirection);
     });
-    // What it touches from now on is known when contacts have been found anew.
-    context.moved.resize(context.surfaceSlots());
-    context.moved[surface.instance] = true;
-    addReached(context, context.moved);
+    context.moved = std::move(reached);
     context.tablesStale = context.contactsStale = true;
     ++context.revision;
     return ESP_OK;

@@ -188,15 +188,25 @@ EspResult espSetTownLayer(EspContext* context, const char* name, const float* te
         stroke.layer = name;
         stroke.town = town.number;
         stroke.open = false;
-        PlanLayer& layer = town.layers.make(name, fillOverTown(*context, name));
+        // All that asks for memory comes before the layer changes.
         const std::vector<float> values = resampled(texels, width, height, town.layers.site().size);
         PlanRect& changed = notesOf(town, name);
+        const uint32_t id = out ? context->strokes.insert({}) : 0;
+        if (out && !id) return fail(context, ESP_OUT_OF_MEMORY, "espSetTownLayer: no ids left");
+        Undo keeping([&] { context->strokes.erase(id); });
+        const bool isNew = !town.layers.find(name);
+        PlanLayer& layer = town.layers.make(name, fillOverTown(*context, name));
+        Undo making([&] {
+            if (isNew) town.layers.dropLast();
+        });
         changed.add(town.layers.replace(layer, values, stroke.plan));
         town.revision += 1;
-        town.layers.close(layer, stroke.plan);
+        making.done();
+        keeping.done();
         if (!out) return ESP_OK;
-        out->id = context->strokes.insert(std::move(stroke));
-        return out->id ? ESP_OK : fail(context, ESP_OUT_OF_MEMORY, "espSetTownLayer: no ids left");
+        *context->strokes.find(id) = std::move(stroke);
+        out->id = id;
+        return ESP_OK;
     });
 }
 

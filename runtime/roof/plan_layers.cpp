@@ -131,6 +131,7 @@ PlanRect PlanLayers::dabs(PlanLayer& layer, BrushRecord brush, bool smooths, std
 PlanRect PlanLayers::replace(PlanLayer& layer, std::span<const float> texels, PlanRecord& kept) {
     const PlanRect all{0, 0, site_.size, site_.size};
     keep(layer, kept, all);
+    dropEqual(texels, kept);
     std::ranges::copy(texels, layer.texels.begin());
     return all;
 }
@@ -157,6 +158,11 @@ PlanRect PlanLayers::swap(PlanLayer& layer, PlanRecord& kept) const {
 }
 
 void PlanLayers::close(const PlanLayer& layer, PlanRecord& kept) const {
+    dropEqual(layer.texels, kept);
+}
+
+// Keeps the blocks that differ from `texels`.
+void PlanLayers::dropEqual(std::span<const float> texels, PlanRecord& kept) const {
     const uint32_t side = site_.size / kBlock;
     PlanRecord changed;
     for (size_t i = 0; i < kept.blocks.size(); ++i) {
@@ -164,8 +170,8 @@ void PlanLayers::close(const PlanLayer& layer, PlanRecord& kept) const {
         const float* was = &kept.texels[i * kBlock * kBlock];
         bool same = true;
         for (uint32_t row = 0; row < kBlock; ++row)
-            same = same && std::equal(was + row * kBlock, was + (row + 1) * kBlock,
-                                      &layer.texels[size_t(y + row) * site_.size + x]);
+            same = same &&
+                   std::equal(was + row * kBlock, was + (row + 1) * kBlock, &texels[size_t(y + row) * site_.size + x]);
         if (same) continue;
         changed.blocks.push_back(kept.blocks[i]);
         changed.texels.insert(changed.texels.end(), was, was + kBlock * kBlock);

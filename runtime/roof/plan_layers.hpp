@@ -45,11 +45,13 @@ class PlanLayers {
     const PlanLayer* find(const std::string& name) const { return const_cast<PlanLayers*>(this)->find(name); }
     // The layer, made if need be, all of it `fill`. It stays where it is in memory.
     PlanLayer& make(const std::string& name, float fill);
+    void dropLast() { layers_.pop_back(); }  // the layer that was made last
     const std::deque<PlanLayer>& all() const { return layers_; }
 
     // These return what may have changed; blocks that the record doesn't hold yet are kept in it first.
     // A dab paints what lies below it, whatever its height; limits of slope, height and side don't count.
     PlanRect dabs(PlanLayer& layer, BrushRecord brush, bool smooths, std::span<const DabRecord> dabs, PlanRecord& kept);
+    // Closes the record; where there is no memory for it, the layer stays as it is.
     PlanRect replace(PlanLayer& layer, std::span<const float> texels, PlanRecord& kept);
     PlanRect fill(PlanLayer& layer, float value, PlanRecord& kept);
     // Exchanges what the record holds with the layer: twice is as before.
@@ -64,6 +66,7 @@ class PlanLayers {
 
   private:
     void keep(const PlanLayer& layer, PlanRecord& kept, const PlanRect& rect) const;
+    void dropEqual(std::span<const float> texels, PlanRecord& kept) const;
     PlanRect rectOf(glm::vec2 low, glm::vec2 high) const;
 
     RoofSite site_{{0, 0}, 1, 8};

@@ -4,42 +4,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tests/plugin/life.hpp"
-
-namespace {
-
-constexpr uint32_t kPlenty = UINT32_MAX;
-thread_local uint32_t left = kPlenty;  // pieces of memory that this thread may still have
-thread_local uint32_t refusals = 0;
-
-}  // namespace
-
-void* operator new(std::size_t bytes) {
-    const bool none = left == 0;
-    if (none) ++refusals;
-    if (!none && left != kPlenty) --left;
-    void* memory = none ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
-    return memory ? memory : throw std::bad_alloc();
-}
-// What the library's own would do by the one above; the sanitizers' has memory of its own.
-void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
-    try {
-        return operator new(bytes);
-    } catch (const std::bad_alloc&) {
-        return nullptr;
-    }
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
+#include "tests/plugin/starving.hpp"
 
 using namespace espalier;
 
@@ -68,9 +38,7 @@ TEST_CASE("growth that the host has no memory for is tried ever less often, and 
     uint32_t once = 0;
     refusals = 0;
     for (int frame = 0; frame < 32; ++frame) {
-        left = 0;
-        const EspResult result = espUpdate(life.context);
-        left = kPlenty;
+        const EspResult result = with(0, [&] { return espUpdate(life.context); });
         CHECK(result == ESP_OUT_OF_MEMORY);
         CHECK(std::strstr(espLastError(life.context), "memory"));
         once = once ? once : refusals;
@@ -93,9 +61,7 @@ namespace {
 // enough.
 bool updateWith(Life& life, uint32_t pieces) {
     refusals = 0;
-    left = pieces;
-    const EspResult result = espUpdate(life.context);
-    left = kPlenty;
+    const EspResult result = with(pieces, [&] { return espUpdate(life.context); });
     const bool enough = refusals == 0;
     REQUIRE((result == ESP_OK || (!enough && result == ESP_OUT_OF_MEMORY)));
     for (int frame = 0; frame < 4 && !life.update();) ++frame;
@@ -241,9 +207,7 @@ TEST_CASE("a seed that the host has no memory for is planted as it was asked for
     uint32_t pieces = 0;
     for (; pieces < 100 && result == ESP_OUT_OF_MEMORY; ++pieces) {
         REQUIRE(espSeedCount(life.context) == 1);
-        left = pieces;
-        result = espPlant(life.context, &def, &seed);
-        left = kPlenty;
+        result = with(pieces, [&] { return espPlant(life.context, &def, &seed); });
     }
     CHECK(result == ESP_OK);  // no try before took the twin
     CHECK(pieces > 2);
@@ -329,13 +293,6 @@ struct Masked {
         def.width = def.height = 1;
         return with(pieces, [&] { return espSetLayer(context, &def); });
     }
-    template <class Call>
-    static EspResult with(uint32_t pieces, const Call& call) {
-        left = pieces;
-        const EspResult result = call();
-        left = kPlenty;
-        return result;
-    }
     static constexpr const char* kLayer = "maskOfManyLetters";
 
   private:
@@ -366,7 +323,7 @@ TEST_CASE("what want of the host's memory leaves of a dab or a layer that is set
             EspStroke stroke{};
             REQUIRE(espBeginStroke(masked.context, &brush, &stroke) == ESP_OK);
             const EspDab dab{{.3f, .3f, 0}, {0, 0, 1}, 1};
-            result = Masked::with(at, [&] { return espStrokeDabs(masked.context, stroke, &dab, 1); });
+            result = with(at, [&] { return espStrokeDabs(masked.context, stroke, &dab, 1); });
             masked.check();
             REQUIRE(espEndStroke(masked.context, stroke) == ESP_OK);
             REQUIRE(espSwapStroke(masked.context, stroke) == ESP_OK);
@@ -388,9 +345,7 @@ TEST_CASE("what a layer was filled with is told without memory") {
     EspStroke filled{};
     REQUIRE(espFillLayer(masked.context, Masked::kLayer, .25f, &filled) == ESP_OK);
     float value = 0;
-    left = 0;
-    const int told = espLayerFilled(masked.context, Masked::kLayer, &value);
-    left = kPlenty;
+    const int told = with(0, [&] { return espLayerFilled(masked.context, Masked::kLayer, &value); });
     CHECK(told == 1);
     CHECK(value == .25f);
 }
@@ -415,10 +370,10 @@ TEST_CASE("a seed that the host has no memory to rename, or to give a plant to, 
     uint32_t failures = 0;
     for (uint32_t at = 0;; ++at, ++failures) {
         CAPTURE(at);
-        left = at;
-        const EspResult result = renamed ? espSetSeedNumber(life.context, life.seed, 77 + at, 3)
-                                         : espFreezeAs(life.context, life.seed, bytes.data(), size);
-        left = kPlenty;
+        const EspResult result = with(at, [&] {
+            return renamed ? espSetSeedNumber(life.context, life.seed, 77 + at, 3)
+                           : espFreezeAs(life.context, life.seed, bytes.data(), size);
+        });
         EspSeedInfo info{};
         REQUIRE(espSeedInfo(life.context, life.seed, &info) == ESP_OK);
         REQUIRE(life.update());
@@ -461,9 +416,7 @@ TEST_CASE("a stroke over a town that the host has no memory for is undone as far
         CAPTURE(at);
         EspStroke stroke{};
         REQUIRE(espBeginStroke(life.context, &brush, &stroke) == ESP_OK);
-        left = at;
-        const EspResult result = espStrokeDabs(life.context, stroke, dabs, 3);
-        left = kPlenty;
+        const EspResult result = with(at, [&] { return espStrokeDabs(life.context, stroke, dabs, 3); });
         REQUIRE(espStrokeDabs(life.context, stroke, dabs, 3) == ESP_OK);
         REQUIRE(espEndStroke(life.context, stroke) == ESP_OK);
         CHECK(texels() != before);
