@@ -134,10 +134,10 @@ Node Expressions::function(const FunctionInfo& info, const Expr& e, Env& env) {
         case Function::every: {
             if (env.where == Where::anywhere)
                 return fail(e.place, env, "every counts along a span; use it in extruded successors");
-            Node inverse = g.make(kOpDiv, g.one(), a[0]);
             Node arc = g.leaf(Leaf::slot, kSlotArc);
             Node before = g.sub(arc, g.leaf(Leaf::slot, kSlotSpanLength));
-            return g.sub(g.make(kOpFloor, g.mul(arc, inverse)), g.make(kOpFloor, g.mul(before, inverse)));
+            if (g.isConstant(a[0], 0.0f)) return g.zero();
+            return g.sub(g.make(kOpFloor, g.quotient(arc, a[0])), g.make(kOpFloor, g.quotient(before, a[0])));
         }
         default:
             return g.zero();

@@ -158,11 +158,7 @@ Node Expressions::binary(const Expr& e, Env& env) {
     if (e.text == "*") return g.mul(x, y);
     if (e.text == "/" || e.text == "%") {
         if (g.isConstant(y, 0.0f)) return fail(e.place, env, "division by zero");
-        // Dividing by what is fixed while growing is multiplying by its inverse, which the host works out.
-        bool fixed = g.isConstant(y) || g[y].uniform;
-        Node quotient = fixed ? g.mul(x, g.make(kOpDiv, g.one(), y)) : g.make(kOpDiv, x, y);
-        if (e.text == "/") return quotient;
-        return g.sub(x, g.mul(y, g.make(kOpFloor, quotient)));
+        return e.text == "/" ? g.quotient(x, y) : g.remainder(x, y);
     }
     if (e.text == "<") return g.make(kOpLess, x, y);
     if (e.text == ">") return g.make(kOpLess, y, x);

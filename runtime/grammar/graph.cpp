@@ -144,4 +144,22 @@ Node Graph::make(uint32_t op, Node x, Node y, Node z) {
     return intern(node);
 }
 
+bool Graph::isPowerOfTwo(Node n) const {
+    const float value = nodes_[n].value;
+    return isConstant(n) && absolute(value) > 1e-9f && (floatBitsToUint(value) & 0x7FFFFFu) == 0;
+}
+
+Node Graph::quotient(Node x, Node y) {
+    if (isPowerOfTwo(y)) return mul(x, constant(1.0f / nodes_[y].value));
+    return make(kOpDiv, x, y);
+}
+
+Node Graph::remainder(Node x, Node y) {
+    const Node rest = sub(x, mul(y, make(kOpFloor, quotient(x, y))));
+    if (isPowerOfTwo(y)) return rest;
+    // Quotient and product are rounded, the one maybe up to a whole number: then the rest is one y off.
+    const Node raised = select(make(kOpLess, mul(rest, y), zero()), add(rest, y), rest);
+    return select(make(kOpLessEq, make(kOpAbs, y), make(kOpAbs, raised)), sub(raised, y), raised);
+}
+
 }  // namespace espalier::grammar

@@ -50,6 +50,10 @@ class Graph {
     Node both(Node x, Node y) { return make(kOpMin, truth(x), truth(y)); }
     Node either(Node x, Node y) { return make(kOpMax, truth(x), truth(y)); }
     Node negation(Node x) { return sub(one(), truth(x)); }
+    // x / y, rounded once.
+    Node quotient(Node x, Node y);
+    // What x is above the next lower multiple of y: in [0, y), for y < 0 in (y, 0].
+    Node remainder(Node x, Node y);
     // a + t (b - a)
     Node mix(Node a, Node b, Node t) { return add(mul(t, sub(b, a)), a); }
 
@@ -63,6 +67,8 @@ class Graph {
     static constexpr Node kNone = 0xFFFFFFFFu;
 
   private:
+    // A constant whose inverse is one, too: multiplying by that rounds nothing and costs less than dividing.
+    bool isPowerOfTwo(Node n) const;
     Node intern(const GraphNode& node);
     Node withFixedTogether(uint32_t op, Node x, Node y);
     Node simplified(uint32_t op, Node x, Node y, Node z);

@@ -52,6 +52,18 @@ FN float rcpExact(float x) {
     return uintBitsToFloat(floatBitsToUint(y) ^ signBit(x));
 }
 FN float divExact(float a, float b) { return a * rcpExact(b); }
+// a / b rounded once, so that what divides without a rest does; beyond 1e-15 to 1e18 as divExact leaves it. Halves of 12
+// bits multiply exactly, so `rest`, what the first quotient leaves of a, isn't rounded.
+FN float upperHalf(float x) { return uintBitsToFloat(floatBitsToUint(x) & 0xFFFFF000u); }
+FN float ratioExact(float a, float b) {
+    float inverse = rcpExact(b);
+    float q = a * inverse;
+    float qh = upperHalf(q);
+    float bh = upperHalf(b);
+    float rest = (((a - qh * bh) - qh * (b - bh)) - (q - qh) * bh) - (q - qh) * (b - bh);
+    float size = absolute(q);
+    return both(both(absolute(a) > 1e-15f, size > 1e-15f), size < 1e18f) ? q + rest * inverse : q;
+}
 FN vec3 unit3(vec3 v) { return v * rsqrtExact(dot3(v, v)); }
 FN float length3(vec3 v) { return sqrtExact(dot3(v, v)); }
 FN float length2(vec2 v) { return sqrtExact(dot2(v, v)); }

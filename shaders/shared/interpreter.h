@@ -47,7 +47,7 @@ CONST_UINT(kOpEqual, 9u);     // x = y ? 1 : 0
 CONST_UINT(kOpSelect, 10u);   // holds(x) ? y : z
 CONST_UINT(kOpFloor, 11u);
 CONST_UINT(kOpAbs, 12u);
-CONST_UINT(kOpDiv, 13u);      // x / y; by zero: 0
+CONST_UINT(kOpDiv, 13u);      // x / y, rounded once; by zero: 0
 CONST_UINT(kOpSqrt, 14u);     // of negative numbers: 0
 CONST_UINT(kOpSin, 15u);
 CONST_UINT(kOpCos, 16u);
@@ -70,7 +70,7 @@ FN float applyHardOperation(uint op, float x, float y) {
             r = absolute(x) < 8388608.0f ? whole : x;
             break;
         }
-        case kOpDiv: r = y == 0.0f ? 0.0f : divExact(x, y); break;
+        case kOpDiv: r = y == 0.0f ? 0.0f : ratioExact(x, y); break;
         case kOpSqrt: r = sqrtExact(x); break;
         case kOpSin:
         case kOpCos: {

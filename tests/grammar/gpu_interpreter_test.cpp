@@ -26,6 +26,12 @@ void onHost(const RuleMapRef& map, uint32_t i, uint32_t words, uint32_t siteCoun
     row[kRegisters + 1] = SLOT(kSlotSlope);
 }
 
+// Quotients and remainders of anything and of whole numbers.
+const char* const kDivision =
+    "param p = 3 [1 .. 64]\n"
+    "A(x, y, z, w) -> Marching(0.1, x / y + z / 7, x % y < w % p)\n"
+    "    {A(floor(x * 900) % floor(y * 9), floor(x * 90) * floor(y * 9) / floor(y * 9), z % -0.3, w / p), NULL}\n";
+
 struct InterpreterPush {
     uint64_t map, results;
     uint32_t count, words, siteCount, repeats;
@@ -45,8 +51,9 @@ TEST_CASE("GPU and CPU interpret to the same bits") {
     Device& device = **created;
     {
         Program program = must(Program::compute(device, "tests/interpreter.comp", {.exact = true, .constants = {}}));
-        for (const char* name : {"ivy_free", "ivy_guided", "ivy_paper"}) {
-            RuleMap map = must(compileGrammarFile(std::string("content/grammars/") + name + ".grammar"));
+        for (const char* name : {"ivy_free", "ivy_guided", "ivy_paper", ""}) {
+            RuleMap map = *name ? must(compileGrammarFile(std::string("content/grammars/") + name + ".grammar"))
+                                : compiled(kDivision);
             Buffer words = must(Buffer::create(device, "rule map", map.words().size() * 4));
             RuleMapRef ref = map.refAt(words.address());
             Buffer refs = must(Buffer::create(device, "rule map ref", sizeof ref));
