@@ -42,6 +42,10 @@ uint32_t inputBit(uint32_t slot) {
             return 0;
     }
 }
+// A plant's Repeat sets these by itself.
+bool isOfRepeat(uint32_t slot) {
+    return slot == kSlotIndex || slot == kSlotCount;
+}
 
 // One run of code. `uniformMode`: for the host, parameters are slots.
 class Emitter {
@@ -120,7 +124,7 @@ class Emitter {
         return {emit(n), 0};
     }
     void noteSlot(uint32_t slot) {
-        reads_.inputs |= inputBit(slot);
+        reads_.inputs |= all_.roofs && isOfRepeat(slot) ? kInputOfRoofs : inputBit(slot);
         if (slot >= kSlotLayer && slot < kSlotLayer + kMaxLayers) reads_.layers |= 1u << (slot - kSlotLayer);
         if (slot >= kSlotArg && slot < kSlotArg + kMaxArgs) reads_.args |= 1u << (slot - kSlotArg);
     }

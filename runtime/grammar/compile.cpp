@@ -64,6 +64,7 @@ Result<RuleMap> compile(Parsed& p) {
     grammar::Compilation& c = p.compilation;
     c.roofs = grammar::isRoofGrammar(c.module);
     c.expressions.ofRoofs(c.roofs);
+    c.code.roofs = c.roofs;
     c.expressions.declare();
     // Lowering checks what is in the rules; it can't get stuck on what has been reported so far.
     if (c.roofs) {

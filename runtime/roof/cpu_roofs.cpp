@@ -1,5 +1,7 @@
 // Expansion of roofs on the CPU (Buron 2013 §3), wave by wave as on the GPU: reference, debugger and what the GPU is
-// measured against.
+// measured against. And how room for both is found.
+#include <algorithm>
+
 #include "runtime/core/jobs.hpp"
 #include "runtime/roof/roof_growth.hpp"
 #include "shaders/shared/roof_expand.h"
@@ -25,14 +27,36 @@ RoofInputs::Means RoofInputs::meansOf(size_t house) const {
     return values;
 }
 
-bool RoofRoom::hold(const RoofStatus& status, uint32_t widestWave) {
+namespace {
+
+constexpr uint32_t kMostScopes = 65'535 * kRoofGroup;  // what one dispatch goes through
+// Of grammars whose rules lead on beyond the limit on depth: what a chain for each start takes, and some more. Two
+// chains that part again and again take twice as much with every rule.
+constexpr uint32_t kEndlessScopes = 1u << 14, kEndlessOfStart = 128;
+
+}  // namespace
+
+Failure tooManyShapes() {
+    return Failure("roofs", "the grammar makes more shapes of these houses than memory holds");
+}
+
+Result<bool> RoofRoom::hold(const RoofStatus& status, uint32_t widestWave, uint32_t starts) {
     bool good = true;
     auto fit = [&](uint32_t& room, uint32_t wanted) {
         if (wanted <= room) return;
-        room = wanted + wanted / 4;
+        room = uint32_t(std::min<uint64_t>(wanted + wanted / 4ull, UINT32_MAX));
         good = false;
     };
-    fit(scopes, widestWave);
+    const bool endless = status.deep > 0;
+    const uint32_t most =
+        endless ? std::min(std::max(kEndlessScopes, starts * kEndlessOfStart), kMostScopes) : kMostScopes;
+    if (widestWave > most && endless)
+        return Failure("roofs", "a rule leads to itself without end: more than " + std::to_string(kMaxRoofDepth) +
+                                    " follow each other, and their shapes are too many");
+    if (widestWave > most) return tooManyShapes();
+    // What follows an endless grammar's wave without room isn't known.
+    fit(scopes, endless && widestWave > scopes ? most : widestWave);
+    scopes = std::min(scopes, kMostScopes);
     fit(grids, status.grids);
     fit(rows, status.rows);
     fit(regions, status.regions);
@@ -113,7 +137,7 @@ struct CpuRun {
             env.shapes.v = scopes[w & 1].data();
             env.next.v = scopes[(w + 1) & 1].data();
             parallelFor(
-                std::min(waves[w].count, env.shapeRoom), 256,
+                shapesToDerive(env), 256,
                 [&](size_t begin, size_t end) {
                     RoofTally tally = emptyTally();
                     for (size_t i = begin; i < end; ++i) deriveShape(env, uint32_t(i), tally);
@@ -133,6 +157,7 @@ CpuRoofs growRoofsOnCpu(const RoofInputs& inputs, unsigned threads) {
     for (uint32_t h = 0; h < inputs.town->houses.size(); ++h) appendStarts(*inputs.town, h, run.starts);
     const uint32_t count = uint32_t(run.starts.size()), some = std::min(count * 4 + 16, 1024u);
     RoofRoom room{count * 4 + 16, count * 8 + 16, count * 64 + 64, some, some, 3 * some};
+    run.out.complete = tooManyShapes();
     for (int attempt = 0; attempt < 12; ++attempt) {
         RoofEnv env = run.prepare(room);
         run.waves[0].count = count;
@@ -141,7 +166,11 @@ CpuRoofs growRoofsOnCpu(const RoofInputs& inputs, unsigned threads) {
         made.regions -= uint32_t(inputs.town->regions.size());
         made.parts -= uint32_t(inputs.town->parts.size());
         made.planes -= uint32_t(inputs.town->planes.size());
-        if (room.hold(made, widest)) break;
+        Result<bool> held = room.hold(made, widest, count);
+        if (!held || *held) {
+            run.out.complete = held ? Status(Done{}) : Status(held.failure());
+            break;
+        }
     }
     auto trim = [](auto& records, uint32_t made) { records.resize(std::min<size_t>(made, records.size())); };
     RoofRecords& made = run.out.records;

@@ -43,6 +43,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<
     ours.town = &few.tables;
     ours.means = means;
     CpuRoofs made = growRoofsOnCpu(ours);
+    if (!made.complete) return made.complete.failure();
     renumber(made.records, few, last_, generationOf_);
     for (size_t i = 0; i < houses.size(); ++i) reads_[houses[i]] = made.reads[i];
 
@@ -54,6 +55,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<
     s.parts += uint32_t(made.records.parts.size());
     s.planes += uint32_t(made.records.planes.size());
     s.stopped += made.status.stopped;
+    s.deep += made.status.deep;
     s.touched += made.status.touched;
     s.whole += made.status.whole;
     s.terminals += made.status.terminals;

@@ -290,7 +290,9 @@ Status GpuRoofs::growAll(const RoofInputs& inputs) {
         made.regions -= own_.regions;
         made.parts -= own_.parts;
         made.planes -= own_.planes;
-        if (room_.hold(made, outcome->widest)) {
+        Result<bool> held = room_.hold(made, outcome->widest, startCount_);
+        if (!held) return held.failure();
+        if (*held) {
             front_ = 1 - front_;
             widest_ = outcome->widest;
             publish(inputs, *outcome, {});
@@ -298,7 +300,7 @@ Status GpuRoofs::growAll(const RoofInputs& inputs) {
             return Done{};
         }
     }
-    return Failure("roofs", "the grammar makes more shapes of these houses than memory holds");
+    return tooManyShapes();
 }
 
 Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses) {

@@ -103,6 +103,7 @@ class RoofGrowth {
 
 // The same on the CPU, from the same text; `status` tells what was made.
 struct CpuRoofs {
+    Status complete = Done{};  // or why not all has been made
     RoofRecords records;
     RoofStatus status{};
     uint32_t waves = 0;
@@ -113,8 +114,12 @@ CpuRoofs growRoofsOnCpu(const RoofInputs& inputs, unsigned threads = 1);
 // Room for expansion, in records; grown by what a status asks for.
 struct RoofRoom {
     uint32_t scopes = 1u << 14, grids = 1u << 14, rows = 1u << 16, regions = 1024, parts = 1024, planes = 3072;
-    // True if `status` fitted; else the room is larger now.
-    bool hold(const RoofStatus& status, uint32_t widestWave);
+    // True if `status` fitted; else the room is larger now. Fails where none would do. starts: shapes of the first
+    // wave.
+    Result<bool> hold(const RoofStatus& status, uint32_t widestWave, uint32_t starts);
 };
+
+// Tells that no room has done.
+Failure tooManyShapes();
 
 }  // namespace espalier

@@ -33,6 +33,6 @@ void main() {
     }
     uint i = gl_GlobalInvocationID.x;
     RoofTally tally = emptyTally();
-    if (i < min(env.waves.v[wave].count, env.shapeRoom)) deriveShape(env, i, tally);
+    if (i < shapesToDerive(env)) deriveShape(env, i, tally);
     addTally(env, tally);
 }

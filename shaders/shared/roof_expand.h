@@ -19,7 +19,7 @@ struct RoofHand {
 
 // What a lane adds to the status.
 struct RoofTally {
-    uint touched, whole, terminals, stopped;
+    uint touched, whole, terminals, stopped, deep;
     uvec2 hash;
 };
 FN RoofTally emptyTally() {
@@ -28,6 +28,7 @@ FN RoofTally emptyTally() {
     t.whole = 0u;
     t.terminals = 0u;
     t.stopped = 0u;
+    t.deep = 0u;
     t.hash = uvec2(0u, 0u);
     return t;
 }
@@ -45,6 +46,7 @@ inline void addTally(RoofStatus& to, const RoofTally& t) {
     roofAdd(to.whole, t.whole);
     roofAdd(to.terminals, t.terminals);
     roofAdd(to.stopped, t.stopped);
+    roofAdd(to.deep, t.deep);
     roofAdd(to.hash[0], t.hash.x);
     roofAdd(to.hash[1], t.hash.y);
 }
@@ -56,17 +58,27 @@ RoofPlace takePlace(RoofEnv env, uint rows) {
 // The lanes of a subgroup together.
 void addTally(RoofEnv env, RoofTally t) {
     uvec2 cells = subgroupAdd(uvec2(t.touched, t.whole));
-    uvec2 shapes = subgroupAdd(uvec2(t.terminals, t.stopped));
+    uvec3 shapes = subgroupAdd(uvec3(t.terminals, t.stopped, t.deep));
     uvec2 hash = subgroupAdd(t.hash);
     if (!subgroupElect()) return;
     atomicAdd(env.status.v[0].touched, cells.x);
     atomicAdd(env.status.v[0].whole, cells.y);
     if (shapes.x != 0u) atomicAdd(env.status.v[0].terminals, shapes.x);
     if (shapes.y != 0u) atomicAdd(env.status.v[0].stopped, shapes.y);
+    if (shapes.z != 0u) atomicAdd(env.status.v[0].deep, shapes.z);
     atomicAdd(env.status.v[0].hash[0], hash.x);
     atomicAdd(env.status.v[0].hash[1], hash.y);
 }
 #endif
+
+// How many shapes of this wave are derived. A wave that is too wide is gone through for the sake of what it asks for, but
+// where rules lead on and on that would take time without end and tell nothing.
+FN uint shapesToDerive(RoofEnv env) {
+    uint count = env.waves.v[env.wave].count;
+    uint times = env.status.v[0].deep != 0u ? 1u : 8u;
+    if (count > times * env.shapeRoom) return 0u;
+    return count < env.shapeRoom ? count : env.shapeRoom;
+}
 
 FN void queueShape(RoofEnv env, RoofScope shape) {
     uint at = roofAdd(env.waves.v[env.wave + 1u].count, 1u);
@@ -168,9 +180,10 @@ FN bool joinsRoofOnly(RoofEnv env, uint successor) {
     return rule.kind == kRuleJoin && rule.extrude != 0u;
 }
 
-// The parts that a rule's successors take, four bits each; any: bit 1 << part of all of them.
+// The parts that a rule's successors take, four bits each; any: bit 1 << part of all of them. trips: of the loops that
+// hand one shape to all of them.
 struct RoofParts {
-    uint count, low, high, any;
+    uint count, low, high, any, trips;
 };
 FN RoofParts partsOf(RoofEnv env, RuleRecord rule) {
     RoofParts p;
@@ -178,9 +191,12 @@ FN RoofParts partsOf(RoofEnv env, RuleRecord rule) {
     p.low = 0u;
     p.high = 0u;
     p.any = 0u;
+    p.trips = 0u;
     uint i = 0u;
     if (p.count != 0u) do {
             uint part = roofPartOf(env, rule.firstSuccessor + i) & 15u;
+            p.trips += kRoofHandTrips;
+            if (rule.kind == kRuleRepeat) p.trips += roofWordsOf(env, rule.firstSuccessor + i);
             if (part == 2u && rule.kind == kRuleJoin && joinsRoofOnly(env, rule.firstSuccessor + i)) part = kPartGoesOn;
             p.any |= 1u << part;
             if (i < 8u)
@@ -307,9 +323,13 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, RoofAtom atom, RoofRegion face, 
     uint count = childCount(rule, cells, shape, atom);
     RoofParts parts = partsOf(env, rule);
     if (kind == kRuleJoinRoof && count > 2u && !takesTops(parts, atom.style)) count = 2u;
-    if (count > kMaxRoofCells || (shape.marks & 255u) >= kMaxRoofDepth) tally.stopped += 1u;
-    if (count > kMaxRoofCells) count = kMaxRoofCells;
-    if (parts.count == 0u || (shape.marks & 255u) >= kMaxRoofDepth) count = 0u;
+    uint most = parts.count != 0u ? kMaxRoofTrips / parts.trips : 0u;
+    if (most > kMaxRoofCells) most = kMaxRoofCells;
+    bool last = (shape.marks & 255u) >= kMaxRoofDepth;
+    if (last || (parts.count != 0u && count > most)) tally.stopped += 1u;
+    if (last && count != 0u && parts.count != 0u) tally.deep += 1u;
+    if (count > most) count = most;
+    if (last) count = 0u;
     RoofHand hand;
     hand.kept = shape;
     hand.has = 0u;

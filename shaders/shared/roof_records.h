@@ -14,6 +14,10 @@ CONST_UINT(kRoofGroup, 64u);      // local size of the kernels
 CONST_UINT(kPartPlanes, 8u);      // of one part at most: what gl_ClipDistance offers
 CONST_UINT(kMaxRoofDepth, 64u);   // rules one after another, at most
 CONST_UINT(kMaxRoofCells, 4096u); // of a Repeat along one axis
+// Trips of one rule's loops, since software devices end a lane's loops after 65,535 in all: kRoofHandTrips for a shape and
+// a successor and, in a Repeat, one a word of that one's arguments' code.
+CONST_UINT(kMaxRoofTrips, 49152u);
+CONST_UINT(kRoofHandTrips, 3u);
 
 // A piece of an atom's outline above the eave, in the region's frame, from eave[1] round to eave[0]. 64 bytes.
 struct RoofPiece {
@@ -146,8 +150,8 @@ STATIC_SIZE(RoofMesh, 24);
 struct RoofStatus {
     uint grids, rows;   // asked for; beyond the room nothing is written
     uint regions, parts, planes;
-    uint stopped;       // shapes that the limit on depth ended
-    uint queue;         // shapes asked for in the next wave
+    uint stopped;       // shapes that a limit ended
+    uint deep;          // of them those whose rules would lead on beyond the limit on depth
     uint touched, whole;   // cells
     uint terminals;     // grids of one cell
     uint hash[2];       // of all grids, in no order

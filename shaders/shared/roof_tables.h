@@ -17,6 +17,7 @@ FN SymbolRecord roofSymbol(RoofEnv env, uint i) { return env.map.v[0].symbols.v[
 FN RuleRecord roofRule(RoofEnv env, uint i) { return env.map.v[0].rules.v[i]; }
 FN SuccessorRecord roofSuccessor(RoofEnv env, uint i) { return env.map.v[0].successors.v[i]; }
 FN uint roofPartOf(RoofEnv env, uint i) { return env.map.v[0].successors.v[i].part; }
+FN uint roofWordsOf(RoofEnv env, uint i) { return env.map.v[0].successors.v[i].code.count; }
 FN Value roofValue(RoofEnv env, uint i) { return env.map.v[0].values.v[i]; }
 FN CodeWord roofCode(RoofEnv env, uint i) { return env.map.v[0].code.v[i]; }
 FN uint roofSiteAt(RoofEnv env, uint i) { return env.map.v[0].sites.v[i]; }
@@ -64,6 +65,7 @@ RuleRecord roofRule(RoofEnv env, uint i) {
     return r;
 }
 uint roofPartOf(RoofEnv env, uint i) { return MAP_WORD(roofMap.successors, 16u * i + 15u); }
+uint roofWordsOf(RoofEnv env, uint i) { return MAP_WORD(roofMap.successors, 16u * i + 5u); }
 SuccessorRecord roofSuccessor(RoofEnv env, uint i) {
     uint at = 16u * i;
     SuccessorRecord s;

@@ -53,8 +53,10 @@ Result<std::vector<Door>> findDoors(const std::string& town, const std::string& 
     inputs.town = &tables;
     inputs.grammar = &*map;
     inputs.meshes = terminals.bounds;
+    const CpuRoofs grown = growRoofsOnCpu(inputs);
+    if (!grown.complete) return grown.complete.failure();
     std::vector<Door> doors;
-    for (const RoofGrid& g : growRoofsOnCpu(inputs).records.grids) {
+    for (const RoofGrid& g : grown.records.grids) {
         if (terminals.names[g.mesh & 255u] != "door") continue;
         const glm::vec3 x(g.axisX), out = glm::cross(x, glm::vec3(g.axisY)),
                                     sill = glm::vec3(g.origin) + x * (g.size.x / 2);

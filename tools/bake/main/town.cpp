@@ -97,6 +97,7 @@ Status addTiles(const TownArguments& arguments, const RoofStructure& structure, 
     inputs.grammar = &*map;
     inputs.meshes = bounds;
     CpuRoofs roofs = growRoofsOnCpu(inputs, 0);
+    if (!roofs.complete) return Failure(arguments.grammar, roofs.complete.failure().diagnostics.front().message);
     RoofEnv env{};
     env.grids.v = roofs.records.grids.data();
     env.runs.v = roofs.records.runs.data();
