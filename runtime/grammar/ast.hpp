@@ -92,20 +92,20 @@ struct Module {
     std::set<std::string> mistaken;        // names whose statement couldn't be read: who uses them isn't to blame
 };
 
-// Collects diagnostics, up to a number that a reader can still use.
+// Collects diagnostics, up to a number of mistakes and one of warnings that a reader can still use.
 class Reporter {
   public:
     explicit Reporter(Module& module) : module_(module) {}
     void error(const Place& place, const std::string& rule, std::string message) { add(place, rule, message, false); }
     void warning(const Place& place, const std::string& rule, std::string message) { add(place, rule, message, true); }
-    bool failed() const { return failed_; }
-    bool full() const { return all_.size() >= 40; }
+    bool failed() const { return errors_ > 0; }
+    bool full() const { return errors_ >= kMost; }
+    bool warnedEnough() const { return warnings_ >= kMost; }
     std::vector<Diagnostic>& all() { return all_; }
 
   private:
     void add(const Place& place, const std::string& rule, std::string& message, bool warning) {
-        failed_ = failed_ || !warning;
-        if (full()) return;
+        if ((warning ? warnings_ : errors_) >= kMost) return;
         std::string file = place.file < module_.files.size() ? module_.files[place.file] : std::string();
         // An expression that is used for several things is compiled for each.
         const bool told = std::ranges::any_of(all_, [&](const Diagnostic& d) {
@@ -113,10 +113,12 @@ class Reporter {
         });
         if (told) return;
         all_.push_back({file, place.line, place.column, rule, std::move(message), warning});
+        (warning ? warnings_ : errors_) += 1;
     }
+    static constexpr size_t kMost = 40;
     Module& module_;
     std::vector<Diagnostic> all_;
-    bool failed_ = false;
+    size_t errors_ = 0, warnings_ = 0;
 };
 
 }  // namespace espalier::grammar

@@ -62,6 +62,11 @@ Node Expressions::failTooDeep(const Place& place, const Env& env) {
     return fail(place, env, "the expression unfolds into more than 256 operations in a row");
 }
 
+Node Expressions::sum(Node x, Node y, const Place& place, const Env& env) {
+    const Node node = graph_.add(x, y);
+    return graph_[node].depth <= kMaxGraph ? node : failTooDeep(place, env);
+}
+
 Node Expressions::lowerName(const std::string& name, const Place& place, Env& env) {
     for (const auto& [arg, node] : env.args)
         if (arg == name) return node;

@@ -51,6 +51,8 @@ class Expressions {
     // Mistakes are reported; the node is Graph::mistake() then.
     Node lower(ExprId expr, Env& env);
     Node lowerName(const std::string& name, const Place& place, Env& env);
+    // x + y, of commands that add up; reported where too many have.
+    Node sum(Node x, Node y, const Place& place, const Env& env);
     // Grammars of roofs have accessors of their own, and vectors. To be said before declare().
     void ofRoofs(bool roofs) { roofs_ = roofs; }
     // A vector of 2 or 3 parts (`size`; of two the last part is 0): an accessor, vec2, vec3, cross, unit, sums,

@@ -40,12 +40,26 @@ size_t utf8Length(std::string_view text) {
     return length;
 }
 
+// Of a number whose size no double holds: whether it is too small for one.
+bool isTiny(std::string_view digits) {
+    const size_t e = std::min(digits.find_first_of("eE"), digits.size());
+    const std::string_view mantissa = digits.substr(0, e);
+    const auto before = std::ptrdiff_t(std::min(mantissa.find('.'), mantissa.size()));
+    const auto first = std::ptrdiff_t(std::min(mantissa.find_first_of("123456789"), mantissa.size()));
+    const bool negative = digits.substr(e).starts_with("e-") || digits.substr(e).starts_with("E-");
+    const size_t power = std::min(digits.find_first_not_of("eE+-", e), digits.size());
+    std::ptrdiff_t exponent = 0;
+    const auto read = std::from_chars(digits.data() + power, digits.data() + digits.size(), exponent);
+    if (read.ec == std::errc::result_out_of_range) return negative;
+    return before - first + (negative ? -exponent : exponent) < 0;
+}
+
 class Lexer {
   public:
     Lexer(std::string_view text, uint32_t file, Reporter& reporter) : text_(text), file_(file), reporter_(reporter) {}
 
     std::vector<Token> run() {
-        if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
+        if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = lineStart_ = 3;
         while (skipBlank(), at_ < text_.size()) {
             if (tokens_.size() >= kMaxTokens) {
                 reporter_.error(here(), {}, "the text has more than 200,000 tokens");
@@ -166,7 +180,7 @@ class Lexer {
         std::string_view digits = text_.substr(start, at_ - start);
         double value = 0;
         auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        bool tooLarge = code == std::errc::result_out_of_range && digits.find("e-") == digits.npos;
+        bool tooLarge = code == std::errc::result_out_of_range && !isTiny(digits);
         if (tooLarge || value > 1e9) {
             reporter_.error(token.place, {},
                             "the number " + std::string(digits.substr(0, 24)) + " is too large (1e9 is the most)");

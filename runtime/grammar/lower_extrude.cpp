@@ -85,17 +85,18 @@ class ExtrudeLowering {
         Node a[2] = {};
         for (size_t i = 0; i < e.args.size(); ++i) a[i] = c_.expressions.lower(e.args[i], env);
         bool two = e.args.size() == 2;
+        auto add = [&](Node& to, Node n) { to = c_.expressions.sum(to, n, e.place, env); };
         switch (info.kind) {
             case Command::size:
                 scope.size = a[0];
                 break;
             case Command::translate:
                 scope.t = a[0];
-                if (two) scope.lift = g_.add(scope.lift, a[1]);
+                if (two) add(scope.lift, a[1]);
                 break;
             case Command::rotate:
-                scope.turn = g_.add(scope.turn, a[0]);
-                if (two) scope.pitch = g_.add(scope.pitch, a[1]);
+                add(scope.turn, a[0]);
+                if (two) add(scope.pitch, a[1]);
                 break;
             case Command::tint:
                 scope.tint = a[0];

@@ -104,15 +104,16 @@ void applyCommand(Compilation& c, const CommandInfo& info, const Element& e, Env
     }
     for (size_t i = 0; i < e.args.size(); ++i) {
         Node n = c.expressions.lower(e.args[i], env);
+        auto add = [&](Node& to) { to = c.expressions.sum(to, n, e.place, env); };
         switch (info.kind) {
             case Command::size:
                 scope.values[i] = n;
                 break;
             case Command::translate:
-                scope.values[3 + i] = c.graph.add(scope.values[3 + i], n);
+                add(scope.values[3 + i]);
                 break;
             case Command::rotate:
-                scope.values[6 + i] = c.graph.add(scope.values[6 + i], n);
+                add(scope.values[6 + i]);
                 break;
             default:
                 scope.values[8] = n;

@@ -234,7 +234,7 @@ void warnUnreached(Compilation& c) {
     const uint32_t first = uint32_t(start - c.symbols.begin());
     const std::vector<bool> after = reachedFrom(first, callees), before = reachedFrom(first, callers);
     std::vector<bool> told = after;
-    for (uint32_t i = 0; i < c.symbols.size() && !c.reporter.full(); ++i) {
+    for (uint32_t i = 0; i < c.symbols.size() && !c.reporter.warnedEnough(); ++i) {
         const Symbol& symbol = c.symbols[i];
         const Rule& rule = c.module.rules[symbol.rules[0]];
         if (!symbol.grows || rule.place.file != 0 || told[i] || before[i]) continue;

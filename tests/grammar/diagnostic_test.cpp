@@ -1,5 +1,6 @@
 // What wrong grammars are answered with: place, rule, message and hint; several at once; limits; no bytes that
 // crash or hang the compiler.
+#include <algorithm>
 #include <ctime>
 
 #include "tests/grammar/support.hpp"
@@ -215,6 +216,41 @@ TEST_CASE("rules that plants never come to, since another one stands first, are 
     CHECK(compiled(ivy + "Twig -> Marching(0.1, 0, true) {Ivy}\n").warnings().empty());  // another way to begin
 }
 
+TEST_CASE("warnings hide no mistake, however many there are") {
+    std::string unused, mistakes;
+    for (int i = 0; i < 60; ++i) {
+        unused += "L" + std::to_string(i) + " -> S(1) Shape(\"leaf\")\n";
+        mistakes += "A -> Marching(wrong" + std::to_string(i) + ", 0, true) {A}\n";
+    }
+    const std::string march = "A -> Marching(0.1, 0, true) {A}\n";
+    const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n') + 1; };
+    CHECK(compiled(march + unused).warnings().size() == 40);
+    CHECK(failureText(unused + "A -> Marching(wrong, 0, true) {A}\n").find("'wrong' is not known") !=
+          std::string::npos);
+    CHECK(lines(failureText(mistakes)) == 40);
+    CHECK(lines(failureText(unused + mistakes)) == 80);
+}
+
+TEST_CASE("a mark at the text's begin, as some editors write it, is no column") {
+    const std::string mark = "\xEF\xBB\xBF";
+    compiled(mark + "A -> B\n  C\nB -> Marching(0.1, 0, true) {B}\nC -> Marching(0.1, 0, true) {C}\n");
+    CHECK(failureText(mark + "A -> Marching(0.1, 0, true) {Bb}\n").find("grammar:1:30: A: ") == 0);
+}
+
+TEST_CASE("numbers that are too small for a float are 0, however they are written") {
+    const auto marching = [](const std::string& angle) {
+        return failureText("A -> Marching(0.1, " + angle + ", true) {A}");
+    };
+    const std::string zeros = repeated("0", 400), nines = repeated("9", 30);
+    for (const std::string& tiny :
+         {std::string("1e-400"), std::string("1E-400"), "0." + zeros + "1", "0." + zeros + "1e50", "1E-" + nines})
+        CHECK(marching(tiny) == "compiled");
+    for (const std::string& large : {std::string("1e400"), std::string("1E+400"), "1" + zeros, "1" + zeros + "e-50",
+                                     "0." + zeros + "1e900", "1E" + nines})
+        CHECK(marching(large).find("is too large") != std::string::npos);
+    CHECK(marching("0e999999") == "compiled");
+}
+
 TEST_CASE("; may be left out, → and π may be written, rules may span lines") {
     RuleMap map = compiled(
         "A(n) : n < 2 and\n   n > -1\n  → Marching(0.1,\n  π / 2, true)\n  {A(n),\n   NULL} : 0.5 A(n) -> NULL; B -> "
@@ -253,6 +289,21 @@ TEST_CASE("limits are reported, not met") {
         lets += "let l" + std::to_string(i) + " = " + repeated("sin(", 30) + "l" + std::to_string(i - 1) +
                 repeated(")", 30) + "\n";
     expect(lets + "A -> Marching(0.1, l59, true) {A}", "more than 256 operations in a row");
+    // Commands that add up, of plants and of roofs.
+    for (const char* command : {"R(arc) ", "R(0, arc) ", "T(0, arc) "}) {
+        std::string turns = "A -> Marching(0.1, 0, true) {A, D0}\n";
+        for (int i = 0; i < 15; ++i)
+            turns += "D" + std::to_string(i) + " -> " + repeated(command, 190) + "D" + std::to_string(i + 1) + "\n";
+        expect(turns + "D15 -> S(1) Shape(\"leaf\")", "more than 256 operations in a row");
+    }
+    std::string sines = "let l0 = sizeX\n";
+    for (int i = 1; i < 6; ++i)
+        sines += "let l" + std::to_string(i) + " = " + repeated("sin(", 30) + "l" + std::to_string(i - 1) +
+                 repeated(")", 30) + "\n";
+    const std::string house = "House -> Extrude(1) {B, NULL}\nB -> T(l5) ";
+    for (const char* command : {"T(sizeX) ", "T(sizeX, 0, sizeY) "})
+        expect(sines + house + repeated(command, 190) + "Shape(\"leaf\")", "more than 256 operations in a row");
+    expect(sines + house + repeated("R(sizeX) ", 190) + "Shape(\"leaf\")", "compiled");
     std::string uniform = "0";
     for (int i = 0; i < 20; ++i)
         uniform = "sin(p + " + std::to_string(i) + ") * (" + uniform + " + cos(p * " + std::to_string(i) + "))";
