@@ -102,8 +102,22 @@ class RoofLowering {
         return {pending_.back().record};
     }
 
+    bool bracketsMatch(const Sequence& sequence, const Env& env) {
+        size_t open = 0;
+        for (const Element& e : sequence) {
+            const CommandInfo* command = findCommand(e.name);
+            if (command != nullptr && command->kind == Command::push) ++open;
+            if (command == nullptr || command->kind != Command::pop) continue;
+            if (open == 0) return error(e.place, env, "']' without '['"), false;
+            --open;
+        }
+        if (open > 0) error(sequence.front().place, env, "'[' without ']'");
+        return open == 0;
+    }
+
     // Commands, then what they lead to. One block, symbol or terminal alone is the rule itself.
     RuleRecord lowerSequence(const Sequence& sequence, Env& env, const Rule& rule, const std::string& name) {
+        if (!bracketsMatch(sequence, env)) return emptyRule(kRuleNull);
         size_t made = 0;
         for (const Element& e : sequence) {
             const CommandInfo* command = findCommand(e.name);
@@ -121,7 +135,6 @@ class RoofLowering {
             if (command != nullptr && command->kind == Command::push) {
                 kept.push_back(before);
             } else if (command != nullptr && command->kind == Command::pop) {
-                if (kept.empty()) return error(e.place, env, "']' without '['"), emptyRule(kRuleNull);
                 before = kept.back();
                 kept.pop_back();
             } else if (command != nullptr && command->kind == Command::null) {
@@ -136,7 +149,6 @@ class RoofLowering {
                 all.push_back(nest(std::move(own), env, rule, name, number++));
             }
         }
-        if (!kept.empty()) error(sequence.front().place, env, "'[' without ']'");
         RuleRecord r = emptyRule(kRuleList);
         StageReads sites, reads;
         addSuccessors(r, {all}, env, sites, reads, sequence.front().place);
@@ -145,15 +157,23 @@ class RoofLowering {
 
     RuleRecord single(const Sequence& sequence, Env& env, const Rule& rule, const std::string& name) {
         RoofScope scope = plainScope(g_);
+        std::vector<RoofScope> kept;
         const Element* made = nullptr;
         for (const Element& e : sequence) {
             const CommandInfo* command = findCommand(e.name);
-            if (command == nullptr || command->kind == Command::shape)
+            if (command == nullptr || command->kind == Command::shape) {
                 made = &e;
-            else if (made == nullptr)
+            } else if (made != nullptr) {
+                if (command->kind != Command::pop && command->kind != Command::null)
+                    error(e.place, env, "'" + e.name + "' stands behind what it should change; put it in front");
+            } else if (command->kind == Command::push) {
+                kept.push_back(scope);
+            } else if (command->kind == Command::pop) {
+                scope = kept.back();
+                kept.pop_back();
+            } else {
                 applyCommand(c_, *command, e, env, scope);
-            else if (command->kind != Command::pop && command->kind != Command::null)
-                error(e.place, env, "'" + e.name + "' stands behind what it should change; put it in front");
+            }
         }
         if (findCommand(made->name) != nullptr) return terminal(*made, env, scope);
         const BlockInfo* info = findBlock(made->name);

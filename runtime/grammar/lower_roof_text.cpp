@@ -81,7 +81,7 @@ RoofScope plainScope(Graph& g) {
 
 void applyCommand(Compilation& c, const CommandInfo& info, const Element& e, Env& env, RoofScope& scope) {
     const bool metres = info.kind == Command::size || info.kind == Command::translate;
-    if (info.kind == Command::push || info.kind == Command::pop || info.kind == Command::null) return;
+    if (info.kind == Command::null) return;
     if (e.hasItems || e.args.size() < info.minArgs || e.args.size() > (metres ? 3 : info.maxArgs))
         return c.reporter.error(e.place, env.rule,
                                 metres ? "write " + e.name + "(x), " + e.name + "(x, y) or " + e.name + "(x, y, z)"

@@ -393,11 +393,41 @@ TEST_CASE("mistakes in grammars of roofs are named") {
         {"context m = 0\nA -> Extrude(m(uv)) {NULL}", "or over the whole house: m(house)"},
         {"param m = 1\nA -> Extrude(1) {Drop(m) Shape(\"slate\")}", "one of the first 8 context layers"},
         {"A -> Repeat(XY, 1, fitted) {Shape(\"slate\")}", "fit, clip or bond"},
+        {"A -> Extrude(1) {[S(1) B, NULL}\nB -> NULL", "'[' without ']'"},
+        {"A -> Extrude(1) {S(1)] B, NULL}\nB -> NULL", "']' without '['"},
+        {"A -> Extrude(1) {[ S(1) ] ] B C, NULL}\nB -> NULL\nC -> NULL", "']' without '['"},
+        {"A -> Extrude(1) {[ NULL, NULL}", "'[' without ']'"},
     };
     for (const auto& c : cases) {
         const std::string text = failureText(c.text);
         INFO(c.text << "\n" << text);
         CHECK(text.find(c.expected) != std::string::npos);
+    }
+}
+
+TEST_CASE("brackets keep what stands before one thing, as before several") {
+    const auto grids = [](const char* wall) {
+        Roofs r =
+            roofs({footprint(kRectangle)},
+                  std::string("House -> Extrude(wallHeight) {Wall, NULL}\nTile -> Shape(\"panel\")\nWall -> ") + wall);
+        return growRoofsOnCpu(r.inputs()).records.grids;
+    };
+    const auto plain = grids("Tile");
+    REQUIRE(plain.size() == 4);
+    for (const char* wall : {"[T(1, 1)] Tile", "[T(1) [S(1) T(0, 2)] R(1)] [Tile]", "[S(2, 2)] Shape(\"panel\")"}) {
+        const auto kept = grids(wall);
+        INFO(wall);
+        REQUIRE(kept.size() == 4);
+        for (size_t i = 0; i < 4; ++i) {
+            CHECK(kept[i].origin == plain[i].origin);
+            CHECK(kept[i].size == plain[i].size);
+        }
+    }
+    const auto moved = grids("T(0, 1) [T(0, 2)] S(2, 0.5) [Tile]");
+    REQUIRE(moved.size() == 4);
+    for (size_t i = 0; i < 4; ++i) {
+        CHECK(moved[i].origin.y == doctest::Approx(plain[i].origin.y + 1));
+        CHECK(moved[i].size.x == 2);
     }
 }
 
