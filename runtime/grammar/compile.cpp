@@ -94,7 +94,8 @@ Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& opti
     if (cacheFolder.empty() || p.compilation.reporter.failed()) return compile(p);
 
     const RuleMapCache cache(cacheFolder);
-    if (std::optional<RuleMap> known = cache.find(p.contentHash)) return std::move(*known);
+    std::optional<RuleMap> known = cache.find(p.contentHash);
+    if (known && RuleMapAccess::meshesWithin(*known, options)) return std::move(*known);
     Result<RuleMap> map = compile(p);
     if (!map) return map;
     if (Status kept = cache.keep(*map); !kept)

@@ -66,6 +66,8 @@ struct CompileOptions {
     IncludeReader readInclude;         // none: includes are refused
     std::vector<TerminalMesh> meshes = standardTerminalMeshes();
     std::vector<TerminalMesh> roofMeshes;  // for grammars of roofs; empty: `meshes`
+
+    const std::vector<TerminalMesh>& meshesOfRoofs() const { return roofMeshes.empty() ? meshes : roofMeshes; }
 };
 
 // How what has grown by one rule map differs from what grows by another.

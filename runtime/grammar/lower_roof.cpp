@@ -197,7 +197,7 @@ class RoofLowering {
         const Expr& text = c_.module.exprs[e.args.empty() ? 0 : e.args[0]];
         if (e.args.size() != 1 || text.kind != ExprKind::string || e.hasItems)
             return error(e.place, env, "a terminal of a roof is a mesh's name between quotes: Shape(\"slate\")"), r;
-        const auto& meshes = c_.options.roofMeshes.empty() ? c_.options.meshes : c_.options.roofMeshes;
+        const auto& meshes = c_.options.meshesOfRoofs();
         auto mesh =
             std::find_if(meshes.begin(), meshes.end(), [&](const TerminalMesh& m) { return m.name == text.text; });
         if (mesh == meshes.end()) {

@@ -59,6 +59,8 @@ struct RuleMapAccess {
     static void evaluate(RuleMap& map);
     // Empty, or what is wrong: every index, range and operation is checked.
     static std::string verify(const RuleMap& map);
+    // Whether every mesh that it draws is one of those that a text is compiled with, which its file doesn't tell.
+    static bool meshesWithin(const RuleMap& map, const CompileOptions& options);
 
     template <class T>
     static T record(const RuleMap& map, uint32_t section, uint32_t index) {

@@ -211,6 +211,16 @@ class Verifier {
 
 }  // namespace
 
+bool RuleMapAccess::meshesWithin(const RuleMap& map, const CompileOptions& options) {
+    for (uint32_t i = 0; i < count(map, kSectionRules); ++i) {
+        const RuleRecord rule = record<RuleRecord>(map, kSectionRules, i);
+        if (rule.kind == kRuleShape && rule.extrude >= options.meshesOfRoofs().size()) return false;
+    }
+    for (uint32_t i = 0; i < count(map, kSectionTerminals); ++i)
+        if (record<TerminalRecord>(map, kSectionTerminals, i).mesh >= options.meshes.size()) return false;
+    return true;
+}
+
 std::string RuleMapAccess::verify(const RuleMap& map) {
     // One section follows the other: no patch can reach into another's records.
     uint64_t end = 0;
