@@ -6,6 +6,7 @@
 #include <set>
 
 #include "runtime/core/srgb.hpp"
+#include "runtime/roof/shapes.hpp"
 
 namespace espalier {
 namespace {
@@ -73,6 +74,12 @@ bool standsAsPlanned(const Footprint& plan, const RoofHouse& planned, const Hous
            sameEdges(wish.edges, edgesOf(planned)) && sameRings(planned, wish.rings);
 }
 
+// Whether the plan's height, of which walls keep their share, leaves the roof less than its pitch asks for.
+bool heightLimitsRoof(const Footprint& plan, const RoofHouse& planned) {
+    const float roof = planned.ridgeHeight - planned.eaveHeight, whole = planned.ridgeHeight - planned.baseHeight;
+    return plan.height && roof > whole * float(kMostRoof) - 1e-3f;
+}
+
 }  // namespace
 
 glm::vec2 worldCorner(const RoofHouse& house, glm::vec2 corner) {
@@ -122,7 +129,8 @@ Footprint footprintFor(const Footprint& plan, const RoofHouse& planned, const Ho
     // higher walls leave it as it is.
     f.roofHeight.reset();
     f.roofLevels.reset();
-    const bool given = plan.roofHeight || (!plan.slope && (plan.roofLevels || (plan.height && plan.levels)));
+    const bool given = plan.roofHeight || (!plan.slope && (plan.roofLevels || (plan.height && plan.levels))) ||
+                       heightLimitsRoof(plan, planned);
     if (given && pitchStands(plan, planned, wish)) f.roofHeight = planned.ridgeHeight - planned.eaveHeight;
     if (wish.eaveHeight != wallsOf(planned) || f.height) {
         // Heights to the ridge depend on the roof; walls shall stay what they are.

@@ -147,9 +147,8 @@ class HouseMaker {
         else if (ridge > 0 && !f.slope && f.roofLevels && *f.roofLevels > 0)
             roof = kStorey * *f.roofLevels;
         if (f.height) {
-            // Walls keep at least a third of the height.
             double whole = std::max(*f.height - base, 0.1);
-            roof = std::min(roof, whole * 2 / 3);
+            roof = std::min(roof, whole * kMostRoof);
             eave = base + whole - roof;
         }
         double most = ridge * kSteepestRoof;

@@ -55,6 +55,28 @@ TEST_CASE("a roof whose height its plan gives keeps it while outline, walls and 
     }
 }
 
+TEST_CASE("a roof that its house's height alone keeps low stays so while outline, walls and gables change") {
+    const Folder folder;
+    const auto plan = [](const char* more) { return std::string(R"("roof:shape": "gabled", "height": 3)") + more; };
+    for (const std::string& tags : {plan(""), plan(R"(, "roof:angle": 45)")}) {
+        CAPTURE(tags);
+        Built built(folder, tags), pitch(folder, tags);
+        CHECK(built.roof() == doctest::Approx(2));  // two thirds
+        built.change([](House& h) { h.corners[0][0] -= .01f; });
+        CHECK(built.roof() == doctest::Approx(2));
+        CHECK(built.info().eaveHeight == doctest::Approx(1));
+        built.change([](House& h) { h.eaveHeight = 4; });
+        CHECK(built.roof() == doctest::Approx(2));
+        built.change([](House& h) { h.edges = {{1, "eave", 0}}; });
+        CHECK(built.roof() == doctest::Approx(2));
+        pitch.change([](House& h) { h.slope = .6f; });
+        CHECK(pitch.roof() == doctest::Approx(.6 * 4));
+    }
+    Built kind(folder, plan(""));
+    kind.change([](House& h) { h.shape = "hip"; });
+    CHECK(kind.roof() == doctest::Approx(kUsual * 4));
+}
+
 TEST_CASE("who asks for another pitch or kind gets it, whatever height the plan gave the roof") {
     const Folder folder;
     for (const char* plan : {kByHeight, kByLevels, kByWhole}) {
