@@ -58,9 +58,8 @@ ESP_API void espDestroyCarry(EspCarry* carry);          /* NULL is allowed */
  * set over the town, and that no grammar of plants reads, is painted over the town, and on surfaces that have it already only.
  *
  * A stroke keeps what it painted over, in blocks of 8×8 texels. Once ended it is a record for undoing, until it is
- * destroyed. Layers that came into being by it on surfaces go while it is undone, if nothing else has been painted on them
- * since; those of a town stay. Strokes of one layer are to be swapped in the order in which a history goes: last done, first
- * undone. */
+ * destroyed. Layers that came into being by it go while it is undone, if nothing else has been painted on them since.
+ * Strokes of one layer are to be swapped in the order in which a history goes: last done, first undone. */
 typedef enum EspBrushMode {
     ESP_BRUSH_PAINT = 0,         /* towards `value` */
     ESP_BRUSH_ERASE = 1,         /* to what the whole layer was filled with last (espLayerFilled), else its fill */

@@ -162,8 +162,9 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     stroke.layer = name;
     std::optional<float>& filled = context.filled[name];
     stroke.filled = filled;
-    const bool roofsOnly = fillTown(context, stroke, value) && !plantsRead(context, name);
+    Undo made([&] { withdraw(context, stroke); });
     Undo town([&] { swapTown(context, stroke); });
+    const bool roofsOnly = fillTown(context, stroke, value) && !plantsRead(context, name);
     TouchedBlocks touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         if ((roofsOnly || readAs(context, name, value)) && !paintedLayer(context, id, name)) return;
@@ -171,7 +172,6 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     });
     std::vector<PaintJob> jobs;
     const float fill = declaredFill(context, name).value_or(0);
-    Undo made([&] { withdraw(context, stroke); });
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
     if (Status painted = context.painter->fill(jobs, value); !painted) return failGpu(&context, painted.failure());
     made.done();
@@ -251,7 +251,7 @@ EspResult espDestroyStroke(EspContext* context, EspStroke id) {
 
 uint64_t espStrokeBytes(const EspContext* context, EspStroke id) {
     const PaintStroke* stroke = context ? context->strokes.find(id.id) : nullptr;
-    uint64_t bytes = stroke ? stroke->plan.bytes() : 0;
+    uint64_t bytes = stroke ? stroke->plan.record.bytes() : 0;
     if (stroke)
         for (const PaintStroke::Part& part : stroke->parts) bytes += part.record.bytes();
     return bytes;

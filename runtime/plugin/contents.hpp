@@ -138,18 +138,24 @@ struct PaintStroke {
     bool smooths = false, erases = false;
     float radius = 0;  // metres
     bool open = true;
-    struct Part {
-        uint32_t surface = 0;  // id
-        BlockRecord record;
-        uint64_t layer = 0;  // number of the layer that the record is of
+    // What it has to do with one layer.
+    struct Hold {
+        uint64_t layer = 0;  // number of the layer
         bool made = false;   // that came into being by it, filled with `fill`; it goes when undone
         float fill = 0;
-        bool counts = false;  // among PaintedLayer::strokes
+        bool counts = false;  // among the layer's strokes
         bool undone = false;
     };
+    struct Part : Hold {
+        uint32_t surface = 0;  // id
+        BlockRecord record;
+    };
+    struct TownPart : Hold {
+        uint64_t town = 0;  // LoadedTown::number; 0: it has come to none
+        PlanRecord record;
+    };
     std::vector<Part> parts;
-    uint64_t town = 0;  // LoadedTown::number that `plan` is of
-    PlanRecord plan;
+    TownPart plan;
     // Of one that fills the whole layer: the layer's entry in EspContext::filled before it, or once it is undone,
     // after.
     std::optional<std::optional<float>> filled;

@@ -120,12 +120,10 @@ constexpr const char* kNoMemory = "out of memory";  // short enough to take none
 Status knowRoofMeshes(EspContext& context);
 // Grows what has changed of the town; on failure the last roofs stand, and what changed waits.
 EspResult updateTown(EspContext& context);
-// What strokes do to layers of the town: those that it has or that its grammar reads. True: it has one of this name.
-// Its grammar may be none yet.
-bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs);
-bool fillTown(EspContext& context, PaintStroke& stroke, float value);
-void closeTown(EspContext& context, PaintStroke& stroke);
-void swapTown(EspContext& context, PaintStroke& stroke);
+// Null: there is no town, or none that it grows by.
+const LoadedGrammar* townGrammar(const EspContext& context);
+// What the town's roofs read where nothing of the layer is painted.
+float fillOverTown(const EspContext& context, const std::string& name);
 // Gives roofs the town's layers, and adds to LoadedTown::changed the houses that have read what was painted since.
 void bindTownLayers(EspContext& context, RoofInputs& inputs);
 // Adds the town's roofs to what espMaterialise gives: TriangleVertex, uint32_t.

@@ -78,6 +78,7 @@ void dropMade(EspContext& context, const PaintStroke& stroke) noexcept {
         const auto made = [&](const PaintedLayer& layer) { return layer.number == part.layer && layer.strokes == 0; };
         if (part.undone && part.made && std::erase_if(context.layers, made) > 0) context.tablesStale = true;
     }
+    dropTownMade(context, stroke);
 }
 
 // Before the stroke is done again.
@@ -86,23 +87,14 @@ EspResult makeAgain(EspContext& context, const PaintStroke& stroke) {
         if (part.undone && part.made && context.surfaces.find(part.surface) &&
             !paintedLayer(context, part.surface, stroke.layer))
             if (EspResult bad = makeLayer(context, part.surface, stroke.layer, part.fill, part.layer)) return bad;
+    makeTownAgain(context, stroke);
     return ESP_OK;
-}
-
-// Whether what the stroke has painted on a layer is there: from its first dab on, while it is open too.
-void count(EspContext& context, const PaintStroke& stroke, PaintStroke::Part& part, bool counts) noexcept {
-    PaintedLayer* layer = layerOf(context, stroke, part);
-    if (layer && part.counts != counts) layer->strokes += counts ? 1 : -1;
-    part.counts = counts;
 }
 
 // Notes that the stroke has been undone, or done again.
 void turn(EspContext& context, PaintStroke& stroke) noexcept {
-    for (PaintStroke::Part& part : stroke.parts)
-        if (layerOf(context, stroke, part)) {
-            part.undone = !part.undone;
-            count(context, stroke, part, !part.undone);
-        }
+    for (PaintStroke::Part& part : stroke.parts) turnStroke(layerOf(context, stroke, part), part);
+    turnTown(context, stroke);
 }
 
 // Takes back, as far as there is memory for it, what a call has painted that can't be kept.
@@ -129,7 +121,10 @@ EspResult jobsFor(EspContext& context, PaintStroke& stroke, float fill, TouchedB
     context.device->hostSubmitted();  // as espUpdate does
     for (const auto& [surface, blocks] : touched) {
         PaintStroke::Part& part = partOf(stroke, surface);
-        if (!layerOf(context, stroke, part)) part = {.surface = surface};  // nothing yet, or on a layer that is gone
+        if (!layerOf(context, stroke, part)) {  // nothing yet, or on a layer that is gone
+            part = {};
+            part.surface = surface;
+        }
         if (const PaintedLayer* there = paintedLayer(context, surface, stroke.layer)) {
             part.layer = there->number;
         } else {
@@ -138,7 +133,7 @@ EspResult jobsFor(EspContext& context, PaintStroke& stroke, float fill, TouchedB
             part.made = true;
             part.fill = fill;
         }
-        count(context, stroke, part, true);
+        countStroke(layerOf(context, stroke, part), part, true);
     }
     for (auto& [surface, blocks] : touched)  // addresses stay from here on
         jobs.push_back({canvasOf(context, surface, stroke.layer), &partOf(stroke, surface).record, std::move(blocks)});
@@ -158,7 +153,7 @@ EspResult endStroke(EspContext& context, PaintStroke& stroke, const PartChanged&
     }
     std::erase_if(stroke.parts, [&](PaintStroke::Part& part) {
         const bool idle = (part.record.blocks().empty() && !part.made) || !layerOf(context, stroke, part);
-        if (idle) count(context, stroke, part, false);
+        if (idle) countStroke(layerOf(context, stroke, part), part, false);
         return idle;
     });
     return ESP_OK;

@@ -1,7 +1,7 @@
 #pragma once
 
-// What strokes of the brush, fills and imports do to surfaces' layers: they make those that are missing, keep what was
-// there, are undone and done again.
+// What strokes of the brush, fills and imports do to layers of surfaces and of a town: they make those that are
+// missing, keep what was there, are undone and done again.
 
 #include <cstdint>
 #include <functional>
@@ -31,5 +31,31 @@ EspResult keepEnded(EspContext& context, PaintStroke stroke, EspStroke* out);
 void withdraw(EspContext& context, PaintStroke& stroke) noexcept;
 // Undoes a stroke that has ended, or does it again: all of it or nothing.
 EspResult swapStroke(EspContext& context, PaintStroke& stroke);
+
+// What strokes do to layers of the town: those that it has or that its grammar reads. True: it has one of this name.
+// Its grammar may be none yet.
+bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs);
+bool fillTown(EspContext& context, PaintStroke& stroke, float value);
+void closeTown(EspContext& context, PaintStroke& stroke);
+// The layer that the stroke has made is there once more, before it is done again.
+void makeTownAgain(EspContext& context, const PaintStroke& stroke);
+void swapTown(EspContext& context, PaintStroke& stroke);
+// Notes that the stroke has been undone, or done again.
+void turnTown(EspContext& context, PaintStroke& stroke) noexcept;
+// A layer that the stroke has made goes while it is undone, unless something else has been painted on it.
+void dropTownMade(EspContext& context, const PaintStroke& stroke) noexcept;
+
+// Whether what the stroke has painted on a layer is there: from its first dab on, while it is open too.
+template <class Layer>
+void countStroke(Layer* layer, PaintStroke::Hold& hold, bool counts) noexcept {
+    if (layer && hold.counts != counts) layer->strokes += counts ? 1 : -1;
+    hold.counts = counts;
+}
+template <class Layer>
+void turnStroke(Layer* layer, PaintStroke::Hold& hold) noexcept {
+    if (!layer) return;
+    hold.undone = !hold.undone;
+    countStroke(layer, hold, !hold.undone);
+}
 
 }  // namespace espalier

@@ -47,9 +47,14 @@ PlanLayer* PlanLayers::find(const std::string& name) {
     return nullptr;
 }
 
-PlanLayer& PlanLayers::make(const std::string& name, float fill) {
+PlanLayer& PlanLayers::make(const std::string& name, float fill, uint64_t number) {
     if (PlanLayer* known = find(name)) return *known;
-    return layers_.emplace_back(PlanLayer{name, std::vector<float>(size_t(site_.size) * site_.size, fill)});
+    std::vector<float> texels(size_t(site_.size) * site_.size, fill);
+    return layers_.emplace_back(PlanLayer{name, std::move(texels), number});
+}
+
+void PlanLayers::drop(const std::string& name) noexcept {
+    std::erase_if(layers_, [&](const PlanLayer& layer) { return layer.name == name; });
 }
 
 PlanRect PlanLayers::rectOf(glm::vec2 low, glm::vec2 high) const {
@@ -129,18 +134,16 @@ PlanRect PlanLayers::dabs(PlanLayer& layer, BrushRecord brush, bool smooths, std
 }
 
 PlanRect PlanLayers::replace(PlanLayer& layer, std::span<const float> texels, PlanRecord& kept) {
-    const PlanRect all{0, 0, site_.size, site_.size};
-    keep(layer, kept, all);
+    keep(layer, kept, whole());
     dropEqual(texels, kept);
     std::ranges::copy(texels, layer.texels.begin());
-    return all;
+    return whole();
 }
 
 PlanRect PlanLayers::fill(PlanLayer& layer, float value, PlanRecord& kept) {
-    const PlanRect all{0, 0, site_.size, site_.size};
-    keep(layer, kept, all);
+    keep(layer, kept, whole());
     std::ranges::fill(layer.texels, value);
-    return all;
+    return whole();
 }
 
 PlanRect PlanLayers::swap(PlanLayer& layer, PlanRecord& kept) const {

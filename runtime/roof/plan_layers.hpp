@@ -16,6 +16,8 @@ namespace espalier {
 struct PlanLayer {
     std::string name;
     std::vector<float> texels;  // site.size² of 0 to 1, see RoofSite
+    uint64_t number = 0;        // the caller's
+    int strokes = 0;            // likewise
 };
 
 // Texels [x0, x1) × [y0, y1).
@@ -43,10 +45,11 @@ class PlanLayers {
     const RoofSite& site() const { return site_; }
     PlanLayer* find(const std::string& name);
     const PlanLayer* find(const std::string& name) const { return const_cast<PlanLayers*>(this)->find(name); }
-    // The layer, made if need be, all of it `fill`. It stays where it is in memory.
-    PlanLayer& make(const std::string& name, float fill);
-    void dropLast() { layers_.pop_back(); }  // the layer that was made last
+    // The layer, made if need be, all of it `fill`. It stays where it is in memory until one is dropped.
+    PlanLayer& make(const std::string& name, float fill, uint64_t number = 0);
+    void drop(const std::string& name) noexcept;
     const std::deque<PlanLayer>& all() const { return layers_; }
+    PlanRect whole() const { return {0, 0, site_.size, site_.size}; }
 
     // These return what may have changed; blocks that the record doesn't hold yet are kept in it first.
     // A dab paints what lies below it, whatever its height; limits of slope, height and side don't count.

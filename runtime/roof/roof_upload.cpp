@@ -137,6 +137,7 @@ Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs) {
     for (uint32_t i = 0; i < kRoofLayers; ++i) {
         const RoofInputs::Layer& layer = inputs.layers[i];
         table[i].fill = inputs.fill(i);
+        if (!layer.texels) layersSent_[i] = false;
         if (!layer.texels) continue;
         const bool fresh = !layersSent_[i] || !layers_[i] || layers_[i].size() < row * inputs.site.size;
         layersSent_[i] = false;

@@ -188,3 +188,117 @@ TEST_CASE("a house that grows to nothing has no triangles any more") {
     stroke(context, brush, {{5, 0, -4}, {0, 1, 0}, 1});
     CHECK(triangles() == two / 2);
 }
+
+namespace {
+
+// A house that has its roof where `decay` is small over it, in the mean.
+const std::string kHiding =
+    "context decay = 0\nHouse -> Extrude(wallHeight) {NULL, Top}\nTop : decay(house) > 0.5 -> NULL\n"
+    "Top -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, Top}\n"
+    "Cover -> Repeat(XY, vec2(0.3, 0.25), bond) {Tile}\nTile -> Shape(\"slate\")\n";
+
+// Two houses far from each other.
+struct Hiding : Bare {
+    EspGrammar roofs{};
+    Hiding() {
+        roofs = compiled(context, "roofs", kHiding.c_str());
+        load(context, roofs,
+             "{\"buildings\": [{\"id\": \"a\", \"outer\": [[0,0],[10,0],[10,8],[0,8]]},"
+             " {\"id\": \"b\", \"outer\": [[40,0],[50,0],[50,8],[40,8]]}]}");
+    }
+    size_t triangles() const {
+        EspTriangles made{};
+        REQUIRE(espUpdate(context) == ESP_OK);
+        REQUIRE(espMaterialise(context, &made) == ESP_OK);
+        return made.indexCount / 3;
+    }
+    void swap(EspStroke stroke) const { REQUIRE(espSwapStroke(context, stroke) == ESP_OK); }
+    EspStroke hideFirst() const {
+        EspBrush brush = brushOn("decay", 12);
+        brush.strength = brush.hardness = 1;
+        return stroke(context, brush, {{5, 0, -4}, {0, 1, 0}, 1});
+    }
+    void wantElsewhere(const char* fill) const {
+        std::string text = kHiding;
+        text.replace(text.find("decay = 0"), 9, std::string("decay = ") + fill);
+        const EspGrammarDef def{"roofs", text.c_str(), text.size()};
+        REQUIRE(espRecompileGrammar(context, roofs, &def) == ESP_OK);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a town's layer that a stroke, a fill or an import made goes when that is undone, and comes back as it was") {
+    const Hiding host;
+    const size_t whole = host.triangles();
+    REQUIRE(whole > 1000);
+    EspStroke made{};
+    size_t left = 0;
+    SUBCASE("a stroke") {
+        made = host.hideFirst();
+        left = whole / 2;
+    }
+    SUBCASE("a fill") {
+        REQUIRE(espFillLayer(host.context, "decay", 1, &made) == ESP_OK);
+    }
+    SUBCASE("an import") {
+        const float one = 1;
+        REQUIRE(espSetTownLayer(host.context, "decay", &one, 1, 1, &made) == ESP_OK);
+    }
+    CHECK(host.triangles() == left);
+    const std::vector<float> painted = layerOf(host.context, "decay");
+    for (int i = 0; i < 2; ++i) {
+        host.swap(made);
+        CHECK(espTownLayerCount(host.context) == 0);
+        CHECK(host.triangles() == whole);
+        host.swap(made);
+        CHECK(espTownLayerCount(host.context) == 1);
+        CHECK(layerOf(host.context, "decay") == painted);
+        CHECK(host.triangles() == left);
+    }
+    // Undone, roofs read what the grammar says, whatever that was when the layer was made; done again they don't.
+    host.swap(made);
+    host.wantElsewhere("1");
+    CHECK(host.triangles() == 0);
+    host.swap(made);
+    CHECK(host.triangles() == left);
+    host.swap(made);
+    CHECK(host.triangles() == 0);
+}
+
+TEST_CASE("a town's layer that a stroke made stays where something else is painted on it") {
+    const Hiding host;
+    const size_t whole = host.triangles();
+    const EspStroke first = host.hideFirst();
+    const EspDab far = {{45, 0, -4}, {0, 1, 0}, 1};
+    SUBCASE("which is undone first") {
+        const EspStroke later = stroke(host.context, brushOn("decay", 3), far);
+        host.swap(later);
+        CHECK(espTownLayerCount(host.context) == 1);
+        host.swap(first);
+        CHECK(espTownLayerCount(host.context) == 0);
+        host.swap(first);
+        host.swap(later);
+        CHECK(espTownLayerCount(host.context) == 1);
+        CHECK(host.triangles() == whole / 2);
+    }
+    SUBCASE("which can't be undone") {
+        REQUIRE(espDestroyStroke(host.context, stroke(host.context, brushOn("decay", 3), far)) == ESP_OK);
+        host.swap(first);
+        CHECK(espTownLayerCount(host.context) == 1);
+        CHECK(host.triangles() == whole);
+    }
+    SUBCASE("or it was set") {
+        const float half = .5f;
+        REQUIRE(espSetTownLayer(host.context, "decay", &half, 1, 1, nullptr) == ESP_OK);
+        host.swap(first);
+        CHECK(espTownLayerCount(host.context) == 1);
+    }
+    SUBCASE("which a stroke that changed nothing isn't") {
+        EspBrush brush = brushOn("decay", 3);
+        brush.value = 0;
+        CHECK(espStrokeBytes(host.context, stroke(host.context, brush, far)) == 0);
+        host.swap(first);
+        CHECK(espTownLayerCount(host.context) == 0);
+    }
+}
