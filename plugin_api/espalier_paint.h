@@ -99,6 +99,8 @@ ESP_API EspResult espSwapStroke(EspContext* context, EspStroke stroke);
 /* Forgets the record; what is painted stays. An open stroke is ended by it. */
 ESP_API EspResult espDestroyStroke(EspContext* context, EspStroke stroke);
 ESP_API uint64_t espStrokeBytes(const EspContext* context, EspStroke stroke);   /* memory that it holds */
+/* 1: the record holds texels of this surface, or, of one of id 0, of the town: what a stroke that has ended changed there. */
+ESP_API int espStrokePainted(const EspContext* context, EspStroke stroke, EspSurface surface);
 /* Sets the whole layer, on all surfaces; out is an ended stroke. On failure the layer is as it was. */
 ESP_API EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out);
 /* 1: *value is what espFillLayer set the whole layer to last, undone fills aside; 0: it was never filled. */
@@ -110,6 +112,8 @@ ESP_API EspResult espImportLayer(EspContext* context, const EspLayerDef* def, Es
 /* The layers that are painted on any surface; a name is valid until the next call that changes layers. */
 ESP_API uint32_t espPaintedLayerCount(const EspContext* context);
 ESP_API const char* espPaintedLayerName(const EspContext* context, uint32_t index);
+/* 1: this surface has such a layer of its own; 0: grammars read their fill there. */
+ESP_API int espLayerPainted(const EspContext* context, EspSurface surface, const char* layer);
 /* The layer over the surface's walk UV: size rows of size floats, the first at v = 0. *size: the side of the array
  * that texels has room for; set to the layer's. 0, or texels NULL: only asks. Waits for the GPU. */
 ESP_API EspResult espReadLayer(EspContext* context, EspSurface surface, const char* layer, float* texels, uint32_t* size);

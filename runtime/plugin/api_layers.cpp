@@ -146,6 +146,13 @@ const char* espPaintedLayerName(const EspContext* context, uint32_t index) {
     return found;
 }
 
+int espLayerPainted(const EspContext* context, EspSurface surface, const char* layer) {
+    if (!context || !layer) return 0;
+    return std::ranges::any_of(context->layers, [&](const PaintedLayer& painted) {
+        return painted.surface == surface.id && painted.name == layer;
+    });
+}
+
 EspResult espReadLayer(EspContext* context, EspSurface surface, const char* layer, float* texels, uint32_t* size) {
     return guarded(context, [&] {
         if (!layer || !size) return fail(context, ESP_INVALID_ARGUMENT, "espReadLayer: null pointer");

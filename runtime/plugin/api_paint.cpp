@@ -257,6 +257,15 @@ uint64_t espStrokeBytes(const EspContext* context, EspStroke id) {
     return bytes;
 }
 
+int espStrokePainted(const EspContext* context, EspStroke id, EspSurface surface) {
+    const PaintStroke* stroke = context ? context->strokes.find(id.id) : nullptr;
+    if (!stroke) return 0;
+    const auto painted = [&](const PaintStroke::Part& part) {
+        return part.surface == surface.id && !part.record.blocks().empty();
+    };
+    return surface.id ? std::ranges::any_of(stroke->parts, painted) : !stroke->plan.record.blocks.empty();
+}
+
 EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out) {
     return guarded(context, [&] {
         if (!layer || !*layer || !out || !(value >= 0 && value <= 1))

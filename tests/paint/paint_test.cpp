@@ -212,6 +212,8 @@ TEST_CASE("erasing leads back to the fill that a grammar declares, and layers ou
     CHECK(painting.layer("mask") == layer);
     REQUIRE(espPaintedLayerCount(painting.context) == 1);
     CHECK(std::string(espPaintedLayerName(painting.context, 0)) == "mask");
+    CHECK(espLayerPainted(painting.context, painting.surface, "mask") == 1);
+    CHECK(espLayerPainted(painting.context, painting.surface, "ask") == 0);
     brush.mode = ESP_BRUSH_ERASE;
     brush.radius = .8f;
     painting.stroke(brush, {dabAt({1, 0, 0})});

@@ -160,6 +160,28 @@ TEST_CASE("a stroke that goes on where another layer has come in its layer's pla
     }
 }
 
+TEST_CASE("a stroke tells which surfaces it has changed") {
+    const Painting painting;
+    EspTransform place = espIdentity();
+    place.rows[0][3] = 10;
+    const EspSurface far = painting.another(place);
+    const auto painted = [&](EspStroke stroke) {
+        return std::pair(espStrokePainted(painting.context, stroke, painting.surface),
+                         espStrokePainted(painting.context, stroke, far));
+    };
+    const EspBrush brush = brushOn("mask", .4f);
+    CHECK(painted(painting.stroke(brush, {dabAt({1, 0, 0})})) == std::pair(1, 0));
+    CHECK(painted(painting.stroke(brush, {dabAt({11, 0, 0})})) == std::pair(0, 1));
+    CHECK(painted(painting.stroke(brush, {dabAt({1, 0, 0}), dabAt({11, 0, 0})})) == std::pair(1, 1));
+    CHECK(painted(painting.stroke(brush, {dabAt({5, 0, 0})})) == std::pair(0, 0));
+    CHECK(painted({}) == std::pair(0, 0));
+    CHECK(espStrokePainted(painting.context, painting.stroke(brush, {dabAt({1, 0, 0})}), {}) == 0);  // no town is here
+    CHECK(espLayerPainted(painting.context, far, "mask") == 1);
+    CHECK(espLayerPainted(painting.context, far, "ask") == 0);
+    CHECK(espLayerPainted(nullptr, far, "mask") == 0);
+    CHECK(espLayerPainted(painting.context, {}, "mask") == 0);
+}
+
 TEST_CASE("layers that a stroke made go when it is undone, and come back as they were") {
     Painting painting;
     // Two grammars that want another value each where nothing is painted.

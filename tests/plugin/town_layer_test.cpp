@@ -245,6 +245,7 @@ TEST_CASE("a town's layer that a stroke, a fill or an import made goes when that
         const float one = 1;
         REQUIRE(espSetTownLayer(host.context, "decay", &one, 1, 1, &made) == ESP_OK);
     }
+    CHECK(espStrokePainted(host.context, made, {}) == 1);
     CHECK(host.triangles() == left);
     const std::vector<float> painted = layerOf(host.context, "decay");
     for (int i = 0; i < 2; ++i) {
