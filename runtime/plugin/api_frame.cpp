@@ -58,7 +58,12 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
     return ESP_OK;
 }
 
-// Over surfaces; one that is painted, but that no grammar reads, gets a number to be seen by.
+bool isPainted(const EspContext& context, const std::string& name) {
+    return std::ranges::find(context.layers, name, &PaintedLayer::name) != context.layers.end() ||
+           (context.town && context.town->layers.find(name));
+}
+
+// Over surfaces; one that is painted, but that no grammar reads, gets a number to be seen by, if one is left.
 std::optional<uint32_t> layerToShow(EspContext& context, const std::string& name, std::span<const uint32_t> kept) {
     const auto known = std::ranges::find(context.sceneLayers, name, &SceneLayer::name);
     if (known != context.sceneLayers.end()) return uint32_t(known - context.sceneLayers.begin());
@@ -95,10 +100,10 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
         look.layer = shownLayers(name, [&](const std::string& layer, std::span<const uint32_t> kept) {
             return layerToShow(context, layer, kept);
         });
-        const auto overTown = [&](const std::string& layer) {
-            return declaredFill(context, layer) || (context.town && context.town->layers.find(layer));
+        const auto known = [&](const std::string& layer) {
+            return declaredFill(context, layer) || isPainted(context, layer);
         };
-        if (look.layer == kNoIndex && !overTown(name) && !overTown(name + kChannels[0]))
+        if (look.layer == kNoIndex && !known(name) && !known(name + kChannels[0]))
             return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
     }
     return ESP_OK;

@@ -234,3 +234,27 @@ TEST_CASE("shadows that lag behind growth are told, and the next picture of what
     CHECK(!behind());
     CHECK(picture(painting, espDefaultLook()) == rested);
 }
+
+TEST_CASE("a painted layer that no grammar reads shows nothing where grammars read as many as there can be") {
+    const Painting painting;
+    std::string text;
+    for (int i = 0; i < 16; ++i) text += "context l" + std::to_string(i) + " = 1\n";
+    painting.grammar((text + "A -> Marching(0.1, 0, arc < 1) {A}\n").c_str());
+    for (const char* layer : {"more", "tint.r", "tint.g", "tint.b"})
+        painting.stroke(brushOn(layer, .5f), {dabAt({0, 0, 1})});
+    EspLook look = espDefaultLook();
+    look.view = ESP_VIEW_LAYER;
+    look.viewLayer = "l0";
+    (void)picture(painting, look);
+    for (const char* layer : {"more", "tint"}) {
+        look.viewLayer = layer;
+        const std::vector<uint8_t> shown = picture(painting, look);
+        look.viewOpacity = 0;
+        CHECK(picture(painting, look) == shown);
+        look.viewOpacity = 1;
+    }
+    EspDrawDef def = espDefaultDrawDef();
+    def.look = look;
+    def.look.viewLayer = "none";
+    CHECK(espDraw(painting.context, &def) == ESP_INVALID_ARGUMENT);
+}
