@@ -60,7 +60,7 @@ bool overwrites(const Action& earlier, const Action& later) {
 }  // namespace
 
 Document::~Document() {
-    for (EspStroke stroke : strokes_) espDestroyStroke(context_, stroke);
+    for (const OpenStroke& open : strokes_) espDestroyStroke(context_, open.stroke);
 }
 
 bool Document::failed(EspResult result, std::string& error) const {

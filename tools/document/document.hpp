@@ -112,6 +112,8 @@ class Document {
     bool failed(EspResult result, std::string& error) const;
     std::vector<Param> paramsOf(uint32_t grammar) const;
     bool townGrows() const;  // it has a grammar
+    Action keepStroke(EspStroke ended, const std::string& channel, const std::function<bool(int surface)>& covers);
+    void exchangeUnread(const StrokeRecord& stroke);
     bool takeBack(std::vector<Action>& back);
     bool moveSeeds(const ChangeSeeds& action);
     bool plant(std::string& error);
@@ -124,8 +126,12 @@ class Document {
     scene::Scene scene_;
     bool allPlanted_ = true;
     std::vector<Step> done_, undone_;
-    size_t beyond_ = 0;               // of done_, from its beginning: out of undo's reach
-    std::vector<EspStroke> strokes_;  // open: one for each channel of a layer
+    size_t beyond_ = 0;  // of done_, from its beginning: out of undo's reach
+    struct OpenStroke {
+        std::string channel;
+        EspStroke stroke;
+    };
+    std::vector<OpenStroke> strokes_;  // one for each channel of a layer
     bool strokeHasDabs_ = false;
     std::string strokeName_;  // its nameOf()
     uint64_t revision_ = 0;

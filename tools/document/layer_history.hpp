@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "plugin_api/espalier.h"
 #include "tools/document/action.hpp"
 
@@ -9,7 +12,9 @@ namespace espalier::document {
 struct StrokeRecord {
     EspContext* context = nullptr;
     EspStroke stroke{};
-    StrokeRecord(EspContext* c, EspStroke s) : context(c), stroke(s) {}
+    std::vector<scene::SceneLayer> unread;  // pictures of Scene::unread whose places it has painted
+    StrokeRecord(EspContext* c, EspStroke s, std::vector<scene::SceneLayer> pictures)
+        : context(c), stroke(s), unread(std::move(pictures)) {}
     StrokeRecord(const StrokeRecord&) = delete;
     ~StrokeRecord() { espDestroyStroke(context, stroke); }
 };

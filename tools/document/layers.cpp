@@ -92,10 +92,10 @@ bool Document::carryOut(const StrokeBegin& action, std::vector<Action>&, std::st
         brush.value = valueOf(action.colour, action.value, c);
         EspStroke stroke{};
         if (failed(espBeginStroke(context_, &brush, &stroke), error)) {
-            for (EspStroke begun : std::exchange(strokes_, {})) espDestroyStroke(context_, begun);
+            for (const OpenStroke& begun : std::exchange(strokes_, {})) espDestroyStroke(context_, begun.stroke);
             return false;
         }
-        strokes_.push_back(stroke);
+        strokes_.push_back({channels[c], stroke});
     }
     return true;
 }
@@ -109,8 +109,8 @@ bool Document::carryOut(const StrokeDabs& action, std::vector<Action>&, std::str
     for (const auto& d : action.dabs) dabs.push_back({{d[0], d[1], d[2]}, {d[3], d[4], d[5]}, d[6]});
     if (dabs.empty()) return true;
     strokeHasDabs_ = true;
-    return std::ranges::all_of(strokes_, [&](EspStroke stroke) {
-        return !failed(espStrokeDabs(context_, stroke, dabs.data(), uint32_t(dabs.size())), error);
+    return std::ranges::all_of(strokes_, [&](const OpenStroke& open) {
+        return !failed(espStrokeDabs(context_, open.stroke, dabs.data(), uint32_t(dabs.size())), error);
     });
 }
 
@@ -120,12 +120,37 @@ bool Document::carryOut(const StrokeEnd&, std::vector<Action>& back, std::string
         return false;
     }
     bool good = true;
-    for (EspStroke ended : std::exchange(strokes_, {})) {
-        good = !failed(espEndStroke(context_, ended), error) && good;
-        const auto record = std::make_shared<StrokeRecord>(context_, ended);
-        if (strokeHasDabs_) back.push_back(SwapStroke{record});
+    for (const auto& [channel, stroke] : std::exchange(strokes_, {})) {
+        good = !failed(espEndStroke(context_, stroke), error) && good;
+        const Action swap = keepStroke(stroke, channel, [&](int surface) {
+            const EspSurface town{};
+            return espStrokePainted(context_, stroke, surface < 0 ? town : scene_.surfaces[size_t(surface)].id) != 0;
+        });
+        if (strokeHasDabs_) back.push_back(swap);
     }
     return good || takeBack(back);
+}
+
+// What undoes an ended stroke of a channel. Pictures that couldn't be read give way where it covers their surface, or
+// the town.
+Action Document::keepStroke(EspStroke ended, const std::string& channel,
+                            const std::function<bool(int surface)>& covers) {
+    std::vector<scene::SceneLayer> unread;
+    for (const scene::SceneLayer& picture : scene_.unread)
+        if (picture.name == channel && covers(picture.surface)) unread.push_back(picture);
+    const auto record = std::make_shared<StrokeRecord>(context_, ended, std::move(unread));
+    exchangeUnread(*record);
+    return SwapStroke{record};
+}
+
+// While a stroke is undone the pictures that it has covered wait again.
+void Document::exchangeUnread(const StrokeRecord& stroke) {
+    for (const scene::SceneLayer& picture : stroke.unread) {
+        const auto same = [&](const scene::SceneLayer& other) {
+            return other.name == picture.name && other.surface == picture.surface;
+        };
+        if (std::erase_if(scene_.unread, same) == 0) scene_.unread.push_back(picture);
+    }
 }
 
 bool Document::carryOut(const FillLayer& action, std::vector<Action>& back, std::string& error) {
@@ -135,20 +160,25 @@ bool Document::carryOut(const FillLayer& action, std::vector<Action>& back, std:
         EspStroke filled{};
         const float value = valueOf(action.colour, action.value, c);
         if (failed(espFillLayer(context_, channels[c].c_str(), value, &filled), error)) return takeBack(back);
-        back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, filled)});
+        back.push_back(keepStroke(filled, channels[c], [](int) { return true; }));
     }
     return true;
 }
 
 // Of several channels some were painted before one failed.
 bool Document::takeBack(std::vector<Action>& back) {
-    for (const Action& swap : back) espSwapStroke(context_, std::get<SwapStroke>(swap).stroke->stroke);
+    for (const Action& swap : back) {
+        const StrokeRecord& record = *std::get<SwapStroke>(swap).stroke;
+        espSwapStroke(context_, record.stroke);
+        exchangeUnread(record);
+    }
     back.clear();
     return false;
 }
 
 bool Document::carryOut(const SwapStroke& action, std::vector<Action>& back, std::string& error) {
     if (failed(espSwapStroke(context_, action.stroke->stroke), error)) return false;
+    exchangeUnread(*action.stroke);
     back.push_back(action);
     return true;
 }
@@ -169,7 +199,7 @@ bool Document::carryOut(const LoadLayer& action, std::vector<Action>& back, std:
         if (failed(scene::walkLayer(context_, surface, channels[c], (*picture)[c], def), error) ||
             failed(espImportLayer(context_, &def, &stroke), error))
             return takeBack(back);
-        back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, stroke)});
+        back.push_back(keepStroke(stroke, channels[c], [&](int place) { return place == int(action.surface); }));
     }
     return true;
 }
@@ -184,7 +214,7 @@ bool Document::carryOut(const LoadTownLayer& action, std::vector<Action>& back, 
         EspStroke stroke{};
         if (failed(espSetTownLayer(context_, channels[c].c_str(), p.texels.data(), p.width, p.height, &stroke), error))
             return takeBack(back);
-        back.push_back(SwapStroke{std::make_shared<StrokeRecord>(context_, stroke)});
+        back.push_back(keepStroke(stroke, channels[c], [](int place) { return place == scene::SceneLayer::kTown; }));
     }
     return true;
 }

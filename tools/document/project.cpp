@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 #include "tools/document/durable.hpp"
 #include "tools/document/write_lock.hpp"
@@ -22,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using scene::kHashDigits;
 using scene::SceneFile;
+using scene::SceneLayer;
 
 constexpr const char* kProject = "project.json";
 constexpr const char* kAutosave = "autosave.json";
@@ -82,7 +84,7 @@ bool writeLayers(ProjectData& data, const fs::path& folder, Progress& progress, 
     float written = 0;
     for (ProjectData::Layer& layer : data.layers) {
         const scene::GreyPicture picture = std::move(layer.picture);
-        const bool town = layer.surface == scene::SceneLayer::kTown;
+        const bool town = layer.surface == SceneLayer::kTown;
         const std::string file = layer.name + "-" + (town ? "town" : std::to_string(layer.surface)) + "-" +
                                  scene::hashName(picture.texels.data(), picture.texels.size() * sizeof(float)) + ".exr";
         const fs::path path = folder / kLayers / file;
@@ -219,6 +221,27 @@ bool write(ProjectData data, const std::string& folder, const char* name, Progre
     return good;
 }
 
+// Where layers are painted. A picture that couldn't be read stays what it is until something is painted in its place.
+void outlineLayers(const Document& document, ProjectData& out) {
+    EspContext* context = document.context();
+    const scene::Scene& scene = document.scene();
+    out.file.layers = scene.unread;
+    std::set<std::string> names;
+    const auto add = [&](const std::string& name, int surface) {
+        const auto waits = [&](const SceneLayer& unread) { return unread.name == name && unread.surface == surface; };
+        if (std::ranges::none_of(scene.unread, waits)) out.layers.push_back({name, surface, {}});
+        names.insert(name);
+    };
+    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i)
+        for (size_t surface = 0; surface < scene.surfaces.size(); ++surface)
+            add(espPaintedLayerName(context, i), int(surface));
+    for (uint32_t i = 0; i < espTownLayerCount(context); ++i) add(espTownLayerName(context, i), SceneLayer::kTown);
+    for (const SceneLayer& unread : scene.unread) names.insert(unread.name);
+    std::ranges::stable_sort(out.layers, {}, &ProjectData::Layer::name);  // not by when each was painted
+    for (const std::string& name : names)
+        if (float value; espLayerFilled(context, name.c_str(), &value)) out.file.filled.push_back({name, value});
+}
+
 // All but the layers' texels.
 ProjectData outline(const Document& document) {
     ProjectData out{describe(document), {}, {}, {}};
@@ -226,28 +249,12 @@ ProjectData outline(const Document& document) {
     out.square = scene::squareOf(context);
     for (const scene::LoadedSurface& surface : document.scene().surfaces)
         out.bakes.push_back({scene::keptName(context, surface.id), surface.kept});
-    for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i)
-        for (size_t surface = 0; surface < document.scene().surfaces.size(); ++surface)
-            out.layers.push_back({espPaintedLayerName(context, i), int(surface), {}});
-    for (uint32_t i = 0; i < espTownLayerCount(context); ++i)
-        out.layers.push_back({espTownLayerName(context, i), scene::SceneLayer::kTown, {}});
-    std::ranges::stable_sort(out.layers, {}, &ProjectData::Layer::name);  // not by when each was painted
-    for (size_t i = 0; i < out.layers.size(); ++i) {
-        const std::string& name = out.layers[i].name;
-        if (i > 0 && name == out.layers[i - 1].name) continue;
-        if (float value; espLayerFilled(context, name.c_str(), &value)) out.file.filled.push_back({name, value});
-    }
-    for (const scene::SceneLayer& unread : document.scene().unread) {
-        const auto painted = [&](const ProjectData::Layer& layer) {
-            return layer.name == unread.name && layer.surface == unread.surface;
-        };
-        if (std::ranges::none_of(out.layers, painted)) out.file.layers.push_back(unread);
-    }
+    outlineLayers(document, out);
     return out;
 }
 
 bool read(const Document& document, ProjectData::Layer& layer, std::string& error) {
-    if (layer.surface == scene::SceneLayer::kTown) return document.readTownLayer(layer.name, layer.picture, error);
+    if (layer.surface == SceneLayer::kTown) return document.readTownLayer(layer.name, layer.picture, error);
     return document.readLayer(size_t(layer.surface), layer.name, layer.picture, error);
 }
 
