@@ -135,3 +135,29 @@ TEST_CASE("a picture that couldn't be read gives way to what is painted in its p
     CHECK(again.document->scene().notes.empty());
     CHECK(texelsOf(again, 1) == painted);
 }
+
+TEST_CASE("a wall that nobody painted goes on with what the grammar says, though the project is saved and opened") {
+    for (const bool filled : {false, true}) {
+        CAPTURE(filled);
+        const Folder folder;
+        const std::string project = folder.file("saved");
+        Editing editing(twoWalls(folder));
+        if (filled) REQUIRE(editing.perform(FillLayer{"damp", .5f}));  // as it comes: nothing is painted
+        paint(editing, 0);
+        REQUIRE_MESSAGE(saveProject(*editing.document, project, editing.error), editing.error);
+        const auto files = fs::directory_iterator(project + "/layers");
+        CHECK(std::distance(begin(files), end(files)) == 1);
+        Editing opened(project);
+        CHECK(texelsOf(opened, 0) == texelsOf(editing, 0));
+        for (Editing* each : {&editing, &opened}) {
+            std::string text = each->document->scene().grammars[0].text;
+            text.replace(text.find("damp = 0.5"), 10, "damp = 0.9");
+            REQUIRE_MESSAGE(each->perform(each->document->withText(0, text)), each->error);
+            const std::vector<float> bare = texelsOf(*each, 1);
+            CHECK(bare == std::vector<float>(bare.size(), .9f));
+        }
+        float value = 0;
+        CHECK(espLayerFilled(opened.context.get(), "damp", &value) == (filled ? 1 : 0));
+        CHECK(opened.hash() == editing.hash());
+    }
+}

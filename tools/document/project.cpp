@@ -234,7 +234,9 @@ void outlineLayers(const Document& document, ProjectData& out) {
     };
     for (uint32_t i = 0; i < espPaintedLayerCount(context); ++i)
         for (size_t surface = 0; surface < scene.surfaces.size(); ++surface)
-            add(espPaintedLayerName(context, i), int(surface));
+            if (const char* name = espPaintedLayerName(context, i);
+                espLayerPainted(context, scene.surfaces[surface].id, name))
+                add(name, int(surface));
     for (uint32_t i = 0; i < espTownLayerCount(context); ++i) add(espTownLayerName(context, i), SceneLayer::kTown);
     for (const SceneLayer& unread : scene.unread) names.insert(unread.name);
     std::ranges::stable_sort(out.layers, {}, &ProjectData::Layer::name);  // not by when each was painted

@@ -143,6 +143,23 @@ bool passesOver(const Request& request, Scene& scene, const std::string& layer) 
     return true;
 }
 
+// A project has a picture of each surface that has such a layer: what filling makes beside them goes again.
+bool keepListed(EspContext* context, const SceneFile& file, const Scene& scene, const std::string& layer,
+                std::string& error) {
+    if (!scene.project || std::ranges::find(file.layers, layer, &SceneLayer::name) == file.layers.end()) return true;
+    for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+        const auto lies = [&](const SceneLayer& listed) {
+            return listed.name == layer && (listed.surface == int(i) || listed.surface == -1);
+        };
+        EspLayerDef def = espDefaultLayerDef();
+        def.surface = scene.surfaces[i].id;
+        def.name = layer.c_str();
+        if (std::ranges::none_of(file.layers, lies) && !fromContext(context, espSetLayer(context, &def), error))
+            return false;
+    }
+    return true;
+}
+
 bool fillLayers(EspContext* context, const Request& request, const SceneFile& file, Scene& out, std::string& error) {
     for (const auto& [name, value] : file.filled) {
         if (passesOver(request, out, name)) continue;
@@ -150,6 +167,7 @@ bool fillLayers(EspContext* context, const Request& request, const SceneFile& fi
             EspStroke filled{};
             if (!fromContext(context, espFillLayer(context, layer.c_str(), value, &filled), error)) return false;
             espDestroyStroke(context, filled);
+            if (!keepListed(context, file, out, layer, error)) return false;
         }
     }
     return true;
