@@ -417,7 +417,7 @@ void Session::startRecording(Workspace& work, const std::string& path, uint32_t 
     const bool asOpened = whole_ && folder_.empty() && work.document->revision() == 0 && !modified(work);
     if (asOpened) return ended(record(work, path, head));
     RunHead edited = head;
-    edited.scene = path + ".project";
+    edited.scene = freeName(path + ".project", ".project");
     background_.ask({"Saving what the run begins with",
                      [&work, edited] { return saving(*work.document, edited.scene); },
                      [this, &work, path, edited, ended](const Work& over) {

@@ -176,6 +176,22 @@ TEST_CASE("a scene that was opened with something in place of its own begins a r
     CHECK(run.head.scene == path + ".project");
 }
 
+TEST_CASE("a run's beginning takes no other project's place") {
+    const Folder folder;
+    const std::string path = folder.file("run.jsonl"), theirs = path + ".project";
+    Window window(folder, smallScene(folder));
+    REQUIRE_MESSAGE(saveProject(*window.work.document, theirs, window.work.error), window.work.error);
+    const std::string before = readAll(theirs + "/project.json");
+    window.fill(.5f);
+    begin(window, path);
+    window.session.stopRecording(window.work);
+    Run run;
+    REQUIRE(readRun(path, run, window.work.error));
+    CHECK(run.head.scene != theirs);
+    CHECK(readAll(theirs + "/project.json") == before);
+    CHECK(replayed(path) == hashOf(window));
+}
+
 TEST_CASE("a run finds the pictures that were read in it from wherever it is replayed") {
     const Folder folder;
     const std::string scene = smallScene(folder), picture = folder.file("given/mask.exr");
