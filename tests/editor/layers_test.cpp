@@ -124,6 +124,36 @@ TEST_CASE("what is painted on a layer that a grammar's text has lost stays, is l
     CHECK(*std::ranges::max_element(cleared) == 0);
 }
 
+TEST_CASE("a stroke that changes nothing is no step of undo, keeps what can be done again, and makes no layer") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    Document& document = *editing.document;
+    paint(editing, "size");
+    const uint64_t state = document.state();
+    REQUIRE(editing.perform(FillLayer{"mask", .5f}));
+    REQUIRE(editing.perform(Undo{}));
+    const auto stroke = [&](const char* mode, float x) {
+        StrokeBegin begin;
+        begin.layer = "mask";
+        begin.mode = mode;
+        begin.value = 1;  // which it has
+        for (const Action& action :
+             {Action(begin), Action(StrokeDabs{{{x, 1, .36f, 0, 0, 1, 1}}}), Action(StrokeEnd{})})
+            REQUIRE_MESSAGE(editing.perform(action), editing.error);
+    };
+    for (const char* mode : {"paint", "erase", "smooth"}) {
+        CAPTURE(mode);
+        stroke(mode, .1f);
+        stroke(mode, 100);  // beside all ground
+        CHECK(document.state() == state);
+        CHECK(document.undoSteps() == 1);
+        CHECK(document.redoName() == std::string("Fill mask"));
+        CHECK(espPaintedLayerCount(editing.context.get()) == 1);
+    }
+    REQUIRE(editing.perform(Redo{}));
+    CHECK(texelsOf(editing, "mask")[0] == .5f);
+}
+
 TEST_CASE("a layer is hatched where the brush's limits let no paint pass, and nowhere else") {
     const Folder folder;
     Editing editing(smallScene(folder));

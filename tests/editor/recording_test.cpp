@@ -152,6 +152,8 @@ TEST_CASE("the beginning of a run stays as it was when the project that was open
     begin(window, path);
     StrokeBegin stroke;
     stroke.layer = "mask";
+    stroke.value = 0;
+    stroke.radius = .8f;
     REQUIRE(window.work.perform(stroke, 1));
     REQUIRE(window.work.perform(StrokeDabs{{{0, .5f, .4f, 0, 0, 1, 1}}}, 1));
     REQUIRE(window.work.perform(StrokeEnd{}, 1));

@@ -132,8 +132,7 @@ class Document {
         EspStroke stroke;
     };
     std::vector<OpenStroke> strokes_;  // one for each channel of a layer
-    bool strokeHasDabs_ = false;
-    std::string strokeName_;  // its nameOf()
+    std::string strokeName_;           // its nameOf()
     uint64_t revision_ = 0;
     uint64_t bottom_ = 0, lastState_ = 0;  // bottom: before the oldest step that is kept
     uint32_t lastKey_ = 0;

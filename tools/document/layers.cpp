@@ -84,7 +84,6 @@ bool Document::readTownLayer(const std::string& layer, scene::GreyPicture& out, 
 bool Document::carryOut(const StrokeBegin& action, std::vector<Action>&, std::string& error) {
     EspBrush brush;
     if (!scene::isLayersName(action.layer, error) || !brushOf(action, brush, error)) return false;
-    strokeHasDabs_ = false;
     strokeName_ = nameOf(*this, action);
     const std::vector<std::string> channels = channelsOf(scene_, action.layer);
     for (size_t c = 0; c < channels.size(); ++c) {
@@ -108,7 +107,6 @@ bool Document::carryOut(const StrokeDabs& action, std::vector<Action>&, std::str
     std::vector<EspDab> dabs;
     for (const auto& d : action.dabs) dabs.push_back({{d[0], d[1], d[2]}, {d[3], d[4], d[5]}, d[6]});
     if (dabs.empty()) return true;
-    strokeHasDabs_ = true;
     return std::ranges::all_of(strokes_, [&](const OpenStroke& open) {
         return !failed(espStrokeDabs(context_, open.stroke, dabs.data(), uint32_t(dabs.size())), error);
     });
@@ -119,16 +117,18 @@ bool Document::carryOut(const StrokeEnd&, std::vector<Action>& back, std::string
         error = "no stroke has begun";
         return false;
     }
-    bool good = true;
+    bool good = true, changed = false;
     for (const auto& [channel, stroke] : std::exchange(strokes_, {})) {
         good = !failed(espEndStroke(context_, stroke), error) && good;
-        const Action swap = keepStroke(stroke, channel, [&](int surface) {
+        changed = changed || espStrokeBytes(context_, stroke) > 0;
+        back.push_back(keepStroke(stroke, channel, [&](int surface) {
             const EspSurface town{};
             return espStrokePainted(context_, stroke, surface < 0 ? town : scene_.surfaces[size_t(surface)].id) != 0;
-        });
-        if (strokeHasDabs_) back.push_back(swap);
+        }));
     }
-    return good || takeBack(back);
+    if (good && changed) return true;
+    takeBack(back);  // no step of undo, where no texel has changed: layers that it has made go
+    return good;
 }
 
 // What undoes an ended stroke of a channel. Pictures that couldn't be read give way where it covers their surface, or
