@@ -101,7 +101,7 @@ bool GuiEvents::tell(const Pointer& pointer, Told& told, std::vector<InputEvent>
         const bool left = e.button == GLFW_MOUSE_BUTTON_LEFT;
         const bool leaves = press && ((told.typing && !panels) || (left && sliderWaits(e.x, e.y)));
         if (leaves && waitsForPanels(told)) return false;
-        if (press && !panels && !left) leaveGrammar();     // ImGui knows of the left one alone
+        if (press && !panels) leaveGrammar();              // ImGui knows of the left one alone, if a frame sees it down
         if (press && panels && told.handed) return false;  // the tools may have begun what this ends
         // A slider looks where the mouse is only while its button is down: the end of a fast drag is a frame of its
         // own.

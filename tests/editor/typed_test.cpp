@@ -110,19 +110,22 @@ TEST_CASE("any button that is pressed beside a grammar's text gives letters back
     gardener.work.layout.grammar = true;
     gardener.panel = [&] { sample::showGrammarWindow(gardener.work); };
     gardener.rest();
-    for (const int button : {GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE}) {
-        CAPTURE(button);
-        gardener.tap({1000, 300});
-        REQUIRE(sample::grammarFocused());
-        const glm::vec2 at(500, 400);  // between the panel and the window
-        REQUIRE(sample::inScene(at.x, at.y));
-        gardener.point(at);
-        gardener.events.pointer({sample::PointerEvent::Kind::press, button, 0, at.x, at.y});
-        gardener.rest();
-        CHECK(!sample::grammarFocused());
-        gardener.events.pointer({sample::PointerEvent::Kind::release, button, 0, at.x, at.y});
-        gardener.rest();
-    }
+    for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE})
+        for (const bool slow : {false, true}) {  // it goes down and up within a frame
+            CAPTURE(button);
+            CAPTURE(slow);
+            gardener.tap({1000, 300});
+            REQUIRE(sample::grammarFocused());
+            const glm::vec2 at(500, 400);  // between the panel and the window
+            REQUIRE(sample::inScene(at.x, at.y));
+            gardener.point(at);
+            gardener.events.pointer({sample::PointerEvent::Kind::press, button, 0, at.x, at.y});
+            if (!slow) gardener.rest();
+            CHECK(sample::grammarFocused() == slow);
+            gardener.events.pointer({sample::PointerEvent::Kind::release, button, 0, at.x, at.y});
+            gardener.rest();
+            CHECK(!sample::grammarFocused());
+        }
     sample::leaveGrammar();
 }
 
