@@ -118,7 +118,7 @@ void App::openUi() {
     imgui_ = true;
     ImGui::GetIO().IniFilename = layoutFile_.empty() ? nullptr : layoutFile_.c_str();
     input_ = std::make_unique<Input>(window_.get());
-    controls_ = std::make_unique<Controls>(work_, session_, window_.get());
+    controls_ = std::make_unique<Controls>(work_, session_, input_.get());
     ImGui_ImplGlfw_InitForVulkan(window_.get(), false);
     rescale();
 }

@@ -15,7 +15,7 @@ using namespace espalier::document;
 
 void Controls::catchMouse(bool caught) {
     navigation_.caught = caught;
-    glfwSetInputMode(window_, GLFW_CURSOR, caught ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    if (input_) input_->catchMouse(caught);
     ImGuiIO& io = ImGui::GetIO();
     io.ConfigFlags = caught ? io.ConfigFlags | ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange
                             : io.ConfigFlags & ~(ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange);

@@ -8,14 +8,13 @@
 #include "sample_game/seed_tool.hpp"
 #include "sample_game/session.hpp"
 
-struct GLFWwindow;
-
 namespace sample {
 
 // Whose a key or a click is: the panels', the camera's or the chosen tool's. Between ImGui::NewFrame and Render.
 class Controls {
   public:
-    Controls(Workspace& work, Session& session, GLFWwindow* window) : work_(work), session_(session), window_(window) {}
+    // `input` may be null: there is no mouse to catch.
+    Controls(Workspace& work, Session& session, Input* input) : work_(work), session_(session), input_(input) {}
 
     void take(const std::vector<InputEvent>& events, float wheel);
     // Keys that are held move the camera. True: it moved.
@@ -48,7 +47,7 @@ class Controls {
 
     Workspace& work_;
     Session& session_;
-    GLFWwindow* window_;
+    Input* input_;
     Navigation navigation_;
     BrushTool brush_;
     SeedTool seeds_;

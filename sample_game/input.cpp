@@ -31,10 +31,7 @@ Input& Input::of(GLFWwindow* window) {
 
 Input::Input(GLFWwindow* window) : gui(window), window_(window) {
     glfwSetWindowUserPointer(window, this);
-    double startX = 0, startY = 0;
-    glfwGetCursorPos(window, &startX, &startY);
-    x_ = float(startX);
-    y_ = float(startY);
+    findMouse();
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
         Input& in = of(w);
         in.gui.key({in.meaning(key, scancode, action), mods, in.x_, in.y_}, scancode, action);
@@ -61,6 +58,22 @@ Input::Input(GLFWwindow* window) : gui(window), window_(window) {
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
         if (count > 0) of(w).dropped_ = paths[0];
     });
+}
+
+void Input::findMouse() {
+    double x = 0, y = 0;
+    glfwGetCursorPos(window_, &x, &y);
+    x_ = float(x);
+    y_ = float(y);
+}
+
+// GLFW tells of no move when the cursor comes back to where it was caught.
+void Input::catchMouse(bool caught) {
+    const bool was = glfwGetInputMode(window_, GLFW_CURSOR) == GLFW_CURSOR_DISABLED;
+    glfwSetInputMode(window_, GLFW_CURSOR, caught ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    if (!was || caught) return;
+    findMouse();
+    gui.pointer({PointerEvent::Kind::move, 0, mods(), x_, y_});
 }
 
 bool Input::down(int key) const {

@@ -31,12 +31,15 @@ class Input {
     // By where it is on a keyboard of the US: who flies by W A S D looks for a place, not for letters.
     bool down(int key) const;
     int mods() const;
+    // Caught, it has no cursor and knows no end of the window; what it does once it is free is done where it is then.
+    void catchMouse(bool caught);
     // Keys and the mouse, in order.
     GuiEvents gui;
 
   private:
     static Input& of(GLFWwindow* window);
     int meaning(int key, int scancode, int action);
+    void findMouse();
     GLFWwindow* window_;
     std::map<int, int>
         meant_;  // of keys that were pressed: they go up as the same, whatever layout is chosen meanwhile
