@@ -22,7 +22,6 @@ namespace sample {
 
 namespace fs = std::filesystem;
 using espalier::document::Document;
-using espalier::document::SetView;
 using espalier::document::Work;
 
 void WindowCloser::operator()(GLFWwindow* window) const {
@@ -321,14 +320,12 @@ void App::reload() {
 void App::openReloaded() {
     const auto [kept, state] = std::exchange(reloading_, {});
     const Session::Origin origin = session_.origin(work_);
-    const SetView view{espalier::scene::nameOf(work_.scene().look.view), work_.scene().viewLayer};
     const Workspace::Hands hands = work_.hands();
     const bool recorded = session_.recording();
     session_.reload = state != work_.document->state();
     session_.goesOn = !session_.reload;
     work_.error.clear();
     if (session_.goesOn && showOpening(origin.file) && openDocument({kept, {}, {}, {}}, work_.error)) {
-        work_.perform(view);
         work_.takeUp(hands);
         session_.setOrigin(work_, origin);
         const std::string notes = std::exchange(work_.message, {});

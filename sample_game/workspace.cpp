@@ -178,7 +178,14 @@ bool Workspace::readStats() {
     return false;
 }
 
+Workspace::Hands Workspace::hands() const {
+    return {brush.layer, plantGrammar, openGrammar,
+            house,       houseEdge,    {espalier::scene::nameOf(scene().look.view), scene().viewLayer}};
+}
+
 void Workspace::takeUp(const Hands& hands) {
+    redraw = true;
+    (void)document->perform(hands.view, error);
     if (std::ranges::find(scene().layers, hands.layer) != scene().layers.end()) brush.layer = hands.layer;
     if (hands.plantGrammar < scene().grammars.size()) plantGrammar = hands.plantGrammar;
     if (hands.openGrammar < scene().grammars.size()) openGrammar = hands.openGrammar;

@@ -125,9 +125,10 @@ struct Workspace {
         std::string layer;
         uint32_t plantGrammar = 0, openGrammar = 0;
         std::optional<uint32_t> house, houseEdge;
+        espalier::document::SetView view;
     };
-    Hands hands() const { return {brush.layer, plantGrammar, openGrammar, house, houseEdge}; }
-    void takeUp(const Hands& hands);
+    Hands hands() const;
+    void takeUp(const Hands& hands);  // what was said of the reload stays
     // Painting shows what is painted, everything else the scene.
     void choose(Tool chosen);
     void showGrammar(bool shown, uint32_t index) { layout.grammar = shown, openGrammar = index; }

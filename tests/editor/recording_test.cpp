@@ -258,10 +258,14 @@ TEST_CASE("what is in hand comes back after a reload, but for what isn't there a
         window.work.openGrammar = 2;
         window.work.house = 1;
         window.work.houseEdge = 3;
+        REQUIRE(window.work.perform(SetView{"normals", ""}));
         hands = window.work.hands();
     }
     Window again(folder, scene);
+    again.work.message = "of its paint this was lost";
     again.work.takeUp(hands);
+    CHECK(again.work.message == "of its paint this was lost");
+    CHECK(again.work.scene().look.view == ESP_VIEW_NORMALS);
     CHECK(again.work.brush.layer == "damp");
     CHECK(again.work.plantGrammar == 1);
     CHECK(again.work.openGrammar == 2);
