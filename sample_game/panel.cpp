@@ -159,18 +159,22 @@ void chosenSeeds(Workspace& work) {
         hint(work.scene().layers.empty()
                  ? "Nothing grows from it."
                  : "Nothing grows from it: it may be that a layer is empty here. B shows what is painted.");
-    bool changed = false;
+    uint32_t gesture = 0;  // of what has changed; 0: nothing has
     int64_t number = chosen[0].number;
     rowLabel("Random no.");
     const float another = ImGui::CalcTextSize("Another").x + 2 * ImGui::GetStyle().FramePadding.x;
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - another - ImGui::GetStyle().ItemSpacing.x);
     const bool several = std::ranges::any_of(chosen, [&](const SeedRecord& seed) { return seed.number != number; });
     ImGui::PushID(int(chosen[0].key));
-    if (ImGui::InputScalar("##number", ImGuiDataType_S64, &number, nullptr, nullptr,
-                           several ? "%lld, others" : "%lld")) {
+    const bool typed =
+        ImGui::InputScalar("##number", ImGuiDataType_S64, &number, nullptr, nullptr, several ? "%lld, others" : "%lld");
+    const bool escaped = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    if (escaped) {
+        work.takeBack(work.gesture());
+    } else if (typed) {
         number = std::clamp<int64_t>(number, 0, std::numeric_limits<uint32_t>::max());
         for (SeedRecord& seed : chosen) seed.number = uint32_t(number++);
-        changed = true;
+        gesture = widgetGesture(work);
     }
     ImGui::PopID();
     toolTip(chosen.size() == 1 ? "Its random number: another one grows another plant"
@@ -178,7 +182,7 @@ void chosenSeeds(Workspace& work) {
     ImGui::SameLine();
     if (ImGui::Button("Another", {-1, 0})) {
         for (SeedRecord& seed : chosen) seed.number = seed.number * 747796405u + 2891336453u;
-        changed = true;
+        gesture = work.newGesture();
     }
     toolTip("Another random number: another plant from the same seed");
     if (work.scene().grammars.size() > 1) {
@@ -188,13 +192,13 @@ void chosenSeeds(Workspace& work) {
             for (uint32_t i = 0; i < work.scene().grammars.size(); ++i)
                 if (ImGui::Selectable(grammarName(work.scene(), i).c_str(), i == now)) {
                     for (SeedRecord& seed : chosen) seed.grammar = i;
-                    changed = true;
+                    gesture = work.newGesture();
                 }
             ImGui::EndCombo();
         }
         toolTip("What grows from the chosen seeds");
     }
-    if (changed) work.changeSeeds({chosen}, widgetGesture(work));
+    if (gesture) work.changeSeeds({chosen}, gesture);
     ownValues(work, chosen);
     std::vector<uint32_t> growing, frozen;
     for (const SeedRecord& seed : chosen) (seed.frozen ? frozen : growing).push_back(seed.key);

@@ -81,6 +81,29 @@ TEST_CASE("a random number that is typed stays within what there is") {
     }
 }
 
+TEST_CASE("Esc takes back a random number that is typed, of several seeds each its own, and leaves no step behind") {
+    const Folder folder;
+    Gardener gardener(folder);
+    ImGui::GetIO().KeyMap[ImGuiKey_Escape] = GLFW_KEY_ESCAPE;
+    const uint32_t a = gardener.plant(gardener.onWall(-1.1f, 1)), b = gardener.plant(gardener.onWall(-.8f, 1.4f));
+    const uint32_t numberA = gardener.seed(a).number, numberB = gardener.seed(b).number;
+    const size_t steps = gardener.work.document->undoSteps();
+    for (const std::set<uint32_t>& chosen : {std::set{a}, std::set{a, b}}) {
+        gardener.work.selected = chosen;
+        gardener.tap(gardener.placeOf({int(a), "##number"}));
+        gardener.type("77");
+        REQUIRE(gardener.seed(a).number == 77);
+        REQUIRE(gardener.seed(b).number == (chosen.size() == 2 ? 78 : numberB));
+        gardener.strike(GLFW_KEY_ESCAPE);
+        gardener.rest();
+        CHECK(!ImGui::IsAnyItemActive());
+        CHECK(gardener.seed(a).number == numberA);
+        CHECK(gardener.seed(b).number == numberB);
+        CHECK(gardener.work.document->undoSteps() == steps);
+        CHECK(gardener.work.selected == chosen);
+    }
+}
+
 TEST_CASE("any button that is pressed beside panels leaves the field that is typed into") {
     const Folder folder;
     Gardener gardener(folder);
