@@ -97,8 +97,13 @@ std::vector<GrammarFiles::Change> GrammarFiles::look(const espalier::scene::Scen
     return changes;
 }
 
-void GrammarFiles::wrote(uint32_t grammar, const std::string& text) {
-    if (grammar < seen_.size()) seen_[grammar].text = text;
+// It may include others by now. Where what it included has changed since the last look, that is still to be told.
+void GrammarFiles::wrote(const espalier::scene::Scene& scene, uint32_t grammar, const std::string& text) {
+    if (grammar >= seen_.size()) return;
+    Seen& seen = seen_[grammar];
+    const std::string& file = scene.grammars[grammar].file;
+    if (included(file, seen.text) == seen.included) seen.included = included(file, text);
+    seen.text = text;
 }
 
 const std::string* FileText::of(const std::string& file) {

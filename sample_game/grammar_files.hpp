@@ -24,7 +24,7 @@ class GrammarFiles {
     std::vector<Change> look(const espalier::scene::Scene& scene);
     // Written from here, and no news whatever becomes of the grammar until the next look. What else reads the file is
     // told of it then.
-    void wrote(uint32_t grammar, const std::string& text);
+    void wrote(const espalier::scene::Scene& scene, uint32_t grammar, const std::string& text);
 
   private:
     struct Seen {

@@ -158,7 +158,8 @@ bool Session::changedByOthers() const {
 }
 
 bool Session::step(Workspace& work, double now) {
-    if (const auto written = std::exchange(work.written, {})) grammarFiles_.wrote(written->first, written->second);
+    if (const auto written = std::exchange(work.written, {}))
+        grammarFiles_.wrote(work.scene(), written->first, written->second);
     // A stroke is one step, as is what any tool has in hand: it is saved when it has ended.
     const bool moved = (background_.started() || !(work.document->stroking() || work.busy)) && background_.step();
     if (now >= nextAutosave_ && !background_.busy()) {

@@ -130,3 +130,20 @@ TEST_CASE("what is typed stays when a file that it includes has changed, and is 
     t.write("deep.grammar", "include \"deep.grammar\"\ninclude \"a.grammar\"\n");  // a circle ends
     CHECK(t.files.look(t.scene).size() == 1);
 }
+
+TEST_CASE("what was written from here is no news, though it includes other files than before") {
+    Texts t;
+    const auto write = [&](const std::string& text) {
+        t.scene.grammars[0].text = text;
+        t.write("a.grammar", text);
+        t.files.wrote(t.scene, 0, text);
+    };
+    for (const char* text : {"A -> NULL", "include \"parts.grammar\"\nA -> NULL"}) {
+        write(text);
+        CHECK(t.files.look(t.scene).empty());
+    }
+    t.write("parts.grammar", "// other parts");
+    write("include \"parts.grammar\"\ninclude \"deep.grammar\"\nA -> NULL");
+    CHECK_MESSAGE(t.files.look(t.scene).size() == 1, "an included file has changed, too");
+    CHECK(t.files.look(t.scene).empty());
+}
