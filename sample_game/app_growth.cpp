@@ -50,11 +50,10 @@ bool App::update() {
     if (grown == ESP_STOPPED && growth_.told) pace_.grew(millisecondsSince(growth_.began), true);
     if (grown != ESP_OK)
         work_.error = growthError_ = grown == ESP_STOPPED ? kStopped : espLastError(work_.context.get());
-    work_.grownRevision = work_.document->revision();
-    work_.growsWide = false;
-    if (!work_.readStats()) return false;
+    const bool known = work_.readStats();
     const bool plants = work_.stats.expansions != expansions, houses = work_.roofs.housesGrown != housesGrown;
-    if (plants && work_.branch) work_.readPath();
+    work_.noteGrown(plants);
+    if (!known) return false;
     grownMs_ = (plants ? work_.stats.expandMs : 0) + (houses ? work_.roofs.expandMs : 0);
     if (grown == ESP_OK && plants && work_.stats.cut > 0) work_.message = kCut;
     if (plants || houses) work_.grownMs = grownMs_;

@@ -331,6 +331,12 @@ void Workspace::readPath() {
     crossings = crossingsOf(path);
 }
 
+void Workspace::noteGrown(bool plants) {
+    const bool edited = std::exchange(grownRevision, document->revision()) != document->revision();
+    growsWide = false;
+    if (branch && (plants || edited)) readPath();
+}
+
 bool Workspace::barren(uint32_t key) {
     const auto* seed = document->seed(key);
     if (!seed) return false;

@@ -170,6 +170,8 @@ struct Workspace {
     // Lets the chosen seeds' plants stand as they are, or grow again.
     void freeze(const std::vector<uint32_t>& keys, bool frozen);
     void readPath();  // of the branch, from the last growth
+    // Whenever the document has grown, though it be to the same plants: their seeds may have been planted anew.
+    void noteGrown(bool plants);
     std::vector<EspPathSample> pathOf(uint64_t of) const;
     // A seed that the last growth got no further than. Reads growth back, once after each.
     bool barren(uint32_t key);

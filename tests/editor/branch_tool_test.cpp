@@ -95,6 +95,33 @@ TEST_CASE("a branch of a frozen plant isn't pruned before it is thawed, and that
     CHECK(espPrunedCount(work.context.get()) == 1);
 }
 
+TEST_CASE("a picked branch is its seed's, though all seeds have been planted anew and nothing has grown") {
+    const Folder folder;
+    Pruner pruner(folder);
+    auto& work = pruner.work;
+    const auto grow = [&] {
+        const uint32_t before = work.stats.expansions;
+        REQUIRE(espUpdate(work.context.get()) == ESP_OK);
+        REQUIRE(work.readStats());
+        const bool plants = work.stats.expansions != before;
+        work.noteGrown(plants);
+        return plants;
+    };
+    const auto plantAnew = [&] {
+        work.renumberSeeds();
+        REQUIRE(work.perform(espalier::document::Undo{}));
+    };
+    plantAnew();
+    grow();
+    pruner.click(pruner.someBranch().first);
+    REQUIRE(work.branchSeed());
+    const uint32_t key = work.branchSeed()->key;
+    plantAnew();
+    CHECK(!grow());
+    REQUIRE(work.branchSeed());
+    CHECK(work.branchSeed()->key == key);
+}
+
 TEST_CASE("F shows the whole plant of the chosen seed") {
     const Folder folder;
     Pruner pruner(folder);
