@@ -168,6 +168,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.selected.clear();
     work_.branch.reset();
     work_.path.clear();
+    work_.forgetBarren();
     work_.house.reset();
     work_.houseEdge.reset();
     atlas_->forget();

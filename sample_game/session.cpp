@@ -444,6 +444,7 @@ void Session::beginRun(Workspace& work) {
     const std::set<uint32_t> chosen = std::exchange(work.selected, {});
     for (size_t i = 0; i < before.size(); ++i)
         if (chosen.contains(before[i])) work.selected.insert(work.scene().seeds[i].key);
+    work.forgetBarren();
 }
 
 void Session::stopRecording(Workspace& work) {

@@ -175,6 +175,7 @@ struct Workspace {
     std::vector<EspPathSample> pathOf(uint64_t of) const;
     // A seed that the last growth got no further than. Reads growth back, once after each.
     bool barren(uint32_t key);
+    void forgetBarren() { asked_ = {}; }  // keys are other seeds' from now on
     // False: `error` says why.
     bool readStats();
     // Where a point of the scene is in the window; nothing: behind the camera.

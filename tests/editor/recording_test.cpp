@@ -194,6 +194,23 @@ TEST_CASE("a run's beginning takes no other project's place") {
     CHECK(replayed(path) == hashOf(window));
 }
 
+TEST_CASE("what was asked of a seed's plant isn't said of another that a run's beginning gives its key") {
+    const Folder folder;
+    Window window(folder, wallScene(folder, false));
+    auto& work = window.work;
+    const auto& seeds = work.scene().seeds;
+    REQUIRE(work.perform(FillLayer{"damp", 0}));  // without which the creeper, the second seed, doesn't grow
+    REQUIRE(work.perform(AddSeeds{{{work.document->freshKey(), 0, {-.5f, .1f, 0}, {0, 1, 0}, 7}}, {0}}));
+    hashOf(window);
+    REQUIRE(work.readStats());
+    REQUIRE(work.barren(seeds[2].key));
+    begin(window, folder.file("run.jsonl"));
+    const auto ivy = std::ranges::find(seeds, 2u, &espalier::scene::Seed::key);
+    REQUIRE((ivy != seeds.end() && ivy->grammar == 0));
+    CHECK(!work.barren(ivy->key));
+    window.session.stopRecording(work);
+}
+
 TEST_CASE("a run finds the pictures that were read in it from wherever it is replayed") {
     const Folder folder;
     const std::string scene = smallScene(folder), picture = folder.file("given/mask.exr");
