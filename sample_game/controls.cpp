@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "sample_game/panels.hpp"
+#include "tools/scene/layers.hpp"
 
 namespace sample {
 
@@ -161,7 +162,8 @@ void Controls::takeToolKey(const KeyEvent& event) {
         float& radius = work_.brushRadius();
         if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, .005f);
         if (key == GLFW_KEY_RIGHT_BRACKET) radius = std::min(radius * 1.15f, 20.f);
-        if (key == GLFW_KEY_X) work_.brush.value = 1 - work_.brush.value;
+        const bool colour = isColour(work_.scene(), work_.brush.layer);  // which has no opposite
+        if (key == GLFW_KEY_X && !colour) work_.brush.value = 1 - work_.brush.value;
         if (key == GLFW_KEY_F) brush_.startSizing(work_, {event.x, event.y}, event.mods & GLFW_MOD_SHIFT);
     }
     if (!paints && key == GLFW_KEY_F) {

@@ -54,7 +54,8 @@ Hint hintOf(const Workspace& work, bool caught, bool flying) {
     switch (work.tool) {
         case Tool::paint:
             text = "Drag: " + strokeOf(work, false) + "   Ctrl: " + strokeOf(work, true) +
-                   "   X: the opposite value   Shift: smooth   F: size   Shift+F: strength   V: show the layer   "
+                   (isColour(work.scene(), work.brush.layer) ? "" : "   X: the opposite value") +
+                   "   Shift: smooth   F: size   Shift+F: strength   V: show the layer   "
                    "middle drag: turn   "
                    "wheel: nearer";
             break;

@@ -355,6 +355,11 @@ TEST_CASE("X paints the opposite value") {
     painter.drag(painter.onWall(-1, 1), painter.onWall(-.6f, 1));
     REQUIRE(painter.all<StrokeBegin>().size() == 1);
     CHECK(painter.all<StrokeBegin>()[0].value == .25f);
+
+    // A colour has none, and the value isn't seen with one in hand.
+    painter.work.chooseLayer("colour");
+    painter.key(GLFW_KEY_X);
+    CHECK(painter.work.brush.value == .25f);
 }
 
 TEST_CASE("a stroke goes on as it began, and so it is shown, whichever keys are pressed meanwhile") {
