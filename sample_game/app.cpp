@@ -185,7 +185,7 @@ bool App::closing() {
         wake();
         return false;
     }
-    if (asksToLeave() || options_.frames || !session_.modified(work_)) return true;
+    if (asksToQuit() || options_.frames || !session_.modified(work_)) return true;
     glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
     controls_->askToQuit();
     wake();

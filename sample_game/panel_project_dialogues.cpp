@@ -140,8 +140,8 @@ bool askToLeave(Workspace& work, Session& session, const std::string& next) {
     return !session.modified(work);
 }
 
-bool asksToLeave() {
-    return dialogues().next.has_value();
+bool asksToQuit() {
+    return dialogues().next == "";
 }
 
 void askToOpen(const std::string& refused, const std::string& why) {

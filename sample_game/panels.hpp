@@ -32,7 +32,7 @@ void askToReplay();
 // The end of the program, or another file to open: at once, or when the user has said what becomes of what isn't saved.
 // False: that is asked, which only frames with showDialogues() do.
 bool askToLeave(Workspace& work, Session& session, const std::string& next = {});
-bool asksToLeave();
+bool asksToQuit();     // whether that is asked now, with nothing to be opened
 bool usesPanels();     // a dialogue or a menu is open, or something is typed
 bool closeMenus();     // those that are open, not dialogues; false: there are none
 bool dialogueWaits();  // for work that it began

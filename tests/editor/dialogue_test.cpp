@@ -344,3 +344,15 @@ TEST_CASE("Esc takes back the drag of a slider, also of one that isn't the docum
     CHECK(row.value == 20);
     CHECK(!sample::cancelDrag(window.work));
 }
+
+TEST_CASE("a question about what is opened next is none about the end of the program") {
+    const Folder folder;
+    Asked asked(folder);
+    asked.fill(.5f);
+    CHECK(!sample::asksToQuit());
+    CHECK(!sample::askToLeave(asked.work, asked.session, folder.file("other.json")));
+    CHECK(!sample::asksToQuit());
+    CHECK(!sample::askToLeave(asked.work, asked.session));
+    CHECK(sample::asksToQuit());
+    sample::dialogues() = {};
+}
