@@ -147,6 +147,7 @@ TEST_CASE("a stroke that changes nothing is no step of undo, keeps what can be d
         stroke(mode, 100);  // beside all ground
         CHECK(document.state() == state);
         CHECK(document.undoSteps() == 1);
+        REQUIRE(document.redoName());
         CHECK(document.redoName() == std::string("Fill mask"));
         CHECK(espPaintedLayerCount(editing.context.get()) == 1);
     }

@@ -17,11 +17,6 @@ Buffer filled(Device& device, size_t words, uint32_t value) {
     return std::move(*made);
 }
 
-template <class T>
-T addressOf(const Buffer& buffer) {
-    return {reinterpret_cast<decltype(T{}.v)>(buffer.address())};
-}
-
 // How many words of blocks beyond the last one a kernel has written that was dispatched over kGroups groups.
 // lanes: that rank a block's items.
 size_t wordsBeyond(test::EmitPipeline& gpu, const char* shader, bool leaves, uint32_t lanes) {

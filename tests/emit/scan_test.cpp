@@ -32,11 +32,6 @@ void scanned(const EmitTable& table, std::vector<uint32_t>& rows, EmitState& sta
     }
 }
 
-template <class T>
-T addressOf(const Buffer& buffer) {
-    return {reinterpret_cast<decltype(T{}.v)>(buffer.address())};
-}
-
 }  // namespace
 
 TEST_CASE("blocks' counts become the same places whether one lane or many go through a bucket's") {
