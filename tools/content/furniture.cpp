@@ -169,13 +169,13 @@ struct Worn {
     float turn, tilt;   // about the vertical, then about its own x
 };
 void addWorn(Builder& b, const Worn& stone, int steps, uint32_t salt) {
-    constexpr float kBlocky = 5, kUneven = 0.13f, kApart = 0.02f;
-    const float bright = 0.22f + 0.14f * random01(salt, 93);
+    constexpr float kBlocky = 6, kUneven = 0.26f, kApart = 0.02f;
+    const float bright = 0.13f + 0.10f * random01(salt, 93);
     const glm::mat3 pose = glm::mat3(glm::rotate(glm::mat4(1), stone.turn, vec3(0, 1, 0)) *
                                      glm::rotate(glm::mat4(1), stone.tilt, vec3(1, 0, 0)));
     const auto at = [&](vec3 way) {
         const vec3 a = glm::pow(glm::abs(way), vec3(kBlocky));
-        const float far = (1 + kUneven * fractal(1.3f * way, salt, 3)) / std::pow(a.x + a.y + a.z, 1 / kBlocky);
+        const float far = (1 + kUneven * fractal(1.6f * way, salt, 3)) / std::pow(a.x + a.y + a.z, 1 / kBlocky);
         return stone.middle + pose * (stone.half * way * far);
     };
     const auto corner = [&](vec3 way) {
