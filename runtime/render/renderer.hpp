@@ -89,7 +89,7 @@ struct RenderStats {
     uint32_t shadowsWhole = 0, shadowsPartly = 0;  // how often the near shadow map was redrawn, all or what had changed
     uint32_t shadowsTaken = 0;                     // and some of that, in strokes
     bool shadowsBehind = false;                    // in the last picture
-    double emitMs = 0, drawMs = 0;   // GPU time of the last finished frame
+    double emitMs = 0, drawMs = 0;                 // GPU time of the last finished frame
 };
 
 class Renderer {

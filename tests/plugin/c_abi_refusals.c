@@ -82,8 +82,8 @@ void badArguments(EspContext* context) {
     draw.camera.eye[0] = NAN;
     REFUSED(espDraw(context, &draw));
     draw = espDefaultDrawDef();
-    float* const numbers[] = {&draw.look.sunColour[1],    &draw.look.horizon[2], &draw.look.exposure,
-                              &draw.look.lodPixels, &draw.look.leafPixels, &draw.look.groundLevel};
+    float* const numbers[] = {&draw.look.sunColour[1], &draw.look.horizon[2], &draw.look.exposure,
+                              &draw.look.lodPixels,    &draw.look.leafPixels, &draw.look.groundLevel};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i) {
         const float before = *numbers[i];
         *numbers[i] = i % 2 ? NAN : INFINITY;
