@@ -217,19 +217,19 @@ Mesh rubble(int lod) {
                            {{0.78f, 0.03f, -0.52f}, {0.16f, 0.10f, 0.13f}, 2.8f, -0.24f},
                            {{-0.26f, 0.02f, 0.68f}, {0.13f, 0.09f, 0.11f}, 1.7f, 0.20f}};
     Builder b;
-    for (const Worn& stone : stones) addWorn(b, stone, lod == 0 ? 4 : 2, 91 + uint32_t(&stone - stones));
+    for (const Worn& stone : stones) addWorn(b, stone, lod == 0 ? 3 : 2, 91 + uint32_t(&stone - stones));
     return b.mesh;
 }
 
 // One of them, half sunk: a thick one, a flat one.
 Mesh thickStone(int lod) {
     Builder b;
-    addWorn(b, {{0, 0.03f, 0}, {0.19f, 0.17f, 0.17f}, 0.4f, 0.34f}, lod == 0 ? 6 : 3, 105);
+    addWorn(b, {{0, 0.03f, 0}, {0.19f, 0.17f, 0.17f}, 0.4f, 0.34f}, lod == 0 ? 4 : 2, 105);
     return b.mesh;
 }
 Mesh flatStone(int lod) {
     Builder b;
-    addWorn(b, {{0, 0, 0}, {0.23f, 0.12f, 0.18f}, 1.1f, -0.20f}, lod == 0 ? 6 : 3, 112);
+    addWorn(b, {{0, 0, 0}, {0.23f, 0.12f, 0.18f}, 1.1f, -0.20f}, lod == 0 ? 4 : 2, 112);
     return b.mesh;
 }
 
