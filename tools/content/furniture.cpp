@@ -169,8 +169,8 @@ struct Worn {
     float turn, tilt;   // about the vertical, then about its own x
 };
 void addWorn(Builder& b, const Worn& stone, int steps, uint32_t salt) {
-    constexpr float kBlocky = 6, kUneven = 0.26f, kApart = 0.02f;
-    const float bright = 0.13f + 0.10f * random01(salt, 93);
+    constexpr float kBlocky = 9, kUneven = 0.20f, kApart = 0.02f;
+    const float bright = 0.16f + 0.10f * random01(salt, 93);
     const glm::mat3 pose = glm::mat3(glm::rotate(glm::mat4(1), stone.turn, vec3(0, 1, 0)) *
                                      glm::rotate(glm::mat4(1), stone.tilt, vec3(1, 0, 0)));
     const auto at = [&](vec3 way) {
