@@ -1,4 +1,5 @@
-// What the code of a rule map is run on, alike by tests/interpreter.comp and by the C++ test: places and arguments by a key.
+// What the code of a rule map is run on, alike by tests/interpreter.comp and by the C++ test: any numbers, by a key, and
+// slopes and angles of a place by it.
 #ifndef ESPALIER_TESTS_INTERPRETER_CASE_H
 #define ESPALIER_TESTS_INTERPRETER_CASE_H
 #include "shaders/shared/interpreter.h"
@@ -15,19 +16,6 @@ FN void giveCase(MACHINE_PARAM RuleMapRef map, u64 key, uint siteCount) {
     vec3 position = vec3(uniformRandom(key, 100u), uniformRandom(key, 101u), uniformRandom(key, 102u));
     vec3 normal = unit3(position - vec3(0.5f));
     vec3 heading = unit3(cross3(normal, vec3(uniformRandom(key, 103u), 0.3f, 0.7f)));
-    SLOT(kSlotTexCoord) = 0.25f;
-    SLOT(kSlotTexCoord + 1u) = 0.75f;
-    SLOT(kSlotNormal) = normal.x;
-    SLOT(kSlotNormal + 1u) = normal.y;
-    SLOT(kSlotNormal + 2u) = normal.z;
-    SLOT(kSlotHeading) = heading.x;
-    SLOT(kSlotHeading + 1u) = heading.y;
-    SLOT(kSlotHeading + 2u) = heading.z;
-    SLOT(kSlotPosition) = position.x;
-    SLOT(kSlotPosition + 1u) = position.y;
-    SLOT(kSlotPosition + 2u) = position.z;
-    SLOT(kSlotCurvature) = 2.0f;
-    SLOT(kSlotHeight) = position.y - 0.25f;
     SLOT(kSlotSlope) = atan2Exact(sqrtExact(normal.x * normal.x + normal.z * normal.z), normal.y);
     for (uint i = 0u; i < kMaxDirections; ++i) {
         vec4 d = map.directions[i];

@@ -9,24 +9,9 @@
 #include <memory>
 
 #include "tests/editor/user.hpp"
+#include "tests/tools/on_display.hpp"
 
 namespace {
-
-// This test case again where there is a display. False: there is none to be had.
-bool passesOnDisplay(const std::string& name) {
-    if (run("command -v xvfb-run && command -v xdotool").code != 0) return false;
-    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-    const Ran ran = runOnDisplay("320x240", self + " -tc=\"" + name + "\"");
-    CHECK_MESSAGE(ran.code == 0, ran.output);
-    return true;
-}
-
-struct Glfw {
-    const bool up = glfwInit() == GLFW_TRUE;
-    ~Glfw() {
-        if (up) glfwTerminate();
-    }
-};
 
 // All that comes in until nothing more does.
 std::vector<sample::InputEvent> told(sample::Input& input) {
@@ -44,7 +29,7 @@ std::vector<sample::InputEvent> told(sample::Input& input) {
 TEST_CASE("what is pressed after the mouse was caught is pressed where its cursor is") {
     if (!std::getenv("ESPALIER_ON_DISPLAY")) {
         ::setenv("ESPALIER_ON_DISPLAY", "1", 1);
-        if (!passesOnDisplay("what is pressed after the mouse was caught*"))
+        if (!passesOnDisplay("what is pressed after the mouse was caught*", {"xdotool"}))
             MESSAGE("xvfb-run or xdotool isn't installed; skipped");
         ::unsetenv("ESPALIER_ON_DISPLAY");
         return;

@@ -7,29 +7,9 @@
 
 #include "plugin_api/espalier.h"
 #include "sample_game/vulkan_host.hpp"
-#include "tests/tools/program.hpp"
+#include "tests/tools/on_display.hpp"
 
 using namespace sample;
-
-namespace {
-
-// This test case again where there is a display. False: there is none to be had.
-bool passesOnDisplay(const std::string& name) {
-    if (run("command -v xvfb-run").code != 0) return false;
-    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-    const Ran ran = runOnDisplay("320x240", self + " -tc=\"" + name + "\"");
-    CHECK_MESSAGE(ran.code == 0, ran.output);
-    return true;
-}
-
-struct Glfw {
-    const bool up = glfwInit() == GLFW_TRUE;
-    ~Glfw() {
-        if (up) glfwTerminate();
-    }
-};
-
-}  // namespace
 
 TEST_CASE(
     "on software devices a frame is done before the next is recorded unless they overlap, on others the one before "
