@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/layer_resample.hpp"
 #include "runtime/surface/carry.hpp"
 
 struct EspCarry {
@@ -9,12 +10,6 @@ struct EspCarry {
 };
 
 using namespace espalier;
-
-namespace {
-
-constexpr uint32_t kMostSide = 8192;
-
-}  // namespace
 
 extern "C" {
 
@@ -41,7 +36,7 @@ EspResult espCarryLayer(const EspCarry* carry, const float* texels, uint32_t wid
                         float* out, EspCarried* carried) {
     return guardedAlone([&] {
         if (!carry || !texels || !out) return failAlone(ESP_INVALID_ARGUMENT, "espCarryLayer: null pointer");
-        if (width < 1 || height < 1 || width > kMostSide || height > kMostSide)
+        if (width < 1 || height < 1 || width > kMaxLayerSide || height > kMaxLayerSide)
             return failAlone(ESP_INVALID_ARGUMENT, "espCarryLayer: a layer has 1 to 8192 texels a side");
         const CarriedLayer layer =
             carry->match.carry({width, height, std::vector<float>(texels, texels + size_t(width) * height)}, fresh);

@@ -8,8 +8,6 @@
 namespace espalier {
 namespace {
 
-constexpr uint32_t kMaxLayerSide = 8192;
-
 // The layer's texels in texelIndex order.
 std::vector<float> laidOut(const SurfaceData& surface, const EspLayerDef& def) {
     if (def.space != ESP_LAYER_TEXELS)

@@ -8,6 +8,8 @@
 
 namespace espalier {
 
+inline constexpr uint32_t kMaxLayerSide = 8192;  // texels, of pictures that hosts hand in
+
 // A single-channel picture as a layer hands it in: rows from v = 0 on, at least 1 × 1. It is read bilinearly, values
 // limited to [0,1] (NaN: 0).
 struct LayerPicture {

@@ -3,12 +3,11 @@
 #include <cmath>
 
 #include "runtime/core/undo.hpp"
+#include "runtime/plugin/layer_resample.hpp"
 #include "runtime/plugin/strokes.hpp"
 
 namespace espalier {
 namespace {
-
-constexpr uint32_t kMaxSide = 8192;
 
 // Where what changes of a layer is noted. May find no memory for it.
 PlanRect& notesOf(LoadedTown& town, const std::string& name) {
@@ -175,7 +174,7 @@ extern "C" {
 EspResult espSetTownLayer(EspContext* context, const char* name, const float* texels, uint32_t width, uint32_t height,
                           EspStroke* out) {
     return guarded(context, [&] {
-        if (!name || !*name || !texels || width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
+        if (!name || !*name || !texels || width < 1 || height < 1 || width > kMaxLayerSide || height > kMaxLayerSide)
             return fail(context, ESP_INVALID_ARGUMENT, "espSetTownLayer: null, or not 1 to 8192 texels a side");
         if (!context->town) return fail(context, ESP_INVALID_ARGUMENT, "espSetTownLayer: there is no town");
         const uint32_t side = context->town->layers.site().size;
