@@ -98,6 +98,10 @@ Status addTiles(const TownArguments& arguments, const RoofStructure& structure, 
     inputs.meshes = bounds;
     CpuRoofs roofs = growRoofsOnCpu(inputs, 0);
     if (!roofs.complete) return Failure(arguments.grammar, roofs.complete.failure().diagnostics.front().message);
+    if (roofs.status.stopped)
+        std::fprintf(stderr,
+                     "%s: a limit ended %u shapes: more than %u rules followed each other, or a Repeat was too large\n",
+                     arguments.grammar.c_str(), roofs.status.stopped, kMaxRoofDepth);
     RoofEnv env{};
     env.grids.v = roofs.records.grids.data();
     env.runs.v = roofs.records.runs.data();
