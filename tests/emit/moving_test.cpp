@@ -19,12 +19,12 @@ EspDrawDef asked() {
 }
 
 // So many frames of `frameMs` each with `leaves` in view; the last one's.
-EspDrawDef after(int frames, scene::MovingPicture& picture, double frameMs, uint32_t leaves) {
+EspDrawDef after(int frames, scene::MovingPicture& picture, double frameMs, uint32_t leaves, bool strokes = false) {
     EspDrawDef draw{};
     for (int i = 0; i < frames; ++i) {
         draw = asked();
         picture.prepare(draw, true, frameMs, true);
-        picture.drew(frameMs, leaves);
+        picture.drew(frameMs, leaves, strokes);
     }
     return draw;
 }
@@ -76,6 +76,17 @@ TEST_CASE("leaves are thinned out while frames are late, down to those that are 
     CHECK(after(9, picture, 20, 100'000).look.leafPixels < later);
 }
 
+TEST_CASE("where small pictures with few leaves are late, all is drawn coarser, and as before once they are in time") {
+    constexpr float kLod = scene::MovingDetail::kLod, kMost = scene::MovingDetail::kMostLod;
+    constexpr uint32_t few = scene::MovingDetail::kLeaves;
+    scene::MovingPicture picture;
+    CHECK(after(20, picture, 75, 10 * few).look.lodPixels == doctest::Approx(kLod));   // leaves are given up first
+    CHECK(after(20, picture, 75, few, true).look.lodPixels == doctest::Approx(kLod));  // a stroke's may take longer
+    CHECK(after(60, picture, 75, few).look.lodPixels == doctest::Approx(kMost));
+    CHECK(after(5, picture, 60, few).look.lodPixels == doctest::Approx(kMost));  // in time only because it is coarse
+    CHECK(after(60, picture, 50, few).look.lodPixels == doctest::Approx(kLod));
+}
+
 namespace {
 
 // A window whose frames take `base` and, of a whole picture's pixels, `pixels`; both ms. It knows what a frame took
@@ -94,7 +105,11 @@ struct Device {
             EspDrawDef draw = asked();
             const float before = std::exchange(share, picture.prepare(draw, true, 200, true));
             if (i > 0 && before != share) ++changes;
-            CHECK(draw.look.lodPixels == doctest::Approx(scene::MovingDetail::kLod * share / 0.5f));
+            const float lod = draw.look.lodPixels * 0.5f / share;
+            if (cost(0.5f) < 0.9 * scene::MovingDetail::kFrameMs)
+                CHECK(lod == doctest::Approx(scene::MovingDetail::kLod));
+            else
+                CHECK(lod <= scene::MovingDetail::kMostLod * 1.001f);
             took.push_back(cost(share) * (i % 2 == 0 ? 1.05 : 0.95));
             picture.drew(took[took.size() > lag ? took.size() - 1 - lag : 0], 30'000, strokes);
         }

@@ -13,7 +13,8 @@ namespace espalier::scene {
 
 class MovingDetail {
   public:
-    static constexpr float kLod = 4;  // times the errors that are allowed otherwise
+    // Times the errors that are allowed otherwise: at first, and where the smallest pictures are late all the same.
+    static constexpr float kLod = 4, kMostLod = 8;
     static constexpr double kFrameMs = 1e3 / 15;
     static constexpr uint32_t kLeaves = 20'000;  // in view: more aren't given up for speed
     static constexpr float kLeastShare = 0.5f;   // of the window's width
@@ -24,21 +25,29 @@ class MovingDetail {
     // Makes a picture as coarse as that. share: of the window's width that is drawn; larger pictures show no more
     // detail than the least one, so that they cost more pixels and nothing else.
     void apply(EspLook& look, float share = kLeastShare) const {
-        look.lodPixels *= kLod * share / kLeastShare;
+        look.lodPixels *= lod_ * share / kLeastShare;
         look.leafPixels *= leaf_ * share / kLeastShare;
         look.quick = 1;
     }
 
-    // After each such frame: its time, and the leaves that it drew. Steps are small, so that nothing pops.
-    void follow(double frameMs, uint32_t leaves) {
+    // After each such frame: its time, and the leaves that it drew; smallest: it can't be drawn smaller, and has to be
+    // in time. Steps are small, so that nothing pops. What else is drawn becomes coarser where leaves are given up
+    // already.
+    void follow(double frameMs, uint32_t leaves, bool smallest = false) {
+        const bool late = frameMs > kFrameMs, spare = leaves > kLeaves + kLeaves / 10 && leaf_ < kMostLeaf;
         if (leaves < kLeaves || frameMs < 0.7 * kFrameMs)
             leaf_ = std::max(1.0f, leaf_ * 0.95f);
-        else if (frameMs > kFrameMs && leaves > kLeaves + kLeaves / 10)
-            leaf_ = std::min(4.0f, leaf_ * 1.04f);
+        else if (late && spare)
+            leaf_ = std::min(kMostLeaf, leaf_ * 1.04f);
+        if (smallest && late && !spare)
+            lod_ = std::min(kMostLod, lod_ * 1.04f);
+        else if (frameMs < 0.8 * kFrameMs)
+            lod_ = std::max(kLod, lod_ * 0.96f);
     }
 
   private:
-    float leaf_ = 1.5f;
+    static constexpr float kMostLeaf = 4;
+    float leaf_ = 1.5f, lod_ = kLod;
 };
 
 // Which share of the window's width a picture is drawn with while the camera moves: as much as lets frames be in time.
@@ -92,7 +101,7 @@ class MovingPicture {
     // After it, if it was drawn: the time of the latest whole frame that is known, the leaves in it. strokes: a stroke
     // goes on, whose frames may take longer: they are as large as the last that a camera moved in.
     void drew(double frameMs, uint32_t leaves, bool strokes = false) {
-        if (hurried_) detail_.follow(frameMs, leaves);
+        if (hurried_) detail_.follow(frameMs, leaves, !strokes && shown_ == MovingDetail::kLeastShare);
         if (!hurried_ || !coarse_ || strokes)
             share_.begin();
         else
