@@ -21,6 +21,7 @@ struct Species {
 struct Leaf {
     glm::vec2 foot, along;
     float length, width, bright, lie;  // what lies higher hides the rest
+    bool stem = false;                 // as wide at its ends as between them
 };
 
 // Distance to a leaf's edge, positive inside, in cells; across: where in the leaf, -1 to 1.

@@ -10,6 +10,8 @@
 namespace espalier::content {
 namespace {
 
+constexpr float kStem = 0.023f;  // wide: three texels, or smaller pictures lose it below its blossom
+
 struct Blossom {
     glm::vec3 petals, middle;  // linear
     float radius;              // in cells
@@ -51,7 +53,8 @@ float leafEdge(const Leaf& leaf, const Species& s, glm::vec2 p, float& across) {
     const float side = leaf.along.x * d.y - leaf.along.y * d.x;
     if (along < -0.3f || along > 1.3f) return -1;
     const float t = glm::clamp(along, 0.0f, 1.0f);
-    float half = 0.5f * leaf.width * std::pow(std::max(std::sin(kPi * std::pow(t, 0.75f)), 0.0f), 0.8f);
+    float half = 0.5f * leaf.width;
+    if (!leaf.stem) half *= std::pow(std::max(std::sin(kPi * std::pow(t, 0.75f)), 0.0f), 0.8f);
     half *= 1 + s.serrated * std::sin(60 * t);
     across = half > 1e-5f ? side / half : 0;
     const float beyond = std::max(-along, along - 1) * leaf.length;
@@ -99,7 +102,7 @@ void paintFlowers(Picture& picture, int x0, int y0, int side, int kind, uint32_t
         const glm::vec2 at(0.12f + 0.76f * random01(salt + 31, i, 0), 0.10f + 0.48f * random01(salt + 31, i, 1));
         const glm::vec2 foot(glm::mix(0.5f, at.x, 0.35f), 0.9f);
         blossoms.push_back(at);
-        leaves.push_back({foot, glm::normalize(at - foot), glm::distance(at, foot), 0.03f, 0.3f, 0});
+        leaves.push_back({foot, glm::normalize(at - foot), glm::distance(at, foot), kStem, 0.3f, 0, true});
     }
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
@@ -133,7 +136,7 @@ void paintMeadow(Picture& picture, int x0, int y0, int side, bool blooms, uint32
             (stem ? 0.50f + 0.42f * random(2) : 0.26f + 0.40f * random(2)) * (1 - 0.35f * aside * aside);
         const glm::vec2 foot(0.5f + 0.30f * aside, 1.0f), along(std::sin(turn), -std::cos(turn));
         const glm::vec2 tip = foot + length * along;
-        leaves.push_back({foot, along, length, stem ? 0.020f : 0.034f, random(5), 0});
+        leaves.push_back({foot, along, length, stem ? kStem : 0.034f, random(5), 0, stem});
         if (stem && blooms && i % 20 == 3)
             flowers.push_back(i % 40 == 3 ? Bloom{tip, 0.046f, poppy, dark} : Bloom{tip, 0.030f, buttercup, gold});
         else if (stem)  // an ear
@@ -178,7 +181,7 @@ void paintClover(Picture& picture, int x0, int y0, int side, uint32_t salt) {
             }
             for (uint32_t i = 0; i < kHeads; ++i) {
                 const glm::vec2 d = p - glm::vec2(0.16f + 0.68f * random(i, 5), 0.16f + 0.26f * random(i, 6));
-                const float head = 0.042f - glm::length(d), stalk = d.y > 0 ? 0.010f - std::abs(d.x) : -1.0f;
+                const float head = 0.042f - glm::length(d), stalk = d.y > 0 ? 0.5f * kStem - std::abs(d.x) : -1.0f;
                 if (stalk >= 0 && edge < 0) color = light;
                 edge = std::max({edge, head, d.y < 0.3f ? stalk : -1.0f});
                 if (head >= 0) color = glm::vec3(0.44f, 0.42f, 0.36f) * (0.9f - 6 * d.y + 0.2f * std::sin(300 * d.x));
