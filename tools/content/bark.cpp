@@ -6,12 +6,11 @@
 
 #include "runtime/core/srgb.hpp"
 #include "tools/content/leaf.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 uint8_t toByte(float x) {
     return static_cast<uint8_t>(saturate(x) * 255.0f + 0.5f);

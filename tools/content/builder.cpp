@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {
 
 using glm::vec3;
-constexpr float kPi = 3.14159265f;
 
 void Builder::quad(vec3 a, vec3 b, vec3 c, vec3 d, Paint paint, float bright) {
     const vec3 n = glm::normalize(glm::cross(c - a, d - b));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/pillar.hpp"
 

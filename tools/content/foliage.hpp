@@ -9,8 +9,6 @@
 
 namespace espalier::content {
 
-constexpr float kPi = 3.14159265f;
-
 struct Species {
     float length, width;    // of a leaf, in cells
     int sprigs;             // on a twig

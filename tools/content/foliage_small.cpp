@@ -5,6 +5,7 @@
 
 #include "runtime/core/srgb.hpp"
 #include "tools/content/foliage.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {

@@ -6,13 +6,13 @@
 
 #include "runtime/core/srgb.hpp"
 #include "tools/content/builder.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {
 namespace {
 
 using glm::vec3;
-constexpr float kPi = 3.14159265f;
 
 // A stone in a wall's face: its front drawn in towards the joints. The face is the plane z = depth, seen from side.
 void addStone(Builder& builder, float x0, float x1, float y0, float y1, float depth, float side, float bright) {

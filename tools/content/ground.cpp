@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/ruin.hpp"
 
 namespace espalier::content {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr glm::vec2 kMiddle{0.35f, 1.7f}, kReach{5.35f, 4.1f};  // of the ground's outline, (x, z)
 
 float boxDistance(glm::vec2 p, glm::vec2 low, glm::vec2 high) {

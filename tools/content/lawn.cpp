@@ -1,6 +1,7 @@
 // In: a place. Out: patches of some metres with ragged borders, which thin out away from the court.
 #include "tools/content/lawn.hpp"
 
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/site_plan.hpp"
 

@@ -7,6 +7,7 @@
 #include "tools/content/delaunay.hpp"
 #include "tools/content/leaf.hpp"
 #include "tools/content/leaf_shape.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {

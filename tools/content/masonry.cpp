@@ -6,20 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr float kTallShare = 0.3f;                       // of the stones that could be as high as two courses
 constexpr float kTallWidest = 0.5f, kTallClear = 0.21f;  // metres; and room beside them
-
-float segmentDistance(glm::vec2 p, glm::vec2 a, glm::vec2 b) {
-    glm::vec2 d = b - a;
-    float t = saturate(glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-12f));
-    return glm::distance(p, a + d * t);
-}
 
 // Joints wander by a centimetre or two; less towards outlines, where charts must agree.
 glm::vec2 wander(glm::vec2 p, uint32_t salt) {

@@ -32,11 +32,4 @@ struct Cells {
 };
 Cells cells(glm::vec2 p, uint32_t salt);
 
-inline float saturate(float x) {
-    return glm::clamp(x, 0.0f, 1.0f);
-}
-inline float ramp(float low, float high, float x) {
-    return glm::smoothstep(low, high, x);
-}
-
 }  // namespace espalier::content

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/core/srgb.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/model.hpp"
 #include "tools/content/noise.hpp"
 

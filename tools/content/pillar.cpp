@@ -7,12 +7,11 @@
 #include <cmath>
 
 #include "tools/content/masonry.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 glm::vec2 squareAt(float u) {
     float w = u * 8;

@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "runtime/core/srgb.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {

@@ -9,6 +9,7 @@
 
 #include "runtime/core/file.hpp"
 #include "tools/content/lawn.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/site_layout.hpp"
 

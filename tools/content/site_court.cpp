@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "tools/content/lawn.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/ruin.hpp"
 #include "tools/content/site_layout.hpp"

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/site_layout.hpp"
 
 namespace espalier::content {
 
 using glm::vec2;
-constexpr float kPi = 3.14159265f;
 constexpr float kTubHigh = 0.30f;  // of its earth, metres
 constexpr float kDoorway = 0.9f;   // metres on both sides of a door's middle that stay free
 constexpr uint32_t kTries = 16;    // places looked at for one thing

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {
 
 using glm::vec2;
-constexpr float kPi = 3.14159265f;
 
 void Layout::lay() {
     feature();

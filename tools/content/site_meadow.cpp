@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "tools/content/lawn.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/site_layout.hpp"
 
 namespace espalier::content {
 
 using glm::vec2;
-constexpr float kPi = 3.14159265f;
 
 // Along the village's street, open where tracks and the path go through.
 void Layout::paddocks() {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/content/maths.hpp"
+
 namespace espalier::content {
 namespace {
 
@@ -36,11 +38,6 @@ const Line kTracks[] = {{{3, 43}, {6.5f, 30}, {4.5f, 20}, {2.6f, 12.5f}, {1.0f, 
                         {{-6.3f, -15.2f}, {-12, -14.2f}, {-20, -16.6f}, {-29, -19.6f}},
                         {{-2.2f, -10.4f}, {5, -11.4f}, {13, -18}, {23, -23.6f}, {34, -27.5f}}};
 constexpr float kHalfTrack = 0.36f;
-
-float segmentDistance(vec2 p, vec2 a, vec2 b) {
-    const vec2 d = b - a;
-    return glm::distance(p, a + d * glm::clamp(glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-9f), 0.0f, 1.0f));
-}
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // What belongs to houses. In: the plan. Out: yards before doors, gardens behind, beds along walls.
 
+#include "tools/content/maths.hpp"
 #include "tools/content/site_layout.hpp"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 namespace espalier::content {
 
 using glm::vec2;
-constexpr float kPi = 3.14159265f;
 constexpr float kPiece = 1.9f, kHalfGate = 0.75f;  // of a yard's fence
 
 vec2 Layout::outOf(vec2 a, vec2 b) const {

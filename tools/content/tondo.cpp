@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/content/masonry.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {

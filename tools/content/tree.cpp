@@ -7,13 +7,12 @@
 #include <span>
 
 #include "tools/content/card.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/props.hpp"
 
 namespace espalier::content {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 struct Habit {
     const char* name;

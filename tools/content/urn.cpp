@@ -4,13 +4,13 @@
 
 #include <cmath>
 
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 #include "tools/content/pillar.hpp"
 
 namespace espalier::content {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr float kDieLow = 0.40f, kDieHigh = 0.98f, kDie = 0.325f;
 constexpr float kBowlLow = 1.515f, kBowlHigh = 1.735f;
 constexpr float kFriezeLow = 1.80f, kFriezeHigh = 2.08f;

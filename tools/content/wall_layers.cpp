@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "tools/content/builder.hpp"
+#include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
 namespace espalier::content {
 namespace {
 
 using glm::vec3;
-constexpr float kPi = 3.14159265f;
 const vec3 kUp(0, 1, 0);
 
 // Split logs in courses between two posts, under boards; what lies behind their ends is in the dark. From afar only
