@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "runtime/emit/terminals.hpp"
-#include "runtime/roof/roof_growth.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 
 namespace espalier {
 

@@ -6,8 +6,8 @@
 
 #include "runtime/emit/terminals.hpp"
 #include "runtime/plugin/context.hpp"
-#include "runtime/roof/house_tables.hpp"
 #include "runtime/roof/shapes.hpp"
+#include "runtime/roof_growth/house_tables.hpp"
 
 namespace espalier {
 

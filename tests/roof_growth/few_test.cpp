@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "runtime/roof/house_tables.hpp"
+#include "runtime/roof_growth/house_tables.hpp"
 #include "tests/roof_growth/grow_support.hpp"
 
 using namespace roof_test;

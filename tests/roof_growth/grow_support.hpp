@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include "runtime/roof/roof_growth.hpp"
 #include "runtime/roof/shapes.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 
 // What the tests of roofs' growth share: houses, grammars, meshes.
 namespace roof_test {

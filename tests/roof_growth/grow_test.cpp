@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <set>
 
-#include "runtime/roof/plan_layers.hpp"
+#include "runtime/roof_growth/plan_layers.hpp"
 #include "shaders/shared/roof_layers.h"
 #include "shaders/shared/roof_tables.h"
 #include "tests/roof_growth/grow_support.hpp"

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "runtime/core/file.hpp"
-#include "runtime/roof/roof_growth.hpp"
 #include "runtime/roof/shapes.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 #include "tools/content/roof_mesh.hpp"
 
 using namespace espalier;

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "runtime/roof/roof_growth.hpp"
 #include "runtime/roof/shapes.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 #include "tools/bench/bench.hpp"
 
 namespace espalier {

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "runtime/core/file.hpp"
-#include "runtime/roof/roof_growth.hpp"
 #include "runtime/roof/shapes.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 #include "tools/content/roof_mesh.hpp"
 
 namespace espalier::content {

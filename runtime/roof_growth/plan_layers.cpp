@@ -1,5 +1,5 @@
 // Enters: dabs, pictures, records. Leaves: texels of layers over a town's site, and the rectangles that have changed.
-#include "runtime/roof/plan_layers.hpp"
+#include "runtime/roof_growth/plan_layers.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // How many cells each house has drawn, and their hash. In: grids and their rows' runs. Out: the town's sums without
 // what has been replaced. Kernels count all that they write; what a house had before it grew anew is known only from
 // its records, which are read back once after all houses have grown, when the first of them grows alone.
-#include "runtime/roof/gpu_roofs.hpp"
+#include "runtime/roof_growth/gpu_roofs.hpp"
 #include "shaders/shared/roof_expand.h"
 
 namespace espalier {

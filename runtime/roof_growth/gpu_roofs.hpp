@@ -9,7 +9,7 @@
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/program.hpp"
-#include "runtime/roof/roof_growth.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 
 namespace espalier {
 

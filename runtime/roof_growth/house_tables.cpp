@@ -1,6 +1,6 @@
 // In: a town's tables, in which houses that were replaced leave their old atoms behind. Out: tables of some houses, or
 // of all, that hold only what these use.
-#include "runtime/roof/house_tables.hpp"
+#include "runtime/roof_growth/house_tables.hpp"
 
 #include <numeric>
 

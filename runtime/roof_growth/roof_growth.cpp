@@ -9,8 +9,8 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/core/undo.hpp"
-#include "runtime/roof/gpu_roofs.hpp"
-#include "runtime/roof/house_tables.hpp"
+#include "runtime/roof_growth/gpu_roofs.hpp"
+#include "runtime/roof_growth/house_tables.hpp"
 #include "shaders/shared/roof_tables.h"
 
 namespace espalier {
@@ -54,7 +54,7 @@ Status GpuRoofs::makeKernels(const RuleMap& grammar, bool fetches) {
     if (derive_ && kind == kind_) return Done{};
     kind_ = kind;
     derive_ = {};
-    return makeKernel(device_, derive_, "roof/derive.comp",
+    return makeKernel(device_, derive_, "roof_growth/derive.comp",
                       {{0, kind.mapByAddress}, {1, kind.uses}, {2, kind.recordsByAddress}});
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/roof/atoms.hpp"
+#include "runtime/roof_growth/atoms.hpp"
 
 namespace espalier {
 namespace {

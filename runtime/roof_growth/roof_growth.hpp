@@ -8,7 +8,7 @@
 #include "runtime/core/result.hpp"
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/grammar/grammar.hpp"
-#include "runtime/roof/atoms.hpp"
+#include "runtime/roof_growth/atoms.hpp"
 
 namespace espalier {
 

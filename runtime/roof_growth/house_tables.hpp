@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/roof/atoms.hpp"
+#include "runtime/roof_growth/atoms.hpp"
 
 namespace espalier {
 

@@ -4,8 +4,8 @@
 // records in the order of its queue, behind what still draws the old ones.
 #include <chrono>
 
-#include "runtime/roof/gpu_roofs.hpp"
-#include "runtime/roof/house_tables.hpp"
+#include "runtime/roof_growth/gpu_roofs.hpp"
+#include "runtime/roof_growth/house_tables.hpp"
 
 namespace espalier {
 namespace {

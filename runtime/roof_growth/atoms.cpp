@@ -1,6 +1,6 @@
 // A roof structure -> atoms with their targets, the pieces of their outlines and their regions (Buron 2013 §3.1).
 // Planes lean halfway between the two faces that meet in them (Figure 4 d-f), so that tiles of both meet there.
-#include "runtime/roof/atoms.hpp"
+#include "runtime/roof_growth/atoms.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "runtime/core/undo.hpp"
 #include "runtime/gpu/limits.hpp"
-#include "runtime/roof/gpu_roofs.hpp"
+#include "runtime/roof_growth/gpu_roofs.hpp"
 #include "shaders/shared/roof_tables.h"
 
 namespace espalier {
