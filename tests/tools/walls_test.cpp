@@ -136,6 +136,23 @@ TEST_CASE("a town's triangles are the same in every run") {
     }
 }
 
+TEST_CASE("a town that a limit cut short is written all the same, and how much of it was is told") {
+    const Folder folder;
+    folder.write("plan.json", R"({"buildings": [{"id": "a", "outer": [[0, 0], [8, 0], [8, 6], [0, 6]]}]})");
+    for (const auto& [most, ended] : {std::pair("10", false), {"100", true}}) {
+        folder.write("steps.grammar", std::string("House -> Extrude(wallHeight) {Wall, NULL}\n"
+                                                  "Wall -> Step(0)\n"
+                                                  "Step(n) : n < ") +
+                                          most + " -> Step(n + 1) Shape(\"slate\")\nStep(n) -> NULL\n");
+        const Ran ran = run("cd " + folder.path.string() + " && " + program("espalier-bake") +
+                            " plan.json --grammar steps.grammar -o town.glb");
+        REQUIRE_MESSAGE(ran.code == 0, ran.output);
+        const bool told = ran.output.find("steps.grammar: a limit ended 4 shapes") != std::string::npos;
+        CHECK_MESSAGE(told == ended, ran.output);
+        CHECK(std::filesystem::file_size(folder.file("town.glb")) > 0);
+    }
+}
+
 TEST_CASE("walls as ground go up gables to a little below the verges, also where the roof breaks") {
     const Folder folder;
     folder.write("plan.json", R"({"buildings": [
