@@ -128,10 +128,11 @@ void main() {
         color = oneFragment();
         return;
     }
-    bool hatched = view == kViewLayer && push.surface != kNoIndex;
+    vec4 over = vec4(0.0);
+    if (explains) over = otherView(bumped);
+    if (explains && view == kViewLayer && push.surface != kNoIndex) over.rgb *= hatching();
     if (explains && !under) {
-        color = otherView(bumped);
-        if (hatched) color.rgb *= hatching();
+        color = over;
         return;
     }
     vec2 texels = vec2(textureSize(colorMap, 0));
@@ -144,6 +145,5 @@ void main() {
     vec3 direct = frame.sunColor * visible *
                   (base.rgb * facing + gloss(bumped, eye, sun, max(push.roughness, 0.35)) * facing);
     color = lit(direct, base.rgb * skyLight(bumped));
-    if (under) color = mix(color, otherView(bumped), frame.layerOpacity);
-    if (under && hatched) color.rgb *= hatching();
+    if (under) color = mix(color, over, frame.layerOpacity);
 }
