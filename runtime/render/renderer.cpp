@@ -99,7 +99,7 @@ void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, co
                         unit_});
     if (furnished_) {
         begin("draw props");
-        props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, shading_);
+        props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, plain_ ? plainOf(shading_) : shading_);
     }
     begin("draw ground");
     if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, shading_);

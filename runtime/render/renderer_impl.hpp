@@ -142,7 +142,7 @@ class RendererImpl final : public Renderer {
     uint32_t changes_ = 0;  // frames in a row in which growth has changed
     uint64_t propsRevision_ = 0;
     bool grows_ = false, roofed_ = false, shadowDrawn_ = false;
-    bool plain_ = false;         // growth is drawn as in the shaded view
+    bool plain_ = false;         // growth and props are drawn as in the shaded view
     bool shadowCoarse_ = false;  // the map has fewer and larger leaves, as in a stroke
     bool quickBefore_ = false;
     bool shadowsBehind_ = false;   // of what this picture shows

@@ -20,6 +20,10 @@ constexpr uint32_t kShadings = 5;
 inline bool isQuick(Shading shading) {
     return shading == Shading::quick || shading == Shading::quickExplaining;
 }
+// As in the shaded view.
+inline Shading plainOf(Shading shading) {
+    return isQuick(shading) ? Shading::quick : Shading::full;
+}
 // Others are drawn with fewer pixels at full quality at most, and need no programs for it.
 inline bool isAskedOf(const Device& device, Shading shading) {
     return device.info().cpu || !isQuick(shading);
