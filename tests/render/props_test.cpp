@@ -1,4 +1,4 @@
-// Props are drawn at the level of detail that a picture's size asks for.
+// Props are drawn at the level of detail that a picture's size asks for, and as its view asks.
 #include "tests/render/drawn.hpp"
 
 using namespace espalier;
@@ -29,4 +29,21 @@ TEST_CASE("after a small picture from the same place a large one has its own lev
     const std::vector<uint8_t> small = after.frame(160, 90);
     CHECK(after.frame(640, 360) == fresh.frame(640, 360));
     CHECK(after.frame(160, 90) == small);
+}
+
+TEST_CASE("with a layer shown props look as in the shaded view, and other views explain them") {
+    Row row;
+    Result<Buffer> none = Buffer::create(row.device(), "no surfaces", 256);
+    REQUIRE(none);
+    row.inputs.surfaces = addressOf<SurfaceBuf>(*none);
+    row.inputs.layers = addressOf<LayerBuf>(*none);
+    for (const bool quick : {false, true}) {
+        row.inputs.look.quick = quick;
+        row.inputs.look.view = ViewMode::shaded;
+        const std::vector<uint8_t> shaded = row.frame(320, 180);
+        row.inputs.look.view = ViewMode::layer;
+        CHECK(row.frame(320, 180) == shaded);
+        row.inputs.look.view = ViewMode::normals;
+        CHECK(row.frame(320, 180) != shaded);
+    }
 }
