@@ -130,10 +130,10 @@ void main() {
     }
     vec4 over = vec4(0.0);
     if (explains) over = otherView(bumped);
-    float kept = 1.0;
-    if (explains && view == kViewLayer && push.surface != kNoIndex) kept = hatching();
+    float hatched = 1.0;
+    if (explains && view == kViewLayer && push.surface != kNoIndex) hatched = hatching();
     if (explains && !under) {
-        color = vec4(over.rgb * kept, over.a);
+        color = vec4(over.rgb * hatched, over.a);
         return;
     }
     vec2 texels = vec2(textureSize(colorMap, 0));
@@ -146,5 +146,5 @@ void main() {
     vec3 direct = frame.sunColor * visible *
                   (base.rgb * facing + gloss(bumped, eye, sun, max(push.roughness, 0.35)) * facing);
     color = lit(direct, base.rgb * skyLight(bumped));
-    if (under) color = mix(color, over, frame.layerOpacity) * vec4(vec3(kept), 1.0);
+    if (under) color = mix(color, over, frame.layerOpacity) * vec4(vec3(hatched), 1.0);
 }

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
 
 #include "sample_game/panels.hpp"
 #include "tests/editor/widgets.hpp"

@@ -109,7 +109,7 @@ struct Device {
             if (cost(0.5f) < 0.9 * scene::MovingDetail::kFrameMs)
                 CHECK(lod == doctest::Approx(scene::MovingDetail::kLod));
             else
-                CHECK(lod <= scene::MovingDetail::kMostLod * 1.001f);
+                CHECK((lod >= scene::MovingDetail::kLod * 0.999f && lod <= scene::MovingDetail::kMostLod * 1.001f));
             took.push_back(cost(share) * (i % 2 == 0 ? 1.05 : 0.95));
             picture.drew(took[took.size() > lag ? took.size() - 1 - lag : 0], 30'000, strokes);
         }

@@ -242,6 +242,10 @@ void denseCases(Bench& bench, EspContext* context, scene::Scene& scene) {
                "ms", mean(turn.wall), "15 frames/s", kFrame});
     bench.add({"frame/dense/cpu", "CPU time of it", "ms", mean(turn.cpu), "15 frames/s on two cores", 2 * kFrame});
     bench.add({"frame/dense/worst", "by the clock, worst", "ms", most(turn.wall), "15 frames/s", kFrame});
+    const Moves finer = PlaceFilm{context, scene, scene::MovingDetail::kLeastShare}.turn();
+    if (finer.wall.empty()) return bench.skip("frame/dense/coarser", espLastError(context));
+    bench.add({"frame/dense/coarser", "by the clock, as coarse as its time asks for", "ms", mean(turn.wall),
+               "at the detail that all moving pictures have", mean(finer.wall)});
     for (const auto& [row, share] :
          {std::pair("frame/dense/0.6", .6f), {"frame/dense/0.75", .75f}, {"frame/dense/whole", 1.f}}) {
         const Moves larger = PlaceFilm{context, scene, share}.turn();
@@ -307,8 +311,8 @@ void placeCases(Bench& bench) {
         return std::any_of(names.begin(), names.end(), [&](const char* name) { return bench.wants(name); });
     };
     const bool sample = wanted({"frame/place", "frame/place/wall", "frame/place/still", "frame/place/walk"});
-    const bool dense =
-        wanted({"frame/dense", "frame/dense/0.6", "frame/dense/0.75", "frame/dense/whole", "frame/dense/painting"});
+    const bool dense = wanted({"frame/dense", "frame/dense/coarser", "frame/dense/0.6", "frame/dense/0.75",
+                               "frame/dense/whole", "frame/dense/painting"});
     const bool stages = wanted({"frame/device", "frame/device/expand", "frame/device/draw"});
     if (!sample && !dense && !stages) return;
     const char* name = sample ? "frame/place" : dense ? "frame/dense" : "frame/device";

@@ -85,6 +85,10 @@ Result<RuleMap> compileFor(const TownArguments& arguments, const TerminalData& m
     return map;
 }
 
+void warn(const std::string& file, std::string message) {
+    std::fprintf(stderr, "%s\n", toString(Diagnostic{file, 0, 0, {}, std::move(message), true}).c_str());
+}
+
 Status addTiles(const TownArguments& arguments, const RoofStructure& structure, GlbWriter& glb, size_t& triangles) {
     Result<TerminalData> meshes = readTerminals(arguments.meshes, {"bark"});
     if (!meshes) return meshes.failure();
@@ -99,9 +103,9 @@ Status addTiles(const TownArguments& arguments, const RoofStructure& structure, 
     CpuRoofs roofs = growRoofsOnCpu(inputs, 0);
     if (!roofs.complete) return Failure(arguments.grammar, roofs.complete.failure().diagnostics.front().message);
     if (roofs.status.stopped)
-        std::fprintf(stderr,
-                     "%s: a limit ended %u shapes: more than %u rules followed each other, or a Repeat was too large\n",
-                     arguments.grammar.c_str(), roofs.status.stopped, kMaxRoofDepth);
+        warn(arguments.grammar, "a limit ended " + std::to_string(roofs.status.stopped) + " shapes: more than " +
+                                    std::to_string(kMaxRoofDepth) +
+                                    " rules followed each other, or a Repeat was too large");
     RoofEnv env{};
     env.grids.v = roofs.records.grids.data();
     env.runs.v = roofs.records.runs.data();
