@@ -37,7 +37,7 @@ constexpr uint64_t kSettling = 60;  // frames in which detail and size follow th
 
 void App::showUi() {
     work_.followLayers();
-    const bool asks = dialogueAsked() || !session_.recovery().empty();
+    const bool asks = dialogueAsked() || !session_.autosaves().recovery().empty();
     if (!work_.editing && asks) controls_->setEditing(true);  // where it can be answered
     if (!work_.editing) closeDialogues();
     if (work_.editing) {
@@ -172,7 +172,8 @@ bool App::replay(std::vector<InputEvent>& events) {
     if (!ends && replay_.step(work_, glfwGetTime())) return true;
     flags &= ~ImGuiConfigFlags_NoMouse;
     session_.endReplay();
-    if (options_.frames) session_.forgetRecovery(false), session_.givesUp = true;  // nobody is there to be asked
+    if (options_.frames)
+        session_.autosaves().forgetRecovery(false), session_.givesUp = true;  // nobody is there to be asked
     return true;
 }
 

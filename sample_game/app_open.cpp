@@ -184,7 +184,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     for (const std::string& note : work_.scene().notes) work_.message += (work_.message.empty() ? "" : "\n") + note;
     const bool whole = request.layers.empty() && request.grammar.empty() && !request.seed && request.times == 1;
     session_.begin(work_, request.file, read, whole);
-    if (options_.frames) session_.forgetRecovery(false);
+    if (options_.frames) session_.autosaves().forgetRecovery(false);
     work_.lookFrom(work_.scene().camera);
     retitle();
     return true;
@@ -279,7 +279,7 @@ void App::followModels() {
     if (waits && !reloadWaits_) work_.message = "A model has changed on disk: it is read when you are done here";
     reloadWaits_ = waits;
     if (waits || !session_.idle()) return;
-    if (session_.reload && session_.recovery().empty()) reload();
+    if (session_.reload && session_.autosaves().recovery().empty()) reload();
     if (!reloading_.kept.empty() && !work_.busy && session_.idle()) openReloaded();
 }
 
@@ -326,11 +326,11 @@ void App::openReloaded() {
     session_.reload = state != work_.document->state();
     session_.goesOn = !session_.reload;
     work_.error.clear();
-    if (session_.goesOn && showOpening(origin.file) && openDocument({kept, {}, {}, {}}, work_.error)) {
+    if (session_.goesOn && showOpening(origin.autosaves.file) && openDocument({kept, {}, {}, {}}, work_.error)) {
         work_.takeUp(hands);
         session_.setOrigin(work_, origin);
         const std::string notes = std::exchange(work_.message, {});
-        work_.message = "Its model has changed on disk: " + fs::path(origin.file).filename().string() +
+        work_.message = "Its model has changed on disk: " + fs::path(origin.autosaves.file).filename().string() +
                         " was reloaded" + (recorded ? "; the recording has ended" : "") + (notes.empty() ? "" : "\n") +
                         notes;
     }
@@ -352,8 +352,8 @@ bool App::openNext() {
     }
     replay_.forget();
     session_.givesUp = false;
-    if (file == session_.recovery())
-        session_.refuseRecovery(std::exchange(work_.error, {}));
+    if (file == session_.autosaves().recovery())
+        session_.autosaves().refuseRecovery(std::exchange(work_.error, {}));
     else
         askToOpen(file, work_.error);
     return true;

@@ -26,15 +26,16 @@ std::string keptAt(const std::string& file) {
 }
 
 void recoveryDialogue(Session& session) {
-    const bool asks = !session.recovery().empty() && session.openNext != session.recovery();
+    const bool asks = !session.autosaves().recovery().empty() && session.openNext != session.autosaves().recovery();
     if (asks) ImGui::OpenPopup("Unsaved work");
     if (beginDialogue("Unsaved work")) {
-        say("The last session ended without saving. What it had changed was kept" + keptAt(session.recovery()) + ".");
-        if (!session.refused().empty()) say("It couldn't be opened: " + session.refused());
+        say("The last session ended without saving. What it had changed was kept" +
+            keptAt(session.autosaves().recovery()) + ".");
+        if (!session.autosaves().refused().empty()) say("It couldn't be opened: " + session.autosaves().refused());
         // A key that was meant for something else, such as the Esc that ends a replay, is no answer.
         const bool answers = !ImGui::IsWindowAppearing();
         if (ImGui::Button("Open it") || (answers && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false))) {
-            session.openNext = session.recovery();
+            session.openNext = session.autosaves().recovery();
             ImGui::CloseCurrentPopup();
         }
         ImGui::SameLine();
@@ -42,20 +43,20 @@ void recoveryDialogue(Session& session) {
         if (ImGui::IsWindowAppearing()) sure = false;
         if (ImGui::Button(sure ? "Yes, throw it away" : "Throw it away")) {
             if (sure) {
-                session.forgetRecovery(true);
+                session.autosaves().forgetRecovery(true);
                 ImGui::CloseCurrentPopup();
             }
             sure = !sure;
         }
-        if (session.recoveryWaits()) {
+        if (session.autosaves().recoveryWaits()) {
             ImGui::SameLine();
             const bool escape = answers && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
             const bool later = ImGui::Button("Decide later") || escape;
             toolTip("It stays where it is, and is offered again when this is opened next");
-            if (later) session.putOffRecovery(), sure = false;
+            if (later) session.autosaves().putOffRecovery(), sure = false;
         }
         if (sure) say("It can't be brought back.");
-        if (session.recovery().empty()) ImGui::CloseCurrentPopup();
+        if (session.autosaves().recovery().empty()) ImGui::CloseCurrentPopup();
         ImGui::EndPopup();
     }
 }
@@ -67,7 +68,7 @@ Doubt doubtOfSaving(const Session& session, const std::string& folder) {
     if (place == session.folder()) {
         const std::string changed = " has been saved by somebody else since it was opened",
                           holds = " holds what another session hasn't saved";
-        if (session.holdsBack())
+        if (session.autosaves().holdsBack())
             return {place + (session.changedByOthers() ? changed + ", and" + holds : holds) + ".", "Throw that away?",
                     "Throw away, save"};
         return session.changedByOthers() ? Doubt{place + changed + "."} : Doubt{};

@@ -33,7 +33,7 @@ TEST_CASE("two editors of one scene keep what is theirs apart, and are offered o
         CHECK(maskOf(kept[0]) + maskOf(kept[1]) == 1);
         CHECK(maskOf(kept[0]) != maskOf(kept[1]));
         Window three(folder, scene);
-        CHECK(three.session.recovery() == "");
+        CHECK(three.session.autosaves().recovery() == "");
         one.fill(.5f);
         one.wait();
         CHECK(autosavesIn(config).size() == 2);
@@ -44,14 +44,14 @@ TEST_CASE("two editors of one scene keep what is theirs apart, and are offered o
     fs::remove_all(config);
     fs::rename(folder.path / "copy", config);
     Window again(folder, scene), beside(folder, scene);
-    CHECK(again.session.recovery() != "");
-    CHECK(beside.session.recovery() != "");
-    CHECK(again.session.recovery() != beside.session.recovery());
-    again.session.forgetRecovery(true);
+    CHECK(again.session.autosaves().recovery() != "");
+    CHECK(beside.session.autosaves().recovery() != "");
+    CHECK(again.session.autosaves().recovery() != beside.session.autosaves().recovery());
+    again.session.autosaves().forgetRecovery(true);
     again.fill(.125f);
     again.wait();
     REQUIRE(autosavesIn(config).size() == 2);
-    CHECK(maskOf(beside.session.recovery()) != .125f);
+    CHECK(maskOf(beside.session.autosaves().recovery()) != .125f);
 }
 
 TEST_CASE("the second editor of a project says so, keeps what is its own beside the settings and leaves the first's") {
@@ -122,10 +122,10 @@ TEST_CASE("what a replay has done counts as not saved, is kept by the run's name
     fs::remove_all(config);
     fs::rename(folder.path / "copy", config);
     Window again(folder, scene);
-    CHECK(again.session.recovery() == "");
+    CHECK(again.session.autosaves().recovery() == "");
     again.session.replays(run);
-    CHECK(again.session.recovery() == "");
+    CHECK(again.session.autosaves().recovery() == "");
     again.session.endReplay();
-    REQUIRE(again.session.recovery() != "");
-    CHECK(maskOf(again.session.recovery()) == .75f);
+    REQUIRE(again.session.autosaves().recovery() != "");
+    CHECK(maskOf(again.session.autosaves().recovery()) == .75f);
 }

@@ -73,7 +73,7 @@ TEST_CASE("what an editor left behind can wait, beside what is done meanwhile, a
     std::string offered;
     {
         Dialogue dialogue(folder, scene);
-        offered = dialogue.session.recovery();
+        offered = dialogue.session.autosaves().recovery();
         dialogue.press("Decide later");
         CHECK(!dialogue.asks());
         dialogue.fill(.75f);
@@ -84,7 +84,7 @@ TEST_CASE("what an editor left behind can wait, beside what is done meanwhile, a
     }
     Dialogue again(folder, scene);
     CHECK(again.asks());
-    CHECK(again.session.recovery() == offered);
+    CHECK(again.session.autosaves().recovery() == offered);
     again.press("Open it");
     CHECK(again.session.openNext == offered);
     CHECK(!again.asks());
@@ -100,10 +100,10 @@ TEST_CASE("of several editors' work that waits, each is offered in turn") {
     const fs::path first = fs::directory_iterator(kept)->path();
     fs::copy(first, first.string() + "-2", fs::copy_options::recursive);
     Dialogue dialogue(folder, scene);
-    const std::string one = dialogue.session.recovery();
+    const std::string one = dialogue.session.autosaves().recovery();
     dialogue.press("Decide later");
     CHECK(dialogue.asks());
-    const std::string other = dialogue.session.recovery();
+    const std::string other = dialogue.session.autosaves().recovery();
     CHECK(other != "");
     CHECK(other != one);
     dialogue.press("Decide later");
@@ -143,7 +143,7 @@ TEST_CASE("what was left behind and can't be opened is asked about again, and is
     CHECK(!dialogue.asks());
     // As the application does when it fails.
     dialogue.session.openNext.clear();
-    dialogue.session.refuseRecovery("out of memory");
+    dialogue.session.autosaves().refuseRecovery("out of memory");
     for (int i = 0; i < 3; ++i) dialogue.frame({});
     CHECK(dialogue.asks());
     std::string words;
@@ -194,10 +194,10 @@ TEST_CASE("the second editor of a project asks before its save takes what the fi
     REQUIRE(one.save(garden));
     Dialogue two(folder, garden);
     two.fill(.5f);
-    CHECK(!two.session.holdsBack());
+    CHECK(!two.session.autosaves().holdsBack());
     one.fill(.25f);
     one.wait();
-    CHECK(two.session.holdsBack());
+    CHECK(two.session.autosaves().holdsBack());
     CHECK(!sample::askToSave(two.work, two.session));
     CHECK_MESSAGE(contains(sample::dialogues().why, "hasn't saved"), sample::dialogues().why);
     CHECK(autosavesIn(garden).size() == 1);
@@ -211,7 +211,7 @@ TEST_CASE("the second editor of a project asks before its save takes what the fi
         CHECK_MESSAGE(contains(sample::dialogues().why, doubt), sample::dialogues().why);
     REQUIRE(two.save(garden));
     CHECK(autosavesIn(garden).empty());
-    CHECK(!two.session.holdsBack());
+    CHECK(!two.session.autosaves().holdsBack());
 }
 
 TEST_CASE("what the first editor of a project left stays when the second reads its files again") {
@@ -227,7 +227,7 @@ TEST_CASE("what the first editor of a project left stays when the second reads i
     one.reset();
     folder.write("garden/autosave.json", kept);  // it came to a sudden end
     two.session.setOrigin(two.work, origin);
-    CHECK(two.session.holdsBack());
+    CHECK(two.session.autosaves().holdsBack());
     two.fill(.5f);
     two.wait();
     CHECK(readAll(autosave) == kept);
@@ -283,7 +283,7 @@ TEST_CASE("a project's own autosave can wait, too, until the project is saved") 
     {
         Dialogue dialogue(folder, garden);
         REQUIRE(dialogue.asks());
-        offered = dialogue.session.recovery();
+        offered = dialogue.session.autosaves().recovery();
         dialogue.press("Decide later");
         CHECK(!dialogue.asks());
         dialogue.fill(.75f);
@@ -301,17 +301,17 @@ TEST_CASE("a project's own autosave can wait, too, until the project is saved") 
     {
         Dialogue again(folder, garden);
         REQUIRE(again.asks());
-        CHECK(again.session.recovery() == offered);
+        CHECK(again.session.autosaves().recovery() == offered);
         ImGui::GetIO().KeysDown[ImGuiKey_Escape] = true;  // later
         for (int i = 0; i < 3; ++i) again.frame({});
         ImGui::GetIO().KeysDown[ImGuiKey_Escape] = false;
-        CHECK(again.session.holdsBack());
+        CHECK(again.session.autosaves().holdsBack());
         again.fill(1);
         CHECK(!sample::askToSave(again.work, again.session));  // that it would go is asked about
         CHECK_MESSAGE(contains(sample::dialogues().why, "hasn't saved"), sample::dialogues().why);
         CHECK(autosavesIn(garden) == std::vector{offered});
         CHECK(again.save(garden));
-        CHECK(!again.session.holdsBack());
+        CHECK(!again.session.autosaves().holdsBack());
         again.fill(.25f);
         again.wait();  // in the project again
         CHECK(autosavesIn(garden) == std::vector{offered});

@@ -124,9 +124,9 @@ TEST_CASE(
     fs::rename(folder.file("aside2"), folder.file("other/layers"));
     fs::copy(folder.file("copy"), place, fs::copy_options::recursive);
     Window again(folder, folder.file("other"));
-    REQUIRE(again.session.recovery() == keptIn(folder));
-    CHECK(maskOf(again.session.recovery()) == .75f);
-    again.session.forgetRecovery(true);
+    REQUIRE(again.session.autosaves().recovery() == keptIn(folder));
+    CHECK(maskOf(again.session.autosaves().recovery()) == .75f);
+    again.session.autosaves().forgetRecovery(true);
     CHECK(keptIn(folder) == "");
 }
 
@@ -160,11 +160,11 @@ TEST_CASE(
     fs::last_write_time(own, now + std::chrono::seconds(2));
     fs::last_write_time(kept, now + std::chrono::seconds(4));
     Window again(folder, garden);
-    CHECK(again.session.recovery() == kept);
-    again.session.forgetRecovery(true);
-    CHECK(again.session.recovery() == own);
-    again.session.putOffRecovery();
-    CHECK(again.session.recovery() == "");
+    CHECK(again.session.autosaves().recovery() == kept);
+    again.session.autosaves().forgetRecovery(true);
+    CHECK(again.session.autosaves().recovery() == own);
+    again.session.autosaves().putOffRecovery();
+    CHECK(again.session.autosaves().recovery() == "");
 }
 
 TEST_CASE(
