@@ -213,7 +213,7 @@ TEST_CASE("an atlas that can't be read stays what it was") {
 
 TEST_CASE("where a link leads is told, and on which surface if that is another") {
     const Folder folder;
-    const std::string ruin = content("ruin.surface.glb");
+    const std::string ruin = smallSurface();
     const Window window(folder,
                         folder.write("two.json", R"({"surfaces": [{"file": ")" + ruin + R"("}, {"file": ")" + ruin +
                                                      R"(", "position": [0.4, 0, 0]}], "grammars": [{"file": ")" +

@@ -133,7 +133,7 @@ TEST_CASE("a project is saved among other files only when that is said twice, an
 
 TEST_CASE("each file that an export of several surfaces writes is told, and each that an import reads") {
     const Folder folder;
-    const std::string ruin = content("ruin.surface.glb"), ivy = content("grammars/ivy_guided.grammar");
+    const std::string ruin = smallSurface(), ivy = content("grammars/ivy_guided.grammar");
     Asked asked(folder, folder.write("walls.json", R"({"surfaces": [{"file": ")" + ruin + R"("}, {"file": ")" + ruin +
                                                        R"(", "position": [0, 0, 40]}], "grammars": [{"file": ")" + ivy +
                                                        R"("}]})"));

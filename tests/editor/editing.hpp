@@ -51,10 +51,15 @@ struct Editing {
     }
 };
 
+// The sample's model with few texels: what it takes to open one many times.
+inline std::string smallSurface() {
+    return ESPALIER_SMALL_SURFACE;
+}
+
 // A scene of one small plant, for tests that grow often.
 inline std::string smallScene(const Folder& folder) {
     return folder.write("small.json", R"({
-  "surface": ")" + content("ruin.surface.glb") +
+  "surface": ")" + smallSurface() +
                                           R"(",
   "grammars": [{"file": ")" + content("grammars/ivy_guided.grammar") +
                                           R"(", "params": {"reach": 1, "twigs": 2},

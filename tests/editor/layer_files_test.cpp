@@ -101,7 +101,7 @@ TEST_CASE("a picture of another size or kind is taken in, and the user is told w
     for (size_t i = 0; i < rgba.size(); i += 4) rgba[i] = 204, rgba[i + 1] = 20;
     REQUIRE(espalier::scene::writePng(folder.file("colour.png"), rgba.data(), 64, 32, error));
     REQUIRE_MESSAGE(import(editing, folder.file("colour.png"), note), editing.error);
-    CHECK_MESSAGE(contains(note, "64 x 32, resampled to 1024 x 1024"), note);
+    CHECK_MESSAGE(contains(note, "64 x 32, resampled to 512 x 512"), note);
     CHECK_MESSAGE(contains(note, "the red"), note);
     const std::vector<float> red = layerOf(editing);  // 0 where the atlas holds nothing
     CHECK(std::ranges::all_of(red, [](float value) { return value == 0 || std::abs(value - .8f) < 1e-6f; }));

@@ -41,8 +41,8 @@ Shown shown(const Folder& folder, const std::string& what) {
 // The small scene with a model of its own, and beside it `other` and `first`: that model with another byte, and as it
 // was. Both scene and model.
 std::pair<std::string, std::string> sceneOfOwnModel(const Folder& folder) {
-    std::string scene = readAll(smallScene(folder)), model = readAll(content("ruin.surface.glb"));
-    const std::string name = content("ruin.surface.glb"), own = folder.write("own.surface.glb", model);
+    std::string scene = readAll(smallScene(folder)), model = readAll(smallSurface());
+    const std::string name = smallSurface(), own = folder.write("own.surface.glb", model);
     scene.replace(scene.find(name), name.size(), own);
     folder.write("first", model);
     const std::string generator = R"("generator":")";
@@ -136,7 +136,7 @@ TEST_CASE("Esc stops growth that takes long, and the next change grows") {
         seeds += (i > 0 ? "," : "") + std::string(R"({"position": [)") + std::to_string(-1.6 + 0.015 * i) +
                  R"(, 0.12, 0.36], "seed": )" + std::to_string(i) + "}";
     const std::string dense =
-        folder.write("dense.json", R"({"surface": ")" + content("ruin.surface.glb") + R"(", "grammars": [{"file": ")" +
+        folder.write("dense.json", R"({"surface": ")" + smallSurface() + R"(", "grammars": [{"file": ")" +
                                        content("grammars/ivy_guided.grammar") +
                                        R"(", "params": {"reach": 20, "twigs": 20, "twigLength": 1.5, "scale": 0.2},
     "seeds": [)" + seeds + R"(]}], "camera": {"eye": [2.3, 1.9, 8.0], "target": [-0.05, 1.55, 0.3], "fov": 38}})");

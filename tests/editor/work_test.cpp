@@ -38,7 +38,7 @@ std::map<std::string, std::string> filesIn(const std::filesystem::path& folder) 
 
 // Two walls, each with a layer of its own.
 std::string twoWalls(const Folder& folder) {
-    const std::string ruin = content("ruin.surface.glb");
+    const std::string ruin = smallSurface();
     return folder.write("walls.json", R"({"surfaces": [{"file": ")" + ruin + R"("}, {"file": ")" + ruin +
                                           R"(", "position": [0, 0, 40]}],
   "grammars": [{"file": ")" + content("grammars/ivy_guided.grammar") +
