@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "runtime/core/jobs.hpp"
 #include "runtime/render/meadow_noise.hpp"
 
 namespace espalier {
@@ -43,15 +44,14 @@ std::vector<float> bladeTile() {
 
 // meadowNoise, and blades in its y.
 std::vector<uint8_t> noiseTile() {
-    std::vector<uint8_t> rgba(size_t(kSide) * kSide * 4);
     const std::vector<float> blades = bladeTile();
+    const std::vector<glm::vec4> tile = meadowNoiseTile();
+    std::vector<uint8_t> rgba(tile.size() * 4);
     const auto byte = [](float x) { return uint8_t(std::clamp(x * 0.5f + 0.5f, 0.0f, 1.0f) * 255 + 0.5f); };
-    for (uint32_t y = 0; y < kSide; ++y)
-        for (uint32_t x = 0; x < kSide; ++x) {
-            glm::vec4 noise = meadowNoise(x, y);
-            noise.y = blades[size_t(y) * kSide + x];
-            for (int k = 0; k < 4; ++k) rgba[(size_t(y) * kSide + x) * 4 + size_t(k)] = byte(noise[k]);
-        }
+    for (size_t i = 0; i < tile.size(); ++i) {
+        const glm::vec4 noise(tile[i].x, blades[i], tile[i].z, tile[i].w);
+        for (int k = 0; k < 4; ++k) rgba[i * 4 + size_t(k)] = byte(noise[k]);
+    }
     return rgba;
 }
 
@@ -105,7 +105,7 @@ std::vector<uint8_t> pavingTile() {
         const float t = std::clamp((x - a) / (b - a), 0.0f, 1.0f);
         return t * t * (3 - 2 * t);
     };
-    for (uint32_t y = 0; y < kPavingSide; ++y)
+    const auto layRow = [&](uint32_t y) {
         for (uint32_t x = 0; x < kPavingSide; ++x) {
             const float bend = 0.10f * octaves(x, y, 8, 2, 71);
             float v = float(y) * kSetts / kPavingSide + bend;
@@ -126,6 +126,10 @@ std::vector<uint8_t> pavingTile() {
                          0.25f * other * (fu - 0.5f) + 0.10f * octaves(x, y, 64, 3, 81);
             shade[at] = std::clamp(0.52f + 0.26f * random + 0.22f * octaves(x, y, 32, 4, 83), 0.0f, 1.0f);
         }
+    };
+    parallelFor(kPavingSide, 16, [&](size_t begin, size_t end) {
+        for (size_t y = begin; y < end; ++y) layRow(uint32_t(y));
+    });
     std::vector<uint8_t> rgba(height.size() * 4);
     const auto byte = [](float v) { return uint8_t(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f); };
     const auto at = [&](uint32_t x, uint32_t y) {

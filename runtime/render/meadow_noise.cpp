@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/jobs.hpp"
 #include "shaders/render/meadow_hue.h"
 
 namespace espalier {
@@ -30,10 +31,39 @@ float octaves(uint32_t x, uint32_t y, uint32_t cells, int count, uint32_t salt) 
     return sum;
 }
 
+namespace {
+
+// From the heights at a texel, and at the next ones of its row and column.
+glm::vec4 meadowNoise(uint32_t x, uint32_t y, float height, float right, float below) {
+    return {1.4f * octaves(x, y, 4, 5, 11), 0, 6 * (right - height), 6 * (below - height)};
+}
+
+float meadowHeight(uint32_t x, uint32_t y) {
+    return octaves(x % kNoiseSide, y % kNoiseSide, 16, 4, 31);
+}
+
+}  // namespace
+
 glm::vec4 meadowNoise(uint32_t x, uint32_t y) {
-    const auto height = [](uint32_t u, uint32_t v) { return octaves(u % kNoiseSide, v % kNoiseSide, 16, 4, 31); };
-    return {1.4f * octaves(x, y, 4, 5, 11), 0, 6 * (height(x + 1, y) - height(x, y)),
-            6 * (height(x, y + 1) - height(x, y))};
+    return meadowNoise(x, y, meadowHeight(x, y), meadowHeight(x + 1, y), meadowHeight(x, y + 1));
+}
+
+std::vector<glm::vec4> meadowNoiseTile() {
+    std::vector<float> heights(size_t(kNoiseSide) * kNoiseSide);
+    std::vector<glm::vec4> tile(heights.size());
+    const auto overTexels = [](const auto& body) {
+        parallelFor(kNoiseSide, 16, [&](size_t begin, size_t end) {
+            for (size_t y = begin; y < end; ++y)
+                for (uint32_t x = 0; x < kNoiseSide; ++x) body(x, uint32_t(y), y * kNoiseSide + x);
+        });
+    };
+    overTexels([&](uint32_t x, uint32_t y, size_t i) { heights[i] = meadowHeight(x, y); });
+    overTexels([&](uint32_t x, uint32_t y, size_t i) {
+        const size_t right = size_t(y) * kNoiseSide + (x + 1) % kNoiseSide;
+        const size_t below = size_t((y + 1) % kNoiseSide) * kNoiseSide + x;
+        tile[i] = meadowNoise(x, y, heights[i], heights[right], heights[below]);
+    });
+    return tile;
 }
 
 MeadowHue meadowHue(glm::vec2 place) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 namespace espalier {
 
@@ -18,6 +19,7 @@ float octaves(uint32_t x, uint32_t y, uint32_t cells, int count, uint32_t salt);
 // What the tile holds but for blades of grass: x: patches; z, w: slopes of a bumpy height. Of mean 0, so that they fade
 // with distance as colours do.
 glm::vec4 meadowNoise(uint32_t x, uint32_t y);
+std::vector<glm::vec4> meadowNoiseTile();  // row by row
 
 struct MeadowHue {
     float dry = 0;    // share of the grass
