@@ -107,6 +107,7 @@ void Device::setName(VkObjectType type, uint64_t handle, std::string_view name) 
 }
 
 bool Device::succeeded(VkResult result, const char* expression, std::string_view object) {
+    driverFailed_ = result == VK_ERROR_UNKNOWN || result == VK_ERROR_INITIALIZATION_FAILED;
     switch (result) {
         case VK_SUCCESS:
         case VK_INCOMPLETE:
@@ -119,6 +120,8 @@ bool Device::succeeded(VkResult result, const char* expression, std::string_view
         case VK_ERROR_OUT_OF_DEVICE_MEMORY:
         case VK_ERROR_OUT_OF_POOL_MEMORY:
         case VK_ERROR_TOO_MANY_OBJECTS:
+        case VK_ERROR_INITIALIZATION_FAILED:
+        case VK_ERROR_UNKNOWN:
             return false;
         default:
             fatal(std::string(object) + ": " + expression + " gave VkResult " + std::to_string(int(result)));
@@ -126,7 +129,9 @@ bool Device::succeeded(VkResult result, const char* expression, std::string_view
 }
 
 Failure gpuFailure(const Device& device, std::string_view object, std::string_view what) {
-    const std::string_view cause = device.lost() ? "the GPU was lost while " : "out of GPU memory while ";
+    const std::string_view cause = device.lost()           ? "the GPU was lost while "
+                                   : device.driverFailed() ? "the GPU's driver failed while "
+                                                           : "out of GPU memory while ";
     return deviceFailure(object, std::string(cause) + std::string(what));
 }
 

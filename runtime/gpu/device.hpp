@@ -64,8 +64,8 @@ struct PassTime {
 };
 
 // A Vulkan 1.3 device with one queue: the root of all GPU objects. It is used by one thread at a time.
-// Running out of memory and losing the device come back as failures (and then lost() tells which); any other Vulkan
-// error is a programming mistake and ends the program with the expression and the object's name.
+// Running out of memory, losing the device and what drivers give no reason for come back as failures (see gpuFailure);
+// any other Vulkan error is a programming mistake and ends the program with the expression and the object's name.
 class Device {
   public:
     // Fails with a message that names what is missing: the loader, a device, the layer, features.
@@ -96,6 +96,7 @@ class Device {
     void collect();
     // The host's GPU work up to this frame number is done (see Commands::into).
     void hostFrameDone(uint64_t frame);
+    uint64_t hostFrame() const { return hostFrame_; }  // that is done, with all before it
     // The host has submitted all its recordings to our queue: they are done when our next submission is, even if it
     // says no more of its frames.
     void hostSubmitted();
@@ -114,10 +115,12 @@ class Device {
     std::vector<std::string> validationTexts() const;
 
     bool lost() const { return lost_; }
+    // The latest call has failed for a reason that the driver doesn't tell.
+    bool driverFailed() const { return driverFailed_; }
 
     // For other files of gpu/.
     void setName(VkObjectType type, uint64_t handle, std::string_view name) const;
-    // True: success. False: out of memory or device lost. Otherwise doesn't return.
+    // True: success. False: a failure of the driver or device. Otherwise doesn't return.
     bool succeeded(VkResult result, const char* expression, std::string_view object);
     RetireQueue& retireQueue() { return *retireQueue_; }
     TimerRing& timers() { return *timers_; }
@@ -133,7 +136,7 @@ class Device {
     bool ownsInstance_ = false;
     bool ownsDevice_ = false;
     bool debugUtils_ = false;
-    bool lost_ = false;
+    bool lost_ = false, driverFailed_ = false;
     Log log_;
     void* loader_ = nullptr;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr_ = nullptr;

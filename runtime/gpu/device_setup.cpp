@@ -249,7 +249,9 @@ struct DeviceSetup {
         describe();
         VkPhysicalDeviceMemoryProperties memory{};
         d.vkInstance_.vkGetPhysicalDeviceMemoryProperties(d.physicalDevice_, &memory);
-        if (!hostMemory) d.ownMemory_ = makePooledMemory(d.vk_, d.device_, memory, d.info_.cpu);
+        // A graphics card's memory is shared with a game.
+        const uint64_t keepBytes = d.info_.cpu ? 1ull << 30 : 1ull << 28;
+        if (!hostMemory) d.ownMemory_ = makePooledMemory(d.vk_, d.device_, memory, d.info_.cpu, keepBytes);
         d.memory_ = hostMemory ? hostMemory : d.ownMemory_.get();
         d.retireQueue_ = std::make_unique<RetireQueue>();
         d.timers_ = std::make_unique<TimerRing>(d);

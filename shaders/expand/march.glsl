@@ -27,9 +27,9 @@ void main() {
             bool there = i < count;
             if (there) live = beginChunk(env, readItem(env.items, i), c);
             taken = taken + 1u;
-            more = there && taken < kMostTaken;
+            more = there && (taken < kMostTaken || count > kMostGroups * kItemsPerGroup);
         }
-        uint few = subgroupAny(more) ? gl_SubgroupSize / 2u : 0u;
+        uint few = subgroupAny(more) ? min(gl_SubgroupSize, gl_WorkGroupSize.x) / 2u : 0u;
         uint busy = few + 1u;
         while (busy > few) {
             if (live && growing(c.g)) growOn(env, c);

@@ -66,7 +66,7 @@ void main() {
     uint inside = item % kBlockTexels;
     uint i = env.blocks.v[item / kBlockTexels] * kBlockTexels + inside;
     bool gutters = brush.gutters != 0u;
-    if (!gutters) env.result.v[item] = uintBitsToFloat(kBlocksUntouched);
+    if (!gutters) UintBuf(uint64_t(env.result)).v[item] = kBlocksUntouched;
     uint kind = texelClass(env.texels.v[i].bits);
     if (kind == kTexelEmpty || gutters != (kind != kTexelInner)) return;
     vec3 n = vec3(0.0);

@@ -5,8 +5,8 @@
 layout(push_constant, scalar) uniform Data { TerminalPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;
 layout(location = 0) in vec4 uvFade;
-layout(location = 1) in vec3 own;
-layout(location = 2) in vec3 other;
+layout(location = 1) centroid in vec3 own;
+layout(location = 2) centroid in vec3 other;
 layout(location = 3) flat in uint hash;
 layout(location = 0) out vec4 color;
 

@@ -17,6 +17,7 @@ void main() {
     ivec2 high = min(low + int(kDepthTile), size);
     float least = 1.0;
     for (int y = low.y; y < high.y; ++y)
-        for (int x = low.x; x < high.x; ++x) least = min(least, texelFetch(depthMap, ivec2(x, y), 0).x);
+        for (int x = low.x; x < high.x; ++x)
+            for (int s = 0; s < kSceneSamples; ++s) least = min(least, texelFetch(depthMap, ivec2(x, y), s).x);
     push.tiles.v[i] = least;
 }

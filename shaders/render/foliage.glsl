@@ -6,7 +6,7 @@
 layout(push_constant, scalar) uniform Data { PropPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;
 layout(location = 0) in vec3 uvShare;
-layout(location = 1) in vec3 light;
+layout(location = 1) centroid in vec3 light;
 layout(location = 2) flat in float fade;
 layout(location = 3) flat in float shown;
 layout(location = 0) out vec4 color;

@@ -6,9 +6,9 @@
 layout(push_constant, scalar) uniform Data { TerminalPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;
 layout(location = 0) in vec3 uvShare;
-layout(location = 1) in vec3 own;
-layout(location = 2) in vec3 turned;
-layout(location = 3) in vec3 mirrored;
+layout(location = 1) centroid in vec3 own;
+layout(location = 2) centroid in vec3 turned;
+layout(location = 3) centroid in vec3 mirrored;
 layout(location = 4) flat in uint hash;
 layout(location = 0) out vec4 color;
 

@@ -27,10 +27,10 @@ void main() {
     vec2 cell = surface.xy;
     vec2 width = fwidth(cell);
     float row = floor(cell.y);
-    float shift = look.z != 0u && (uint(row) & 1u) != 0u ? 0.5 : 0.0;
+    float shift = look.z != 0u && (uint(int(row)) & 1u) != 0u ? 0.5 : 0.0;
     float column = floor(cell.x + shift);
     float clear = clamp(1.5 - 1.5 * max(width.x, width.y), 0.0, 1.0);
-    uint h = roofCellHash(u64(look.y), uint(column), uint(row));
+    uint h = roofCellHash(u64(look.y), uint(int(column)), uint(int(row)));
     float variation = mix(0.5, float(h & 255u) * (1.0 / 255.0), clear);
     vec3 base = weathered(unpackColour(look.x), variation, surface.w, position);
     // Each cell's lower edge shades the one below.
@@ -43,7 +43,7 @@ void main() {
     uint drop = (look.w >> kGridDrop) & 15u;
     if (drop != 0u) {
         float painted = roofLayerAt(env.roofs.layers, env.roofs.site, drop - 1u, position.xz);
-        float gone = painted > cellHold(u64(look.y), uint(column), uint(row)) ? 1.0 : 0.0;
+        float gone = painted > cellHold(u64(look.y), uint(int(column)), uint(int(row))) ? 1.0 : 0.0;
         base = mix(base, vec3(0.016, 0.013, 0.01), mix(painted, gone, clear) * step(0.001, painted));
     }
     color = shade(base, n, position, push.roughness, vec3(0.0));

@@ -4,8 +4,10 @@
 #ifdef ESPALIER_ONE_SAMPLE
 #define SceneSampler sampler2D
 #define sceneSize(map) textureSize(map, 0)
+const int kSceneSamples = 1;
 #else
 #define SceneSampler sampler2DMS
 #define sceneSize(map) textureSize(map)
+const int kSceneSamples = 4;
 #endif
 #endif

@@ -6,6 +6,7 @@
 // A filmic curve: linear in the shadows, a soft shoulder, and bright colours lose their saturation instead of
 // breaking off at one channel.
 vec3 toneMapped(vec3 c) {
+    c = max(c, vec3(0.0));   // below it the curve rises again
     float peak = max(c.x, max(c.y, c.z));
     c = mix(c, vec3(peak), 0.35 * smoothstep(0.8, 6.0, peak));
     vec3 x = c * 0.62;

@@ -100,6 +100,7 @@ struct ExpandEnv {
 };
 STATIC_SIZE(ExpandEnv, 128);
 
+CONST_UINT(kMostGroups, 65535u);        // of a dispatch
 CONST_UINT(kItemsPerGroupAgain, 16u);   // of a regrowth: its few items shall not all go to one thread
 
 #ifdef __cplusplus
@@ -274,10 +275,13 @@ void writeChunk(ChunkBuf chunks, uint at, Chunk c) {
 }
 #endif
 
-// Groups of `each` that items [first, first + count) add to a dispatch over all items so far.
-FN uint groupsAdded(uint first, uint count, uint each) {
-    return (first + count + each - 1u) / each - (first + each - 1u) / each;
+// Groups of `each` for a dispatch over `count` items: as many as every device takes, which go on to the others.
+FN uint groupsOf(uint count, uint each) {
+    uint groups = (count + each - 1u) / each;
+    return groups < kMostGroups ? groups : kMostGroups;
 }
+// What items [first, first + count) add to that.
+FN uint groupsAdded(uint first, uint count, uint each) { return groupsOf(first + count, each) - groupsOf(first, each); }
 
 ESPALIER_END
 #endif

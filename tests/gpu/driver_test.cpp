@@ -22,6 +22,13 @@ VKAPI_ATTR VkResult VKAPI_CALL counter(VkDevice device, VkSemaphore semaphore, u
     return knowsCounter ? realCounter(device, semaphore, value) : VK_ERROR_OUT_OF_HOST_MEMORY;
 }
 
+// As drivers whose compiler has failed.
+VKAPI_ATTR VkResult VKAPI_CALL noPipeline(VkDevice, VkPipelineCache, uint32_t count, const VkComputePipelineCreateInfo*,
+                                          const VkAllocationCallbacks*, VkPipeline* made) {
+    for (uint32_t i = 0; i < count; ++i) made[i] = VK_NULL_HANDLE;
+    return VK_ERROR_UNKNOWN;
+}
+
 PFN_vkGetPhysicalDeviceProperties2 realProperties;
 VKAPI_ATTR void VKAPI_CALL withoutBallots(VkPhysicalDevice device, VkPhysicalDeviceProperties2* all) {
     realProperties(device, all);
@@ -115,6 +122,17 @@ TEST_CASE("nothing is destroyed while nobody knows what the GPU has finished") {
     knowsCounter = true;
     REQUIRE(adopted->waitIdle());
     CHECK(adopted->retiredCount() == 0);
+}
+
+TEST_CASE("what a driver fails at without a reason is a failure that says so, and no end of the program") {
+    TestDevice t;
+    test::DriverBetween driver(t.device);
+    driver.replace("vkCreateComputePipelines", noPipeline);
+    std::unique_ptr<Device> adopted = must(Device::adopt(driver.host()));
+    const Result<Program> program = Program::compute(*adopted, "tests/fill.comp");
+    REQUIRE_FALSE(program);
+    CHECK(program.failure().text().find("the GPU's driver failed") != std::string::npos);
+    CHECK_FALSE(adopted->lost());
 }
 
 TEST_CASE("a device whose subgroups can't vote, or whose uniform blocks are small, is refused by name") {
