@@ -88,7 +88,7 @@ typedef struct EspDab {
 ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre in radius, half strength, without a hard core or limits */
 /* Several strokes may be open at a time, on unlike layers. */
 ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
-/* One pass on the GPU, applied in order; the next espUpdate and espDraw see it. */
+/* One pass on the GPU, applied in order; the next espUpdate and espDraw see it. At most 65,536 dabs. */
 ESP_API EspResult espStrokeDabs(EspContext* context, EspStroke stroke, const EspDab* dabs, uint32_t count);
 /* Waits for the GPU and keeps only the blocks that changed, or all that it has come to where memory is short. */
 ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);
@@ -101,7 +101,8 @@ ESP_API EspResult espDestroyStroke(EspContext* context, EspStroke stroke);
 ESP_API uint64_t espStrokeBytes(const EspContext* context, EspStroke stroke);   /* memory that it holds */
 /* 1: the record holds texels of this surface, or, of one of id 0, of the town: what a stroke that has ended changed there. */
 ESP_API int espStrokePainted(const EspContext* context, EspStroke stroke, EspSurface surface);
-/* Sets the whole layer, on all surfaces; out is an ended stroke. On failure the layer is as it was. */
+/* Sets the whole layer, on all surfaces; out is an ended stroke. On failure the layer is as it was. A surface that isn't
+ * painted, and where all grammars take the layer as that value already, stays unpainted: another grammar may change it. */
 ESP_API EspResult espFillLayer(EspContext* context, const char* layer, float value, EspStroke* out);
 /* 1: *value is what espFillLayer set the whole layer to last, undone fills aside; 0: it was never filled. */
 ESP_API int espLayerFilled(const EspContext* context, const char* layer, float* value);

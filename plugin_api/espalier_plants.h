@@ -43,7 +43,7 @@ ESP_API EspResult espSeedInfo(const EspContext* context, EspSeed seed, EspSeedIn
 ESP_API EspResult espMoveSeed(EspContext* context, EspSeed seed, const float position[3], const float direction[3]);
 /* twin: as in EspSeedDef. */
 ESP_API EspResult espSetSeedNumber(EspContext* context, EspSeed seed, uint32_t number, uint32_t twin);
-/* A value for this seed alone in place of its grammar's; count 0: the grammar's again. Limited to the range. Kept by
+/* A value for this seed alone in place of its grammar's; count 0: the grammar's again. Growth limits it to the range. Kept by
  * name when the grammar is compiled anew. Seeds of the same settings share one copy of the grammar's rule map; with more
  * than 65,536 of these and grammars together espUpdate fails. */
 ESP_API EspResult espSetSeedParam(EspContext* context, EspSeed seed, const char* name, const float* value,

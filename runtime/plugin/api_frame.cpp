@@ -37,7 +37,7 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
             return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera is not finite");
     if (!finite(def.look)) return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a number of the look is not finite");
     if (!(std::abs(def.camera.shift[0]) < 100) || !(std::abs(def.camera.shift[1]) < 100) ||
-        !(def.camera.fovY > 0.001f && def.camera.fovY < 3.1f) || !(def.camera.nearPlane > 0) ||
+        !(def.camera.fovY >= 0.001f && def.camera.fovY <= 3.1f) || !(def.camera.nearPlane > 0) ||
         vec(def.camera.eye) == vec(def.camera.target))
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera looks at nothing");
     if (def.commandBuffer && (!def.colourImage || !def.colourView || !def.frame))
@@ -55,6 +55,9 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
             context, ESP_INVALID_ARGUMENT,
             "espDraw: a scene needs a command buffer, a depth image of a format with depth, a way from distance "
             "to depth, and no view of overdraw");
+    if (def.commandBuffer && def.frame <= std::max(def.framesDone, context->device->hostFrame()))
+        return fail(context, ESP_INVALID_ARGUMENT,
+                    "espDraw: frame " + std::to_string(def.frame) + " is done already: frames are numbered rising");
     return ESP_OK;
 }
 

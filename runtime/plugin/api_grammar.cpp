@@ -139,11 +139,14 @@ EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGr
         if (EspResult bad = checkDef(context, def)) return bad;
         if (context->grammars.size() >= kMaxGrammars)
             return fail(context, ESP_INVALID_ARGUMENT, "espCompileGrammar: there are 1024 grammars already");
+        std::vector<SceneLayer> before = context->sceneLayers;
+        Undo binding([&] { context->sceneLayers.swap(before); });
         Result<LoadedGrammar> grammar = prepare(*context, *def, 0);
         if (!grammar) return failContent(context, grammar.failure());
         context->compileMs = grammar->compileMs;
         const uint32_t id = context->grammars.insert(std::move(*grammar));
         if (!id) return fail(context, ESP_OUT_OF_MEMORY, "espCompileGrammar: no ids left");
+        binding.done();
         out->id = id;
         return ESP_OK;
     });

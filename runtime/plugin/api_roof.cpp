@@ -112,6 +112,7 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
     inputs.grammarRevision = grammar.revision;
     inputs.meshes = context.roofBounds;
     bindTownLayers(context, inputs);
+    std::vector<ContextInfo> contexts = grammar.map.contexts();
     Status grown = Done{};
     if (town.stale || town.grammarRevision != grammar.revision)
         grown = context.roofs->grow(inputs);
@@ -129,6 +130,7 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
     town.painted.clear();
     town.grammarRevision = grammar.revision;
     town.view = view;
+    town.contexts = std::move(contexts);
     return ESP_OK;
 }
 
@@ -211,7 +213,7 @@ EspResult espRemoveTown(EspContext* context) {
 EspResult espTownGrammar(const EspContext* context, EspGrammar* out) {
     return guarded(context, [&] {
         if (!out || !context->town) return fail(context, ESP_INVALID_ARGUMENT, "espTownGrammar: null, or no town");
-        out->id = context->town->grammar;
+        out->id = townGrammar(*context) ? context->town->grammar : 0;
         return ESP_OK;
     });
 }
@@ -222,7 +224,8 @@ EspResult espReadRoofStats(EspContext* context, EspRoofStats* out) {
         *out = EspRoofStats{};
         if (!context->town) return ESP_OK;
         context->device->collect();
-        const RoofStats grown = context->roofs ? context->roofs->stats() : RoofStats{};
+        const bool stand = context->roofs && context->town->view.gridCount > 0;
+        const RoofStats grown = stand ? context->roofs->stats() : RoofStats{};
         const RoofDrawStats drawn = context->renderer->stats().roofs;
         out->houses = uint32_t(context->town->structure.houses.size());
         out->eaves = grown.atoms;

@@ -16,13 +16,16 @@ glm::mat4 matrixOf(const EspTransform& place) {
     return m;
 }
 
+// 1e-6 to 1e6, measured.
+constexpr float kLeastScale = 0.99e-6f, kMostScale = 1.01e6f;
+
 // A move, a turn and an even scale, or nothing.
 std::optional<float> evenScale(const glm::mat4& m) {
     const glm::vec3 x(m[0]), y(m[1]), z(m[2]);
     const float scale = glm::length(x);
     const float limit = 1e-3f * scale;
     const bool finite = std::isfinite(m[3].x) && std::isfinite(m[3].y) && std::isfinite(m[3].z);
-    if (!finite || !(scale > 1e-6f) || !(scale < 1e6f)) return std::nullopt;
+    if (!finite || !(scale >= kLeastScale) || !(scale <= kMostScale)) return std::nullopt;
     if (!(std::abs(glm::length(y) - scale) < limit) || !(std::abs(glm::length(z) - scale) < limit)) return std::nullopt;
     const float skew = std::max({std::abs(glm::dot(x, y)), std::abs(glm::dot(x, z)), std::abs(glm::dot(y, z))});
     if (!(skew < limit * scale)) return std::nullopt;

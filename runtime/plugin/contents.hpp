@@ -220,6 +220,7 @@ struct LoadedTown {
     std::vector<std::pair<std::string, PlanRect>> painted;  // layers that changed since the roofs last grew
     std::vector<float> means;                               // [house * kRoofLayers + layer of the grammar]
     RoofView view;                                          // of what stands
+    std::vector<ContextInfo> contexts;                      // that it was grown by
     double structureMs = 0;
 };
 

@@ -57,10 +57,11 @@ void bindTownLayers(EspContext& context, RoofInputs& inputs) {
 }
 
 uint32_t shownTownLayer(const EspContext& context, const std::string& name) {
-    const LoadedGrammar* grammar = townGrammar(context);
+    const std::vector<ContextInfo>& contexts = context.town->contexts;
     return shownLayers(name, [&](const std::string& layer, std::span<const uint32_t>) -> std::optional<uint32_t> {
-        const auto index = grammar ? grammar->map.findContext(layer) : std::nullopt;
-        return index && *index < kRoofLayers ? std::optional(uint32_t(*index)) : std::nullopt;
+        const auto found = std::ranges::find(contexts, layer, &ContextInfo::name);
+        const auto index = size_t(found - contexts.begin());
+        return index < std::min<size_t>(contexts.size(), kRoofLayers) ? std::optional(uint32_t(index)) : std::nullopt;
     });
 }
 

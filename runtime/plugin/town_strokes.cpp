@@ -41,13 +41,12 @@ PlanLayer& reach(EspContext& context, PaintStroke& stroke) {
     return *layer;
 }
 
-// The layer that strokes reach: one that there is, or that the town's grammar reads; else null.
-PlanLayer* paintable(EspContext& context, PaintStroke& stroke) {
-    if (!context.town) return nullptr;
+// Whether strokes reach a layer of that name: one that there is, or that the town's grammar reads.
+bool isPaintable(const EspContext& context, const std::string& name) {
+    if (!context.town) return false;
     const LoadedGrammar* grammar = townGrammar(context);
-    const auto index = grammar ? grammar->map.findContext(stroke.layer) : std::nullopt;
-    const bool read = index && *index < kRoofLayers;
-    return read || context.town->layers.find(stroke.layer) ? &reach(context, stroke) : nullptr;
+    const auto index = grammar ? grammar->map.findContext(name) : std::nullopt;
+    return (index && *index < kRoofLayers) || context.town->layers.find(name);
 }
 
 // Bilinear, between the centres of texels.
@@ -99,10 +98,11 @@ EspResult setLayer(EspContext& context, const std::string& name, std::span<const
 }  // namespace
 
 bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs) {
-    PlanLayer* layer = paintable(context, stroke);
-    if (!layer) return false;
+    if (!isPaintable(context, stroke.layer)) return false;
     LoadedTown& town = *context.town;
     BrushRecord brush = stroke.brush;
+    if (!town.layers.meets(brush, dabs)) return true;
+    PlanLayer& layer = reach(context, stroke);
     float filled = 0;
     if (stroke.erases && !espLayerFilled(&context, stroke.layer.c_str(), &filled))
         brush.target = fillOverTown(context, stroke.layer);
@@ -110,7 +110,7 @@ bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabReco
         town.stale = true;
         town.revision += 1;
     });
-    const PlanRect rect = town.layers.dabs(*layer, brush, stroke.smooths, dabs, stroke.plan.record);
+    const PlanRect rect = town.layers.dabs(layer, brush, stroke.smooths, dabs, stroke.plan.record);
     if (!rect.empty()) {
         notesOf(town, stroke.layer).add(rect);
         town.revision += 1;
@@ -120,10 +120,10 @@ bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabReco
 }
 
 bool fillTown(EspContext& context, PaintStroke& stroke, float value) {
-    PlanLayer* layer = paintable(context, stroke);
-    if (!layer) return false;
+    if (!isPaintable(context, stroke.layer)) return false;
     LoadedTown& town = *context.town;
-    notesOf(town, stroke.layer).add(town.layers.fill(*layer, value, stroke.plan.record));
+    PlanLayer& layer = reach(context, stroke);
+    notesOf(town, stroke.layer).add(town.layers.fill(layer, value, stroke.plan.record));
     town.revision += 1;
     return true;
 }

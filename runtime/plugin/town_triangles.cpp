@@ -20,17 +20,14 @@ void append(std::vector<std::byte>& bytes, const T& value) {
 
 EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices, std::vector<std::byte>& indices) {
     if (!context.town || !context.roofs || context.town->view.gridCount == 0) return ESP_OK;
-    const LoadedGrammar* grammar = context.grammars.find(context.town->grammar);
-    if (!grammar) return ESP_OK;  // destroyed: the roofs go with the next espUpdate
+    if (!townGrammar(context)) return ESP_OK;  // destroyed: the roofs go with the next espUpdate
     Result<RoofRecords> records = context.roofs->read();
     if (!records) return failGpu(&context, records.failure());
-    RoofInputs inputs;
-    inputs.grammar = &grammar->map;
+    const std::vector<ContextInfo>& contexts = context.town->contexts;
     RoofLayer layers[kRoofLayers] = {};
-    for (uint32_t i = 0; i < kRoofLayers; ++i) {
-        layers[i].fill = inputs.fill(i);
-        const auto& contexts = inputs.grammar->contexts();
-        const PlanLayer* layer = i < contexts.size() ? context.town->layers.find(contexts[i].name) : nullptr;
+    for (size_t i = 0; i < std::min<size_t>(contexts.size(), kRoofLayers); ++i) {
+        layers[i].fill = contexts[i].fill;
+        const PlanLayer* layer = context.town->layers.find(contexts[i].name);
         if (layer) layers[i].texels.v = const_cast<float*>(layer->texels.data());
     }
     RoofEnv env{};

@@ -46,7 +46,7 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     const Camera& camera = inputs.camera;
     const Look& look = inputs.look;
     const glm::vec3 forward = unitOr(camera.target - camera.eye, {0, 0, -1});
-    const float tangent = std::tan(std::clamp(camera.fovY, 0.01f, 3.0f) * 0.5f);
+    const float tangent = std::tan(camera.fovY * 0.5f);
     const float aspect = float(width) / float(height);
     glm::vec3 right, up;
     const glm::mat4 view = viewMatrix(camera.eye, forward, unitOr(camera.up, {0, 1, 0}), right, up);

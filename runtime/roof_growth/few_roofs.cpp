@@ -70,7 +70,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<
     commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
     const auto generations = std::as_bytes(std::span(generationOf_));
     Status steps[] = {uploadTables(*commands, *inputs.town, set),
-                      uploadLayers(*commands, inputs),
+                      uploadLayers(*commands, inputs, set),
                       commands->upload(set.grids, made.records.grids, last_.grids * sizeof(RoofGrid)),
                       commands->upload(set.runs, made.records.runs, last_.rows * sizeof(RoofRun)),
                       commands->upload(set.regions.buffer, made.records.regions, last_.regions * sizeof(RoofRegion)),

@@ -3,7 +3,9 @@
 // RoofGrowth on the GPU: its buffers and kernels. roof_growth.cpp expands, roof_upload.cpp sends what that reads,
 // few_roofs.cpp grows a few houses on the CPU, house_sums.cpp counts what houses have drawn.
 
+#include <map>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,10 +37,16 @@ class GpuRoofs final : public RoofGrowth {
         Buffer buffer;
         uint32_t held = 0;
     };
-    // Regions, parts and planes that Join makes stand behind the town's. generations: [house], RoofView's.
+    // Regions, parts and planes that Join makes stand behind the town's. generations: [house], RoofView's. layers:
+    // RoofLayer, as the grammar counts them that the set is grown by.
     struct Set {
-        Buffer grids, runs, generations;
+        Buffer grids, runs, generations, layers;
         Table regions, parts, planes;
+    };
+    // Of the town, whichever grammar reads it.
+    struct LayerTexels {
+        Buffer buffer;
+        bool sent = false;  // all rows
     };
     struct Outcome {
         RoofStatus status;
@@ -101,7 +109,8 @@ class GpuRoofs final : public RoofGrowth {
     Status uploadTables(Commands& commands, const RoofTables& t, Set& set);
     Status uploadStarts(Commands& commands, const RoofTables& t, std::span<const uint32_t> houses);
     Status uploadGrammar(Commands& commands, const RoofInputs& inputs);
-    Status uploadLayers(Commands& commands, const RoofInputs& inputs);
+    void forgetLayersBut(std::span<const ContextInfo> read);
+    Status uploadLayers(Commands& commands, const RoofInputs& inputs, Set& set);
     Status uploadHouses(Commands& commands, const RoofInputs& inputs, const Set& set, std::span<const uint32_t> houses);
     RoofEnv environment(const RoofInputs& inputs, const Set& set) const;
 
@@ -137,10 +146,8 @@ class GpuRoofs final : public RoofGrowth {
     Set sets_[2];
     uint32_t front_ = 0;
     Table atoms_, pieces_;
-    Buffer starts_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, houseReads_, means_,
-        layerTable_, readback_;
-    Buffer layers_[kRoofLayers];
-    bool layersSent_[kRoofLayers] = {};  // all rows of them
+    Buffer starts_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, houseReads_, means_, readback_;
+    std::map<std::string, LayerTexels> layers_;  // by name
     uint64_t grammarRevision_ = 0;
     uint32_t wavesAhead_ = 4, widest_ = 0;   // shapes of the widest wave, when all houses grew last
     Counts own_;                             // room for the town's tables

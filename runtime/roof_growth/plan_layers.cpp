@@ -69,8 +69,13 @@ PlanRect PlanLayers::rectOf(glm::vec2 low, glm::vec2 high) const {
 PlanRect PlanLayers::under(const RoofHouse& house, float reach) const {
     glm::vec2 low(1e9f), high(-1e9f);
     boundsOf(house, low, high);
-    // A bilinear read takes in half a texel more.
-    return rectOf(low - reach - 0.5f / site_.perMetre, high + reach + 0.5f / site_.perMetre);
+    // A bilinear read takes in half a texel more, and beyond the site its border.
+    PlanRect r = rectOf(low - reach - 0.5f / site_.perMetre, high + reach + 0.5f / site_.perMetre);
+    r.x0 = std::min(r.x0, site_.size - 1);
+    r.y0 = std::min(r.y0, site_.size - 1);
+    r.x1 = std::max(r.x1, 1u);
+    r.y1 = std::max(r.y1, 1u);
+    return r;
 }
 
 float PlanLayers::mean(const PlanLayer& layer, const RoofHouse& house) const {
@@ -78,7 +83,7 @@ float PlanLayers::mean(const PlanLayer& layer, const RoofHouse& house) const {
     double sum = 0;
     for (uint32_t y = r.y0; y < r.y1; ++y)
         for (uint32_t x = r.x0; x < r.x1; ++x) sum += layer.texels[size_t(y) * site_.size + x];
-    return r.empty() ? 0 : float(sum / (double(r.x1 - r.x0) * double(r.y1 - r.y0)));
+    return float(sum / (double(r.x1 - r.x0) * double(r.y1 - r.y0)));
 }
 
 void PlanLayers::keep(const PlanLayer& layer, PlanRecord& kept, const PlanRect& rect) const {
@@ -98,6 +103,15 @@ void PlanLayers::keep(const PlanLayer& layer, PlanRecord& kept, const PlanRect& 
         }
 }
 
+PlanRect PlanLayers::below(const DabRecord& dab, float radius) const {
+    const glm::vec2 at(dab.position.x, dab.position.z);
+    return rectOf(at - radius, at + radius);
+}
+
+bool PlanLayers::meets(const BrushRecord& brush, std::span<const DabRecord> dabs) const {
+    return std::ranges::any_of(dabs, [&](const DabRecord& dab) { return !below(dab, 1 / brush.perRadius).empty(); });
+}
+
 PlanRect PlanLayers::dabs(PlanLayer& layer, BrushRecord brush, bool smooths, std::span<const DabRecord> dabs,
                           PlanRecord& kept) {
     brush.flags = 0;
@@ -105,8 +119,7 @@ PlanRect PlanLayers::dabs(PlanLayer& layer, BrushRecord brush, bool smooths, std
     const int reach = std::max(1, int(kSmoothReach * radius * site_.perMetre + 0.5f)), last = int(site_.size) - 1;
     PlanRect all;
     for (const DabRecord& dab : dabs) {
-        const glm::vec2 at(dab.position.x, dab.position.z);
-        const PlanRect r = rectOf(at - radius, at + radius);
+        const PlanRect r = below(dab, radius);
         if (r.empty()) continue;
         keep(layer, kept, r);
         all.add(r);

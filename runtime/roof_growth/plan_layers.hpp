@@ -51,6 +51,8 @@ class PlanLayers {
     const std::deque<PlanLayer>& all() const { return layers_; }
     PlanRect whole() const { return {0, 0, site_.size, site_.size}; }
 
+    // Whether any of the dabs reaches a texel.
+    bool meets(const BrushRecord& brush, std::span<const DabRecord> dabs) const;
     // These return what may have changed; blocks that the record doesn't hold yet are kept in it first.
     // A dab paints what lies below it, whatever its height; limits of slope, height and side don't count.
     PlanRect dabs(PlanLayer& layer, BrushRecord brush, bool smooths, std::span<const DabRecord> dabs, PlanRecord& kept);
@@ -62,7 +64,7 @@ class PlanLayers {
     // Drops from a record what is as it was.
     void close(const PlanLayer& layer, PlanRecord& kept) const;
 
-    // Texels that a house and what it reaches over lie in.
+    // Texels that a house and what it reaches over read: where it lies beyond the site, some of the border.
     PlanRect under(const RoofHouse& house, float reach) const;
     // The mean over the house's bounds.
     float mean(const PlanLayer& layer, const RoofHouse& house) const;
@@ -71,6 +73,7 @@ class PlanLayers {
     void keep(const PlanLayer& layer, PlanRecord& kept, const PlanRect& rect) const;
     void dropEqual(std::span<const float> texels, PlanRecord& kept) const;
     PlanRect rectOf(glm::vec2 low, glm::vec2 high) const;
+    PlanRect below(const DabRecord& dab, float radius) const;
 
     RoofSite site_{{0, 0}, 1, 8};
     std::deque<PlanLayer> layers_;

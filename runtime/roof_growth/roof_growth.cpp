@@ -74,7 +74,7 @@ RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set) const {
     env.status = addressOf<RoofStatusBuf>(status_);
     env.waves = addressOf<RoofWaveBuf>(waves_);
     env.generations = addressOf<UintBuf>(set.generations);
-    env.layers = addressOf<RoofLayerBuf>(layerTable_);
+    env.layers = addressOf<RoofLayerBuf>(set.layers);
     env.means = addressOf<FloatBuf>(means_);
     env.reads = addressOf<UintBuf>(houseReads_);
     env.site = inputs.site;
@@ -132,7 +132,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, s
     if (Status s = uploadTables(*commands, *inputs.town, set); !s) return s.failure();
     if (Status s = uploadStarts(*commands, *inputs.town, houses); !s) return s.failure();
     if (Status s = uploadHouses(*commands, inputs, set, houses); !s) return s.failure();
-    if (Status s = uploadLayers(*commands, inputs); !s) return s.failure();
+    if (Status s = uploadLayers(*commands, inputs, set); !s) return s.failure();
     room_.scopes = std::max(room_.scopes, startCount_);
     for (Buffer& scopes : scopes_)
         if (Status s = ensure(scopes, "roof scopes", room_.scopes * sizeof(RoofScope)); !s) return s.failure();
@@ -193,7 +193,7 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     view_.planes = addressOf<Vec4Buf>(set.planes.buffer);
     view_.meshes = addressOf<RoofMeshBuf>(meshes_);
     view_.generations = addressOf<UintBuf>(set.generations);
-    view_.layers = addressOf<RoofLayerBuf>(layerTable_);
+    view_.layers = addressOf<RoofLayerBuf>(set.layers);
     view_.site = inputs.site;
     view_.gridCount = last_.grids;
     view_.rowCount = last_.rows;
@@ -212,7 +212,11 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     stats_.houses = uint32_t(t.houses.size());
     stats_.atoms = usedAtoms(t);
     stats_.grids = last_.grids;
-    if (houses.empty()) houseSums_.clear(), replaced_ = {};
+    if (houses.empty()) {
+        houseSums_.clear();
+        replaced_ = {};
+        forgetLayersBut(inputs.grammar->contexts());
+    }
     stats_.terminals = uint32_t(last_.terminals - replaced_.terminals);
     stats_.tiles = last_.touched - replaced_.touched;
     stats_.clipped = stats_.tiles - (last_.whole - replaced_.whole);
@@ -261,11 +265,12 @@ bool GpuRoofs::fits(const RoofStatus& s, const Set& set) {
 // What has failed leaves the room that it asked for to nobody: later growth may need far less. What was noted as sent
 // while it was recorded may not have been.
 Status GpuRoofs::grow(const RoofInputs& inputs) {
-    Undo undo([this, before = room_] {
+    Undo undo([this, room = room_, generations = generationOf_]() mutable {
         stands_ = false;
         forgetTables();
         grammarRevision_ = 0;
-        room_ = before;
+        room_ = room;
+        generationOf_ = std::move(generations);
     });
     Status grown = growAll(inputs);
     if (!grown) return grown;

@@ -85,7 +85,7 @@ void GpuRoofs::forgetTables() {
     for (Set& set : sets_)
         for (Table* t : {&set.regions, &set.parts, &set.planes}) t->held = 0;
     startsSent_ = false;
-    for (bool& sent : layersSent_) sent = false;
+    for (auto& [name, layer] : layers_) layer.sent = false;
 }
 
 // What the town's tables hold beyond what was sent before.
@@ -130,29 +130,36 @@ Status GpuRoofs::uploadGrammar(Commands& commands, const RoofInputs& inputs) {
     return Done{};
 }
 
-// Layers whose rows have changed, and the table by which kernels find them. Painting may add a layer, never a site.
-Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs) {
+// Layers whose rows have changed, and the table by which the set's kernels find them. Painting may add a layer, never a
+// site.
+Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs, Set& set) {
     std::vector<RoofLayer> table(kRoofLayers);
     const uint64_t row = uint64_t(inputs.site.size) * sizeof(float);
     for (uint32_t i = 0; i < kRoofLayers; ++i) {
         const RoofInputs::Layer& layer = inputs.layers[i];
         table[i].fill = inputs.fill(i);
-        if (!layer.texels) layersSent_[i] = false;
         if (!layer.texels) continue;
-        const bool fresh = !layersSent_[i] || !layers_[i] || layers_[i].size() < row * inputs.site.size;
-        layersSent_[i] = false;
-        if (Status s = ensure(layers_[i], "roof layer", row * inputs.site.size); !s) return s;
+        LayerTexels& kept = layers_[inputs.grammar->contexts()[i].name];
+        const bool fresh = !kept.sent || !kept.buffer || kept.buffer.size() < row * inputs.site.size;
+        kept.sent = false;
+        if (Status s = ensure(kept.buffer, "roof layer", row * inputs.site.size); !s) return s;
         const uint32_t first = fresh ? 0 : std::min(layer.firstRow, inputs.site.size);
         const uint32_t count = fresh ? inputs.site.size : std::min(layer.rowCount, inputs.site.size - first);
         const auto texels = std::as_bytes(std::span(layer.texels, size_t(inputs.site.size) * inputs.site.size));
         if (count > 0)
-            if (Status s = commands.upload(layers_[i], texels.subspan(first * row, count * row), first * row); !s)
+            if (Status s = commands.upload(kept.buffer, texels.subspan(first * row, count * row), first * row); !s)
                 return s;
-        layersSent_[i] = true;
-        table[i].texels = addressOf<FloatBuf>(layers_[i]);
+        kept.sent = true;
+        table[i].texels = addressOf<FloatBuf>(kept.buffer);
     }
-    if (Status s = ensure(layerTable_, "roof layers", kRoofLayers * sizeof(RoofLayer)); !s) return s;
-    return commands.upload(layerTable_, table);
+    if (Status s = ensure(set.layers, "roof layers", kRoofLayers * sizeof(RoofLayer)); !s) return s;
+    return commands.upload(set.layers, table);
+}
+
+void GpuRoofs::forgetLayersBut(std::span<const ContextInfo> read) {
+    std::erase_if(layers_, [&](const auto& layer) {
+        return std::ranges::none_of(read, [&](const ContextInfo& context) { return context.name == layer.first; });
+    });
 }
 
 Status GpuRoofs::showLayers(const RoofInputs& inputs) {
@@ -160,11 +167,11 @@ Status GpuRoofs::showLayers(const RoofInputs& inputs) {
     Result<Commands> commands = Commands::begin(device_, "roof layers");
     if (!commands) return commands.failure();
     commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
-    if (Status s = uploadLayers(*commands, inputs); !s) return s;
+    if (Status s = uploadLayers(*commands, inputs, sets_[front_]); !s) return s;
     Result<uint64_t> submitted = commands->submit();
     if (!submitted) return submitted.failure();
     undo.done();
-    view_.layers = addressOf<RoofLayerBuf>(layerTable_);
+    view_.layers = addressOf<RoofLayerBuf>(sets_[front_].layers);
     view_.site = inputs.site;
     return Done{};
 }

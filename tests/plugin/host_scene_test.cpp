@@ -274,6 +274,14 @@ void refusals(DrawingHost& host, Grown& grown) {
         CHECK(espDraw(grown.context, &def) == ESP_INVALID_ARGUMENT);
         CHECK(std::string(espLastError(grown.context)).find("colourFormat") != std::string::npos);
     }
+    // A frame that is done: what it reads might be gone.
+    EspDrawDef late = espDefaultDrawDef();
+    int handle = 0;
+    late.commandBuffer = late.colourImage = late.colourView = &handle;
+    late.colourFormat = VK_FORMAT_R8G8B8A8_UNORM;
+    late.frame = 1;
+    CHECK(espDraw(grown.context, &late) == ESP_INVALID_ARGUMENT);
+    CHECK(std::string(espLastError(grown.context)).find("frame 1 is done already") != std::string::npos);
 }
 
 }  // namespace

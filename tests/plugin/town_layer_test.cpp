@@ -1,37 +1,11 @@
 // What is painted over a town and what is painted on surfaces.
-#include <doctest/doctest.h>
-
 #include <algorithm>
-#include <cstring>
-#include <vector>
 
-#include "tests/plugin/life.hpp"
+#include "tests/plugin/town_host.hpp"
 
 using namespace espalier;
 
 namespace {
-
-EspGrammar compiled(EspContext* context, const char* name, const char* text) {
-    const EspGrammarDef def{name, text, std::strlen(text)};
-    EspGrammar grammar{};
-    REQUIRE_MESSAGE(espCompileGrammar(context, &def, &grammar) == ESP_OK, espLastError(context));
-    return grammar;
-}
-
-EspBrush brushOn(const char* layer, float radius) {
-    EspBrush brush = espDefaultBrush();
-    brush.layer = layer;
-    brush.radius = radius;
-    return brush;
-}
-
-EspStroke stroke(EspContext* context, const EspBrush& brush, const EspDab& at) {
-    EspStroke made{};
-    REQUIRE(espBeginStroke(context, &brush, &made) == ESP_OK);
-    REQUIRE(espStrokeDabs(context, made, &at, 1) == ESP_OK);
-    REQUIRE(espEndStroke(context, made) == ESP_OK);
-    return made;
-}
 
 void dab(EspContext* context, const char* layer) {
     stroke(context, brushOn(layer, 3), {{.5f, .5f, 0}, {0, 0, 1}, 1});
@@ -65,42 +39,6 @@ TEST_CASE("a layer that roofs alone read is painted over the town, and on surfac
     dab(context, "decay");
     CHECK(espPaintedLayerCount(context) == 2);
 }
-
-namespace {
-
-void load(EspContext* context, EspGrammar grammar, const char* text) {
-    EspTownDef town = espDefaultTownDef();
-    town.text = text;
-    town.length = std::strlen(text);
-    town.grammar = grammar;
-    REQUIRE(espLoadTown(context, &town) == ESP_OK);
-}
-
-std::vector<float> layerOf(EspContext* context, const char* name) {
-    uint32_t side = 0;
-    REQUIRE(espReadTownLayer(context, name, nullptr, &side) == ESP_OK);
-    std::vector<float> texels(size_t(side) * side);
-    REQUIRE(espReadTownLayer(context, name, texels.data(), &side) == ESP_OK);
-    return texels;
-}
-
-constexpr const char* kDecaying =
-    "context decay = 0\nHouse -> Extrude(wallHeight) {NULL, Top}\n"
-    "Top -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, Top}\n"
-    "Cover -> Repeat(XY, vec2(0.3, 0.25), bond) {Tile}\nTile -> Drop(decay) Shape(\"slate\")\n";
-
-// A context without surfaces.
-struct Bare {
-    FailingDevice device;
-    Life life;
-    EspContext* context;
-    Bare() {
-        REQUIRE(life.create(device));
-        context = life.context;
-    }
-};
-
-}  // namespace
 
 TEST_CASE("a layer that was set over a town without a grammar is filled and painted") {
     FailingDevice device;
@@ -201,7 +139,7 @@ const std::string kHiding =
 struct Hiding : Bare {
     EspGrammar roofs{};
     Hiding() {
-        roofs = compiled(context, "roofs", kHiding.c_str());
+        roofs = compiled(context, "roofs", kHiding);
         load(context, roofs,
              "{\"buildings\": [{\"id\": \"a\", \"outer\": [[0,0],[10,0],[10,8],[0,8]]},"
              " {\"id\": \"b\", \"outer\": [[40,0],[50,0],[50,8],[40,8]]}]}");
