@@ -126,6 +126,43 @@ TEST_CASE("what can't be undone stays, to be tried again") {
     CHECK(editing.document->redoName() == nullptr);
 }
 
+TEST_CASE("a layer may be called as what tells a town from a scene") {
+    for (const char* layer : {"buildings", "FeatureCollection"}) {
+        const Folder folder;
+        Editing editing(wallScene(folder, false));
+        StrokeBegin stroke;
+        stroke.layer = layer;
+        for (const Action& action : {Action(stroke), Action(StrokeDabs{{{0, 1, 0, 0, 0, 1, 1}}}), Action(StrokeEnd{})})
+            REQUIRE_MESSAGE(editing.perform(action), editing.error);
+        REQUIRE_MESSAGE(saveProject(*editing.document, folder.file("saved"), editing.error), editing.error);
+        const Editing opened(folder.file("saved"));
+        CHECK(espPaintedLayerCount(opened.context.get()) == 1);
+    }
+}
+
+TEST_CASE("a plant is frozen though its town's grammar can't grow") {
+    const Folder folder;
+    Editing editing(wallScene(folder, true));
+    editing.hash();
+    REQUIRE(editing.perform(
+        editing.document->withText(2, "House -> Extrude(wallHeight) {Box, NULL}\nBox -> Extrude(0.1) {Box, Box}\n")));
+    CHECK(espUpdate(editing.context.get()) == ESP_INVALID_CONTENT);
+    const uint32_t key = editing.document->scene().seeds[0].key;
+    REQUIRE_MESSAGE(editing.perform(FreezeSeeds{{key}, true}), editing.error);
+    CHECK(editing.document->scene().seeds[0].frozen);
+}
+
+TEST_CASE("a branch's key is sixteen hexadecimal digits and nothing else") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    for (const char* key : {"-00000000000000f", "0x0000000000000f", "              0f", "0", ""}) {
+        CAPTURE(key);
+        CHECK(!editing.perform(PruneBranch{key, true}));
+        CHECK(contains(editing.error, "16 hexadecimal digits"));
+    }
+    CHECK(editing.perform(PruneBranch{"000000000000000f", true}));
+}
+
 TEST_CASE("a text with mistakes stands with its message while the last good one grows") {
     const Folder folder;
     Editing editing(smallScene(folder));

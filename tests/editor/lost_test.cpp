@@ -204,13 +204,17 @@ TEST_CASE("a project that has lost a frozen plant's file and its site opens, and
     }
     const std::string whole = readAll(json);
     std::filesystem::rename(project + "/plants", folder.path / "aside");
+    std::filesystem::create_directory(project + "/plants");
+    const std::string plant =
+        project + "/plants/" + std::filesystem::directory_iterator(folder.path / "aside")->path().filename().string();
+    std::ofstream(plant) << "damaged";
     std::filesystem::remove(folder.path / "site.json");
     {
         Editing opened(project);
         const auto& notes = opened.document->scene().notes;
         REQUIRE(notes.size() == 2);
-        CHECK_MESSAGE(contains(notes[0], ".plant"), notes[0]);
-        CHECK_MESSAGE(contains(notes[1], "site.json"), notes[1]);
+        CHECK_MESSAGE(contains(notes[0], "site.json"), notes[0]);
+        CHECK_MESSAGE(contains(notes[1], plant), notes[1]);
         REQUIRE(opened.document->scene().seeds.size() == 2);
         CHECK(!opened.document->scene().seeds[0].frozen);
         CHECK(opened.hash() != 0);
@@ -219,8 +223,18 @@ TEST_CASE("a project that has lost a frozen plant's file and its site opens, and
         REQUIRE(opened.perform(Undo{}));
         REQUIRE_MESSAGE(saveProject(*opened.document, project, opened.error), opened.error);
         CHECK(readAll(json) == whole);
-        // One that is frozen anew stands as it is now, and is thawed.
+        REQUIRE(opened.perform(RemoveSeeds{{key}}));
+        REQUIRE_MESSAGE(saveProject(*opened.document, project, opened.error), opened.error);
+        REQUIRE(opened.perform(Undo{}));
+        CHECK(std::filesystem::exists(plant));
         opened.hash();
+        for (const bool frozen : {true, false}) REQUIRE(opened.perform(FreezeSeeds{{key}, frozen}));
+        REQUIRE_MESSAGE(saveProject(*opened.document, project, opened.error), opened.error);
+        for (int i = 0; i < 2; ++i) REQUIRE(opened.perform(Undo{}));
+        REQUIRE_MESSAGE(saveProject(*opened.document, project, opened.error), opened.error);
+        CHECK(readAll(json) == whole);
+        CHECK(std::filesystem::exists(plant));
+        // One that is frozen anew stands as it is now, and is thawed.
         REQUIRE(opened.perform(FreezeSeeds{{key}, true}));
         REQUIRE(opened.perform(FreezeSeeds{{key}, false}));
         REQUIRE_MESSAGE(saveProject(*opened.document, folder.file("thawed"), opened.error), opened.error);

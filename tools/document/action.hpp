@@ -250,7 +250,12 @@ struct SwapStroke {
 // Likewise: plants as they were frozen, or not.
 struct RestoreFrozen {
     static constexpr const char* kName = "";
-    std::vector<std::pair<uint32_t, scene::FrozenPlant>> plants;  // by seeds' keys; null: it grows
+    struct Plant {
+        uint32_t seed = 0;           // its key
+        scene::FrozenPlant records;  // null: it grows
+        std::string unread;          // see Scene::unreadPlants; empty: there is none
+    };
+    std::vector<Plant> plants;
     template <class V>
     void fields(V&&) {}
 };

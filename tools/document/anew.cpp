@@ -16,7 +16,7 @@ struct RenameSeeds {
     void operator()(RemoveSeeds& action) const { rename(action.keys); }
     void operator()(FreezeSeeds& action) const { rename(action.keys); }
     void operator()(RestoreFrozen& action) const {
-        for (auto& [key, plant] : action.plants) key = newKey(key);
+        for (RestoreFrozen::Plant& plant : action.plants) plant.seed = newKey(plant.seed);
     }
     // These name none.
     void operator()(SetParam&) const {}

@@ -158,6 +158,20 @@ size_t Document::historyBytes() const {
     return bytes;
 }
 
+std::vector<std::string> Document::filesOfHistory() const {
+    std::vector<std::string> files;
+    for (const auto& [seed, file] : scene_.unreadPlants) files.push_back(file);  // also of seeds that were removed
+    for (const std::vector<Step>* steps : {&done_, &undone_})
+        for (const Step& step : *steps)
+            for (const Action& action : step.back) {
+                if (const auto* swap = std::get_if<SwapStroke>(&action))
+                    for (const scene::SceneLayer& picture : swap->stroke->unread) files.push_back(picture.file);
+                if (const auto* restore = std::get_if<RestoreFrozen>(&action))
+                    for (const RestoreFrozen::Plant& plant : restore->plants) files.push_back(plant.unread);
+            }
+    return files;
+}
+
 // Counts the last of the steps, which has come or changed, and forgets the first ones if it is too much.
 void Document::keep(std::vector<Step>& steps) {
     steps.back().bytes = 0;
@@ -188,7 +202,7 @@ bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string&
     const bool whole = step.back.empty(), begun = !opposite.back.empty();
     // What couldn't be done stays to be tried again; what was done before it can be taken back by itself.
     if (!whole) {
-        if (begun) (&from == &done_ ? step : opposite).state = ++lastState_;
+        if (begun) ++revision_, (&from == &done_ ? step : opposite).state = ++lastState_;
         from.push_back(std::move(step));
         keep(from);
     }

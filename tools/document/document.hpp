@@ -25,8 +25,9 @@ class Document {
     bool open(const scene::Request& request, std::string& error);
 
     // Does it now. Actions of one gesture (not 0), such as those of a dragged slider, become one step of undo.
-    // False: `error` tells why, and the document is as it was. A text with mistakes is taken, and its grammar's
-    // `error` tells them.
+    // False: `error` tells why, and the document is as it was, but for what undo and redo have done of a step of
+    // several edits before one failed, which is a step of its own then. A text with mistakes is taken, and its
+    // grammar's `error` tells them.
     bool perform(const Action& action, std::string& error, uint32_t gesture = 0);
 
     // What the next undo and redo would take back or do again, in a few words; null: there is nothing.
@@ -40,6 +41,9 @@ class Document {
     // What is kept for undo and redo. Past maxHistoryBytes the oldest steps are forgotten, or, by undo, those that it
     // undid first; the latest one is kept however large it is.
     size_t historyBytes() const;
+
+    // Files of a project that couldn't be read, and that undo or redo may bring back.
+    std::vector<std::string> filesOfHistory() const;
 
     // Rises with every action that changes what a project holds; undoing one is a change too.
     uint64_t revision() const { return revision_; }
@@ -115,6 +119,8 @@ class Document {
     Action keepStroke(EspStroke ended, const std::string& channel, const std::function<bool(int surface)>& covers);
     void exchangeUnread(const StrokeRecord& stroke);
     bool takeBack(std::vector<Action>& back);
+    std::string unreadPlant(uint32_t seed) const;  // its file; empty: it was read, or there is none
+    std::string takeUnread(uint32_t seed, const std::string& unread);
     bool moveSeeds(const ChangeSeeds& action);
     bool plant(std::string& error);
     bool replant(const std::vector<scene::Seed>& before, std::string& error);

@@ -57,7 +57,7 @@ size_t keptBytes(Action& action) {
     if (const auto* swap = std::get_if<SwapStroke>(&action))
         bytes += size_t(espStrokeBytes(swap->stroke->context, swap->stroke->stroke));
     if (const auto* restore = std::get_if<RestoreFrozen>(&action))
-        for (const auto& plant : restore->plants) bytes += sizeof plant, frozen(plant.second);
+        for (const auto& plant : restore->plants) bytes += sizeof plant + plant.unread.size(), frozen(plant.records);
     if (const auto* add = std::get_if<AddSeeds>(&action))
         for (const SeedRecord& seed : add->seeds) frozen(seed.frozen);
     if (const auto* text = std::get_if<SetText>(&action)) bytes += text->grows.size();

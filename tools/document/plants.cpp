@@ -1,8 +1,8 @@
 // Plants that stand as they are, and branches that are cut away for good.
-#include <cstdlib>
 #include <ranges>
 
 #include "tools/document/document.hpp"
+#include "tools/scene/hash.hpp"
 
 namespace espalier::document {
 namespace {
@@ -26,9 +26,25 @@ bool isPruned(const EspContext* context, uint64_t branch) {
 
 }  // namespace
 
+std::string Document::unreadPlant(uint32_t seed) const {
+    const auto found = scene_.unreadPlants.find(seed);
+    return found == scene_.unreadPlants.end() ? "" : found->second;
+}
+
+// Sets it, none if it is empty, and returns what it was.
+std::string Document::takeUnread(uint32_t seed, const std::string& unread) {
+    std::string before = unreadPlant(seed);
+    if (unread.empty())
+        scene_.unreadPlants.erase(seed);
+    else
+        scene_.unreadPlants[seed] = unread;
+    return before;
+}
+
 bool Document::carryOut(const FreezeSeeds& action, std::vector<Action>& back, std::string& error) {
-    // As it is now, also in a replay that draws no frame before: edits that haven't grown yet are part of it.
-    if (action.frozen && failed(espUpdate(context_), error)) return false;
+    // As it is now, also in a replay that draws no frame before: edits that haven't grown yet are part of it. What
+    // can't grow stands as it was, and is frozen so; a town's grammar that fails is no matter of plants.
+    if (action.frozen) (void)espUpdate(context_);
     RestoreFrozen before;
     for (uint32_t key : action.keys) {
         const size_t i = indexOf(key);
@@ -39,8 +55,7 @@ bool Document::carryOut(const FreezeSeeds& action, std::vector<Action>& back, st
             }
             scene::Seed& seed = scene_.seeds[i];
             if (failed(espFreezePlant(context_, seed.planted, action.frozen), error)) return false;
-            before.plants.push_back({key, seed.frozen});
-            if (!action.frozen) scene_.unreadPlants.erase(key);
+            before.plants.push_back({key, seed.frozen, action.frozen ? unreadPlant(key) : takeUnread(key, {})});
             scene::FrozenPlant records;
             if (action.frozen && failed(readRecords(context_, seed.planted, records), error)) return false;
             seed.frozen = std::move(records);
@@ -60,27 +75,26 @@ bool Document::carryOut(const RestoreFrozen& action, std::vector<Action>& back, 
     RestoreFrozen before;
     bool good = true;
     // The last first: a seed that was named twice gets what it had at first.
-    for (const auto& [key, plant] : std::views::reverse(action.plants)) {
+    for (const auto& [key, plant, unread] : std::views::reverse(action.plants)) {
         scene::Seed& seed = scene_.seeds[indexOf(key)];
         good = !failed(plant ? espFreezeAs(context_, seed.planted, plant->data(), plant->size())
                              : espFreezePlant(context_, seed.planted, 0),
                        error);
         if (!good) break;
-        before.plants.push_back({key, std::exchange(seed.frozen, plant)});
+        before.plants.push_back({key, std::exchange(seed.frozen, plant), takeUnread(key, unread)});
     }
     if (!before.plants.empty()) back.push_back(std::move(before));
     return good;
 }
 
 bool Document::carryOut(const PruneBranch& action, std::vector<Action>& back, std::string& error) {
-    char* end = nullptr;
-    const uint64_t branch = std::strtoull(action.branch.c_str(), &end, 16);
-    if (action.branch.size() != 16 || *end) {
+    const std::optional<uint64_t> key = scene::keyNamed(action.branch);
+    if (!key) {
         error = "a branch's key is 16 hexadecimal digits, not '" + action.branch + "'";
         return false;
     }
-    if (isPruned(context_, branch) == action.pruned) return true;
-    if (failed(espPruneBranch(context_, branch, action.pruned), error)) return false;
+    if (isPruned(context_, *key) == action.pruned) return true;
+    if (failed(espPruneBranch(context_, *key, action.pruned), error)) return false;
     back.push_back(PruneBranch{action.branch, !action.pruned});
     return true;
 }

@@ -172,10 +172,12 @@ bool named(const fs::path& file) {
            hash.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// Under lock: what interrupted saves have left behind, and layers, plants and bakes that no file of the project names.
-void sweep(const fs::path& folder) {
+// Under lock: what interrupted saves have left behind, and layers, plants and bakes that no file of the project names,
+// but for `kept`.
+void sweep(const fs::path& folder, const std::vector<std::string>& kept) {
     std::error_code ignored;
     std::string wanted, text, error;
+    for (const std::string& file : kept) wanted += fs::path(file).filename().string() + "\n";
     for (const char* file : {kProject, kAutosave}) {
         if (!fs::exists(folder / file, ignored)) continue;
         if (!scene::readText((folder / file).string(), text, error)) return;  // who knows what it names
@@ -217,7 +219,7 @@ bool write(ProjectData data, const std::string& folder, const char* name, Progre
     const bool good = writeLayers(data, folder, progress, error) && writePlants(folder, data.file, error) &&
                       progress.at(1) && writeScene(path, data.file, error);
     if (good && name == kProject) dropAutosave(folder);
-    sweep(folder);
+    sweep(folder, data.history);
     return good;
 }
 
@@ -246,7 +248,9 @@ void outlineLayers(const Document& document, ProjectData& out) {
 
 // All but the layers' texels.
 ProjectData outline(const Document& document) {
-    ProjectData out{describe(document), {}, {}, {}};
+    ProjectData out;
+    out.file = describe(document);
+    out.history = document.filesOfHistory();
     EspContext* context = document.context();
     out.square = scene::squareOf(context);
     for (const scene::LoadedSurface& surface : document.scene().surfaces)

@@ -29,6 +29,7 @@ struct ProjectData {
     std::vector<Layer> layers;
     std::vector<Bake> bakes;                       // [surface]
     std::optional<scene::TownSquare> square = {};  // that the town's layers lie over
+    std::vector<std::string> history = {};         // files that undo may bring back: no save removes them
 };
 bool gather(const Document& document, ProjectData& out, std::string& error);
 // False: `error` tells file and cause, and the project is as it was. Texels are given back as they are written.

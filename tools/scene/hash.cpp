@@ -2,6 +2,7 @@
 #include "tools/scene/hash.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 
@@ -23,6 +24,14 @@ std::string hashName(const void* data, size_t size) {
     char text[kHashDigits + 1];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hashOf(data, size)));
     return text;
+}
+
+std::optional<uint64_t> keyNamed(const std::string& digits) {
+    uint64_t key = 0;
+    const char* end = digits.data() + digits.size();
+    const auto [read, wrong] = std::from_chars(digits.data(), end, key, 16);
+    if (digits.size() != kHashDigits || wrong != std::errc() || read != end) return {};
+    return key;
 }
 
 }  // namespace espalier::scene

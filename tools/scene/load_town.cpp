@@ -35,6 +35,7 @@ bool changeHouses(EspContext* context, Scene& out, std::string& error) {
         std::string why = "the plan has none of this name any more";
         if (place) house = completed(context, std::move(house));
         if (place && setHouse(context, house, why)) {
+            std::erase_if(kept, [&](const House& earlier) { return earlier.index == house.index; });
             kept.push_back(std::move(house));
             continue;
         }

@@ -11,6 +11,7 @@
 
 #include "tools/scene/carried.hpp"
 #include "tools/scene/daylight.hpp"
+#include "tools/scene/json_tree.hpp"
 #include "tools/scene/layers.hpp"
 #include "tools/scene/named.hpp"
 #include "tools/scene/picture.hpp"
@@ -44,8 +45,12 @@ namespace {
 bool isTown(const std::string& file) {
     if (std::filesystem::path(file).extension() == ".geojson") return true;
     std::string text, ignored;
-    return std::filesystem::path(file).extension() == ".json" && readText(file, text, ignored) &&
-           (text.find("\"buildings\"") != std::string::npos || text.find("\"FeatureCollection\"") != std::string::npos);
+    if (std::filesystem::path(file).extension() != ".json" || !readText(file, text, ignored)) return false;
+    const auto has = [&](const char* word) { return text.find(word) != std::string::npos; };
+    if (!has("\"buildings\"") && !has("\"FeatureCollection\"")) return false;
+    // Layers and parameters of scenes may have any names.
+    Json json;
+    return !has("\"grammars\"") || !readJson(text, json, ignored) || !json.find("grammars");
 }
 
 }  // namespace
@@ -154,7 +159,8 @@ bool plantOne(EspContext* context, Scene& scene, Seed& seed, std::string& error)
             return false;
         }
     if (seed.frozen && espFreezeAs(context, seed.planted, seed.frozen->data(), seed.frozen->size()) != ESP_OK) {
-        scene.notes.push_back("a frozen plant grows again: " + std::string(espLastError(context)));
+        scene.notes.push_back((seed.frozenFile.empty() ? "a frozen plant" : seed.frozenFile) + ": " +
+                              espLastError(context) + "; the plant grows again");
         seed.frozen = nullptr;
         if (!seed.frozenFile.empty()) scene.unreadPlants[seed.key] = seed.frozenFile;
     }

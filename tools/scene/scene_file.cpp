@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
+#include "tools/scene/hash.hpp"
 #include "tools/scene/json_checks.hpp"
 #include "tools/scene/layers.hpp"
 #include "tools/scene/text_file.hpp"
@@ -178,12 +178,11 @@ class Reader : JsonChecks {
     void readPruned(const Json& json) {
         if (json.kind != Json::Kind::list) fail(json, "'pruned' must be a list of keys");
         for (const Json& key : json.items) {
-            char* end = nullptr;
-            const uint64_t value = std::strtoull(key.text.c_str(), &end, 16);
-            if (key.kind != Json::Kind::text || key.text.size() != 16 || *end)
-                fail(key, "a branch's key must be 16 hexadecimal digits");
+            const auto value = key.kind == Json::Kind::text ? keyNamed(key.text) : std::nullopt;
+            if (value)
+                out_.pruned.push_back(*value);
             else
-                out_.pruned.push_back(value);
+                fail(key, "a branch's key must be 16 hexadecimal digits");
         }
     }
     void needLayersName(const std::string& name, const Json& json) {
