@@ -91,8 +91,8 @@ struct PlaceFilm {
         share = picture.prepare(draw, moving, stats.drawMs, !fixed);
         if (draw.look.quick && fixed) {
             share = *fixed;
-            draw.look.lodPixels *= share / scene::MovingDetail::kLeastShare;
-            draw.look.leafPixels *= share / scene::MovingDetail::kLeastShare;
+            draw.look.lodPixels *= share / scene::MovingDetail::kShare;
+            draw.look.leafPixels *= share / scene::MovingDetail::kShare;
         }
         draw.width = uint32_t(kWidth * share);
         draw.height = uint32_t(kHeight * share);
@@ -242,7 +242,7 @@ void denseCases(Bench& bench, EspContext* context, scene::Scene& scene) {
                "ms", mean(turn.wall), "15 frames/s", kFrame});
     bench.add({"frame/dense/cpu", "CPU time of it", "ms", mean(turn.cpu), "15 frames/s on two cores", 2 * kFrame});
     bench.add({"frame/dense/worst", "by the clock, worst", "ms", most(turn.wall), "15 frames/s", kFrame});
-    const Moves finer = PlaceFilm{context, scene, scene::MovingDetail::kLeastShare}.turn();
+    const Moves finer = PlaceFilm{context, scene, scene::MovingDetail::kShare}.turn();
     if (finer.wall.empty()) return bench.skip("frame/dense/coarser", espLastError(context));
     bench.add({"frame/dense/coarser", "by the clock, as coarse as its time asks for", "ms", mean(turn.wall),
                "at the detail that all moving pictures have", mean(finer.wall)});
