@@ -140,43 +140,6 @@ EmitInputs RendererImpl::emitInputs(const DrawInputs& inputs) const {
     return given;
 }
 
-// Finds the tiles of this picture's depths, into those of the oldest one that are kept, and notes in the view where.
-Status RendererImpl::findTiles(Commands& commands, EmitView& view) {
-    DepthTiles& to = *std::min_element(tiles_.begin(), tiles_.end(),
-                                       [](const DepthTiles& a, const DepthTiles& b) { return a.serial < b.serial; });
-    const uint32_t count = tilesOf(view);
-    if (!to.buffer || to.buffer.size() < count * sizeof(float)) {
-        Result<Buffer> made = Buffer::create(device_, "depth tiles", count * sizeof(float));
-        if (!made) return made.failure();
-        to.buffer = std::move(*made);
-    }
-    view.tiles = addressOf<FloatBuf>(to.buffer);
-    to.view = view;
-    to.serial = commands.serial();
-    to.models = hosted_ ? 0 : models_.revision();
-    commands.transition(targets_.depth, ImageState::sampled);
-    Pass pass(commands, "emit");
-    pass.dispatchItems(depthTiles_, count, TilesPush{view.tiles}, {{targets_.depth, pointSampler_}});
-    pass.barrier(Use::compute, Use::compute);
-    return Done{};
-}
-
-// Takes the depths of the newest picture of this size that has finished, if there is one: what they say stands, so that
-// native code can cull.
-void RendererImpl::lookBack(EmitView& view) const {
-    const DepthTiles* past = nullptr;
-    for (const DepthTiles& t : tiles_)
-        if (t.buffer && device_.finished(t.serial) && t.view.width == view.width && t.view.height == view.height &&
-            t.view.pixelScale == view.pixelScale && t.models == models_.revision() &&
-            (!past || t.serial > past->serial))
-            past = &t;
-    view.flags |= kTilesStand;
-    view.tiles.v = past ? past->view.tiles.v : nullptr;
-    if (!past) return;
-    view.viewProjection = past->view.viewProjection;
-    view.drift = std::max(glm::distance(view.eye, past->view.eye), 1e-6f);
-}
-
 // Of what hides growth: another one where tiles may say something else. A host's scene or a level that fades hides
 // something else in each frame.
 uint64_t RendererImpl::sceneOf(const DrawInputs& inputs) {
@@ -194,11 +157,12 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.width = targets_.width;
     view.height = targets_.height;
     view.tilePixels = kDepthTile;
-    if (Status s = findTiles(commands, view); !s) return s;
+    const uint64_t models = hosted_ ? 0 : models_.revision();
+    if (Status s = depthTiles_.find(commands, targets_.depth, pointSampler_, models, view); !s) return s;
     thinOut(view, inputs.look.leafPixels);
     if (inputs.look.quick && device_.info().cpu) view.flags |= kStretches;
     view.scene = sceneOf(inputs);
-    if (isQuick(shading_) && !hosted_) lookBack(view);
+    if (isQuick(shading_) && !hosted_) depthTiles_.lookBack(device_, models, view);
     if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
     if (!grows_) return Done{};
@@ -291,7 +255,7 @@ void RendererImpl::forget() {
     emit_.forget();
     if (props_) props_->forget();
     merge_.reset();
-    tiles_ = {};
+    depthTiles_.forget();
     targets_.color = Image();
     shadowMap_.state = standing_.state = ImageState::undefined;
     shadowDrawn_ = wideDrawn_ = false;

@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "runtime/render/depth_tiles.hpp"
 #include "runtime/render/frame.hpp"
 #include "runtime/render/host_merge.hpp"
 #include "runtime/render/models.hpp"
@@ -87,8 +88,6 @@ class RendererImpl final : public Renderer {
     EmitInputs emitInputs(const DrawInputs& inputs) const;
     uint64_t sceneOf(const DrawInputs& inputs);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
-    Status findTiles(Commands& commands, EmitView& view);
-    void lookBack(EmitView& view) const;
     void drawGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame, const PostPush& post);
     void drawSky(DrawPass& pass, const FrameRecord& frame, const PostPush& post);
     Status lightTerminals(Commands& commands);
@@ -110,13 +109,14 @@ class RendererImpl final : public Renderer {
     Models models_;
     Ground ground_;
     Targets targets_;
+    DepthTiles depthTiles_;
     Image shadowMap_, standing_;  // the near half without growth; made when something grows
     Sampler shadowSampler_, textureSampler_, quickSampler_, plainSampler_, pointSampler_;
     ScenePrograms scenes_[kShadings];     // each made when first asked for
     ScenePrograms* scene_ = &scenes_[0];  // of this recording
     Shading shading_ = Shading::full;
     Program modelAhead_, modelAheadFading_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_,
-        depthTiles_, shadowRestore_;
+        shadowRestore_;
     Program sky_[2];                                       // without and with hills
     using ResolveKind = std::tuple<VkFormat, bool, bool>;  // format, whether the view counts, whether it is quick
     std::map<ResolveKind, Program> resolves_;
@@ -125,14 +125,6 @@ class RendererImpl final : public Renderer {
     TexelView litTexels_;                    // of it; after it
     std::array<Buffer, kFrameSlots> frames_;
     const Buffer* frame_ = nullptr;  // the one of this recording
-    // Of pictures drawn before: the farthest depths that models leave in their tiles. The picture of recording
-    // `serial`.
-    struct DepthTiles {
-        Buffer buffer;
-        EmitView view{};
-        uint64_t serial = 0, models = 0;
-    };
-    std::array<DepthTiles, 4> tiles_;
     uint32_t frameSlot_ = 0;
     ShadowKey shadowKey_, wideKey_, wideBefore_;
     glm::mat4 wideToTexture_{1};

@@ -70,7 +70,7 @@ Status RendererImpl::makePrograms() {
     Result<Program> restored = Program::graphics(device_, restore);
     if (!restored) return restored.failure();
     shadowRestore_ = std::move(*restored);
-    Result<Program> depthTiles = Program::compute(device_, one ? "render/tiles_single.comp" : "render/tiles.comp");
+    Result<DepthTiles> depthTiles = DepthTiles::create(device_, targets_.samples);
     if (!depthTiles) return depthTiles.failure();
     depthTiles_ = std::move(*depthTiles);
     auto post = [&](Program& program, const char* name, const char* fragment, VkFormat format) -> Status {

@@ -2,8 +2,6 @@
 // Drawn twice: what is shaded must meet the depth that went ahead, so positions are never fused or reordered.
 #include "shaders/render/frame.glsl"
 
-invariant gl_Position;
-
 layout(push_constant, scalar) uniform Data { ModelPush push; };
 layout(location = 0) in vec3 atVertex;
 #ifndef ESPALIER_DEPTH_ONLY
