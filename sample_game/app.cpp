@@ -53,6 +53,7 @@ void App::showUi() {
     showBackground(work_, session_.background());
     showHelp(work_);
     if (work_.editing) showDialogues(work_, session_);
+    work_.followLayers();  // what is seen may have lost its layer by what was done just now
     if (work_.windowsAnew > 0) --work_.windowsAnew;
 }
 
@@ -109,8 +110,9 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
 
     VulkanHost::TakePicture take;
     std::string path = last ? options_.screenshot : "";
+    std::error_code unknown;
     if (work_.screenshot && path.empty())
-        for (int i = 1; path.empty() || fs::exists(path); ++i) path = "espalier-" + std::to_string(i) + ".png";
+        for (int i = 1; path.empty() || fs::exists(path, unknown); ++i) path = "espalier-" + std::to_string(i) + ".png";
     if (!path.empty())
         take = [&](const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height, const std::string& error) {
             if (error.empty()) return screenshot(path, rgba, width, height);
@@ -158,6 +160,12 @@ void App::tellTurn() const {
                 static_cast<unsigned long long>(work_.stats.drawnLeaves), double(100 * moving_.share()));
 }
 
+void App::endReplay() {
+    if (replay_.on()) replay_.stop(work_);
+    ImGui::GetIO().ConfigFlags &= ~ImGuiConfigFlags_NoMouse;
+    session_.endReplay();
+}
+
 // A run's next step in place of what the user does, who can only end it. False: no run is on.
 bool App::replay(std::vector<InputEvent>& events) {
     if (!replay_.on()) return false;
@@ -166,12 +174,9 @@ bool App::replay(std::vector<InputEvent>& events) {
         return key && key->key == GLFW_KEY_ESCAPE;
     });
     events.clear();
-    int& flags = ImGui::GetIO().ConfigFlags;
-    flags |= ImGuiConfigFlags_NoMouse;
-    if (ends) replay_.stop(work_);
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouse;
     if (!ends && replay_.step(work_, glfwGetTime())) return true;
-    flags &= ~ImGuiConfigFlags_NoMouse;
-    session_.endReplay();
+    endReplay();
     if (options_.frames)
         session_.autosaves().forgetRecovery(false), session_.givesUp = true;  // nobody is there to be asked
     return true;
@@ -181,7 +186,8 @@ bool App::replay(std::vector<InputEvent>& events) {
 bool App::closing() {
     if (session_.quit) return true;
     if (!glfwWindowShouldClose(window_.get())) return false;
-    if (sliderWaits()) {  // what it is to have counts
+    if (replay_.on() && !options_.frames) endReplay();  // so that what is asked can be answered
+    if (sliderWaits()) {                                // what it is to have counts
         leaveFields();
         wake();
         return false;

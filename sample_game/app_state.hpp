@@ -50,6 +50,7 @@ class App {
     void dropClicks();
     bool showOpening(const std::string& file, const std::string& part = {}, float share = 0);
     bool drawFrame(bool moving, bool grew, bool last);
+    void endReplay();
     void screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height);
     bool openNext();
     void beginReplay();

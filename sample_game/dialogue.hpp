@@ -13,7 +13,7 @@
 
 namespace sample {
 
-using PathText = std::array<char, 512>;  // that is typed
+using PathText = std::array<char, 4096>;  // that is typed
 
 // Which dialogue is open, and what was typed into each. One thread; one of them at a time.
 struct Dialogues {
@@ -27,6 +27,7 @@ struct Dialogues {
     const char* yes = "";  // and the button that does so
     bool asks = false;     // one that asks for a path was open in the last frame
     int openings = 0;      // each time the whole path is marked, so that it can be typed over
+    std::string unsaved;   // why saving has failed while another one was open
     bool leaves = false;   // for what is next, as soon as nothing is under way
     PathText project{}, file{}, run{}, picture{};
     std::string layer;                // of the picture

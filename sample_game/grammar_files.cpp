@@ -21,8 +21,8 @@ fs::path folderOf(const fs::path& file) {
 std::vector<FileStamp> stampsAround(const fs::path& file) {
     std::vector<fs::path> files{file};
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folderOf(file), ignored))
-        if (entry.path().extension() == ".grammar") files.push_back(entry.path());
+    for (fs::directory_iterator at(folderOf(file), ignored), end; !ignored && at != end; at.increment(ignored))
+        if (at->path().extension() == ".grammar") files.push_back(at->path());
     std::ranges::sort(files);
     std::vector<FileStamp> stamps;
     for (const fs::path& each : files) stamps.push_back(stampOf(each));

@@ -93,8 +93,9 @@ float meet(const Ray& ray, const House& house, const EspHouseInfo& info, bool sl
 
 }  // namespace
 
-std::optional<HouseHit> Workspace::meetHouse(const Ray& ray, float before) const {
+std::optional<HouseHit> Workspace::meetHouse(const Ray& ray, float before, bool boxes) const {
     for (const bool sloped : {true, false}) {
+        if (!sloped && !boxes) break;
         HouseHit best{0, before};
         for (uint32_t i = 0; i < espHouseCount(context.get()); ++i) {
             EspHouseInfo info;
@@ -131,8 +132,8 @@ std::vector<bool> Workspace::hidden(const std::vector<glm::vec3>& points) const 
 }
 
 std::optional<uint32_t> Workspace::pickHouse(glm::vec2 at) const {
-    const auto before = pick(at);
-    const auto found = meetHouse(rayThrough(at), before ? before->distance : kMissed);
+    const auto before = pick(at);  // walls that are ground lie before those that are drawn
+    const auto found = meetHouse(rayThrough(at), before ? before->distance + kOwnDepth : kMissed);
     return found ? std::optional(found->house) : std::nullopt;
 }
 
@@ -160,8 +161,13 @@ bool Workspace::meets(const Ray& ray, float reach, EspHit& met) const {
     return found;
 }
 
+std::optional<EspHit> Workspace::pickGround(glm::vec2 at) const {
+    const std::optional<EspHit> ground = pick(at);
+    return ground && meetHouse(rayThrough(at), ground->distance - kOwnDepth, false) ? std::nullopt : ground;
+}
+
 std::optional<EspHit> Workspace::aim(glm::vec2 at) const {
-    std::optional<EspHit> surface = pick(at);
+    std::optional<EspHit> surface = pickGround(at);
     EspTownInfo town;
     if (!townLayer(brush.layer) || espTownInfo(context.get(), &town) != ESP_OK) return surface;
     const Ray ray = rayThrough(at);

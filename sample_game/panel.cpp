@@ -115,7 +115,7 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
         Value value = has ? own[0] : valueOf(info.value);
         const bool several = std::ranges::any_of(own, [&](const Value& other) { return other != value; });
         const bool some = has && own.size() < chosen.size();
-        ImGui::PushID(int(i));
+        ImGui::PushID(info.name);
         ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, some);
         bool changed = checkBox(info.label, &has);
         ImGui::PopItemFlag();

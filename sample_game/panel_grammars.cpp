@@ -141,7 +141,7 @@ void grammarsPanel(Workspace& work) {
             for (uint32_t p = 0; p < espParamCount(work.context.get(), grammar.id); ++p) {
                 EspParamInfo info;
                 if (espParamInfo(work.context.get(), grammar.id, p, &info) != ESP_OK) continue;
-                ImGui::PushID(int(p));
+                ImGui::PushID(info.name);  // what is typed stays this one's where a text gets others before it
                 paramRow(work, i, info);
                 ImGui::PopID();
             }

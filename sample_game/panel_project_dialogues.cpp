@@ -42,11 +42,12 @@ void recoveryDialogue(Session& session) {
         static bool sure = false;  // one click too many must not cost an hour's work
         if (ImGui::IsWindowAppearing()) sure = false;
         if (ImGui::Button(sure ? "Yes, throw it away" : "Throw it away")) {
-            if (sure) {
+            const bool again = ImGui::GetIO().MouseClickedLastCount[0] > 1;  // a double click isn't two answers
+            if (sure && !again) {
                 session.autosaves().forgetRecovery(true);
                 ImGui::CloseCurrentPopup();
             }
-            sure = !sure;
+            sure = !sure || again;
         }
         if (session.autosaves().recoveryWaits()) {
             ImGui::SameLine();
@@ -107,6 +108,15 @@ void leavingDialogue(Workspace& work, Session& session) {
 
 }  // namespace
 
+// What couldn't be saved, once no other dialogue is open.
+void askElsewhere(Workspace& work) {
+    Dialogues& d = dialogues();
+    if (d.unsaved.empty() || d.asks || d.open) return;
+    work.error = std::exchange(d.unsaved, {});
+    ask("Save the project");
+    d.turn = turnOf(work, false);
+}
+
 // What can't be saved asks for another place, and nothing is left before that.
 bool askToSave(Workspace& work, Session& session, bool elsewhere) {
     const std::string& own = session.folder();
@@ -122,9 +132,8 @@ bool askToSave(Workspace& work, Session& session, bool elsewhere) {
         Dialogues& d = dialogues();
         d.leaves = false;
         if (work.error.empty()) return d.next.reset();  // cancelled
-        if (d.asks || d.open) return;
-        ask("Save the project");
-        d.turn = turnOf(work, false);
+        d.unsaved = work.error;
+        askElsewhere(work);
     });
     return true;
 }
@@ -155,6 +164,7 @@ void askToOpen(const std::string& refused, const std::string& why) {
 
 void projectDialogues(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
+    askElsewhere(work);
     askPath(work, session,
             {"Save the project",
              "Folder of the project:",

@@ -39,8 +39,9 @@ bool Replay::step(Workspace& work, double now) {
     status_ = "Replaying " + name + ": frame " + std::to_string(due) + " of " + all + "   Esc: stop";
     work.underWay = status_.c_str();
     if (next_ < run_->lines.size()) return true;
+    const std::string note = run_->note.empty() ? "" : "\n" + run_->note;
     stop(work);
-    work.message = "Replayed: " + name + ", " + all + " frames" + (run_->note.empty() ? "" : "\n" + run_->note);
+    work.message = "Replayed: " + name + ", " + all + " frames" + note;
     return false;
 }
 

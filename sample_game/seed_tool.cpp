@@ -20,7 +20,7 @@ constexpr float kArrow = .3f;  // metres
 
 // The ground there, unless that is beneath a panel or outside the window.
 std::optional<EspHit> seen(const Workspace& work, glm::vec2 at) {
-    return inScene(at.x, at.y) ? work.pick(at) : std::nullopt;
+    return inScene(at.x, at.y) ? work.pickGround(at) : std::nullopt;
 }
 
 // How many are chosen and there: undo may have taken some away, which redo brings back as chosen.
@@ -100,7 +100,7 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
         return;
     }
     work.selected.clear();
-    const auto hit = work.pick(at);
+    const auto hit = work.pickGround(at);
     if (!hit) return work.say(kNoGround);
     pending_ = newSeed(work, *hit);
     drag_ = Drag::direction;
@@ -110,7 +110,7 @@ void SeedTool::press(Workspace& work, const PointerEvent& event) {
 void SeedTool::beginRow(Workspace& work, glm::vec2 at) {
     work.selected.clear();
     const Seed* seed = work.document->seed(seedAt(work, at));
-    const auto hit = work.pick(at);
+    const auto hit = work.pickGround(at);
     if (!hit && !seed) return work.say(kNoGround);
     drag_ = Drag::row;
     firstInRow_ = !seed;

@@ -192,6 +192,7 @@ void Session::kept(Workspace& work, uint64_t state) {
     autosavedState_ = state;
     keptBeside_ = projectNow();
     autosaves_.kept();
+    if (state == savedState_) return autosaves_.drop();  // it was taken back meanwhile
     const std::string& cannotKeep = autosaves_.origin().cannotKeep;
     tellKept(work, cannotKeep.empty() ? "" : cannotKeep + "; what isn't saved is kept in " + autosaves_.place());
 }

@@ -81,6 +81,7 @@ void applyTheme(float scale) {
     c[ImGuiCol_ScrollbarBg] = grey(.10f, 0);
     c[ImGuiCol_ScrollbarGrab] = grey(.28f);
     style.ScaleAllSizes(scale);
+    ImGui::GetIO().MouseDoubleClickMaxDist = ImGui::GetIO().MouseDragThreshold = 6 * scale;  // pixels
     ImGui::GetStyle() = style;
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr float kTipDelay = .5f;  // seconds
 
-constexpr float kDragPixels = 3;
+constexpr float kDragShare = .5f;     // of ImGui's own threshold, which follows the scale
 constexpr double kSecondClick = .35;  // seconds after one click until another makes no double click with it
 
 // What a slider is to have.
@@ -92,7 +92,8 @@ void noteDrag(ImGuiID owner, const std::array<float, 3>& before) {
 bool followMouse(float* value, float wanted, bool changed, const ImRect& place) {
     Wanted& click = lastClick();
     const ImGuiID slider = ImGui::GetItemID();
-    if (ImGui::IsItemActive() && ImGui::IsMouseDown(0) && !ImGui::IsMouseDragging(0, kDragPixels)) {
+    if (ImGui::IsItemActive() && ImGui::IsMouseDown(0) &&
+        !ImGui::IsMouseDragging(0, kDragShare * ImGui::GetIO().MouseDragThreshold)) {
         const bool begins = ImGui::IsItemActivated() && !ImGui::IsMouseDoubleClicked(0);
         if (begins && changed) click = {slider, wanted, place};
         if (click.slider == slider) click.seen = ImGui::GetFrameCount();

@@ -179,8 +179,12 @@ bool Workspace::readStats() {
 }
 
 Workspace::Hands Workspace::hands() const {
-    return {brush.layer, plantGrammar, openGrammar,
-            house,       houseEdge,    {espalier::scene::nameOf(scene().look.view), scene().viewLayer}};
+    Hands all{brush.layer, plantGrammar, openGrammar, house, houseEdge, {}, {}, 0};
+    all.view = {espalier::scene::nameOf(scene().look.view), scene().viewLayer};
+    EspHouseInfo info;
+    if (house && espHouseInfo(context.get(), *house, &info) == ESP_OK)
+        all.houseId = info.id, all.houseCorners = info.cornerCount;
+    return all;
 }
 
 void Workspace::takeUp(const Hands& hands) {
@@ -189,10 +193,15 @@ void Workspace::takeUp(const Hands& hands) {
     if (std::ranges::find(scene().layers, hands.layer) != scene().layers.end()) brush.layer = hands.layer;
     if (hands.plantGrammar < scene().grammars.size()) plantGrammar = hands.plantGrammar;
     if (hands.openGrammar < scene().grammars.size()) openGrammar = hands.openGrammar;
+    if (!hands.house) return;
     EspHouseInfo info;
-    if (!hands.house || espHouseInfo(context.get(), *hands.house, &info) != ESP_OK) return;
-    house = hands.house;
-    if (hands.houseEdge && *hands.houseEdge < info.cornerCount) houseEdge = hands.houseEdge;
+    const auto is = [&](uint32_t i) {
+        return espHouseInfo(context.get(), i, &info) == ESP_OK && hands.houseId == info.id;
+    };
+    if (is(*hands.house)) house = hands.house;
+    for (uint32_t i = 0; !house && !hands.houseId.empty() && i < espHouseCount(context.get()); ++i)
+        if (is(i)) house = i;
+    if (house && hands.houseCorners == info.cornerCount) houseEdge = hands.houseEdge;
 }
 
 bool Workspace::townLayer(const std::string& name) const {

@@ -126,6 +126,8 @@ struct Workspace {
         uint32_t plantGrammar = 0, openGrammar = 0;
         std::optional<uint32_t> house, houseEdge;
         espalier::document::SetView view;
+        std::string houseId;  // of the plan, which may have got others before it; empty: it has none
+        uint32_t houseCorners = 0;
     };
     Hands hands() const;
     void takeUp(const Hands& hands);  // what was said of the reload stays
@@ -148,13 +150,15 @@ struct Workspace {
     bool brushLimited() const { return brush.limited && !townLayer(brush.layer); }
 
     Ray rayThrough(glm::vec2 at) const;
-    std::optional<EspHit> pick(glm::vec2 at) const;  // a surface
+    std::optional<EspHit> pick(glm::vec2 at) const;        // a surface
+    std::optional<EspHit> pickGround(glm::vec2 at) const;  // one that no house is before
     // What the brush goes over: surfaces; with a layer of the town also houses and ground.
     std::optional<EspHit> aim(glm::vec2 at) const;
     void pickBranch(glm::vec2 at);
     void pointAtBranch(std::optional<glm::vec2> at);  // nothing: the mouse isn't over the scene
     void pickParent();                                // the branch that the picked one leaves from
-    std::optional<HouseHit> meetHouse(const Ray& ray, float before) const;
+    // The nearest that it meets before that distance. boxes: where it meets none, one whose box it goes through.
+    std::optional<HouseHit> meetHouse(const Ray& ray, float before, bool boxes = true) const;
     // Each of the points: a house hides it, if only by a roof that it lies behind, or a surface does.
     std::vector<bool> hidden(const std::vector<glm::vec3>& points) const;
     std::optional<uint32_t> pickHouse(glm::vec2 at) const;

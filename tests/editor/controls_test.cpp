@@ -229,3 +229,27 @@ TEST_CASE("a colour that is typed is one step of undo, however many of its lette
     REQUIRE(work.perform(Undo{}));
     CHECK(colour().value[0] == red);
 }
+
+TEST_CASE("a house is chosen by a wall that is ground to ivy, and nothing is planted through a house") {
+    const Folder folder;
+    Editor editor(folder, content("hamlet.json"), Tool::houses);
+    const auto& surfaces = editor.work.scene().surfaces;
+    size_t walls = 0, hidden = 0;
+    for (int row = 1; row < 36; ++row)
+        for (int column = 1; column < 64; ++column) {
+            const glm::vec2 at = editor.work.window * glm::vec2(column / 64.f, row / 36.f);
+            const auto hit = editor.work.pick(at);
+            if (!hit) continue;
+            const auto surface = std::ranges::find(surfaces, hit->surface.id, [](const auto& s) { return s.id.id; });
+            REQUIRE(surface != surfaces.end());
+            const auto house = editor.work.meetHouse(editor.work.rayThrough(at), 1e4f, false);
+            const bool before = house && house->distance < hit->distance - .3f;
+            const bool wall = !surface->drawn && house && std::abs(house->distance - hit->distance) < .1f;
+            if (wall) CHECK(editor.work.pickHouse(at) == house->house);
+            CHECK(editor.work.pickGround(at).has_value() == !before);
+            walls += wall;
+            hidden += before;
+        }
+    CHECK(walls > 50);
+    CHECK(hidden > 0);
+}

@@ -177,3 +177,16 @@ TEST_CASE("on a full disk neither an export nor a save harms what was there") {
     Editing again(project);
     CHECK(layerOf(again) == saved);
 }
+
+TEST_CASE("where there is no surface no layer is said to be written or read") {
+    const Folder folder;
+    Editing town(content("town.json"));
+    REQUIRE(town.document->scene().surfaces.empty());
+    const std::string file = folder.file("mask.png");
+    std::string note;
+    CHECK(!exportLayer(*town.document, "mask", file, town.error));
+    CHECK_MESSAGE(contains(town.error, file + ": there is no surface"), town.error);
+    CHECK(!std::filesystem::exists(file));
+    CHECK(!import(town, file, note));
+    CHECK_MESSAGE(contains(town.error, "there is no surface"), town.error);
+}

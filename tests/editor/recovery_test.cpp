@@ -61,6 +61,10 @@ TEST_CASE("what an editor left behind is thrown away by a second click only") {
     dialogue.press("Throw it away");
     CHECK(autosavesIn(folder.path / "config").size() == 1);
     CHECK(dialogue.asks());
+    ImGui::GetIO().MouseClickedLastCount[0] = 2;  // of a double click
+    dialogue.press("Yes, throw it away");
+    CHECK(autosavesIn(folder.path / "config").size() == 1);
+    ImGui::GetIO().MouseClickedLastCount[0] = 1;
     dialogue.press("Yes, throw it away");
     CHECK(autosavesIn(folder.path / "config").size() == 0);
     CHECK(!dialogue.asks());

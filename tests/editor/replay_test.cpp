@@ -60,3 +60,25 @@ TEST_CASE("a replay that fails within a stroke ends it and says where") {
     CHECK(!window.work.document->stroking());
     CHECK_MESSAGE(contains(window.work.error, path + ":4: "), window.work.error);
 }
+
+TEST_CASE("a run whose last line is cut off is replayed up to there, and what is missing is told at its end") {
+    const Folder folder;
+    const std::string scene = smallScene(folder), path = folder.file("run.jsonl");
+    Window window(folder, scene);
+    std::string error;
+    Recorder recorder;
+    REQUIRE(recorder.begin(path, {1, scene, 96, 54, .1f}, error));
+    recorder.note(FillLayer{"mask", .5f}, 0);
+    recorder.note(FillLayer{"mask", .25f}, 0);
+    REQUIRE_MESSAGE(recorder.end(error), error);
+    const std::string whole = readAll(path);
+    folder.write("run.jsonl", whole.substr(0, whole.size() - 9));
+
+    sample::Replay replay;
+    REQUIRE_MESSAGE(replay.read(path, error), error);
+    replay.begin(0);
+    for (double now = 0; replay.step(window.work, now); now += .1) REQUIRE(now < 10);
+    CHECK(window.work.document->undoSteps() == 1);
+    CHECK_MESSAGE(contains(window.work.message, "Replayed: run.jsonl"), window.work.message);
+    CHECK_MESSAGE(contains(window.work.message, "cut off"), window.work.message);
+}

@@ -302,7 +302,7 @@ TEST_CASE("what is changed of a frozen plant's seed is kept for when it is thawe
     };
     for (int i = 0; i < 3; ++i) gardener.frame({});
     pressWidget(gardener, "panel", {"Values of their own"});
-    const std::vector<Part> box{"Values of their own", int(key), 0, "Scale of all lengths (a 3 m wall: 1)"};
+    const std::vector<Part> box{"Values of their own", int(key), "scale", "Scale of all lengths (a 3 m wall: 1)"};
     const auto& news = gardener.work.message;
     for (const bool frozen : {true, false}) {
         CAPTURE(frozen);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "tests/editor/window.hpp"
+#include "tools/document/durable.hpp"
 #include "tools/document/project.hpp"
 
 using namespace espalier::document;
@@ -259,4 +260,49 @@ TEST_CASE(
     CHECK(told == "failed");
     CHECK(contains(window.work.error, "file/x.jsonl"));
     CHECK(!session.recording());
+}
+
+TEST_CASE("what was taken back before its autosave's turn came isn't kept as unsaved work") {
+    const Folder folder;
+    const std::string garden = folder.file("garden");
+    Window window(folder, smallScene(folder));
+    REQUIRE_MESSAGE(window.save(garden), window.work.error);
+    window.fill(.25f);
+    window.work.busy = true;  // as while a slider is dragged
+    window.now += window.session.autosaveEvery;
+    (void)window.session.step(window.work, window.now);
+    REQUIRE(window.work.perform(Undo{}));
+    REQUIRE(!window.session.modified(window.work));
+    window.work.busy = false;
+    window.wait();
+    CHECK(!fs::exists(garden + "/autosave.json"));
+}
+
+TEST_CASE("a file that is written anew is read and written by whom it was before") {
+    const Folder folder;
+    const std::string file = folder.write("private.grammar", "one");
+    const auto mode = [&] { return fs::status(file).permissions(); };
+    for (const fs::perms wanted : {fs::perms(0600), fs::perms(0664)}) {
+        fs::permissions(file, wanted);
+        std::string error;
+        REQUIRE_MESSAGE(writeTextDurably(file, "another", error), error);
+        CHECK(mode() == wanted);
+    }
+}
+
+TEST_CASE("a house that was chosen is found again where its plan has got others before it") {
+    const Folder folder;
+    const std::string scene = wallScene(folder, true), plan = folder.file("houses.json");
+    Window before(folder, scene);
+    before.work.house = 1;
+    before.work.houseEdge = 2;
+    const auto hands = before.work.hands();
+    std::string text = readAll(plan);
+    text.replace(text.find("[{"), 2, R"([{"id": "new", "outer": [[-30,0],[-20,0],[-20,8],[-30,8]]}, {)");
+    folder.write("houses.json", text);
+    Window after(folder, scene);
+    REQUIRE(espHouseCount(after.work.context.get()) == 3);
+    after.work.takeUp(hands);
+    CHECK(after.work.house == 2);
+    CHECK(after.work.houseEdge == 2);
 }

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -55,6 +56,9 @@ bool Unfinished::write(const WriteFile& make, std::string& error) {
 }
 
 bool Unfinished::take(std::string& error) {
+    // Who may read and write it stays as it was.
+    struct stat before {};
+    if (::stat(place_.c_str(), &before) == 0) (void)::chmod(beside_.c_str(), before.st_mode & 07777);
     taken_ = std::rename(beside_.c_str(), place_.c_str()) == 0;
     if (!taken_) error = path_ + ": can't be written: " + std::strerror(errno);
     return taken_ && flush(folder_, O_RDONLY | O_DIRECTORY, error);

@@ -85,19 +85,23 @@ bool readPictures(std::vector<Imported>& pictures, bool colour, Progress& progre
     return progress.at(1);
 }
 
+Work::Plan refusing(const std::string& why) {
+    Work::Plan plan;
+    plan.before.push_back([why](std::string& error) {
+        error = why;
+        return false;
+    });
+    return plan;
+}
+
 }  // namespace
 
 Work::Plan exporting(const Document& document, const std::string& layer, bool town, const std::string& path) {
     Work::Plan plan;
     const std::string ending = fs::path(path).extension().string();
-    if (ending != ".png" && ending != ".exr") {
-        plan.before.push_back([path](std::string& error) {
-            error = path + ": layers are written as .png or .exr";
-            return false;
-        });
-        return plan;
-    }
+    if (ending != ".png" && ending != ".exr") return refusing(path + ": layers are written as .png or .exr");
     const auto pictures = std::make_shared<std::vector<Exported>>(town ? 1 : document.scene().surfaces.size());
+    if (pictures->empty()) return refusing(path + ": there is no surface whose layer it could be");
     for (size_t i = 0; i < pictures->size(); ++i) {
         Exported& e = (*pictures)[i];
         e.path = town ? path : pictureOf(document, path, i);
@@ -122,6 +126,7 @@ Work::Plan importing(Document& document, const std::string& layer, bool town, co
                      uint32_t gesture) {
     Work::Plan plan;
     const auto pictures = std::make_shared<std::vector<Imported>>(town ? 1 : document.scene().surfaces.size());
+    if (pictures->empty()) return refusing(path + ": there is no surface whose layer it could be");
     const auto note = plan.note = std::make_shared<std::string>();
     plan.beside = [pictures, colour = isColour(document.scene(), layer)](Progress& progress, std::string& error) {
         return readPictures(*pictures, colour, progress, error);
