@@ -1,5 +1,6 @@
 // espalier-sample: reads the command line and runs the game.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -18,7 +19,7 @@ int main(int argc, char** argv) {
         "FILE", options.request.file,
         "a scene (SCENE.json), a project's folder, what espalier-bake wrote (SURFACE.glb), or a recorded run "
         "(RUN.jsonl) to see again; default: the sample scene");
-    cli.add_option("--layer", layers, "NAME=FILE: a picture drawn in the model's UVs");
+    cli.add_option("--layer", layers, "NAME=FILE: a picture drawn in the model's UVs")->allow_extra_args(false);
     cli.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
     cli.add_option("--seed", seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
         ->check(CLI::Range(0ll, 4294967295ll));
@@ -56,6 +57,10 @@ int main(int argc, char** argv) {
     }
     if (options.turn && options.frames < sample::AppOptions::kLeastTurn)
         return fail("--turn takes --frames of " + std::to_string(sample::AppOptions::kLeastTurn) + " or more");
+    if (!options.screenshot.empty() && options.frames == 0)
+        return fail("--screenshot takes --frames: the last is written");
+    if (!std::isfinite(options.autosave) || !std::isfinite(options.uiScale))
+        return fail("--autosave and --ui-scale take numbers");
     options.sized = cli.count("--size") > 0;
     if (seed >= 0) options.request.seed = uint32_t(seed);
     if (options.request.file.empty()) options.request.file = espalier::scene::contentFolder() + "/sample.json";

@@ -205,15 +205,7 @@ void Workspace::takeUp(const Hands& hands) {
 }
 
 bool Workspace::townLayer(const std::string& name) const {
-    EspGrammar town{};
-    const std::string channel = channelsOf(scene(), name)[0];
-    if (espHouseCount(context.get()) == 0 || espTownGrammar(context.get(), &town) != ESP_OK) return false;
-    for (const auto& grammar : scene().grammars)
-        for (uint32_t i = 0; grammar.id.id != town.id && i < espLayerCount(context.get(), grammar.id); ++i)
-            if (channel == espLayerName(context.get(), grammar.id, i)) return false;
-    // Also one that was painted and that the town's grammar has lost.
-    const auto layers = espalier::scene::townLayers(context.get());
-    return std::ranges::find(layers, channel, &espalier::scene::TownLayer::name) != layers.end();
+    return espalier::scene::isTownsAlone(context.get(), scene(), channelsOf(scene(), name)[0]);
 }
 
 // Over surfaces what is painted is seen by its view, over roofs by what it does to them, unless it is asked for.

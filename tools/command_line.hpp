@@ -1,17 +1,48 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <csignal>
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace espalier {
 
 // Reads a program's command line into the options that `app` knows. Nothing: it goes on. Else it is to end with this
 // code: 0 after --help or --version, 2 where the line can't be read, which stderr has been told.
 inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // too large a file is an error like a full disk, with a message
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) ? 2 : 0;
+    }
+    return std::nullopt;
+}
+
+// Whether both lead to one file, be it there already or not.
+inline bool sameFile(const std::string& a, const std::string& b) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    const auto whole = [&](const std::string& path) { return fs::weakly_canonical(fs::absolute(path), ignored); };
+    return fs::equivalent(a, b, ignored) || whole(a) == whole(b);
+}
+
+// The first of the files to be written that is among those to be read, or is to be written twice; names that are empty
+// stand for none, and devices take anything.
+inline std::optional<std::string> writtenOver(const std::vector<std::string>& read,
+                                              const std::vector<std::string>& written) {
+    namespace fs = std::filesystem;
+    for (size_t i = 0; i < written.size(); ++i) {
+        std::error_code ignored;
+        const fs::file_type type = fs::status(written[i], ignored).type();
+        const bool file = type == fs::file_type::regular || type == fs::file_type::not_found;
+        if (written[i].empty() || !file) continue;
+        const auto same = [&](const std::string& other) { return !other.empty() && sameFile(other, written[i]); };
+        if (std::any_of(read.begin(), read.end(), same) ||
+            std::any_of(written.begin(), written.begin() + std::ptrdiff_t(i), same))
+            return written[i];
     }
     return std::nullopt;
 }

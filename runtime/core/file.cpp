@@ -68,10 +68,12 @@ int makeNeighbour(const std::filesystem::path& path, std::string& name) {
 
 // What a link leads to, or else the path itself.
 std::filesystem::path behindLinks(const std::filesystem::path& path) {
+    constexpr int kMostLinks = 40;
+    std::filesystem::path behind = path;
     std::error_code error;
-    if (!std::filesystem::is_symlink(path, error)) return path;
-    const std::filesystem::path target = std::filesystem::canonical(path, error);
-    return error ? path : target;
+    for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(behind, error); ++i)
+        behind = behind.parent_path() / std::filesystem::read_symlink(behind, error);
+    return behind;
 }
 
 int writeAll(int fd, std::span<const std::byte> bytes) {

@@ -91,6 +91,8 @@ Planting plantingOf(const EspContext& context, const Maps& maps) {
     return out;
 }
 
+constexpr float kDensest = 1e9f;  // leaves a square metre: as good as no cap
+
 GrowthLimits growthLimits(const EspGrowDef& def) {
     static_assert(uint32_t(WalkMode::paper) == ESP_WALK_PAPER && uint32_t(TangentMode::paper) == ESP_TANGENT_PAPER);
     GrowthLimits limits;
@@ -98,7 +100,7 @@ GrowthLimits growthLimits(const EspGrowDef& def) {
     limits.tangents = TangentMode(def.tangents);
     limits.maxNodes = def.maxNodes;
     limits.maxDepth = def.maxDepth;
-    limits.leafDensityCap = def.leafDensityCap;
+    limits.leafDensityCap = def.leafDensityCap < kDensest ? def.leafDensityCap : 0;
     return limits;
 }
 

@@ -329,3 +329,82 @@ TEST_CASE("the compiler makes vectors of loops over lanes") {
     CHECK(bad.code == 1);
     CHECK_MESSAGE(contains(bad.output, "early.cpp:"), bad.output);
 }
+
+TEST_CASE("what a program reads is never written over by what it writes") {
+    const Folder folder;
+    const std::string town = folder.write("town.json", readAll(content("town.json"))),
+                      grammar = folder.write("own.grammar", readAll(content("grammars/town.grammar"))),
+                      picture = folder.file("a.png"), same = folder.file("b.png");
+    std::filesystem::copy(content("ivy.png"), picture);
+    std::filesystem::create_symlink(picture, same);
+    const std::string scene =
+        folder.write("scene.json", sceneOf(content("ruin.surface.glb"), content("grammars/ivy_free.grammar")));
+    const std::string capture = program("espalier-capture") + " " + scene + " -o " + folder.file("frames");
+    const std::string before = readAll(grammar), pixels = readAll(picture), text = readAll(scene);
+    for (const std::string& command :
+         {program("espalier-bake") + " " + town + " -o " + grammar + " --grammar " + grammar,
+          program("espalier-bake") + " " + town + " -o " + town,
+          program("espalier-compare") + " " + picture + " " + picture + " --diff " + same,
+          capture + " --stats " + scene, capture + " --layer mask=" + picture + " --export mask=" + same,
+          capture + " --stats " + folder.file("frames/frame_0000.png")}) {
+        CAPTURE(command);
+        const Ran ran = run(command);
+        CHECK(ran.code == 2);
+        CHECK_MESSAGE(contains(ran.output, "written over"), ran.output);
+    }
+    CHECK(readAll(grammar) == before);
+    CHECK(readAll(picture) == pixels);
+    CHECK(readAll(scene) == text);
+    CHECK(!std::filesystem::exists(folder.file("frames")));
+}
+
+TEST_CASE("a layer that only a town's roofs read is laid over the town, and stats tell of its roofs") {
+    const Folder folder;
+    const std::string white = folder.file("white.png"), capture = program("espalier-capture") + " ";
+    REQUIRE(run("convert -size 8x8 xc:white " + white).code == 0);
+    const auto hash = [&](const std::string& options) {
+        const std::string stats = folder.file("stats.json");
+        const Ran ran = run(capture + options + content("town.json") + " --size 32x18 -o " + folder.file("frames") +
+                            " --stats " + stats);
+        REQUIRE_MESSAGE(ran.code == 0, ran.output);
+        const std::string told = readAll(stats);
+        REQUIRE(contains(told, "\"roofs\":{\"houses\":"));
+        return told.substr(told.find("\"tiles\":"));
+    };
+    const std::string bare = hash("");
+    CHECK(hash("") == bare);
+    CHECK(hash("--layer decay=" + white + " ") != bare);
+}
+
+TEST_CASE("a file that outgrows what is allowed is an error, and nothing of it stays") {
+    const Folder folder;
+    const Ran ran = run("ulimit -f 8; " + program("espalier-capture") + " " + content("sample.json") +
+                        " --size 320x180 -o " + folder.file("frames"));
+    CHECK(ran.code == 1);
+    CHECK_MESSAGE(contains(ran.output, "frame_0000.png"), ran.output);
+    CHECK(folder.count() == 0);
+}
+
+TEST_CASE("what is written to a link that leads nowhere yet is written where it leads") {
+    const Folder folder;
+    const std::string link = folder.file("link.json");
+    std::filesystem::create_symlink("there.json", link);
+    const Ran ran = run(program("espalier-capture") + " " + content("town.json") + " --size 32x18 -o " +
+                        folder.file("frames") + " --stats " + link);
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(contains(readAll(folder.file("there.json")), "\"hash\""));
+}
+
+TEST_CASE("numbers that no option takes are refused with its name") {
+    const std::string capture = program("espalier-capture") + " " + content("town.json") + " ";
+    for (const char* options : {"--max-nodes 0", "--leaf-cap nan", "--leaf-cap -1", "--camera 1,2,3,1,2,0,180",
+                                "--camera 1,2,3,1,2,0,0", "--export mask=m.jpg"}) {
+        const Ran ran = run(capture + options);
+        CAPTURE(options);
+        CHECK(ran.code == 2);
+        CHECK_MESSAGE(contains(ran.output, std::string(options).substr(0, 6)), ran.output);
+    }
+    CHECK(run(program("espalier-sample") + " --screenshot x.png").code == 2);
+    CHECK(run(program("espalier-sample") + " --autosave nan --frames 1").code == 2);
+}

@@ -20,6 +20,7 @@
 #include "tools/scene/moving.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene.hpp"
+#include "tools/scene/scene_file.hpp"
 #include "tools/scene/text_file.hpp"
 
 using namespace espalier::scene;
@@ -86,9 +87,12 @@ void addOptions(CLI::App& app, Options& options) {
         ->check(CLI::Range(1, 1000))
         ->excludes(replay);
     app.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
-    app.add_option("--layer", options.layersSaid, "NAME=FILE: a picture drawn in the model's UVs");
+    app.add_option("--layer", options.layersSaid,
+                   "NAME=FILE: a picture drawn in the model's UVs, or of a town's layer, seen from above")
+        ->allow_extra_args(false);
     app.add_option("--export", options.exportsSaid,
-                   "NAME=FILE: after the last frame writes a layer over the surface's walk UVs (.exr, .png)");
+                   "NAME=FILE: after the last frame writes a layer over the surface's walk UVs (.exr, .png)")
+        ->allow_extra_args(false);
     app.add_option("--view", options.view, "shaded, charts, normals, lod, depth, overdraw or layer:NAME")
         ->capture_default_str()
         ->excludes(replay);
@@ -99,7 +103,9 @@ void addOptions(CLI::App& app, Options& options) {
         ->excludes(replay);
     app.add_option("--walk", options.walk, "intrinsic or paper, instead of what the scene says")
         ->check(CLI::IsMember({"intrinsic", "paper"}));
-    app.add_option("--max-nodes", options.maxNodes, "growth stops there")->capture_default_str();
+    app.add_option("--max-nodes", options.maxNodes, "growth stops there")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 4294967295u));
     app.add_option("--leaf-cap", options.leafCap, "leaves per square metre and seed at most, 0: no cap")
         ->capture_default_str();
     app.add_option("--cache", options.cache, "folder that keeps compiled grammars");
@@ -126,6 +132,7 @@ bool parseCamera(const std::string& text, EspCamera& camera) {
         camera.target[i] = v[3 + i];
     }
     if (count == 7) camera.fovY = v[6] * 3.14159265f / 180;
+    if (!(camera.fovY >= fovOfDegrees(kLeastFov) && camera.fovY <= fovOfDegrees(kMostFov))) return false;
     return std::all_of(v, v + count, [](float x) { return std::isfinite(x); }) && !std::equal(v, v + 3, v + 3);
 }
 
@@ -137,7 +144,17 @@ bool parseView(const std::string& text, EspLook& look) {
     return true;
 }
 
-std::string statsJson(const EspStats& stats) {
+// Of a town only.
+std::string roofsJson(const EspRoofStats& roofs) {
+    char text[512];
+    std::snprintf(text, sizeof text,
+                  ",\"roofs\":{\"houses\":%u,\"tiles\":%" PRIu64 ",\"clipped\":%" PRIu64
+                  ",\"records\":%u,\"stopped\":%u,\"hash\":\"%016" PRIx64 "\"}",
+                  roofs.houses, roofs.tiles, roofs.clippedTiles, roofs.grids, roofs.stopped, roofs.hash);
+    return roofs.houses > 0 ? text : "";
+}
+
+std::string statsJson(const EspStats& stats, const EspRoofStats& roofs) {
     char text[2048];
     std::snprintf(
         text, sizeof text,
@@ -146,12 +163,12 @@ std::string statsJson(const EspStats& stats) {
         "\"bytes\":{\"nodes\":%" PRIu64 ",\"leaves\":%" PRIu64 ",\"chunks\":%" PRIu64 ",\"surfaces\":%" PRIu64
         ",\"layers\":%" PRIu64 ",\"total\":%" PRIu64
         "},\"overflow\":%u,\"cut\":%u,\"stopped\":%u,\"enlarged\":%u,\"validation_messages\":%u,\"hash\":\"%016" PRIx64
-        "\"}\n",
+        "\"",
         stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons, stats.expandMs, stats.emitMs,
         stats.drawMs, stats.nodeBytes, stats.leafBytes, stats.chunkBytes, stats.surfaceBytes, stats.layerBytes,
         stats.totalBytes, stats.overflow, stats.cut, stats.stopped, stats.enlarged, stats.validationMessages,
         stats.hash);
-    return text;
+    return text + roofsJson(roofs) + "}\n";
 }
 
 // Where frames go and how they look.
@@ -284,15 +301,20 @@ int run(Options options) {
         if (!exportLayer(document, asked.layer, asked.file, error)) return fail(error);
     EspStats stats;
     if (espReadStats(made, &stats) != ESP_OK) return fail(espLastError(made));
-    if (stats.cut > 0) warn("growth was cut at its limit of " + std::to_string(grow.maxNodes) + " nodes");
+    EspRoofStats roofs;
+    if (espReadRoofStats(made, &roofs) != ESP_OK) return fail(espLastError(made));
+    if (stats.cut > 0)
+        warn("growth was cut at its limit of " + std::to_string(grow.maxNodes) + " nodes");
+    else if (stats.stopped > 0)
+        warn("a limit of depth or recursion ended " + std::to_string(stats.stopped) + " branches");
+    if (roofs.stopped > 0) warn("a limit ended " + std::to_string(roofs.stopped) + " shapes of roofs");
     film.warnOfOld(replays ? recorded.frames() : options.frames);
-    if (!options.stats.empty() && !writeText(options.stats, statsJson(stats), error)) return fail(error);
+    if (!options.stats.empty() && !writeText(options.stats, statsJson(stats, roofs), error)) return fail(error);
     std::printf("%u frames in %s: %u seeds, %" PRIu64 " nodes, %u branches, %" PRIu64 " leaves, %" PRIu64
                 " polygons (%s)\n",
                 taken, options.folder.c_str(), stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons,
                 espDeviceName(made));
-    EspRoofStats roofs;
-    if (espReadRoofStats(made, &roofs) == ESP_OK && roofs.houses > 0)
+    if (roofs.houses > 0)
         std::printf("%u houses: %" PRIu64 " tiles (%" PRIu64
                     " clipped) in %u records, %.2f bytes a tile; "
                     "structure %.0f ms, expand %.1f ms; drawn: %u tiles, %u far grids, %" PRIu64 " triangles\n",
@@ -308,11 +330,13 @@ std::string readTexts(Options& options) {
         return "--size takes WIDTHxHEIGHT, 1 to 16384 each, not '" + options.size + "'";
     EspLook look{};
     if (!parseView(options.view, look)) return "--view: no such view: " + options.view;
-    EspCamera camera{};
+    EspCamera camera = espDefaultDrawDef().camera;
     if (!options.camera.empty() && !parseCamera(options.camera, camera))
-        return "--camera takes six or seven numbers with commas between them, eye and target apart, not '" +
+        return "--camera takes six or seven numbers with commas between them, eye and target apart, an angle as a "
+               "scene's, not '" +
                options.camera + "'";
     if (options.hour && !std::isfinite(*options.hour)) return "--hour takes 0 to 24";
+    if (!std::isfinite(options.leafCap) || options.leafCap < 0) return "--leaf-cap takes 0 or more";
     const auto split = [](const std::string& said, LayerFile& out) {
         const size_t sign = std::min(said.find('='), said.size());
         out = {said.substr(0, sign), said.substr(std::min(sign + 1, said.size()))};
@@ -325,8 +349,16 @@ std::string readTexts(Options& options) {
     }
     for (const std::string& said : options.exportsSaid) {
         if (!split(said, read)) return "--export takes NAME=FILE, not '" + said + "'";
+        const auto ending = std::filesystem::path(read.file).extension();
+        if (ending != ".png" && ending != ".exr") return "--export writes .png or .exr, not '" + read.file + "'";
         options.exports.push_back(read);
     }
+    std::vector<std::string> reads{options.request.file, options.request.grammar, options.replay};
+    for (const auto& [layer, file] : options.request.layers) reads.push_back(file);
+    std::vector<std::string> writes{(std::filesystem::path(options.folder) / "frame_0000.png").string(), options.stats};
+    for (const LayerFile& layer : options.exports) writes.push_back(layer.file);
+    if (const auto lost = espalier::writtenOver(reads, writes))
+        return *lost + " would be written over what is read, or was written";
     return {};
 }
 

@@ -78,6 +78,10 @@ int main(int argc, char** argv) {
     app.add_option("--diff", diff, "writes a PNG of the differences, brightest where they are largest");
     if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
 
+    if (espalier::writtenOver({first, second}, {diff})) {
+        std::fprintf(stderr, "espalier-compare: --diff %s would be written over a picture to compare\n", diff.c_str());
+        return 2;
+    }
     FloatPicture a, b;
     std::string error;
     if (!readFloats(first, a, error) || !readFloats(second, b, error)) {

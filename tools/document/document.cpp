@@ -80,10 +80,13 @@ bool Document::open(const scene::Request& request, std::string& error) {
     for (const Seed& seed : scene_.seeds) {
         lastKey_ = std::max(lastKey_, seed.key);
         const scene::LoadedGrammar& grammar = scene_.grammars[seed.grammar];
-        for (const scene::ParamValue& own : seed.params)
-            if (!takesParam(context_, grammar.id, own))
-                scene_.notes.push_back(grammar.file + ": there is no parameter '" + own.name + "' of " +
-                                       (own.count == 3 ? "a colour" : "a number") + ", which a seed sets");
+        for (const scene::ParamValue& own : seed.params) {
+            if (takesParam(context_, grammar.id, own)) continue;
+            const std::string missing = grammar.file + ": there is no parameter '" + own.name + "' of " +
+                                        (own.count == 3 ? "a colour" : "a number") + ", which a seed sets";
+            if (!scene_.project) return error = request.file + ": " + missing, false;
+            scene_.notes.push_back(missing);
+        }
     }
     return true;
 }

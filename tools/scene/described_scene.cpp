@@ -17,7 +17,8 @@ namespace {
 // `carried`: the picture has nothing beside its charts.
 bool layChannel(EspContext* context, const Scene& scene, const std::string& name, const GreyPicture& picture,
                 int surface, bool carried, std::string& error) {
-    if (surface == SceneLayer::kTown)
+    const bool town = surface == SceneLayer::kTown || (surface < 0 && isTownsAlone(context, scene, name));
+    if (town)
         return fromContext(
             context,
             espSetTownLayer(context, name.c_str(), picture.texels.data(), picture.width, picture.height, nullptr),

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <iterator>
 
+#include "tools/scene/town.hpp"
+
 namespace espalier::scene {
 namespace {
 
@@ -48,6 +50,16 @@ bool readsLayer(const Scene& scene, const std::string& name) {
     return holds(scene.layers, name) || std::ranges::any_of(scene.colourLayers, [&](const auto& colour) {
                return holds(channelsOf(scene, colour), name);
            });
+}
+
+bool isTownsAlone(const EspContext* context, const Scene& scene, const std::string& channel) {
+    EspGrammar town{};
+    if (espHouseCount(context) == 0 || espTownGrammar(context, &town) != ESP_OK) return false;
+    for (const LoadedGrammar& grammar : scene.grammars)
+        for (uint32_t i = 0; grammar.id.id != town.id && i < espLayerCount(context, grammar.id); ++i)
+            if (channel == espLayerName(context, grammar.id, i)) return false;
+    const std::vector<TownLayer> layers = townLayers(context);
+    return std::ranges::find(layers, channel, &TownLayer::name) != layers.end();
 }
 
 std::vector<std::string> channelsOf(const Scene& scene, const std::string& layer) {

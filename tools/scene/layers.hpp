@@ -16,6 +16,8 @@ bool isLayersName(const std::string& name, std::string& why);
 bool isColour(const Scene& scene, const std::string& layer);
 // Whether the scene lists the layer, or one of colours whose channel it is.
 bool readsLayer(const Scene& scene, const std::string& name);
+// Its roofs read it, or it is painted over them, and no grammar of plants does: it lies over the town and no surface.
+bool isTownsAlone(const EspContext* context, const Scene& scene, const std::string& channel);
 // The plugin's layers of one of the scene's: red, green and blue, or itself.
 std::vector<std::string> channelsOf(const Scene& scene, const std::string& layer);
 // What one of the plugin's layers has where nothing is painted: what all of it was filled with last, or else what the

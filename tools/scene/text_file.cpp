@@ -48,10 +48,12 @@ fs::path absolutePath(const std::string& path) {
 }
 
 fs::path behindLinks(const fs::path& path) {
-    std::error_code code;
-    if (!fs::is_symlink(path, code)) return path;
-    const fs::path target = fs::canonical(path, code);
-    return code ? path : target;
+    constexpr int kMostLinks = 40;
+    fs::path behind = path;
+    std::error_code error;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(behind, error); ++i)
+        behind = behind.parent_path() / fs::read_symlink(behind, error);
+    return behind;
 }
 
 bool writeText(const std::string& path, std::string_view text, std::string& error) {

@@ -61,21 +61,12 @@ void showProgress(float done, const char* stage) {
     }
 }
 
-// Whether both lead to one file, be it there already or not.
-bool sameFile(const std::string& a, const std::string& b) {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    const auto whole = [&](const std::string& path) { return fs::weakly_canonical(fs::absolute(path), ignored); };
-    return fs::equivalent(a, b, ignored) || whole(a) == whole(b);
-}
-
 int runModel(Arguments& arguments) {
     if (!arguments.quiet) showProgress(0, "read");
-    if (sameFile(arguments.model, arguments.output))
-        return refuse(Failure(arguments.output, "the surface would overwrite its model"));
-    if (!arguments.report.empty() &&
-        (sameFile(arguments.report, arguments.model) || sameFile(arguments.report, arguments.output)))
-        return refuse(Failure(arguments.report, "the report would overwrite the model, or the surface the report"));
+    std::vector<std::string> reads{arguments.model, arguments.weights, arguments.carry.from, arguments.carry.seeds};
+    reads.insert(reads.end(), arguments.carry.layers.begin(), arguments.carry.layers.end());
+    if (const auto lost = writtenOver(reads, {arguments.output, arguments.report}))
+        return refuse(Failure(*lost, "would be written over what is read, or was written"));
     auto model = importModel(arguments.model, arguments.importing);
     if (!model) return fail(model.failure());
     if (!arguments.quiet)
@@ -141,8 +132,9 @@ int runFolder(const Arguments& arguments, const CLI::App& app) {
 
 int runTown(Arguments& arguments) {
     std::error_code ignored;
-    if (sameFile(arguments.model, arguments.output))
-        return refuse(Failure(arguments.output, "the town would overwrite its footprints"));
+    if (const auto lost =
+            writtenOver({arguments.model, arguments.town.grammar, arguments.town.meshes}, {arguments.output}))
+        return refuse(Failure(*lost, "the town would be written over what it is made of"));
     arguments.town.footprints = arguments.model;
     arguments.town.output = arguments.output;
     arguments.town.quiet = arguments.quiet;
@@ -163,7 +155,6 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string("espalier-bake ") + ESPALIER_VERSION);
     addOptions(app, arguments);
     if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
-    ::signal(SIGXFSZ, SIG_IGN);  // too large a file is an error like a full disk, with a message
     try {
         const InputKind kind = kindOf(arguments.model);
         if (const auto mistake = mistakeIn(app, arguments, kind)) return refuse(*mistake);

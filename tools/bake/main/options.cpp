@@ -40,6 +40,7 @@ void addModelOptions(CLI::App& app, Arguments& arguments) {
                      ->group(kOfModel);
     app.add_option("--layer", arguments.carry.layers,
                    "a layer that was painted over that surface's walk UVs (.png); written beside the new surface")
+        ->allow_extra_args(false)
         ->needs(from)
         ->group(kOfModel);
     app.add_option("--seeds", arguments.carry.seeds,
@@ -65,14 +66,14 @@ void addBakeOptions(CLI::App& app, Arguments& arguments) {
         ->group(kOfModels);
     app.add_option("--tolerance", arguments.tolerance,
                    "metres within which borders without a twin are linked; 0: one texel's footprint")
-        ->check(CLI::NonNegativeNumber)
+        ->check(CLI::Range(0.0, 1e6))
         ->group(kOfModels);
     app.add_option("--uv-set", arguments.importing.uvSet, "the TEXCOORD set that is unwrapped")
         ->capture_default_str()
         ->check(CLI::Range(0, 7))
         ->group(kOfModels);
     app.add_option("--scene", arguments.importing.scene, "which of a glTF file's scenes, from 0; else its default one")
-        ->check(CLI::NonNegativeNumber)
+        ->check(CLI::Range(0, 65535))
         ->group(kOfModels);
     app.add_option("--bare", arguments.importing.bare,
                    "nothing grows on materials of this name, as '*window*', small and capital letters alike; may be "
@@ -103,7 +104,10 @@ void addTownOptions(CLI::App& app, Arguments& arguments) {
                  "its walls alone, without windows and doors, which the grammar tells: bake that as ground for plants")
         ->needs(grammar)
         ->group(kOfTown);
-    app.add_option("--house", arguments.town.houses, "only these, by id; may be repeated")->take_all()->group(kOfTown);
+    app.add_option("--house", arguments.town.houses, "only these, by id; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->group(kOfTown);
     app.add_option("--meshes", arguments.town.meshes, "the grammar's terminals (default: roofs.glb of the content)")
         ->needs(grammar)
         ->group(kOfTown);
