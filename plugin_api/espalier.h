@@ -87,8 +87,8 @@ ESP_API EspResult espCreate(const EspContextDef* def, EspContext** out);
  * submitted by then must never be. NULL is allowed. */
 ESP_API void espDestroy(EspContext* context);
 
-/* Gives back to the device what GPU memory is only kept for what comes: by itself a context keeps up to 256 MiB of it, 1 GiB on a software device, as asking
- * for it again costs time. For when nothing is to come soon: a pause, a menu, a level that has been loaded, a window at
+/* Gives back to the device what GPU memory is only kept for what comes: by itself a context keeps up to 256 MiB of it, 1 GiB
+ * on a software device, as asking for it again costs time. For when nothing is to come soon: a pause, a menu, a level that has been loaded, a window at
  * rest. Waits for the GPU; what was recorded into the host's command buffers has to be submitted, as before espUpdate.
  * What stands and is drawn stays. Where an earlier growth needed far more, it is copied into buffers of its own size: both
  * exist for a moment, and the next frame takes a little longer. EspStats::reservedBytes tells what is left. */

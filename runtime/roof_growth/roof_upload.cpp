@@ -135,11 +135,13 @@ Status GpuRoofs::uploadGrammar(Commands& commands, const RoofInputs& inputs) {
 Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs, Set& set) {
     std::vector<RoofLayer> table(kRoofLayers);
     const uint64_t row = uint64_t(inputs.site.size) * sizeof(float);
-    for (uint32_t i = 0; i < kRoofLayers; ++i) {
+    const std::vector<ContextInfo>& contexts = inputs.grammar->contexts();
+    for (uint32_t i = 0; i < std::min<size_t>(contexts.size(), kRoofLayers); ++i) {
         const RoofInputs::Layer& layer = inputs.layers[i];
-        table[i].fill = inputs.fill(i);
+        table[i].fill = contexts[i].fill;
+        LayerTexels& kept = layers_[contexts[i].name];
+        if (!layer.texels) kept.sent = false;
         if (!layer.texels) continue;
-        LayerTexels& kept = layers_[inputs.grammar->contexts()[i].name];
         const bool fresh = !kept.sent || !kept.buffer || kept.buffer.size() < row * inputs.site.size;
         kept.sent = false;
         if (Status s = ensure(kept.buffer, "roof layer", row * inputs.site.size); !s) return s;

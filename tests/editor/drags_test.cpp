@@ -76,7 +76,7 @@ TEST_CASE("a drag in the picker of a grammar's colour is one step of undo, and E
         return glm::vec3(now.value[0], now.value[1], now.value[2]);
     };
     const glm::vec3 first = colour();
-    painter.openPicker({0, number, "##value", "##ColorButton"});
+    painter.openPicker({0, info.name, "##value", "##ColorButton"});
     const glm::vec2 shades = painter.shades();
     painter.drag(shades, false);
     const glm::vec3 dragged = colour();

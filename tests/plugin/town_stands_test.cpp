@@ -127,6 +127,31 @@ TEST_CASE("a house beyond the square of its town's layers reads their border, wh
     CHECK(host.stats().hash == away);
 }
 
+TEST_CASE("a layer that went with its stroke's undoing and comes again shows nothing of before") {
+    const EspDab first = {{5, 0, -4}, {0, 1, 0}, 1}, second = {{45, 0, -4}, {0, 1, 0}, 1};
+    EspBrush brush = brushOn("decay", 3);
+    brush.strength = brush.hardness = 1;
+    std::vector<std::vector<uint8_t>> pictures;
+    for (const bool before : {false, true}) {
+        const Houses host;
+        if (before) {
+            const EspStroke undone = stroke(host.context, brush, first);
+            host.update(ESP_OK);
+            REQUIRE(espSwapStroke(host.context, undone) == ESP_OK);
+            REQUIRE(espTownLayerCount(host.context) == 0);
+            host.update(ESP_OK);
+        }
+        const EspCamera camera = espFrameAll(host.context);
+        pictures.push_back(host.picture(camera));
+        stroke(host.context, brush, second);
+        host.update(ESP_OK);
+        pictures.push_back(host.picture(camera));
+    }
+    CHECK(pictures[0] != pictures[1]);
+    CHECK(pictures[2] == pictures[0]);
+    CHECK(pictures[3] == pictures[1]);
+}
+
 TEST_CASE("of roofs whose grammar is gone nothing is told") {
     const Houses host;
     REQUIRE(host.stats().tiles > 0);

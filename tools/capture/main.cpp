@@ -358,7 +358,7 @@ std::string readTexts(Options& options) {
     std::vector<std::string> writes{(std::filesystem::path(options.folder) / "frame_0000.png").string(), options.stats};
     for (const LayerFile& layer : options.exports) writes.push_back(layer.file);
     if (const auto lost = espalier::writtenOver(reads, writes))
-        return *lost + " would be written over what is read, or was written";
+        return *lost + " would overwrite what is read, or another file that is written";
     return {};
 }
 

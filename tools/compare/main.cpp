@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
     if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
 
     if (espalier::writtenOver({first, second}, {diff})) {
-        std::fprintf(stderr, "espalier-compare: --diff %s would be written over a picture to compare\n", diff.c_str());
+        std::fprintf(stderr, "espalier-compare: --diff %s would overwrite a picture to compare\n", diff.c_str());
         return 2;
     }
     FloatPicture a, b;

@@ -1,5 +1,6 @@
 // Trees and bushes. In: how a species stands. Out: trunk and boughs as tubes, twigs as cards that lie about the lobes
-// of its crown, fewer and larger ones a level.
+// of its crown; a level's cards stand for those of the finest one that lie near each other, so that a crown keeps its
+// outline and its gaps.
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,7 @@ struct Habit {
     int boughs;
     bool birch;
 };
+constexpr int kAppleRow = 1;
 const Habit kHabits[] = {
     {"lime_a", 0, 21, 1.9f, 9.6f, 3.5f, 0.42f, 0.45f, 13, {500, 150, 44}, 0.96f, 0.30f, 9, false},
     {"lime_b", 0, 22, 2.2f, 11.2f, 3.9f, 0.40f, 0.45f, 15, {560, 165, 46}, 1.03f, 0.36f, 10, false},
@@ -68,7 +70,8 @@ void addTube(Mesh& mesh, const std::vector<glm::vec3>& line, float r0, float r1,
         }
 }
 
-constexpr float kFlat = 0.8f;  // height of a lobe by its width
+constexpr float kFlat = 0.8f;                            // height of a lobe by its width
+constexpr float kSpread[kPlantLods] = {0, 1.4f, 1.75f};  // of a group's reach, that its card is larger by
 struct Lobe {
     glm::vec3 at, away;  // away: from the trunk, unit
     float radius;
@@ -85,7 +88,7 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
         const float highest = h.birch ? 0.88f : bush ? 0.62f : 0.84f, rise = bush ? 0.40f : h.birch ? 0.74f : 0.72f;
         const float t = top ? highest : 0.10f + rise * (float(k) + 0.5f * random(0)) / float(h.lobes - 1);
         const float angle = 2.399963f * float(k) + 0.6f * random(1), wide = crownRadius(h, t);
-        const float most = (bush ? 0.44f : 0.26f) * tall;
+        const float most = (bush ? 0.44f : h.row == kAppleRow ? 0.36f : 0.26f) * tall;
         const float broad = h.birch ? 0.78f * std::max(wide, 0.6f * h.radius) : (bush ? 0.66f : 0.60f) * h.radius;
         const float radius = std::min(broad * (bush ? 0.8f + 0.4f * random(2) : 0.70f + 0.50f * random(2)), most);
         const float reach = std::max(wide * (0.84f + 0.16f * random(3)) - 0.82f * radius, 0.25f * wide);
@@ -102,14 +105,16 @@ std::vector<Lobe> lobesOf(const Habit& h, glm::vec3 lean) {
 struct Twig {
     const Lobe* lobe;
     glm::vec3 at, dir;  // dir: from the lobe's middle, unit
+    float side;
 };
 
 // Even over the lobes; what would lie inside the crown comes round to its outside. None hangs below the crown's foot.
-std::vector<Twig> twigsOf(const Habit& h, const std::vector<Lobe>& lobes, int lod, float side) {
+std::vector<Twig> twigsOf(const Habit& h, const std::vector<Lobe>& lobes) {
     std::vector<Twig> twigs;
-    const int cards = h.cards[lod], count = (cards + h.lobes - 1) / h.lobes;
+    const float side = h.side;
+    const int cards = h.cards[0], count = (cards + h.lobes - 1) / h.lobes;
     for (int i = 0; i < cards; ++i) {
-        const auto random = [&](uint32_t which) { return random01(h.salt * 7 + uint32_t(lod), uint32_t(i), which); };
+        const auto random = [&](uint32_t which) { return random01(h.salt * 7, uint32_t(i), which); };
         const Lobe& lobe = lobes[size_t(i) % lobes.size()];
         const int which = i / h.lobes;
         const float up = 1 - 2 * glm::clamp((float(which) + random(0)) / float(count), 0.0f, 1.0f);
@@ -124,13 +129,13 @@ std::vector<Twig> twigsOf(const Habit& h, const std::vector<Lobe>& lobes, int lo
         if (fills) at -= lobe.away * (0.7f * random(11) * glm::length(glm::vec2(lobe.at.x, lobe.at.z)));
         at.y = std::max(at.y, h.crownFoot + (h.trunk > 0 ? 0.5f : 0.3f) * side);
         if (h.trunk == 0 && i % 3 == 0) at.y = (0.1f + 0.2f * random(10)) * side;  // it stands on the ground
-        twigs.push_back({&lobe, at, dir});
+        twigs.push_back({&lobe, at, dir, side});
     }
     return twigs;
 }
 
 // One that would hang in the air by itself moves in to its lobe's middle until others are near, at last over to those.
-void gather(std::vector<Twig>& twigs, float side) {
+void gather(std::vector<Twig>& twigs) {
     constexpr int kCompany = 4, kInward = 4, kSteps = 6;
     std::vector<glm::vec3> near(kCompany + 1), all(twigs.size());
     for (int step = 0; step < kSteps; ++step)
@@ -140,11 +145,51 @@ void gather(std::vector<Twig>& twigs, float side) {
             };
             std::transform(twigs.begin(), twigs.end(), all.begin(), [](const Twig& other) { return other.at; });
             std::partial_sort_copy(all.begin(), all.end(), near.begin(), near.end(), nearer);  // itself first
-            if (glm::distance(near.back(), twig.at) < 0.8f * side) continue;
+            if (glm::distance(near.back(), twig.at) < 0.8f * twig.side) continue;
             const glm::vec3 sum = std::accumulate(near.begin() + 1, near.end(), glm::vec3(0));
             twig.at = step < kInward ? glm::mix(twig.at, twig.lobe->at, 0.25f)
                                      : glm::mix(twig.at, sum / float(kCompany), 0.5f);
         }
+}
+
+// One for each of so many groups of those that lie near each other, as large as its group is wide. Groups begin far
+// from each other, and what is nearer to another goes over to that.
+std::vector<Twig> grouped(std::span<const Twig> twigs, int groups, float side, float spread) {
+    constexpr int kRounds = 8;
+    const auto nearest = [](std::span<const glm::vec3> middles, glm::vec3 at) {
+        const auto far = [&](glm::vec3 middle) { return glm::distance(middle, at); };
+        return size_t(std::ranges::min_element(middles, {}, far) - middles.begin());
+    };
+    std::vector<glm::vec3> middles{twigs[0].at};
+    while (int(middles.size()) < groups) {
+        const auto off = [&](const Twig& t) { return glm::distance(middles[nearest(middles, t.at)], t.at); };
+        middles.push_back(std::ranges::max_element(twigs, {}, off)->at);
+    }
+    std::vector<std::vector<const Twig*>> members;
+    for (int round = 0; round < kRounds; ++round) {
+        members.assign(middles.size(), {});
+        for (const Twig& t : twigs) members[nearest(middles, t.at)].push_back(&t);
+        for (size_t i = 0; i < middles.size(); ++i) {
+            glm::vec3 sum(0);
+            for (const Twig* t : members[i]) sum += t->at;
+            if (!members[i].empty()) middles[i] = sum / float(members[i].size());
+        }
+    }
+    std::vector<Twig> out;
+    for (size_t i = 0; i < middles.size(); ++i) {
+        if (members[i].empty()) continue;
+        glm::vec3 dir(0);
+        float reach = 0;
+        for (const Twig* t : members[i]) {
+            dir += t->dir;
+            reach = std::max(reach, glm::distance(t->at, middles[i]));
+        }
+        const auto off = [&](const Twig* t) { return glm::distance(t->at, middles[i]); };
+        const Lobe* lobe = (*std::ranges::min_element(members[i], {}, off))->lobe;
+        const bool one = glm::length(dir) > 1e-3f;
+        out.push_back({lobe, middles[i], one ? glm::normalize(dir) : lobe->away, side + spread * reach});
+    }
+    return out;
 }
 
 // Places within a crown: lobes are even clouds of leaves, which hide the more of the sky the longer the way through
@@ -224,15 +269,17 @@ Mesh makeTree(const Habit& h, int lod) {
             addTube(mesh, {root, bend, end}, h.trunk * (h.birch ? 0.28f : 0.45f), h.trunk * 0.10f, lod == 0 ? 4 : 3, 0,
                     0.5f);
         }
-    const int cards = h.cards[lod];
-    const float side = h.side * std::pow(float(h.cards[0]) / float(cards), 0.43f);
     const std::vector<Lobe> lobes = lobesOf(h, lean);
     const Crown crown(h, lobes);
-    std::vector<Twig> twigs = twigsOf(h, lobes, lod, side);
-    gather(twigs, side);
-    for (int i = 0; i < cards; ++i) {
+    std::vector<Twig> twigs = twigsOf(h, lobes);
+    gather(twigs);
+    if (lod > 0) {
+        twigs = grouped(twigs, h.cards[lod], h.side, kSpread[lod]);
+        gather(twigs);
+    }
+    for (size_t i = 0; i < twigs.size(); ++i) {
         const auto random = [&](uint32_t which) { return random01(h.salt * 7 + uint32_t(lod), uint32_t(i), which); };
-        const auto& [lobe, at, dir] = twigs[size_t(i)];
+        const auto& [lobe, at, dir, side] = twigs[i];
         const glm::vec3 tilt(random(3) - 0.5f, random(4) - 0.35f, random(5) - 0.5f);
         glm::vec3 out = glm::normalize(0.3f * crown.away(at) + 0.7f * dir + 1.4f * tilt);
         // Seen from the ground, a card that lies flat is a line.

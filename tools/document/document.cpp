@@ -84,7 +84,10 @@ bool Document::open(const scene::Request& request, std::string& error) {
             if (takesParam(context_, grammar.id, own)) continue;
             const std::string missing = grammar.file + ": there is no parameter '" + own.name + "' of " +
                                         (own.count == 3 ? "a colour" : "a number") + ", which a seed sets";
-            if (!scene_.project) return error = request.file + ": " + missing, false;
+            if (!scene_.project) {
+                error = request.file + ": " + missing;
+                return false;
+            }
             scene_.notes.push_back(missing);
         }
     }

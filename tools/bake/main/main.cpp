@@ -66,7 +66,7 @@ int runModel(Arguments& arguments) {
     std::vector<std::string> reads{arguments.model, arguments.weights, arguments.carry.from, arguments.carry.seeds};
     reads.insert(reads.end(), arguments.carry.layers.begin(), arguments.carry.layers.end());
     if (const auto lost = writtenOver(reads, {arguments.output, arguments.report}))
-        return refuse(Failure(*lost, "would be written over what is read, or was written"));
+        return refuse(Failure(*lost, "would overwrite what is read, or another file that is written"));
     auto model = importModel(arguments.model, arguments.importing);
     if (!model) return fail(model.failure());
     if (!arguments.quiet)
@@ -134,7 +134,7 @@ int runTown(Arguments& arguments) {
     std::error_code ignored;
     if (const auto lost =
             writtenOver({arguments.model, arguments.town.grammar, arguments.town.meshes}, {arguments.output}))
-        return refuse(Failure(*lost, "the town would be written over what it is made of"));
+        return refuse(Failure(*lost, "the town would overwrite what it is made of"));
     arguments.town.footprints = arguments.model;
     arguments.town.output = arguments.output;
     arguments.town.quiet = arguments.quiet;
