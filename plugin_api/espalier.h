@@ -355,7 +355,7 @@ typedef struct EspDrawDef {
     void* colourImage;           /* VkImage */
     void* colourView;            /* VkImageView */
     uint32_t colourFormat;       /* VkFormat */
-    uint64_t frame;              /* with commandBuffer: the host's number of this frame, from 1, rising */
+    uint64_t frame;              /* with commandBuffer: the host's number of this frame, from 1, rising; one that is done is refused */
     uint64_t framesDone;         /* the GPU has finished all of the host's frames up to this one */
     const EspHostScene* scene;   /* with commandBuffer: what growth is drawn into; NULL: the whole picture is ours */
 } EspDrawDef;

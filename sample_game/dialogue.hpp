@@ -63,6 +63,9 @@ Dialogues::Turn turnOf(const Workspace& work, bool good);
 // The end of what a dialogue waits for. Cancelled, it asks again.
 void endWait(const Workspace& work, bool good);
 
+// For another place for what couldn't be saved, and hasn't been since, once no dialogue is open.
+void askElsewhere(Workspace& work, const Session& session);
+
 // Each laid out while it is open.
 void projectDialogues(Workspace& work, Session& session);  // save, open, leave, recover
 void layerDialogues(Workspace& work, Session& session);    // pictures of layers, out and in

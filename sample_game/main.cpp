@@ -19,7 +19,9 @@ int main(int argc, char** argv) {
         "FILE", options.request.file,
         "a scene (SCENE.json), a project's folder, what espalier-bake wrote (SURFACE.glb), or a recorded run "
         "(RUN.jsonl) to see again; default: the sample scene");
-    cli.add_option("--layer", layers, "NAME=FILE: a picture drawn in the model's UVs")->allow_extra_args(false);
+    cli.add_option("--layer", layers,
+                   "NAME=FILE: a picture drawn in the model's UVs, or of a town's layer, seen from above")
+        ->allow_extra_args(false);
     cli.add_option("--grammar", options.request.grammar, "takes the place of the scene's first grammar");
     cli.add_option("--seed", seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
         ->check(CLI::Range(0ll, 4294967295ll));

@@ -61,6 +61,7 @@ void showDialogues(Workspace& work, Session& session) {
     projectDialogues(work, session);
     runDialogues(work, session);
     layerDialogues(work, session);
+    askElsewhere(work, session);
 }
 
 }  // namespace sample

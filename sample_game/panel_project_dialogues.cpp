@@ -108,9 +108,9 @@ void leavingDialogue(Workspace& work, Session& session) {
 
 }  // namespace
 
-// What couldn't be saved, once no other dialogue is open.
-void askElsewhere(Workspace& work) {
+void askElsewhere(Workspace& work, const Session& session) {
     Dialogues& d = dialogues();
+    if (!session.modified(work)) d.unsaved.clear();
     if (d.unsaved.empty() || d.asks || d.open) return;
     work.error = std::exchange(d.unsaved, {});
     ask("Save the project");
@@ -127,13 +127,13 @@ bool askToSave(Workspace& work, Session& session, bool elsewhere) {
         if (!elsewhere && !found.why.empty()) doubt(own, found);
         return false;
     }
-    session.save(work, session.folder(), [&work](bool good) {
+    session.save(work, session.folder(), [&work, &session](bool good) {
         if (good) return;
         Dialogues& d = dialogues();
         d.leaves = false;
         if (work.error.empty()) return d.next.reset();  // cancelled
         d.unsaved = work.error;
-        askElsewhere(work);
+        askElsewhere(work, session);
     });
     return true;
 }
@@ -164,7 +164,6 @@ void askToOpen(const std::string& refused, const std::string& why) {
 
 void projectDialogues(Workspace& work, Session& session) {
     Dialogues& d = dialogues();
-    askElsewhere(work);
     askPath(work, session,
             {"Save the project",
              "Folder of the project:",

@@ -129,7 +129,7 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     for (uint32_t index : seeds.planted) items.push_back(all[index]);
     std::vector<Wave> waves(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
     waves[0].count = waves[0].announced = uint32_t(items.size());
-    waves[0].groups[0] = (waves[0].count + kItemsPerGroupAgain - 1) / kItemsPerGroupAgain;
+    waves[0].groups[0] = groupsOf(waves[0].count, kItemsPerGroupAgain);
     Status steps[] = {uploadStatus(commands, inputs, s), commands.upload(again_, state),
                       commands.upload(edits_, std::as_bytes(edits)), commands.upload(waves_, waves),
                       commands.upload(items_[0], items)};

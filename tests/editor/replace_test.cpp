@@ -142,3 +142,28 @@ TEST_CASE("a picture is written over another only when that is confirmed") {
     sample::askForLayer("mask", false);
     CHECK(std::string(dialogues().picture.data()) == folder.file("mask-2.png"));
 }
+
+TEST_CASE("what couldn't be saved while another dialogue was open is asked about after it, unless saved by then") {
+    const Folder folder;
+    const auto isOpen = [](const char* title) {
+        const ImGuiWindow* found = ImGui::FindWindowByName(title);
+        return found && found->WasActive;
+    };
+    for (const bool saved : {false, true}) {
+        CAPTURE(saved);
+        Answered window(folder, smallScene(folder));
+        window.fill(.5f);
+        sample::askForLayer("mask", false);
+        window.settle();
+        REQUIRE(dialogues().asks);
+        dialogues().unsaved = "no room";
+        window.settle();
+        CHECK(!isOpen("Save the project"));
+        CHECK(dialogues().unsaved == "no room");
+        if (saved) REQUIRE(window.save(folder.file("elsewhere")));
+        ImGui::ClosePopupToLevel(0, true);
+        window.settle();
+        CHECK(dialogues().unsaved.empty());
+        CHECK(isOpen("Save the project") == !saved);
+    }
+}

@@ -154,7 +154,7 @@ void gather(std::vector<Twig>& twigs) {
 
 // One for each of so many groups of those that lie near each other, as large as its group is wide. Groups begin far
 // from each other, and what is nearer to another goes over to that.
-std::vector<Twig> grouped(std::span<const Twig> twigs, int groups, float side, float spread) {
+std::vector<Twig> grouped(std::span<const Twig> twigs, int groups, float spread) {
     constexpr int kRounds = 8;
     const auto nearest = [](std::span<const glm::vec3> middles, glm::vec3 at) {
         const auto far = [&](glm::vec3 middle) { return glm::distance(middle, at); };
@@ -187,7 +187,7 @@ std::vector<Twig> grouped(std::span<const Twig> twigs, int groups, float side, f
         const auto off = [&](const Twig* t) { return glm::distance(t->at, middles[i]); };
         const Lobe* lobe = (*std::ranges::min_element(members[i], {}, off))->lobe;
         const bool one = glm::length(dir) > 1e-3f;
-        out.push_back({lobe, middles[i], one ? glm::normalize(dir) : lobe->away, side + spread * reach});
+        out.push_back({lobe, middles[i], one ? glm::normalize(dir) : lobe->away, twigs[0].side + spread * reach});
     }
     return out;
 }
@@ -274,7 +274,7 @@ Mesh makeTree(const Habit& h, int lod) {
     std::vector<Twig> twigs = twigsOf(h, lobes);
     gather(twigs);
     if (lod > 0) {
-        twigs = grouped(twigs, h.cards[lod], h.side, kSpread[lod]);
+        twigs = grouped(twigs, h.cards[lod], kSpread[lod]);
         gather(twigs);
     }
     for (size_t i = 0; i < twigs.size(); ++i) {
