@@ -16,13 +16,13 @@ std::span<const uint32_t> builtIn(std::string_view shader) {
 }
 
 // A shader module, for as long as a pipeline is being made of it.
-class Module {
+class LoadedModule {
   public:
-    static Result<Module> create(Device& device, std::string_view name, std::span<const uint32_t> code,
-                                 const ProgramOptions& options) {
+    static Result<LoadedModule> create(Device& device, std::string_view name, std::span<const uint32_t> code,
+                                       const ProgramOptions& options) {
         Result<ShaderInterface> interface = reflect(name, code, options.constants);
         if (!interface) return interface.failure();
-        Module m(device, std::move(*interface));
+        LoadedModule m(device, std::move(*interface));
         std::vector<uint32_t> exact;
         if (options.exact) code = exact = withoutContraction(code);
         VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
@@ -33,9 +33,9 @@ class Module {
         device.setName(VK_OBJECT_TYPE_SHADER_MODULE, uint64_t(m.handle_), name);
         return m;
     }
-    Module(Module&& other) noexcept
+    LoadedModule(LoadedModule&& other) noexcept
         : shape(std::move(other.shape)), device_(other.device_), handle_(std::exchange(other.handle_, nullptr)) {}
-    ~Module() {
+    ~LoadedModule() {
         if (handle_) device_->vk().vkDestroyShaderModule(device_->handle(), handle_, nullptr);
     }
     VkPipelineShaderStageCreateInfo stage(const VkSpecializationInfo& constants) const {
@@ -50,7 +50,7 @@ class Module {
     ShaderInterface shape;
 
   private:
-    Module(Device& device, ShaderInterface interface) : shape(std::move(interface)), device_(&device) {}
+    LoadedModule(Device& device, ShaderInterface interface) : shape(std::move(interface)), device_(&device) {}
     Device* device_;
     VkShaderModule handle_ = VK_NULL_HANDLE;
 };
@@ -166,7 +166,7 @@ Status Program::makeLayout(Device& device, std::span<const ShaderInterface> shap
 }
 
 Result<Program> Program::compute(Device& device, std::string_view shader, const ProgramOptions& options) {
-    Result<Module> module = Module::create(device, shader, builtIn(shader), options);
+    Result<LoadedModule> module = LoadedModule::create(device, shader, builtIn(shader), options);
     if (!module) return module.failure();
     require(module->shape.stage == VK_SHADER_STAGE_COMPUTE_BIT, std::string(shader) + " is not a compute shader");
     Program p;
@@ -188,17 +188,17 @@ Result<Program> Program::compute(Device& device, std::string_view shader, const 
 
 Result<Program> Program::graphics(Device& device, const GraphicsDesc& desc) {
     const Specialization constants(desc.options.constants);
-    std::vector<Module> modules;
+    std::vector<LoadedModule> modules;
     std::vector<ShaderInterface> shapes;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     for (std::string_view shader : {desc.vertex, desc.fragment}) {
         if (shader.empty() && !modules.empty()) continue;  // depth only
-        Result<Module> module = Module::create(device, shader, builtIn(shader), desc.options);
+        Result<LoadedModule> module = LoadedModule::create(device, shader, builtIn(shader), desc.options);
         if (!module) return module.failure();
         modules.push_back(std::move(*module));
         shapes.push_back(modules.back().shape);
     }
-    for (const Module& module : modules) stages.push_back(module.stage(constants.info));
+    for (const LoadedModule& module : modules) stages.push_back(module.stage(constants.info));
     Program p;
     p.name_ = desc.name;
     if (Status status = p.makeLayout(device, shapes); !status) return status.failure();

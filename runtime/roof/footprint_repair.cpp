@@ -17,7 +17,7 @@ using ClipperLib::Paths;
 constexpr double kNear = 0.005;          // metres: corners nearer than this are one
 constexpr double kStraight = 0.002;      // metres off the line between its neighbours: no corner
 constexpr double kLeastArea = 0.05;      // square metres
-constexpr double kFarthest = 100000;     // metres from the house's first corner
+constexpr double kLargest = 100000;      // metres from the house's first corner
 constexpr size_t kMostCrossings = 1000;  // pairs of edges that cross or touch, of what is mended
 
 double areaOf(const std::vector<glm::dvec2>& ring) {
@@ -229,7 +229,7 @@ std::vector<RepairedOutline> repairOutline(const Footprint& footprint, std::vect
         return say("the outline has " + std::to_string(corners) + " corners, more than " +
                        std::to_string(kMostCorners) + ": left out",
                    false);
-    if (glm::length(high - low) > kFarthest) return say("the outline is larger than 100 km: left out", false);
+    if (glm::length(high - low) > kLargest) return say("the outline is larger than 100 km: left out", false);
 
     glm::dvec2 origin = glm::round((low + high) / 2.0);
     double grid = gridFor(glm::length(high - low) / 2 + 1);

@@ -11,7 +11,7 @@
 namespace espalier {
 namespace {
 
-constexpr double kFacing = 0.5;  // cosine between the outsides of what is one place
+constexpr double kAgreeing = 0.5;  // cosine between the outsides of what is one place
 constexpr double kRadiusShare = 0.01;
 constexpr double kTexels = 2;
 
@@ -50,7 +50,7 @@ class Target {
             [&](uint32_t t) {
                 const DrawVertex &a = vertex(t, 0), &b = vertex(t, 1), &c = vertex(t, 2);
                 const glm::dvec3 outside(a.normal + b.normal + c.normal);
-                const bool faces = glm::dot(outside, normal) > kFacing * glm::length(outside);
+                const bool faces = glm::dot(outside, normal) > kAgreeing * glm::length(outside);
                 if (!faces && normal != glm::dvec3(0)) return 1e300;
                 const glm::dvec3 w = weights(p, glm::dvec3(a.position), glm::dvec3(b.position), glm::dvec3(c.position));
                 const glm::dvec3 at =

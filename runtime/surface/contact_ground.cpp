@@ -135,7 +135,7 @@ ContactGround::ContactGround(const SurfaceData& data) {
 namespace {
 
 // A search between two grounds, in a's object space.
-struct Search {
+struct ContactSearch {
     const PlacedGround& a;
     const PlacedGround& b;
     std::span<const PlacedGround> others;
@@ -218,7 +218,7 @@ PlacedContacts contactsOf(const PlacedGround& a, const PlacedGround& b, std::spa
                                  kBorderShift * b.ground->texelUv()};
     const ContactsBetween found = contactsBetween(a.ground->mesh(), a.ground->bodies().tree(), b.ground->mesh(),
                                                   b.ground->bodies().tree(), options);
-    const Search search{a, b, others, tolerance, a.toWorld};
+    const ContactSearch search{a, b, others, tolerance, a.toWorld};
     return {search.visible(found.fromA, true), search.visible(found.fromB, false)};
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/bake/baking.hpp"
 #include "tests/bake/kits.hpp"
 #include "tests/bake/small_models.hpp"
 #include "tests/support/data.hpp"
@@ -15,14 +16,6 @@ using namespace espalier;
 using namespace espalier::test;
 
 namespace {
-
-Baked bakeOrFail(const Model& model, uint32_t resolution = 256) {
-    BakeOptions options;
-    options.resolution = resolution;
-    auto baked = bake(model, options);
-    if (!baked) FAIL(baked.failure().text());
-    return std::move(*baked);
-}
 
 double modelArea(const Model& model) {
     double area = 0;

@@ -1,5 +1,6 @@
 // Small surfaces against what is known of them by construction: classes, planes, crossings, clearance, curvature.
 #include "tools/bake/bake.hpp"
+#include "tests/bake/baking.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,15 +14,6 @@ using namespace espalier;
 using namespace espalier::test;
 
 namespace {
-
-Baked bakeOrFail(const Model& model, uint32_t resolution = 256, bool keep = false) {
-    BakeOptions options;
-    options.resolution = resolution;
-    options.keepLayout = keep;
-    auto baked = bake(model, options);
-    if (!baked) FAIL(baked.failure().text());
-    return std::move(*baked);
-}
 
 std::string refusal(const Model& model, BakeOptions options = {}) {
     auto baked = bake(model, options);

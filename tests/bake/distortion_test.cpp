@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "tests/bake/baking.hpp"
 #include "tests/bake/small_models.hpp"
 #include "tools/bake/bake.hpp"
 
@@ -94,16 +95,6 @@ void compare(const Model& model, const Baked& baked) {
     CHECK(r.ofAngle.max == near(quantile(ofAngle, 1)));
 }
 
-Baked bakeOrFail(const Model& model, bool keepLayout) {
-    BakeOptions options;
-    options.resolution = 256;
-    options.levels = 2;
-    options.keepLayout = keepLayout;
-    auto baked = bake(model, options);
-    if (!baked) FAIL(baked.failure().text());
-    return std::move(*baked);
-}
-
 // A hill of height `h` over [-1, 1]², its UVs seen from above and squeezed in v.
 Model hill(float h, float squeeze) {
     Model m;
@@ -123,13 +114,13 @@ Model hill(float h, float squeeze) {
 TEST_CASE("distortion and the share in charts are what sums over the triangles say") {
     for (float squeeze : {1.0f, 0.8f}) {
         const Model model = hill(0.6f, squeeze);
-        const Baked baked = bakeOrFail(model, true);
+        const Baked baked = bakeOrFail(model, 256, true);
         compare(model, baked);
         CHECK(baked.report.ofArea.max > 1.2);  // there is something to be told
         CHECK(baked.report.ofAngle.p50 > 1.02);
     }
     const Model box = cube(3);
-    compare(box, bakeOrFail(box, false));
+    compare(box, bakeOrFail(box));
 }
 
 TEST_CASE("a chart that is squeezed to a half is told as such") {
@@ -138,7 +129,7 @@ TEST_CASE("a chart that is squeezed to a half is told as such") {
     addPatch(
         m, 4, [](float s, float t) { return glm::vec3(2 * s, 0, -t); },
         [](float s, float t) { return glm::vec2(0.1f + 0.8f * s, 0.1f + 0.8f * t); });
-    const Baked baked = bakeOrFail(m, true);
+    const Baked baked = bakeOrFail(m, 256, true);
     REQUIRE(baked.report.madeCharts == 0);
     CHECK(baked.report.ofArea.max == doctest::Approx(1).epsilon(1e-4));
     CHECK(baked.report.ofAngle.p50 == doctest::Approx(2).epsilon(1e-4));

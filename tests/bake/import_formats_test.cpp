@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "runtime/core/file.hpp"
+#include "tests/bake/baking.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/bake/bake.hpp"
@@ -14,10 +15,6 @@ using namespace espalier;
 using namespace espalier::test;
 
 namespace {
-
-std::string messageOf(const Result<Model>& model) {
-    return model ? "imported" : model.failure().text();
-}
 
 bool has(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;

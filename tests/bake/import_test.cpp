@@ -6,6 +6,7 @@
 
 #include "runtime/core/file.hpp"
 #include "shaders/shared/random.h"
+#include "tests/bake/baking.hpp"
 #include "tests/bake/small_models.hpp"
 #include "tests/support/data.hpp"
 #include "tools/bake/import_model.hpp"
@@ -73,10 +74,6 @@ Result<Model> importSquare(const Folder& folder, const Parts& parts, const Impor
     REQUIRE(writeFile(folder.file("square.bin"), squareBytes()));
     REQUIRE(writeFile(folder.file("square.gltf"), std::string_view(squareText(parts))));
     return importModel(folder.file("square.gltf"), options);
-}
-
-std::string messageOf(const Result<Model>& model) {
-    return model ? "imported" : model.failure().text();
 }
 
 glm::vec3 normalOf(const Model& m, size_t t) {

@@ -13,7 +13,7 @@ namespace {
 
 using Channels = std::array<std::vector<float>, 3>;
 
-struct Painter : Editing {
+struct ColourEditing : Editing {
     using Editing::Editing;
     Channels colours() {
         Channels channels;
@@ -49,7 +49,7 @@ const StrokeDabs kDab{{{-1.35f, .7f, .36f, 0, 0, 1, 1}}};
 
 TEST_CASE("a fill or a picture of colours that fails at one channel leaves all of them, and undo, as they were") {
     const Folder folder;
-    Painter painter(smallScene(folder));
+    ColourEditing painter(smallScene(folder));
     const std::string file = folder.file("colour.exr");
     REQUIRE(painter.perform(FillLayer{"colour", 1, {.5f, .25f, .125f}}));
     REQUIRE_MESSAGE(exportLayer(*painter.document, "colour", file, painter.error), painter.error);
@@ -75,7 +75,7 @@ TEST_CASE("a fill or a picture of colours that fails at one channel leaves all o
 
 TEST_CASE("a stroke of colours that can't begin at one channel hasn't begun, and one that can't end is taken back") {
     const Folder folder;
-    Painter painter(smallScene(folder));
+    ColourEditing painter(smallScene(folder));
     const Channels before = painter.colours();
     const uint64_t grown = painter.hash();
     for (int channel = 1; channel <= 3; ++channel) {

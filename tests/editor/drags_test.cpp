@@ -9,8 +9,8 @@ using sample::Tool;
 
 namespace {
 
-struct Painter : User {
-    Painter(const Folder& folder, Tool tool) : User(folder, smallScene(folder), tool) { work.window = {1280, 1400}; }
+struct PickerUser : User {
+    PickerUser(const Folder& folder, Tool tool) : User(folder, smallScene(folder), tool) { work.window = {1280, 1400}; }
 
     // By the field at the end of its row.
     void openPicker(const std::vector<Part>& field) {
@@ -62,7 +62,7 @@ struct Painter : User {
 
 TEST_CASE("a drag in the picker of a grammar's colour is one step of undo, and Esc takes it back") {
     const Folder folder;
-    Painter painter(folder, Tool::look);
+    PickerUser painter(folder, Tool::look);
     auto& work = painter.work;
     painter.panel = [&] { sample::grammarsPanel(work); };
     EspParamInfo info{};
@@ -96,7 +96,7 @@ TEST_CASE("a drag in the picker of a grammar's colour is one step of undo, and E
 
 TEST_CASE("a drag in the picker of the brush's colour is no step of undo, and Esc takes it back") {
     const Folder folder;
-    Painter painter(folder, Tool::paint);
+    PickerUser painter(folder, Tool::paint);
     auto& work = painter.work;
     work.chooseLayer("colour");
     painter.panel = [&] { sample::brushPanel(work); };

@@ -13,8 +13,8 @@ using espalier::scene::houseNow;
 namespace {
 
 // One house of 10 x 8 metres; tags: more of its plan.
-struct Built : Editing {
-    Built(const Folder& folder, const std::string& tags)
+struct Planned : Editing {
+    Planned(const Folder& folder, const std::string& tags)
         : Editing(folder.write(
               "plan.json", R"({"buildings": [{"id": "one", "outer": [[0,0],[10,0],[10,8],[0,8]], )" + tags + "}]}")) {}
     House house() const { return houseNow(context.get(), 0); }
@@ -43,7 +43,7 @@ TEST_CASE("a roof whose height its plan gives keeps it while outline, walls and 
     const Folder folder;
     for (const char* plan : {kByHeight, kByLevels, kByWhole}) {
         CAPTURE(plan);
-        Built built(folder, plan);
+        Planned built(folder, plan);
         CHECK(built.roof() == doctest::Approx(1.5));
         built.change([](House& h) { h.corners[0][0] -= .1f; });
         CHECK(built.roof() == doctest::Approx(1.5));
@@ -60,7 +60,7 @@ TEST_CASE("a roof that its house's height alone keeps low stays so while outline
     const auto plan = [](const char* more) { return std::string(R"("roof:shape": "gabled", "height": 3)") + more; };
     for (const std::string& tags : {plan(""), plan(R"(, "roof:angle": 45)")}) {
         CAPTURE(tags);
-        Built built(folder, tags), pitch(folder, tags);
+        Planned built(folder, tags), pitch(folder, tags);
         CHECK(built.roof() == doctest::Approx(2));  // two thirds
         built.change([](House& h) { h.corners[0][0] -= .01f; });
         CHECK(built.roof() == doctest::Approx(2));
@@ -72,7 +72,7 @@ TEST_CASE("a roof that its house's height alone keeps low stays so while outline
         pitch.change([](House& h) { h.slope = .6f; });
         CHECK(pitch.roof() == doctest::Approx(.6 * 4));
     }
-    Built kind(folder, plan(""));
+    Planned kind(folder, plan(""));
     kind.change([](House& h) { h.shape = "hip"; });
     CHECK(kind.roof() == doctest::Approx(kUsual * 4));
 }
@@ -81,7 +81,7 @@ TEST_CASE("who asks for another pitch or kind gets it, whatever height the plan 
     const Folder folder;
     for (const char* plan : {kByHeight, kByLevels, kByWhole}) {
         CAPTURE(plan);
-        Built pitch(folder, plan), kind(folder, plan), edge(folder, plan);
+        Planned pitch(folder, plan), kind(folder, plan), edge(folder, plan);
         pitch.change([](House& h) { h.slope = .5f; });
         CHECK(pitch.roof() == doctest::Approx(.5 * 4));
         kind.change([](House& h) { h.shape = "hip"; });
@@ -96,10 +96,10 @@ TEST_CASE("who asks for another pitch or kind gets it, whatever height the plan 
 
 TEST_CASE("a pitch that the plan gives stays, however high the plan says that the house is") {
     const Folder folder;
-    Built angle(folder, R"("roof:shape": "gabled", "roof:angle": 30, "height": 9, "building:levels": 2)"),
+    Planned angle(folder, R"("roof:shape": "gabled", "roof:angle": 30, "height": 9, "building:levels": 2)"),
         whole(folder, R"("roof:shape": "gabled", "height": 12)");
     const float walls = angle.info().eaveHeight;
-    for (Built* built : {&angle, &whole}) {
+    for (Planned* built : {&angle, &whole}) {
         const float pitch = built->roof() / 4;
         built->change([](House& h) {
             h.corners[2][1] -= 1;  // 9 metres wide
@@ -113,7 +113,7 @@ TEST_CASE("a pitch that the plan gives stays, however high the plan says that th
 
 TEST_CASE("a roof keeps its planned height where an edge with a pitch of its own gets another number") {
     const Folder folder;
-    Built built(folder, std::string(kByHeight) + R"(, "edges": [{"edge": 2, "angle": 50}])");
+    Planned built(folder, std::string(kByHeight) + R"(, "edges": [{"edge": 2, "angle": 50}])");
     const float planned = built.roof();
     built.change([](House& h) {
         h.corners.insert(h.corners.begin() + 1, {5, .5f});
@@ -125,7 +125,7 @@ TEST_CASE("a roof keeps its planned height where an edge with a pitch of its own
 
 TEST_CASE("a shed falls to the edge that is to be low, and says what it has no use for") {
     const Folder folder;
-    Built built(folder, R"("roof:shape": "skillion", "roof:direction": "S", "building:levels": 1)");
+    Planned built(folder, R"("roof:shape": "skillion", "roof:direction": "S", "building:levels": 1)");
     const float slope = built.roof() / 8;
     for (const uint32_t edge : {0u, 1u, 2u, 3u}) {
         built.change([&](House& h) { h.edges = {{edge, "eave", 0}}; });
@@ -219,7 +219,7 @@ TEST_CASE(
     };
     for (const char* plan : {kByHeight, kByLevels, kByWhole}) {
         CAPTURE(plan);
-        Built built(folder, plan);
+        Planned built(folder, plan);
         const auto state = [&](const Editing& editing) {
             return std::pair(heights(editing.context.get()), houseNow(editing.context.get(), 0));
         };

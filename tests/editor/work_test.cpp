@@ -37,7 +37,7 @@ std::map<std::string, std::string> filesIn(const std::filesystem::path& folder) 
 }
 
 // Two walls, each with a layer of its own.
-std::string twoWalls(const Folder& folder) {
+std::string twoRuins(const Folder& folder) {
     const std::string ruin = smallSurface();
     return folder.write("walls.json", R"({"surfaces": [{"file": ")" + ruin + R"("}, {"file": ")" + ruin +
                                           R"(", "position": [0, 0, 40]}],
@@ -171,7 +171,7 @@ TEST_CASE("a save waits for what another program writes into the project, and ta
 
 TEST_CASE("an export of several pictures is all of them or, cancelled, none") {
     const Folder folder;
-    Editing editing(twoWalls(folder));
+    Editing editing(twoRuins(folder));
     const std::filesystem::path out = folder.path / "out";
     std::filesystem::create_directories(out);
     const auto plan = [&] { return exporting(*editing.document, "mask", false, (out / "mask.exr").string()); };
@@ -197,7 +197,7 @@ TEST_CASE("an export of several pictures is all of them or, cancelled, none") {
 
 TEST_CASE("an import that is cancelled or fails halfway leaves all layers, and one that is done is one step back") {
     const Folder folder;
-    Editing editing(twoWalls(folder));
+    Editing editing(twoRuins(folder));
     const std::string file = folder.file("mask.exr");
     REQUIRE(editing.perform(FillLayer{"mask", .25f}));
     REQUIRE(exportLayer(*editing.document, "mask", file, editing.error));

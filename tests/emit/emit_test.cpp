@@ -36,13 +36,6 @@ struct Gpu : test::EmitPipeline {
     }
 };
 
-EmitView fullDetail() {
-    EmitView view{};
-    view.flags = kFullDetail;
-    view.lodPixels = 1;
-    return view;
-}
-
 // By repeated halving in double precision: shares nothing with bezier.h.
 glm::dvec3 casteljau(const glm::dvec3 (&p)[4], double u) {
     glm::dvec3 a = glm::mix(p[0], p[1], u), b = glm::mix(p[1], p[2], u), c = glm::mix(p[2], p[3], u);
@@ -81,7 +74,7 @@ TEST_CASE("every span and leaf becomes one instance, at any count") {
         CAPTURE(count);
         const test::PlantData data = test::helix(count);
         const test::Plant plant = test::upload(*gpu.device, data);
-        const EmitState state = gpu.cull(plant, fullDetail());
+        const EmitState state = gpu.cull(plant, test::fullDetail());
         CHECK(state.spanCount == (count > 0 ? count - 1 : 0));
         CHECK(state.leafCount == data.leaves.size());
         CHECK(gpu.emit.stats().overflow == 0);
@@ -102,7 +95,7 @@ TEST_CASE("spans meet without a kink, and children leave along their stem") {
     Gpu gpu;
     const test::PlantData data = test::wallIvy(5, 2, 1.5f);
     const test::Plant plant = test::upload(*gpu.device, data);
-    const EmitState state = gpu.cull(plant, fullDetail());
+    const EmitState state = gpu.cull(plant, test::fullDetail());
     const std::vector<SpanInstance> spans = gpu.spans(plant, state);
     uint32_t joints = 0, children = 0;
     double worst = 0, worstRadius = 0;
@@ -194,7 +187,7 @@ TEST_CASE("levels of detail fall with distance, and far canopies keep their area
         CAPTURE(distance);
         CHECK(area == doctest::Approx(nearArea).epsilon(distance < 40 ? 0.15 : 0.3));
     }
-    CHECK(before * 20 < gpu.cull(plant, fullDetail()).drawnTriangles);
+    CHECK(before * 20 < gpu.cull(plant, test::fullDetail()).drawnTriangles);
 }
 
 TEST_CASE("kernels have room for so many levels of detail, the CPU picks among any number") {
@@ -247,7 +240,7 @@ TEST_CASE("leaves stand off the wall") {
     Gpu gpu;
     const test::PlantData data = test::wallIvy(8, 2, 1.5f);
     const test::Plant plant = test::upload(*gpu.device, data);
-    const EmitState state = gpu.cull(plant, fullDetail());
+    const EmitState state = gpu.cull(plant, test::fullDetail());
     const TerminalTable& table = gpu.terminals.table();
     const auto leaves = gpu.leaves(plant, state);
     uint32_t sunk = 0, facing = 0;
@@ -332,7 +325,7 @@ TEST_CASE("written triangles are those of a loop on the CPU") {
         }
         CHECK(worst < 2e-6);
         uint64_t wanted = 0;
-        const EmitState state = gpu.cull(plant, fullDetail());
+        const EmitState state = gpu.cull(plant, test::fullDetail());
         for (uint32_t b = gpu.terminals.table().barkBuckets; b < gpu.terminals.table().buckets.size(); ++b)
             wanted += uint64_t(state.counts[b]) * gpu.terminals.table().buckets[b].indexCount / 3;
         CHECK(loose == wanted);

@@ -64,13 +64,6 @@ struct Short {
     }
 };
 
-EmitView fullDetail() {
-    EmitView view{};
-    view.flags = kFullDetail;
-    view.lodPixels = 1;
-    return view;
-}
-
 Commands begun(Device& device) {
     Result<Commands> commands = Commands::begin(device, "test");
     REQUIRE(commands);
@@ -90,18 +83,18 @@ TEST_CASE("a view of texels that can't be made costs the picture that needed it,
             CAPTURE(at);
             CAPTURE(native);
             test::EmitPipeline pipeline(host.device);
-            pipeline.cull(small.inputs(), fullDetail());
+            pipeline.cull(small.inputs(), test::fullDetail());
             EmitInputs inputs = large.inputs();
             inputs.native = native;
             bool drawn = false;
             {
                 Commands dropped = begun(*host.device);
                 viewsLeft = at;
-                drawn = bool(pipeline.emit.cull(dropped, inputs, fullDetail(), "emit", true));
+                drawn = bool(pipeline.emit.cull(dropped, inputs, test::fullDetail(), "emit", true));
                 viewsLeft = ~0u;
             }
             pipeline.emit.forget();
-            const EmitState state = pipeline.cull(inputs, fullDetail());
+            const EmitState state = pipeline.cull(inputs, test::fullDetail());
             CHECK(state.leafCount == many.leaves.size());
             if (drawn) break;
             failures += 1;
@@ -136,7 +129,7 @@ TEST_CASE("growth that was bound in a recording that never ran is bound anew") {
     test::EmitPipeline pipeline(host.device);
     submissionsLeft = 0;
     REQUIRE_FALSE(pipeline.emit.materialise(plant.inputs()));
-    const EmitState state = pipeline.cull(plant.inputs(), fullDetail());
+    const EmitState state = pipeline.cull(plant.inputs(), test::fullDetail());
     CHECK(state.leafCount == data.leaves.size());
     CHECK(state.spanCount > 100);
     CHECK(pipeline.emit.materialise(plant.inputs()));

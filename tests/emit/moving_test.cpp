@@ -31,7 +31,7 @@ EspDrawDef after(int frames, scene::MovingPicture& picture, double frameMs, uint
 
 }  // namespace
 
-TEST_CASE("a slow device draws what moves coarsely, at half the size, and all of it again when it rests") {
+TEST_CASE("a slow window draws what moves coarsely, at half the size, and all of it again when it rests") {
     scene::MovingPicture picture;
     EspDrawDef draw = asked();
     CHECK(picture.prepare(draw, true, 200, true) == 0.5f);
@@ -53,7 +53,7 @@ TEST_CASE("a slow device draws what moves coarsely, at half the size, and all of
     CHECK(!picture.coarse());
 }
 
-TEST_CASE("a fast device draws what moves as what rests") {
+TEST_CASE("a fast window draws what moves as what rests") {
     scene::MovingPicture picture;
     EspDrawDef draw = asked();
     CHECK(picture.prepare(draw, true, 8, true) == 1);
@@ -93,7 +93,7 @@ namespace {
 
 // A window whose frames take `base` and, of a whole picture's pixels, `pixels`; both ms. It knows what a frame took
 // some frames later.
-struct Device {
+struct PretendWindow {
     double base, pixels;
     size_t lag;
     std::vector<double> took = {};  // of each frame
@@ -136,58 +136,58 @@ TEST_CASE("what moves is drawn as large as leaves frames in time, and doesn't fl
         for (const double pixels : {5.0, 20.0, 40.0, 60.0, 80.0, 400.0}) {
             CAPTURE(lag);
             CAPTURE(pixels);
-            Device device{20, pixels, lag};
-            device.move(200);
-            CHECK(device.move(200) == 0);
-            CHECK((device.share <= 0.5f || device.cost(device.share) <= late));
-            CHECK((device.share == 1.0f || device.cost(device.share * 1.2f) > 0.6 * late));
+            PretendWindow window{20, pixels, lag};
+            window.move(200);
+            CHECK(window.move(200) == 0);
+            CHECK((window.share <= 0.5f || window.cost(window.share) <= late));
+            CHECK((window.share == 1.0f || window.cost(window.share * 1.2f) > 0.6 * late));
             // It isn't forgotten while all rests, nor judged by the whole picture that is drawn then.
-            const float share = device.share;
-            device.rest();
-            CHECK(device.move(60) == 0);
-            CHECK(device.share == share);
+            const float share = window.share;
+            window.rest();
+            CHECK(window.move(60) == 0);
+            CHECK(window.share == share);
             // Where all becomes dearer it is small soon.
-            device.pixels = 400;
-            device.move(40);
-            CHECK(device.share <= 0.5f);
+            window.pixels = 400;
+            window.move(40);
+            CHECK(window.share <= 0.5f);
         }
 }
 
 TEST_CASE("less than half a side is drawn only where that is late with all detail given up, and half again in time") {
-    Device device{70, 40, 1};
-    device.move(20);
-    CHECK(device.share == 0.5f);  // detail goes first
-    device.move(100);
-    CHECK(device.share == doctest::Approx(0.5f / 1.2f));
-    CHECK(device.move(200) == 0);
-    device.base = 45;  // half a side would be in time, but for a little
-    CHECK(device.move(200) == 0);
-    device.base = 25;
-    device.move(40);
-    CHECK(device.share >= 0.5f);
+    PretendWindow window{70, 40, 1};
+    window.move(20);
+    CHECK(window.share == 0.5f);  // detail goes first
+    window.move(100);
+    CHECK(window.share == doctest::Approx(0.5f / 1.2f));
+    CHECK(window.move(200) == 0);
+    window.base = 45;  // half a side would be in time, but for a little
+    CHECK(window.move(200) == 0);
+    window.base = 25;
+    window.move(40);
+    CHECK(window.share >= 0.5f);
 }
 
 TEST_CASE("a picture that becomes too dear is made no smaller than it takes") {
     for (const size_t lag : {0, 1, 2}) {
         CAPTURE(lag);
-        Device device{20, 5, lag};
-        device.move(200);
-        REQUIRE(device.share == 1.0f);
-        device.pixels = 60;  // 80 ms; at the next size below 61.7
-        device.move(100);
-        CHECK(device.share == doctest::Approx(1 / 1.2f));
+        PretendWindow window{20, 5, lag};
+        window.move(200);
+        REQUIRE(window.share == 1.0f);
+        window.pixels = 60;  // 80 ms; at the next size below 61.7
+        window.move(100);
+        CHECK(window.share == doctest::Approx(1 / 1.2f));
     }
 }
 
 TEST_CASE("a stroke's frames, which may take longer, don't make the picture smaller") {
-    Device device{20, 5, 1};
-    device.move(200);
-    REQUIRE(device.share == 1.0f);
-    device.base = 80;
-    CHECK(device.move(100, true) == 0);
-    device.base = 20;
-    device.move(5);
-    CHECK(device.share == 1.0f);
+    PretendWindow window{20, 5, 1};
+    window.move(200);
+    REQUIRE(window.share == 1.0f);
+    window.base = 80;
+    CHECK(window.move(100, true) == 0);
+    window.base = 20;
+    window.move(5);
+    CHECK(window.share == 1.0f);
 }
 
 TEST_CASE("whole pictures of what moves are as coarse as half ones are in their own pixels") {

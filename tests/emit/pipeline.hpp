@@ -17,6 +17,13 @@ inline std::shared_ptr<Device> validatedDevice() {
     return std::move(*made);
 }
 
+inline EmitView fullDetail() {
+    EmitView view{};
+    view.flags = kFullDetail;
+    view.lodPixels = 1;
+    return view;
+}
+
 // An emission on a device whose validation layer has to be silent to the end.
 struct EmitPipeline {
     std::shared_ptr<Device> device;

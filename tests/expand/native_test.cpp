@@ -2,20 +2,12 @@
 #include <doctest/doctest.h>
 
 #include "shaders/shared/random.h"
+#include "tests/expand/growing.hpp"
 #include "tests/expand/session.hpp"
 #include "tests/support/driver_between.hpp"
 
 using namespace espalier;
 using namespace espalier::growthtest;
-
-namespace {
-
-void mustGrow(Scene& scene, TestDevice& gpu, Growth& growth) {
-    Status grown = scene.grow(gpu.device(), growth);
-    if (!grown) FAIL(grown.failure().text());
-}
-
-}  // namespace
 
 TEST_CASE("native code grows what shaders grow") {
     TestDevice gpu;

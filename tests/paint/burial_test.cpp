@@ -8,8 +8,6 @@ using namespace espalier::test;
 
 namespace {
 
-const glm::vec3 kFoot(1, -.8f, 0), kUp(0, 1, 0);
-
 // A cube of twice `scale` around `at`.
 EspTransform placed(glm::vec3 at, float scale = 1) {
     EspTransform place = espIdentity();

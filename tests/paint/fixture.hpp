@@ -25,6 +25,9 @@ inline const char* kMaskedIvy =
     "Stem(l) -> Marching(0.05, rand(-0.3, 0.3), mask(texCoord)) {Stem(l), Wood}\n"
     "Wood -> S(0.01) Shape(\"bark\", C1)\n";
 
+// On the cube's side, and the direction up along it.
+inline const glm::vec3 kFoot(1, -.8f, 0), kUp(0, 1, 0);
+
 struct Painting {
     EspContext* context = nullptr;
     EspSurface surface{};

@@ -7,10 +7,8 @@ using namespace espalier::test;
 
 namespace {
 
-const glm::vec3 kUp(0, 1, 0);
-
 // Two seeds of numbers 1 and 2 on the cube's side, and what each grows alone.
-struct Two {
+struct TwoSeeds {
     Painting painting;
     EspGrammar grammar = painting.grammar(kMaskedIvy);
     EspSeed a = painting.plant(grammar, {1, -.8f, 0}, kUp, 1);
@@ -35,7 +33,7 @@ struct Two {
 }  // namespace
 
 TEST_CASE("a frozen plant that gets the number of one that goes is still itself") {
-    const Two two;
+    const TwoSeeds two;
     two.freeze(two.a);
     CHECK(two.hash() == two.both);
     two.painting.ok(espRemoveSeed(two.painting.context, two.b));
@@ -44,7 +42,7 @@ TEST_CASE("a frozen plant that gets the number of one that goes is still itself"
 }
 
 TEST_CASE("a plant that is frozen after its seed got another's number is what grew from this seed") {
-    const Two two;
+    const TwoSeeds two;
     two.number(two.b, 3);
     two.number(two.a, 2);
     two.freeze(two.a);
@@ -53,7 +51,7 @@ TEST_CASE("a plant that is frozen after its seed got another's number is what gr
 }
 
 TEST_CASE("frozen plants that exchange their numbers stay where they are") {
-    const Two two;
+    const TwoSeeds two;
     two.freeze(two.a);
     two.freeze(two.b);
     CHECK(two.hash() == two.both);

@@ -17,7 +17,7 @@ EspTransform movedBy(glm::vec3 by) {
 }
 
 // Two cubes that run into each other. A stem goes from the first over to the second.
-struct Two {
+struct TwoCubes {
     Painting painting;
     EspSurface second = painting.another(movedBy({1.5f, .3f, .3f}));
     EspGrammar grammar = painting.grammar(kMaskedIvy);
@@ -37,7 +37,7 @@ struct Two {
 }  // namespace
 
 TEST_CASE("plants are drawn as they stand when a surface of theirs has gone, until they grow anew") {
-    const Two two;
+    const TwoCubes two;
     const std::vector<uint32_t> before = two.vertices();
     REQUIRE(before.size() > 1000);
     two.painting.ok(espDestroySurface(two.painting.context, two.second));
@@ -51,7 +51,7 @@ TEST_CASE("plants are drawn as they stand when a surface of theirs has gone, unt
 }
 
 TEST_CASE("a plant whose surface has gone, or is larger, isn't frozen before it has grown anew") {
-    const Two two;
+    const TwoCubes two;
     EspContext* context = two.painting.context;
     two.painting.ok(espDestroySurface(context, two.second));
     CHECK(espFreezePlant(context, two.seed, 1) == ESP_INVALID_ARGUMENT);
@@ -102,7 +102,7 @@ TEST_CASE("a frozen plant turns with its surface, by any angle") {
 }
 
 TEST_CASE("what stood against a surface that has gone is moved as if it had never been there") {
-    const Two two;
+    const TwoCubes two;
     two.painting.ok(espDestroySurface(two.painting.context, two.second));
     const EspTransform aside = movedBy({0, 0, 3});
     two.painting.ok(espMoveSurface(two.painting.context, two.painting.surface, &aside));

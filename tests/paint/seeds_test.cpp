@@ -17,8 +17,6 @@ EspSeedInfo infoOf(const Painting& painting, EspSeed seed) {
     return info;
 }
 
-const glm::vec3 kFoot(1, -.8f, 0), kUp(0, 1, 0);
-
 // The path of a branch, asked for twice as hosts do.
 std::vector<EspPathSample> pathOf(const Painting& painting, uint64_t branch) {
     uint32_t count = 0;

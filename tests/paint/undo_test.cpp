@@ -1,7 +1,6 @@
 // What strokes keep to be undone by, and that undoing restores.
-#include <cstring>
-
 #include "tests/paint/fixture.hpp"
+#include "tests/support/same_bits.hpp"
 
 using namespace espalier;
 using namespace espalier::test;
@@ -40,10 +39,6 @@ struct Canvases {
         return layers;
     }
 };
-
-bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
 
 EspBrush randomBrush(const char* layer, std::mt19937& random) {
     std::uniform_real_distribution<float> unit(0, 1);

@@ -9,7 +9,7 @@
 #include "tests/plugin/life.hpp"
 
 using namespace espalier;
-using Failure = FailingDevice::Failure;
+using Fault = FailingDevice::Failure;
 
 namespace {
 
@@ -18,7 +18,7 @@ uint32_t stride(uint32_t calls, uint32_t samples) {
     return std::getenv("ESPALIER_EVERY_FAILURE") ? 1 : std::max(1u, calls / samples);
 }
 
-uint32_t callsOfWholeLife(FailingDevice& device, Failure how) {
+uint32_t callsOfWholeLife(FailingDevice& device, Fault how) {
     device.failAt(UINT32_MAX, how);
     Life life;
     REQUIRE(life.all(device));
@@ -29,11 +29,11 @@ uint32_t callsOfWholeLife(FailingDevice& device, Failure how) {
 
 TEST_CASE("A lost device gives a code and a message at every step, and can be destroyed") {
     FailingDevice device;
-    const uint32_t calls = callsOfWholeLife(device, Failure::Lost);
+    const uint32_t calls = callsOfWholeLife(device, Fault::Lost);
     REQUIRE(calls > 10);
     for (uint32_t at = 0; at < calls; at += stride(calls, 5)) {
         Life life;
-        device.failAt(at, Failure::Lost);
+        device.failAt(at, Fault::Lost);
         const bool whole = life.all(device);
         CAPTURE(at);
         CAPTURE(device.failed());
@@ -61,7 +61,7 @@ TEST_CASE("A lost device gives a code and a message at every step, and can be de
 
 TEST_CASE("Memory that runs out once costs the call that needed it, and nothing that stood") {
     FailingDevice device;
-    const uint32_t calls = callsOfWholeLife(device, Failure::OutOfMemory);
+    const uint32_t calls = callsOfWholeLife(device, Fault::OutOfMemory);
     REQUIRE(calls > 50);
     uint64_t hash = 0;
     {
@@ -71,7 +71,7 @@ TEST_CASE("Memory that runs out once costs the call that needed it, and nothing 
     }
     for (uint32_t at = 0; at < calls; at += stride(calls, 7)) {
         Life life;
-        device.failAt(at, Failure::OutOfMemory);
+        device.failAt(at, Fault::OutOfMemory);
         const bool whole = life.all(device);
         CAPTURE(at);
         CAPTURE(device.failed());
@@ -100,7 +100,7 @@ TEST_CASE("Memory that runs out in a regrowth leaves the last plant standing") {
     Life life;
     REQUIRE(life.all(device));
     const EspStats before = life.stats();
-    device.failAt(UINT32_MAX, Failure::OutOfMemory);
+    device.failAt(UINT32_MAX, Fault::OutOfMemory);
     const float longer = 3, shorter = .3f;
     REQUIRE(espSetParam(life.context, life.grammar, "reach", &longer, 1) == ESP_OK);
     REQUIRE(life.update());
@@ -116,7 +116,7 @@ TEST_CASE("Memory that runs out in a regrowth leaves the last plant standing") {
         device.heal();
         REQUIRE(fresh.all(device));
         REQUIRE(espSetParam(fresh.context, fresh.grammar, "reach", &longer, 1) == ESP_OK);
-        device.failAt(at, Failure::OutOfMemory);
+        device.failAt(at, Fault::OutOfMemory);
         const bool updated = fresh.update();
         CAPTURE(at);
         CAPTURE(device.failed());

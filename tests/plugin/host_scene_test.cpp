@@ -244,7 +244,7 @@ void droppedFrame(DrawingHost& host, Grown& grown) {
 }
 
 // A host's scene that can't be used is refused.
-void refusals(DrawingHost& host, Grown& grown) {
+void refusedFrames(DrawingHost& host, Grown& grown) {
     const auto refused = [&](auto&& spoil) {
         EspHostScene scene = host.scene();
         EspDrawDef def = espDefaultDrawDef();
@@ -295,7 +295,7 @@ TEST_CASE("growth in a host's scene") {
     otherFormats(host, grown);
     sixFramesAtOnce(host, grown);
     droppedFrame(host, grown);
-    refusals(host, grown);
+    refusedFrames(host, grown);
     picture(host, grown);
 }
 

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "tests/plugin/life.hpp"
+#include "tests/plugin/town_host.hpp"
 
 using namespace espalier;
-using Failure = FailingDevice::Failure;
+using Fault = FailingDevice::Failure;
 
 namespace {
 
@@ -31,13 +32,6 @@ constexpr const char* kRoofs =
     "Top -> Join(roofHeight, roofPos1, roofPos2) {Cover, NULL, Top}\n"
     "Cover -> Repeat(XY, vec2(0.3, 0.25), bond) {Tile}\n"
     "Tile -> Drop(decay) Shape(\"slate\")\n";
-
-EspGrammar compiled(EspContext* context, const char* name, const char* text) {
-    const EspGrammarDef def{name, text, std::strlen(text)};
-    EspGrammar grammar{};
-    REQUIRE_MESSAGE(espCompileGrammar(context, &def, &grammar) == ESP_OK, espLastError(context));
-    return grammar;
-}
 
 // Next time all grows anew.
 void growAnew(EspContext* context, uint32_t maxDepth) {
@@ -105,7 +99,7 @@ TEST_CASE("growth too large for memory is tried ever less often, and what is sma
     REQUIRE(life.update());  // both sets of buffers are there now
     const uint64_t hash = life.stats().hash;
 
-    device.failAt(0, Failure::Full);
+    device.failAt(0, Fault::Full);
     const float many = 64, few = 1;
     REQUIRE(espSetParam(life.context, life.grammar, "leaves", &many, 1) == ESP_OK);
     growAnew(life.context, 4096);
@@ -142,7 +136,7 @@ TEST_CASE("plants grow where the town fails, and what was painted on it isn't lo
     REQUIRE(espLoadTown(life.context, &town) == ESP_OK);
     const uint64_t before = life.stats().hash;
     REQUIRE(espSetParam(life.context, life.grammar, "reach", &longer, 1) == ESP_OK);
-    device.failAt(0, Failure::OutOfMemory);
+    device.failAt(0, Fault::OutOfMemory);
     CHECK_FALSE(life.update());
     CHECK(life.result == ESP_OUT_OF_MEMORY);
     CHECK(std::string(espLastError(life.context)).find("memory") != std::string::npos);
@@ -153,7 +147,7 @@ TEST_CASE("plants grow where the town fails, and what was painted on it isn't lo
 
     const EspStroke stroke = begin(life.context, "decay", ESP_BRUSH_PAINT, 2);
     REQUIRE(dab(life.context, stroke, 5, 40, -4) == ESP_OK);
-    device.failAt(0, Failure::OutOfMemory);
+    device.failAt(0, Fault::OutOfMemory);
     CHECK_FALSE(life.update());
     REQUIRE(life.update());
     CHECK(drawnTiles(life) < whole - 50);
@@ -196,7 +190,7 @@ TEST_CASE("houses whose growth fails, and the whole town's after it, are drawn a
         REQUIRE(before > 500);
         const EspStroke stroke = begin(life.context, "decay", ESP_BRUSH_PAINT, 90);
         REQUIRE(dab(life.context, stroke, 45, 40, -45) == ESP_OK);
-        device.failAt(at == UINT32_MAX ? at : (2 * at + 1) * calls / 8, Failure::OutOfMemory);
+        device.failAt(at == UINT32_MAX ? at : (2 * at + 1) * calls / 8, Fault::OutOfMemory);
         life.update();
         if (at == UINT32_MAX) calls = device.calls();
         const bool failed = !device.failed().empty();
@@ -227,7 +221,7 @@ TEST_CASE("a dab that memory ran short for is no part of what undo takes back") 
             CAPTURE(at);
             const EspStroke stroke = begin(life.context, "mask", mode, .25f);
             REQUIRE(dab(life.context, stroke, .15f, .45f, 0) == ESP_OK);
-            device.failAt(at, Failure::OutOfMemory);
+            device.failAt(at, Fault::OutOfMemory);
             const EspResult result = dab(life.context, stroke, .85f, .55f, 0);
             const bool failed = !device.failed().empty();
             device.heal();
@@ -274,7 +268,7 @@ TEST_CASE("a fill or an import that memory ran short for has done nothing, on th
         for (uint32_t at = 0; at < 100; ++at) {
             CAPTURE(at);
             EspStroke stroke{};
-            device.failAt(at, Failure::OutOfMemory);
+            device.failAt(at, Fault::OutOfMemory);
             const EspResult result = fills ? espFillLayer(life.context, "decay", .75f, &stroke)
                                            : espImportLayer(life.context, &def, &stroke);
             const bool failed = !device.failed().empty();
@@ -316,7 +310,7 @@ TEST_CASE("undo that memory ran short for has done nothing, and does all the nex
     uint32_t failures = 0;
     for (uint32_t at = 0; at < 100; ++at) {
         CAPTURE(at);
-        device.failAt(at, Failure::OutOfMemory);
+        device.failAt(at, Fault::OutOfMemory);
         const EspResult result = espSwapStroke(life.context, stroke);
         const bool failed = !device.failed().empty();
         device.heal();

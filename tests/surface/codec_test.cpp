@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/bake/small_models.hpp"
+#include "tests/support/same_bits.hpp"
 
 using namespace espalier;
 using namespace espalier::surface_file;
@@ -18,11 +19,6 @@ std::span<const std::byte> view(const std::vector<uint8_t>& bytes) {
     return std::as_bytes(std::span(bytes));
 }
 
-template <class T>
-bool same(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
 bool comesBack(const SurfaceLevelData& level, std::span<const TrianglePlane> triangles) {
     auto bytes = encodeLevel(level, triangles);
     REQUIRE(bytes);
@@ -30,8 +26,8 @@ bool comesBack(const SurfaceLevelData& level, std::span<const TrianglePlane> tri
     out.size = level.size;
     const std::string wrong = decodeLevel(view(*bytes), triangles, level.crossingRefs.size(), out);
     CHECK(wrong == "");
-    return same(level.texels, out.texels) && same(level.aux, out.aux) && same(level.crossingHead, out.crossingHead) &&
-           same(level.crossingRefs, out.crossingRefs);
+    return sameBits(level.texels, out.texels) && sameBits(level.aux, out.aux) &&
+           sameBits(level.crossingHead, out.crossingHead) && sameBits(level.crossingRefs, out.crossingRefs);
 }
 
 // Records that no bake would make: `wild` of a hundred words are of any bits.

@@ -10,6 +10,7 @@
 #include "runtime/core/file.hpp"
 #include "shaders/shared/random.h"
 #include "tests/bake/small_models.hpp"
+#include "tests/support/same_bits.hpp"
 
 using namespace espalier;
 using namespace espalier::test;
@@ -53,11 +54,6 @@ SurfaceData sample() {
     return std::move(baked->surface);
 }
 
-template <class T>
-bool same(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
 std::vector<std::byte> bytesOf(const std::string& path) {
     auto read = readFile(path);
     REQUIRE(read);
@@ -77,16 +73,16 @@ TEST_CASE("what is written is read: the walk's data bit for bit, the mesh within
     CHECK(b.source == a.source);
     CHECK(b.boundsMin == a.boundsMin);
     CHECK(b.boundsMax == a.boundsMax);
-    CHECK(same(a.crossings, b.crossings));
-    CHECK(same(a.charts, b.charts));
-    CHECK(same(a.triangles, b.triangles));
+    CHECK(sameBits(a.crossings, b.crossings));
+    CHECK(sameBits(a.charts, b.charts));
+    CHECK(sameBits(a.triangles, b.triangles));
     REQUIRE(b.levels.size() == 3);
     for (size_t l = 0; l < 3; ++l) {
         CHECK(a.levels[l].size == b.levels[l].size);
-        CHECK(same(a.levels[l].texels, b.levels[l].texels));
-        CHECK(same(a.levels[l].aux, b.levels[l].aux));
-        CHECK(same(a.levels[l].crossingHead, b.levels[l].crossingHead));
-        CHECK(same(a.levels[l].crossingRefs, b.levels[l].crossingRefs));
+        CHECK(sameBits(a.levels[l].texels, b.levels[l].texels));
+        CHECK(sameBits(a.levels[l].aux, b.levels[l].aux));
+        CHECK(sameBits(a.levels[l].crossingHead, b.levels[l].crossingHead));
+        CHECK(sameBits(a.levels[l].crossingRefs, b.levels[l].crossingRefs));
     }
     CHECK(a.indices.size() == b.indices.size());
     REQUIRE(b.ranges.size() == 2);
@@ -97,7 +93,7 @@ TEST_CASE("what is written is read: the walk's data bit for bit, the mesh within
     CHECK(b.materials[1].doubleSided);
     REQUIRE(b.images.size() == 1);
     CHECK(b.images[0].width == 4);
-    CHECK(same(a.images[0].rgba, b.images[0].rgba));
+    CHECK(sameBits(a.images[0].rgba, b.images[0].rgba));
     // Each drawn corner lies on the surface where its walk UV says.
     for (const DrawVertex& v : b.vertices) {
         float best = 1e9f;

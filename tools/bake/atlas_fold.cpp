@@ -13,7 +13,7 @@ constexpr double kLongest = 0.4;    // of the square root of the model's area: n
 constexpr double kLeastFill = 0.4;  // of their box by the chart
 constexpr double kLeastEdge = 0.1;  // of the smaller chart's border that has to fit
 constexpr double kFits = 2e-3;      // of an edge's length: ends nearer than that fall together
-constexpr int kRounds = 24;
+constexpr int kFoldRounds = 24;
 
 // Shares of something that differ by rounding only, as in kits of equal parts, are made equal: then the order of the
 // model decides.
@@ -61,7 +61,7 @@ class Folder {
     }
 
     void run() {
-        for (int round = 0; round < kRounds; ++round) {
+        for (int round = 0; round < kFoldRounds; ++round) {
             std::vector<Fold> folds = findFolds();
             std::sort(folds.begin(), folds.end());
             changed_.assign(pieces_.size(), 0);

@@ -6,7 +6,7 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr int kSweeps = 60;
+constexpr int kUntanglings = 60;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void untangle(Patch& patch, const std::vector<uint32_t>& tangled, int rings) {
                 around[place[vertexOf(h)]].insert(around[place[vertexOf(h)]].end(), 2, middle);
         }
     }
-    for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (int sweep = 0; sweep < kUntanglings; ++sweep)
         for (size_t i = 0; i < free.size(); ++i) {
             glm::dvec2 sum(0);
             for (uint32_t n : around[i]) sum += patch.uv[n];

@@ -10,19 +10,22 @@
 
 namespace espalier::bakery {
 
-// What touches each band of an image's rows, so that a thread that draws a band needn't look at everything.
+inline constexpr uint32_t kBandRows = 64;
+
+// What touches each band of kBandRows of an image's rows, so that a thread that draws a band needn't look at
+// everything.
 class Bands {
   public:
     // rows(i): the lowest and the highest row that item i touches, as a pair of doubles; may lie outside of the image.
     template <class Rows>
-    Bands(size_t count, uint32_t size, uint32_t bandRows, Rows&& rows) : bandRows_(bandRows) {
-        const uint32_t bands = (size + bandRows - 1) / bandRows;
+    Bands(size_t count, uint32_t size, Rows&& rows) {
+        const uint32_t bands = (size + kBandRows - 1) / kBandRows;
         std::vector<std::pair<uint32_t, uint32_t>> touched(count);  // first band, one after the last
         parallelFor(count, 16384, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) {
                 const auto [low, high] = rows(i);
-                touched[i] = {uint32_t(std::clamp(std::floor(low / bandRows), 0.0, double(bands))),
-                              uint32_t(std::clamp(std::floor(high / bandRows) + 1, 0.0, double(bands)))};
+                touched[i] = {uint32_t(std::clamp(std::floor(low / kBandRows), 0.0, double(bands))),
+                              uint32_t(std::clamp(std::floor(high / kBandRows) + 1, 0.0, double(bands)))};
             }
         });
         first_.assign(bands + 1, 0);
@@ -37,12 +40,11 @@ class Bands {
 
     // Items of the band that begins with this row, ascending.
     std::span<const uint32_t> at(size_t row) const {
-        const size_t band = row / bandRows_;
+        const size_t band = row / kBandRows;
         return {items_.data() + first_[band], first_[band + 1] - first_[band]};
     }
 
   private:
-    uint32_t bandRows_;
     std::vector<uint32_t> first_, items_;
 };
 

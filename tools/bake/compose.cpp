@@ -13,7 +13,6 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr uint32_t kBandRows = 64;
 constexpr double kCreaseGrow = 1.5;       // a texel's half side and one texel around
 constexpr double kCreaseAltitude = 1;     // texels: creases between narrower triangles are roundings
 constexpr float kMaxStretch = 4;          // gutters never run faster than this times the chart's mean scale
@@ -36,7 +35,7 @@ struct LevelWork {
 
 // The crossings that come near each band.
 Bands bandsOf(std::span<const Crossing> crossings, uint32_t size, double reach) {
-    return Bands(crossings.size(), size, kBandRows, [&](size_t i) {
+    return Bands(crossings.size(), size, [&](size_t i) {
         const double a = double(crossings[i].a.y) * size, b = double(crossings[i].b.y) * size;
         return std::pair(std::min(a, b) - reach, std::max(a, b) + reach);
     });
@@ -132,7 +131,7 @@ void markCreases(LevelWork& work) {
     uint32_t size = work.image.size;
     work.crease.assign(size_t(size) * size, 0);
     const auto& creases = work.source.creases;
-    const Bands bands(creases.size(), size, kBandRows, [&](size_t i) {
+    const Bands bands(creases.size(), size, [&](size_t i) {
         const double a = mesh.uvAt(creases[i]).y * size, b = mesh.uvAt(BakeMesh::next(creases[i])).y * size;
         return std::pair(std::min(a, b) - 2, std::max(a, b) + 2);
     });

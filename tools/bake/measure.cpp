@@ -9,8 +9,8 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr int kProbes = 3;       // per crossing
-constexpr float kPlace = 0.03f;  // texels: a shorter target is one place, not a stretch
+constexpr int kProbesOfCrossing = 3;  // per crossing
+constexpr float kPlace = 0.03f;       // texels: a shorter target is one place, not a stretch
 
 double percentile(std::vector<double>& values, double share) {
     if (values.empty()) return 0;
@@ -78,8 +78,8 @@ void measureCrossings(const std::vector<Sides>& sides, const SurfaceData& surfac
                                     : report.contactCrossings)++;
         const TrianglePlane &here = surface.triangles[sides[i].from], &there = surface.triangles[sides[i].to];
         bool dangling = false;
-        for (int probe = 0; probe < kProbes; ++probe) {
-            double t = fraction(i * kProbes + uint32_t(probe));
+        for (int probe = 0; probe < kProbesOfCrossing; ++probe) {
+            double t = fraction(i * kProbesOfCrossing + uint32_t(probe));
             glm::dvec2 p = mixed(c.a, c.b, t), q = mixed(c.ta, c.tb, t);
             Back back = wayBack(surface, q, c.target & 0xFFFFu, here.chart, p);
             if (back.distance > 0.5) {

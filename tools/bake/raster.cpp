@@ -11,7 +11,6 @@
 namespace espalier::bakery {
 namespace {
 
-constexpr uint32_t kBandRows = 32;
 constexpr double kGutterTexels = 2;  // the gutter's width
 constexpr double kNeededTexels = 1;  // a bilinear read reaches texel centres nearer than this
 constexpr float kNotNeeded = 1e6f;   // added to distances of gutter texels that no read needs
@@ -48,7 +47,7 @@ void gridTriangle(const std::array<glm::dvec2, 3>& p, int64_t size, int64_t yBeg
 void drawTriangles(const BakeMesh& mesh, uint32_t size, IdImage& image, uint64_t* overlaps) {
     image.size = size;
     image.id.resize(size_t(size) * size);
-    const Bands bands(mesh.triangles.size(), size, kBandRows, [&](size_t t) {
+    const Bands bands(mesh.triangles.size(), size, [&](size_t t) {
         const auto& uv = mesh.triangles[t].uv;
         return std::pair(std::min({uv[0].y, uv[1].y, uv[2].y}) * size - 0.5,
                          std::max({uv[0].y, uv[1].y, uv[2].y}) * size - 0.5);
@@ -95,7 +94,7 @@ bool drawGutters(const BakeMesh& mesh, const std::vector<uint32_t>& borders, IdI
         cleared.store(true, std::memory_order_relaxed);
     };
     const std::vector<uint8_t> drawn = walkable;
-    const Bands bands(borders.size(), size, kBandRows, [&](size_t i) {
+    const Bands bands(borders.size(), size, [&](size_t i) {
         const double a = mesh.uvAt(borders[i]).y * size, b = mesh.uvAt(BakeMesh::next(borders[i])).y * size;
         return std::pair(std::min(a, b) - 3, std::max(a, b) + 3);
     });

@@ -24,21 +24,21 @@ constexpr int kStrides = 5;
 constexpr size_t kProbes = 12;  // of a region, asked whether they are seen
 constexpr int kRays = 96;       // from each
 constexpr float kOff = 0.1f;    // texels off the surface that rays begin
-constexpr uint32_t kBandRows = 64;
+constexpr uint32_t kRowsAtOnce = 64;
 constexpr int kAround = 2;  // texels: how far from a place its region's centres are looked for
 
 class Ground {
   public:
     explicit Ground(const SurfaceData& surface) : surface_(surface), level_(surface.levels[0]), size_(level_.size) {
         DisjointSets cells(level_.texels.size());
-        parallelFor(size_, kBandRows, [&](size_t begin, size_t end) {
+        parallelFor(size_, kRowsAtOnce, [&](size_t begin, size_t end) {
             for (uint32_t y = uint32_t(begin); y < end; ++y)
                 for (uint32_t x = 0; x < size_; ++x) {
                     if (x + 1 < size_) joinNeighbours(cells, x, y, x + 1, y);
                     if (y + 1 < end) joinNeighbours(cells, x, y, x, y + 1);
                 }
         });
-        for (uint32_t y = kBandRows; y < size_; y += kBandRows)
+        for (uint32_t y = kRowsAtOnce; y < size_; y += kRowsAtOnce)
             for (uint32_t x = 0; x < size_; ++x) joinNeighbours(cells, x, y - 1, x, y);
         region_ = std::move(cells).takeNumbers([&](uint32_t cell) { return isGround(cell); }, kNone, regions_);
     }

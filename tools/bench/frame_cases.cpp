@@ -23,8 +23,8 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kNodes = 500'000;
-constexpr uint32_t kTexels = 1024;                         // of the mask
-constexpr int kDabs = 64;                                  // in which growth has to close its gaps
+constexpr uint32_t kMaskTexels = 1024;                     // of the mask
+constexpr int kPaintedFrames = 64;                         // in which growth has to close its gaps
 constexpr double kMoving = 2e3 / 15, kPainting = 2e3 / 8;  // CPU ms of a frame on two cores: 15 and 8 frames/s
 constexpr int kRounds = 5;                                 // of frames by the clock, which others disturb
 constexpr int kSettling = 24;                              // frames ahead of each, in which the detail finds its level
@@ -57,13 +57,13 @@ struct Film {
     bool coarse = false;  // as `detail` says, which follows the frames' time
 
     // Milliseconds of CPU time a frame, the camera turned by `degrees` for each, once levels of detail have settled;
-    // with `edit` done in each frame, over kDabs. 0: it can't be drawn.
+    // with `edit` done in each frame, over kPaintedFrames. 0: it can't be drawn.
     FrameTimes cost(const DrawTarget& target, float degrees, const std::function<void(int)>& edit = {}) {
         const Camera start = inputs.camera;
         const Look look = inputs.look;
         std::vector<double> times;
         double wall = 0;
-        for (int frame = -9; frame < (edit ? kDabs : repeats); ++frame) {
+        for (int frame = -9; frame < (edit ? kPaintedFrames : repeats); ++frame) {
             inputs.camera = turned(start, degrees * float(frame));
             if (coarse) hurry();
             const std::clock_t before = std::clock();
@@ -166,23 +166,23 @@ class Painter {
         for (const Node& node : records->nodes) places.push_back(node.uv);
         std::sort(places.begin(), places.end());
         for (size_t i = 0; i < 64; ++i)
-            places_.push_back(unpackUv(places[i * 777'777'777 % places.size()]) * float(kTexels));
+            places_.push_back(unpackUv(places[i * 777'777'777 % places.size()]) * float(kMaskTexels));
     }
     void dab(int frame) {
         constexpr float kReach = 12;
         const glm::vec2 at = places_[size_t(frame + 10) / 2 % places_.size()];
-        const glm::ivec2 low = glm::clamp(glm::ivec2(at - kReach), 0, int(kTexels)),
-                         high = glm::clamp(glm::ivec2(at + kReach) + 1, 0, int(kTexels));
+        const glm::ivec2 low = glm::clamp(glm::ivec2(at - kReach), 0, int(kMaskTexels)),
+                         high = glm::clamp(glm::ivec2(at + kReach) + 1, 0, int(kMaskTexels));
         GrowthChanges changes;
         changes.everything = false;
         for (uint32_t y = uint32_t(low.y); y < uint32_t(high.y); ++y)
             for (uint32_t x = uint32_t(low.x); x < uint32_t(high.x); ++x) {
                 if (glm::distance(glm::vec2(x, y) + 0.5f, at) >= kReach) continue;
-                texels_[texelIndex(kTexels, x, y)] = frame & 1 ? 0.5f : 0.62f;
-                changes.markTexels(0, 0, kTexels, x, y, x + 1, y + 1);
+                texels_[texelIndex(kMaskTexels, x, y)] = frame & 1 ? 0.5f : 0.62f;
+                changes.markTexels(0, 0, kMaskTexels, x, y, x + 1, y + 1);
             }
         scene_.changes = &changes;
-        (void)scene_.paint(0, kTexels, texels_);
+        (void)scene_.paint(0, kMaskTexels, texels_);
         (void)scene_.grow(growth_);
         scene_.changes = nullptr;
         film_.inputs.growth = growth_.view();
@@ -192,7 +192,7 @@ class Painter {
     BenchScene& scene_;
     Growth& growth_;
     Film& film_;
-    std::vector<float> texels_ = std::vector<float>(size_t(kTexels) * kTexels, 0.5f);
+    std::vector<float> texels_ = std::vector<float>(size_t(kMaskTexels) * kMaskTexels, 0.5f);
     std::vector<glm::vec2> places_;
 };
 
@@ -209,8 +209,8 @@ void frameCases(Bench& bench) {
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(**device, content + "/terminals.glb");
     if (!scene || !growth) return bench.skip(name, "needs " + content);
     if (!renderer) return bench.skip(name, renderer.failure().text());
-    const std::vector<float> grey(size_t(kTexels) * kTexels, 0.5f);  // the mask as the scene has it
-    if (!scene->setGrammar(textOf(content + "/grammars/ivy_free.grammar")) || !scene->paint(0, kTexels, grey) ||
+    const std::vector<float> grey(size_t(kMaskTexels) * kMaskTexels, 0.5f);  // the mask as the scene has it
+    if (!scene->setGrammar(textOf(content + "/grammars/ivy_free.grammar")) || !scene->paint(0, kMaskTexels, grey) ||
         !growEnough(*scene, **growth))
         return bench.skip(name, "the ivy doesn't grow");
     if (Status s = (*renderer)->setSurface(0, scene->surface(), glm::mat4(1)); !s)
@@ -257,7 +257,8 @@ void frameCases(Bench& bench) {
         {"frame/moving/full", "CPU time of a frame, full size", "ms", moving, "15 frames/s on two cores", kMoving});
     for (const auto& [stage, ms] : stages)
         bench.add({"frame/moving/full/" + stage, "time of the stage", "ms", ms, "the whole frame", whole});
-    bench.add({"frame/painting", "CPU time of a dab and its frame, half size, mean of " + std::to_string(kDabs), "ms",
+    bench.add({"frame/painting",
+               "CPU time of a dab and its frame, half size, mean of " + std::to_string(kPaintedFrames), "ms",
                painting.mean, "8 frames/s on two cores", kPainting});
     bench.add(
         {"frame/painting/median", "the same, median", "ms", painting.median, "8 frames/s on two cores", kPainting});

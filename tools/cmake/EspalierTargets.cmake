@@ -31,6 +31,12 @@ endif()
 # The kernels' arithmetic is compiled for GPU and CPU; contraction into fused operations would let them differ.
 add_compile_options(-ffp-contract=off)
 
+# For files that can't be compiled together with others where CMAKE_UNITY_BUILD is on (the release preset): those that
+# define what a header of theirs only declares elsewhere.
+function(espalier_apart)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 function(espalier_defaults target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Werror
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # GCC 12 warns of std::string falsely
@@ -70,6 +76,7 @@ function(espalier_test_here)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  espalier_apart(${CMAKE_SOURCE_DIR}/tests/support/main.cpp)
   add_executable(test_${folder} ${sources} ${CMAKE_SOURCE_DIR}/tests/support/main.cpp)
   espalier_defaults(test_${folder})
   # Optimising the checks themselves takes longer than they do.

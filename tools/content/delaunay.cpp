@@ -31,9 +31,9 @@ bool inCircle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 p) {
     return a.x * (b.y * dc - db * c.y) - a.y * (b.x * dc - db * c.x) + da * (b.x * c.y - b.y * c.x) > 0;
 }
 
-class Builder {
+class Triangulator {
   public:
-    explicit Builder(const std::vector<glm::dvec2>& points) : points_(points), count_(points.size()) {
+    explicit Triangulator(const std::vector<glm::dvec2>& points) : points_(points), count_(points.size()) {
         glm::dvec2 low = points[0], high = points[0];
         for (auto& p : points) {
             low = glm::min(low, p);
@@ -143,7 +143,7 @@ class Builder {
 
 std::vector<std::array<uint32_t, 3>> delaunay(const std::vector<glm::dvec2>& points) {
     assert(points.size() >= 3);
-    return Builder(points).run();
+    return Triangulator(points).run();
 }
 
 bool insideLoops(const std::vector<std::vector<glm::dvec2>>& loops, glm::dvec2 p) {

@@ -31,8 +31,8 @@ void addStone(Builder& builder, float x0, float x1, float y0, float y1, float de
 // Courses of rubble under slabs, from -1 to 1 m.
 Mesh wall(int lod) {
     Builder b;
-    constexpr float kHigh = 1.02f, kHalf = 0.19f;
-    b.box({-1, -0.15f, -kHalf}, {1, kHigh, kHalf}, lod == 0 ? Paint::mortar : Paint::stone, 0.45f);
+    constexpr float kHigh = 1.02f, kHalfThick = 0.19f;
+    b.box({-1, -0.15f, -kHalfThick}, {1, kHigh, kHalfThick}, lod == 0 ? Paint::mortar : Paint::stone, 0.45f);
     if (lod == 0)
         for (float side : {1.0f, -1.0f}) {
             float y = -0.05f;
@@ -43,7 +43,7 @@ Mesh wall(int lod) {
                 for (uint32_t i = 0; x < 0.98f; ++i) {
                     float x1 = x + 0.20f + 0.30f * random01(62, salt, i);
                     if (x1 > 0.82f) x1 = 1;
-                    addStone(b, x + 0.008f, x1 - 0.008f, y + 0.008f, y1 - 0.008f, kHalf, side,
+                    addStone(b, x + 0.008f, x1 - 0.008f, y + 0.008f, y1 - 0.008f, kHalfThick, side,
                              0.30f + 0.45f * random01(63, salt, i));
                     x = x1;
                 }

@@ -18,12 +18,12 @@ const vec3 kUp(0, 1, 0);
 // the ends are there, close before the dark.
 Mesh woodpile(int lod) {
     Builder b;
-    constexpr float kHalf = 0.98f, kFront = 0.24f, kLog = 0.195f, kRow = 0.18f;
+    constexpr float kHalfLong = 0.98f, kFront = 0.24f, kLog = 0.195f, kRow = 0.18f;
     constexpr int kRows = 5;
     const float dark = kFront - (lod == 0 ? 0.09f : 0.05f);
-    const float free = kHalf - 0.045f;  // between the posts
-    b.box({-kHalf, -0.05f, -0.22f}, {kHalf, kRow * kRows, dark}, Paint::darkWood, 0.35f);
-    for (float x : {-kHalf, kHalf})
+    const float free = kHalfLong - 0.045f;  // between the posts
+    b.box({-kHalfLong, -0.05f, -0.22f}, {kHalfLong, kRow * kRows, dark}, Paint::darkWood, 0.35f);
+    for (float x : {-kHalfLong, kHalfLong})
         b.box({x - 0.045f, -0.1f, kFront - 0.13f}, {x + 0.045f, 1.02f, kFront - 0.04f}, Paint::wood, 0.28f);
     for (int row = 0; row < kRows; ++row) {
         float x = -free - (row % 2 ? 0.3f * kLog : 0);

@@ -13,7 +13,6 @@
 namespace espalier::scene {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 const char* kSurfaceExtension = "\"ESPALIER_";  // how docs/surface_format.md names it
 
 // Numbers of 0 to 1 that are the same on every machine.
@@ -36,7 +35,7 @@ void plantAround(const EspContext* context, const EspSurfaceInfo& info, uint32_t
     }
     const float far = std::sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
     for (uint32_t i = 0; i < kSeeds; ++i) {
-        const float angle = 2 * kPi * (float(i) + .7f * chance(number, 3 * i)) / kSeeds;
+        const float angle = 2 * std::numbers::pi_v<float> * (float(i) + .7f * chance(number, 3 * i)) / kSeeds;
         const float height = info.boundsMin[1] + size[1] * (.04f + .12f * chance(number, 3 * i + 1));
         const float outX = std::sin(angle), outZ = std::cos(angle), inward[3] = {-outX, 0, -outZ};
         const auto aimAt = [&](float x, float z, EspHit& hit) {

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 namespace espalier::scene {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 struct Light {
     float height;  // sine of the sun's height
@@ -27,7 +26,7 @@ constexpr Light kLights[] = {
 
 void applyDaylight(float hour, EspLook& look) {
     constexpr float kLatitude = .95f;  // radians off the zenith that noon's sun keeps
-    const float angle = (hour - 12) / 12 * kPi;
+    const float angle = (hour - 12) / 12 * std::numbers::pi_v<float>;
     const float up = std::cos(angle) * std::sin(kLatitude), south = std::cos(angle) * std::cos(kLatitude);
     const float direction[3] = {-std::sin(angle), up, south};
     const size_t last = std::size(kLights) - 1;

@@ -7,7 +7,7 @@
 namespace espalier {
 namespace {
 
-constexpr uint32_t kWallColour = 0xFF8FB0C4, kRoofColour = 0xFF2A3F70;
+constexpr uint32_t kRoofColour = 0xFF2A3F70;
 
 glm::vec3 unitOf(glm::vec3 v) {
     const float l = glm::length(v);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shaders/shared/roof_cells.h"
+#include "tools/bake/main/town_mesh.hpp"
 
 namespace espalier {
 namespace {
@@ -16,7 +17,6 @@ constexpr float kMargin = 0.03f;    // left bare around an opening
 constexpr float kBelowRoof = 0.3f;  // where leaves don't come through the tiles
 constexpr float kLeast = 0.1f;      // height of a wall
 constexpr float kWhole = 0.9f;      // of a wall, that a plinth is long at least
-constexpr uint32_t kWallColour = 0xFF8FB0C4;
 
 struct Rect {
     glm::vec2 low, high;  // along the wall and up, metres
